@@ -1,0 +1,33 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include "bindings.h"
+#include <contactx/facet/nodal.h>
+
+namespace py = pybind11;
+using namespace contactx_bindings;
+
+void contactx_bindings::facet(py::module_& m)
+{
+  m.def(
+      "nodal_areas",
+      [](const Array<std::int32_t>& offsets, const Array<std::int32_t>& nodes,
+         const Array<double>& x, int gdim)
+      {
+        return array(contactx::facet::nodal_areas(
+            {view(offsets), view(nodes)}, view(x), gdim));
+      },
+      py::arg("offsets"), py::arg("nodes"), py::arg("x"), py::arg("gdim"),
+      "Integral of each node's shape function over a surface");
+  m.def(
+      "nodal_normals",
+      [](const Array<std::int32_t>& offsets, const Array<std::int32_t>& nodes,
+         const Array<double>& x, int gdim)
+      {
+        const auto n = contactx::facet::nodal_normals(
+            {view(offsets), view(nodes)}, view(x), gdim);
+        return array(n, {static_cast<py::ssize_t>(n.size()) / gdim, gdim});
+      },
+      py::arg("offsets"), py::arg("nodes"), py::arg("x"), py::arg("gdim"),
+      "Outward unit normal of each node of a surface");
+}

@@ -1,0 +1,37 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include "bindings.h"
+#include <contactx/kernel/registry.h>
+#include <pybind11/stl.h>
+
+namespace py = pybind11;
+using namespace contactx_bindings;
+using namespace contactx;
+
+void contactx_bindings::kernel(py::module_& m)
+{
+  using kernel::Site;
+  py::list table;
+  for (const kernel::CoefficientInfo& c : kernel::coefficients)
+  {
+    const char* site = c.site == Site::nodes  ? "nodes"
+                       : c.site == Site::pair ? "pair"
+                                              : "slave";
+    table.append(py::make_tuple(std::string(c.name), site, c.size));
+  }
+  m.attr("coefficients") = py::tuple(table);
+  m.def(
+      "kernel",
+      [](const std::string& sliding, const std::string& term, int num_nodes)
+      {
+        const kernel::Entry& e = kernel::find(sliding, term, num_nodes);
+        Array<std::int8_t> active(e.active.size());
+        for (std::size_t i = 0; i < e.active.size(); ++i)
+          active.mutable_at(i) = static_cast<std::int8_t>(e.active[i]);
+        return py::make_tuple(reinterpret_cast<std::uintptr_t>(e.function),
+                              active);
+      },
+      py::arg("sliding"), py::arg("term"), py::arg("num_nodes"),
+      "Address of a kernel and the coefficients that it reads");
+}

@@ -1,0 +1,13 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include "bindings.h"
+
+PYBIND11_MODULE(cpp, m)
+{
+  m.doc() = "C++ core of contactx, free of DOLFINx and PETSc";
+  contactx_bindings::facet(m);
+  contactx_bindings::search(m);
+  contactx_bindings::law(m);
+  contactx_bindings::kernel(m);
+}

@@ -1,0 +1,68 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include "bindings.h"
+#include <contactx/search/pairing.h>
+#include <pybind11/stl.h>
+
+namespace py = pybind11;
+using namespace contactx_bindings;
+using contactx::search::Pairing;
+
+void contactx_bindings::search(py::module_& m)
+{
+  m.attr("margin") = contactx::search::margin;
+  py::class_<Pairing>(m, "Pairing",
+                      "Pairs of slave nodes and master facets, kept from one "
+                      "search to the next")
+      .def(py::init(
+               [](const Array<std::int32_t>& slave_offsets,
+                  const Array<std::int32_t>& slave_nodes,
+                  const Array<std::int32_t>& master_offsets,
+                  const Array<std::int32_t>& master_nodes, int gdim)
+               {
+                 return Pairing(copy(slave_offsets), copy(slave_nodes),
+                                copy(master_offsets), copy(master_nodes),
+                                gdim);
+               }),
+           py::arg("slave_offsets"), py::arg("slave_nodes"),
+           py::arg("master_offsets"), py::arg("master_nodes"), py::arg("gdim"))
+      .def("begin_step", &Pairing::begin_step,
+           "Forget what was learnt in the last step")
+      .def(
+          "update",
+          [](Pairing& self, const Array<double>& x, double reach,
+             const Array<std::int8_t>& closed)
+          { return self.update(view(x), reach, view(closed)); },
+          py::arg("x"), py::arg("reach"), py::arg("closed"),
+          "Search; returns how many closed nodes changed their facet")
+      .def_property_readonly("slaves", [](const Pairing& self)
+                             { return array(self.slaves()); })
+      .def_property_readonly("facet", [](const Pairing& self)
+                             { return array(self.facet()); })
+      .def_property_readonly("feature", [](const Pairing& self)
+                             { return array(self.feature()); })
+      .def_property_readonly(
+          "xi", [](const Pairing& self)
+          { return array(self.xi(), {py::ssize_t(self.xi().size() / 2), 2}); })
+      .def_property_readonly(
+          "cone",
+          [](const Pairing& self) {
+            return array(self.cone(), {py::ssize_t(self.cone().size() / 3), 3});
+          })
+      .def("frozen", [](const Pairing& self) { return array(self.frozen()); },
+           "Slave nodes whose pair is frozen, by their place in slaves")
+      .def(
+          "natural_gaps",
+          [](Pairing& self, const Array<double>& x, double reach,
+             const Array<std::int32_t>& which)
+          { return array(self.natural_gaps(view(x), reach, view(which))); },
+          py::arg("x"), py::arg("reach"), py::arg("which"),
+          "Gaps that a search without memory finds")
+      .def(
+          "distance", [](Pairing& self, const Array<double>& x)
+          { return self.distance(view(x)); }, py::arg("x"),
+          "Distance from the nearest slave node to the master surface")
+      .def("copy", [](const Pairing& self) { return Pairing(self); },
+           "Independent copy, to return to when a step fails");
+}

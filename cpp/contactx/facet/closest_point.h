@@ -1,0 +1,134 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#pragma once
+
+#include "frame.h"
+#include <limits>
+
+namespace contactx::facet
+{
+/// @brief Point of a facet that is closest to a given point.
+template <class F>
+struct ClosestPoint
+{
+  Local<F> xi;      ///< local coordinates
+  int feature;      ///< interior, an edge or a vertex
+  double distance2; ///< squared distance
+};
+
+/// @brief Orthogonal projection on the facet's surface, extended beyond its
+/// edges: (p - x(xi)) . t_a(xi) = 0. Newton's method on the bilinear facet,
+/// one exact step on the flat ones.
+/// @param[in] x Node coordinates.
+/// @param[in] p Point to project.
+/// @param[in,out] xi Start of the iteration; the projection on return.
+/// @return False where the iteration found no projection.
+template <class F>
+bool project(const Nodes<F>& x, const Vec<F::gdim>& p, Local<F>& xi)
+{
+  constexpr int max_iterations = F::flat ? 1 : 30;
+  for (int it = 0; it < max_iterations; ++it)
+  {
+    const auto t = tangents<F>(x, xi);
+    const Vec<F::gdim> d = p - combine<F>(F::shape(xi), x);
+    Local<F> r;
+    for (int a = 0; a < F::tdim; ++a)
+      r[a] = dot(d, t[a]);
+    Vec<3> H = metric(t);
+    if constexpr (!F::flat)
+    {
+      // Far from the facet the Hessian of the squared distance is not
+      // positive; the metric alone still gives a descent direction
+      const double k = dot(d, combine<F>(F::mixed_derivative, x));
+      const double h = H[1] - k;
+      if (H[0] * H[2] - h * h > 0.1 * (H[0] * H[2] - H[1] * H[1]))
+        H[1] = h;
+    }
+    const Local<F> step = solve(H, r);
+    xi = xi + step;
+    double size = 0;
+    for (double s : step)
+      size = std::max(size, std::abs(s));
+    if (!std::isfinite(size))
+      return false;
+    if constexpr (F::flat)
+      return true;
+    else if (size < 1e-15 * (1 + std::abs(xi[0]) + std::abs(xi[1])))
+      return true;
+    else if (it > 20 and size < 1e-12)
+      return true; // rounding holds the last digits
+  }
+  return false;
+}
+
+/// @brief Closest point on the edge from vertex `i` to vertex `j`.
+/// @return Coordinate along the edge, in [0, 1].
+template <std::size_t D>
+double project_on_edge(const std::array<double, D>& a,
+                       const std::array<double, D>& b,
+                       const std::array<double, D>& p)
+{
+  const auto e = b - a;
+  const double l2 = dot(e, e);
+  return l2 > 0 ? std::clamp(dot(p - a, e) / l2, 0.0, 1.0) : 0.0;
+}
+
+/// @brief Start for the projection: the nearest of a coarse grid of points,
+/// which keeps Newton's method on the right branch of a warped facet.
+template <class F>
+Local<F> projection_start(const Nodes<F>& x, const Vec<F::gdim>& p)
+{
+  Local<F> start{};
+  if constexpr (!F::flat)
+  {
+    double best = std::numeric_limits<double>::infinity();
+    for (double s : {1. / 6, 0.5, 5. / 6})
+      for (double t : {1. / 6, 0.5, 5. / 6})
+      {
+        const auto d = p - combine<F>(F::shape({s, t}), x);
+        if (const double d2 = dot(d, d); d2 < best)
+        {
+          best = d2;
+          start = {s, t};
+        }
+      }
+  }
+  return start;
+}
+
+/// @brief Closest point of a facet, with the Voronoi region that `p` is in.
+/// @param[in] x Node coordinates.
+/// @param[in] p Point.
+template <class F>
+ClosestPoint<F> closest_point(const Nodes<F>& x, const Vec<F::gdim>& p)
+{
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  ClosestPoint<F> c{{}, interior, inf};
+  Local<F> xi = projection_start<F>(x, p);
+  if (project<F>(x, p, xi) and F::excess(xi) <= 1e-12)
+  {
+    const auto d = p - combine<F>(F::shape(xi), x);
+    c = {xi, interior, dot(d, d)};
+    if constexpr (F::flat)
+      return c;
+  }
+
+  for (std::size_t e = 0; e < F::edges.size(); ++e)
+  {
+    const auto [i, j] = F::edges[e];
+    const double s = project_on_edge(x[i], x[j], p);
+    const auto d = p - ((1 - s) * x[i] + s * x[j]);
+    if (const double d2 = dot(d, d); d2 < c.distance2)
+    {
+      c.xi = (1 - s) * F::vertices[i] + s * F::vertices[j];
+      c.distance2 = d2;
+      if (s > 0 and s < 1)
+        c.feature = 1 + e;
+      else
+        c.feature = 1 + F::num_edges + (s > 0 ? j : i);
+    }
+  }
+  return c;
+}
+} // namespace contactx::facet

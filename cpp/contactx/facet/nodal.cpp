@@ -1,0 +1,87 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include "nodal.h"
+#include "frame.h"
+#include "gather.h"
+
+using namespace contactx;
+using namespace contactx::facet;
+
+namespace
+{
+/// Quadrature points that integrate the shape functions of F exactly, all of
+/// the same weight; a bilinear facet's Jacobian is not polynomial, and the
+/// 2 x 2 rule is exact where the facet is flat.
+template <class F>
+constexpr auto quadrature()
+{
+  constexpr double a = 0.21132486540518713, b = 1 - a;
+  if constexpr (F::nodes == 2)
+    return std::array<Vec<1>, 2>{{{a}, {b}}};
+  else if constexpr (F::nodes == 3)
+    return std::array<Vec<2>, 1>{{{1. / 3, 1. / 3}}};
+  else
+    return std::array<Vec<2>, 4>{{{a, a}, {b, a}, {a, b}, {b, b}}};
+}
+
+/// Call f(node, area vector of the node's part of the facet) for each node of
+/// each facet.
+template <class Function>
+void for_each_part(const FacetList& facets, std::span<const double> x,
+                   Function f)
+{
+  for (std::int32_t i = 0; i < facets.size(); ++i)
+  {
+    visit(facets[i].size(),
+          [&f, &facets, x, i]<class F>(F)
+          {
+            const Nodes<F> xf = gather<F>(facets[i], x);
+            constexpr auto points = quadrature<F>();
+            const double reference_area = F::nodes == 3 ? 0.5 : 1;
+            for (const auto& xi : points)
+            {
+              const auto fr = frame<F>(xf, xi);
+              const auto N = F::shape(xi);
+              const double w
+                  = fr.jacobian * reference_area / points.size();
+              if (w > 0)
+                for (int l = 0; l < F::nodes; ++l)
+                  f(facets[i][l], N[l] * w, fr.n);
+            }
+          });
+  }
+}
+} // namespace
+
+std::vector<double> contactx::facet::nodal_areas(const FacetList& facets,
+                                                 std::span<const double> x,
+                                                 int gdim)
+{
+  std::vector<double> area(x.size() / gdim, 0);
+  for_each_part(facets, x, [&area](std::int32_t node, double w, const auto&)
+                { area[node] += w; });
+  return area;
+}
+
+std::vector<double> contactx::facet::nodal_normals(const FacetList& facets,
+                                                   std::span<const double> x,
+                                                   int gdim)
+{
+  std::vector<double> normal(x.size(), 0);
+  for_each_part(facets, x,
+                [&normal, gdim](std::int32_t node, double w, const auto& n)
+                {
+                  for (int k = 0; k < gdim; ++k)
+                    normal[node * gdim + k] += w * n[k];
+                });
+  for (std::size_t i = 0; i < normal.size(); i += gdim)
+  {
+    double l2 = 0;
+    for (int k = 0; k < gdim; ++k)
+      l2 += normal[i + k] * normal[i + k];
+    for (int k = 0; k < gdim and l2 > 0; ++k)
+      normal[i + k] /= std::sqrt(l2);
+  }
+  return normal;
+}

@@ -1,0 +1,48 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace contactx::facet
+{
+/// @brief Facets of a surface in compressed form.
+struct FacetList
+{
+  std::span<const std::int32_t> offsets; ///< first node of each facet, and end
+  std::span<const std::int32_t> nodes;   ///< nodes, facet after facet
+
+  /// @brief Number of facets.
+  std::int32_t size() const
+  {
+    return static_cast<std::int32_t>(offsets.size()) - 1;
+  }
+
+  /// @brief Nodes of facet `f`.
+  std::span<const std::int32_t> operator[](std::int32_t f) const
+  {
+    return nodes.subspan(offsets[f], offsets[f + 1] - offsets[f]);
+  }
+};
+
+/// @brief Area of each node: the integral of its shape function over the
+/// surface (length in 2D, for unit thickness).
+/// @param[in] facets Facets of the surface.
+/// @param[in] x Node coordinates (shape=(num_nodes, gdim)), row-major.
+/// @param[in] gdim Geometric dimension, 2 or 3.
+/// @return Areas (shape=(num_nodes)), zero off the surface.
+std::vector<double> nodal_areas(const FacetList& facets,
+                                std::span<const double> x, int gdim);
+
+/// @brief Outward unit normal of each node, averaged over its facets by area.
+/// @param[in] facets Facets of the surface.
+/// @param[in] x Node coordinates (shape=(num_nodes, gdim)), row-major.
+/// @param[in] gdim Geometric dimension, 2 or 3.
+/// @return Normals (shape=(num_nodes, gdim)), zero off the surface and where
+/// the average vanishes.
+std::vector<double> nodal_normals(const FacetList& facets,
+                                  std::span<const double> x, int gdim);
+} // namespace contactx::facet

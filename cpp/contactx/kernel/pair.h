@@ -1,0 +1,107 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#pragma once
+
+#include "../facet/closest_point.h"
+#include "../facet/ridge.h"
+#include "layout.h"
+
+namespace contactx::kernel
+{
+/// @brief A pair as the kernels see it.
+template <class F>
+struct Pair
+{
+  static constexpr int num_dofs = F::gdim * (F::nodes + 1);
+
+  Vec<F::gdim> slave; ///< position of the slave node
+  facet::Nodes<F> master;    ///< positions of the facet's nodes
+  int feature;               ///< interior, edge or vertex
+  facet::Local<F> xi;        ///< local coordinates that the search found
+  Vec<3> cone;        ///< components of a ridge's normal
+
+  /// @brief Read a pair from the coefficients.
+  /// @param[in] w Coefficients.
+  /// @param[in] scale Factor of the displacement: 1 for the current
+  /// configuration, 0 for the reference.
+  Pair(const double* w, double scale)
+  {
+    const double* u = w + offset(Coefficient::displacement, F::nodes, F::gdim);
+    const double* x = w + offset(Coefficient::position, F::nodes, F::gdim);
+    const double* p = w + offset(Coefficient::pair, F::nodes, F::gdim);
+    for (int k = 0; k < F::gdim; ++k)
+      slave[k] = x[k] + scale * u[k];
+    for (int l = 0; l < F::nodes; ++l)
+      for (int k = 0; k < F::gdim; ++k)
+      {
+        const int i = F::gdim * (l + 1) + k;
+        master[l][k] = x[i] + scale * u[i];
+      }
+    feature = static_cast<int>(p[0]);
+    std::copy_n(p + 1, F::tdim, xi.begin());
+    std::copy_n(p + 3, 3, cone.begin());
+  }
+};
+
+/// @brief The point of the master that a slave node is measured against.
+template <class F>
+struct ContactPoint
+{
+  facet::Local<F> xi;              ///< local coordinates
+  Vec<F::nodes + 1> weight; ///< 1 and -N_l(xi): x_s - x_m = weight x
+  Vec<F::gdim> normal;      ///< unit normal
+  Vec<F::gdim> d;           ///< x_s - x_m(xi)
+  double gap;                      ///< normal . d
+};
+
+/// @brief Unit normal of a pair at a point of its facet.
+template <class F>
+Vec<F::gdim> pair_normal(const Pair<F>& pair, const facet::Local<F>& xi)
+{
+  if (pair.feature == facet::interior)
+    return facet::frame<F>(pair.master, xi).n;
+  const auto axes = facet::ridge_axes<F>(pair.master, pair.feature, xi);
+  if constexpr (F::gdim == 2)
+    return pair.cone[0] * axes[0] + pair.cone[2] * axes[1];
+  else
+    return pair.cone[0] * axes[0] + pair.cone[1] * axes[1]
+           + pair.cone[2] * axes[2];
+}
+
+/// @brief The contact point for given local coordinates.
+template <class F>
+ContactPoint<F> contact_point(const Pair<F>& pair, const facet::Local<F>& xi)
+{
+  ContactPoint<F> c;
+  c.xi = xi;
+  const auto N = F::shape(xi);
+  c.weight[0] = 1;
+  for (int l = 0; l < F::nodes; ++l)
+    c.weight[l + 1] = -N[l];
+  c.normal = pair_normal(pair, xi);
+  c.d = pair.slave - facet::combine<F>(N, pair.master);
+  c.gap = dot(c.normal, c.d);
+  return c;
+}
+
+/// @brief Project the slave node on the pair's feature: the facet's extended
+/// surface, the line of an edge, or a vertex.
+template <class F>
+ContactPoint<F> project(const Pair<F>& pair)
+{
+  facet::Local<F> xi = pair.xi;
+  if (pair.feature == facet::interior)
+    facet::project<F>(pair.master, pair.slave, xi);
+  else if (F::num_edges > 0 and pair.feature <= F::num_edges)
+  {
+    const auto [i, j] = facet::feature_edge<F>(pair.feature);
+    const auto e = pair.master[j] - pair.master[i];
+    const double s = dot(pair.slave - pair.master[i], e) / dot(e, e);
+    xi = (1 - s) * F::vertices[i] + s * F::vertices[j];
+  }
+  else
+    xi = F::vertices[pair.feature - 1 - F::num_edges];
+  return contact_point(pair, xi);
+}
+} // namespace contactx::kernel

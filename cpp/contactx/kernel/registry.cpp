@@ -1,0 +1,27 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include "registry.h"
+#include "frictionless.h"
+#include <stdexcept>
+#include <string>
+
+using namespace contactx::kernel;
+
+std::span<const Entry> contactx::kernel::registry()
+{
+  static const std::vector<Entry> entries = frictionless();
+  return entries;
+}
+
+const Entry& contactx::kernel::find(std::string_view sliding,
+                                    std::string_view term, int num_nodes)
+{
+  for (const Entry& e : registry())
+    if (e.sliding == sliding and e.term == term and e.num_nodes == num_nodes)
+      return e;
+  throw std::invalid_argument("there is no kernel for "
+                              + std::string(sliding) + " sliding, term "
+                              + std::string(term) + " and facets of "
+                              + std::to_string(num_nodes) + " nodes");
+}

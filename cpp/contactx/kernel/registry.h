@@ -1,0 +1,35 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#pragma once
+
+#include "layout.h"
+#include <span>
+#include <vector>
+
+namespace contactx::kernel
+{
+/// @brief A kernel and what its form needs to know.
+struct Entry
+{
+  std::string_view sliding; ///< "finite" or "small"
+  std::string_view term;    ///< what is assembled
+  int num_nodes;            ///< nodes of the facet
+  Kernel* function;
+  std::vector<Coefficient> active; ///< coefficients that the kernel reads
+};
+
+/// @brief All kernels.
+std::span<const Entry> registry();
+
+/// @brief Find a kernel.
+/// @param[in] sliding "finite" or "small".
+/// @param[in] term "gap", "residual", "stiffness" (derivative of the residual
+/// with respect to the displacement), "traction" (with respect to the
+/// multiplier) or "constraint" (derivative of the complementarity with
+/// respect to the displacement).
+/// @param[in] num_nodes Number of nodes of the facet.
+/// @throws std::invalid_argument where there is no such kernel.
+const Entry& find(std::string_view sliding, std::string_view term,
+                  int num_nodes);
+} // namespace contactx::kernel

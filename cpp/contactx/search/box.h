@@ -1,0 +1,59 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#pragma once
+
+#include "../vec.h"
+#include <algorithm>
+#include <limits>
+
+/// @brief Which master facet a slave node belongs to.
+namespace contactx::search
+{
+/// @brief Axis-aligned box in three dimensions; a plane problem leaves the
+/// third extent at zero.
+struct Box
+{
+  Vec<3> lower;
+  Vec<3> upper;
+
+  /// @brief A box that holds nothing.
+  static constexpr Box empty()
+  {
+    constexpr double inf = std::numeric_limits<double>::infinity();
+    return {{inf, inf, inf}, {-inf, -inf, -inf}};
+  }
+
+  /// @brief Grow the box so that it holds `p`.
+  constexpr void add(const Vec<3>& p)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      lower[k] = std::min(lower[k], p[k]);
+      upper[k] = std::max(upper[k], p[k]);
+    }
+  }
+
+  /// @brief Grow the box so that it holds `b`.
+  constexpr void add(const Box& b)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      lower[k] = std::min(lower[k], b.lower[k]);
+      upper[k] = std::max(upper[k], b.upper[k]);
+    }
+  }
+
+  /// @brief Squared distance from `p`, zero inside.
+  constexpr double distance2(const Vec<3>& p) const
+  {
+    double d2 = 0;
+    for (int k = 0; k < 3; ++k)
+    {
+      const double d = std::max({lower[k] - p[k], p[k] - upper[k], 0.0});
+      d2 += d * d;
+    }
+    return d2;
+  }
+};
+} // namespace contactx::search

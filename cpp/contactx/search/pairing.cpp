@@ -1,0 +1,174 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include "pairing.h"
+#include "../facet/gather.h"
+#include <limits>
+
+using namespace contactx;
+using namespace contactx::search;
+
+namespace
+{
+/// Returns to a facet after which a pair is frozen
+constexpr std::int8_t max_returns = 2;
+
+/// Marks a slave node that has not changed its facet in this step
+constexpr std::int32_t never = -2;
+
+Vec<3> padded(std::span<const double> x, std::int32_t node, int gdim)
+{
+  Vec<3> p{};
+  for (int k = 0; k < gdim; ++k)
+    p[k] = x[static_cast<std::size_t>(node) * gdim + k];
+  return p;
+}
+} // namespace
+
+Pairing::Pairing(std::vector<std::int32_t> slave_offsets,
+                 std::vector<std::int32_t> slave_nodes,
+                 std::vector<std::int32_t> master_offsets,
+                 std::vector<std::int32_t> master_nodes, int gdim)
+    : _slave_offsets(std::move(slave_offsets)),
+      _slave_nodes(std::move(slave_nodes)), _slaves(_slave_nodes),
+      _master(std::move(master_offsets), std::move(master_nodes), gdim)
+{
+  std::ranges::sort(_slaves);
+  _slaves.erase(std::unique(_slaves.begin(), _slaves.end()), _slaves.end());
+  _facet.assign(_slaves.size(), -1);
+  _feature.assign(_slaves.size(), facet::interior);
+  _xi.assign(2 * _slaves.size(), 0);
+  _cone.assign(3 * _slaves.size(), 0);
+  begin_step();
+}
+
+void Pairing::begin_step()
+{
+  _left.assign(_slaves.size(), never);
+  _returns.assign(_slaves.size(), 0);
+}
+
+void Pairing::refit(std::span<const double> x)
+{
+  const std::vector<Box> boxes = _master.boxes(x);
+  if (_tree)
+    _tree->refit(boxes);
+  else
+    _tree.emplace(boxes);
+}
+
+std::optional<Projection> Pairing::find(std::span<const double> x,
+                                        std::span<const double> normals,
+                                        std::int32_t slave,
+                                        double reach) const
+{
+  const int gdim = _master.gdim();
+  const Vec<3> p = padded(x, slave, gdim);
+  const auto q = nearest_facet(_master, *_tree, x, p,
+                               padded(normals, slave, gdim), reach);
+  return q ? select(_master, x, p, *q) : q;
+}
+
+std::optional<Projection> Pairing::keep(std::span<const double> x,
+                                        std::size_t i) const
+{
+  if (_facet[i] < 0 or _feature[i] != facet::interior)
+    return std::nullopt;
+  const auto q = extended(_master, _facet[i], x,
+                          padded(x, _slaves[i], _master.gdim()));
+  // Away from its facet a node may have come close to another one
+  if (q and (_returns[i] >= max_returns
+             or (q->excess <= margin and std::abs(q->gap) <= q->size)))
+    return q;
+  return std::nullopt;
+}
+
+void Pairing::set(std::size_t i, const std::optional<Projection>& q,
+                  std::span<const double> x)
+{
+  _facet[i] = q ? q->facet : -1;
+  _feature[i] = q ? q->feature : facet::interior;
+  if (!q)
+    return;
+  std::copy(q->xi.begin(), q->xi.end(), _xi.begin() + 2 * i);
+  Vec<3> c{};
+  if (q->feature != facet::interior)
+    c = cone_components(_master, x, *q);
+  std::copy(c.begin(), c.end(), _cone.begin() + 3 * i);
+}
+
+std::int32_t Pairing::update(std::span<const double> x, double reach,
+                             std::span<const std::int8_t> closed)
+{
+  refit(x);
+  const facet::FacetList slave{_slave_offsets, _slave_nodes};
+  const std::vector<double> normals
+      = facet::nodal_normals(slave, x, _master.gdim());
+  std::int32_t changed = 0;
+  for (std::size_t i = 0; i < _slaves.size(); ++i)
+  {
+    const auto kept = keep(x, i);
+    if (kept)
+      set(i, kept, x);
+    if (kept or _returns[i] >= max_returns)
+      continue;
+    const auto q = find(x, normals, _slaves[i], reach);
+    const std::int32_t now = q ? q->facet : -1;
+    const bool same
+        = now == _facet[i] and (!q or q->feature == _feature[i]);
+    // On a ridge any normal of the cone will do, but it must not wander
+    if (same and closed[i] and q and q->feature != facet::interior)
+      continue;
+    if (!same and closed[i])
+    {
+      ++changed;
+      if (now == _left[i] and ++_returns[i] >= max_returns)
+        continue;
+      _left[i] = _facet[i];
+    }
+    set(i, q, x);
+  }
+  return changed;
+}
+
+std::vector<std::int32_t> Pairing::frozen() const
+{
+  std::vector<std::int32_t> result;
+  for (std::size_t i = 0; i < _slaves.size(); ++i)
+    if (_returns[i] >= max_returns)
+      result.push_back(static_cast<std::int32_t>(i));
+  return result;
+}
+
+std::vector<double>
+Pairing::natural_gaps(std::span<const double> x, double reach,
+                      std::span<const std::int32_t> which)
+{
+  refit(x);
+  const std::vector<double> normals = facet::nodal_normals(
+      {_slave_offsets, _slave_nodes}, x, _master.gdim());
+  std::vector<double> gaps;
+  for (std::int32_t i : which)
+  {
+    const auto q = find(x, normals, _slaves.at(i), reach);
+    gaps.push_back(q ? q->gap : std::numeric_limits<double>::quiet_NaN());
+  }
+  return gaps;
+}
+
+double Pairing::distance(std::span<const double> x)
+{
+  refit(x);
+  double bound2 = std::numeric_limits<double>::infinity();
+  for (std::int32_t slave : _slaves)
+  {
+    const Vec<3> p = padded(x, slave, _master.gdim());
+    _tree->nearest(p, bound2,
+                   [this, &bound2, &p, x](std::int32_t f)
+                   {
+                     if (const auto q = closest(_master, f, x, p))
+                       bound2 = std::min(bound2, dot(q->d, q->d));
+                   });
+  }
+  return std::sqrt(bound2);
+}

@@ -1,0 +1,91 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#pragma once
+
+#include "select.h"
+
+namespace contactx::search
+{
+/// @brief Pairs of slave nodes and master facets, kept from one search to the
+/// next so that they reach a fixed point.
+///
+/// A slave node keeps its facet while its projection stays inside the facet
+/// extended by the margin. A pair that still returns twice to the facet it has
+/// left is frozen until the step's end.
+class Pairing
+{
+public:
+  /// @brief Create the pairing with no node paired.
+  /// @param[in] slave_offsets First node of each slave facet and the end.
+  /// @param[in] slave_nodes Nodes of the slave facets.
+  /// @param[in] master_offsets First node of each master facet and the end.
+  /// @param[in] master_nodes Nodes of the master facets.
+  /// @param[in] gdim Geometric dimension, 2 or 3.
+  Pairing(std::vector<std::int32_t> slave_offsets,
+          std::vector<std::int32_t> slave_nodes,
+          std::vector<std::int32_t> master_offsets,
+          std::vector<std::int32_t> master_nodes, int gdim);
+
+  /// @brief Slave nodes in ascending order (shape=(num_slaves)).
+  const std::vector<std::int32_t>& slaves() const { return _slaves; }
+
+  /// @brief Forget what was learnt in the last step: nothing is frozen.
+  void begin_step();
+
+  /// @brief Search.
+  /// @param[in] x Node coordinates (shape=(num_nodes, gdim)), row-major.
+  /// @param[in] reach Largest distance of a pair.
+  /// @param[in] closed Whether a slave node is in contact
+  /// (shape=(num_slaves)).
+  /// @return Number of slave nodes in contact that changed their facet.
+  std::int32_t update(std::span<const double> x, double reach,
+                      std::span<const std::int8_t> closed);
+
+  /// @brief Facet of each slave node, -1 where it has none
+  /// (shape=(num_slaves)).
+  const std::vector<std::int32_t>& facet() const { return _facet; }
+
+  /// @brief Feature of the facet that each pair is on (shape=(num_slaves)).
+  const std::vector<std::int32_t>& feature() const { return _feature; }
+
+  /// @brief Local coordinates of each pair (shape=(num_slaves, 2)).
+  const std::vector<double>& xi() const { return _xi; }
+
+  /// @brief Components of the ridge normals (shape=(num_slaves, 3)).
+  const std::vector<double>& cone() const { return _cone; }
+
+  /// @brief Slave nodes whose pair is frozen, by their place in `slaves`.
+  std::vector<std::int32_t> frozen() const;
+
+  /// @brief Gaps that a search without memory finds for some slave nodes.
+  /// @param[in] x Node coordinates (shape=(num_nodes, gdim)), row-major.
+  /// @param[in] reach Largest distance of a pair.
+  /// @param[in] which Slave nodes by their place in `slaves`.
+  /// @return Gap of each, NaN where there is no facet in reach.
+  std::vector<double> natural_gaps(std::span<const double> x, double reach,
+                                   std::span<const std::int32_t> which);
+
+  /// @brief Distance from the nearest slave node to the master surface.
+  /// @param[in] x Node coordinates (shape=(num_nodes, gdim)), row-major.
+  double distance(std::span<const double> x);
+
+private:
+  void refit(std::span<const double> x);
+  std::optional<Projection> find(std::span<const double> x,
+                                 std::span<const double> normals,
+                                 std::int32_t slave, double reach) const;
+  std::optional<Projection> keep(std::span<const double> x,
+                                 std::size_t i) const;
+  void set(std::size_t i, const std::optional<Projection>& q,
+           std::span<const double> x);
+
+  std::vector<std::int32_t> _slave_offsets, _slave_nodes, _slaves;
+  Surface _master;
+  std::optional<BoxTree> _tree;
+  std::vector<std::int32_t> _facet, _feature;
+  std::vector<double> _xi, _cone;
+  std::vector<std::int32_t> _left; // facet that a node left last
+  std::vector<std::int8_t> _returns;
+};
+} // namespace contactx::search

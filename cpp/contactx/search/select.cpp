@@ -1,0 +1,152 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include "select.h"
+#include "../facet/gather.h"
+#include "../facet/ridge.h"
+
+using namespace contactx;
+using namespace contactx::search;
+
+namespace
+{
+/// Whether `g` rises towards its outside beyond an edge of `f`, so that the
+/// edge between them is a valley.
+bool concave(const Surface& surface, const Projection& f, std::int32_t g,
+             std::span<const double> x, const Vec<3>& p)
+{
+  const Vec<3> foot = p - f.d;
+  Vec<3> centre{};
+  const auto nodes = surface.facets()[g];
+  const int gdim = surface.gdim();
+  for (std::int32_t node : nodes)
+    for (int k = 0; k < gdim; ++k)
+      centre[k] += x[node * gdim + k] / nodes.size();
+  return dot(centre - foot, f.normal) > 1e-10 * f.size;
+}
+
+/// Follow the valleys around a penetrated facet to the deepest one.
+Projection deepest_in_valley(const Surface& surface, std::span<const double> x,
+                             const Vec<3>& p, Projection best)
+{
+  const int num_features
+      = facet::visit(surface.facets()[best.facet].size(), []<class F>(F)
+                     { return F::gdim == 2 ? F::nodes : F::num_edges; });
+  bool found = true;
+  // Each step goes to a deeper facet; the bound only guards against rounding
+  for (int step = 0; found and step < 8; ++step)
+  {
+    found = false;
+    const Projection from = best;
+    for (int feature = 1; feature <= num_features; ++feature)
+    {
+      for (std::int32_t g : surface.star(from.facet, feature))
+      {
+        if (g == from.facet or !concave(surface, from, g, x, p))
+          continue;
+        const auto q = extended(surface, g, x, p);
+        if (q and q->excess <= margin and q->gap < best.gap - 1e-10 * q->size)
+        {
+          best = *q;
+          found = true;
+        }
+      }
+    }
+  }
+  return best;
+}
+
+/// Beyond the edge or vertex of all facets around it: a ridge or a valley.
+Projection beyond_edge(std::span<const Projection> around, Projection nearest)
+{
+  Vec<3> mean{};
+  for (const Projection& q : around)
+    mean = mean + q.normal;
+  const double distance = norm(nearest.d);
+  const bool touching = distance <= 1e-10 * nearest.size;
+  if (!touching and dot(nearest.d, mean) <= 0)
+    return *std::ranges::min_element(around, {}, &Projection::gap);
+
+  // On the ridge every normal of the cone is as good: take the middle
+  nearest.normal = touching ? (1 / norm(mean)) * mean
+                            : (1 / distance) * nearest.d;
+  nearest.gap = distance;
+  return nearest;
+}
+} // namespace
+
+std::optional<Projection> contactx::search::nearest_facet(
+    const Surface& surface, const BoxTree& tree, std::span<const double> x,
+    const Vec<3>& p, const Vec<3>& normal, double reach)
+{
+  std::optional<Projection> best;
+  double bound2 = reach * reach;
+  const bool any = dot(normal, normal) == 0;
+  tree.nearest(p, bound2,
+               [&best, &bound2, &surface, &p, &normal, x, any](std::int32_t f)
+               {
+                 const auto q = closest(surface, f, x, p);
+                 if (!q or (!any and dot(q->normal, normal) >= 0))
+                   return;
+                 const double d2 = dot(q->d, q->d);
+                 if (d2 < bound2 or (d2 == bound2 and (!best or f < best->facet)))
+                 {
+                   best = q;
+                   bound2 = d2;
+                 }
+               });
+  return best;
+}
+
+std::optional<Projection>
+contactx::search::select(const Surface& surface, std::span<const double> x,
+                         const Vec<3>& p, const Projection& nearest)
+{
+  if (nearest.feature == facet::interior)
+    return nearest.gap < 0 ? deepest_in_valley(surface, x, p, nearest)
+                           : nearest;
+
+  std::vector<Projection> around;
+  const Projection* inside = nullptr;
+  for (std::int32_t f : surface.star(nearest.facet, nearest.feature))
+    if (const auto q = extended(surface, f, x, p))
+      around.push_back(*q);
+  const bool penetrated
+      = std::ranges::all_of(around, [](auto& q) { return q.gap < 0; });
+  for (const Projection& q : around)
+  {
+    if (q.excess > margin)
+      continue;
+    if (!inside
+        or (penetrated ? q.gap < inside->gap : q.excess < inside->excess))
+      inside = &q;
+  }
+  if (inside)
+    return *inside;
+  if (around.empty() or surface.on_boundary(nearest.facet, nearest.feature))
+    return std::nullopt;
+  return beyond_edge(around, nearest);
+}
+
+Vec<3>
+contactx::search::cone_components(const Surface& surface,
+                                  std::span<const double> x,
+                                  const Projection& projection)
+{
+  const auto nodes = surface.facets()[projection.facet];
+  return facet::visit(
+      nodes.size(),
+      [&projection, nodes, x]<class F>(F)
+      {
+        facet::Local<F> xi;
+        std::copy_n(projection.xi.begin(), F::tdim, xi.begin());
+        const auto axes = facet::ridge_axes<F>(facet::gather<F>(nodes, x),
+                                               projection.feature, xi);
+        Vec<3> c{};
+        for (int i = 0; i < F::gdim; ++i)
+          for (int k = 0; k < F::gdim; ++k)
+            c[F::gdim == 2 and i == 1 ? 2 : i]
+                += projection.normal[k] * axes[i][k];
+        return c;
+      });
+}

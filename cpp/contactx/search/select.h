@@ -1,0 +1,60 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#pragma once
+
+#include "box_tree.h"
+#include "surface.h"
+
+namespace contactx::search
+{
+/// @brief How far a facet reaches beyond its edges, in its local coordinates:
+/// 5 % of its width.
+inline constexpr double margin = 0.05;
+
+/// @brief Closest facet of a master surface that faces a point.
+/// @param[in] surface Master surface.
+/// @param[in] tree Tree of the surface's boxes.
+/// @param[in] x Node coordinates (shape=(num_nodes, gdim)), row-major.
+/// @param[in] p Point.
+/// @param[in] normal Outward normal at the point; facets whose normal does
+/// not oppose it are passed over. A zero vector accepts every facet.
+/// @param[in] reach Largest distance.
+/// @return The closest point of that facet, nothing where none is in reach.
+std::optional<Projection>
+nearest_facet(const Surface& surface, const BoxTree& tree,
+              std::span<const double> x, const Vec<3>& p,
+              const Vec<3>& normal, double reach);
+
+/// @brief The projection that contact is measured with.
+///
+/// Starts from the closest facet and settles what a closest point leaves open:
+/// - next to an edge, the facet whose surface, extended by the margin, holds
+///   the projection;
+/// - beyond the margin of a convex ridge, a unit normal from the ridge's cone;
+/// - behind the edge of a concave valley, the facet that is penetrated deepest;
+/// - beyond the margin of the surface's outer edge, nothing.
+///
+/// The feature of the result is the facet's interior, where the kernels
+/// project on the extended facet, or the ridge or vertex that `normal` is of.
+/// @param[in] surface Master surface.
+/// @param[in] x Node coordinates (shape=(num_nodes, gdim)), row-major.
+/// @param[in] p Point.
+/// @param[in] nearest Closest point of the surface to `p`.
+std::optional<Projection> select(const Surface& surface,
+                                 std::span<const double> x,
+                                 const Vec<3>& p,
+                                 const Projection& nearest);
+
+/// @brief Components of a ridge's normal in the frame of its facet.
+///
+/// The frame (e, e x n, n) has the direction e of the edge and the facet's
+/// normal n; at a vertex e is the edge that starts there. In 2D it is (t, n)
+/// with the tangent t, and the second component is zero.
+/// @param[in] surface Master surface.
+/// @param[in] x Node coordinates (shape=(num_nodes, gdim)), row-major.
+/// @param[in] projection Projection whose feature is an edge or a vertex.
+Vec<3> cone_components(const Surface& surface,
+                              std::span<const double> x,
+                              const Projection& projection);
+} // namespace contactx::search

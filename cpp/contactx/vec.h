@@ -1,0 +1,64 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+/// @brief Node-to-surface contact, free of DOLFINx and PETSc.
+namespace contactx
+{
+/// @brief Point or vector with `D` components.
+template <int D>
+using Vec = std::array<double, D>;
+
+template <std::size_t D>
+constexpr std::array<double, D> operator+(std::array<double, D> a,
+                                          const std::array<double, D>& b)
+{
+  for (std::size_t k = 0; k < D; ++k)
+    a[k] += b[k];
+  return a;
+}
+
+template <std::size_t D>
+constexpr std::array<double, D> operator-(std::array<double, D> a,
+                                          const std::array<double, D>& b)
+{
+  for (std::size_t k = 0; k < D; ++k)
+    a[k] -= b[k];
+  return a;
+}
+
+template <std::size_t D>
+constexpr std::array<double, D> operator*(double s, std::array<double, D> a)
+{
+  for (std::size_t k = 0; k < D; ++k)
+    a[k] *= s;
+  return a;
+}
+
+template <std::size_t D>
+constexpr double dot(const std::array<double, D>& a,
+                     const std::array<double, D>& b)
+{
+  double s = 0;
+  for (std::size_t k = 0; k < D; ++k)
+    s += a[k] * b[k];
+  return s;
+}
+
+template <std::size_t D>
+double norm(const std::array<double, D>& a)
+{
+  return std::sqrt(dot(a, a));
+}
+
+constexpr Vec<3> cross(const Vec<3>& a, const Vec<3>& b)
+{
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
+          a[0] * b[1] - a[1] * b[0]};
+}
+} // namespace contactx

@@ -1,0 +1,18 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Node-to-surface contact for FEniCSx."""
+
+# compat must come first: it loads the solver wheel before DOLFINx
+from contactx import compat  # isort: skip
+
+from contactx.contact import Contact
+from contactx.errors import ConvergenceError
+from contactx.problem import ContactProblem
+from contactx.report import Report
+from contactx.surface import Surface
+
+__all__ = ["Contact", "ContactProblem", "ConvergenceError", "Report", "Surface"]
+
+__version__ = "0.1.0"
+
+del compat

@@ -1,0 +1,123 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""The bulk: a UFL residual with its Jacobian and Dirichlet conditions."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from petsc4py import PETSc
+
+import numpy as np
+import numpy.typing as npt
+
+import dolfinx.fem.petsc
+import ufl
+from dolfinx import fem
+
+
+class Bulk:
+    """Residual and Jacobian of the bodies without contact.
+
+    Attributes:
+        u: Displacement.
+        bcs: Dirichlet conditions.
+        F: Residual form.
+        J: Jacobian form.
+        is_linear: Whether the Jacobian does not depend on u.
+        markers: 1 at dofs with a Dirichlet condition, shape (num_dofs,).
+        assemblies: How often the Jacobian was assembled.
+        skipped: How often an assembled Jacobian served again.
+    """
+
+    def __init__(
+        self,
+        F: ufl.Form,
+        u: fem.Function,
+        bcs: Sequence[fem.DirichletBC],
+        J: ufl.Form | None,
+        form_compiler_options: dict[str, Any] | None,
+        jit_options: dict[str, Any] | None,
+    ):
+        """Compile the forms.
+
+        Args:
+            F: Residual.
+            u: Displacement.
+            bcs: Dirichlet conditions.
+            J: Jacobian; derived from F if None.
+            form_compiler_options: Options of FFCx.
+            jit_options: Options of the compilation.
+        """
+        self.u = u
+        self.bcs = list(bcs)
+        V = u.function_space
+        if J is None:
+            J = ufl.derivative(F, u, ufl.TrialFunction(V))
+        expanded = ufl.algorithms.expand_derivatives(J)
+        self.is_linear = u not in expanded.coefficients()
+        self._parameters = [*expanded.coefficients(), *expanded.constants()]
+        options = {"form_compiler_options": form_compiler_options, "jit_options": jit_options}
+        self.F = fem.form(F, **options)
+        self.J = fem.form(J, **options)
+        self._A: PETSc.Mat | None = None
+        self._assembled_with: list[npt.NDArray[np.float64]] | None = None
+        self.markers = np.zeros(len(u.x.array), dtype=np.int8)
+        for bc in self.bcs:
+            self.markers[bc.dof_indices()[0]] = 1
+        self.assemblies = 0
+        self.skipped = 0
+
+    def add_residual(self, b: npt.NDArray[np.float64]) -> None:
+        """Add the residual, without Dirichlet conditions.
+
+        Args:
+            b: Residual, shape (num_dofs,).
+        """
+        fem.assemble_vector(b, self.F)
+
+    def dirichlet_defect(self) -> npt.NDArray[np.float64]:
+        """Displacement minus the values of the Dirichlet conditions, zero elsewhere."""
+        defect = np.zeros_like(self.u.x.array)
+        for bc in self.bcs:
+            bc.set(defect, self.u.x.array, alpha=-1.0)
+        return defect
+
+    def jacobian(self) -> PETSc.Mat:
+        """Jacobian, with unit rows and columns at Dirichlet conditions.
+
+        It is assembled again only where a coefficient or a constant of the form has changed: one
+        that does not depend on the displacement is assembled once.
+        """
+        if self._A is None:
+            self._A = dolfinx.fem.petsc.create_matrix(self.J)
+        parameters = [
+            np.array(p.x.array if isinstance(p, fem.Function) else p.value)
+            for p in self._parameters
+        ]
+        unchanged = self._assembled_with is not None and all(
+            map(np.array_equal, parameters, self._assembled_with)
+        )
+        if unchanged:
+            self.skipped += 1
+            return self._A
+        self._A.zeroEntries()
+        dolfinx.fem.petsc.assemble_matrix(self._A, self.J, bcs=self.bcs)
+        self._A.assemble()
+        self._assembled_with = parameters
+        self.assemblies += 1
+        return self._A
+
+    def nodal_stiffness(self) -> npt.NDArray[np.float64]:
+        """Stiffness of each node: the mean of its free diagonal entries, force/length.
+
+        Returns:
+            Stiffness, shape (num_nodes,); NaN where all of a node's dofs are prescribed.
+        """
+        diagonal = np.abs(self.jacobian().getDiagonal().array)
+        block = self.u.function_space.dofmap.index_map_bs
+        free = (self.markers == 0).reshape(-1, block)
+        total = np.where(free, diagonal.reshape(-1, block), 0).sum(axis=1)
+        count = free.sum(axis=1)
+        return np.divide(total, count, out=np.full(len(count), np.nan), where=count > 0)

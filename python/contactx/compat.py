@@ -1,0 +1,56 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""What differs between builds of DOLFINx."""
+
+import contextlib
+
+from mpi4py import MPI
+
+with contextlib.suppress(ModuleNotFoundError):
+    # The PyPI wheels of DOLFINx must load their MPI and PETSc before DOLFINx;
+    # other builds do not have this package
+    import dolfinx_solver  # noqa: F401
+
+from petsc4py import PETSc
+
+import numpy as np
+
+import dolfinx.fem.petsc  # noqa: F401  registers the PETSc type casters
+
+
+def require_real_double() -> None:
+    """Check that PETSc was built with real double precision.
+
+    Raises:
+        TypeError: If PETSc's scalar is complex or single precision.
+    """
+    if np.dtype(PETSc.ScalarType) != np.float64:
+        raise TypeError(
+            f"PETSc was built with {np.dtype(PETSc.ScalarType).name} scalars, but contactx needs "
+            "real double precision (float64): use a DOLFINx with such a PETSc"
+        )
+
+
+def require_one_rank(comm: MPI.Comm) -> None:
+    """Check that the communicator has one rank.
+
+    Raises:
+        RuntimeError: On every rank, if there are several.
+    """
+    if comm.size > 1:
+        raise RuntimeError(
+            f"contactx runs on one rank, but the mesh is distributed over {comm.size}: "
+            "start it without mpiexec, or with -n 1"
+        )
+
+
+def direct_solver() -> str | None:
+    """Name of a direct solver for saddle-point matrices, the best that PETSc has.
+
+    Returns:
+        ``"mumps"``, ``"superlu_dist"``, or None where PETSc's own LU must do.
+    """
+    for name in ("mumps", "superlu_dist"):
+        if PETSc.Sys.hasExternalPackage(name):
+            return name
+    return None

@@ -1,0 +1,151 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Contact between two surfaces, as the user sees it."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from contactx.fields import Fields
+from contactx.forms import ContactForms
+from contactx.interface import Interface
+from contactx.surface import Surface
+from dolfinx import fem, la
+
+_SLIDING = ("finite", "small")
+
+
+class Contact:
+    """Frictionless contact of a slave with a master surface.
+
+    The gap g = n . (x_s - x_m) of a slave node is positive where it is open, with the outward
+    normal n of the master; the pressure p >= 0 is positive in compression. Exactly one of them is
+    not zero: g >= 0, p >= 0, p g = 0. The results below exist as soon as the contact belongs to a
+    ContactProblem, and change when a step is accepted.
+    """
+
+    def __init__(self, slave: Surface, master: Surface, *, sliding: str = "finite"):
+        """Create a contact.
+
+        Args:
+            slave: Surface whose nodes must not penetrate the master; take the finer or the softer
+                of the two.
+            master: Surface that they are measured against.
+            sliding: "finite": pairs, normals and projections follow the deformation. "small": they
+                are those of the reference configuration, which is linear and cheap, and right
+                where bodies neither slide nor turn by much.
+
+        Raises:
+            TypeError: If slave or master is not a Surface.
+            ValueError: If the surfaces share facets, or ``sliding`` is not known.
+        """
+        for name, surface in (("slave", slave), ("master", master)):
+            if not isinstance(surface, Surface):
+                raise TypeError(
+                    f"{name} must be a contactx.Surface, not {type(surface).__name__}: "
+                    "write Surface(facet_tags, tag)"
+                )
+        if slave.facet_tags.topology is master.facet_tags.topology:
+            shared = np.intersect1d(slave.facets, master.facets)
+            if len(shared) > 0:
+                raise ValueError(
+                    f"slave and master overlap: {slave} and {master} have {len(shared)} facets in "
+                    "common. Give each surface its own tags"
+                )
+        if sliding not in _SLIDING:
+            raise ValueError(f'sliding must be "finite" or "small", not {sliding!r}')
+        self.slave = slave
+        self.master = master
+        self.sliding = sliding
+        self._interface: Interface | None = None
+        self._fields: Fields | None = None
+
+    def __repr__(self) -> str:
+        """Name the surfaces."""
+        return f"Contact(slave={self.slave}, master={self.master}, sliding={self.sliding!r})"
+
+    def attach(self, u: fem.Function, X: la.Vector) -> Interface:
+        """Make the contact's discrete side; ContactProblem calls this.
+
+        Args:
+            u: Displacement.
+            X: Reference positions of its nodes.
+
+        Returns:
+            The discrete side.
+
+        Raises:
+            RuntimeError: If the contact belongs to a problem already.
+        """
+        if self._interface is not None:
+            raise RuntimeError(
+                f"{self} belongs to a ContactProblem already: create one Contact a problem"
+            )
+        interface = Interface(self.slave, self.master, self.sliding, u, X)
+        self._fields = Fields(interface, u.function_space)
+        self._interface = interface
+        return interface
+
+    def accept(self) -> None:
+        """Take over the results of an accepted step; ContactProblem calls this."""
+        self.fields.update()
+
+    @property
+    def interface(self) -> Interface:
+        """Discrete side: for those who write a Newton loop of their own."""
+        if self._interface is None:
+            raise RuntimeError(f"{self} has no results yet: pass it to a ContactProblem first")
+        return self._interface
+
+    @property
+    def fields(self) -> Fields:
+        """Results as functions."""
+        if self._fields is None:
+            raise RuntimeError(f"{self} has no results yet: pass it to a ContactProblem first")
+        return self._fields
+
+    @property
+    def forms(self) -> list[ContactForms]:
+        """Forms of the current pairs, one set for each kind of master facet."""
+        return self.interface.forms
+
+    @property
+    def slave_nodes(self) -> npt.NDArray[np.int32]:
+        """Slave nodes, numbered as the blocks of the displacement's dofmap, shape (n,)."""
+        return self.interface.slaves
+
+    @property
+    def area(self) -> npt.NDArray[np.float64]:
+        """Reference area of each slave node (length in 2D), shape (n,)."""
+        return self.interface.state.area.array
+
+    @property
+    def multiplier(self) -> npt.NDArray[np.float64]:
+        """Multiplier of each slave node, its pressure as force per reference area, shape (n,)."""
+        return self.interface.state.multiplier.array
+
+    @property
+    def pressure(self) -> fem.Function:
+        """Contact pressure, force/area, zero off the slave surface."""
+        return self.fields.pressure
+
+    @property
+    def traction(self) -> fem.Function:
+        """Traction that the master exerts on the slave, force/area, zero off the slave surface."""
+        return self.fields.traction
+
+    @property
+    def gap(self) -> fem.Function:
+        """Gap, a length; NaN off the slave surface and where no master facet is in reach."""
+        return self.fields.gap
+
+    @property
+    def status(self) -> fem.Function:
+        """Status: -1 off the slave surface, 0 open, 2 closed."""
+        return self.fields.status
+
+    @property
+    def force(self) -> npt.NDArray[np.float64]:
+        """Total force on the slave side, shape (gdim,)."""
+        return self.fields.force

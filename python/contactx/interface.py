@@ -1,0 +1,253 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""One contact on a discrete bulk: its slave nodes, pairs, state and forms."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from contactx import cpp as core
+from contactx.forms import ContactForms, Pairs, State
+from contactx.surface import FacetList, Surface
+from dolfinx import cpp, fem, la
+
+
+@dataclass(frozen=True)
+class Checkpoint:
+    """State of a contact that a failed step returns to."""
+
+    pairing: core.Pairing
+    multiplier: npt.NDArray[np.float64]
+    status: npt.NDArray[np.int8]
+    gap: npt.NDArray[np.float64]
+
+
+class Interface:
+    """Discrete side of a contact.
+
+    State belongs to the slave nodes, so that a new search loses nothing.
+
+    Attributes:
+        slaves: Slave nodes, numbered as the blocks of the displacement's dofmap, shape (n,).
+        state: Vectors that the forms read.
+        status: Status of each slave node, shape (n,).
+        gap: Gap of each slave node, NaN where it has no pair, shape (n,).
+        c: Factor of the gap in the complementarity, traction/length, shape (n,).
+        value: Complementarity function, a force, shape (n,).
+        d_pressure: Its derivative with respect to the pressure, shape (n,).
+        forms: Forms, one set for each kind of facet that has pairs.
+        reach: Largest distance of a pair.
+    """
+
+    def __init__(self, slave: Surface, master: Surface, sliding: str, u: fem.Function, X: la.Vector):
+        """Find the slave nodes and pair them in the reference configuration.
+
+        Args:
+            slave: Slave surface.
+            master: Master surface.
+            sliding: "finite" or "small".
+            u: Displacement.
+            X: Reference positions of the nodes of ``u``.
+
+        Raises:
+            ValueError: If the surfaces share nodes.
+        """
+        V = u.function_space
+        self._comm = V.mesh.comm
+        self._gdim = V.mesh.geometry.dim
+        self._sliding = sliding
+        self._u = u
+        self._bulk_map = V.dofmap.index_map
+        slave_facets, master_facets = slave.facet_nodes(V), master.facet_nodes(V)
+        shared = np.intersect1d(slave_facets.nodes, master_facets.nodes)
+        if len(shared) > 0:
+            raise ValueError(
+                f"slave and master overlap: {slave} and {master} share {len(shared)} nodes. "
+                "Give each body its own nodes and each surface its own facets"
+            )
+        self._master = master_facets
+        self._pairing = core.Pairing(
+            slave_facets.offsets,
+            slave_facets.nodes,
+            master_facets.offsets,
+            master_facets.nodes,
+            self._gdim,
+        )
+        self.slaves = self._pairing.slaves
+        n = len(self.slaves)
+        self._slave_map = cpp.common.IndexMap(self._comm, n)
+        vector = la.vector
+        self.state = State(
+            displacement=u.x,
+            position=X,
+            multiplier=vector(self._slave_map, 1),
+            area=vector(self._slave_map, 1),
+            gap_derivative=vector(self._slave_map, 1),
+        )
+        self.state.area.array[:] = core.nodal_areas(
+            slave_facets.offsets, slave_facets.nodes, X.array, self._gdim
+        )[self.slaves]
+        self.status = np.full(n, core.OPEN, dtype=np.int8)
+        self.gap = np.full(n, np.nan)
+        self.c = np.ones(n)
+        self.value = np.zeros(n)
+        self.d_pressure = np.zeros(n)
+        self.forms: list[ContactForms] = []
+        self._facet = np.full(n, -1, dtype=np.int32)
+        self._feature = np.zeros(n, dtype=np.int32)
+        self.reach = _default_reach(X.array.reshape(-1, self._gdim), slave_facets, master_facets)
+        if sliding == "small":
+            self._search(X.array)
+
+    @property
+    def num_pairs(self) -> int:
+        """Number of slave nodes that have a pair."""
+        return int(np.count_nonzero(self._facet >= 0))
+
+    @property
+    def frozen(self) -> npt.NDArray[np.int32]:
+        """Slave nodes whose pair was frozen in this step."""
+        frozen: npt.NDArray[np.int32] = self._pairing.frozen()
+        return frozen
+
+    def positions(self) -> npt.NDArray[np.float64]:
+        """Current positions of the bulk's nodes, flattened."""
+        x: npt.NDArray[np.float64] = self.state.position.array + self._u.x.array
+        return x
+
+    def begin_step(self) -> None:
+        """Start a step: what was frozen may move again."""
+        self._pairing.begin_step()
+
+    def search(self) -> int:
+        """Pair the slave nodes in the current configuration; small sliding keeps its pairs.
+
+        Returns:
+            Number of nodes in contact whose facet has changed.
+        """
+        return 0 if self._sliding == "small" else self._search(self.positions())
+
+    def _search(self, x: npt.NDArray[np.float64]) -> int:
+        closed = (self.status != core.OPEN).astype(np.int8)
+        changed: int = self._pairing.update(x, self.reach, closed)
+        facet, feature = self._pairing.facet, self._pairing.feature
+        same = np.array_equal(facet, self._facet) and np.array_equal(feature, self._feature)
+        self._facet, self._feature = facet, feature
+        if same and self.forms:
+            for form, pairs in zip(self.forms, self._pairs(), strict=True):
+                form.update(pairs)
+        else:
+            self.forms = [
+                ContactForms(
+                    self._comm, self._sliding, pairs, self.state, self._bulk_map, self._slave_map
+                )
+                for pairs in self._pairs()
+            ]
+        return changed
+
+    def _pairs(self) -> list[Pairs]:
+        """Pairs by the number of nodes of their facets."""
+        data = np.column_stack([self._feature, self._pairing.xi, self._pairing.cone])
+        sizes = np.diff(self._master.offsets)[self._facet]
+        groups = []
+        for size in np.unique(sizes[self._facet >= 0]):
+            slaves = np.flatnonzero((self._facet >= 0) & (sizes == size)).astype(np.int32)
+            first = self._master.offsets[self._facet[slaves]]
+            facets = self._master.nodes[first[:, None] + np.arange(size)]
+            nodes = np.column_stack([self.slaves[slaves], facets])
+            groups.append(Pairs(slaves, nodes, data[slaves]))
+        return groups
+
+    def update_gap(self) -> None:
+        """First pass: assemble the gap of each slave node."""
+        self.gap[:] = 0
+        for form in self.forms:
+            fem.assemble_vector(self.gap, form.gap)
+        self.gap[self._facet < 0] = np.nan
+
+    def update_status(self) -> int:
+        """Set each slave node's status from its pressure and gap; a node that opens loses its pressure.
+
+        The pressures of an iterate whose active set is far too large are wild, and the stiffness
+        that they give to nodes that have just opened throws the next iterate off.
+
+        Returns:
+            Number of nodes that changed.
+        """
+        changed: int = core.normal_status(
+            self.state.multiplier.array, self.gap, self.c, self.status
+        )
+        self.state.multiplier.array[self.status == core.OPEN] = 0
+        return changed
+
+    def evaluate_law(self) -> None:
+        """Second pass: the complementarity function and its derivatives."""
+        core.normal_complementarity(
+            self.state.multiplier.array,
+            self.gap,
+            self.c,
+            self.state.area.array,
+            self.status,
+            self.value,
+            self.d_pressure,
+            self.state.gap_derivative.array,
+        )
+
+    def add_residual(self, b: npt.NDArray[np.float64]) -> None:
+        """Third pass: add the contact forces.
+
+        Args:
+            b: Residual of the bulk, shape (num_nodes * gdim,).
+        """
+        for form in self.forms:
+            fem.assemble_vector(b, form.residual)
+
+    def checkpoint(self) -> Checkpoint:
+        """Copy what a step changes."""
+        return Checkpoint(
+            self._pairing.copy(),
+            self.state.multiplier.array.copy(),
+            self.status.copy(),
+            self.gap.copy(),
+        )
+
+    def restore(self, checkpoint: Checkpoint) -> None:
+        """Return to a checkpoint."""
+        self._pairing = checkpoint.pairing.copy()
+        self.state.multiplier.array[:] = checkpoint.multiplier
+        self.status[:] = checkpoint.status
+        self.gap[:] = checkpoint.gap
+        self._facet, self._feature = self._pairing.facet, self._pairing.feature
+        self.forms = [
+            ContactForms(
+                self._comm, self._sliding, pairs, self.state, self._bulk_map, self._slave_map
+            )
+            for pairs in self._pairs()
+        ]
+
+    def distance(self) -> float:
+        """Distance from the nearest slave node to the master, now."""
+        distance: float = self._pairing.distance(self.positions())
+        return distance
+
+    def deepest_frozen(self) -> float:
+        """Smallest gap that the frozen pairs hide: what a search without memory finds for them."""
+        if len(self.frozen) == 0:
+            return 0.0
+        gaps = self._pairing.natural_gaps(self.positions(), self.reach, self.frozen)
+        return float(np.nanmin(gaps, initial=0.0))
+
+
+def _default_reach(
+    x: npt.NDArray[np.float64], slave: FacetList, master: FacetList
+) -> float:
+    """Half the diagonal of the larger surface's bounding box.
+
+    A body that has moved into another within one iteration must still be found.
+    """
+    diagonals = [np.linalg.norm(np.ptp(x[f.nodes], axis=0)) for f in (slave, master)]
+    return float(max(diagonals)) / 2

@@ -1,0 +1,13 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Meshes of contact problems, made with gmsh and returned as dolfinx ``MeshData``."""
+
+from __future__ import annotations
+
+from contactx.meshes.cap import hertz_cap
+from contactx.meshes.cylinder import hertz_cylinder
+from contactx.meshes.sphere import hertz_sphere
+from contactx.meshes.stacked import blocks
+from contactx.meshes.tags import Tag
+
+__all__ = ["Tag", "blocks", "hertz_cap", "hertz_cylinder", "hertz_sphere"]

@@ -1,0 +1,114 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""The Hertz problem of a spherical cap on a block, on hexahedra."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from types import ModuleType
+
+from mpi4py import MPI
+
+import numpy as np
+import numpy.typing as npt
+
+from contactx.meshes.build import build_mesh
+from contactx.meshes.checks import check_divisions, check_positive
+from contactx.meshes.entities import add_box, tag_body
+from contactx.meshes.tags import Tag
+from dolfinx.io.gmsh import MeshData
+
+_UPPER_FACES = {
+    "z0": Tag.UPPER_CONTACT,
+    "z1": Tag.UPPER_TOP,
+    "x0": Tag.UPPER_X0,
+    "y0": Tag.UPPER_Y0,
+}
+_LOWER_FACES = {
+    "z1": Tag.LOWER_CONTACT,
+    "z0": Tag.LOWER_BOTTOM,
+    "x0": Tag.LOWER_X0,
+    "y0": Tag.LOWER_Y0,
+}
+_GROWTH = 4.0
+
+
+def _grade(x: npt.NDArray[np.float64], n: int, length: float) -> npt.NDArray[np.float64]:
+    """Move evenly spaced points so that the cell sizes grow geometrically away from zero."""
+    if n == 1:
+        return x
+    total = _GROWTH ** (n / (n - 1))
+    return np.asarray(np.sign(x) * length * (total ** (np.abs(x) / length) - 1) / (total - 1))
+
+
+def _move_nodes(
+    gmsh: ModuleType,
+    body: int,
+    moved: Callable[[npt.NDArray[np.float64]], npt.NDArray[np.float64]],
+) -> None:
+    """Map the coordinates of all nodes of a body, shape (3, nodes)."""
+    nodes, flat, _ = gmsh.model.mesh.getNodes(3, body, includeBoundary=True)
+    for node, x in zip(nodes, moved(np.reshape(flat, (-1, 3)).T).T, strict=True):
+        gmsh.model.mesh.setNode(node, x, [])
+
+
+def _bend(x: npt.NDArray[np.float64], length: float, radius: float) -> npt.NDArray[np.float64]:
+    """Lift points so that a block's bottom z = 0 becomes a cap and its top stays flat."""
+    rise = radius - np.sqrt(radius**2 - x[0] ** 2 - x[1] ** 2)
+    return np.stack((x[0], x[1], x[2] + rise * (1 - x[2] / length)))
+
+
+def hertz_cap(
+    n: int,
+    n_master: int | None = None,
+    length: float = 1.0,
+    radius: float | None = None,
+    comm: MPI.Comm = MPI.COMM_WORLD,
+) -> MeshData:
+    """Mesh a quarter block with a spherical bottom that touches a quarter block (collective).
+
+    The upper body (slave) fills [0, L] x [0, L] from the sphere of the given radius about
+    (0, 0, radius) up to z = L, the lower body (master) is [0, L] x [0, L] x [-L, 0]; they touch
+    in the origin and share no node. Both are structured grids of trilinear hexahedra that
+    do not match, graded towards the origin: along an edge the longest cell is four times as
+    long as the shortest. x = 0 and y = 0 are planes of symmetry.
+
+    The faces that are tagged: ``UPPER_CONTACT`` (the cap), ``UPPER_TOP`` (z = L), ``UPPER_X0``,
+    ``UPPER_Y0``, ``LOWER_CONTACT`` (z = 0), ``LOWER_BOTTOM`` (z = -L), ``LOWER_X0`` and
+    ``LOWER_Y0``.
+
+    Args:
+        n: Number of cells along each edge of the upper body.
+        n_master: The same for the lower body; half as many again as n if None.
+        length: Edge length L of the bodies.
+        radius: Radius of the cap, in the unit of length; 8 L if None.
+        comm: Communicator of the mesh; rank 0 makes it.
+
+    Returns:
+        The mesh, with the ``Tag`` of its bodies in ``cell_tags`` and of faces in ``facet_tags``.
+
+    Raises:
+        ValueError: If a number of cells is below one, a length is not positive, or the radius is
+            below 2 L, where the cap would rise into the upper half of the body.
+    """
+    n_lower = max(n + 1, 3 * n // 2) if n_master is None else n_master
+    cap_radius = 8 * length if radius is None else radius
+    check_divisions(n=n, n_master=n_lower)
+    check_positive(length=length, radius=cap_radius)
+    if cap_radius < 2 * length:
+        raise ValueError(
+            f"radius is {cap_radius}; give at least twice the length, {2 * length}, "
+            "or the cap distorts the hexahedra."
+        )
+
+    def recipe(gmsh: ModuleType) -> None:
+        size = (length, length, length)
+        upper = add_box(gmsh, (0, 0, 0), size, (n, n, n), recombine=True)
+        lower = add_box(gmsh, (0, 0, -length), size, (n_lower, n_lower, n_lower), recombine=True)
+        tag_body(gmsh, 3, upper, Tag.UPPER, _UPPER_FACES)
+        tag_body(gmsh, 3, lower, Tag.LOWER, _LOWER_FACES)
+        gmsh.model.mesh.generate(3)
+        _move_nodes(gmsh, upper, lambda x: _bend(_grade(x, n, length), length, cap_radius))
+        _move_nodes(gmsh, lower, lambda x: _grade(x, n_lower, length))
+
+    return build_mesh("hertz_cap", 3, recipe, comm)

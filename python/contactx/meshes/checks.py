@@ -1,0 +1,52 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Checks of the arguments of the mesh functions."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+
+def check_positive(**values: float) -> None:
+    """Check that lengths and ratios are positive and finite.
+
+    Args:
+        values: Values by the name of their argument.
+
+    Raises:
+        ValueError: If a value is not a positive finite number.
+    """
+    for name, value in values.items():
+        if not (np.isfinite(value) and value > 0):
+            raise ValueError(f"{name} is {value}; give a positive number.")
+
+
+def check_divisions(**values: int) -> None:
+    """Check numbers of cells along an edge.
+
+    Args:
+        values: Values by the name of their argument.
+
+    Raises:
+        ValueError: If a value is not an integer of at least one.
+    """
+    for name, value in values.items():
+        if value != int(value) or value < 1:
+            raise ValueError(f"{name} is {value}; give a whole number of cells, at least 1.")
+
+
+def check_vector(name: str, values: Sequence[float], dim: int) -> None:
+    """Check that a sequence has one finite entry per direction.
+
+    Args:
+        name: Name of the argument.
+        values: The entries.
+        dim: The number of entries that is expected.
+
+    Raises:
+        ValueError: If the number of entries is another one, or one is not finite.
+    """
+    if len(values) != dim or not np.all(np.isfinite(values)):
+        raise ValueError(f"{name} is {values}; give {dim} finite numbers, one per direction.")

@@ -1,0 +1,100 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Two boxes, one on the other, on structured grids."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from types import ModuleType
+
+from mpi4py import MPI
+
+from contactx.meshes.build import build_mesh
+from contactx.meshes.checks import check_divisions, check_positive, check_vector
+from contactx.meshes.entities import add_box, tag_body
+from contactx.meshes.tags import Tag
+from dolfinx.io.gmsh import MeshData
+from dolfinx.mesh import CellType
+
+_DIMENSIONS = {
+    CellType.triangle: 2,
+    CellType.quadrilateral: 2,
+    CellType.tetrahedron: 3,
+    CellType.hexahedron: 3,
+}
+
+
+def _faces(body: str, dim: int) -> dict[str, Tag]:
+    """Name all faces of a box, by side; the bodies face each other along the last axis."""
+    below, above = ("CONTACT", "TOP") if body == "UPPER" else ("BOTTOM", "CONTACT")
+    up = "xyz"[dim - 1]
+    named = {f"{up}0": Tag[f"{body}_{below}"], f"{up}1": Tag[f"{body}_{above}"]}
+    for side in ("x0", "x1", "y0", "y1")[: 2 * (dim - 1)]:
+        named[side] = Tag[f"{body}_{side.upper()}"]
+    return named
+
+
+def blocks(
+    cell_type: CellType,
+    n_upper: Sequence[int],
+    n_lower: Sequence[int],
+    *,
+    size_upper: Sequence[float] | None = None,
+    size_lower: Sequence[float] | None = None,
+    shift: Sequence[float] | None = None,
+    gap: float = 0.0,
+    comm: MPI.Comm = MPI.COMM_WORLD,
+) -> MeshData:
+    """Mesh two boxes, the upper on the lower one (collective).
+
+    The lower box has a corner in the origin, spans its size along the horizontal axes and lies
+    below height zero; the upper box begins at the height ``gap``. The last axis is the height.
+    They share no node, also where their grids match. All faces of both bodies are tagged.
+
+    Args:
+        cell_type: Triangle or quadrilateral for 2D, tetrahedron or hexahedron for 3D.
+        n_upper: Number of cells of the upper box along each axis, shape (dim,).
+        n_lower: The same for the lower box.
+        size_upper: Edge lengths of the upper box, shape (dim,); a unit box if None.
+        size_lower: The same for the lower box.
+        shift: Horizontal offset of the upper box's corner from the lower box's, shape
+            (dim - 1,); zero if None.
+        gap: Distance between the boxes; negative if they overlap.
+        comm: Communicator of the mesh; rank 0 makes it.
+
+    Returns:
+        The mesh, with the ``Tag`` of its bodies in ``cell_tags`` and of faces in ``facet_tags``.
+
+    Raises:
+        ValueError: If the cell type is another one, a sequence has a wrong length, a number of
+            cells is below one, a length is not positive or a position is not finite.
+    """
+    if cell_type not in _DIMENSIONS:
+        names = ", ".join(known.name for known in _DIMENSIONS)
+        raise ValueError(f"cell_type is {cell_type.name}; give one of {names}.")
+    dim = _DIMENSIONS[cell_type]
+    size_upper = (1.0,) * dim if size_upper is None else size_upper
+    size_lower = (1.0,) * dim if size_lower is None else size_lower
+    shift = (0.0,) * (dim - 1) if shift is None else shift
+    for name, n in (("n_upper", n_upper), ("n_lower", n_lower)):
+        check_vector(name, n, dim)
+        check_divisions(**{f"{name}[{i}]": n_i for i, n_i in enumerate(n)})
+    for name, size in (("size_upper", size_upper), ("size_lower", size_lower)):
+        check_vector(name, size, dim)
+        check_positive(**{f"{name}[{i}]": length for i, length in enumerate(size)})
+    check_vector("shift", shift, dim - 1)
+    if not math.isfinite(gap):
+        raise ValueError(f"gap is {gap}; give a finite number.")
+    corner_upper = (*shift, gap)
+    corner_lower = (0.0,) * (dim - 1) + (-size_lower[-1],)
+    recombine = cell_type in (CellType.quadrilateral, CellType.hexahedron)
+
+    def recipe(gmsh: ModuleType) -> None:
+        upper = add_box(gmsh, corner_upper, size_upper, n_upper, recombine)
+        lower = add_box(gmsh, corner_lower, size_lower, n_lower, recombine)
+        tag_body(gmsh, dim, upper, Tag.UPPER, _faces("UPPER", dim))
+        tag_body(gmsh, dim, lower, Tag.LOWER, _faces("LOWER", dim))
+        gmsh.model.mesh.generate(dim)
+
+    return build_mesh("blocks", dim, recipe, comm)

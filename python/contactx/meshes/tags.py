@@ -1,0 +1,32 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Names of the tags that all meshes of this package share."""
+
+from __future__ import annotations
+
+from enum import IntEnum
+
+
+class Tag(IntEnum):
+    """Tags of the bodies (cells) and of their faces (facets).
+
+    The upper body rests on the lower one. The last coordinate (z in 3D, y in 2D) points up, so
+    a 2D mesh has no ``Y`` faces. A model tags only the faces that its docstring lists.
+    """
+
+    UPPER = 1
+    LOWER = 2
+
+    UPPER_CONTACT = 11
+    UPPER_TOP = 12
+    UPPER_X0 = 13
+    UPPER_Y0 = 14
+    UPPER_X1 = 15
+    UPPER_Y1 = 16
+
+    LOWER_CONTACT = 21
+    LOWER_BOTTOM = 22
+    LOWER_X0 = 23
+    LOWER_Y0 = 24
+    LOWER_X1 = 25
+    LOWER_Y1 = 26

@@ -1,0 +1,10 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Pictures of contact problems, made off screen: deformed bodies and pressure curves."""
+
+from __future__ import annotations
+
+from contactx.plot.curve import pressure_curve
+from contactx.plot.deformed import deformed_bodies
+
+__all__ = ["deformed_bodies", "pressure_curve"]

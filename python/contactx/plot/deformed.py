@@ -1,0 +1,118 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""The deformed bodies, with a close-up of the contact zone."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from contactx.plot.page import compose
+from contactx.plot.surface import AXES, deformed_surface, mirrored, peak_body, sharp_edges
+from contactx.plot.view import View
+from dolfinx import fem
+
+# Points above this share of the largest magnitude make the zone that the close-up shows.
+_ZONE_SHARE = 0.02
+# Mean normals longer than this say that one side of a body is loaded, not all of it.
+_ONE_SIDED = 0.3
+
+
+def _draw(
+    surface: Any,
+    planes: Sequence[str],
+    camera: Sequence[float] | None,
+    clim: Sequence[float],
+    flat: bool,
+) -> list[tuple[npt.NDArray[np.uint8], float]]:
+    """Draw the overview and, if anything is loaded, the close-up; each with its width."""
+    if camera is None:
+        camera = (0.0, 0.0, 1.0) if flat else (0.55, -1.5, 0.55)
+    direction = np.asarray(camera, dtype=np.float64)
+    # A last plane that stays open lets one look at the section.
+    shown = planes if flat else planes[: max(1, len(planes) - 1)]
+    body = mirrored(surface, shown)
+    view = View(body.points, direction, margin=0.04)
+    edges = sharp_edges(body, shown, flat)
+    images = [(view.render(body, edges, clim, lighting=not flat), float(view.extent[0]))]
+    if not np.any(surface.point_data["scalar"]):
+        return images
+    if not flat:
+        body, normal = peak_body(surface)
+        normal[[AXES[plane] for plane in planes]] = 0
+        body = mirrored(body, planes)
+        edges = sharp_edges(body, planes, flat)
+        # A scalar that fills a body has no side that it shows on.
+        if np.linalg.norm(normal) > _ONE_SIDED:
+            direction = normal
+    magnitude = np.abs(body.point_data["scalar"])
+    zone = body.points[magnitude > _ZONE_SHARE * magnitude.max()]
+    view = View(zone, direction, margin=0.5, square=True)
+    # Without lights the colours are exactly those of the colour bar.
+    images.append((view.render(body, edges, clim, lighting=False), float(view.extent[0])))
+    return images
+
+
+def deformed_bodies(
+    u: fem.Function[Any],
+    scalar: fem.Function[Any],
+    path: str | Path,
+    *,
+    title: str,
+    label: str | None = None,
+    scale: float = 1.0,
+    clim: tuple[float, float] | None = None,
+    camera: Sequence[float] | None = None,
+    mirror: Sequence[str] = (),
+) -> None:
+    """Draw the deformed bodies and a close-up of the contact zone, coloured by a scalar.
+
+    The overview shows all bodies. The close-up shows where the scalar is not zero: in 2D of all
+    bodies, in 3D only the surface of the body with the largest value, seen from where the
+    other body was. Collective; rank 0 draws.
+
+    Args:
+        u: Displacement, length, a Lagrange function with one component per direction.
+        scalar: The coloured quantity, a continuous scalar Lagrange function of degree 1 on the
+            same mesh, such as the contact pressure.
+        path: The image file; its suffix chooses the format.
+        title: Title of the picture.
+        label: Name and unit of the scalar, for the colour bar; the function's name if None.
+        scale: Factor of the drawn displacement.
+        clim: Lowest and highest value of the colours; from the least of zero and the lowest
+            value to the highest if None.
+        camera: Direction from the bodies towards the viewer of the overview, shape (3,).
+        mirror: Planes of symmetry through the origin, by their normals "x", "y" or "z". With
+            two of them in 3D the overview leaves the last one open and shows the section there.
+
+    Raises:
+        ImportError: If pyvista or matplotlib is not installed.
+        ValueError: If a mirror plane is not the name of an axis, or the scalar is of another kind.
+    """
+    for plane in mirror:
+        if plane not in AXES:
+            raise ValueError(f"mirror holds {plane!r}; give names of axes: x, y or z.")
+    element = scalar.function_space.ufl_element()
+    if element.degree != 1 or element.discontinuous or element.block_size != 1:
+        raise ValueError(f"scalar is of {element}; interpolate it into a space of ('P', 1).")
+    surface = deformed_surface(u, scalar, scale)
+    if surface is None:
+        return
+    if clim is None:
+        values = surface.point_data["scalar"]
+        low = min(0.0, float(values.min()))
+        clim = (low, max(float(values.max()), low + 1e-12))
+    flat = u.function_space.mesh.geometry.dim == 2
+    images = _draw(surface, tuple(mirror), camera, clim, flat)
+    compose(
+        images,
+        path,
+        title=title,
+        label=scalar.name if label is None else label,
+        clim=clim,
+        note="" if scale == 1 else f"displacement drawn {scale:g} times as large",
+    )

@@ -1,0 +1,146 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Bodies in contact: the user's problem."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from petsc4py import PETSc
+
+import numpy as np
+
+import ufl
+from contactx import compat, validate
+from contactx.bulk import Bulk
+from contactx.contact import Contact
+from contactx.errors import ConvergenceError
+from contactx.newton import NewtonLoop
+from contactx.report import Report
+from contactx.system import SaddlePointSystem
+from dolfinx import fem, la
+
+
+class ContactProblem:
+    """Find the displacement u and the contact pressures with F(u; v) + contact(v) = 0 for all v.
+
+    Contact adds the virtual work - sum_s A_s p_s n . (v_s - sum_l N_l v_l) of its slave nodes s to
+    the bulk's residual, under g_s >= 0, p_s >= 0, p_s g_s = 0: a semismooth Newton method on the
+    saddle point, the primal-dual active set strategy of Hueeber & Wohlmuth (2005).
+
+    Attributes:
+        u: Displacement.
+        contacts: Contacts.
+        report: Report of the last solve.
+    """
+
+    def __init__(
+        self,
+        F: ufl.Form,
+        u: fem.Function,
+        *,
+        contacts: Sequence[Contact],
+        petsc_options_prefix: str,
+        bcs: Sequence[fem.DirichletBC] | None = None,
+        J: ufl.Form | None = None,
+        petsc_options: Mapping[str, Any] | None = None,
+        form_compiler_options: dict[str, Any] | None = None,
+        jit_options: dict[str, Any] | None = None,
+    ):
+        """Create a problem.
+
+        Args:
+            F: Residual of the bulk: any UFL form of the bodies, linear in its test function.
+            u: Displacement, in the linear Lagrange space of vectors on a mesh that holds all
+                bodies. Its values are the start of the first solve.
+            contacts: Contacts between surfaces of the mesh.
+            petsc_options_prefix: Prefix of the PETSc options, unique in the program.
+            bcs: Dirichlet conditions.
+            J: Jacobian of F; derived if None.
+            petsc_options: Options of SNES, its KSP and PC, without the prefix. ``snes_rtol``
+                (default 1e-10) is relative to the forces of the problem.
+            form_compiler_options: Options of FFCx.
+            jit_options: Options of the compilation.
+
+        Raises:
+            RuntimeError: On more than one rank, on every rank.
+            TypeError: If PETSc or u are not real double precision.
+            ValueError: If a space, surface or option does not fit; the message says what to do.
+        """
+        compat.require_real_double()
+        validate.check_displacement(u)
+        compat.require_one_rank(u.function_space.mesh.comm)
+        validate.check_options(petsc_options, petsc_options_prefix)
+        validate.check_distinct(contacts)
+
+        V = u.function_space
+        X = la.vector(V.dofmap.index_map, V.dofmap.index_map_bs)
+        gdim = V.mesh.geometry.dim
+        X.array[:] = V.tabulate_dof_coordinates()[:, :gdim].ravel()
+        validate.check_finite(coordinates_of_the_mesh_are=X)
+
+        self.u = u
+        self.contacts = list(contacts)
+        self.report = Report()
+        self._bulk = Bulk(F, u, bcs or [], J, form_compiler_options, jit_options)
+        self._interfaces = [contact.attach(u, X) for contact in self.contacts]
+        self._system = SaddlePointSystem(self._bulk, self._interfaces)
+        self._newton = NewtonLoop(
+            self._bulk, self._interfaces, self._system, petsc_options_prefix, petsc_options or {}
+        )
+        self._warned = False
+
+    @property
+    def solver(self) -> PETSc.SNES:
+        """The SNES solver."""
+        return self._newton.snes
+
+    def solve(self) -> fem.Function:
+        """Solve for the current loads and Dirichlet values, starting from ``u``.
+
+        Returns:
+            The displacement ``u``.
+
+        Raises:
+            ConvergenceError: If the Newton loop fails. The displacement and the contacts are then
+                as they were before the call.
+            ValueError: If ``u`` is not finite.
+        """
+        validate.check_finite(the_displacement_u_is=self.u.x)
+        displacement = self.u.x.array.copy()
+        checkpoints = [interface.checkpoint() for interface in self._interfaces]
+        self.report = report = Report()
+        try:
+            with report.timing("total"):
+                self._newton.run(report)
+            if not report.converged:
+                raise ConvergenceError(report.reason, report)
+        except BaseException:
+            self.u.x.array[:] = displacement
+            for interface, checkpoint in zip(self._interfaces, checkpoints, strict=True):
+                interface.restore(checkpoint)
+            raise
+        for contact in self.contacts:
+            contact.accept()
+        self._complete(report)
+        return self.u
+
+    def _complete(self, report: Report) -> None:
+        report.slaves = sum(len(i.slaves) for i in self._interfaces)
+        report.pairs = sum(i.num_pairs for i in self._interfaces)
+        report.frozen = sum(len(i.frozen) for i in self._interfaces)
+        report.frozen_gap = min(i.deepest_frozen() for i in self._interfaces)
+        report.force = [contact.force for contact in self.contacts]
+        report.imbalance = np.sum([contact.fields.imbalance for contact in self.contacts], axis=0)
+        for k, (contact, interface) in enumerate(
+            zip(self.contacts, self._interfaces, strict=True)
+        ):
+            if interface.num_pairs == 0:
+                warnings.warn(
+                    f"contact {k} ({contact}) has no slave node within reach of its master: the "
+                    f"nearest is {interface.distance():.3g} away, and the search reaches "
+                    f"{interface.reach:.3g}; it transmits no force",
+                    stacklevel=3,
+                )

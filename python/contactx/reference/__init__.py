@@ -1,0 +1,11 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Closed formulas of contact mechanics, to compare computed solutions with."""
+
+from __future__ import annotations
+
+from contactx.reference.hertz_cylinder import HertzCylinder
+from contactx.reference.hertz_sphere import HertzSphere
+from contactx.reference.modulus import contact_modulus
+
+__all__ = ["HertzCylinder", "HertzSphere", "contact_modulus"]

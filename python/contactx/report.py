@@ -1,0 +1,128 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""What a solve did: iterations, pairs, balance, times."""
+
+from __future__ import annotations
+
+import io
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+
+import numpy as np
+import numpy.typing as npt
+from rich.console import Console
+from rich.table import Table
+
+
+@dataclass(frozen=True)
+class Iteration:
+    """State after one Newton iteration; number 0 is the start.
+
+    Attributes:
+        number: Number of linear solves so far.
+        residual: Norm of the forces that are out of balance, and of the contact conditions.
+        tolerance: What the residual must fall below.
+        closed: Slave nodes in contact.
+        status_changes: Slave nodes that opened or closed.
+        pair_changes: Slave nodes in contact that changed their facet.
+        dirichlet_defect: Largest difference from a Dirichlet value.
+    """
+
+    number: int
+    residual: float
+    tolerance: float
+    closed: int
+    status_changes: int
+    pair_changes: int
+    dirichlet_defect: float
+
+
+@dataclass
+class Report:
+    """Report of a step.
+
+    Attributes:
+        history: One row an iteration, the start first.
+        converged: Whether the step converged.
+        reason: Why the Newton loop ended.
+        slaves: Number of slave nodes of all contacts.
+        pairs: Number of slave nodes that have a master facet in reach.
+        frozen: Pairs that went back and forth and were held.
+        frozen_gap: Smallest gap that a held pair hides; a negative one is a penetration.
+        imbalance: Sum of all contact forces on both sides, shape (gdim,): zero but for rounding.
+        force: Force on the slave side of each contact, a list of arrays of shape (gdim,).
+        skipped: What was not done because nothing had changed, and how often.
+        times: Wall seconds of each part.
+    """
+
+    history: list[Iteration] = field(default_factory=list)
+    converged: bool = False
+    reason: str = ""
+    slaves: int = 0
+    pairs: int = 0
+    frozen: int = 0
+    frozen_gap: float = 0.0
+    imbalance: npt.NDArray[np.float64] = field(default_factory=lambda: np.zeros(0))
+    force: list[npt.NDArray[np.float64]] = field(default_factory=list)
+    skipped: dict[str, int] = field(default_factory=dict)
+    times: dict[str, float] = field(default_factory=dict)
+
+    @property
+    def iterations(self) -> int:
+        """Number of linear solves."""
+        return self.history[-1].number if self.history else 0
+
+    @contextmanager
+    def timing(self, part: str) -> Iterator[None]:
+        """Add the time of a block of code to a part."""
+        start = time.perf_counter()
+        try:
+            yield
+        finally:
+            self.times[part] = self.times.get(part, 0.0) + time.perf_counter() - start
+
+    def table(self) -> str:
+        """The iterations as a text table."""
+        table = Table("iteration", "residual", "tolerance", "closed", "status", "pairs", "bc")
+        for row in self.history:
+            table.add_row(
+                str(row.number),
+                f"{row.residual:.2e}",
+                f"{row.tolerance:.1e}",
+                str(row.closed),
+                f"{row.status_changes} changed",
+                f"{row.pair_changes} changed",
+                f"{row.dirichlet_defect:.1e}",
+            )
+        return _render(table)
+
+    def __str__(self) -> str:
+        """The whole report."""
+        frozen = f", {self.frozen} held (hiding a gap of {self.frozen_gap:.1e})"
+        lines = [
+            f"{'converged' if self.converged else 'NOT converged'} after {self.iterations} "
+            f"iterations: {self.reason}",
+            self.table().rstrip(),
+            f"{self.pairs} of {self.slaves} slave nodes have a pair"
+            + (frozen if self.frozen else ""),
+        ]
+        for k, force in enumerate(self.force):
+            components = ", ".join(f"{f:.6g}" for f in force)
+            lines.append(f"contact {k}: force on the slave ({components})")
+        if self.force:
+            lines.append(f"imbalance of contact forces: {np.linalg.norm(self.imbalance):.1e}")
+        skips = ", ".join(f"{name} {count}x" for name, count in self.skipped.items() if count)
+        if skips:
+            lines.append(f"skipped: {skips}")
+        times = ", ".join(f"{part} {seconds:.2f} s" for part, seconds in self.times.items())
+        lines.append(f"time: {times}")
+        return "\n".join(lines)
+
+
+def _render(table: Table) -> str:
+    """A rich table as plain text, so that it fits into files and error messages."""
+    text = io.StringIO()
+    Console(file=text, width=100).print(table)
+    return text.getvalue()

@@ -1,0 +1,144 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Parts of the boundary that come into contact."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from dolfinx import fem, mesh
+
+
+@dataclass(frozen=True)
+class FacetList:
+    """Facets of a surface in compressed form, oriented outward.
+
+    Attributes:
+        offsets: First node of each facet and the end, shape (num_facets + 1,).
+        nodes: Nodes of the facets, numbered as the blocks of the displacement's dofmap.
+    """
+
+    offsets: npt.NDArray[np.int32]
+    nodes: npt.NDArray[np.int32]
+
+
+class Surface:
+    """Tagged part of a mesh's boundary.
+
+    Attributes:
+        facet_tags: The tags.
+        tags: Values that make up the surface.
+        facets: Its facets, sorted, shape (num_facets,).
+    """
+
+    def __init__(self, facet_tags: mesh.MeshTags, *tags: int | Iterable[int]):
+        """Create a surface.
+
+        Args:
+            facet_tags: Tags of facets, as gmsh models and ``mesh.meshtags`` give them.
+            tags: Values in ``facet_tags`` that make up the surface: one or several.
+
+        Raises:
+            ValueError: If the tags are not of facets, no tag is given, or a tag is not there.
+        """
+        tdim = facet_tags.topology.dim
+        if facet_tags.dim != tdim - 1:
+            raise ValueError(
+                f"facet_tags are tags of entities of dimension {facet_tags.dim}, but the facets "
+                f"of this mesh have dimension {tdim - 1}: pass the facet tags"
+            )
+        values: list[int] = []
+        for tag in tags:
+            values.extend(int(t) for t in (tag if isinstance(tag, Iterable) else (tag,)))
+        if not values:
+            raise ValueError("a Surface needs at least one tag: its surface is empty")
+        present = np.unique(facet_tags.values)
+        for tag in values:
+            if tag not in present:
+                there = ", ".join(map(str, present)) if len(present) else "none"
+                raise ValueError(f"tag {tag} is not in the facet tags; there are: {there}")
+        self.facet_tags = facet_tags
+        self.tags = tuple(values)
+        self.facets = np.unique(np.concatenate([facet_tags.find(tag) for tag in values]))
+
+    def __repr__(self) -> str:
+        """Name the tags."""
+        return f"Surface(tags={self.tags}, {len(self.facets)} facets)"
+
+    def facet_nodes(self, V: fem.FunctionSpace) -> FacetList:
+        """Nodes of the surface's facets.
+
+        The normal of a facet, t_1 x t_2 of its local coordinates, points out of its cell.
+
+        Args:
+            V: Linear Lagrange space whose dofs, block by block, are the nodes.
+
+        Returns:
+            The facets.
+
+        Raises:
+            ValueError: If the tags belong to another mesh, or a facet has a cell on either side.
+        """
+        domain = V.mesh
+        topology = domain.topology
+        if self.facet_tags.topology is not topology._cpp_object:
+            raise ValueError(
+                f"the facet tags of {self} belong to another mesh than the displacement"
+            )
+        tdim = topology.dim
+        topology.create_connectivity(tdim - 1, tdim)
+        topology.create_connectivity(tdim, tdim - 1)
+        facet_cells = topology.connectivity(tdim - 1, tdim)
+        if np.any(np.diff(facet_cells.offsets)[self.facets] != 1):
+            raise ValueError(
+                f"{self} has facets inside a body, with a cell on either side: "
+                "a contact surface must be part of the boundary"
+            )
+        cells = facet_cells.array[facet_cells.offsets[self.facets]]
+        cell_facets = topology.connectivity(tdim, tdim - 1)
+        facets_of_cell = cell_facets.array.reshape(-1, np.diff(cell_facets.offsets)[0])
+        local = np.argmax(facets_of_cell[cells] == self.facets[:, None], axis=1)
+
+        dofs = V.dofmap.list
+        x = V.tabulate_dof_coordinates()
+        layout = V.dofmap.dof_layout
+        closures = [
+            layout.entity_closure_dofs(tdim - 1, i) for i in range(facets_of_cell.shape[1])
+        ]
+        sizes = np.array([len(c) for c in closures], dtype=np.int32)[local]
+        offsets = np.concatenate([[0], np.cumsum(sizes)]).astype(np.int32)
+        nodes = np.empty(offsets[-1], dtype=np.int32)
+        for i, closure in enumerate(closures):
+            which = np.flatnonzero(local == i)
+            if len(which) == 0:
+                continue
+            facet_nodes = dofs[np.ix_(cells[which], closure)]
+            inward = _points_inward(x[facet_nodes], x[dofs[cells[which]]].mean(axis=1))
+            swapped = [1, 0] if tdim == 2 else [0, 2, 1, *range(3, len(closure))]
+            facet_nodes[inward] = facet_nodes[inward][:, swapped]
+            nodes[offsets[which][:, None] + np.arange(len(closure))] = facet_nodes
+        return FacetList(offsets, nodes)
+
+
+def _points_inward(
+    x: npt.NDArray[np.float64], cell_midpoints: npt.NDArray[np.float64]
+) -> npt.NDArray[np.bool_]:
+    """Whether the normals of facets point into their cells.
+
+    Args:
+        x: Coordinates of the facets' nodes, shape (num_facets, num_nodes, 3).
+        cell_midpoints: Midpoints of the facets' cells, shape (num_facets, 3).
+    """
+    t = x[:, 1] - x[:, 0]
+    if x.shape[1] == 2:
+        normal = np.stack([t[:, 1], -t[:, 0], np.zeros(len(t))], axis=1)
+    else:
+        normal = np.cross(t, x[:, 2] - x[:, 0])
+    inward: npt.NDArray[np.bool_] = (
+        np.einsum("ij,ij->i", normal, x.mean(axis=1) - cell_midpoints) < 0
+    )
+    return inward

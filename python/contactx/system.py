@@ -1,0 +1,206 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""The coupled system of bulk and contacts: one vector, one matrix.
+
+Each rank's unknowns are its displacements followed by the multipliers of each contact. All rows are
+forces: the complementarity of a slave node is scaled by its area and the stiffness of its node.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from petsc4py import PETSc
+
+import numpy as np
+import numpy.typing as npt
+
+from contactx.bulk import Bulk
+from contactx.forms import ContactForms
+from contactx.interface import Interface
+from dolfinx import cpp, fem
+
+_NONE = np.array([], dtype=np.int8)
+
+
+class SaddlePointSystem:
+    """Residual and Jacobian of the displacement and the multipliers.
+
+    Attributes:
+        x: Unknowns.
+        b: Residual.
+    """
+
+    def __init__(self, bulk: Bulk, interfaces: Sequence[Interface]):
+        """Lay out the unknowns.
+
+        Args:
+            bulk: The bulk.
+            interfaces: Discrete sides of the contacts.
+        """
+        self._bulk = bulk
+        self._interfaces = list(interfaces)
+        self._comm = bulk.u.function_space.mesh.comm
+        self._block = bulk.u.function_space.dofmap.index_map_bs
+        self._num_bulk = len(bulk.u.x.array)
+        sizes = [self._num_bulk, *(len(i.slaves) for i in self._interfaces)]
+        self._offsets = np.cumsum([0, *sizes])
+        self.x = PETSc.Vec().createMPI((self._offsets[-1], None), comm=self._comm)
+        self.b = self.x.duplicate()
+        self._bulk_residual = np.zeros(self._num_bulk)
+        self._bulk_at: npt.NDArray[np.float64] | None = None
+        self._contact: PETSc.Mat | None = None
+        self._contact_pairs: list[list[ContactForms]] | None = None
+
+    def blocks(self, array: npt.NDArray[np.float64]) -> list[npt.NDArray[np.float64]]:
+        """Views of the displacement's part of a vector's values and of each contact's."""
+        return [array[i:j] for i, j in zip(self._offsets, self._offsets[1:], strict=False)]
+
+    def gather(self) -> None:
+        """Copy the unknowns from the functions into ``x``."""
+        displacement, *multipliers = self.blocks(self.x.array)
+        displacement[:] = self._bulk.u.x.array
+        for part, interface in zip(multipliers, self._interfaces, strict=True):
+            part[:] = interface.state.multiplier.array
+
+    def scatter(self, x: PETSc.Vec) -> None:
+        """Copy the unknowns from a vector into the functions."""
+        displacement, *multipliers = self.blocks(x.array_r)
+        self._bulk.u.x.array[:] = displacement
+        for part, interface in zip(multipliers, self._interfaces, strict=True):
+            interface.state.multiplier.array[:] = part
+
+    def bulk_residual(self) -> npt.NDArray[np.float64]:
+        """Residual of the bulk alone, assembled anew only where the displacement has changed."""
+        u = self._bulk.u.x.array
+        if self._bulk_at is None or not np.array_equal(u, self._bulk_at):
+            self._bulk_residual[:] = 0
+            self._bulk.add_residual(self._bulk_residual)
+            self._bulk_at = u.copy()
+        return self._bulk_residual
+
+    def forget(self) -> None:
+        """Drop what was assembled: loads, constants and coefficients may have changed."""
+        self._bulk_at = None
+
+    def residual(self, b: PETSc.Vec) -> None:
+        """Assemble the residual at the functions' state; pairs and status are as they stand.
+
+        Args:
+            b: Vector that is overwritten.
+        """
+        force, *constraints = self.blocks(b.array)
+        force[:] = self.bulk_residual()
+        for interface, row in zip(self._interfaces, constraints, strict=True):
+            interface.update_gap()
+            interface.evaluate_law()
+            interface.add_residual(force)
+            row[:] = interface.value
+        defect = self._bulk.dirichlet_defect()
+        if np.any(defect):
+            self._lift(force, constraints)
+        prescribed = self._bulk.markers == 1
+        force[prescribed] = defect[prescribed]
+
+    def _lift(
+        self, force: npt.NDArray[np.float64], constraints: list[npt.NDArray[np.float64]]
+    ) -> None:
+        """Take Dirichlet values that the displacement does not have yet to the other rows."""
+        u, bcs = self._bulk.u.x.array, [self._bulk.bcs]
+        fem.apply_lifting(force, [self._bulk.J], bcs, [u], alpha=-1.0)
+        for interface, row in zip(self._interfaces, constraints, strict=True):
+            for form in interface.forms:
+                if form.stiffness is not None:
+                    fem.apply_lifting(force, [form.stiffness], bcs, [u], alpha=-1.0)
+                fem.apply_lifting(row, [form.constraint], bcs, [u], alpha=-1.0)
+
+    def fits(self) -> bool:
+        """Whether the last Jacobian has the pattern of the current pairs."""
+        return self._contact_pairs == [interface.forms for interface in self._interfaces]
+
+    def jacobian(self, A: PETSc.Mat | None = None) -> PETSc.Mat:
+        """Assemble the Jacobian at the functions' state.
+
+        Args:
+            A: Matrix that an earlier call returned and whose pattern still fits, to write into.
+
+        Returns:
+            The Jacobian.
+        """
+        if self._contact is None or not self.fits():
+            self._contact = self._new_matrix()
+            self._contact_pairs = [list(interface.forms) for interface in self._interfaces]
+        self._contact.zeroEntries()
+        self._assemble_contact(self._contact)
+        bulk = self._embed(self._bulk.jacobian())
+        if A is None:
+            bulk.axpy(1.0, self._contact, PETSc.Mat.Structure.DIFFERENT_NONZERO_PATTERN)
+            return bulk
+        A.zeroEntries()
+        for part in (bulk, self._contact):
+            A.axpy(1.0, part, PETSc.Mat.Structure.SUBSET_NONZERO_PATTERN)
+        return A
+
+    def _new_matrix(self) -> PETSc.Mat:
+        size = (self._offsets[-1], None)
+        A = PETSc.Mat().createAIJ((size, size), comm=self._comm)
+        A.setUp()
+        local = PETSc.LGMap().create(
+            np.arange(self._offsets[-1], dtype=PETSc.IntType), 1, comm=self._comm
+        )
+        A.setLGMap(local, local)
+        return A
+
+    def _assemble_contact(self, A: PETSc.Mat) -> None:
+        serial = PETSc.COMM_SELF
+        nodes = np.arange(self._num_bulk // self._block, dtype=PETSc.IntType)
+        bulk = PETSc.IS().createBlock(self._block, nodes, comm=serial)
+        markers = self._bulk.markers
+        for k, interface in enumerate(self._interfaces, start=1):
+            first, last = self._offsets[k], self._offsets[k + 1]
+            slave = PETSc.IS().createStride(last - first, first, 1, comm=serial)
+            for form in interface.forms:
+                if form.stiffness is not None:
+                    _assemble(A, form.stiffness, (bulk, bulk), (markers, markers))
+                _assemble(A, form.traction, (bulk, slave), (markers, _NONE))
+                _assemble(A, form.constraint, (slave, bulk), (_NONE, markers))
+            rows = np.arange(first, last, dtype=PETSc.IntType)
+            A.setValuesLocalIJV(
+                np.arange(len(rows) + 1, dtype=PETSc.IntType),
+                rows,
+                interface.d_pressure,
+                addv=PETSc.InsertMode.ADD,
+                rowmap=rows,
+            )
+        A.assemble()
+
+    def _embed(self, K: PETSc.Mat) -> PETSc.Mat:
+        """The bulk's matrix with empty rows and columns for the multipliers."""
+        indptr, indices, values = K.getValuesCSR()
+        multipliers = self._offsets[-1] - self._num_bulk
+        indptr = np.concatenate([indptr, np.full(multipliers, indptr[-1], dtype=indptr.dtype)])
+        size = (self._offsets[-1], None)
+        return PETSc.Mat().createAIJ((size, size), csr=(indptr, indices, values), comm=self._comm)
+
+
+def _assemble(
+    A: PETSc.Mat,
+    form: fem.Form,
+    index_sets: tuple[PETSc.IS, PETSc.IS],
+    markers: tuple[npt.NDArray[np.int8], npt.NDArray[np.int8]],
+) -> None:
+    """Add a contact form to a block of the matrix.
+
+    DOLFINx finds no Dirichlet conditions for a borrowed space: rows and columns to leave out are
+    passed as markers.
+    """
+    block = A.getLocalSubMatrix(*index_sets)
+    cpp.fem.petsc.assemble_matrix(
+        block,
+        form._cpp_object,
+        fem.pack_constants(form),
+        fem.pack_coefficients(form),
+        *markers,
+        True,
+    )
+    A.restoreLocalSubMatrix(*index_sets, block)

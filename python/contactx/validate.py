@@ -1,0 +1,106 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Checks of what a user passes, before any work starts."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+import basix.ufl
+from dolfinx import fem, la
+
+_TOLERANCES = ("snes_rtol", "snes_atol", "snes_stol", "ksp_rtol", "ksp_atol")
+
+
+def check_displacement(u: Any) -> None:
+    """Check that a displacement is one that contact can act on.
+
+    Args:
+        u: Displacement.
+
+    Raises:
+        TypeError: If it is no function, or not of real double precision.
+        ValueError: If its space is not the linear Lagrange space of vectors on its mesh.
+    """
+    if not isinstance(u, fem.Function):
+        raise TypeError(f"u must be a dolfinx.fem.Function, not {type(u).__name__}")
+    if u.dtype != np.float64:
+        raise TypeError(f"u holds {np.dtype(u.dtype).name} values, but contactx needs float64")
+    V = u.function_space
+    gdim = V.mesh.geometry.dim
+    wanted = f'functionspace(mesh, ("Lagrange", 1, ({gdim},)))'
+    element = V.ufl_element()
+    if len(V._cpp_object.component()) > 0 or isinstance(element, basix.ufl._MixedElement):
+        raise ValueError(
+            f"u is in a mixed space or a part of one; contact needs a displacement of its own: "
+            f"{wanted}"
+        )
+    if element.reference_value_shape != (gdim,) or element.block_size != gdim:
+        raise ValueError(
+            f"u has values of shape {element.reference_value_shape}, but the displacement of this "
+            f"mesh needs ({gdim},): {wanted}"
+        )
+    if element.degree != 1:
+        raise ValueError(
+            f"u is of degree {element.degree}; node-to-surface contact needs degree 1: {wanted}"
+        )
+    if element.element_family != basix.ElementFamily.P or element.discontinuous:
+        raise ValueError(f"u is not in a continuous Lagrange space; contact needs {wanted}")
+
+
+def check_finite(**vectors: la.Vector) -> None:
+    """Check that vectors hold no NaN or infinity.
+
+    Args:
+        vectors: Vectors by what they hold.
+
+    Raises:
+        ValueError: If one is not finite.
+    """
+    for name, vector in vectors.items():
+        bad = np.flatnonzero(~np.isfinite(vector.array))
+        if len(bad) > 0:
+            raise ValueError(
+                f"{name.replace('_', ' ')} not finite at {len(bad)} dofs, first at node "
+                f"{bad[0] // vector.block_size}: repair the mesh or the initial guess"
+            )
+
+
+def check_options(options: Mapping[str, Any] | None, prefix: str) -> None:
+    """Check the options of a problem.
+
+    Args:
+        options: PETSc options.
+        prefix: Their prefix.
+
+    Raises:
+        ValueError: If the prefix is empty or a tolerance is not a non-negative number.
+    """
+    if not prefix:
+        raise ValueError('petsc_options_prefix is empty: give a unique one, such as "contact_"')
+    for name in _TOLERANCES:
+        value = (options or {}).get(name, 0)
+        try:
+            valid = float(value) >= 0
+        except (TypeError, ValueError):
+            valid = False
+        if not valid:
+            raise ValueError(f"petsc_options[{name!r}] is {value!r}: give a number of at least 0")
+
+
+def check_distinct(contacts: Sequence[Any]) -> None:
+    """Check that there are contacts and each is listed once.
+
+    Args:
+        contacts: Contacts of a problem.
+
+    Raises:
+        ValueError: If there is none, or one appears twice.
+    """
+    if len(contacts) == 0:
+        raise ValueError("contacts is empty: pass at least one Contact")
+    if len(set(map(id, contacts))) < len(contacts):
+        raise ValueError("contacts lists the same Contact twice")

@@ -1,0 +1,172 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Tests of the pictures."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import Any
+
+from mpi4py import MPI
+
+import numpy as np
+import numpy.typing as npt
+import pytest
+
+from contactx.meshes import Tag, blocks, hertz_cap, hertz_cylinder, hertz_sphere
+from contactx.plot import deformed_bodies, pressure_curve
+from contactx.plot.style import COLOURS
+from contactx.plot.surface import deformed_surface, mirrored, peak_body
+from dolfinx import fem
+from dolfinx.io.gmsh import MeshData
+from dolfinx.mesh import CellType
+
+pytest.importorskip("pyvista")
+pytest.importorskip("matplotlib")
+
+
+def pressed(data: MeshData, degree: int = 1) -> tuple[fem.Function, fem.Function]:
+    """Invent a displacement downwards and a pressure near the origin on the upper body."""
+    mesh, tags = data.mesh, data.facet_tags
+    assert tags is not None
+    dim = mesh.geometry.dim
+    u = fem.Function(fem.functionspace(mesh, ("P", degree, (dim,))))
+    u.interpolate(lambda x: -0.02 * np.eye(dim)[-1][:, None] * np.cos(x[0]))
+    pressure = fem.Function(fem.functionspace(mesh, ("P", 1)), name="contact pressure")
+    mesh.topology.create_connectivity(dim - 1, dim)
+    space = pressure.function_space
+    nodes = fem.locate_dofs_topological(space, dim - 1, tags.find(Tag.UPPER_CONTACT))
+    radius = np.linalg.norm(space.tabulate_dof_coordinates()[nodes], axis=1)
+    pressure.x.array[nodes] = np.maximum(1 - (radius / 0.3) ** 2, 0)
+    pressure.x.scatter_forward()
+    return u, pressure
+
+
+def shared(tmp_path: Path, name: str) -> Path:
+    """Agree on one file for all ranks."""
+    return Path(MPI.COMM_WORLD.bcast(tmp_path, root=0)) / name
+
+
+def colours(path: Path) -> npt.NDArray[np.int64]:
+    """Read the colours of an image file, one for each pixel, on all ranks."""
+    MPI.COMM_WORLD.barrier()
+    image = pytest.importorskip("matplotlib.image").imread(path)[..., :3]
+    return np.asarray((image.reshape(-1, 3) * 255).round().astype(np.int64))
+
+
+@pytest.mark.parametrize(
+    ("make", "arguments", "mirror"),
+    [
+        (hertz_sphere, (0.05,), ("x", "y")),
+        (hertz_cap, (4,), ("x",)),
+        (hertz_cylinder, (0.05,), ("x",)),
+        (blocks, (CellType.quadrilateral, (4, 4), (3, 3)), ()),
+    ],
+)
+def test_picture_of_bodies(tmp_path: Path, make: Any, arguments: Any, mirror: Any) -> None:
+    """The file is there, is large enough, and shows white paper, bodies and pressure."""
+    u, pressure = pressed(make(*arguments))
+    path = shared(tmp_path, "bodies.png")
+    deformed_bodies(u, pressure, path, title="Two bodies", mirror=mirror, scale=2.0)
+    pixels = colours(path)
+    assert path.stat().st_size > 20_000
+    assert pixels.shape[0] > 500_000
+    assert len(np.unique(pixels, axis=0)) > 200
+    white = np.all(pixels == 255, axis=1).mean()
+    assert 0.1 < white < 0.9
+    red = (pixels[:, 0] > 150) & (pixels[:, 1] < 100)
+    assert red.mean() > 0.002
+
+
+def test_colours_are_those_of_the_bar(tmp_path: Path) -> None:
+    """A uniform value fills the close-up with exactly one colour of the map."""
+    u, pressure = pressed(blocks(CellType.triangle, (1, 1), (1, 1)))
+    pressure.x.array[:] = 1.0
+    path = shared(tmp_path, "uniform.png")
+    deformed_bodies(u, pressure, path, title="", clim=(0.0, 2.0))
+    middle = [int(COLOURS[2][i : i + 2], 16) for i in (1, 3, 5)]
+    close = np.abs(colours(path) - middle).max(axis=1) <= 3
+    assert close.mean() > 0.3
+
+
+def test_picture_without_load(tmp_path: Path) -> None:
+    """A scalar that is zero everywhere has an overview and no close-up."""
+    u, pressure = pressed(hertz_cap(2))
+    pressure.x.array[:] = 0
+    path = shared(tmp_path, "unloaded.png")
+    deformed_bodies(u, pressure, path, title="Unloaded")
+    assert len(np.unique(colours(path), axis=0)) > 50
+
+
+def test_surface_is_deformed_and_joined() -> None:
+    """On any number of ranks the surface is that of the bodies, and a P2 displacement fits."""
+    u, pressure = pressed(blocks(CellType.hexahedron, (2, 2, 2), (3, 3, 3)), degree=2)
+    surface = deformed_surface(u, pressure, 10.0)
+    if MPI.COMM_WORLD.rank != 0:
+        assert surface is None
+        return
+    assert surface.n_cells == 6 * 4 + 6 * 9
+    reference = surface.point_data["reference"]
+    assert np.allclose(surface.points[:, 2], reference[:, 2] - 0.2 * np.cos(reference[:, 0]))
+
+
+def test_mirror_and_peak_body() -> None:
+    """Mirror images double the outer faces; the peak is below the upper body."""
+    u, pressure = pressed(blocks(CellType.hexahedron, (2, 2, 2), (3, 3, 3)))
+    surface = deformed_surface(u, pressure, 0.0)
+    if surface is None:
+        return
+    both = mirrored(surface, ("x",))
+    assert both.n_cells == 2 * 5 * (4 + 9)
+    assert both.bounds.x_min == pytest.approx(-1)
+    body, normal = peak_body(surface)
+    assert body.n_cells == 6 * 4
+    assert body.bounds.z_min == pytest.approx(0)
+    # Only the node in the origin is loaded here, which lies on three faces.
+    assert normal == pytest.approx(-1 / 3)
+
+
+@pytest.mark.skipif(MPI.COMM_WORLD.rank > 0, reason="rank 0 has the surface")
+def test_normal_of_a_loaded_face() -> None:
+    """The normal points out of the loaded face and not out of its neighbours."""
+    u, pressure = pressed(hertz_sphere(0.05, MPI.COMM_SELF))
+    body, normal = peak_body(deformed_surface(u, pressure, 0.0))
+    assert body.bounds.z_min == pytest.approx(0)
+    assert normal[2] < -0.95
+
+
+def test_bad_input(tmp_path: Path) -> None:
+    """The messages name the argument and what to do."""
+    u, pressure = pressed(blocks(CellType.triangle, (1, 1), (1, 1)))
+    with pytest.raises(ValueError, match="mirror holds 'w'; give names of axes"):
+        deformed_bodies(u, pressure, tmp_path / "x.png", title="", mirror=("w",))
+    with pytest.raises(ValueError, match=r"scalar is of .*; interpolate it"):
+        deformed_bodies(u, u, tmp_path / "x.png", title="")
+
+
+def test_pressure_curve(tmp_path: Path) -> None:
+    """The file shows points and a line."""
+    r = np.linspace(0, 1, 20)
+    path = tmp_path / "curve.png"
+    pressure_curve(r, 1 - r**2, r, 1 - r**2, path, labels=("r", "p"), title="A curve")
+    pixels = colours(path)
+    assert path.stat().st_size > 5_000
+    for colour in ("#22262b", COLOURS[3]):
+        rgb = [int(colour[i : i + 2], 16) for i in (1, 3, 5)]
+        assert np.all(pixels == rgb, axis=1).sum() > 50
+
+
+@pytest.mark.parametrize("package", ["pyvista", "matplotlib"])
+def test_missing_package(package: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The message names the package and the extra."""
+    u, pressure = pressed(blocks(CellType.triangle, (1, 1), (1, 1)))
+    for name in [name for name in sys.modules if name.partition(".")[0] == package]:
+        monkeypatch.setitem(sys.modules, name, None)
+    monkeypatch.setitem(sys.modules, package, None)
+    if MPI.COMM_WORLD.rank == 0:
+        message = rf"needs {package}; install it with: pip install contactx\[demo\]"
+        with pytest.raises(ImportError, match=message):
+            deformed_bodies(u, pressure, tmp_path / "x.png", title="")
+    else:
+        deformed_bodies(u, pressure, tmp_path / "x.png", title="")
