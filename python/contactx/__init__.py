@@ -7,11 +7,12 @@ from contactx import compat  # isort: skip
 
 from contactx.contact import Contact
 from contactx.errors import ConvergenceError
+from contactx.output import VTKOutput
 from contactx.problem import ContactProblem
 from contactx.report import Report
 from contactx.surface import Surface
 
-__all__ = ["Contact", "ContactProblem", "ConvergenceError", "Report", "Surface"]
+__all__ = ["Contact", "ContactProblem", "ConvergenceError", "Report", "Surface", "VTKOutput"]
 
 __version__ = "0.1.0"
 

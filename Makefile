@@ -1,0 +1,91 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+
+# The Python to make .venv with; found if not given.
+PYTHON ?=
+
+EXTRAS := wheels test demo lint
+VENV := .venv
+BIN := $(VENV)/bin
+
+# Stamps. An edit during a step must not be lost, so that a stamp bears the time
+# at which its step began.
+SYSTEM := build/system.stamp
+CREATED := $(VENV)/created.stamp
+DEPENDENCIES := $(VENV)/dependencies.stamp
+INSTALLED := $(VENV)/installed.stamp
+
+# Folders too, so that a removed file counts as a change.
+SOURCES := $(shell find cpp/contactx cpp/bindings python/contactx \
+	-name __pycache__ -prune -o -print)
+CPP_FILES = $(shell find cpp -name '*.h' -o -name '*.cpp')
+PY_FOLDERS := python tests demos tools
+
+# Threads: MPI and the tests' machine decide, not OpenMP. Without a display,
+# VTK need not look for one.
+RUN := OMP_NUM_THREADS=1 PATH="$(CURDIR)/$(BIN):$$PATH"
+ifeq ($(DISPLAY),)
+RUN += VTK_DEFAULT_OPENGL_WINDOW=vtkEGLRenderWindow
+endif
+
+.DELETE_ON_ERROR:
+.PHONY: all demo test test-cpp test-python lint format clean help
+
+all: $(INSTALLED)
+
+help:
+	@echo "make          set up .venv, build contactx and install it there"
+	@echo "make demo     run the demos"
+	@echo "make test     lint, C++ tests, Python tests"
+	@echo "make lint     check format, style and types"
+	@echo "make format   format C++ and Python"
+	@echo "make clean    remove everything that make made"
+	@echo "make PYTHON=/path/to/python  use this Python (>= 3.12)"
+
+$(SYSTEM): tools/find_python.sh tools/missing.sh tools/require.sh
+	@mkdir -p $(@D)
+	@python=$$(tools/find_python.sh "$(PYTHON)") && tools/require.sh "$$python"
+	@touch $@
+
+$(CREATED): | $(SYSTEM)
+	python=$$(tools/find_python.sh "$(PYTHON)") && "$$python" -m venv $(VENV)
+	@touch $@
+
+$(DEPENDENCIES): pyproject.toml tools/requirements.py $(CREATED)
+	@touch $@.began
+	$(BIN)/python tools/requirements.py $(EXTRAS) > $(VENV)/requirements.txt
+	$(BIN)/python -m pip install --quiet -r $(VENV)/requirements.txt
+	@mv $@.began $@
+
+# Without isolation the build folder stays valid from one build to the next.
+$(INSTALLED): $(DEPENDENCIES) CMakeLists.txt README.md $(SOURCES)
+	@touch $@.began
+	$(BIN)/python -m pip install --quiet --no-deps --no-build-isolation --force-reinstall .
+	@mv $@.began $@
+
+demo: $(INSTALLED)
+	$(RUN) $(BIN)/python demos/hertz_sphere.py
+
+test: lint test-cpp test-python
+
+test-cpp: $(DEPENDENCIES)
+	$(RUN) cmake -S . -B build/cpp -G Ninja -DCONTACTX_TESTS=ON -DCONTACTX_PYTHON=OFF
+	$(RUN) cmake --build build/cpp
+	$(RUN) ctest --test-dir build/cpp --output-on-failure
+
+test-python: $(INSTALLED)
+	$(RUN) $(BIN)/python -m pytest
+
+lint: $(DEPENDENCIES)
+	$(BIN)/clang-format --dry-run --Werror $(CPP_FILES)
+	$(BIN)/ruff check $(PY_FOLDERS)
+	$(BIN)/ruff format --check $(PY_FOLDERS)
+	$(BIN)/python -m mypy
+
+format: $(DEPENDENCIES)
+	$(BIN)/clang-format -i $(CPP_FILES)
+	$(BIN)/ruff check --fix-only $(PY_FOLDERS)
+	$(BIN)/ruff format $(PY_FOLDERS)
+
+clean:
+	rm -rf build $(VENV) .hypothesis .mypy_cache .pytest_cache .ruff_cache
