@@ -14,8 +14,8 @@ void contactx_bindings::facet(py::module_& m)
       [](const Array<std::int32_t>& offsets, const Array<std::int32_t>& nodes,
          const Array<double>& x, int gdim)
       {
-        return array(contactx::facet::nodal_areas(
-            {view(offsets), view(nodes)}, view(x), gdim));
+        return array(contactx::facet::nodal_areas({view(offsets), view(nodes)},
+                                                  view(x), gdim));
       },
       py::arg("offsets"), py::arg("nodes"), py::arg("x"), py::arg("gdim"),
       "Integral of each node's shape function over a surface");

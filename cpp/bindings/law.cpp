@@ -47,8 +47,7 @@ void contactx_bindings::law(py::module_& m)
                     d_gap);
         contactx::law::normal_complementarity(
             {view(pressure), view(gap), view(c)}, view(area), view(status),
-            mutable_view(value), mutable_view(d_pressure),
-            mutable_view(d_gap));
+            mutable_view(value), mutable_view(d_pressure), mutable_view(d_gap));
       },
       py::arg("pressure"), py::arg("gap"), py::arg("c"), py::arg("area"),
       py::arg("status"), py::arg("value").noconvert(),

@@ -22,8 +22,7 @@ void contactx_bindings::search(py::module_& m)
                   const Array<std::int32_t>& master_nodes, int gdim)
                {
                  return Pairing(copy(slave_offsets), copy(slave_nodes),
-                                copy(master_offsets), copy(master_nodes),
-                                gdim);
+                                copy(master_offsets), copy(master_nodes), gdim);
                }),
            py::arg("slave_offsets"), py::arg("slave_nodes"),
            py::arg("master_offsets"), py::arg("master_nodes"), py::arg("gdim"))
@@ -47,11 +46,13 @@ void contactx_bindings::search(py::module_& m)
           { return array(self.xi(), {py::ssize_t(self.xi().size() / 2), 2}); })
       .def_property_readonly(
           "cone",
-          [](const Pairing& self) {
+          [](const Pairing& self)
+          {
             return array(self.cone(), {py::ssize_t(self.cone().size() / 3), 3});
           })
-      .def("frozen", [](const Pairing& self) { return array(self.frozen()); },
-           "Slave nodes whose pair is frozen, by their place in slaves")
+      .def(
+          "frozen", [](const Pairing& self) { return array(self.frozen()); },
+          "Slave nodes whose pair is frozen, by their place in slaves")
       .def(
           "natural_gaps",
           [](Pairing& self, const Array<double>& x, double reach,
@@ -63,6 +64,7 @@ void contactx_bindings::search(py::module_& m)
           "distance", [](Pairing& self, const Array<double>& x)
           { return self.distance(view(x)); }, py::arg("x"),
           "Distance from the nearest slave node to the master surface")
-      .def("copy", [](const Pairing& self) { return Pairing(self); },
-           "Independent copy, to return to when a step fails");
+      .def(
+          "copy", [](const Pairing& self) { return Pairing(self); },
+          "Independent copy, to return to when a step fails");
 }

@@ -79,7 +79,7 @@ class Bulk:
 
     def dirichlet_defect(self) -> npt.NDArray[np.float64]:
         """Displacement minus the values of the Dirichlet conditions, zero elsewhere."""
-        defect = np.zeros_like(self.u.x.array)
+        defect = np.zeros(len(self.u.x.array))
         for bc in self.bcs:
             bc.set(defect, self.u.x.array, alpha=-1.0)
         return defect
@@ -115,9 +115,11 @@ class Bulk:
         Returns:
             Stiffness, shape (num_nodes,); NaN where all of a node's dofs are prescribed.
         """
-        diagonal = np.abs(self.jacobian().getDiagonal().array)
+        diagonal: npt.NDArray[np.float64] = np.abs(self.jacobian().getDiagonal().array)
         block = self.u.function_space.dofmap.index_map_bs
         free = (self.markers == 0).reshape(-1, block)
         total = np.where(free, diagonal.reshape(-1, block), 0).sum(axis=1)
         count = free.sum(axis=1)
-        return np.divide(total, count, out=np.full(len(count), np.nan), where=count > 0)
+        stiffness = np.full(len(count), np.nan)
+        np.divide(total, count, out=stiffness, where=count > 0)
+        return stiffness

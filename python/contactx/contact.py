@@ -118,12 +118,14 @@ class Contact:
     @property
     def area(self) -> npt.NDArray[np.float64]:
         """Reference area of each slave node (length in 2D), shape (n,)."""
-        return self.interface.state.area.array
+        area: npt.NDArray[np.float64] = self.interface.state.area.array
+        return area
 
     @property
     def multiplier(self) -> npt.NDArray[np.float64]:
         """Multiplier of each slave node, its pressure as force per reference area, shape (n,)."""
-        return self.interface.state.multiplier.array
+        multiplier: npt.NDArray[np.float64] = self.interface.state.multiplier.array
+        return multiplier
 
     @property
     def pressure(self) -> fem.Function:

@@ -5,7 +5,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -43,7 +42,9 @@ class Interface:
         reach: Largest distance of a pair.
     """
 
-    def __init__(self, slave: Surface, master: Surface, sliding: str, u: fem.Function, X: la.Vector):
+    def __init__(
+        self, slave: Surface, master: Surface, sliding: str, u: fem.Function, X: la.Vector
+    ):
         """Find the slave nodes and pair them in the reference configuration.
 
         Args:
@@ -111,8 +112,7 @@ class Interface:
     @property
     def frozen(self) -> npt.NDArray[np.int32]:
         """Slave nodes whose pair was frozen in this step."""
-        frozen: npt.NDArray[np.int32] = self._pairing.frozen()
-        return frozen
+        return self._pairing.frozen()
 
     def positions(self) -> npt.NDArray[np.float64]:
         """Current positions of the bulk's nodes, flattened."""
@@ -133,7 +133,7 @@ class Interface:
 
     def _search(self, x: npt.NDArray[np.float64]) -> int:
         closed = (self.status != core.OPEN).astype(np.int8)
-        changed: int = self._pairing.update(x, self.reach, closed)
+        changed = self._pairing.update(x, self.reach, closed)
         facet, feature = self._pairing.facet, self._pairing.feature
         same = np.array_equal(facet, self._facet) and np.array_equal(feature, self._feature)
         self._facet, self._feature = facet, feature
@@ -170,17 +170,15 @@ class Interface:
         self.gap[self._facet < 0] = np.nan
 
     def update_status(self) -> int:
-        """Set each slave node's status from its pressure and gap; a node that opens loses its pressure.
+        """Set each slave node's status from its pressure and gap; an open node has no pressure.
 
         The pressures of an iterate whose active set is far too large are wild, and the stiffness
-        that they give to nodes that have just opened throws the next iterate off.
+        that they would give to nodes that have just opened throws the next iterate off.
 
         Returns:
             Number of nodes that changed.
         """
-        changed: int = core.normal_status(
-            self.state.multiplier.array, self.gap, self.c, self.status
-        )
+        changed = core.normal_status(self.state.multiplier.array, self.gap, self.c, self.status)
         self.state.multiplier.array[self.status == core.OPEN] = 0
         return changed
 
@@ -231,8 +229,7 @@ class Interface:
 
     def distance(self) -> float:
         """Distance from the nearest slave node to the master, now."""
-        distance: float = self._pairing.distance(self.positions())
-        return distance
+        return self._pairing.distance(self.positions())
 
     def deepest_frozen(self) -> float:
         """Smallest gap that the frozen pairs hide: what a search without memory finds for them."""
@@ -242,9 +239,7 @@ class Interface:
         return float(np.nanmin(gaps, initial=0.0))
 
 
-def _default_reach(
-    x: npt.NDArray[np.float64], slave: FacetList, master: FacetList
-) -> float:
+def _default_reach(x: npt.NDArray[np.float64], slave: FacetList, master: FacetList) -> float:
     """Half the diagonal of the larger surface's bounding box.
 
     A body that has moved into another within one iteration must still be found.

@@ -134,9 +134,7 @@ class ContactProblem:
         report.frozen_gap = min(i.deepest_frozen() for i in self._interfaces)
         report.force = [contact.force for contact in self.contacts]
         report.imbalance = np.sum([contact.fields.imbalance for contact in self.contacts], axis=0)
-        for k, (contact, interface) in enumerate(
-            zip(self.contacts, self._interfaces, strict=True)
-        ):
+        for k, (contact, interface) in enumerate(zip(self.contacts, self._interfaces, strict=True)):
             if interface.num_pairs == 0:
                 warnings.warn(
                     f"contact {k} ({contact}) has no slave node within reach of its master: the "

@@ -85,15 +85,16 @@ class Report:
 
     def table(self) -> str:
         """The iterations as a text table."""
-        table = Table("iteration", "residual", "tolerance", "closed", "status", "pairs", "bc")
+        table = Table("it", "residual", "tolerance", "closed", "status", "pairs", "Dirichlet")
+        table.title = "changes of status and pairs since the iterate before"
         for row in self.history:
             table.add_row(
                 str(row.number),
                 f"{row.residual:.2e}",
                 f"{row.tolerance:.1e}",
                 str(row.closed),
-                f"{row.status_changes} changed",
-                f"{row.pair_changes} changed",
+                str(row.status_changes),
+                str(row.pair_changes),
                 f"{row.dirichlet_defect:.1e}",
             )
         return _render(table)
@@ -124,5 +125,5 @@ class Report:
 def _render(table: Table) -> str:
     """A rich table as plain text, so that it fits into files and error messages."""
     text = io.StringIO()
-    Console(file=text, width=100).print(table)
+    Console(file=text, width=80).print(table)
     return text.getvalue()

@@ -106,9 +106,7 @@ class Surface:
         dofs = V.dofmap.list
         x = V.tabulate_dof_coordinates()
         layout = V.dofmap.dof_layout
-        closures = [
-            layout.entity_closure_dofs(tdim - 1, i) for i in range(facets_of_cell.shape[1])
-        ]
+        closures = [layout.entity_closure_dofs(tdim - 1, i) for i in range(facets_of_cell.shape[1])]
         sizes = np.array([len(c) for c in closures], dtype=np.int32)[local]
         offsets = np.concatenate([[0], np.cumsum(sizes)]).astype(np.int32)
         nodes = np.empty(offsets[-1], dtype=np.int32)

@@ -17,6 +17,40 @@ struct ClosestPoint
   double distance2; ///< squared distance
 };
 
+/// @brief Newton step towards the projection of a point, exact on flat facets.
+///
+/// The second tangent is made orthogonal to the first: the determinant of the
+/// metric would lose the digits of a sliver.
+/// @param[in] x Node coordinates.
+/// @param[in] xi Local coordinates.
+/// @param[in] d Vector from the facet's point at xi to the point to project.
+template <class F>
+Local<F> projection_step(const Nodes<F>& x, const Local<F>& xi,
+                         const Vec<F::gdim>& d)
+{
+  const auto t = tangents<F>(x, xi);
+  const double m = dot(t[0], t[0]);
+  if constexpr (F::tdim == 1)
+    return {dot(d, t[0]) / m};
+  else
+  {
+    const double s = dot(t[0], t[1]) / m;
+    const Vec<F::gdim> u = t[1] - s * t[0];
+    Vec<3> H{m, 0, dot(u, u)};
+    if constexpr (!F::flat)
+    {
+      // Far from the facet the Hessian of the squared distance is not
+      // positive; the metric alone still gives a descent direction
+      const double k = dot(d, combine<F>(F::mixed_derivative, x));
+      const double h = H[2] + 2 * s * k;
+      if (m * h - k * k > 0.1 * m * H[2])
+        H = {m, -k, h};
+    }
+    const Vec<2> y = solve(H, Vec<2>{dot(d, t[0]), dot(d, u)});
+    return {y[0] - s * y[1], y[1]};
+  }
+}
+
 /// @brief Orthogonal projection on the facet's surface, extended beyond its
 /// edges: (p - x(xi)) . t_a(xi) = 0. Newton's method on the bilinear facet,
 /// one exact step on the flat ones.
@@ -27,37 +61,33 @@ struct ClosestPoint
 template <class F>
 bool project(const Nodes<F>& x, const Vec<F::gdim>& p, Local<F>& xi)
 {
+  // Relative to a node, so that no digits go to the distance from the origin
+  Nodes<F> y;
+  for (int l = 0; l < F::nodes; ++l)
+    y[l] = x[l] - x[0];
+  const Vec<F::gdim> q = p - x[0];
+
   constexpr int max_iterations = F::flat ? 1 : 30;
+  double last = std::numeric_limits<double>::infinity();
   for (int it = 0; it < max_iterations; ++it)
   {
-    const auto t = tangents<F>(x, xi);
-    const Vec<F::gdim> d = p - combine<F>(F::shape(xi), x);
-    Local<F> r;
-    for (int a = 0; a < F::tdim; ++a)
-      r[a] = dot(d, t[a]);
-    Vec<3> H = metric(t);
-    if constexpr (!F::flat)
-    {
-      // Far from the facet the Hessian of the squared distance is not
-      // positive; the metric alone still gives a descent direction
-      const double k = dot(d, combine<F>(F::mixed_derivative, x));
-      const double h = H[1] - k;
-      if (H[0] * H[2] - h * h > 0.1 * (H[0] * H[2] - H[1] * H[1]))
-        H[1] = h;
-    }
-    const Local<F> step = solve(H, r);
+    const Local<F> step
+        = projection_step<F>(y, xi, q - combine<F>(F::shape(xi), y));
     xi = xi + step;
     double size = 0;
-    for (double s : step)
-      size = std::max(size, std::abs(s));
+    double scale = 1;
+    for (int a = 0; a < F::tdim; ++a)
+    {
+      size += std::abs(step[a]);
+      scale += std::abs(xi[a]);
+    }
     if (!std::isfinite(size))
       return false;
-    if constexpr (F::flat)
+    if (F::flat or size < 1e-15 * scale)
       return true;
-    else if (size < 1e-15 * (1 + std::abs(xi[0]) + std::abs(xi[1])))
-      return true;
-    else if (it > 20 and size < 1e-12)
+    if (size >= last and size < 1e-6 * scale)
       return true; // rounding holds the last digits
+    last = size;
   }
   return false;
 }

@@ -43,8 +43,7 @@ void for_each_part(const FacetList& facets, std::span<const double> x,
             {
               const auto fr = frame<F>(xf, xi);
               const auto N = F::shape(xi);
-              const double w
-                  = fr.jacobian * reference_area / points.size();
+              const double w = fr.jacobian * reference_area / points.size();
               if (w > 0)
                 for (int l = 0; l < F::nodes; ++l)
                   f(facets[i][l], N[l] * w, fr.n);

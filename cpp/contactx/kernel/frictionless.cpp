@@ -85,8 +85,8 @@ void residual(double* b, const double* w, const double*, const double*,
 {
   using F = typename Kinematics::F;
   const auto c = Kinematics(w).point;
-  const double force = value<F>(w, Coefficient::area)
-                       * value<F>(w, Coefficient::multiplier);
+  const double force
+      = value<F>(w, Coefficient::area) * value<F>(w, Coefficient::multiplier);
   for (int a = 0; a <= F::nodes; ++a)
     for (int k = 0; k < F::gdim; ++k)
       b[F::gdim * a + k] -= force * c.normal[k] * c.weight[a];
@@ -127,8 +127,8 @@ void stiffness(double* A, const double* w, const double*, const double*,
                const int*, const std::uint8_t*, void*)
 {
   constexpr int n = Pair<F>::num_dofs;
-  const double force = value<F>(w, Coefficient::area)
-                       * value<F>(w, Coefficient::multiplier);
+  const double force
+      = value<F>(w, Coefficient::area) * value<F>(w, Coefficient::multiplier);
   if (force == 0)
     return;
   const Finite<F> kinematics(w);
@@ -145,9 +145,9 @@ void stiffness(double* A, const double* w, const double*, const double*,
     {
       double* row = A + n * (F::gdim * a + k);
       for (int col = 0; col < n; ++col)
-        row[col] -= force
-                    * (d.normal[k][col] * c.weight[a]
-                       + c.normal[k] * dweight[col]);
+        row[col]
+            -= force
+               * (d.normal[k][col] * c.weight[a] + c.normal[k] * dweight[col]);
     }
   }
 }

@@ -15,11 +15,11 @@ struct Pair
 {
   static constexpr int num_dofs = F::gdim * (F::nodes + 1);
 
-  Vec<F::gdim> slave; ///< position of the slave node
-  facet::Nodes<F> master;    ///< positions of the facet's nodes
-  int feature;               ///< interior, edge or vertex
-  facet::Local<F> xi;        ///< local coordinates that the search found
-  Vec<3> cone;        ///< components of a ridge's normal
+  Vec<F::gdim> slave;     ///< position of the slave node
+  facet::Nodes<F> master; ///< positions of the facet's nodes
+  int feature;            ///< interior, edge or vertex
+  facet::Local<F> xi;     ///< local coordinates that the search found
+  Vec<3> cone;            ///< components of a ridge's normal
 
   /// @brief Read a pair from the coefficients.
   /// @param[in] w Coefficients.
@@ -48,11 +48,11 @@ struct Pair
 template <class F>
 struct ContactPoint
 {
-  facet::Local<F> xi;              ///< local coordinates
+  facet::Local<F> xi;       ///< local coordinates
   Vec<F::nodes + 1> weight; ///< 1 and -N_l(xi): x_s - x_m = weight x
   Vec<F::gdim> normal;      ///< unit normal
   Vec<F::gdim> d;           ///< x_s - x_m(xi)
-  double gap;                      ///< normal . d
+  double gap;               ///< normal . d
 };
 
 /// @brief Unit normal of a pair at a point of its facet.

@@ -20,8 +20,8 @@ const Entry& contactx::kernel::find(std::string_view sliding,
   for (const Entry& e : registry())
     if (e.sliding == sliding and e.term == term and e.num_nodes == num_nodes)
       return e;
-  throw std::invalid_argument("there is no kernel for "
-                              + std::string(sliding) + " sliding, term "
-                              + std::string(term) + " and facets of "
-                              + std::to_string(num_nodes) + " nodes");
+  throw std::invalid_argument("there is no kernel for " + std::string(sliding)
+                              + " sliding, term " + std::string(term)
+                              + " and facets of " + std::to_string(num_nodes)
+                              + " nodes");
 }

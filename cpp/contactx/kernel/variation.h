@@ -67,8 +67,8 @@ struct Variation
         }
         else if (on_edge)
         {
-          const double ds = (c.weight[a] * edge[k] + dedge * c.d[k])
-                            / (length * length);
+          const double ds
+              = (c.weight[a] * edge[k] + dedge * c.d[k]) / (length * length);
           dxi = ds * (F::vertices[j] - F::vertices[i]);
         }
 

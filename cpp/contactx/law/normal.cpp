@@ -21,10 +21,12 @@ std::int32_t contactx::law::normal_status(const NormalState& state,
   return changed;
 }
 
-void contactx::law::normal_complementarity(
-    const NormalState& state, std::span<const double> area,
-    std::span<const std::int8_t> status, std::span<double> value,
-    std::span<double> d_pressure, std::span<double> d_gap)
+void contactx::law::normal_complementarity(const NormalState& state,
+                                           std::span<const double> area,
+                                           std::span<const std::int8_t> status,
+                                           std::span<double> value,
+                                           std::span<double> d_pressure,
+                                           std::span<double> d_gap)
 {
   for (std::size_t i = 0; i < status.size(); ++i)
   {

@@ -21,8 +21,8 @@ enum Status : std::int8_t
 struct NormalState
 {
   std::span<const double> pressure;
-  std::span<const double> gap;   ///< NaN where a node has no pair
-  std::span<const double> c;     ///< complementarity factor, traction/length
+  std::span<const double> gap; ///< NaN where a node has no pair
+  std::span<const double> c;   ///< complementarity factor, traction/length
 };
 
 /// @brief Status that the complementarity asks for: closed where

@@ -59,8 +59,7 @@ void Pairing::refit(std::span<const double> x)
 
 std::optional<Projection> Pairing::find(std::span<const double> x,
                                         std::span<const double> normals,
-                                        std::int32_t slave,
-                                        double reach) const
+                                        std::int32_t slave, double reach) const
 {
   const int gdim = _master.gdim();
   const Vec<3> p = padded(x, slave, gdim);
@@ -74,11 +73,12 @@ std::optional<Projection> Pairing::keep(std::span<const double> x,
 {
   if (_facet[i] < 0 or _feature[i] != facet::interior)
     return std::nullopt;
-  const auto q = extended(_master, _facet[i], x,
-                          padded(x, _slaves[i], _master.gdim()));
+  const auto q
+      = extended(_master, _facet[i], x, padded(x, _slaves[i], _master.gdim()));
   // Away from its facet a node may have come close to another one
-  if (q and (_returns[i] >= max_returns
-             or (q->excess <= margin and std::abs(q->gap) <= q->size)))
+  if (q
+      and (_returns[i] >= max_returns
+           or (q->excess <= margin and std::abs(q->gap) <= q->size)))
     return q;
   return std::nullopt;
 }
@@ -114,8 +114,7 @@ std::int32_t Pairing::update(std::span<const double> x, double reach,
       continue;
     const auto q = find(x, normals, _slaves[i], reach);
     const std::int32_t now = q ? q->facet : -1;
-    const bool same
-        = now == _facet[i] and (!q or q->feature == _feature[i]);
+    const bool same = now == _facet[i] and (!q or q->feature == _feature[i]);
     // On a ridge any normal of the cone will do, but it must not wander
     if (same and closed[i] and q and q->feature != facet::interior)
       continue;
@@ -140,13 +139,13 @@ std::vector<std::int32_t> Pairing::frozen() const
   return result;
 }
 
-std::vector<double>
-Pairing::natural_gaps(std::span<const double> x, double reach,
-                      std::span<const std::int32_t> which)
+std::vector<double> Pairing::natural_gaps(std::span<const double> x,
+                                          double reach,
+                                          std::span<const std::int32_t> which)
 {
   refit(x);
-  const std::vector<double> normals = facet::nodal_normals(
-      {_slave_offsets, _slave_nodes}, x, _master.gdim());
+  const std::vector<double> normals
+      = facet::nodal_normals({_slave_offsets, _slave_nodes}, x, _master.gdim());
   std::vector<double> gaps;
   for (std::int32_t i : which)
   {

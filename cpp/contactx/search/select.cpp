@@ -68,16 +68,17 @@ Projection beyond_edge(std::span<const Projection> around, Projection nearest)
     return *std::ranges::min_element(around, {}, &Projection::gap);
 
   // On the ridge every normal of the cone is as good: take the middle
-  nearest.normal = touching ? (1 / norm(mean)) * mean
-                            : (1 / distance) * nearest.d;
+  nearest.normal
+      = touching ? (1 / norm(mean)) * mean : (1 / distance) * nearest.d;
   nearest.gap = distance;
   return nearest;
 }
 } // namespace
 
-std::optional<Projection> contactx::search::nearest_facet(
-    const Surface& surface, const BoxTree& tree, std::span<const double> x,
-    const Vec<3>& p, const Vec<3>& normal, double reach)
+std::optional<Projection>
+contactx::search::nearest_facet(const Surface& surface, const BoxTree& tree,
+                                std::span<const double> x, const Vec<3>& p,
+                                const Vec<3>& normal, double reach)
 {
   std::optional<Projection> best;
   double bound2 = reach * reach;
@@ -89,7 +90,8 @@ std::optional<Projection> contactx::search::nearest_facet(
                  if (!q or (!any and dot(q->normal, normal) >= 0))
                    return;
                  const double d2 = dot(q->d, q->d);
-                 if (d2 < bound2 or (d2 == bound2 and (!best or f < best->facet)))
+                 if (d2 < bound2
+                     or (d2 == bound2 and (!best or f < best->facet)))
                  {
                    best = q;
                    bound2 = d2;
@@ -98,9 +100,10 @@ std::optional<Projection> contactx::search::nearest_facet(
   return best;
 }
 
-std::optional<Projection>
-contactx::search::select(const Surface& surface, std::span<const double> x,
-                         const Vec<3>& p, const Projection& nearest)
+std::optional<Projection> contactx::search::select(const Surface& surface,
+                                                   std::span<const double> x,
+                                                   const Vec<3>& p,
+                                                   const Projection& nearest)
 {
   if (nearest.feature == facet::interior)
     return nearest.gap < 0 ? deepest_in_valley(surface, x, p, nearest)
@@ -128,25 +131,23 @@ contactx::search::select(const Surface& surface, std::span<const double> x,
   return beyond_edge(around, nearest);
 }
 
-Vec<3>
-contactx::search::cone_components(const Surface& surface,
-                                  std::span<const double> x,
-                                  const Projection& projection)
+Vec<3> contactx::search::cone_components(const Surface& surface,
+                                         std::span<const double> x,
+                                         const Projection& projection)
 {
   const auto nodes = surface.facets()[projection.facet];
-  return facet::visit(
-      nodes.size(),
-      [&projection, nodes, x]<class F>(F)
-      {
-        facet::Local<F> xi;
-        std::copy_n(projection.xi.begin(), F::tdim, xi.begin());
-        const auto axes = facet::ridge_axes<F>(facet::gather<F>(nodes, x),
-                                               projection.feature, xi);
-        Vec<3> c{};
-        for (int i = 0; i < F::gdim; ++i)
-          for (int k = 0; k < F::gdim; ++k)
-            c[F::gdim == 2 and i == 1 ? 2 : i]
-                += projection.normal[k] * axes[i][k];
-        return c;
-      });
+  return facet::visit(nodes.size(),
+                      [&projection, nodes, x]<class F>(F)
+                      {
+                        facet::Local<F> xi;
+                        std::copy_n(projection.xi.begin(), F::tdim, xi.begin());
+                        const auto axes = facet::ridge_axes<F>(
+                            facet::gather<F>(nodes, x), projection.feature, xi);
+                        Vec<3> c{};
+                        for (int i = 0; i < F::gdim; ++i)
+                          for (int k = 0; k < F::gdim; ++k)
+                            c[F::gdim == 2 and i == 1 ? 2 : i]
+                                += projection.normal[k] * axes[i][k];
+                        return c;
+                      });
 }

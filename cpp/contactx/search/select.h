@@ -21,10 +21,11 @@ inline constexpr double margin = 0.05;
 /// not oppose it are passed over. A zero vector accepts every facet.
 /// @param[in] reach Largest distance.
 /// @return The closest point of that facet, nothing where none is in reach.
-std::optional<Projection>
-nearest_facet(const Surface& surface, const BoxTree& tree,
-              std::span<const double> x, const Vec<3>& p,
-              const Vec<3>& normal, double reach);
+std::optional<Projection> nearest_facet(const Surface& surface,
+                                        const BoxTree& tree,
+                                        std::span<const double> x,
+                                        const Vec<3>& p, const Vec<3>& normal,
+                                        double reach);
 
 /// @brief The projection that contact is measured with.
 ///
@@ -42,8 +43,7 @@ nearest_facet(const Surface& surface, const BoxTree& tree,
 /// @param[in] p Point.
 /// @param[in] nearest Closest point of the surface to `p`.
 std::optional<Projection> select(const Surface& surface,
-                                 std::span<const double> x,
-                                 const Vec<3>& p,
+                                 std::span<const double> x, const Vec<3>& p,
                                  const Projection& nearest);
 
 /// @brief Components of a ridge's normal in the frame of its facet.
@@ -54,7 +54,6 @@ std::optional<Projection> select(const Surface& surface,
 /// @param[in] surface Master surface.
 /// @param[in] x Node coordinates (shape=(num_nodes, gdim)), row-major.
 /// @param[in] projection Projection whose feature is an edge or a vertex.
-Vec<3> cone_components(const Surface& surface,
-                              std::span<const double> x,
-                              const Projection& projection);
+Vec<3> cone_components(const Surface& surface, std::span<const double> x,
+                       const Projection& projection);
 } // namespace contactx::search

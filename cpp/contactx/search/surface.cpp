@@ -57,8 +57,8 @@ std::optional<Projection> make(std::int32_t f, const facet::Nodes<F>& x,
   if (!(fr.jacobian > degenerate * (F::gdim == 2 ? size : size * size)))
     return std::nullopt;
   const auto d = p - facet::combine<F>(F::shape(xi), x);
-  Projection q{f,         feature, {}, pad(d), pad(fr.n), dot(fr.n, d),
-               F::excess(xi), size};
+  Projection q{f,   feature, {}, pad(d), pad(fr.n), dot(fr.n, d), F::excess(xi),
+               size};
   std::copy(xi.begin(), xi.end(), q.xi.begin());
   return q;
 }
@@ -105,18 +105,15 @@ std::vector<std::int32_t> Surface::star(std::int32_t f,
   if (local.empty())
     return {f};
   const auto nodes = facets()[f];
-  const std::size_t v
-      = std::ranges::lower_bound(_vertices, nodes[local[0]])
-        - _vertices.begin();
+  const std::size_t v = std::ranges::lower_bound(_vertices, nodes[local[0]])
+                        - _vertices.begin();
   std::vector<std::int32_t> result;
   for (std::int32_t i = _star_offsets[v]; i < _star_offsets[v + 1]; ++i)
   {
     const auto other = facets()[_stars[i]];
-    if (std::ranges::all_of(local,
-                            [&other, &nodes](int l) {
-                              return std::ranges::find(other, nodes[l])
-                                     != other.end();
-                            }))
+    if (std::ranges::all_of(
+            local, [&other, &nodes](int l)
+            { return std::ranges::find(other, nodes[l]) != other.end(); }))
       result.push_back(_stars[i]);
   }
   return result;
@@ -168,9 +165,10 @@ std::vector<Box> Surface::boxes(std::span<const double> x) const
   return boxes;
 }
 
-std::optional<Projection>
-contactx::search::closest(const Surface& surface, std::int32_t f,
-                          std::span<const double> x, const Vec<3>& p)
+std::optional<Projection> contactx::search::closest(const Surface& surface,
+                                                    std::int32_t f,
+                                                    std::span<const double> x,
+                                                    const Vec<3>& p)
 {
   const auto nodes = surface.facets()[f];
   return facet::visit(nodes.size(),
@@ -183,9 +181,10 @@ contactx::search::closest(const Surface& surface, std::int32_t f,
                       });
 }
 
-std::optional<Projection>
-contactx::search::extended(const Surface& surface, std::int32_t f,
-                           std::span<const double> x, const Vec<3>& p)
+std::optional<Projection> contactx::search::extended(const Surface& surface,
+                                                     std::int32_t f,
+                                                     std::span<const double> x,
+                                                     const Vec<3>& p)
 {
   const auto nodes = surface.facets()[f];
   return facet::visit(nodes.size(),

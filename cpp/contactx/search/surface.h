@@ -62,9 +62,9 @@ struct Projection
   Vec<2> xi;     ///< local coordinates; in 2D only the first is used
   Vec<3> d;      ///< vector from the projection to the point
   Vec<3> normal; ///< outward unit normal of the facet there
-  double gap;           ///< normal . d
-  double excess;        ///< how far xi lies outside the facet
-  double size;          ///< diameter of the facet
+  double gap;    ///< normal . d
+  double excess; ///< how far xi lies outside the facet
+  double size;   ///< diameter of the facet
 };
 
 /// @brief Closest point of a facet.
@@ -74,8 +74,7 @@ struct Projection
 /// @param[in] p Point.
 /// @return Nothing where the facet has no area.
 std::optional<Projection> closest(const Surface& surface, std::int32_t f,
-                                  std::span<const double> x,
-                                  const Vec<3>& p);
+                                  std::span<const double> x, const Vec<3>& p);
 
 /// @brief Projection on the facet's extended surface, beyond its edges.
 /// @param[in] surface Surface.
@@ -84,6 +83,5 @@ std::optional<Projection> closest(const Surface& surface, std::int32_t f,
 /// @param[in] p Point.
 /// @return Nothing where there is no projection.
 std::optional<Projection> extended(const Surface& surface, std::int32_t f,
-                                   std::span<const double> x,
-                                   const Vec<3>& p);
+                                   std::span<const double> x, const Vec<3>& p);
 } // namespace contactx::search

@@ -1,0 +1,64 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+
+import numpy as np
+from numpy.typing import NDArray
+
+OPEN: int
+STICK: int
+SLIP: int
+margin: float
+coefficients: tuple[tuple[str, str, int], ...]
+
+def nodal_areas(
+    offsets: NDArray[np.int32], nodes: NDArray[np.int32], x: NDArray[np.float64], gdim: int
+) -> NDArray[np.float64]: ...
+def nodal_normals(
+    offsets: NDArray[np.int32], nodes: NDArray[np.int32], x: NDArray[np.float64], gdim: int
+) -> NDArray[np.float64]: ...
+
+class Pairing:
+    def __init__(
+        self,
+        slave_offsets: NDArray[np.int32],
+        slave_nodes: NDArray[np.int32],
+        master_offsets: NDArray[np.int32],
+        master_nodes: NDArray[np.int32],
+        gdim: int,
+    ) -> None: ...
+    @property
+    def slaves(self) -> NDArray[np.int32]: ...
+    @property
+    def facet(self) -> NDArray[np.int32]: ...
+    @property
+    def feature(self) -> NDArray[np.int32]: ...
+    @property
+    def xi(self) -> NDArray[np.float64]: ...
+    @property
+    def cone(self) -> NDArray[np.float64]: ...
+    def begin_step(self) -> None: ...
+    def update(self, x: NDArray[np.float64], reach: float, closed: NDArray[np.int8]) -> int: ...
+    def frozen(self) -> NDArray[np.int32]: ...
+    def natural_gaps(
+        self, x: NDArray[np.float64], reach: float, which: NDArray[np.int32]
+    ) -> NDArray[np.float64]: ...
+    def distance(self, x: NDArray[np.float64]) -> float: ...
+    def copy(self) -> Pairing: ...
+
+def normal_status(
+    pressure: NDArray[np.float64],
+    gap: NDArray[np.float64],
+    c: NDArray[np.float64],
+    status: NDArray[np.int8],
+) -> int: ...
+def normal_complementarity(
+    pressure: NDArray[np.float64],
+    gap: NDArray[np.float64],
+    c: NDArray[np.float64],
+    area: NDArray[np.float64],
+    status: NDArray[np.int8],
+    value: NDArray[np.float64],
+    d_pressure: NDArray[np.float64],
+    d_gap: NDArray[np.float64],
+) -> None: ...
+def kernel(sliding: str, term: str, num_nodes: int) -> tuple[int, NDArray[np.int8]]: ...

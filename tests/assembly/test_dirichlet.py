@@ -1,0 +1,115 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Dirichlet values on nodes of a contact, against elimination by hand."""
+
+import numpy as np
+import pytest
+from scenes import Blocks, fix
+
+from contactx.meshes import Tag
+from dolfinx import fem
+from dolfinx.mesh import CellType
+
+
+def master_values(scene):
+    """A non-zero value for some contact nodes of the lower block, in every component."""
+    V = scene.u.function_space
+    X = V.tabulate_dof_coordinates()
+    gdim = V.mesh.geometry.dim
+    on_face = fem.locate_dofs_topological(V, gdim - 1, scene.tags.find(Tag.LOWER_CONTACT))
+    some = on_face[X[on_face, 0] < 0.8].astype(np.int32)
+    value = fem.Function(V)
+    value.interpolate(lambda x: np.stack([0.01 + 0.02 * x[0] for _ in range(gdim)]))
+    return fem.dirichletbc(value, some)
+
+
+@pytest.mark.parametrize("cell", [CellType.triangle, CellType.tetrahedron, CellType.hexahedron])
+def test_prescribed_master_nodes(cell):
+    scene = Blocks(cell)
+    scene.bcs.append(master_values(scene))
+    contact = scene.contact("small")
+    problem = scene.problem(contact)
+    problem.solve()
+    closed = contact.interface.status != 0
+    assert closed.any()
+
+    # The same linear system with the final active set, all prescribed values eliminated by hand
+    n = len(scene.u.x.array)
+    zero = fem.Function(scene.u.function_space)
+    K = fem.assemble_matrix(problem._bulk.J).to_dense()
+    D = constraint_matrix(contact, n)[closed]
+    gap = gap_at(contact, zero)[closed]
+    prescribed = problem._bulk.markers == 1
+    values = np.zeros(n)
+    for bc in scene.bcs:
+        bc.set(values)
+    free = ~prescribed
+    A = np.block(
+        [
+            [K[np.ix_(free, free)], -D[:, free].T],
+            [D[:, free], np.zeros((closed.sum(), closed.sum()))],
+        ]
+    )
+    rhs = np.r_[
+        -K[np.ix_(free, prescribed)] @ values[prescribed],
+        -gap - D[:, prescribed] @ values[prescribed],
+    ]
+    solution = np.linalg.solve(A, rhs)
+    u = values.copy()
+    u[free] = solution[: free.sum()]
+    assert np.abs(scene.u.x.array - u).max() <= 1e-13
+    force = solution[free.sum() :]
+    assert np.abs(contact.area[closed] * contact.multiplier[closed] - force).max() <= 1e-12
+
+
+def constraint_matrix(contact, n):
+    """Derivative of the gaps with respect to the displacement, by exact differences."""
+    u = contact.interface.state.displacement.array
+    keep = u.copy()
+    u[:] = 0
+    contact.interface.update_gap()
+    base = contact.interface.gap.copy()
+    D = np.zeros((len(base), n))
+    for i in range(n):
+        u[i] = 1
+        contact.interface.update_gap()
+        D[:, i] = contact.interface.gap - base
+        u[i] = 0
+    u[:] = keep
+    contact.interface.update_gap()
+    return D
+
+
+def gap_at(contact, function):
+    u = contact.interface.state.displacement.array
+    keep = u.copy()
+    u[:] = function.x.array
+    contact.interface.update_gap()
+    gap = contact.interface.gap.copy()
+    u[:] = keep
+    contact.interface.update_gap()
+    return gap
+
+
+@pytest.mark.parametrize("sliding", ["small", "finite"])
+def test_a_start_that_has_the_values_gives_the_same_answer(sliding):
+    """Lifting through bulk and contact blocks does what starting from the values does."""
+    lifted, started = Blocks(CellType.tetrahedron), Blocks(CellType.tetrahedron)
+    for scene in (lifted, started):
+        scene.bcs.append(master_values(scene))
+    for bc in started.bcs:
+        bc.set(started.u.x.array)
+    for scene in (lifted, started):
+        scene.problem(scene.contact(sliding)).solve()
+    assert np.abs(lifted.u.x.array - started.u.x.array).max() <= 1e-11
+
+
+def test_a_punch_whose_slave_nodes_are_prescribed():
+    scene = Blocks(CellType.tetrahedron, down=0.03)
+    scene.bcs.append(fix(scene.u, scene.tags, 2, -0.03, [Tag.UPPER_CONTACT]))
+    contact = scene.contact()
+    scene.problem(contact).solve()
+    gap = contact.interface.gap
+    assert (contact.multiplier > 0).sum() > 3
+    assert np.abs(gap[contact.multiplier > 0]).max() <= 1e-12
+    assert contact.force[2] > 0

@@ -1,0 +1,173 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Contact forms against a dense assembly by hand, written without contactx."""
+
+import numpy as np
+import pytest
+from petsc4py import PETSc
+from scenes import Blocks
+
+from contactx.meshes import Tag
+from dolfinx import cpp, fem
+from dolfinx.mesh import CellType
+
+CELLS = [CellType.triangle, CellType.quadrilateral, CellType.tetrahedron, CellType.hexahedron]
+
+
+class ByHand:
+    """Gaps, normals and weights of all slave nodes from the plane reference facets."""
+
+    def __init__(self, scene, contact):
+        V = scene.u.function_space
+        X = V.tabulate_dof_coordinates()
+        gdim = V.mesh.geometry.dim
+        slaves = contact.slave_nodes
+        facets = master_facets(scene, X)
+        self.n = len(slaves)
+        self.normal = np.zeros(gdim)
+        self.normal[-1] = 1
+        # B maps all displacements to the slave nodes' relative displacements
+        self.B = np.zeros((self.n * gdim, X.shape[0] * gdim))
+        for k, slave in enumerate(slaves):
+            nodes, weights = find(facets, X, X[slave])
+            for i in range(gdim):
+                self.B[k * gdim + i, slave * gdim + i] += 1
+                self.B[k * gdim + i, nodes * gdim + i] -= weights
+        rows = np.arange(self.n) * gdim + gdim - 1
+        self.D = self.B[rows]
+        self.gap = self.D @ X[:, :gdim].ravel()
+
+
+def master_facets(scene, X):
+    """Nodes of the lower block's contact facets, from the mesh alone."""
+    mesh = scene.u.function_space.mesh
+    fdim = mesh.topology.dim - 1
+    entities = scene.tags.find(Tag.LOWER_CONTACT)
+    mesh.topology.create_connectivity(fdim, mesh.topology.dim)
+    geometry = cpp.mesh.entities_to_geometry(mesh._cpp_object, fdim, entities, False)
+    x = mesh.geometry.x
+    return [
+        np.array([np.argmin(np.linalg.norm(X - x[g], axis=1)) for g in facet])
+        for facet in geometry
+    ]
+
+
+def find(facets, X, p):
+    """Facet below a point and its shape functions there; every facet is plane and axis-aligned."""
+    for nodes in facets:
+        x = X[nodes]
+        if len(nodes) == 2:
+            s = (p[0] - x[0, 0]) / (x[1, 0] - x[0, 0])
+            weights = np.array([1 - s, s])
+        elif len(nodes) == 3:
+            A = np.vstack([x[:, :2].T, np.ones(3)])
+            weights = np.linalg.solve(A, [p[0], p[1], 1])
+        else:
+            lower, upper = x[:, :2].min(axis=0), x[:, :2].max(axis=0)
+            at = np.where(np.isclose(x[:, :2], upper), 1, 0)
+            s = (p[:2] - lower) / (upper - lower)
+            weights = np.prod(np.where(at, s, 1 - s), axis=1)
+        if weights.min() > -1e-12:
+            return nodes, weights
+    raise AssertionError(f"no facet below {p}")
+
+
+def assembled(form, shape):
+    A = cpp.fem.petsc.create_matrix(form._cpp_object, None)
+    none = np.array([], dtype=np.int8)
+    cpp.fem.petsc.assemble_matrix(
+        A, form._cpp_object, fem.pack_constants(form), fem.pack_coefficients(form), none, none
+    )
+    A.assemble()
+    dense = A.convert("dense").getDenseArray()
+    assert dense.shape == shape
+    return dense
+
+
+@pytest.fixture(params=CELLS, ids=lambda c: c.name)
+def case(request):
+    scene = Blocks(request.param, gap=0.1)
+    contact = scene.contact("small")
+    scene.problem(contact)
+    rng = np.random.default_rng(5)
+    scene.u.x.array[:] = 0.1 * rng.standard_normal(len(scene.u.x.array))
+    contact.multiplier[:] = rng.standard_normal(len(contact.multiplier))
+    contact.interface.state.gap_derivative.array[:] = rng.standard_normal(len(contact.multiplier))
+    return scene, contact, ByHand(scene, contact)
+
+
+def close(computed, reference):
+    return np.abs(computed - reference).max() <= 1e-13 * max(1, np.abs(reference).max())
+
+
+def test_gap(case):
+    scene, contact, hand = case
+    contact.interface.update_gap()
+    assert close(contact.interface.gap, hand.gap + hand.D @ scene.u.x.array)
+
+
+def test_residual(case):
+    scene, contact, hand = case
+    b = np.zeros(len(scene.u.x.array))
+    contact.interface.add_residual(b)
+    assert close(b, -hand.D.T @ (contact.area * contact.multiplier))
+
+
+def test_traction_block(case):
+    scene, contact, hand = case
+    n = len(scene.u.x.array)
+    block = sum(assembled(form.traction, (n, hand.n)) for form in contact.forms)
+    assert close(block, -hand.D.T * contact.area)
+
+
+def test_constraint_block(case):
+    scene, contact, hand = case
+    n = len(scene.u.x.array)
+    block = sum(assembled(form.constraint, (hand.n, n)) for form in contact.forms)
+    factor = contact.interface.state.gap_derivative.array
+    assert close(block, factor[:, None] * hand.D)
+
+
+def test_small_sliding_has_no_stiffness(case):
+    _, contact, _ = case
+    assert all(form.stiffness is None for form in contact.forms)
+
+
+@pytest.mark.parametrize("cell", CELLS, ids=lambda c: c.name)
+def test_system_jacobian_is_the_derivative_of_the_residual(cell):
+    """Central differences of the whole system: finite sliding, closed and open nodes, supports."""
+    scene = Blocks(cell, gap=0.02)
+    contact = scene.contact()
+    problem = scene.problem(contact)
+    system, interface = problem._system, contact.interface
+    rng = np.random.default_rng(6)
+    scene.u.x.array[:] = 0.01 * rng.standard_normal(len(scene.u.x.array))
+    for bc in scene.bcs:
+        bc.set(scene.u.x.array)
+    interface.search()
+    n = len(contact.multiplier)
+    contact.multiplier[:] = rng.uniform(0.5, 1, n)
+    interface.status[:] = np.where(np.arange(n) % 3 == 0, 0, 2)
+    interface.c[:] = rng.uniform(1, 2, n)
+    system.gather()
+    x0 = system.x.array.copy()
+
+    def residual(x):
+        system.x.array = x
+        system.scatter(system.x)
+        system.residual(system.b)
+        return system.b.array.copy()
+
+    residual(x0)
+    J = system.jacobian().convert("dense").getDenseArray()
+    free = np.flatnonzero(np.r_[problem._bulk.markers == 0, np.ones(n, dtype=bool)])
+    h = 1e-6
+    for column in free[:: max(1, len(free) // 40)]:
+        dx = np.zeros_like(x0)
+        dx[column] = h
+        difference = (residual(x0 + dx) - residual(x0 - dx)) / (2 * h)
+        assert np.abs(J[free, column] - difference[free]).max() <= 1e-7 * np.abs(J).max()
+
+
+def test_petsc_is_real_double():
+    assert np.dtype(PETSc.ScalarType) == np.float64

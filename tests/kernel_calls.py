@@ -1,0 +1,131 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Kernels called directly, and random pairs for them."""
+
+from __future__ import annotations
+
+import ctypes
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from contactx import cpp as core
+
+_DOUBLES = ctypes.POINTER(ctypes.c_double)
+_SIGNATURE = ctypes.CFUNCTYPE(
+    None, _DOUBLES, _DOUBLES, _DOUBLES, _DOUBLES, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p
+)
+
+# Vertices and edges of the reference facets
+VERTICES = {
+    2: np.array([[0.0], [1.0]]),
+    3: np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]),
+    4: np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]]),
+}
+EDGES = {2: [], 3: [(0, 1), (1, 2), (2, 0)], 4: [(0, 1), (1, 3), (3, 2), (2, 0)]}
+
+
+@dataclass(frozen=True)
+class Pair:
+    """What a kernel reads of one pair: arrays of shape (1 + num_nodes, gdim), the slave first."""
+
+    displacement: np.ndarray
+    position: np.ndarray
+    pair: np.ndarray
+    multiplier: np.ndarray = field(default_factory=lambda: np.array([1.3]))
+    area: np.ndarray = field(default_factory=lambda: np.array([0.7]))
+    gap_derivative: np.ndarray = field(default_factory=lambda: np.array([1.0]))
+
+    @property
+    def num_nodes(self) -> int:
+        return len(self.position) - 1
+
+    @property
+    def gdim(self) -> int:
+        return self.position.shape[1]
+
+    @property
+    def current(self) -> np.ndarray:
+        return self.position + self.displacement
+
+    def moved(self, du: np.ndarray) -> Pair:
+        return replace(self, displacement=self.displacement + du.reshape(self.displacement.shape))
+
+    def tabulate(self, sliding: str, term: str) -> np.ndarray:
+        """Call a kernel; returns the local tensor."""
+        n = self.position.size
+        shape = {
+            "gap": (1,),
+            "residual": (n,),
+            "stiffness": (n, n),
+            "traction": (n,),
+            "constraint": (n,),
+        }[term]
+        out = np.zeros(shape)
+        w = np.concatenate([np.ravel(getattr(self, name)) for name, _, _ in core.coefficients])
+        address, _ = core.kernel(sliding, term, self.num_nodes)
+        none = ctypes.cast(None, _DOUBLES)
+        _SIGNATURE(address)(
+            out.ctypes.data_as(_DOUBLES), w.ctypes.data_as(_DOUBLES), none, none, None, None, None
+        )
+        return out
+
+
+def random_pair(num_nodes: int, kind: str, rng: np.random.Generator) -> Pair:
+    """A warped, rotated and stretched facet with a slave node near a feature of it."""
+    vertices = VERTICES[num_nodes]
+    gdim = vertices.shape[1] + 1
+    flat = np.column_stack([vertices, np.zeros(num_nodes)])
+    x = flat + 0.1 * rng.standard_normal(flat.shape)
+    rotation = np.linalg.qr(rng.standard_normal((gdim, gdim)))[0]
+    rotation[:, 0] *= np.sign(np.linalg.det(rotation))
+    x = x @ rotation.T * rng.uniform(0.5, 2)
+
+    feature, xi, cone = 0, rng.uniform(0.1, 0.6, gdim - 1), np.zeros(3)
+    if num_nodes == 3:
+        xi *= 0.6
+    if kind == "edge":
+        edge = int(rng.integers(len(EDGES[num_nodes])))
+        feature, along = 1 + edge, rng.uniform(0.1, 0.9)
+        i, j = EDGES[num_nodes][edge]
+        xi = (1 - along) * vertices[i] + along * vertices[j]
+        cone = np.array([0.0, *_unit(rng, 2)])
+    elif kind == "vertex":
+        vertex = int(rng.integers(num_nodes))
+        feature = 1 + len(EDGES[num_nodes]) + vertex
+        xi = vertices[vertex]
+        cone = _unit(rng, 3) if gdim == 3 else np.insert(_unit(rng, 2), 1, 0.0)
+    centre = x.mean(axis=0)
+    slave = centre + 0.2 * rng.standard_normal(gdim)
+    if kind == "interior":
+        slave = _on_facet(x, xi) + 0.1 * rng.standard_normal() * _normal(x, xi)
+    data = np.array([feature, *xi, *np.zeros(3 - gdim), *cone])
+    displacement = 0.05 * rng.standard_normal((num_nodes + 1, gdim))
+    current = np.vstack([slave, x])
+    return Pair(displacement, current - displacement, data)
+
+
+def shape(num_nodes: int, xi: np.ndarray) -> np.ndarray:
+    """Shape functions."""
+    if num_nodes == 2:
+        return np.array([1 - xi[0], xi[0]])
+    s, t = xi
+    if num_nodes == 3:
+        return np.array([1 - s - t, s, t])
+    return np.array([(1 - s) * (1 - t), s * (1 - t), (1 - s) * t, s * t])
+
+
+def _on_facet(x: np.ndarray, xi: np.ndarray) -> np.ndarray:
+    return shape(len(x), xi) @ x
+
+
+def _normal(x: np.ndarray, xi: np.ndarray) -> np.ndarray:
+    steps = np.eye(len(xi)) * 1e-3
+    t = [(_on_facet(x, xi + d) - _on_facet(x, xi - d)) / 2e-3 for d in steps]
+    n = np.array([t[0][1], -t[0][0]]) if len(t) == 1 else np.cross(*t)
+    return n / np.linalg.norm(n)
+
+
+def _unit(rng: np.random.Generator, size: int) -> np.ndarray:
+    v = rng.standard_normal(size)
+    return v / np.linalg.norm(v)

@@ -1,0 +1,100 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Scenes that several tests use."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+
+import contactx as cx
+import ufl
+from contactx import meshes
+from contactx.meshes import Tag
+from dolfinx import fem, mesh
+
+
+def displacement(domain: mesh.Mesh) -> fem.Function:
+    gdim = domain.geometry.dim
+    return fem.Function(fem.functionspace(domain, ("Lagrange", 1, (gdim,))))
+
+
+def strain(u: Any) -> Any:
+    return ufl.sym(ufl.grad(u))
+
+
+def elasticity(u: fem.Function, young: float = 1.0, nu: float = 0.3) -> ufl.Form:
+    """Residual of linear elasticity, in plane strain where the mesh is plane."""
+    v = ufl.TestFunction(u.function_space)
+    mu, lmbda = young / (2 * (1 + nu)), young * nu / ((1 + nu) * (1 - 2 * nu))
+    identity = ufl.Identity(u.function_space.mesh.geometry.dim)
+    stress = 2 * mu * strain(u) + lmbda * ufl.tr(strain(u)) * identity
+    return ufl.inner(stress, strain(v)) * ufl.dx
+
+
+def fix(
+    u: fem.Function, tags: mesh.MeshTags, component: int, value: float, faces: Iterable[int]
+) -> fem.DirichletBC:
+    """Prescribe one component of the displacement on tagged faces."""
+    V = u.function_space.sub(component)
+    facets = np.concatenate([tags.find(face) for face in faces])
+    dofs = fem.locate_dofs_topological(V, tags.dim, facets)
+    return fem.dirichletbc(np.float64(value), dofs, V)
+
+
+class Blocks:
+    """An upper block pressed on a wider lower one that it does not match.
+
+    Attributes:
+        u: Displacement.
+        F: Residual.
+        bcs: The lower block's bottom is fixed, the upper one's top moves down and not sideways.
+        tags: Facet tags.
+    """
+
+    def __init__(
+        self,
+        cell_type: mesh.CellType,
+        *,
+        down: float = 0.05,
+        gap: float = 0.0,
+        n_upper: int = 2,
+        n_lower: int = 3,
+    ):
+        plane = cell_type in (mesh.CellType.triangle, mesh.CellType.quadrilateral)
+        gdim = 2 if plane else 3
+        data = meshes.blocks(
+            cell_type,
+            (n_upper,) * gdim,
+            (n_lower,) * gdim,
+            size_lower=(1.5,) * (gdim - 1) + (1.0,),
+            shift=(0.23,) * (gdim - 1),
+            gap=gap,
+        )
+        self.tags = data.facet_tags
+        self.u = displacement(data.mesh)
+        self.F = elasticity(self.u)
+        self.bcs = [
+            *(fix(self.u, self.tags, i, 0.0, [Tag.LOWER_BOTTOM]) for i in range(gdim)),
+            *(fix(self.u, self.tags, i, 0.0, [Tag.UPPER_TOP]) for i in range(gdim - 1)),
+            fix(self.u, self.tags, gdim - 1, -down, [Tag.UPPER_TOP]),
+        ]
+
+    def contact(self, sliding: str = "finite") -> cx.Contact:
+        return cx.Contact(
+            cx.Surface(self.tags, Tag.UPPER_CONTACT),
+            cx.Surface(self.tags, Tag.LOWER_CONTACT),
+            sliding=sliding,
+        )
+
+    def problem(self, *contacts: cx.Contact, **options: Any) -> cx.ContactProblem:
+        return cx.ContactProblem(
+            self.F,
+            self.u,
+            contacts=contacts,
+            bcs=self.bcs,
+            petsc_options_prefix="blocks_",
+            **options,
+        )
