@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """Node-to-surface contact for FEniCSx."""
 
-# compat must come first: it loads the solver wheel before DOLFINx
-from contactx import compat  # isort: skip
+# First, because it loads the wheels' MPI and PETSc before DOLFINx
+from contactx import compat as compat  # isort: skip
 
 from contactx.contact import Contact
 from contactx.errors import ConvergenceError
@@ -15,5 +15,3 @@ from contactx.surface import Surface
 __all__ = ["Contact", "ContactProblem", "ConvergenceError", "Report", "Surface", "VTKOutput"]
 
 __version__ = "0.1.0"
-
-del compat

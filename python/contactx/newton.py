@@ -70,7 +70,6 @@ class NewtonLoop:
         self._stiffness = np.zeros(0)
         self.snes = PETSc.SNES().create(system.x.comm)
         self.snes.setOptionsPrefix(prefix)
-        self.snes.setFunction(self._function, system.b)
         self.snes.setConvergenceTest(self._test)
 
     def run(self, report: Report) -> None:
@@ -82,6 +81,8 @@ class NewtonLoop:
         self._report = report
         before = (self._bulk.assemblies, self._bulk.skipped)
         self._system.forget()
+        self._system.renew()
+        self.snes.setFunction(self._function, self._system.b)
         for interface in self._interfaces:
             interface.begin_step()
         with self._petsc_options():
@@ -198,7 +199,7 @@ class NewtonLoop:
         return Iteration(
             number=number,
             residual=residual,
-            tolerance=max(rtol * scale, atol, self._rounding()),
+            tolerance=max(rtol * scale, atol, min(self._rounding(), 1e-6 * scale)),
             closed=sum(int(np.count_nonzero(i.status != core.OPEN)) for i in self._interfaces),
             status_changes=status,
             pair_changes=pairs,

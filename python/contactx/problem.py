@@ -17,6 +17,7 @@ from contactx import compat, validate
 from contactx.bulk import Bulk
 from contactx.contact import Contact
 from contactx.errors import ConvergenceError
+from contactx.interface import Interface
 from contactx.newton import NewtonLoop
 from contactx.report import Report
 from contactx.system import SaddlePointSystem
@@ -90,7 +91,6 @@ class ContactProblem:
         self._newton = NewtonLoop(
             self._bulk, self._interfaces, self._system, petsc_options_prefix, petsc_options or {}
         )
-        self._warned = False
 
     @property
     def solver(self) -> PETSc.SNES:
@@ -134,11 +134,28 @@ class ContactProblem:
         report.frozen_gap = min(i.deepest_frozen() for i in self._interfaces)
         report.force = [contact.force for contact in self.contacts]
         report.imbalance = np.sum([contact.fields.imbalance for contact in self.contacts], axis=0)
-        for k, (contact, interface) in enumerate(zip(self.contacts, self._interfaces, strict=True)):
-            if interface.num_pairs == 0:
-                warnings.warn(
-                    f"contact {k} ({contact}) has no slave node within reach of its master: the "
-                    f"nearest is {interface.distance():.3g} away, and the search reaches "
-                    f"{interface.reach:.3g}; it transmits no force",
-                    stacklevel=3,
+        for k, interface in enumerate(self._interfaces):
+            self._warn(k, interface)
+
+    def _warn(self, k: int, interface: Interface) -> None:
+        """Warn of what a converged solution may hide in contact number k."""
+        name = f"contact {k} ({self.contacts[k]})"
+        text = ""
+        if interface.num_pairs == 0:
+            distance = interface.distance()
+            text = f"{name} transmits no force: it has no slave node "
+            if distance > interface.reach:
+                text += (
+                    f"within reach of its master; the nearest is {distance:.3g} away, and the "
+                    f"search reaches {interface.reach:.3g}"
                 )
+            else:
+                text += f"that faces its master, although the nearest is {distance:.3g} away"
+        elif interface.deepest_frozen() < -1e-10 * interface.reach:
+            text = (
+                f"{name}: {len(interface.frozen)} pairs went back and forth between facets and "
+                f"were held; they hide a penetration of {-interface.deepest_frozen():.3g}. "
+                "Refine the master there or take smaller steps"
+            )
+        if text:
+            warnings.warn(text, stacklevel=4)

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from contactx import compat
 from dolfinx import fem, mesh
 
 
@@ -43,8 +44,10 @@ class Surface:
             tags: Values in ``facet_tags`` that make up the surface: one or several.
 
         Raises:
+            RuntimeError: On more than one rank, on every rank.
             ValueError: If the tags are not of facets, no tag is given, or a tag is not there.
         """
+        compat.require_one_rank(facet_tags.topology.comm)
         tdim = facet_tags.topology.dim
         if facet_tags.dim != tdim - 1:
             raise ValueError(

@@ -45,12 +45,16 @@ class SaddlePointSystem:
         self._num_bulk = len(bulk.u.x.array)
         sizes = [self._num_bulk, *(len(i.slaves) for i in self._interfaces)]
         self._offsets = np.cumsum([0, *sizes])
-        self.x = PETSc.Vec().createMPI((self._offsets[-1], None), comm=self._comm)
-        self.b = self.x.duplicate()
+        self.renew()
         self._bulk_residual = np.zeros(self._num_bulk)
         self._bulk_at: npt.NDArray[np.float64] | None = None
         self._contact: PETSc.Mat | None = None
         self._contact_pairs: list[list[ContactForms]] | None = None
+
+    def renew(self) -> None:
+        """Make new vectors: an error inside PETSc leaves the old ones locked."""
+        self.x = PETSc.Vec().createMPI((self._offsets[-1], None), comm=self._comm)
+        self.b = self.x.duplicate()
 
     def blocks(self, array: npt.NDArray[np.float64]) -> list[npt.NDArray[np.float64]]:
         """Views of the displacement's part of a vector's values and of each contact's."""

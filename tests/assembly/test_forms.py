@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """Contact forms against a dense assembly by hand, written without contactx."""
 
+from petsc4py import PETSc
+
 import numpy as np
 import pytest
-from petsc4py import PETSc
 from scenes import Blocks
 
 from contactx.meshes import Tag
@@ -47,8 +48,7 @@ def master_facets(scene, X):
     geometry = cpp.mesh.entities_to_geometry(mesh._cpp_object, fdim, entities, False)
     x = mesh.geometry.x
     return [
-        np.array([np.argmin(np.linalg.norm(X - x[g], axis=1)) for g in facet])
-        for facet in geometry
+        np.array([np.argmin(np.linalg.norm(X - x[g], axis=1)) for g in facet]) for facet in geometry
     ]
 
 

@@ -15,6 +15,7 @@ struct ClosestPoint
   Local<F> xi;      ///< local coordinates
   int feature;      ///< interior, an edge or a vertex
   double distance2; ///< squared distance
+  Vec<F::gdim> d;   ///< vector from the closest point to the given one
 };
 
 /// @brief Newton step towards the projection of a point, exact on flat facets.
@@ -68,7 +69,7 @@ bool project(const Nodes<F>& x, const Vec<F::gdim>& p, Local<F>& xi)
   const Vec<F::gdim> q = p - x[0];
 
   constexpr int max_iterations = F::flat ? 1 : 30;
-  double last = std::numeric_limits<double>::infinity();
+  double last = 0;
   for (int it = 0; it < max_iterations; ++it)
   {
     const Local<F> step
@@ -83,16 +84,17 @@ bool project(const Nodes<F>& x, const Vec<F::gdim>& p, Local<F>& xi)
     }
     if (!std::isfinite(size))
       return false;
-    if (F::flat or size < 1e-15 * scale)
+    // The next step would be size^2 / last or less
+    if (F::flat or size < 1e-15 * scale or size * size < 1e-16 * scale * last)
       return true;
-    if (size >= last and size < 1e-6 * scale)
+    if (it > 0 and size >= last and size < 1e-6 * scale)
       return true; // rounding holds the last digits
     last = size;
   }
   return false;
 }
 
-/// @brief Closest point on the edge from vertex `i` to vertex `j`.
+/// @brief Closest point on the edge from `a` to `b`.
 /// @return Coordinate along the edge, in [0, 1].
 template <std::size_t D>
 double project_on_edge(const std::array<double, D>& a,
@@ -134,25 +136,29 @@ template <class F>
 ClosestPoint<F> closest_point(const Nodes<F>& x, const Vec<F::gdim>& p)
 {
   constexpr double inf = std::numeric_limits<double>::infinity();
-  ClosestPoint<F> c{{}, interior, inf};
+  ClosestPoint<F> c{{}, interior, inf, {}};
   Local<F> xi = projection_start<F>(x, p);
   if (project<F>(x, p, xi) and F::excess(xi) <= 1e-12)
   {
     const auto d = p - combine<F>(F::shape(xi), x);
-    c = {xi, interior, dot(d, d)};
+    c = {xi, interior, dot(d, d), d};
     if constexpr (F::flat)
       return c;
   }
 
   for (std::size_t e = 0; e < F::edges.size(); ++e)
   {
-    const auto [i, j] = F::edges[e];
+    // From the lower end, so that the facets at an edge agree on the last bit
+    const bool turned = x[F::edges[e].second] < x[F::edges[e].first];
+    const int i = turned ? F::edges[e].second : F::edges[e].first;
+    const int j = turned ? F::edges[e].first : F::edges[e].second;
     const double s = project_on_edge(x[i], x[j], p);
     const auto d = p - ((1 - s) * x[i] + s * x[j]);
     if (const double d2 = dot(d, d); d2 < c.distance2)
     {
       c.xi = (1 - s) * F::vertices[i] + s * F::vertices[j];
       c.distance2 = d2;
+      c.d = d;
       if (s > 0 and s < 1)
         c.feature = 1 + e;
       else

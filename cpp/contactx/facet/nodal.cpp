@@ -68,19 +68,25 @@ std::vector<double> contactx::facet::nodal_normals(const FacetList& facets,
                                                    int gdim)
 {
   std::vector<double> normal(x.size(), 0);
+  std::vector<double> area(x.size() / gdim, 0);
   for_each_part(facets, x,
-                [&normal, gdim](std::int32_t node, double w, const auto& n)
+                [&normal, &area, gdim](std::int32_t node, double w,
+                                       const auto& n)
                 {
+                  area[node] += w;
                   for (int k = 0; k < gdim; ++k)
                     normal[node * gdim + k] += w * n[k];
                 });
-  for (std::size_t i = 0; i < normal.size(); i += gdim)
+  for (std::size_t i = 0; i < area.size(); ++i)
   {
+    const std::span n(normal.data() + i * gdim, gdim);
     double l2 = 0;
-    for (int k = 0; k < gdim; ++k)
-      l2 += normal[i + k] * normal[i + k];
-    for (int k = 0; k < gdim and l2 > 0; ++k)
-      normal[i + k] /= std::sqrt(l2);
+    for (double c : n)
+      l2 += c * c;
+    // What rounding leaves of normals that cancel has no direction
+    const double length = std::sqrt(l2);
+    for (double& c : n)
+      c = length > 1e-12 * area[i] ? c / length : 0;
   }
   return normal;
 }

@@ -69,7 +69,7 @@ std::optional<Projection> Pairing::find(std::span<const double> x,
 }
 
 std::optional<Projection> Pairing::keep(std::span<const double> x,
-                                        std::size_t i) const
+                                        std::size_t i, double reach) const
 {
   if (_facet[i] < 0 or _feature[i] != facet::interior)
     return std::nullopt;
@@ -78,7 +78,8 @@ std::optional<Projection> Pairing::keep(std::span<const double> x,
   // Away from its facet a node may have come close to another one
   if (q
       and (_returns[i] >= max_returns
-           or (q->excess <= margin and std::abs(q->gap) <= q->size)))
+           or (q->excess <= margin
+               and std::abs(q->gap) <= std::min(q->size, reach))))
     return q;
   return std::nullopt;
 }
@@ -107,7 +108,7 @@ std::int32_t Pairing::update(std::span<const double> x, double reach,
   std::int32_t changed = 0;
   for (std::size_t i = 0; i < _slaves.size(); ++i)
   {
-    const auto kept = keep(x, i);
+    const auto kept = keep(x, i, reach);
     if (kept)
       set(i, kept, x);
     if (kept or _returns[i] >= max_returns)
@@ -120,9 +121,13 @@ std::int32_t Pairing::update(std::span<const double> x, double reach,
       continue;
     if (!same and closed[i])
     {
-      ++changed;
       if (now == _left[i] and ++_returns[i] >= max_returns)
+      {
+        if (const auto frozen = keep(x, i, reach))
+          set(i, frozen, x);
         continue;
+      }
+      ++changed;
       _left[i] = _facet[i];
     }
     set(i, q, x);

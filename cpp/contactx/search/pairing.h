@@ -75,8 +75,8 @@ private:
   std::optional<Projection> find(std::span<const double> x,
                                  std::span<const double> normals,
                                  std::int32_t slave, double reach) const;
-  std::optional<Projection> keep(std::span<const double> x,
-                                 std::size_t i) const;
+  std::optional<Projection> keep(std::span<const double> x, std::size_t i,
+                                 double reach) const;
   void set(std::size_t i, const std::optional<Projection>& q,
            std::span<const double> x);
 

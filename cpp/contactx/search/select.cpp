@@ -81,22 +81,25 @@ contactx::search::nearest_facet(const Surface& surface, const BoxTree& tree,
                                 const Vec<3>& normal, double reach)
 {
   std::optional<Projection> best;
-  double bound2 = reach * reach;
+  double best2 = reach * reach, bound2 = best2;
   const bool any = dot(normal, normal) == 0;
-  tree.nearest(p, bound2,
-               [&best, &bound2, &surface, &p, &normal, x, any](std::int32_t f)
-               {
-                 const auto q = closest(surface, f, x, p);
-                 if (!q or (!any and dot(q->normal, normal) >= 0))
-                   return;
-                 const double d2 = dot(q->d, q->d);
-                 if (d2 < bound2
-                     or (d2 == bound2 and (!best or f < best->facet)))
-                 {
-                   best = q;
-                   bound2 = d2;
-                 }
-               });
+  tree.nearest(
+      p, bound2,
+      [&best, &best2, &bound2, &surface, &p, &normal, x, any](std::int32_t f)
+      {
+        const auto q = closest(surface, f, x, p);
+        if (!q or (!any and dot(q->normal, normal) >= 0))
+          return;
+        const double d2 = dot(q->d, q->d);
+        if (d2 < best2 or (d2 == best2 and (!best or f < best->facet)))
+        {
+          best = q;
+          best2 = d2;
+          // Wider, so that rounding in a box's distance hides no tie
+          bound2 = std::min(bound2, (1 + 1e-6) * d2
+                                        + 1e-28 * q->size * q->size);
+        }
+      });
   return best;
 }
 

@@ -49,14 +49,13 @@ Vec<F::gdim> unpad(const Vec<3>& a)
 
 template <class F>
 std::optional<Projection> make(std::int32_t f, const facet::Nodes<F>& x,
-                               const Vec<F::gdim>& p, int feature,
+                               const Vec<F::gdim>& d, int feature,
                                const facet::Local<F>& xi)
 {
   const auto fr = facet::frame<F>(x, xi);
   const double size = facet::diameter<F>(x);
   if (!(fr.jacobian > degenerate * (F::gdim == 2 ? size : size * size)))
     return std::nullopt;
-  const auto d = p - facet::combine<F>(F::shape(xi), x);
   Projection q{f,   feature, {}, pad(d), pad(fr.n), dot(fr.n, d), F::excess(xi),
                size};
   std::copy(xi.begin(), xi.end(), q.xi.begin());
@@ -172,12 +171,14 @@ std::optional<Projection> contactx::search::closest(const Surface& surface,
 {
   const auto nodes = surface.facets()[f];
   return facet::visit(nodes.size(),
-                      [=]<class F>(F)
+                      [=]<class F>(F) -> std::optional<Projection>
                       {
                         const auto xf = facet::gather<F>(nodes, x);
                         const auto q = unpad<F>(p);
                         const auto c = facet::closest_point<F>(xf, q);
-                        return make<F>(f, xf, q, c.feature, c.xi);
+                        if (!std::isfinite(c.distance2))
+                          return std::nullopt;
+                        return make<F>(f, xf, c.d, c.feature, c.xi);
                       });
 }
 
@@ -195,6 +196,7 @@ std::optional<Projection> contactx::search::extended(const Surface& surface,
                         facet::Local<F> xi = facet::projection_start<F>(xf, q);
                         if (!facet::project<F>(xf, q, xi))
                           return std::nullopt;
-                        return make<F>(f, xf, q, facet::interior, xi);
+                        const auto foot = facet::combine<F>(F::shape(xi), xf);
+                        return make<F>(f, xf, q - foot, facet::interior, xi);
                       });
 }

@@ -1,0 +1,31 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""The demos run, print what they should and leave their pictures."""
+
+import hertz_cylinder
+import hertz_sphere
+import numpy as np
+import pytest
+import pyvista
+from matplotlib import image
+
+
+@pytest.mark.parametrize(
+    ("demo", "h", "tolerances"),
+    [(hertz_sphere, "0.04", (1e-10, 0.05, 0.2)), (hertz_cylinder, "0.01", (2e-3, 0.05, 0.03))],
+    ids=["sphere", "cylinder"],
+)
+@pytest.mark.parametrize("sliding", ["finite", "small"])
+def test_demo(demo, h, tolerances, sliding, tmp_path, capsys):
+    results = demo.main(["--h", h, "--sliding", sliding, "--output", str(tmp_path)])
+    for result, tolerance in zip(results, tolerances, strict=True):
+        assert abs(result.error) <= tolerance, result
+    printed = capsys.readouterr().out
+    for text in ("expected", "computed", "error", "converged after", "see "):
+        assert text in printed
+    name = demo.__name__
+    for picture in (f"{name}.png", f"{name}_pressure.png"):
+        pixels = image.imread(tmp_path / picture)
+        assert pixels.shape[0] > 300
+        assert len(np.unique(pixels.reshape(-1, pixels.shape[-1]), axis=0)) > 100
+    assert "pressure" in pyvista.get_reader(str(tmp_path / f"{name}.pvd")).read()[0].point_data

@@ -1,0 +1,100 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+import numpy as np
+import pytest
+from scenes import Blocks
+
+import contactx as cx
+from contactx.meshes import Tag
+from dolfinx.mesh import CellType
+
+
+@pytest.fixture(scope="module")
+def scene():
+    return Blocks(CellType.tetrahedron)
+
+
+def surface(scene, *tags):
+    return cx.Surface(scene.tags, *tags)
+
+
+def test_slave_and_master_with_common_facets(scene):
+    both = surface(scene, Tag.UPPER_CONTACT, Tag.LOWER_CONTACT)
+    with pytest.raises(ValueError, match=r"slave and master overlap: .* facets in common"):
+        cx.Contact(both, surface(scene, Tag.LOWER_CONTACT))
+
+
+def test_slave_and_master_with_common_nodes(scene):
+    contact = cx.Contact(surface(scene, Tag.UPPER_CONTACT), surface(scene, Tag.UPPER_X0))
+    with pytest.raises(ValueError, match=r"slave and master overlap: .* share 3 nodes"):
+        scene.problem(contact)
+
+
+def test_something_else_than_a_surface(scene):
+    with pytest.raises(TypeError, match=r"master must be a contactx.Surface, not int"):
+        cx.Contact(surface(scene, Tag.UPPER_CONTACT), 21)
+
+
+def test_unknown_sliding(scene):
+    with pytest.raises(ValueError, match='sliding must be "finite" or "small", not \'large\''):
+        cx.Contact(
+            surface(scene, Tag.UPPER_CONTACT), surface(scene, Tag.LOWER_CONTACT), sliding="large"
+        )
+
+
+@pytest.mark.parametrize("name", ["pressure", "force", "multiplier", "forms", "gap"])
+def test_results_before_there_are_any(scene, name):
+    with pytest.raises(RuntimeError, match="has no results yet: pass it to a ContactProblem first"):
+        getattr(scene.contact(), name)
+
+
+def test_one_problem_a_contact():
+    scene = Blocks(CellType.triangle)
+    contact = scene.contact()
+    scene.problem(contact)
+    with pytest.raises(RuntimeError, match="belongs to a ContactProblem already"):
+        scene.problem(contact)
+
+
+@pytest.mark.parametrize("cell", [CellType.triangle, CellType.hexahedron], ids=lambda c: c.name)
+def test_fields(cell):
+    scene = Blocks(cell)
+    contact = scene.contact()
+    problem = scene.problem(contact)
+    assert problem.solve() is scene.u
+    V = scene.u.function_space
+    gdim = V.mesh.geometry.dim
+    X = V.tabulate_dof_coordinates()
+    Q = contact.pressure.function_space
+    nodes = [
+        np.argmin(np.linalg.norm(Q.tabulate_dof_coordinates() - X[s], axis=1))
+        for s in contact.slave_nodes
+    ]
+    # Two nodes of different bodies may be at one place: tell them apart by the status
+    on_slave = np.flatnonzero(contact.status.x.array >= 0)
+    assert len(on_slave) == len(nodes)
+    assert np.allclose(
+        np.sort(Q.tabulate_dof_coordinates()[on_slave, 0]), np.sort(X[contact.slave_nodes, 0])
+    )
+    off = np.setdiff1d(np.arange(len(Q.tabulate_dof_coordinates())), on_slave)
+    assert not contact.pressure.x.array[off].any()
+    assert np.all(np.isnan(contact.gap.x.array[off]))
+    assert np.sort(contact.pressure.x.array[on_slave]) == pytest.approx(np.sort(contact.multiplier))
+    closed = contact.status.x.array == 2
+    assert np.all((contact.pressure.x.array > 0) == closed)
+    assert np.abs(contact.gap.x.array[closed]).max() <= 1e-12
+    traction = contact.traction.x.array.reshape(-1, gdim)
+    assert np.linalg.norm(traction[contact.slave_nodes], axis=1) == pytest.approx(
+        contact.multiplier, abs=1e-15
+    )
+    total = (traction[contact.slave_nodes] * contact.area[:, None]).sum(axis=0)
+    assert contact.force == pytest.approx(total, abs=1e-14)
+    assert contact.force[-1] > 0
+    assert contact.area.sum() == pytest.approx(1, rel=1e-13)
+
+
+def test_repr(scene):
+    assert repr(scene.contact()) == (
+        "Contact(slave=Surface(tags=(11,), 8 facets), master=Surface(tags=(21,), 18 facets), "
+        "sliding='finite')"
+    )

@@ -1,0 +1,62 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""The common Hertz problem: an elastic sphere on an elastic block, linear tetrahedra.
+
+Two independent codes with exact node-to-surface multipliers give the total forces below.
+"""
+
+import hertz_sphere
+import numpy as np
+import pytest
+
+from contactx import reference
+
+FORCES = {
+    ("finite", 0.04): 0.0024350,
+    ("finite", 0.02): 0.0023729,
+    ("finite", 0.01): 0.0023524,
+    ("small", 0.04): 0.0024371,
+    ("small", 0.02): 0.0023736,
+    ("small", 0.01): 0.0023530,
+}
+PRESSURE_ERRORS = {0.04: 0.17, 0.02: 0.13, 0.01: 0.07}
+
+
+def pressure_error(problem, contact, force):
+    """Relative L2 error of the nodal pressure within 1.3 contact radii, weighted by area."""
+    E, nu = hertz_sphere.E, hertz_sphere.NU
+    hertz = reference.HertzSphere(
+        force=force, radius=1.0, modulus=reference.contact_modulus(E, nu, E, nu)
+    )
+    x = problem.u.function_space.tabulate_dof_coordinates()[contact.slave_nodes]
+    r = np.hypot(x[:, 0], x[:, 1])
+    near = r <= 1.3 * hertz.contact_radius
+    w, exact = contact.area[near], hertz.pressure(r[near])
+    return np.sqrt(w @ (contact.multiplier[near] - exact) ** 2 / (w @ exact**2))
+
+
+@pytest.mark.parametrize(("sliding", "h"), FORCES)
+def test_sphere(sliding, h):
+    problem, contact, F = hertz_sphere.create(h, sliding)
+    problem.solve()
+    report = problem.report
+    force = hertz_sphere.reaction(problem, F)
+    error = pressure_error(problem, contact, force)
+    print(
+        f"{sliding} h={h}: 4F {force:.7f}, {report.iterations} iterations, p_l2 {error:.4f}, "
+        f"gap {np.nanmin(contact.interface.gap):.1e}"
+    )
+    assert force == pytest.approx(FORCES[sliding, h], rel=3e-4)
+    assert 4 * contact.force[2] == pytest.approx(force, rel=1e-10)
+    assert np.nanmin(contact.interface.gap) > -1e-12
+    assert report.iterations <= 10
+    assert error <= PRESSURE_ERRORS[h]
+    assert report.history[-1].pair_changes == 0
+    assert report.frozen == 0
+    assert contact.multiplier.min() >= 0
+    assert np.linalg.norm(report.imbalance) <= 1e-13 * np.linalg.norm(contact.force)
+    # A linear bulk is assembled once, however many iterations there are
+    assert problem._bulk.assemblies == 1
+    # Starting from the solution there is nothing to do
+    problem.solve()
+    assert problem.report.iterations == 0
