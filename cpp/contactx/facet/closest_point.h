@@ -19,9 +19,6 @@ struct ClosestPoint
 };
 
 /// @brief Newton step towards the projection of a point, exact on flat facets.
-///
-/// The second tangent is made orthogonal to the first: the determinant of the
-/// metric would lose the digits of a sliver.
 /// @param[in] x Node coordinates.
 /// @param[in] xi Local coordinates.
 /// @param[in] d Vector from the facet's point at xi to the point to project.
@@ -30,25 +27,28 @@ Local<F> projection_step(const Nodes<F>& x, const Local<F>& xi,
                          const Vec<F::gdim>& d)
 {
   const auto t = tangents<F>(x, xi);
-  const double m = dot(t[0], t[0]);
   if constexpr (F::tdim == 1)
-    return {dot(d, t[0]) / m};
-  else
+    return {dot(d, t[0]) / dot(t[0], t[0])};
+  else if constexpr (F::flat)
   {
+    // The second tangent is made orthogonal to the first: the determinant of
+    // the metric would lose a sliver's digits
+    const double m = dot(t[0], t[0]);
     const double s = dot(t[0], t[1]) / m;
     const Vec<F::gdim> u = t[1] - s * t[0];
-    Vec<3> H{m, 0, dot(u, u)};
-    if constexpr (!F::flat)
-    {
-      // Far from the facet the Hessian of the squared distance is not
-      // positive; the metric alone still gives a descent direction
-      const double k = dot(d, combine<F>(F::mixed_derivative, x));
-      const double h = H[2] + 2 * s * k;
-      if (m * h - k * k > 0.1 * m * H[2])
-        H = {m, -k, h};
-    }
-    const Vec<2> y = solve(H, Vec<2>{dot(d, t[0]), dot(d, u)});
-    return {y[0] - s * y[1], y[1]};
+    const double y = dot(d, u) / dot(u, u);
+    return {dot(d, t[0]) / m - s * y, y};
+  }
+  else
+  {
+    // Far from the facet the Hessian of the squared distance is not
+    // positive; the metric alone still gives a descent direction
+    Vec<3> H = metric(t);
+    const double k = dot(d, combine<F>(F::mixed_derivative, x));
+    const double h = H[1] - k;
+    if (H[0] * H[2] - h * h > 0.1 * (H[0] * H[2] - H[1] * H[1]))
+      H[1] = h;
+    return solve(H, Vec<2>{dot(d, t[0]), dot(d, t[1])});
   }
 }
 
