@@ -99,7 +99,8 @@ def random_pair(num_nodes: int, kind: str, rng: np.random.Generator) -> Pair:
     slave = centre + 0.2 * rng.standard_normal(gdim)
     if kind == "interior":
         slave = _on_facet(x, xi) + 0.1 * rng.standard_normal() * _normal(x, xi)
-    data = np.array([feature, *xi, *np.zeros(3 - gdim), *cone])
+    normal = [*_unit(rng, gdim), *np.zeros(3 - gdim)]
+    data = np.array([feature, *xi, *np.zeros(3 - gdim), *cone, *normal])
     displacement = 0.05 * rng.standard_normal((num_nodes + 1, gdim))
     current = np.vstack([slave, x])
     return Pair(displacement, current - displacement, data)

@@ -48,7 +48,15 @@ void contactx_bindings::search(py::module_& m)
           "cone",
           [](const Pairing& self)
           {
-            return array(self.cone(), {py::ssize_t(self.cone().size() / 3), 3});
+            const auto& c = self.cone();
+            return array(c, {py::ssize_t(c.size() / 3), 3});
+          })
+      .def_property_readonly(
+          "normal",
+          [](const Pairing& self)
+          {
+            const auto& n = self.normal();
+            return array(n, {py::ssize_t(n.size() / 3), 3});
           })
       .def(
           "frozen", [](const Pairing& self) { return array(self.frozen()); },

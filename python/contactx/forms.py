@@ -25,8 +25,8 @@ class Pairs:
         slaves: Slave nodes, by their number in the contact, shape (num_pairs,).
         nodes: The slave node and the facet's nodes, numbered as the blocks of the
             displacement's dofmap, shape (num_pairs, 1 + num_nodes).
-        data: Feature, local coordinates and components of a ridge's normal as the kernels read
-            them, shape (num_pairs, 6).
+        data: Feature, local coordinates, components of a ridge's normal and unit normal as the
+            kernels read them, shape (num_pairs, 9).
     """
 
     slaves: npt.NDArray[np.int32]

@@ -61,6 +61,7 @@ class Interface:
         self._comm = V.mesh.comm
         self._gdim = V.mesh.geometry.dim
         self._sliding = sliding
+        self._held = sliding == "small"
         self._u = u
         self._bulk_map = V.dofmap.index_map
         slave_facets, master_facets = slave.facet_nodes(V), master.facet_nodes(V)
@@ -101,8 +102,8 @@ class Interface:
         self._facet = np.full(n, -1, dtype=np.int32)
         self._feature = np.zeros(n, dtype=np.int32)
         self.reach = _default_reach(X.array.reshape(-1, self._gdim), slave_facets, master_facets)
-        if sliding == "small":
-            self._search(X.array)
+        self._pairing.update(X.array, self.reach, self.status)
+        self._make_forms()
 
     @property
     def num_pairs(self) -> int:
@@ -120,38 +121,57 @@ class Interface:
         return x
 
     def begin_step(self) -> None:
-        """Start a step: what was frozen may move again."""
+        """Start a step: what was frozen or held may move again."""
         self._pairing.begin_step()
+        self.hold(False)
 
     def search(self) -> int:
-        """Pair the slave nodes in the current configuration; small sliding keeps its pairs.
+        """Pair the slave nodes in the current configuration, unless pairs are held.
 
         Returns:
             Number of nodes in contact whose facet has changed.
         """
-        return 0 if self._sliding == "small" else self._search(self.positions())
-
-    def _search(self, x: npt.NDArray[np.float64]) -> int:
+        if self._held:
+            return 0
         closed = (self.status != core.OPEN).astype(np.int8)
-        changed = self._pairing.update(x, self.reach, closed)
-        facet, feature = self._pairing.facet, self._pairing.feature
-        same = np.array_equal(facet, self._facet) and np.array_equal(feature, self._feature)
-        self._facet, self._feature = facet, feature
-        if same and self.forms:
+        changed = self._pairing.update(self.positions(), self.reach, closed)
+        same = np.array_equal(self._pairing.facet, self._facet) and np.array_equal(
+            self._pairing.feature, self._feature
+        )
+        if same:
             for form, pairs in zip(self.forms, self._pairs(), strict=True):
                 form.update(pairs)
         else:
-            self.forms = [
-                ContactForms(
-                    self._comm, self._sliding, pairs, self.state, self._bulk_map, self._slave_map
-                )
-                for pairs in self._pairs()
-            ]
+            self._make_forms()
         return changed
+
+    def hold(self, held: bool) -> None:
+        """Hold the pairs of finite sliding with their normals and projections, or release them.
+
+        Held pairs make the contact conditions linear. Small sliding always holds its pairs.
+
+        Args:
+            held: Whether to hold them.
+        """
+        if self._sliding == "finite" and held != self._held:
+            self._held = held
+            self._make_forms()
+
+    def _make_forms(self) -> None:
+        """Make the forms of the current pairs."""
+        self._facet, self._feature = self._pairing.facet, self._pairing.feature
+        kinematics = "small" if self._held else "finite"
+        self.forms = [
+            ContactForms(
+                self._comm, kinematics, pairs, self.state, self._bulk_map, self._slave_map
+            )
+            for pairs in self._pairs()
+        ]
 
     def _pairs(self) -> list[Pairs]:
         """Pairs by the number of nodes of their facets."""
-        data = np.column_stack([self._feature, self._pairing.xi, self._pairing.cone])
+        found = self._pairing
+        data = np.column_stack([found.feature, found.xi, found.cone, found.normal])
         sizes = np.diff(self._master.offsets)[self._facet]
         groups = []
         for size in np.unique(sizes[self._facet >= 0]):
@@ -162,6 +182,25 @@ class Interface:
             groups.append(Pairs(slaves, nodes, data[slaves]))
         return groups
 
+    def set_factor(self, stiffness: npt.NDArray[np.float64]) -> None:
+        """Set the factor c of the gap: the stiffness of a pair over the slave node's area.
+
+        Slave node and master facet are springs in series: where one is much stiffer than the
+        other, the softer one decides how fast a gap closes. Any c > 0 has the same solution.
+
+        Args:
+            stiffness: Stiffness of each node of the bulk, NaN where it cannot move.
+        """
+        compliance = np.nan_to_num(1 / stiffness)
+        total = compliance[self.slaves]
+        master = np.full(len(total), np.median(compliance[self._master.nodes]))
+        for pairs in self._pairs():
+            master[pairs.slaves] = compliance[pairs.nodes[:, 1:]].mean(axis=1)
+        total = (total + master) * self.state.area.array
+        usable = np.isfinite(total) & (total > 0)
+        self.c[:] = 1 / np.median(total[usable]) if usable.any() else 1.0
+        self.c[usable] = 1 / total[usable]
+
     def update_gap(self) -> None:
         """First pass: assemble the gap of each slave node."""
         self.gap[:] = 0
@@ -170,17 +209,20 @@ class Interface:
         self.gap[self._facet < 0] = np.nan
 
     def update_status(self) -> int:
-        """Set each slave node's status from its pressure and gap; an open node has no pressure.
-
-        The pressures of an iterate whose active set is far too large are wild, and the stiffness
-        that they would give to nodes that have just opened throws the next iterate off.
+        """Set each slave node's status from its pressure and gap.
 
         Returns:
             Number of nodes that changed.
         """
-        changed = core.normal_status(self.state.multiplier.array, self.gap, self.c, self.status)
+        return core.normal_status(self.state.multiplier.array, self.gap, self.c, self.status)
+
+    def drop_open_pressures(self) -> None:
+        """Take the pressure off open nodes.
+
+        The pressures of an iterate whose active set is far too large are wild, and the stiffness
+        that they would give to nodes that have just opened throws the next iterate off.
+        """
         self.state.multiplier.array[self.status == core.OPEN] = 0
-        return changed
 
     def evaluate_law(self) -> None:
         """Second pass: the complementarity function and its derivatives."""
@@ -219,13 +261,8 @@ class Interface:
         self.state.multiplier.array[:] = checkpoint.multiplier
         self.status[:] = checkpoint.status
         self.gap[:] = checkpoint.gap
-        self._facet, self._feature = self._pairing.facet, self._pairing.feature
-        self.forms = [
-            ContactForms(
-                self._comm, self._sliding, pairs, self.state, self._bulk_map, self._slave_map
-            )
-            for pairs in self._pairs()
-        ]
+        self._held = self._sliding == "small"
+        self._make_forms()
 
     def distance(self) -> float:
         """Distance from the nearest slave node to the master, now."""

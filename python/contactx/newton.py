@@ -19,6 +19,9 @@ from contactx.interface import Interface
 from contactx.report import Iteration, Report
 from contactx.system import SaddlePointSystem
 
+# Share of the closed nodes that may change their status or facet before the pairs are held
+_FEW = 0.2
+
 _REASONS = {
     PETSc.SNES.ConvergedReason.CONVERGED_FNORM_ABS: "the residual is below the tolerance",
     PETSc.SNES.ConvergedReason.DIVERGED_MAX_IT: "no convergence in snes_max_it iterations",
@@ -66,7 +69,8 @@ class NewtonLoop:
         self._A: PETSc.Mat | None = None
         self._A_is_current = False
         self._report = Report()
-        self._first_residual = 0.0
+        self._least_scale = 0.0
+        self._held = False
         self._stiffness = np.zeros(0)
         self.snes = PETSc.SNES().create(system.x.comm)
         self.snes.setOptionsPrefix(prefix)
@@ -83,12 +87,15 @@ class NewtonLoop:
         self._system.forget()
         self._system.renew()
         self.snes.setFunction(self._function, self._system.b)
+        self._held = False
         for interface in self._interfaces:
             interface.begin_step()
         with self._petsc_options():
             self.snes.setFromOptions()
             with report.timing("bulk stiffness"):
-                self._set_complementarity_factor()
+                self._stiffness = self._bulk.nodal_stiffness()
+            for interface in self._interfaces:
+                interface.set_factor(self._stiffness)
             self._settle()
             self._system.gather()
             self._A = None
@@ -111,16 +118,6 @@ class NewtonLoop:
         finally:
             for name in self._options:
                 del database[name]
-
-    def _set_complementarity_factor(self) -> None:
-        """Factor c of each contact: the stiffness of a slave node over its area."""
-        self._stiffness = np.nan_to_num(stiffness := self._bulk.nodal_stiffness())
-        for interface in self._interfaces:
-            area = interface.state.area.array
-            k = stiffness[interface.slaves]
-            usable = np.isfinite(k) & (k > 0) & (area > 0)
-            typical = np.median(k[usable] / area[usable]) if usable.any() else 1.0
-            interface.c[:] = np.divide(k, area, out=np.full(len(k), typical), where=usable)
 
     def _function(self, snes: PETSc.SNES, x: PETSc.Vec, b: PETSc.Vec) -> None:
         with self._report.timing("residual"):
@@ -146,9 +143,26 @@ class NewtonLoop:
     def _settle(self) -> tuple[int, int]:
         """Renew pairs and status at an accepted iterate.
 
+        While many nodes change, the pressures belong to an active set that is far off, and so
+        does the deformation: pairs found on it, and the stiffness that its normals have, lead
+        astray. So they are held as they are, which makes the contact conditions linear, and the
+        active set finds its way as surely as in small sliding. Once few nodes change they follow.
+
         Returns:
             Number of nodes that changed their status, and of those that changed their facet.
         """
+        status, pairs = self._renew()
+        if self._held and not self._many(status):
+            self._hold(False)
+            more, pairs = self._renew()
+            status += more
+        self._hold(self._many(status + pairs))
+        for interface in self._interfaces:
+            interface.drop_open_pressures()
+            interface.evaluate_law()
+        return status, pairs
+
+    def _renew(self) -> tuple[int, int]:
         status = pairs = 0
         with self._report.timing("search"):
             for interface in self._interfaces:
@@ -156,8 +170,18 @@ class NewtonLoop:
         for interface in self._interfaces:
             interface.update_gap()
             status += interface.update_status()
-            interface.evaluate_law()
         return status, pairs
+
+    def _many(self, changes: int) -> bool:
+        return changes > max(1, _FEW * self._num_closed())
+
+    def _num_closed(self) -> int:
+        return sum(int(np.count_nonzero(i.status != core.OPEN)) for i in self._interfaces)
+
+    def _hold(self, held: bool) -> None:
+        self._held = held
+        for interface in self._interfaces:
+            interface.hold(held)
 
     def _test(
         self, snes: PETSc.SNES, number: int, norms: tuple[float, float, float]
@@ -174,7 +198,8 @@ class NewtonLoop:
         if not np.isfinite(row.residual):
             return reason.DIVERGED_FUNCTION_NANORINF
         size = np.abs(self._bulk.u.x.array).max(initial=0.0)
-        if row.residual <= row.tolerance and row.dirichlet_defect <= 1e-10 * size:
+        small = row.residual <= row.tolerance and row.dirichlet_defect <= 1e-10 * size
+        if small and not self._held:
             return reason.CONVERGED_FNORM_ABS
         self._provide_matrix()
         return reason.CONVERGED_ITERATING
@@ -189,20 +214,24 @@ class NewtonLoop:
         prescribed = self._bulk.markers == 1
         rows = [force[~prescribed], *constraints]
         residual = float(np.sqrt(sum(np.dot(r, r) for r in rows)))
-        if number == 0:
-            self._first_residual = residual
         forces = [self._system.bulk_residual()[prescribed]]
         for interface in self._interfaces:
             forces.append(interface.state.area.array * interface.state.multiplier.array)
-        scale = max(self._first_residual, *(float(np.linalg.norm(f)) for f in forces))
+        scale = max(float(np.linalg.norm(f)) for f in forces)
+        if number == 0:
+            # Unloading ends without forces. What the first change of the Dirichlet values asks
+            # for says little: a stiff body that moves as a whole asks for much and gets nothing
+            self._least_scale = max(scale, 1e-6 * residual)
+        scale = max(scale, self._least_scale)
         rtol, atol, _, _ = self.snes.getTolerances()
         return Iteration(
             number=number,
             residual=residual,
             tolerance=max(rtol * scale, atol, min(self._rounding(), 1e-6 * scale)),
-            closed=sum(int(np.count_nonzero(i.status != core.OPEN)) for i in self._interfaces),
+            closed=self._num_closed(),
             status_changes=status,
             pair_changes=pairs,
+            held=self._held,
             dirichlet_defect=float(np.abs(force[prescribed]).max(initial=0.0)),
         )
 
@@ -214,7 +243,7 @@ class NewtonLoop:
         """
         block = self._bulk.u.function_space.dofmap.index_map_bs
         u = np.linalg.norm(self._bulk.u.x.array.reshape(-1, block), axis=1)
-        terms = [self._stiffness * u]
+        terms = [np.nan_to_num(self._stiffness) * u]
         for interface in self._interfaces:
             x = np.abs(interface.positions()).max(initial=0.0)
             terms.append(interface.state.gap_derivative.array * x)

@@ -27,6 +27,7 @@ class Iteration:
         closed: Slave nodes in contact.
         status_changes: Slave nodes that opened or closed.
         pair_changes: Slave nodes in contact that changed their facet.
+        held: Whether the pairs of finite sliding were held because many nodes had changed.
         dirichlet_defect: Largest difference from a Dirichlet value.
     """
 
@@ -36,6 +37,7 @@ class Iteration:
     closed: int
     status_changes: int
     pair_changes: int
+    held: bool
     dirichlet_defect: float
 
 
@@ -94,7 +96,7 @@ class Report:
                 f"{row.tolerance:.1e}",
                 str(row.closed),
                 str(row.status_changes),
-                str(row.pair_changes),
+                str(row.pair_changes) + (" held" if row.held else ""),
                 f"{row.dirichlet_defect:.1e}",
             )
         return _render(table)

@@ -18,37 +18,24 @@ struct ClosestPoint
   Vec<F::gdim> d;   ///< vector from the closest point to the given one
 };
 
-/// @brief Newton step towards the projection of a point, exact on flat facets.
-/// @param[in] x Node coordinates.
-/// @param[in] xi Local coordinates.
-/// @param[in] d Vector from the facet's point at xi to the point to project.
-template <class F>
-Local<F> projection_step(const Nodes<F>& x, const Local<F>& xi,
-                         const Vec<F::gdim>& d)
+/// @brief Components of the projection of `d` on the plane of the tangents.
+///
+/// The second tangent is made orthogonal to the first: the determinant of the
+/// metric would lose a sliver's digits.
+template <std::size_t D, std::size_t N>
+std::array<double, N> tangential(const std::array<std::array<double, D>, N>& t,
+                                 const std::array<double, D>& d)
 {
-  const auto t = tangents<F>(x, xi);
-  if constexpr (F::tdim == 1)
-    return {dot(d, t[0]) / dot(t[0], t[0])};
-  else if constexpr (F::flat)
-  {
-    // The second tangent is made orthogonal to the first: the determinant of
-    // the metric would lose a sliver's digits
-    const double m = dot(t[0], t[0]);
-    const double s = dot(t[0], t[1]) / m;
-    const Vec<F::gdim> u = t[1] - s * t[0];
-    const double y = dot(d, u) / dot(u, u);
-    return {dot(d, t[0]) / m - s * y, y};
-  }
+  const double m = dot(t[0], t[0]);
+  const double r = dot(d, t[0]) / m;
+  if constexpr (N == 1)
+    return {r};
   else
   {
-    // Far from the facet the Hessian of the squared distance is not
-    // positive; the metric alone still gives a descent direction
-    Vec<3> H = metric(t);
-    const double k = dot(d, combine<F>(F::mixed_derivative, x));
-    const double h = H[1] - k;
-    if (H[0] * H[2] - h * h > 0.1 * (H[0] * H[2] - H[1] * H[1]))
-      H[1] = h;
-    return solve(H, Vec<2>{dot(d, t[0]), dot(d, t[1])});
+    const double s = dot(t[0], t[1]) / m;
+    const std::array<double, D> u = t[1] - s * t[0];
+    const double y = dot(d, u) / dot(u, u);
+    return {r - s * y, y};
   }
 }
 
@@ -72,8 +59,21 @@ bool project(const Nodes<F>& x, const Vec<F::gdim>& p, Local<F>& xi)
   double last = 0;
   for (int it = 0; it < max_iterations; ++it)
   {
-    const Local<F> step
-        = projection_step<F>(y, xi, q - combine<F>(F::shape(xi), y));
+    const auto t = tangents<F>(y, xi);
+    const Vec<F::gdim> d = q - combine<F>(F::shape(xi), y);
+    Local<F> step;
+    if constexpr (F::flat)
+      step = tangential(t, d);
+    else
+    {
+      // Far from the facet the Hessian of the squared distance is not
+      // positive; the metric alone still gives a descent direction
+      Vec<3> H = metric(t);
+      const double h = H[1] - dot(d, combine<F>(F::mixed_derivative, y));
+      if (H[0] * H[2] - h * h > 0.1 * (H[0] * H[2] - H[1] * H[1]))
+        H[1] = h;
+      step = solve(H, Local<F>{dot(d, t[0]), dot(d, t[1])});
+    }
     xi = xi + step;
     double size = 0;
     double scale = 1;

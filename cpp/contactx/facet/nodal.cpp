@@ -69,14 +69,14 @@ std::vector<double> contactx::facet::nodal_normals(const FacetList& facets,
 {
   std::vector<double> normal(x.size(), 0);
   std::vector<double> area(x.size() / gdim, 0);
-  for_each_part(facets, x,
-                [&normal, &area, gdim](std::int32_t node, double w,
-                                       const auto& n)
-                {
-                  area[node] += w;
-                  for (int k = 0; k < gdim; ++k)
-                    normal[node * gdim + k] += w * n[k];
-                });
+  for_each_part(
+      facets, x,
+      [&normal, &area, gdim](std::int32_t node, double w, const auto& n)
+      {
+        area[node] += w;
+        for (int k = 0; k < gdim; ++k)
+          normal[node * gdim + k] += w * n[k];
+      });
   for (std::size_t i = 0; i < area.size(); ++i)
   {
     const std::span n(normal.data() + i * gdim, gdim);

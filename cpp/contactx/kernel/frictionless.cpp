@@ -16,9 +16,8 @@ struct Finite
   using F = Facet;
   static constexpr std::string_view name = "finite";
 
-  explicit Finite(const double* w) : pair(w, 1), point(project(pair)) {}
+  explicit Finite(const double* w) : pair(w), point(project(pair)) {}
 
-  double gap() const { return point.gap; }
   Vec<Pair<F>::num_dofs> gap_derivative() const
   {
     return Variation<F>(pair, point).gap;
@@ -28,23 +27,16 @@ struct Finite
   ContactPoint<F> point;
 };
 
-/// Kinematics of small sliding: the pair and its normal are those of the
-/// reference configuration, the gap is linear in the displacement.
+/// Kinematics of small sliding: projection and normal are those of the search,
+/// the gap is linear in the displacement.
 template <class Facet>
 struct Small
 {
   using F = Facet;
   static constexpr std::string_view name = "small";
 
-  explicit Small(const double* w) : point(reference(w))
-  {
-    const double* u = w + offset(Coefficient::displacement, F::nodes, F::gdim);
-    for (int a = 0; a <= F::nodes; ++a)
-      for (int k = 0; k < F::gdim; ++k)
-        point.gap += point.normal[k] * point.weight[a] * u[F::gdim * a + k];
-  }
+  explicit Small(const double* w) : point(held(Pair<F>(w))) {}
 
-  double gap() const { return point.gap; }
   Vec<Pair<F>::num_dofs> gap_derivative() const
   {
     Vec<Pair<F>::num_dofs> dg;
@@ -57,10 +49,9 @@ struct Small
   ContactPoint<F> point;
 
 private:
-  static ContactPoint<F> reference(const double* w)
+  static ContactPoint<F> held(const Pair<F>& pair)
   {
-    const Pair<F> pair(w, 0);
-    return contact_point(pair, pair.xi);
+    return contact_point(pair, pair.xi, pair.normal);
   }
 };
 
@@ -75,7 +66,7 @@ template <class Kinematics>
 void gap(double* b, const double* w, const double*, const double*, const int*,
          const std::uint8_t*, void*)
 {
-  b[0] += Kinematics(w).gap();
+  b[0] += Kinematics(w).point.gap;
 }
 
 /// Forces -A p n weight on the nodes of the pair.

@@ -42,8 +42,13 @@ struct CoefficientInfo
   int size; ///< values a dof; 0 stands for the geometric dimension
 };
 
-/// Values a pair: feature, xi_1, xi_2 and the three components of the normal
-inline constexpr int pair_size = 6;
+/// Values a pair: feature, local coordinates, components of a ridge's normal in
+/// the frame of its facet, and the unit normal that the search found
+inline constexpr int pair_feature = 0;
+inline constexpr int pair_xi = 1;
+inline constexpr int pair_cone = 3;
+inline constexpr int pair_normal = 6;
+inline constexpr int pair_size = 9;
 
 /// @brief The coefficients in their order.
 inline constexpr std::array<CoefficientInfo, 6> coefficients{

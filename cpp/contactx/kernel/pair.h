@@ -20,27 +20,27 @@ struct Pair
   int feature;            ///< interior, edge or vertex
   facet::Local<F> xi;     ///< local coordinates that the search found
   Vec<3> cone;            ///< components of a ridge's normal
+  Vec<F::gdim> normal; ///< unit normal that the search found
 
   /// @brief Read a pair from the coefficients.
   /// @param[in] w Coefficients.
-  /// @param[in] scale Factor of the displacement: 1 for the current
-  /// configuration, 0 for the reference.
-  Pair(const double* w, double scale)
+  explicit Pair(const double* w)
   {
     const double* u = w + offset(Coefficient::displacement, F::nodes, F::gdim);
     const double* x = w + offset(Coefficient::position, F::nodes, F::gdim);
     const double* p = w + offset(Coefficient::pair, F::nodes, F::gdim);
     for (int k = 0; k < F::gdim; ++k)
-      slave[k] = x[k] + scale * u[k];
+      slave[k] = x[k] + u[k];
     for (int l = 0; l < F::nodes; ++l)
       for (int k = 0; k < F::gdim; ++k)
       {
         const int i = F::gdim * (l + 1) + k;
-        master[l][k] = x[i] + scale * u[i];
+        master[l][k] = x[i] + u[i];
       }
-    feature = static_cast<int>(p[0]);
-    std::copy_n(p + 1, F::tdim, xi.begin());
-    std::copy_n(p + 3, 3, cone.begin());
+    feature = static_cast<int>(p[pair_feature]);
+    std::copy_n(p + pair_xi, F::tdim, xi.begin());
+    std::copy_n(p + pair_cone, 3, cone.begin());
+    std::copy_n(p + pair_normal, F::gdim, normal.begin());
   }
 };
 
@@ -55,9 +55,9 @@ struct ContactPoint
   double gap;               ///< normal . d
 };
 
-/// @brief Unit normal of a pair at a point of its facet.
+/// @brief Unit normal of a pair at a point of its facet, now.
 template <class F>
-Vec<F::gdim> pair_normal(const Pair<F>& pair, const facet::Local<F>& xi)
+Vec<F::gdim> current_normal(const Pair<F>& pair, const facet::Local<F>& xi)
 {
   if (pair.feature == facet::interior)
     return facet::frame<F>(pair.master, xi).n;
@@ -69,9 +69,10 @@ Vec<F::gdim> pair_normal(const Pair<F>& pair, const facet::Local<F>& xi)
            + pair.cone[2] * axes[2];
 }
 
-/// @brief The contact point for given local coordinates.
+/// @brief The contact point for given local coordinates and normal.
 template <class F>
-ContactPoint<F> contact_point(const Pair<F>& pair, const facet::Local<F>& xi)
+ContactPoint<F> contact_point(const Pair<F>& pair, const facet::Local<F>& xi,
+                              const Vec<F::gdim>& normal)
 {
   ContactPoint<F> c;
   c.xi = xi;
@@ -79,7 +80,7 @@ ContactPoint<F> contact_point(const Pair<F>& pair, const facet::Local<F>& xi)
   c.weight[0] = 1;
   for (int l = 0; l < F::nodes; ++l)
     c.weight[l + 1] = -N[l];
-  c.normal = pair_normal(pair, xi);
+  c.normal = normal;
   c.d = pair.slave - facet::combine<F>(N, pair.master);
   c.gap = dot(c.normal, c.d);
   return c;
@@ -102,6 +103,6 @@ ContactPoint<F> project(const Pair<F>& pair)
   }
   else
     xi = F::vertices[pair.feature - 1 - F::num_edges];
-  return contact_point(pair, xi);
+  return contact_point(pair, xi, current_normal(pair, xi));
 }
 } // namespace contactx::kernel

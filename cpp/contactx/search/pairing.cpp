@@ -39,6 +39,7 @@ Pairing::Pairing(std::vector<std::int32_t> slave_offsets,
   _feature.assign(_slaves.size(), facet::interior);
   _xi.assign(2 * _slaves.size(), 0);
   _cone.assign(3 * _slaves.size(), 0);
+  _normal.assign(3 * _slaves.size(), 0);
   begin_step();
 }
 
@@ -92,6 +93,7 @@ void Pairing::set(std::size_t i, const std::optional<Projection>& q,
   if (!q)
     return;
   std::copy(q->xi.begin(), q->xi.end(), _xi.begin() + 2 * i);
+  std::copy(q->normal.begin(), q->normal.end(), _normal.begin() + 3 * i);
   Vec<3> c{};
   if (q->feature != facet::interior)
     c = cone_components(_master, x, *q);

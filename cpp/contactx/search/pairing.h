@@ -55,6 +55,9 @@ public:
   /// @brief Components of the ridge normals (shape=(num_slaves, 3)).
   const std::vector<double>& cone() const { return _cone; }
 
+  /// @brief Unit normals at the last search (shape=(num_slaves, 3)).
+  const std::vector<double>& normal() const { return _normal; }
+
   /// @brief Slave nodes whose pair is frozen, by their place in `slaves`.
   std::vector<std::int32_t> frozen() const;
 
@@ -84,7 +87,7 @@ private:
   Surface _master;
   std::optional<BoxTree> _tree;
   std::vector<std::int32_t> _facet, _feature;
-  std::vector<double> _xi, _cone;
+  std::vector<double> _xi, _cone, _normal;
   std::vector<std::int32_t> _left; // facet that a node left last
   std::vector<std::int8_t> _returns;
 };

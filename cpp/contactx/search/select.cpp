@@ -96,8 +96,8 @@ contactx::search::nearest_facet(const Surface& surface, const BoxTree& tree,
           best = q;
           best2 = d2;
           // Wider, so that rounding in a box's distance hides no tie
-          bound2 = std::min(bound2, (1 + 1e-6) * d2
-                                        + 1e-28 * q->size * q->size);
+          bound2
+              = std::min(bound2, (1 + 1e-6) * d2 + 1e-28 * q->size * q->size);
         }
       });
   return best;

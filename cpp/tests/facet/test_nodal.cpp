@@ -1,0 +1,177 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include "scene.h"
+#include <gtest/gtest.h>
+#include <numeric>
+
+using namespace contactx;
+using namespace contactx::facet;
+using namespace contactx::tests;
+
+namespace
+{
+double sum(const std::vector<double>& v)
+{
+  return std::accumulate(v.begin(), v.end(), 0.0);
+}
+
+std::vector<double> areas(const Scene& scene)
+{
+  return nodal_areas(scene.facets(), scene.x, scene.gdim);
+}
+
+Vec<3> normal(const Scene& scene, std::int32_t node)
+{
+  const auto n = nodal_normals(scene.facets(), scene.x, scene.gdim);
+  Vec<3> p{};
+  std::copy_n(n.begin() + node * scene.gdim, scene.gdim, p.begin());
+  return p;
+}
+
+/// Patch of the unit sphere around (1, 1, 1), outward.
+Scene sphere_patch(int n, Cells cells)
+{
+  return grid(n, cells,
+              [](double s, double t)
+              {
+                const Vec<3> p{s, t, 1};
+                return (1 / norm(p)) * p;
+              });
+}
+
+TEST(NodalAreas, OfAFlatSquareAddUpToItsArea)
+{
+  for (Cells cells : {Cells::triangles, Cells::quadrilaterals, Cells::mixed})
+    for (int n : {1, 2, 5})
+      EXPECT_NEAR(sum(areas(flat_grid(n, cells))), 1, 1e-14);
+}
+
+TEST(NodalAreas, AreTheIntegralsOfTheShapeFunctions)
+{
+  const auto a = areas(flat_grid(2, Cells::quadrilaterals));
+  EXPECT_DOUBLE_EQ(a[0], 1. / 16); // corner
+  EXPECT_DOUBLE_EQ(a[1], 2. / 16); // edge
+  EXPECT_DOUBLE_EQ(a[4], 4. / 16); // middle
+  Scene skew(3);
+  skew.facet({skew.node({0, 0, 0}), skew.node({3, 0, 0}), skew.node({0, 1, 0}),
+              skew.node({1, 1, 0})});
+  // Integrals of the bilinear functions over the trapezoid, by hand
+  const auto b = areas(skew);
+  EXPECT_DOUBLE_EQ(b[0], 7. / 12);
+  EXPECT_DOUBLE_EQ(b[1], 7. / 12);
+  EXPECT_DOUBLE_EQ(b[2], 5. / 12);
+  EXPECT_DOUBLE_EQ(b[3], 5. / 12);
+}
+
+TEST(NodalAreas, OfSegmentsAreLengths)
+{
+  Scene scene(2);
+  for (Vec<3> p : {Vec<3>{0, 0}, {3, 4}, {3, 5}, {9, 9}})
+    scene.node(p);
+  scene.facet({0, 1});
+  scene.facet({1, 2});
+  const std::vector<double> expected{2.5, 3, 0.5, 0}; // the last is not on it
+  EXPECT_EQ(areas(scene), expected);
+}
+
+TEST(NodalAreas, OfASphereConverge)
+{
+  // The patch seen through a square of a cube from its centre
+  const double exact = std::asin(0.5); // one of the corners' quarters: pi/6
+  for (Cells cells : {Cells::triangles, Cells::quadrilaterals, Cells::mixed})
+  {
+    const double coarse = std::abs(sum(areas(sphere_patch(8, cells))) - exact);
+    const double fine = std::abs(sum(areas(sphere_patch(16, cells))) - exact);
+    EXPECT_LT(fine, 2e-3);
+    EXPECT_NEAR(coarse / fine, 4, 0.1);
+  }
+}
+
+TEST(NodalAreas, ScaleWithTheSurface)
+{
+  Scene scene = sphere_patch(4, Cells::mixed);
+  const double area = sum(areas(scene));
+  for (double& c : scene.x)
+    c *= 0x1p-40;
+  EXPECT_DOUBLE_EQ(sum(areas(scene)), 0x1p-80 * area);
+}
+
+TEST(NodalAreas, OfFacetsWithoutAreaAreZero)
+{
+  Scene scene(3);
+  for (int i = 0; i < 4; ++i)
+    scene.node({double(i), double(i), 0});
+  scene.facet({0, 1, 2});
+  scene.facet({0, 1, 2, 3});
+  EXPECT_EQ(areas(scene), std::vector<double>(4, 0));
+  EXPECT_EQ(normal(scene, 1), Vec<3>{});
+}
+
+TEST(NodalNormals, OfAFlatSurfaceAreItsNormal)
+{
+  const Scene scene = flat_grid(3, Cells::mixed);
+  for (int i = 0; i < 16; ++i)
+    EXPECT_LT(norm(normal(scene, i) - Vec<3>{0, 0, 1}), 1e-15);
+}
+
+TEST(NodalNormals, PointOutOfASphere)
+{
+  double last = 1;
+  for (int n : {4, 8, 16})
+  {
+    const Scene scene = sphere_patch(n, Cells::mixed);
+    const int middle = n / 2 * (n + 1) + n / 2;
+    const double error = norm(normal(scene, middle) - scene.point(middle));
+    EXPECT_LT(error, 0.6 * last);
+    last = error;
+  }
+  EXPECT_LT(last, 0.02);
+}
+
+TEST(NodalNormals, AreWeightedByArea)
+{
+  Scene scene(2); // a corner of segments of length 3 and 4
+  scene.node({0, 0});
+  scene.node({3, 0});
+  scene.node({3, 4});
+  scene.node({7, 7});
+  scene.facet({0, 1});
+  scene.facet({1, 2});
+  EXPECT_LT(norm(normal(scene, 1) - Vec<3>{0.8, -0.6}), 1e-15);
+  EXPECT_EQ(normal(scene, 3), Vec<3>{}); // not on it
+}
+
+TEST(NodalNormals, PassOverFacetsWithoutArea)
+{
+  Scene scene = flat_grid(1, Cells::triangles);
+  scene.facet({0, 1, 1});
+  scene.facet({0, 2, 0, 2});
+  for (int i = 0; i < 4; ++i)
+    EXPECT_LT(norm(normal(scene, i) - Vec<3>{0, 0, 1}), 1e-15);
+}
+
+TEST(NodalNormals, OfATinySurfaceAreUnitVectors)
+{
+  Scene scene = sphere_patch(4, Cells::mixed);
+  for (double& c : scene.x)
+    c *= 1e-12;
+  for (int i = 0; i < 25; ++i)
+    EXPECT_NEAR(norm(normal(scene, i)), 1, 1e-14);
+}
+
+TEST(NodalNormals, ThatCancelAreZero)
+{
+  Scene scene(3); // both sides of a sheet that is turned somehow
+  Generator random(1);
+  const Motion<3> motion(random, 1);
+  for (Vec<3> p : {Vec<3>{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}})
+    scene.node(motion(p));
+  scene.facet({0, 1, 2});
+  scene.facet({1, 3, 2});
+  scene.facet({2, 1, 0});
+  scene.facet({3, 1, 2});
+  EXPECT_EQ(normal(scene, 0), Vec<3>{});
+  EXPECT_EQ(normal(scene, 3), Vec<3>{});
+}
+} // namespace

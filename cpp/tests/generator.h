@@ -1,0 +1,90 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#pragma once
+
+#include <contactx/vec.h>
+#include <random>
+
+/// @brief What several tests share: random input and slow references.
+namespace contactx::tests
+{
+/// @brief Uniform random numbers, the same in each run.
+class Generator
+{
+public:
+  explicit Generator(unsigned seed) : _engine(seed) {}
+
+  /// @brief A number between `a` and `b`.
+  double operator()(double a, double b)
+  {
+    return a + (b - a) * (_engine() / 4294967296.0);
+  }
+
+  /// @brief A vector with components between `a` and `b`.
+  template <int D>
+  Vec<D> vector(double a, double b)
+  {
+    Vec<D> v;
+    for (double& c : v)
+      c = (*this)(a, b);
+    return v;
+  }
+
+  /// @brief A vector of length one.
+  template <int D>
+  Vec<D> unit()
+  {
+    Vec<D> v = vector<D>(-1, 1);
+    while (norm(v) < 0.1)
+      v = vector<D>(-1, 1);
+    return (1 / norm(v)) * v;
+  }
+
+private:
+  std::mt19937 _engine;
+};
+
+/// @brief Rotation and translation.
+template <int D>
+struct Motion
+{
+  std::array<Vec<D>, D> rows; ///< of the rotation
+  Vec<D> shift;
+
+  /// @brief A random motion, translated by at most `distance` an axis.
+  Motion(Generator& random, double distance)
+      : shift(random.vector<D>(-distance, distance))
+  {
+    rows[0] = random.unit<D>();
+    if constexpr (D == 2)
+      rows[1] = {-rows[0][1], rows[0][0]};
+    else
+    {
+      Vec<3> b = random.unit<3>();
+      while (norm(cross(rows[0], b)) < 0.1)
+        b = random.unit<3>();
+      rows[1] = (1 / norm(cross(rows[0], b))) * cross(rows[0], b);
+      rows[2] = cross(rows[0], rows[1]);
+    }
+  }
+
+  Vec<D> rotate(const Vec<D>& v) const
+  {
+    Vec<D> y;
+    for (int k = 0; k < D; ++k)
+      y[k] = dot(rows[k], v);
+    return y;
+  }
+
+  Vec<D> operator()(const Vec<D>& p) const { return shift + rotate(p); }
+
+  template <std::size_t N>
+  std::array<Vec<D>, N> operator()(std::array<Vec<D>, N> x) const
+  {
+    for (auto& p : x)
+      p = (*this)(p);
+    return x;
+  }
+};
+} // namespace contactx::tests

@@ -1,0 +1,136 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include <array>
+#include <cmath>
+#include <contactx/law/normal.h>
+#include <gtest/gtest.h>
+
+using namespace contactx::law;
+
+namespace
+{
+/// Status of one node.
+std::int8_t status_of(double pressure, double gap, double c)
+{
+  const std::array p{pressure}, g{gap}, cs{c};
+  std::array<std::int8_t, 1> status{open};
+  normal_status({p, g, cs}, status);
+  return status[0];
+}
+
+/// Complementarity function of one node: value and its two derivatives.
+std::array<double, 3> function_of(double pressure, double gap, double c,
+                                  double area, std::int8_t status)
+{
+  const std::array p{pressure}, g{gap}, cs{c}, a{area};
+  const std::array s{status};
+  std::array<double, 1> value, d_pressure, d_gap;
+  normal_complementarity({p, g, cs}, a, s, value, d_pressure, d_gap);
+  return {value[0], d_pressure[0], d_gap[0]};
+}
+
+TEST(NormalStatus, IsClosedWhereThePressureExceedsTheGap)
+{
+  EXPECT_EQ(status_of(1, 0, 10), slip);
+  EXPECT_EQ(status_of(0, -0.1, 10), slip);
+  EXPECT_EQ(status_of(2, 0.1, 10), slip);
+  EXPECT_EQ(status_of(-0.5, -0.1, 10), slip);
+  EXPECT_EQ(status_of(-1, 0, 10), open);
+  EXPECT_EQ(status_of(0, 0.1, 10), open);
+  EXPECT_EQ(status_of(0.5, 0.1, 10), open);
+  EXPECT_EQ(status_of(-2, -0.1, 10), open);
+}
+
+TEST(NormalStatus, IsOpenOnTheBoundary)
+{
+  EXPECT_EQ(status_of(0, 0, 10), open);
+  EXPECT_EQ(status_of(2, 0.25, 8), open);
+  EXPECT_EQ(status_of(std::nextafter(2, 3), 0.25, 8), slip);
+}
+
+TEST(NormalStatus, IsOpenWithoutAPair)
+{
+  const double nan = std::nan("");
+  EXPECT_EQ(status_of(1, nan, 10), open);
+  EXPECT_EQ(status_of(nan, -1, 10), open);
+  EXPECT_EQ(status_of(nan, nan, 10), open);
+}
+
+TEST(NormalStatus, CountsTheNodesThatChange)
+{
+  const std::array p{1.0, 1.0, -1.0, -1.0, 1.0};
+  const std::array g{0.0, 0.0, 0.0, 0.0, std::nan("")};
+  const std::array c{1.0, 1.0, 1.0, 1.0, 1.0};
+  std::array<std::int8_t, 5> status{open, slip, open, slip, slip};
+  EXPECT_EQ(normal_status({p, g, c}, status), 3);
+  const std::array<std::int8_t, 5> expected{slip, slip, open, open, open};
+  EXPECT_EQ(status, expected);
+  EXPECT_EQ(normal_status({p, g, c}, status), 0);
+}
+
+TEST(NormalComplementarity, IsTheGapOnClosedNodes)
+{
+  for (std::int8_t status : {stick, slip})
+  {
+    const auto [value, d_pressure, d_gap] = function_of(3, -0.5, 10, 2, status);
+    EXPECT_EQ(value, 2 * 10 * -0.5);
+    EXPECT_EQ(d_pressure, 0);
+    EXPECT_EQ(d_gap, 20);
+  }
+}
+
+TEST(NormalComplementarity, IsThePressureOnOpenNodes)
+{
+  const auto [value, d_pressure, d_gap] = function_of(3, 0.5, 10, 2, open);
+  EXPECT_EQ(value, 2 * 3);
+  EXPECT_EQ(d_pressure, 2);
+  EXPECT_EQ(d_gap, 0);
+}
+
+TEST(NormalComplementarity, DoesNotReadTheGapOfANodeWithoutAPair)
+{
+  const auto [value, d_pressure, d_gap]
+      = function_of(3, std::nan(""), 10, 2, open);
+  EXPECT_EQ(value, 6);
+  EXPECT_EQ(d_pressure, 2);
+  EXPECT_EQ(d_gap, 0);
+}
+
+TEST(NormalComplementarity, HasItsDifferenceQuotientsAsDerivatives)
+{
+  const double h = 1. / 1024; // linear on each branch: any step is exact
+  for (std::int8_t status : {open, stick, slip})
+    for (double p : {-1.0, 0.0, 2.0})
+      for (double g : {-0.5, 0.0, 0.25})
+      {
+        const auto at = [status](double pressure, double gap)
+        { return function_of(pressure, gap, 8, 3, status); };
+        EXPECT_DOUBLE_EQ(at(p, g)[1],
+                         (at(p + h, g)[0] - at(p - h, g)[0]) / (2 * h));
+        EXPECT_DOUBLE_EQ(at(p, g)[2],
+                         (at(p, g + h)[0] - at(p, g - h)[0]) / (2 * h));
+      }
+}
+
+TEST(NormalComplementarity, TreatsEachNodeOnItsOwn)
+{
+  const std::array p{3.0, 4.0}, g{-1.0, 2.0}, c{10.0, 20.0}, a{0.5, 0.25};
+  const std::array<std::int8_t, 2> status{slip, open};
+  std::array<double, 2> value, d_pressure, d_gap;
+  normal_complementarity({p, g, c}, a, status, value, d_pressure, d_gap);
+  EXPECT_EQ(value, (std::array{-5.0, 1.0}));
+  EXPECT_EQ(d_pressure, (std::array{0.0, 0.25}));
+  EXPECT_EQ(d_gap, (std::array{5.0, 0.0}));
+}
+
+TEST(NormalComplementarity, VanishesWhereTheConditionsHold)
+{
+  for (double gap : {0.0, 0.5})
+  {
+    const double pressure = gap > 0 ? 0 : 2;
+    const std::int8_t status = status_of(pressure, gap, 10);
+    EXPECT_EQ(function_of(pressure, gap, 10, 2, status)[0], 0);
+  }
+}
+} // namespace

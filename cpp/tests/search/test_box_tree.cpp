@@ -1,0 +1,148 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include "generator.h"
+#include <contactx/search/box_tree.h>
+#include <gtest/gtest.h>
+#include <set>
+
+using namespace contactx;
+using namespace contactx::search;
+using namespace contactx::tests;
+
+namespace
+{
+std::vector<Box> random_boxes(Generator& random, int n)
+{
+  std::vector<Box> boxes(n, Box::empty());
+  for (Box& b : boxes)
+  {
+    const Vec<3> p = random.vector<3>(-1, 1);
+    b.add(p);
+    b.add(p + random.vector<3>(-0.1, 0.1));
+  }
+  return boxes;
+}
+
+/// The items that the tree visits for a bound that stays.
+std::multiset<std::int32_t> visited(const BoxTree& tree, const Vec<3>& p,
+                                    double bound2)
+{
+  std::multiset<std::int32_t> items;
+  tree.nearest(p, bound2, [&items](std::int32_t i) { items.insert(i); });
+  return items;
+}
+
+void expect_all_below(const BoxTree& tree, std::span<const Box> boxes,
+                      const Vec<3>& p, double bound2)
+{
+  const auto items = visited(tree, p, bound2);
+  for (std::size_t i = 0; i < boxes.size(); ++i)
+  {
+    EXPECT_LE(items.count(i), 1u);
+    if (boxes[i].distance2(p) <= bound2)
+    {
+      EXPECT_EQ(items.count(i), 1u);
+    }
+  }
+}
+
+TEST(BoxTree, VisitsEachBoxBelowTheBoundOnce)
+{
+  Generator random(1);
+  for (int n : {1, 2, 4, 5, 9, 100, 1000})
+    for (int i = 0; i < 20; ++i)
+    {
+      const auto boxes = random_boxes(random, n);
+      const Vec<3> p = random.vector<3>(-2, 2);
+      expect_all_below(BoxTree(boxes), boxes, p, random(0, 2));
+    }
+}
+
+TEST(BoxTree, VisitsABoxOnTheBound)
+{
+  std::vector<Box> boxes;
+  for (int i = 0; i < 40; ++i)
+    boxes.push_back({{double(i % 2), 0, 0}, {double(i % 2), 0, 0}});
+  EXPECT_EQ(visited(BoxTree(boxes), {-1, 0, 0}, 1).count(0), 1u);
+  expect_all_below(BoxTree(boxes), boxes, {-1, 0, 0}, 1);
+  expect_all_below(BoxTree(boxes), boxes, {-1, 0, 0}, 4);
+}
+
+TEST(BoxTree, PassesOverWhatIsFar)
+{
+  Generator random(2);
+  const auto boxes = random_boxes(random, 10000);
+  EXPECT_LT(visited(BoxTree(boxes), {0, 0, 0}, 1e-4).size(), 200u);
+  EXPECT_TRUE(visited(BoxTree(boxes), {9, 9, 9}, 1).empty());
+}
+
+TEST(BoxTree, LooksAtFewBoxesForTheNearest)
+{
+  Generator random(3);
+  const auto boxes = random_boxes(random, 10000);
+  const BoxTree tree(boxes);
+  const Vec<3> p{5, 0.1, 0.2};
+  double bound2 = 1e9;
+  int looked_at = 0;
+  tree.nearest(p, bound2,
+               [&boxes, &bound2, &looked_at, &p](std::int32_t i)
+               {
+                 ++looked_at;
+                 bound2 = std::min(bound2, boxes[i].distance2(p));
+               });
+  double expected = 1e9;
+  for (const Box& b : boxes)
+    expected = std::min(expected, b.distance2(p));
+  EXPECT_EQ(bound2, expected);
+  EXPECT_LT(looked_at, 500);
+}
+
+TEST(BoxTree, WithoutBoxesVisitsNothing)
+{
+  BoxTree tree({});
+  EXPECT_TRUE(visited(tree, {0, 0, 0}, 1e9).empty());
+  EXPECT_NO_THROW(tree.refit({}));
+}
+
+TEST(BoxTree, TakesEmptyBoxes)
+{
+  Generator random(4);
+  auto boxes = random_boxes(random, 200);
+  for (int i = 0; i < 200; i += 3)
+    boxes[i] = Box::empty();
+  for (int i = 0; i < 20; ++i)
+    expect_all_below(BoxTree(boxes), boxes, random.vector<3>(-2, 2), 1);
+  const std::vector<Box> none(20, Box::empty());
+  EXPECT_TRUE(visited(BoxTree(none), {0, 0, 0}, 1e9).empty());
+}
+
+TEST(BoxTree, TakesEqualBoxes)
+{
+  const std::vector<Box> boxes(5000, Box{{0, 0, 0}, {1, 1, 1}});
+  EXPECT_EQ(visited(BoxTree(boxes), {2, 0, 0}, 1).size(), 5000u);
+}
+
+TEST(BoxTree, RefitKnowsTheMovedBoxes)
+{
+  Generator random(5);
+  for (int n : {1, 5, 300})
+  {
+    BoxTree tree(random_boxes(random, n));
+    const auto moved = random_boxes(random, n); // anywhere else
+    tree.refit(moved);
+    for (int i = 0; i < 20; ++i)
+      expect_all_below(tree, moved, random.vector<3>(-2, 2), random(0, 1));
+    EXPECT_TRUE(visited(tree, {9, 9, 9}, 1).empty());
+  }
+}
+
+TEST(BoxTree, RefitNeedsAsManyBoxes)
+{
+  Generator random(6);
+  BoxTree tree(random_boxes(random, 7));
+  EXPECT_THROW(tree.refit(random_boxes(random, 6)), std::invalid_argument);
+  EXPECT_THROW(tree.refit(random_boxes(random, 8)), std::invalid_argument);
+  EXPECT_THROW(tree.refit({}), std::invalid_argument);
+}
+} // namespace

@@ -1,0 +1,145 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include "scene.h"
+#include <contactx/facet/shape.h>
+#include <gtest/gtest.h>
+
+using namespace contactx;
+using namespace contactx::search;
+using namespace contactx::tests;
+
+namespace
+{
+using Facets = std::vector<std::int32_t>;
+
+/// Number of a vertex as a feature.
+int vertex(int num_nodes, int local)
+{
+  return 1 + (num_nodes == 2 ? 0 : num_nodes) + local;
+}
+
+TEST(Surface, StarsOfAGrid)
+{
+  const Surface s = flat_grid(2, Cells::quadrilaterals).surface();
+  EXPECT_EQ(s.star(3, facet::interior), Facets{3});
+  EXPECT_EQ(s.star(0, vertex(4, 0)), Facets{0});
+  EXPECT_EQ(s.star(0, vertex(4, 1)), (Facets{0, 1}));
+  EXPECT_EQ(s.star(0, vertex(4, 3)), (Facets{0, 1, 2, 3}));
+  EXPECT_EQ(s.star(0, 1), Facets{0});      // outer edge
+  EXPECT_EQ(s.star(0, 2), (Facets{0, 1})); // edge to the right
+  EXPECT_EQ(s.star(1, 3), (Facets{1, 3})); // edge above
+}
+
+TEST(Surface, StarsOfMixedFacets)
+{
+  // Cells (0, 0) and (1, 1) are triangles: facets 0 1, 2, 3, 4 5
+  const Surface s = flat_grid(2, Cells::mixed).surface();
+  EXPECT_EQ(s.star(0, 2), (Facets{0, 1})); // the diagonal
+  EXPECT_EQ(s.star(1, 1), (Facets{1, 2})); // triangle and quadrilateral
+  EXPECT_EQ(s.star(2, 4), (Facets{1, 2}));
+  EXPECT_EQ(s.star(1, vertex(3, 1)), (Facets{1, 2, 3, 4}));
+}
+
+TEST(Surface, StarsOfSegments)
+{
+  const Surface s({0, 2, 4}, {7, 5, 5, 3}, 2);
+  EXPECT_EQ(s.star(0, vertex(2, 0)), Facets{0});
+  EXPECT_EQ(s.star(0, vertex(2, 1)), (Facets{0, 1}));
+  EXPECT_EQ(s.star(1, vertex(2, 0)), (Facets{0, 1}));
+}
+
+TEST(Surface, KnowsItsOuterEdge)
+{
+  for (Cells cells : {Cells::triangles, Cells::quadrilaterals, Cells::mixed})
+  {
+    const Scene scene = flat_grid(3, cells);
+    const Surface s = scene.surface();
+    for (std::int32_t f = 0; f < s.facets().size(); ++f)
+    {
+      const auto nodes = s.facets()[f];
+      const int n = nodes.size();
+      EXPECT_FALSE(s.on_boundary(f, facet::interior));
+      for (int l = 0; l < n; ++l)
+      {
+        const Vec<3> p = scene.point(nodes[l]);
+        const bool outer = p[0] == 0 or p[0] == 1 or p[1] == 0 or p[1] == 1;
+        EXPECT_EQ(s.on_boundary(f, vertex(n, l)), outer);
+      }
+      for (int e = 1; e <= n; ++e)
+        EXPECT_EQ(s.on_boundary(f, e), s.star(f, e).size() == 1);
+    }
+  }
+}
+
+TEST(Surface, ClosedOneHasNoOuterEdge)
+{
+  const Surface tetrahedron({0, 3, 6, 9, 12},
+                            {0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2}, 3);
+  const Surface ring({0, 2, 4, 6}, {0, 1, 1, 2, 2, 0}, 2);
+  for (int feature = 0; feature <= 6; ++feature)
+    EXPECT_FALSE(tetrahedron.on_boundary(0, feature));
+  for (int feature = 0; feature <= 2; ++feature)
+    EXPECT_FALSE(ring.on_boundary(0, feature));
+  const Surface segment({0, 2}, {0, 1}, 2);
+  EXPECT_TRUE(segment.on_boundary(0, 1));
+  EXPECT_TRUE(segment.on_boundary(0, 2));
+}
+
+TEST(Surface, RefusesWhatIsNoSurface)
+{
+  EXPECT_THROW(Surface({}, {}, 3), std::invalid_argument);
+  EXPECT_THROW(Surface({0, 3}, {0, 1, 2, 3}, 3), std::invalid_argument);
+  EXPECT_THROW(Surface({0, 2}, {0, 1}, 3), std::invalid_argument);
+  EXPECT_THROW(Surface({0, 3}, {0, 1, 2}, 2), std::invalid_argument);
+  EXPECT_THROW(Surface({0, 5}, {0, 1, 2, 3, 4}, 3), std::invalid_argument);
+  EXPECT_NO_THROW(Surface({0}, {}, 3));
+}
+
+TEST(Surface, BoxesHoldTheFacets)
+{
+  const Scene scene = grid(4, Cells::mixed, [](double s, double t)
+                           { return Vec<3>{s, t - 2, s * t - 3}; });
+  const auto boxes = scene.surface().boxes(scene.x);
+  ASSERT_EQ(boxes.size(), scene.offsets.size() - 1);
+  for (std::size_t f = 0; f < boxes.size(); ++f)
+    for (std::int32_t i = scene.offsets[f]; i < scene.offsets[f + 1]; ++i)
+      EXPECT_EQ(boxes[f].distance2(scene.point(scene.nodes[i])), 0);
+  Scene plane(2);
+  plane.facet({plane.node({3, 1}), plane.node({2, 5})});
+  const Box b = plane.surface().boxes(plane.x)[0];
+  EXPECT_EQ(b.distance2({2.5, 3, 0}), 0);
+  EXPECT_NEAR(b.distance2({0, 7, 0}), 8, 1e-12);
+}
+
+TEST(Surface, FacetWithoutAreaHasNoProjection)
+{
+  Scene scene(3);
+  for (int i = 0; i < 4; ++i)
+    scene.node({double(i), double(i), 0});
+  scene.facet({0, 1, 2});
+  scene.facet({0, 1, 2, 3});
+  for (std::int32_t f : {0, 1})
+  {
+    EXPECT_FALSE(closest(scene.surface(), f, scene.x, {0, 0, 1}));
+    EXPECT_FALSE(extended(scene.surface(), f, scene.x, {0, 0, 1}));
+  }
+}
+
+TEST(Surface, ProjectionKnowsItsGapAndExcess)
+{
+  const Scene scene = flat_grid(1, Cells::quadrilaterals);
+  const auto c = closest(scene.surface(), 0, scene.x, {1.25, 0.5, -0.5});
+  ASSERT_TRUE(c);
+  EXPECT_EQ(c->feature, 2);
+  EXPECT_EQ(c->d, (Vec<3>{0.25, 0, -0.5}));
+  EXPECT_EQ(c->normal, (Vec<3>{0, 0, 1}));
+  EXPECT_DOUBLE_EQ(c->gap, -0.5);
+  EXPECT_DOUBLE_EQ(c->size, std::sqrt(2));
+  const auto e = extended(scene.surface(), 0, scene.x, {1.25, 0.5, -0.5});
+  ASSERT_TRUE(e);
+  EXPECT_EQ(e->feature, facet::interior);
+  EXPECT_DOUBLE_EQ(e->excess, 0.25);
+  EXPECT_DOUBLE_EQ(e->xi[0], 1.25);
+}
+} // namespace
