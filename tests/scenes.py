@@ -25,7 +25,7 @@ def strain(u: Any) -> Any:
     return ufl.sym(ufl.grad(u))
 
 
-def elasticity(u: fem.Function, young: float = 1.0, nu: float = 0.3) -> ufl.Form:
+def elasticity(u: fem.Function, young: Any = 1.0, nu: float = 0.3) -> ufl.Form:
     """Residual of linear elasticity, in plane strain where the mesh is plane."""
     v = ufl.TestFunction(u.function_space)
     mu, lmbda = young / (2 * (1 + nu)), young * nu / ((1 + nu) * (1 - 2 * nu))
@@ -42,6 +42,31 @@ def fix(
     facets = np.concatenate([tags.find(face) for face in faces])
     dofs = fem.locate_dofs_topological(V, tags.dim, facets)
     return fem.dirichletbc(np.float64(value), dofs, V)
+
+
+def hertz_sphere(
+    h: float, sliding: str, *, down: float = 0.02, young: dict[Tag, float] | None = None
+) -> tuple[cx.ContactProblem, cx.Contact]:
+    """The common Hertz problem with any displacement and a modulus for each body."""
+    data = meshes.hertz_sphere(h)
+    tags, u = data.facet_tags, displacement(data.mesh)
+    E = fem.Function(fem.functionspace(data.mesh, ("DG", 0)))
+    E.x.array[:] = 1
+    for body, value in (young or {}).items():
+        E.x.array[data.cell_tags.find(body)] = value
+    bcs = [
+        fix(u, tags, 0, 0.0, [Tag.UPPER_X0, Tag.LOWER_X0]),
+        fix(u, tags, 1, 0.0, [Tag.UPPER_Y0, Tag.LOWER_Y0]),
+        *(fix(u, tags, i, 0.0, [Tag.LOWER_BOTTOM]) for i in range(3)),
+        fix(u, tags, 2, -down, [Tag.UPPER_TOP]),
+    ]
+    contact = cx.Contact(
+        cx.Surface(tags, Tag.UPPER_CONTACT), cx.Surface(tags, Tag.LOWER_CONTACT), sliding=sliding
+    )
+    problem = cx.ContactProblem(
+        elasticity(u, E), u, contacts=[contact], bcs=bcs, petsc_options_prefix="sphere_"
+    )
+    return problem, contact
 
 
 class Blocks:

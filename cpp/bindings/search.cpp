@@ -44,20 +44,18 @@ void contactx_bindings::search(py::module_& m)
       .def_property_readonly(
           "xi", [](const Pairing& self)
           { return array(self.xi(), {py::ssize_t(self.xi().size() / 2), 2}); })
-      .def_property_readonly(
-          "cone",
-          [](const Pairing& self)
-          {
-            const auto& c = self.cone();
-            return array(c, {py::ssize_t(c.size() / 3), 3});
-          })
-      .def_property_readonly(
-          "normal",
-          [](const Pairing& self)
-          {
-            const auto& n = self.normal();
-            return array(n, {py::ssize_t(n.size() / 3), 3});
-          })
+      .def_property_readonly("cone",
+                             [](const Pairing& self)
+                             {
+                               const auto& c = self.cone();
+                               return array(c, {py::ssize_t(c.size() / 3), 3});
+                             })
+      .def_property_readonly("normal",
+                             [](const Pairing& self)
+                             {
+                               const auto& n = self.normal();
+                               return array(n, {py::ssize_t(n.size() / 3), 3});
+                             })
       .def(
           "frozen", [](const Pairing& self) { return array(self.frozen()); },
           "Slave nodes whose pair is frozen, by their place in slaves")

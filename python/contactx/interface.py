@@ -120,10 +120,9 @@ class Interface:
         x: npt.NDArray[np.float64] = self.state.position.array + self._u.x.array
         return x
 
-    def begin_step(self) -> None:
-        """Start a step: what was frozen or held may move again."""
+    def forget_flips(self) -> None:
+        """Let frozen pairs move again and count anew how often pairs go back and forth."""
         self._pairing.begin_step()
-        self.hold(False)
 
     def search(self) -> int:
         """Pair the slave nodes in the current configuration, unless pairs are held.
@@ -162,9 +161,7 @@ class Interface:
         self._facet, self._feature = self._pairing.facet, self._pairing.feature
         kinematics = "small" if self._held else "finite"
         self.forms = [
-            ContactForms(
-                self._comm, kinematics, pairs, self.state, self._bulk_map, self._slave_map
-            )
+            ContactForms(self._comm, kinematics, pairs, self.state, self._bulk_map, self._slave_map)
             for pairs in self._pairs()
         ]
 

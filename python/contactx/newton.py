@@ -87,9 +87,8 @@ class NewtonLoop:
         self._system.forget()
         self._system.renew()
         self.snes.setFunction(self._function, self._system.b)
-        self._held = False
-        for interface in self._interfaces:
-            interface.begin_step()
+        self._hold(False)
+        self._forget_flips()
         with self._petsc_options():
             self.snes.setFromOptions()
             with report.timing("bulk stiffness"):
@@ -157,6 +156,9 @@ class NewtonLoop:
             more, pairs = self._renew()
             status += more
         self._hold(self._many(status + pairs))
+        if self._many(status):
+            # What flips on an active set that is far off says nothing of the solution
+            self._forget_flips()
         for interface in self._interfaces:
             interface.drop_open_pressures()
             interface.evaluate_law()
@@ -177,6 +179,10 @@ class NewtonLoop:
 
     def _num_closed(self) -> int:
         return sum(int(np.count_nonzero(i.status != core.OPEN)) for i in self._interfaces)
+
+    def _forget_flips(self) -> None:
+        for interface in self._interfaces:
+            interface.forget_flips()
 
     def _hold(self, held: bool) -> None:
         self._held = held
@@ -255,7 +261,7 @@ def _defaults() -> dict[str, Any]:
     options: dict[str, Any] = {
         "snes_type": "newtonls",
         "snes_linesearch_type": "basic",
-        "snes_rtol": 1e-10,
+        "snes_rtol": 1e-11,
         "snes_atol": 0.0,
         "snes_max_it": 50,
         "ksp_type": "preonly",

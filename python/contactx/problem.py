@@ -61,7 +61,7 @@ class ContactProblem:
             bcs: Dirichlet conditions.
             J: Jacobian of F; derived if None.
             petsc_options: Options of SNES, its KSP and PC, without the prefix. ``snes_rtol``
-                (default 1e-10) is relative to the forces of the problem.
+                (default 1e-11) is relative to the forces of the problem.
             form_compiler_options: Options of FFCx.
             jit_options: Options of the compilation.
 

@@ -20,7 +20,7 @@ struct Pair
   int feature;            ///< interior, edge or vertex
   facet::Local<F> xi;     ///< local coordinates that the search found
   Vec<3> cone;            ///< components of a ridge's normal
-  Vec<F::gdim> normal; ///< unit normal that the search found
+  Vec<F::gdim> normal;    ///< unit normal that the search found
 
   /// @brief Read a pair from the coefficients.
   /// @param[in] w Coefficients.

@@ -10,52 +10,6 @@ using namespace contactx::search;
 
 namespace
 {
-/// Whether `g` rises towards its outside beyond an edge of `f`, so that the
-/// edge between them is a valley.
-bool concave(const Surface& surface, const Projection& f, std::int32_t g,
-             std::span<const double> x, const Vec<3>& p)
-{
-  const Vec<3> foot = p - f.d;
-  Vec<3> centre{};
-  const auto nodes = surface.facets()[g];
-  const int gdim = surface.gdim();
-  for (std::int32_t node : nodes)
-    for (int k = 0; k < gdim; ++k)
-      centre[k] += x[node * gdim + k] / nodes.size();
-  return dot(centre - foot, f.normal) > 1e-10 * f.size;
-}
-
-/// Follow the valleys around a penetrated facet to the deepest one.
-Projection deepest_in_valley(const Surface& surface, std::span<const double> x,
-                             const Vec<3>& p, Projection best)
-{
-  const int num_features
-      = facet::visit(surface.facets()[best.facet].size(), []<class F>(F)
-                     { return F::gdim == 2 ? F::nodes : F::num_edges; });
-  bool found = true;
-  // Each step goes to a deeper facet; the bound only guards against rounding
-  for (int step = 0; found and step < 8; ++step)
-  {
-    found = false;
-    const Projection from = best;
-    for (int feature = 1; feature <= num_features; ++feature)
-    {
-      for (std::int32_t g : surface.star(from.facet, feature))
-      {
-        if (g == from.facet or !concave(surface, from, g, x, p))
-          continue;
-        const auto q = extended(surface, g, x, p);
-        if (q and q->excess <= margin and q->gap < best.gap - 1e-10 * q->size)
-        {
-          best = *q;
-          found = true;
-        }
-      }
-    }
-  }
-  return best;
-}
-
 /// Beyond the edge or vertex of all facets around it: a ridge or a valley.
 Projection beyond_edge(std::span<const Projection> around, Projection nearest)
 {
@@ -109,8 +63,7 @@ std::optional<Projection> contactx::search::select(const Surface& surface,
                                                    const Projection& nearest)
 {
   if (nearest.feature == facet::interior)
-    return nearest.gap < 0 ? deepest_in_valley(surface, x, p, nearest)
-                           : nearest;
+    return nearest;
 
   std::vector<Projection> around;
   const Projection* inside = nullptr;

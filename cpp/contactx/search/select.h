@@ -49,8 +49,9 @@ std::optional<Projection> select(const Surface& surface,
 /// @brief Components of a ridge's normal in the frame of its facet.
 ///
 /// The frame (e, e x n, n) has the direction e of the edge and the facet's
-/// normal n; at a vertex e is the edge that starts there. In 2D it is (t, n)
-/// with the tangent t, and the second component is zero.
+/// normal n; at a vertex e is the edge that starts there. In 2D it is (e, n)
+/// with the segment's direction away from the vertex, and the second component
+/// is zero.
 /// @param[in] surface Master surface.
 /// @param[in] x Node coordinates (shape=(num_nodes, gdim)), row-major.
 /// @param[in] projection Projection whose feature is an edge or a vertex.

@@ -1,0 +1,34 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Starts that are far from the solution: deep overlaps and bodies of very different stiffness."""
+
+import numpy as np
+import pytest
+from scenes import hertz_sphere
+
+from contactx.meshes import Tag
+
+
+@pytest.mark.parametrize("sliding", ["finite", "small"])
+@pytest.mark.parametrize("depth", [0.05, 0.1, 0.2])
+def test_deep_indentation_in_one_step(depth, sliding):
+    problem, contact = hertz_sphere(0.02, sliding, down=depth)
+    problem.solve()
+    print(f"{sliding} {depth}: {problem.report.iterations} iterations")
+    assert problem.report.iterations <= 12
+    assert np.nanmin(contact.interface.gap) > -1e-12
+    assert problem.report.frozen == 0
+    assert contact.force[2] > 0
+
+
+@pytest.mark.parametrize("sliding", ["finite", "small"])
+@pytest.mark.parametrize("body", [Tag.UPPER, Tag.LOWER])
+@pytest.mark.parametrize("ratio", [1e4, 1e6])
+def test_one_body_is_much_stiffer(ratio, body, sliding):
+    problem, contact = hertz_sphere(0.02, sliding, young={body: ratio})
+    problem.solve()
+    print(f"{sliding} {body.name} {ratio:g}: {problem.report.iterations} iterations")
+    assert problem.report.iterations <= 12
+    assert np.nanmin(contact.interface.gap) > -1e-12
+    # The soft body alone gives: twice Hertz's modulus, so almost twice the force
+    assert 4 * contact.force[2] == pytest.approx(0.0048, rel=0.1)
