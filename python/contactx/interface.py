@@ -31,6 +31,7 @@ class Interface:
     State belongs to the slave nodes, so that a new search loses nothing.
 
     Attributes:
+        sliding: "finite" or "small".
         slaves: Slave nodes, numbered as the blocks of the displacement's dofmap, shape (n,).
         state: Vectors that the forms read.
         status: Status of each slave node, shape (n,).
@@ -60,7 +61,7 @@ class Interface:
         V = u.function_space
         self._comm = V.mesh.comm
         self._gdim = V.mesh.geometry.dim
-        self._sliding = sliding
+        self.sliding = sliding
         self._held = sliding == "small"
         self._u = u
         self._bulk_map = V.dofmap.index_map
@@ -152,7 +153,7 @@ class Interface:
         Args:
             held: Whether to hold them.
         """
-        if self._sliding == "finite" and held != self._held:
+        if self.sliding == "finite" and held != self._held:
             self._held = held
             self._make_forms()
 
@@ -188,13 +189,14 @@ class Interface:
         Args:
             stiffness: Stiffness of each node of the bulk, NaN where it cannot move.
         """
-        compliance = np.nan_to_num(1 / stiffness)
+        compliance = np.zeros_like(stiffness)
+        np.divide(1, stiffness, out=compliance, where=stiffness > 0)
         total = compliance[self.slaves]
         master = np.full(len(total), np.median(compliance[self._master.nodes]))
         for pairs in self._pairs():
             master[pairs.slaves] = compliance[pairs.nodes[:, 1:]].mean(axis=1)
         total = (total + master) * self.state.area.array
-        usable = np.isfinite(total) & (total > 0)
+        usable = total > 0
         self.c[:] = 1 / np.median(total[usable]) if usable.any() else 1.0
         self.c[usable] = 1 / total[usable]
 
@@ -258,7 +260,7 @@ class Interface:
         self.state.multiplier.array[:] = checkpoint.multiplier
         self.status[:] = checkpoint.status
         self.gap[:] = checkpoint.gap
-        self._held = self._sliding == "small"
+        self._held = self.sliding == "small"
         self._make_forms()
 
     def distance(self) -> float:

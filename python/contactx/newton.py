@@ -5,12 +5,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from typing import Any
 
 from petsc4py import PETSc
 
 import numpy as np
+import numpy.typing as npt
 
 from contactx import compat
 from contactx import cpp as core
@@ -21,6 +22,9 @@ from contactx.system import SaddlePointSystem
 
 # Share of the closed nodes that may change their status or facet before the pairs are held
 _FEW = 0.2
+
+# Rounding errors of a sum of a few terms
+_EPS = 16 * np.finfo(np.float64).eps
 
 _REASONS = {
     PETSc.SNES.ConvergedReason.CONVERGED_FNORM_ABS: "the residual is below the tolerance",
@@ -70,7 +74,8 @@ class NewtonLoop:
         self._A_is_current = False
         self._report = Report()
         self._least_scale = 0.0
-        self._held = False
+        self._held = self._stale = False
+        self._changes = (0, 0)
         self._stiffness = np.zeros(0)
         self.snes = PETSc.SNES().create(system.x.comm)
         self.snes.setOptionsPrefix(prefix)
@@ -91,11 +96,12 @@ class NewtonLoop:
         self._forget_flips()
         with self._petsc_options():
             self.snes.setFromOptions()
+            self._time_linear_solves(report)
             with report.timing("bulk stiffness"):
                 self._stiffness = self._bulk.nodal_stiffness()
             for interface in self._interfaces:
                 interface.set_factor(self._stiffness)
-            self._settle()
+            self._changes = self._settle()
             self._system.gather()
             self._A = None
             self._provide_matrix()
@@ -105,6 +111,12 @@ class NewtonLoop:
         report.converged = code > 0
         report.reason = _REASONS.get(code, f"SNES stopped with reason {code}")
         report.skipped["bulk Jacobian assembly"] = self._bulk.skipped - before[1]
+
+    def _time_linear_solves(self, report: Report) -> None:
+        timer = ExitStack()
+        ksp = self.snes.getKSP()
+        ksp.setPreSolve(lambda *_: timer.enter_context(report.timing("linear solve")))
+        ksp.setPostSolve(lambda *_: timer.close())
 
     @contextmanager
     def _petsc_options(self) -> Iterator[None]:
@@ -151,7 +163,8 @@ class NewtonLoop:
             Number of nodes that changed their status, and of those that changed their facet.
         """
         status, pairs = self._renew()
-        if self._held and not self._many(status):
+        self._stale = self._held and self._many(status)
+        if self._held and not self._stale:
             self._hold(False)
             more, pairs = self._renew()
             status += more
@@ -185,7 +198,7 @@ class NewtonLoop:
             interface.forget_flips()
 
     def _hold(self, held: bool) -> None:
-        self._held = held
+        self._held = held and any(i.sliding == "finite" for i in self._interfaces)
         for interface in self._interfaces:
             interface.hold(held)
 
@@ -196,21 +209,23 @@ class NewtonLoop:
         reason = PETSc.SNES.ConvergedReason
         if not np.isfinite(norms[2]):
             return reason.DIVERGED_FUNCTION_NANORINF
-        status, pairs = (0, 0) if number == 0 else self._settle()
+        if number > 0:
+            self._changes = self._settle()
         self._system.gather()
         self._function(snes, self._system.x, self._system.b)
-        row = self._judge(number, status, pairs)
+        row = self._judge(number)
         self._report.history.append(row)
         if not np.isfinite(row.residual):
             return reason.DIVERGED_FUNCTION_NANORINF
         size = np.abs(self._bulk.u.x.array).max(initial=0.0)
         small = row.residual <= row.tolerance and row.dirichlet_defect <= 1e-10 * size
-        if small and not self._held:
+        # Held pairs that are not those of this iterate give no true residual
+        if small and not self._stale:
             return reason.CONVERGED_FNORM_ABS
         self._provide_matrix()
         return reason.CONVERGED_ITERATING
 
-    def _judge(self, number: int, status: int, pairs: int) -> Iteration:
+    def _judge(self, number: int) -> Iteration:
         """Measure the residual against the forces of the problem.
 
         Displacements enter the Dirichlet rows and are judged apart from the forces, so that the
@@ -218,12 +233,11 @@ class NewtonLoop:
         """
         force, *constraints = self._system.blocks(self._system.b.array_r)
         prescribed = self._bulk.markers == 1
-        rows = [force[~prescribed], *constraints]
-        residual = float(np.sqrt(sum(np.dot(r, r) for r in rows)))
+        residual = _norm([force[~prescribed], *constraints])
         forces = [self._system.bulk_residual()[prescribed]]
         for interface in self._interfaces:
             forces.append(interface.state.area.array * interface.state.multiplier.array)
-        scale = max(float(np.linalg.norm(f)) for f in forces)
+        scale = max(_norm([f]) for f in forces)
         if number == 0:
             # Unloading ends without forces. What the first change of the Dirichlet values asks
             # for says little: a stiff body that moves as a whole asks for much and gets nothing
@@ -233,27 +247,36 @@ class NewtonLoop:
         return Iteration(
             number=number,
             residual=residual,
-            tolerance=max(rtol * scale, atol, min(self._rounding(), 1e-6 * scale)),
+            tolerance=max(rtol * scale, atol, self._rounding(scale)),
             closed=self._num_closed(),
-            status_changes=status,
-            pair_changes=pairs,
+            status_changes=self._changes[0],
+            pair_changes=self._changes[1],
             held=self._held,
             dirichlet_defect=float(np.abs(force[prescribed]).max(initial=0.0)),
         )
 
-    def _rounding(self) -> float:
-        """Residual that rounding leaves at the current displacement.
+    def _rounding(self, scale: float) -> float:
+        """Residual that rounding leaves.
 
-        A stiff body's internal forces cancel in sums of stiffness times displacement, a gap in a
-        difference of positions.
+        A gap is a difference of positions, the forces of a stiff body sums of stiffness times
+        displacement that cancel. Displacements count only while what they leave is small against
+        the forces: a body that has run away is no solution.
+
+        Args:
+            scale: Forces of the problem.
         """
         block = self._bulk.u.function_space.dofmap.index_map_bs
         u = np.linalg.norm(self._bulk.u.x.array.reshape(-1, block), axis=1)
-        terms = [np.nan_to_num(self._stiffness) * u]
+        gaps, moved = [], [np.nan_to_num(self._stiffness) * u]
         for interface in self._interfaces:
-            x = np.abs(interface.positions()).max(initial=0.0)
-            terms.append(interface.state.gap_derivative.array * x)
-        return float(16 * np.finfo(np.float64).eps * np.sqrt(sum(np.dot(t, t) for t in terms)))
+            weight = interface.state.gap_derivative.array
+            gaps.append(weight * np.abs(interface.state.position.array).max())
+            moved.append(weight * u.max())
+        return _EPS * _norm(gaps) + min(_EPS * _norm(moved), 1e-6 * scale)
+
+
+def _norm(parts: Sequence[npt.NDArray[np.float64]]) -> float:
+    return float(np.sqrt(sum(np.dot(p, p) for p in parts)))
 
 
 def _defaults() -> dict[str, Any]:

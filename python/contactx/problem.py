@@ -74,7 +74,7 @@ class ContactProblem:
         validate.check_displacement(u)
         compat.require_one_rank(u.function_space.mesh.comm)
         validate.check_options(petsc_options, petsc_options_prefix)
-        validate.check_distinct(contacts)
+        validate.check_contacts(contacts)
 
         V = u.function_space
         X = la.vector(V.dofmap.index_map, V.dofmap.index_map_bs)

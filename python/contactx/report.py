@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import io
+import textwrap
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -121,7 +122,8 @@ class Report:
             lines.append(f"skipped: {skips}")
         times = ", ".join(f"{part} {seconds:.2f} s" for part, seconds in self.times.items())
         lines.append(f"time: {times}")
-        return "\n".join(lines)
+        wrapped = (line if "│" in line else textwrap.fill(line, 80) for line in lines)
+        return "\n".join(wrapped)
 
 
 def _render(table: Table) -> str:

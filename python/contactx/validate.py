@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 import basix.ufl
+from contactx.contact import Contact
 from dolfinx import fem, la
 
 _TOLERANCES = ("snes_rtol", "snes_atol", "snes_stol", "ksp_rtol", "ksp_atol")
@@ -91,15 +92,21 @@ def check_options(options: Mapping[str, Any] | None, prefix: str) -> None:
             raise ValueError(f"petsc_options[{name!r}] is {value!r}: give a number of at least 0")
 
 
-def check_distinct(contacts: Sequence[Any]) -> None:
+def check_contacts(contacts: Sequence[Any]) -> None:
     """Check that there are contacts and each is listed once.
 
     Args:
         contacts: Contacts of a problem.
 
     Raises:
+        TypeError: If something else is among them.
         ValueError: If there is none, or one appears twice.
     """
+    for contact in contacts:
+        if not isinstance(contact, Contact):
+            raise TypeError(
+                f"contacts holds a {type(contact).__name__}: pass a list of contactx.Contact"
+            )
     if len(contacts) == 0:
         raise ValueError("contacts is empty: pass at least one Contact")
     if len(set(map(id, contacts))) < len(contacts):

@@ -115,6 +115,11 @@ def test_no_contact(scene):
         scene.problem()
 
 
+def test_something_else_than_a_contact(scene):
+    with pytest.raises(TypeError, match=r"contacts holds a Surface: pass a list of"):
+        scene.problem(scene.contact().slave)
+
+
 def test_contact_twice(scene):
     contact = scene.contact()
     with pytest.raises(ValueError, match="same Contact twice"):

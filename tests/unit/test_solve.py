@@ -149,6 +149,34 @@ def test_a_contact_that_faces_away_warns_and_changes_nothing():
     assert len(problem.report.force) == 2
 
 
+def test_touching_without_force():
+    """Gaps that are zero but for rounding neither chatter nor make the system singular."""
+    for sliding in ("finite", "small"):
+        scene = Blocks(CellType.tetrahedron, down=0.0, n_upper=3, n_lower=4)
+        contact = scene.contact(sliding)
+        problem = scene.problem(contact)
+        problem.solve()
+        assert problem.report.iterations <= 1
+        assert np.abs(scene.u.x.array).max() <= 1e-15
+        assert np.abs(contact.multiplier).max() <= 1e-13
+
+
+def test_held_pairs_that_hide_a_penetration_warn():
+    scene = Blocks(CellType.tetrahedron)
+    contact = scene.contact()
+    problem = scene.problem(contact)
+
+    class Held:
+        num_pairs, reach, frozen = 3, 1.0, np.arange(2)
+
+        def deepest_frozen(self):
+            return -1e-3
+
+    with pytest.warns(UserWarning, match=r"2 pairs went back.*hide a penetration of 0\.001"):
+        problem._warn(0, Held())
+    assert contact.interface.deepest_frozen() == 0
+
+
 def test_slave_and_master_may_change_roles():
     """Not the same constraints, but answers that approach each other with the mesh size."""
     forces = []
