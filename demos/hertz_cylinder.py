@@ -16,16 +16,13 @@ cent on any mesh.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from pathlib import Path
 
 import numpy as np
 import story
 
 import contactx as cx
-import ufl
-from contactx import meshes, plot, reference
+from contactx import meshes, reference
 from contactx.meshes import Tag
-from dolfinx import fem
 
 E, NU = 1.0, 0.3
 DISPLACEMENT = -0.02
@@ -35,26 +32,12 @@ def create(h: float, sliding: str) -> tuple[cx.ContactProblem, cx.Contact]:
     """The bodies, their supports and the contact."""
     data = meshes.hertz_cylinder(h, h_master=h)
     mesh, tags = data.mesh, data.facet_tags
-    V = fem.functionspace(mesh, ("Lagrange", 1, (2,)))
-    u = fem.Function(V, name="displacement")
-    v = ufl.TestFunction(V)
-
-    def strain(w):
-        return ufl.sym(ufl.grad(w))
-
-    mu, lmbda = E / (2 * (1 + NU)), E * NU / ((1 + NU) * (1 - 2 * NU))
-    stress = 2 * mu * strain(u) + lmbda * ufl.tr(strain(u)) * ufl.Identity(2)
-    F = ufl.inner(stress, strain(v)) * ufl.dx
-
-    def fix(component: int, value: float, *faces: Tag) -> fem.DirichletBC:
-        facets = np.concatenate([tags.find(face) for face in faces])
-        dofs = fem.locate_dofs_topological(V.sub(component), 1, facets)
-        return fem.dirichletbc(np.float64(value), dofs, V.sub(component))
-
+    u = story.displacement(mesh)
+    F = story.elasticity(u, E, NU)
     bcs = [
-        fix(0, 0.0, Tag.UPPER_X0, Tag.LOWER_X0, Tag.LOWER_BOTTOM),
-        fix(1, 0.0, Tag.LOWER_BOTTOM),
-        fix(1, DISPLACEMENT, Tag.UPPER_TOP),
+        story.fix(u, tags, 0, 0.0, Tag.UPPER_X0, Tag.LOWER_X0, Tag.LOWER_BOTTOM),
+        story.fix(u, tags, 1, 0.0, Tag.LOWER_BOTTOM),
+        story.fix(u, tags, 1, DISPLACEMENT, Tag.UPPER_TOP),
     ]
     cylinder = cx.Surface(tags, Tag.UPPER_CONTACT)
     block = cx.Surface(tags, Tag.LOWER_CONTACT)
@@ -91,30 +74,10 @@ def main(argv: Sequence[str] | None = None) -> list[story.Result]:
         story.Result("peak pressure", hertz.peak_pressure, pressure.max()),
     ]
 
-    folder: Path = args.output
-    files = [folder / f"hertz_cylinder{end}" for end in (".png", "_pressure.png", ".pvd")]
-    with story.progress("drawing"):
-        with cx.VTKOutput(files[2], problem.u, [contact]) as output:
-            output.write(0.0)
-        plot.deformed_bodies(
-            problem.u,
-            contact.pressure,
-            files[0],
-            title="Elastic cylinder on an elastic block",
-            label="contact pressure / E",
-            mirror=("x",),
-        )
-        near = x < 1.5 * hertz.half_width
-        curve = np.linspace(0, 1.5 * hertz.half_width, 400)
-        plot.pressure_curve(
-            x[near],
-            pressure[near],
-            curve,
-            hertz.pressure(curve),
-            files[1],
-            labels=("distance from the axis / R", "contact pressure / E"),
-            title="Pressure of the slave nodes against Hertz",
-        )
+    title = "Elastic cylinder on an elastic block"
+    files = story.draw(
+        "hertz_cylinder", title, args.output, problem, contact, x, hertz, mirror=("x",)
+    )
     story.show("Hertz: cylinder on block, plane strain", results, files)
     return results
 

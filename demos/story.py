@@ -1,6 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""What the demos share: arguments, the table of results, where pictures go."""
+"""What the demos share: arguments, linear elasticity, the table of results, pictures."""
 
 from __future__ import annotations
 
@@ -9,11 +9,16 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
+import numpy as np
 from rich.console import Console
 from rich.table import Table
 
 import contactx as cx
+import ufl
+from contactx import plot
+from dolfinx import fem, mesh
 
 console = Console()
 
@@ -30,6 +35,31 @@ class Result:
     def error(self) -> float:
         """Relative error."""
         return self.computed / self.expected - 1
+
+
+def displacement(domain: mesh.Mesh) -> fem.Function:
+    """Displacement in the linear Lagrange space of vectors."""
+    V = fem.functionspace(domain, ("Lagrange", 1, (domain.geometry.dim,)))
+    return fem.Function(V, name="displacement")
+
+
+def elasticity(u: fem.Function, young: Any, nu: float) -> ufl.Form:
+    """Residual of linear elasticity, in plane strain where the mesh is plane."""
+    v = ufl.TestFunction(u.function_space)
+    mu, lmbda = young / (2 * (1 + nu)), young * nu / ((1 + nu) * (1 - 2 * nu))
+    strain = ufl.sym(ufl.grad(u))
+    stress = 2 * mu * strain + lmbda * ufl.tr(strain) * ufl.Identity(len(u))
+    return ufl.inner(stress, ufl.grad(v)) * ufl.dx
+
+
+def fix(
+    u: fem.Function, tags: mesh.MeshTags, component: int, value: float, *faces: int
+) -> fem.DirichletBC:
+    """Prescribe one component of the displacement on tagged faces."""
+    V = u.function_space.sub(component)
+    facets = np.concatenate([tags.find(face) for face in faces])
+    dofs = fem.locate_dofs_topological(V, tags.dim, facets)
+    return fem.dirichletbc(np.float64(value), dofs, V)
 
 
 def arguments(
@@ -81,3 +111,54 @@ def show(title: str, results: Sequence[Result], files: Sequence[Path]) -> None:
     console.print(table)
     for file in files:
         console.print(f"see {file}", soft_wrap=True, highlight=False)
+
+
+def draw(
+    name: str,
+    title: str,
+    folder: Path,
+    problem: cx.ContactProblem,
+    contact: cx.Contact,
+    r: np.ndarray,
+    hertz: Any,
+    mirror: Sequence[str],
+) -> list[Path]:
+    """Draw the bodies and the pressure against Hertz, and write a file for ParaView.
+
+    Args:
+        name: First part of the files' names.
+        title: Title of the picture of the bodies.
+        folder: Where the files go.
+        problem: Solved problem.
+        contact: Its contact.
+        r: Distance of the slave nodes from the axis, shape (n,).
+        hertz: Closed formula, with ``pressure``.
+        mirror: Planes of symmetry.
+
+    Returns:
+        The files.
+    """
+    files = [folder / f"{name}{end}" for end in (".png", "_pressure.png", ".pvd")]
+    with progress("drawing"):
+        with cx.VTKOutput(files[2], problem.u, [contact]) as output:
+            output.write(0.0)
+        plot.deformed_bodies(
+            problem.u,
+            contact.pressure,
+            files[0],
+            title=title,
+            label="contact pressure / E",
+            mirror=mirror,
+        )
+        end = 1.5 * r[contact.multiplier > 0].max()
+        curve = np.linspace(0, end, 400)
+        plot.pressure_curve(
+            r[r < end],
+            contact.multiplier[r < end],
+            curve,
+            hertz.pressure(curve),
+            files[1],
+            labels=("distance from the axis / R", "contact pressure / E"),
+            title="Pressure of the slave nodes against Hertz",
+        )
+    return files

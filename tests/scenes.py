@@ -4,44 +4,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from typing import Any
 
-import numpy as np
+from story import displacement, elasticity, fix
 
 import contactx as cx
-import ufl
 from contactx import meshes
 from contactx.meshes import Tag
 from dolfinx import fem, mesh
 
-
-def displacement(domain: mesh.Mesh) -> fem.Function:
-    gdim = domain.geometry.dim
-    return fem.Function(fem.functionspace(domain, ("Lagrange", 1, (gdim,))))
-
-
-def strain(u: Any) -> Any:
-    return ufl.sym(ufl.grad(u))
-
-
-def elasticity(u: fem.Function, young: Any = 1.0, nu: float = 0.3) -> ufl.Form:
-    """Residual of linear elasticity, in plane strain where the mesh is plane."""
-    v = ufl.TestFunction(u.function_space)
-    mu, lmbda = young / (2 * (1 + nu)), young * nu / ((1 + nu) * (1 - 2 * nu))
-    identity = ufl.Identity(u.function_space.mesh.geometry.dim)
-    stress = 2 * mu * strain(u) + lmbda * ufl.tr(strain(u)) * identity
-    return ufl.inner(stress, strain(v)) * ufl.dx
-
-
-def fix(
-    u: fem.Function, tags: mesh.MeshTags, component: int, value: float, faces: Iterable[int]
-) -> fem.DirichletBC:
-    """Prescribe one component of the displacement on tagged faces."""
-    V = u.function_space.sub(component)
-    facets = np.concatenate([tags.find(face) for face in faces])
-    dofs = fem.locate_dofs_topological(V, tags.dim, facets)
-    return fem.dirichletbc(np.float64(value), dofs, V)
+NU = 0.3
 
 
 def hertz_sphere(
@@ -55,16 +27,16 @@ def hertz_sphere(
     for body, value in (young or {}).items():
         E.x.array[data.cell_tags.find(body)] = value
     bcs = [
-        fix(u, tags, 0, 0.0, [Tag.UPPER_X0, Tag.LOWER_X0]),
-        fix(u, tags, 1, 0.0, [Tag.UPPER_Y0, Tag.LOWER_Y0]),
-        *(fix(u, tags, i, 0.0, [Tag.LOWER_BOTTOM]) for i in range(3)),
-        fix(u, tags, 2, -down, [Tag.UPPER_TOP]),
+        fix(u, tags, 0, 0.0, Tag.UPPER_X0, Tag.LOWER_X0),
+        fix(u, tags, 1, 0.0, Tag.UPPER_Y0, Tag.LOWER_Y0),
+        *(fix(u, tags, i, 0.0, Tag.LOWER_BOTTOM) for i in range(3)),
+        fix(u, tags, 2, -down, Tag.UPPER_TOP),
     ]
     contact = cx.Contact(
         cx.Surface(tags, Tag.UPPER_CONTACT), cx.Surface(tags, Tag.LOWER_CONTACT), sliding=sliding
     )
     problem = cx.ContactProblem(
-        elasticity(u, E), u, contacts=[contact], bcs=bcs, petsc_options_prefix="sphere_"
+        elasticity(u, E, NU), u, contacts=[contact], bcs=bcs, petsc_options_prefix="sphere_"
     )
     return problem, contact
 
@@ -100,11 +72,11 @@ class Blocks:
         )
         self.tags = data.facet_tags
         self.u = displacement(data.mesh)
-        self.F = elasticity(self.u)
+        self.F = elasticity(self.u, 1.0, NU)
         self.bcs = [
-            *(fix(self.u, self.tags, i, 0.0, [Tag.LOWER_BOTTOM]) for i in range(gdim)),
-            *(fix(self.u, self.tags, i, 0.0, [Tag.UPPER_TOP]) for i in range(gdim - 1)),
-            fix(self.u, self.tags, gdim - 1, -down, [Tag.UPPER_TOP]),
+            *(fix(self.u, self.tags, i, 0.0, Tag.LOWER_BOTTOM) for i in range(gdim)),
+            *(fix(self.u, self.tags, i, 0.0, Tag.UPPER_TOP) for i in range(gdim - 1)),
+            fix(self.u, self.tags, gdim - 1, -down, Tag.UPPER_TOP),
         ]
 
     def contact(self, sliding: str = "finite") -> cx.Contact:

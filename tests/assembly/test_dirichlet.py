@@ -4,7 +4,8 @@
 
 import numpy as np
 import pytest
-from scenes import Blocks, fix
+from scenes import Blocks
+from story import fix
 
 from contactx.meshes import Tag
 from dolfinx import fem
@@ -106,7 +107,7 @@ def test_a_start_that_has_the_values_gives_the_same_answer(sliding):
 
 def test_a_punch_whose_slave_nodes_are_prescribed():
     scene = Blocks(CellType.tetrahedron, down=0.03)
-    scene.bcs.append(fix(scene.u, scene.tags, 2, -0.03, [Tag.UPPER_CONTACT]))
+    scene.bcs.append(fix(scene.u, scene.tags, 2, -0.03, Tag.UPPER_CONTACT))
     contact = scene.contact()
     scene.problem(contact).solve()
     gap = contact.interface.gap

@@ -7,7 +7,8 @@ from petsc4py import PETSc
 
 import numpy as np
 import pytest
-from scenes import Blocks, elasticity
+from scenes import Blocks
+from story import elasticity
 
 import basix.ufl
 import contactx as cx
@@ -154,5 +155,5 @@ def test_elasticity_without_contact_force_is_plain_elasticity():
     assert not contact.multiplier.any()
     assert not contact.force.any()
     assert np.nanmin(contact.gap.x.array) == pytest.approx(0.15)
-    residual = fem.assemble_vector(fem.form(elasticity(scene.u))).array
+    residual = fem.assemble_vector(fem.form(elasticity(scene.u, 1.0, 0.3))).array
     assert np.abs(residual).max() <= 1e-15

@@ -8,7 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 import pyvista
-from scenes import Blocks, displacement, fix
+from scenes import Blocks
+from story import displacement, fix
 
 import contactx as cx
 import ufl
@@ -257,7 +258,7 @@ def test_a_contact_that_a_dirichlet_value_closes_by_force():
     one, two = Blocks(CellType.tetrahedron), Blocks(CellType.tetrahedron)
     contact = one.contact()
     one.problem(contact).solve()
-    two.bcs[-1] = fix(two.u, two.tags, 2, -0.02, [Tag.UPPER_TOP])
+    two.bcs[-1] = fix(two.u, two.tags, 2, -0.02, Tag.UPPER_TOP)
     stepped = two.contact()
     problem = two.problem(stepped)
     problem.solve()

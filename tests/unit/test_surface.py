@@ -4,7 +4,8 @@ from mpi4py import MPI
 
 import numpy as np
 import pytest
-from scenes import Blocks, displacement
+from scenes import Blocks
+from story import displacement
 
 import contactx as cx
 from contactx import meshes

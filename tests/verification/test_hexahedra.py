@@ -4,7 +4,7 @@
 
 import numpy as np
 import pytest
-from scenes import displacement, elasticity, fix
+from story import displacement, elasticity, fix
 
 import contactx as cx
 from contactx import meshes, reference
@@ -15,12 +15,12 @@ from dolfinx import fem
 def solve(n_master, sliding):
     data = meshes.hertz_cap(12, n_master)
     tags, u = data.facet_tags, displacement(data.mesh)
-    F = elasticity(u)
+    F = elasticity(u, 1.0, 0.3)
     bcs = [
-        fix(u, tags, 0, 0.0, [Tag.UPPER_X0, Tag.LOWER_X0]),
-        fix(u, tags, 1, 0.0, [Tag.UPPER_Y0, Tag.LOWER_Y0]),
-        *(fix(u, tags, i, 0.0, [Tag.LOWER_BOTTOM]) for i in range(3)),
-        fix(u, tags, 2, -0.01, [Tag.UPPER_TOP]),
+        fix(u, tags, 0, 0.0, Tag.UPPER_X0, Tag.LOWER_X0),
+        fix(u, tags, 1, 0.0, Tag.UPPER_Y0, Tag.LOWER_Y0),
+        *(fix(u, tags, i, 0.0, Tag.LOWER_BOTTOM) for i in range(3)),
+        fix(u, tags, 2, -0.01, Tag.UPPER_TOP),
     ]
     contact = cx.Contact(
         cx.Surface(tags, Tag.UPPER_CONTACT), cx.Surface(tags, Tag.LOWER_CONTACT), sliding=sliding

@@ -8,13 +8,12 @@ import sys
 from collections.abc import Iterator
 from types import ModuleType
 
+import gmsh
 import pytest
 
 from contactx.meshes import Tag, blocks, hertz_sphere
 from contactx.meshes.gmsh_session import gmsh_session
 from dolfinx.mesh import CellType
-
-gmsh = pytest.importorskip("gmsh")
 
 
 @pytest.fixture
