@@ -61,14 +61,20 @@ class Pair:
             "traction": (n,),
             "constraint": (n,),
         }[term]
-        out = np.zeros(shape)
-        w = np.concatenate([np.ravel(getattr(self, name)) for name, _, _ in core.coefficients])
-        address, _ = core.kernel(sliding, term, self.num_nodes)
-        none = ctypes.cast(None, _DOUBLES)
-        _SIGNATURE(address)(
-            out.ctypes.data_as(_DOUBLES), w.ctypes.data_as(_DOUBLES), none, none, None, None, None
+        w = np.concatenate(
+            [np.ravel(getattr(self, name)) for name, _, _ in core.coefficients(self.num_nodes)]
         )
-        return out
+        return call(core.kernel(sliding, term, self.num_nodes, self.gdim)[0], w, shape)
+
+
+def call(address: int, w: np.ndarray, shape: tuple[int, ...]) -> np.ndarray:
+    """Call the kernel at an address; returns the local tensor."""
+    out = np.zeros(shape)
+    none = ctypes.cast(None, _DOUBLES)
+    _SIGNATURE(address)(
+        out.ctypes.data_as(_DOUBLES), w.ctypes.data_as(_DOUBLES), none, none, None, None, None
+    )
+    return out
 
 
 def random_pair(num_nodes: int, kind: str, rng: np.random.Generator) -> Pair:

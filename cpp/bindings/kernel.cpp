@@ -12,20 +12,28 @@ using namespace contactx;
 void contactx_bindings::kernel(py::module_& m)
 {
   using kernel::Site;
-  py::list table;
-  for (const kernel::CoefficientInfo& c : kernel::coefficients)
-  {
-    const char* site = c.site == Site::nodes  ? "nodes"
-                       : c.site == Site::pair ? "pair"
-                                              : "slave";
-    table.append(py::make_tuple(std::string(c.name), site, c.size));
-  }
-  m.attr("coefficients") = py::tuple(table);
+  m.def(
+      "coefficients",
+      [](int num_nodes)
+      {
+        py::list table;
+        for (const kernel::CoefficientInfo& c : kernel::coefficients(num_nodes))
+        {
+          const char* site = c.site == Site::nodes  ? "nodes"
+                             : c.site == Site::pair ? "pair"
+                                                    : "slave";
+          table.append(py::make_tuple(std::string(c.name), site, c.size));
+        }
+        return py::tuple(table);
+      },
+      py::arg("num_nodes"),
+      "Name, site and size of the coefficients that the kernels are given");
   m.def(
       "kernel",
-      [](const std::string& sliding, const std::string& term, int num_nodes)
+      [](const std::string& sliding, const std::string& term, int num_nodes,
+         int gdim)
       {
-        const kernel::Entry& e = kernel::find(sliding, term, num_nodes);
+        const kernel::Entry& e = kernel::find(sliding, term, num_nodes, gdim);
         Array<std::int8_t> active(e.active.size());
         for (std::size_t i = 0; i < e.active.size(); ++i)
           active.mutable_at(i) = static_cast<std::int8_t>(e.active[i]);
@@ -33,5 +41,6 @@ void contactx_bindings::kernel(py::module_& m)
                               active);
       },
       py::arg("sliding"), py::arg("term"), py::arg("num_nodes"),
+      py::arg("gdim"),
       "Address of a kernel and the coefficients that it reads");
 }

@@ -7,11 +7,23 @@ from contactx import compat as compat  # isort: skip
 
 from contactx.contact import Contact
 from contactx.errors import ConvergenceError
+from contactx.obstacles import Cylinder, LevelSet, Plane, Sphere
 from contactx.output import VTKOutput
 from contactx.problem import ContactProblem
 from contactx.report import Report
 from contactx.surface import Surface
 
-__all__ = ["Contact", "ContactProblem", "ConvergenceError", "Report", "Surface", "VTKOutput"]
+__all__ = [
+    "Contact",
+    "ContactProblem",
+    "ConvergenceError",
+    "Cylinder",
+    "LevelSet",
+    "Plane",
+    "Report",
+    "Sphere",
+    "Surface",
+    "VTKOutput",
+]
 
 __version__ = "0.1.0"

@@ -84,6 +84,11 @@ class Bulk:
             bc.set(defect, self.u.x.array, alpha=-1.0)
         return defect
 
+    def prescribed(self) -> npt.NDArray[np.float64]:
+        """Displacement with the values of the Dirichlet conditions."""
+        displacement: npt.NDArray[np.float64] = self.u.x.array - self.dirichlet_defect()
+        return displacement
+
     def jacobian(self) -> PETSc.Mat:
         """Jacobian, with unit rows and columns at Dirichlet conditions.
 

@@ -10,6 +10,7 @@ import numpy.typing as npt
 from contactx.fields import Fields
 from contactx.forms import ContactForms
 from contactx.interface import Interface
+from contactx.obstacles import Obstacle
 from contactx.surface import Surface
 from dolfinx import fem, la
 
@@ -17,7 +18,7 @@ _SLIDING = ("finite", "small")
 
 
 class Contact:
-    """Frictionless contact of a slave with a master surface.
+    """Frictionless contact of a slave surface with a master surface or a rigid obstacle.
 
     The gap g = n . (x_s - x_m) of a slave node is positive where it is open, with the outward
     normal n of the master; the pressure p >= 0 is positive in compression. Exactly one of them is
@@ -25,28 +26,47 @@ class Contact:
     ContactProblem, and change when a step is accepted.
     """
 
-    def __init__(self, slave: Surface, master: Surface, *, sliding: str = "finite"):
+    def __init__(
+        self,
+        slave: Surface,
+        master: Surface | Obstacle,
+        *,
+        sliding: str = "finite",
+        search_distance: float | None = None,
+        offset: float | fem.Constant | fem.Function = 0.0,
+    ):
         """Create a contact.
 
         Args:
             slave: Surface whose nodes must not penetrate the master; take the finer or the softer
                 of the two.
-            master: Surface that they are measured against.
+            master: Surface that they are measured against, or a rigid obstacle: Plane, Sphere,
+                Cylinder or LevelSet.
             sliding: "finite": pairs, normals and projections follow the deformation. "small": they
                 are those of the reference configuration, which is linear and cheap, and right
                 where bodies neither slide nor turn by much.
+            search_distance: Largest distance at which a slave node is paired; by default half the
+                diagonal of the larger surface's box, and unlimited for a rigid obstacle.
+            offset: Length that is taken off the gap: positive where the bodies interfere by it or
+                carry a layer of that thickness, negative where they are that much farther apart. A
+                number, a ``fem.Constant`` or a ``fem.Function`` of the scalar linear space.
 
         Raises:
-            TypeError: If slave or master is not a Surface.
-            ValueError: If the surfaces share facets, or ``sliding`` is not known.
+            TypeError: If slave or master is something else.
+            ValueError: If the surfaces share facets, or an option is out of its range.
         """
-        for name, surface in (("slave", slave), ("master", master)):
-            if not isinstance(surface, Surface):
-                raise TypeError(
-                    f"{name} must be a contactx.Surface, not {type(surface).__name__}: "
-                    "write Surface(facet_tags, tag)"
-                )
-        if slave.facet_tags.topology is master.facet_tags.topology:
+        if not isinstance(slave, Surface):
+            raise TypeError(
+                f"slave must be a contactx.Surface, not {type(slave).__name__}: "
+                "write Surface(facet_tags, tag)"
+            )
+        if not isinstance(master, Surface | Obstacle):
+            raise TypeError(
+                f"master must be a contactx.Surface or a rigid obstacle, not "
+                f"{type(master).__name__}: write Surface(facet_tags, tag), or Plane, Sphere, "
+                "Cylinder or LevelSet"
+            )
+        if isinstance(master, Surface) and slave.facet_tags.topology is master.facet_tags.topology:
             shared = np.intersect1d(slave.facets, master.facets)
             if len(shared) > 0:
                 raise ValueError(
@@ -55,15 +75,20 @@ class Contact:
                 )
         if sliding not in _SLIDING:
             raise ValueError(f'sliding must be "finite" or "small", not {sliding!r}')
+        if search_distance is not None and not search_distance > 0:
+            raise ValueError(f"search_distance is {search_distance}: give a positive length")
         self.slave = slave
         self.master = master
         self.sliding = sliding
+        self.search_distance = search_distance
+        self.offset = offset
         self._interface: Interface | None = None
         self._fields: Fields | None = None
 
     def __repr__(self) -> str:
         """Name the surfaces."""
-        return f"Contact(slave={self.slave}, master={self.master}, sliding={self.sliding!r})"
+        master = self.master if isinstance(self.master, Surface) else type(self.master).__name__
+        return f"Contact(slave={self.slave}, master={master}, sliding={self.sliding!r})"
 
     def attach(self, u: fem.Function, X: la.Vector) -> Interface:
         """Make the contact's discrete side; ContactProblem calls this.
@@ -82,7 +107,15 @@ class Contact:
             raise RuntimeError(
                 f"{self} belongs to a ContactProblem already: create one Contact a problem"
             )
-        interface = Interface(self.slave, self.master, self.sliding, u, X)
+        interface = Interface(
+            self.slave,
+            self.master,
+            u,
+            X,
+            sliding=self.sliding,
+            search_distance=self.search_distance,
+            offset=self.offset,
+        )
         self._fields = Fields(interface, u.function_space)
         self._interface = interface
         return interface
@@ -90,6 +123,15 @@ class Contact:
     def accept(self) -> None:
         """Take over the results of an accepted step; ContactProblem calls this."""
         self.fields.update()
+
+    @property
+    def active(self) -> bool:
+        """Whether the contact is switched on; may be set between steps."""
+        return self.interface.active
+
+    @active.setter
+    def active(self, active: bool) -> None:
+        self.interface.active = bool(active)
 
     @property
     def interface(self) -> Interface:

@@ -8,7 +8,6 @@ OPEN: int
 STICK: int
 SLIP: int
 margin: float
-coefficients: tuple[tuple[str, str, int], ...]
 
 def nodal_areas(
     offsets: NDArray[np.int32], nodes: NDArray[np.int32], x: NDArray[np.float64], gdim: int
@@ -63,4 +62,5 @@ def normal_complementarity(
     d_pressure: NDArray[np.float64],
     d_gap: NDArray[np.float64],
 ) -> None: ...
-def kernel(sliding: str, term: str, num_nodes: int) -> tuple[int, NDArray[np.int8]]: ...
+def coefficients(num_nodes: int) -> tuple[tuple[str, str, int], ...]: ...
+def kernel(sliding: str, term: str, num_nodes: int, gdim: int) -> tuple[int, NDArray[np.int8]]: ...

@@ -5,9 +5,9 @@
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 
 from contactx.interface import Interface
+from contactx.nodal import matching_nodes
 from dolfinx import fem
 
 
@@ -34,7 +34,7 @@ class Fields:
         self._gdim = V.mesh.geometry.dim
         Q = fem.functionspace(V.mesh, ("Lagrange", 1))
         # Both spaces number the vertices; where they differ the results must follow the bulk
-        self._nodes = _matching_nodes(V, Q)[interface.slaves]
+        self._nodes = matching_nodes(V, Q)[interface.slaves]
         self.pressure = fem.Function(Q, name="pressure")
         self.traction = fem.Function(V, name="traction")
         self.gap = fem.Function(Q, name="gap")
@@ -63,10 +63,3 @@ class Fields:
         )
         self.force = on_slave.sum(axis=0)
         self.imbalance = forces.sum(axis=0)
-
-
-def _matching_nodes(V: fem.FunctionSpace, Q: fem.FunctionSpace) -> npt.NDArray[np.int32]:
-    """Node of the scalar linear space Q at each node of the vector space V."""
-    match = np.empty(V.dofmap.index_map.size_local + V.dofmap.index_map.num_ghosts, dtype=np.int32)
-    match[V.dofmap.list.ravel()] = Q.dofmap.list.ravel()
-    return match

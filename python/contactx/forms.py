@@ -25,8 +25,8 @@ class Pairs:
         slaves: Slave nodes, by their number in the contact, shape (num_pairs,).
         nodes: The slave node and the facet's nodes, numbered as the blocks of the
             displacement's dofmap, shape (num_pairs, 1 + num_nodes).
-        data: Feature, local coordinates, components of a ridge's normal and unit normal as the
-            kernels read them, shape (num_pairs, 9).
+        data: What the kernels read of a pair, as cpp/contactx/kernel/layout.h says: shape
+            (num_pairs, 9) with a facet, (num_pairs, 16) with a rigid obstacle.
     """
 
     slaves: npt.NDArray[np.int32]
@@ -102,7 +102,7 @@ class ContactForms:
         }
         spaces: dict[tuple[str, int], Any] = {}
         self._coefficients = []
-        for name, site, size in core.coefficients:
+        for name, site, size in core.coefficients(width - 1):
             key = (site, size or gdim)
             if key not in spaces:
                 spaces[key] = contact_mesh.borrow(mesh, *sites[site], key[1])
@@ -112,7 +112,7 @@ class ContactForms:
         U, S = spaces["nodes", gdim], spaces["slave", 1]
 
         def form(term: str, *arguments: Any) -> fem.Form:
-            address, active = core.kernel(sliding, term, width - 1)
+            address, active = core.kernel(sliding, term, width - 1, gdim)
             cells = np.arange(num_pairs, dtype=np.int32)
             integrals = {fem.IntegralType.cell: [(0, address, cells, active)]}
             make = fem.form_cpp_class(np.float64)

@@ -11,7 +11,12 @@ import numpy.typing as npt
 
 from contactx import cpp as core
 from contactx.forms import ContactForms, Pairs, State
-from contactx.surface import FacetList, Surface
+from contactx.master.facets import FacetMaster
+from contactx.master.master import Master
+from contactx.master.obstacle import ObstacleMaster
+from contactx.nodal import NodalValue
+from contactx.obstacles import Obstacle
+from contactx.surface import Surface
 from dolfinx import cpp, fem, la
 
 
@@ -19,7 +24,7 @@ from dolfinx import cpp, fem, la
 class Checkpoint:
     """State of a contact that a failed step returns to."""
 
-    pairing: core.Pairing
+    master: Master
     multiplier: npt.NDArray[np.float64]
     status: npt.NDArray[np.int8]
     gap: npt.NDArray[np.float64]
@@ -40,23 +45,34 @@ class Interface:
         value: Complementarity function, a force, shape (n,).
         d_pressure: Its derivative with respect to the pressure, shape (n,).
         forms: Forms, one set for each kind of facet that has pairs.
-        reach: Largest distance of a pair.
+        master: Pairs with the master side.
+        active: Whether the contact is switched on.
     """
 
     def __init__(
-        self, slave: Surface, master: Surface, sliding: str, u: fem.Function, X: la.Vector
+        self,
+        slave: Surface,
+        master: Surface | Obstacle,
+        u: fem.Function,
+        X: la.Vector,
+        *,
+        sliding: str,
+        search_distance: float | None,
+        offset: float | fem.Function,
     ):
         """Find the slave nodes and pair them in the reference configuration.
 
         Args:
             slave: Slave surface.
-            master: Master surface.
-            sliding: "finite" or "small".
+            master: Master surface or rigid obstacle.
             u: Displacement.
             X: Reference positions of the nodes of ``u``.
+            sliding: "finite" or "small".
+            search_distance: Largest distance of a pair; chosen if None.
+            offset: What is taken off the gap: a number, or a function in a scalar linear space.
 
         Raises:
-            ValueError: If the surfaces share nodes.
+            ValueError: If the surfaces share nodes, or an obstacle's parameters do not fit.
         """
         V = u.function_space
         self._comm = V.mesh.comm
@@ -65,22 +81,21 @@ class Interface:
         self._held = sliding == "small"
         self._u = u
         self._bulk_map = V.dofmap.index_map
-        slave_facets, master_facets = slave.facet_nodes(V), master.facet_nodes(V)
-        shared = np.intersect1d(slave_facets.nodes, master_facets.nodes)
-        if len(shared) > 0:
-            raise ValueError(
-                f"slave and master overlap: {slave} and {master} share {len(shared)} nodes. "
-                "Give each body its own nodes and each surface its own facets"
-            )
-        self._master = master_facets
-        self._pairing = core.Pairing(
-            slave_facets.offsets,
-            slave_facets.nodes,
-            master_facets.offsets,
-            master_facets.nodes,
-            self._gdim,
-        )
-        self.slaves = self._pairing.slaves
+        facets = slave.facet_nodes(V)
+        self.slaves = np.unique(facets.nodes)
+        x = X.array.reshape(-1, self._gdim)
+        self.master: Master
+        if isinstance(master, Obstacle):
+            self.master = ObstacleMaster(self.slaves, master, search_distance)
+        else:
+            others = master.facet_nodes(V)
+            shared = np.intersect1d(facets.nodes, others.nodes)
+            if len(shared) > 0:
+                raise ValueError(
+                    f"slave and master overlap: {slave} and {master} share {len(shared)} nodes. "
+                    "Give each body its own nodes and each surface its own facets"
+                )
+            self.master = FacetMaster(facets, others, x, search_distance)
         n = len(self.slaves)
         self._slave_map = cpp.common.IndexMap(self._comm, n)
         vector = la.vector
@@ -91,39 +106,32 @@ class Interface:
             area=vector(self._slave_map, 1),
             gap_derivative=vector(self._slave_map, 1),
         )
-        self.state.area.array[:] = core.nodal_areas(
-            slave_facets.offsets, slave_facets.nodes, X.array, self._gdim
-        )[self.slaves]
+        self.state.area.array[:] = core.nodal_areas(facets.offsets, facets.nodes, x, self._gdim)[
+            self.slaves
+        ]
         self.status = np.full(n, core.OPEN, dtype=np.int8)
         self.gap = np.full(n, np.nan)
         self.c = np.ones(n)
         self.value = np.zeros(n)
         self.d_pressure = np.zeros(n)
+        self.active = True
+        self._may_close = np.ones(n, dtype=bool)
+        self._offset = NodalValue(offset, "offset", V, self.slaves)
         self.forms: list[ContactForms] = []
-        self._facet = np.full(n, -1, dtype=np.int32)
-        self._feature = np.zeros(n, dtype=np.int32)
-        self.reach = _default_reach(X.array.reshape(-1, self._gdim), slave_facets, master_facets)
-        self._pairing.update(X.array, self.reach, self.status)
+        self.master.search(x, self.status)
         self._make_forms()
 
-    @property
-    def num_pairs(self) -> int:
-        """Number of slave nodes that have a pair."""
-        return int(np.count_nonzero(self._facet >= 0))
-
-    @property
-    def frozen(self) -> npt.NDArray[np.int32]:
-        """Slave nodes whose pair was frozen in this step."""
-        return self._pairing.frozen()
-
     def positions(self) -> npt.NDArray[np.float64]:
-        """Current positions of the bulk's nodes, flattened."""
+        """Current positions of the bulk's nodes, shape (num_nodes, gdim)."""
         x: npt.NDArray[np.float64] = self.state.position.array + self._u.x.array
-        return x
+        return x.reshape(-1, self._gdim)
 
-    def forget_flips(self) -> None:
-        """Let frozen pairs move again and count anew how often pairs go back and forth."""
-        self._pairing.begin_step()
+    def begin_step(self) -> None:
+        """Start a step: pairs are released, and a moved obstacle of small sliding is seen."""
+        self.hold(False)
+        self.master.forget_flips()
+        if self.sliding == "small" and isinstance(self.master, ObstacleMaster):
+            self._pair(self.state.position.array.reshape(-1, self._gdim))
 
     def search(self) -> int:
         """Pair the slave nodes in the current configuration, unless pairs are held.
@@ -131,19 +139,20 @@ class Interface:
         Returns:
             Number of nodes in contact whose facet has changed.
         """
-        if self._held:
-            return 0
+        return 0 if self._held else self._pair(self.positions())
+
+    def _pair(self, x: npt.NDArray[np.float64]) -> int:
         closed = (self.status != core.OPEN).astype(np.int8)
-        changed = self._pairing.update(self.positions(), self.reach, closed)
-        same = np.array_equal(self._pairing.facet, self._facet) and np.array_equal(
-            self._pairing.feature, self._feature
-        )
-        if same:
-            for form, pairs in zip(self.forms, self._pairs(), strict=True):
-                form.update(pairs)
-        else:
+        changed, new = self.master.search(x, closed)
+        if new:
             self._make_forms()
+        else:
+            self._update_forms(self.master.pairs())
         return changed
+
+    def _update_forms(self, groups: list[Pairs]) -> None:
+        for form, pairs in zip(self.forms, groups, strict=True):
+            form.update(pairs)
 
     def hold(self, held: bool) -> None:
         """Hold the pairs of finite sliding with their normals and projections, or release them.
@@ -159,26 +168,11 @@ class Interface:
 
     def _make_forms(self) -> None:
         """Make the forms of the current pairs."""
-        self._facet, self._feature = self._pairing.facet, self._pairing.feature
         kinematics = "small" if self._held else "finite"
         self.forms = [
             ContactForms(self._comm, kinematics, pairs, self.state, self._bulk_map, self._slave_map)
-            for pairs in self._pairs()
+            for pairs in self.master.pairs()
         ]
-
-    def _pairs(self) -> list[Pairs]:
-        """Pairs by the number of nodes of their facets."""
-        found = self._pairing
-        data = np.column_stack([found.feature, found.xi, found.cone, found.normal])
-        sizes = np.diff(self._master.offsets)[self._facet]
-        groups = []
-        for size in np.unique(sizes[self._facet >= 0]):
-            slaves = np.flatnonzero((self._facet >= 0) & (sizes == size)).astype(np.int32)
-            first = self._master.offsets[self._facet[slaves]]
-            facets = self._master.nodes[first[:, None] + np.arange(size)]
-            nodes = np.column_stack([self.slaves[slaves], facets])
-            groups.append(Pairs(slaves, nodes, data[slaves]))
-        return groups
 
     def set_factor(self, stiffness: npt.NDArray[np.float64]) -> None:
         """Set the factor c of the gap: the stiffness of a pair over the slave node's area.
@@ -191,21 +185,47 @@ class Interface:
         """
         compliance = np.zeros_like(stiffness)
         np.divide(1, stiffness, out=compliance, where=stiffness > 0)
-        total = compliance[self.slaves]
-        master = np.full(len(total), np.median(compliance[self._master.nodes]))
-        for pairs in self._pairs():
-            master[pairs.slaves] = compliance[pairs.nodes[:, 1:]].mean(axis=1)
-        total = (total + master) * self.state.area.array
+        total = compliance[self.slaves] + self.master.compliance(compliance)
+        total *= self.state.area.array
         usable = total > 0
         self.c[:] = 1 / np.median(total[usable]) if usable.any() else 1.0
         self.c[usable] = 1 / total[usable]
 
     def update_gap(self) -> None:
         """First pass: assemble the gap of each slave node."""
+        fresh = self.master.refresh(self.positions(), self._held)
+        if fresh is not None:
+            self._update_forms(fresh)
         self.gap[:] = 0
         for form in self.forms:
             fem.assemble_vector(self.gap, form.gap)
-        self.gap[self._facet < 0] = np.nan
+        self.gap -= self._offset.now()
+        self.gap[~self.master.paired] = np.nan
+        self.gap[~self._may_close] = np.nan
+        if not self.active:
+            self.gap[:] = np.nan
+
+    def over_constrained(
+        self, markers: npt.NDArray[np.int8], prescribed: npt.NDArray[np.float64]
+    ) -> npt.NDArray[np.int32]:
+        """Slave nodes that a rigid obstacle and Dirichlet conditions hold along one direction.
+
+        Such a node has nothing to yield: where its prescribed position is outside the obstacle it
+        stays open, where it is inside there is no solution.
+
+        Args:
+            markers: 1 at dofs with a Dirichlet condition, shape (num_dofs,).
+            prescribed: Displacement with the Dirichlet values, shape (num_dofs,).
+
+        Returns:
+            Nodes whose prescribed position is inside, by their place in ``slaves``.
+        """
+        x = (self.state.position.array + prescribed).reshape(-1, self._gdim)[self.slaves]
+        free = markers.reshape(-1, self._gdim)[self.slaves] == 0
+        held, gap = self.master.over_constrained(x, free)
+        self._may_close = ~held
+        size = np.ptp(x, axis=0).max(initial=0.0)
+        return np.flatnonzero(held & (gap - self._offset.now() < -1e-9 * size)).astype(np.int32)
 
     def update_status(self) -> int:
         """Set each slave node's status from its pressure and gap.
@@ -248,7 +268,7 @@ class Interface:
     def checkpoint(self) -> Checkpoint:
         """Copy what a step changes."""
         return Checkpoint(
-            self._pairing.copy(),
+            self.master.copy(),
             self.state.multiplier.array.copy(),
             self.status.copy(),
             self.gap.copy(),
@@ -256,29 +276,9 @@ class Interface:
 
     def restore(self, checkpoint: Checkpoint) -> None:
         """Return to a checkpoint."""
-        self._pairing = checkpoint.pairing.copy()
+        self.master = checkpoint.master.copy()
         self.state.multiplier.array[:] = checkpoint.multiplier
         self.status[:] = checkpoint.status
         self.gap[:] = checkpoint.gap
         self._held = self.sliding == "small"
         self._make_forms()
-
-    def distance(self) -> float:
-        """Distance from the nearest slave node to the master, now."""
-        return self._pairing.distance(self.positions())
-
-    def deepest_frozen(self) -> float:
-        """Smallest gap that the frozen pairs hide: what a search without memory finds for them."""
-        if len(self.frozen) == 0:
-            return 0.0
-        gaps = self._pairing.natural_gaps(self.positions(), self.reach, self.frozen)
-        return float(np.nanmin(gaps, initial=0.0))
-
-
-def _default_reach(x: npt.NDArray[np.float64], slave: FacetList, master: FacetList) -> float:
-    """Half the diagonal of the larger surface's bounding box.
-
-    A body that has moved into another within one iteration must still be found.
-    """
-    diagonals = [np.linalg.norm(np.ptp(x[f.nodes], axis=0)) for f in (slave, master)]
-    return float(max(diagonals)) / 2

@@ -92,8 +92,9 @@ class NewtonLoop:
         self._system.forget()
         self._system.renew()
         self.snes.setFunction(self._function, self._system.b)
-        self._hold(False)
-        self._forget_flips()
+        self._held = False
+        for interface in self._interfaces:
+            interface.begin_step()
         with self._petsc_options():
             self.snes.setFromOptions()
             self._time_linear_solves(report)
@@ -171,7 +172,8 @@ class NewtonLoop:
         self._hold(self._many(status + pairs))
         if self._many(status):
             # What flips on an active set that is far off says nothing of the solution
-            self._forget_flips()
+            for interface in self._interfaces:
+                interface.master.forget_flips()
         for interface in self._interfaces:
             interface.drop_open_pressures()
             interface.evaluate_law()
@@ -192,10 +194,6 @@ class NewtonLoop:
 
     def _num_closed(self) -> int:
         return sum(int(np.count_nonzero(i.status != core.OPEN)) for i in self._interfaces)
-
-    def _forget_flips(self) -> None:
-        for interface in self._interfaces:
-            interface.forget_flips()
 
     def _hold(self, held: bool) -> None:
         self._held = held and any(i.sliding == "finite" for i in self._interfaces)

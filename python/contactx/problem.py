@@ -106,9 +106,11 @@ class ContactProblem:
         Raises:
             ConvergenceError: If the Newton loop fails. The displacement and the contacts are then
                 as they were before the call.
-            ValueError: If ``u`` is not finite.
+            ValueError: If ``u`` is not finite, or Dirichlet conditions hold a slave node inside a
+                rigid obstacle.
         """
         validate.check_finite(the_displacement_u_is=self.u.x)
+        self._check_over_constrained()
         displacement = self.u.x.array.copy()
         checkpoints = [interface.checkpoint() for interface in self._interfaces]
         self.report = report = Report()
@@ -127,11 +129,23 @@ class ContactProblem:
         self._complete(report)
         return self.u
 
+    def _check_over_constrained(self) -> None:
+        prescribed = self._bulk.prescribed()
+        for k, interface in enumerate(self._interfaces):
+            bad = interface.over_constrained(self._bulk.markers, prescribed)
+            if len(bad) > 0 and interface.active:
+                raise ValueError(
+                    f"contact {k} ({self.contacts[k]}) is over-constrained: Dirichlet conditions "
+                    f"hold {len(bad)} slave nodes inside the rigid obstacle, first node "
+                    f"{interface.slaves[bad[0]]}. Take these nodes out of the slave surface, "
+                    "release them along the obstacle's normal or prescribe values outside of it"
+                )
+
     def _complete(self, report: Report) -> None:
         report.slaves = sum(len(i.slaves) for i in self._interfaces)
-        report.pairs = sum(i.num_pairs for i in self._interfaces)
-        report.frozen = sum(len(i.frozen) for i in self._interfaces)
-        report.frozen_gap = min(i.deepest_frozen() for i in self._interfaces)
+        report.pairs = sum(int(i.master.paired.sum()) for i in self._interfaces)
+        report.frozen = sum(len(i.master.frozen) for i in self._interfaces)
+        report.frozen_gap = min(i.master.deepest_frozen(i.positions()) for i in self._interfaces)
         report.force = [contact.force for contact in self.contacts]
         report.imbalance = np.sum([contact.fields.imbalance for contact in self.contacts], axis=0)
         for k, interface in enumerate(self._interfaces):
@@ -140,22 +154,24 @@ class ContactProblem:
     def _warn(self, k: int, interface: Interface) -> None:
         """Warn of what a converged solution may hide in contact number k."""
         name = f"contact {k} ({self.contacts[k]})"
+        master, x = interface.master, interface.positions()
+        hidden = master.deepest_frozen(x)
         text = ""
-        if interface.num_pairs == 0:
-            distance = interface.distance()
+        if interface.active and not master.paired.any():
+            distance = master.distance(x)
             text = f"{name} transmits no force: it has no slave node "
-            if distance > interface.reach:
+            if distance > master.reach:
                 text += (
                     f"within reach of its master; the nearest is {distance:.3g} away, and the "
-                    f"search reaches {interface.reach:.3g}"
+                    f"search reaches {master.reach:.3g}"
                 )
             else:
                 text += f"that faces its master, although the nearest is {distance:.3g} away"
-        elif interface.deepest_frozen() < -1e-10 * interface.reach:
+        elif hidden < 0:
             text = (
-                f"{name}: {len(interface.frozen)} pairs went back and forth between facets and "
-                f"were held; they hide a penetration of {-interface.deepest_frozen():.3g}. "
-                "Refine the master there or take smaller steps"
+                f"{name}: {len(master.frozen)} pairs went back and forth between facets and "
+                f"were held; they hide a penetration of {-hidden:.3g}. Refine the master there or "
+                "take smaller steps"
             )
         if text:
             warnings.warn(text, stacklevel=4)

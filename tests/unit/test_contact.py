@@ -31,7 +31,9 @@ def test_slave_and_master_with_common_nodes(scene):
 
 
 def test_something_else_than_a_surface(scene):
-    with pytest.raises(TypeError, match=r"master must be a contactx.Surface, not int"):
+    with pytest.raises(
+        TypeError, match=r"master must be a contactx.Surface or a rigid obstacle, not int"
+    ):
         cx.Contact(surface(scene, Tag.UPPER_CONTACT), 21)
 
 

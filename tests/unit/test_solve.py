@@ -168,14 +168,16 @@ def test_held_pairs_that_hide_a_penetration_warn():
     problem = scene.problem(contact)
 
     class Held:
-        num_pairs, reach, frozen = 3, 1.0, np.arange(2)
+        paired, frozen = np.ones(3, dtype=bool), np.arange(2)
 
-        def deepest_frozen(self):
+        def deepest_frozen(self, _):
             return -1e-3
 
+    interface = contact.interface
+    assert interface.master.deepest_frozen(interface.positions()) == 0
+    interface.master = Held()
     with pytest.warns(UserWarning, match=r"2 pairs went back.*hide a penetration of 0\.001"):
-        problem._warn(0, Held())
-    assert contact.interface.deepest_frozen() == 0
+        problem._warn(0, interface)
 
 
 def test_slave_and_master_may_change_roles():

@@ -149,21 +149,25 @@ void add_common(std::vector<Entry>& entries)
   using enum Coefficient;
   constexpr auto s = Kinematics::name;
   constexpr int n = Kinematics::F::nodes;
+  constexpr int gdim = Kinematics::F::gdim;
   entries.push_back(
-      {s, "gap", n, &gap<Kinematics>, {displacement, position, pair}});
+      {s, "gap", n, gdim, &gap<Kinematics>, {displacement, position, pair}});
   entries.push_back({s,
                      "residual",
                      n,
+                     gdim,
                      &residual<Kinematics>,
                      {displacement, position, pair, multiplier, area}});
   entries.push_back({s,
                      "traction",
                      n,
+                     gdim,
                      &traction<Kinematics>,
                      {displacement, position, pair, area}});
   entries.push_back({s,
                      "constraint",
                      n,
+                     gdim,
                      &constraint<Kinematics>,
                      {displacement, position, pair, gap_derivative}});
 }
@@ -177,6 +181,7 @@ void add(std::vector<Entry>& entries)
   entries.push_back({Finite<F>::name,
                      "stiffness",
                      F::nodes,
+                     F::gdim,
                      &stiffness<F>,
                      {displacement, position, pair, multiplier, area}});
 }

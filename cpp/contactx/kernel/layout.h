@@ -42,33 +42,45 @@ struct CoefficientInfo
   int size; ///< values a dof; 0 stands for the geometric dimension
 };
 
-/// Values a pair: feature, local coordinates, components of a ridge's normal in
-/// the frame of its facet, and the unit normal that the search found
+/// Values a pair with a facet: feature, local coordinates, components of a
+/// ridge's normal in the frame of its facet, and the unit normal that the
+/// search found
 inline constexpr int pair_feature = 0;
 inline constexpr int pair_xi = 1;
 inline constexpr int pair_cone = 3;
 inline constexpr int pair_normal = 6;
 inline constexpr int pair_size = 9;
 
+/// Values a pair with a rigid obstacle: gap, gradient of the gap, unit normal
+/// and derivative of the normal, row-major
+inline constexpr int rigid_gap = 0;
+inline constexpr int rigid_gradient = 1;
+inline constexpr int rigid_normal = 4;
+inline constexpr int rigid_curvature = 7;
+inline constexpr int rigid_size = 16;
+
 /// @brief The coefficients in their order.
-inline constexpr std::array<CoefficientInfo, 6> coefficients{
-    {{"displacement", Site::nodes, 0},
-     {"position", Site::nodes, 0},
-     {"pair", Site::pair, pair_size},
-     {"multiplier", Site::slave, 1},
-     {"area", Site::slave, 1},
-     {"gap_derivative", Site::slave, 1}}};
+/// @param[in] num_nodes Number of nodes of the facet, 0 for a rigid obstacle.
+constexpr std::array<CoefficientInfo, 6> coefficients(int num_nodes)
+{
+  return {{{"displacement", Site::nodes, 0},
+           {"position", Site::nodes, 0},
+           {"pair", Site::pair, num_nodes > 0 ? pair_size : rigid_size},
+           {"multiplier", Site::slave, 1},
+           {"area", Site::slave, 1},
+           {"gap_derivative", Site::slave, 1}}};
+}
 
 /// @brief Place of a coefficient in the array that a kernel is given.
 /// @param[in] c Coefficient.
-/// @param[in] num_nodes Number of nodes of the facet.
+/// @param[in] num_nodes Number of nodes of the facet, 0 for a rigid obstacle.
 /// @param[in] gdim Geometric dimension.
 constexpr int offset(Coefficient c, int num_nodes, int gdim)
 {
   int n = 0;
   for (int i = 0; i < static_cast<int>(c); ++i)
   {
-    const CoefficientInfo& info = coefficients[i];
+    const CoefficientInfo info = coefficients(num_nodes)[i];
     n += (info.site == Site::nodes ? num_nodes + 1 : 1)
          * (info.size > 0 ? info.size : gdim);
   }

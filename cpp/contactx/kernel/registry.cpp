@@ -3,6 +3,7 @@
 
 #include "registry.h"
 #include "frictionless.h"
+#include "rigid.h"
 #include <stdexcept>
 #include <string>
 
@@ -10,15 +11,23 @@ using namespace contactx::kernel;
 
 std::span<const Entry> contactx::kernel::registry()
 {
-  static const std::vector<Entry> entries = frictionless();
+  static const std::vector<Entry> entries = []
+  {
+    std::vector<Entry> all = frictionless();
+    for (Entry& e : rigid_frictionless())
+      all.push_back(std::move(e));
+    return all;
+  }();
   return entries;
 }
 
 const Entry& contactx::kernel::find(std::string_view sliding,
-                                    std::string_view term, int num_nodes)
+                                    std::string_view term, int num_nodes,
+                                    int gdim)
 {
   for (const Entry& e : registry())
-    if (e.sliding == sliding and e.term == term and e.num_nodes == num_nodes)
+    if (e.sliding == sliding and e.term == term and e.num_nodes == num_nodes
+        and e.gdim == gdim)
       return e;
   throw std::invalid_argument("there is no kernel for " + std::string(sliding)
                               + " sliding, term " + std::string(term)

@@ -14,7 +14,8 @@ struct Entry
 {
   std::string_view sliding; ///< "finite" or "small"
   std::string_view term;    ///< what is assembled
-  int num_nodes;            ///< nodes of the facet
+  int num_nodes;            ///< nodes of the facet, 0 for a rigid obstacle
+  int gdim;                 ///< geometric dimension
   Kernel* function;
   std::vector<Coefficient> active; ///< coefficients that the kernel reads
 };
@@ -28,8 +29,9 @@ std::span<const Entry> registry();
 /// with respect to the displacement), "traction" (with respect to the
 /// multiplier) or "constraint" (derivative of the complementarity with
 /// respect to the displacement).
-/// @param[in] num_nodes Number of nodes of the facet.
+/// @param[in] num_nodes Number of nodes of the facet, 0 for a rigid obstacle.
+/// @param[in] gdim Geometric dimension.
 /// @throws std::invalid_argument where there is no such kernel.
 const Entry& find(std::string_view sliding, std::string_view term,
-                  int num_nodes);
+                  int num_nodes, int gdim);
 } // namespace contactx::kernel

@@ -1,0 +1,105 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""What a contact needs of its master side."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+
+import numpy as np
+import numpy.typing as npt
+
+from contactx.forms import Pairs
+
+
+class Master(ABC):
+    """Pairs of the slave nodes with a master.
+
+    Positions are those of all nodes of the bulk, shape (num_nodes, gdim).
+
+    Attributes:
+        reach: Largest distance of a pair.
+    """
+
+    reach: float
+
+    @abstractmethod
+    def search(self, x: npt.NDArray[np.float64], closed: npt.NDArray[np.int8]) -> tuple[int, bool]:
+        """Pair the slave nodes.
+
+        Args:
+            x: Positions.
+            closed: Whether each slave node is in contact, shape (n,).
+
+        Returns:
+            Number of nodes in contact that changed their facet, and whether the forms must be
+            made anew because any pair has changed.
+        """
+
+    @property
+    @abstractmethod
+    def paired(self) -> npt.NDArray[np.bool_]:
+        """Whether each slave node has a pair, shape (n,)."""
+
+    @abstractmethod
+    def pairs(self) -> list[Pairs]:
+        """Pairs by the kind of their facets, with the data of the last search."""
+
+    @abstractmethod
+    def refresh(self, x: npt.NDArray[np.float64], held: bool) -> list[Pairs] | None:
+        """Data of the pairs at an iterate between two searches.
+
+        Args:
+            x: Positions.
+            held: Whether normals and projections are held.
+
+        Returns:
+            The pairs, None where their data have not changed.
+        """
+
+    @abstractmethod
+    def compliance(self, nodal: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+        """Compliance of the master at each slave node.
+
+        Args:
+            nodal: Compliance of each node of the bulk, length/force.
+
+        Returns:
+            Compliance, shape (n,).
+        """
+
+    @abstractmethod
+    def copy(self) -> Master:
+        """Independent copy, to return to when a step fails."""
+
+    @abstractmethod
+    def distance(self, x: npt.NDArray[np.float64]) -> float:
+        """Distance from the nearest slave node to the master."""
+
+    def over_constrained(
+        self, x: npt.NDArray[np.float64], free: npt.NDArray[np.bool_]
+    ) -> tuple[npt.NDArray[np.bool_], npt.NDArray[np.float64]]:
+        """Slave nodes that have nothing to yield along the master's normal.
+
+        A deformable master yields where its slave node cannot.
+
+        Args:
+            x: Positions of the slave nodes, shape (n, gdim).
+            free: Which of their displacements are not prescribed, shape (n, gdim).
+
+        Returns:
+            Whether a node is held along the normal, and its gap, each of shape (n,).
+        """
+        return np.zeros(len(x), dtype=bool), np.full(len(x), np.nan)
+
+    @property
+    def frozen(self) -> npt.NDArray[np.int32]:
+        """Slave nodes whose pair went back and forth and was frozen."""
+        return np.array([], dtype=np.int32)
+
+    def forget_flips(self) -> None:
+        """Let frozen pairs move again and count anew how often pairs go back and forth."""
+
+    def deepest_frozen(self, x: npt.NDArray[np.float64]) -> float:
+        """Smallest gap that the frozen pairs hide."""
+        return 0.0

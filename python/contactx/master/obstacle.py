@@ -1,0 +1,100 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Rigid obstacle as a master."""
+
+from __future__ import annotations
+
+import copy
+
+import numpy as np
+import numpy.typing as npt
+
+from contactx.forms import Pairs
+from contactx.master.master import Master
+from contactx.obstacles import Geometry, Obstacle
+
+
+class ObstacleMaster(Master):
+    """Pairs with a rigid obstacle: slave nodes alone."""
+
+    def __init__(
+        self, slaves: npt.NDArray[np.int32], obstacle: Obstacle, search_distance: float | None
+    ):
+        """Create the pairs, none yet.
+
+        Args:
+            slaves: Slave nodes, shape (n,).
+            obstacle: The obstacle.
+            search_distance: Largest distance of a pair; unlimited if None.
+        """
+        self._slaves = slaves
+        self._obstacle = obstacle
+        self.reach = np.inf if search_distance is None else search_distance
+        self._paired = np.zeros(len(slaves), dtype=bool)
+        self._data = np.zeros((len(slaves), 16))
+        self._at = np.zeros((len(slaves), 0))
+
+    def search(self, x: npt.NDArray[np.float64], closed: npt.NDArray[np.int8]) -> tuple[int, bool]:
+        """See ``Master``; there are no facets to change between."""
+        self._at = x[self._slaves]
+        geometry = self._obstacle.evaluate(self._at)
+        self._data = _kernel_data(geometry)
+        paired = np.abs(geometry.gap) <= self.reach
+        changed = not np.array_equal(paired, self._paired)
+        self._paired = paired
+        return 0, changed
+
+    @property
+    def paired(self) -> npt.NDArray[np.bool_]:
+        """See ``Master``."""
+        return self._paired
+
+    def pairs(self) -> list[Pairs]:
+        """See ``Master``."""
+        return self._group(self._data)
+
+    def refresh(self, x: npt.NDArray[np.float64], held: bool) -> list[Pairs] | None:
+        """See ``Master``; held, the gap is linear in the displacement since the search."""
+        now = x[self._slaves]
+        if not held:
+            return self._group(_kernel_data(self._obstacle.evaluate(now)))
+        data = self._data.copy()
+        gradient = data[:, 1 : 1 + now.shape[1]]
+        data[:, 0] += np.einsum("ij,ij->i", gradient, now - self._at)
+        return self._group(data)
+
+    def _group(self, data: npt.NDArray[np.float64]) -> list[Pairs]:
+        slaves = np.flatnonzero(self._paired).astype(np.int32)
+        if len(slaves) == 0:
+            return []
+        return [Pairs(slaves, self._slaves[slaves][:, None], data[slaves])]
+
+    def compliance(self, nodal: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+        """See ``Master``; none."""
+        return np.zeros(len(self._slaves))
+
+    def over_constrained(
+        self, x: npt.NDArray[np.float64], free: npt.NDArray[np.bool_]
+    ) -> tuple[npt.NDArray[np.bool_], npt.NDArray[np.float64]]:
+        """See ``Master``."""
+        geometry = self._obstacle.evaluate(x)
+        return np.linalg.norm(geometry.normal * free, axis=1) <= 1e-8, geometry.gap
+
+    def copy(self) -> ObstacleMaster:
+        """See ``Master``."""
+        return copy.copy(self)
+
+    def distance(self, x: npt.NDArray[np.float64]) -> float:
+        """See ``Master``."""
+        return float(np.abs(self._obstacle.evaluate(x[self._slaves]).gap).min())
+
+
+def _kernel_data(geometry: Geometry) -> npt.NDArray[np.float64]:
+    """Gap, gradient, normal and curvature of each node, as cpp/contactx/kernel/layout.h says."""
+    n, gdim = geometry.normal.shape
+    data = np.zeros((n, 16))
+    data[:, 0] = geometry.gap
+    data[:, 1 : 1 + gdim] = geometry.gradient
+    data[:, 4 : 4 + gdim] = geometry.normal
+    data[:, 7 : 7 + gdim * gdim] = geometry.curvature.reshape(n, -1)
+    return data

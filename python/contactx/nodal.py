@@ -1,0 +1,62 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Values at nodes that a user gives as a number or as a function."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from dolfinx import fem
+
+
+def matching_nodes(V: fem.FunctionSpace, Q: fem.FunctionSpace) -> npt.NDArray[np.int32]:
+    """Node of the scalar linear space Q at each node of the vector space V."""
+    index_map = V.dofmap.index_map
+    match = np.empty(index_map.size_local + index_map.num_ghosts, dtype=np.int32)
+    match[V.dofmap.list.ravel()] = Q.dofmap.list.ravel()
+    return match
+
+
+class NodalValue:
+    """A number, or a function of a scalar linear space, read anew at each use."""
+
+    def __init__(self, value: Any, name: str, V: fem.FunctionSpace, nodes: npt.NDArray[np.int32]):
+        """Find the nodes of the function.
+
+        Args:
+            value: A number, a ``fem.Constant`` or a ``fem.Function``.
+            name: Name of the argument.
+            V: Space of the displacement.
+            nodes: Nodes of V, shape (n,).
+
+        Raises:
+            ValueError: If the function is not of a scalar linear space on V's mesh.
+        """
+        self._value = value
+        self._name = name
+        if isinstance(value, fem.Function):
+            Q = value.function_space
+            element = Q.ufl_element()
+            if Q.mesh is not V.mesh or element.block_size != 1 or element.degree != 1:
+                raise ValueError(
+                    f"{name} is a function of {element}: interpolate it into "
+                    'functionspace(mesh, ("Lagrange", 1)) on the displacement\'s mesh'
+                )
+            self._nodes = matching_nodes(V, Q)[nodes]
+
+    def now(self) -> Any:
+        """Current value: a number, or an array of shape (n,).
+
+        Raises:
+            ValueError: If it is not finite.
+        """
+        if isinstance(self._value, fem.Function):
+            value = self._value.x.array[self._nodes]
+        else:
+            value = float(self._value)
+        if not np.all(np.isfinite(value)):
+            raise ValueError(f"{self._name} is not finite: give finite numbers")
+        return value

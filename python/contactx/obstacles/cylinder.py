@@ -1,0 +1,53 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Rigid circular cylinder."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from contactx.obstacles.obstacle import Geometry, Obstacle, Parameter, direction, positive, vector
+from contactx.obstacles.sphere import radial
+from dolfinx import fem
+
+
+class Cylinder(Obstacle):
+    """Endless circular cylinder, or with ``hollow`` all that is outside of one."""
+
+    def __init__(
+        self,
+        point: Parameter,
+        axis: Parameter,
+        radius: float | fem.Constant,
+        *,
+        hollow: bool = False,
+    ):
+        """Create a cylinder.
+
+        Args:
+            point: A point of the axis, shape (3,), numbers or a ``fem.Constant``.
+            axis: Direction of the axis, of any length, shape (3,), numbers or a ``fem.Constant``.
+            radius: Radius, a number or a ``fem.Constant``.
+            hollow: False: bodies may be outside of the cylinder. True: inside, as in a pipe.
+        """
+        self.point = point
+        self.axis = axis
+        self.radius = radius
+        self.hollow = hollow
+
+    def evaluate(self, x: npt.NDArray[np.float64]) -> Geometry:
+        """See ``Obstacle``; g is the distance from the axis less the radius.
+
+        Raises:
+            ValueError: In the plane, where a cylinder is a Sphere.
+        """
+        if x.shape[1] != 3:
+            raise ValueError("a Cylinder needs three dimensions: in the plane take a Sphere")
+        axis = direction(self.axis, 3, "axis of a Cylinder")
+        across = np.eye(3) - np.outer(axis, axis)
+        d = (x - vector(self.point, 3, "point of a Cylinder")) @ across
+        geometry = radial(d, positive(self.radius, "radius of a Cylinder"), self.hollow)
+        return Geometry(
+            geometry.gap, geometry.gradient, geometry.normal, geometry.curvature @ across
+        )

@@ -1,0 +1,111 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""What contact needs to know of a rigid obstacle."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from dolfinx import fem
+
+type Parameter = npt.ArrayLike | fem.Constant
+
+
+@dataclass(frozen=True)
+class Geometry:
+    """An obstacle seen from n points.
+
+    Attributes:
+        gap: Signed distance, or what is one to first order: positive outside, shape (n,).
+        gradient: Gradient of the gap, shape (n, gdim).
+        normal: Outward unit normal, shape (n, gdim).
+        curvature: Derivative of the normal by the position, shape (n, gdim, gdim).
+    """
+
+    gap: npt.NDArray[np.float64]
+    gradient: npt.NDArray[np.float64]
+    normal: npt.NDArray[np.float64]
+    curvature: npt.NDArray[np.float64]
+
+
+class Obstacle(ABC):
+    """Rigid body, a master without degrees of freedom.
+
+    Its parameters may be numbers or ``fem.Constant``; a constant is read anew in every evaluation,
+    so that changing its value moves the obstacle.
+    """
+
+    @abstractmethod
+    def evaluate(self, x: npt.NDArray[np.float64]) -> Geometry:
+        """See the obstacle from points.
+
+        Args:
+            x: Points, shape (n, gdim).
+
+        Returns:
+            Gap, normal and their derivatives.
+        """
+
+
+def vector(value: Parameter, gdim: int, name: str) -> npt.NDArray[np.float64]:
+    """Current value of a vector parameter.
+
+    Args:
+        value: Numbers or a constant.
+        gdim: Geometric dimension.
+        name: Name of the parameter.
+
+    Returns:
+        The value, shape (gdim,).
+
+    Raises:
+        ValueError: If it is not finite or of another size.
+    """
+    array = np.asarray(value.value if isinstance(value, fem.Constant) else value, dtype=np.float64)
+    if array.shape != (gdim,) or not np.all(np.isfinite(array)):
+        raise ValueError(f"{name} is {array}: give {gdim} finite numbers, as the mesh has")
+    return array
+
+
+def direction(value: Parameter, gdim: int, name: str) -> npt.NDArray[np.float64]:
+    """Current value of a direction, as a unit vector.
+
+    Args:
+        value: Numbers or a constant.
+        gdim: Geometric dimension.
+        name: Name of the parameter.
+
+    Returns:
+        Unit vector, shape (gdim,).
+
+    Raises:
+        ValueError: If it is zero, not finite or of another size.
+    """
+    array = vector(value, gdim, name)
+    length = np.linalg.norm(array)
+    if length == 0:
+        raise ValueError(f"{name} is a zero vector: give a direction")
+    return array / length
+
+
+def positive(value: float | fem.Constant, name: str) -> float:
+    """Current value of a positive number.
+
+    Args:
+        value: A number or a constant.
+        name: Name of the parameter.
+
+    Returns:
+        The number.
+
+    Raises:
+        ValueError: If it is not finite and positive.
+    """
+    number = float(value)
+    if not (np.isfinite(number) and number > 0):
+        raise ValueError(f"{name} is {number}: give a positive number")
+    return number

@@ -1,0 +1,61 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Rigid sphere, in the plane a circle."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from contactx.obstacles.obstacle import Geometry, Obstacle, Parameter, positive, vector
+from dolfinx import fem
+
+
+class Sphere(Obstacle):
+    """Ball, or with ``hollow`` all that is outside of one; in the plane a disc."""
+
+    def __init__(self, centre: Parameter, radius: float | fem.Constant, *, hollow: bool = False):
+        """Create a sphere.
+
+        Args:
+            centre: Centre, shape (gdim,), numbers or a ``fem.Constant``.
+            radius: Radius, a number or a ``fem.Constant``.
+            hollow: False: bodies may be outside of the sphere. True: inside, as in a bowl.
+        """
+        self.centre = centre
+        self.radius = radius
+        self.hollow = hollow
+
+    def evaluate(self, x: npt.NDArray[np.float64]) -> Geometry:
+        """See ``Obstacle``; g = |x - centre| - radius, or its opposite for a hollow sphere."""
+        d = x - vector(self.centre, x.shape[1], "centre of a Sphere")
+        return radial(d, positive(self.radius, "radius of a Sphere"), self.hollow)
+
+
+def radial(d: npt.NDArray[np.float64], radius: float, hollow: bool) -> Geometry:
+    """A surface at a constant distance from a point or a line.
+
+    Args:
+        d: Vectors from the point or line, at right angles to the line, shape (n, gdim).
+        radius: Distance.
+        hollow: Whether bodies are inside.
+
+    Returns:
+        The geometry; its derivatives are those within the span of all such ``d``.
+
+    Raises:
+        ValueError: If a vector is zero, where the surface has no normal.
+    """
+    distance = np.linalg.norm(d, axis=1)
+    if np.any(distance == 0):
+        raise ValueError(
+            "a slave node is in the centre of an obstacle, where it has no normal: "
+            "move the obstacle or the body"
+        )
+    sign = -1.0 if hollow else 1.0
+    unit = d / distance[:, None]
+    projector = np.eye(d.shape[1]) - unit[:, :, None] * unit[:, None, :]
+    normal = sign * unit
+    return Geometry(
+        sign * (distance - radius), normal, normal, sign * projector / distance[:, None, None]
+    )

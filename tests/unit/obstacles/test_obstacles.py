@@ -1,0 +1,138 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Obstacles as functions: derivatives by central differences, invariance, bad input."""
+
+from mpi4py import MPI
+
+import numpy as np
+import pytest
+
+import contactx as cx
+import ufl
+from dolfinx import fem, mesh
+
+AXIS = np.array([0.3, -0.5, 0.8])
+
+
+def length(v):
+    return ufl.sqrt(ufl.dot(v, v))
+
+
+def cases(gdim):
+    """Obstacles and points outside of their singular places."""
+    point, normal = np.array([0.1, 0.2, -0.3])[:gdim], np.array([0.4, -1.0, 2.0])[:gdim]
+    yield "plane", cx.Plane(point, normal)
+    yield "sphere", cx.Sphere(point, 0.7)
+    yield "bowl", cx.Sphere(point, 3.0, hollow=True)
+    if gdim == 3:
+        yield "cylinder", cx.Cylinder(point, AXIS, 0.7)
+        yield "pipe", cx.Cylinder(point, AXIS, 3.0, hollow=True)
+    p = ufl.as_vector(point)
+    yield "ufl", cx.LevelSet(lambda x: ufl.dot(x - p, x - p) + 0.3 * ufl.sin(x[0]) - 0.5)
+    yield (
+        "python",
+        cx.LevelSet(
+            lambda x: ((x.T - point) ** 2).sum(axis=1) - 0.5 + x[0] * x[1],
+            lambda x: 2 * (x - point[:, None]) + _product_gradient(x),
+        ),
+    )
+
+
+def _product_gradient(x):
+    g = np.zeros_like(x)
+    g[0], g[1] = x[1], x[0]
+    return g
+
+
+CASES = [(gdim, name) for gdim in (2, 3) for name, _ in cases(gdim)]
+
+
+@pytest.mark.parametrize(("gdim", "name"), CASES)
+def test_derivatives(gdim, name):
+    obstacle = dict(cases(gdim))[name]
+    x = np.random.default_rng(1).uniform(0.5, 1.5, (100, gdim))
+    at = obstacle.evaluate(x)
+    assert np.linalg.norm(at.normal, axis=1) == pytest.approx(1, rel=1e-14)
+    h = 1e-5
+    for k in range(gdim):
+        dx = h * np.eye(gdim)[k]
+        plus, minus = obstacle.evaluate(x + dx), obstacle.evaluate(x - dx)
+        gradient = (plus.gap - minus.gap) / (2 * h)
+        assert np.abs(at.gradient[:, k] - gradient).max() <= 1e-7 * np.abs(at.gradient).max()
+        curvature = (plus.normal - minus.normal) / (2 * h)
+        assert np.abs(at.curvature[:, :, k] - curvature).max() <= 1e-7 * max(
+            1, np.abs(at.curvature).max()
+        )
+
+
+def test_gaps_and_normals_of_known_points():
+    x = np.array([[0.0, 0.0, 2.0], [3.0, 4.0, 0.0]])
+    plane = cx.Plane((0, 0, 1), (0, 0, 5)).evaluate(x)
+    assert plane.gap == pytest.approx([1, -1])
+    assert np.array_equal(plane.normal, [[0, 0, 1], [0, 0, 1]])
+    sphere = cx.Sphere((0, 0, 0), 4.0).evaluate(x)
+    assert sphere.gap == pytest.approx([-2, 1])
+    assert sphere.normal == pytest.approx(np.array([[0, 0, 1], [0.6, 0.8, 0]]))
+    bowl = cx.Sphere((0, 0, 0), 4.0, hollow=True).evaluate(x)
+    assert bowl.gap == pytest.approx([2, -1])
+    assert bowl.normal == pytest.approx(-sphere.normal)
+    cylinder = cx.Cylinder((0, 0, 7), (0, 2, 0), 1.0).evaluate(x)
+    assert cylinder.gap == pytest.approx([np.hypot(0, 5) - 1, np.hypot(3, 7) - 1])
+
+
+def test_a_level_set_that_is_no_distance_measures_to_first_order():
+    x = np.array([[1.001, 0.0], [0.0, 0.999]])
+    square = cx.LevelSet(lambda p: 5 * (ufl.dot(p, p) - 1)).evaluate(x)
+    assert square.gap == pytest.approx([1e-3, -1e-3], rel=1e-3)
+
+
+def test_constants_move_an_obstacle():
+    domain = mesh.create_unit_cube(MPI.COMM_SELF, 1, 1, 1)
+    height = fem.Constant(domain, np.array([0.0, 0.0, 1.0]))
+    radius = fem.Constant(domain, 1.0)
+    x = np.array([[0.0, 0.0, 3.0]])
+    plane, sphere = cx.Plane(height, (0, 0, 1)), cx.Sphere(height, radius)
+    level_set = cx.LevelSet(lambda p: length(p - height) - radius)
+    assert plane.evaluate(x).gap == pytest.approx(2)
+    assert sphere.evaluate(x).gap == pytest.approx(1)
+    assert level_set.evaluate(x).gap == pytest.approx(1)
+    height.value[2], radius.value = 2.0, 0.5
+    assert plane.evaluate(x).gap == pytest.approx(1)
+    assert sphere.evaluate(x).gap == pytest.approx(0.5)
+    assert level_set.evaluate(x).gap == pytest.approx(0.5)
+
+
+@pytest.mark.parametrize(
+    ("obstacle", "message"),
+    [
+        (cx.Plane((0, 0), (0, 0, 1)), r"point of a Plane is .*give 3 finite numbers"),
+        (cx.Plane((0, 0, 0), (0, 0, 0)), "normal of a Plane is a zero vector"),
+        (cx.Plane((0, 0, np.nan), (0, 0, 1)), "point of a Plane is .*finite"),
+        (cx.Sphere((0, 0, 0), -1.0), "radius of a Sphere is -1.0: give a positive"),
+        (cx.Sphere((0, 0, 0), np.inf), "radius of a Sphere is inf"),
+        (cx.Sphere((1, 2, 3), 1.0), "centre of an obstacle, where it has no normal"),
+        (cx.Cylinder((0, 0, 0), (0, 0, 0), 1.0), "axis of a Cylinder is a zero vector"),
+        (cx.Cylinder((1, 2, 0), (0, 0, 1), 1.0), "centre of an obstacle"),
+        (cx.LevelSet(lambda x: 0 * x[0] - 1), "or the gradient zero, at 1 slave nodes"),
+        (cx.LevelSet(lambda x: ufl.ln(x[0] - 5)), "gradient is not finite"),
+        (cx.LevelSet(np.linalg.norm), r"is not one of UFL.*LevelSet\(f, gradient\)"),
+        (
+            cx.LevelSet(lambda x: x[0], lambda x: np.full_like(x, np.nan)),
+            "gradient is not finite",
+        ),
+        (cx.LevelSet(lambda x: x, lambda x: x), r"they must be \(1,\) and \(3, 1\)"),
+    ],
+)
+def test_bad_input(obstacle, message):
+    with pytest.raises(ValueError, match=message):
+        obstacle.evaluate(np.array([[1.0, 2.0, 3.0]]))
+
+
+def test_a_cylinder_in_the_plane():
+    with pytest.raises(ValueError, match="in the plane take a Sphere"):
+        cx.Cylinder((0, 0), (0, 1), 1.0).evaluate(np.zeros((1, 2)))
+
+
+def test_a_level_set_of_no_function():
+    with pytest.raises(TypeError, match="must be a function, not float"):
+        cx.LevelSet(3.0)

@@ -1,0 +1,225 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Deformable bodies on rigid obstacles."""
+
+import numpy as np
+import pytest
+from scenes import Blocks, hertz_sphere
+from story import displacement, elasticity, fix
+
+import contactx as cx
+import ufl
+from contactx import meshes, reference
+from contactx.meshes import Tag
+from dolfinx import default_scalar_type, fem
+from dolfinx.mesh import CellType
+
+
+def pressed_sphere(master, sliding="finite", h=0.04):
+    """The common Hertz problem's sphere on a rigid obstacle; the block takes no part."""
+    data = meshes.hertz_sphere(h)
+    tags, u = data.facet_tags, displacement(data.mesh)
+    bcs = [
+        fix(u, tags, 0, 0.0, Tag.UPPER_X0, Tag.LOWER_X0),
+        fix(u, tags, 1, 0.0, Tag.UPPER_Y0, Tag.LOWER_Y0),
+        *(fix(u, tags, i, 0.0, Tag.LOWER_BOTTOM) for i in range(3)),
+        fix(u, tags, 2, -0.02, Tag.UPPER_TOP),
+    ]
+    contact = cx.Contact(cx.Surface(tags, Tag.UPPER_CONTACT), master, sliding=sliding)
+    problem = cx.ContactProblem(
+        elasticity(u, 1.0, 0.3), u, contacts=[contact], bcs=bcs, petsc_options_prefix="rigid_"
+    )
+    problem.solve()
+    return problem, contact
+
+
+@pytest.mark.parametrize("sliding", ["finite", "small"])
+def test_plane_equals_a_very_stiff_master(sliding):
+    problem, contact = pressed_sphere(cx.Plane((0, 0, 0), (0, 0, 1)), sliding)
+    other, stiff = hertz_sphere(0.04, sliding, young={Tag.LOWER: 1e9})
+    other.solve()
+    assert contact.multiplier == pytest.approx(stiff.multiplier, abs=1e-4 * stiff.multiplier.max())
+    assert contact.force == pytest.approx(stiff.force, rel=1e-4, abs=1e-4 * stiff.force[2])
+    assert problem.report.iterations <= 10
+    assert np.nanmin(contact.interface.gap) > -1e-12
+
+
+def test_hertz_on_a_rigid_plane():
+    problem, contact = pressed_sphere(cx.Plane((0, 0, 0), (0, 0, 1)), h=0.02)
+    force = 4 * contact.force[2]
+    modulus = reference.contact_modulus(1.0, 0.3, np.inf, 0.3)
+    exact = reference.HertzSphere(force=force, radius=1.0, modulus=modulus)
+    x = problem.u.function_space.tabulate_dof_coordinates()[contact.slave_nodes]
+    p = exact.pressure(np.hypot(x[:, 0], x[:, 1]))
+    w = contact.area
+    error = np.sqrt(w @ (contact.multiplier - p) ** 2 / (w @ p**2))
+    print(f"p_l2 {error:.4f}, peak {contact.multiplier.max() / exact.peak_pressure:.4f}")
+    assert error <= 0.10
+    assert contact.multiplier.max() == pytest.approx(exact.peak_pressure, rel=0.05)
+
+
+class Indented:
+    """A block pressed on an obstacle of radius 2 about the y-axis or about a point."""
+
+    def __init__(self, obstacle, sliding="finite", down=0.05):
+        data = meshes.blocks(CellType.hexahedron, (6, 6, 4), (1, 1, 1), shift=(-0.5, -0.4))
+        self.tags, self.u = data.facet_tags, displacement(data.mesh)
+        bcs = [
+            *(
+                fix(self.u, self.tags, i, 0.0, Tag.LOWER_BOTTOM, Tag.UPPER_TOP, Tag.LOWER_CONTACT)
+                for i in range(2)
+            ),
+            fix(self.u, self.tags, 2, 0.0, Tag.LOWER_BOTTOM),
+            fix(self.u, self.tags, 2, -down, Tag.UPPER_TOP),
+        ]
+        self.contact = cx.Contact(
+            cx.Surface(self.tags, Tag.UPPER_CONTACT), obstacle, sliding=sliding
+        )
+        self.problem = cx.ContactProblem(
+            elasticity(self.u, 1.0, 0.3),
+            self.u,
+            contacts=[self.contact],
+            bcs=bcs,
+            petsc_options_prefix="indented_",
+        )
+
+    def solve(self):
+        self.problem.solve()
+        return self.u.x.array.copy()
+
+
+def ball(x):
+    return x[0] ** 2 + x[1] ** 2 + (x[2] + 2) ** 2 - 4
+
+
+def ball_gradient(x):
+    return 2 * np.stack([x[0], x[1], x[2] + 2])
+
+
+def rod(x):
+    return ufl.sqrt(x[0] ** 2 + (x[2] + 2) ** 2) - 2
+
+
+@pytest.mark.parametrize(
+    ("obstacle", "others"),
+    [
+        (
+            cx.Sphere((0, 0, -2), 2.0),
+            [cx.LevelSet(ball), cx.LevelSet(ball, ball_gradient)],
+        ),
+        (
+            cx.Cylinder((0, 5, -2), (0, -3, 0), 2.0),
+            [cx.LevelSet(rod), cx.LevelSet(lambda x: rod(x) * (1 + x[1] ** 2))],
+        ),
+    ],
+    ids=["sphere", "cylinder"],
+)
+def test_shapes_agree_with_their_level_sets(obstacle, others):
+    scene = Indented(obstacle)
+    u = scene.solve()
+    assert (scene.contact.multiplier > 0).sum() > 5
+    assert scene.problem.report.iterations <= 10
+    for other in others:
+        twin = Indented(other)
+        assert np.abs(twin.solve() - u).max() <= 1e-10 * np.abs(u).max()
+        assert twin.contact.multiplier == pytest.approx(scene.contact.multiplier, rel=1e-8)
+
+
+def test_pushed_by_a_moving_obstacle_is_pushed_by_its_support():
+    """What counts is the relative motion: a ball that rises does what a block that sinks does."""
+    sunk = Indented(cx.Sphere((0, 0, -2), 2.0), down=0.05)
+    u = sunk.solve()
+    risen = Indented(cx.Plane((0, 0, -9), (0, 0, 1)), down=0.0)
+    mesh = risen.u.function_space.mesh
+    centre = fem.Constant(mesh, np.array([0.0, 0.0, -2.0], dtype=default_scalar_type))
+    risen = Indented(cx.Sphere(centre, 2.0), down=0.0)
+    assert not risen.solve().any()
+    for z in (-1.98, -1.95):
+        centre.value[2] = z
+        risen.solve()
+    assert risen.contact.force == pytest.approx(sunk.contact.force, rel=1e-9, abs=1e-12)
+    upper = np.abs(u) > 0
+    shift = np.tile([0, 0, 0.05], len(u) // 3)
+    assert np.abs(risen.u.x.array - u - shift)[upper].max() <= 1e-9
+
+
+@pytest.mark.parametrize("sliding", ["finite", "small"])
+def test_an_offset_is_a_displacement_of_the_obstacle(sliding):
+    plane = Blocks(CellType.tetrahedron, down=0.03)
+    moved = Blocks(CellType.tetrahedron, down=0.03)
+    number = Blocks(CellType.tetrahedron, down=0.03)
+    function = fem.Function(fem.functionspace(number.u.function_space.mesh, ("Lagrange", 1)))
+    forces = []
+    for scene, height, offset in (
+        (plane, 0.01, 0.0),
+        (moved, 0.0, 0.01),
+        (number, 0.0, function),
+    ):
+        if offset is function:
+            function.x.array[:] = 0.01
+        contact = cx.Contact(
+            cx.Surface(scene.tags, Tag.UPPER_CONTACT),
+            cx.Plane((0, 0, height), (0, 0, 1)),
+            sliding=sliding,
+            offset=offset,
+        )
+        scene.problem(contact).solve()
+        forces.append(contact.force)
+    assert forces[1] == pytest.approx(forces[0], rel=1e-10, abs=1e-13)
+    assert forces[2] == pytest.approx(forces[0], rel=1e-10, abs=1e-13)
+
+
+def test_switched_off_and_on_again():
+    scene = Blocks(CellType.tetrahedron, down=0.05)
+    contact = scene.contact()
+    problem = scene.problem(contact)
+    problem.solve()
+    force = contact.force.copy()
+    contact.active = False
+    problem.solve()
+    assert not contact.force.any()
+    assert np.all(np.isnan(contact.gap.x.array))
+    contact.active = True
+    problem.solve()
+    assert contact.force == pytest.approx(force, rel=1e-9, abs=1e-12)
+
+
+def test_search_distance_leaves_far_nodes_out():
+    near = cx.Plane((0, 0, -0.001), (0, 0, 1))
+    scene = Blocks(CellType.tetrahedron, gap=0.2, down=0.0)
+    contact = cx.Contact(
+        cx.Surface(scene.tags, Tag.UPPER_CONTACT, Tag.UPPER_X0), near, search_distance=0.5
+    )
+    problem = scene.problem(contact)
+    problem.solve()
+    # The side's nodes above half a length have none
+    assert problem.report.pairs < problem.report.slaves
+    gaps = contact.interface.gap
+    assert np.nanmax(gaps) <= 0.5
+    assert np.isnan(gaps).sum() == problem.report.slaves - problem.report.pairs
+
+
+def test_a_node_that_is_held_inside_an_obstacle():
+    scene = Blocks(CellType.tetrahedron, down=0.05)
+    contact = cx.Contact(
+        cx.Surface(scene.tags, Tag.UPPER_CONTACT, Tag.UPPER_X0, Tag.UPPER_TOP),
+        cx.Plane((0, 0, 0.5), (0, 0, -1)),
+    )
+    problem = scene.problem(contact)
+    with pytest.raises(ValueError, match=r"over-constrained: Dirichlet conditions hold 9 slave"):
+        problem.solve()
+    assert not scene.u.x.array.any()
+
+
+def test_symmetry_planes_and_fixed_nodes_outside_an_obstacle_just_work():
+    problem, contact = pressed_sphere(cx.Plane((0, 0, 0), (0, 0, 1)))
+    x = problem.u.function_space.tabulate_dof_coordinates()[contact.slave_nodes]
+    pole = np.argmin(np.linalg.norm(x, axis=1))
+    assert contact.multiplier[pole] > 0
+    scene = Blocks(CellType.tetrahedron, down=0.05)
+    whole = cx.Contact(
+        cx.Surface(scene.tags, Tag.UPPER_CONTACT, Tag.UPPER_X0, Tag.UPPER_TOP),
+        cx.Plane((0, 0, 0), (0, 0, 1)),
+    )
+    scene.problem(whole).solve()
+    assert whole.force[2] > 0
