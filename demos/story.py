@@ -17,7 +17,7 @@ from rich.table import Table
 
 import contactx as cx
 import ufl
-from contactx import plot
+from contactx import plot, reference
 from dolfinx import fem, mesh
 
 console = Console()
@@ -162,3 +162,27 @@ def draw(
             title="Pressure of the slave nodes against Hertz",
         )
     return files
+
+
+def hertz(
+    name: str,
+    title: str,
+    folder: Path,
+    problem: cx.ContactProblem,
+    contact: cx.Contact,
+    modulus: float,
+) -> list[Result]:
+    """Compare a quarter of a point contact of radius 1 about the z-axis with Hertz, and draw it."""
+    x = problem.u.function_space.tabulate_dof_coordinates()[contact.slave_nodes]
+    r, p = np.hypot(x[:, 0], x[:, 1]), contact.multiplier
+    force = 4 * abs(contact.force[2])
+    exact = reference.HertzSphere(force=force, radius=1.0, modulus=modulus)
+    radius = np.sqrt(4 * contact.area[p > 0].sum() / np.pi)
+    results = [
+        Result("force, sum of the pressures", force, 4 * np.dot(contact.area, p)),
+        Result("contact radius", exact.contact_radius, radius),
+        Result("peak pressure", exact.peak_pressure, p.max()),
+    ]
+    files = draw(name, title, folder, problem, contact, r, exact, mirror=("x", "y"))
+    show(title, results, files)
+    return results

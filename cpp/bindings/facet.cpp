@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "bindings.h"
+#include <algorithm>
 #include <contactx/facet/nodal.h>
+#include <contactx/facet/shape.h>
 
 namespace py = pybind11;
 using namespace contactx_bindings;
@@ -30,4 +32,27 @@ void contactx_bindings::facet(py::module_& m)
       },
       py::arg("offsets"), py::arg("nodes"), py::arg("x"), py::arg("gdim"),
       "Outward unit normal of each node of a surface");
+  m.def(
+      "shape_functions",
+      [](int num_nodes, const Array<double>& xi)
+      {
+        const py::ssize_t n = xi.size() / 2;
+        py::array_t<double> values({n, static_cast<py::ssize_t>(num_nodes)});
+        contactx::facet::visit(
+            num_nodes,
+            [&values, &xi, n]<class F>(F)
+            {
+              for (py::ssize_t i = 0; i < n; ++i)
+              {
+                contactx::facet::Local<F> at;
+                std::copy_n(xi.data() + 2 * i, F::tdim, at.begin());
+                const auto N = F::shape(at);
+                std::copy(N.begin(), N.end(),
+                          values.mutable_data() + i * F::nodes);
+              }
+            });
+        return values;
+      },
+      py::arg("num_nodes"), py::arg("xi"),
+      "Shape functions at local coordinates (shape=(n, 2))");
 }

@@ -11,11 +11,24 @@ with contextlib.suppress(ModuleNotFoundError):
     # other builds do not have this package
     import dolfinx_solver  # noqa: F401
 
-from petsc4py import PETSc
+try:
+    from petsc4py import PETSc
+except ModuleNotFoundError as error:
+    raise ImportError(
+        "contactx needs DOLFINx 0.11 with PETSc: pip install 'contactx[wheels]', or take it from "
+        "conda or a distribution"
+    ) from error
 
 import numpy as np
 
-import dolfinx.fem.petsc  # noqa: F401  registers the PETSc type casters
+import dolfinx
+import dolfinx.fem.petsc  # registers the PETSc type casters
+
+if tuple(map(int, dolfinx.__version__.split(".")[:2])) < (0, 11):
+    raise ImportError(
+        f"contactx needs DOLFINx 0.11 or later, but this is {dolfinx.__version__}: "
+        "pip install 'contactx[wheels]', or take a newer one from conda or a distribution"
+    )
 
 
 def require_real_double() -> None:

@@ -90,12 +90,13 @@ class Contact:
         master = self.master if isinstance(self.master, Surface) else type(self.master).__name__
         return f"Contact(slave={self.slave}, master={master}, sliding={self.sliding!r})"
 
-    def attach(self, u: fem.Function, X: la.Vector) -> Interface:
+    def attach(self, u: fem.Function, X: la.Vector, markers: npt.NDArray[np.int8]) -> Interface:
         """Make the contact's discrete side; ContactProblem calls this.
 
         Args:
             u: Displacement.
             X: Reference positions of its nodes.
+            markers: 1 at dofs with a Dirichlet condition, shape (num_dofs,).
 
         Returns:
             The discrete side.
@@ -115,10 +116,15 @@ class Contact:
             sliding=self.sliding,
             search_distance=self.search_distance,
             offset=self.offset,
+            markers=markers,
         )
         self._fields = Fields(interface, u.function_space)
         self._interface = interface
         return interface
+
+    def detach(self) -> None:
+        """Free the contact for another problem; ContactProblem calls this if it is refused."""
+        self._interface = self._fields = None
 
     def accept(self) -> None:
         """Take over the results of an accepted step; ContactProblem calls this."""

@@ -15,6 +15,7 @@ def nodal_areas(
 def nodal_normals(
     offsets: NDArray[np.int32], nodes: NDArray[np.int32], x: NDArray[np.float64], gdim: int
 ) -> NDArray[np.float64]: ...
+def shape_functions(num_nodes: int, xi: NDArray[np.float64]) -> NDArray[np.float64]: ...
 
 class Pairing:
     def __init__(

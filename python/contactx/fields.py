@@ -62,4 +62,6 @@ class Fields:
             on_slave, area, out=np.zeros_like(on_slave), where=area > 0
         )
         self.force = on_slave.sum(axis=0)
-        self.imbalance = forces.sum(axis=0)
+        # What a rigid obstacle is pushed with goes to its support
+        carried = self.force if interface.master.is_rigid else 0
+        self.imbalance = forces.sum(axis=0) - carried

@@ -47,6 +47,8 @@ class Interface:
         forms: Forms, one set for each kind of facet that has pairs.
         master: Pairs with the master side.
         active: Whether the contact is switched on.
+        immobile: Whether Dirichlet conditions leave neither a slave node nor its master anything
+            to yield along the normal; such a node stays open, shape (n,).
     """
 
     def __init__(
@@ -59,6 +61,7 @@ class Interface:
         sliding: str,
         search_distance: float | None,
         offset: float | fem.Function,
+        markers: npt.NDArray[np.int8],
     ):
         """Find the slave nodes and pair them in the reference configuration.
 
@@ -70,6 +73,7 @@ class Interface:
             sliding: "finite" or "small".
             search_distance: Largest distance of a pair; chosen if None.
             offset: What is taken off the gap: a number, or a function in a scalar linear space.
+            markers: 1 at dofs with a Dirichlet condition, shape (num_dofs,).
 
         Raises:
             ValueError: If the surfaces share nodes, or an obstacle's parameters do not fit.
@@ -115,11 +119,13 @@ class Interface:
         self.value = np.zeros(n)
         self.d_pressure = np.zeros(n)
         self.active = True
-        self._may_close = np.ones(n, dtype=bool)
+        self.immobile = np.zeros(n, dtype=bool)
         self._offset = NodalValue(offset, "offset", V, self.slaves)
         self.forms: list[ContactForms] = []
+        self._free = markers.reshape(-1, self._gdim) == 0
         self.master.search(x, self.status)
         self._make_forms()
+        self._find_immobile()
 
     def positions(self) -> npt.NDArray[np.float64]:
         """Current positions of the bulk's nodes, shape (num_nodes, gdim)."""
@@ -130,7 +136,7 @@ class Interface:
         """Start a step: pairs are released, and a moved obstacle of small sliding is seen."""
         self.hold(False)
         self.master.forget_flips()
-        if self.sliding == "small" and isinstance(self.master, ObstacleMaster):
+        if self.sliding == "small" and self.master.is_rigid:
             self._pair(self.state.position.array.reshape(-1, self._gdim))
 
     def search(self) -> int:
@@ -148,7 +154,11 @@ class Interface:
             self._make_forms()
         else:
             self._update_forms(self.master.pairs())
+        self._find_immobile()
         return changed
+
+    def _find_immobile(self) -> None:
+        self.immobile = self.master.paired & (self.master.mobility(self._free) < 1e-8)
 
     def _update_forms(self, groups: list[Pairs]) -> None:
         for form, pairs in zip(self.forms, groups, strict=True):
@@ -201,31 +211,25 @@ class Interface:
             fem.assemble_vector(self.gap, form.gap)
         self.gap -= self._offset.now()
         self.gap[~self.master.paired] = np.nan
-        self.gap[~self._may_close] = np.nan
         if not self.active:
             self.gap[:] = np.nan
 
-    def over_constrained(
-        self, markers: npt.NDArray[np.int8], prescribed: npt.NDArray[np.float64]
-    ) -> npt.NDArray[np.int32]:
-        """Slave nodes that a rigid obstacle and Dirichlet conditions hold along one direction.
-
-        Such a node has nothing to yield: where its prescribed position is outside the obstacle it
-        stays open, where it is inside there is no solution.
+    def held_inside(self, prescribed: npt.NDArray[np.float64]) -> npt.NDArray[np.int32]:
+        """Slave nodes that Dirichlet conditions hold inside a rigid obstacle.
 
         Args:
-            markers: 1 at dofs with a Dirichlet condition, shape (num_dofs,).
             prescribed: Displacement with the Dirichlet values, shape (num_dofs,).
 
         Returns:
-            Nodes whose prescribed position is inside, by their place in ``slaves``.
+            The nodes, numbered as the blocks of the displacement's dofmap.
         """
-        x = (self.state.position.array + prescribed).reshape(-1, self._gdim)[self.slaves]
-        free = markers.reshape(-1, self._gdim)[self.slaves] == 0
-        held, gap = self.master.over_constrained(x, free)
-        self._may_close = ~held
-        size = np.ptp(x, axis=0).max(initial=0.0)
-        return np.flatnonzero(held & (gap - self._offset.now() < -1e-9 * size)).astype(np.int32)
+        if not isinstance(self.master, ObstacleMaster):
+            return np.array([], dtype=np.int32)
+        x = (self.state.position.array + prescribed).reshape(-1, self._gdim)
+        gap = self.master.inside(x) - self._offset.now()
+        size = np.ptp(x[self.slaves], axis=0).max(initial=0.0)
+        inside: npt.NDArray[np.int32] = self.slaves[self.immobile & (gap < -1e-9 * size)]
+        return inside
 
     def update_status(self) -> int:
         """Set each slave node's status from its pressure and gap.
@@ -233,7 +237,8 @@ class Interface:
         Returns:
             Number of nodes that changed.
         """
-        return core.normal_status(self.state.multiplier.array, self.gap, self.c, self.status)
+        gap = np.where(self.immobile, np.nan, self.gap)
+        return core.normal_status(self.state.multiplier.array, gap, self.c, self.status)
 
     def drop_open_pressures(self) -> None:
         """Take the pressure off open nodes.

@@ -11,20 +11,17 @@ from typing import Any
 from petsc4py import PETSc
 
 import numpy as np
-import numpy.typing as npt
 
 from contactx import compat
 from contactx import cpp as core
 from contactx.bulk import Bulk
+from contactx.convergence import Judge
 from contactx.interface import Interface
 from contactx.report import Iteration, Report
 from contactx.system import SaddlePointSystem
 
 # Share of the closed nodes that may change their status or facet before the pairs are held
 _FEW = 0.2
-
-# Rounding errors of a sum of a few terms
-_EPS = 16 * np.finfo(np.float64).eps
 
 _REASONS = {
     PETSc.SNES.ConvergedReason.CONVERGED_FNORM_ABS: "the residual is below the tolerance",
@@ -69,14 +66,15 @@ class NewtonLoop:
         self._interfaces = interfaces
         self._system = system
         self._options = {**_defaults(), **options}
+        self._given = set(options)
         self._prefix = prefix
         self._A: PETSc.Mat | None = None
         self._A_is_current = False
         self._report = Report()
-        self._least_scale = 0.0
+        self._converged = False
         self._held = self._stale = False
         self._changes = (0, 0)
-        self._stiffness = np.zeros(0)
+        self._judge = Judge(bulk, interfaces, system)
         self.snes = PETSc.SNES().create(system.x.comm)
         self.snes.setOptionsPrefix(prefix)
         self.snes.setConvergenceTest(self._test)
@@ -88,6 +86,7 @@ class NewtonLoop:
             report: Report to fill in.
         """
         self._report = report
+        self._converged = False
         before = (self._bulk.assemblies, self._bulk.skipped)
         self._system.forget()
         self._system.renew()
@@ -99,9 +98,10 @@ class NewtonLoop:
             self.snes.setFromOptions()
             self._time_linear_solves(report)
             with report.timing("bulk stiffness"):
-                self._stiffness = self._bulk.nodal_stiffness()
+                stiffness = self._bulk.nodal_stiffness()
+            self._judge.begin(stiffness)
             for interface in self._interfaces:
-                interface.set_factor(self._stiffness)
+                interface.set_factor(stiffness)
             self._changes = self._settle()
             self._system.gather()
             self._A = None
@@ -109,9 +109,18 @@ class NewtonLoop:
             self.snes.solve(None, self._system.x)
         self._system.scatter(self._system.x)
         code = self.snes.getConvergedReason()
-        report.converged = code > 0
+        report.converged = self._converged
         report.reason = _REASONS.get(code, f"SNES stopped with reason {code}")
         report.skipped["bulk Jacobian assembly"] = self._bulk.skipped - before[1]
+
+    def reset(self) -> None:
+        """Forget PETSc's work vectors: an error inside PETSc leaves them locked."""
+        self.snes.reset()
+        self._A = None
+
+    def destroy(self) -> None:
+        """Destroy the solver."""
+        self.snes.destroy()
 
     def _time_linear_solves(self, report: Report) -> None:
         timer = ExitStack()
@@ -123,13 +132,22 @@ class NewtonLoop:
     def _petsc_options(self) -> Iterator[None]:
         """Hold the options in PETSc's database while its objects set themselves up."""
         database = PETSc.Options(self._prefix)
+        before = {
+            name: database.getString(name) if database.hasName(name) else None
+            for name in self._options
+        }
         for name, value in self._options.items():
-            database[name] = value
+            # What the user has put there, on the command line say, goes before a default
+            if name in self._given or before[name] is None:
+                database[name] = value
         try:
             yield
         finally:
-            for name in self._options:
-                del database[name]
+            for name, value in before.items():
+                if value is None:
+                    database.delValue(name)
+                else:
+                    database[name] = value
 
     def _function(self, snes: PETSc.SNES, x: PETSc.Vec, b: PETSc.Vec) -> None:
         with self._report.timing("residual"):
@@ -211,70 +229,29 @@ class NewtonLoop:
             self._changes = self._settle()
         self._system.gather()
         self._function(snes, self._system.x, self._system.b)
-        row = self._judge(number)
+        rtol, atol, _, _ = snes.getTolerances()
+        residual, tolerance, defect = self._judge(rtol, atol)
+        row = Iteration(
+            number=number,
+            residual=residual,
+            tolerance=tolerance,
+            closed=self._num_closed(),
+            status_changes=self._changes[0],
+            pair_changes=self._changes[1],
+            held=self._held,
+            dirichlet_defect=defect,
+        )
         self._report.history.append(row)
         if not np.isfinite(row.residual):
             return reason.DIVERGED_FUNCTION_NANORINF
         size = np.abs(self._bulk.u.x.array).max(initial=0.0)
         small = row.residual <= row.tolerance and row.dirichlet_defect <= 1e-10 * size
         # Held pairs that are not those of this iterate give no true residual
-        if small and not self._stale:
+        self._converged = small and not self._stale
+        if self._converged:
             return reason.CONVERGED_FNORM_ABS
         self._provide_matrix()
         return reason.CONVERGED_ITERATING
-
-    def _judge(self, number: int) -> Iteration:
-        """Measure the residual against the forces of the problem.
-
-        Displacements enter the Dirichlet rows and are judged apart from the forces, so that the
-        judgement does not depend on the units.
-        """
-        force, *constraints = self._system.blocks(self._system.b.array_r)
-        prescribed = self._bulk.markers == 1
-        residual = _norm([force[~prescribed], *constraints])
-        forces = [self._system.bulk_residual()[prescribed]]
-        for interface in self._interfaces:
-            forces.append(interface.state.area.array * interface.state.multiplier.array)
-        scale = max(_norm([f]) for f in forces)
-        if number == 0:
-            # Unloading ends without forces. What the first change of the Dirichlet values asks
-            # for says little: a stiff body that moves as a whole asks for much and gets nothing
-            self._least_scale = max(scale, 1e-6 * residual)
-        scale = max(scale, self._least_scale)
-        rtol, atol, _, _ = self.snes.getTolerances()
-        return Iteration(
-            number=number,
-            residual=residual,
-            tolerance=max(rtol * scale, atol, self._rounding(scale)),
-            closed=self._num_closed(),
-            status_changes=self._changes[0],
-            pair_changes=self._changes[1],
-            held=self._held,
-            dirichlet_defect=float(np.abs(force[prescribed]).max(initial=0.0)),
-        )
-
-    def _rounding(self, scale: float) -> float:
-        """Residual that rounding leaves.
-
-        A gap is a difference of positions, the forces of a stiff body sums of stiffness times
-        displacement that cancel. Displacements count only while what they leave is small against
-        the forces: a body that has run away is no solution.
-
-        Args:
-            scale: Forces of the problem.
-        """
-        block = self._bulk.u.function_space.dofmap.index_map_bs
-        u = np.linalg.norm(self._bulk.u.x.array.reshape(-1, block), axis=1)
-        gaps, moved = [], [np.nan_to_num(self._stiffness) * u]
-        for interface in self._interfaces:
-            weight = interface.state.gap_derivative.array
-            gaps.append(weight * np.abs(interface.state.position.array).max())
-            moved.append(weight * u.max())
-        return _EPS * _norm(gaps) + min(_EPS * _norm(moved), 1e-6 * scale)
-
-
-def _norm(parts: Sequence[npt.NDArray[np.float64]]) -> float:
-    return float(np.sqrt(sum(np.dot(p, p) for p in parts)))
 
 
 def _defaults() -> dict[str, Any]:
@@ -291,6 +268,9 @@ def _defaults() -> dict[str, Any]:
     solver = compat.direct_solver()
     if solver is not None:
         options["pc_factor_mat_solver_type"] = solver
+    else:
+        # PETSc's own LU does not pivot: the multipliers, whose diagonal is zero, must come last
+        options["pc_factor_mat_ordering_type"] = "natural"
     if solver == "mumps":
         # Room for pivoting on the zero diagonal of the multipliers
         options["mat_mumps_icntl_14"] = 60

@@ -86,7 +86,14 @@ class ContactProblem:
         self.contacts = list(contacts)
         self.report = Report()
         self._bulk = Bulk(F, u, bcs or [], J, form_compiler_options, jit_options)
-        self._interfaces = [contact.attach(u, X) for contact in self.contacts]
+        self._interfaces = []
+        try:
+            for contact in self.contacts:
+                self._interfaces.append(contact.attach(u, X, self._bulk.markers))
+        except BaseException:
+            for contact in self.contacts[: len(self._interfaces)]:
+                contact.detach()
+            raise
         self._system = SaddlePointSystem(self._bulk, self._interfaces)
         self._newton = NewtonLoop(
             self._bulk, self._interfaces, self._system, petsc_options_prefix, petsc_options or {}
@@ -119,31 +126,42 @@ class ContactProblem:
                 self._newton.run(report)
             if not report.converged:
                 raise ConvergenceError(report.reason, report)
-        except BaseException:
+            for contact in self.contacts:
+                contact.accept()
+        except BaseException as error:
             self.u.x.array[:] = displacement
             for interface, checkpoint in zip(self._interfaces, checkpoints, strict=True):
                 interface.restore(checkpoint)
+            self._newton.reset()
+            # An error of Python inside PETSc comes back as the cause of one of PETSc
+            cause = error.__cause__
+            if isinstance(error, PETSc.Error) and cause is not None:
+                raise cause from None
             raise
-        for contact in self.contacts:
-            contact.accept()
         self._complete(report)
         return self.u
+
+    def __del__(self) -> None:
+        """Destroy the solver, which refers to itself through its callbacks."""
+        if hasattr(self, "_newton"):
+            self._newton.destroy()
 
     def _check_over_constrained(self) -> None:
         prescribed = self._bulk.prescribed()
         for k, interface in enumerate(self._interfaces):
-            bad = interface.over_constrained(self._bulk.markers, prescribed)
+            bad = interface.held_inside(prescribed)
             if len(bad) > 0 and interface.active:
                 raise ValueError(
                     f"contact {k} ({self.contacts[k]}) is over-constrained: Dirichlet conditions "
-                    f"hold {len(bad)} slave nodes inside the rigid obstacle, first node "
-                    f"{interface.slaves[bad[0]]}. Take these nodes out of the slave surface, "
-                    "release them along the obstacle's normal or prescribe values outside of it"
+                    f"hold {len(bad)} slave nodes inside the rigid obstacle, first node {bad[0]}. "
+                    "Take these nodes out of the slave surface, release them along the obstacle's "
+                    "normal or prescribe values outside of it"
                 )
 
     def _complete(self, report: Report) -> None:
         report.slaves = sum(len(i.slaves) for i in self._interfaces)
         report.pairs = sum(int(i.master.paired.sum()) for i in self._interfaces)
+        report.immobile = sum(int(i.immobile.sum()) for i in self._interfaces)
         report.frozen = sum(len(i.master.frozen) for i in self._interfaces)
         report.frozen_gap = min(i.master.deepest_frozen(i.positions()) for i in self._interfaces)
         report.force = [contact.force for contact in self.contacts]

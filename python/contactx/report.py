@@ -52,6 +52,7 @@ class Report:
         reason: Why the Newton loop ended.
         slaves: Number of slave nodes of all contacts.
         pairs: Number of slave nodes that have a master facet in reach.
+        immobile: Pairs that Dirichlet conditions leave nothing to yield; they stay open.
         frozen: Pairs that went back and forth and were held.
         frozen_gap: Smallest gap that a held pair hides; a negative one is a penetration.
         imbalance: Sum of all contact forces on both sides, shape (gdim,): zero but for rounding.
@@ -65,6 +66,7 @@ class Report:
     reason: str = ""
     slaves: int = 0
     pairs: int = 0
+    immobile: int = 0
     frozen: int = 0
     frozen_gap: float = 0.0
     imbalance: npt.NDArray[np.float64] = field(default_factory=lambda: np.zeros(0))
@@ -110,6 +112,7 @@ class Report:
             f"iterations: {self.reason}",
             self.table().rstrip(),
             f"{self.pairs} of {self.slaves} slave nodes have a pair"
+            + (f", {self.immobile} nothing to yield" if self.immobile else "")
             + (frozen if self.frozen else ""),
         ]
         for k, force in enumerate(self.force):

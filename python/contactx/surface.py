@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from numbers import Integral
 
 import numpy as np
 import numpy.typing as npt
@@ -45,8 +46,14 @@ class Surface:
 
         Raises:
             RuntimeError: On more than one rank, on every rank.
+            TypeError: If the arguments are of another kind.
             ValueError: If the tags are not of facets, no tag is given, or a tag is not there.
         """
+        if not isinstance(facet_tags, mesh.MeshTags):
+            raise TypeError(
+                f"facet_tags must be dolfinx MeshTags, not {type(facet_tags).__name__}: "
+                "write Surface(facet_tags, tag)"
+            )
         compat.require_one_rank(facet_tags.topology.comm)
         tdim = facet_tags.topology.dim
         if facet_tags.dim != tdim - 1:
@@ -56,7 +63,12 @@ class Surface:
             )
         values: list[int] = []
         for tag in tags:
-            values.extend(int(t) for t in (tag if isinstance(tag, Iterable) else (tag,)))
+            for value in tag if isinstance(tag, Iterable) else (tag,):
+                if not isinstance(value, Integral):
+                    raise TypeError(
+                        f"a tag is an integer, not {value!r}: Surface(facet_tags, 1, 2)"
+                    )
+                values.append(int(value))
         if not values:
             raise ValueError("a Surface needs at least one tag: its surface is empty")
         present = np.unique(facet_tags.values)

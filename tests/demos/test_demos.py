@@ -5,6 +5,7 @@
 import hertz_cylinder
 import hertz_sphere
 import numpy as np
+import press_fit
 import pytest
 import pyvista
 from matplotlib import image
@@ -12,8 +13,12 @@ from matplotlib import image
 
 @pytest.mark.parametrize(
     ("demo", "h", "tolerances"),
-    [(hertz_sphere, "0.04", (1e-10, 0.05, 0.2)), (hertz_cylinder, "0.01", (2e-3, 0.05, 0.03))],
-    ids=["sphere", "cylinder"],
+    [
+        (hertz_sphere, "0.04", (1e-10, 0.05, 0.2)),
+        (hertz_cylinder, "0.01", (2e-3, 0.05, 0.03)),
+        (press_fit, "0.05", (0.01, 0.01, 0.6)),
+    ],
+    ids=["sphere", "cylinder", "press_fit"],
 )
 @pytest.mark.parametrize("sliding", ["finite", "small"])
 def test_demo(demo, h, tolerances, sliding, tmp_path, capsys):

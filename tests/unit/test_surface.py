@@ -40,6 +40,17 @@ def test_an_empty_surface(scene, tags):
         cx.Surface(scene.tags, *tags)
 
 
+@pytest.mark.parametrize("tag", [11.0, "11", None])
+def test_a_tag_that_is_no_integer(scene, tag):
+    with pytest.raises(TypeError, match="a tag is an integer"):
+        cx.Surface(scene.tags, tag)
+
+
+def test_arguments_in_the_wrong_order(scene):
+    with pytest.raises(TypeError, match="facet_tags must be dolfinx MeshTags, not int"):
+        cx.Surface(11, scene.tags)
+
+
 def test_tags_of_cells():
     data = meshes.blocks(CellType.tetrahedron, (1, 1, 1), (1, 1, 1))
     with pytest.raises(ValueError, match="dimension 3, but the facets of this mesh have dimension"):

@@ -81,6 +81,21 @@ class FacetMaster(Master):
             result[pairs.slaves] = nodal[pairs.nodes[:, 1:]].mean(axis=1)
         return result
 
+    def mobility(self, free: npt.NDArray[np.bool_]) -> npt.NDArray[np.float64]:
+        """See ``Master``."""
+        result = np.ones(len(self._slaves))
+        if free[self._slaves].all() and free[self._facets.nodes].all():
+            return result
+        for pairs in self.pairs():
+            N = core.shape_functions(
+                pairs.nodes.shape[1] - 1, np.ascontiguousarray(pairs.data[:, 1:3])
+            )
+            weight = np.column_stack([np.ones(len(N)), N])
+            normal = pairs.data[:, 6 : 6 + free.shape[1]]
+            terms = weight[:, :, None] * normal[:, None, :] * free[pairs.nodes]
+            result[pairs.slaves] = np.sqrt((terms**2).sum(axis=(1, 2)))
+        return result
+
     def copy(self) -> FacetMaster:
         """See ``Master``."""
         twin = copy.copy(self)

@@ -19,9 +19,11 @@ class Master(ABC):
 
     Attributes:
         reach: Largest distance of a pair.
+        is_rigid: Whether the master has no degrees of freedom.
     """
 
     reach: float
+    is_rigid = False
 
     @abstractmethod
     def search(self, x: npt.NDArray[np.float64], closed: npt.NDArray[np.int8]) -> tuple[int, bool]:
@@ -76,21 +78,17 @@ class Master(ABC):
     def distance(self, x: npt.NDArray[np.float64]) -> float:
         """Distance from the nearest slave node to the master."""
 
-    def over_constrained(
-        self, x: npt.NDArray[np.float64], free: npt.NDArray[np.bool_]
-    ) -> tuple[npt.NDArray[np.bool_], npt.NDArray[np.float64]]:
-        """Slave nodes that have nothing to yield along the master's normal.
-
-        A deformable master yields where its slave node cannot.
+    @abstractmethod
+    def mobility(self, free: npt.NDArray[np.bool_]) -> npt.NDArray[np.float64]:
+        """How much of each gap's gradient is left by Dirichlet conditions.
 
         Args:
-            x: Positions of the slave nodes, shape (n, gdim).
-            free: Which of their displacements are not prescribed, shape (n, gdim).
+            free: Which displacements are not prescribed, shape (num_nodes, gdim).
 
         Returns:
-            Whether a node is held along the normal, and its gap, each of shape (n,).
+            Norm of the gradient over the free displacements, shape (n,): zero where slave node
+            and master have nothing to yield along the normal.
         """
-        return np.zeros(len(x), dtype=bool), np.full(len(x), np.nan)
 
     @property
     def frozen(self) -> npt.NDArray[np.int32]:

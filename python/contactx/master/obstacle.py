@@ -17,6 +17,8 @@ from contactx.obstacles import Geometry, Obstacle
 class ObstacleMaster(Master):
     """Pairs with a rigid obstacle: slave nodes alone."""
 
+    is_rigid = True
+
     def __init__(
         self, slaves: npt.NDArray[np.int32], obstacle: Obstacle, search_distance: float | None
     ):
@@ -73,12 +75,15 @@ class ObstacleMaster(Master):
         """See ``Master``; none."""
         return np.zeros(len(self._slaves))
 
-    def over_constrained(
-        self, x: npt.NDArray[np.float64], free: npt.NDArray[np.bool_]
-    ) -> tuple[npt.NDArray[np.bool_], npt.NDArray[np.float64]]:
+    def mobility(self, free: npt.NDArray[np.bool_]) -> npt.NDArray[np.float64]:
         """See ``Master``."""
-        geometry = self._obstacle.evaluate(x)
-        return np.linalg.norm(geometry.normal * free, axis=1) <= 1e-8, geometry.gap
+        normal = self._data[:, 4 : 4 + free.shape[1]]
+        norm: npt.NDArray[np.float64] = np.linalg.norm(normal * free[self._slaves], axis=1)
+        return norm
+
+    def inside(self, x: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+        """Gap of the slave nodes at positions of all nodes, shape (n,)."""
+        return self._obstacle.evaluate(x[self._slaves]).gap
 
     def copy(self) -> ObstacleMaster:
         """See ``Master``."""

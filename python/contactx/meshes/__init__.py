@@ -6,8 +6,10 @@ from __future__ import annotations
 
 from contactx.meshes.cap import hertz_cap
 from contactx.meshes.cylinder import hertz_cylinder
+from contactx.meshes.rings import rings
+from contactx.meshes.single import single
 from contactx.meshes.sphere import hertz_sphere
 from contactx.meshes.stacked import blocks
 from contactx.meshes.tags import Tag
 
-__all__ = ["Tag", "blocks", "hertz_cap", "hertz_cylinder", "hertz_sphere"]
+__all__ = ["Tag", "blocks", "hertz_cap", "hertz_cylinder", "hertz_sphere", "rings", "single"]

@@ -11,7 +11,9 @@ class Tag(IntEnum):
     """Tags of the bodies (cells) and of their faces (facets).
 
     The upper body rests on the lower one. The last coordinate (z in 3D, y in 2D) points up, so
-    a 2D mesh has no ``Y`` faces. A model tags only the faces that its docstring lists.
+    a 2D mesh has no ``Y`` faces. Of two rings the inner one is the upper body, with the bore as its
+    top, and the outer one the lower body, with the rim as its bottom; ``X0`` and ``Y0`` are their
+    planes of symmetry. A model tags only the faces that its docstring lists.
     """
 
     UPPER = 1

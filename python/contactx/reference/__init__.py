@@ -7,5 +7,6 @@ from __future__ import annotations
 from contactx.reference.hertz_cylinder import HertzCylinder
 from contactx.reference.hertz_sphere import HertzSphere
 from contactx.reference.modulus import contact_modulus
+from contactx.reference.press_fit import PressFit
 
-__all__ = ["HertzCylinder", "HertzSphere", "contact_modulus"]
+__all__ = ["HertzCylinder", "HertzSphere", "PressFit", "contact_modulus"]

@@ -1,0 +1,98 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""When a residual is small enough."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+import numpy.typing as npt
+
+from contactx.bulk import Bulk
+from contactx.interface import Interface
+from contactx.system import SaddlePointSystem
+
+# Rounding errors of a sum of a few terms
+_EPS = 16 * np.finfo(np.float64).eps
+
+
+class Judge:
+    """Measures the residual against the forces of the problem.
+
+    Displacements enter the Dirichlet rows and are judged apart from the forces, so that the
+    judgement does not depend on the units.
+    """
+
+    def __init__(self, bulk: Bulk, interfaces: Sequence[Interface], system: SaddlePointSystem):
+        """Create the judge.
+
+        Args:
+            bulk: The bulk.
+            interfaces: Discrete sides of the contacts.
+            system: The coupled system.
+        """
+        self._bulk = bulk
+        self._interfaces = interfaces
+        self._system = system
+        self._stiffness = np.zeros(0)
+        self._least_scale: float | None = None
+
+    def begin(self, stiffness: npt.NDArray[np.float64]) -> None:
+        """Start a step.
+
+        Args:
+            stiffness: Stiffness of each node of the bulk, NaN where it cannot move.
+        """
+        self._stiffness = np.nan_to_num(stiffness)
+        self._least_scale = None
+
+    def __call__(self, rtol: float, atol: float) -> tuple[float, float, float]:
+        """Judge the system's residual.
+
+        The forces of the problem are those of the bulk: in equilibrium its residual is what
+        supports and contacts carry. Multipliers are no measure, they may be wild or, where a
+        constraint is redundant, without meaning.
+
+        Args:
+            rtol: Tolerance relative to the forces.
+            atol: Absolute tolerance.
+
+        Returns:
+            Norm of the residual, what it must not exceed, and the largest difference from a
+            Dirichlet value.
+        """
+        force, *constraints = self._system.blocks(self._system.b.array_r)
+        prescribed = self._bulk.markers == 1
+        residual = _norm([force[~prescribed], *constraints])
+        scale = _norm([self._system.bulk_residual()])
+        if self._least_scale is None:
+            # Unloading ends without forces. What the first change of the Dirichlet values asks
+            # for says little: a stiff body that moves as a whole asks for much and gets nothing
+            self._least_scale = max(scale, 1e-6 * residual)
+        scale = max(scale, self._least_scale)
+        defect = float(np.abs(force[prescribed]).max(initial=0.0))
+        return residual, max(rtol * scale, atol, self._rounding(scale)), defect
+
+    def _rounding(self, scale: float) -> float:
+        """Residual that rounding leaves.
+
+        A gap is a difference of positions, the forces of a stiff body sums of stiffness times
+        displacement that cancel. Displacements count only while what they leave is small against
+        the forces: a body that has run away is no solution.
+
+        Args:
+            scale: Forces of the problem.
+        """
+        block = self._bulk.u.function_space.dofmap.index_map_bs
+        u = np.linalg.norm(self._bulk.u.x.array.reshape(-1, block), axis=1)
+        gaps, moved = [], [self._stiffness * u]
+        for interface in self._interfaces:
+            weight = interface.state.gap_derivative.array
+            gaps.append(weight * np.abs(interface.state.position.array).max())
+            moved.append(weight * u.max())
+        return _EPS * _norm(gaps) + min(_EPS * _norm(moved), 1e-6 * scale)
+
+
+def _norm(parts: Sequence[npt.NDArray[np.float64]]) -> float:
+    return float(np.sqrt(sum(np.dot(p, p) for p in parts)))
