@@ -111,6 +111,8 @@ class NewtonLoop:
         code = self.snes.getConvergedReason()
         report.converged = self._converged
         report.reason = _REASONS.get(code, f"SNES stopped with reason {code}")
+        if code > 0 and not self._converged:
+            report.reason = f"SNES stopped by itself, with reason {code}, before the end"
         report.skipped["bulk Jacobian assembly"] = self._bulk.skipped - before[1]
 
     def reset(self) -> None:

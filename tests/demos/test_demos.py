@@ -2,12 +2,17 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """The demos run, print what they should and leave their pictures."""
 
+import finite_strain
 import hertz_cylinder
 import hertz_sphere
+import level_set
 import numpy as np
 import press_fit
 import pytest
 import pyvista
+import rigid_cylinder
+import rigid_plane
+import rigid_sphere
 from matplotlib import image
 
 
@@ -17,8 +22,12 @@ from matplotlib import image
         (hertz_sphere, "0.04", (1e-10, 0.05, 0.2)),
         (hertz_cylinder, "0.01", (2e-3, 0.05, 0.03)),
         (press_fit, "0.05", (0.01, 0.01, 0.6)),
+        (rigid_plane, "0.04", (0.01, 0.05, 0.1)),
+        (rigid_sphere, "0.04", (0.01, 0.05, 0.1)),
+        (rigid_cylinder, "0.02", (0.01, 0.07, 0.03)),
+        (level_set, "0.04", (0.01, 0.05, 0.1)),
     ],
-    ids=["sphere", "cylinder", "press_fit"],
+    ids=lambda value: getattr(value, "__name__", ""),
 )
 @pytest.mark.parametrize("sliding", ["finite", "small"])
 def test_demo(demo, h, tolerances, sliding, tmp_path, capsys):
@@ -34,3 +43,16 @@ def test_demo(demo, h, tolerances, sliding, tmp_path, capsys):
         assert pixels.shape[0] > 300
         assert len(np.unique(pixels.reshape(-1, pixels.shape[-1]), axis=0)) > 100
     assert "pressure" in pyvista.get_reader(str(tmp_path / f"{name}.pvd")).read()[0].point_data
+
+
+def test_finite_strain(tmp_path, capsys):
+    results = finite_strain.main(["--h", "0.34", "--output", str(tmp_path)])
+    assert len(results) == 4
+    assert all(abs(result.error) <= 0.01 for result in results)
+    printed = capsys.readouterr().out
+    for text in ("expected", "computed", "error", "det F", "see "):
+        assert text in printed
+    for name in ("ball", "block"):
+        assert image.imread(tmp_path / f"finite_strain_{name}.png").shape[0] > 300
+        path = str(tmp_path / f"finite_strain_{name}.pvd")
+        assert "pressure" in pyvista.get_reader(path).read()[0].point_data

@@ -177,7 +177,7 @@ def test_problems_are_freed():
 def test_another_kind_of_snes_does_not_pass_for_convergence():
     scene = Blocks(CellType.tetrahedron)
     problem = scene.problem(scene.contact(), petsc_options={"snes_type": "ksponly"})
-    with pytest.raises(cx.ConvergenceError, match="SNES stopped with reason"):
+    with pytest.raises(cx.ConvergenceError, match="SNES stopped by itself, with reason"):
         problem.solve()
 
 

@@ -1,0 +1,160 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Large deformation, and a material with a history, in plain UFL."""
+
+import itertools
+
+import finite_strain
+import numpy as np
+import pytest
+from story import displacement, fix
+
+import basix.ufl
+import contactx as cx
+import ufl
+from contactx import meshes
+from contactx.meshes import Tag
+from dolfinx import fem
+from dolfinx.mesh import CellType
+
+
+@pytest.mark.parametrize("make", [finite_strain.on_ball, finite_strain.on_block])
+def test_a_block_through_30_percent_of_its_height(make):
+    """In at most ten steps, and in balance: without friction work is energy."""
+    press = make(4, "finite")
+    reports = []
+
+    def solve(problem):
+        problem.solve()
+        reports.append(problem.report)
+
+    work, stored = press.run(8, solve)
+    for report in reports:
+        last = [row.residual for row in report.history[-3:]]
+        print(report.iterations, [f"{r:.1e}" for r in last])
+        assert report.iterations <= 8
+        assert report.frozen == 0
+    force = press.contact.force
+    assert press.reaction() == pytest.approx(force[2], rel=1e-9)
+    least, most = press.volume_ratios()
+    assert 0.5 < least <= most < 1.1
+    assert np.nanmin(press.contact.interface.gap) > -1e-11
+    assert stored == pytest.approx(work, rel=0.01)
+
+
+def test_convergence_of_the_last_step_is_quadratic():
+    press = finite_strain.on_ball(4, "finite")
+    press.run(4, lambda problem: problem.solve())
+    r = [row.residual for row in press.problem.report.history]
+    scale = abs(press.contact.force[2])
+    print("relative residuals", [f"{x / scale:.1e}" for x in r])
+    pairs = [(a / scale, b / scale) for a, b in itertools.pairwise(r)]
+    pairs = [(a, b) for a, b in pairs if 1e-12 < a < 1e-1]
+    assert len(pairs) >= 2
+    assert all(b <= max(50 * a**2, 1e-13) for a, b in pairs)
+
+
+class Plastic:
+    """A block of von Mises plasticity with linear hardening, its history in a quadrature space."""
+
+    E, NU, YIELD, HARDENING = 100.0, 0.3, 1.0, 10.0
+
+    def __init__(self, u):
+        mesh = u.function_space.mesh
+        self.u = u
+        tensor = basix.ufl.quadrature_element(mesh.basix_cell(), value_shape=(3, 3), degree=1)
+        scalar = basix.ufl.quadrature_element(mesh.basix_cell(), value_shape=(), degree=1)
+        self.plastic = fem.Function(fem.functionspace(mesh, tensor))
+        self.equivalent = fem.Function(fem.functionspace(mesh, scalar))
+        mu, lmbda = (
+            self.E / (2 * (1 + self.NU)),
+            self.E * self.NU / ((1 + self.NU) * (1 - 2 * self.NU)),
+        )
+        strain = ufl.sym(ufl.grad(u)) - self.plastic
+        trial = 2 * mu * strain + lmbda * ufl.tr(strain) * ufl.Identity(3)
+        s = ufl.dev(trial)
+        mises = ufl.sqrt(1.5 * ufl.inner(s, s) + 1e-16)
+        excess = mises - self.YIELD - self.HARDENING * self.equivalent
+        rate = ufl.max_value(excess, 0) / (3 * mu + self.HARDENING)
+        flow = 1.5 * rate * s / mises
+        self.stress = trial - 2 * mu * flow
+        v = ufl.TestFunction(u.function_space)
+        self.F = ufl.inner(self.stress, ufl.sym(ufl.grad(v))) * ufl.dx(
+            metadata={"quadrature_degree": 1, "quadrature_scheme": "default"}
+        )
+        points = self.plastic.function_space.element.interpolation_points
+        self._new_plastic = fem.Expression(self.plastic + flow, points)
+        self._new_equivalent = fem.Expression(self.equivalent + rate, points)
+
+    def commit(self):
+        """Take over the history of an accepted step."""
+        plastic = fem.Function(self.plastic.function_space)
+        equivalent = fem.Function(self.equivalent.function_space)
+        plastic.interpolate(self._new_plastic)
+        equivalent.interpolate(self._new_equivalent)
+        self.plastic.x.array[:] = plastic.x.array
+        self.equivalent.x.array[:] = equivalent.x.array
+
+
+def test_plasticity_with_history_in_a_quadrature_space():
+    """A ball dents a block; taken away, the dent stays and the force is gone."""
+    data = meshes.hertz_sphere(0.04)
+    mesh, tags = meshes.single(data, Tag.LOWER)
+    u = displacement(mesh)
+    material = Plastic(u)
+    bcs = [
+        fix(u, tags, 0, 0.0, Tag.LOWER_X0),
+        fix(u, tags, 1, 0.0, Tag.LOWER_Y0),
+        *(fix(u, tags, i, 0.0, Tag.LOWER_BOTTOM) for i in range(3)),
+    ]
+    centre = fem.Constant(mesh, np.array([0.0, 0.0, 1.0]))
+    contact = cx.Contact(cx.Surface(tags, Tag.LOWER_CONTACT), cx.Sphere(centre, 1.0))
+    problem = cx.ContactProblem(
+        material.F,
+        u,
+        contacts=[contact],
+        bcs=bcs,
+        petsc_options_prefix="plastic_",
+        petsc_options={"snes_linesearch_type": "bt"},
+    )
+    # Unloading starts with the tangent of plastic flow, far too soft: damp the step
+    forces, iterations = [], []
+    for depth in (0.005, 0.01, 0.015, 0.02, 0.0):
+        centre.value[2] = 1 - depth
+        contact.active = depth > 0
+        problem.solve()
+        material.commit()
+        forces.append(-contact.force[2])
+        iterations.append(problem.report.iterations)
+    print("forces", forces, "iterations", iterations)
+    assert np.all(np.diff(forces[:4]) > 0)
+    assert forces[4] == 0
+    assert material.equivalent.x.array.max() > 0.01
+    assert max(iterations) <= 12
+    elastic = 4 / 3 / (1 - 0.3**2) * 100 * 0.02**1.5 / 4
+    assert forces[3] < 0.8 * elastic
+    x = u.function_space.tabulate_dof_coordinates()
+    pole = np.argmin(np.linalg.norm(x, axis=1))
+    assert -0.02 < u.x.array[3 * pole + 2] < -0.004
+
+
+def test_two_finite_strain_bodies_of_different_cells_need_no_change():
+    """Triangles in the plane: the same material in 2D."""
+    data = meshes.blocks(CellType.triangle, (5, 5), (9, 6), size_lower=(1.6, 1.0), shift=(0.3,))
+    tags, u = data.facet_tags, displacement(data.mesh)
+    F = ufl.Identity(2) + ufl.grad(u)
+    J = ufl.det(F)
+    energy = (0.5 * (ufl.tr(F.T * F) - 2 - 2 * ufl.ln(J)) + 0.75 * ufl.ln(J) ** 2) * ufl.dx
+    bcs = [
+        *(fix(u, tags, i, 0.0, Tag.LOWER_BOTTOM) for i in range(2)),
+        fix(u, tags, 0, 0.0, Tag.UPPER_TOP),
+        fix(u, tags, 1, -0.3, Tag.UPPER_TOP),
+    ]
+    contact = cx.Contact(cx.Surface(tags, Tag.UPPER_CONTACT), cx.Surface(tags, Tag.LOWER_CONTACT))
+    problem = cx.ContactProblem(
+        ufl.derivative(energy, u), u, contacts=[contact], bcs=bcs, petsc_options_prefix="flat_"
+    )
+    problem.solve()
+    assert problem.report.iterations <= 12
+    assert contact.force[1] > 0.1
+    assert np.nanmin(contact.interface.gap) > -1e-11
