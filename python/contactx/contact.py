@@ -45,8 +45,8 @@ class Contact:
             sliding: "finite": pairs, normals and projections follow the deformation. "small": they
                 are those of the reference configuration, which is linear and cheap, and right
                 where bodies neither slide nor turn by much.
-            search_distance: Largest distance at which a slave node is paired; by default half the
-                diagonal of the larger surface's box, and unlimited for a rigid obstacle.
+            search_distance: Largest distance at which a slave node is paired; by default the
+                diameter of the larger surface, and unlimited for a rigid obstacle.
             offset: Length that is taken off the gap: positive where the bodies interfere by it or
                 carry a layer of that thickness, negative where they are that much farther apart. A
                 number, a ``fem.Constant`` or a ``fem.Function`` of the scalar linear space.

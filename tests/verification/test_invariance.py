@@ -233,7 +233,6 @@ def test_nodes_on_nodes(cell, sliding):
             assert d["force"] <= 1e-9
 
 
-@pytest.mark.xfail(reason="the default search distance is that of a box along the axes")
 def test_default_search_distance_does_not_turn():
     scene = numbered(
         meshes.blocks(CellType.tetrahedron, (3, 3, 3), (4, 4, 4), gap=0.85),

@@ -126,9 +126,12 @@ class FacetMaster(Master):
 
 
 def _default_reach(x: npt.NDArray[np.float64], slave: FacetList, master: FacetList) -> float:
-    """Half the diagonal of the larger surface's bounding box.
+    """Diameter of the larger surface: twice the largest distance of its nodes from their mean.
 
     A body that has moved into another within one iteration must still be found.
     """
-    diagonals = [np.linalg.norm(np.ptp(x[f.nodes], axis=0)) for f in (slave, master)]
-    return float(max(diagonals)) / 2
+    radii = []
+    for facets in (slave, master):
+        nodes = x[np.unique(facets.nodes)]
+        radii.append(np.linalg.norm(nodes - nodes.mean(axis=0), axis=1).max())
+    return 2 * float(max(radii))
