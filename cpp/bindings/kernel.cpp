@@ -12,6 +12,17 @@ using namespace contactx;
 void contactx_bindings::kernel(py::module_& m)
 {
   using kernel::Site;
+  m.attr("pair_layout") = py::dict(py::arg("feature") = kernel::pair_feature,
+                                   py::arg("xi") = kernel::pair_xi,
+                                   py::arg("cone") = kernel::pair_cone,
+                                   py::arg("normal") = kernel::pair_normal,
+                                   py::arg("size") = kernel::pair_size);
+  m.attr("rigid_layout")
+      = py::dict(py::arg("gap") = kernel::rigid_gap,
+                 py::arg("gradient") = kernel::rigid_gradient,
+                 py::arg("normal") = kernel::rigid_normal,
+                 py::arg("curvature") = kernel::rigid_curvature,
+                 py::arg("size") = kernel::rigid_size);
   m.def(
       "coefficients",
       [](int num_nodes)

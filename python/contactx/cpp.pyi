@@ -8,6 +8,8 @@ OPEN: int
 STICK: int
 SLIP: int
 margin: float
+pair_layout: dict[str, int]
+rigid_layout: dict[str, int]
 
 def nodal_areas(
     offsets: NDArray[np.int32], nodes: NDArray[np.int32], x: NDArray[np.float64], gdim: int

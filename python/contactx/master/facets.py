@@ -86,12 +86,12 @@ class FacetMaster(Master):
         result = np.ones(len(self._slaves))
         if free[self._slaves].all() and free[self._facets.nodes].all():
             return result
+        at = core.pair_layout
         for pairs in self.pairs():
-            N = core.shape_functions(
-                pairs.nodes.shape[1] - 1, np.ascontiguousarray(pairs.data[:, 1:3])
-            )
+            xi = np.ascontiguousarray(pairs.data[:, at["xi"] : at["xi"] + 2])
+            N = core.shape_functions(pairs.nodes.shape[1] - 1, xi)
             weight = np.column_stack([np.ones(len(N)), N])
-            normal = pairs.data[:, 6 : 6 + free.shape[1]]
+            normal = pairs.data[:, at["normal"] : at["normal"] + free.shape[1]]
             terms = weight[:, :, None] * normal[:, None, :] * free[pairs.nodes]
             result[pairs.slaves] = np.sqrt((terms**2).sum(axis=(1, 2)))
         return result

@@ -9,9 +9,12 @@ import copy
 import numpy as np
 import numpy.typing as npt
 
+from contactx import cpp as core
 from contactx.forms import Pairs
 from contactx.master.master import Master
 from contactx.obstacles import Geometry, Obstacle
+
+_AT = core.rigid_layout
 
 
 class ObstacleMaster(Master):
@@ -33,7 +36,7 @@ class ObstacleMaster(Master):
         self._obstacle = obstacle
         self.reach = np.inf if search_distance is None else search_distance
         self._paired = np.zeros(len(slaves), dtype=bool)
-        self._data = np.zeros((len(slaves), 16))
+        self._data = np.zeros((len(slaves), _AT["size"]))
         self._at = np.zeros((len(slaves), 0))
 
     def search(self, x: npt.NDArray[np.float64], closed: npt.NDArray[np.int8]) -> tuple[int, bool]:
@@ -61,8 +64,8 @@ class ObstacleMaster(Master):
         if not held:
             return self._group(_kernel_data(self._obstacle.evaluate(now)))
         data = self._data.copy()
-        gradient = data[:, 1 : 1 + now.shape[1]]
-        data[:, 0] += np.einsum("ij,ij->i", gradient, now - self._at)
+        gradient = _columns(data, "gradient", now.shape[1])
+        data[:, _AT["gap"]] += np.einsum("ij,ij->i", gradient, now - self._at)
         return self._group(data)
 
     def _group(self, data: npt.NDArray[np.float64]) -> list[Pairs]:
@@ -77,7 +80,7 @@ class ObstacleMaster(Master):
 
     def mobility(self, free: npt.NDArray[np.bool_]) -> npt.NDArray[np.float64]:
         """See ``Master``."""
-        normal = self._data[:, 4 : 4 + free.shape[1]]
+        normal = _columns(self._data, "normal", free.shape[1])
         norm: npt.NDArray[np.float64] = np.linalg.norm(normal * free[self._slaves], axis=1)
         return norm
 
@@ -95,11 +98,16 @@ class ObstacleMaster(Master):
 
 
 def _kernel_data(geometry: Geometry) -> npt.NDArray[np.float64]:
-    """Gap, gradient, normal and curvature of each node, as cpp/contactx/kernel/layout.h says."""
+    """Gap, gradient, normal and curvature of each node, as the kernels read them."""
     n, gdim = geometry.normal.shape
-    data = np.zeros((n, 16))
-    data[:, 0] = geometry.gap
-    data[:, 1 : 1 + gdim] = geometry.gradient
-    data[:, 4 : 4 + gdim] = geometry.normal
-    data[:, 7 : 7 + gdim * gdim] = geometry.curvature.reshape(n, -1)
+    data = np.zeros((n, _AT["size"]))
+    data[:, _AT["gap"]] = geometry.gap
+    _columns(data, "gradient", gdim)[:] = geometry.gradient
+    _columns(data, "normal", gdim)[:] = geometry.normal
+    _columns(data, "curvature", gdim * gdim)[:] = geometry.curvature.reshape(n, -1)
     return data
+
+
+def _columns(data: npt.NDArray[np.float64], name: str, width: int) -> npt.NDArray[np.float64]:
+    """View of one of the kernels' values."""
+    return data[:, _AT[name] : _AT[name] + width]

@@ -1,0 +1,49 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Files for ParaView."""
+
+import warnings
+from pathlib import Path
+
+import numpy as np
+import pytest
+import pyvista
+from scenes import Blocks
+from story import displacement
+
+import contactx as cx
+from contactx.meshes import Tag
+from dolfinx.mesh import CellType
+
+
+@pytest.mark.parametrize("contacts", [1, 2])
+def test_paraview_output(tmp_path: Path, contacts):
+    scene = Blocks(CellType.hexahedron)
+    scene.u.name = "displacement"
+    all_contacts = [
+        scene.contact(),
+        cx.Contact(cx.Surface(scene.tags, Tag.UPPER_X1), cx.Surface(scene.tags, Tag.LOWER_X1)),
+    ][:contacts]
+    problem = scene.problem(*all_contacts)
+    if contacts == 2:
+        warnings.simplefilter("ignore", UserWarning)  # the second one faces away
+    path = tmp_path / "new" / "blocks.pvd"
+    with cx.VTKOutput(path, scene.u, all_contacts) as output:
+        output.write(0.0)
+        problem.solve()
+        output.write(1.0)
+    reader = pyvista.get_reader(str(path))
+    assert reader.time_values == [0.0, 1.0]
+    reader.set_active_time_value(1.0)
+    data = reader.read()[0].point_data
+    suffix = "_0" if contacts == 2 else ""
+    assert data["displacement"].shape[1] == 3
+    assert data["pressure" + suffix].max() == pytest.approx(all_contacts[0].multiplier.max())
+    assert np.nanmin(data["gap" + suffix]) == pytest.approx(0, abs=1e-12)
+    assert set(data["status" + suffix]) <= {-1, 0, 2}
+
+
+def test_paraview_output_needs_pvd(tmp_path: Path):
+    scene = Blocks(CellType.triangle)
+    with pytest.raises(ValueError, match=r"ends in '.xdmf'.*\.pvd"):
+        cx.VTKOutput(tmp_path / "a.xdmf", displacement(scene.u.function_space.mesh), [])
