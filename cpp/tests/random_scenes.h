@@ -23,6 +23,15 @@ enum class Kind
   num_kinds
 };
 
+/// @brief All kinds of surfaces.
+inline std::vector<Kind> all_kinds()
+{
+  std::vector<Kind> kinds;
+  for (int k = 0; k < static_cast<int>(Kind::num_kinds); ++k)
+    kinds.push_back(static_cast<Kind>(k));
+  return kinds;
+}
+
 /// @brief Add a random facet around a point.
 inline void add_random_facet(Scene& scene, Generator& random, int num_nodes,
                              double size, double thickness)

@@ -1,6 +1,7 @@
 // Copyright (C) 2026 contactx authors
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
+#include "brute_force.h"
 #include "random_scenes.h"
 #include <contactx/search/select.h>
 #include <gtest/gtest.h>
@@ -11,24 +12,6 @@ using namespace contactx::tests;
 
 namespace
 {
-/// The search without a tree: the first of the closest facets.
-std::optional<Projection> brute_force(const Surface& surface,
-                                      std::span<const double> x,
-                                      const Vec<3>& p, const Vec<3>& normal,
-                                      double reach)
-{
-  std::optional<Projection> best;
-  for (std::int32_t f = 0; f < surface.facets().size(); ++f)
-  {
-    const auto q = closest(surface, f, x, p);
-    if (q and norm(q->d) <= reach
-        and (norm(normal) == 0 or dot(q->normal, normal) < 0)
-        and (!best or dot(q->d, q->d) < dot(best->d, best->d)))
-      best = q;
-  }
-  return best;
-}
-
 void expect_same(const std::optional<Projection>& found,
                  const std::optional<Projection>& expected)
 {
@@ -87,14 +70,6 @@ TEST_P(NearestFacet, IsTheSameAfterARefit)
                   nearest_facet(surface, fresh, scene.x, p, {}, 10));
     }
   }
-}
-
-std::vector<Kind> all_kinds()
-{
-  std::vector<Kind> kinds;
-  for (int k = 0; k < static_cast<int>(Kind::num_kinds); ++k)
-    kinds.push_back(static_cast<Kind>(k));
-  return kinds;
 }
 
 INSTANTIATE_TEST_SUITE_P(AllKinds, NearestFacet,
