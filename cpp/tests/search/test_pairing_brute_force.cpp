@@ -55,8 +55,10 @@ TEST_P(PairingBruteForce, FirstPairsAreThoseOfALoop)
       Vec<3> normal{};
       std::copy_n(normals.begin() + node * scene.gdim, scene.gdim,
                   normal.begin());
-      const auto expected
-          = brute_force(surface, scene.x, scene.point(node), normal, reach);
+      const Vec<3> p = scene.point(node);
+      auto expected = brute_force(surface, scene.x, p, normal, reach);
+      if (expected)
+        expected = select(surface, scene.x, p, *expected);
       ASSERT_EQ(pairing.facet()[i], expected ? expected->facet : -1);
       if (!expected)
         continue;
