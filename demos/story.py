@@ -100,6 +100,8 @@ def solve(problem: cx.ContactProblem) -> None:
 
         problem.solver.setMonitor(monitor)
         problem.solve()
+        # It holds the problem, and PETSc would hold both for ever
+        problem.solver.cancelMonitor()
     console.print(str(problem.report), highlight=False)
 
 

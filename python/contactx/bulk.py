@@ -54,13 +54,17 @@ class Bulk:
         self.bcs = list(bcs)
         V = u.function_space
         if J is None:
-            J = ufl.derivative(F, u, ufl.TrialFunction(V))
-        expanded = ufl.algorithms.expand_derivatives(J)
-        self.is_linear = u not in expanded.coefficients()
-        self._parameters = [*expanded.coefficients(), *expanded.constants()]
+            # Loads drop out, so that a constant of theirs that changes does not count as one of J
+            internal = [
+                i for i in F.integrals() if u in ufl.algorithms.extract_coefficients(i.integrand())
+            ]
+            J = ufl.derivative(ufl.Form(internal or F.integrals()), u, ufl.TrialFunction(V))
         options = {"form_compiler_options": form_compiler_options, "jit_options": jit_options}
         self.F = fem.form(F, **options)
         self.J = fem.form(J, **options)
+        # Those that are left once UFL has differentiated: none is u where the bulk is linear
+        self._coefficients = list(self.J._cpp_object.coefficients)
+        self.is_linear = all(c is not u._cpp_object for c in self._coefficients)
         self._A: PETSc.Mat | None = None
         self._assembled_with: list[npt.NDArray[np.float64]] | None = None
         self.markers = np.zeros(len(u.x.array), dtype=np.int8)
@@ -97,10 +101,7 @@ class Bulk:
         """
         if self._A is None:
             self._A = dolfinx.fem.petsc.create_matrix(self.J)
-        parameters = [
-            np.array(p.x.array if isinstance(p, fem.Function) else p.value)
-            for p in self._parameters
-        ]
+        parameters = [fem.pack_constants(self.J), *(c.x.array.copy() for c in self._coefficients)]
         unchanged = self._assembled_with is not None and all(
             map(np.array_equal, parameters, self._assembled_with)
         )
