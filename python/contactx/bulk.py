@@ -58,7 +58,7 @@ class Bulk:
             internal = [
                 i for i in F.integrals() if u in ufl.algorithms.extract_coefficients(i.integrand())
             ]
-            J = ufl.derivative(ufl.Form(internal or F.integrals()), u, ufl.TrialFunction(V))
+            J = ufl.derivative(ufl.Form(internal or list(F.integrals())), u, ufl.TrialFunction(V))
         options = {"form_compiler_options": form_compiler_options, "jit_options": jit_options}
         self.F = fem.form(F, **options)
         self.J = fem.form(J, **options)
