@@ -25,8 +25,8 @@ def test_no_convergence_leaves_everything_as_it_was():
     before = [
         scene.u.x.array.copy(),
         contact.multiplier.copy(),
-        contact.interface.status.copy(),
-        contact.interface.gap.copy(),
+        contact.interface.nodes.status.copy(),
+        contact.interface.nodes.gap.copy(),
         contact.pressure.x.array.copy(),
         contact.force.copy(),
     ]
@@ -41,8 +41,8 @@ def test_no_convergence_leaves_everything_as_it_was():
     after = [
         scene.u.x.array,
         contact.multiplier,
-        contact.interface.status,
-        contact.interface.gap,
+        contact.interface.nodes.status,
+        contact.interface.nodes.gap,
         contact.pressure.x.array,
         contact.force,
     ]
