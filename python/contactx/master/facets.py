@@ -161,13 +161,12 @@ class FacetMaster(Master):
             return along, each
         at = core.pair_layout
         for pairs in self.pairs():
-            xi = np.ascontiguousarray(pairs.data[:, at["xi"] : at["xi"] + 2])
-            N = core.shape_functions(pairs.nodes.shape[1] - 1, xi)
-            weight = np.column_stack([np.ones(len(N)), N])
-            components = ((weight[:, :, None] * free[pairs.nodes]) ** 2).sum(axis=1)
+            squares = _free_squares(pairs, pairs.data[:, at["xi"] : at["xi"] + 2], free)
             normal = pairs.data[:, at["normal"] : at["normal"] + gdim]
-            along[pairs.slaves] = np.sqrt((normal**2 * components).sum(axis=1))
-            each[pairs.slaves] = np.sqrt(components)
+            along[pairs.slaves] = np.sqrt((normal**2 * squares).sum(axis=1))
+            if pairs.slip is not None:
+                xi = pairs.slip[:, _AT["xi"] : _AT["xi"] + 2]
+                each[pairs.slaves] = np.sqrt(_free_squares(pairs, xi, free))
         return along, each
 
     def copy(self) -> FacetMaster:
@@ -197,6 +196,16 @@ class FacetMaster(Master):
         deepest = float(np.nanmin(gaps, initial=0.0))
         # Less is rounding
         return deepest if deepest < -1e-10 * self.reach else 0.0
+
+
+def _free_squares(
+    pairs: Pairs, xi: npt.NDArray[np.float64], free: npt.NDArray[np.bool_]
+) -> npt.NDArray[np.float64]:
+    """Sums of the squared weights of what may move, shape (num_pairs, gdim)."""
+    N = core.shape_functions(pairs.nodes.shape[1] - 1, np.ascontiguousarray(xi))
+    weight = np.column_stack([np.ones(len(N)), N])
+    squares: npt.NDArray[np.float64] = ((weight[:, :, None] * free[pairs.nodes]) ** 2).sum(axis=1)
+    return squares
 
 
 def _default_reach(x: npt.NDArray[np.float64], slave: FacetList, master: FacetList) -> float:
