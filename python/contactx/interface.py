@@ -280,6 +280,14 @@ class Interface:
                 self._assemble_slip()
         return self.law.set_status(nodes)
 
+    def close(self, which: npt.NDArray[np.int32]) -> None:
+        """Close nodes, so that they hold a body that nothing else holds.
+
+        Args:
+            which: Slave nodes by their number in the contact.
+        """
+        self.nodes.status[which] = core.STICK if self.law.is_vector else core.SLIP
+
     def drop_open_pressures(self) -> None:
         """Take the pressure off open nodes.
 
