@@ -10,6 +10,10 @@ import numpy as np
 import numpy.typing as npt
 
 from contactx import cpp as core
+from contactx.checks.bodies import Bodies
+from contactx.checks.facing import check_facing
+from contactx.checks.inside import check_apart, check_outside
+from contactx.checks.shape import check_facets
 from contactx.forms import ContactForms, Pairs, State
 from contactx.master.facets import FacetMaster
 from contactx.master.master import Master
@@ -76,7 +80,9 @@ class Interface:
             markers: 1 at dofs with a Dirichlet condition, shape (num_dofs,).
 
         Raises:
-            ValueError: If the surfaces share nodes, or an obstacle's parameters do not fit.
+            ValueError: If the surfaces share nodes, have degenerate facets or face away from each
+                other, a body lies inside the other or the obstacle, or an obstacle's parameters do
+                not fit.
         """
         V = u.function_space
         self._comm = V.mesh.comm
@@ -88,17 +94,15 @@ class Interface:
         facets = slave.facet_nodes(V)
         self.slaves = np.unique(facets.nodes)
         x = X.array.reshape(-1, self._gdim)
+        check_facets(slave, "slave", facets, x)
         self.master: Master
         if isinstance(master, Obstacle):
-            self.master = ObstacleMaster(self.slaves, master, search_distance)
+            self.master = obstacle = ObstacleMaster(self.slaves, master, search_distance)
+            check_outside(slave, self.slaves, obstacle.inside(x), master, Bodies(V, x))
         else:
             others = master.facet_nodes(V)
-            shared = np.intersect1d(facets.nodes, others.nodes)
-            if len(shared) > 0:
-                raise ValueError(
-                    f"slave and master overlap: {slave} and {master} share {len(shared)} nodes. "
-                    "Give each body its own nodes and each surface its own facets"
-                )
+            check_facets(master, "master", others, x)
+            check_apart(slave, master, facets, others, Bodies(V, x))
             self.master = FacetMaster(facets, others, x, search_distance)
         n = len(self.slaves)
         self._slave_map = cpp.common.IndexMap(self._comm, n)
@@ -124,6 +128,7 @@ class Interface:
         self.forms: list[ContactForms] = []
         self._free = markers.reshape(-1, self._gdim) == 0
         self.master.search(x, self.status)
+        check_facing(slave, master, facets, self.master, x)
         self._make_forms()
         self._find_immobile()
 

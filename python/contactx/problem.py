@@ -90,14 +90,18 @@ class ContactProblem:
         try:
             for contact in self.contacts:
                 self._interfaces.append(contact.attach(u, X, self._bulk.markers))
+            self._system = SaddlePointSystem(self._bulk, self._interfaces)
+            self._newton = NewtonLoop(
+                self._bulk,
+                self._interfaces,
+                self._system,
+                petsc_options_prefix,
+                petsc_options or {},
+            )
         except BaseException:
             for contact in self.contacts[: len(self._interfaces)]:
                 contact.detach()
             raise
-        self._system = SaddlePointSystem(self._bulk, self._interfaces)
-        self._newton = NewtonLoop(
-            self._bulk, self._interfaces, self._system, petsc_options_prefix, petsc_options or {}
-        )
 
     @property
     def solver(self) -> PETSc.SNES:
@@ -163,17 +167,17 @@ class ContactProblem:
         report.pairs = sum(int(i.master.paired.sum()) for i in self._interfaces)
         report.immobile = sum(int(i.immobile.sum()) for i in self._interfaces)
         report.frozen = sum(len(i.master.frozen) for i in self._interfaces)
-        report.frozen_gap = min(i.master.deepest_frozen(i.positions()) for i in self._interfaces)
+        hidden = [i.master.deepest_frozen(i.positions()) for i in self._interfaces]
+        report.frozen_gap = min(hidden)
         report.force = [contact.force for contact in self.contacts]
         report.imbalance = np.sum([contact.fields.imbalance for contact in self.contacts], axis=0)
         for k, interface in enumerate(self._interfaces):
-            self._warn(k, interface)
+            self._warn(k, interface, hidden[k])
 
-    def _warn(self, k: int, interface: Interface) -> None:
-        """Warn of what a converged solution may hide in contact number k."""
+    def _warn(self, k: int, interface: Interface, hidden: float) -> None:
+        """Warn of what a converged solution may hide in contact number k, such as a gap."""
         name = f"contact {k} ({self.contacts[k]})"
         master, x = interface.master, interface.positions()
-        hidden = master.deepest_frozen(x)
         text = ""
         if interface.active and not master.paired.any():
             distance = master.distance(x)

@@ -16,7 +16,11 @@ from contactx.surface import FacetList
 
 
 class FacetMaster(Master):
-    """Pairs with the facets of a deformable body."""
+    """Pairs with the facets of a deformable body.
+
+    Attributes:
+        facets: The facets.
+    """
 
     def __init__(
         self,
@@ -33,7 +37,7 @@ class FacetMaster(Master):
             x: Reference positions.
             search_distance: Largest distance of a pair; chosen if None.
         """
-        self._facets = master
+        self.facets = master
         self.reach = search_distance or _default_reach(x, slave, master)
         self._pairing = core.Pairing(
             slave.offsets, slave.nodes, master.offsets, master.nodes, x.shape[1]
@@ -60,12 +64,12 @@ class FacetMaster(Master):
         """See ``Master``; grouped by the number of nodes of the facets."""
         found = self._pairing
         data = np.column_stack([found.feature, found.xi, found.cone, found.normal])
-        sizes = np.diff(self._facets.offsets)[self._facet]
+        sizes = np.diff(self.facets.offsets)[self._facet]
         groups = []
         for size in np.unique(sizes[self.paired]):
             slaves = np.flatnonzero(self.paired & (sizes == size)).astype(np.int32)
-            first = self._facets.offsets[self._facet[slaves]]
-            facets = self._facets.nodes[first[:, None] + np.arange(size)]
+            first = self.facets.offsets[self._facet[slaves]]
+            facets = self.facets.nodes[first[:, None] + np.arange(size)]
             nodes = np.column_stack([self._slaves[slaves], facets])
             groups.append(Pairs(slaves, nodes, data[slaves]))
         return groups
@@ -76,7 +80,7 @@ class FacetMaster(Master):
 
     def compliance(self, nodal: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
         """See ``Master``; the mean of the facet's nodes."""
-        result = np.full(len(self._slaves), np.median(nodal[self._facets.nodes]))
+        result = np.full(len(self._slaves), np.median(nodal[self.facets.nodes]))
         for pairs in self.pairs():
             result[pairs.slaves] = nodal[pairs.nodes[:, 1:]].mean(axis=1)
         return result
@@ -84,7 +88,7 @@ class FacetMaster(Master):
     def mobility(self, free: npt.NDArray[np.bool_]) -> npt.NDArray[np.float64]:
         """See ``Master``."""
         result = np.ones(len(self._slaves))
-        if free[self._slaves].all() and free[self._facets.nodes].all():
+        if free[self._slaves].all() and free[self.facets.nodes].all():
             return result
         at = core.pair_layout
         for pairs in self.pairs():
