@@ -36,5 +36,5 @@ def test_one_body_is_much_stiffer(ratio, body, sliding):
     assert np.nanmin(contact.interface.gap) > -1e-12
     # The soft body alone gives: twice Hertz's modulus, so almost twice the force
     assert 4 * contact.force[2] == pytest.approx(0.0048, rel=0.1)
-    # A soft master bulges between the nodes of a stiff slave, which no pressure hinders
+    # On a soft master nodal pressures scatter: another node-to-surface code has 0.34 at 1e4
     assert error <= (0.35 if body == Tag.UPPER else 0.10)

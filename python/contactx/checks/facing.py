@@ -13,7 +13,6 @@ from contactx.master.facets import FacetMaster
 from contactx.master.master import Master
 from contactx.obstacles import Obstacle
 from contactx.surface import FacetList, Surface
-from dolfinx import geometry
 
 _CHUNK = 1_000_000
 
@@ -80,17 +79,16 @@ def _opposes(slave: FacetList, master: FacetList, x: npt.NDArray[np.float64], re
             off = np.maximum(np.maximum(low - p, p - high), 0)
             near = np.einsum("sfi,sfi->sf", off, off) <= reach**2
             against = (normals[part] @ facing.T < 0) | has_none[part, None]
-            for s, f in np.argwhere(near & against):
-                if _distance(p[s, 0], corners[f]) <= reach:
+            for i in np.flatnonzero((near & against).any(axis=1)):
+                chosen = nodes[near[i] & against[i]]
+                if _distance(slaves[first + i], chosen, x) <= reach:
                     return True
     return False
 
 
-def _distance(point: npt.NDArray[np.float64], corners: npt.NDArray[np.float64]) -> float:
-    """Distance of a point from the convex hull of others, relative to their own size."""
-    q = np.zeros((len(corners), 3))
-    q[:, : len(point)] = corners - point
-    size = np.abs(q).max(initial=0.0)
-    if size == 0:
-        return 0.0
-    return float(size * np.linalg.norm(geometry.compute_distance_gjk(q / size, np.zeros((1, 3)))))
+def _distance(slave: np.int32, nodes: npt.NDArray[np.int32], x: npt.NDArray[np.float64]) -> float:
+    """Distance from a slave node to the nearest of some facets."""
+    count, size = nodes.shape
+    offsets = np.arange(count + 1, dtype=np.int32) * np.int32(size)
+    one, alone = np.array([0, 1], dtype=np.int32), np.array([slave], dtype=np.int32)
+    return core.Pairing(one, alone, offsets, nodes.ravel(), x.shape[1]).distance(x)

@@ -8,6 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from contactx.checks.bodies import Bodies
+from contactx.checks.hull import in_hulls
 from contactx.obstacles import Obstacle
 from contactx.surface import FacetList, Surface
 from dolfinx import geometry
@@ -68,37 +69,24 @@ def _lies_inside(bodies: Bodies, inner: int, outer: int) -> bool:
 
     The midpoints tell a body that is inside from one that fills a hole of the other exactly.
     """
-    x = np.zeros((len(bodies.x), 3))
-    x[:, : bodies.x.shape[1]] = bodies.x
-    dofs = bodies.V.dofmap.list
+    x, dofs, domain = bodies.x, bodies.V.dofmap.list, bodies.V.mesh
     points = np.concatenate([x[dofs[bodies.cells(inner)]].mean(axis=1), x[bodies.nodes(inner)]])
-    cells = bodies.cells(outer)
-    domain = bodies.V.mesh
     padding = _SMALL * float(np.ptp(x[bodies.nodes(outer)], axis=0).max())
-    tree = geometry.bb_tree(domain, domain.topology.dim, padding=padding, entities=cells)
+    tree = geometry.bb_tree(
+        domain, domain.topology.dim, padding=padding, entities=bodies.cells(outer)
+    )
     # A few at a time, from everywhere: bodies that are not inside show it soon
     looks = -(-len(points) // _PER_LOOK)
     for look in range(looks):
-        part = np.ascontiguousarray(points[look::looks])
-        found = geometry.compute_collisions_points(tree, part)
-        if np.any(np.diff(found.offsets) == 0):
+        part = points[look::looks]
+        padded = np.zeros((len(part), 3))
+        padded[:, : part.shape[1]] = part
+        near = geometry.compute_collisions_points(tree, padded)
+        which = np.repeat(np.arange(len(part)), np.diff(near.offsets))
+        hits = in_hulls(part[which], x[dofs[near.array]], _SMALL)
+        if len(np.unique(which[hits])) < len(part):
             return False
-        for i, point in enumerate(part):
-            if not _in_any(point, x[dofs[found.links(i)]]):
-                return False
     return True
-
-
-def _in_any(point: npt.NDArray[np.float64], cells: npt.NDArray[np.float64]) -> bool:
-    """Whether a point is in one of some cells, shape (num_cells, num_nodes, 3).
-
-    In units of the cells, as DOLFINx's own collision of points and cells has an absolute
-    tolerance of 1e-6.
-    """
-    sizes = np.ptp(cells, axis=1).max(axis=1)
-    scaled = (cells - point) / sizes[:, None, None]
-    away = geometry.compute_distances_gjk(list(scaled), np.zeros((1, 3)), 1)
-    return bool(np.any(np.linalg.norm(away.reshape(-1, 3), axis=1) <= _SMALL))
 
 
 def check_outside(

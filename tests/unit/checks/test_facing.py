@@ -2,12 +2,14 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """Slave surfaces that face away from their master."""
 
+import numpy as np
 import pytest
 from scenes import Blocks
 
 import contactx as cx
 from contactx.checks import facing
 from contactx.meshes import Tag
+from contactx.surface import FacetList
 from dolfinx.mesh import CellType
 
 CELLS = pytest.mark.parametrize(
@@ -66,6 +68,22 @@ def test_only_facets_within_reach_count(monkeypatch, chunk):
     with pytest.raises(ValueError, match="faces away"):
         scene.problem(side)
     scene.problem(cx.Contact(side.slave, master, search_distance=1.24))
+
+
+def test_a_node_without_a_normal_takes_any_facet():
+    """As in the search: two slave facets, back to back, above a master that looks down."""
+    x = np.array([[0.0, 1], [1, 1], [0, 0], [1, 0]])
+    offsets = np.array([0, 2], dtype=np.int32)
+    master = FacetList(offsets, np.array([3, 2], dtype=np.int32))
+    looks_down = FacetList(offsets, np.array([0, 1], dtype=np.int32))
+    both = FacetList(np.array([0, 2, 4], dtype=np.int32), np.array([0, 1, 1, 0], dtype=np.int32))
+    looks_up = FacetList(offsets, np.array([1, 0], dtype=np.int32))
+    master_down = FacetList(offsets, np.array([2, 3], dtype=np.int32))
+    assert facing._opposes(looks_down, master, x, 1.0)
+    assert not facing._opposes(looks_down, master, x, 0.99)
+    assert not facing._opposes(looks_up, master, x, 2.0)
+    assert not facing._opposes(looks_down, master_down, x, 2.0)
+    assert facing._opposes(both, master_down, x, 1.0)
 
 
 @CELLS

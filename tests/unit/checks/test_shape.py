@@ -72,6 +72,7 @@ def test_facets_that_are_sound(facet, length):
         np.array([[0.0, 0, 0], [1, 1, 1], [3, 3, 3]]),
         SQUARE[:3] * 0,
         SQUARE[[1, 1], :2],
+        SQUARE[:2, :2] * 1e-13,
     ],
 )
 def test_facets_that_are_degenerate(facet, length):
