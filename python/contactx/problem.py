@@ -68,7 +68,9 @@ class ContactProblem:
         Raises:
             RuntimeError: On more than one rank, on every rank.
             TypeError: If PETSc or u are not real double precision.
-            ValueError: If a space, surface or option does not fit; the message says what to do.
+            ValueError: If a space, surface or option does not fit, facets are degenerate, a slave
+                surface faces away from its master or a body lies wholly inside the other one or
+                the obstacle; the message says what to do.
         """
         compat.require_real_double()
         validate.check_displacement(u)

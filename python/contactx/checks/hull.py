@@ -33,8 +33,7 @@ def in_hulls(
         Whether they are, shape (m,).
     """
     gdim = points.shape[1]
-    size = np.ptp(cells, axis=1).max(axis=1)
-    d = (cells - points[:, None]) / size[:, None, None]
+    d = cells - points[:, None]
     # Volumes that the point spans with gdim vertices, taken in ascending order
     faces = list(combinations(range(cells.shape[1]), gdim))
     place = {face: i for i, face in enumerate(faces)}

@@ -86,6 +86,15 @@ def test_a_node_without_a_normal_takes_any_facet():
     assert facing._opposes(both, master_down, x, 1.0)
 
 
+def test_reach_is_the_distance_and_not_that_of_a_box():
+    x = np.array([[0.0, 0], [1, 1], [1.1, 0.3], [0.9, 0.1]])
+    offsets = np.array([0, 2], dtype=np.int32)
+    master = FacetList(offsets, np.array([0, 1], dtype=np.int32))
+    slave = FacetList(offsets, np.array([2, 3], dtype=np.int32))
+    assert facing._opposes(slave, master, x, 0.57)
+    assert not facing._opposes(slave, master, x, 0.56)
+
+
 @CELLS
 def test_beyond_the_outer_edge_is_legal_and_slides_on(cell):
     scene = Blocks(cell, gap=0.1, down=0.0)

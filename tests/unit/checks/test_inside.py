@@ -86,10 +86,17 @@ def test_any_unit_and_place(cell, length):
             problem(data)
 
 
-def test_copy_of_a_body_at_its_place():
-    data = meshes.blocks(CellType.tetrahedron, (2, 2, 2), (2, 2, 2), gap=-1.0)
-    with pytest.raises(ValueError, match="wholly inside"):
-        problem(data, Tag.UPPER_CONTACT, Tag.LOWER_CONTACT)
+@pytest.mark.parametrize("turns", [False, True])
+@CELLS
+def test_a_finer_body_in_the_same_place(cell, turns):
+    """Its outer nodes are on the surface of the other, but for rounding."""
+    dim = 2 if cell in (CellType.triangle, CellType.quadrilateral) else 3
+    data = meshes.blocks(cell, (5,) * dim, (3,) * dim, gap=-1.0)
+    if turns:
+        x = data.mesh.geometry.x
+        x[:, :dim] = 1e-4 * (x[:, :dim] @ rotation(np.random.default_rng(2), dim).T + 1e3)
+    with pytest.raises(ValueError, match=r"body of the slave surface .* wholly inside"):
+        problem(data)
 
 
 def test_a_body_that_fills_a_hole():
