@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 from rich.console import Console
 from rich.table import Table
 
@@ -140,28 +141,59 @@ def draw(
     Returns:
         The files.
     """
-    files = [folder / f"{name}{end}" for end in (".png", "_pressure.png", ".pvd")]
+    end = 1.5 * r[contact.multiplier > 0].max()
+    curve = np.linspace(0, end, 400)
+    return pictures(
+        folder / name,
+        title,
+        problem,
+        contact,
+        (r[r < end], contact.multiplier[r < end]),
+        (curve, hertz.pressure(curve)),
+        ("distance from the axis / R", "Hertz"),
+        mirror,
+    )
+
+
+def pictures(
+    stem: Path,
+    title: str,
+    problem: cx.ContactProblem,
+    contact: cx.Contact,
+    computed: tuple[npt.ArrayLike, npt.ArrayLike],
+    exact: tuple[npt.ArrayLike, npt.ArrayLike],
+    words: tuple[str, str],
+    mirror: Sequence[str] = (),
+) -> list[Path]:
+    """Draw the bodies and their pressure against a curve, and write a file for ParaView.
+
+    Args:
+        stem: Folder and first part of the files' names.
+        title: Title of the picture of the bodies.
+        problem: Solved problem.
+        contact: Its contact.
+        computed: Places and pressures of slave nodes, each of shape (n,).
+        exact: Places and pressures of the curve, each of shape (m,).
+        words: What the places are, and whose the curve is.
+        mirror: Planes of symmetry.
+
+    Returns:
+        The files.
+    """
+    files = [stem.with_name(stem.name + end) for end in (".png", "_pressure.png", ".pvd")]
+    label = "contact pressure / E"
     with progress("drawing"):
         with cx.VTKOutput(files[2], problem.u, [contact]) as output:
             output.write(0.0)
         plot.deformed_bodies(
-            problem.u,
-            contact.pressure,
-            files[0],
-            title=title,
-            label="contact pressure / E",
-            mirror=mirror,
+            problem.u, contact.pressure, files[0], title=title, label=label, mirror=mirror
         )
-        end = 1.5 * r[contact.multiplier > 0].max()
-        curve = np.linspace(0, end, 400)
         plot.pressure_curve(
-            r[r < end],
-            contact.multiplier[r < end],
-            curve,
-            hertz.pressure(curve),
+            *computed,
+            *exact,
             files[1],
-            labels=("distance from the axis / R", "contact pressure / E"),
-            title="Pressure of the slave nodes against Hertz",
+            labels=(words[0], label),
+            title=f"Pressure of the slave nodes against {words[1]}",
         )
     return files
 

@@ -13,6 +13,7 @@ from petsc4py import PETSc
 import numpy as np
 
 from contactx import compat
+from contactx.bodies.bodies import Bodies
 from contactx.bodies.holder import Holder
 from contactx.bulk import Bulk
 from contactx.convergence import Judge
@@ -52,6 +53,7 @@ class NewtonLoop:
         self,
         bulk: Bulk,
         interfaces: Sequence[Interface],
+        bodies: Bodies,
         system: SaddlePointSystem,
         prefix: str,
         options: Mapping[str, Any],
@@ -61,6 +63,7 @@ class NewtonLoop:
         Args:
             bulk: The bulk.
             interfaces: Discrete sides of the contacts.
+            bodies: Bodies of the mesh.
             system: The coupled system.
             prefix: Prefix of the PETSc options.
             options: Options of the user.
@@ -78,7 +81,7 @@ class NewtonLoop:
         self._held = self._stale = False
         self._changes = (0, 0)
         self._judge = Judge(bulk, interfaces, system)
-        self._holder = Holder(bulk, interfaces)
+        self._holder = Holder(bulk, interfaces, bodies)
         self._failure = ""
         self.snes = PETSc.SNES().create(system.x.comm)
         self.snes.setOptionsPrefix(prefix)

@@ -1,161 +1,63 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Bodies, their rigid modes, and those that supports leave free."""
+"""Bodies: the connected parts of a mesh."""
 
 from __future__ import annotations
-
-from petsc4py import PETSc
 
 import numpy as np
 import numpy.typing as npt
 
-from contactx.bulk import Bulk
-
-type Array = npt.NDArray[np.float64]
-
-# Stiffness against a rigid motion, relative to the diagonal's, that counts as a support
-_SUPPORTED = 1e-10
+from dolfinx import fem
 
 
 class Bodies:
-    """Connected parts of the mesh with their free rigid modes.
-
-    A mode is a field of displacements of all nodes of one body, its largest value about 1. It is
-    kept as coefficients: translations, then rotations about the body's middle over its radius.
+    """Connected parts of a mesh; bodies share no nodes.
 
     Attributes:
-        body: Body of each node, shape (num_nodes,).
-        free: For each body the modes that neither Dirichlet conditions nor the bulk's stiffness
-            (springs, elastic supports) resist, as columns of coefficients, shape (m, k).
+        V: Linear Lagrange space of vectors, whose blocks are the nodes.
+        x: Positions of the nodes, shape (num_nodes, gdim).
+        of_node: Body of each node, named by its smallest node, shape (num_nodes,).
+        of_cell: Body of each cell, shape (num_cells,).
     """
 
-    def __init__(self, bulk: Bulk, x: Array):
-        """Find the bodies and their free modes.
+    def __init__(self, V: fem.FunctionSpace, x: npt.NDArray[np.float64]):
+        """Find the bodies.
 
         Args:
-            bulk: The bulk.
-            x: Reference positions, shape (num_nodes, gdim).
+            V: Linear Lagrange space of vectors.
+            x: Positions of its nodes, shape (num_nodes, gdim).
         """
-        self._gdim = x.shape[1]
-        self.body = _components(bulk.u.function_space.dofmap.list, len(x))
-        count = self.body.max(initial=-1) + 1
-        sizes = np.maximum(np.bincount(self.body, minlength=count), 1)[:, None]
-        self._middle = np.column_stack(
-            [np.bincount(self.body, x[:, k], minlength=count) for k in range(self._gdim)]
-        )
-        self._middle /= sizes
-        arm = np.linalg.norm(x - self._middle[self.body], axis=1)
-        self._radius = np.zeros(count)
-        np.maximum.at(self._radius, self.body, arm)
-        self._radius[self._radius == 0] = 1.0
-        self._bulk = bulk
-        self._sprung: list[bool] | None = None
-        self.free: list[Array] = []
-        self.update(x)
+        self.V = V
+        self.x = x
+        cells = V.dofmap.list
+        body = np.arange(len(x))
+        while True:
+            merged, there = body.copy(), body[cells]
+            np.minimum.at(merged, there, there.min(axis=1, keepdims=True))
+            # Names lead to smaller ones, which halves the way to the smallest each time
+            merged = merged[merged]
+            if np.array_equal(merged, body):
+                break
+            body = merged
+        self.of_node = body
+        self.of_cell = body[cells[:, 0]]
 
-    @property
-    def count(self) -> int:
-        """Number of bodies."""
-        return len(self._radius)
+    def carrying(self, nodes: npt.NDArray[np.int32]) -> npt.NDArray[np.int64]:
+        """Bodies that some nodes belong to."""
+        return np.unique(self.of_node[nodes])
 
-    @property
-    def size(self) -> float:
-        """Radius of the largest body."""
-        return float(self._radius.max())
+    def nodes(self, body: int) -> npt.NDArray[np.int64]:
+        """Nodes of a body."""
+        return np.flatnonzero(self.of_node == body)
 
-    @property
-    def any_free(self) -> bool:
-        """Whether any body has a free mode."""
-        return any(basis.shape[1] > 0 for basis in self.free)
+    def cells(self, body: int) -> npt.NDArray[np.int32]:
+        """Cells of a body."""
+        return np.flatnonzero(self.of_cell == body).astype(np.int32)
 
-    def modes(self, nodes: npt.NDArray[np.int32], x: Array) -> Array:
-        """All rigid modes of the bodies of some nodes, at these nodes.
-
-        Args:
-            nodes: Nodes, shape (n,).
-            x: Positions of all nodes, reference or current, shape (num_nodes, gdim).
-
-        Returns:
-            Displacements, shape (n, gdim, m) with m = 3 in 2D and 6 in 3D.
-        """
-        b = self.body[nodes]
-        d = (x[nodes] - self._middle[b]) / self._radius[b][:, None]
-        n, gdim = d.shape
-        if gdim == 2:
-            turn = np.stack([-d[:, 1], d[:, 0]], axis=1)[:, :, None]
-        else:
-            zero = np.zeros(n)
-            turn = np.stack(
-                [
-                    np.stack([zero, -d[:, 2], d[:, 1]], axis=1),
-                    np.stack([d[:, 2], zero, -d[:, 0]], axis=1),
-                    np.stack([-d[:, 1], d[:, 0], zero], axis=1),
-                ],
-                axis=2,
-            )
-        shift = np.tile(np.eye(gdim), (n, 1, 1))
-        return np.concatenate([shift, turn], axis=2)
-
-    def update(self, x: Array) -> None:
-        """Find the free modes in another configuration.
-
-        Args:
-            x: Positions, shape (num_nodes, gdim).
-        """
-        fixed = self._bulk.markers.reshape(-1, self._gdim) == 1
-        first = self._sprung is None
-        sprung = self._sprung or []
-        self.free = []
-        for b in range(self.count):
-            nodes = np.flatnonzero(self.body == b).astype(np.int32)
-            modes = self.modes(nodes, x)
-            held = _null_space(modes[fixed[nodes]], modes.shape[2])
-            basis = held
-            # Later on, stresses resist rotations without being a support
-            if held.shape[1] > 0 and (first or sprung[b]):
-                fields = np.zeros((held.shape[1], len(x), self._gdim))
-                fields[:, nodes] = np.einsum("nim,mk->kni", modes, held)
-                basis = held @ _soft(self._bulk.jacobian(), fields.reshape(held.shape[1], -1))
-            if first:
-                sprung.append(basis.shape[1] < held.shape[1])
-            self.free.append(basis)
-        self._sprung = sprung
-
-
-def _components(cells: npt.NDArray[np.int32], num_nodes: int) -> npt.NDArray[np.int64]:
-    """Number of the connected part that each node belongs to, shape (num_nodes,)."""
-    label = np.arange(num_nodes)
-    while True:
-        lowest = label[cells].min(axis=1)
-        new = label.copy()
-        np.minimum.at(new, cells, lowest[:, None])
-        new = new[new]
-        if np.array_equal(new, label):
-            return np.unique(label, return_inverse=True)[1]
-        label = new
-
-
-def _null_space(rows: Array, size: int) -> Array:
-    """Orthonormal basis of the null space of a matrix, shape (size, k)."""
-    _, values, basis = np.linalg.svd(rows.T @ rows if len(rows) else np.zeros((size, size)))
-    null: Array = basis[values <= 1e-12 * max(len(rows), 1)].T
-    return null
-
-
-def _soft(K: PETSc.Mat, fields: Array) -> Array:
-    """Combinations of fields that a matrix does not resist, shape (k, j)."""
-    diagonal = np.abs(K.getDiagonal().array)
-    product = np.stack([_multiply(K, field) for field in fields])
-    energy = fields @ product.T
-    scale = np.einsum("kn,n,kn->k", fields, diagonal, fields).max()
-    values, vectors = np.linalg.eigh((energy + energy.T) / 2)
-    soft: Array = vectors[:, np.abs(values) <= _SUPPORTED * scale]
-    return soft
-
-
-def _multiply(K: PETSc.Mat, field: Array) -> Array:
-    x, y = K.createVecs()
-    x.array = field
-    K.mult(x, y)
-    result: Array = y.array.copy()
-    return result
+    def boxes(self, bodies: npt.NDArray[np.int64]) -> npt.NDArray[np.float64]:
+        """Bounding boxes: lowest and highest corner, shape (2, num_bodies, gdim)."""
+        low = np.full(self.x.shape, np.inf)
+        high = np.full(self.x.shape, -np.inf)
+        np.minimum.at(low, self.of_node, self.x)
+        np.maximum.at(high, self.of_node, self.x)
+        return np.stack([low[bodies], high[bodies]])

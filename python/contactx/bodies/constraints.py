@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from contactx import cpp as core
-from contactx.bodies.bodies import Array, Bodies
+from contactx.bodies.modes import Array, RigidModes
 from contactx.forms import Pairs
 from contactx.interface import Interface
 
@@ -29,12 +29,14 @@ class PairRows:
     movement: Array
 
 
-def pair_rows(interface: Interface, bodies: Bodies, x: Array) -> Iterator[tuple[Pairs, PairRows]]:
+def pair_rows(
+    interface: Interface, modes: RigidModes, x: Array
+) -> Iterator[tuple[Pairs, PairRows]]:
     """Pairs of a contact under rigid motions of the bodies.
 
     Args:
         interface: Discrete side of the contact.
-        bodies: The bodies.
+        modes: Rigid modes of the bodies.
         x: Positions of all nodes, shape (num_nodes, gdim).
 
     Yields:
@@ -50,10 +52,10 @@ def pair_rows(interface: Interface, bodies: Bodies, x: Array) -> Iterator[tuple[
             weight[:, 1:] = -core.shape_functions(width - 1, xi)
         normal = pairs.data[:, at["normal"] : at["normal"] + gdim]
         size = gdim * (gdim + 1) // 2
-        movement = np.zeros((num_pairs, gdim, bodies.count, size))
+        movement = np.zeros((num_pairs, gdim, modes.count, size))
         pair = np.arange(num_pairs)
         for a in range(width):
             node = pairs.nodes[:, a]
-            field = weight[:, a, None, None] * bodies.modes(node, x)
-            movement[pair, :, bodies.body[node]] += field
+            field = weight[:, a, None, None] * modes.at(node, x)
+            movement[pair, :, modes.body[node]] += field
         yield pairs, PairRows(normal, movement.reshape(num_pairs, gdim, -1))

@@ -10,8 +10,9 @@ import numpy as np
 import numpy.typing as npt
 
 from contactx import cpp as core
-from contactx.bodies.bodies import Array, Bodies
+from contactx.bodies.bodies import Bodies
 from contactx.bodies.constraints import pair_rows
+from contactx.bodies.modes import Array, RigidModes
 from contactx.bulk import Bulk
 from contactx.interface import Interface
 
@@ -36,26 +37,28 @@ class Holder:
         drifting: How many iterates in turn had forces that nothing in the way can balance.
     """
 
-    def __init__(self, bulk: Bulk, interfaces: Sequence[Interface]):
+    def __init__(self, bulk: Bulk, interfaces: Sequence[Interface], bodies: Bodies):
         """Create the holder.
 
         Args:
             bulk: The bulk.
             interfaces: Discrete sides of the contacts.
+            bodies: Bodies of the mesh.
         """
         self._bulk = bulk
         self._interfaces = interfaces
-        self._bodies: Bodies | None = None
+        self._bodies = bodies
+        self._modes: RigidModes | None = None
         self.unheld = self.closed = self.drifting = 0
         self._stiffness: Array | None = None
 
     def begin_step(self) -> None:
-        """Find the free modes of the bodies."""
+        """Find the free modes of the rigid."""
         x = self._interfaces[0].positions()
-        if self._bodies is None:
-            self._bodies = Bodies(self._bulk, x)
+        if self._modes is None:
+            self._modes = RigidModes(self._bulk, self._bodies, x)
         else:
-            self._bodies.update(x)
+            self._modes.update(x)
         self.unheld = self.closed = self.drifting = 0
         self._stiffness = None
 
@@ -69,18 +72,18 @@ class Holder:
         Returns:
             Whether nodes have been closed.
         """
-        bodies = self._bodies
         self._stiffness, self.unheld = None, 0
-        if bodies is None or not bodies.any_free:
+        rigid = self._modes
+        if rigid is None or not rigid.any_free:
             return False
         x = self._interfaces[0].positions()
         gdim = x.shape[1]
         nodes = np.arange(len(x), dtype=np.int32)
-        modes = bodies.modes(nodes, x)
+        modes = rigid.at(nodes, x)
         size = modes.shape[2]
         per_node = np.einsum("nim,ni->nm", modes, -force.reshape(-1, gdim))
-        pull = np.zeros((bodies.count, size))
-        np.add.at(pull, bodies.body, per_node)
+        pull = np.zeros((rigid.count, size))
+        np.add.at(pull, rigid.body, per_node)
         closed_any = False
         while True:
             N = self._unheld(x)
@@ -92,9 +95,9 @@ class Holder:
                 self.drifting = 0
                 break
             # The rigid way of bodies whose mass goes with their number of nodes
-            weight = np.repeat(np.bincount(bodies.body, minlength=bodies.count), size)
+            weight = np.repeat(np.bincount(rigid.body, minlength=rigid.count), size)
             way = N @ np.linalg.solve(N.T @ (weight[:, None] * N), f)
-            closed = self._close_first(x, way.reshape(bodies.count, size))
+            closed = self._close_first(x, way.reshape(rigid.count, size))
             closed_any |= closed > 0
             self.closed += closed
             if closed == 0:
@@ -102,7 +105,7 @@ class Holder:
                 break
         self.unheld = N.shape[1]
         if self.unheld > 0:
-            coefficients = N.reshape(bodies.count, size, -1)[bodies.body]
+            coefficients = N.reshape(rigid.count, size, -1)[rigid.body]
             field = np.einsum("nim,nmk->nik", modes, coefficients)
             springs = self._springs(field.reshape(-1, self.unheld))
             # Weak, so that they do not slow down what a little stiffness does hold; a body that
@@ -117,17 +120,17 @@ class Holder:
 
     def _unheld(self, x: Array) -> Array:
         """Orthonormal basis of the modes that nothing holds, as columns."""
-        bodies = self._bodies
-        assert bodies is not None
-        size = bodies.free[0].shape[0]
-        first = np.cumsum([0, *(basis.shape[1] for basis in bodies.free)])
-        Z = np.zeros((bodies.count * size, first[-1]))
-        for b, basis in enumerate(bodies.free):
+        rigid = self._modes
+        assert rigid is not None
+        size = rigid.free[0].shape[0]
+        first = np.cumsum([0, *(basis.shape[1] for basis in rigid.free)])
+        Z = np.zeros((rigid.count * size, first[-1]))
+        for b, basis in enumerate(rigid.free):
             Z[b * size : (b + 1) * size, first[b] : first[b + 1]] = basis
         gram = np.zeros((Z.shape[1], Z.shape[1]))
         for interface in self._interfaces:
             status = interface.nodes.status
-            for pairs, rows in pair_rows(interface, bodies, x):
+            for pairs, rows in pair_rows(interface, rigid, x):
                 kind = status[pairs.slaves]
                 along = np.einsum("pi,pim->pm", rows.normal, rows.movement)[kind != core.OPEN]
                 every = rows.movement[kind == core.STICK].reshape(-1, Z.shape[0])
@@ -147,12 +150,12 @@ class Holder:
         Returns:
             Number of nodes closed.
         """
-        bodies = self._bodies
-        assert bodies is not None
+        rigid = self._modes
+        assert rigid is not None
         found: list[tuple[Interface, npt.NDArray[np.int32], Array]] = []
         for interface in self._interfaces:
             nodes = interface.nodes
-            for pairs, rows in pair_rows(interface, bodies, x):
+            for pairs, rows in pair_rows(interface, rigid, x):
                 speed = -np.einsum("pi,pim,m->p", rows.normal, rows.movement, way.ravel())
                 gap = nodes.closable_gap[pairs.slaves]
                 able = ~nodes.closed[pairs.slaves] & np.isfinite(gap)
@@ -163,7 +166,7 @@ class Holder:
             return 0
         lowest = min(time.min() for _, _, time in found if len(time))
         # What is closer than this touches at once
-        tie = 1e-9 * bodies.size / np.abs(way).max()
+        tie = 1e-9 * rigid.size / np.abs(way).max()
         count = 0
         for interface, slaves, time in found:
             first = slaves[time <= lowest + tie]
