@@ -38,6 +38,27 @@ class Result:
         return self.computed / self.expected - 1
 
 
+@dataclass(frozen=True)
+class Deviation(Result):
+    """How far a computed curve is from a formula's, both by their L2 norms.
+
+    ``expected`` is the norm of the formula's curve, ``computed`` that of the difference.
+    """
+
+    @property
+    def error(self) -> float:
+        """Norm of the difference relative to that of the formula's curve."""
+        return self.computed / self.expected
+
+    @classmethod
+    def of(
+        cls, name: str, weights: np.ndarray, computed: np.ndarray, exact: np.ndarray
+    ) -> Deviation:
+        """Compare nodal values, each with the weight of its area."""
+        norms = (float(np.sqrt(weights @ y**2)) for y in (exact, computed - exact))
+        return cls(name, *norms)
+
+
 def displacement(domain: mesh.Mesh) -> fem.Function:
     """Displacement in the linear Lagrange space of vectors."""
     V = fem.functionspace(domain, ("Lagrange", 1, (domain.geometry.dim,)))
@@ -53,6 +74,12 @@ def elasticity(u: fem.Function, young: Any, nu: float) -> ufl.Form:
     return ufl.inner(stress, ufl.grad(v)) * ufl.dx
 
 
+def traction(u: fem.Function, tags: mesh.MeshTags, face: int, load: fem.Constant) -> ufl.Form:
+    """Residual of a force per reference area on a tagged face."""
+    ds = ufl.Measure("ds", domain=u.function_space.mesh, subdomain_data=tags)
+    return -ufl.inner(load, ufl.TestFunction(u.function_space)) * ds(int(face))
+
+
 def fix(
     u: fem.Function, tags: mesh.MeshTags, component: int, value: float, *faces: int
 ) -> fem.DirichletBC:
@@ -64,9 +91,16 @@ def fix(
 
 
 def arguments(
-    description: str, h: float, unit: str, argv: Sequence[str] | None
+    description: str,
+    h: float,
+    unit: str,
+    argv: Sequence[str] | None,
+    dimensions: Sequence[int] = (),
 ) -> argparse.Namespace:
-    """Read the command line: size h, sliding and the folder of the pictures."""
+    """Read the command line: size h, sliding, folder of the pictures, dimension if there are two.
+
+    The first dimension is the default.
+    """
     parser = argparse.ArgumentParser(description=description)
     parser.add_argument("--h", type=float, default=h, help=f"cell size in the contact, {unit}")
     parser.add_argument(
@@ -78,6 +112,10 @@ def arguments(
         default=Path(__file__).parent / "output",
         help="folder for pictures and files",
     )
+    if dimensions:
+        parser.add_argument(
+            "--dim", type=int, choices=dimensions, default=dimensions[0], help="dimension of space"
+        )
     return parser.parse_args(argv)
 
 
