@@ -112,7 +112,7 @@ class NewtonLoop:
             for interface in self._interfaces:
                 interface.set_factor(stiffness)
             self._holder.begin_step()
-            self._changes = self._settle()
+            self._changes = self._settle(first=True)
             self._system.gather()
             self._A = None
             self._provide_matrix()
@@ -184,7 +184,7 @@ class NewtonLoop:
         self._A_is_current = True
         self.snes.setJacobian(self._jacobian, self._A)
 
-    def _settle(self) -> tuple[int, int]:
+    def _settle(self, first: bool = False) -> tuple[int, int]:
         """Renew pairs and status at an accepted iterate.
 
         While many nodes change, the pressures belong to an active set that is far off, and so
@@ -192,10 +192,15 @@ class NewtonLoop:
         astray. So they are held as they are, which makes the contact conditions linear, and the
         active set finds its way as surely as in small sliding. Once few nodes change they follow.
 
+        Args:
+            first: Whether the iterate is the step's start.
+
         Returns:
             Number of nodes that changed their status, and of those that changed their facet.
         """
         status, pairs = self._renew()
+        if first:
+            status += sum(interface.close_touching() for interface in self._interfaces)
         self._stale = self._held and self._many(status)
         if self._held and not self._stale:
             self._hold(False)
