@@ -268,49 +268,64 @@ class Interface:
         inside: npt.NDArray[np.int32] = self.slaves[self.nodes.immobile & (gap < -1e-9 * size)]
         return inside
 
-    def update_status(self) -> int:
-        """Set each slave node's status from its pressure and gap.
+    def update_status(self, first: bool) -> int:
+        """Set each slave node's status from its multiplier, gap and slip.
+
+        Args:
+            first: Whether the iterate is the step's start.
 
         Returns:
             Number of nodes that changed.
         """
-        nodes = self.nodes
+        nodes, before = self.nodes, self.nodes.status.copy()
+        closing = self.closing(first)
         if self.history is not None:
-            # False for the gap NaN, too
-            closing = nodes.pressure - nodes.c * nodes.closable_gap > 0
-            first = closing & ~self._touched
-            if first.any():
-                self.master.touch(first, self.positions(), self._offset_now())
-                self._touched = self._touched | first
-                fresh = self.master.refresh(self.positions(), self._held, self._offset_now())
-                self._update_forms(self.master.pairs() if fresh is None else fresh)
-                self._assemble_slip()
-        return self.law.set_status(nodes)
+            self._measure_from_touching(closing & ~self._touched)
+        self.law.set_status(nodes)
+        if first:
+            self.close(np.flatnonzero(closing & ~nodes.closed))
+        return int(np.count_nonzero(nodes.status != before))
 
-    def close_touching(self) -> int:
-        """Close the open nodes whose gap is zero but for rounding: a step starts with them.
+    def _measure_from_touching(self, which: npt.NDArray[np.bool_]) -> None:
+        if not which.any():
+            return
+        x, offset = self.positions(), self._offset_now()
+        self.master.touch(which, x, offset)
+        self._touched = self._touched | which
+        fresh = self.master.refresh(x, self._held, offset)
+        self._update_forms(self.master.pairs() if fresh is None else fresh)
+        self._assemble_slip()
 
-        Rounding must not decide which of them are closed, and bodies at rest on one another are
-        held by all of them.
+    def closing(self, first: bool) -> npt.NDArray[np.bool_]:
+        """Which nodes the complementarity closes: p - c g > 0.
+
+        At a step's start also those that touch but for rounding: it must not decide which of them
+        are closed, and bodies at rest on one another are held by all of them.
+
+        Args:
+            first: Whether the iterate is the step's start.
 
         Returns:
-            Number of nodes closed.
+            Which ones, shape (n,).
         """
-        x = self.positions()[self.slaves]
-        size = np.ptp(x, axis=0).max(initial=0.0)
-        tie = 1e-12 * size + 16 * np.finfo(np.float64).eps * np.abs(x).max(initial=0.0)
+        nodes, gap = self.nodes, self.nodes.closable_gap
         # False for the gap NaN, too
-        touching = np.flatnonzero(~self.nodes.closed & (np.abs(self.nodes.closable_gap) <= tie))
-        self.close(touching.astype(np.int32))
-        return len(touching)
+        closing: npt.NDArray[np.bool_] = nodes.pressure - nodes.c * gap > 0
+        if first:
+            x = self.positions()[self.slaves]
+            size = np.ptp(x, axis=0).max(initial=0.0)
+            tie = 1e-12 * size + 16 * np.finfo(np.float64).eps * np.abs(x).max(initial=0.0)
+            closing |= np.abs(gap) <= tie
+        return closing
 
-    def close(self, which: npt.NDArray[np.int32]) -> None:
+    def close(self, which: npt.NDArray[np.integer]) -> None:
         """Close nodes, so that they hold a body that nothing else holds.
 
         Args:
             which: Slave nodes by their number in the contact.
         """
-        self.nodes.status[which] = core.STICK if self.law.is_vector else core.SLIP
+        sticks = self.law.is_vector & ~self.nodes.smooth[which]
+        self.nodes.status[which] = np.where(sticks, core.STICK, core.SLIP)
 
     def drop_open_pressures(self) -> None:
         """Take the pressure off open nodes.

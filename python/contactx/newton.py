@@ -18,6 +18,7 @@ from contactx.bodies.holder import Holder
 from contactx.bulk import Bulk
 from contactx.convergence import Judge
 from contactx.interface import Interface
+from contactx.junctions import Junctions
 from contactx.report import Iteration, Report
 from contactx.system import SaddlePointSystem
 
@@ -82,6 +83,7 @@ class NewtonLoop:
         self._changes = (0, 0)
         self._judge = Judge(bulk, interfaces, system)
         self._holder = Holder(bulk, interfaces, bodies)
+        self._junctions = Junctions(interfaces)
         self._failure = ""
         self.snes = PETSc.SNES().create(system.x.comm)
         self.snes.setOptionsPrefix(prefix)
@@ -125,6 +127,9 @@ class NewtonLoop:
             report.reason = f"SNES stopped by itself, with reason {code}, before the end"
         if self._failure:
             report.reason = self._failure
+        report.corners = self._junctions.corners
+        report.unheld = self._holder.unheld
+        report.closed_to_hold = self._holder.closed
         report.skipped["bulk Jacobian assembly"] = self._bulk.skipped - before[1]
 
     def reset(self) -> None:
@@ -198,9 +203,7 @@ class NewtonLoop:
         Returns:
             Number of nodes that changed their status, and of those that changed their facet.
         """
-        status, pairs = self._renew()
-        if first:
-            status += sum(interface.close_touching() for interface in self._interfaces)
+        status, pairs = self._renew(first)
         self._stale = self._held and self._many(status)
         if self._held and not self._stale:
             self._hold(False)
@@ -219,14 +222,16 @@ class NewtonLoop:
             interface.evaluate_law()
         return status, pairs
 
-    def _renew(self) -> tuple[int, int]:
+    def _renew(self, first: bool = False) -> tuple[int, int]:
         status = pairs = 0
         with self._report.timing("search"):
             for interface in self._interfaces:
                 pairs += interface.search()
         for interface in self._interfaces:
             interface.update_gap()
-            status += interface.update_status()
+        self._junctions.update(first)
+        for interface in self._interfaces:
+            status += interface.update_status(first)
         return status, pairs
 
     def _many(self, changes: int) -> bool:

@@ -174,6 +174,9 @@ class ContactProblem:
         report.frozen = sum(len(i.master.frozen) for i in self._interfaces)
         hidden = [i.master.deepest_frozen(i.positions()) for i in self._interfaces]
         report.frozen_gap = min(hidden)
+        histories = [i.history for i in self._interfaces if i.history is not None]
+        report.slip = float(sum(np.linalg.norm(h.slip, axis=1).sum() for h in histories))
+        report.dissipation = float(sum(h.dissipation.sum() for h in histories))
         report.force = [contact.force for contact in self.contacts]
         report.imbalance = np.sum([contact.fields.imbalance for contact in self.contacts], axis=0)
         for k, interface in enumerate(self._interfaces):

@@ -53,6 +53,12 @@ class Report:
         slaves: Number of slave nodes of all contacts.
         pairs: Number of slave nodes that have a master facet in reach.
         immobile: Pairs that Dirichlet conditions leave nothing to yield; they stay open.
+        corners: Nodes that are slave in several contacts and close more than one of them: they
+            slide without friction there, and of parallel contacts only the deepest counts.
+        unheld: Rigid motions of bodies that nothing held at the end; the forces along them balance.
+        closed_to_hold: Nodes that were closed because a body would have met them first.
+        slip: Sum over the slave nodes of their slip in this step, a length.
+        dissipation: Work of friction in all steps so far.
         frozen: Pairs that went back and forth and were held.
         frozen_gap: Smallest gap that a held pair hides; a negative one is a penetration.
         imbalance: Sum of all contact forces on both sides, shape (gdim,): zero but for rounding.
@@ -67,6 +73,11 @@ class Report:
     slaves: int = 0
     pairs: int = 0
     immobile: int = 0
+    corners: int = 0
+    unheld: int = 0
+    closed_to_hold: int = 0
+    slip: float = 0.0
+    dissipation: float = 0.0
     frozen: int = 0
     frozen_gap: float = 0.0
     imbalance: npt.NDArray[np.float64] = field(default_factory=lambda: np.zeros(0))
@@ -118,6 +129,20 @@ class Report:
         for k, force in enumerate(self.force):
             components = ", ".join(f"{f:.6g}" for f in force)
             lines.append(f"contact {k}: force on the slave ({components})")
+        if self.corners:
+            lines.append(
+                f"{self.corners} nodes close several contacts at once: without friction, and only "
+                "the deepest of parallel ones"
+            )
+        if self.closed_to_hold or self.unheld:
+            lines.append(
+                f"bodies held by contact alone: {self.closed_to_hold} nodes closed at first to "
+                f"hold them, {self.unheld} rigid motions left free"
+            )
+        if self.dissipation > 0:
+            lines.append(
+                f"slip {self.slip:.6g} in this step, dissipation {self.dissipation:.6g} in all"
+            )
         if self.force:
             lines.append(f"imbalance of contact forces: {np.linalg.norm(self.imbalance):.1e}")
         skips = ", ".join(f"{name} {count}x" for name, count in self.skipped.items() if count)

@@ -84,7 +84,8 @@ struct Node
     // False for the gap NaN, too
     if (!(p_hat > 0))
       return Status::open;
-    return size <= bound ? Status::stick : Status::slip;
+    // Without friction nothing sticks, not even where nothing pulls
+    return bound > 0 and size <= bound ? Status::stick : Status::slip;
   }
 
   Vec<D> lambda, n, slip;

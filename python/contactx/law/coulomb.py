@@ -35,7 +35,7 @@ class Coulomb(Law):
         value = np.broadcast_to(self._friction.now(), nodes.gap.shape)
         if np.any(value < 0):
             raise ValueError(f"friction is {value.min()}: give numbers of at least 0")
-        return np.ascontiguousarray(value, dtype=np.float64)
+        return np.where(nodes.smooth, 0.0, value)
 
     def set_status(self, nodes: Nodes) -> int:
         """See ``Law``."""
@@ -63,7 +63,7 @@ class Tied(Law):
 
     def set_status(self, nodes: Nodes) -> int:
         """See ``Law``; where there is a pair it holds."""
-        now = np.where(np.isnan(nodes.gap), core.OPEN, core.STICK).astype(np.int8)
+        now = np.where(np.isnan(nodes.gap) | nodes.ceded, core.OPEN, core.STICK).astype(np.int8)
         changed = int(np.count_nonzero(now != nodes.status))
         nodes.status[:] = now
         return changed

@@ -29,6 +29,8 @@ class Nodes:
             to yield along the normal; such a node stays open, shape (n,).
         mobile: 1 in directions in which slave node or master can move, else 0; empty for scalar
             multipliers, shape (n, gdim).
+        ceded: Whether a node leaves this contact to another one that it closes, shape (n,).
+        smooth: Whether friction is left out because a node closes several contacts, shape (n,).
         value: Complementarity function, a force, shape (n * size,).
         by_multiplier: Its derivative, shape (n, size, size).
         by_gap: Its derivative, a view of what the forms read, shape (n * size,).
@@ -56,6 +58,8 @@ class Nodes:
         self.c = np.ones(n)
         self.immobile = np.zeros(n, dtype=bool)
         self.mobile = np.ones((rows, gdim))
+        self.ceded = np.zeros(n, dtype=bool)
+        self.smooth = np.zeros(n, dtype=bool)
         self.value = np.zeros(n * self.size)
         self.by_multiplier = np.zeros((n, self.size, self.size))
         none = np.zeros(0)
@@ -73,7 +77,7 @@ class Nodes:
     @property
     def closable_gap(self) -> Array:
         """Gap, NaN where a node cannot close, shape (n,)."""
-        return np.where(self.immobile, np.nan, self.gap)
+        return np.where(self.immobile | self.ceded, np.nan, self.gap)
 
     @property
     def pressure(self) -> Array:

@@ -9,6 +9,7 @@ from abc import ABC, abstractmethod
 import numpy as np
 import numpy.typing as npt
 
+from contactx import cpp as core
 from contactx.forms import Pairs
 
 
@@ -94,6 +95,14 @@ class Master(ABC):
         Returns:
             The pairs, None where their data have not changed.
         """
+
+    def normals(self) -> npt.NDArray[np.float64]:
+        """Unit normals that the last search found, zero where there is no pair, shape (n, 3)."""
+        normals = np.zeros((len(self.paired), 3))
+        for pairs in self.pairs():
+            at = core.rigid_layout if pairs.nodes.shape[1] == 1 else core.pair_layout
+            normals[pairs.slaves] = pairs.data[:, at["normal"] : at["normal"] + 3]
+        return normals
 
     @abstractmethod
     def compliance(self, nodal: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:

@@ -1,0 +1,99 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Nodes that are slave in several contacts."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+import numpy.typing as npt
+
+from contactx.interface import Interface
+
+# Part of a normal that lies outside the span of others and still counts as independent
+_INDEPENDENT = 0.1
+
+
+class Junctions:
+    """Keeps the system solvable where a node is slave in several contacts, as in a corner.
+
+    The rule: of the contacts that a node closes, the deepest comes first, and one whose normal lies
+    in the span of the normals before it stays open. A node that closes several contacts slides
+    without friction in all of them, so that its constraints are the independent normals alone. A
+    tie holds a node in every direction: the node's other contacts stay open.
+
+    Attributes:
+        shared: Nodes that are slave in several contacts.
+        corners: Nodes that close several contacts at the last iterate.
+    """
+
+    def __init__(self, interfaces: Sequence[Interface]):
+        """Find the nodes.
+
+        Args:
+            interfaces: Discrete sides of the contacts.
+        """
+        self._interfaces = interfaces
+        slaves = np.concatenate([i.slaves for i in interfaces])
+        nodes, count = np.unique(slaves, return_counts=True)
+        self.shared: npt.NDArray[np.int32] = nodes[count > 1]
+        self.corners = 0
+        self._places: list[list[tuple[int, int]]] = [[] for _ in self.shared]
+        for k, interface in enumerate(interfaces):
+            _, which, local = np.intersect1d(
+                self.shared, interface.slaves, assume_unique=True, return_indices=True
+            )
+            for s, i in zip(which, local, strict=True):
+                self._places[s].append((k, int(i)))
+
+    def update(self, first: bool) -> None:
+        """Decide which contacts of shared nodes may close, and where friction counts.
+
+        Args:
+            first: Whether the iterate is the step's start.
+        """
+        self.corners = 0
+        if len(self.shared) == 0:
+            return
+        closing, normals = [], []
+        for interface in self._interfaces:
+            nodes = interface.nodes
+            nodes.ceded[:] = nodes.smooth[:] = False
+            if interface.law.is_tied:
+                closing.append(interface.master.paired & interface.active)
+            else:
+                closing.append(interface.closing(first))
+            normals.append(interface.master.normals())
+        for places in self._places:
+            closed = [(k, i) for k, i in places if closing[k][i]]
+            if len(closed) > 1:
+                self._decide(closed, normals)
+
+    def _decide(
+        self, closed: list[tuple[int, int]], normals: list[npt.NDArray[np.float64]]
+    ) -> None:
+        def urgency(place: tuple[int, int]) -> tuple[bool, float, int]:
+            interface = self._interfaces[place[0]]
+            return (not interface.law.is_tied, interface.nodes.gap[place[1]], place[0])
+
+        kept: list[tuple[int, int]] = []
+        basis = np.zeros((0, normals[0].shape[1]))
+        for k, i in sorted(closed, key=urgency):
+            interface = self._interfaces[k]
+            rest = normals[k][i] - basis.T @ (basis @ normals[k][i])
+            size = np.linalg.norm(rest)
+            if size < _INDEPENDENT:
+                interface.nodes.ceded[i] = True
+                continue
+            kept.append((k, i))
+            # A tie spans every direction
+            basis = (
+                np.eye(len(rest))
+                if interface.law.is_tied
+                else np.vstack([basis, rest[None, :] / size])
+            )
+        if len(kept) > 1:
+            self.corners += 1
+            for k, i in kept:
+                self._interfaces[k].nodes.smooth[i] = True
