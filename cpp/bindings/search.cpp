@@ -29,6 +29,17 @@ void contactx_bindings::search(py::module_& m)
       .def("begin_step", &Pairing::begin_step,
            "Forget what was learnt in the last step")
       .def(
+          "restore",
+          [](Pairing& self, const Array<std::int32_t>& facet,
+             const Array<std::int32_t>& feature, const Array<double>& xi,
+             const Array<double>& cone, const Array<double>& normal)
+          {
+            self.restore(view(facet), view(feature), view(xi), view(cone),
+                         view(normal));
+          },
+          py::arg("facet"), py::arg("feature"), py::arg("xi"), py::arg("cone"),
+          py::arg("normal"), "Take over the pairs of another pairing")
+      .def(
           "update",
           [](Pairing& self, const Array<double>& x, double reach,
              const Array<std::int8_t>& closed)
@@ -69,8 +80,5 @@ void contactx_bindings::search(py::module_& m)
       .def(
           "distance", [](Pairing& self, const Array<double>& x)
           { return self.distance(view(x)); }, py::arg("x"),
-          "Distance from the nearest slave node to the master surface")
-      .def(
-          "copy", [](const Pairing& self) { return Pairing(self); },
-          "Independent copy, to return to when a step fails");
+          "Distance from the nearest slave node to the master surface");
 }

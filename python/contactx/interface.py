@@ -4,7 +4,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -18,16 +19,6 @@ from contactx.nodal import NodalValue
 from contactx.obstacles import Obstacle
 from contactx.surface import Surface
 from dolfinx import cpp, fem, la
-
-
-@dataclass(frozen=True)
-class Checkpoint:
-    """State of a contact that a failed step returns to."""
-
-    master: Master
-    multiplier: npt.NDArray[np.float64]
-    status: npt.NDArray[np.int8]
-    gap: npt.NDArray[np.float64]
 
 
 class Interface:
@@ -270,20 +261,34 @@ class Interface:
         for form in self.forms:
             fem.assemble_vector(b, form.residual)
 
-    def checkpoint(self) -> Checkpoint:
-        """Copy what a step changes."""
-        return Checkpoint(
-            self.master.copy(),
-            self.state.multiplier.array.copy(),
-            self.status.copy(),
-            self.gap.copy(),
-        )
+    def save(self) -> dict[str, npt.NDArray[Any]]:
+        """Copy of all that the next step depends on.
 
-    def restore(self, checkpoint: Checkpoint) -> None:
-        """Return to a checkpoint."""
-        self.master = checkpoint.master.copy()
-        self.state.multiplier.array[:] = checkpoint.multiplier
-        self.status[:] = checkpoint.status
-        self.gap[:] = checkpoint.gap
+        Returns:
+            Arrays by their names, with shapes and types that never change.
+        """
+        return {
+            "active": np.array(self.active),
+            "multiplier": self.state.multiplier.array.copy(),
+            "status": self.status.copy(),
+            "gap": self.gap.copy(),
+            **{f"master_{name}": values for name, values in self.master.save().items()},
+        }
+
+    def load(self, saved: Mapping[str, npt.NDArray[Any]]) -> None:
+        """Go on from what ``save`` gave for the same contact.
+
+        Args:
+            saved: Arrays by their names, of the same shapes and types.
+
+        Raises:
+            ValueError: If a pair is with a facet that does not exist; nothing has changed.
+        """
+        self.master.load({name.removeprefix("master_"): saved[name] for name in saved})
+        self.active = bool(saved["active"])
+        self.state.multiplier.array[:] = saved["multiplier"]
+        self.status[:] = saved["status"]
+        self.gap[:] = saved["gap"]
         self._held = self.sliding == "small"
         self._make_forms()
+        self._find_immobile()

@@ -4,7 +4,8 @@
 
 from __future__ import annotations
 
-import copy
+from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -13,6 +14,8 @@ from contactx import cpp as core
 from contactx.forms import Pairs
 from contactx.master.master import Master
 from contactx.surface import FacetList
+
+_SAVED = ("facet", "feature", "xi", "cone", "normal")
 
 
 class FacetMaster(Master):
@@ -96,11 +99,19 @@ class FacetMaster(Master):
             result[pairs.slaves] = np.sqrt((terms**2).sum(axis=(1, 2)))
         return result
 
-    def copy(self) -> FacetMaster:
+    def identity(self) -> dict[str, npt.NDArray[Any]]:
         """See ``Master``."""
-        twin = copy.copy(self)
-        twin._pairing = self._pairing.copy()
-        return twin
+        return {"nodes": self._facets.nodes, "offsets": self._facets.offsets}
+
+    def save(self) -> dict[str, npt.NDArray[Any]]:
+        """See ``Master``; flips are forgotten, as at the start of every step."""
+        return {name: getattr(self._pairing, name) for name in _SAVED}
+
+    def load(self, saved: Mapping[str, npt.NDArray[Any]]) -> None:
+        """See ``Master``."""
+        self._pairing.restore(**{name: saved[name] for name in _SAVED})
+        self._facet = self._pairing.facet
+        self._feature = self._pairing.feature
 
     def distance(self, x: npt.NDArray[np.float64]) -> float:
         """See ``Master``."""

@@ -4,7 +4,8 @@
 
 from __future__ import annotations
 
-import copy
+from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -88,9 +89,19 @@ class ObstacleMaster(Master):
         """Gap of the slave nodes at positions of all nodes, shape (n,)."""
         return self._obstacle.evaluate(x[self._slaves]).gap
 
-    def copy(self) -> ObstacleMaster:
+    def identity(self) -> dict[str, npt.NDArray[Any]]:
+        """See ``Master``; obstacles have no pairs that might not fit."""
+        return {}
+
+    def save(self) -> dict[str, npt.NDArray[Any]]:
         """See ``Master``."""
-        return copy.copy(self)
+        return {"paired": self._paired.copy(), "data": self._data.copy(), "at": self._at.copy()}
+
+    def load(self, saved: Mapping[str, npt.NDArray[Any]]) -> None:
+        """See ``Master``."""
+        self._paired = saved["paired"].copy()
+        self._data = saved["data"].copy()
+        self._at = saved["at"].copy()
 
     def distance(self, x: npt.NDArray[np.float64]) -> float:
         """See ``Master``."""
