@@ -27,6 +27,8 @@ class Sheared:
 
     Attributes:
         calls: All t for which the loads were set.
+        normal: Normal of the plane.
+        history: What a material might remember.
     """
 
     def __init__(self, *, far: float = 3.0, deep: float = 0.5, **options: Any):
@@ -41,8 +43,9 @@ class Sheared:
             fix(u, tags, 0, 0.0, Tag.UPPER_CONTACT),
             *(fix(u, tags, i, 0.0, Tag.UPPER_TOP) for i in range(2)),
         ]
+        self.normal = fem.Constant(mesh, np.array([0.0, 1.0]))
         self.contact = cx.Contact(
-            cx.Surface(tags, Tag.UPPER_CONTACT), cx.Plane((0.0, 0.0), (0.0, 1.0))
+            cx.Surface(tags, Tag.UPPER_CONTACT), cx.Plane((0.0, 0.0), self.normal)
         )
         self.problem = cx.ContactProblem(
             ufl.derivative(energy, u),
@@ -111,7 +114,7 @@ class DentedBlock:
         )
 
     def update(self, t: float) -> None:
-        self._centre.value[2] = 1 - 0.1 * min(t, 1.4 - t)
+        self._centre.value[2] = 1 - 0.1 * min(t, 1.55 - t)
 
     def commit(self) -> None:
         """Take over the plastic strains."""

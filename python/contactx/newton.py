@@ -15,6 +15,7 @@ import numpy as np
 from contactx import compat
 from contactx import cpp as core
 from contactx.bulk import Bulk
+from contactx.callback import keeps_its_error
 from contactx.convergence import Judge
 from contactx.interface import Interface
 from contactx.report import Iteration, Report
@@ -43,6 +44,7 @@ class NewtonLoop:
 
     Attributes:
         snes: The solver.
+        error: Error of Python inside PETSc; whoever deals with it sets it to None.
     """
 
     def __init__(
@@ -71,6 +73,7 @@ class NewtonLoop:
         self._A: PETSc.Mat | None = None
         self._A_is_current = False
         self._report = Report()
+        self.error: BaseException | None = None
         self._converged = False
         self._held = self._stale = False
         self._changes = (0, 0)
@@ -151,11 +154,13 @@ class NewtonLoop:
                 else:
                     database[name] = value
 
+    @keeps_its_error
     def _function(self, snes: PETSc.SNES, x: PETSc.Vec, b: PETSc.Vec) -> None:
         with self._report.timing("residual"):
             self._system.scatter(x)
             self._system.residual(b)
 
+    @keeps_its_error
     def _jacobian(self, snes: PETSc.SNES, x: PETSc.Vec, A: PETSc.Mat, P: PETSc.Mat) -> None:
         if not self._A_is_current:
             with self._report.timing("Jacobian"):
@@ -220,6 +225,7 @@ class NewtonLoop:
         for interface in self._interfaces:
             interface.hold(held)
 
+    @keeps_its_error
     def _test(
         self, snes: PETSc.SNES, number: int, norms: tuple[float, float, float]
     ) -> PETSc.SNES.ConvergedReason:

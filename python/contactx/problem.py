@@ -134,8 +134,9 @@ class ContactProblem:
             for interface, before in zip(self._interfaces, saved, strict=True):
                 interface.load(before)
             self._newton.reset()
-            # An error of Python inside PETSc comes back as the cause of one of PETSc
-            cause = error.__cause__
+            # An error of Python inside PETSc comes back as the cause of one of PETSc, or without it
+            cause = self._newton.error or error.__cause__
+            self._newton.error = None
             if isinstance(error, PETSc.Error) and cause is not None:
                 raise cause from None
             raise
