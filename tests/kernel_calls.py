@@ -35,6 +35,10 @@ class Pair:
     multiplier: np.ndarray = field(default_factory=lambda: np.array([1.3]))
     area: np.ndarray = field(default_factory=lambda: np.array([0.7]))
     gap_derivative: np.ndarray = field(default_factory=lambda: np.array([1.0]))
+    law: str = "frictionless"
+    slip: np.ndarray = field(default_factory=lambda: np.zeros(6))
+    slip_derivative: np.ndarray = field(default_factory=lambda: np.zeros(0))
+    normal_derivative: np.ndarray = field(default_factory=lambda: np.zeros(0))
 
     @property
     def num_nodes(self) -> int:
@@ -54,17 +58,19 @@ class Pair:
     def tabulate(self, sliding: str, term: str) -> np.ndarray:
         """Call a kernel; returns the local tensor."""
         n = self.position.size
+        m = 1 if self.law == "frictionless" else self.gdim
         shape = {
             "gap": (1,),
+            "normal": (m,),
+            "slip": (m,),
             "residual": (n,),
             "stiffness": (n, n),
-            "traction": (n,),
-            "constraint": (n,),
+            "traction": (n, m) if m > 1 else (n,),
+            "constraint": (m, n) if m > 1 else (n,),
         }[term]
-        w = np.concatenate(
-            [np.ravel(getattr(self, name)) for name, _, _ in core.coefficients(self.num_nodes)]
-        )
-        return call(core.kernel(sliding, term, self.num_nodes, self.gdim)[0], w, shape)
+        names = core.coefficients(self.law, self.num_nodes, self.gdim)
+        w = np.concatenate([np.ravel(getattr(self, name)) for name, _, _ in names])
+        return call(core.kernel(self.law, sliding, term, self.num_nodes, self.gdim)[0], w, shape)
 
 
 def call(address: int, w: np.ndarray, shape: tuple[int, ...]) -> np.ndarray:
@@ -110,6 +116,23 @@ def random_pair(num_nodes: int, kind: str, rng: np.random.Generator) -> Pair:
     displacement = 0.05 * rng.standard_normal((num_nodes + 1, gdim))
     current = np.vstack([slave, x])
     return Pair(displacement, current - displacement, data)
+
+
+def random_vector_pair(law: str, num_nodes: int, kind: str, rng: np.random.Generator) -> Pair:
+    """As ``random_pair``, with a traction, slip from a random point and random derivatives."""
+    pair = random_pair(num_nodes, kind, rng)
+    gdim = pair.gdim
+    xi = [*rng.uniform(-0.1, 0.7, gdim - 1), *np.zeros(3 - gdim)]
+    origin = [*rng.standard_normal(gdim), *np.zeros(3 - gdim)]
+    return replace(
+        pair,
+        law=law,
+        multiplier=rng.standard_normal(gdim),
+        slip=np.array([*xi, 0.2 * rng.standard_normal(), *origin]),
+        gap_derivative=rng.standard_normal(gdim),
+        slip_derivative=rng.standard_normal(gdim * gdim),
+        normal_derivative=rng.standard_normal(gdim * gdim),
+    )
 
 
 def shape(num_nodes: int, xi: np.ndarray) -> np.ndarray:

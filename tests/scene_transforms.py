@@ -193,10 +193,10 @@ def solve(
     return Answer(
         iterations=problem.report.iterations,
         closed=[row.closed for row in problem.report.history],
-        status=nodal(contact.interface.status, -1).astype(np.int8),
+        status=nodal(contact.interface.nodes.status, -1).astype(np.int8),
         u=moved,
         pressure=nodal(contact.multiplier) / frame.modulus,
-        gap=nodal(contact.interface.gap, np.nan) / length,
+        gap=nodal(contact.interface.nodes.gap, np.nan) / length,
         force=Q.T @ contact.force / (frame.modulus * length ** (gdim - 1)),
     )
 

@@ -67,7 +67,7 @@ class Sheared:
         """Bits of what a failed step must leave alone."""
         interface, fields = self.contact.interface, self.contact.fields
         arrays = [self.u.x.array, self.history.x.array, *interface.save().values()]
-        arrays += [interface.immobile, fields.force, fields.traction.x.array, fields.gap.x.array]
+        arrays += [fields.force, fields.traction.x.array, fields.gap.x.array]
         return [array.tobytes() for array in arrays]
 
     def steps(self, steps: Any, **options: Any) -> cx.LoadSteps:
@@ -78,9 +78,11 @@ class Sheared:
 class SlidingBlocks:
     """The two blocks, the upper one pressed and pushed over the edges of the lower one's facets."""
 
-    def __init__(self, cell_type: CellType, sliding: str):
+    def __init__(self, cell_type: CellType, **options: Any):
         scene = Blocks(cell_type, n_upper=3, n_lower=4)
-        self.u, self.contact = scene.u, scene.contact(sliding)
+        self.u = scene.u
+        upper, lower = (cx.Surface(scene.tags, t) for t in (Tag.UPPER_CONTACT, Tag.LOWER_CONTACT))
+        self.contact = cx.Contact(upper, lower, **options)
         self.problem = scene.problem(self.contact)
         self.history: list[fem.Function] = []
         self._down, self._side = scene.bcs[-1], scene.bcs[-2]
@@ -94,16 +96,19 @@ class SlidingBlocks:
 
 
 class DentedBlock:
-    """A plastic block under a rigid ball that moves down, and up again."""
+    """A plastic block under a rigid ball that moves down, and up again, and sideways."""
 
-    def __init__(self) -> None:
+    def __init__(self, aside: float = 0.1, **options: Any):
+        self._aside = aside
         data = meshes.blocks(CellType.tetrahedron, (1, 1, 1), (4, 4, 4))
         mesh, tags = meshes.single(data, Tag.LOWER)
         self.u = displacement(mesh)
         self.material = Plastic(self.u)
         self.history = [self.material.plastic, self.material.equivalent]
         self._centre = fem.Constant(mesh, np.array([0.5, 0.5, 1.0]))
-        self.contact = cx.Contact(cx.Surface(tags, Tag.LOWER_CONTACT), cx.Sphere(self._centre, 1.0))
+        self.contact = cx.Contact(
+            cx.Surface(tags, Tag.LOWER_CONTACT), cx.Sphere(self._centre, 1.0), **options
+        )
         self.problem = cx.ContactProblem(
             self.material.F,
             self.u,
@@ -114,6 +119,7 @@ class DentedBlock:
         )
 
     def update(self, t: float) -> None:
+        self._centre.value[0] = 0.5 + self._aside * t
         self._centre.value[2] = 1 - 0.1 * min(t, 1.55 - t)
 
     def commit(self) -> None:

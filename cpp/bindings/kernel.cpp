@@ -2,12 +2,29 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "bindings.h"
+#include <algorithm>
 #include <contactx/kernel/registry.h>
 #include <pybind11/stl.h>
+#include <stdexcept>
 
 namespace py = pybind11;
 using namespace contactx_bindings;
 using namespace contactx;
+
+namespace
+{
+contactx::kernel::Law law_named(const std::string& name)
+{
+  using contactx::kernel::Law;
+  if (name == "frictionless")
+    return Law::frictionless;
+  if (name == "frictional")
+    return Law::frictional;
+  if (name == "tied")
+    return Law::tied;
+  throw std::invalid_argument("there is no contact law " + name);
+}
+} // namespace
 
 void contactx_bindings::kernel(py::module_& m)
 {
@@ -17,6 +34,14 @@ void contactx_bindings::kernel(py::module_& m)
                                    py::arg("cone") = kernel::pair_cone,
                                    py::arg("normal") = kernel::pair_normal,
                                    py::arg("size") = kernel::pair_size);
+  m.attr("slip_layout") = py::dict(py::arg("xi") = kernel::slip_xi,
+                                   py::arg("gap") = kernel::slip_gap,
+                                   py::arg("origin") = kernel::slip_origin,
+                                   py::arg("size") = kernel::slip_size);
+  m.attr("rigid_slip_layout")
+      = py::dict(py::arg("slip") = kernel::rigid_slip,
+                 py::arg("derivative") = kernel::rigid_slip_derivative,
+                 py::arg("size") = kernel::rigid_slip_size);
   m.attr("rigid_layout")
       = py::dict(py::arg("gap") = kernel::rigid_gap,
                  py::arg("gradient") = kernel::rigid_gradient,
@@ -25,11 +50,14 @@ void contactx_bindings::kernel(py::module_& m)
                  py::arg("size") = kernel::rigid_size);
   m.def(
       "coefficients",
-      [](int num_nodes)
+      [](const std::string& law, int num_nodes, int gdim)
       {
         py::list table;
-        for (const kernel::CoefficientInfo& c : kernel::coefficients(num_nodes))
+        for (const kernel::CoefficientInfo& c :
+             kernel::coefficients(law_named(law), num_nodes, gdim))
         {
+          if (c.size == 0)
+            continue;
           const char* site = c.site == Site::nodes  ? "nodes"
                              : c.site == Site::pair ? "pair"
                                                     : "slave";
@@ -37,21 +65,30 @@ void contactx_bindings::kernel(py::module_& m)
         }
         return py::tuple(table);
       },
-      py::arg("num_nodes"),
+      py::arg("law"), py::arg("num_nodes"), py::arg("gdim"),
       "Name, site and size of the coefficients that the kernels are given");
   m.def(
       "kernel",
-      [](const std::string& sliding, const std::string& term, int num_nodes,
-         int gdim)
+      [](const std::string& law, const std::string& sliding,
+         const std::string& term, int num_nodes, int gdim)
       {
-        const kernel::Entry& e = kernel::find(sliding, term, num_nodes, gdim);
+        const kernel::Entry& e
+            = kernel::find(law_named(law), sliding, term, num_nodes, gdim);
+        const auto table = kernel::coefficients(e.law, num_nodes, gdim);
         Array<std::int8_t> active(e.active.size());
         for (std::size_t i = 0; i < e.active.size(); ++i)
-          active.mutable_at(i) = static_cast<std::int8_t>(e.active[i]);
+        {
+          // Its place among the coefficients that exist
+          const auto c = static_cast<std::int8_t>(e.active[i]);
+          active.mutable_at(i)
+              = std::count_if(table.begin(), table.begin() + c,
+                              [](const kernel::CoefficientInfo& info)
+                              { return info.size > 0; });
+        }
         return py::make_tuple(reinterpret_cast<std::uintptr_t>(e.function),
                               active);
       },
-      py::arg("sliding"), py::arg("term"), py::arg("num_nodes"),
+      py::arg("law"), py::arg("sliding"), py::arg("term"), py::arg("num_nodes"),
       py::arg("gdim"),
       "Address of a kernel and the coefficients that it reads");
 }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "bindings.h"
-#include <contactx/law/normal.h>
+#include <contactx/law/coulomb.h>
 #include <stdexcept>
 
 namespace py = pybind11;
@@ -16,6 +16,11 @@ void check_sizes(py::ssize_t n, const A&... arrays)
 {
   if (((arrays.size() != n) or ...))
     throw std::invalid_argument("the arrays of a law differ in size");
+}
+
+int dimension(const Array<double>& vectors, py::ssize_t n)
+{
+  return n > 0 ? static_cast<int>(vectors.size() / n) : 3;
 }
 } // namespace
 
@@ -53,4 +58,53 @@ void contactx_bindings::law(py::module_& m)
       py::arg("status"), py::arg("value").noconvert(),
       py::arg("d_pressure").noconvert(), py::arg("d_gap").noconvert(),
       "Complementarity function of each slave node and its derivatives");
+  m.def(
+      "frictional_status",
+      [](const Array<double>& traction, const Array<double>& gap,
+         const Array<double>& normal, const Array<double>& slip,
+         const Array<double>& c, const Array<double>& friction,
+         Array<std::int8_t> status)
+      {
+        const int gdim = dimension(traction, status.size());
+        check_sizes(status.size(), gap, c, friction);
+        check_sizes(gdim * status.size(), traction, normal, slip);
+        return contactx::law::frictional_status(
+            {gdim, view(traction), view(gap), view(normal), view(slip), view(c),
+             view(friction)},
+            mutable_view(status));
+      },
+      py::arg("traction"), py::arg("gap"), py::arg("normal"), py::arg("slip"),
+      py::arg("c"), py::arg("friction"), py::arg("status").noconvert(),
+      "Set the status of each slave node; returns how many changed");
+  m.def(
+      "frictional_complementarity",
+      [](const Array<double>& traction, const Array<double>& gap,
+         const Array<double>& normal, const Array<double>& slip,
+         const Array<double>& c, const Array<double>& friction,
+         const Array<double>& area, const Array<std::int8_t>& status,
+         const Array<double>& mobile, Array<double> value,
+         Array<double> by_traction, Array<double> by_gap, Array<double> by_slip,
+         Array<double> by_normal)
+      {
+        const int gdim = dimension(traction, status.size());
+        check_sizes(status.size(), gap, c, friction, area);
+        check_sizes(gdim * status.size(), traction, normal, slip, mobile, value,
+                    by_gap);
+        check_sizes(gdim * gdim * status.size(), by_traction, by_slip,
+                    by_normal);
+        contactx::law::frictional_complementarity(
+            {gdim, view(traction), view(gap), view(normal), view(slip), view(c),
+             view(friction)},
+            view(area), view(status), view(mobile),
+            {mutable_view(value), mutable_view(by_traction),
+             mutable_view(by_gap), mutable_view(by_slip),
+             mutable_view(by_normal)});
+      },
+      py::arg("traction"), py::arg("gap"), py::arg("normal"), py::arg("slip"),
+      py::arg("c"), py::arg("friction"), py::arg("area"), py::arg("status"),
+      py::arg("mobile"), py::arg("value").noconvert(),
+      py::arg("by_traction").noconvert(), py::arg("by_gap").noconvert(),
+      py::arg("by_slip").noconvert(), py::arg("by_normal").noconvert(),
+      "Complementarity function with friction of each slave node and its "
+      "derivatives");
 }

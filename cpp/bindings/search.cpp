@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "bindings.h"
+#include <contactx/search/foot.h>
 #include <contactx/search/pairing.h>
 #include <pybind11/stl.h>
 
@@ -80,5 +81,37 @@ void contactx_bindings::search(py::module_& m)
       .def(
           "distance", [](Pairing& self, const Array<double>& x)
           { return self.distance(view(x)); }, py::arg("x"),
-          "Distance from the nearest slave node to the master surface");
+          "Distance from the nearest slave node to the master surface")
+      .def(
+          "feet",
+          [](const Pairing& self, const Array<double>& x,
+             const Array<double>& points)
+          {
+            const auto n = py::ssize_t(self.facet().size());
+            if (points.size() != n * self.master().gdim())
+              throw std::invalid_argument("points must be one a slave node");
+            const auto feet = contactx::search::feet(
+                self.master(), self.facet(), view(x), view(points), self.xi());
+            return py::make_tuple(array(feet.xi, {n, 2}), array(feet.gap));
+          },
+          py::arg("x"), py::arg("points"),
+          "Local coordinates and gaps of points, one a slave node, over the "
+          "slave nodes' facets")
+      .def(
+          "places",
+          [](const Pairing& self, const Array<double>& x,
+             const Array<double>& xi)
+          {
+            const auto n = py::ssize_t(self.facet().size());
+            if (xi.size() != 2 * n)
+              throw std::invalid_argument("xi must be one a slave node");
+            const py::ssize_t gdim = self.master().gdim();
+            const auto at = contactx::search::places(
+                self.master(), self.facet(), view(x), view(xi));
+            return py::make_tuple(array(at.x, {n, gdim}),
+                                  array(at.normal, {n, gdim}));
+          },
+          py::arg("x"), py::arg("xi"),
+          "Points at local coordinates of the slave nodes' facets, and unit "
+          "normals there");
 }

@@ -10,6 +10,9 @@ import numpy.typing as npt
 from contactx.fields import Fields
 from contactx.forms import ContactForms
 from contactx.interface import Interface
+from contactx.law.coulomb import Coulomb, Tied
+from contactx.law.law import Frictionless, Law
+from contactx.nodal import NodalValue
 from contactx.obstacles import Obstacle
 from contactx.surface import Surface
 from dolfinx import fem, la
@@ -18,12 +21,13 @@ _SLIDING = ("finite", "small")
 
 
 class Contact:
-    """Frictionless contact of a slave surface with a master surface or a rigid obstacle.
+    """Contact of a slave surface with a master surface or a rigid obstacle.
 
     The gap g = n . (x_s - x_m) of a slave node is positive where it is open, with the outward
     normal n of the master; the pressure p >= 0 is positive in compression. Exactly one of them is
-    not zero: g >= 0, p >= 0, p g = 0. The results below exist as soon as the contact belongs to a
-    ContactProblem, and change when a step is accepted.
+    not zero: g >= 0, p >= 0, p g = 0. With friction the traction t along the surface obeys
+    |t| <= friction p, and only where they are equal the node slips, against t. The results below
+    exist as soon as the contact belongs to a ContactProblem, and change when a step is accepted.
     """
 
     def __init__(
@@ -31,7 +35,9 @@ class Contact:
         slave: Surface,
         master: Surface | Obstacle,
         *,
+        friction: float | fem.Constant | fem.Function = 0.0,
         sliding: str = "finite",
+        tied: bool = False,
         search_distance: float | None = None,
         offset: float | fem.Constant | fem.Function = 0.0,
     ):
@@ -42,9 +48,17 @@ class Contact:
                 of the two.
             master: Surface that they are measured against, or a rigid obstacle: Plane, Sphere,
                 Cylinder or LevelSet.
+            friction: Coulomb's coefficient: a number, a ``fem.Constant`` or a ``fem.Function`` of
+                the scalar linear space, which may change from step to step. With the number 0
+                nothing along the surface is computed.
             sliding: "finite": pairs, normals and projections follow the deformation. "small": they
                 are those of the reference configuration, which is linear and cheap, and right
                 where bodies neither slide nor turn by much.
+            tied: Whether the slave nodes keep their place on the master, in compression and
+                tension: each keeps the vector from its projection on the master in the reference
+                configuration, in the frame of the facet, which turns (with small sliding it does
+                not). It has no friction, and no offset changes its sign: positive where the tie
+                gets longer.
             search_distance: Largest distance at which a slave node is paired; by default the
                 diameter of the larger surface, and unlimited for a rigid obstacle.
             offset: Length that is taken off the gap: positive where the bodies interfere by it or
@@ -75,6 +89,11 @@ class Contact:
                 )
         if sliding not in _SLIDING:
             raise ValueError(f'sliding must be "finite" or "small", not {sliding!r}')
+        fixed = None if isinstance(friction, fem.Constant | fem.Function) else float(friction)
+        if fixed is not None and not (np.isfinite(fixed) and fixed >= 0):
+            raise ValueError(f"friction is {friction}: give a number of at least 0")
+        if tied and fixed != 0:
+            raise ValueError("tied excludes friction: a tied slave node does not slip")
         if search_distance is not None and not search_distance > 0:
             raise ValueError(f"search_distance is {search_distance}: give a positive length")
         self.slave = slave
@@ -82,6 +101,8 @@ class Contact:
         self.sliding = sliding
         self.search_distance = search_distance
         self.offset = offset
+        self.friction = friction
+        self.tied = bool(tied)
         self._interface: Interface | None = None
         self._fields: Fields | None = None
 
@@ -108,17 +129,25 @@ class Contact:
             raise RuntimeError(
                 f"{self} belongs to a ContactProblem already: create one Contact a problem"
             )
+        V = u.function_space
+        nodes = self.slave.nodes(V)
+        law: Law = Frictionless()
+        if self.tied:
+            law = Tied()
+        elif self.friction != 0:
+            law = Coulomb(NodalValue(self.friction, "friction", V, nodes))
         interface = Interface(
             self.slave,
             self.master,
             u,
             X,
+            law=law,
             sliding=self.sliding,
             search_distance=self.search_distance,
-            offset=self.offset,
+            offset=NodalValue(self.offset, "offset", V, nodes),
             markers=markers,
         )
-        self._fields = Fields(interface, u.function_space)
+        self._fields = Fields(interface, V)
         self._interface = interface
         return interface
 
@@ -128,6 +157,7 @@ class Contact:
 
     def accept(self) -> None:
         """Take over the results of an accepted step; ContactProblem calls this."""
+        self.interface.accept()
         self.fields.update()
 
     @property
@@ -166,14 +196,17 @@ class Contact:
     @property
     def area(self) -> npt.NDArray[np.float64]:
         """Reference area of each slave node (length in 2D), shape (n,)."""
-        area: npt.NDArray[np.float64] = self.interface.state.area.array
-        return area
+        return self.interface.nodes.area
 
     @property
     def multiplier(self) -> npt.NDArray[np.float64]:
-        """Multiplier of each slave node, its pressure as force per reference area, shape (n,)."""
-        multiplier: npt.NDArray[np.float64] = self.interface.state.multiplier.array
-        return multiplier
+        """Multiplier of each slave node, force per reference area.
+
+        Without friction its pressure, shape (n,); with friction, or tied, the traction that the
+        master exerts on it, shape (n, gdim).
+        """
+        nodes = self.interface.nodes
+        return nodes.multiplier if nodes.size == 1 else nodes.multiplier.reshape(-1, nodes.size)
 
     @property
     def pressure(self) -> fem.Function:
@@ -192,8 +225,36 @@ class Contact:
 
     @property
     def status(self) -> fem.Function:
-        """Status: -1 off the slave surface, 0 open, 2 closed."""
+        """Status: -1 off the slave surface, 0 open, 1 stick or tied, 2 slip or frictionless."""
         return self.fields.status
+
+    @property
+    def slip(self) -> fem.Function:
+        """Slip increment of the last step, a length; zero off the slave surface.
+
+        A node that touches first within a step slips from where the straight way between the
+        step's start and the iterate that first closes it, seen from the master, meets the master.
+
+        Raises:
+            RuntimeError: If the contact has no friction.
+        """
+        return self._measured(self.fields.slip)
+
+    @property
+    def slip_total(self) -> fem.Function:
+        """Accumulated length of slip, zero off the slave surface.
+
+        Raises:
+            RuntimeError: If the contact has no friction.
+        """
+        return self._measured(self.fields.slip_total)
+
+    def _measured(self, field: fem.Function | None) -> fem.Function:
+        if field is None:
+            raise RuntimeError(
+                f"{self} measures no slip: give it friction (a fem.Constant of value 0 will do)"
+            )
+        return field
 
     @property
     def force(self) -> npt.NDArray[np.float64]:

@@ -88,7 +88,8 @@ class Judge:
         u = np.linalg.norm(self._bulk.u.x.array.reshape(-1, block), axis=1)
         gaps, moved = [], [self._stiffness * u]
         for interface in self._interfaces:
-            weight = interface.state.gap_derivative.array
+            nodes = interface.nodes
+            weight = np.where(nodes.closed, nodes.area * nodes.c, 0.0)
             gaps.append(weight * np.abs(interface.state.position.array).max())
             moved.append(weight * u.max())
         return _EPS * _norm(gaps) + min(_EPS * _norm(moved), 1e-6 * scale)

@@ -9,7 +9,9 @@ STICK: int
 SLIP: int
 margin: float
 pair_layout: dict[str, int]
+slip_layout: dict[str, int]
 rigid_layout: dict[str, int]
+rigid_slip_layout: dict[str, int]
 
 def nodal_areas(
     offsets: NDArray[np.int32], nodes: NDArray[np.int32], x: NDArray[np.float64], gdim: int
@@ -55,6 +57,12 @@ class Pairing:
         self, x: NDArray[np.float64], reach: float, which: NDArray[np.int32]
     ) -> NDArray[np.float64]: ...
     def distance(self, x: NDArray[np.float64]) -> float: ...
+    def feet(
+        self, x: NDArray[np.float64], points: NDArray[np.float64]
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...
+    def places(
+        self, x: NDArray[np.float64], xi: NDArray[np.float64]
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...
 
 def normal_status(
     pressure: NDArray[np.float64],
@@ -72,5 +80,32 @@ def normal_complementarity(
     d_pressure: NDArray[np.float64],
     d_gap: NDArray[np.float64],
 ) -> None: ...
-def coefficients(num_nodes: int) -> tuple[tuple[str, str, int], ...]: ...
-def kernel(sliding: str, term: str, num_nodes: int, gdim: int) -> tuple[int, NDArray[np.int8]]: ...
+def frictional_status(
+    traction: NDArray[np.float64],
+    gap: NDArray[np.float64],
+    normal: NDArray[np.float64],
+    slip: NDArray[np.float64],
+    c: NDArray[np.float64],
+    friction: NDArray[np.float64],
+    status: NDArray[np.int8],
+) -> int: ...
+def frictional_complementarity(
+    traction: NDArray[np.float64],
+    gap: NDArray[np.float64],
+    normal: NDArray[np.float64],
+    slip: NDArray[np.float64],
+    c: NDArray[np.float64],
+    friction: NDArray[np.float64],
+    area: NDArray[np.float64],
+    status: NDArray[np.int8],
+    mobile: NDArray[np.float64],
+    value: NDArray[np.float64],
+    by_traction: NDArray[np.float64],
+    by_gap: NDArray[np.float64],
+    by_slip: NDArray[np.float64],
+    by_normal: NDArray[np.float64],
+) -> None: ...
+def coefficients(law: str, num_nodes: int, gdim: int) -> tuple[tuple[str, str, int], ...]: ...
+def kernel(
+    law: str, sliding: str, term: str, num_nodes: int, gdim: int
+) -> tuple[int, NDArray[np.int8]]: ...

@@ -19,6 +19,8 @@ class Fields:
         traction: Traction that the master exerts on the slave.
         gap: Gap.
         status: Status.
+        slip: Slip increment of the last step; None without friction.
+        slip_total: Its accumulated length; None without friction.
         force: Total force on the slave side, shape (gdim,).
         imbalance: Sum of the contact's forces on both sides, shape (gdim,).
     """
@@ -39,6 +41,9 @@ class Fields:
         self.traction = fem.Function(V, name="traction")
         self.gap = fem.Function(Q, name="gap")
         self.status = fem.Function(Q, name="status")
+        measured = interface.history is not None
+        self.slip = fem.Function(V, name="slip") if measured else None
+        self.slip_total = fem.Function(Q, name="slip_total") if measured else None
         self.force = np.zeros(self._gdim)
         self.imbalance = np.zeros(self._gdim)
         self.gap.x.array[:] = np.nan
@@ -48,10 +53,15 @@ class Fields:
     def update(self) -> None:
         """Read the results from the discrete side."""
         interface = self._interface
-        area = interface.state.area.array[:, None]
-        self.pressure.x.array[self._nodes] = interface.state.multiplier.array
-        self.gap.x.array[self._nodes] = interface.gap
-        self.status.x.array[self._nodes] = interface.status
+        nodes = interface.nodes
+        area = nodes.area[:, None]
+        self.pressure.x.array[self._nodes] = nodes.pressure
+        self.gap.x.array[self._nodes] = nodes.gap
+        self.status.x.array[self._nodes] = nodes.status
+        if interface.history is not None and self.slip is not None and self.slip_total is not None:
+            slip = self.slip.x.array.reshape(-1, self._gdim)
+            slip[interface.slaves] = interface.history.slip
+            self.slip_total.x.array[self._nodes] = interface.history.total
 
         forces = np.zeros_like(self.traction.x.array)
         interface.add_residual(forces)

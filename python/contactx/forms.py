@@ -27,11 +27,14 @@ class Pairs:
             displacement's dofmap, shape (num_pairs, 1 + num_nodes).
         data: What the kernels read of a pair, as cpp/contactx/kernel/layout.h says: shape
             (num_pairs, 9) with a facet, (num_pairs, 16) with a rigid obstacle.
+        slip: What they read where slip is measured, else None: shape (num_pairs, 6) or
+            (num_pairs, 12).
     """
 
     slaves: npt.NDArray[np.int32]
     nodes: npt.NDArray[np.int32]
     data: npt.NDArray[np.float64]
+    slip: npt.NDArray[np.float64] | None = None
 
 
 @dataclass(frozen=True)
@@ -41,9 +44,11 @@ class State:
     Attributes:
         displacement: Displacement of the bulk.
         position: Reference position of the bulk's nodes.
-        multiplier: Pressure of the slave nodes, force/area.
+        multiplier: Multiplier of the slave nodes, force/area: pressure or traction.
         area: Reference area of the slave nodes.
         gap_derivative: Derivative of the complementarity function with respect to the gap.
+        slip_derivative: With respect to the slip; None for scalar multipliers.
+        normal_derivative: With respect to the normal; None for scalar multipliers.
     """
 
     displacement: la.Vector
@@ -51,6 +56,8 @@ class State:
     multiplier: la.Vector
     area: la.Vector
     gap_derivative: la.Vector
+    slip_derivative: la.Vector | None = None
+    normal_derivative: la.Vector | None = None
 
 
 class ContactForms:
@@ -61,9 +68,11 @@ class ContactForms:
 
     Attributes:
         gap: Gap of each slave node, a vector of the slave nodes.
-        residual: Contact forces -A p n . (v_s - sum_l N_l v_l), a vector of the bulk.
-        stiffness: Derivative of the residual with respect to the displacement; None for small
-            sliding, where it vanishes.
+        normal: Unit normal of its master; None for scalar multipliers.
+        slip: Its slip; None for scalar multipliers.
+        residual: Contact forces -A lambda . (v_s - sum_l N_l v_l), a vector of the bulk.
+        stiffness: Derivative of the residual with respect to the displacement; None where it
+            vanishes: small sliding, and vector multipliers on a rigid obstacle.
         traction: Derivative of the residual with respect to the multiplier.
         constraint: Derivative of the complementarity function with respect to the displacement.
     """
@@ -71,6 +80,7 @@ class ContactForms:
     def __init__(
         self,
         comm: MPI.Comm,
+        law: str,
         sliding: str,
         pairs: Pairs,
         state: State,
@@ -81,6 +91,7 @@ class ContactForms:
 
         Args:
             comm: Communicator.
+            law: "frictionless", "frictional" or "tied".
             sliding: "finite" or "small".
             pairs: The pairs.
             state: Vectors that the forms read at each assembly.
@@ -92,40 +103,44 @@ class ContactForms:
         mesh = contact_mesh.carrier(comm, num_pairs)
         pair_map = cpp.common.IndexMap(comm, num_pairs)
         self._pair_data = la.vector(pair_map, pairs.data.shape[1])
+        self._slip_data = None if pairs.slip is None else la.vector(pair_map, pairs.slip.shape[1])
         self.update(pairs)
 
-        vectors = {"pair": self._pair_data, **state.__dict__}
+        vectors = {"pair": self._pair_data, "slip": self._slip_data, **state.__dict__}
         sites: dict[str, tuple[Any, npt.NDArray[np.int32]]] = {
             "nodes": (bulk_map, pairs.nodes),
             "pair": (pair_map, np.arange(num_pairs, dtype=np.int32)[:, None]),
             "slave": (slave_map, pairs.slaves[:, None]),
         }
         spaces: dict[tuple[str, int], Any] = {}
-        self._coefficients = []
-        for name, site, size in core.coefficients(width - 1):
-            key = (site, size or gdim)
-            if key not in spaces:
-                spaces[key] = contact_mesh.borrow(mesh, *sites[site], key[1])
-            self._coefficients.append(
-                cpp.fem.Function_float64(spaces[key], vectors[name]._cpp_object)
+        coefficients = []
+        for name, site, size in core.coefficients(law, width - 1, gdim):
+            if (site, size) not in spaces:
+                spaces[site, size] = contact_mesh.borrow(mesh, *sites[site], size)
+            coefficients.append(
+                cpp.fem.Function_float64(spaces[site, size], vectors[name]._cpp_object)
             )
-        U, S = spaces["nodes", gdim], spaces["slave", 1]
+        is_vector = pairs.slip is not None
+        U, S = spaces["nodes", gdim], spaces["slave", gdim if is_vector else 1]
 
         def form(term: str, *arguments: Any) -> fem.Form:
-            address, active = core.kernel(sliding, term, width - 1, gdim)
+            address, active = core.kernel(law, sliding, term, width - 1, gdim)
             cells = np.arange(num_pairs, dtype=np.int32)
             integrals = {fem.IntegralType.cell: [(0, address, cells, active)]}
             make = fem.form_cpp_class(np.float64)
-            return fem.Form(
-                make(list(arguments), integrals, self._coefficients, [], False, [], mesh)
-            )
+            return fem.Form(make(list(arguments), integrals, coefficients, [], False, [], mesh))
 
-        self.gap = form("gap", S)
+        turns = sliding == "finite" and not (is_vector and width == 1)
+        self.gap = form("gap", spaces["slave", 1])
+        self.normal = form("normal", S) if is_vector else None
+        self.slip = form("slip", S) if is_vector else None
         self.residual = form("residual", U)
-        self.stiffness = form("stiffness", U, U) if sliding == "finite" else None
+        self.stiffness = form("stiffness", U, U) if turns else None
         self.traction = form("traction", U, S)
         self.constraint = form("constraint", S, U)
 
     def update(self, pairs: Pairs) -> None:
-        """Take over new local coordinates of the same pairs."""
+        """Take over new data of the same pairs."""
         self._pair_data.array[:] = pairs.data.ravel()
+        if self._slip_data is not None and pairs.slip is not None:
+            self._slip_data.array[:] = pairs.slip.ravel()

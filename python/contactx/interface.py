@@ -12,13 +12,22 @@ import numpy.typing as npt
 
 from contactx import cpp as core
 from contactx.forms import ContactForms, Pairs, State
-from contactx.master.facets import FacetMaster
+from contactx.law.law import Law
+from contactx.law.nodes import Nodes
+from contactx.master.make import make_master
 from contactx.master.master import Master
 from contactx.master.obstacle import ObstacleMaster
 from contactx.nodal import NodalValue
 from contactx.obstacles import Obstacle
+from contactx.slip import SlipHistory
 from contactx.surface import Surface
 from dolfinx import cpp, fem, la
+
+# Share of a relative movement that must be free for a constraint on it
+_MOBILE = 0.05
+
+# State of the slave nodes that outlives a step
+_NODAL = ("multiplier", "status", "gap", "normal", "slip", "immobile", "mobile")
 
 
 class Interface:
@@ -28,18 +37,14 @@ class Interface:
 
     Attributes:
         sliding: "finite" or "small".
+        law: Contact law.
         slaves: Slave nodes, numbered as the blocks of the displacement's dofmap, shape (n,).
         state: Vectors that the forms read.
-        status: Status of each slave node, shape (n,).
-        gap: Gap of each slave node, NaN where it has no pair, shape (n,).
-        c: Factor of the gap in the complementarity, traction/length, shape (n,).
-        value: Complementarity function, a force, shape (n,).
-        d_pressure: Its derivative with respect to the pressure, shape (n,).
+        nodes: State of the slave nodes.
+        history: Slip of the accepted steps; None where none is measured.
         forms: Forms, one set for each kind of facet that has pairs.
         master: Pairs with the master side.
         active: Whether the contact is switched on.
-        immobile: Whether Dirichlet conditions leave neither a slave node nor its master anything
-            to yield along the normal; such a node stays open, shape (n,).
     """
 
     def __init__(
@@ -49,9 +54,10 @@ class Interface:
         u: fem.Function,
         X: la.Vector,
         *,
+        law: Law,
         sliding: str,
         search_distance: float | None,
-        offset: float | fem.Function,
+        offset: NodalValue,
         markers: npt.NDArray[np.int8],
     ):
         """Find the slave nodes and pair them in the reference configuration.
@@ -61,9 +67,10 @@ class Interface:
             master: Master surface or rigid obstacle.
             u: Displacement.
             X: Reference positions of the nodes of ``u``.
+            law: Contact law.
             sliding: "finite" or "small".
             search_distance: Largest distance of a pair; chosen if None.
-            offset: What is taken off the gap: a number, or a function in a scalar linear space.
+            offset: What is taken off the gap.
             markers: 1 at dofs with a Dirichlet condition, shape (num_dofs,).
 
         Raises:
@@ -71,50 +78,34 @@ class Interface:
         """
         V = u.function_space
         self._comm = V.mesh.comm
-        self._gdim = V.mesh.geometry.dim
+        self._gdim = gdim = V.mesh.geometry.dim
+        self.law = law
         self.sliding = sliding
         self._held = sliding == "small"
         self._u = u
         self._bulk_map = V.dofmap.index_map
         facets = slave.facet_nodes(V)
         self.slaves = np.unique(facets.nodes)
-        x = X.array.reshape(-1, self._gdim)
-        self.master: Master
-        if isinstance(master, Obstacle):
-            self.master = ObstacleMaster(self.slaves, master, search_distance)
-        else:
-            others = master.facet_nodes(V)
-            shared = np.intersect1d(facets.nodes, others.nodes)
-            if len(shared) > 0:
-                raise ValueError(
-                    f"slave and master overlap: {slave} and {master} share {len(shared)} nodes. "
-                    "Give each body its own nodes and each surface its own facets"
-                )
-            self.master = FacetMaster(facets, others, x, search_distance)
+        x = X.array.reshape(-1, gdim)
+        self.master: Master = make_master(
+            facets, master, V, x, law, sliding=sliding, search_distance=search_distance
+        )
         n = len(self.slaves)
         self._slave_map = cpp.common.IndexMap(self._comm, n)
-        vector = la.vector
-        self.state = State(
-            displacement=u.x,
-            position=X,
-            multiplier=vector(self._slave_map, 1),
-            area=vector(self._slave_map, 1),
-            gap_derivative=vector(self._slave_map, 1),
-        )
-        self.state.area.array[:] = core.nodal_areas(facets.offsets, facets.nodes, x, self._gdim)[
+        self.state = _make_state(u, X, self._slave_map, law)
+        self.state.area.array[:] = core.nodal_areas(facets.offsets, facets.nodes, x, gdim)[
             self.slaves
         ]
-        self.status = np.full(n, core.OPEN, dtype=np.int8)
-        self.gap = np.full(n, np.nan)
-        self.c = np.ones(n)
-        self.value = np.zeros(n)
-        self.d_pressure = np.zeros(n)
+        self.nodes = Nodes(self.state, gdim)
+        self.history = SlipHistory(n, gdim) if law.is_vector and not law.is_tied else None
+        self._touched = np.zeros(n, dtype=bool)
         self.active = True
-        self.immobile = np.zeros(n, dtype=bool)
-        self._offset = NodalValue(offset, "offset", V, self.slaves)
+        self._offset = offset
         self.forms: list[ContactForms] = []
-        self._free = markers.reshape(-1, self._gdim) == 0
-        self.master.search(x, self.status)
+        self._free = markers.reshape(-1, gdim) == 0
+        self.master.accept(self.positions())
+        self.master.begin_step()
+        self.master.search(x, self.nodes.status)
         self._make_forms()
         self._find_immobile()
 
@@ -123,12 +114,26 @@ class Interface:
         x: npt.NDArray[np.float64] = self.state.position.array + self._u.x.array
         return x.reshape(-1, self._gdim)
 
+    @property
+    def follows(self) -> bool:
+        """Whether pairs, normals and projections follow the deformation."""
+        return self.sliding == "finite" and not self.law.is_tied
+
     def begin_step(self) -> None:
         """Start a step: pairs are released, and a moved obstacle of small sliding is seen."""
         self.hold(False)
-        self.master.forget_flips()
+        self.master.begin_step()
+        self._touched = self.nodes.closed
         if self.sliding == "small" and self.master.is_rigid:
             self._pair(self.state.position.array.reshape(-1, self._gdim))
+        elif self.history is not None:
+            self._update_forms(self.master.pairs())
+
+    def accept(self) -> None:
+        """Take the converged state as the start of the next step."""
+        self.master.accept(self.positions())
+        if self.history is not None:
+            self.history.add(self.nodes)
 
     def search(self) -> int:
         """Pair the slave nodes in the current configuration, unless pairs are held.
@@ -136,11 +141,10 @@ class Interface:
         Returns:
             Number of nodes in contact whose facet has changed.
         """
-        return 0 if self._held else self._pair(self.positions())
+        return self._pair(self.positions()) if self.follows and not self._held else 0
 
     def _pair(self, x: npt.NDArray[np.float64]) -> int:
-        closed = (self.status != core.OPEN).astype(np.int8)
-        changed, new = self.master.search(x, closed)
+        changed, new = self.master.search(x, self.nodes.closed.astype(np.int8))
         if new:
             self._make_forms()
         else:
@@ -149,7 +153,11 @@ class Interface:
         return changed
 
     def _find_immobile(self) -> None:
-        self.immobile = self.master.paired & (self.master.mobility(self._free) < 1e-8)
+        along, each = self.master.mobility(self._free)
+        self.nodes.immobile = self.master.paired & (along < 1e-8)
+        if self.law.is_vector:
+            # A projection over an open gap on a tilted facet leaves a symmetry plane by a little
+            self.nodes.mobile = np.where(each < _MOBILE, 0.0, 1.0)
 
     def _update_forms(self, groups: list[Pairs]) -> None:
         for form, pairs in zip(self.forms, groups, strict=True):
@@ -163,7 +171,7 @@ class Interface:
         Args:
             held: Whether to hold them.
         """
-        if self.sliding == "finite" and held != self._held:
+        if self.follows and held != self._held:
             self._held = held
             self._make_forms()
 
@@ -171,7 +179,15 @@ class Interface:
         """Make the forms of the current pairs."""
         kinematics = "small" if self._held else "finite"
         self.forms = [
-            ContactForms(self._comm, kinematics, pairs, self.state, self._bulk_map, self._slave_map)
+            ContactForms(
+                self._comm,
+                self.law.name,
+                kinematics,
+                pairs,
+                self.state,
+                self._bulk_map,
+                self._slave_map,
+            )
             for pairs in self.master.pairs()
         ]
 
@@ -189,21 +205,35 @@ class Interface:
         total = compliance[self.slaves] + self.master.compliance(compliance)
         total *= self.state.area.array
         usable = total > 0
-        self.c[:] = 1 / np.median(total[usable]) if usable.any() else 1.0
-        self.c[usable] = 1 / total[usable]
+        self.nodes.c[:] = 1 / np.median(total[usable]) if usable.any() else 1.0
+        self.nodes.c[usable] = 1 / total[usable]
 
     def update_gap(self) -> None:
-        """First pass: assemble the gap of each slave node."""
-        fresh = self.master.refresh(self.positions(), self._held)
+        """First pass: assemble gap, normal and slip of each slave node."""
+        offset = self._offset_now()
+        fresh = self.master.refresh(self.positions(), self._held, offset)
         if fresh is not None:
             self._update_forms(fresh)
-        self.gap[:] = 0
+        nodes = self.nodes
+        nodes.gap[:] = nodes.normal[:] = nodes.slip[:] = 0
         for form in self.forms:
-            fem.assemble_vector(self.gap, form.gap)
-        self.gap -= self._offset.now()
-        self.gap[~self.master.paired] = np.nan
+            fem.assemble_vector(nodes.gap, form.gap)
+            if form.normal is not None:
+                fem.assemble_vector(nodes.normal.reshape(-1), form.normal)
+        self._assemble_slip()
+        nodes.gap -= offset
+        nodes.gap[~self.master.paired] = np.nan
         if not self.active:
-            self.gap[:] = np.nan
+            nodes.gap[:] = np.nan
+
+    def _assemble_slip(self) -> None:
+        self.nodes.slip[:] = 0
+        for form in self.forms:
+            if form.slip is not None:
+                fem.assemble_vector(self.nodes.slip.reshape(-1), form.slip)
+
+    def _offset_now(self) -> npt.NDArray[np.float64]:
+        return np.broadcast_to(self._offset.now(), self.nodes.gap.shape)
 
     def held_inside(self, prescribed: npt.NDArray[np.float64]) -> npt.NDArray[np.int32]:
         """Slave nodes that Dirichlet conditions hold inside a rigid obstacle.
@@ -217,9 +247,9 @@ class Interface:
         if not isinstance(self.master, ObstacleMaster):
             return np.array([], dtype=np.int32)
         x = (self.state.position.array + prescribed).reshape(-1, self._gdim)
-        gap = self.master.inside(x) - self._offset.now()
+        gap = self.master.inside(x) - self._offset_now()
         size = np.ptp(x[self.slaves], axis=0).max(initial=0.0)
-        inside: npt.NDArray[np.int32] = self.slaves[self.immobile & (gap < -1e-9 * size)]
+        inside: npt.NDArray[np.int32] = self.slaves[self.nodes.immobile & (gap < -1e-9 * size)]
         return inside
 
     def update_status(self) -> int:
@@ -228,8 +258,18 @@ class Interface:
         Returns:
             Number of nodes that changed.
         """
-        gap = np.where(self.immobile, np.nan, self.gap)
-        return core.normal_status(self.state.multiplier.array, gap, self.c, self.status)
+        nodes = self.nodes
+        if self.history is not None:
+            # False for the gap NaN, too
+            closing = nodes.pressure - nodes.c * nodes.closable_gap > 0
+            first = closing & ~self._touched
+            if first.any():
+                self.master.touch(first, self.positions(), self._offset_now())
+                self._touched = self._touched | first
+                fresh = self.master.refresh(self.positions(), self._held, self._offset_now())
+                self._update_forms(self.master.pairs() if fresh is None else fresh)
+                self._assemble_slip()
+        return self.law.set_status(nodes)
 
     def drop_open_pressures(self) -> None:
         """Take the pressure off open nodes.
@@ -237,20 +277,11 @@ class Interface:
         The pressures of an iterate whose active set is far too large are wild, and the stiffness
         that they would give to nodes that have just opened throws the next iterate off.
         """
-        self.state.multiplier.array[self.status == core.OPEN] = 0
+        self.nodes.multiplier.reshape(-1, self.nodes.size)[~self.nodes.closed] = 0
 
     def evaluate_law(self) -> None:
         """Second pass: the complementarity function and its derivatives."""
-        core.normal_complementarity(
-            self.state.multiplier.array,
-            self.gap,
-            self.c,
-            self.state.area.array,
-            self.status,
-            self.value,
-            self.d_pressure,
-            self.state.gap_derivative.array,
-        )
+        self.law.evaluate(self.nodes)
 
     def add_residual(self, b: npt.NDArray[np.float64]) -> None:
         """Third pass: add the contact forces.
@@ -267,11 +298,11 @@ class Interface:
         Returns:
             Arrays by their names, with shapes and types that never change.
         """
+        history = {} if self.history is None else vars(self.history)
         return {
             "active": np.array(self.active),
-            "multiplier": self.state.multiplier.array.copy(),
-            "status": self.status.copy(),
-            "gap": self.gap.copy(),
+            **{name: getattr(self.nodes, name).copy() for name in _NODAL},
+            **{f"history_{name}": values.copy() for name, values in history.items()},
             **{f"master_{name}": values for name, values in self.master.save().items()},
         }
 
@@ -286,9 +317,29 @@ class Interface:
         """
         self.master.load({name.removeprefix("master_"): saved[name] for name in saved})
         self.active = bool(saved["active"])
-        self.state.multiplier.array[:] = saved["multiplier"]
-        self.status[:] = saved["status"]
-        self.gap[:] = saved["gap"]
+        for name in _NODAL:
+            getattr(self.nodes, name)[:] = saved[name]
+        if self.history is not None:
+            for name in vars(self.history):
+                setattr(self.history, name, saved[f"history_{name}"].copy())
         self._held = self.sliding == "small"
         self._make_forms()
-        self._find_immobile()
+
+
+def _make_state(u: fem.Function, X: la.Vector, slave_map: Any, law: Law) -> State:
+    """Vectors that the forms read, zero on the slave nodes."""
+    gdim = X.block_size
+    size = gdim if law.is_vector else 1
+
+    def vector(block: int) -> la.Vector:
+        return la.vector(slave_map, block)
+
+    return State(
+        displacement=u.x,
+        position=X,
+        multiplier=vector(size),
+        area=vector(1),
+        gap_derivative=vector(size),
+        slip_derivative=vector(gdim * gdim) if law.is_vector else None,
+        normal_derivative=vector(gdim * gdim) if law.is_vector else None,
+    )

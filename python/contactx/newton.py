@@ -13,7 +13,6 @@ from petsc4py import PETSc
 import numpy as np
 
 from contactx import compat
-from contactx import cpp as core
 from contactx.bulk import Bulk
 from contactx.callback import keeps_its_error
 from contactx.convergence import Judge
@@ -218,10 +217,10 @@ class NewtonLoop:
         return changes > max(1, _FEW * self._num_closed())
 
     def _num_closed(self) -> int:
-        return sum(int(np.count_nonzero(i.status != core.OPEN)) for i in self._interfaces)
+        return sum(int(i.nodes.closed.sum()) for i in self._interfaces)
 
     def _hold(self, held: bool) -> None:
-        self._held = held and any(i.sliding == "finite" for i in self._interfaces)
+        self._held = held and any(i.follows for i in self._interfaces)
         for interface in self._interfaces:
             interface.hold(held)
 

@@ -163,7 +163,7 @@ class ContactProblem:
     def _complete(self, report: Report) -> None:
         report.slaves = sum(len(i.slaves) for i in self._interfaces)
         report.pairs = sum(int(i.master.paired.sum()) for i in self._interfaces)
-        report.immobile = sum(int(i.immobile.sum()) for i in self._interfaces)
+        report.immobile = sum(int(i.nodes.immobile.sum()) for i in self._interfaces)
         report.frozen = sum(len(i.master.frozen) for i in self._interfaces)
         report.frozen_gap = min(i.master.deepest_frozen(i.positions()) for i in self._interfaces)
         report.force = [contact.force for contact in self.contacts]

@@ -84,6 +84,10 @@ class Surface:
         """Name the tags."""
         return f"Surface(tags={self.tags}, {len(self.facets)} facets)"
 
+    def nodes(self, V: fem.FunctionSpace) -> npt.NDArray[np.int32]:
+        """Nodes of the surface, sorted, numbered as the blocks of V's dofmap, shape (n,)."""
+        return np.unique(self.facet_nodes(V).nodes)
+
     def facet_nodes(self, V: fem.FunctionSpace) -> FacetList:
         """Nodes of the surface's facets.
 

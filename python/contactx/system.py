@@ -43,7 +43,7 @@ class SaddlePointSystem:
         self._comm = bulk.u.function_space.mesh.comm
         self._block = bulk.u.function_space.dofmap.index_map_bs
         self._num_bulk = len(bulk.u.x.array)
-        sizes = [self._num_bulk, *(len(i.slaves) for i in self._interfaces)]
+        sizes = [self._num_bulk, *(len(i.nodes.multiplier) for i in self._interfaces)]
         self._offsets = np.cumsum([0, *sizes])
         self.renew()
         self._bulk_residual = np.zeros(self._num_bulk)
@@ -99,7 +99,7 @@ class SaddlePointSystem:
             interface.update_gap()
             interface.evaluate_law()
             interface.add_residual(force)
-            row[:] = interface.value
+            row[:] = interface.nodes.value
         defect = self._bulk.dirichlet_defect()
         if np.any(defect):
             self._lift(force, constraints)
@@ -168,11 +168,12 @@ class SaddlePointSystem:
                     _assemble(A, form.stiffness, (bulk, bulk), (markers, markers))
                 _assemble(A, form.traction, (bulk, slave), (markers, _NONE))
                 _assemble(A, form.constraint, (slave, bulk), (_NONE, markers))
+            size = interface.nodes.size
             rows = np.arange(first, last, dtype=PETSc.IntType)
             A.setValuesLocalIJV(
-                np.arange(len(rows) + 1, dtype=PETSc.IntType),
-                rows,
-                interface.d_pressure,
+                np.arange(0, size * len(rows) + 1, size, dtype=PETSc.IntType),
+                np.repeat(rows.reshape(-1, size), size, axis=0).ravel(),
+                interface.nodes.by_multiplier.ravel(),
                 addv=PETSc.InsertMode.ADD,
                 rowmap=rows,
             )

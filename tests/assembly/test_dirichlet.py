@@ -31,7 +31,7 @@ def test_prescribed_master_nodes(cell):
     contact = scene.contact("small")
     problem = scene.problem(contact)
     problem.solve()
-    closed = contact.interface.status != 0
+    closed = contact.interface.nodes.status != 0
     assert closed.any()
 
     # The same linear system with the final active set, all prescribed values eliminated by hand
@@ -94,12 +94,12 @@ def constraint_matrix(contact, n):
     keep = u.copy()
     u[:] = 0
     contact.interface.update_gap()
-    base = contact.interface.gap.copy()
+    base = contact.interface.nodes.gap.copy()
     D = np.zeros((len(base), n))
     for i in range(n):
         u[i] = 1
         contact.interface.update_gap()
-        D[:, i] = contact.interface.gap - base
+        D[:, i] = contact.interface.nodes.gap - base
         u[i] = 0
     u[:] = keep
     contact.interface.update_gap()
@@ -111,7 +111,7 @@ def gap_at(contact, function):
     keep = u.copy()
     u[:] = function.x.array
     contact.interface.update_gap()
-    gap = contact.interface.gap.copy()
+    gap = contact.interface.nodes.gap.copy()
     u[:] = keep
     contact.interface.update_gap()
     return gap
@@ -135,7 +135,7 @@ def test_a_punch_whose_slave_nodes_are_prescribed():
     scene.bcs.append(fix(scene.u, scene.tags, 2, -0.03, Tag.UPPER_CONTACT))
     contact = scene.contact()
     scene.problem(contact).solve()
-    gap = contact.interface.gap
+    gap = contact.interface.nodes.gap
     assert (contact.multiplier > 0).sum() > 3
     assert np.abs(gap[contact.multiplier > 0]).max() <= 1e-12
     assert contact.force[2] > 0

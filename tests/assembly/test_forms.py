@@ -103,7 +103,7 @@ def close(computed, reference):
 def test_gap(case):
     scene, contact, hand = case
     contact.interface.update_gap()
-    assert close(contact.interface.gap, hand.gap + hand.D @ scene.u.x.array)
+    assert close(contact.interface.nodes.gap, hand.gap + hand.D @ scene.u.x.array)
 
 
 def test_residual(case):
@@ -147,8 +147,8 @@ def test_system_jacobian_is_the_derivative_of_the_residual(cell):
     interface.search()
     n = len(contact.multiplier)
     contact.multiplier[:] = rng.uniform(0.5, 1, n)
-    interface.status[:] = np.where(np.arange(n) % 3 == 0, 0, 2)
-    interface.c[:] = rng.uniform(1, 2, n)
+    interface.nodes.status[:] = np.where(np.arange(n) % 3 == 0, 0, 2)
+    interface.nodes.c[:] = rng.uniform(1, 2, n)
     system.gather()
     x0 = system.x.array.copy()
 

@@ -165,4 +165,4 @@ def test_open_constraint_is_zero():
 )
 def test_unknown_kernel(sliding, term, num_nodes):
     with pytest.raises(ValueError, match=f"no kernel for {sliding} sliding, term {term}"):
-        core.kernel(sliding, term, num_nodes, 3)
+        core.kernel("frictionless", sliding, term, num_nodes, 3)

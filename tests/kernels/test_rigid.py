@@ -21,7 +21,7 @@ def case(request):
 def tabulate(case, term, shape):
     gdim, _, w = case
     results = [
-        call(core.kernel(sliding, term, 0, gdim)[0], w, shape)
+        call(core.kernel("frictionless", sliding, term, 0, gdim)[0], w, shape)
         for sliding in (("finite",) if term == "stiffness" else ("finite", "small"))
     ]
     assert all(np.array_equal(r, results[0]) for r in results)
@@ -52,4 +52,4 @@ def test_constraint(case):
 
 def test_small_sliding_has_no_stiffness():
     with pytest.raises(ValueError, match="no kernel for small sliding, term stiffness"):
-        core.kernel("small", "stiffness", 0, 3)
+        core.kernel("frictionless", "small", "stiffness", 0, 3)

@@ -19,17 +19,23 @@ from dolfinx import fem
 from dolfinx.mesh import CellType
 
 SCENES = {
-    "triangles": lambda: SlidingBlocks(CellType.triangle, "finite"),
-    "quadrilaterals": lambda: SlidingBlocks(CellType.quadrilateral, "finite"),
-    "tetrahedra": lambda: SlidingBlocks(CellType.tetrahedron, "finite"),
-    "hexahedra": lambda: SlidingBlocks(CellType.hexahedron, "finite"),
-    "small sliding": lambda: SlidingBlocks(CellType.tetrahedron, "small"),
+    "triangles": lambda: SlidingBlocks(CellType.triangle),
+    "quadrilaterals": lambda: SlidingBlocks(CellType.quadrilateral),
+    "tetrahedra": lambda: SlidingBlocks(CellType.tetrahedron),
+    "hexahedra": lambda: SlidingBlocks(CellType.hexahedron),
+    "small sliding": lambda: SlidingBlocks(CellType.tetrahedron, sliding="small"),
+    "friction": lambda: SlidingBlocks(CellType.tetrahedron, friction=0.2),
+    "friction, plane": lambda: SlidingBlocks(CellType.quadrilateral, friction=0.2),
+    "friction, small": lambda: SlidingBlocks(CellType.triangle, friction=0.2, sliding="small"),
+    "tied": lambda: SlidingBlocks(CellType.tetrahedron, tied=True, offset=0.01),
     "plastic under a ball": DentedBlock,
+    "plastic with friction": lambda: DentedBlock(friction=0.3),
+    "plastic, tied to a ball": lambda: DentedBlock(0.01, tied=True, search_distance=0.03),
 }
 
 
-def run(scene, until=6, **options):
-    """Take steps, six in all, and return the bits of their results."""
+def run(scene, until=None, **options):
+    """Take steps, six in all if none is cut, and return the bits of their results."""
     steps = cx.LoadSteps(
         scene.problem, 6, scene.update, history=scene.history, progress=False, **options
     )
@@ -39,7 +45,7 @@ def run(scene, until=6, **options):
             break
     interface = scene.contact.interface
     arrays = [scene.u.x.array, *(f.x.array for f in scene.history)]
-    arrays += [*interface.save().values(), interface.immobile, scene.contact.force]
+    arrays += [*interface.save().values(), scene.contact.force]
     return [a.tobytes() for a in arrays], steps
 
 
@@ -55,8 +61,10 @@ def test_three_steps_and_three_are_six(name, tmp_path):
     scene = SCENES[name]()
     restarted, steps = run(scene, restart=file)
     assert restarted == straight
-    assert [int(row.split("│")[1]) for row in steps.table().splitlines()[3:9]] == list(range(1, 7))
     assert steps.t == 1
+    lines = [line.split("│")[1:3] for line in steps.table().splitlines() if "│" in line]
+    assert [int(index) for index, _ in lines] == list(range(1, len(lines) + 1))
+    assert np.all(np.diff([float(t) for _, t in lines]) > 0)
 
 
 def test_a_new_process_goes_on_to_the_same_bits(tmp_path):
@@ -218,11 +226,11 @@ def test_files_of_other_problems(file, tmp_path):
         cx.LoadSteps(problem, 2, print, history=history, restart=file)
     assert not scene.u.x.array.any()
 
-    scene = SlidingBlocks(CellType.triangle, "small")
+    scene = SlidingBlocks(CellType.triangle, sliding="small")
     run(scene, until=2, checkpoint=tmp_path / "blocks.npz")
     with pytest.raises(ValueError, match=r"'surface 0: sliding' is another one here"):
-        run(SlidingBlocks(CellType.triangle, "finite"), restart=tmp_path / "blocks.npz")
-    moved = SlidingBlocks(CellType.triangle, "small")
+        run(SlidingBlocks(CellType.triangle), restart=tmp_path / "blocks.npz")
+    moved = SlidingBlocks(CellType.triangle, sliding="small")
     moved.u.function_space.mesh.geometry.x[3] += 1e-3
     with pytest.raises(ValueError, match=r"'mesh: coordinates' is another one here"):
         run(moved, restart=tmp_path / "blocks.npz")
@@ -245,8 +253,8 @@ def test_values_that_cannot_be(file, tmp_path):
 
 def test_pairs_that_cannot_be(tmp_path):
     file = tmp_path / "blocks.npz"
-    run(SlidingBlocks(CellType.triangle, "finite"), until=2, checkpoint=file)
-    scene = SlidingBlocks(CellType.triangle, "finite")
+    run(SlidingBlocks(CellType.triangle), until=2, checkpoint=file)
+    scene = SlidingBlocks(CellType.triangle)
     with pytest.raises(ValueError, match="a pair with a facet that does not exist"):
         run(scene, restart=changed(file, master_facet=99))
     assert not scene.u.x.array.any()

@@ -26,8 +26,8 @@ def test_no_convergence_leaves_everything_as_it_was():
     before = [
         scene.u.x.array.copy(),
         contact.multiplier.copy(),
-        contact.interface.status.copy(),
-        contact.interface.gap.copy(),
+        contact.interface.nodes.status.copy(),
+        contact.interface.nodes.gap.copy(),
         contact.pressure.x.array.copy(),
         contact.force.copy(),
     ]
@@ -42,8 +42,8 @@ def test_no_convergence_leaves_everything_as_it_was():
     after = [
         scene.u.x.array,
         contact.multiplier,
-        contact.interface.status,
-        contact.interface.gap,
+        contact.interface.nodes.status,
+        contact.interface.nodes.gap,
         contact.pressure.x.array,
         contact.force,
     ]
@@ -129,7 +129,7 @@ def test_a_failed_step_brings_back_which_nodes_can_yield():
     scene.update(0.1)
     scene.problem.solve()
     before = scene.state()
-    assert not scene.contact.interface.immobile.any()
+    assert not scene.contact.interface.nodes.immobile.any()
     scene.normal.value[:] = (1, 0)
     scene.update(300.0)
     with pytest.raises(cx.ConvergenceError):

@@ -38,7 +38,7 @@ def test_a_block_through_30_percent_of_its_height(make):
     assert press.reaction() == pytest.approx(force[2], rel=1e-9)
     least, most = press.volume_ratios()
     assert 0.5 < least <= most < 1.1
-    assert np.nanmin(press.contact.interface.gap) > -1e-11
+    assert np.nanmin(press.contact.interface.nodes.gap) > -1e-11
     assert stored == pytest.approx(work, rel=0.01)
 
 
@@ -117,4 +117,4 @@ def test_two_finite_strain_bodies_of_different_cells_need_no_change():
         problem.solve()
         assert problem.report.iterations <= 12
     assert contact.force[1] > 0.1
-    assert np.nanmin(contact.interface.gap) > -1e-11
+    assert np.nanmin(contact.interface.nodes.gap) > -1e-11

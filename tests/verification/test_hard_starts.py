@@ -16,7 +16,7 @@ def test_deep_indentation_in_one_step(depth, sliding):
     problem.solve()
     print(f"{sliding} {depth}: {problem.report.iterations} iterations")
     assert problem.report.iterations <= 12
-    assert np.nanmin(contact.interface.gap) > -1e-12
+    assert np.nanmin(contact.interface.nodes.gap) > -1e-12
     assert problem.report.frozen == 0
     assert contact.force[2] > 0
 
@@ -29,6 +29,6 @@ def test_one_body_is_much_stiffer(ratio, body, sliding):
     problem.solve()
     print(f"{sliding} {body.name} {ratio:g}: {problem.report.iterations} iterations")
     assert problem.report.iterations <= 12
-    assert np.nanmin(contact.interface.gap) > -1e-12
+    assert np.nanmin(contact.interface.nodes.gap) > -1e-12
     # The soft body alone gives: twice Hertz's modulus, so almost twice the force
     assert 4 * contact.force[2] == pytest.approx(0.0048, rel=0.1)

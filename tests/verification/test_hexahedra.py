@@ -61,7 +61,7 @@ def test_cap(sliding):
     for problem, contact, force in (matching, other):
         assert problem.report.iterations <= 10
         assert 4 * contact.force[2] == pytest.approx(force, rel=1e-10)
-        assert np.nanmin(contact.interface.gap) > -1e-12
+        assert np.nanmin(contact.interface.nodes.gap) > -1e-12
     assert other[2] == pytest.approx(matching[2], rel=0.01)
     assert np.all(errors(*matching) <= [0.09, 0.03, 0.07])
     assert np.all(errors(*other) <= [0.05, 0.30, 0.20])

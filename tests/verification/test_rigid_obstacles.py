@@ -41,7 +41,7 @@ def test_plane_equals_a_very_stiff_master(sliding):
     assert contact.multiplier == pytest.approx(stiff.multiplier, abs=1e-4 * stiff.multiplier.max())
     assert contact.force == pytest.approx(stiff.force, rel=1e-4, abs=1e-4 * stiff.force[2])
     assert problem.report.iterations <= 10
-    assert np.nanmin(contact.interface.gap) > -1e-12
+    assert np.nanmin(contact.interface.nodes.gap) > -1e-12
 
 
 def test_hertz_on_a_rigid_plane():
@@ -194,7 +194,7 @@ def test_search_distance_leaves_far_nodes_out():
     problem.solve()
     # The side's nodes above half a length have none
     assert problem.report.pairs < problem.report.slaves
-    gaps = contact.interface.gap
+    gaps = contact.interface.nodes.gap
     assert np.nanmax(gaps) <= 0.5
     assert np.isnan(gaps).sum() == problem.report.slaves - problem.report.pairs
 

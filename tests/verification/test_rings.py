@@ -13,7 +13,7 @@ def errors(h, sliding, young_outer):
     problem.solve()
     assert problem.report.iterations <= 5
     assert np.all(contact.multiplier > 0)
-    assert np.nanmin(contact.interface.gap) > -1e-12
+    assert np.nanmin(contact.interface.nodes.gap) > -1e-12
     results = press_fit.compare(problem, contact, press_fit.lame(young_outer))
     result = np.abs([r.error for r in results])
     print(
@@ -46,5 +46,5 @@ def test_clearance(sliding):
     assert not contact.multiplier.any()
     assert not problem.u.x.array.any()
     # Open by the clearance, less the chords' height
-    gap = contact.interface.gap
+    gap = contact.interface.nodes.gap
     assert np.all((gap > 0.01 - 0.034**2 / (8 * 1.5)) & (gap <= 0.01 + 1e-12))

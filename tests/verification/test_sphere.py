@@ -44,11 +44,11 @@ def test_sphere(sliding, h):
     error = pressure_error(problem, contact, force)
     print(
         f"{sliding} h={h}: 4F {force:.7f}, {report.iterations} iterations, p_l2 {error:.4f}, "
-        f"gap {np.nanmin(contact.interface.gap):.1e}"
+        f"gap {np.nanmin(contact.interface.nodes.gap):.1e}"
     )
     assert force == pytest.approx(FORCES[sliding, h], rel=3e-4)
     assert 4 * contact.force[2] == pytest.approx(force, rel=1e-10)
-    assert np.nanmin(contact.interface.gap) > -1e-12
+    assert np.nanmin(contact.interface.nodes.gap) > -1e-12
     assert report.iterations <= 10
     assert error <= PRESSURE_ERRORS[h]
     assert report.history[-1].pair_changes == 0

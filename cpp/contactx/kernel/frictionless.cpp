@@ -2,63 +2,17 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "frictionless.h"
-#include "variation.h"
+#include "kinematics.h"
 
 using namespace contactx;
 using namespace contactx::kernel;
 
 namespace
 {
-/// Kinematics of finite sliding: everything is current.
-template <class Facet>
-struct Finite
-{
-  using F = Facet;
-  static constexpr std::string_view name = "finite";
-
-  explicit Finite(const double* w) : pair(w), point(project(pair)) {}
-
-  Vec<Pair<F>::num_dofs> gap_derivative() const
-  {
-    return Variation<F>(pair, point).gap;
-  }
-
-  Pair<F> pair;
-  ContactPoint<F> point;
-};
-
-/// Kinematics of small sliding: projection and normal are those of the search,
-/// the gap is linear in the displacement.
-template <class Facet>
-struct Small
-{
-  using F = Facet;
-  static constexpr std::string_view name = "small";
-
-  explicit Small(const double* w) : point(held(Pair<F>(w))) {}
-
-  Vec<Pair<F>::num_dofs> gap_derivative() const
-  {
-    Vec<Pair<F>::num_dofs> dg;
-    for (int a = 0; a <= F::nodes; ++a)
-      for (int k = 0; k < F::gdim; ++k)
-        dg[F::gdim * a + k] = point.normal[k] * point.weight[a];
-    return dg;
-  }
-
-  ContactPoint<F> point;
-
-private:
-  static ContactPoint<F> held(const Pair<F>& pair)
-  {
-    return contact_point(pair, pair.xi, pair.normal);
-  }
-};
-
 template <class F>
 double value(const double* w, Coefficient c)
 {
-  return w[offset(c, F::nodes, F::gdim)];
+  return w[offset(Law::frictionless, c, F::nodes, F::gdim)];
 }
 
 /// Gap of the slave node.
@@ -144,54 +98,32 @@ void stiffness(double* A, const double* w, const double*, const double*,
 }
 
 template <class Kinematics>
-void add_common(std::vector<Entry>& entries)
-{
-  using enum Coefficient;
-  constexpr auto s = Kinematics::name;
-  constexpr int n = Kinematics::F::nodes;
-  constexpr int gdim = Kinematics::F::gdim;
-  entries.push_back(
-      {s, "gap", n, gdim, &gap<Kinematics>, {displacement, position, pair}});
-  entries.push_back({s,
-                     "residual",
-                     n,
-                     gdim,
-                     &residual<Kinematics>,
-                     {displacement, position, pair, multiplier, area}});
-  entries.push_back({s,
-                     "traction",
-                     n,
-                     gdim,
-                     &traction<Kinematics>,
-                     {displacement, position, pair, area}});
-  entries.push_back({s,
-                     "constraint",
-                     n,
-                     gdim,
-                     &constraint<Kinematics>,
-                     {displacement, position, pair, gap_derivative}});
-}
-
-template <class F>
 void add(std::vector<Entry>& entries)
 {
   using enum Coefficient;
-  add_common<Small<F>>(entries);
-  add_common<Finite<F>>(entries);
-  entries.push_back({Finite<F>::name,
-                     "stiffness",
-                     F::nodes,
-                     F::gdim,
-                     &stiffness<F>,
-                     {displacement, position, pair, multiplier, area}});
+  using F = typename Kinematics::F;
+  const auto push = [&entries](std::string_view term, Kernel* function,
+                               std::vector<Coefficient> active)
+  {
+    entries.push_back({Law::frictionless, Kinematics::name, term, F::nodes,
+                       F::gdim, function, std::move(active)});
+  };
+  push("gap", &gap<Kinematics>, {displacement, position, pair});
+  push("residual", &residual<Kinematics>,
+       {displacement, position, pair, multiplier, area});
+  push("traction", &traction<Kinematics>, {displacement, position, pair, area});
+  push("constraint", &constraint<Kinematics>,
+       {displacement, position, pair, gap_derivative});
+  if constexpr (Kinematics::turning)
+    push("stiffness", &stiffness<F>,
+         {displacement, position, pair, multiplier, area});
 }
 } // namespace
 
 std::vector<Entry> contactx::kernel::frictionless()
 {
   std::vector<Entry> entries;
-  add<facet::Segment>(entries);
-  add<facet::Triangle>(entries);
-  add<facet::Quadrilateral>(entries);
+  for_all_kinematics([&entries]<class K>(std::type_identity<K>)
+                     { add<K>(entries); });
   return entries;
 }

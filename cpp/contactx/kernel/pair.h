@@ -26,9 +26,12 @@ struct Pair
   /// @param[in] w Coefficients.
   explicit Pair(const double* w)
   {
-    const double* u = w + offset(Coefficient::displacement, F::nodes, F::gdim);
-    const double* x = w + offset(Coefficient::position, F::nodes, F::gdim);
-    const double* p = w + offset(Coefficient::pair, F::nodes, F::gdim);
+    // The first coefficients are those of every law
+    constexpr Law law = Law::frictionless;
+    const double* u
+        = w + offset(law, Coefficient::displacement, F::nodes, F::gdim);
+    const double* x = w + offset(law, Coefficient::position, F::nodes, F::gdim);
+    const double* p = w + offset(law, Coefficient::pair, F::nodes, F::gdim);
     for (int k = 0; k < F::gdim; ++k)
       slave[k] = x[k] + u[k];
     for (int l = 0; l < F::nodes; ++l)

@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "registry.h"
+#include "frictional.h"
 #include "frictionless.h"
 #include "rigid.h"
+#include "tied.h"
 #include <stdexcept>
 #include <string>
 
@@ -13,21 +15,21 @@ std::span<const Entry> contactx::kernel::registry()
 {
   static const std::vector<Entry> entries = []
   {
-    std::vector<Entry> all = frictionless();
-    for (Entry& e : rigid_frictionless())
-      all.push_back(std::move(e));
+    std::vector<Entry> all;
+    for (auto& part : {frictionless(), frictional(), tied(), rigid()})
+      all.insert(all.end(), part.begin(), part.end());
     return all;
   }();
   return entries;
 }
 
-const Entry& contactx::kernel::find(std::string_view sliding,
+const Entry& contactx::kernel::find(Law law, std::string_view sliding,
                                     std::string_view term, int num_nodes,
                                     int gdim)
 {
   for (const Entry& e : registry())
-    if (e.sliding == sliding and e.term == term and e.num_nodes == num_nodes
-        and e.gdim == gdim)
+    if (e.law == law and e.sliding == sliding and e.term == term
+        and e.num_nodes == num_nodes and e.gdim == gdim)
       return e;
   throw std::invalid_argument("there is no kernel for " + std::string(sliding)
                               + " sliding, term " + std::string(term)

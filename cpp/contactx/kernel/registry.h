@@ -12,6 +12,7 @@ namespace contactx::kernel
 /// @brief A kernel and what its form needs to know.
 struct Entry
 {
+  Law law;
   std::string_view sliding; ///< "finite" or "small"
   std::string_view term;    ///< what is assembled
   int num_nodes;            ///< nodes of the facet, 0 for a rigid obstacle
@@ -24,14 +25,16 @@ struct Entry
 std::span<const Entry> registry();
 
 /// @brief Find a kernel.
+/// @param[in] law Contact law.
 /// @param[in] sliding "finite" or "small".
 /// @param[in] term "gap", "residual", "stiffness" (derivative of the residual
 /// with respect to the displacement), "traction" (with respect to the
 /// multiplier) or "constraint" (derivative of the complementarity with
-/// respect to the displacement).
+/// respect to the displacement); with vector multipliers "normal" and "slip",
+/// too.
 /// @param[in] num_nodes Number of nodes of the facet, 0 for a rigid obstacle.
 /// @param[in] gdim Geometric dimension.
 /// @throws std::invalid_argument where there is no such kernel.
-const Entry& find(std::string_view sliding, std::string_view term,
+const Entry& find(Law law, std::string_view sliding, std::string_view term,
                   int num_nodes, int gdim);
 } // namespace contactx::kernel

@@ -7,99 +7,146 @@ using namespace contactx::kernel;
 
 namespace
 {
-template <int D>
+template <Law L, int D>
+const double* at(const double* w, Coefficient c)
+{
+  return w + offset(L, c, 0, D);
+}
+
+template <Law L, int D>
 const double* pair(const double* w)
 {
-  return w + offset(Coefficient::pair, 0, D);
+  return at<L, D>(w, Coefficient::pair);
 }
 
-template <int D>
-double value(const double* w, Coefficient c)
+template <Law L, int D>
+double area(const double* w)
 {
-  return w[offset(c, 0, D)];
+  return *at<L, D>(w, Coefficient::area);
 }
 
-template <int D>
-double force(const double* w)
-{
-  return value<D>(w, Coefficient::area) * value<D>(w, Coefficient::multiplier);
-}
-
-template <int D>
+template <Law L, int D>
 void gap(double* b, const double* w, const double*, const double*, const int*,
          const std::uint8_t*, void*)
 {
-  b[0] += pair<D>(w)[rigid_gap];
+  b[0] += pair<L, D>(w)[rigid_gap];
 }
 
-template <int D>
+template <Law L, int D>
+void normal(double* b, const double* w, const double*, const double*,
+            const int*, const std::uint8_t*, void*)
+{
+  for (int k = 0; k < D; ++k)
+    b[k] += pair<L, D>(w)[rigid_normal + k];
+}
+
+template <Law L, int D>
+void slip(double* b, const double* w, const double*, const double*, const int*,
+          const std::uint8_t*, void*)
+{
+  for (int k = 0; k < D; ++k)
+    b[k] += at<L, D>(w, Coefficient::slip)[rigid_slip + k];
+}
+
+template <Law L, int D>
 void residual(double* b, const double* w, const double*, const double*,
               const int*, const std::uint8_t*, void*)
 {
+  const double* multiplier = at<L, D>(w, Coefficient::multiplier);
   for (int k = 0; k < D; ++k)
-    b[k] -= force<D>(w) * pair<D>(w)[rigid_normal + k];
+  {
+    const double lambda = L == Law::frictionless
+                              ? *multiplier * pair<L, D>(w)[rigid_normal + k]
+                              : multiplier[k];
+    b[k] -= area<L, D>(w) * lambda;
+  }
 }
 
-template <int D>
+template <Law L, int D>
 void traction(double* A, const double* w, const double*, const double*,
               const int*, const std::uint8_t*, void*)
 {
   for (int k = 0; k < D; ++k)
-    A[k] -= value<D>(w, Coefficient::area) * pair<D>(w)[rigid_normal + k];
+    if constexpr (L == Law::frictionless)
+      A[k] -= area<L, D>(w) * pair<L, D>(w)[rigid_normal + k];
+    else
+      A[D * k + k] -= area<L, D>(w);
 }
 
-template <int D>
+template <Law L, int D>
 void constraint(double* A, const double* w, const double*, const double*,
                 const int*, const std::uint8_t*, void*)
 {
-  for (int k = 0; k < D; ++k)
-    A[k] += value<D>(w, Coefficient::gap_derivative)
-            * pair<D>(w)[rigid_gradient + k];
+  const double* by_gap = at<L, D>(w, Coefficient::gap_derivative);
+  const double* dg = pair<L, D>(w) + rigid_gradient;
+  constexpr int rows = L == Law::frictionless ? 1 : D;
+  for (int i = 0; i < rows; ++i)
+    for (int k = 0; k < D; ++k)
+      A[D * i + k] += by_gap[i] * dg[k];
+  if constexpr (L != Law::frictionless)
+  {
+    const double* by_slip = at<L, D>(w, Coefficient::slip_derivative);
+    const double* by_normal = at<L, D>(w, Coefficient::normal_derivative);
+    const double* ds = at<L, D>(w, Coefficient::slip) + rigid_slip_derivative;
+    const double* dn = pair<L, D>(w) + rigid_curvature;
+    for (int i = 0; i < D; ++i)
+      for (int k = 0; k < D; ++k)
+        for (int j = 0; j < D; ++j)
+          A[D * i + k] += by_slip[D * i + j] * ds[D * j + k]
+                          + by_normal[D * i + j] * dn[D * j + k];
+  }
 }
 
+/// Derivative of the residual with respect to the displacement: the normal
+/// that a scalar multiplier acts along turns.
 template <int D>
 void stiffness(double* A, const double* w, const double*, const double*,
                const int*, const std::uint8_t*, void*)
 {
+  constexpr Law L = Law::frictionless;
+  const double force = area<L, D>(w) * *at<L, D>(w, Coefficient::multiplier);
   for (int k = 0; k < D * D; ++k)
-    A[k] -= force<D>(w) * pair<D>(w)[rigid_curvature + k];
+    A[k] -= force * pair<L, D>(w)[rigid_curvature + k];
 }
 
-template <int D>
+template <Law L, int D>
 void add(std::vector<Entry>& entries)
 {
-  using enum Coefficient;
+  using C = Coefficient;
   for (std::string_view s : {"finite", "small"})
   {
-    entries.push_back({s, "gap", 0, D, &gap<D>, {Coefficient::pair}});
-    entries.push_back({s,
-                       "residual",
-                       0,
-                       D,
-                       &residual<D>,
-                       {Coefficient::pair, multiplier, area}});
-    entries.push_back(
-        {s, "traction", 0, D, &traction<D>, {Coefficient::pair, area}});
-    entries.push_back({s,
-                       "constraint",
-                       0,
-                       D,
-                       &constraint<D>,
-                       {Coefficient::pair, gap_derivative}});
+    const auto push = [&entries, s](std::string_view term, Kernel* function,
+                                    std::vector<Coefficient> active)
+    { entries.push_back({L, s, term, 0, D, function, std::move(active)}); };
+    push("gap", &gap<L, D>, {C::pair});
+    push("residual", &residual<L, D>, {C::pair, C::multiplier, C::area});
+    push("traction", &traction<L, D>, {C::pair, C::area});
+    if constexpr (L == Law::frictionless)
+    {
+      push("constraint", &constraint<L, D>, {C::pair, C::gap_derivative});
+      if (s == "finite")
+        push("stiffness", &stiffness<D>, {C::pair, C::multiplier, C::area});
+    }
+    else
+    {
+      push("constraint", &constraint<L, D>,
+           {C::pair, C::slip, C::gap_derivative, C::slip_derivative,
+            C::normal_derivative});
+      push("normal", &normal<L, D>, {C::pair});
+      push("slip", &slip<L, D>, {C::slip});
+    }
   }
-  entries.push_back({"finite",
-                     "stiffness",
-                     0,
-                     D,
-                     &stiffness<D>,
-                     {Coefficient::pair, multiplier, area}});
 }
 } // namespace
 
-std::vector<Entry> contactx::kernel::rigid_frictionless()
+std::vector<Entry> contactx::kernel::rigid()
 {
   std::vector<Entry> entries;
-  add<2>(entries);
-  add<3>(entries);
+  add<Law::frictionless, 2>(entries);
+  add<Law::frictionless, 3>(entries);
+  add<Law::frictional, 2>(entries);
+  add<Law::frictional, 3>(entries);
+  add<Law::tied, 2>(entries);
+  add<Law::tied, 3>(entries);
   return entries;
 }

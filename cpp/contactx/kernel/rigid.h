@@ -7,11 +7,11 @@
 
 namespace contactx::kernel
 {
-/// @brief Kernels of frictionless contact with a rigid obstacle: the virtual
-/// work - A p n . v_s of the slave node alone, no master side (Zhou et al.
+/// @brief Kernels of contact with a rigid obstacle, for every law: the virtual
+/// work - A lambda . v_s of the slave node alone, no master side (Zhou et al.
 /// 2015, eq. 16).
 ///
-/// Gap, normal and their derivatives are coefficients, so that any obstacle is
-/// served by the same kernels.
-std::vector<Entry> rigid_frictionless();
+/// Gap, normal, slip and their derivatives are coefficients, so that any
+/// obstacle is served by the same kernels.
+std::vector<Entry> rigid();
 } // namespace contactx::kernel

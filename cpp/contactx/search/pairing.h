@@ -30,6 +30,9 @@ public:
   /// @brief Slave nodes in ascending order (shape=(num_slaves)).
   const std::vector<std::int32_t>& slaves() const { return _slaves; }
 
+  /// @brief Master surface.
+  const Surface& master() const { return _master; }
+
   /// @brief Forget what was learnt in the last step: nothing is frozen.
   void begin_step();
 

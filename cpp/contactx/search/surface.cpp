@@ -200,3 +200,20 @@ std::optional<Projection> contactx::search::extended(const Surface& surface,
                         return make<F>(f, xf, q - foot, facet::interior, xi);
                       });
 }
+
+SurfacePoint contactx::search::point_at(const Surface& surface, std::int32_t f,
+                                        std::span<const double> x,
+                                        const Vec<2>& xi)
+{
+  const auto nodes = surface.facets()[f];
+  return facet::visit(nodes.size(),
+                      [nodes, x, &xi]<class F>(F)
+                      {
+                        const auto xf = facet::gather<F>(nodes, x);
+                        facet::Local<F> local;
+                        std::copy_n(xi.begin(), F::tdim, local.begin());
+                        const auto at = facet::combine<F>(F::shape(local), xf);
+                        const auto n = facet::frame<F>(xf, local).n;
+                        return SurfacePoint{pad(at), pad(n)};
+                      });
+}

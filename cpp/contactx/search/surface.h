@@ -84,4 +84,19 @@ std::optional<Projection> closest(const Surface& surface, std::int32_t f,
 /// @return Nothing where there is no projection.
 std::optional<Projection> extended(const Surface& surface, std::int32_t f,
                                    std::span<const double> x, const Vec<3>& p);
+
+/// @brief Point of a facet's surface and the unit normal there.
+struct SurfacePoint
+{
+  Vec<3> x;
+  Vec<3> normal;
+};
+
+/// @brief Point of a facet at local coordinates, inside of it or not.
+/// @param[in] surface Surface.
+/// @param[in] f Facet.
+/// @param[in] x Node coordinates (shape=(num_nodes, gdim)), row-major.
+/// @param[in] xi Local coordinates.
+SurfacePoint point_at(const Surface& surface, std::int32_t f,
+                      std::span<const double> x, const Vec<2>& xi);
 } // namespace contactx::search

@@ -12,10 +12,11 @@ import numpy.typing as npt
 
 from contactx import cpp as core
 from contactx.forms import Pairs
-from contactx.master.master import Master
+from contactx.master.master import Master, touching
 from contactx.surface import FacetList
 
 _SAVED = ("facet", "feature", "xi", "cone", "normal")
+_AT = core.slip_layout
 
 
 class FacetMaster(Master):
@@ -27,6 +28,9 @@ class FacetMaster(Master):
         master: FacetList,
         x: npt.NDArray[np.float64],
         search_distance: float | None,
+        *,
+        sliding: str,
+        measures_slip: bool,
     ):
         """Create the pairs, none yet.
 
@@ -35,8 +39,17 @@ class FacetMaster(Master):
             master: Master facets.
             x: Reference positions.
             search_distance: Largest distance of a pair; chosen if None.
+            sliding: "finite" or "small".
+            measures_slip: Whether slip is measured.
         """
         self._facets = master
+        self._sizes = np.diff(master.offsets)
+        self._small = sliding == "small"
+        self._measures_slip = measures_slip
+        # Positions of all nodes at the step's start and the last search, and where each slave
+        # node's slip starts, as a place in the configuration of the step's start
+        self._x0 = self._at = x
+        self._start = np.zeros((0, x.shape[1]))
         self.reach = search_distance or _default_reach(x, slave, master)
         self._pairing = core.Pairing(
             slave.offsets, slave.nodes, master.offsets, master.nodes, x.shape[1]
@@ -48,6 +61,7 @@ class FacetMaster(Master):
     def search(self, x: npt.NDArray[np.float64], closed: npt.NDArray[np.int8]) -> tuple[int, bool]:
         """See ``Master``."""
         changed = self._pairing.update(x, self.reach, closed)
+        self._at = x
         facet, feature = self._pairing.facet, self._pairing.feature
         same = np.array_equal(facet, self._facet) and np.array_equal(feature, self._feature)
         self._facet, self._feature = facet, feature
@@ -63,17 +77,72 @@ class FacetMaster(Master):
         """See ``Master``; grouped by the number of nodes of the facets."""
         found = self._pairing
         data = np.column_stack([found.feature, found.xi, found.cone, found.normal])
-        sizes = np.diff(self._facets.offsets)[self._facet]
+        slip = self._slip() if self._measures_slip else None
+        sizes = self._sizes[self._facet]
         groups = []
         for size in np.unique(sizes[self.paired]):
             slaves = np.flatnonzero(self.paired & (sizes == size)).astype(np.int32)
             first = self._facets.offsets[self._facet[slaves]]
             facets = self._facets.nodes[first[:, None] + np.arange(size)]
             nodes = np.column_stack([self._slaves[slaves], facets])
-            groups.append(Pairs(slaves, nodes, data[slaves]))
+            groups.append(
+                Pairs(slaves, nodes, data[slaves], None if slip is None else slip[slaves])
+            )
         return groups
 
-    def refresh(self, x: npt.NDArray[np.float64], held: bool) -> list[Pairs] | None:
+    def _slip(self) -> npt.NDArray[np.float64]:
+        """What the kernels read of slip, shape (n, 6)."""
+        gdim = self._at.shape[1]
+        data = np.zeros((len(self._slaves), _AT["size"]))
+        origin = data[:, _AT["origin"] : _AT["origin"] + gdim]
+        if self._small:
+            xi = self._pairing.xi
+            origin[:] = self._start - self._pairing.places(self._x0, xi)[0]
+        else:
+            xi, gap = self._pairing.feet(self._x0, self._start)
+            # It has no part across the normal of a flat facet
+            gap[(self._feature == 0) & (self._sizes[self._facet] < 4)] = 0
+            data[:, _AT["gap"]] = gap
+            origin[:] = gap[:, None] * self._pairing.places(self._at, xi)[1]
+        data[:, _AT["xi"] : _AT["xi"] + 2] = xi
+        return data
+
+    def accept(self, x: npt.NDArray[np.float64]) -> None:
+        """See ``Master``."""
+        self._x0 = x
+
+    def begin_step(self) -> None:
+        """See ``Master``."""
+        self.forget_flips()
+        self._start = self._x0[self._slaves]
+
+    def touch(
+        self,
+        which: npt.NDArray[np.bool_],
+        x: npt.NDArray[np.float64],
+        offset: npt.NDArray[np.float64],
+    ) -> None:
+        """See ``Master``; seen from the slave node's facet."""
+        pairing, points = self._pairing, x[self._slaves]
+        if self._small:
+            xi = pairing.xi
+            foot0, normal = pairing.places(self._x0, xi)
+            before = self._start - foot0
+            way = points - pairing.places(x, xi)[0] - before
+            gap0, gap1 = (np.einsum("ij,ij->i", normal, w) for w in (before, before + way))
+            part = touching(gap0 - offset, gap1 - offset)[:, None]
+            start = foot0 + before + part * way
+        else:
+            xi0, gap0 = pairing.feet(self._x0, self._start)
+            xi1, gap1 = pairing.feet(x, points)
+            part = touching(gap0 - offset, gap1 - offset)[:, None]
+            foot, normal = pairing.places(self._x0, xi0 + part * (xi1 - xi0))
+            start = foot + (gap0 + part[:, 0] * (gap1 - gap0))[:, None] * normal
+        self._start = np.where(which[:, None], start, self._start)
+
+    def refresh(
+        self, x: npt.NDArray[np.float64], held: bool, offset: npt.NDArray[np.float64]
+    ) -> list[Pairs] | None:
         """See ``Master``; the kernels project by themselves."""
         return None
 
@@ -84,20 +153,23 @@ class FacetMaster(Master):
             result[pairs.slaves] = nodal[pairs.nodes[:, 1:]].mean(axis=1)
         return result
 
-    def mobility(self, free: npt.NDArray[np.bool_]) -> npt.NDArray[np.float64]:
+    def mobility(
+        self, free: npt.NDArray[np.bool_]
+    ) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
         """See ``Master``."""
-        result = np.ones(len(self._slaves))
+        gdim = free.shape[1]
+        along, each = np.ones(len(self._slaves)), np.ones((len(self._slaves), gdim))
         if free[self._slaves].all() and free[self._facets.nodes].all():
-            return result
+            return along, each
         at = core.pair_layout
         for pairs in self.pairs():
-            xi = np.ascontiguousarray(pairs.data[:, at["xi"] : at["xi"] + 2])
-            N = core.shape_functions(pairs.nodes.shape[1] - 1, xi)
-            weight = np.column_stack([np.ones(len(N)), N])
-            normal = pairs.data[:, at["normal"] : at["normal"] + free.shape[1]]
-            terms = weight[:, :, None] * normal[:, None, :] * free[pairs.nodes]
-            result[pairs.slaves] = np.sqrt((terms**2).sum(axis=(1, 2)))
-        return result
+            squares = _free_squares(pairs, pairs.data[:, at["xi"] : at["xi"] + 2], free)
+            normal = pairs.data[:, at["normal"] : at["normal"] + gdim]
+            along[pairs.slaves] = np.sqrt((normal**2 * squares).sum(axis=1))
+            if pairs.slip is not None:
+                xi = pairs.slip[:, _AT["xi"] : _AT["xi"] + 2]
+                each[pairs.slaves] = np.sqrt(_free_squares(pairs, xi, free))
+        return along, each
 
     def identity(self) -> dict[str, npt.NDArray[Any]]:
         """See ``Master``."""
@@ -105,13 +177,18 @@ class FacetMaster(Master):
 
     def save(self) -> dict[str, npt.NDArray[Any]]:
         """See ``Master``; flips are forgotten, as at the start of every step."""
-        return {name: getattr(self._pairing, name) for name in _SAVED}
+        saved = {name: getattr(self._pairing, name) for name in _SAVED}
+        if self._measures_slip:
+            saved |= {"start": self._start, "before": self._x0, "at": self._at}
+        return saved
 
     def load(self, saved: Mapping[str, npt.NDArray[Any]]) -> None:
         """See ``Master``."""
         self._pairing.restore(**{name: saved[name] for name in _SAVED})
         self._facet = self._pairing.facet
         self._feature = self._pairing.feature
+        if self._measures_slip:
+            self._start, self._x0, self._at = saved["start"], saved["before"], saved["at"]
 
     def distance(self, x: npt.NDArray[np.float64]) -> float:
         """See ``Master``."""
@@ -134,6 +211,16 @@ class FacetMaster(Master):
         deepest = float(np.nanmin(gaps, initial=0.0))
         # Less is rounding
         return deepest if deepest < -1e-10 * self.reach else 0.0
+
+
+def _free_squares(
+    pairs: Pairs, xi: npt.NDArray[np.float64], free: npt.NDArray[np.bool_]
+) -> npt.NDArray[np.float64]:
+    """Sums of the squared weights of what may move, shape (num_pairs, gdim)."""
+    N = core.shape_functions(pairs.nodes.shape[1] - 1, np.ascontiguousarray(xi))
+    weight = np.column_stack([np.ones(len(N)), N])
+    squares: npt.NDArray[np.float64] = ((weight[:, :, None] * free[pairs.nodes]) ** 2).sum(axis=1)
+    return squares
 
 
 def _default_reach(x: npt.NDArray[np.float64], slave: FacetList, master: FacetList) -> float:

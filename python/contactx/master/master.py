@@ -19,6 +19,9 @@ class Master(ABC):
 
     Positions are those of all nodes of the bulk, shape (num_nodes, gdim).
 
+    Slip is measured from where a slave node was at the step's start; one that touches first
+    within the step, from where it touched.
+
     Attributes:
         reach: Largest distance of a pair.
         is_rigid: Whether the master has no degrees of freedom.
@@ -26,6 +29,36 @@ class Master(ABC):
 
     reach: float
     is_rigid = False
+
+    @abstractmethod
+    def accept(self, x: npt.NDArray[np.float64]) -> None:
+        """Take a converged configuration, the start of the next step.
+
+        Args:
+            x: Positions.
+        """
+
+    @abstractmethod
+    def begin_step(self) -> None:
+        """Start a step: slip is measured from its start, and frozen pairs may move again."""
+
+    @abstractmethod
+    def touch(
+        self,
+        which: npt.NDArray[np.bool_],
+        x: npt.NDArray[np.float64],
+        offset: npt.NDArray[np.float64],
+    ) -> None:
+        """Measure the slip of nodes that touch first within the step from where they do.
+
+        That is where the straight way from the step's start to the iterate that first closes
+        them, seen from the master, meets the master.
+
+        Args:
+            which: Which slave nodes, shape (n,).
+            x: Positions at that iterate.
+            offset: What is taken off the gap, shape (n,).
+        """
 
     @abstractmethod
     def search(self, x: npt.NDArray[np.float64], closed: npt.NDArray[np.int8]) -> tuple[int, bool]:
@@ -50,12 +83,15 @@ class Master(ABC):
         """Pairs by the kind of their facets, with the data of the last search."""
 
     @abstractmethod
-    def refresh(self, x: npt.NDArray[np.float64], held: bool) -> list[Pairs] | None:
+    def refresh(
+        self, x: npt.NDArray[np.float64], held: bool, offset: npt.NDArray[np.float64]
+    ) -> list[Pairs] | None:
         """Data of the pairs at an iterate between two searches.
 
         Args:
             x: Positions.
             held: Whether normals and projections are held.
+            offset: What is taken off the gap, shape (n,).
 
         Returns:
             The pairs, None where their data have not changed.
@@ -78,7 +114,10 @@ class Master(ABC):
 
     @abstractmethod
     def save(self) -> dict[str, npt.NDArray[Any]]:
-        """Copy of what the next search remembers, in arrays whose shapes never change."""
+        """What the next search remembers, in arrays of shapes that never change.
+
+        Nothing writes to them: what changes is put into new ones.
+        """
 
     @abstractmethod
     def load(self, saved: Mapping[str, npt.NDArray[Any]]) -> None:
@@ -93,15 +132,18 @@ class Master(ABC):
         """Distance from the nearest slave node to the master."""
 
     @abstractmethod
-    def mobility(self, free: npt.NDArray[np.bool_]) -> npt.NDArray[np.float64]:
-        """How much of each gap's gradient is left by Dirichlet conditions.
+    def mobility(
+        self, free: npt.NDArray[np.bool_]
+    ) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
+        """How much of the relative movement is left by Dirichlet conditions.
 
         Args:
             free: Which displacements are not prescribed, shape (num_nodes, gdim).
 
         Returns:
-            Norm of the gradient over the free displacements, shape (n,): zero where slave node
-            and master have nothing to yield along the normal.
+            Norms of the gradients over the free displacements: of the gap, shape (n,), and of each
+            component of the movement, shape (n, gdim). They are zero where slave node and master
+            have nothing to yield.
         """
 
     @property
@@ -115,3 +157,17 @@ class Master(ABC):
     def deepest_frozen(self, x: npt.NDArray[np.float64]) -> float:
         """Smallest gap that the frozen pairs hide."""
         return 0.0
+
+
+def touching(
+    before: npt.NDArray[np.float64], after: npt.NDArray[np.float64]
+) -> npt.NDArray[np.float64]:
+    """Part of a straight way from gap to gap that is gone when it is zero; 0 if it never was open.
+
+    Args:
+        before: Gaps at the start, shape (n,).
+        after: Gaps at the end, shape (n,).
+    """
+    part = np.zeros_like(before)
+    np.divide(before, before - after, out=part, where=(before > 0) & (after < before))
+    return np.clip(part, 0, 1)

@@ -12,10 +12,16 @@ import numpy.typing as npt
 
 from contactx import cpp as core
 from contactx.forms import Pairs
-from contactx.master.master import Master
+from contactx.master.master import Master, touching
 from contactx.obstacles import Geometry, Obstacle
+from contactx.obstacles.obstacle import Placement
 
 _AT = core.rigid_layout
+_SLIP = core.rigid_slip_layout
+
+# What is saved of pairs, and of slip
+_PAIRS = ("paired", "data", "at")
+_SLIPS = ("slip_data", "start", "x0", "gap0")
 
 
 class ObstacleMaster(Master):
@@ -24,27 +30,40 @@ class ObstacleMaster(Master):
     is_rigid = True
 
     def __init__(
-        self, slaves: npt.NDArray[np.int32], obstacle: Obstacle, search_distance: float | None
+        self,
+        slaves: npt.NDArray[np.int32],
+        obstacle: Obstacle,
+        x: npt.NDArray[np.float64],
+        search_distance: float | None,
+        *,
+        measures_slip: bool,
     ):
         """Create the pairs, none yet.
 
         Args:
             slaves: Slave nodes, shape (n,).
             obstacle: The obstacle.
+            x: Reference positions.
             search_distance: Largest distance of a pair; unlimited if None.
+            measures_slip: Whether slip is measured.
         """
+        self._measures_slip = measures_slip
         self._slaves = slaves
         self._obstacle = obstacle
         self.reach = np.inf if search_distance is None else search_distance
         self._paired = np.zeros(len(slaves), dtype=bool)
         self._data = np.zeros((len(slaves), _AT["size"]))
-        self._at = np.zeros((len(slaves), 0))
+        self._slip_data = np.zeros((len(slaves), _SLIP["size"]))
+        self._at = x[slaves]
+        self.accept(x)
+        self.begin_step()
 
     def search(self, x: npt.NDArray[np.float64], closed: npt.NDArray[np.int8]) -> tuple[int, bool]:
         """See ``Master``; there are no facets to change between."""
         self._at = x[self._slaves]
         geometry = self._obstacle.evaluate(self._at)
         self._data = _kernel_data(geometry)
+        self._update_slip(self._at, self._data)
         paired = np.abs(geometry.gap) <= self.reach
         changed = not np.array_equal(paired, self._paired)
         self._paired = paired
@@ -59,31 +78,92 @@ class ObstacleMaster(Master):
         """See ``Master``."""
         return self._group(self._data)
 
-    def refresh(self, x: npt.NDArray[np.float64], held: bool) -> list[Pairs] | None:
-        """See ``Master``; held, the gap is linear in the displacement since the search."""
+    def refresh(
+        self, x: npt.NDArray[np.float64], held: bool, offset: npt.NDArray[np.float64]
+    ) -> list[Pairs] | None:
+        """See ``Master``; held, gap and slip are linear in the displacement since the search."""
         now = x[self._slaves]
         if not held:
-            return self._group(_kernel_data(self._obstacle.evaluate(now)))
-        data = self._data.copy()
-        gradient = _columns(data, "gradient", now.shape[1])
-        data[:, _AT["gap"]] += np.einsum("ij,ij->i", gradient, now - self._at)
+            data = _kernel_data(self._obstacle.evaluate(now))
+        else:
+            data = self._data.copy()
+            gdim = now.shape[1]
+            gradient = _columns(data, "gradient", gdim)
+            data[:, _AT["gap"]] += np.einsum("ij,ij->i", gradient, now - self._at)
+            _columns(data, "curvature", gdim * gdim)[:] = 0
+        self._update_slip(now, data)
         return self._group(data)
+
+    def _update_slip(self, x: npt.NDArray[np.float64], data: npt.NDArray[np.float64]) -> None:
+        """Compute slip and its derivative with the normals of the kernels' data."""
+        if not self._measures_slip:
+            return
+        n, gdim = x.shape
+        normal = _columns(data, "normal", gdim)
+        turn = _columns(data, "curvature", gdim * gdim).reshape(n, gdim, gdim)
+        across = np.eye(gdim) - normal[:, :, None] * normal[:, None, :]
+        way = x - self._carried()
+        height = np.einsum("ij,ij->i", normal, way)
+        derivative = across - height[:, None, None] * turn
+        derivative -= normal[:, :, None] * np.einsum("ij,ijk->ik", way, turn)[:, None, :]
+        self._set_slip(np.einsum("ijk,ik->ij", across, way), derivative)
+
+    def _set_slip(self, slip: npt.NDArray[np.float64], derivative: npt.NDArray[np.float64]) -> None:
+        n, gdim = slip.shape
+        self._slip_data = np.zeros((n, _SLIP["size"]))
+        self._slip_data[:, _SLIP["slip"] : _SLIP["slip"] + gdim] = slip
+        first = _SLIP["derivative"]
+        self._slip_data[:, first : first + gdim * gdim] = derivative.reshape(n, -1)
+
+    def _carried(self) -> npt.NDArray[np.float64]:
+        """Where the obstacle has carried the points that slip is measured from."""
+        return self._placed.carry(self._start, self._obstacle.placement(self._start.shape[1]))
+
+    def accept(self, x: npt.NDArray[np.float64]) -> None:
+        """See ``Master``."""
+        if not self._measures_slip:
+            return
+        self._x0 = x[self._slaves]
+        self._placed = self._obstacle.placement(x.shape[1])
+        self._gap0 = self._obstacle.evaluate(self._x0).gap
+
+    def begin_step(self) -> None:
+        """See ``Master``."""
+        if self._measures_slip:
+            self._start = self._x0
+
+    def touch(
+        self,
+        which: npt.NDArray[np.bool_],
+        x: npt.NDArray[np.float64],
+        offset: npt.NDArray[np.float64],
+    ) -> None:
+        """See ``Master``; the way is seen from the obstacle as it was at the step's start."""
+        now = x[self._slaves]
+        gap = self._obstacle.evaluate(now).gap
+        part = touching(self._gap0 - offset, gap - offset)[:, None]
+        seen = self._obstacle.placement(now.shape[1]).carry(now, self._placed)
+        start = self._x0 + part * (seen - self._x0)
+        self._start = np.where(which[:, None], start, self._start)
 
     def _group(self, data: npt.NDArray[np.float64]) -> list[Pairs]:
         slaves = np.flatnonzero(self._paired).astype(np.int32)
         if len(slaves) == 0:
             return []
-        return [Pairs(slaves, self._slaves[slaves][:, None], data[slaves])]
+        slip = self._slip_data[slaves] if self._measures_slip else None
+        return [Pairs(slaves, self._slaves[slaves][:, None], data[slaves], slip)]
 
     def compliance(self, nodal: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
         """See ``Master``; none."""
         return np.zeros(len(self._slaves))
 
-    def mobility(self, free: npt.NDArray[np.bool_]) -> npt.NDArray[np.float64]:
+    def mobility(
+        self, free: npt.NDArray[np.bool_]
+    ) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
         """See ``Master``."""
         normal = _columns(self._data, "normal", free.shape[1])
-        norm: npt.NDArray[np.float64] = np.linalg.norm(normal * free[self._slaves], axis=1)
-        return norm
+        moves = free[self._slaves].astype(np.float64)
+        return np.linalg.norm(normal * moves, axis=1), moves
 
     def inside(self, x: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
         """Gap of the slave nodes at positions of all nodes, shape (n,)."""
@@ -95,13 +175,23 @@ class ObstacleMaster(Master):
 
     def save(self) -> dict[str, npt.NDArray[Any]]:
         """See ``Master``."""
-        return {"paired": self._paired.copy(), "data": self._data.copy(), "at": self._at.copy()}
+        saved = {name: getattr(self, f"_{name}") for name in self._saved}
+        if self._measures_slip:
+            saved["point"] = self._placed.point
+            if self._placed.direction is not None:
+                saved["direction"] = self._placed.direction
+        return saved
 
     def load(self, saved: Mapping[str, npt.NDArray[Any]]) -> None:
         """See ``Master``."""
-        self._paired = saved["paired"].copy()
-        self._data = saved["data"].copy()
-        self._at = saved["at"].copy()
+        for name in self._saved:
+            setattr(self, f"_{name}", saved[name])
+        if self._measures_slip:
+            self._placed = Placement(saved["point"], saved.get("direction"))
+
+    @property
+    def _saved(self) -> tuple[str, ...]:
+        return _PAIRS + _SLIPS if self._measures_slip else _PAIRS
 
     def distance(self, x: npt.NDArray[np.float64]) -> float:
         """See ``Master``."""

@@ -6,8 +6,8 @@ from __future__ import annotations
 
 from contactx.obstacles.cylinder import Cylinder
 from contactx.obstacles.level_set import LevelSet
-from contactx.obstacles.obstacle import Geometry, Obstacle
+from contactx.obstacles.obstacle import Geometry, Obstacle, Placement
 from contactx.obstacles.plane import Plane
 from contactx.obstacles.sphere import Sphere
 
-__all__ = ["Cylinder", "Geometry", "LevelSet", "Obstacle", "Plane", "Sphere"]
+__all__ = ["Cylinder", "Geometry", "LevelSet", "Obstacle", "Placement", "Plane", "Sphere"]

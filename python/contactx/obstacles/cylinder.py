@@ -7,7 +7,15 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from contactx.obstacles.obstacle import Geometry, Obstacle, Parameter, direction, positive, vector
+from contactx.obstacles.obstacle import (
+    Geometry,
+    Obstacle,
+    Parameter,
+    Placement,
+    direction,
+    positive,
+    vector,
+)
 from contactx.obstacles.sphere import radial
 from dolfinx import fem
 
@@ -50,4 +58,11 @@ class Cylinder(Obstacle):
         geometry = radial(d, positive(self.radius, "radius of a Cylinder"), self.hollow)
         return Geometry(
             geometry.gap, geometry.gradient, geometry.normal, geometry.curvature @ across
+        )
+
+    def placement(self, gdim: int) -> Placement:
+        """See ``Obstacle``."""
+        return Placement(
+            vector(self.point, gdim, "point of a Cylinder"),
+            direction(self.axis, gdim, "axis of a Cylinder"),
         )

@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 import ufl
-from contactx.obstacles.obstacle import Geometry, Obstacle
+from contactx.obstacles.obstacle import Geometry, Obstacle, Placement
 from dolfinx import fem, mesh
 
 
@@ -77,6 +77,10 @@ class LevelSet(Obstacle):
         gap = f / size
         gradient = normal - gap[:, None] * along / size[:, None]
         return Geometry(gap, gradient, normal, curvature)
+
+    def placement(self, gdim: int) -> Placement:
+        """See ``Obstacle``; a function tells of no movement, so its material counts as at rest."""
+        return Placement(np.zeros(gdim))
 
     def _values(
         self, x: npt.NDArray[np.float64]

@@ -32,6 +32,50 @@ class Geometry:
     curvature: npt.NDArray[np.float64]
 
 
+@dataclass(frozen=True)
+class Placement:
+    """Where a rigid obstacle is.
+
+    Attributes:
+        point: A point that moves with it, shape (gdim,).
+        direction: A unit vector that turns with it, shape (gdim,); None where none is known.
+    """
+
+    point: npt.NDArray[np.float64]
+    direction: npt.NDArray[np.float64] | None = None
+
+    def carry(self, x: npt.NDArray[np.float64], to: Placement) -> npt.NDArray[np.float64]:
+        """Carry points of the obstacle's material from this placement to another one.
+
+        It turns on the shortest way from one direction to the other, and does not spin about it.
+
+        Args:
+            x: Points, shape (n, gdim).
+            to: The other placement.
+
+        Returns:
+            Points, shape (n, gdim).
+        """
+        arm = x - self.point
+        if self.direction is not None and to.direction is not None:
+            arm = arm @ _rotation(self.direction, to.direction).T
+        carried: npt.NDArray[np.float64] = to.point + arm
+        return carried
+
+
+def _rotation(a: npt.NDArray[np.float64], b: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+    """Shortest rotation from unit vector a to b: I + K + K^2 / (1 + a.b), K = b a^T - a b^T."""
+    K = np.outer(b, a) - np.outer(a, b)
+    cosine = float(a @ b)
+    if cosine <= -1 + 1e-12:
+        raise ValueError(
+            "an obstacle turns by 180 degrees within a step, which has no shortest way: take "
+            "smaller steps"
+        )
+    rotation: npt.NDArray[np.float64] = np.eye(len(a)) + K + K @ K / (1 + cosine)
+    return rotation
+
+
 class Obstacle(ABC):
     """Rigid body, a master without degrees of freedom.
 
@@ -50,6 +94,14 @@ class Obstacle(ABC):
             Gap, normal and their derivatives.
         """
 
+    @abstractmethod
+    def placement(self, gdim: int) -> Placement:
+        """Where the obstacle is: its movement enters the slip of what touches it.
+
+        Args:
+            gdim: Geometric dimension.
+        """
+
 
 def vector(value: Parameter, gdim: int, name: str) -> npt.NDArray[np.float64]:
     """Current value of a vector parameter.
@@ -65,7 +117,7 @@ def vector(value: Parameter, gdim: int, name: str) -> npt.NDArray[np.float64]:
     Raises:
         ValueError: If it is not finite or of another size.
     """
-    array = np.asarray(value.value if isinstance(value, fem.Constant) else value, dtype=np.float64)
+    array = np.array(value.value if isinstance(value, fem.Constant) else value, dtype=np.float64)
     if array.shape != (gdim,) or not np.all(np.isfinite(array)):
         raise ValueError(f"{name} is {array}: give {gdim} finite numbers, as the mesh has")
     return array

@@ -7,7 +7,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from contactx.obstacles.obstacle import Geometry, Obstacle, Parameter, direction, vector
+from contactx.obstacles.obstacle import Geometry, Obstacle, Parameter, Placement, direction, vector
 
 
 class Plane(Obstacle):
@@ -30,3 +30,10 @@ class Plane(Obstacle):
         gap = (x - vector(self.point, gdim, "point of a Plane")) @ normal
         normals = np.tile(normal, (n, 1))
         return Geometry(gap, normals, normals, np.zeros((n, gdim, gdim)))
+
+    def placement(self, gdim: int) -> Placement:
+        """See ``Obstacle``."""
+        return Placement(
+            vector(self.point, gdim, "point of a Plane"),
+            direction(self.normal, gdim, "normal of a Plane"),
+        )

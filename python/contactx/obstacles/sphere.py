@@ -7,7 +7,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from contactx.obstacles.obstacle import Geometry, Obstacle, Parameter, positive, vector
+from contactx.obstacles.obstacle import Geometry, Obstacle, Parameter, Placement, positive, vector
 from dolfinx import fem
 
 
@@ -30,6 +30,10 @@ class Sphere(Obstacle):
         """See ``Obstacle``; g = |x - centre| - radius, or its opposite for a hollow sphere."""
         d = x - vector(self.centre, x.shape[1], "centre of a Sphere")
         return radial(d, positive(self.radius, "radius of a Sphere"), self.hollow)
+
+    def placement(self, gdim: int) -> Placement:
+        """See ``Obstacle``."""
+        return Placement(vector(self.centre, gdim, "centre of a Sphere"))
 
 
 def radial(d: npt.NDArray[np.float64], radius: float, hollow: bool) -> Geometry:

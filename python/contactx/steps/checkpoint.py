@@ -59,7 +59,7 @@ def load(
             contact.interface.load(
                 {n.removeprefix(start): a for n, a in saved.items() if n.startswith(start)}
             )
-            contact.accept()
+            contact.fields.update()
     except BaseException:
         before.restore()
         raise

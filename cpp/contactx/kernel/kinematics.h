@@ -1,0 +1,71 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#pragma once
+
+#include "variation.h"
+#include <string_view>
+#include <type_traits>
+
+namespace contactx::kernel
+{
+/// @brief Kinematics of finite sliding: everything is current.
+template <class Facet>
+struct Finite
+{
+  using F = Facet;
+  static constexpr std::string_view name = "finite";
+  static constexpr bool turning = true;
+
+  explicit Finite(const double* w) : pair(w), point(project(pair)) {}
+
+  Variation<F> variation() const { return Variation<F>(pair, point); }
+
+  Vec<Pair<F>::num_dofs> gap_derivative() const { return variation().gap; }
+
+  Pair<F> pair;
+  ContactPoint<F> point;
+};
+
+/// @brief Kinematics of small sliding: projection and normal are those of the
+/// search, the gap is linear in the displacement.
+template <class Facet>
+struct Small
+{
+  using F = Facet;
+  static constexpr std::string_view name = "small";
+  static constexpr bool turning = false;
+
+  explicit Small(const double* w)
+      : pair(w), point(contact_point(pair, pair.xi, pair.normal))
+  {
+  }
+
+  Vec<Pair<F>::num_dofs> gap_derivative() const
+  {
+    Vec<Pair<F>::num_dofs> dg;
+    for (int a = 0; a <= F::nodes; ++a)
+      for (int k = 0; k < F::gdim; ++k)
+        dg[F::gdim * a + k] = point.normal[k] * point.weight[a];
+    return dg;
+  }
+
+  Pair<F> pair;
+  ContactPoint<F> point;
+};
+
+/// @brief Call `f` with std::type_identity of each kind of kinematics.
+template <class Function>
+void for_all_kinematics(Function&& f)
+{
+  using facet::Quadrilateral;
+  using facet::Segment;
+  using facet::Triangle;
+  f(std::type_identity<Small<Segment>>{});
+  f(std::type_identity<Small<Triangle>>{});
+  f(std::type_identity<Small<Quadrilateral>>{});
+  f(std::type_identity<Finite<Segment>>{});
+  f(std::type_identity<Finite<Triangle>>{});
+  f(std::type_identity<Finite<Quadrilateral>>{});
+}
+} // namespace contactx::kernel

@@ -1,0 +1,95 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#pragma once
+
+#include "kinematics.h"
+
+namespace contactx::kernel
+{
+/// @brief Derivative of the unit normal of a facet at fixed local coordinates.
+/// @param[in] frame Frame of the facet there.
+/// @param[in] xi Local coordinates.
+template <class F>
+std::array<Vec<Pair<F>::num_dofs>, F::gdim>
+facet_normal_derivative(const facet::Frame<F>& frame, const facet::Local<F>& xi)
+{
+  const auto m = facet::metric(frame.t);
+  const auto dN = F::derivative(xi);
+  std::array<Vec<Pair<F>::num_dofs>, F::gdim> dn{};
+  for (int l = 0; l < F::nodes; ++l)
+    for (int k = 0; k < F::gdim; ++k)
+    {
+      // n . t_b = 0
+      facet::Local<F> w;
+      for (int b = 0; b < F::tdim; ++b)
+        w[b] = -frame.n[k] * dN[b][l];
+      const facet::Local<F> y = facet::solve(m, w);
+      for (int q = 0; q < F::gdim; ++q)
+        for (int b = 0; b < F::tdim; ++b)
+          dn[q][F::gdim * (l + 1) + k] += y[b] * frame.t[b][q];
+    }
+  return dn;
+}
+
+/// @brief Movement of a slave node relative to a point that is fixed to its
+/// facet, with the facet's frame turning: zero for every rigid motion.
+///
+/// The point has constant local coordinates xi_0 and a constant gap g_0 over
+/// them: w = x_s - sum_l N_l(xi_0) x_l - g_0 n(xi_0). Held kinematics do not
+/// turn: the point keeps its place `origin` relative to sum_l N_l(xi_0) x_l.
+template <class Kinematics>
+struct Relative
+{
+  using F = typename Kinematics::F;
+  static constexpr int num_dofs = Pair<F>::num_dofs;
+
+  /// @brief Read and evaluate.
+  /// @param[in] kinematics Kinematics of the pair.
+  /// @param[in] w Coefficients of a law with slip.
+  Relative(const Kinematics& kinematics, const double* w)
+  {
+    const double* s
+        = w + offset(Law::frictional, Coefficient::slip, F::nodes, F::gdim);
+    std::copy_n(s + slip_xi, F::tdim, xi.begin());
+    gap = s[slip_gap];
+    const Pair<F>& pair = kinematics.pair;
+    const auto N = F::shape(xi);
+    weight[0] = 1;
+    for (int l = 0; l < F::nodes; ++l)
+      weight[l + 1] = -N[l];
+    value = pair.slave - facet::combine<F>(N, pair.master);
+    if constexpr (Kinematics::turning)
+    {
+      frame = facet::frame<F>(pair.master, xi);
+      value = value - gap * frame.n;
+    }
+    else
+      for (int k = 0; k < F::gdim; ++k)
+        value[k] -= s[slip_origin + k];
+  }
+
+  /// @brief Derivative of the movement, [gdim][num_dofs].
+  std::array<Vec<num_dofs>, F::gdim> derivative() const
+  {
+    std::array<Vec<num_dofs>, F::gdim> dw{};
+    if constexpr (Kinematics::turning)
+      if (gap != 0)
+      {
+        dw = facet_normal_derivative<F>(frame, xi);
+        for (auto& row : dw)
+          row = -gap * row;
+      }
+    for (int a = 0; a <= F::nodes; ++a)
+      for (int k = 0; k < F::gdim; ++k)
+        dw[k][F::gdim * a + k] += weight[a];
+    return dw;
+  }
+
+  facet::Local<F> xi;       ///< local coordinates of the point
+  double gap;               ///< its gap
+  Vec<F::nodes + 1> weight; ///< 1 and -N_l(xi_0)
+  facet::Frame<F> frame;    ///< frame of the facet there, where it turns
+  Vec<F::gdim> value;       ///< the movement
+};
+} // namespace contactx::kernel

@@ -1,0 +1,215 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include "tied.h"
+#include "node_state.h"
+#include "relative.h"
+
+using namespace contactx;
+using namespace contactx::kernel;
+
+namespace
+{
+/// A tie's pair: it is never projected.
+template <class Base>
+struct Tie
+{
+  using F = typename Base::F;
+  static constexpr std::string_view name = Base::name;
+  static constexpr bool turning = Base::turning;
+
+  explicit Tie(const double* w) : pair(w) {}
+
+  Pair<F> pair;
+};
+
+template <class K>
+Vec<K::F::gdim> normal_of(const K& tie, const Relative<K>& movement)
+{
+  if constexpr (K::turning)
+    return movement.frame.n;
+  else
+    return tie.pair.normal;
+}
+
+template <class K>
+void gap(double* b, const double* w, const double*, const double*, const int*,
+         const std::uint8_t*, void*)
+{
+  using F = typename K::F;
+  const K tie(w);
+  const Relative movement(tie, w);
+  const auto d = tie.pair.slave
+                 - facet::combine<F>(F::shape(movement.xi), tie.pair.master);
+  b[0] += dot(normal_of(tie, movement), d);
+}
+
+template <class K>
+void normal(double* b, const double* w, const double*, const double*,
+            const int*, const std::uint8_t*, void*)
+{
+  const K tie(w);
+  const auto n = normal_of(tie, Relative(tie, w));
+  for (std::size_t k = 0; k < n.size(); ++k)
+    b[k] += n[k];
+}
+
+template <class K>
+void slip(double* b, const double* w, const double*, const double*, const int*,
+          const std::uint8_t*, void*)
+{
+  const K tie(w);
+  const auto movement = Relative(tie, w).value;
+  for (std::size_t k = 0; k < movement.size(); ++k)
+    b[k] += movement[k];
+}
+
+template <class K>
+void residual(double* b, const double* w, const double*, const double*,
+              const int*, const std::uint8_t*, void*)
+{
+  using F = typename K::F;
+  const K tie(w);
+  const auto dw = Relative(tie, w).derivative();
+  const NodeState<F> node(w);
+  for (int i = 0; i < F::gdim; ++i)
+    for (int col = 0; col < Pair<F>::num_dofs; ++col)
+      b[col] -= node.area * node.multiplier[i] * dw[i][col];
+}
+
+template <class K>
+void traction(double* A, const double* w, const double*, const double*,
+              const int*, const std::uint8_t*, void*)
+{
+  using F = typename K::F;
+  const K tie(w);
+  const auto dw = Relative(tie, w).derivative();
+  const double area = NodeState<F>(w).area;
+  for (int i = 0; i < F::gdim; ++i)
+    for (int col = 0; col < Pair<F>::num_dofs; ++col)
+      A[F::gdim * col + i] -= area * dw[i][col];
+}
+
+template <class K>
+void constraint(double* A, const double* w, const double*, const double*,
+                const int*, const std::uint8_t*, void*)
+{
+  using F = typename K::F;
+  constexpr int n = Pair<F>::num_dofs;
+  const K tie(w);
+  const auto dw = Relative(tie, w).derivative();
+  const NodeState<F> node(w);
+  for (int i = 0; i < F::gdim; ++i)
+    for (int j = 0; j < F::gdim; ++j)
+      for (int col = 0; col < n; ++col)
+        A[n * i + col] += node.slip_derivative[F::gdim * i + j] * dw[j][col];
+}
+
+/// A vector that is not normalised, t_1 x t_2 or in 2D the turned tangent, and
+/// its derivative by the master nodes.
+template <class F>
+struct AreaVector
+{
+  AreaVector(const facet::Frame<F>& frame, const facet::Local<F>& xi)
+      : dN(F::derivative(xi))
+  {
+    for (int l = 0; l < F::nodes; ++l)
+      for (int k = 0; k < F::gdim; ++k)
+      {
+        Vec<F::gdim> e{};
+        e[k] = 1;
+        if constexpr (F::gdim == 2)
+          first[F::gdim * l + k] = {dN[0][l] * e[1], -dN[0][l] * e[0]};
+        else
+          first[F::gdim * l + k] = dN[0][l] * cross(e, frame.t[1])
+                                   + dN[1][l] * cross(frame.t[0], e);
+      }
+  }
+
+  /// Second derivative by components `k` of node `l` and `q` of node `m`.
+  Vec<F::gdim> second(int l, int k, int m, int q) const
+  {
+    if constexpr (F::gdim == 2)
+      return {};
+    else
+    {
+      Vec<3> a{}, b{};
+      a[k] = 1;
+      b[q] = 1;
+      return (dN[0][l] * dN[1][m] - dN[0][m] * dN[1][l]) * cross(a, b);
+    }
+  }
+
+  std::array<Vec<F::nodes>, F::tdim> dN;
+  std::array<Vec<F::gdim>, F::gdim * F::nodes> first;
+};
+
+/// Derivative of the forces: -A lambda . d^2 w = A g_0 d^2 (lambda . n).
+template <class F>
+void stiffness(double* A, const double* w, const double*, const double*,
+               const int*, const std::uint8_t*, void*)
+{
+  using K = Tie<Finite<F>>;
+  constexpr int gdim = F::gdim;
+  constexpr int n = Pair<F>::num_dofs;
+  const K tie(w);
+  const Relative movement(tie, w);
+  if (movement.gap == 0)
+    return;
+  const NodeState<F> node(w);
+  Vec<gdim> lambda;
+  std::copy_n(node.multiplier, gdim, lambda.begin());
+  const facet::Frame<F>& frame = movement.frame;
+  const AreaVector<F> a(frame, movement.xi);
+  const double p = dot(lambda, frame.n);
+  const double size = frame.jacobian;
+  const Vec<gdim> across = lambda - p * frame.n;
+  const double factor = node.area * movement.gap / size;
+  for (int i = 0; i < gdim * F::nodes; ++i)
+    for (int j = 0; j < gdim * F::nodes; ++j)
+    {
+      const Vec<gdim>& di = a.first[i];
+      const Vec<gdim>& dj = a.first[j];
+      const double ni = dot(frame.n, di), nj = dot(frame.n, dj);
+      const double curvature = -(ni * dot(across, dj) + dot(across, di) * nj
+                                 + p * (dot(di, dj) - ni * nj))
+                               / size;
+      const double bend
+          = dot(across, a.second(i / gdim, i % gdim, j / gdim, j % gdim));
+      A[n * (gdim + i) + gdim + j] += factor * (curvature + bend);
+    }
+}
+
+template <class Kinematics>
+void add(std::vector<Entry>& entries)
+{
+  using enum Coefficient;
+  using F = typename Kinematics::F;
+  using K = Tie<Kinematics>;
+  const auto push = [&entries](std::string_view term, Kernel* function,
+                               std::vector<Coefficient> extra)
+  {
+    std::vector<Coefficient> active{displacement, position, pair,
+                                    Coefficient::slip};
+    active.insert(active.end(), extra.begin(), extra.end());
+    entries.push_back({Law::tied, K::name, term, F::nodes, F::gdim, function,
+                       std::move(active)});
+  };
+  push("gap", &gap<K>, {});
+  push("normal", &normal<K>, {});
+  push("slip", &::slip<K>, {});
+  push("residual", &residual<K>, {multiplier, area});
+  push("traction", &traction<K>, {area});
+  push("constraint", &constraint<K>, {slip_derivative});
+  if constexpr (K::turning)
+    push("stiffness", &stiffness<F>, {multiplier, area});
+}
+} // namespace
+
+std::vector<Entry> contactx::kernel::tied()
+{
+  std::vector<Entry> entries;
+  for_all_kinematics([&entries]<class K>(std::type_identity<K>)
+                     { add<K>(entries); });
+  return entries;
+}

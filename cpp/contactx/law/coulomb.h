@@ -1,0 +1,61 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#pragma once
+
+#include "normal.h"
+
+namespace contactx::law
+{
+/// @brief State of the slave nodes with friction: one value a node, or vectors
+/// (shape=(num_slaves, gdim)), row-major.
+struct FrictionalState
+{
+  int gdim;
+  std::span<const double> traction; ///< multiplier, vectors
+  std::span<const double> gap;      ///< NaN where a node has no pair
+  std::span<const double> normal;   ///< unit vectors
+  std::span<const double> slip;     ///< increment of the step, vectors
+  std::span<const double> c;        ///< complementarity factor
+  std::span<const double> friction; ///< coefficient of friction
+};
+
+/// @brief Complementarity function and its derivatives, forces: vectors and
+/// matrices (shape=(num_slaves, gdim, gdim)), row-major.
+struct FrictionalLaw
+{
+  std::span<double> value;
+  std::span<double> by_traction; ///< matrices
+  std::span<double> by_gap;      ///< vectors
+  std::span<double> by_slip;     ///< matrices
+  std::span<double> by_normal;   ///< matrices
+};
+
+/// @brief Status that Coulomb's law asks for.
+///
+/// With p_hat = p - c g and t_hat = t - c ds: open where p_hat <= 0, else stick
+/// where |t_hat| <= mu p_hat, else slip (Alart & Curnier 1991).
+/// @param[in] state State.
+/// @param[in,out] status Status of each node.
+/// @return Number of nodes that changed.
+std::int32_t frictional_status(const FrictionalState& state,
+                               std::span<std::int8_t> status);
+
+/// @brief Complementarity function of contact with Coulomb friction, times the
+/// area: A lambda on open nodes, A c (g n + ds) on sticking ones and
+/// A (c g n + t - mu p_hat t_hat / |t_hat|) on slipping ones, with consistent
+/// derivatives (Alart & Curnier 1991; Hueeber & Wohlmuth 2005).
+///
+/// Directions in which neither the slave node nor its master can move carry
+/// no traction: their rows are A lambda.
+/// @param[in] state State.
+/// @param[in] area Area of each node.
+/// @param[in] status Status of each node.
+/// @param[in] mobile 1 in directions that can move, else 0, vectors.
+/// @param[out] law Value and derivatives.
+void frictional_complementarity(const FrictionalState& state,
+                                std::span<const double> area,
+                                std::span<const std::int8_t> status,
+                                std::span<const double> mobile,
+                                const FrictionalLaw& law);
+} // namespace contactx::law

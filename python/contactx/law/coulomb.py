@@ -1,0 +1,92 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Laws with a vector multiplier."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from contactx import cpp as core
+from contactx.law.law import Law
+from contactx.law.nodes import Array, Nodes
+from contactx.nodal import NodalValue
+
+
+class Coulomb(Law):
+    """Unilateral contact with dry friction: |t| <= mu p, and slip only where they are equal."""
+
+    name = "frictional"
+    is_vector = True
+
+    def __init__(self, friction: NodalValue):
+        """Create the law.
+
+        Args:
+            friction: Coefficient of friction, read anew in each evaluation.
+        """
+        self._friction = friction
+
+    def friction(self, nodes: Nodes) -> Array:
+        """Current coefficient of friction, shape (n,).
+
+        Raises:
+            ValueError: If it is negative or not finite.
+        """
+        value = np.broadcast_to(self._friction.now(), nodes.gap.shape)
+        if np.any(value < 0):
+            raise ValueError(f"friction is {value.min()}: give numbers of at least 0")
+        return np.ascontiguousarray(value, dtype=np.float64)
+
+    def set_status(self, nodes: Nodes) -> int:
+        """See ``Law``."""
+        return core.frictional_status(
+            nodes.multiplier,
+            nodes.closable_gap,
+            nodes.normal,
+            nodes.slip,
+            nodes.c,
+            self.friction(nodes),
+            nodes.status,
+        )
+
+    def evaluate(self, nodes: Nodes) -> None:
+        """See ``Law``."""
+        _evaluate(nodes, nodes.gap, self.friction(nodes))
+
+
+class Tied(Law):
+    """Slave nodes keep their place in the frame of their facet."""
+
+    name = "tied"
+    is_vector = True
+    is_tied = True
+
+    def set_status(self, nodes: Nodes) -> int:
+        """See ``Law``; where there is a pair it holds."""
+        now = np.where(np.isnan(nodes.gap), core.OPEN, core.STICK).astype(np.int8)
+        changed = int(np.count_nonzero(now != nodes.status))
+        nodes.status[:] = now
+        return changed
+
+    def evaluate(self, nodes: Nodes) -> None:
+        """See ``Law``; the slip of a tie has a normal part, too."""
+        _evaluate(nodes, np.zeros_like(nodes.gap), np.zeros_like(nodes.gap))
+
+
+def _evaluate(nodes: Nodes, gap: Array, friction: Array) -> None:
+    core.frictional_complementarity(
+        nodes.multiplier,
+        gap,
+        nodes.normal,
+        nodes.slip,
+        nodes.c,
+        friction,
+        nodes.area,
+        nodes.status,
+        nodes.mobile,
+        nodes.value,
+        nodes.by_multiplier.reshape(-1),
+        nodes.by_gap,
+        nodes.by_slip,
+        nodes.by_normal,
+    )

@@ -1,0 +1,84 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""State of the slave nodes of one contact."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from contactx import cpp as core
+from contactx.forms import State
+
+type Array = npt.NDArray[np.float64]
+
+
+class Nodes:
+    """What a contact law reads and writes, one row a slave node.
+
+    Attributes:
+        size: Components of the multiplier: 1, or the geometric dimension.
+        multiplier: Multiplier, a view of what the forms read, shape (n * size,).
+        area: Reference area, shape (n,).
+        status: Status, shape (n,).
+        gap: Gap, NaN where there is no pair, shape (n,).
+        normal: Unit normal of the master; empty for scalar multipliers, shape (n, gdim).
+        slip: Slip increment of the step; empty for scalar multipliers, shape (n, gdim).
+        c: Factor of the gap in the complementarity, traction/length, shape (n,).
+        immobile: Whether Dirichlet conditions leave neither a slave node nor its master anything
+            to yield along the normal; such a node stays open, shape (n,).
+        mobile: 1 in directions in which slave node or master can move, else 0; empty for scalar
+            multipliers, shape (n, gdim).
+        value: Complementarity function, a force, shape (n * size,).
+        by_multiplier: Its derivative, shape (n, size, size).
+        by_gap: Its derivative, a view of what the forms read, shape (n * size,).
+        by_slip: Its derivative; empty for scalar multipliers, shape (n * gdim**2,).
+        by_normal: Its derivative; empty for scalar multipliers, shape (n * gdim**2,).
+    """
+
+    def __init__(self, state: State, gdim: int):
+        """Create the state: every node open.
+
+        Args:
+            state: Vectors that the forms read.
+            gdim: Geometric dimension.
+        """
+        self.multiplier: Array = state.multiplier.array
+        self.area: Array = state.area.array
+        self.by_gap: Array = state.gap_derivative.array
+        n = len(self.area)
+        self.size: int = state.multiplier.block_size
+        rows = n if state.slip_derivative is not None else 0
+        self.status = np.full(n, core.OPEN, dtype=np.int8)
+        self.gap = np.full(n, np.nan)
+        self.normal = np.zeros((rows, gdim))
+        self.slip = np.zeros((rows, gdim))
+        self.c = np.ones(n)
+        self.immobile = np.zeros(n, dtype=bool)
+        self.mobile = np.ones((rows, gdim))
+        self.value = np.zeros(n * self.size)
+        self.by_multiplier = np.zeros((n, self.size, self.size))
+        none = np.zeros(0)
+        self.by_slip: Array = none if state.slip_derivative is None else state.slip_derivative.array
+        self.by_normal: Array = (
+            none if state.normal_derivative is None else state.normal_derivative.array
+        )
+
+    @property
+    def closed(self) -> npt.NDArray[np.bool_]:
+        """Whether each node is in contact, shape (n,)."""
+        closed: npt.NDArray[np.bool_] = self.status != core.OPEN
+        return closed
+
+    @property
+    def closable_gap(self) -> Array:
+        """Gap, NaN where a node cannot close, shape (n,)."""
+        return np.where(self.immobile, np.nan, self.gap)
+
+    @property
+    def pressure(self) -> Array:
+        """Pressure, force/area, shape (n,)."""
+        if self.size == 1:
+            return self.multiplier
+        pressure: Array = np.einsum("ij,ij->i", self.normal, self.multiplier.reshape(-1, self.size))
+        return pressure

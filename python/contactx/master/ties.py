@@ -1,0 +1,108 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Pairs that stay those of the reference configuration."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from contactx import cpp as core
+from contactx.forms import Pairs
+from contactx.master.facets import FacetMaster
+from contactx.master.obstacle import ObstacleMaster
+
+_AT = core.slip_layout
+
+
+class FacetTie(FacetMaster):
+    """Slave nodes tied to facets of a deformable body."""
+
+    def __init__(self, *args: Any, **options: Any):
+        """Create the pairs, none yet; the arguments are those of ``FacetMaster``."""
+        super().__init__(*args, **options)
+        self._found = False
+        self._offset = np.zeros(len(self._slaves))
+
+    def search(self, x: npt.NDArray[np.float64], closed: npt.NDArray[np.int8]) -> tuple[int, bool]:
+        """See ``Master``; only the first search counts."""
+        if self._found:
+            return 0, False
+        self._found = True
+        found = super().search(x, closed)
+        self._xi, self._gap = self._pairing.feet(x, x[self._slaves])
+        foot, self._normal = self._pairing.places(x, self._xi)
+        self._arm = x[self._slaves] - foot
+        return found
+
+    def refresh(
+        self, x: npt.NDArray[np.float64], held: bool, offset: npt.NDArray[np.float64]
+    ) -> list[Pairs] | None:
+        """See ``Master``; the offset is what a tie is longer by."""
+        if np.array_equal(offset, self._offset):
+            return None
+        self._offset = offset
+        return self.pairs()
+
+    def save(self) -> dict[str, npt.NDArray[Any]]:
+        """See ``Master``."""
+        return {**super().save(), "offset": self._offset}
+
+    def load(self, saved: Mapping[str, npt.NDArray[Any]]) -> None:
+        """See ``Master``."""
+        super().load(saved)
+        self._offset = saved["offset"]
+
+    def _slip(self) -> npt.NDArray[np.float64]:
+        data = np.zeros((len(self._slaves), _AT["size"]))
+        data[:, _AT["xi"] : _AT["xi"] + 2] = self._xi
+        data[:, _AT["gap"]] = self._gap + self._offset
+        origin = self._arm + self._offset[:, None] * self._normal
+        data[:, _AT["origin"] : _AT["origin"] + origin.shape[1]] = origin
+        return data
+
+
+class ObstacleTie(ObstacleMaster):
+    """Slave nodes tied to a rigid obstacle: they move with it."""
+
+    def __init__(self, *args: Any, **options: Any):
+        """Create the pairs, none yet; the arguments are those of ``ObstacleMaster``."""
+        super().__init__(*args, **options)
+        self._found = False
+        self._offset = np.zeros(len(self._slaves))
+        self._first = self._placed
+
+    def search(self, x: npt.NDArray[np.float64], closed: npt.NDArray[np.int8]) -> tuple[int, bool]:
+        """See ``Master``; only the first search counts."""
+        if self._found:
+            return 0, False
+        self._found = True
+        self._reference = x[self._slaves]
+        self._normal = self._obstacle.evaluate(self._reference).normal
+        return super().search(x, closed)
+
+    def refresh(
+        self, x: npt.NDArray[np.float64], held: bool, offset: npt.NDArray[np.float64]
+    ) -> list[Pairs] | None:
+        """See ``Master``; the offset is what a tie is longer by."""
+        self._offset = offset
+        return super().refresh(x, held, offset)
+
+    def save(self) -> dict[str, npt.NDArray[Any]]:
+        """See ``Master``."""
+        return {**super().save(), "offset": self._offset}
+
+    def load(self, saved: Mapping[str, npt.NDArray[Any]]) -> None:
+        """See ``Master``."""
+        super().load(saved)
+        self._offset = saved["offset"]
+
+    def _update_slip(self, x: npt.NDArray[np.float64], data: npt.NDArray[np.float64]) -> None:
+        """The whole way from the place that the obstacle has carried the node to."""
+        n, gdim = x.shape
+        place = self._reference + self._offset[:, None] * self._normal
+        carried = self._first.carry(place, self._obstacle.placement(gdim))
+        self._set_slip(x - carried, np.tile(np.eye(gdim), (n, 1, 1)))
