@@ -67,7 +67,12 @@ class Sheared:
         """Bits of what a failed step must leave alone."""
         interface, fields = self.contact.interface, self.contact.fields
         arrays = [self.u.x.array, self.history.x.array, *interface.save().values()]
-        arrays += [fields.force, fields.traction.x.array, fields.gap.x.array]
+        arrays += [
+            interface.nodes.immobile,
+            fields.force,
+            fields.traction.x.array,
+            fields.gap.x.array,
+        ]
         return [array.tobytes() for array in arrays]
 
     def steps(self, steps: Any, **options: Any) -> cx.LoadSteps:

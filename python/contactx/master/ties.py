@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -47,15 +46,6 @@ class FacetTie(FacetMaster):
         self._offset = offset
         return self.pairs()
 
-    def save(self) -> dict[str, npt.NDArray[Any]]:
-        """See ``Master``."""
-        return {**super().save(), "offset": self._offset}
-
-    def load(self, saved: Mapping[str, npt.NDArray[Any]]) -> None:
-        """See ``Master``."""
-        super().load(saved)
-        self._offset = saved["offset"]
-
     def _slip(self) -> npt.NDArray[np.float64]:
         data = np.zeros((len(self._slaves), _AT["size"]))
         data[:, _AT["xi"] : _AT["xi"] + 2] = self._xi
@@ -90,15 +80,6 @@ class ObstacleTie(ObstacleMaster):
         """See ``Master``; the offset is what a tie is longer by."""
         self._offset = offset
         return super().refresh(x, held, offset)
-
-    def save(self) -> dict[str, npt.NDArray[Any]]:
-        """See ``Master``."""
-        return {**super().save(), "offset": self._offset}
-
-    def load(self, saved: Mapping[str, npt.NDArray[Any]]) -> None:
-        """See ``Master``."""
-        super().load(saved)
-        self._offset = saved["offset"]
 
     def _update_slip(self, x: npt.NDArray[np.float64], data: npt.NDArray[np.float64]) -> None:
         """The whole way from the place that the obstacle has carried the node to."""
