@@ -32,7 +32,7 @@ import numpy as np
 import story
 
 import contactx as cx
-from contactx import meshes, plot, reference
+from contactx import meshes, reference
 from contactx.meshes import Tag
 from dolfinx import fem
 
@@ -97,28 +97,16 @@ def draw(
     folder: Path, problem: cx.ContactProblem, contact: cx.Contact, exact: reference.PressFit
 ) -> list[Path]:
     """Draw the rings and the pressure against Lame, and write a file for ParaView."""
-    files = [folder / f"press_fit{end}" for end in (".png", "_pressure.png", ".pvd")]
-    with story.progress("drawing"):
-        with cx.VTKOutput(files[2], problem.u, [contact]) as output:
-            output.write(0.0)
-        plot.deformed_bodies(
-            problem.u,
-            contact.pressure,
-            files[0],
-            title="An elastic ring pressed into another one",
-            label="contact pressure / E",
-        )
-        x = problem.u.function_space.tabulate_dof_coordinates()[contact.slave_nodes]
-        plot.pressure_curve(
-            np.degrees(np.arctan2(x[:, 1], x[:, 0])),
-            contact.multiplier,
-            [0, 90],
-            [exact.pressure] * 2,
-            files[1],
-            labels=("angle, degrees", "contact pressure / E"),
-            title="Pressure of the slave nodes against Lame",
-        )
-    return files
+    x = problem.u.function_space.tabulate_dof_coordinates()[contact.slave_nodes]
+    return story.pictures(
+        folder / "press_fit",
+        "An elastic ring pressed into another one",
+        problem,
+        contact,
+        (np.degrees(np.arctan2(x[:, 1], x[:, 0])), contact.multiplier),
+        ([0, 90], [exact.pressure] * 2),
+        ("angle, degrees", "Lame"),
+    )
 
 
 def main(argv: Sequence[str] | None = None) -> list[story.Result]:

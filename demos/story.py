@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 from rich.console import Console
 from rich.table import Table
 
@@ -37,6 +38,27 @@ class Result:
         return self.computed / self.expected - 1
 
 
+@dataclass(frozen=True)
+class Deviation(Result):
+    """How far a computed curve is from a formula's, both by their L2 norms.
+
+    ``expected`` is the norm of the formula's curve, ``computed`` that of the difference.
+    """
+
+    @property
+    def error(self) -> float:
+        """Norm of the difference relative to that of the formula's curve."""
+        return self.computed / self.expected
+
+    @classmethod
+    def of(
+        cls, name: str, weights: np.ndarray, computed: np.ndarray, exact: np.ndarray
+    ) -> Deviation:
+        """Compare nodal values, each with the weight of its area."""
+        norms = (float(np.sqrt(weights @ y**2)) for y in (exact, computed - exact))
+        return cls(name, *norms)
+
+
 def displacement(domain: mesh.Mesh) -> fem.Function:
     """Displacement in the linear Lagrange space of vectors."""
     V = fem.functionspace(domain, ("Lagrange", 1, (domain.geometry.dim,)))
@@ -52,6 +74,12 @@ def elasticity(u: fem.Function, young: Any, nu: float) -> ufl.Form:
     return ufl.inner(stress, ufl.grad(v)) * ufl.dx
 
 
+def traction(u: fem.Function, tags: mesh.MeshTags, face: int, load: fem.Constant) -> ufl.Form:
+    """Residual of a force per reference area on a tagged face."""
+    ds = ufl.Measure("ds", domain=u.function_space.mesh, subdomain_data=tags)
+    return -ufl.inner(load, ufl.TestFunction(u.function_space)) * ds(int(face))
+
+
 def fix(
     u: fem.Function, tags: mesh.MeshTags, component: int, value: float, *faces: int
 ) -> fem.DirichletBC:
@@ -63,9 +91,16 @@ def fix(
 
 
 def arguments(
-    description: str, h: float, unit: str, argv: Sequence[str] | None
+    description: str,
+    h: float,
+    unit: str,
+    argv: Sequence[str] | None,
+    dimensions: Sequence[int] = (),
 ) -> argparse.Namespace:
-    """Read the command line: size h, sliding and the folder of the pictures."""
+    """Read the command line: size h, sliding, folder of the pictures, dimension if there are two.
+
+    The first dimension is the default.
+    """
     parser = argparse.ArgumentParser(description=description)
     parser.add_argument("--h", type=float, default=h, help=f"cell size in the contact, {unit}")
     parser.add_argument(
@@ -77,6 +112,10 @@ def arguments(
         default=Path(__file__).parent / "output",
         help="folder for pictures and files",
     )
+    if dimensions:
+        parser.add_argument(
+            "--dim", type=int, choices=dimensions, default=dimensions[0], help="dimension of space"
+        )
     return parser.parse_args(argv)
 
 
@@ -140,28 +179,59 @@ def draw(
     Returns:
         The files.
     """
-    files = [folder / f"{name}{end}" for end in (".png", "_pressure.png", ".pvd")]
+    end = 1.5 * r[contact.multiplier > 0].max()
+    curve = np.linspace(0, end, 400)
+    return pictures(
+        folder / name,
+        title,
+        problem,
+        contact,
+        (r[r < end], contact.multiplier[r < end]),
+        (curve, hertz.pressure(curve)),
+        ("distance from the axis / R", "Hertz"),
+        mirror,
+    )
+
+
+def pictures(
+    stem: Path,
+    title: str,
+    problem: cx.ContactProblem,
+    contact: cx.Contact,
+    computed: tuple[npt.ArrayLike, npt.ArrayLike],
+    exact: tuple[npt.ArrayLike, npt.ArrayLike],
+    words: tuple[str, str],
+    mirror: Sequence[str] = (),
+) -> list[Path]:
+    """Draw the bodies and their pressure against a curve, and write a file for ParaView.
+
+    Args:
+        stem: Folder and first part of the files' names.
+        title: Title of the picture of the bodies.
+        problem: Solved problem.
+        contact: Its contact.
+        computed: Places and pressures of slave nodes, each of shape (n,).
+        exact: Places and pressures of the curve, each of shape (m,).
+        words: What the places are, and whose the curve is.
+        mirror: Planes of symmetry.
+
+    Returns:
+        The files.
+    """
+    files = [stem.with_name(stem.name + end) for end in (".png", "_pressure.png", ".pvd")]
+    label = "contact pressure / E"
     with progress("drawing"):
         with cx.VTKOutput(files[2], problem.u, [contact]) as output:
             output.write(0.0)
         plot.deformed_bodies(
-            problem.u,
-            contact.pressure,
-            files[0],
-            title=title,
-            label="contact pressure / E",
-            mirror=mirror,
+            problem.u, contact.pressure, files[0], title=title, label=label, mirror=mirror
         )
-        end = 1.5 * r[contact.multiplier > 0].max()
-        curve = np.linspace(0, end, 400)
         plot.pressure_curve(
-            r[r < end],
-            contact.multiplier[r < end],
-            curve,
-            hertz.pressure(curve),
+            *computed,
+            *exact,
             files[1],
-            labels=("distance from the axis / R", "contact pressure / E"),
-            title="Pressure of the slave nodes against Hertz",
+            labels=(words[0], label),
+            title=f"Pressure of the slave nodes against {words[1]}",
         )
     return files
 

@@ -107,12 +107,43 @@ def _turned_cells(
 def renumbered(first: Numbered, seed: int) -> Numbered:
     """The same mesh from cells, nodes and local orders that are shuffled."""
     rng = np.random.default_rng(seed)
-    domain, tags = first.domain, first.tags
-    gdim, tdim = domain.geometry.dim, domain.topology.dim
     old = rng.permutation(len(first.x))  # number in the first mesh of each shuffled node
     new = np.argsort(old)
-    cells = new[rng.permutation(domain.geometry.dofmaps[0])]
-    cells = _turned_cells(domain.topology.cell_type, cells, rng)
+    cells = new[rng.permutation(first.domain.geometry.dofmaps[0])]
+    return _rebuilt(first, _turned_cells(first.domain.topology.cell_type, cells, rng), old)
+
+
+def jacobians(scene: Numbered) -> npt.NDArray[np.float64]:
+    """Sign of each cell's Jacobian, by the local order of its nodes."""
+    tdim = scene.domain.topology.dim
+    cells = scene.domain.geometry.dofmaps[0]
+    is_simplex = cells.shape[1] == tdim + 1
+    axes = cells[:, 1 : tdim + 1] if is_simplex else cells[:, [1 << i for i in range(tdim)]]
+    return np.sign(np.linalg.det((scene.x[axes] - scene.x[cells[:, :1]])[:, :, :tdim]))
+
+
+def oriented(first: Numbered, sign: float) -> Numbered:
+    """The same mesh with the Jacobians of all cells of a sign."""
+    cells = first.domain.geometry.dofmaps[0].astype(np.int64)
+    is_simplex = cells.shape[1] == first.domain.topology.dim + 1
+    swapped = [1, 0, *range(2, cells.shape[1])]
+    if not is_simplex:
+        swapped = [i ^ 1 for i in range(cells.shape[1])]
+    wrong = jacobians(first) != sign
+    cells[wrong] = cells[wrong][:, swapped]
+    return _rebuilt(first, cells, np.arange(len(first.x)))
+
+
+def _rebuilt(first: Numbered, cells: npt.NDArray[np.int64], old: npt.NDArray[np.int64]) -> Numbered:
+    """The same mesh from other cells.
+
+    Args:
+        first: Mesh.
+        cells: Its cells, shape (num_cells, num_nodes).
+        old: Number in the first mesh of each of their nodes.
+    """
+    domain, tags = first.domain, first.tags
+    gdim, tdim = domain.geometry.dim, domain.topology.dim
     # Not domain.ufl_domain(), which create_mesh would hand over to the new mesh
     element = domain.ufl_domain().ufl_coordinate_element()
     other = mesh.create_mesh(MPI.COMM_WORLD, cells, element, first.x[old, :gdim])

@@ -6,10 +6,11 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
 from story import displacement, elasticity, fix
 
 import contactx as cx
-from contactx import meshes
+from contactx import meshes, reference
 from contactx.meshes import Tag
 from dolfinx import fem, mesh
 
@@ -39,6 +40,26 @@ def hertz_sphere(
         elasticity(u, E, NU), u, contacts=[contact], bcs=bcs, petsc_options_prefix="sphere_"
     )
     return problem, contact
+
+
+def pressure_error(
+    problem: cx.ContactProblem, contact: cx.Contact, young: dict[Tag, float] | None = None
+) -> float:
+    """Relative L2 error of a Hertz sphere's nodal pressures, weighted by area.
+
+    Nodes within 1.3 contact radii count; Hertz's pressure is that of the computed force.
+    """
+    E = {Tag.UPPER: 1.0, Tag.LOWER: 1.0, **(young or {})}
+    hertz = reference.HertzSphere(
+        force=4 * contact.force[2],
+        radius=1.0,
+        modulus=reference.contact_modulus(E[Tag.UPPER], NU, E[Tag.LOWER], NU),
+    )
+    x = problem.u.function_space.tabulate_dof_coordinates()[contact.slave_nodes]
+    r = np.hypot(x[:, 0], x[:, 1])
+    near = r <= 1.3 * hertz.contact_radius
+    w, exact = contact.area[near], hertz.pressure(r[near])
+    return float(np.sqrt(w @ (contact.multiplier[near] - exact) ** 2 / (w @ exact**2)))
 
 
 class Blocks:

@@ -7,6 +7,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
+from contactx.bodies.bodies import Bodies
 from contactx.fields import Fields
 from contactx.forms import ContactForms
 from contactx.interface import Interface
@@ -111,13 +112,16 @@ class Contact:
         master = self.master if isinstance(self.master, Surface) else type(self.master).__name__
         return f"Contact(slave={self.slave}, master={master}, sliding={self.sliding!r})"
 
-    def attach(self, u: fem.Function, X: la.Vector, markers: npt.NDArray[np.int8]) -> Interface:
+    def attach(
+        self, u: fem.Function, X: la.Vector, markers: npt.NDArray[np.int8], bodies: Bodies
+    ) -> Interface:
         """Make the contact's discrete side; ContactProblem calls this.
 
         Args:
             u: Displacement.
             X: Reference positions of its nodes.
             markers: 1 at dofs with a Dirichlet condition, shape (num_dofs,).
+            bodies: Bodies of the mesh.
 
         Returns:
             The discrete side.
@@ -146,6 +150,7 @@ class Contact:
             search_distance=self.search_distance,
             offset=NodalValue(self.offset, "offset", V, nodes),
             markers=markers,
+            bodies=bodies,
         )
         self._fields = Fields(interface, V)
         self._interface = interface

@@ -65,7 +65,7 @@ class Judge:
         force, *constraints = self._system.blocks(self._system.b.array_r)
         prescribed = self._bulk.markers == 1
         residual = _norm([force[~prescribed], *constraints])
-        scale = _norm([self._system.bulk_residual()])
+        scale = self.scale()
         if self._least_scale is None:
             # Unloading ends without forces. What the first change of the Dirichlet values asks
             # for says little: a stiff body that moves as a whole asks for much and gets nothing
@@ -73,6 +73,10 @@ class Judge:
         scale = max(scale, self._least_scale)
         defect = float(np.abs(force[prescribed]).max(initial=0.0))
         return residual, max(rtol * scale, atol, self._rounding(scale)), defect
+
+    def scale(self) -> float:
+        """Forces of the problem: norm of the bulk's residual."""
+        return _norm([self._system.bulk_residual()])
 
     def _rounding(self, scale: float) -> float:
         """Residual that rounding leaves.

@@ -11,6 +11,8 @@ import numpy as np
 import numpy.typing as npt
 
 from contactx import cpp as core
+from contactx.bodies.bodies import Bodies
+from contactx.checks.facing import check_facing
 from contactx.forms import ContactForms, Pairs, State
 from contactx.law.law import Law
 from contactx.law.nodes import Nodes
@@ -59,6 +61,7 @@ class Interface:
         search_distance: float | None,
         offset: NodalValue,
         markers: npt.NDArray[np.int8],
+        bodies: Bodies,
     ):
         """Find the slave nodes and pair them in the reference configuration.
 
@@ -72,9 +75,12 @@ class Interface:
             search_distance: Largest distance of a pair; chosen if None.
             offset: What is taken off the gap.
             markers: 1 at dofs with a Dirichlet condition, shape (num_dofs,).
+            bodies: Bodies of the mesh.
 
         Raises:
-            ValueError: If the surfaces share nodes, or an obstacle's parameters do not fit.
+            ValueError: If the surfaces share nodes, have degenerate facets or face away from each
+                other, a body lies inside the other or the obstacle, or an obstacle's parameters do
+                not fit.
         """
         V = u.function_space
         self._comm = V.mesh.comm
@@ -88,7 +94,7 @@ class Interface:
         self.slaves = np.unique(facets.nodes)
         x = X.array.reshape(-1, gdim)
         self.master: Master = make_master(
-            facets, master, V, x, law, sliding=sliding, search_distance=search_distance
+            slave, master, bodies, law, sliding=sliding, search_distance=search_distance
         )
         n = len(self.slaves)
         self._slave_map = cpp.common.IndexMap(self._comm, n)
@@ -106,6 +112,7 @@ class Interface:
         self.master.accept(self.positions())
         self.master.begin_step()
         self.master.search(x, self.nodes.status)
+        check_facing(slave, master, facets, self.master, x)
         self._make_forms()
         self._find_immobile()
 
@@ -270,6 +277,14 @@ class Interface:
                 self._update_forms(self.master.pairs() if fresh is None else fresh)
                 self._assemble_slip()
         return self.law.set_status(nodes)
+
+    def close(self, which: npt.NDArray[np.int32]) -> None:
+        """Close nodes, so that they hold a body that nothing else holds.
+
+        Args:
+            which: Slave nodes by their number in the contact.
+        """
+        self.nodes.status[which] = core.STICK if self.law.is_vector else core.SLIP
 
     def drop_open_pressures(self) -> None:
         """Take the pressure off open nodes.

@@ -13,6 +13,8 @@ from petsc4py import PETSc
 import numpy as np
 
 from contactx import compat
+from contactx.bodies.bodies import Bodies
+from contactx.bodies.holder import Holder
 from contactx.bulk import Bulk
 from contactx.callback import keeps_its_error
 from contactx.convergence import Judge
@@ -22,6 +24,9 @@ from contactx.system import SaddlePointSystem
 
 # Share of the closed nodes that may change their status or facet before the pairs are held
 _FEW = 0.2
+
+# Iterates in turn with forces that nothing in the way of a body can balance
+_DRIFTING = 3
 
 _REASONS = {
     PETSc.SNES.ConvergedReason.CONVERGED_FNORM_ABS: "the residual is below the tolerance",
@@ -50,6 +55,7 @@ class NewtonLoop:
         self,
         bulk: Bulk,
         interfaces: Sequence[Interface],
+        bodies: Bodies,
         system: SaddlePointSystem,
         prefix: str,
         options: Mapping[str, Any],
@@ -59,6 +65,7 @@ class NewtonLoop:
         Args:
             bulk: The bulk.
             interfaces: Discrete sides of the contacts.
+            bodies: Bodies of the mesh.
             system: The coupled system.
             prefix: Prefix of the PETSc options.
             options: Options of the user.
@@ -77,6 +84,8 @@ class NewtonLoop:
         self._held = self._stale = False
         self._changes = (0, 0)
         self._judge = Judge(bulk, interfaces, system)
+        self._holder = Holder(bulk, interfaces, bodies)
+        self._failure = ""
         self.snes = PETSc.SNES().create(system.x.comm)
         self.snes.setOptionsPrefix(prefix)
         self.snes.setConvergenceTest(self._test)
@@ -94,6 +103,7 @@ class NewtonLoop:
         self._system.renew()
         self.snes.setFunction(self._function, self._system.b)
         self._held = False
+        self._failure = ""
         for interface in self._interfaces:
             interface.begin_step()
         with self._petsc_options():
@@ -104,6 +114,7 @@ class NewtonLoop:
             self._judge.begin(stiffness)
             for interface in self._interfaces:
                 interface.set_factor(stiffness)
+            self._holder.begin_step()
             self._changes = self._settle()
             self._system.gather()
             self._A = None
@@ -115,6 +126,8 @@ class NewtonLoop:
         report.reason = _REASONS.get(code, f"SNES stopped with reason {code}")
         if code > 0 and not self._converged:
             report.reason = f"SNES stopped by itself, with reason {code}, before the end"
+        if self._failure:
+            report.reason = self._failure
         report.skipped["bulk Jacobian assembly"] = self._bulk.skipped - before[1]
 
     def reset(self) -> None:
@@ -164,7 +177,7 @@ class NewtonLoop:
         if not self._A_is_current:
             with self._report.timing("Jacobian"):
                 self._system.scatter(x)
-                self._system.jacobian(A)
+                self._system.jacobian(A, self._holder.stiffness)
         self._A_is_current = False
 
     def _provide_matrix(self) -> None:
@@ -172,7 +185,7 @@ class NewtonLoop:
         if self._A is not None and self._system.fits():
             return
         with self._report.timing("Jacobian"):
-            self._A = self._system.jacobian()
+            self._A = self._system.jacobian(springs=self._holder.stiffness)
         self._A_is_current = True
         self.snes.setJacobian(self._jacobian, self._A)
 
@@ -200,6 +213,9 @@ class NewtonLoop:
                 interface.master.forget_flips()
         for interface in self._interfaces:
             interface.drop_open_pressures()
+        if self._holder.hold(self._system.displacement_residual(), self._judge.scale()):
+            self._hold(True)
+        for interface in self._interfaces:
             interface.evaluate_law()
         return status, pairs
 
@@ -257,6 +273,12 @@ class NewtonLoop:
         self._converged = small and not self._stale
         if self._converged:
             return reason.CONVERGED_FNORM_ABS
+        if self._holder.drifting >= _DRIFTING:
+            self._failure = (
+                "the loads on a body cannot be balanced: nothing holds it and nothing is in its "
+                "way. Support it, or turn the loads so that they press the bodies together"
+            )
+            return reason.DIVERGED_FUNCTION_DOMAIN
         self._provide_matrix()
         return reason.CONVERGED_ITERATING
 

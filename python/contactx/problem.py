@@ -15,6 +15,7 @@ import numpy as np
 
 import ufl
 from contactx import compat, validate
+from contactx.bodies.bodies import Bodies
 from contactx.bulk import Bulk
 from contactx.contact import Contact
 from contactx.errors import ConvergenceError
@@ -69,7 +70,9 @@ class ContactProblem:
         Raises:
             RuntimeError: On more than one rank, on every rank.
             TypeError: If PETSc or u are not real double precision.
-            ValueError: If a space, surface or option does not fit; the message says what to do.
+            ValueError: If a space, surface or option does not fit, facets are degenerate, a slave
+                surface faces away from its master or a body lies wholly inside the other one or
+                the obstacle; the message says what to do.
         """
         compat.require_real_double()
         validate.check_displacement(u)
@@ -87,18 +90,24 @@ class ContactProblem:
         self.contacts = list(contacts)
         self.report = Report()
         self._bulk = Bulk(F, u, bcs or [], J, form_compiler_options, jit_options)
+        bodies = Bodies(V, X.array.reshape(-1, gdim))
         self._interfaces = []
         try:
             for contact in self.contacts:
-                self._interfaces.append(contact.attach(u, X, self._bulk.markers))
+                self._interfaces.append(contact.attach(u, X, self._bulk.markers, bodies))
+            self._system = SaddlePointSystem(self._bulk, self._interfaces)
+            self._newton = NewtonLoop(
+                self._bulk,
+                self._interfaces,
+                bodies,
+                self._system,
+                petsc_options_prefix,
+                petsc_options or {},
+            )
         except BaseException:
             for contact in self.contacts[: len(self._interfaces)]:
                 contact.detach()
             raise
-        self._system = SaddlePointSystem(self._bulk, self._interfaces)
-        self._newton = NewtonLoop(
-            self._bulk, self._interfaces, self._system, petsc_options_prefix, petsc_options or {}
-        )
 
     @property
     def solver(self) -> PETSc.SNES:
@@ -165,17 +174,17 @@ class ContactProblem:
         report.pairs = sum(int(i.master.paired.sum()) for i in self._interfaces)
         report.immobile = sum(int(i.nodes.immobile.sum()) for i in self._interfaces)
         report.frozen = sum(len(i.master.frozen) for i in self._interfaces)
-        report.frozen_gap = min(i.master.deepest_frozen(i.positions()) for i in self._interfaces)
+        hidden = [i.master.deepest_frozen(i.positions()) for i in self._interfaces]
+        report.frozen_gap = min(hidden)
         report.force = [contact.force for contact in self.contacts]
         report.imbalance = np.sum([contact.fields.imbalance for contact in self.contacts], axis=0)
         for k, interface in enumerate(self._interfaces):
-            self._warn(k, interface)
+            self._warn(k, interface, hidden[k])
 
-    def _warn(self, k: int, interface: Interface) -> None:
-        """Warn of what a converged solution may hide in contact number k."""
+    def _warn(self, k: int, interface: Interface, hidden: float) -> None:
+        """Warn of what a converged solution may hide in contact number k, such as a gap."""
         name = f"contact {k} ({self.contacts[k]})"
         master, x = interface.master, interface.positions()
-        hidden = master.deepest_frozen(x)
         text = ""
         if interface.active and not master.paired.any():
             distance = master.distance(x)

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from numbers import Integral
 
@@ -26,6 +26,13 @@ class FacetList:
 
     offsets: npt.NDArray[np.int32]
     nodes: npt.NDArray[np.int32]
+
+    def groups(self) -> Iterator[tuple[npt.NDArray[np.int64], npt.NDArray[np.int32]]]:
+        """Facets by their number of nodes k: their indices, and their nodes, shape (m, k)."""
+        sizes = np.diff(self.offsets)
+        for size in np.unique(sizes):
+            which = np.flatnonzero(sizes == size)
+            yield which, self.nodes[self.offsets[which][:, None] + np.arange(size)]
 
 
 class Surface:

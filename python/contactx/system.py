@@ -122,10 +122,20 @@ class SaddlePointSystem:
         """Whether the last Jacobian has the pattern of the current pairs."""
         return self._contact_pairs == [interface.forms for interface in self._interfaces]
 
-    def jacobian(self, A: PETSc.Mat | None = None) -> PETSc.Mat:
+    def displacement_residual(self) -> npt.NDArray[np.float64]:
+        """Forces of bulk and contacts at the functions' state, without Dirichlet conditions."""
+        force = self.bulk_residual().copy()
+        for interface in self._interfaces:
+            interface.add_residual(force)
+        return force
+
+    def jacobian(
+        self, A: PETSc.Mat | None = None, springs: npt.NDArray[np.float64] | None = None
+    ) -> PETSc.Mat:
         """Assemble the Jacobian at the functions' state.
 
         Args:
+            springs: What is added to the diagonal of the displacements, shape (num_dofs,).
             A: Matrix that an earlier call returned and whose pattern still fits, to write into.
 
         Returns:
@@ -139,10 +149,15 @@ class SaddlePointSystem:
         bulk = self._embed(self._bulk.jacobian())
         if A is None:
             bulk.axpy(1.0, self._contact, PETSc.Mat.Structure.DIFFERENT_NONZERO_PATTERN)
-            return bulk
-        A.zeroEntries()
-        for part in (bulk, self._contact):
-            A.axpy(1.0, part, PETSc.Mat.Structure.SUBSET_NONZERO_PATTERN)
+            A = bulk
+        else:
+            A.zeroEntries()
+            for part in (bulk, self._contact):
+                A.axpy(1.0, part, PETSc.Mat.Structure.SUBSET_NONZERO_PATTERN)
+        if springs is not None:
+            diagonal = self.x.duplicate()
+            self.blocks(diagonal.array)[0][:] = springs
+            A.setDiagonal(diagonal, addv=PETSc.InsertMode.ADD)
         return A
 
     def _new_matrix(self) -> PETSc.Mat:

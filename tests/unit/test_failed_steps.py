@@ -87,11 +87,11 @@ def test_an_interrupt_anywhere_leaves_everything_as_it_was(monkeypatch, part, ca
     system, calls = problem._system, []
     real = getattr(system, part)
 
-    def interrupted(*args):
+    def interrupted(*args, **options):
         calls.append(part)
         if len(calls) == call:
             raise KeyboardInterrupt
-        return real(*args)
+        return real(*args, **options)
 
     monkeypatch.setattr(system, part, interrupted)
     with pytest.raises(KeyboardInterrupt):

@@ -16,7 +16,7 @@ import pytest
 from matplotlib import image
 
 from contactx.meshes import Tag, blocks, hertz_cap, hertz_cylinder, hertz_sphere
-from contactx.plot import deformed_bodies, pressure_curve
+from contactx.plot import curves, deformed_bodies, pressure_curve
 from contactx.plot.style import COLOURS
 from contactx.plot.surface import deformed_surface, mirrored, peak_body
 from dolfinx import fem
@@ -152,6 +152,21 @@ def test_pressure_curve(tmp_path: Path) -> None:
     for colour in ("#22262b", COLOURS[3]):
         rgb = [int(colour[i : i + 2], 16) for i in (1, 3, 5)]
         assert np.all(pixels == rgb, axis=1).sum() > 50
+
+
+def test_curves(tmp_path: Path) -> None:
+    """Each curve has its colour; lines between the points add to it."""
+    x = np.linspace(-1, 1, 8)
+    computed = {"p": (x, 1 - x**2), "q": (x, x)}
+    counts = []
+    for joined in (False, True):
+        path = tmp_path / f"{joined}.png"
+        curves(computed, {"zero": (x, 0 * x)}, path, labels=("x", "y"), title="", joined=joined)
+        pixels = colours(path)
+        rgb = [[int(c[i : i + 2], 16) for i in (1, 3, 5)] for c in (COLOURS[3], COLOURS[2])]
+        counts.append([int(np.all(pixels == c, axis=1).sum()) for c in rgb])
+    assert np.all(np.array(counts[0]) > 50)
+    assert np.all(np.array(counts[1]) > 1.5 * np.array(counts[0]))
 
 
 @pytest.mark.parametrize("package", ["pyvista", "matplotlib"])

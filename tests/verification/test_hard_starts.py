@@ -4,7 +4,7 @@
 
 import numpy as np
 import pytest
-from scenes import hertz_sphere
+from scenes import hertz_sphere, pressure_error
 
 from contactx.meshes import Tag
 
@@ -25,10 +25,16 @@ def test_deep_indentation_in_one_step(depth, sliding):
 @pytest.mark.parametrize("body", [Tag.UPPER, Tag.LOWER])
 @pytest.mark.parametrize("ratio", [1e4, 1e6])
 def test_one_body_is_much_stiffer(ratio, body, sliding):
-    problem, contact = hertz_sphere(0.02, sliding, young={body: ratio})
+    young = {body: ratio}
+    problem, contact = hertz_sphere(0.02, sliding, young=young)
     problem.solve()
-    print(f"{sliding} {body.name} {ratio:g}: {problem.report.iterations} iterations")
+    error = pressure_error(problem, contact, young)
+    print(
+        f"{sliding} {body.name} {ratio:g}: {problem.report.iterations} iterations, p_l2 {error:.4f}"
+    )
     assert problem.report.iterations <= 12
     assert np.nanmin(contact.interface.nodes.gap) > -1e-12
     # The soft body alone gives: twice Hertz's modulus, so almost twice the force
     assert 4 * contact.force[2] == pytest.approx(0.0048, rel=0.1)
+    # On a soft master nodal pressures scatter: another node-to-surface code has 0.34 at 1e4
+    assert error <= (0.35 if body == Tag.UPPER else 0.10)

@@ -8,8 +8,7 @@ Two independent codes with exact node-to-surface multipliers give the total forc
 import hertz_sphere
 import numpy as np
 import pytest
-
-from contactx import reference
+from scenes import pressure_error
 
 FORCES = {
     ("finite", 0.04): 0.0024350,
@@ -22,26 +21,13 @@ FORCES = {
 PRESSURE_ERRORS = {0.04: 0.17, 0.02: 0.13, 0.01: 0.07}
 
 
-def pressure_error(problem, contact, force):
-    """Relative L2 error of the nodal pressure within 1.3 contact radii, weighted by area."""
-    E, nu = hertz_sphere.E, hertz_sphere.NU
-    hertz = reference.HertzSphere(
-        force=force, radius=1.0, modulus=reference.contact_modulus(E, nu, E, nu)
-    )
-    x = problem.u.function_space.tabulate_dof_coordinates()[contact.slave_nodes]
-    r = np.hypot(x[:, 0], x[:, 1])
-    near = r <= 1.3 * hertz.contact_radius
-    w, exact = contact.area[near], hertz.pressure(r[near])
-    return np.sqrt(w @ (contact.multiplier[near] - exact) ** 2 / (w @ exact**2))
-
-
 @pytest.mark.parametrize(("sliding", "h"), FORCES)
 def test_sphere(sliding, h):
     problem, contact, F = hertz_sphere.create(h, sliding)
     problem.solve()
     report = problem.report
     force = hertz_sphere.reaction(problem, F)
-    error = pressure_error(problem, contact, force)
+    error = pressure_error(problem, contact)
     print(
         f"{sliding} h={h}: 4F {force:.7f}, {report.iterations} iterations, p_l2 {error:.4f}, "
         f"gap {np.nanmin(contact.interface.nodes.gap):.1e}"

@@ -20,7 +20,11 @@ _AT = core.slip_layout
 
 
 class FacetMaster(Master):
-    """Pairs with the facets of a deformable body."""
+    """Pairs with the facets of a deformable body.
+
+    Attributes:
+        facets: The facets.
+    """
 
     def __init__(
         self,
@@ -42,7 +46,7 @@ class FacetMaster(Master):
             sliding: "finite" or "small".
             measures_slip: Whether slip is measured.
         """
-        self._facets = master
+        self.facets = master
         self._sizes = np.diff(master.offsets)
         self._small = sliding == "small"
         self._measures_slip = measures_slip
@@ -82,8 +86,8 @@ class FacetMaster(Master):
         groups = []
         for size in np.unique(sizes[self.paired]):
             slaves = np.flatnonzero(self.paired & (sizes == size)).astype(np.int32)
-            first = self._facets.offsets[self._facet[slaves]]
-            facets = self._facets.nodes[first[:, None] + np.arange(size)]
+            first = self.facets.offsets[self._facet[slaves]]
+            facets = self.facets.nodes[first[:, None] + np.arange(size)]
             nodes = np.column_stack([self._slaves[slaves], facets])
             groups.append(
                 Pairs(slaves, nodes, data[slaves], None if slip is None else slip[slaves])
@@ -148,7 +152,7 @@ class FacetMaster(Master):
 
     def compliance(self, nodal: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
         """See ``Master``; the mean of the facet's nodes."""
-        result = np.full(len(self._slaves), np.median(nodal[self._facets.nodes]))
+        result = np.full(len(self._slaves), np.median(nodal[self.facets.nodes]))
         for pairs in self.pairs():
             result[pairs.slaves] = nodal[pairs.nodes[:, 1:]].mean(axis=1)
         return result
@@ -159,7 +163,7 @@ class FacetMaster(Master):
         """See ``Master``."""
         gdim = free.shape[1]
         along, each = np.ones(len(self._slaves)), np.ones((len(self._slaves), gdim))
-        if free[self._slaves].all() and free[self._facets.nodes].all():
+        if free[self._slaves].all() and free[self.facets.nodes].all():
             return along, each
         at = core.pair_layout
         for pairs in self.pairs():

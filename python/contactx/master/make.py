@@ -5,23 +5,23 @@
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 
+from contactx.bodies.bodies import Bodies
+from contactx.checks.inside import check_apart, check_outside
+from contactx.checks.shape import check_facets
 from contactx.law.law import Law
 from contactx.master.facets import FacetMaster
 from contactx.master.master import Master
 from contactx.master.obstacle import ObstacleMaster
 from contactx.master.ties import FacetTie, ObstacleTie
 from contactx.obstacles import Obstacle
-from contactx.surface import FacetList, Surface
-from dolfinx import fem
+from contactx.surface import Surface
 
 
 def make_master(
-    slave: FacetList,
+    slave: Surface,
     master: Surface | Obstacle,
-    V: fem.FunctionSpace,
-    x: npt.NDArray[np.float64],
+    bodies: Bodies,
     law: Law,
     *,
     sliding: str,
@@ -30,10 +30,9 @@ def make_master(
     """Make the master side of a contact, without pairs yet.
 
     Args:
-        slave: Slave facets.
+        slave: Slave surface.
         master: Master surface or rigid obstacle.
-        V: Space of the displacement.
-        x: Reference positions of its nodes, shape (num_nodes, gdim).
+        bodies: Bodies of the mesh.
         law: Contact law.
         sliding: "finite" or "small".
         search_distance: Largest distance of a pair; chosen if None.
@@ -42,20 +41,22 @@ def make_master(
         The master side.
 
     Raises:
-        ValueError: If the surfaces share nodes, or an obstacle's parameters do not fit.
+        ValueError: If facets are degenerate, the surfaces share nodes, a body lies wholly inside
+            its master, or an obstacle's parameters do not fit.
     """
+    V, x = bodies.V, bodies.x
+    facets = slave.facet_nodes(V)
+    check_facets(slave, "slave", facets, x)
     if isinstance(master, Obstacle):
         rigid = ObstacleTie if law.is_tied else ObstacleMaster
-        slaves = np.unique(slave.nodes)
-        return rigid(slaves, master, x, search_distance, measures_slip=law.is_vector)
+        slaves = np.unique(facets.nodes)
+        obstacle = rigid(slaves, master, x, search_distance, measures_slip=law.is_vector)
+        check_outside(slave, slaves, obstacle.inside(x), master, bodies)
+        return obstacle
     others = master.facet_nodes(V)
-    shared = np.intersect1d(slave.nodes, others.nodes)
-    if len(shared) > 0:
-        raise ValueError(
-            f"slave and master overlap: {master} and the slave surface share {len(shared)} nodes. "
-            "Give each body its own nodes and each surface its own facets"
-        )
+    check_facets(master, "master", others, x)
+    check_apart(slave, master, facets, others, bodies)
     deformable = FacetTie if law.is_tied else FacetMaster
     return deformable(
-        slave, others, x, search_distance, sliding=sliding, measures_slip=law.is_vector
+        facets, others, x, search_distance, sliding=sliding, measures_slip=law.is_vector
     )

@@ -6,10 +6,23 @@ from __future__ import annotations
 
 from contactx.meshes.cap import hertz_cap
 from contactx.meshes.cylinder import hertz_cylinder
+from contactx.meshes.half_cylinders import half_cylinders
 from contactx.meshes.rings import rings
 from contactx.meshes.single import single
 from contactx.meshes.sphere import hertz_sphere
+from contactx.meshes.stack import stack
 from contactx.meshes.stacked import blocks
-from contactx.meshes.tags import Tag
+from contactx.meshes.tags import Tag, block_tag
 
-__all__ = ["Tag", "blocks", "hertz_cap", "hertz_cylinder", "hertz_sphere", "rings", "single"]
+__all__ = [
+    "Tag",
+    "block_tag",
+    "blocks",
+    "half_cylinders",
+    "hertz_cap",
+    "hertz_cylinder",
+    "hertz_sphere",
+    "rings",
+    "single",
+    "stack",
+]

@@ -8,6 +8,15 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from dolfinx.mesh import CellType
+
+_DIMENSIONS = {
+    CellType.triangle: 2,
+    CellType.quadrilateral: 2,
+    CellType.tetrahedron: 3,
+    CellType.hexahedron: 3,
+}
+
 
 def check_positive(**values: float) -> None:
     """Check that lengths and ratios are positive and finite.
@@ -50,3 +59,21 @@ def check_vector(name: str, values: Sequence[float], dim: int) -> None:
     """
     if len(values) != dim or not np.all(np.isfinite(values)):
         raise ValueError(f"{name} is {values}; give {dim} finite numbers, one per direction.")
+
+
+def check_cell_type(cell_type: CellType) -> int:
+    """Check that a box can be meshed with a cell type.
+
+    Args:
+        cell_type: The cell type.
+
+    Returns:
+        Its dimension.
+
+    Raises:
+        ValueError: If it is neither of triangle, quadrilateral, tetrahedron and hexahedron.
+    """
+    if cell_type not in _DIMENSIONS:
+        names = ", ".join(known.name for known in _DIMENSIONS)
+        raise ValueError(f"cell_type is {cell_type.name}; give one of {names}.")
+    return _DIMENSIONS[cell_type]

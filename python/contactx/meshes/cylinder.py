@@ -11,6 +11,7 @@ from mpi4py import MPI
 from contactx.meshes.build import build_mesh
 from contactx.meshes.checks import check_positive
 from contactx.meshes.entities import CURVED, tag_body
+from contactx.meshes.sizes import grade_from_origin
 from contactx.meshes.tags import Tag
 from dolfinx.io.gmsh import MeshData
 
@@ -75,19 +76,7 @@ def hertz_cylinder(
         upper, lower = _add_quarter_disc(gmsh), _add_rectangle(gmsh)
         tag_body(gmsh, 2, upper, Tag.UPPER, _UPPER_FACES)
         tag_body(gmsh, 2, lower, Tag.LOWER, _LOWER_FACES)
-
-        field = gmsh.model.mesh.field
-        sizes = []
-        for body, size in ((upper, h), (lower, h_lower)):
-            graded = field.add("MathEval")
-            field.setString(graded, "F", f"{size} + 0.25*Max(Sqrt(x*x+y*y) - {zone}, 0)")
-            # Both bodies lie in the origin; each field may speak only for its own.
-            sizes.append(field.add("Restrict"))
-            field.setNumber(sizes[-1], "InField", graded)
-            field.setNumbers(sizes[-1], "SurfacesList", [body])
-        smallest = field.add("Min")
-        field.setNumbers(smallest, "FieldsList", sizes)
-        field.setAsBackgroundMesh(smallest)
+        grade_from_origin(gmsh, {upper: h, lower: h_lower}, zone)
         gmsh.model.mesh.generate(2)
 
     return build_mesh("hertz_cylinder", 2, recipe, comm, _OPTIONS)

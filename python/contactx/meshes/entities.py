@@ -96,8 +96,27 @@ def tag_body(
         tag: The tag of the body's cells.
         faces: The tags of its facets by the side, as `sides` names them.
     """
-    gmsh.model.addPhysicalGroup(dim, [body], int(tag), name=tag.name.lower())
+    named = {side: (int(face), face.name.lower()) for side, face in faces.items()}
+    group_body(gmsh, dim, body, (int(tag), tag.name.lower()), named)
+
+
+def group_body(
+    gmsh: ModuleType,
+    dim: int,
+    body: int,
+    group: tuple[int, str],
+    faces: Mapping[str, tuple[int, str]],
+) -> None:
+    """Make physical groups of a body and of its faces, by number and name.
+
+    Args:
+        gmsh: The gmsh module with its current, synchronised model.
+        dim: Dimension of the body, 2 or 3.
+        body: The gmsh tag of the body.
+        group: Number and name of the body's group.
+        faces: Numbers and names of its faces' groups by the side, as `sides` names them.
+    """
+    gmsh.model.addPhysicalGroup(dim, [body], group[0], name=group[1])
     found = sides(gmsh, dim, body)
-    for side, face_tag in faces.items():
-        name = face_tag.name.lower()
-        gmsh.model.addPhysicalGroup(dim - 1, found[side], int(face_tag), name=name)
+    for side, (number, name) in faces.items():
+        gmsh.model.addPhysicalGroup(dim - 1, found[side], number, name=name)

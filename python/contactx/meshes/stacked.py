@@ -11,18 +11,16 @@ from types import ModuleType
 from mpi4py import MPI
 
 from contactx.meshes.build import build_mesh
-from contactx.meshes.checks import check_divisions, check_positive, check_vector
+from contactx.meshes.checks import (
+    check_cell_type,
+    check_divisions,
+    check_positive,
+    check_vector,
+)
 from contactx.meshes.entities import add_box, tag_body
 from contactx.meshes.tags import Tag
 from dolfinx.io.gmsh import MeshData
 from dolfinx.mesh import CellType
-
-_DIMENSIONS = {
-    CellType.triangle: 2,
-    CellType.quadrilateral: 2,
-    CellType.tetrahedron: 3,
-    CellType.hexahedron: 3,
-}
 
 
 def _faces(body: str, dim: int) -> dict[str, Tag]:
@@ -70,10 +68,7 @@ def blocks(
         ValueError: If the cell type is another one, a sequence has a wrong length, a number of
             cells is below one, a length is not positive or a position is not finite.
     """
-    if cell_type not in _DIMENSIONS:
-        names = ", ".join(known.name for known in _DIMENSIONS)
-        raise ValueError(f"cell_type is {cell_type.name}; give one of {names}.")
-    dim = _DIMENSIONS[cell_type]
+    dim = check_cell_type(cell_type)
     size_upper = (1.0,) * dim if size_upper is None else size_upper
     size_lower = (1.0,) * dim if size_lower is None else size_lower
     shift = (0.0,) * (dim - 1) if shift is None else shift

@@ -8,7 +8,7 @@ from enum import IntEnum
 
 
 class Tag(IntEnum):
-    """Tags of the bodies (cells) and of their faces (facets).
+    """Tags of the bodies (cells) and of their faces (facets); those of a stack: `block_tag`.
 
     The upper body rests on the lower one. The last coordinate (z in 3D, y in 2D) points up, so
     a 2D mesh has no ``Y`` faces. Of two rings the inner one is the upper body, with the bore as its
@@ -32,3 +32,28 @@ class Tag(IntEnum):
     LOWER_Y0 = 24
     LOWER_X1 = 25
     LOWER_Y1 = 26
+
+
+_SIDES = ("bottom", "top", "x0", "y0", "x1", "y1")
+
+
+def block_tag(index: int, side: str | None = None) -> int:
+    """Tag of a block of a stack, or of one of its faces.
+
+    The tags of a stack are apart from those of ``Tag``, so that one cannot pass for the other.
+
+    Args:
+        index: Number of the block, 0 for the lowest.
+        side: "bottom", "top", "x0" or "x1", in 3D also "y0" or "y1"; None for the block itself.
+
+    Returns:
+        The tag.
+
+    Raises:
+        ValueError: If the index is negative, or there is no such side.
+    """
+    if index != int(index) or index < 0:
+        raise ValueError(f"index is {index}; give the number of a block, 0 for the lowest.")
+    if side is not None and side not in _SIDES:
+        raise ValueError(f"side is {side!r}; give one of {', '.join(_SIDES)}, or None.")
+    return 100 + 10 * int(index) + (0 if side is None else 1 + _SIDES.index(side))

@@ -16,12 +16,14 @@ from contactx.obstacles.obstacle import (
     positive,
     vector,
 )
-from contactx.obstacles.sphere import radial
+from contactx.obstacles.sphere import radial, radial_gap
 from dolfinx import fem
 
 
 class Cylinder(Obstacle):
     """Endless circular cylinder, or with ``hollow`` all that is outside of one."""
+
+    usual_mistake = "Perhaps hollow is the wrong way round: bodies within need hollow=True"
 
     def __init__(
         self,
@@ -52,10 +54,8 @@ class Cylinder(Obstacle):
         """
         if x.shape[1] != 3:
             raise ValueError("a Cylinder needs three dimensions: in the plane take a Sphere")
-        axis = direction(self.axis, 3, "axis of a Cylinder")
-        across = np.eye(3) - np.outer(axis, axis)
-        d = (x - vector(self.point, 3, "point of a Cylinder")) @ across
-        geometry = radial(d, positive(self.radius, "radius of a Cylinder"), self.hollow)
+        across = self._across()
+        geometry = radial(self._from_point(x) @ across, self._radius(), self.hollow)
         return Geometry(
             geometry.gap, geometry.gradient, geometry.normal, geometry.curvature @ across
         )
@@ -66,3 +66,18 @@ class Cylinder(Obstacle):
             vector(self.point, gdim, "point of a Cylinder"),
             direction(self.axis, gdim, "axis of a Cylinder"),
         )
+
+    def level(self, x: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+        """See ``Obstacle``."""
+        return radial_gap(self._from_point(x) @ self._across(), self._radius(), self.hollow)
+
+    def _across(self) -> npt.NDArray[np.float64]:
+        """Projector on the plane across the axis, shape (3, 3)."""
+        axis = direction(self.axis, 3, "axis of a Cylinder")
+        return np.eye(3) - np.outer(axis, axis)
+
+    def _from_point(self, x: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+        return x - vector(self.point, 3, "point of a Cylinder")
+
+    def _radius(self) -> float:
+        return positive(self.radius, "radius of a Cylinder")

@@ -24,6 +24,10 @@ class LevelSet(Obstacle):
     distance to first order.
     """
 
+    usual_mistake = (
+        "Perhaps the sign of its function is wrong: it must be positive where bodies may be"
+    )
+
     def __init__(
         self,
         f: Callable[[Any], Any],
@@ -81,6 +85,13 @@ class LevelSet(Obstacle):
     def placement(self, gdim: int) -> Placement:
         """See ``Obstacle``; a function tells of no movement, so its material counts as at rest."""
         return Placement(np.zeros(gdim))
+
+    def level(self, x: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+        """See ``Obstacle``; the function itself."""
+        if self._gradient is not None:
+            return np.asarray(self._f(x.T), dtype=np.float64)
+        compiled = self._compiled.get(x.shape) or _Compiled(self._f, *x.shape)
+        return compiled(x)[0]
 
     def _values(
         self, x: npt.NDArray[np.float64]

@@ -81,7 +81,12 @@ class Obstacle(ABC):
 
     Its parameters may be numbers or ``fem.Constant``; a constant is read anew in every evaluation,
     so that changing its value moves the obstacle.
+
+    Attributes:
+        usual_mistake: What is probably wrong where a whole body is inside: a sentence.
     """
+
+    usual_mistake = "It is probably in the wrong place"
 
     @abstractmethod
     def evaluate(self, x: npt.NDArray[np.float64]) -> Geometry:
@@ -101,6 +106,17 @@ class Obstacle(ABC):
         Args:
             gdim: Geometric dimension.
         """
+
+    def level(self, x: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+        """Function of the sign of the gap, of any scale, also where there is no normal.
+
+        Args:
+            x: Points, shape (n, gdim).
+
+        Returns:
+            Its values, shape (n,).
+        """
+        return self.evaluate(x).gap
 
 
 def vector(value: Parameter, gdim: int, name: str) -> npt.NDArray[np.float64]:

@@ -13,6 +13,8 @@ from contactx.obstacles.obstacle import Geometry, Obstacle, Parameter, Placement
 class Plane(Obstacle):
     """Half-space bounded by a plane; its outward normal points to where bodies may be."""
 
+    usual_mistake = "Its normal probably points the wrong way: it must point to where bodies may be"
+
     def __init__(self, point: Parameter, normal: Parameter):
         """Create a plane.
 

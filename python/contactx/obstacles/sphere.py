@@ -14,6 +14,8 @@ from dolfinx import fem
 class Sphere(Obstacle):
     """Ball, or with ``hollow`` all that is outside of one; in the plane a disc."""
 
+    usual_mistake = "Perhaps hollow is the wrong way round: bodies within need hollow=True"
+
     def __init__(self, centre: Parameter, radius: float | fem.Constant, *, hollow: bool = False):
         """Create a sphere.
 
@@ -28,12 +30,27 @@ class Sphere(Obstacle):
 
     def evaluate(self, x: npt.NDArray[np.float64]) -> Geometry:
         """See ``Obstacle``; g = |x - centre| - radius, or its opposite for a hollow sphere."""
-        d = x - vector(self.centre, x.shape[1], "centre of a Sphere")
-        return radial(d, positive(self.radius, "radius of a Sphere"), self.hollow)
+        return radial(self._from_centre(x), self._radius(), self.hollow)
+
+    def level(self, x: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+        """See ``Obstacle``."""
+        return radial_gap(self._from_centre(x), self._radius(), self.hollow)
 
     def placement(self, gdim: int) -> Placement:
         """See ``Obstacle``."""
         return Placement(vector(self.centre, gdim, "centre of a Sphere"))
+
+    def _from_centre(self, x: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+        return x - vector(self.centre, x.shape[1], "centre of a Sphere")
+
+    def _radius(self) -> float:
+        return positive(self.radius, "radius of a Sphere")
+
+
+def radial_gap(d: npt.NDArray[np.float64], radius: float, hollow: bool) -> npt.NDArray[np.float64]:
+    """Gap of ``radial``, which exists for a zero vector too, shape (n,)."""
+    gap: npt.NDArray[np.float64] = np.linalg.norm(d, axis=1) - radius
+    return -gap if hollow else gap
 
 
 def radial(d: npt.NDArray[np.float64], radius: float, hollow: bool) -> Geometry:
@@ -61,5 +78,5 @@ def radial(d: npt.NDArray[np.float64], radius: float, hollow: bool) -> Geometry:
     projector = np.eye(d.shape[1]) - unit[:, :, None] * unit[:, None, :]
     normal = sign * unit
     return Geometry(
-        sign * (distance - radius), normal, normal, sign * projector / distance[:, None, None]
+        radial_gap(d, radius, hollow), normal, normal, sign * projector / distance[:, None, None]
     )

@@ -1,10 +1,10 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Pictures of contact problems, made off screen: deformed bodies and pressure curves."""
+"""Pictures of contact problems, made off screen: deformed bodies, curves against formulas."""
 
 from __future__ import annotations
 
-from contactx.plot.curve import pressure_curve
+from contactx.plot.curve import curves, pressure_curve
 from contactx.plot.deformed import deformed_bodies
 
-__all__ = ["deformed_bodies", "pressure_curve"]
+__all__ = ["curves", "deformed_bodies", "pressure_curve"]

@@ -4,9 +4,10 @@
 
 from __future__ import annotations
 
+from contactx.reference.cattaneo_mindlin import CattaneoMindlin
 from contactx.reference.hertz_cylinder import HertzCylinder
 from contactx.reference.hertz_sphere import HertzSphere
 from contactx.reference.modulus import contact_modulus
 from contactx.reference.press_fit import PressFit
 
-__all__ = ["HertzCylinder", "HertzSphere", "PressFit", "contact_modulus"]
+__all__ = ["CattaneoMindlin", "HertzCylinder", "HertzSphere", "PressFit", "contact_modulus"]

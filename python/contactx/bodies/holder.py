@@ -1,0 +1,187 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Bodies that contact alone holds."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+import numpy.typing as npt
+
+from contactx import cpp as core
+from contactx.bodies.bodies import Bodies
+from contactx.bodies.constraints import pair_rows
+from contactx.bodies.modes import Array, RigidModes
+from contactx.bulk import Bulk
+from contactx.interface import Interface
+
+# Force along a free mode, relative to the problem's, that counts as out of balance
+_BALANCED = 1e-6
+# Stiffness of springs that carry no force, relative to the bulk's
+_WEAK = 1e-6
+
+
+class Holder:
+    """Keeps the Newton step of bodies without enough supports solvable.
+
+    A rigid mode that neither supports nor closed contacts hold makes the Jacobian singular. Where
+    the forces along such modes balance, as many springs as modes are added to the Jacobian: they
+    are statically determinate, so they carry no force and change no step. Where the forces do not
+    balance, the open nodes that the bodies would meet first on their rigid way are closed, until
+    what is closed holds them. The residual is never touched, so no solution depends on this.
+
+    Attributes:
+        unheld: Number of rigid modes that nothing holds at the last iterate.
+        closed: Nodes that were closed to hold a body in this step.
+        drifting: How many iterates in turn had forces that nothing in the way can balance.
+    """
+
+    def __init__(self, bulk: Bulk, interfaces: Sequence[Interface], bodies: Bodies):
+        """Create the holder.
+
+        Args:
+            bulk: The bulk.
+            interfaces: Discrete sides of the contacts.
+            bodies: Bodies of the mesh.
+        """
+        self._bulk = bulk
+        self._interfaces = interfaces
+        self._bodies = bodies
+        self._modes: RigidModes | None = None
+        self.unheld = self.closed = self.drifting = 0
+        self._stiffness: Array | None = None
+
+    def begin_step(self) -> None:
+        """Find the free modes of the rigid."""
+        x = self._interfaces[0].positions()
+        if self._modes is None:
+            self._modes = RigidModes(self._bulk, self._bodies, x)
+        else:
+            self._modes.update(x)
+        self.unheld = self.closed = self.drifting = 0
+        self._stiffness = None
+
+    def hold(self, force: Array, scale: float) -> bool:
+        """Find what to add to the Jacobian at an iterate, and close nodes that must hold a body.
+
+        Args:
+            force: Residual of the displacements without Dirichlet rows, shape (num_dofs,).
+            scale: Forces of the problem.
+
+        Returns:
+            Whether nodes have been closed.
+        """
+        self._stiffness, self.unheld = None, 0
+        rigid = self._modes
+        if rigid is None or not rigid.any_free:
+            return False
+        x = self._interfaces[0].positions()
+        gdim = x.shape[1]
+        nodes = np.arange(len(x), dtype=np.int32)
+        modes = rigid.at(nodes, x)
+        size = modes.shape[2]
+        per_node = np.einsum("nim,ni->nm", modes, -force.reshape(-1, gdim))
+        pull = np.zeros((rigid.count, size))
+        np.add.at(pull, rigid.body, per_node)
+        closed_any = False
+        while True:
+            N = self._unheld(x)
+            if N.shape[1] == 0:
+                self.drifting = 0
+                break
+            f = N.T @ pull.ravel()
+            if np.abs(f).max() <= _BALANCED * scale:
+                self.drifting = 0
+                break
+            # The rigid way of bodies whose mass goes with their number of nodes
+            weight = np.repeat(np.bincount(rigid.body, minlength=rigid.count), size)
+            way = N @ np.linalg.solve(N.T @ (weight[:, None] * N), f)
+            closed = self._close_first(x, way.reshape(rigid.count, size))
+            closed_any |= closed > 0
+            self.closed += closed
+            if closed == 0:
+                self.drifting += 1
+                break
+        self.unheld = N.shape[1]
+        if self.unheld > 0:
+            coefficients = N.reshape(rigid.count, size, -1)[rigid.body]
+            field = np.einsum("nim,nmk->nik", modes, coefficients)
+            springs = self._springs(field.reshape(-1, self.unheld))
+            # Weak, so that they do not slow down what a little stiffness does hold; a body that
+            # nothing can hold stays near, where it may still meet something
+            self._stiffness = springs if self.drifting else _WEAK * springs
+        return closed_any
+
+    @property
+    def stiffness(self) -> Array | None:
+        """What to add to the Jacobian's diagonal, force/length, shape (num_dofs,)."""
+        return self._stiffness
+
+    def _unheld(self, x: Array) -> Array:
+        """Orthonormal basis of the modes that nothing holds, as columns."""
+        rigid = self._modes
+        assert rigid is not None
+        size = rigid.free[0].shape[0]
+        first = np.cumsum([0, *(basis.shape[1] for basis in rigid.free)])
+        Z = np.zeros((rigid.count * size, first[-1]))
+        for b, basis in enumerate(rigid.free):
+            Z[b * size : (b + 1) * size, first[b] : first[b + 1]] = basis
+        gram = np.zeros((Z.shape[1], Z.shape[1]))
+        for interface in self._interfaces:
+            status = interface.nodes.status
+            for pairs, rows in pair_rows(interface, rigid, x):
+                kind = status[pairs.slaves]
+                along = np.einsum("pi,pim->pm", rows.normal, rows.movement)[kind != core.OPEN]
+                every = rows.movement[kind == core.STICK].reshape(-1, Z.shape[0])
+                for part in (along @ Z, every @ Z):
+                    gram += part.T @ part
+        values, vectors = np.linalg.eigh(gram)
+        null: Array = Z @ vectors[:, values <= 1e-12 * max(values.max(initial=0.0), 1.0)]
+        return null
+
+    def _close_first(self, x: Array, way: Array) -> int:
+        """Close the open nodes that bodies on a rigid way meet first.
+
+        Args:
+            x: Positions.
+            way: Coefficients of each body's modes, shape (num_bodies, m).
+
+        Returns:
+            Number of nodes closed.
+        """
+        rigid = self._modes
+        assert rigid is not None
+        found: list[tuple[Interface, npt.NDArray[np.int32], Array]] = []
+        for interface in self._interfaces:
+            nodes = interface.nodes
+            for pairs, rows in pair_rows(interface, rigid, x):
+                speed = -np.einsum("pi,pim,m->p", rows.normal, rows.movement, way.ravel())
+                gap = nodes.closable_gap[pairs.slaves]
+                able = ~nodes.closed[pairs.slaves] & np.isfinite(gap)
+                able &= speed > 1e-6 * np.abs(way).max()
+                time = np.maximum(gap[able], 0) / speed[able]
+                found.append((interface, pairs.slaves[able], time))
+        if not any(len(time) for _, _, time in found):
+            return 0
+        lowest = min(time.min() for _, _, time in found if len(time))
+        # What is closer than this touches at once
+        tie = 1e-9 * rigid.size / np.abs(way).max()
+        count = 0
+        for interface, slaves, time in found:
+            first = slaves[time <= lowest + tie]
+            interface.close(first)
+            count += len(first)
+        return count
+
+    def _springs(self, field: Array) -> Array:
+        """Springs at as many dofs as there are modes, where they are most independent."""
+        diagonal = np.abs(self._bulk.jacobian().getDiagonal().array)
+        springs = np.zeros(len(field))
+        left = np.where(self._bulk.markers[:, None] == 1, 0.0, field)
+        for _ in range(field.shape[1]):
+            dof = int(np.argmax(np.einsum("ij,ij->i", left, left)))
+            direction = left[dof] / np.linalg.norm(left[dof])
+            left = left - np.outer(left @ direction, direction)
+            springs[dof] = diagonal[dof]
+        return springs

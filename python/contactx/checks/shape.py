@@ -1,0 +1,68 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Shape of the facets of a surface."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from contactx.surface import FacetList, Surface
+
+_SMALL = 1e-10
+# Neighbours of each corner along the local axes of a quadrilateral: its Jacobian there
+_AXES = np.array([[[0, 1], [0, 2]], [[0, 1], [1, 3]], [[2, 3], [0, 2]], [[2, 3], [1, 3]]])
+
+
+def corner_normals(x: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+    """Normals t_1 x t_2 of facets, not of unit length, at the corners where they differ.
+
+    Args:
+        x: Coordinates of the facets' nodes, shape (num_facets, num_nodes, gdim).
+
+    Returns:
+        Normals, shape (num_facets, c, gdim), with c = 4 for quadrilaterals and 1 otherwise.
+    """
+    if x.shape[1] == 2:
+        t = x[:, 1] - x[:, 0]
+        return np.stack([t[:, 1], -t[:, 0]], axis=1)[:, None]
+    axes = _AXES if x.shape[1] == 4 else _AXES[:1]
+    t = x[:, axes[:, :, 1]] - x[:, axes[:, :, 0]]
+    normals: npt.NDArray[np.float64] = np.cross(t[:, :, 0], t[:, :, 1])
+    return normals
+
+
+def check_facets(
+    surface: Surface, role: str, facets: FacetList, x: npt.NDArray[np.float64]
+) -> None:
+    """Check that the facets have an area and are not turned inside out at a corner.
+
+    Args:
+        surface: Surface.
+        role: "slave" or "master".
+        facets: Its facets.
+        x: Reference positions of all nodes, shape (num_nodes, gdim).
+
+    Raises:
+        ValueError: If a facet is degenerate.
+    """
+    smallest = _SMALL * np.linalg.norm(np.ptp(x[facets.nodes], axis=0))
+    bad = []
+    for which, nodes in facets.groups():
+        corners = x[nodes]
+        size = np.linalg.norm(np.ptp(corners, axis=1), axis=1)
+        normals = corner_normals(corners)
+        mean = normals.mean(axis=1)
+        # Compared with size^(gdim - 1), what the normal of a well-shaped facet has
+        wanted = _SMALL * size ** (x.shape[1] - 1) * np.linalg.norm(mean, axis=1)
+        turned = (np.einsum("fci,fi->fc", normals, mean) <= wanted[:, None]).any(axis=1)
+        bad.append(which[turned | (size <= smallest)])
+    degenerate = np.sort(np.concatenate(bad))
+    if len(degenerate) > 0:
+        first = degenerate[0]
+        at = x[facets.nodes[facets.offsets[first] : facets.offsets[first + 1]]].mean(axis=0)
+        raise ValueError(
+            f"{len(degenerate)} facets of the {role} surface {surface} are degenerate: they have "
+            "no area, or are folded so that their Jacobian changes sign. The first is facet "
+            f"{surface.facets[first]} at {at}: repair the mesh there"
+        )

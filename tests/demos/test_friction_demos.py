@@ -1,0 +1,61 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""The demos with friction run, print what they should and leave their pictures."""
+
+import cattaneo_mindlin
+import numpy as np
+import pytest
+import pyvista
+import sliding_block
+import stacked_blocks
+from matplotlib import image
+
+pytestmark = pytest.mark.skip(reason="needs friction and LoadSteps")
+
+# Normal and tangential force, half-width, peak, half-width that sticks, L2 of pressure and shear
+FINITE = (1e-3, 1e-4, 0.03, 0.06, 0.05, 0.1, 0.2)
+# Normals of the undeformed circles are turned by much beside mu
+SMALL = (1e-3, 1e-4, 0.03, 0.06, 0.15, 0.1, 0.45)
+
+
+def check(demo, arguments, tolerances, pictures, folder, capsys):
+    results = demo.main([*arguments, "--output", str(folder)])
+    for result, tolerance in zip(results, tolerances, strict=True):
+        assert abs(result.error) <= tolerance, result
+    printed = capsys.readouterr().out
+    for text in ("expected", "computed", "error", "converged after", "see "):
+        assert text in printed
+    for picture in pictures:
+        pixels = image.imread(folder / picture)
+        assert pixels.shape[0] > 300
+        assert len(np.unique(pixels.reshape(-1, pixels.shape[-1]), axis=0)) > 100
+    saved = pyvista.get_reader(str(folder / f"{demo.__name__}.pvd")).read()[0].point_data
+    assert any(name.startswith("pressure") for name in saved)
+
+
+@pytest.mark.parametrize(("sliding", "tolerances"), [("finite", FINITE), ("small", SMALL)])
+def test_cattaneo_mindlin(sliding, tolerances, tmp_path, capsys):
+    pictures = ("cattaneo_mindlin.png", "cattaneo_mindlin_pressure.png")
+    arguments = ("--h", "0.04", "--sliding", sliding)
+    check(cattaneo_mindlin, arguments, tolerances, pictures, tmp_path, capsys)
+
+
+# Force held before it slides, when the last node slips, and while it slides; in 3D slip turns
+@pytest.mark.parametrize(
+    ("dim", "h", "held", "last", "slides"),
+    [("2", "0.2", 0.1, 1e-7, 1e-7), ("3", "0.5", 0.4, 0.06, 3e-3)],
+)
+@pytest.mark.parametrize(("sliding", "ploughing"), [("finite", 0.05), ("small", 0)])
+def test_sliding_block(sliding, ploughing, dim, h, held, last, slides, tmp_path, capsys):
+    plane = (1e-7, held, last, slides, slides)
+    base = (1e-7, held, last + ploughing, slides + ploughing, slides + ploughing)
+    pictures = ("sliding_block.png", "sliding_block_loop.png")
+    arguments = ("--h", h, "--dim", dim, "--sliding", sliding)
+    check(sliding_block, arguments, (*plane, *base), pictures, tmp_path, capsys)
+
+
+@pytest.mark.parametrize(("dim", "h"), [("2", "0.1"), ("3", "0.25")])
+@pytest.mark.parametrize("sliding", ["finite", "small"])
+def test_stacked_blocks(sliding, dim, h, tmp_path, capsys):
+    arguments = ("--h", h, "--dim", dim, "--sliding", sliding)
+    check(stacked_blocks, arguments, [1e-7] * 10, ("stacked_blocks.png",), tmp_path, capsys)
