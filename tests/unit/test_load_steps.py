@@ -212,7 +212,7 @@ def test_warnings_point_to_the_loop(monkeypatch):
     scene = Sheared(far=0.1)
 
     def warned(report):
-        scene.problem._warn(0, scene.contact.interface)
+        scene.problem._warn(0, scene.contact.interface, 0.0)
 
     monkeypatch.setattr(scene.problem, "_complete", warned)
     monkeypatch.setattr(type(scene.contact.interface.master), "paired", np.zeros(4, dtype=bool))

@@ -177,7 +177,7 @@ class FacetMaster(Master):
 
     def identity(self) -> dict[str, npt.NDArray[Any]]:
         """See ``Master``."""
-        return {"nodes": self._facets.nodes, "offsets": self._facets.offsets}
+        return {"nodes": self.facets.nodes, "offsets": self.facets.offsets}
 
     def save(self) -> dict[str, npt.NDArray[Any]]:
         """See ``Master``; flips are forgotten, as at the start of every step."""
