@@ -100,6 +100,28 @@ class SlidingBlocks:
         """There is no history."""
 
 
+class LooseBlock:
+    """The upper block lies on the lower one, which alone holds it, and is pressed by a load."""
+
+    def __init__(self) -> None:
+        scene = Blocks(CellType.quadrilateral, n_upper=3, n_lower=4)
+        self.u, mesh = scene.u, scene.u.function_space.mesh
+        v = ufl.TestFunction(self.u.function_space)
+        self._load = fem.Constant(mesh, 0.0)
+        ds = ufl.Measure("ds", mesh, subdomain_data=scene.tags)
+        scene.F += self._load * v[1] * ds(Tag.UPPER_TOP)
+        scene.bcs = scene.bcs[:2]
+        self.contact = scene.contact("small")
+        self.problem = scene.problem(self.contact)
+        self.history: list[fem.Function] = []
+
+    def update(self, t: float) -> None:
+        self._load.value = 0.05 + 0.1 * t
+
+    def commit(self) -> None:
+        """There is no history."""
+
+
 class DentedBlock:
     """A plastic block under a rigid ball that moves down, and up again, and sideways."""
 

@@ -130,6 +130,10 @@ class NewtonLoop:
             report.reason = self._failure
         report.skipped["bulk Jacobian assembly"] = self._bulk.skipped - before[1]
 
+    def begin(self) -> None:
+        """Find what the first run would find at its start."""
+        self._holder.begin_step()
+
     def reset(self) -> None:
         """Forget PETSc's work vectors: an error inside PETSc leaves them locked."""
         self.snes.reset()

@@ -114,6 +114,13 @@ class ContactProblem:
         """The SNES solver."""
         return self._newton.snes
 
+    def begin(self) -> None:
+        """Find what the first solve would find at its start; LoadSteps calls this at a restart.
+
+        The rigid modes of bodies that nothing but contact holds are those of bodies without stress.
+        """
+        self._newton.begin()
+
     def solve(self) -> fem.Function:
         """Solve for the current loads and Dirichlet values, starting from ``u``.
 

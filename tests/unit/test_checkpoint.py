@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from scenes import Blocks
-from step_scenes import DentedBlock, Sheared, SlidingBlocks
+from step_scenes import DentedBlock, LooseBlock, Sheared, SlidingBlocks
 
 import contactx as cx
 from contactx.steps import archive
@@ -28,6 +28,7 @@ SCENES = {
     "friction, plane": lambda: SlidingBlocks(CellType.quadrilateral, friction=0.2),
     "friction, small": lambda: SlidingBlocks(CellType.triangle, friction=0.2, sliding="small"),
     "tied": lambda: SlidingBlocks(CellType.tetrahedron, tied=True, offset=0.01),
+    "held by contact alone": LooseBlock,
     "plastic under a ball": DentedBlock,
     "plastic with friction": lambda: DentedBlock(friction=0.3),
     "plastic, tied to a ball": lambda: DentedBlock(0.01, tied=True, search_distance=0.03),

@@ -207,6 +207,7 @@ class LoadSteps:
         before = Snapshot(self._problem, self._history)
         try:
             plan = self._plan.load(steps["steps: given"], steps["steps: place"])
+            self._problem.begin()
             checkpoint.load(saved, self._problem, self._history)
         except (KeyError, ValueError) as error:
             raise ValueError(f"cannot restart from {path}: {error}") from error
