@@ -30,6 +30,17 @@ void contactx_bindings::search(py::module_& m)
       .def("begin_step", &Pairing::begin_step,
            "Forget what was learnt in the last step")
       .def(
+          "restore",
+          [](Pairing& self, const Array<std::int32_t>& facet,
+             const Array<std::int32_t>& feature, const Array<double>& xi,
+             const Array<double>& cone, const Array<double>& normal)
+          {
+            self.restore(view(facet), view(feature), view(xi), view(cone),
+                         view(normal));
+          },
+          py::arg("facet"), py::arg("feature"), py::arg("xi"), py::arg("cone"),
+          py::arg("normal"), "Take over the pairs of another pairing")
+      .def(
           "update",
           [](Pairing& self, const Array<double>& x, double reach,
              const Array<std::int8_t>& closed)
@@ -102,8 +113,5 @@ void contactx_bindings::search(py::module_& m)
           },
           py::arg("x"), py::arg("xi"),
           "Points at local coordinates of the slave nodes' facets, and unit "
-          "normals there")
-      .def(
-          "copy", [](const Pairing& self) { return Pairing(self); },
-          "Independent copy, to return to when a step fails");
+          "normals there");
 }

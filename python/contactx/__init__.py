@@ -11,6 +11,7 @@ from contactx.obstacles import Cylinder, LevelSet, Plane, Sphere
 from contactx.output import VTKOutput
 from contactx.problem import ContactProblem
 from contactx.report import Report
+from contactx.steps import LoadSteps
 from contactx.surface import Surface
 
 __all__ = [
@@ -19,6 +20,7 @@ __all__ = [
     "ConvergenceError",
     "Cylinder",
     "LevelSet",
+    "LoadSteps",
     "Plane",
     "Report",
     "Sphere",

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -28,17 +28,8 @@ from dolfinx import cpp, fem, la
 # Share of a relative movement that must be free for a constraint on it
 _MOBILE = 0.05
 
-
-@dataclass(frozen=True)
-class Checkpoint:
-    """State of a contact that a failed step returns to."""
-
-    master: Master
-    multiplier: npt.NDArray[np.float64]
-    status: npt.NDArray[np.int8]
-    gap: npt.NDArray[np.float64]
-    normal: npt.NDArray[np.float64]
-    slip: npt.NDArray[np.float64]
+# State of the slave nodes that outlives a step
+_NODAL = ("multiplier", "status", "gap", "normal", "slip", "immobile", "mobile")
 
 
 class Interface:
@@ -348,25 +339,36 @@ class Interface:
         for form in self.forms:
             fem.assemble_vector(b, form.residual)
 
-    def checkpoint(self) -> Checkpoint:
-        """Copy what a step changes."""
-        return Checkpoint(
-            self.master.copy(),
-            self.nodes.multiplier.copy(),
-            self.nodes.status.copy(),
-            self.nodes.gap.copy(),
-            self.nodes.normal.copy(),
-            self.nodes.slip.copy(),
-        )
+    def save(self) -> dict[str, npt.NDArray[Any]]:
+        """Copy of all that the next step depends on.
 
-    def restore(self, checkpoint: Checkpoint) -> None:
-        """Return to a checkpoint."""
-        self.master = checkpoint.master.copy()
-        self.nodes.multiplier[:] = checkpoint.multiplier
-        self.nodes.status[:] = checkpoint.status
-        self.nodes.gap[:] = checkpoint.gap
-        self.nodes.normal[:] = checkpoint.normal
-        self.nodes.slip[:] = checkpoint.slip
+        Returns:
+            Arrays by their names, with shapes and types that never change.
+        """
+        history = {} if self.history is None else vars(self.history)
+        return {
+            "active": np.array(self.active),
+            **{name: getattr(self.nodes, name).copy() for name in _NODAL},
+            **{f"history_{name}": values.copy() for name, values in history.items()},
+            **{f"master_{name}": values for name, values in self.master.save().items()},
+        }
+
+    def load(self, saved: Mapping[str, npt.NDArray[Any]]) -> None:
+        """Go on from what ``save`` gave for the same contact.
+
+        Args:
+            saved: Arrays by their names, of the same shapes and types.
+
+        Raises:
+            ValueError: If a pair is with a facet that does not exist; nothing has changed.
+        """
+        self.master.load({name.removeprefix("master_"): saved[name] for name in saved})
+        self.active = bool(saved["active"])
+        for name in _NODAL:
+            getattr(self.nodes, name)[:] = saved[name]
+        if self.history is not None:
+            for name in vars(self.history):
+                setattr(self.history, name, saved[f"history_{name}"].copy())
         self._held = self.sliding == "small"
         self._make_forms()
 

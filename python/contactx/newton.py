@@ -16,6 +16,7 @@ from contactx import compat
 from contactx.bodies.bodies import Bodies
 from contactx.bodies.holder import Holder
 from contactx.bulk import Bulk
+from contactx.callback import keeps_its_error
 from contactx.convergence import Judge
 from contactx.interface import Interface
 from contactx.junctions import Junctions
@@ -48,6 +49,7 @@ class NewtonLoop:
 
     Attributes:
         snes: The solver.
+        error: Error of Python inside PETSc; whoever deals with it sets it to None.
     """
 
     def __init__(
@@ -78,6 +80,7 @@ class NewtonLoop:
         self._A: PETSc.Mat | None = None
         self._A_is_current = False
         self._report = Report()
+        self.error: BaseException | None = None
         self._converged = False
         self._held = self._stale = False
         self._changes = (0, 0)
@@ -132,6 +135,10 @@ class NewtonLoop:
         report.closed_to_hold = self._holder.closed
         report.skipped["bulk Jacobian assembly"] = self._bulk.skipped - before[1]
 
+    def begin(self) -> None:
+        """Find what the first run would find at its start."""
+        self._holder.begin_step()
+
     def reset(self) -> None:
         """Forget PETSc's work vectors: an error inside PETSc leaves them locked."""
         self.snes.reset()
@@ -168,11 +175,13 @@ class NewtonLoop:
                 else:
                     database[name] = value
 
+    @keeps_its_error
     def _function(self, snes: PETSc.SNES, x: PETSc.Vec, b: PETSc.Vec) -> None:
         with self._report.timing("residual"):
             self._system.scatter(x)
             self._system.residual(b)
 
+    @keeps_its_error
     def _jacobian(self, snes: PETSc.SNES, x: PETSc.Vec, A: PETSc.Mat, P: PETSc.Mat) -> None:
         if not self._A_is_current:
             with self._report.timing("Jacobian"):
@@ -245,6 +254,7 @@ class NewtonLoop:
         for interface in self._interfaces:
             interface.hold(held)
 
+    @keeps_its_error
     def _test(
         self, snes: PETSc.SNES, number: int, norms: tuple[float, float, float]
     ) -> PETSc.SNES.ConvergedReason:

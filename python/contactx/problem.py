@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
 from petsc4py import PETSc
@@ -113,6 +114,13 @@ class ContactProblem:
         """The SNES solver."""
         return self._newton.snes
 
+    def begin(self) -> None:
+        """Find what the first solve would find at its start; LoadSteps calls this at a restart.
+
+        The rigid modes of bodies that nothing but contact holds are those of bodies without stress.
+        """
+        self._newton.begin()
+
     def solve(self) -> fem.Function:
         """Solve for the current loads and Dirichlet values, starting from ``u``.
 
@@ -128,7 +136,7 @@ class ContactProblem:
         validate.check_finite(the_displacement_u_is=self.u.x)
         self._check_over_constrained()
         displacement = self.u.x.array.copy()
-        checkpoints = [interface.checkpoint() for interface in self._interfaces]
+        saved = [interface.save() for interface in self._interfaces]
         self.report = report = Report()
         try:
             with report.timing("total"):
@@ -139,11 +147,12 @@ class ContactProblem:
                 contact.accept()
         except BaseException as error:
             self.u.x.array[:] = displacement
-            for interface, checkpoint in zip(self._interfaces, checkpoints, strict=True):
-                interface.restore(checkpoint)
+            for interface, before in zip(self._interfaces, saved, strict=True):
+                interface.load(before)
             self._newton.reset()
-            # An error of Python inside PETSc comes back as the cause of one of PETSc
-            cause = error.__cause__
+            # An error of Python inside PETSc comes back as the cause of one of PETSc, or without it
+            cause = self._newton.error or error.__cause__
+            self._newton.error = None
             if isinstance(error, PETSc.Error) and cause is not None:
                 raise cause from None
             raise
@@ -204,4 +213,5 @@ class ContactProblem:
                 "take smaller steps"
             )
         if text:
-            warnings.warn(text, stacklevel=4)
+            # Of the user's line, whether that calls solve or a loop of steps does
+            warnings.warn(text, skip_file_prefixes=(str(Path(__file__).parent),))

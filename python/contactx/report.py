@@ -48,6 +48,7 @@ class Report:
 
     Attributes:
         history: One row an iteration, the start first.
+        discarded: Linear solves of the attempts at this step that LoadSteps cut.
         converged: Whether the step converged.
         reason: Why the Newton loop ended.
         slaves: Number of slave nodes of all contacts.
@@ -68,6 +69,7 @@ class Report:
     """
 
     history: list[Iteration] = field(default_factory=list)
+    discarded: int = 0
     converged: bool = False
     reason: str = ""
     slaves: int = 0
@@ -113,14 +115,15 @@ class Report:
                 str(row.pair_changes) + (" held" if row.held else ""),
                 f"{row.dirichlet_defect:.1e}",
             )
-        return _render(table)
+        return render(table)
 
     def __str__(self) -> str:
         """The whole report."""
         frozen = f", {self.frozen} held (hiding a gap of {self.frozen_gap:.1e})"
+        discarded = f" ({self.discarded} more in attempts that were cut)"
         lines = [
             f"{'converged' if self.converged else 'NOT converged'} after {self.iterations} "
-            f"iterations: {self.reason}",
+            f"iterations{discarded if self.discarded else ''}: {self.reason}",
             self.table().rstrip(),
             f"{self.pairs} of {self.slaves} slave nodes have a pair"
             + (f", {self.immobile} nothing to yield" if self.immobile else "")
@@ -154,7 +157,7 @@ class Report:
         return "\n".join(wrapped)
 
 
-def _render(table: Table) -> str:
+def render(table: Table) -> str:
     """A rich table as plain text, so that it fits into files and error messages."""
     text = io.StringIO()
     Console(file=text, width=80).print(table)

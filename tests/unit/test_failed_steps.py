@@ -10,6 +10,7 @@ from petsc4py import PETSc
 import numpy as np
 import pytest
 from scenes import Blocks
+from step_scenes import Sheared
 
 import contactx as cx
 import ufl
@@ -120,6 +121,20 @@ def test_a_failed_step_brings_the_pairs_back():
     for pairs, before, values in zip(contact.interface.master.pairs(), nodes, data, strict=True):
         assert np.array_equal(pairs.nodes, before)
         assert np.array_equal(pairs.data, values)
+
+
+def test_a_failed_step_brings_back_which_nodes_can_yield():
+    """On a plane that has turned upright none can: they are held sideways."""
+    scene = Sheared()
+    scene.update(0.1)
+    scene.problem.solve()
+    before = scene.state()
+    assert not scene.contact.interface.nodes.immobile.any()
+    scene.normal.value[:] = (1, 0)
+    scene.update(300.0)
+    with pytest.raises(cx.ConvergenceError):
+        scene.problem.solve()
+    assert scene.state() == before
 
 
 def test_problems_are_freed():

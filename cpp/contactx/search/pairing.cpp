@@ -4,6 +4,7 @@
 #include "pairing.h"
 #include "../facet/gather.h"
 #include <limits>
+#include <stdexcept>
 
 using namespace contactx;
 using namespace contactx::search;
@@ -47,6 +48,36 @@ void Pairing::begin_step()
 {
   _left.assign(_slaves.size(), never);
   _returns.assign(_slaves.size(), 0);
+}
+
+void Pairing::restore(std::span<const std::int32_t> facet,
+                      std::span<const std::int32_t> feature,
+                      std::span<const double> xi, std::span<const double> cone,
+                      std::span<const double> normal)
+{
+  if (facet.size() != _facet.size() or feature.size() != _feature.size()
+      or xi.size() != _xi.size() or cone.size() != _cone.size()
+      or normal.size() != _normal.size())
+    throw std::invalid_argument("pairs of another number of slave nodes");
+  const facet::FacetList facets = _master.facets();
+  const auto num_facets = static_cast<std::int32_t>(facets.size());
+  for (std::size_t i = 0; i < facet.size(); ++i)
+  {
+    if (facet[i] < -1 or facet[i] >= num_facets)
+      throw std::invalid_argument("a pair with a facet that does not exist");
+    // As many vertices as edges; in the plane a facet is an edge itself
+    std::ptrdiff_t features = facet::interior;
+    if (facet[i] >= 0)
+      features += (_master.gdim() - 1) * std::ssize(facets[facet[i]]);
+    if (feature[i] < facet::interior or feature[i] > features)
+      throw std::invalid_argument("a pair on a feature that does not exist");
+  }
+  std::ranges::copy(facet, _facet.begin());
+  std::ranges::copy(feature, _feature.begin());
+  std::ranges::copy(xi, _xi.begin());
+  std::ranges::copy(cone, _cone.begin());
+  std::ranges::copy(normal, _normal.begin());
+  begin_step();
 }
 
 void Pairing::refit(std::span<const double> x)

@@ -45,6 +45,14 @@ public:
   std::int32_t update(std::span<const double> x, double reach,
                       std::span<const std::int8_t> closed);
 
+  /// @brief Take over the pairs of another pairing of the same surfaces, as
+  /// the functions of these names give them. Nothing is frozen then.
+  /// @throws std::invalid_argument if they do not fit; nothing has changed.
+  void restore(std::span<const std::int32_t> facet,
+               std::span<const std::int32_t> feature,
+               std::span<const double> xi, std::span<const double> cone,
+               std::span<const double> normal);
+
   /// @brief Facet of each slave node, -1 where it has none
   /// (shape=(num_slaves)).
   const std::vector<std::int32_t>& facet() const { return _facet; }

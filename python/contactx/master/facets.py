@@ -4,7 +4,8 @@
 
 from __future__ import annotations
 
-import copy
+from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -14,6 +15,7 @@ from contactx.forms import Pairs
 from contactx.master.master import Master, touching
 from contactx.surface import FacetList
 
+_SAVED = ("facet", "feature", "xi", "cone", "normal")
 _AT = core.slip_layout
 
 
@@ -173,11 +175,24 @@ class FacetMaster(Master):
                 each[pairs.slaves] = np.sqrt(_free_squares(pairs, xi, free))
         return along, each
 
-    def copy(self) -> FacetMaster:
+    def identity(self) -> dict[str, npt.NDArray[Any]]:
         """See ``Master``."""
-        twin = copy.copy(self)
-        twin._pairing = self._pairing.copy()
-        return twin
+        return {"nodes": self.facets.nodes, "offsets": self.facets.offsets}
+
+    def save(self) -> dict[str, npt.NDArray[Any]]:
+        """See ``Master``; flips are forgotten, as at the start of every step."""
+        saved = {name: getattr(self._pairing, name) for name in _SAVED}
+        if self._measures_slip:
+            saved |= {"start": self._start, "before": self._x0, "at": self._at}
+        return saved
+
+    def load(self, saved: Mapping[str, npt.NDArray[Any]]) -> None:
+        """See ``Master``."""
+        self._pairing.restore(**{name: saved[name] for name in _SAVED})
+        self._facet = self._pairing.facet
+        self._feature = self._pairing.feature
+        if self._measures_slip:
+            self._start, self._x0, self._at = saved["start"], saved["before"], saved["at"]
 
     def distance(self, x: npt.NDArray[np.float64]) -> float:
         """See ``Master``."""

@@ -5,6 +5,8 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -116,8 +118,23 @@ class Master(ABC):
         """
 
     @abstractmethod
-    def copy(self) -> Master:
-        """Independent copy, to return to when a step fails."""
+    def identity(self) -> dict[str, npt.NDArray[Any]]:
+        """Arrays that tell this master from another one to which ``save`` would not fit."""
+
+    @abstractmethod
+    def save(self) -> dict[str, npt.NDArray[Any]]:
+        """What the next search remembers, in arrays of shapes that never change.
+
+        Nothing writes to them: what changes is put into new ones.
+        """
+
+    @abstractmethod
+    def load(self, saved: Mapping[str, npt.NDArray[Any]]) -> None:
+        """Take over what ``save`` gave for the same surfaces.
+
+        Raises:
+            ValueError: If it does not fit; nothing has changed.
+        """
 
     @abstractmethod
     def distance(self, x: npt.NDArray[np.float64]) -> float:

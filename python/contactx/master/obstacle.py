@@ -4,7 +4,8 @@
 
 from __future__ import annotations
 
-import copy
+from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -13,9 +14,14 @@ from contactx import cpp as core
 from contactx.forms import Pairs
 from contactx.master.master import Master, touching
 from contactx.obstacles import Geometry, Obstacle
+from contactx.obstacles.obstacle import Placement
 
 _AT = core.rigid_layout
 _SLIP = core.rigid_slip_layout
+
+# What is saved of pairs, and of slip
+_PAIRS = ("paired", "data", "at")
+_SLIPS = ("slip_data", "start", "x0", "gap0")
 
 
 class ObstacleMaster(Master):
@@ -163,9 +169,29 @@ class ObstacleMaster(Master):
         """Gap of the slave nodes at positions of all nodes, shape (n,)."""
         return self._obstacle.evaluate(x[self._slaves]).gap
 
-    def copy(self) -> ObstacleMaster:
+    def identity(self) -> dict[str, npt.NDArray[Any]]:
+        """See ``Master``; obstacles have no pairs that might not fit."""
+        return {}
+
+    def save(self) -> dict[str, npt.NDArray[Any]]:
         """See ``Master``."""
-        return copy.copy(self)
+        saved = {name: getattr(self, f"_{name}") for name in self._saved}
+        if self._measures_slip:
+            saved["point"] = self._placed.point
+            if self._placed.direction is not None:
+                saved["direction"] = self._placed.direction
+        return saved
+
+    def load(self, saved: Mapping[str, npt.NDArray[Any]]) -> None:
+        """See ``Master``."""
+        for name in self._saved:
+            setattr(self, f"_{name}", saved[name])
+        if self._measures_slip:
+            self._placed = Placement(saved["point"], saved.get("direction"))
+
+    @property
+    def _saved(self) -> tuple[str, ...]:
+        return _PAIRS + _SLIPS if self._measures_slip else _PAIRS
 
     def distance(self, x: npt.NDArray[np.float64]) -> float:
         """See ``Master``."""

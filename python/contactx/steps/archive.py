@@ -1,0 +1,70 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Named arrays in a file that is whole or not there."""
+
+from __future__ import annotations
+
+import os
+import zipfile
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+# Says what the file is, and the version of its format
+_MARK = "contactx_checkpoint"
+_VERSION = 1
+
+
+def write(path: Path, arrays: Mapping[str, npt.NDArray[Any]]) -> None:
+    """Write arrays; a file of this name is replaced once the new one is whole.
+
+    Args:
+        path: The file, in NumPy's format .npz.
+        arrays: Arrays by their names.
+
+    Raises:
+        OSError: If it cannot be written; the old file is still there.
+    """
+    temporary = path.with_name(f"{path.name}.tmp")
+    try:
+        with open(temporary, "wb") as file:
+            np.savez(file, allow_pickle=False, **{_MARK: np.array(_VERSION)}, **arrays)
+            file.flush()
+            os.fsync(file.fileno())
+        os.replace(temporary, path)
+    except BaseException:
+        temporary.unlink(missing_ok=True)
+        raise
+
+
+def read(path: Path) -> dict[str, npt.NDArray[Any]]:
+    """Read arrays.
+
+    Args:
+        path: The file.
+
+    Returns:
+        Arrays by their names.
+
+    Raises:
+        FileNotFoundError: If there is no such file.
+        ValueError: If it is damaged or something else.
+    """
+    if not path.is_file():
+        raise FileNotFoundError(f"there is no checkpoint {path}")
+    if not zipfile.is_zipfile(path):
+        raise ValueError(f"{path} is truncated, or no checkpoint at all")
+    try:
+        with np.load(path, allow_pickle=False) as file:
+            arrays = {name: file[name] for name in file.files}
+    except (ValueError, EOFError, KeyError, NotImplementedError, zipfile.BadZipFile) as error:
+        raise ValueError(f"{path} is damaged, or no checkpoint at all: {error}") from error
+    version = arrays.pop(_MARK, None)
+    if version is None:
+        raise ValueError(f"{path} holds arrays, but is no checkpoint of contactx")
+    if version != _VERSION:
+        raise ValueError(f"{path} has format {version}, but this contactx reads {_VERSION}")
+    return arrays

@@ -1,0 +1,228 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Loads that grow in steps, cut back where a step fails."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import ExitStack
+from pathlib import Path
+
+import numpy as np
+
+from contactx.errors import ConvergenceError
+from contactx.problem import ContactProblem
+from contactx.steps import archive, checkpoint
+from contactx.steps.display import Show, progress_bar, show_text
+from contactx.steps.plan import make_plan
+from contactx.steps.snapshot import Snapshot
+from contactx.steps.table import Row, Step, make_row, table
+from dolfinx import fem
+
+
+class LoadSteps:
+    """Solves a problem step after step while t goes from 0 to 1.
+
+    Example::
+
+        def update(t):
+            top.g.value[...] = -0.3 * t
+
+
+        for step in cx.LoadSteps(problem, 10, update=update):
+            material.commit()
+
+    A step that does not converge is halved. Halved steps grow back: after an easy one the next is
+    twice as long, but no given t is passed over. The loop sees accepted steps only; its body runs
+    between them, so it may update a material's history. A failed attempt leaves u, contacts and
+    history as they were, bit for bit. After a break, or an error that was dealt with, another loop
+    goes on behind the last accepted step.
+    """
+
+    def __init__(
+        self,
+        problem: ContactProblem,
+        steps: int | Sequence[float],
+        update: Callable[[float], object],
+        *,
+        history: Sequence[fem.Function] = (),
+        output: Callable[[Step], object] | None = None,
+        checkpoint: str | Path | None = None,
+        restart: str | Path | None = None,
+        max_cuts: int = 6,
+        easy: int = 10,
+        progress: bool = True,
+    ):
+        """Create the steps; nothing is solved before the loop starts.
+
+        Args:
+            problem: The problem.
+            steps: Number of equal steps, or the t at which each ends, increasing in (0, 1].
+            update: Function of t that sets loads and Dirichlet values. It is called before every
+                attempt; after a failure that ends the loop with the last accepted t, 0 if there is
+                none; and at a restart with the t of the file.
+            history: Functions that belong to the state of a step, such as plastic strains. They are
+                written to checkpoints, read from them, and what ``update`` does to them is undone
+                when its attempt fails.
+            output: Called with each accepted step, before the loop's body.
+            checkpoint: File to write once the loop's body has ended for an accepted step. The last
+                one stays whole if writing fails.
+            restart: Such a file to go on from. The problem must be made as it was then, and
+                continues to the same answer.
+            max_cuts: How often a given step may be halved.
+            easy: Linear solves up to which a step counts as easy.
+            progress: Whether to show a progress bar, and the table of steps at the end.
+
+        Raises:
+            FileNotFoundError: If there is no file to restart from.
+            TypeError: If an argument is of another kind.
+            ValueError: If an argument is out of its range, or the file to restart from is damaged
+                or of another problem; nothing has changed then.
+        """
+        if not isinstance(problem, ContactProblem):
+            raise TypeError(f"problem must be a ContactProblem, not {type(problem).__name__}")
+        if not callable(update):
+            raise TypeError(f"update must be a function of t, not {update!r}")
+        if output is not None and not callable(output):
+            raise TypeError(f"output must be a function of a step, not {output!r}")
+        if isinstance(history, fem.Function):
+            raise TypeError("history must be a list of functions: write history=[function]")
+        for function in history:
+            if not isinstance(function, fem.Function):
+                raise TypeError(f"history holds a {type(function).__name__}: give fem.Functions")
+        self._plan = make_plan(steps, max_cuts, easy)
+        self._problem = problem
+        self._update = update
+        self._history = list(history)
+        self._output = output
+        self._checkpoint = None if checkpoint is None else _file_to_write(checkpoint)
+        self._progress = progress
+        self._rows: list[Row] = []
+        if restart is not None:
+            self._restart(Path(restart))
+
+    @property
+    def t(self) -> float:
+        """Last accepted t, 0 before the first step."""
+        return self._plan.t
+
+    def table(self) -> str:
+        """The accepted steps as a text table."""
+        return table(self._rows)
+
+    def save(self, path: str | Path) -> None:
+        """Write a checkpoint of the last accepted step.
+
+        Args:
+            path: File in NumPy's format .npz. One of this name is replaced when the new one is
+                whole.
+
+        Raises:
+            OSError: If it cannot be written.
+        """
+        steps = {f"steps: {name}": array for name, array in self._plan.save().items()}
+        steps["steps: table"] = np.array(self._rows, dtype=np.float64).reshape(-1, len(Row._fields))
+        archive.write(_file_to_write(path), steps | checkpoint.save(self._problem, self._history))
+
+    def __iter__(self) -> Iterator[Step]:
+        """Take the steps that are left.
+
+        Yields:
+            Accepted steps.
+
+        Raises:
+            ConvergenceError: If a step fails although it has been cut to the shortest one.
+        """
+        if self._plan.finished:
+            return
+        with ExitStack() as stack:
+            show: Show = lambda *_: None  # noqa: E731
+            if self._progress:
+                stack.callback(lambda: show_text(self.table()))
+                bar = progress_bar(self._problem, self.t, self._plan.given[-1])
+                show = stack.enter_context(bar)
+            while not self._plan.finished:
+                step = self._take_step(show)
+                show(self.t, f"step {step.index}")
+                if self._output is not None:
+                    self._output(step)
+                yield step
+                # The body may have updated the history
+                if self._checkpoint is not None:
+                    self.save(self._checkpoint)
+
+    def _take_step(self, show: Show) -> Step:
+        """Attempt shorter and shorter steps until one is accepted."""
+        before = Snapshot(self._problem, self._history)
+        begin = time.perf_counter()
+        index, plan, cuts, discarded = len(self._rows) + 1, self._plan, 0, 0
+        while True:
+            show(
+                self.t, f"step {index} to t = {plan.next:.6g}" + (f", cut {cuts}x" if cuts else "")
+            )
+            updated = False
+            try:
+                self._update(plan.next)
+                updated = True
+                self._problem.solve()
+                report = self._problem.report
+                report.discarded = discarded
+                step = Step(index, plan.next, report)
+                row = make_row(step, time.perf_counter() - begin)
+                following = plan.accept(report.iterations)
+                # No call from here on: an interrupt comes before both or after both
+                self._rows, self._plan = [*self._rows, row], following
+            except ConvergenceError as error:
+                before.restore()
+                shorter = plan.cut()
+                if shorter is None:
+                    error.report.discarded = discarded
+                    error.add_note(
+                        f"No step from t = {self.t:.6g} converged; the last attempt, to t = "
+                        f"{plan.next:.6g}, was the shortest that max_cuts = {plan.max_cuts} allows"
+                    )
+                    self._update_again(error)
+                    raise
+                discarded += error.report.iterations
+                plan, cuts = shorter, cuts + 1
+                continue
+            except BaseException as error:
+                before.restore()
+                if updated:
+                    self._update_again(error)
+                raise
+            return step
+
+    def _update_again(self, error: BaseException) -> None:
+        """Set the loads of the last accepted step, whatever that raises."""
+        try:
+            self._update(self.t)
+        except Exception as second:
+            error.add_note(f"update({self.t:.6g}), which sets the loads back, failed: {second!r}")
+
+    def _restart(self, path: Path) -> None:
+        saved = archive.read(path)
+        steps = {n: saved.pop(n) for n in list(saved) if n.startswith("steps: ")}
+        before = Snapshot(self._problem, self._history)
+        try:
+            plan = self._plan.load(steps["steps: given"], steps["steps: place"])
+            self._problem.begin()
+            checkpoint.load(saved, self._problem, self._history)
+        except (KeyError, ValueError) as error:
+            raise ValueError(f"cannot restart from {path}: {error}") from error
+        try:
+            self._update(plan.t)
+        except BaseException:
+            before.restore()
+            raise
+        self._rows = [Row(*row) for row in steps["steps: table"].tolist()]
+        self._plan = plan
+
+
+def _file_to_write(path: str | Path) -> Path:
+    path = Path(path)
+    if path.is_dir():
+        raise ValueError(f"checkpoint is the folder {path}: give the name of a file")
+    path.parent.mkdir(parents=True, exist_ok=True)
+    return path

@@ -1,0 +1,40 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""State of a problem in memory, to return to where a step fails."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from contactx.problem import ContactProblem
+from dolfinx import fem
+
+
+class Snapshot:
+    """Copy of displacement, contacts with their results, and history."""
+
+    def __init__(self, problem: ContactProblem, history: Sequence[fem.Function]):
+        """Copy the state.
+
+        Args:
+            problem: The problem.
+            history: Functions that belong to its state.
+        """
+        self._contacts = [(c.interface, c.interface.save()) for c in problem.contacts]
+        self._fields = [(c.fields, dict(vars(c.fields))) for c in problem.contacts]
+        results = [
+            value
+            for _, attributes in self._fields
+            for value in attributes.values()
+            if isinstance(value, fem.Function)
+        ]
+        self._functions = [(f, f.x.array.copy()) for f in (problem.u, *history, *results)]
+
+    def restore(self) -> None:
+        """Return to the state, bit for bit."""
+        for function, values in self._functions:
+            function.x.array[:] = values
+        for interface, saved in self._contacts:
+            interface.load(saved)
+        for fields, attributes in self._fields:
+            vars(fields).update(attributes)

@@ -1,0 +1,297 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Checkpoints: the same answer to the last bit, and files that do not fit."""
+
+import errno
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scenes import Blocks
+from step_scenes import DentedBlock, LooseBlock, Sheared, SlidingBlocks
+
+import contactx as cx
+from contactx.steps import archive
+from dolfinx import fem
+from dolfinx.mesh import CellType
+
+SCENES = {
+    "triangles": lambda: SlidingBlocks(CellType.triangle),
+    "quadrilaterals": lambda: SlidingBlocks(CellType.quadrilateral),
+    "tetrahedra": lambda: SlidingBlocks(CellType.tetrahedron),
+    "hexahedra": lambda: SlidingBlocks(CellType.hexahedron),
+    "small sliding": lambda: SlidingBlocks(CellType.tetrahedron, sliding="small"),
+    "friction": lambda: SlidingBlocks(CellType.tetrahedron, friction=0.2),
+    "friction, plane": lambda: SlidingBlocks(CellType.quadrilateral, friction=0.2),
+    "friction, small": lambda: SlidingBlocks(CellType.triangle, friction=0.2, sliding="small"),
+    "tied": lambda: SlidingBlocks(CellType.tetrahedron, tied=True, offset=0.01),
+    "held by contact alone": LooseBlock,
+    "plastic under a ball": DentedBlock,
+    "plastic with friction": lambda: DentedBlock(friction=0.3),
+    "plastic, tied to a ball": lambda: DentedBlock(0.01, tied=True, search_distance=0.03),
+}
+
+
+def run(scene, until=None, **options):
+    """Take steps, six in all if none is cut, and return the bits of their results."""
+    steps = cx.LoadSteps(
+        scene.problem, 6, scene.update, history=scene.history, progress=False, **options
+    )
+    for step in steps:
+        scene.commit()
+        if step.index == until:
+            break
+    interface = scene.contact.interface
+    arrays = [scene.u.x.array, *(f.x.array for f in scene.history)]
+    arrays += [*interface.save().values(), scene.contact.force]
+    return [a.tobytes() for a in arrays], steps
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_three_steps_and_three_are_six(name, tmp_path):
+    file = tmp_path / "run.npz"
+    first = SCENES[name]()
+    straight, _ = run(first)
+    assert first.contact.multiplier.any()
+    assert all(f.x.array.any() for f in first.history)
+    middle, _ = run(SCENES[name](), until=4, checkpoint=file)
+    assert middle != straight
+    scene = SCENES[name]()
+    restarted, steps = run(scene, restart=file)
+    assert restarted == straight
+    assert steps.t == 1
+    lines = [line.split("│")[1:3] for line in steps.table().splitlines() if "│" in line]
+    assert [int(index) for index, _ in lines] == list(range(1, len(lines) + 1))
+    assert np.all(np.diff([float(t) for _, t in lines]) > 0)
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_results_are_there_at_once(name, tmp_path):
+    """They are computed anew from the state, which may round in another way."""
+    file, scene, other = tmp_path / "run.npz", SCENES[name](), SCENES[name]()
+    _, steps = run(scene, until=3)
+    steps.save(file)
+    cx.LoadSteps(other.problem, 6, other.update, history=other.history, restart=file)
+    assert np.abs(scene.contact.force).max() > 1e-3
+    for field, values in vars(scene.contact.fields).items():
+        if isinstance(values, fem.Function):
+            array = getattr(other.contact.fields, field).x.array
+            assert array == pytest.approx(values.x.array, rel=1e-11, abs=1e-13, nan_ok=True), field
+    assert other.contact.force == pytest.approx(scene.contact.force, rel=1e-11, abs=1e-13)
+
+
+def test_a_new_process_goes_on_to_the_same_bits(tmp_path):
+    make = SCENES["tetrahedra"]
+    straight, _ = run(make())
+    run(make(), until=4, checkpoint=tmp_path / "run.npz")
+    program = (
+        "import contactx, sys, test_checkpoint as t\n"
+        "bits, _ = t.run(t.SCENES['tetrahedra'](), restart='run.npz')\n"
+        "sys.stdout.buffer.write(b''.join(bits))"
+    )
+    here = Path(__file__).parent
+    folders = [here, here.parent, here.parent.parent / "demos", *sys.path]
+    env = {**os.environ, "PYTHONPATH": os.pathsep.join(map(str, folders))}
+    done = subprocess.run(
+        [sys.executable, "-c", program], cwd=tmp_path, env=env, capture_output=True, check=True
+    )
+    assert done.stdout == b"".join(straight)
+
+
+def test_cut_steps_are_gone_on_from_as_they_were(tmp_path):
+    straight, other = Sheared(far=10.0), Sheared(far=10.0)
+    t = [step.t for step in straight.steps(1, easy=0)]
+    assert len(t) == 8
+    for step in other.steps(1, easy=0, checkpoint=tmp_path / "run.npz"):
+        if step.index == 4:
+            break
+    last = Sheared(far=10.0)
+    steps = last.steps(1, easy=0, restart=tmp_path / "run.npz")
+    assert steps.t == t[2]
+    assert last.contact.force == pytest.approx(
+        np.array([0.0, last.contact.multiplier @ last.contact.area])
+    )
+    assert [(step.index, step.t) for step in steps] == list(enumerate(t, start=1))[3:]
+    # The loads of the file come first
+    assert last.calls == t[2:]
+    assert last.state() == straight.state()
+
+
+def test_a_restart_brings_results_and_switches_back(tmp_path):
+    scene = Sheared(far=0.1)
+    steps = scene.steps(2)
+    next(iter(steps))
+    scene.history.x.array[:] = 5
+    scene.contact.active = False
+    steps.save(tmp_path / "half.npz")
+    other = Sheared(far=0.1)
+    assert other.steps(2, restart=tmp_path / "half.npz").t == 0.5
+    assert not other.contact.active
+    assert other.contact.force[1] > 0
+    # The tractions are computed anew
+    assert other.contact.traction.x.array == pytest.approx(
+        scene.contact.traction.x.array, rel=1e-12
+    )
+    scene.contact.traction.x.array[:] = other.contact.traction.x.array
+    scene.contact.fields.force[:] = other.contact.force
+    assert other.state() == scene.state()
+
+
+def test_a_run_that_has_ended_has_nothing_left(tmp_path):
+    scene = Sheared(far=0.1)
+    for _ in scene.steps(2, checkpoint=tmp_path / "end.npz"):
+        pass
+    other = Sheared(far=0.1)
+    steps = other.steps(2, restart=tmp_path / "end.npz")
+    assert list(steps) == []
+    assert other.calls == [1.0]
+    assert other.u.x.array.tobytes() == scene.u.x.array.tobytes()
+
+
+def test_the_file_has_what_the_body_did(tmp_path):
+    """It is written when the body has ended, and not when the body was left by an error."""
+    file, scene = tmp_path / "new" / "run.npz", Sheared(far=0.1)
+    with pytest.raises(ZeroDivisionError):
+        for step in scene.steps(4, checkpoint=file):
+            scene.history.x.array[:] = step.index
+            assert file.exists() == (step.index > 1)
+            if step.index == 3:
+                raise ZeroDivisionError
+    other = Sheared(far=0.1)
+    assert other.steps(4, restart=file).t == 0.5
+    assert np.all(other.history.x.array == 2)
+    assert os.listdir(file.parent) == [file.name]
+
+
+@pytest.mark.parametrize("error", [OSError(errno.ENOSPC, "No space left"), KeyboardInterrupt()])
+def test_the_last_whole_file_survives(monkeypatch, tmp_path, error):
+    file, scene = tmp_path / "run.npz", Sheared(far=0.1)
+    steps = scene.steps(4)
+    next(iter(steps))
+    steps.save(file)
+    before = file.read_bytes()
+
+    def half(out, **arrays):
+        out.write(before[:300])
+        raise error
+
+    monkeypatch.setattr(np, "savez", half)
+    with pytest.raises(type(error)):
+        steps.save(file)
+    assert file.read_bytes() == before
+    assert os.listdir(tmp_path) == ["run.npz"]
+
+
+@pytest.fixture
+def file(tmp_path):
+    path, scene = tmp_path / "whole.npz", Sheared(far=0.1)
+    steps = scene.steps(2)
+    next(iter(steps))
+    steps.save(path)
+    return path
+
+
+def refused(file, message, scene=None, **options):
+    """Check that a restart fails, naming the file, and changes nothing."""
+    scene = scene or Sheared(far=0.1)
+    before = scene.state()
+    with pytest.raises(ValueError, match=message) as info:
+        scene.steps(2, restart=file, **options)
+    assert str(file) in str(info.value)
+    assert scene.state() == before
+    assert scene.calls == []
+
+
+def test_files_that_are_not_whole(file, tmp_path):
+    data, part = file.read_bytes(), tmp_path / "part.npz"
+    for length in (0, 10, len(data) // 2, len(data) - 1):
+        part.write_bytes(data[:length])
+        refused(part, "is truncated, or no checkpoint at all")
+    with np.load(file) as arrays:
+        at = data.index(arrays["u"].tobytes())
+    part.write_bytes(data[:at] + b"x" + data[at + 1 :])
+    refused(part, "is damaged, or no checkpoint at all: Bad CRC-32")
+    with pytest.raises(FileNotFoundError, match=r"there is no checkpoint .*none\.npz"):
+        Sheared().steps(2, restart=tmp_path / "none.npz")
+
+
+def test_files_of_other_kinds(file, tmp_path):
+    other = tmp_path / "other.npz"
+    np.savez(other, u=np.zeros(3))
+    refused(other, "holds arrays, but is no checkpoint of contactx")
+    np.savez(other, u=np.array([{}]), allow_pickle=True)
+    refused(other, "is damaged, or no checkpoint at all: Object arrays cannot be loaded")
+    np.savez(other, contactx_checkpoint=np.array(2))
+    refused(other, "has format 2, but this contactx reads 1")
+    other.write_text("step,t\n1,0.5\n")
+    refused(other, "is truncated, or no checkpoint at all")
+
+
+def test_files_of_other_problems(file, tmp_path):
+    refused(file, "it holds 1 functions of history, but there are 0 here", history=[])
+    scene = Sheared()
+    refused(file, r"'history 0' is float64 of shape \(18,\) in the file", history=[scene.u])
+
+    scene = Blocks(CellType.triangle)
+    problem = scene.problem(scene.contact())
+    history = [fem.Function(fem.functionspace(scene.u.function_space.mesh, ("DG", 0)))]
+    with pytest.raises(ValueError, match=r"(only|missing) in the file"):
+        cx.LoadSteps(problem, 2, print, history=history, restart=file)
+    assert not scene.u.x.array.any()
+
+    scene = SlidingBlocks(CellType.triangle, sliding="small")
+    run(scene, until=2, checkpoint=tmp_path / "blocks.npz")
+    with pytest.raises(ValueError, match=r"'surface 0: sliding' is another one here"):
+        run(SlidingBlocks(CellType.triangle), restart=tmp_path / "blocks.npz")
+    moved = SlidingBlocks(CellType.triangle, sliding="small")
+    moved.u.function_space.mesh.geometry.x[3] += 1e-3
+    with pytest.raises(ValueError, match=r"'mesh: coordinates' is another one here"):
+        run(moved, restart=tmp_path / "blocks.npz")
+
+
+def changed(file, **values):
+    """The file with other arrays, by the last word of their names."""
+    arrays = archive.read(file)
+    for word, value in values.items():
+        name = next(n for n in arrays if n.split()[-1] == word)
+        arrays[name] = np.full_like(arrays[name], value)
+    archive.write(file, arrays)
+    return file
+
+
+def test_values_that_cannot_be(file, tmp_path):
+    refused(changed(file, u=np.nan), r"'u' is not finite at 32 dofs")
+    refused(changed(file, u=0.0, multiplier=np.inf), "'contact 0: multiplier' is not finite")
+
+
+def test_pairs_that_cannot_be(tmp_path):
+    file = tmp_path / "blocks.npz"
+    run(SlidingBlocks(CellType.triangle), until=2, checkpoint=file)
+    scene = SlidingBlocks(CellType.triangle)
+    with pytest.raises(ValueError, match="a pair with a facet that does not exist"):
+        run(scene, restart=changed(file, master_facet=99))
+    assert not scene.u.x.array.any()
+
+
+def test_a_file_beyond_the_last_step_and_a_folder(file, tmp_path):
+    scene = Sheared(far=0.1)
+    with pytest.raises(ValueError, match=r"at t = 0\.5, beyond the last given t = 0\.4"):
+        scene.steps([0.4], restart=file)
+    assert not scene.u.x.array.any()
+    with pytest.raises(ValueError, match="checkpoint is the folder"):
+        scene.steps(2, checkpoint=tmp_path)
+
+
+def test_loads_that_cannot_be_set_undo_a_restart(file):
+    scene = Sheared(far=0.1)
+    before = scene.state()
+
+    def update(t):
+        raise RuntimeError("no loads")
+
+    with pytest.raises(RuntimeError, match="no loads"):
+        scene.steps(2, restart=file, update=update)
+    assert scene.state() == before

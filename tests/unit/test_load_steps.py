@@ -1,0 +1,270 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Loops over load steps: order of calls, cuts, failures, interrupts, what is shown."""
+
+import io
+import warnings
+
+import numpy as np
+import pytest
+import rich
+from rich.console import Console
+from step_scenes import Sheared
+
+import contactx as cx
+from dolfinx import fem
+
+
+def test_the_loop_sees_each_step_and_update_comes_before_it():
+    scene = Sheared()
+    log = []
+    for step in scene.steps(4, output=lambda s: log.append(("output", s.index))):
+        log.append(("body", step.index))
+        assert step.t == scene.calls[-1] == step.index / 4
+        assert step.report is scene.problem.report
+        assert step.iterations == step.report.iterations > 0
+        assert step.report.discarded == 0
+    assert scene.calls == [0.25, 0.5, 0.75, 1.0]
+    assert log == [(what, k) for k in (1, 2, 3, 4) for what in ("output", "body")]
+
+
+def test_a_step_that_fails_is_cut_and_reaches_the_same_end():
+    scene, direct = Sheared(), Sheared()
+    steps = scene.steps(1)
+    taken = list(steps)
+    assert scene.calls == [1.0, 0.5, 1.0]
+    assert [(step.index, step.t) for step in taken] == [(1, 0.5), (2, 1.0)]
+    first, second = (step.report for step in taken)
+    assert first.discarded > 0 and second.discarded == 0
+    assert f"({first.discarded} more in attempts that were cut)" in str(first)
+    assert "cut" not in str(second)
+    assert steps.t == 1
+    # The attempt that failed has left no trace
+    for _ in direct.steps([0.5, 1.0]):
+        pass
+    assert direct.calls == [0.5, 1.0]
+    assert direct.state() == scene.state()
+
+
+def test_growth_after_easy_steps():
+    scene = Sheared(far=10.0)
+    t = [step.t for step in scene.steps(1)]
+    assert t == [0.125, 0.25, 0.5, 1.0]
+    hard = Sheared(far=10.0)
+    assert [step.t for step in hard.steps(1, easy=0)] == [k / 8 for k in range(1, 9)]
+
+
+def test_a_final_failure_leaves_the_last_accepted_step():
+    scene = Sheared(far=0.0, deep=1.5)
+    states, found = [scene.state()], []
+
+    def update(t):
+        scene.update(t)
+        # What an attempt does to the state is undone before the next one
+        found.append(scene.history.x.array[0])
+        scene.history.x.array[:] = t
+
+    steps = scene.steps(4, update=update)
+    with pytest.raises(cx.ConvergenceError) as info:
+        for _ in steps:
+            states.append(scene.state())
+    assert len(states) > 1
+    assert 0.25 <= steps.t < 1 / 1.5
+    assert scene.state() == states[-1]
+    failed = [t for t in scene.calls if t > steps.t]
+    assert len(failed) > 2
+    assert np.all(np.diff(failed[-3:]) < 0)
+    assert scene.calls[-1] == steps.t
+    assert found[-3:] == [steps.t] * 3
+    report = scene.problem.report
+    assert info.value.report is report
+    assert not report.converged
+    assert report.discarded > 0
+    assert "the shortest that max_cuts = 6 allows" in info.value.__notes__[0]
+
+
+def test_a_failure_of_the_first_step_sets_the_loads_of_zero():
+    scene = Sheared()
+    fresh = scene.state()
+    steps = scene.steps(1, max_cuts=0)
+    with pytest.raises(cx.ConvergenceError, match="the residual is not finite"):
+        next(iter(steps))
+    assert scene.calls == [1.0, 0.0]
+    assert scene.state() == fresh
+    assert steps.t == 0
+
+
+def test_after_a_failure_another_loop_goes_on():
+    scene, straight = Sheared(), Sheared()
+    steps = scene.steps([0.5, 1.0])
+    for step in steps:
+        if step.t == 0.5:
+            break
+    scene.far = 300.0
+    with pytest.raises(cx.ConvergenceError):
+        next(iter(steps))
+    assert steps.t == 0.5
+    scene.far = 3.0
+    assert [(step.index, step.t) for step in steps] == [(2, 1.0)]
+    assert list(steps) == []
+    for _ in straight.steps([0.5, 1.0]):
+        pass
+    assert scene.state() == straight.state()
+
+
+class Wrong(Exception):
+    pass
+
+
+def raise_at(call, error):
+    """A function that raises when it is called that often, and works before and after."""
+    calls = []
+
+    def wrap(function):
+        def wrapped(*args):
+            calls.append(args)
+            if len(calls) == call:
+                raise error
+            return function(*args)
+
+        return wrapped
+
+    return wrap
+
+
+@pytest.mark.parametrize("error", [Wrong, KeyboardInterrupt])
+@pytest.mark.parametrize("call", [16, 20, 25])
+def test_another_error_of_the_solve_is_not_cut(monkeypatch, error, call):
+    """The loads are those of the last accepted step again."""
+    scene = Sheared(far=0.1)
+    system, states = scene.problem._system, []
+    monkeypatch.setattr(system, "residual", raise_at(call, error)(system.residual))
+    steps = scene.steps(4)
+    with pytest.raises(error):
+        for _ in steps:
+            states.append(scene.state())
+    assert 0 < len(states) < 4
+    assert scene.calls == [*(k / 4 for k in range(1, len(states) + 2)), len(states) / 4]
+    assert scene.state() == states[-1]
+    assert [step.t for step in steps][-1] == 1
+
+
+@pytest.mark.parametrize("error", [Wrong, KeyboardInterrupt])
+def test_an_error_after_the_solve_counts_as_a_failed_step(monkeypatch, error):
+    scene = Sheared(far=0.1)
+    steps = scene.steps(2)
+    next(iter(steps))
+    before = scene.state()
+    with monkeypatch.context() as patch:
+        patch.setattr(scene.problem, "_complete", raise_at(1, error)(lambda report: None))
+        with pytest.raises(error):
+            next(iter(steps))
+    assert scene.state() == before
+    assert steps.t == scene.calls[-1] == 0.5
+    assert [step.t for step in steps] == [1.0]
+
+
+@pytest.mark.parametrize("error", [Wrong, KeyboardInterrupt])
+def test_an_error_of_update_is_not_followed_by_another_call(error):
+    scene = Sheared(far=0.1)
+
+    def update(t):
+        scene.update(t)
+        if t > 0.5:
+            scene.u.x.array[:] = scene.history.x.array[:] = 7
+            raise error
+
+    states = []
+    with pytest.raises(error):
+        for _ in scene.steps(2, update=update):
+            states.append(scene.state())
+    assert scene.calls == [0.5, 1.0]
+    assert scene.state() == states[-1]
+
+
+def test_an_update_that_does_not_go_back_does_not_hide_the_failure():
+    scene = Sheared(far=300.0)
+
+    def update(t):
+        scene.update(t)
+        if t == 0:
+            raise Wrong("no way back")
+
+    with pytest.raises(cx.ConvergenceError) as info:
+        next(iter(scene.steps(1, update=update, max_cuts=1)))
+    assert (
+        "update(0), which sets the loads back, failed: Wrong('no way back')"
+        in (info.value.__notes__[-1])
+    )
+
+
+def test_an_error_of_the_body_leaves_the_step_accepted():
+    scene = Sheared(far=0.1)
+    steps = scene.steps(2)
+    with pytest.raises(Wrong):
+        for _ in steps:
+            raise Wrong
+    assert steps.t == 0.5
+    assert [step.index for step in steps] == [2]
+
+
+def test_warnings_point_to_the_loop(monkeypatch):
+    scene = Sheared(far=0.1)
+
+    def warned(report):
+        scene.problem._warn(0, scene.contact.interface, 0.0)
+
+    monkeypatch.setattr(scene.problem, "_complete", warned)
+    monkeypatch.setattr(type(scene.contact.interface.master), "paired", np.zeros(4, dtype=bool))
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        next(iter(scene.steps(1)))
+    assert [w.filename for w in caught] == [__file__]
+
+
+def test_the_table_and_the_bar(monkeypatch):
+    console = Console(record=True, force_terminal=True, width=100, file=io.StringIO())
+    monkeypatch.setattr(rich, "get_console", lambda: console)
+    scene = Sheared()
+    steps = scene.steps(1, progress=True)
+    for _ in steps:
+        pass
+    shown = console.export_text(clear=False)
+    assert steps.table() in shown
+    assert "step 1 to t = 0.5, cut 1x" in shown
+    rows = [line.split("│")[1:-1] for line in steps.table().splitlines() if "│" in line]
+    assert [float(row[1]) for row in rows] == [0.5, 1.0]
+    assert int(rows[0][3]) > 0 == int(rows[1][3])
+
+
+def test_silence(capsys):
+    for _ in Sheared().steps(1, progress=False):
+        pass
+    assert capsys.readouterr() == ("", "")
+    for _ in Sheared().steps(1, progress=True):
+        pass
+    # No terminal: no bar, but the table
+    assert capsys.readouterr().out.startswith("┏")
+
+
+@pytest.mark.parametrize(
+    ("options", "error", "message"),
+    [
+        ({"update": 3}, TypeError, "update must be a function of t, not 3"),
+        ({"output": "file"}, TypeError, "output must be a function of a step"),
+        ({"history": [1]}, TypeError, "history holds a int: give fem.Functions"),
+        ({"max_cuts": 1.5}, TypeError, "max_cuts is 1.5: give an integer"),
+    ],
+)
+def test_wrong_arguments(options, error, message):
+    with pytest.raises(error, match=message):
+        Sheared().steps(1, **options)
+
+
+def test_wrong_problem_and_history():
+    scene = Sheared()
+    with pytest.raises(TypeError, match="problem must be a ContactProblem, not Function"):
+        cx.LoadSteps(scene.u, 1, scene.update)
+    history = fem.Function(scene.u.function_space)
+    with pytest.raises(TypeError, match=r"write history=\[function\]"):
+        cx.LoadSteps(scene.problem, 1, scene.update, history=history)

@@ -1,0 +1,131 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Which t load steps attempt."""
+
+import numpy as np
+import pytest
+
+from contactx.steps.plan import make_plan
+
+
+def walk(plan, fails=lambda start, t: False, iterations=lambda start, t: 5):
+    """All t that are attempted, failed ones negative, until the end or the last failure."""
+    tried = []
+    while not plan.finished:
+        start, t = plan.t, plan.next
+        if fails(start, t):
+            tried.append(-t)
+            shorter = plan.cut()
+            if shorter is None:
+                break
+            plan = shorter
+        else:
+            tried.append(t)
+            plan = plan.accept(iterations(start, t))
+            assert plan.t == t
+    return tried
+
+
+def test_equal_steps_end_at_one():
+    assert walk(make_plan(10, 6, 10)) == [k / 10 for k in range(1, 11)]
+    assert walk(make_plan(np.int64(1), 0, 10)) == [1.0]
+
+
+def test_given_t_are_met_exactly():
+    given = [0.1, 0.30000000000000004, 0.7]
+    assert walk(make_plan(given, 6, 10)) == given
+    assert walk(make_plan(np.array(given), 6, 10)) == given
+    tried = walk(make_plan(given, 6, 10), lambda start, t: t - start > 0.07)
+    assert set(given) <= set(tried)
+
+
+def test_a_failed_step_is_halved_until_it_must_not_be():
+    tried = walk(make_plan(2, 3, 10), lambda *_: True)
+    assert tried == [-0.5, -0.25, -0.125, -0.0625]
+    assert walk(make_plan(2, 0, 10), lambda *_: True) == [-0.5]
+
+
+def test_halved_steps_grow_back_after_easy_ones():
+    """Not at once: twice as long is what has just failed."""
+    tried = walk(make_plan(2, 6, 10), lambda start, t: start == 0 and t > 0.1)
+    assert tried == [-0.5, -0.25, -0.125, 0.0625, 0.125, 0.25, 0.5, 1.0]
+
+
+def test_they_do_not_grow_after_hard_ones():
+    hard = walk(make_plan(2, 6, 10), lambda s, t: s == 0 and t > 0.2, lambda *_: 11)
+    assert hard == [-0.5, -0.25, *(k / 8 for k in range(1, 9))]
+    assert walk(make_plan(2, 6, 11), lambda s, t: s == 0 and t > 0.2, lambda *_: 11) == [
+        *(-0.5, -0.25, 0.125, 0.25, 0.5, 1.0)
+    ]
+
+
+def test_the_rest_of_a_step_is_halved_where_it_fails():
+    """The step has grown beyond the given t; the next attempt must be shorter than the rest."""
+    given = [1.0]
+    tried = walk(make_plan(given, 6, 10), lambda s, t: t - s > (0.3 if s < 0.75 else 0.1))
+    assert tried == [-1.0, -0.5, 0.25, 0.5, -1.0, 0.75, -1.0, -0.875, 0.8125, *tried[9:]]
+    assert tried[-1] == 1.0
+    sizes = np.diff([0.0, *(t for t in tried if t > 0)])
+    assert np.all(np.log2(sizes) == np.round(np.log2(sizes)))
+
+
+def test_steps_that_were_cut_stay_short_in_the_next_given_one():
+    hard = walk(make_plan(2, 6, 4), lambda start, t: t - start > 0.3)
+    assert hard == [-0.5, 0.25, 0.5, 0.75, 1.0]
+
+
+@pytest.mark.parametrize("fails_at", [2.0, 0.3])
+def test_a_saved_place_is_gone_on_from(fails_at):
+    def fails(start, t):
+        return start == 0 and t > fails_at
+
+    plan = make_plan(3, 6, 4)
+    whole, place = walk(plan, fails), plan
+    for _ in range(2):
+        while fails(place.t, place.next):
+            place = place.cut()
+        place = place.accept(5)
+    saved = make_plan(3, 6, 4).load(**place.save())
+    assert saved == place
+    assert saved.t == place.t
+    rest = walk(saved, fails)
+    assert 0 < len(rest) < len(whole)
+    assert rest == whole[-len(rest) :]
+
+
+def test_a_saved_place_serves_other_given_t():
+    place = make_plan(4, 6, 10).accept(5).accept(5)
+    assert walk(make_plan([0.2, 0.5, 0.6, 1.0], 6, 10).load(**place.save())) == [0.6, 1.0]
+    assert make_plan([0.2, 0.5], 6, 10).load(**place.save()).finished
+    with pytest.raises(ValueError, match=r"at t = 0\.5, beyond the last given t = 0\.4"):
+        make_plan([0.2, 0.4], 6, 10).load(**place.save())
+    end = place.accept(5).accept(5)
+    assert make_plan(4, 6, 10).load(**end.save()).finished
+
+
+@pytest.mark.parametrize(
+    ("steps", "error", "message"),
+    [
+        (0, ValueError, "steps is 0: give an integer at least 1"),
+        (2.5, TypeError, "steps is 2.5: give an integer"),
+        ("ten", TypeError, "steps is 'ten'"),
+        (["a"], TypeError, "give a number of steps or a list of t"),
+        ([], ValueError, "give a number of steps or a list of t"),
+        ([[0.5, 1.0]], ValueError, r"has shape \(1, 2\)"),
+        ([0.0, 1.0], ValueError, "holds t = 0: each t must be above 0"),
+        ([0.5, 1.5], ValueError, r"holds t = 1\.5"),
+        ([0.5, np.nan], ValueError, "holds t = nan"),
+        ([0.5, 0.4, 1.0], ValueError, r"0\.4 after 0\.5: each t must be larger"),
+        ([0.5, 0.5], ValueError, r"0\.5 after 0\.5"),
+    ],
+)
+def test_wrong_steps(steps, error, message):
+    with pytest.raises(error, match=message):
+        make_plan(steps, 6, 10)
+
+
+def test_wrong_numbers():
+    with pytest.raises(ValueError, match="max_cuts is -1: give an integer from 0 to 40"):
+        make_plan(1, -1, 10)
+    with pytest.raises(TypeError, match="easy is None: give an integer"):
+        make_plan(1, 6, None)
