@@ -59,6 +59,31 @@ class State:
     slip_derivative: la.Vector | None = None
     normal_derivative: la.Vector | None = None
 
+    @staticmethod
+    def of(u: fem.Function, X: la.Vector, slave_map: Any, *, is_vector: bool) -> State:
+        """Make the vectors of the slave nodes, zero.
+
+        Args:
+            u: Displacement.
+            X: Reference positions of its nodes.
+            slave_map: Index map of the slave nodes.
+            is_vector: Whether the multiplier is a vector.
+        """
+        gdim = X.block_size
+
+        def vector(block: int) -> la.Vector:
+            return la.vector(slave_map, block)
+
+        return State(
+            displacement=u.x,
+            position=X,
+            multiplier=vector(gdim if is_vector else 1),
+            area=vector(1),
+            gap_derivative=vector(gdim if is_vector else 1),
+            slip_derivative=vector(gdim * gdim) if is_vector else None,
+            normal_derivative=vector(gdim * gdim) if is_vector else None,
+        )
+
 
 class ContactForms:
     """Forms over the pairs of one contact with facets of one kind.

@@ -11,14 +11,14 @@ import numpy as np
 import numpy.typing as npt
 
 from contactx import cpp as core
+from contactx.assembly import Assembly
 from contactx.bodies.bodies import Bodies
 from contactx.checks.facing import check_facing
-from contactx.forms import ContactForms, Pairs, State
+from contactx.forms import ContactForms, State
 from contactx.law.law import Law
 from contactx.law.nodes import Nodes
 from contactx.master.make import make_master
 from contactx.master.master import Master
-from contactx.master.obstacle import ObstacleMaster
 from contactx.nodal import NodalValue
 from contactx.obstacles import Obstacle
 from contactx.slip import SlipHistory
@@ -44,7 +44,6 @@ class Interface:
         state: Vectors that the forms read.
         nodes: State of the slave nodes.
         history: Slip of the accepted steps; None where none is measured.
-        forms: Forms, one set for each kind of facet that has pairs.
         master: Pairs with the master side.
         active: Whether the contact is switched on.
     """
@@ -83,13 +82,11 @@ class Interface:
                 not fit.
         """
         V = u.function_space
-        self._comm = V.mesh.comm
         self._gdim = gdim = V.mesh.geometry.dim
         self.law = law
         self.sliding = sliding
         self._held = sliding == "small"
         self._u = u
-        self._bulk_map = V.dofmap.index_map
         facets = slave.facet_nodes(V)
         self.slaves = np.unique(facets.nodes)
         x = X.array.reshape(-1, gdim)
@@ -97,8 +94,9 @@ class Interface:
             slave, master, bodies, law, sliding=sliding, search_distance=search_distance
         )
         n = len(self.slaves)
-        self._slave_map = cpp.common.IndexMap(self._comm, n)
-        self.state = _make_state(u, X, self._slave_map, law)
+        slave_map = cpp.common.IndexMap(V.mesh.comm, n)
+        self.state = State.of(u, X, slave_map, is_vector=law.is_vector)
+        self._assembly = Assembly(V.mesh.comm, law.name, self.state, V.dofmap.index_map, slave_map)
         self.state.area.array[:] = core.nodal_areas(facets.offsets, facets.nodes, x, gdim)[
             self.slaves
         ]
@@ -107,7 +105,6 @@ class Interface:
         self._touched = np.zeros(n, dtype=bool)
         self.active = True
         self._offset = offset
-        self.forms: list[ContactForms] = []
         self._free = markers.reshape(-1, gdim) == 0
         self.master.accept(self.positions())
         self.master.begin_step()
@@ -134,7 +131,7 @@ class Interface:
         if self.sliding == "small" and self.master.is_rigid:
             self._pair(self.state.position.array.reshape(-1, self._gdim))
         elif self.history is not None:
-            self._update_forms(self.master.pairs())
+            self._assembly.update(self.master.pairs())
 
     def accept(self) -> None:
         """Take the converged state as the start of the next step."""
@@ -155,7 +152,7 @@ class Interface:
         if new:
             self._make_forms()
         else:
-            self._update_forms(self.master.pairs())
+            self._assembly.update(self.master.pairs())
         self._find_immobile()
         return changed
 
@@ -165,10 +162,6 @@ class Interface:
         if self.law.is_vector:
             # A projection over an open gap on a tilted facet leaves a symmetry plane by a little
             self.nodes.mobile = np.where(each < _MOBILE, 0.0, 1.0)
-
-    def _update_forms(self, groups: list[Pairs]) -> None:
-        for form, pairs in zip(self.forms, groups, strict=True):
-            form.update(pairs)
 
     def hold(self, held: bool) -> None:
         """Hold the pairs of finite sliding with their normals and projections, or release them.
@@ -183,20 +176,12 @@ class Interface:
             self._make_forms()
 
     def _make_forms(self) -> None:
-        """Make the forms of the current pairs."""
-        kinematics = "small" if self._held else "finite"
-        self.forms = [
-            ContactForms(
-                self._comm,
-                self.law.name,
-                kinematics,
-                pairs,
-                self.state,
-                self._bulk_map,
-                self._slave_map,
-            )
-            for pairs in self.master.pairs()
-        ]
+        self._assembly.renew(self.master.pairs(), "small" if self._held else "finite")
+
+    @property
+    def forms(self) -> list[ContactForms]:
+        """Forms of the current pairs, one set for each kind of master facet."""
+        return self._assembly.forms
 
     def set_factor(self, stiffness: npt.NDArray[np.float64]) -> None:
         """Set the factor c of the gap: the stiffness of a pair over the slave node's area.
@@ -217,47 +202,18 @@ class Interface:
 
     def update_gap(self) -> None:
         """First pass: assemble gap, normal and slip of each slave node."""
-        offset = self._offset_now()
+        offset = self.offset()
         fresh = self.master.refresh(self.positions(), self._held, offset)
         if fresh is not None:
-            self._update_forms(fresh)
-        nodes = self.nodes
-        nodes.gap[:] = nodes.normal[:] = nodes.slip[:] = 0
-        for form in self.forms:
-            fem.assemble_vector(nodes.gap, form.gap)
-            if form.normal is not None:
-                fem.assemble_vector(nodes.normal.reshape(-1), form.normal)
-        self._assemble_slip()
-        nodes.gap -= offset
-        nodes.gap[~self.master.paired] = np.nan
-        if not self.active:
-            nodes.gap[:] = np.nan
+            self._assembly.update(fresh)
+        gap = self.nodes.gap
+        self._assembly.kinematics(self.nodes)
+        gap -= offset
+        gap[~(self.master.paired & self.active)] = np.nan
 
-    def _assemble_slip(self) -> None:
-        self.nodes.slip[:] = 0
-        for form in self.forms:
-            if form.slip is not None:
-                fem.assemble_vector(self.nodes.slip.reshape(-1), form.slip)
-
-    def _offset_now(self) -> npt.NDArray[np.float64]:
+    def offset(self) -> npt.NDArray[np.float64]:
+        """What is taken off the gap now, shape (n,)."""
         return np.broadcast_to(self._offset.now(), self.nodes.gap.shape)
-
-    def held_inside(self, prescribed: npt.NDArray[np.float64]) -> npt.NDArray[np.int32]:
-        """Slave nodes that Dirichlet conditions hold inside a rigid obstacle.
-
-        Args:
-            prescribed: Displacement with the Dirichlet values, shape (num_dofs,).
-
-        Returns:
-            The nodes, numbered as the blocks of the displacement's dofmap.
-        """
-        if not isinstance(self.master, ObstacleMaster):
-            return np.array([], dtype=np.int32)
-        x = (self.state.position.array + prescribed).reshape(-1, self._gdim)
-        gap = self.master.inside(x) - self._offset_now()
-        size = np.ptp(x[self.slaves], axis=0).max(initial=0.0)
-        inside: npt.NDArray[np.int32] = self.slaves[self.nodes.immobile & (gap < -1e-9 * size)]
-        return inside
 
     def update_status(self, first: bool) -> int:
         """Set each slave node's status from its multiplier, gap and slip.
@@ -274,21 +230,21 @@ class Interface:
             self._measure_from_touching(closing & ~self._touched)
         self.law.set_status(nodes)
         if first:
-            self.close(np.flatnonzero(closing & ~nodes.closed))
+            nodes.close(np.flatnonzero(closing & ~nodes.closed))
         return int(np.count_nonzero(nodes.status != before))
 
     def _measure_from_touching(self, which: npt.NDArray[np.bool_]) -> None:
         if not which.any():
             return
-        x, offset = self.positions(), self._offset_now()
+        x, offset = self.positions(), self.offset()
         self.master.touch(which, x, offset)
         self._touched = self._touched | which
         fresh = self.master.refresh(x, self._held, offset)
-        self._update_forms(self.master.pairs() if fresh is None else fresh)
-        self._assemble_slip()
+        self._assembly.update(self.master.pairs() if fresh is None else fresh)
+        self._assembly.slip(self.nodes)
 
     def closing(self, first: bool) -> npt.NDArray[np.bool_]:
-        """Which nodes the complementarity closes: p - c g > 0.
+        """Which nodes the complementarity closes.
 
         At a step's start also those that touch but for rounding: it must not decide which of them
         are closed, and bodies at rest on one another are held by all of them.
@@ -299,36 +255,12 @@ class Interface:
         Returns:
             Which ones, shape (n,).
         """
-        nodes, gap = self.nodes, self.nodes.closable_gap
-        # False for the gap NaN, too
-        closing: npt.NDArray[np.bool_] = nodes.pressure - nodes.c * gap > 0
-        if first:
-            x = self.positions()[self.slaves]
-            size = np.ptp(x, axis=0).max(initial=0.0)
-            tie = 1e-12 * size + 16 * np.finfo(np.float64).eps * np.abs(x).max(initial=0.0)
-            closing |= np.abs(gap) <= tie
-        return closing
-
-    def close(self, which: npt.NDArray[np.integer]) -> None:
-        """Close nodes, so that they hold a body that nothing else holds.
-
-        Args:
-            which: Slave nodes by their number in the contact.
-        """
-        sticks = self.law.is_vector & ~self.nodes.smooth[which]
-        self.nodes.status[which] = np.where(sticks, core.STICK, core.SLIP)
-
-    def drop_open_pressures(self) -> None:
-        """Take the pressure off open nodes.
-
-        The pressures of an iterate whose active set is far too large are wild, and the stiffness
-        that they would give to nodes that have just opened throws the next iterate off.
-        """
-        self.nodes.multiplier.reshape(-1, self.nodes.size)[~self.nodes.closed] = 0
-
-    def evaluate_law(self) -> None:
-        """Second pass: the complementarity function and its derivatives."""
-        self.law.evaluate(self.nodes)
+        if not first:
+            return self.nodes.closing()
+        x = self.positions()[self.slaves]
+        size = np.ptp(x, axis=0).max(initial=0.0)
+        rounding = 16 * np.finfo(np.float64).eps * np.abs(x).max(initial=0.0)
+        return self.nodes.closing(1e-12 * size + rounding)
 
     def add_residual(self, b: npt.NDArray[np.float64]) -> None:
         """Third pass: add the contact forces.
@@ -336,8 +268,7 @@ class Interface:
         Args:
             b: Residual of the bulk, shape (num_nodes * gdim,).
         """
-        for form in self.forms:
-            fem.assemble_vector(b, form.residual)
+        self._assembly.add_residual(b)
 
     def save(self) -> dict[str, npt.NDArray[Any]]:
         """Copy of all that the next step depends on.
@@ -371,22 +302,3 @@ class Interface:
                 setattr(self.history, name, saved[f"history_{name}"].copy())
         self._held = self.sliding == "small"
         self._make_forms()
-
-
-def _make_state(u: fem.Function, X: la.Vector, slave_map: Any, law: Law) -> State:
-    """Vectors that the forms read, zero on the slave nodes."""
-    gdim = X.block_size
-    size = gdim if law.is_vector else 1
-
-    def vector(block: int) -> la.Vector:
-        return la.vector(slave_map, block)
-
-    return State(
-        displacement=u.x,
-        position=X,
-        multiplier=vector(size),
-        area=vector(1),
-        gap_derivative=vector(size),
-        slip_derivative=vector(gdim * gdim) if law.is_vector else None,
-        normal_derivative=vector(gdim * gdim) if law.is_vector else None,
-    )

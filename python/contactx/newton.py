@@ -4,15 +4,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from contextlib import ExitStack, contextmanager
+from collections.abc import Mapping, Sequence
+from contextlib import ExitStack
 from typing import Any
 
 from petsc4py import PETSc
 
 import numpy as np
 
-from contactx import compat
 from contactx.bodies.bodies import Bodies
 from contactx.bodies.holder import Holder
 from contactx.bulk import Bulk
@@ -20,6 +19,7 @@ from contactx.callback import keeps_its_error
 from contactx.convergence import Judge
 from contactx.interface import Interface
 from contactx.junctions import Junctions
+from contactx.options import SolverOptions
 from contactx.report import Iteration, Report
 from contactx.system import SaddlePointSystem
 
@@ -74,9 +74,7 @@ class NewtonLoop:
         self._bulk = bulk
         self._interfaces = interfaces
         self._system = system
-        self._options = {**_defaults(), **options}
-        self._given = set(options)
-        self._prefix = prefix
+        self._options = SolverOptions(prefix, options)
         self._A: PETSc.Mat | None = None
         self._A_is_current = False
         self._report = Report()
@@ -108,7 +106,7 @@ class NewtonLoop:
         self._failure = ""
         for interface in self._interfaces:
             interface.begin_step()
-        with self._petsc_options():
+        with self._options.in_database():
             self.snes.setFromOptions()
             self._time_linear_solves(report)
             with report.timing("bulk stiffness"):
@@ -153,27 +151,6 @@ class NewtonLoop:
         ksp = self.snes.getKSP()
         ksp.setPreSolve(lambda *_: timer.enter_context(report.timing("linear solve")))
         ksp.setPostSolve(lambda *_: timer.close())
-
-    @contextmanager
-    def _petsc_options(self) -> Iterator[None]:
-        """Hold the options in PETSc's database while its objects set themselves up."""
-        database = PETSc.Options(self._prefix)
-        before = {
-            name: database.getString(name) if database.hasName(name) else None
-            for name in self._options
-        }
-        for name, value in self._options.items():
-            # What the user has put there, on the command line say, goes before a default
-            if name in self._given or before[name] is None:
-                database[name] = value
-        try:
-            yield
-        finally:
-            for name, value in before.items():
-                if value is None:
-                    database.delValue(name)
-                else:
-                    database[name] = value
 
     @keeps_its_error
     def _function(self, snes: PETSc.SNES, x: PETSc.Vec, b: PETSc.Vec) -> None:
@@ -224,11 +201,11 @@ class NewtonLoop:
             for interface in self._interfaces:
                 interface.master.forget_flips()
         for interface in self._interfaces:
-            interface.drop_open_pressures()
+            interface.nodes.drop_open()
         if self._holder.hold(self._system.displacement_residual(), self._judge.scale()):
             self._hold(True)
         for interface in self._interfaces:
-            interface.evaluate_law()
+            interface.law.evaluate(interface.nodes)
         return status, pairs
 
     def _renew(self, first: bool = False) -> tuple[int, int]:
@@ -295,26 +272,3 @@ class NewtonLoop:
             return reason.DIVERGED_FUNCTION_DOMAIN
         self._provide_matrix()
         return reason.CONVERGED_ITERATING
-
-
-def _defaults() -> dict[str, Any]:
-    """PETSc options where the user gives none."""
-    options: dict[str, Any] = {
-        "snes_type": "newtonls",
-        "snes_linesearch_type": "basic",
-        "snes_rtol": 1e-11,
-        "snes_atol": 0.0,
-        "snes_max_it": 50,
-        "ksp_type": "preonly",
-        "pc_type": "lu",
-    }
-    solver = compat.direct_solver()
-    if solver is not None:
-        options["pc_factor_mat_solver_type"] = solver
-    else:
-        # PETSc's own LU does not pivot: the multipliers, whose diagonal is zero, must come last
-        options["pc_factor_mat_ordering_type"] = "natural"
-    if solver == "mumps":
-        # Room for pivoting on the zero diagonal of the multipliers
-        options["mat_mumps_icntl_14"] = 60
-    return options

@@ -17,6 +17,7 @@ import ufl
 from contactx import compat, validate
 from contactx.bodies.bodies import Bodies
 from contactx.bulk import Bulk
+from contactx.checks.over_constrained import check_over_constrained
 from contactx.contact import Contact
 from contactx.errors import ConvergenceError
 from contactx.interface import Interface
@@ -134,7 +135,7 @@ class ContactProblem:
                 rigid obstacle.
         """
         validate.check_finite(the_displacement_u_is=self.u.x)
-        self._check_over_constrained()
+        check_over_constrained(self._interfaces, self.contacts, self._bulk.prescribed())
         displacement = self.u.x.array.copy()
         saved = [interface.save() for interface in self._interfaces]
         self.report = report = Report()
@@ -163,18 +164,6 @@ class ContactProblem:
         """Destroy the solver, which refers to itself through its callbacks."""
         if hasattr(self, "_newton"):
             self._newton.destroy()
-
-    def _check_over_constrained(self) -> None:
-        prescribed = self._bulk.prescribed()
-        for k, interface in enumerate(self._interfaces):
-            bad = interface.held_inside(prescribed)
-            if len(bad) > 0 and interface.active:
-                raise ValueError(
-                    f"contact {k} ({self.contacts[k]}) is over-constrained: Dirichlet conditions "
-                    f"hold {len(bad)} slave nodes inside the rigid obstacle, first node {bad[0]}. "
-                    "Take these nodes out of the slave surface, release them along the obstacle's "
-                    "normal or prescribe values outside of it"
-                )
 
     def _complete(self, report: Report) -> None:
         report.slaves = sum(len(i.slaves) for i in self._interfaces)

@@ -97,7 +97,7 @@ class SaddlePointSystem:
         force[:] = self.bulk_residual()
         for interface, row in zip(self._interfaces, constraints, strict=True):
             interface.update_gap()
-            interface.evaluate_law()
+            interface.law.evaluate(interface.nodes)
             interface.add_residual(force)
             row[:] = interface.nodes.value
         defect = self._bulk.dirichlet_defect()

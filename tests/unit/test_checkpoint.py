@@ -102,13 +102,13 @@ def test_a_new_process_goes_on_to_the_same_bits(tmp_path):
 
 
 def test_cut_steps_are_gone_on_from_as_they_were(tmp_path):
-    straight, other = Sheared(far=10.0), Sheared(far=10.0)
+    straight, other = Sheared(far=12.0), Sheared(far=12.0)
     t = [step.t for step in straight.steps(1, easy=0)]
     assert len(t) == 8
     for step in other.steps(1, easy=0, checkpoint=tmp_path / "run.npz"):
         if step.index == 4:
             break
-    last = Sheared(far=10.0)
+    last = Sheared(far=12.0)
     steps = last.steps(1, easy=0, restart=tmp_path / "run.npz")
     assert steps.t == t[2]
     assert last.contact.force == pytest.approx(

@@ -47,10 +47,10 @@ def test_a_step_that_fails_is_cut_and_reaches_the_same_end():
 
 
 def test_growth_after_easy_steps():
-    scene = Sheared(far=10.0)
+    scene = Sheared(far=12.0)
     t = [step.t for step in scene.steps(1)]
     assert t == [0.125, 0.25, 0.5, 1.0]
-    hard = Sheared(far=10.0)
+    hard = Sheared(far=12.0)
     assert [step.t for step in hard.steps(1, easy=0)] == [k / 8 for k in range(1, 9)]
 
 

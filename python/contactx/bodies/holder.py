@@ -170,7 +170,7 @@ class Holder:
         count = 0
         for interface, slaves, time in found:
             first = slaves[time <= lowest + tie]
-            interface.close(first)
+            interface.nodes.close(first)
             count += len(first)
         return count
 

@@ -86,3 +86,34 @@ class Nodes:
             return self.multiplier
         pressure: Array = np.einsum("ij,ij->i", self.normal, self.multiplier.reshape(-1, self.size))
         return pressure
+
+    def closing(self, tie: float = -1.0) -> npt.NDArray[np.bool_]:
+        """Which nodes the complementarity closes: p - c g > 0, or a gap of at most a tie.
+
+        Args:
+            tie: Gap, of either sign, up to which nodes touch; none if negative.
+
+        Returns:
+            Which ones, shape (n,).
+        """
+        gap = self.closable_gap
+        # False for the gap NaN, too
+        closing: npt.NDArray[np.bool_] = self.pressure - self.c * gap > 0
+        return closing | (np.abs(gap) <= tie)
+
+    def close(self, which: npt.NDArray[np.integer]) -> None:
+        """Close nodes, whatever their pressures: they stick where there is friction.
+
+        Args:
+            which: Nodes by their number in the contact.
+        """
+        sticks = (self.size > 1) & ~self.smooth[which]
+        self.status[which] = np.where(sticks, core.STICK, core.SLIP)
+
+    def drop_open(self) -> None:
+        """Take the multiplier off open nodes.
+
+        Those of an iterate whose active set is far too large are wild, and the stiffness that they
+        would give to nodes that have just opened throws the next iterate off.
+        """
+        self.multiplier.reshape(-1, self.size)[~self.closed] = 0

@@ -1,0 +1,79 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""All forms of one contact."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from mpi4py import MPI
+
+import numpy as np
+import numpy.typing as npt
+
+from contactx.forms import ContactForms, Pairs, State
+from contactx.law.nodes import Nodes
+from dolfinx import fem
+
+
+class Assembly:
+    """Forms over the current pairs, one set for each kind of master facet.
+
+    Attributes:
+        forms: The forms.
+    """
+
+    def __init__(self, comm: MPI.Comm, law: str, state: State, bulk_map: Any, slave_map: Any):
+        """Create an assembly without pairs.
+
+        Args:
+            comm: Communicator.
+            law: Name of the contact law.
+            state: Vectors that the forms read at each assembly.
+            bulk_map: Index map of the bulk's nodes.
+            slave_map: Index map of the slave nodes.
+        """
+        self._comm = comm
+        self._law = law
+        self._state = state
+        self._maps = bulk_map, slave_map
+        self.forms: list[ContactForms] = []
+
+    def renew(self, groups: Sequence[Pairs], sliding: str) -> None:
+        """Make the forms of new pairs.
+
+        Args:
+            groups: Pairs by the kind of their facets.
+            sliding: Kinematics, "finite" or "small".
+        """
+        self.forms = [
+            ContactForms(self._comm, self._law, sliding, pairs, self._state, *self._maps)
+            for pairs in groups
+        ]
+
+    def update(self, groups: Sequence[Pairs]) -> None:
+        """Take over new data of the same pairs."""
+        for form, pairs in zip(self.forms, groups, strict=True):
+            form.update(pairs)
+
+    def kinematics(self, nodes: Nodes) -> None:
+        """Assemble gap, normal and slip of the slave nodes; zero where there is no pair."""
+        nodes.gap[:] = nodes.normal[:] = 0
+        for form in self.forms:
+            fem.assemble_vector(nodes.gap, form.gap)
+            if form.normal is not None:
+                fem.assemble_vector(nodes.normal.reshape(-1), form.normal)
+        self.slip(nodes)
+
+    def slip(self, nodes: Nodes) -> None:
+        """Assemble the slip of the slave nodes."""
+        nodes.slip[:] = 0
+        for form in self.forms:
+            if form.slip is not None:
+                fem.assemble_vector(nodes.slip.reshape(-1), form.slip)
+
+    def add_residual(self, b: npt.NDArray[np.float64]) -> None:
+        """Add the contact forces to a vector of the bulk, shape (num_nodes * gdim,)."""
+        for form in self.forms:
+            fem.assemble_vector(b, form.residual)

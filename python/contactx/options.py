@@ -1,0 +1,72 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""PETSc options of the solver."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from typing import Any
+
+from petsc4py import PETSc
+
+from contactx import compat
+
+
+class SolverOptions:
+    """Options that a user gives, and defaults for the others."""
+
+    def __init__(self, prefix: str, given: Mapping[str, Any]):
+        """Take the options.
+
+        Args:
+            prefix: Prefix of the options in PETSc's database.
+            given: Options of the user, without the prefix.
+        """
+        self._prefix = prefix
+        self._given = set(given)
+        self._options = {**_defaults(), **given}
+
+    @contextmanager
+    def in_database(self) -> Iterator[None]:
+        """Hold the options in PETSc's database while its objects set themselves up."""
+        database = PETSc.Options(self._prefix)
+        before = {
+            name: database.getString(name) if database.hasName(name) else None
+            for name in self._options
+        }
+        for name, value in self._options.items():
+            # What the user has put there, on the command line say, goes before a default
+            if name in self._given or before[name] is None:
+                database[name] = value
+        try:
+            yield
+        finally:
+            for name, value in before.items():
+                if value is None:
+                    database.delValue(name)
+                else:
+                    database[name] = value
+
+
+def _defaults() -> dict[str, Any]:
+    """PETSc options where the user gives none."""
+    options: dict[str, Any] = {
+        "snes_type": "newtonls",
+        "snes_linesearch_type": "basic",
+        "snes_rtol": 1e-11,
+        "snes_atol": 0.0,
+        "snes_max_it": 50,
+        "ksp_type": "preonly",
+        "pc_type": "lu",
+    }
+    solver = compat.direct_solver()
+    if solver is not None:
+        options["pc_factor_mat_solver_type"] = solver
+    else:
+        # PETSc's own LU does not pivot: the multipliers, whose diagonal is zero, must come last
+        options["pc_factor_mat_ordering_type"] = "natural"
+    if solver == "mumps":
+        # Room for pivoting on the zero diagonal of the multipliers
+        options["mat_mumps_icntl_14"] = 60
+    return options
