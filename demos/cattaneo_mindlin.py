@@ -56,7 +56,7 @@ class Scene:
 
 def create(h: float, sliding: str) -> Scene:
     """The cylinders, their flat faces and the contact."""
-    data = meshes.half_cylinders(RADIUS, h, zone=ZONE)
+    data = meshes.half_cylinders(RADIUS, h, h, zone=ZONE)
     tags = data.facet_tags
     u = story.displacement(data.mesh)
     push, press = (story.fix(u, tags, i, 0.0, Tag.UPPER_TOP) for i in range(2))

@@ -79,11 +79,14 @@ struct Node
   {
   }
 
-  Status status() const
+  Status status(Status before) const
   {
     // False for the gap NaN, too
     if (!(p_hat > 0))
       return Status::open;
+    // Against its traction a node would jump across the whole cone of friction
+    if (before == Status::slip and bound > 0 and dot(t, t_hat) < 0)
+      return Status::stick;
     // Without friction nothing sticks, not even where nothing pulls
     return bound > 0 and size <= bound ? Status::stick : Status::slip;
   }
@@ -183,7 +186,7 @@ std::int32_t set_status(const FrictionalState& state,
   std::int32_t changed = 0;
   for (std::size_t i = 0; i < status.size(); ++i)
   {
-    const Status now = Node<D>(state, i).status();
+    const Status now = Node<D>(state, i).status(static_cast<Status>(status[i]));
     changed += now != status[i];
     status[i] = now;
   }

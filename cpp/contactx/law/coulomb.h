@@ -34,7 +34,9 @@ struct FrictionalLaw
 /// @brief Status that Coulomb's law asks for.
 ///
 /// With p_hat = p - c g and t_hat = t - c ds: open where p_hat <= 0, else stick
-/// where |t_hat| <= mu p_hat > 0, else slip (Alart & Curnier 1991).
+/// where |t_hat| <= mu p_hat > 0, else slip (Alart & Curnier 1991). A node that
+/// slips and whose t_hat opposes its traction sticks first: a slip that turns
+/// about passes through stick, and Newton's method with it.
 /// @param[in] state State.
 /// @param[in,out] status Status of each node.
 /// @return Number of nodes that changed.

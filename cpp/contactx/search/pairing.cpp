@@ -152,7 +152,9 @@ std::int32_t Pairing::update(std::span<const double> x, double reach,
     // On a ridge any normal of the cone will do, but it must not wander
     if (same and closed[i] and q and q->feature != facet::interior)
       continue;
-    if (!same and closed[i])
+    // One that came off the surface while in contact comes back open
+    const bool back = _facet[i] < 0 and now == _left[i] and now >= 0;
+    if (!same and closed[i] and !back)
     {
       if (now == _left[i] and ++_returns[i] >= max_returns)
       {
@@ -163,6 +165,7 @@ std::int32_t Pairing::update(std::span<const double> x, double reach,
       ++changed;
       _left[i] = _facet[i];
     }
+    _returns[i] += back;
     set(i, q, x);
   }
   return changed;
