@@ -1,0 +1,305 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include "coulomb_node.h"
+#include <cmath>
+#include <gtest/gtest.h>
+#include <vector>
+
+using namespace contactx;
+using namespace contactx::law;
+using namespace contactx::tests;
+
+namespace
+{
+template <class Dimension>
+class Coulomb : public ::testing::Test
+{
+};
+using Dimensions = ::testing::Types<std::integral_constant<int, 2>,
+                                    std::integral_constant<int, 3>>;
+TYPED_TEST_SUITE(Coulomb, Dimensions);
+
+const double nan = std::nan("");
+
+/// A node with its normal along the last axis and c = 8.
+template <int D>
+CoulombNode<D> upright(double p, double t, double gap, double slip,
+                       double friction)
+{
+  CoulombNode<D> node{{}, {}, {}, gap, 8, friction};
+  node.normal[D - 1] = 1;
+  node.traction[0] = t;
+  node.traction[D - 1] = p;
+  node.slip[0] = slip;
+  return node;
+}
+
+TYPED_TEST(Coulomb, IsOpenWhereTheTrialPressureIsNotPositive)
+{
+  constexpr int D = TypeParam::value;
+  EXPECT_EQ((upright<D>(0, 0, 0, 0, 0.5).status()), open);
+  EXPECT_EQ((upright<D>(2, 0, 0.25, 0, 0.5).status()), open);
+  EXPECT_EQ((upright<D>(std::nextafter(2, 3), 0, 0.25, 0, 0.5).status()),
+            stick);
+  EXPECT_EQ((upright<D>(0, 0, -0.25, 0, 0.5).status()), stick);
+  EXPECT_EQ((upright<D>(-1, 0, 0, 0, 0.5).status()), open);
+  EXPECT_EQ((upright<D>(-2, 5, -0.125, 0, 0.5).status()), open);
+}
+
+TYPED_TEST(Coulomb, IsOpenWithoutAPair)
+{
+  constexpr int D = TypeParam::value;
+  EXPECT_EQ((upright<D>(1, 0, nan, 0, 0.5).status()), open);
+  EXPECT_EQ((upright<D>(nan, 0, -1, 0, 0.5).status()), open);
+}
+
+TYPED_TEST(Coulomb, SticksUpToTheBound)
+{
+  constexpr int D = TypeParam::value;
+  for (double sign : {1.0, -1.0})
+  {
+    // mu p_hat = 0.5 (2 + 8 * 0.25) = 2
+    const auto at = [sign](double t, double slip)
+    { return upright<D>(2, sign * t, -0.25, sign * slip, 0.5).status(); };
+    EXPECT_EQ(at(2, 0), stick);
+    EXPECT_EQ(at(std::nextafter(2, 3), 0), slip);
+    EXPECT_EQ(at(0, 0.25), stick);
+    EXPECT_EQ(at(0, std::nextafter(0.25, 1)), slip);
+    EXPECT_EQ(at(1, -0.125), stick);
+    EXPECT_EQ(at(1, -0.125 * (1 + 1e-14)), slip);
+    EXPECT_EQ(at(1, 0.375), stick);
+    EXPECT_EQ(at(1, 0.5), slip);
+  }
+}
+
+TYPED_TEST(Coulomb, WithoutFrictionSticksOnlyWhereNothingPulls)
+{
+  constexpr int D = TypeParam::value;
+  EXPECT_EQ((upright<D>(1, 0, 0, 0, 0).status()), stick);
+  EXPECT_EQ((upright<D>(1, 1e-150, 0, 0, 0).status()), slip);
+  EXPECT_EQ((upright<D>(1, 0, 0, -1e-150, 0).status()), slip);
+  EXPECT_EQ((upright<D>(0, 1, 0, 1, 0).status()), open);
+}
+
+TYPED_TEST(Coulomb, CountsTheNodesThatChange)
+{
+  constexpr int D = TypeParam::value;
+  // open, stick, slip
+  const std::array nodes{upright<D>(-1, 0, 0, 0, 0.5),
+                         upright<D>(1, 0.25, 0, 0, 0.5),
+                         upright<D>(1, 1, 0, 0, 0.5)};
+  std::vector<double> traction, gap, normal, slips, c, friction;
+  for (const auto& node : nodes)
+  {
+    traction.insert(traction.end(), node.traction.begin(), node.traction.end());
+    normal.insert(normal.end(), node.normal.begin(), node.normal.end());
+    slips.insert(slips.end(), node.slip.begin(), node.slip.end());
+    gap.push_back(node.gap);
+    c.push_back(node.c);
+    friction.push_back(node.friction);
+  }
+  const FrictionalState state{D, traction, gap, normal, slips, c, friction};
+  std::array<std::int8_t, 3> status{stick, stick, stick};
+  EXPECT_EQ(frictional_status(state, status), 2);
+  EXPECT_EQ(status, (std::array<std::int8_t, 3>{open, stick, slip}));
+  EXPECT_EQ(frictional_status(state, status), 0);
+}
+
+TYPED_TEST(Coulomb, HasTheValuesOfItsStatus)
+{
+  constexpr int D = TypeParam::value;
+  Generator random(1);
+  for (int i = 0; i < 200; ++i)
+  {
+    const auto node = random_node<D>(random);
+    const Vec<D> bound
+        = (node.friction * node.trial_pressure() / norm(node.trial()))
+          * node.trial();
+    const Vec<D> normal_part = (node.c * node.gap) * node.normal;
+    const std::array<Vec<D>, 3> expected{
+        node.traction, normal_part + node.c * node.slip,
+        normal_part + node.tangential() - bound};
+    for (std::int8_t status : {open, stick, slip})
+      EXPECT_LT(
+          largest(node.terms(status).value - node.area * expected[status]),
+          1e-14 * node.area * (10 + largest(expected[status])));
+  }
+}
+
+TYPED_TEST(Coulomb, VanishesWhereTheConditionsHold)
+{
+  constexpr int D = TypeParam::value;
+  for (const auto& node :
+       {upright<D>(0, 0, 0.5, 0.3, 0.5), upright<D>(2, 0.5, 0, 0, 0.5),
+        upright<D>(2, 1, 0, -0.25, 0.5), upright<D>(2, -1, 0, 0.25, 0.5),
+        upright<D>(2, 0, 0, 0.25, 0)})
+    EXPECT_EQ(node.terms(node.status()).value, Vec<D>{});
+  // Friction along the slip
+  const auto wrong = upright<D>(2, 1, 0, 0.25, 0.5);
+  EXPECT_NE(wrong.terms(wrong.status()).value, Vec<D>{});
+}
+
+/// Central differences of the value by what `change` moves.
+template <int D, class Change>
+void expect_derivative(const CoulombNode<D>& node, std::int8_t status,
+                       const Matrix<D>& derivative, double size, Change change)
+{
+  const double h = 1e-5;
+  for (int j = 0; j < D; ++j)
+  {
+    auto plus = node, minus = node;
+    change(plus, j, h);
+    change(minus, j, -h);
+    const Vec<D> difference
+        = (0.5 / h) * (plus.terms(status).value - minus.terms(status).value);
+    for (int i = 0; i < D; ++i)
+      EXPECT_NEAR(derivative[i][j], difference[i], 1e-7 * size)
+          << "status " << int(status) << ", row " << i << ", column " << j;
+  }
+}
+
+TYPED_TEST(Coulomb, HasItsDifferenceQuotientsAsDerivatives)
+{
+  constexpr int D = TypeParam::value;
+  Generator random(2);
+  for (int i = 0; i < 200; ++i)
+  {
+    const auto node = random_node<D>(random);
+    for (std::int8_t status : {open, stick, slip})
+    {
+      const auto r = node.terms(status);
+      double size = node.area;
+      for (int k = 0; k < D; ++k)
+        size = std::max({size, largest(r.by_traction[k]), largest(r.by_slip[k]),
+                         largest(r.by_normal[k]), std::abs(r.by_gap[k])});
+      using Node = CoulombNode<D>;
+      expect_derivative<D>(node, status, r.by_traction, size,
+                           [](Node& n, int j, double h)
+                           { n.traction[j] += h; });
+      expect_derivative<D>(node, status, r.by_slip, size,
+                           [](Node& n, int j, double h) { n.slip[j] += h; });
+      // As the normal moves through space: not only on the unit sphere
+      expect_derivative<D>(node, status, r.by_normal, size,
+                           [](Node& n, int j, double h) { n.normal[j] += h; });
+      Matrix<D> by_gap{};
+      for (int k = 0; k < D; ++k)
+        by_gap[k][0] = r.by_gap[k];
+      expect_derivative<D>(node, status, by_gap, size,
+                           [](Node& n, int j, double h)
+                           { n.gap += j == 0 ? h : 0; });
+    }
+  }
+}
+
+TYPED_TEST(Coulomb, StickAndSlipMeetAtTheBound)
+{
+  constexpr int D = TypeParam::value;
+  Generator random(3);
+  for (int i = 0; i < 200; ++i)
+  {
+    auto node = random_node<D>(random);
+    node.gap = -std::abs(node.gap);
+    // Without a normal part, so that the bound can be met exactly
+    node.traction = node.tangential() + random(0.5, 2) * node.normal;
+    node.slip = node.slip - dot(node.slip, node.normal) * node.normal;
+    node.friction = norm(node.trial()) / node.trial_pressure();
+    EXPECT_LT(largest(node.terms(stick).value - node.terms(slip).value),
+              1e-14 * node.area * 20);
+  }
+}
+
+TYPED_TEST(Coulomb, SlipsWithoutADirection)
+{
+  constexpr int D = TypeParam::value;
+  const auto r = upright<D>(2, 0, 0.125, 0, 0.5).terms(slip);
+  Vec<D> expected{};
+  expected[D - 1] = 1;
+  EXPECT_EQ(r.value, expected);
+  for (const auto* m : {&r.by_traction, &r.by_slip, &r.by_normal})
+    for (const auto& row : *m)
+      for (double a : row)
+        EXPECT_TRUE(std::isfinite(a));
+  EXPECT_EQ(r.by_traction[0][0], 1);
+}
+
+TYPED_TEST(Coulomb, DoesNotReadTheGapOfAnOpenNode)
+{
+  constexpr int D = TypeParam::value;
+  const auto r = upright<D>(1, 2, nan, 0.5, 0.5).terms(open);
+  EXPECT_EQ(r.value, (upright<D>(1, 2, 0, 0, 0).traction));
+  EXPECT_EQ(r.by_gap, Vec<D>{});
+  for (int i = 0; i < D; ++i)
+    for (int j = 0; j < D; ++j)
+    {
+      EXPECT_EQ(r.by_traction[i][j], i == j);
+      EXPECT_EQ(r.by_slip[i][j], 0);
+      EXPECT_EQ(r.by_normal[i][j], 0);
+    }
+}
+
+TYPED_TEST(Coulomb, CarriesNoTractionAlongImmobileDirections)
+{
+  constexpr int D = TypeParam::value;
+  Generator random(4);
+  for (int fixed = 0; fixed < D; ++fixed)
+    for (std::int8_t status : {open, stick, slip})
+    {
+      auto node = random_node<D>(random);
+      const auto free = node.terms(status);
+      const auto without = node.terms(open);
+      node.mobile[fixed] = 0;
+      const auto r = node.terms(status);
+      for (int k = 0; k < D; ++k)
+      {
+        const auto& expected = k == fixed ? without : free;
+        EXPECT_EQ(r.value[k], expected.value[k]);
+        EXPECT_EQ(r.by_gap[k], expected.by_gap[k]);
+        EXPECT_EQ(r.by_traction[k], expected.by_traction[k]);
+        EXPECT_EQ(r.by_slip[k], expected.by_slip[k]);
+        EXPECT_EQ(r.by_normal[k], expected.by_normal[k]);
+      }
+      EXPECT_EQ(r.value[fixed], node.area * node.traction[fixed]);
+    }
+}
+
+TYPED_TEST(Coulomb, TurnsWithTheAxes)
+{
+  constexpr int D = TypeParam::value;
+  Generator random(5);
+  for (int i = 0; i < 200; ++i)
+  {
+    const auto node = random_node<D>(random);
+    const Motion<D> turn(random, 0);
+    auto turned = node;
+    turned.traction = turn.rotate(node.traction);
+    turned.normal = turn.rotate(node.normal);
+    turned.slip = turn.rotate(node.slip);
+    for (std::int8_t status : {open, stick, slip})
+    {
+      const auto a = node.terms(status), b = turned.terms(status);
+      const double size = node.area * (10 + norm(a.value));
+      EXPECT_LT(largest(b.value - turn.rotate(a.value)), 1e-13 * size);
+      EXPECT_LT(largest(b.by_gap - turn.rotate(a.by_gap)), 1e-13 * size);
+      // B Q = Q A
+      for (int j = 0; j < D; ++j)
+      {
+        Vec<D> e{};
+        e[j] = 1;
+        const Vec<D> qe = turn.rotate(e);
+        for (auto m : {&CoulombTerms<D>::by_traction, &CoulombTerms<D>::by_slip,
+                       &CoulombTerms<D>::by_normal})
+        {
+          Vec<D> before, after;
+          for (int k = 0; k < D; ++k)
+          {
+            before[k] = (a.*m)[k][j];
+            after[k] = dot((b.*m)[k], qe);
+          }
+          EXPECT_LT(largest(after - turn.rotate(before)), 1e-13 * size);
+        }
+      }
+    }
+  }
+}
+} // namespace
