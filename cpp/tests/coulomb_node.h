@@ -95,6 +95,19 @@ CoulombNode<D> random_node(Generator& random)
   return node;
 }
 
+/// @brief A node with its normal along the last axis and c = 8.
+template <int D>
+CoulombNode<D> upright(double p, double t, double gap, double slip,
+                       double friction)
+{
+  CoulombNode<D> node{{}, {}, {}, gap, 8, friction};
+  node.normal[D - 1] = 1;
+  node.traction[0] = t;
+  node.traction[D - 1] = p;
+  node.slip[0] = slip;
+  return node;
+}
+
 /// @brief Largest component of a vector.
 template <std::size_t D>
 double largest(const std::array<double, D>& v)
