@@ -23,7 +23,6 @@ from contactx.slip import SlipHistory
 from contactx.surface import Surface
 from dolfinx import cpp, fem, la
 
-
 # Share of a relative movement that must be free for a constraint on it
 _MOBILE = 0.05
 
