@@ -71,6 +71,8 @@ class Tied(Law):
     def evaluate(self, nodes: Nodes) -> None:
         """See ``Law``; the slip of a tie has a normal part, too."""
         _evaluate(nodes, np.zeros_like(nodes.gap), np.zeros_like(nodes.gap))
+        # The gap is in the slip
+        nodes.by_gap[:] = 0
 
 
 def _evaluate(nodes: Nodes, gap: Array, friction: Array) -> None:
