@@ -236,7 +236,7 @@ class Contact:
         step's start and the iterate that first closes it, seen from the master, meets the master.
 
         Raises:
-            RuntimeError: If the contact has no friction.
+            RuntimeError: If the contact has no friction, or is tied.
         """
         return self._measured(self.fields.slip)
 
@@ -245,11 +245,13 @@ class Contact:
         """Accumulated length of slip, zero off the slave surface.
 
         Raises:
-            RuntimeError: If the contact has no friction.
+            RuntimeError: If the contact has no friction, or is tied.
         """
         return self._measured(self.fields.slip_total)
 
     def _measured(self, field: fem.Function | None) -> fem.Function:
+        if field is None and self.tied:
+            raise RuntimeError(f"{self} is tied: its nodes do not slip")
         if field is None:
             raise RuntimeError(
                 f"{self} measures no slip: give it friction (a fem.Constant of value 0 will do)"
