@@ -47,7 +47,7 @@ std::int32_t frictional_status(const FrictionalState& state,
 /// derivatives (Alart & Curnier 1991; Hueeber & Wohlmuth 2005).
 ///
 /// Directions in which neither the slave node nor its master can move carry
-/// no traction: their rows are A lambda.
+/// no friction: there t takes the place of what is written after g n.
 /// @param[in] state State.
 /// @param[in] area Area of each node.
 /// @param[in] status Status of each node.
