@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+from typing import SupportsFloat
+
 import numpy as np
 import numpy.typing as npt
 
@@ -66,7 +68,7 @@ class Contact:
                 number, a ``fem.Constant`` or a ``fem.Function`` of the scalar linear space.
 
         Raises:
-            TypeError: If slave or master is something else.
+            TypeError: If slave, master, friction or offset is something else.
             ValueError: If the surfaces share facets, or an option is out of its range.
         """
         if not isinstance(slave, Surface):
@@ -89,6 +91,12 @@ class Contact:
                 )
         if sliding not in _SLIDING:
             raise ValueError(f'sliding must be "finite" or "small", not {sliding!r}')
+        for name, value in (("friction", friction), ("offset", offset)):
+            if not isinstance(value, SupportsFloat | fem.Function):
+                raise TypeError(
+                    f"{name} must be a number, a fem.Constant or a fem.Function, not "
+                    f"{type(value).__name__}"
+                )
         fixed = None if isinstance(friction, fem.Constant | fem.Function) else float(friction)
         if fixed is not None and not (np.isfinite(fixed) and fixed >= 0):
             raise ValueError(f"friction is {friction}: give a number of at least 0")
