@@ -85,7 +85,12 @@ struct Node
     // False for the gap NaN, too
     if (!(p_hat > 0))
       return Status::open;
-    return size <= bound ? Status::stick : Status::slip;
+    if (size <= bound)
+      return Status::stick;
+    // Slip that turns back has passed a point of rest: without this, nodes
+    // that full friction throws too far go to and fro for ever
+    const bool back = dot(t, t_hat) < -0.05 * bound * size;
+    return back ? Status::stick : Status::slip;
   }
 
   Vec<D> lambda, n, slip;

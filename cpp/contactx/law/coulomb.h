@@ -34,7 +34,8 @@ struct FrictionalLaw
 /// @brief Status that Coulomb's law asks for.
 ///
 /// With p_hat = p - c g and t_hat = t - c ds: open where p_hat <= 0, else stick
-/// where |t_hat| <= mu p_hat, else slip (Alart & Curnier 1991).
+/// where |t_hat| <= mu p_hat, else slip (Alart & Curnier 1991). A node whose
+/// trial friction opposes t sticks first; at a solution both agree.
 /// @param[in] state State.
 /// @param[in,out] status Status of each node.
 /// @return Number of nodes that changed.

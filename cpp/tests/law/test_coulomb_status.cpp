@@ -56,7 +56,24 @@ TYPED_TEST(CoulombStatus, SticksUpToTheBound)
     EXPECT_EQ(at(1, -0.125), stick);
     EXPECT_EQ(at(1, -0.125 * (1 + 1e-14)), slip);
     EXPECT_EQ(at(1, 0.375), stick);
-    EXPECT_EQ(at(1, 0.5), slip);
+    EXPECT_EQ(at(0.04, 0.5), slip);
+  }
+}
+
+TYPED_TEST(CoulombStatus, SticksBeforeSlipTurnsBack)
+{
+  constexpr int D = TypeParam::value;
+  // mu p_hat = 1; t_hat = t - 8 ds
+  for (double sign : {1.0, -1.0})
+  {
+    const auto at = [sign](double t, double slip)
+    { return upright<D>(2, sign * t, 0, sign * slip, 0.5).status(); };
+    EXPECT_EQ(at(1, -1), slip);
+    EXPECT_EQ(at(0, 1), slip);
+    EXPECT_EQ(at(0.04, 1), slip);
+    EXPECT_EQ(at(0.06, 1), stick);
+    EXPECT_EQ(at(1, 1), stick);
+    EXPECT_EQ(at(1, 1e6), stick);
   }
 }
 
