@@ -89,7 +89,9 @@ struct Node
       return Status::stick;
     // Slip that turns back has passed a point of rest: without this, nodes
     // that full friction throws too far go to and fro for ever
-    const bool back = dot(t, t_hat) < -0.05 * bound * size;
+    // (not where t is rounding, for want of friction)
+    const bool back
+        = bound > 1e-8 * p_hat and dot(t, t_hat) < -0.05 * bound * size;
     return back ? Status::stick : Status::slip;
   }
 

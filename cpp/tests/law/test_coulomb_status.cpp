@@ -77,6 +77,14 @@ TYPED_TEST(CoulombStatus, SticksBeforeSlipTurnsBack)
   }
 }
 
+TYPED_TEST(CoulombStatus, SlipsAnyWayWithoutFriction)
+{
+  constexpr int D = TypeParam::value;
+  for (double friction : {0.0, 1e-12})
+    for (double rounding : {0.0, 1e-17, -1e-17})
+      EXPECT_EQ((upright<D>(2, rounding, 0, 0.25, friction).status()), slip);
+}
+
 TYPED_TEST(CoulombStatus, WithoutFrictionSticksOnlyWhereNothingPulls)
 {
   constexpr int D = TypeParam::value;
