@@ -12,13 +12,19 @@ from story import displacement, elasticity, fix
 import contactx as cx
 from contactx import meshes, reference
 from contactx.meshes import Tag
+from contactx.obstacles import Obstacle
 from dolfinx import fem, mesh
 
 NU = 0.3
 
 
 def hertz_sphere(
-    h: float, sliding: str, *, down: float = 0.02, young: dict[Tag, float] | None = None
+    h: float,
+    sliding: str,
+    *,
+    down: float = 0.02,
+    young: dict[Tag, float] | None = None,
+    friction: Any = 0.0,
 ) -> tuple[cx.ContactProblem, cx.Contact]:
     """The common Hertz problem with any displacement and a modulus for each body."""
     data = meshes.hertz_sphere(h)
@@ -34,7 +40,10 @@ def hertz_sphere(
         fix(u, tags, 2, -down, Tag.UPPER_TOP),
     ]
     contact = cx.Contact(
-        cx.Surface(tags, Tag.UPPER_CONTACT), cx.Surface(tags, Tag.LOWER_CONTACT), sliding=sliding
+        cx.Surface(tags, Tag.UPPER_CONTACT),
+        cx.Surface(tags, Tag.LOWER_CONTACT),
+        sliding=sliding,
+        friction=friction,
     )
     problem = cx.ContactProblem(
         elasticity(u, E, NU), u, contacts=[contact], bcs=bcs, petsc_options_prefix="sphere_"
@@ -100,11 +109,14 @@ class Blocks:
             fix(self.u, self.tags, gdim - 1, -down, Tag.UPPER_TOP),
         ]
 
-    def contact(self, sliding: str = "finite") -> cx.Contact:
+    def contact(
+        self, sliding: str = "finite", *, master: Obstacle | None = None, **options: Any
+    ) -> cx.Contact:
         return cx.Contact(
             cx.Surface(self.tags, Tag.UPPER_CONTACT),
-            cx.Surface(self.tags, Tag.LOWER_CONTACT),
+            master or cx.Surface(self.tags, Tag.LOWER_CONTACT),
             sliding=sliding,
+            **options,
         )
 
     def problem(self, *contacts: cx.Contact, **options: Any) -> cx.ContactProblem:

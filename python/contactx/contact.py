@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+from typing import SupportsFloat
+
 import numpy as np
 import numpy.typing as npt
 
@@ -67,7 +69,7 @@ class Contact:
                 number, a ``fem.Constant`` or a ``fem.Function`` of the scalar linear space.
 
         Raises:
-            TypeError: If slave or master is something else.
+            TypeError: If slave, master, friction or offset is something else.
             ValueError: If the surfaces share facets, or an option is out of its range.
         """
         if not isinstance(slave, Surface):
@@ -90,6 +92,12 @@ class Contact:
                 )
         if sliding not in _SLIDING:
             raise ValueError(f'sliding must be "finite" or "small", not {sliding!r}')
+        for name, value in (("friction", friction), ("offset", offset)):
+            if not isinstance(value, SupportsFloat | fem.Function):
+                raise TypeError(
+                    f"{name} must be a number, a fem.Constant or a fem.Function, not "
+                    f"{type(value).__name__}"
+                )
         fixed = None if isinstance(friction, fem.Constant | fem.Function) else float(friction)
         if fixed is not None and not (np.isfinite(fixed) and fixed >= 0):
             raise ValueError(f"friction is {friction}: give a number of at least 0")
@@ -241,7 +249,7 @@ class Contact:
         step's start and the iterate that first closes it, seen from the master, meets the master.
 
         Raises:
-            RuntimeError: If the contact has no friction.
+            RuntimeError: If the contact has no friction, or is tied.
         """
         return self._measured(self.fields.slip)
 
@@ -250,11 +258,13 @@ class Contact:
         """Accumulated length of slip, zero off the slave surface.
 
         Raises:
-            RuntimeError: If the contact has no friction.
+            RuntimeError: If the contact has no friction, or is tied.
         """
         return self._measured(self.fields.slip_total)
 
     def _measured(self, field: fem.Function | None) -> fem.Function:
+        if field is None and self.tied:
+            raise RuntimeError(f"{self} is tied: its nodes do not slip")
         if field is None:
             raise RuntimeError(
                 f"{self} measures no slip: give it friction (a fem.Constant of value 0 will do)"

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+import basix
 from dolfinx import fem
 
 
@@ -33,19 +34,26 @@ class NodalValue:
             nodes: Nodes of V, shape (n,).
 
         Raises:
-            ValueError: If the function is not of a scalar linear space on V's mesh.
+            ValueError: If the function is not of a scalar linear space on V's mesh, or the constant
+                is no number.
         """
         self._value = value
         self._name = name
         if isinstance(value, fem.Function):
             Q = value.function_space
             element = Q.ufl_element()
-            if Q.mesh is not V.mesh or element.block_size != 1 or element.degree != 1:
+            linear = (element.element_family, element.degree) == (basix.ElementFamily.P, 1)
+            scalar = element.block_size == 1 and not element.discontinuous
+            if Q.mesh is not V.mesh or not (linear and scalar):
                 raise ValueError(
                     f"{name} is a function of {element}: interpolate it into "
                     'functionspace(mesh, ("Lagrange", 1)) on the displacement\'s mesh'
                 )
             self._nodes = matching_nodes(V, Q)[nodes]
+        elif isinstance(value, fem.Constant) and value.value.shape != ():
+            raise ValueError(
+                f"{name} is a constant of shape {value.value.shape}: give one of a number"
+            )
 
     def now(self) -> Any:
         """Current value: a number, or an array of shape (n,).

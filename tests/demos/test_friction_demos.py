@@ -10,7 +10,6 @@ import sliding_block
 import stacked_blocks
 from matplotlib import image
 
-
 # Normal and tangential force, half-width, peak, half-width that sticks, L2 of pressure and shear
 FINITE = (1e-3, 1e-4, 0.03, 0.06, 0.05, 0.1, 0.2)
 # Normals of the undeformed circles are turned by much beside mu

@@ -3,6 +3,7 @@
 
 #include "coulomb.h"
 #include "../vec.h"
+#include <algorithm>
 #include <cstddef>
 
 using namespace contactx;
@@ -79,16 +80,20 @@ struct Node
   {
   }
 
-  Status status(Status before) const
+  Status status() const
   {
     // False for the gap NaN, too
     if (!(p_hat > 0))
       return Status::open;
-    // Against its traction a node would jump across the whole cone of friction
-    if (before == Status::slip and bound > 0 and dot(t, t_hat) < 0)
-      return Status::stick;
     // Without friction nothing sticks, not even where nothing pulls
-    return bound > 0 and size <= bound ? Status::stick : Status::slip;
+    if (bound > 0 and size <= bound)
+      return Status::stick;
+    // Slip that turns back has passed a point of rest: without this, nodes
+    // that full friction throws too far go to and fro for ever
+    // (not where t is rounding, for want of friction)
+    const bool back
+        = bound > 1e-8 * p_hat and dot(t, t_hat) < -0.05 * bound * size;
+    return back ? Status::stick : Status::slip;
   }
 
   Vec<D> lambda, n, slip;
@@ -123,17 +128,35 @@ Terms<D> open_terms(const Vec<D>& lambda)
   return r;
 }
 
+/// Of t by the normal: -(p I + n lambda^T)
+template <int D>
+Mat<D> traction_by_normal(const Node<D>& a)
+{
+  return scaled<D>(-1, sum<D>(identity<D>(a.p), outer<D>(a.n, a.lambda)));
+}
+
+/// What vanishes along the surface where nothing can move: t
+template <int D>
+Terms<D> immobile_terms(const Node<D>& a)
+{
+  Terms<D> r;
+  r.value = a.t;
+  r.by_traction = across<D>(a.n);
+  r.by_normal = traction_by_normal<D>(a);
+  return r;
+}
+
+/// What vanishes along the surface of a sticking node: c ds
 template <int D>
 Terms<D> stick_terms(const Node<D>& a)
 {
   Terms<D> r;
-  r.value = a.c * (a.gap * a.n + a.slip);
-  r.by_gap = a.c * a.n;
+  r.value = a.c * a.slip;
   r.by_slip = identity<D>(a.c);
-  r.by_normal = identity<D>(a.c * a.gap);
   return r;
 }
 
+/// What vanishes along the surface of a slipping node
 template <int D>
 Terms<D> slip_terms(const Node<D>& a, double friction)
 {
@@ -142,39 +165,75 @@ Terms<D> slip_terms(const Node<D>& a, double friction)
   const Vec<D> s = directed ? (1 / a.size) * a.t_hat : Vec<D>{};
   const Mat<D> turn
       = directed ? scaled<D>(a.bound / a.size, across<D>(s)) : Mat<D>{};
-  // Of t by the normal: -(p I + n lambda^T)
-  const Mat<D> t_by_n
-      = scaled<D>(-1, sum<D>(identity<D>(a.p), outer<D>(a.n, a.lambda)));
+  const Mat<D> t_by_n = traction_by_normal<D>(a);
   Terms<D> r;
-  r.value = (a.c * a.gap) * a.n + a.t - a.bound * s;
-  r.by_gap = a.c * (a.n + friction * s);
+  r.value = a.t - a.bound * s;
+  r.by_gap = (a.c * friction) * s;
   r.by_slip = scaled<D>(a.c, turn);
   const Mat<D> tangential = across<D>(a.n);
   r.by_traction
       = sum<D>(sum<D>(tangential, scaled<D>(-1, multiply<D>(turn, tangential))),
                outer<D>(-friction * s, a.n));
-  r.by_normal = sum<D>(sum<D>(identity<D>(a.c * a.gap), t_by_n),
-                       sum<D>(scaled<D>(-1, multiply<D>(turn, t_by_n)),
-                              outer<D>(-friction * s, a.lambda)));
+  r.by_normal = sum<D>(t_by_n, sum<D>(scaled<D>(-1, multiply<D>(turn, t_by_n)),
+                                      outer<D>(-friction * s, a.lambda)));
+  return r;
+}
+
+/// Rows of `r`, those of `other` in directions that cannot move. Rows of both
+/// leave the surface: their part along it counts.
+template <int D>
+Terms<D> mixed(const Node<D>& a, const Terms<D>& r, const Terms<D>& other,
+               const double* mobile)
+{
+  if (std::all_of(mobile, mobile + D, [](double m) { return m > 0; }))
+    return r;
+  Terms<D> q = r;
+  for (int k = 0; k < D; ++k)
+    if (!(mobile[k] > 0))
+    {
+      q.value[k] = other.value[k];
+      q.by_gap[k] = other.by_gap[k];
+      q.by_traction[k] = other.by_traction[k];
+      q.by_slip[k] = other.by_slip[k];
+      q.by_normal[k] = other.by_normal[k];
+    }
+  const Mat<D> along = across<D>(a.n);
+  const double height = dot(a.n, q.value);
+  Terms<D> p;
+  p.value = q.value - height * a.n;
+  p.by_gap = q.by_gap - dot(a.n, q.by_gap) * a.n;
+  p.by_traction = multiply<D>(along, q.by_traction);
+  p.by_slip = multiply<D>(along, q.by_slip);
+  p.by_normal = sum<D>(
+      multiply<D>(along, q.by_normal),
+      scaled<D>(-1, sum<D>(identity<D>(height), outer<D>(a.n, q.value))));
+  return p;
+}
+
+/// Add what vanishes along the normal of a closed node: c g
+template <int D>
+Terms<D> closed(const Node<D>& a, Terms<D> r)
+{
+  r.value = r.value + (a.c * a.gap) * a.n;
+  r.by_gap = r.by_gap + a.c * a.n;
+  r.by_normal = sum<D>(r.by_normal, identity<D>(a.c * a.gap));
   return r;
 }
 
 template <int D>
-void write(const Terms<D>& r, const Terms<D>& immobile, double area,
-           std::span<const double> mobile, std::size_t i,
+void write(const Terms<D>& r, double area, std::size_t i,
            const FrictionalLaw& law)
 {
   for (int k = 0; k < D; ++k)
   {
-    const Terms<D>& from = mobile[D * i + k] > 0 ? r : immobile;
-    law.value[D * i + k] = area * from.value[k];
-    law.by_gap[D * i + k] = area * from.by_gap[k];
+    law.value[D * i + k] = area * r.value[k];
+    law.by_gap[D * i + k] = area * r.by_gap[k];
     for (int j = 0; j < D; ++j)
     {
       const std::size_t at = D * (D * i + k) + j;
-      law.by_traction[at] = area * from.by_traction[k][j];
-      law.by_slip[at] = area * from.by_slip[k][j];
-      law.by_normal[at] = area * from.by_normal[k][j];
+      law.by_traction[at] = area * r.by_traction[k][j];
+      law.by_slip[at] = area * r.by_slip[k][j];
+      law.by_normal[at] = area * r.by_normal[k][j];
     }
   }
 }
@@ -186,7 +245,7 @@ std::int32_t set_status(const FrictionalState& state,
   std::int32_t changed = 0;
   for (std::size_t i = 0; i < status.size(); ++i)
   {
-    const Status now = Node<D>(state, i).status(static_cast<Status>(status[i]));
+    const Status now = Node<D>(state, i).status();
     changed += now != status[i];
     status[i] = now;
   }
@@ -201,14 +260,17 @@ void evaluate(const FrictionalState& state, std::span<const double> area,
   for (std::size_t i = 0; i < status.size(); ++i)
   {
     const Node<D> node(state, i);
-    const Terms<D> open = open_terms<D>(node.lambda);
     if (status[i] == Status::open)
-      write<D>(open, open, area[i], mobile, i, law);
-    else if (status[i] == Status::stick)
-      write<D>(stick_terms<D>(node), open, area[i], mobile, i, law);
-    else
-      write<D>(slip_terms<D>(node, state.friction[i]), open, area[i], mobile, i,
-               law);
+    {
+      write<D>(open_terms<D>(node.lambda), area[i], i, law);
+      continue;
+    }
+    const Terms<D> moving = status[i] == Status::stick
+                                ? stick_terms<D>(node)
+                                : slip_terms<D>(node, state.friction[i]);
+    const Terms<D> along = mixed<D>(node, moving, immobile_terms<D>(node),
+                                    mobile.data() + D * i);
+    write<D>(closed<D>(node, along), area[i], i, law);
   }
 }
 } // namespace

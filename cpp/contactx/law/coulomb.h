@@ -34,9 +34,8 @@ struct FrictionalLaw
 /// @brief Status that Coulomb's law asks for.
 ///
 /// With p_hat = p - c g and t_hat = t - c ds: open where p_hat <= 0, else stick
-/// where |t_hat| <= mu p_hat > 0, else slip (Alart & Curnier 1991). A node that
-/// slips and whose t_hat opposes its traction sticks first: a slip that turns
-/// about passes through stick, and Newton's method with it.
+/// where |t_hat| <= mu p_hat > 0, else slip (Alart & Curnier 1991). A node
+/// whose trial friction opposes t sticks first; at a solution both agree.
 /// @param[in] state State.
 /// @param[in,out] status Status of each node.
 /// @return Number of nodes that changed.
@@ -49,7 +48,7 @@ std::int32_t frictional_status(const FrictionalState& state,
 /// derivatives (Alart & Curnier 1991; Hueeber & Wohlmuth 2005).
 ///
 /// Directions in which neither the slave node nor its master can move carry
-/// no traction: their rows are A lambda.
+/// no friction: there t takes the place of what is written after g n.
 /// @param[in] state State.
 /// @param[in] area Area of each node.
 /// @param[in] status Status of each node.

@@ -51,7 +51,22 @@ class Coulomb(Law):
 
     def evaluate(self, nodes: Nodes) -> None:
         """See ``Law``."""
-        _evaluate(nodes, nodes.gap, self.friction(nodes))
+        core.frictional_complementarity(
+            nodes.multiplier,
+            nodes.gap,
+            nodes.normal,
+            nodes.slip,
+            nodes.c,
+            self.friction(nodes),
+            nodes.area,
+            nodes.status,
+            nodes.mobile,
+            nodes.value,
+            nodes.by_multiplier.reshape(-1),
+            nodes.by_gap,
+            nodes.by_slip,
+            nodes.by_normal,
+        )
 
 
 class Tied(Law):
@@ -69,24 +84,18 @@ class Tied(Law):
         return changed
 
     def evaluate(self, nodes: Nodes) -> None:
-        """See ``Law``; the slip of a tie has a normal part, too."""
-        _evaluate(nodes, np.zeros_like(nodes.gap), np.zeros_like(nodes.gap))
+        """See ``Law``; the slip of a tie has a normal part, too.
 
-
-def _evaluate(nodes: Nodes, gap: Array, friction: Array) -> None:
-    core.frictional_complementarity(
-        nodes.multiplier,
-        gap,
-        nodes.normal,
-        nodes.slip,
-        nodes.c,
-        friction,
-        nodes.area,
-        nodes.status,
-        nodes.mobile,
-        nodes.value,
-        nodes.by_multiplier.reshape(-1),
-        nodes.by_gap,
-        nodes.by_slip,
-        nodes.by_normal,
-    )
+        Each component on its own: A c ds where it can move, else A lambda.
+        """
+        n, gdim = nodes.slip.shape
+        area = nodes.area[:, None]
+        held = nodes.closed[:, None] & (nodes.mobile > 0)
+        by_slip = np.where(held, area * nodes.c[:, None], 0.0)
+        by_multiplier = np.where(held, 0.0, area)
+        traction = nodes.multiplier.reshape(n, gdim)
+        nodes.value[:] = (by_slip * nodes.slip + by_multiplier * traction).ravel()
+        nodes.by_multiplier[:] = by_multiplier[:, :, None] * np.eye(gdim)
+        nodes.by_slip[:] = (by_slip[:, :, None] * np.eye(gdim)).ravel()
+        nodes.by_gap[:] = 0
+        nodes.by_normal[:] = 0

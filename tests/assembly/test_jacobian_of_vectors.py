@@ -1,0 +1,132 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Jacobian of the whole system with friction and with ties against central differences."""
+
+import numpy as np
+import pytest
+from scenes import Blocks
+
+import contactx as cx
+from contactx import cpp as core
+from dolfinx.mesh import CellType
+
+CELLS = [CellType.triangle, CellType.quadrilateral, CellType.tetrahedron, CellType.hexahedron]
+every_cell = pytest.mark.parametrize("cell", CELLS, ids=lambda c: c.name)
+both_slidings = pytest.mark.parametrize("sliding", ["finite", "small"])
+OBSTACLES = ["facets", "plane", "sphere", "level set"]
+
+
+def obstacle(kind, gdim):
+    centre = np.full(gdim, 0.7)
+    if kind == "facets":
+        return None
+    if kind == "plane":
+        return cx.Plane(centre * 0, np.linspace(-0.2, 1, gdim))
+    if kind == "sphere":
+        centre[-1] = -2
+        return cx.Sphere(centre, 2.0)
+    return cx.LevelSet(lambda x: x[gdim - 1] + 0.2 * (x[0] - 0.7) ** 2)
+
+
+def scene_with(cell, sliding, master, **options):
+    """A random state in the middle of a step, with a prescribed part that has arrived."""
+    scene = Blocks(cell, gap=0.05)
+    gdim = scene.u.function_space.mesh.geometry.dim
+    contact = scene.contact(sliding, master=obstacle(master, gdim), **options)
+    problem = scene.problem(contact)
+    interface, nodes = contact.interface, contact.interface.nodes
+    rng = np.random.default_rng(6)
+
+    def displace():
+        scene.u.x.array[:] = 0.02 * rng.standard_normal(len(scene.u.x.array))
+        for bc in scene.bcs:
+            bc.set(scene.u.x.array)
+
+    displace()
+    interface.search()
+    interface.update_gap()
+    interface.accept()
+    interface.begin_step()
+    displace()
+    interface.search()
+    interface.update_gap()
+    assert interface.master.paired.all()
+    n = len(nodes.area)
+    contact.multiplier[:] = rng.uniform(-1, 1, (n, gdim)) + 1.5 * nodes.normal
+    nodes.c[:] = rng.uniform(1, 2, n)
+    # Some directions that Dirichlet conditions have left immobile
+    nodes.mobile[:] = rng.random((n, gdim)) < 0.9
+    return problem, interface, rng
+
+
+def assert_consistent(problem, interface):
+    """Every kind of column: free displacements and all multipliers."""
+    system = problem._system
+    system.gather()
+    x0 = system.x.array.copy()
+
+    def residual(x):
+        system.x.array = x
+        system.scatter(system.x)
+        system.residual(system.b)
+        return system.b.array.copy()
+
+    residual(x0)
+    J = system.jacobian().convert("dense").getDenseArray()
+    m = len(interface.nodes.multiplier)
+    free = np.flatnonzero(np.r_[problem._bulk.markers == 0, np.ones(m, dtype=bool)])
+    gdim = interface.nodes.size
+    slaves = (interface.slaves[:, None] * gdim + np.arange(gdim)).ravel()
+    few = free[:: max(1, len(free) // 30)]
+    h = 1e-6
+    for column in np.union1d(few, slaves[:: max(1, len(slaves) // 15)]):
+        dx = np.zeros_like(x0)
+        dx[column] = h
+        difference = (residual(x0 + dx) - residual(x0 - dx)) / (2 * h)
+        error = np.abs(J[free, column] - difference[free]).max()
+        assert error <= 1e-7 * np.abs(J).max()
+
+
+@every_cell
+@both_slidings
+@pytest.mark.parametrize("master", OBSTACLES)
+def test_with_friction(cell, sliding, master):
+    problem, interface, rng = scene_with(cell, sliding, master, friction=0.4)
+    nodes = interface.nodes
+    nodes.status[:] = rng.permutation(np.arange(len(nodes.status)) % 3)
+    assert np.abs(nodes.slip).max() > 1e-3
+    assert_consistent(problem, interface)
+
+
+@every_cell
+def test_with_held_pairs(cell):
+    problem, interface, rng = scene_with(cell, "finite", "facets", friction=0.4)
+    interface.hold(True)
+    interface.nodes.status[:] = rng.integers(3, size=len(interface.nodes.status))
+    assert_consistent(problem, interface)
+    # Kinematics are held indeed
+    assert all(form.stiffness is None for form in interface.forms)
+
+
+@every_cell
+@pytest.mark.parametrize("master", ["facets", "sphere"])
+def test_after_the_nodes_have_touched(cell, master):
+    problem, interface, rng = scene_with(cell, "finite", master, friction=0.4)
+    before = interface.nodes.slip.copy()
+    interface.update_status()
+    assert np.abs(interface.nodes.slip - before).max() > 1e-3
+    interface.nodes.status[:] = rng.integers(1, 3, size=len(interface.nodes.status))
+    assert_consistent(problem, interface)
+
+
+@every_cell
+@both_slidings
+@pytest.mark.parametrize("master", OBSTACLES)
+def test_with_ties(cell, sliding, master):
+    problem, interface, _ = scene_with(cell, sliding, master, tied=True)
+    nodes = interface.nodes
+    interface.update_status()
+    assert np.all(nodes.status == core.STICK)
+    nodes.status[::4] = core.OPEN
+    assert np.abs(nodes.slip).max() > 1e-3
+    assert_consistent(problem, interface)

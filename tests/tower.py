@@ -1,0 +1,150 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Two unit boxes on each other, tied or not, held at their far ends."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from mpi4py import MPI
+
+import numpy as np
+from story import displacement, elasticity
+
+import contactx as cx
+import ufl
+from contactx import meshes
+from contactx.meshes import Tag
+from contactx.obstacles import Obstacle
+from dolfinx import fem, mesh
+
+CELLS = [
+    mesh.CellType.triangle,
+    mesh.CellType.quadrilateral,
+    mesh.CellType.tetrahedron,
+    mesh.CellType.hexahedron,
+]
+
+
+def neo_hookean(u: fem.Function, young: float, nu: float) -> ufl.Form:
+    """Residual of a compressible neo-Hookean material."""
+    mu, lmbda = young / (2 * (1 + nu)), young * nu / ((1 + nu) * (1 - 2 * nu))
+    F = ufl.variable(ufl.Identity(len(u)) + ufl.grad(u))
+    J = ufl.det(F)
+    trace = ufl.tr(F.T * F) - len(u)
+    energy = mu / 2 * (trace - 2 * ufl.ln(J)) + lmbda / 2 * ufl.ln(J) ** 2
+    return ufl.inner(ufl.diff(energy, F), ufl.grad(ufl.TestFunction(u.function_space))) * ufl.dx
+
+
+class Tower:
+    """An upper box on a lower one of the same width.
+
+    Attributes:
+        u: Displacement.
+        tags: Facet tags.
+        X: Reference positions of the nodes, shape (num_nodes, gdim).
+        upper: Nodes of the upper box.
+        top: Displacement of the upper box's top.
+        bottom: Displacement of the lower box's bottom.
+        contact: The contact.
+        problem: The problem.
+    """
+
+    def __init__(
+        self,
+        cell: mesh.CellType,
+        n_upper: int,
+        n_lower: int,
+        *,
+        master: Obstacle | None = None,
+        nu: float = 0.0,
+        gap: float = 0.0,
+        shift: float = 0.0,
+        neo: bool = False,
+        free_top: bool = False,
+        **options: Any,
+    ):
+        gdim = 2 if cell in CELLS[:2] else 3
+        data = meshes.blocks(
+            cell, (n_upper,) * gdim, (n_lower,) * gdim, gap=gap, shift=(shift,) * (gdim - 1)
+        )
+        self.mesh, self.tags, self.gdim = data.mesh, data.facet_tags, gdim
+        self.u = displacement(data.mesh)
+        V = self.u.function_space
+        self.X = V.tabulate_dof_coordinates()[:, :gdim]
+        self.upper = np.unique(V.dofmap.list[data.cell_tags.find(Tag.UPPER)])
+        self.top, self.bottom = fem.Function(V), fem.Function(V)
+        bcs = [] if free_top else [self._held(self.top, Tag.UPPER_TOP)]
+        bcs.append(self._held(self.bottom, Tag.LOWER_BOTTOM))
+        self.contact = cx.Contact(
+            cx.Surface(self.tags, Tag.UPPER_CONTACT),
+            master or cx.Surface(self.tags, Tag.LOWER_CONTACT),
+            **options,
+        )
+        self.problem = cx.ContactProblem(
+            (neo_hookean if neo else elasticity)(self.u, 1.0, nu),
+            self.u,
+            contacts=[self.contact],
+            bcs=bcs,
+            petsc_options_prefix="tower_",
+        )
+
+    def _held(self, value: fem.Function, face: int) -> fem.DirichletBC:
+        V = self.u.function_space
+        dofs = fem.locate_dofs_topological(V, self.tags.dim, self.tags.find(face))
+        return fem.dirichletbc(value, dofs)
+
+    def solve(self, *top: float) -> Tower:
+        """Move the top by a vector."""
+        self.top.x.array[:] = np.tile(top, len(self.X))
+        self.problem.solve()
+        return self
+
+    def move(self, motion: Any) -> None:
+        """Move both ends as a motion of points does, and solve."""
+        for end in (self.top, self.bottom):
+            end.x.array[:] = (motion(self.X) - self.X).ravel()
+        self.problem.solve()
+
+    @property
+    def moved(self) -> np.ndarray:
+        """Current positions of the nodes, shape (num_nodes, gdim)."""
+        return self.X + self.u.x.array.reshape(-1, self.gdim)
+
+
+def lift(gdim: int, height: float, aside: float = 0.0) -> np.ndarray:
+    """A displacement up and along the first axis."""
+    d = np.zeros(gdim)
+    d[0], d[-1] = aside, height
+    return d
+
+
+def one_body(tower: Tower, top: np.ndarray, nu: float) -> np.ndarray:
+    """Force on the top of the tower where the boxes have grown together, shape (gdim,).
+
+    Nodes at one place become one node: the boxes must match.
+    """
+    old, gdim = tower.mesh, tower.gdim
+    x = old.geometry.x[:, :gdim]
+    _, first, node = np.unique(np.round(x, 9), axis=0, return_index=True, return_inverse=True)
+    element = old.ufl_domain().ufl_coordinate_element()
+    cells = node.ravel()[old.geometry.dofmaps[0]]
+    domain = mesh.create_mesh(MPI.COMM_WORLD, cells, element, x[first])
+    u = displacement(domain)
+    V = u.function_space
+    ends = []
+    for height, value in ((1.0, top), (-1.0, np.zeros(gdim))):
+        dofs = fem.locate_dofs_geometrical(V, lambda x, z=height: np.isclose(x[gdim - 1], z))
+        ends.append(fem.dirichletbc(np.asarray(value, dtype=np.float64), dofs, V))
+    F = elasticity(u, 1.0, nu)
+    problem = fem.petsc.NonlinearProblem(
+        F,
+        u,
+        bcs=ends,
+        petsc_options_prefix="one_body_",
+        petsc_options={"ksp_type": "preonly", "pc_type": "lu"},
+    )
+    problem.solve()
+    reaction = fem.assemble_vector(fem.form(F)).array.reshape(-1, gdim)
+    dofs = fem.locate_dofs_geometrical(V, lambda x: np.isclose(x[gdim - 1], 1.0))
+    return reaction[dofs].sum(axis=0)

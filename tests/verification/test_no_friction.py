@@ -1,0 +1,81 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""The coefficient of friction zero, by whatever way, is contact without friction."""
+
+import functools
+
+from mpi4py import MPI
+
+import numpy as np
+import pytest
+from scenes import hertz_sphere
+
+from dolfinx import fem, mesh
+
+
+def constant(value):
+    return fem.Constant(mesh.create_unit_interval(MPI.COMM_SELF, 1), value)
+
+
+@functools.cache
+def solved(sliding):
+    problem, contact = hertz_sphere(0.04, sliding)
+    problem.solve()
+    return problem, contact
+
+
+both_slidings = pytest.mark.parametrize("sliding", ["finite", "small"])
+
+
+@both_slidings
+@pytest.mark.parametrize("friction", [0, 0.0, constant(0.0), 1e-12], ids=str)
+def test_hertz_is_the_same(sliding, friction):
+    first, plain = solved(sliding)
+    problem, contact = hertz_sphere(0.04, sliding, friction=friction)
+    problem.solve()
+    size = np.abs(first.u.x.array).max()
+    off = {
+        "u": np.abs(problem.u.x.array - first.u.x.array).max() / size,
+        "force": np.abs(contact.force - plain.force).max() / plain.force[2],
+        "pressure": np.abs(contact.pressure.x.array - plain.pressure.x.array).max()
+        / plain.pressure.x.array.max(),
+        "traction": np.abs(contact.traction.x.array - plain.traction.x.array).max()
+        / plain.pressure.x.array.max(),
+    }
+    print(problem.report.iterations, {name: f"{value:.1e}" for name, value in off.items()})
+    assert max(off.values()) <= 1e-8
+    assert np.array_equal(contact.status.x.array > 0, plain.status.x.array > 0)
+    gap, expected = contact.gap.x.array, plain.gap.x.array
+    assert np.array_equal(np.isnan(gap), np.isnan(expected))
+    assert np.nanmax(np.abs(gap - expected)) <= 1e-8 * size
+
+
+@both_slidings
+def test_nothing_tangential_exists_without_friction(sliding):
+    _, contact = solved(sliding)
+    interface = contact.interface
+    assert contact.multiplier.shape == (len(contact.slave_nodes),)
+    assert interface.history is None
+    for name in ("slip_derivative", "normal_derivative"):
+        assert getattr(interface.state, name) is None
+    assert interface.state.multiplier.block_size == 1
+    for array in (interface.nodes.slip, interface.nodes.normal, interface.nodes.mobile):
+        assert array.size == 0
+    for array in (interface.nodes.by_slip, interface.nodes.by_normal):
+        assert array.size == 0
+    for form in contact.forms:
+        assert form.slip is None
+        assert form.normal is None
+        assert form._slip_data is None
+    for name in ("slip", "slip_total"):
+        with pytest.raises(RuntimeError, match="measures no slip: give it friction"):
+            getattr(contact, name)
+
+
+def test_the_constant_zero_measures_slip():
+    problem, contact = hertz_sphere(0.04, "small", friction=constant(0.0))
+    problem.solve()
+    assert contact.multiplier.shape == (len(contact.slave_nodes), 3)
+    assert contact.slip_total.x.array.max() > 1e-4
+    slip = contact.slip.x.array.reshape(-1, 3)
+    assert np.linalg.norm(slip, axis=1).max() == pytest.approx(contact.slip_total.x.array.max())
