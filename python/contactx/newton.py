@@ -17,6 +17,7 @@ from contactx.bodies.holder import Holder
 from contactx.bulk import Bulk
 from contactx.callback import keeps_its_error
 from contactx.convergence import Judge
+from contactx.cycling import CycleGuard
 from contactx.interface import Interface
 from contactx.junctions import Junctions
 from contactx.options import SolverOptions
@@ -85,6 +86,7 @@ class NewtonLoop:
         self._judge = Judge(bulk, interfaces, system)
         self._holder = Holder(bulk, interfaces, bodies)
         self._junctions = Junctions(interfaces)
+        self._guard = CycleGuard(interfaces)
         self._failure = ""
         self.snes = PETSc.SNES().create(system.x.comm)
         self.snes.setOptionsPrefix(prefix)
@@ -115,6 +117,7 @@ class NewtonLoop:
             for interface in self._interfaces:
                 interface.set_factor(stiffness)
             self._holder.begin_step()
+            self._guard.begin_step()
             self._changes = self._settle(first=True)
             self._system.gather()
             self._A = None
@@ -128,6 +131,7 @@ class NewtonLoop:
             report.reason = f"SNES stopped by itself, with reason {code}, before the end"
         if self._failure:
             report.reason = self._failure
+        report.cycles = self._guard.cycles
         report.corners = self._junctions.corners
         report.unheld = self._holder.unheld
         report.closed_to_hold = self._holder.closed
@@ -240,6 +244,8 @@ class NewtonLoop:
         if not np.isfinite(norms[2]):
             return reason.DIVERGED_FUNCTION_NANORINF
         if number > 0:
+            if self._guard.shorten(self._system.x):
+                self._system.scatter(self._system.x)
             self._changes = self._settle()
         self._system.gather()
         self._function(snes, self._system.x, self._system.b)
@@ -256,6 +262,7 @@ class NewtonLoop:
             dirichlet_defect=defect,
         )
         self._report.history.append(row)
+        self._guard.note(self._system.x, residual)
         if not np.isfinite(row.residual):
             return reason.DIVERGED_FUNCTION_NANORINF
         size = np.abs(self._bulk.u.x.array).max(initial=0.0)

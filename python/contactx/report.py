@@ -56,6 +56,7 @@ class Report:
         immobile: Pairs that Dirichlet conditions leave nothing to yield; they stay open.
         corners: Nodes that are slave in several contacts and close more than one of them: they
             slide without friction there, and of parallel contacts only the deepest counts.
+        cycles: How often the status of an iterate came back and steps were shortened.
         unheld: Rigid motions of bodies that nothing held at the end; the forces along them balance.
         closed_to_hold: Nodes that were closed because a body would have met them first.
         slip: Sum over the slave nodes of their slip in this step, a length.
@@ -76,6 +77,7 @@ class Report:
     pairs: int = 0
     immobile: int = 0
     corners: int = 0
+    cycles: int = 0
     unheld: int = 0
     closed_to_hold: int = 0
     slip: float = 0.0
@@ -132,6 +134,8 @@ class Report:
         for k, force in enumerate(self.force):
             components = ", ".join(f"{f:.6g}" for f in force)
             lines.append(f"contact {k}: force on the slave ({components})")
+        if self.cycles:
+            lines.append(f"the status came back {self.cycles} times; steps were shortened")
         if self.corners:
             lines.append(
                 f"{self.corners} nodes close several contacts at once: without friction, and only "

@@ -1,0 +1,72 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Iterations that go round in a circle."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from petsc4py import PETSc
+
+from contactx.interface import Interface
+
+_FACTOR = 0.5
+
+
+class CycleGuard:
+    """Shortens steps when the same status comes back without a smaller residual.
+
+    Each status is a linear system of its own, so that a status which returns would return for
+    ever. Iterates between two of a circle lie on neither's piece and lead out of it. The solution
+    is where it was: full steps follow, and convergence is judged by the residual.
+
+    Attributes:
+        cycles: How often a status has come back.
+    """
+
+    def __init__(self, interfaces: Sequence[Interface]):
+        """Create the guard.
+
+        Args:
+            interfaces: Discrete sides of the contacts.
+        """
+        self._interfaces = interfaces
+        self.begin_step()
+
+    def begin_step(self) -> None:
+        """Forget what was seen."""
+        self.cycles = 0
+        self._short = 0
+        self._seen: dict[bytes, float] = {}
+        self._last: PETSc.Vec | None = None
+
+    def shorten(self, x: PETSc.Vec) -> bool:
+        """Take back a part of the last step, if iterates go round.
+
+        Args:
+            x: The new iterate, changed in place.
+
+        Returns:
+            Whether it was changed.
+        """
+        if self._short == 0 or self._last is None:
+            return False
+        self._short -= 1
+        x.aypx(_FACTOR, (1 - _FACTOR) * self._last)
+        return True
+
+    def note(self, x: PETSc.Vec, residual: float) -> None:
+        """Remember an iterate.
+
+        Args:
+            x: The iterate.
+            residual: Its residual.
+        """
+        self._last = x.copy()
+        status = b"".join(i.nodes.status.tobytes() for i in self._interfaces)
+        if self._short == 0 and residual > _FACTOR * self._seen.get(status, float("inf")):
+            self.cycles += 1
+            # Longer each time
+            self._short = 1 + self.cycles
+            self._seen.clear()
+        self._seen[status] = min(residual, self._seen.get(status, residual))
