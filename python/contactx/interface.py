@@ -215,7 +215,7 @@ class Interface:
         """What is taken off the gap now, shape (n,)."""
         return np.broadcast_to(self._offset.now(), self.nodes.gap.shape)
 
-    def update_status(self, first: bool) -> int:
+    def update_status(self, first: bool = False) -> int:
         """Set each slave node's status from its multiplier, gap and slip.
 
         Args:
@@ -243,7 +243,7 @@ class Interface:
         self._assembly.update(self.master.pairs() if fresh is None else fresh)
         self._assembly.slip(self.nodes)
 
-    def closing(self, first: bool) -> npt.NDArray[np.bool_]:
+    def closing(self, first: bool = False) -> npt.NDArray[np.bool_]:
         """Which nodes the complementarity closes.
 
         At a step's start also those that touch but for rounding: it must not decide which of them
