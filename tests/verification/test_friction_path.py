@@ -1,0 +1,35 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Steps that end in partial slip: some nodes stick, others slip on, others slip back."""
+
+import pytest
+from driven_blocks import DrivenBlock, check_coulomb
+
+import contactx as cx
+from dolfinx.mesh import CellType
+
+
+@pytest.mark.parametrize("sliding", ["finite", "small"])
+@pytest.mark.parametrize("base", ["plane", "elastic"])
+@pytest.mark.parametrize("cell", [CellType.quadrilateral, CellType.hexahedron])
+@pytest.mark.parametrize("friction", [0.3, 1.0])
+def test_every_reversal_converges(friction, cell, base, sliding):
+    """Between a full slide on and a full slide back there are all mixtures of them."""
+    gdim, n = (2, 8) if cell == CellType.quadrilateral else (3, 3)
+    up = (0.0,) * (gdim - 1) + (1.0,)
+    plane = cx.Plane((0.0,) * gdim, up) if base == "plane" else None
+    across = (0.0,) * (gdim - 2)
+    iterations, mixed = [], 0
+    scene = DrivenBlock(
+        cell, plane=plane, sliding=sliding, friction=friction, n_upper=n, n_lower=2 * n
+    )
+    scene.step(0.0, *across, -0.02)
+    for back in (0.005, 0.01, 0.015, 0.02, 0.025, 0.03, 0.04, 0.06):
+        scene.step(0.15, *across, -0.02)
+        scene.step(0.15 - back, *across, -0.02)
+        iterations.append(scene.iterations[-1])
+        count = check_coulomb(scene.contact)
+        mixed += count["stick"] > 0 and count["slip"] > 0
+    print(iterations, f"{mixed} mixed, most {max(scene.iterations)}")
+    assert mixed > 0
+    assert max(scene.iterations) <= 12

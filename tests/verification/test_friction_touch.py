@@ -1,0 +1,63 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""A node that touches first within a step slips only from where it touches."""
+
+import numpy as np
+import pytest
+from driven_blocks import DrivenBlock
+
+import contactx as cx
+from contactx import cpp as core
+from dolfinx.mesh import CellType
+
+
+@pytest.mark.parametrize("sliding", ["finite", "small"])
+@pytest.mark.parametrize("base", ["plane", "elastic"])
+@pytest.mark.parametrize(
+    "cell", [CellType.triangle, CellType.quadrilateral, CellType.tetrahedron, CellType.hexahedron]
+)
+@pytest.mark.parametrize("steps", [1, 2])
+def test_sticks_where_it_touches(steps, cell, base, sliding):
+    """Half way down: of 0.2 the gap takes 0.1; the straight way is half way aside there."""
+    gdim = 2 if cell in (CellType.triangle, CellType.quadrilateral) else 3
+    scene = DrivenBlock(
+        cell,
+        plane=cx.Plane((0.0,) * gdim, np.eye(gdim)[-1]) if base == "plane" else None,
+        friction=20.0,
+        sliding=sliding,
+        gap=0.1,
+        width=4.0,
+        n_upper=2,
+        n_lower=7,
+    )
+    across = (0.0,) * (gdim - 2)
+    if steps == 2:
+        # An end of a step in the air changes nothing
+        scene.step(0.3, *across, -0.06)
+        assert scene.contact.force == pytest.approx(np.zeros(gdim))
+    scene.step(1.0, *across, -0.2)
+    interface = scene.contact.interface
+    V = scene.u.function_space
+    X = V.tabulate_dof_coordinates()[:, :gdim]
+    u = scene.u.x.array.reshape(-1, gdim)
+    if base == "plane":
+        aside = u[interface.slaves, 0]
+    else:
+        aside = np.full(len(interface.slaves), np.nan)
+        at = core.pair_layout["xi"]
+        for pairs in interface.master.pairs():
+            xi = np.ascontiguousarray(pairs.data[:, at : at + 2])
+            N = core.shape_functions(pairs.nodes.shape[1] - 1, xi)
+            masters = pairs.nodes[:, 1:]
+            if sliding == "finite":
+                # The place on the base that it came to, in the reference
+                foot = np.einsum("il,ilk->ik", N, X[masters])
+                aside[pairs.slaves] = (foot - X[pairs.nodes[:, 0]])[:, 0]
+            else:
+                moved = np.einsum("il,ilk->ik", N, u[masters])
+                aside[pairs.slaves] = (u[pairs.nodes[:, 0]] - moved)[:, 0]
+    stick = interface.nodes.status == 1
+    print(scene.iterations, interface.nodes.status, aside)
+    assert stick.sum() >= len(stick) / 2
+    assert aside[stick] == pytest.approx(0.5, abs=1e-8)
+    assert np.abs(interface.history.slip[stick]).max() < 1e-9
