@@ -1,0 +1,70 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""The common Hertz problem with friction, in one step from a cold start."""
+
+import numpy as np
+import pytest
+from driven_blocks import check_coulomb, parts
+from scenes import hertz_sphere
+
+from contactx.meshes import Tag
+
+SLIDING = pytest.mark.parametrize("sliding", ["finite", "small"])
+
+
+def solve(sliding, friction, **options):
+    problem, contact = hertz_sphere(0.02, sliding, friction=friction, **options)
+    problem.solve()
+    report = problem.report
+    nodes = contact.interface.nodes
+    tolerance = report.history[-1].tolerance
+    inside = nodes.mobile.all(axis=1)
+    count = check_coulomb(contact, tolerance, inside)
+    # In a plane of symmetry facets lean out of it in finite sliding, the node cannot: its
+    # conditions mix by that angle
+    p, t = parts(contact)
+    edge = nodes.closed & ~inside
+    worst = np.abs(nodes.gap[edge]).max()
+    if sliding == "small":
+        check_coulomb(contact, tolerance)
+    assert worst <= 1e-7
+    bound = friction * p[edge] * (1 + 1e-4) + tolerance / nodes.area[edge]
+    assert np.all(np.linalg.norm(t[edge], axis=1) <= bound)
+    force = 4 * contact.force[2]
+    print(f"{report.iterations} iterations, {count}, 4F {force:.7f}, edge gap {worst:.1e}")
+    assert report.frozen == 0
+    assert np.linalg.norm(report.imbalance) <= 1e-12 * np.linalg.norm(contact.force)
+    return report.iterations, contact, count
+
+
+@SLIDING
+@pytest.mark.parametrize("friction", [0.01, 0.3, 1.5, 10.0])
+def test_equal_bodies(friction, sliding):
+    """Sphere and block of one material all but stick: their surfaces move together."""
+    iterations, contact, _ = solve(sliding, friction)
+    assert iterations <= 12
+    # What friction adds to the normal force is small
+    assert 4 * contact.force[2] == pytest.approx(0.00237, rel=0.02)
+
+
+@SLIDING
+@pytest.mark.parametrize("body", [Tag.UPPER, Tag.LOWER])
+@pytest.mark.parametrize("friction", [0.5, 1.5])
+def test_one_body_is_much_stiffer(friction, body, sliding):
+    iterations, contact, count = solve(sliding, friction, young={body: 1e6})
+    assert iterations <= (12 if friction < 1 else 25)
+    assert count["stick"] > 0
+    p, t = parts(contact)
+    # The soft surface wants to flow out from under the stiff one, or in
+    assert np.linalg.norm(t, axis=1).max() > 0.05 * p.max()
+
+
+@SLIDING
+def test_stick_grows_with_friction(sliding):
+    """A soft sphere on a stiff block: a ring slips around a core that sticks."""
+    shares = []
+    for friction in (0.02, 0.1, 0.3):
+        iterations, _, count = solve(sliding, friction, young={Tag.LOWER: 1e6})
+        shares.append(count["stick"] / (count["stick"] + count["slip"]))
+        assert iterations <= 12
+    assert np.all(np.diff(shares) > 0)
