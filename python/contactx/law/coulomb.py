@@ -11,6 +11,10 @@ from contactx.law.law import Law
 from contactx.law.nodes import Array, Nodes
 from contactx.nodal import NodalValue
 
+# A node that slips starts the next step on the edge of the cone: rounding must not say on which
+# side of it
+_EDGE = 1 - 1e-9
+
 
 class Coulomb(Law):
     """Unilateral contact with dry friction: |t| <= mu p, and slip only where they are equal."""
@@ -38,14 +42,15 @@ class Coulomb(Law):
         return np.where(nodes.smooth, 0.0, value)
 
     def set_status(self, nodes: Nodes) -> int:
-        """See ``Law``."""
+        """See ``Law``; on the edge of the cone a node that slips goes on."""
+        edge = np.where(nodes.status == core.SLIP, _EDGE, 1.0)
         return core.frictional_status(
             nodes.multiplier,
             nodes.closable_gap,
             nodes.normal,
             nodes.slip,
             nodes.c,
-            self.friction(nodes),
+            self.friction(nodes) * edge,
             nodes.status,
         )
 
