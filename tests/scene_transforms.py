@@ -63,13 +63,15 @@ class Answer:
     """Answer without units, in the first scene's axes and numbers.
 
     Attributes:
-        iterations: Number of linear solves.
+        iterations: Number of linear solves in all steps.
         closed: Nodes in contact in each iteration.
         status: Status of each node, -1 off the slave surface.
         u: Displacement / length, shape (num_nodes, gdim).
         pressure: Pressure / modulus at each node, zero off the slave surface.
         gap: Gap / length at each node, NaN where there is none.
         force: Force / (modulus length^(gdim - 1)).
+        traction: Traction / modulus, zero off the slave surface, shape (num_nodes, gdim).
+        slip: Slip of the last step / length, zero without friction, shape (num_nodes, gdim).
     """
 
     iterations: int
@@ -79,6 +81,8 @@ class Answer:
     pressure: npt.NDArray[np.float64]
     gap: npt.NDArray[np.float64]
     force: npt.NDArray[np.float64]
+    traction: npt.NDArray[np.float64]
+    slip: npt.NDArray[np.float64]
 
 
 def numbered(data: mesh.MeshData) -> Numbered:
@@ -170,8 +174,10 @@ def solve(
     frame: Frame | None = None,
     *,
     sliding: str = "finite",
+    friction: float = 0.0,
+    loads: Sequence[float] = (1.0,),
 ) -> Answer:
-    """Solve a scene in a frame.
+    """Solve a scene in a frame, in steps that bring shares of the supports' displacements.
 
     A support is given as a vector where it holds all axes, else along the axes that Q takes its
     own to: then Q must permute the axes.
@@ -198,7 +204,10 @@ def solve(
             dofs = fem.locate_dofs_topological(W, tags.dim, facets)
             bcs.append(fem.dirichletbc(np.float64(length * Q[to, axis] * value), dofs, W))
     contact = cx.Contact(
-        cx.Surface(tags, Tag.UPPER_CONTACT), cx.Surface(tags, Tag.LOWER_CONTACT), sliding=sliding
+        cx.Surface(tags, Tag.UPPER_CONTACT),
+        cx.Surface(tags, Tag.LOWER_CONTACT),
+        friction=friction,
+        sliding=sliding,
     )
     problem = cx.ContactProblem(
         elasticity(u, fem.Constant(domain, frame.modulus), NU),
@@ -207,28 +216,39 @@ def solve(
         bcs=bcs,
         petsc_options_prefix="invariance_",
     )
-    problem.solve()
+    full = [np.copy(bc.g.value) for bc in bcs]
+    history = []
+    for load in loads:
+        for bc, value in zip(bcs, full, strict=True):
+            bc.g.value[...] = load * value
+        problem.solve()
+        history += problem.report.history
+        assert problem.report.frozen == 0
     # A node of the displacement is a node of the geometry
     geometry = np.empty(len(scene.x), dtype=np.int64)
     geometry[V.dofmap.list.ravel()] = domain.geometry.dofmaps[0].ravel()
     number = scene.nodes[geometry]
 
     def nodal(values, fill=0.0):
-        result = np.full(len(number), fill)
+        result = np.full((len(number), *np.shape(values)[1:]), fill)
         result[number[contact.slave_nodes]] = values
         return result
 
     moved = np.empty((len(number), gdim))
     moved[number] = u.x.array.reshape(-1, gdim) @ Q / length
-    assert problem.report.frozen == 0
+    nodes = contact.interface.nodes
+    traction = contact.traction.x.array.reshape(-1, gdim)[contact.slave_nodes]
+    slip = np.zeros_like(traction) if friction == 0 else contact.interface.history.slip
     return Answer(
-        iterations=problem.report.iterations,
-        closed=[row.closed for row in problem.report.history],
-        status=nodal(contact.interface.nodes.status, -1).astype(np.int8),
+        iterations=len(history) - len(loads),
+        closed=[row.closed for row in history],
+        status=nodal(nodes.status, -1).astype(np.int8),
         u=moved,
-        pressure=nodal(contact.multiplier) / frame.modulus,
-        gap=nodal(contact.interface.nodes.gap, np.nan) / length,
+        pressure=nodal(nodes.pressure) / frame.modulus,
+        gap=nodal(nodes.gap, np.nan) / length,
         force=Q.T @ contact.force / (frame.modulus * length ** (gdim - 1)),
+        traction=nodal(traction) @ Q / frame.modulus,
+        slip=nodal(slip) @ Q / length,
     )
 
 
@@ -244,12 +264,13 @@ def rotation(rng: np.random.Generator, gdim: int) -> npt.NDArray[np.float64]:
 def differences(answer: Answer, first: Answer) -> dict[str, float]:
     """Largest difference of each quantity, relative to the largest value of the first answer.
 
-    Gaps are relative to the largest displacement: where all are closed they are rounding.
+    Gaps and slip are relative to the largest displacement: where all are closed, or stick, they
+    are rounding.
     """
     result = {}
-    for name in ("u", "pressure", "force", "gap"):
+    for name in ("u", "pressure", "force", "gap", "traction", "slip"):
         a, b = getattr(answer, name), getattr(first, name)
         np.testing.assert_array_equal(np.isnan(a), np.isnan(b))
-        scale = first.u if name == "gap" else b
+        scale = first.u if name in ("gap", "slip") else b
         result[name] = float(np.nanmax(np.abs(a - b)) / np.abs(scale).max())
     return result
