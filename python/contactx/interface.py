@@ -126,12 +126,22 @@ class Interface:
     def begin_step(self) -> None:
         """Start a step: pairs are released, and a moved obstacle of small sliding is seen."""
         self.hold(False)
+        self._turn_tractions()
         self.master.begin_step()
         self._touched = self.nodes.closed
         if self.sliding == "small" and self.master.is_rigid:
             self._pair(self.state.position.array.reshape(-1, self._gdim))
         elif self.history is not None:
             self._assembly.update(self.master.pairs())
+
+    def _turn_tractions(self) -> None:
+        """Turn the tractions with a master that has turned since, as a better start."""
+        if self.history is None or not self.follows:
+            return
+        turn = self.master.turn(self.positions())
+        if turn is not None:
+            traction = self.nodes.multiplier.reshape(-1, self._gdim)
+            traction[:] = np.einsum("ijk,ik->ij", turn, traction)
 
     def accept(self) -> None:
         """Take the converged state as the start of the next step."""

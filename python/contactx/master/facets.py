@@ -120,6 +120,27 @@ class FacetMaster(Master):
         self.forget_flips()
         self._start = self._x0[self._slaves]
 
+    def turn(self, x: npt.NDArray[np.float64]) -> npt.NDArray[np.float64] | None:
+        """See ``Master``; the frame of the facet, with one of its edges."""
+        if np.array_equal(x, self._x0):
+            return None
+        old, new = self._frames(self._x0), self._frames(x)
+        turn: npt.NDArray[np.float64] = new @ old.transpose(0, 2, 1)
+        turn[~self.paired] = np.eye(x.shape[1])
+        return turn
+
+    def _frames(self, x: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+        """Unit normal and directions along each slave node's facet, in columns."""
+        xi = self._pairing.xi
+        foot, normal = self._pairing.places(x, xi)
+        along = self._pairing.places(x, xi + np.array([1.0, 0.0]))[0] - foot
+        along -= np.einsum("ij,ij->i", normal, along)[:, None] * normal
+        length = np.linalg.norm(along, axis=1, keepdims=True)
+        columns = [normal, np.divide(along, length, out=np.zeros_like(along), where=length > 0)]
+        if x.shape[1] == 3:
+            columns.append(np.cross(columns[0], columns[1]))
+        return np.stack(columns, axis=2)
+
     def touch(
         self,
         which: npt.NDArray[np.bool_],

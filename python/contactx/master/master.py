@@ -44,6 +44,17 @@ class Master(ABC):
         """Start a step: slip is measured from its start, and frozen pairs may move again."""
 
     @abstractmethod
+    def turn(self, x: npt.NDArray[np.float64]) -> npt.NDArray[np.float64] | None:
+        """How the master has turned under each slave node since the step before was accepted.
+
+        Args:
+            x: Positions.
+
+        Returns:
+            Rotations, shape (n, gdim, gdim); None where nothing has moved.
+        """
+
+    @abstractmethod
     def touch(
         self,
         which: npt.NDArray[np.bool_],

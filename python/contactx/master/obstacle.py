@@ -132,6 +132,11 @@ class ObstacleMaster(Master):
         if self._measures_slip:
             self._start = self._x0
 
+    def turn(self, x: npt.NDArray[np.float64]) -> npt.NDArray[np.float64] | None:
+        """See ``Master``; all of it turns as one."""
+        turn = self._placed.turn(self._obstacle.placement(x.shape[1]))
+        return np.tile(turn, (len(self._slaves), 1, 1))
+
     def touch(
         self,
         which: npt.NDArray[np.bool_],

@@ -56,11 +56,14 @@ class Placement:
         Returns:
             Points, shape (n, gdim).
         """
-        arm = x - self.point
-        if self.direction is not None and to.direction is not None:
-            arm = arm @ _rotation(self.direction, to.direction).T
-        carried: npt.NDArray[np.float64] = to.point + arm
+        carried: npt.NDArray[np.float64] = to.point + (x - self.point) @ self.turn(to).T
         return carried
+
+    def turn(self, to: Placement) -> npt.NDArray[np.float64]:
+        """Rotation to another placement, shape (gdim, gdim)."""
+        if self.direction is None or to.direction is None:
+            return np.eye(len(self.point))
+        return _rotation(self.direction, to.direction)
 
 
 def _rotation(a: npt.NDArray[np.float64], b: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
