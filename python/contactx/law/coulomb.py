@@ -13,7 +13,7 @@ from contactx.nodal import NodalValue
 
 # A node that slips starts the next step on the edge of the cone: rounding must not say on which
 # side of it
-_EDGE = 1 - 1e-9
+_EDGE = 1 - 1e-10
 
 
 class Coulomb(Law):
