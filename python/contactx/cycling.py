@@ -37,7 +37,8 @@ class CycleGuard:
         """Forget what was seen."""
         self.cycles = 0
         self._short = 0
-        self._seen: dict[bytes, float] = {}
+        self._seen: dict[bytes, list[float]] = {}
+        self._status = b""
         self._last: PETSc.Vec | None = None
 
     def shorten(self, x: PETSc.Vec) -> bool:
@@ -64,9 +65,16 @@ class CycleGuard:
         """
         self._last = x.copy()
         status = b"".join(i.nodes.status.tobytes() for i in self._interfaces)
-        if self._short == 0 and residual > _FACTOR * self._seen.get(status, float("inf")):
+        before = self._seen.setdefault(status, [])
+        if status == self._status:
+            # It may converge slowly; the same residual says that slip turns to and fro
+            again = any(abs(residual - r) < 1e-3 * r for r in before)
+        else:
+            again = residual > _FACTOR * min(before, default=float("inf"))
+        self._status = status
+        before.append(residual)
+        if again and self._short == 0:
             self.cycles += 1
             # Longer each time
             self._short = 1 + self.cycles
             self._seen.clear()
-        self._seen[status] = min(residual, self._seen.get(status, residual))
