@@ -48,7 +48,7 @@ def relative(scene, du):
 @pytest.mark.parametrize(
     "cell", [CellType.triangle, CellType.quadrilateral, CellType.tetrahedron, CellType.hexahedron]
 )
-@pytest.mark.parametrize("friction", [0.3, 1.0])
+@pytest.mark.parametrize("friction", [0.3, 0.9])
 def test_balance_of_each_step(friction, cell, base):
     gdim = 2 if cell in (CellType.triangle, CellType.quadrilateral) else 3
     up = np.eye(gdim)[-1]
