@@ -1,0 +1,122 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Nodes that belong to several contacts."""
+
+import numpy as np
+import pytest
+from scenes import NU, Blocks
+from story import displacement, elasticity, fix, traction
+
+import contactx as cx
+from contactx import meshes
+from contactx.meshes import Tag, block_tag
+from dolfinx import fem
+from dolfinx.mesh import CellType
+
+CELLS = [CellType.quadrilateral, CellType.tetrahedron, CellType.hexahedron]
+LOAD = 0.01
+
+
+class Corner:
+    """A block without supports is pressed into the corner of a rigid floor and a rigid wall."""
+
+    def __init__(self, cell, *, friction, twice=False, tied=False):
+        scene = Blocks(cell)
+        u, tags = scene.u, scene.tags
+        self.gdim = gdim = u.function_space.mesh.geometry.dim
+        up, aside = np.eye(gdim)[-1], np.eye(gdim)[0]
+        left = 0.23 * aside
+        down, push = (fem.Constant(u.function_space.mesh, -LOAD * d) for d in (up, aside))
+        F = scene.F + traction(u, tags, Tag.UPPER_TOP, down)
+        F += traction(u, tags, Tag.UPPER_X1, push)
+        foot, side = cx.Surface(tags, Tag.UPPER_CONTACT), cx.Surface(tags, Tag.UPPER_X0)
+        floor = cx.Contact(foot, cx.Plane(0 * up, up), friction=0 if tied else friction, tied=tied)
+        wall = cx.Contact(side, cx.Plane(left, aside), friction=friction)
+        again = [cx.Contact(foot, cx.Plane(0 * up, up), friction=friction)] if twice else []
+        self.contacts = [floor, wall, *again]
+        self.problem = cx.ContactProblem(
+            F, u, contacts=self.contacts, bcs=scene.bcs[:gdim], petsc_options_prefix="corner_"
+        )
+        self.edge = 1 if gdim == 2 else 3
+
+    def total(self):
+        return np.sum([contact.force for contact in self.contacts], axis=0)
+
+
+@pytest.mark.parametrize("twice", [False, True])
+@pytest.mark.parametrize("friction", [0.0, 0.3])
+@pytest.mark.parametrize("cell", CELLS, ids=lambda c: c.name)
+def test_a_block_in_a_corner(cell, friction, twice):
+    scene = Corner(cell, friction=friction, twice=twice)
+    scene.problem.solve()
+    report = scene.problem.report
+    assert report.iterations <= 8
+    assert report.corners == scene.edge
+    assert f"{scene.edge} nodes close several contacts" in str(report)
+    expected = np.zeros(scene.gdim)
+    expected[0] = expected[-1] = LOAD
+    assert np.abs(scene.total() - expected).max() <= 1e-9 * LOAD
+    for contact in scene.contacts:
+        assert np.nanmin(contact.interface.nodes.gap) >= -1e-12
+    if twice:
+        # Of two contacts with the same floor only one carries
+        first, _, second = scene.contacts
+        assert not (first.multiplier.any() and second.multiplier.any())
+
+
+@pytest.mark.parametrize("cell", CELLS, ids=lambda c: c.name)
+def test_friction_is_left_out_where_a_node_closes_two_contacts(cell):
+    scene = Corner(cell, friction=0.3)
+    scene.problem.solve()
+    shared = np.intersect1d(*[contact.slave_nodes for contact in scene.contacts])
+    for contact in scene.contacts:
+        nodes = contact.interface.nodes
+        corner = np.isin(contact.slave_nodes, shared)
+        along = contact.multiplier - nodes.pressure[:, None] * nodes.normal
+        assert np.abs(along[corner]).max() <= 1e-14
+        assert np.abs(along[~corner]).max() > 1e-6
+
+
+@pytest.mark.parametrize("cell", CELLS, ids=lambda c: c.name)
+def test_a_tied_node_keeps_its_tie_alone(cell):
+    scene = Corner(cell, friction=0.3, tied=True)
+    scene.problem.solve()
+    floor, wall = scene.contacts
+    shared = np.isin(wall.slave_nodes, floor.slave_nodes)
+    assert (wall.interface.nodes.status[shared] == 0).all()
+    assert (floor.interface.nodes.status == 1).all()
+
+
+@pytest.mark.parametrize("sliding", ["finite", "small"])
+@pytest.mark.parametrize("friction", [0.0, 0.3])
+@pytest.mark.parametrize("cell", [CellType.quadrilateral, CellType.hexahedron])
+def test_a_surface_is_slave_here_and_master_there(cell, friction, sliding):
+    """The middle one of three blocks: its edge nodes are slave of one and master of another."""
+    gdim = 2 if cell == CellType.quadrilateral else 3
+    data = meshes.stack(cell, [(2,) * gdim, (3,) * gdim, (4,) * gdim])
+    tags, u = data.facet_tags, displacement(data.mesh)
+    bcs = [
+        *(fix(u, tags, i, 0.0, block_tag(0, "bottom")) for i in range(gdim)),
+        *(fix(u, tags, i, 0.0, block_tag(2, "top")) for i in range(gdim - 1)),
+        fix(u, tags, gdim - 1, -0.05, block_tag(2, "top")),
+    ]
+    middle = {side: cx.Surface(tags, block_tag(1, side)) for side in ("bottom", "top", "x0")}
+    pairs = [
+        (middle["bottom"], cx.Surface(tags, block_tag(0, "top"))),
+        (cx.Surface(tags, block_tag(2, "bottom")), middle["top"]),
+    ]
+    # The nodes of a side are in a contact with a wall, too, which it never reaches
+    far = cx.Plane(-9 * np.eye(gdim)[0], np.eye(gdim)[0])
+    contacts = [
+        *(cx.Contact(*pair, friction=friction, sliding=sliding) for pair in pairs),
+        cx.Contact(middle["x0"], far, friction=friction, sliding=sliding),
+    ]
+    problem = cx.ContactProblem(
+        elasticity(u, 1.0, NU), u, contacts=contacts, bcs=bcs, petsc_options_prefix="chain_"
+    )
+    problem.solve()
+    below, above, aside = (contact.force for contact in contacts)
+    assert not aside.any()
+    assert problem.report.corners == 0
+    assert below[-1] == pytest.approx(above[-1], rel=1e-9)
+    assert below[-1] > 0.01

@@ -1,0 +1,142 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Bodies that contact alone holds."""
+
+import numpy as np
+import pytest
+import stacked_blocks
+from scenes import Blocks
+
+import contactx as cx
+import ufl
+from contactx.bodies import holder
+from contactx.meshes import Tag
+from dolfinx import fem
+from dolfinx.mesh import CellType
+
+CELLS = [CellType.triangle, CellType.quadrilateral, CellType.tetrahedron, CellType.hexahedron]
+PRESSURE = 0.01
+
+
+class FreeBlock:
+    """The upper block has no supports; a load acts on its top, the lower block's bottom is held."""
+
+    def __init__(self, cell, *, gap=0.0, load=-PRESSURE, aside=0.0, friction=0.0, sliding="finite"):
+        scene = Blocks(cell, gap=gap)
+        self.u, mesh = scene.u, scene.u.function_space.mesh
+        self.gdim = mesh.geometry.dim
+        scene.bcs = scene.bcs[: self.gdim]
+        force = np.zeros(self.gdim)
+        force[-1], force[0] = load, aside
+        v = ufl.TestFunction(self.u.function_space)
+        ds = ufl.Measure("ds", mesh, subdomain_data=scene.tags)
+        scene.F -= ufl.inner(fem.Constant(mesh, force), v) * ds(int(Tag.UPPER_TOP))
+        self.contact = scene.contact(sliding, friction=friction)
+        self.problem = scene.problem(self.contact)
+        self.load = force
+
+    def solve(self):
+        self.problem.solve()
+        return self.problem.report
+
+
+@pytest.mark.parametrize("sliding", ["finite", "small"])
+@pytest.mark.parametrize("gap", [0.0, 0.1])
+@pytest.mark.parametrize("friction", [0.0, 0.5])
+@pytest.mark.parametrize("cell", CELLS, ids=lambda c: c.name)
+def test_a_block_comes_to_rest_on_another(cell, friction, gap, sliding):
+    scene = FreeBlock(cell, friction=friction, gap=gap, sliding=sliding)
+    report = scene.solve()
+    print(report.iterations, "iterations", report.closed_to_hold, "closed", report.unheld, "free")
+    assert report.iterations <= 6
+    assert np.abs(scene.contact.force + scene.load).max() <= 1e-9 * PRESSURE
+    assert np.nanmin(scene.contact.interface.nodes.gap) >= -1e-12
+    # It has come down by the gap, and hardly aside
+    u = scene.u.x.array.reshape(-1, scene.gdim)
+    assert u[:, -1].min() == pytest.approx(-gap, abs=0.03)
+    assert np.abs(u[:, :-1]).max() <= 0.05
+
+
+@pytest.mark.parametrize("gap", [0.0, 0.1])
+@pytest.mark.parametrize("cell", [CellType.triangle, CellType.hexahedron], ids=lambda c: c.name)
+def test_friction_holds_it_against_a_push(cell, gap):
+    scene = FreeBlock(cell, friction=0.5, gap=gap, aside=0.003)
+    scene.solve()
+    assert np.abs(scene.contact.force + scene.load).max() <= 1e-9 * PRESSURE
+    assert (scene.contact.interface.nodes.status == 1).any()
+
+
+@pytest.mark.parametrize(
+    ("load", "aside", "friction"), [(PRESSURE, 0.0, 0.0), (-PRESSURE, 0.02, 0.5)]
+)
+@pytest.mark.parametrize("cell", [CellType.triangle, CellType.hexahedron], ids=lambda c: c.name)
+def test_loads_that_nothing_balances_are_named(cell, load, aside, friction):
+    scene = FreeBlock(cell, load=load, aside=aside, friction=friction, gap=0.01)
+    with pytest.raises(cx.ConvergenceError, match="cannot be balanced") as info:
+        scene.solve()
+    assert info.value.report.iterations <= 15
+    assert not scene.u.x.array.any()
+
+
+@pytest.mark.parametrize("friction", [0.0, 0.5])
+@pytest.mark.parametrize("cell", CELLS, ids=lambda c: c.name)
+def test_touching_without_force_is_no_trouble(cell, friction):
+    scene = FreeBlock(cell, load=0.0, friction=friction)
+    report = scene.solve()
+    assert report.iterations == 0
+    assert not scene.u.x.array.any()
+    # The load may follow, and go away again
+    with_load = FreeBlock(cell, friction=friction)
+    with_load.solve()
+    assert np.abs(with_load.contact.force[-1] - PRESSURE) <= 1e-9 * PRESSURE
+
+
+@pytest.mark.parametrize("cell", [CellType.triangle, CellType.hexahedron], ids=lambda c: c.name)
+@pytest.mark.parametrize("friction", [0.0, 0.5])
+def test_the_springs_do_not_change_the_answer(cell, friction, monkeypatch):
+    """Without friction the place along the surface is free: rounding over the spring decides it."""
+    answers = []
+    for weak in (1e-9, 1e-6, 1e-3):
+        monkeypatch.setattr(holder, "_WEAK", weak)
+        scene = FreeBlock(cell, friction=friction, sliding="small")
+        scene.solve()
+        answers.append((scene.u.x.array.copy(), scene.contact.multiplier.copy()))
+    for u, p in answers[1:]:
+        free = 1e-9 if friction else 1e-4
+        assert np.abs(u - answers[0][0]).max() <= free * np.abs(u).max()
+        assert np.abs(p - answers[0][1]).max() <= 1e-9 * np.abs(p).max()
+
+
+def test_springs_of_the_user_hold_a_body():
+    """An elastic support in the bulk's form counts: no mode is left to contact."""
+    scene = Blocks(CellType.hexahedron, gap=0.5)
+    mesh = scene.u.function_space.mesh
+    v = ufl.TestFunction(scene.u.function_space)
+    ds = ufl.Measure("ds", mesh, subdomain_data=scene.tags)
+    scene.F += 1e-3 * ufl.inner(scene.u, v) * ds(int(Tag.UPPER_TOP))
+    scene.F += 1e-5 * v[2] * ds(int(Tag.UPPER_TOP))
+    scene.bcs = scene.bcs[:3]
+    problem = scene.problem(scene.contact())
+    problem.solve()
+    assert problem.report.unheld == 0 and problem.report.closed_to_hold == 0
+    assert scene.u.x.array.reshape(-1, 3)[:, 2].min() == pytest.approx(-0.01, rel=0.01)
+
+
+@pytest.mark.parametrize("sliding", ["finite", "small"])
+@pytest.mark.parametrize(
+    ("friction", "offset", "shear"),
+    [(0.3, 0.0, 0.001), (0.3, 0.0, 0.0), (0.0, 0.0, 0.0), (0.3, -0.01, 0.0), (0.3, 1e-8, 0.001)],
+)
+@pytest.mark.parametrize("dim", [2, 3])
+def test_five_free_blocks(dim, friction, offset, shear, sliding, monkeypatch):
+    monkeypatch.setattr(stacked_blocks, "FRICTION", friction)
+    monkeypatch.setattr(stacked_blocks, "INTERFERENCE", offset)
+    problem, contacts, load = stacked_blocks.create(0.25, sliding, dim)
+    load.value[0], load.value[-1] = shear, -PRESSURE
+    problem.solve()
+    print(problem.report.iterations, "iterations")
+    assert problem.report.iterations <= 8
+    for contact in contacts:
+        assert np.abs(contact.force + load.value).max() <= 1e-9 * PRESSURE
+    # No drift: what the pressure and the gaps ask for, no more
+    assert np.abs(problem.u.x.array).max() <= 0.1
