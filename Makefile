@@ -35,7 +35,7 @@ all: $(INSTALLED)
 
 help:
 	@echo "make          set up .venv, build contactx and install it there"
-	@echo "make demo     run the demos"
+	@echo "make demo     solve the Hertz sphere of demos/hertz_sphere.py"
 	@echo "make test     lint, C++ tests, Python tests"
 	@echo "make lint     check format, style and types"
 	@echo "make format   format C++ and Python"

@@ -14,8 +14,8 @@ first slip askew, and the force comes close to mu N only as it goes on. The elas
 the block's front: in finite sliding friction acts along the inclined surface, and the block
 ploughs a little.
 
-Nothing but contact carries the block's weight, and where bodies only touch they would not yet carry
-it in the first iteration. An interference of 1e-8 closes the contact from the start.
+Nothing but contact carries the block's weight. The bodies interfere by 1e-8, so that the contact is
+closed from the start; where they only touch contactx closes it by itself.
 
     python demos/sliding_block.py --h 0.1
     python demos/sliding_block.py --h 0.25 --dim 3
@@ -142,7 +142,6 @@ def draw(folder: Path, sliders: dict[str, Slider]) -> list[Path]:
             files[0],
             title="A block pushed over an elastic base",
             label="contact pressure / E",
-            scale=5,
         )
         plot.curves(
             {f"on the {name}": ([0, *s.path], [0, *s.forces]) for name, s in sliders.items()},

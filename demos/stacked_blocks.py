@@ -9,8 +9,8 @@ the shear. By equilibrium each interface transmits what is applied on top,
 
     N = pressure * area,   Q = shear * area,   Q < mu N.
 
-Where bodies only touch nothing would hold them in the first iteration. An interference of 1e-8
-closes the contacts from the start.
+The blocks interfere by 1e-8, so that all contacts are closed from the start; where bodies only
+touch contactx closes them by itself.
 
     python demos/stacked_blocks.py --h 0.1
     python demos/stacked_blocks.py --h 0.25 --dim 3

@@ -1,6 +1,12 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Node-to-surface contact for FEniCSx."""
+"""Node-to-surface contact with friction for FEniCSx.
+
+A ``Contact`` couples a tagged ``Surface`` with another one or with a rigid obstacle: ``Plane``,
+``Sphere``, ``Cylinder`` or ``LevelSet``. A ``ContactProblem`` solves the bodies with their
+contacts; ``LoadSteps`` solves it in steps and cuts back where one fails. ``VTKOutput`` writes the
+results. Import contactx before dolfinx.
+"""
 
 # First, because it loads the wheels' MPI and PETSc before DOLFINx
 from contactx import compat as compat  # isort: skip

@@ -28,11 +28,14 @@ from dolfinx import fem, la
 
 
 class ContactProblem:
-    """Find the displacement u and the contact pressures with F(u; v) + contact(v) = 0 for all v.
+    """Find the displacement u and the contact tractions with F(u; v) + contact(v) = 0 for all v.
 
-    Contact adds the virtual work - sum_s A_s p_s n . (v_s - sum_l N_l v_l) of its slave nodes s to
-    the bulk's residual, under g_s >= 0, p_s >= 0, p_s g_s = 0: a semismooth Newton method on the
-    saddle point, the primal-dual active set strategy of Hueeber & Wohlmuth (2005).
+    Contact adds the virtual work - sum_s A_s lambda_s . (v_s - sum_l N_l v_l) of its slave nodes s
+    to the bulk's residual, with the traction lambda_s = p_s n + t_s that the master exerts on s,
+    under g_s >= 0, p_s >= 0, p_s g_s = 0 and Coulomb's law: |t_s| <= mu p_s, without slip where it
+    is less, else against the slip. Without friction t_s = 0, and the multiplier is p_s alone. A tie
+    has lambda_s of any direction. All this is solved by a semismooth Newton method on the saddle
+    point, the primal-dual active set strategy (Alart & Curnier 1991; Hueeber & Wohlmuth 2005).
 
     Attributes:
         u: Displacement.
@@ -59,9 +62,10 @@ class ContactProblem:
             F: Residual of the bulk: any UFL form of the bodies, linear in its test function.
             u: Displacement, in the linear Lagrange space of vectors on a mesh that holds all
                 bodies. Its values are the start of the first solve.
-            contacts: Contacts between surfaces of the mesh.
+            contacts: Contacts of surfaces of the mesh with each other or with rigid obstacles. A
+                node may be slave in several.
             petsc_options_prefix: Prefix of the PETSc options, unique in the program.
-            bcs: Dirichlet conditions.
+            bcs: Dirichlet conditions; none are needed where contact holds the bodies.
             J: Jacobian of F; derived if None.
             petsc_options: Options of SNES, its KSP and PC, without the prefix. ``snes_rtol``
                 (default 1e-11) is relative to the forces of the problem.

@@ -11,9 +11,9 @@ import stacked_blocks
 from matplotlib import image
 
 # Normal and tangential force, half-width, peak, half-width that sticks, L2 of pressure and shear
-FINITE = (1e-3, 1e-4, 0.03, 0.06, 0.05, 0.1, 0.2)
+FINITE = (2e-4, 1e-4, 0.025, 0.01, 0.02, 0.02, 0.09)
 # Normals of the undeformed circles are turned by much beside mu
-SMALL = (1e-3, 1e-4, 0.03, 0.06, 0.15, 0.1, 0.45)
+SMALL = (4e-4, 1e-4, 0.025, 0.01, 0.05, 0.03, 0.3)
 
 
 def check(demo, arguments, tolerances, pictures, folder, capsys):
@@ -38,12 +38,12 @@ def test_cattaneo_mindlin(sliding, tolerances, tmp_path, capsys):
     check(cattaneo_mindlin, arguments, tolerances, pictures, tmp_path, capsys)
 
 
-# Force held before it slides, when the last node slips, and while it slides; in 3D slip turns
+# Force held before it slides, when the last node slips, in 3D askew, and while it slides
 @pytest.mark.parametrize(
     ("dim", "h", "held", "last", "slides"),
-    [("2", "0.2", 0.1, 1e-7, 1e-7), ("3", "0.5", 0.4, 0.06, 3e-3)],
+    [("2", "0.2", 0.07, 1e-7, 1e-7), ("3", "0.5", 0.35, 0.05, 1e-7)],
 )
-@pytest.mark.parametrize(("sliding", "ploughing"), [("finite", 0.05), ("small", 0)])
+@pytest.mark.parametrize(("sliding", "ploughing"), [("finite", 0.01), ("small", 0)])
 def test_sliding_block(sliding, ploughing, dim, h, held, last, slides, tmp_path, capsys):
     plane = (1e-7, held, last, slides, slides)
     base = (1e-7, held, last + ploughing, slides + ploughing, slides + ploughing)

@@ -29,14 +29,14 @@ def _draw(
     clim: Sequence[float],
     flat: bool,
 ) -> list[tuple[npt.NDArray[np.uint8], float]]:
-    """Draw the overview and, if anything is loaded, the close-up; each with its width."""
+    """Draw the overview and, where it shows more, the close-up; each with its width."""
     if camera is None:
         camera = (0.0, 0.0, 1.0) if flat else (0.55, -1.5, 0.55)
     direction = np.asarray(camera, dtype=np.float64)
     # A last plane that stays open lets one look at the section.
     shown = planes if flat else planes[: max(1, len(planes) - 1)]
     body = mirrored(surface, shown)
-    view = View(body.points, direction, margin=0.04)
+    view = overview = View(body.points, direction, margin=0.04)
     edges = sharp_edges(body, shown, flat)
     images = [(view.render(body, edges, clim, lighting=not flat), float(view.extent[0]))]
     if not np.any(surface.point_data["scalar"]):
@@ -52,6 +52,9 @@ def _draw(
     magnitude = np.abs(body.point_data["scalar"])
     zone = body.points[magnitude > _ZONE_SHARE * magnitude.max()]
     view = View(zone, direction, margin=0.5, square=True)
+    # In 2D both look the same way: a contact as long as the bodies is as large in the overview.
+    if flat and view.extent[0] >= overview.extent.min():
+        return images
     # Without lights the colours are exactly those of the colour bar.
     images.append((view.render(body, edges, clim, lighting=False), float(view.extent[0])))
     return images
@@ -72,8 +75,8 @@ def deformed_bodies(
     """Draw the deformed bodies and a close-up of the contact zone, coloured by a scalar.
 
     The overview shows all bodies. The close-up shows where the scalar is not zero: in 2D of all
-    bodies, in 3D only the surface of the body with the largest value, seen from where the
-    other body was. Collective; rank 0 draws.
+    bodies, and only where that is a small part of them, in 3D the surface of the body with the
+    largest value, seen from where the other body was. Collective; rank 0 draws.
 
     Args:
         u: Displacement, length, a Lagrange function with one component per direction.
