@@ -13,7 +13,7 @@ from matplotlib import image
 # Normal and tangential force, half-width, peak, half-width that sticks, L2 of pressure and shear
 FINITE = (2e-4, 1e-4, 0.025, 0.01, 0.02, 0.02, 0.09)
 # Normals of the undeformed circles are turned by much beside mu
-SMALL = (4e-4, 1e-4, 0.025, 0.01, 0.05, 0.03, 0.3)
+SMALL = (4e-4, 1e-4, 0.025, 0.01, 0.05, 0.03, 0.42)
 
 
 def check(demo, arguments, tolerances, pictures, folder, capsys):
