@@ -48,7 +48,7 @@ PRESS, PUSH = 10, 5
 
 @dataclass
 class Scene:
-    """The problem, its contact with the friction, and the conditions that press and push the upper flat face."""
+    """The problem, its contact and friction, and what presses and pushes the upper flat face."""
 
     problem: cx.ContactProblem
     contact: cx.Contact

@@ -20,6 +20,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import story
@@ -38,7 +39,7 @@ STEPS = 2
 
 
 def create(
-    h: float, sliding: str, dim: int
+    h: float, sliding: str, dim: int, **options: Any
 ) -> tuple[cx.ContactProblem, list[cx.Contact], fem.Constant]:
     """The blocks, the contacts from the floor upwards, and the load on top, zero at first."""
     cells = int(np.ceil(1 / h))
@@ -65,7 +66,7 @@ def create(
         )
         for i, master in enumerate(masters)
     ]
-    problem = cx.ContactProblem(F, u, contacts=contacts, petsc_options_prefix="stack_")
+    problem = cx.ContactProblem(F, u, contacts=contacts, petsc_options_prefix="stack_", **options)
     return problem, contacts, load
 
 

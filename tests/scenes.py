@@ -25,6 +25,7 @@ def hertz_sphere(
     down: float = 0.02,
     young: dict[Tag, float] | None = None,
     friction: Any = 0.0,
+    **options: Any,
 ) -> tuple[cx.ContactProblem, cx.Contact]:
     """The common Hertz problem with any displacement and a modulus for each body."""
     data = meshes.hertz_sphere(h)
@@ -46,7 +47,12 @@ def hertz_sphere(
         friction=friction,
     )
     problem = cx.ContactProblem(
-        elasticity(u, E, NU), u, contacts=[contact], bcs=bcs, petsc_options_prefix="sphere_"
+        elasticity(u, E, NU),
+        u,
+        contacts=[contact],
+        bcs=bcs,
+        petsc_options_prefix="sphere_",
+        **options,
     )
     return problem, contact
 

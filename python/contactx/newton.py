@@ -20,7 +20,8 @@ from contactx.convergence import Judge
 from contactx.cycling import CycleGuard
 from contactx.interface import Interface
 from contactx.junctions import Junctions
-from contactx.options import SolverOptions
+from contactx.linear import Condensed, LinearSolver, SaddlePoint
+from contactx.options import is_condensed, newton_options
 from contactx.report import Iteration, Report
 from contactx.system import SaddlePointSystem
 
@@ -75,9 +76,11 @@ class NewtonLoop:
         self._bulk = bulk
         self._interfaces = interfaces
         self._system = system
-        self._options = SolverOptions(prefix, options)
-        self._A: PETSc.Mat | None = None
-        self._A_is_current = False
+        condensed = is_condensed(options, system.num_bulk, system.block)
+        self._options = newton_options(prefix, options, condensed=condensed)
+        self._linear: LinearSolver = (
+            Condensed(bulk, system, bodies.x, prefix) if condensed else SaddlePoint(system)
+        )
         self._report = Report()
         self.error: BaseException | None = None
         self._converged = False
@@ -111,6 +114,7 @@ class NewtonLoop:
         with self._options.in_database():
             self.snes.setFromOptions()
             self._time_linear_solves(report)
+            self._linear.begin(self.snes, report)
             with report.timing("bulk stiffness"):
                 stiffness = self._bulk.nodal_stiffness()
             self._judge.begin(stiffness)
@@ -120,8 +124,7 @@ class NewtonLoop:
             self._guard.begin_step()
             self._changes = self._settle(first=True)
             self._system.gather()
-            self._A = None
-            self._provide_matrix()
+            self._linear.provide(self._holder.stiffness)
             self.snes.solve(None, self._system.x)
         self._system.scatter(self._system.x)
         code = self.snes.getConvergedReason()
@@ -131,6 +134,7 @@ class NewtonLoop:
             report.reason = f"SNES stopped by itself, with reason {code}, before the end"
         if self._failure:
             report.reason = self._failure
+        self._linear.end(report)
         report.cycles = self._guard.cycles
         report.corners = self._junctions.corners
         report.unheld = self._holder.unheld
@@ -141,14 +145,21 @@ class NewtonLoop:
         """Find what the first run would find at its start."""
         self._holder.begin_step()
 
+    def take_error(self) -> BaseException | None:
+        """Error that a callback raised, once."""
+        errors = [keeper.error for keeper in (self, self._linear) if keeper.error is not None]
+        self.error = self._linear.error = None
+        return errors[0] if errors else None
+
     def reset(self) -> None:
         """Forget PETSc's work vectors: an error inside PETSc leaves them locked."""
         self.snes.reset()
-        self._A = None
+        self._linear.reset()
 
     def destroy(self) -> None:
         """Destroy the solver."""
         self.snes.destroy()
+        self._linear.destroy()
 
     def _time_linear_solves(self, report: Report) -> None:
         timer = ExitStack()
@@ -161,23 +172,6 @@ class NewtonLoop:
         with self._report.timing("residual"):
             self._system.scatter(x)
             self._system.residual(b)
-
-    @keeps_its_error
-    def _jacobian(self, snes: PETSc.SNES, x: PETSc.Vec, A: PETSc.Mat, P: PETSc.Mat) -> None:
-        if not self._A_is_current:
-            with self._report.timing("Jacobian"):
-                self._system.scatter(x)
-                self._system.jacobian(A, self._holder.stiffness)
-        self._A_is_current = False
-
-    def _provide_matrix(self) -> None:
-        """Give SNES a matrix that has the pattern of the current pairs."""
-        if self._A is not None and self._system.fits():
-            return
-        with self._report.timing("Jacobian"):
-            self._A = self._system.jacobian(springs=self._holder.stiffness)
-        self._A_is_current = True
-        self.snes.setJacobian(self._jacobian, self._A)
 
     def _settle(self, first: bool = False) -> tuple[int, int]:
         """Renew pairs and status at an accepted iterate.
@@ -277,5 +271,8 @@ class NewtonLoop:
                 "way. Support it, or turn the loads so that they press the bodies together"
             )
             return reason.DIVERGED_FUNCTION_DOMAIN
-        self._provide_matrix()
+        self._linear.provide(self._holder.stiffness)
+        # A set that has come back is judged by exact solves alone
+        changing = 0.0 if self._guard.cycles else sum(self._changes) / max(1, row.closed)
+        self._linear.aim(residual, tolerance, changing)
         return reason.CONVERGED_ITERATING

@@ -12,20 +12,24 @@ from petsc4py import PETSc
 
 from contactx import compat
 
+# Displacements from which on multigrid is faster than a direct solver, by the dimension
+_MANY = {2: 300_000, 3: 10_000}
+
 
 class SolverOptions:
     """Options that a user gives, and defaults for the others."""
 
-    def __init__(self, prefix: str, given: Mapping[str, Any]):
+    def __init__(self, prefix: str, given: Mapping[str, Any], defaults: Mapping[str, Any]):
         """Take the options.
 
         Args:
             prefix: Prefix of the options in PETSc's database.
             given: Options of the user, without the prefix.
+            defaults: Options where the user gives none.
         """
         self._prefix = prefix
         self._given = set(given)
-        self._options = {**_defaults(), **given}
+        self._options = {**defaults, **given}
 
     @contextmanager
     def in_database(self) -> Iterator[None]:
@@ -49,17 +53,58 @@ class SolverOptions:
                     database[name] = value
 
 
-def _defaults() -> dict[str, Any]:
-    """PETSc options where the user gives none."""
-    options: dict[str, Any] = {
+def multigrid_options(prefix: str) -> SolverOptions:
+    """Options of the condensed solver's multigrid: one smoothing step, which measured fastest.
+
+    Args:
+        prefix: Prefix of the options in PETSc's database.
+    """
+    return SolverOptions(prefix, {}, {"mg_levels_ksp_max_it": 1})
+
+
+def newton_options(prefix: str, given: Mapping[str, Any], *, condensed: bool) -> SolverOptions:
+    """Options of the Newton loop.
+
+    Args:
+        prefix: Prefix of the options in PETSc's database.
+        given: Options of the user, without the prefix.
+        condensed: Whether the preconditioner is the condensed solver.
+    """
+    given = dict(given)
+    if condensed:
+        given.pop("pc_type", None)
+        return SolverOptions(prefix, given, {**_newton(), "pc_type": "python"})
+    return SolverOptions(prefix, given, {**_newton(), **_direct()})
+
+
+def is_condensed(given: Mapping[str, Any], num_dofs: int, gdim: int) -> bool:
+    """Whether the condensed solver is taken: where the user asks for it, or for nothing else.
+
+    Args:
+        given: Options of the user, without the prefix.
+        num_dofs: Number of displacements.
+        gdim: Geometric dimension.
+    """
+    if "pc_type" in given:
+        return bool(given["pc_type"] == "condensed")
+    return num_dofs >= _MANY[gdim] and "ksp_type" not in given
+
+
+def _newton() -> dict[str, Any]:
+    """Options of the Newton loop where the user gives none."""
+    return {
         "snes_type": "newtonls",
         "snes_linesearch_type": "basic",
         "snes_rtol": 1e-11,
         "snes_atol": 0.0,
         "snes_max_it": 50,
         "ksp_type": "preonly",
-        "pc_type": "lu",
     }
+
+
+def _direct() -> dict[str, Any]:
+    """Options of a direct solver of the saddle point."""
+    options: dict[str, Any] = {"ksp_type": "preonly", "pc_type": "lu"}
     solver = compat.direct_solver()
     if solver is not None:
         options["pc_factor_mat_solver_type"] = solver
@@ -70,3 +115,12 @@ def _defaults() -> dict[str, Any]:
         # Room for pivoting on the zero diagonal of the multipliers
         options["mat_mumps_icntl_14"] = 60
     return options
+
+
+def direct_options(prefix: str) -> SolverOptions:
+    """Options of a direct solver.
+
+    Args:
+        prefix: Prefix of the options in PETSc's database.
+    """
+    return SolverOptions(prefix, {}, _direct())

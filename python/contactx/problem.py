@@ -156,8 +156,7 @@ class ContactProblem:
                 interface.load(before)
             self._newton.reset()
             # An error of Python inside PETSc comes back as the cause of one of PETSc, or without it
-            cause = self._newton.error or error.__cause__
-            self._newton.error = None
+            cause = self._newton.take_error() or error.__cause__
             if isinstance(error, PETSc.Error) and cause is not None:
                 raise cause from None
             raise

@@ -56,6 +56,9 @@ class Report:
         immobile: Pairs that Dirichlet conditions leave nothing to yield; they stay open.
         corners: Nodes that are slave in several contacts and close more than one of them: they
             slide without friction there, and of parallel contacts only the deepest counts.
+        krylov: Iterations of the condensed solver.
+        hierarchies: Multigrid hierarchies made for it.
+        uncondensed: Why solves were not condensed, one entry a solve.
         cycles: How often the status of an iterate came back and steps were shortened.
         unheld: Rigid motions of bodies that nothing held at the end; the forces along them balance.
         closed_to_hold: Nodes that were closed because a body would have met them first.
@@ -77,6 +80,9 @@ class Report:
     pairs: int = 0
     immobile: int = 0
     corners: int = 0
+    krylov: int = 0
+    hierarchies: int = 0
+    uncondensed: list[str] = field(default_factory=list)
     cycles: int = 0
     unheld: int = 0
     closed_to_hold: int = 0
@@ -134,6 +140,12 @@ class Report:
         for k, force in enumerate(self.force):
             components = ", ".join(f"{f:.6g}" for f in force)
             lines.append(f"contact {k}: force on the slave ({components})")
+        if self.krylov:
+            lines.append(
+                f"condensed: {self.krylov} Krylov iterations, {self.hierarchies} hierarchies"
+            )
+        for reason in sorted(set(self.uncondensed)):
+            lines.append(f"solved directly {self.uncondensed.count(reason)} times: {reason}")
         if self.cycles:
             lines.append(f"the status came back {self.cycles} times; steps were shortened")
         if self.corners:

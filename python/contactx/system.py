@@ -29,6 +29,9 @@ class SaddlePointSystem:
     Attributes:
         x: Unknowns.
         b: Residual.
+        interfaces: Discrete sides of the contacts.
+        num_bulk: Number of displacements.
+        block: Displacements a node.
     """
 
     def __init__(self, bulk: Bulk, interfaces: Sequence[Interface]):
@@ -39,14 +42,14 @@ class SaddlePointSystem:
             interfaces: Discrete sides of the contacts.
         """
         self._bulk = bulk
-        self._interfaces = list(interfaces)
+        self.interfaces = list(interfaces)
         self._comm = bulk.u.function_space.mesh.comm
-        self._block = bulk.u.function_space.dofmap.index_map_bs
-        self._num_bulk = len(bulk.u.x.array)
-        sizes = [self._num_bulk, *(len(i.nodes.multiplier) for i in self._interfaces)]
+        self.block = bulk.u.function_space.dofmap.index_map_bs
+        self.num_bulk = len(bulk.u.x.array)
+        sizes = [self.num_bulk, *(len(i.nodes.multiplier) for i in self.interfaces)]
         self._offsets = np.cumsum([0, *sizes])
         self.renew()
-        self._bulk_residual = np.zeros(self._num_bulk)
+        self._bulk_residual = np.zeros(self.num_bulk)
         self._bulk_at: npt.NDArray[np.float64] | None = None
         self._contact: PETSc.Mat | None = None
         self._contact_pairs: list[list[ContactForms]] | None = None
@@ -64,14 +67,14 @@ class SaddlePointSystem:
         """Copy the unknowns from the functions into ``x``."""
         displacement, *multipliers = self.blocks(self.x.array)
         displacement[:] = self._bulk.u.x.array
-        for part, interface in zip(multipliers, self._interfaces, strict=True):
+        for part, interface in zip(multipliers, self.interfaces, strict=True):
             part[:] = interface.state.multiplier.array
 
     def scatter(self, x: PETSc.Vec) -> None:
         """Copy the unknowns from a vector into the functions."""
         displacement, *multipliers = self.blocks(x.array_r)
         self._bulk.u.x.array[:] = displacement
-        for part, interface in zip(multipliers, self._interfaces, strict=True):
+        for part, interface in zip(multipliers, self.interfaces, strict=True):
             interface.state.multiplier.array[:] = part
 
     def bulk_residual(self) -> npt.NDArray[np.float64]:
@@ -95,7 +98,7 @@ class SaddlePointSystem:
         """
         force, *constraints = self.blocks(b.array)
         force[:] = self.bulk_residual()
-        for interface, row in zip(self._interfaces, constraints, strict=True):
+        for interface, row in zip(self.interfaces, constraints, strict=True):
             interface.update_gap()
             interface.law.evaluate(interface.nodes)
             interface.add_residual(force)
@@ -112,7 +115,7 @@ class SaddlePointSystem:
         """Take Dirichlet values that the displacement does not have yet to the other rows."""
         u, bcs = self._bulk.u.x.array, [self._bulk.bcs]
         fem.apply_lifting(force, [self._bulk.J], bcs, [u], alpha=-1.0)
-        for interface, row in zip(self._interfaces, constraints, strict=True):
+        for interface, row in zip(self.interfaces, constraints, strict=True):
             for form in interface.forms:
                 if form.stiffness is not None:
                     fem.apply_lifting(force, [form.stiffness], bcs, [u], alpha=-1.0)
@@ -120,12 +123,12 @@ class SaddlePointSystem:
 
     def fits(self) -> bool:
         """Whether the last Jacobian has the pattern of the current pairs."""
-        return self._contact_pairs == [interface.forms for interface in self._interfaces]
+        return self._contact_pairs == [interface.forms for interface in self.interfaces]
 
     def displacement_residual(self) -> npt.NDArray[np.float64]:
         """Forces of bulk and contacts at the functions' state, without Dirichlet conditions."""
         force = self.bulk_residual().copy()
-        for interface in self._interfaces:
+        for interface in self.interfaces:
             interface.add_residual(force)
         return force
 
@@ -141,24 +144,29 @@ class SaddlePointSystem:
         Returns:
             The Jacobian.
         """
-        if self._contact is None or not self.fits():
-            self._contact = self._new_matrix()
-            self._contact_pairs = [list(interface.forms) for interface in self._interfaces]
-        self._contact.zeroEntries()
-        self._assemble_contact(self._contact)
+        contact = self.assemble_contact()
         bulk = self._embed(self._bulk.jacobian())
         if A is None:
-            bulk.axpy(1.0, self._contact, PETSc.Mat.Structure.DIFFERENT_NONZERO_PATTERN)
+            bulk.axpy(1.0, contact, PETSc.Mat.Structure.DIFFERENT_NONZERO_PATTERN)
             A = bulk
         else:
             A.zeroEntries()
-            for part in (bulk, self._contact):
+            for part in (bulk, contact):
                 A.axpy(1.0, part, PETSc.Mat.Structure.SUBSET_NONZERO_PATTERN)
         if springs is not None:
             diagonal = self.x.duplicate()
             self.blocks(diagonal.array)[0][:] = springs
             A.setDiagonal(diagonal, addv=PETSc.InsertMode.ADD)
         return A
+
+    def assemble_contact(self) -> PETSc.Mat:
+        """Assemble the contacts' part of the Jacobian, in all unknowns."""
+        if self._contact is None or not self.fits():
+            self._contact = self._new_matrix()
+            self._contact_pairs = [list(interface.forms) for interface in self.interfaces]
+        self._contact.zeroEntries()
+        self._assemble_contact(self._contact)
+        return self._contact
 
     def _new_matrix(self) -> PETSc.Mat:
         size = (self._offsets[-1], None)
@@ -172,10 +180,10 @@ class SaddlePointSystem:
 
     def _assemble_contact(self, A: PETSc.Mat) -> None:
         serial = PETSc.COMM_SELF
-        nodes = np.arange(self._num_bulk // self._block, dtype=PETSc.IntType)
-        bulk = PETSc.IS().createBlock(self._block, nodes, comm=serial)
+        nodes = np.arange(self.num_bulk // self.block, dtype=PETSc.IntType)
+        bulk = PETSc.IS().createBlock(self.block, nodes, comm=serial)
         markers = self._bulk.markers
-        for k, interface in enumerate(self._interfaces, start=1):
+        for k, interface in enumerate(self.interfaces, start=1):
             first, last = self._offsets[k], self._offsets[k + 1]
             slave = PETSc.IS().createStride(last - first, first, 1, comm=serial)
             for form in interface.forms:
@@ -197,7 +205,7 @@ class SaddlePointSystem:
     def _embed(self, K: PETSc.Mat) -> PETSc.Mat:
         """The bulk's matrix with empty rows and columns for the multipliers."""
         indptr, indices, values = K.getValuesCSR()
-        multipliers = self._offsets[-1] - self._num_bulk
+        multipliers = self._offsets[-1] - self.num_bulk
         indptr = np.concatenate([indptr, np.full(multipliers, indptr[-1], dtype=indptr.dtype)])
         size = (self._offsets[-1], None)
         return PETSc.Mat().createAIJ((size, size), csr=(indptr, indices, values), comm=self._comm)

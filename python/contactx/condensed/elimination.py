@@ -1,0 +1,281 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Which displacements and equations the multipliers are eliminated with."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from contactx import cpp as core
+from contactx.condensed.blocks import Array, ContactBlocks, Entries, Index, joined
+from contactx.interface import Interface
+
+
+class NotCondensable(Exception):
+    """A multiplier has no equation of its own; the message says which."""
+
+
+class Elimination:
+    """Transforms that take the multipliers out of J (du, dl) = (b, d).
+
+    A multiplier follows from its slave node's own rows, T_s dl = b_s - K_s du, as the slave side is
+    diagonal. What it does to other rows is taken over by ``left``; a constraint without the
+    multiplier gives a displacement of the slave node, du = (I + right) v + shift, and where it
+    slips the tangential rows are those of the law: with tangential vectors tau_i the row of the
+    displacement i becomes tau_i (C_l A^-1 K_s + C_u), the natural one for no friction.
+
+    Attributes:
+        left: Change of the rows' combinations, entries (dof, dof).
+        right: Change of the displacements, entries (dof, dof).
+        law: Rows of the law that are added, entries (dof, dof).
+        eliminated: Displacements that the constraints give, shape (k,).
+        is_symmetric: Whether ``left`` is the transpose of ``right`` and there is no ``law``.
+    """
+
+    def __init__(
+        self, interfaces: Sequence[Interface], blocks: ContactBlocks, free: Array, gdim: int
+    ):
+        """Find the transforms.
+
+        Args:
+            interfaces: Discrete sides of the contacts.
+            blocks: Contact blocks of the Jacobian.
+            free: 1 at displacements that are not prescribed, else 0, shape (num_dofs,).
+            gdim: Geometric dimension.
+
+        Raises:
+            NotCondensable: Where a multiplier has no equation of its own.
+        """
+        self._blocks = blocks
+        self._free = free
+        self._gdim = gdim
+        self._left: list[Entries] = []
+        self._right: list[Entries] = []
+        self._law: list[Entries] = []
+        # Of each pivot: the displacement, its multiplier's row and the factors of rows of d
+        self._pivots: list[tuple[Index, Entries]] = []
+        self._extra: list[Entries] = []
+        self._recover: list[tuple[Index, Index, Array]] = []
+        self._open: list[tuple[Index, Array]] = []
+        self._slips = False
+        first = 0
+        for interface in interfaces:
+            self._add(interface, first)
+            first += len(interface.nodes.multiplier)
+        self.num_multipliers = first
+        self.left, self.right, self.law = (
+            joined(parts or [_none()]) for parts in (self._left, self._right, self._law)
+        )
+        self.eliminated = np.concatenate(
+            [np.zeros(0, dtype=np.int64), *(dofs for dofs, _ in self._pivots)]
+        )
+        self._check_chains()
+        self.is_symmetric = not self._slips and self._transposed()
+
+    def _add(self, interface: Interface, first: int) -> None:
+        nodes = interface.nodes
+        n = len(nodes.area)
+        multipliers = first + np.arange(n * nodes.size).reshape(n, nodes.size)
+        closed = nodes.closed
+        by = nodes.by_multiplier
+        diagonal = np.einsum("nii->ni", by)[~closed]
+        self._open.append((multipliers[~closed].ravel(), diagonal.ravel()))
+        slaves = interface.slaves
+        if nodes.size == 1:
+            self._add_scalar(slaves[closed], multipliers[closed, 0])
+            return
+        dofs = slaves[:, None] * self._gdim + np.arange(self._gdim)
+        if np.any(self._free[dofs[closed]] == 0):
+            raise NotCondensable("a slave node with friction or a tie has a prescribed value")
+        area = nodes.area[:, None, None]
+        stick = nodes.status == core.STICK
+        slip = nodes.status == core.SLIP
+        self._add_forces(dofs[closed], multipliers[closed], nodes.area[closed])
+        self._add_stick(dofs[stick], multipliers[stick])
+        if slip.any():
+            self._slips = True
+            self._add_slip(dofs[slip], multipliers[slip], nodes.normal[slip], (by / area)[slip])
+
+    def _add_scalar(self, slaves: Index, multipliers: Index) -> None:
+        """Frictionless nodes: the pressure follows from one row of the slave node."""
+        if len(slaves) == 0:
+            return
+        C, T = self._rows_of(multipliers), self._columns_of(multipliers)
+        dofs = slaves[:, None] * self._gdim + np.arange(self._gdim)
+        # Coefficients of the slave node's displacements in its constraint
+        own = np.zeros((len(slaves), self._gdim))
+        component = C.columns - dofs[C.rows, 0]
+        mine = (component >= 0) & (component < self._gdim)
+        own[C.rows[mine], component[mine]] = C.values[mine]
+        k = np.argmax(np.abs(own) * self._free[dofs], axis=1)
+        pivot = dofs[np.arange(len(slaves)), k]
+        factor = own[np.arange(len(slaves)), k] * self._free[pivot]
+        if np.any(factor == 0):
+            raise NotCondensable("all displacements of a slave node are prescribed")
+        self._eliminate(pivot, C, factor)
+        self._pivots.append((pivot, Entries(np.arange(len(pivot)), multipliers, 1 / factor)))
+        t = np.zeros(len(slaves))
+        at = T.rows == pivot[T.columns]
+        t[T.columns[at]] = T.values[at]
+        self._left.append(Entries(T.rows, pivot[T.columns], -T.values / t[T.columns]).select(~at))
+        self._recover.append((multipliers, pivot, t))
+
+    def _add_forces(self, dofs: Index, multipliers: Index, area: Array) -> None:
+        """Vector multipliers: master rows take over the slave nodes' rows."""
+        flat, rows = multipliers.ravel(), dofs.ravel()
+        T = self._columns_of(flat)
+        own = T.rows == rows[T.columns]
+        factor = np.zeros(len(flat))
+        factor[T.columns[own]] = T.values[own]
+        self._left.append(
+            Entries(T.rows, rows[T.columns], -T.values / factor[T.columns]).select(~own)
+        )
+        self._recover.append((flat, rows, factor))
+
+    def _add_stick(self, dofs: Index, multipliers: Index) -> None:
+        """Sticking and tied nodes: the constraint gives all displacements of the slave node."""
+        if len(dofs) == 0:
+            return
+        g = self._gdim
+        C = self._rows_of(multipliers.ravel())
+        node, component = C.rows // g, C.columns - dofs[C.rows // g, 0]
+        mine = (component >= 0) & (component < g)
+        own = np.zeros((len(dofs), g, g))
+        own[node[mine], C.rows[mine] % g, component[mine]] = C.values[mine]
+        inverse = np.linalg.inv(own)
+        other = C.select(~mine)
+        k = other.rows // g
+        for i in range(g):
+            factor = inverse[k, i, other.rows % g]
+            self._right.append(Entries(dofs[k, i], other.columns, -factor * other.values))
+        flat = dofs.ravel()
+        self._right.append(Entries(flat, flat, np.full(len(flat), -1.0)))
+        place = np.repeat(np.arange(len(flat)), g)
+        columns = np.repeat(multipliers, g, axis=0).ravel()
+        self._pivots.append((flat, Entries(place, columns, inverse.ravel())))
+
+    def _add_slip(self, dofs: Index, multipliers: Index, normal: Array, by: Array) -> None:
+        """Slipping nodes: the normal row gives a displacement, the others are the law's."""
+        g = self._gdim
+        n = len(dofs)
+        every = np.arange(n)
+        C = self._rows_of(multipliers.ravel())
+        node = C.rows // g
+        along = Entries(node, C.columns, normal[node, C.rows % g] * C.values)
+        k = np.argmax(np.abs(normal), axis=1)
+        pivot = dofs[every, k]
+        factor = np.zeros(n)
+        at = along.columns == pivot[along.rows]
+        np.add.at(factor, along.rows[at], along.values[at])
+        self._eliminate(pivot, along, factor)
+        weights = (normal / factor[:, None]).ravel()
+        self._pivots.append((pivot, Entries(np.repeat(every, g), multipliers.ravel(), weights)))
+        for step in range(1, g):
+            i = (k + step) % g
+            row = dofs[every, i]
+            tau = np.zeros((n, g))
+            tau[every, i] = 1
+            tau[every, k] = -normal[every, i] / normal[every, k]
+            # by is C_l / A
+            combination = np.einsum("ni,nij->nj", tau, by)
+            combination[every, i] -= 1
+            self._left.append(Entries(np.repeat(row, g), dofs.ravel(), combination.ravel()))
+            self._law.append(Entries(row[node], C.columns, tau[node, C.rows % g] * C.values))
+            self._extra.append(Entries(np.repeat(row, g), multipliers.ravel(), tau.ravel()))
+
+    def _eliminate(self, pivot: Index, C: Entries, factor: Array) -> None:
+        self._right.append(Entries(pivot[C.rows], C.columns, -C.values / factor[C.rows]))
+
+    def _rows_of(self, multipliers: Index) -> Entries:
+        """Rows of the constraint block, numbered by their place in ``multipliers``."""
+        C = self._blocks.constraint
+        place = self._place(multipliers)
+        part = C.select(place[C.rows] >= 0)
+        part.rows = place[part.rows]
+        return part
+
+    def _columns_of(self, multipliers: Index) -> Entries:
+        T = self._blocks.traction
+        place = self._place(multipliers)
+        part = T.select(place[T.columns] >= 0)
+        part.columns = place[part.columns]
+        return part
+
+    def _place(self, multipliers: Index) -> Index:
+        size = 1 + max(
+            multipliers.max(initial=-1),
+            self._blocks.constraint.rows.max(initial=-1),
+            self._blocks.traction.columns.max(initial=-1),
+        )
+        place = np.full(size, -1)
+        place[multipliers] = np.arange(len(multipliers))
+        return place
+
+    def _check_chains(self) -> None:
+        slaves = np.concatenate([np.zeros(0, dtype=np.int64), *(r for _, r, _ in self._recover)])
+        if len(np.unique(slaves)) < len(slaves):
+            raise NotCondensable("a node is slave in several contacts that are closed")
+        mark = np.zeros(len(self._free), dtype=bool)
+        mark[slaves] = True
+        taken = np.zeros(len(self._free), dtype=bool)
+        taken[self.eliminated] = True
+        # A row that is taken over must not get one, nor a displacement follow from another
+        crossed = mark[self.left.rows] & mark[self.left.columns]
+        within = self.left.rows // self._gdim == self.left.columns // self._gdim
+        chained = taken[self.right.columns] & (self.right.rows != self.right.columns)
+        if np.any(crossed & ~within) or np.any(chained):
+            raise NotCondensable("a node is slave in one contact and master in another")
+
+    def _transposed(self) -> bool:
+        """Whether left = right^T, but for the eliminated rows and rounding."""
+        size = len(self._free)
+        taken = np.zeros(size, dtype=bool)
+        taken[self.eliminated] = True
+        left = self.left.select(~taken[self.left.rows])
+        right = self.right.select(self.right.rows != self.right.columns)
+        a = np.lexsort((left.rows, left.columns))
+        b = np.lexsort((right.columns, right.rows))
+        if len(a) != len(b) or not np.array_equal(left.rows[a], right.columns[b]):
+            return False
+        return bool(
+            np.array_equal(left.columns[a], right.rows[b])
+            and np.allclose(left.values[a], right.values[b], rtol=0, atol=1e-8)
+        )
+
+    def shift(self, d: Array) -> Array:
+        """What the constraints' right-hand side gives of the displacements, shape (num_dofs,)."""
+        shift = np.zeros(len(self._free))
+        for dofs, factors in self._pivots:
+            np.add.at(shift, dofs[factors.rows], factors.values * d[factors.columns])
+        return shift
+
+    def extra(self, d: Array) -> Array:
+        """What the law's right-hand side adds to the rows, shape (num_dofs,)."""
+        extra = np.zeros(len(self._free))
+        for part in self._extra:
+            np.add.at(extra, part.rows, part.values * d[part.columns])
+        return extra
+
+    def open_multipliers(self, d: Array) -> Array:
+        """Multipliers that no displacement enters, zero elsewhere, shape (num_multipliers,)."""
+        result = np.zeros(self.num_multipliers)
+        for multipliers, diagonal in self._open:
+            result[multipliers] = d[multipliers] / diagonal
+        return result
+
+    def recover(self, defect: Array, multipliers: Array) -> None:
+        """Set the multipliers of closed nodes.
+
+        Args:
+            defect: b - K du, shape (num_dofs,).
+            multipliers: Values to write into, shape (num_multipliers,).
+        """
+        for which, rows, factor in self._recover:
+            multipliers[which] = defect[rows] / factor
+
+
+def _none() -> Entries:
+    none = np.zeros(0, dtype=np.int64)
+    return Entries(none, none, np.zeros(0))

@@ -1,0 +1,194 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Linear solvers of the Newton loop: the saddle point as it is, or condensed."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+
+from petsc4py import PETSc
+
+import numpy as np
+
+from contactx.bulk import Bulk
+from contactx.callback import keeps_its_error
+from contactx.condensed.blocks import Array
+from contactx.condensed.solver import CondensedSolver
+from contactx.report import Report
+from contactx.system import SaddlePointSystem
+
+
+class LinearSolver(ABC):
+    """What gives SNES its Jacobian.
+
+    Attributes:
+        error: Error that a callback raised.
+    """
+
+    error: BaseException | None = None
+
+    @abstractmethod
+    def begin(self, snes: PETSc.SNES, report: Report) -> None:
+        """Start a step.
+
+        Args:
+            snes: The solver.
+            report: Report whose times are added to.
+        """
+
+    @abstractmethod
+    def provide(self, springs: Array | None) -> None:
+        """Make ready for the Jacobian at an accepted iterate.
+
+        Args:
+            springs: What is added to the diagonal of the displacements, shape (num_dofs,).
+        """
+
+    def aim(self, residual: float, tolerance: float, changing: float) -> None:
+        """Say how accurate the next solve must be.
+
+        Args:
+            residual: Residual of the iterate.
+            tolerance: What it must fall below.
+            changing: Part of the nodes in contact whose status or pair has changed.
+        """
+
+    def end(self, report: Report) -> None:
+        """Write what was done into the report."""
+
+    def reset(self) -> None:
+        """Forget the matrix: an error inside PETSc may have left it half done."""
+
+    def destroy(self) -> None:
+        """Let go of what PETSc holds of this solver."""
+
+
+class SaddlePoint(LinearSolver):
+    """The whole Jacobian as one matrix, for a direct solver or what the user chooses."""
+
+    def __init__(self, system: SaddlePointSystem):
+        """Create the solver.
+
+        Args:
+            system: The coupled system.
+        """
+        self._system = system
+        self._A: PETSc.Mat | None = None
+        self._is_current = False
+        self._springs: Array | None = None
+
+    def begin(self, snes: PETSc.SNES, report: Report) -> None:
+        """See ``LinearSolver``."""
+        self._snes, self._report = snes, report
+        self._A = None
+
+    def reset(self) -> None:
+        """See ``LinearSolver``."""
+        self._A = None
+
+    def provide(self, springs: Array | None) -> None:
+        """See ``LinearSolver``; the matrix must have the pattern of the current pairs."""
+        self._springs = springs
+        if self._A is not None and self._system.fits():
+            return
+        with self._report.timing("Jacobian"):
+            self._A = self._system.jacobian(springs=springs)
+        self._is_current = True
+        self._snes.setJacobian(self._jacobian, self._A)
+
+    @keeps_its_error
+    def _jacobian(self, snes: PETSc.SNES, x: PETSc.Vec, A: PETSc.Mat, P: PETSc.Mat) -> None:
+        if not self._is_current:
+            with self._report.timing("Jacobian"):
+                self._system.scatter(x)
+                self._system.jacobian(A, self._springs)
+        self._is_current = False
+
+
+class Condensed(LinearSolver):
+    """The condensed solver as a preconditioner that is exact; the Jacobian is not assembled."""
+
+    def __init__(self, bulk: Bulk, system: SaddlePointSystem, x: Array, prefix: str):
+        """Create the solver.
+
+        Args:
+            bulk: The bulk.
+            system: The coupled system.
+            x: Reference positions, shape (num_nodes, gdim).
+            prefix: Prefix of the PETSc options.
+        """
+        self._bulk = bulk
+        self._system = system
+        self._solver = CondensedSolver(bulk, system, _rigid_modes(x), prefix + "condensed_")
+        size = system.x.getSize()
+        self._A = PETSc.Mat().createPython((size, size), self, comm=system.x.comm)
+        self._A.setUp()
+
+    def begin(self, snes: PETSc.SNES, report: Report) -> None:
+        """See ``LinearSolver``."""
+        self._report = report
+        self._solver.begin(report)
+        snes.setJacobian(self._jacobian, self._A)
+        pc = snes.getKSP().getPC()
+        pc.setType("python")
+        pc.setPythonContext(self)
+
+    def provide(self, springs: Array | None) -> None:
+        """See ``LinearSolver``."""
+        self._solver.springs = springs
+
+    def aim(self, residual: float, tolerance: float, changing: float) -> None:
+        """See ``LinearSolver``; a changing status needs no more than its change shows."""
+        needed = 0.1 * tolerance / residual if residual > 0 else 1.0
+        if changing > 0:
+            needed = max(needed, float(np.clip(0.1 * changing, *_ROUGH)))
+        self._solver.rtol = float(np.clip(needed, 1e-13, 0.1))
+
+    def destroy(self) -> None:
+        """See ``LinearSolver``; the matrix refers back to it."""
+        self._A.destroy()
+
+    def end(self, report: Report) -> None:
+        """See ``LinearSolver``."""
+        report.krylov = self._solver.iterations
+        report.hierarchies = self._solver.hierarchies
+        report.uncondensed = list(self._solver.direct)
+
+    @keeps_its_error
+    def _jacobian(self, snes: PETSc.SNES, x: PETSc.Vec, A: PETSc.Mat, P: PETSc.Mat) -> None:
+        self._system.scatter(x)
+        A.assemble()
+
+    @keeps_its_error
+    def apply(self, pc: PETSc.PC, b: PETSc.Vec, x: PETSc.Vec) -> None:
+        """Solve J x = b; PETSc calls this."""
+        self._solver.solve(b, x)
+
+    def mult(self, mat: PETSc.Mat, x: PETSc.Vec, y: PETSc.Vec) -> None:
+        """Y = J x; PETSc calls this where the user takes another KSP."""
+        self._system.assemble_contact().mult(x, y)
+        n = self._system.num_bulk
+        u, w = self._bulk.jacobian().createVecs()
+        u.array[:] = x.array_r[:n]
+        self._bulk.jacobian().mult(u, w)
+        y.array[:n] += w.array_r
+        if self._solver.springs is not None:
+            y.array[:n] += self._solver.springs * u.array_r
+
+
+# Relative tolerance while few or all nodes change
+_ROUGH = (1e-6, 0.03)
+
+
+def _rigid_modes(x: Array) -> Array:
+    """Orthonormal rigid modes of all nodes, shape (3 or 6, num_nodes * gdim)."""
+    n, gdim = x.shape
+    modes = [np.tile(axis, (n, 1)) for axis in np.eye(gdim)]
+    d = x - x.mean(axis=0)
+    for i in range(gdim):
+        for j in range(i):
+            turn = np.zeros((n, gdim))
+            turn[:, i], turn[:, j] = d[:, j], -d[:, i]
+            modes.append(turn)
+    basis: Array = np.linalg.qr(np.array([m.ravel() for m in modes]).T)[0].T
+    return basis

@@ -1,0 +1,150 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""The condensed solver against a dense solution of the whole Jacobian."""
+
+import numpy as np
+import pytest
+import stacked_blocks
+from scenes import Blocks, hertz_sphere
+
+from contactx.condensed.solver import CondensedSolver
+from contactx.linear import _rigid_modes
+from dolfinx.mesh import CellType
+
+CELLS = [CellType.triangle, CellType.quadrilateral, CellType.tetrahedron, CellType.hexahedron]
+LAWS = [{}, {"friction": 0.3}, {"tied": True}]
+every_cell = pytest.mark.parametrize("cell", CELLS, ids=lambda c: c.name)
+every_law = pytest.mark.parametrize("law", LAWS, ids=lambda law: next(iter(law), "frictionless"))
+
+
+def random_state(cell, law, sliding):
+    scene = Blocks(cell, gap=0.02, n_upper=3, n_lower=2)
+    contact = scene.contact(sliding, **law)
+    problem = scene.problem(contact, petsc_options={"pc_type": "condensed"})
+    interface, nodes = contact.interface, contact.interface.nodes
+    rng = np.random.default_rng(11)
+    scene.u.x.array[:] = 0.01 * rng.standard_normal(len(scene.u.x.array))
+    for bc in scene.bcs:
+        bc.set(scene.u.x.array)
+    interface.begin_step()
+    interface.search()
+    interface.update_gap()
+    n = len(nodes.gap)
+    nodes.multiplier[:] = 0.1 * rng.standard_normal(len(nodes.multiplier))
+    if nodes.size > 1:
+        nodes.multiplier.reshape(n, -1)[:, -1] = rng.uniform(0.5, 1, n)
+    status = np.arange(n) % (2 if "tied" in law else 3)
+    if nodes.size == 1:
+        status = np.where(status > 0, 2, 0)
+    nodes.status[:] = np.where(np.isnan(nodes.gap), 0, status)
+    nodes.c[:] = rng.uniform(1, 2, n)
+    interface.law.evaluate(nodes)
+    return problem, contact, rng
+
+
+@pytest.mark.parametrize("sliding", ["finite", "small"])
+@every_law
+@every_cell
+def test_one_solve(cell, law, sliding):
+    problem, contact, rng = random_state(cell, law, sliding)
+    system = problem._system
+    b = rng.standard_normal(system.x.getSize())
+    b[: system.num_bulk][problem._bulk.markers == 1] = 0
+    J = system.jacobian().convert("dense").getDenseArray()
+    exact = np.linalg.solve(J, b)
+    x = contact.interface.state.position.array.reshape(-1, system.block)
+    solver = CondensedSolver(problem._bulk, system, _rigid_modes(x), "one_solve_")
+    solver.rtol = 1e-13
+    right, result = system.x.duplicate(), system.x.duplicate()
+    right.array[:] = b
+    solver.solve(right, result)
+    assert not solver.direct
+    assert np.abs(result.array - exact).max() <= 1e-9 * np.abs(exact).max()
+
+
+def both(create):
+    """Solve with the direct and the condensed solver."""
+    answers = []
+    for solver in ("lu", "condensed"):
+        problem, contacts = create(solver)
+        problem.solve()
+        multipliers = np.concatenate([c.multiplier.ravel() for c in contacts])
+        answers.append((problem.u.x.array.copy(), multipliers, problem.report))
+    return answers
+
+
+def assert_same(direct, condensed):
+    for a, b in zip(direct[:2], condensed[:2], strict=True):
+        assert np.abs(a - b).max() <= 1e-9 * np.abs(a).max()
+    assert condensed[2].iterations <= direct[2].iterations + 4
+    assert condensed[2].krylov > 0
+    assert "condensed: " in str(condensed[2])
+
+
+@pytest.mark.parametrize("gap", [0.0, 0.02])
+@every_law
+@every_cell
+def test_blocks_pushed_aside(cell, law, gap):
+    def create(solver):
+        scene = Blocks(cell, gap=gap, n_upper=4, n_lower=3)
+        scene.bcs[-2].g.value[...] = 0.02
+        contact = scene.contact(**law)
+        return scene.problem(contact, petsc_options={"pc_type": solver}), [contact]
+
+    direct, condensed = both(create)
+    assert_same(direct, condensed)
+    assert not condensed[2].uncondensed
+
+
+@pytest.mark.parametrize("sliding", ["finite", "small"])
+def test_sphere(sliding):
+    """Slave nodes on planes of symmetry keep an equation for their pressure."""
+    answers = []
+    for solver in ("lu", "condensed"):
+        problem, contact = hertz_sphere(0.04, sliding, petsc_options={"pc_type": solver})
+        problem.solve()
+        answers.append((problem.u.x.array, contact.multiplier, problem.report))
+    assert_same(*answers)
+    assert not answers[1][2].uncondensed
+    again = answers[1][2].krylov
+    assert 0 < again < 200
+
+
+def test_friction_on_a_plane_of_symmetry_is_solved_directly():
+    """The report says what was not condensed, and why."""
+    problem, _ = hertz_sphere(0.04, "small", friction=0.3, petsc_options={"pc_type": "condensed"})
+    problem.solve()
+    reasons = problem.report.uncondensed
+    assert len(reasons) == problem.report.iterations
+    assert set(reasons) == {"a slave node with friction or a tie has a prescribed value"}
+    assert f"solved directly {len(reasons)} times" in str(problem.report)
+
+
+@pytest.mark.parametrize(("friction", "shear"), [(0.3, 0.001), (0.3, 0.0025)])
+@pytest.mark.parametrize("dim", [2, 3])
+def test_five_free_blocks(dim, friction, shear, monkeypatch):
+    """Bodies that contact alone holds, each slave below and master above."""
+    monkeypatch.setattr(stacked_blocks, "FRICTION", friction)
+    monkeypatch.setattr(stacked_blocks, "INTERFERENCE", 0.0)
+
+    def create(solver):
+        problem, contacts, load = stacked_blocks.create(
+            0.25, "finite", dim, petsc_options={"pc_type": solver}
+        )
+        load.value[0], load.value[-1] = shear, -0.01
+        return problem, contacts
+
+    assert_same(*both(create))
+
+
+def test_a_hierarchy_is_kept_from_step_to_step():
+    scene = Blocks(CellType.tetrahedron, n_upper=4, n_lower=3)
+    contact = scene.contact("small")
+    problem = scene.problem(contact, petsc_options={"pc_type": "condensed"})
+    made = []
+    for k in range(1, 4):
+        scene.bcs[-1].g.value[...] = -0.02 * k
+        problem.solve()
+        made.append(problem.report.hierarchies)
+    assert made[0] >= 1
+    assert made[-1] == 0
