@@ -59,7 +59,7 @@ class LinearSolver(ABC):
     def reset(self) -> None:
         """Forget the matrix: an error inside PETSc may have left it half done."""
 
-    def destroy(self) -> None:
+    def let_go(self) -> None:
         """Let go of what PETSc holds of this solver."""
 
 
@@ -144,7 +144,7 @@ class Condensed(LinearSolver):
             needed = max(needed, float(np.clip(0.1 * changing, *_ROUGH)))
         self._solver.rtol = float(np.clip(needed, 1e-13, 0.1))
 
-    def destroy(self) -> None:
+    def let_go(self) -> None:
         """See ``LinearSolver``; the matrix refers back to it."""
         self._A.destroy()
 

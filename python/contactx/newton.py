@@ -159,7 +159,7 @@ class NewtonLoop:
     def destroy(self) -> None:
         """Destroy the solver."""
         self.snes.destroy()
-        self._linear.destroy()
+        self._linear.let_go()
 
     def _time_linear_solves(self, report: Report) -> None:
         timer = ExitStack()
