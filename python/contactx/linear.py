@@ -56,7 +56,7 @@ class LinearSolver(ABC):
     def end(self, report: Report) -> None:
         """Write what was done into the report."""
 
-    def reset(self) -> None:
+    def forget(self) -> None:
         """Forget the matrix: an error inside PETSc may have left it half done."""
 
     def let_go(self) -> None:
@@ -82,7 +82,7 @@ class SaddlePoint(LinearSolver):
         self._snes, self._report = snes, report
         self._A = None
 
-    def reset(self) -> None:
+    def forget(self) -> None:
         """See ``LinearSolver``."""
         self._A = None
 

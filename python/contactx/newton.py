@@ -154,7 +154,7 @@ class NewtonLoop:
     def reset(self) -> None:
         """Forget PETSc's work vectors: an error inside PETSc leaves them locked."""
         self.snes.reset()
-        self._linear.reset()
+        self._linear.forget()
 
     def destroy(self) -> None:
         """Destroy the solver."""
