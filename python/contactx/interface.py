@@ -204,11 +204,7 @@ class Interface:
         """
         compliance = np.zeros_like(stiffness)
         np.divide(1, stiffness, out=compliance, where=stiffness > 0)
-        total = compliance[self.slaves] + self.master.compliance(compliance)
-        total *= self.state.area.array
-        usable = total > 0
-        self.nodes.c[:] = 1 / np.median(total[usable]) if usable.any() else 1.0
-        self.nodes.c[usable] = 1 / total[usable]
+        self.nodes.set_factor(compliance[self.slaves] + self.master.compliance(compliance))
 
     def update_gap(self) -> None:
         """First pass: assemble gap, normal and slip of each slave node."""

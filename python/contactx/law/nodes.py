@@ -87,6 +87,17 @@ class Nodes:
         pressure: Array = np.einsum("ij,ij->i", self.normal, self.multiplier.reshape(-1, self.size))
         return pressure
 
+    def set_factor(self, compliance: Array) -> None:
+        """Set the factor c: one over the area and the compliance.
+
+        Args:
+            compliance: Compliance of each pair, length/force, zero where nothing can move.
+        """
+        total = compliance * self.area
+        usable = total > 0
+        self.c[:] = 1 / np.median(total[usable]) if usable.any() else 1.0
+        self.c[usable] = 1 / total[usable]
+
     def closing(self, tie: float = -1.0) -> npt.NDArray[np.bool_]:
         """Which nodes the complementarity closes: p - c g > 0, or a gap of at most a tie.
 
