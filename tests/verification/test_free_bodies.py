@@ -169,3 +169,48 @@ def test_friction_holds_a_block_on_a_slope(cell, n):
     normal.value[:] = -np.sin(0.31), np.cos(0.31)
     with pytest.raises(cx.ConvergenceError, match="cannot be balanced"):
         problem.solve()
+
+
+@pytest.mark.parametrize("k", [1e-3, 1e-6, 1e-9, 1e-12])
+@pytest.mark.parametrize("friction", [0.0, 0.3])
+@pytest.mark.parametrize(
+    "cell", [CellType.quadrilateral, CellType.hexahedron], ids=lambda c: c.name
+)
+def test_a_body_on_weak_springs_does_not_pass_through_another(cell, friction, k):
+    """The springs alone would let the load move it by ten times the size of the other one."""
+    scene = Blocks(cell, gap=0.1)
+    mesh = scene.u.function_space.mesh
+    gdim = mesh.geometry.dim
+    v = ufl.TestFunction(scene.u.function_space)
+    ds = ufl.Measure("ds", mesh, subdomain_data=scene.tags)
+    scene.F += k * ufl.inner(scene.u, v) * ufl.dx + PRESSURE * v[gdim - 1] * ds(int(Tag.UPPER_TOP))
+    scene.bcs = scene.bcs[:gdim]
+    contact = scene.contact(friction=friction)
+    problem = scene.problem(contact)
+    problem.solve()
+    assert problem.report.iterations <= 10
+    # The springs carry what they can over the gap
+    assert contact.force[-1] == pytest.approx(PRESSURE, abs=0.2 * k + 1e-11)
+    assert np.nanmin(contact.interface.nodes.gap) >= -1e-12
+
+
+@pytest.mark.parametrize(
+    "cell", [CellType.quadrilateral, CellType.hexahedron], ids=lambda c: c.name
+)
+def test_a_support_that_comes_later(cell):
+    gdim = 2 if cell == CellType.quadrilateral else 3
+    data = meshes.blocks(cell, (3,) * gdim, (1,) * gdim)
+    domain, tags = meshes.single(data, Tag.UPPER)
+    u = displacement(domain)
+    v = ufl.TestFunction(u.function_space)
+    k, load = fem.Constant(domain, 0.0), fem.Constant(domain, -0.01)
+    F = elasticity(u, 1.0, 0.3) + (k * ufl.inner(u, v) - load * v[gdim - 1]) * ufl.dx
+    floor = cx.Plane(np.zeros(gdim), np.eye(gdim)[-1])
+    contact = cx.Contact(cx.Surface(tags, Tag.UPPER_CONTACT), floor)
+    problem = cx.ContactProblem(F, u, contacts=[contact], petsc_options_prefix="later_")
+    problem.solve()
+    k.value, load.value = 0.1, 0.01
+    problem.solve()
+    rises = np.zeros(gdim)
+    rises[-1] = 0.1
+    assert np.abs(u.x.array.reshape(-1, gdim) - rises).max() <= 1e-9

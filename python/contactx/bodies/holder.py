@@ -12,7 +12,7 @@ import numpy.typing as npt
 from contactx import cpp as core
 from contactx.bodies.bodies import Bodies
 from contactx.bodies.constraints import pair_rows
-from contactx.bodies.modes import Array, RigidModes
+from contactx.bodies.modes import Array, RigidModes, by_body
 from contactx.bulk import Bulk
 from contactx.interface import Interface
 from contactx.law.coulomb import Coulomb
@@ -53,6 +53,7 @@ class Holder:
         self._modes: RigidModes | None = None
         self.unheld = self.closed = self.drifting = 0
         self._stiffness: Array | None = None
+        self._begins = True
 
     def begin_step(self) -> None:
         """Find the free modes of the rigid."""
@@ -63,6 +64,7 @@ class Holder:
             self._modes.update(x)
         self.unheld = self.closed = self.drifting = 0
         self._stiffness = None
+        self._begins = True
 
     def hold(self, force: Array, scale: float) -> bool:
         """Find what to add to the Jacobian at an iterate, and close nodes that must hold a body.
@@ -86,9 +88,10 @@ class Holder:
         per_node = np.einsum("nim,ni->nm", modes, -force.reshape(-1, gdim))
         pull = np.zeros((rigid.count, size))
         np.add.at(pull, rigid.body, per_node)
-        closed_any = False
+        closed_any = self._begins and self._close_before_springs(x, pull.ravel())
+        self._begins = False
         while True:
-            N = self._unheld(x)
+            N = self._unheld(x, rigid.free)
             if N.shape[1] == 0:
                 self.drifting = 0
                 break
@@ -105,6 +108,8 @@ class Holder:
             self.closed += closed
             if closed == 0 and not self._stick_first(x, way.ravel()):
                 self.drifting += 1
+                # A support may have got its stiffness on the way
+                rigid.update(x)
                 break
             closed_any = True
         self.unheld = N.shape[1]
@@ -122,15 +127,38 @@ class Holder:
         """What to add to the Jacobian's diagonal, force/length, shape (num_dofs,)."""
         return self._stiffness
 
-    def _unheld(self, x: Array) -> Array:
-        """Orthonormal basis of the modes that nothing holds, as columns."""
+    def _close_before_springs(self, x: Array, pull: Array) -> bool:
+        """Close what bodies on weak springs meet before these stop them: Newton would pass it.
+
+        Args:
+            x: Positions.
+            pull: Forces along the modes of the bodies, shape (num_bodies * m,).
+
+        Returns:
+            Whether nodes have been closed.
+        """
         rigid = self._modes
         assert rigid is not None
-        size = rigid.free[0].shape[0]
-        first = np.cumsum([0, *(basis.shape[1] for basis in rigid.free)])
-        Z = np.zeros((rigid.count * size, first[-1]))
-        for b, basis in enumerate(rigid.free):
-            Z[b * size : (b + 1) * size, first[b] : first[b + 1]] = basis
+        Z, stiffness = by_body(rigid.weak), np.concatenate(rigid.stiffness)
+        closed_any = False
+        while (N := self._unheld(x, rigid.weak)).shape[1] > 0:
+            combine = Z.T @ N
+            K = combine.T @ (stiffness[:, None] * combine)
+            way = N @ np.linalg.solve(K, N.T @ pull)
+            if not way.any():
+                break
+            closed = self._close_first(x, way.reshape(rigid.count, -1), within=1.0)
+            self.closed += closed
+            if closed == 0:
+                break
+            closed_any = True
+        return closed_any
+
+    def _unheld(self, x: Array, bases: list[Array]) -> Array:
+        """Orthonormal basis of what of some modes nothing holds, as columns."""
+        rigid = self._modes
+        assert rigid is not None
+        Z = by_body(bases)
         gram = np.zeros((Z.shape[1], Z.shape[1]))
         for interface in self._interfaces:
             status = interface.nodes.status
@@ -144,12 +172,13 @@ class Holder:
         null: Array = Z @ vectors[:, values <= 1e-12 * max(values.max(initial=0.0), 1.0)]
         return null
 
-    def _close_first(self, x: Array, way: Array) -> int:
+    def _close_first(self, x: Array, way: Array, within: float = np.inf) -> int:
         """Close the open nodes that bodies on a rigid way meet first.
 
         Args:
             x: Positions.
             way: Coefficients of each body's modes, shape (num_bodies, m).
+            within: Part of the way that they go.
 
         Returns:
             Number of nodes closed.
@@ -169,6 +198,8 @@ class Holder:
         if not any(len(time) for _, _, time in found):
             return 0
         lowest = min(time.min() for _, _, time in found if len(time))
+        if lowest > within:
+            return 0
         # What is closer than this touches at once
         tie = 1e-9 * rigid.size / np.abs(way).max()
         count = 0
