@@ -158,3 +158,15 @@ def test_a_foot_that_opens_only_where_its_slip_turns_back():
     scene.step(0.10671, 0.02)
     assert scene.iterations[-1] <= 12
     assert scene.count == {"open": 3, "stick": 0, "slip": 0}
+
+
+@pytest.mark.parametrize("gap", [0.0, 0.01])
+def test_a_foot_that_slip_pulls_off_and_stick_holds(gap):
+    ball = cx.Sphere((0.5, -3.0), 3.0)
+    scene = DrivenBlock(
+        CellType.triangle, plane=ball, friction=2.0, sliding="small", n_upper=2, gap=gap
+    )
+    for top in [(0, -0.03), (0.14877, -0.02271)]:
+        scene.step(*top)
+    scene.step(0.01504, -0.02146)
+    assert scene.iterations[-1] <= 35

@@ -58,6 +58,11 @@ class Coulomb(Law):
             friction,
             nodes.status,
         )
+        # Slip may pull a node off that closes again and again: every fourth time it sticks
+        closing = np.flatnonzero((before == core.OPEN) & (nodes.status == core.SLIP))
+        closing = closing[friction[closing] > 0]
+        nodes.status[closing[nodes.closings[closing] % 4 == 3]] = core.STICK
+        nodes.closings[closing] += 1
         back = np.flatnonzero((before == core.SLIP) & (nodes.status == core.STICK))
         if len(back) > 0:
             traction = nodes.multiplier.reshape(nodes.slip.shape)[back]
