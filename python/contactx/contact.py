@@ -21,6 +21,7 @@ from contactx.surface import Surface
 from dolfinx import fem, la
 
 _SLIDING = ("finite", "small")
+_OPTIONS = ("slave", "master", "friction", "sliding", "tied", "search_distance", "offset")
 
 
 class Contact:
@@ -114,6 +115,16 @@ class Contact:
         self.tied = bool(tied)
         self._interface: Interface | None = None
         self._fields: Fields | None = None
+
+    def __setattr__(self, name: str, value: object) -> None:
+        """Refuse what would have no effect: a problem has read the options."""
+        if name in _OPTIONS and vars(self).get("_interface") is not None:
+            raise AttributeError(
+                f"{name} cannot be replaced once the contact belongs to a ContactProblem: give "
+                "friction and offset as a fem.Constant or fem.Function and change its value, or "
+                "create another Contact"
+            )
+        super().__setattr__(name, value)
 
     def __repr__(self) -> str:
         """Name the surfaces."""

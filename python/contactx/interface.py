@@ -129,6 +129,7 @@ class Interface:
         self._turn_tractions()
         self.master.begin_step()
         self._touched = self.nodes.closed
+        self.nodes.turns[:] = self.nodes.closings[:] = 0
         if self.sliding == "small" and self.master.is_rigid:
             self._pair(self.state.position.array.reshape(-1, self._gdim))
         elif self.history is not None:

@@ -13,15 +13,19 @@ from contactx.interface import Interface
 
 # Part of a normal that lies outside the span of others and still counts as independent
 _INDEPENDENT = 0.1
+# And where a node needs both: it has gone to and fro between them this often in a step
+_LITTLE = 1e-4
+_FLIPS = 2
 
 
 class Junctions:
     """Keeps the system solvable where a node is slave in several contacts, as in a corner.
 
     The rule: of the contacts that a node closes, the deepest comes first, and one whose normal lies
-    in the span of the normals before it stays open. A node that closes several contacts slides
-    without friction in all of them, so that its constraints are the independent normals alone. A
-    tie holds a node in every direction: the node's other contacts stay open.
+    nearly in the span of the normals before it stays open, unless the node goes to and fro between
+    them: it needs both, as in a shallow valley. A node that closes several contacts slides without
+    friction in all of them, so that its constraints are the independent normals alone. A tie holds
+    a node in every direction: the node's other contacts stay open.
 
     Attributes:
         shared: Nodes that are slave in several contacts.
@@ -46,6 +50,8 @@ class Junctions:
             )
             for s, i in zip(which, local, strict=True):
                 self._places[s].append((k, int(i)))
+        self._deepest = np.full(len(self.shared), -1)
+        self._flips = np.zeros(len(self.shared), dtype=np.int32)
 
     def update(self, first: bool) -> None:
         """Decide which contacts of shared nodes may close, and where friction counts.
@@ -56,6 +62,9 @@ class Junctions:
         self.corners = 0
         if len(self.shared) == 0:
             return
+        if first:
+            self._deepest[:] = -1
+            self._flips[:] = 0
         closing, normals = [], []
         for interface in self._interfaces:
             nodes = interface.nodes
@@ -65,13 +74,13 @@ class Junctions:
             else:
                 closing.append(interface.closing(first))
             normals.append(interface.master.normals())
-        for places in self._places:
+        for s, places in enumerate(self._places):
             closed = [(k, i) for k, i in places if closing[k][i]]
             if len(closed) > 1:
-                self._decide(closed, normals)
+                self._decide(s, closed, normals)
 
     def _decide(
-        self, closed: list[tuple[int, int]], normals: list[npt.NDArray[np.float64]]
+        self, s: int, closed: list[tuple[int, int]], normals: list[npt.NDArray[np.float64]]
     ) -> None:
         def urgency(place: tuple[int, int]) -> tuple[bool, float, int]:
             interface = self._interfaces[place[0]]
@@ -79,11 +88,15 @@ class Junctions:
 
         kept: list[tuple[int, int]] = []
         basis = np.zeros((0, normals[0].shape[1]))
-        for k, i in sorted(closed, key=urgency):
+        closed = sorted(closed, key=urgency)
+        self._flips[s] += self._deepest[s] not in (-1, closed[0][0])
+        self._deepest[s] = closed[0][0]
+        independent = _INDEPENDENT if self._flips[s] < _FLIPS else _LITTLE
+        for k, i in closed:
             interface = self._interfaces[k]
             rest = normals[k][i] - basis.T @ (basis @ normals[k][i])
             size = np.linalg.norm(rest)
-            if size < _INDEPENDENT:
+            if size < independent:
                 interface.nodes.ceded[i] = True
                 continue
             kept.append((k, i))

@@ -138,3 +138,14 @@ def test_function_that_varies_over_the_surface_is_used_node_by_node():
     size = np.linalg.norm(tangential, axis=1)
     assert slipping.sum() >= 3
     assert (size / nodes.pressure)[slipping] == pytest.approx(expected[slipping], rel=1e-9)
+
+
+@pytest.mark.parametrize("name", ["friction", "offset", "sliding", "tied", "master"])
+def test_an_option_cannot_be_replaced_where_it_would_have_no_effect(scene, name):
+    contact = scene.contact(friction=0.1)
+    setattr(contact, name, getattr(contact, name))
+    problem = scene.problem(contact)
+    with pytest.raises(AttributeError, match=f"{name} cannot be replaced"):
+        setattr(contact, name, 0.2)
+    assert contact.friction == 0.1
+    problem.solve()

@@ -120,3 +120,34 @@ def test_a_surface_is_slave_here_and_master_there(cell, friction, sliding):
     assert problem.report.corners == 0
     assert below[-1] == pytest.approx(above[-1], rel=1e-9)
     assert below[-1] > 0.01
+
+
+@pytest.mark.parametrize("slope", [0.005, 0.03, 0.045, 0.06, 0.2])
+@pytest.mark.parametrize("friction", [0.0, 0.3])
+def test_a_valley_of_two_planes_however_shallow(friction, slope):
+    """The node at its bottom may need both, although their normals are nearly the same."""
+    data = meshes.blocks(CellType.quadrilateral, (3, 3), (1, 1))
+    domain, tags = meshes.single(data, Tag.UPPER)
+    u = displacement(domain)
+    contacts = [
+        cx.Contact(
+            cx.Surface(tags, Tag.UPPER_CONTACT),
+            cx.Plane((1 / 3, 0), (np.sin(angle), np.cos(angle))),
+            friction=friction,
+        )
+        for angle in (slope, -slope)
+    ]
+    down = fix(u, tags, 1, 0.0, Tag.UPPER_TOP)
+    problem = cx.ContactProblem(
+        elasticity(u, 1.0, NU),
+        u,
+        contacts=contacts,
+        bcs=[fix(u, tags, 0, 0.0, Tag.UPPER_TOP), down],
+        petsc_options_prefix="valley_",
+    )
+    for depth in (0.03, 0.06, 0.09):
+        down.g.value[...] = -depth
+        problem.solve()
+        for contact in contacts:
+            assert np.nanmin(contact.interface.nodes.gap) >= -1e-12
+            assert (contact.interface.nodes.pressure >= -1e-12).all()

@@ -6,9 +6,11 @@ import numpy as np
 import pytest
 import stacked_blocks
 from scenes import Blocks
+from story import displacement, elasticity
 
 import contactx as cx
 import ufl
+from contactx import meshes
 from contactx.bodies import holder
 from contactx.meshes import Tag
 from dolfinx import fem
@@ -140,3 +142,75 @@ def test_five_free_blocks(dim, friction, offset, shear, sliding, monkeypatch):
         assert np.abs(contact.force + load.value).max() <= 1e-9 * PRESSURE
     # No drift: what the pressure and the gaps ask for, no more
     assert np.abs(problem.u.x.array).max() <= 0.1
+
+
+@pytest.mark.parametrize("n", [2, 3, 5, 6])
+@pytest.mark.parametrize("cell", [CellType.triangle, CellType.quadrilateral], ids=lambda c: c.name)
+def test_friction_holds_a_block_on_a_slope(cell, n):
+    """Nodes that slip to both sides hold it; Newton steps on the way have all of them slip."""
+    data = meshes.blocks(cell, (n, n), (1, 1))
+    domain, tags = meshes.single(data, Tag.UPPER)
+    u = displacement(domain)
+    v = ufl.TestFunction(u.function_space)
+    F = elasticity(u, 1.0, 0.3) - ufl.inner(fem.Constant(domain, (0.0, -0.01)), v) * ufl.dx
+    normal = fem.Constant(domain, np.array([0.0, 1.0]))
+    contact = cx.Contact(
+        cx.Surface(tags, Tag.UPPER_CONTACT), cx.Plane((0.0, 0.0), normal), friction=0.3
+    )
+    problem = cx.ContactProblem(F, u, contacts=[contact], petsc_options_prefix="slope_")
+    problem.solve()
+    # Up to 85 % of the friction
+    for angle in np.linspace(0, 0.25, 6)[1:]:
+        normal.value[:] = -np.sin(angle), np.cos(angle)
+        problem.solve()
+        assert problem.report.iterations <= 8
+        assert contact.force == pytest.approx([0, 0.01], abs=1e-11)
+    # The slope gets too steep
+    normal.value[:] = -np.sin(0.31), np.cos(0.31)
+    with pytest.raises(cx.ConvergenceError, match="cannot be balanced"):
+        problem.solve()
+
+
+@pytest.mark.parametrize("k", [1e-3, 1e-6, 1e-9, 1e-12])
+@pytest.mark.parametrize("friction", [0.0, 0.3])
+@pytest.mark.parametrize(
+    "cell", [CellType.quadrilateral, CellType.hexahedron], ids=lambda c: c.name
+)
+def test_a_body_on_weak_springs_does_not_pass_through_another(cell, friction, k):
+    """The springs alone would let the load move it by ten times the size of the other one."""
+    scene = Blocks(cell, gap=0.1)
+    mesh = scene.u.function_space.mesh
+    gdim = mesh.geometry.dim
+    v = ufl.TestFunction(scene.u.function_space)
+    ds = ufl.Measure("ds", mesh, subdomain_data=scene.tags)
+    scene.F += k * ufl.inner(scene.u, v) * ufl.dx + PRESSURE * v[gdim - 1] * ds(int(Tag.UPPER_TOP))
+    scene.bcs = scene.bcs[:gdim]
+    contact = scene.contact(friction=friction)
+    problem = scene.problem(contact)
+    problem.solve()
+    assert problem.report.iterations <= 10
+    # The springs carry what they can over the gap
+    assert contact.force[-1] == pytest.approx(PRESSURE, abs=0.2 * k + 1e-11)
+    assert np.nanmin(contact.interface.nodes.gap) >= -1e-12
+
+
+@pytest.mark.parametrize(
+    "cell", [CellType.quadrilateral, CellType.hexahedron], ids=lambda c: c.name
+)
+def test_a_support_that_comes_later(cell):
+    gdim = 2 if cell == CellType.quadrilateral else 3
+    data = meshes.blocks(cell, (3,) * gdim, (1,) * gdim)
+    domain, tags = meshes.single(data, Tag.UPPER)
+    u = displacement(domain)
+    v = ufl.TestFunction(u.function_space)
+    k, load = fem.Constant(domain, 0.0), fem.Constant(domain, -0.01)
+    F = elasticity(u, 1.0, 0.3) + (k * ufl.inner(u, v) - load * v[gdim - 1]) * ufl.dx
+    floor = cx.Plane(np.zeros(gdim), np.eye(gdim)[-1])
+    contact = cx.Contact(cx.Surface(tags, Tag.UPPER_CONTACT), floor)
+    problem = cx.ContactProblem(F, u, contacts=[contact], petsc_options_prefix="later_")
+    problem.solve()
+    k.value, load.value = 0.1, 0.01
+    problem.solve()
+    rises = np.zeros(gdim)
+    rises[-1] = 0.1
+    assert np.abs(u.x.array.reshape(-1, gdim) - rises).max() <= 1e-9

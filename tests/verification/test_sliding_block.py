@@ -147,3 +147,26 @@ def test_a_plane_that_moves_with_the_block_feels_nothing(guess, cell, sliding):
         moved = (scene.u.x.array - u).reshape(-1, gdim) - np.eye(gdim)[0] * 0.37
         assert np.abs(moved).max() < 1e-9
         print(scene.iterations)
+
+
+def test_a_foot_that_opens_only_where_its_slip_turns_back():
+    """With strong friction sticking presses the foot down, and so does slip on the way there."""
+    plane = cx.Plane((0.0, 0.0), (0.0, 1.0))
+    scene = DrivenBlock(CellType.triangle, plane=plane, friction=2.0, sliding="small", n_upper=2)
+    for top in [(0, -0.03), (-0.0138, -0.01986), (0.05158, -0.005)]:
+        scene.step(*top)
+    scene.step(0.10671, 0.02)
+    assert scene.iterations[-1] <= 12
+    assert scene.count == {"open": 3, "stick": 0, "slip": 0}
+
+
+@pytest.mark.parametrize("gap", [0.0, 0.01])
+def test_a_foot_that_slip_pulls_off_and_stick_holds(gap):
+    ball = cx.Sphere((0.5, -3.0), 3.0)
+    scene = DrivenBlock(
+        CellType.triangle, plane=ball, friction=2.0, sliding="small", n_upper=2, gap=gap
+    )
+    for top in [(0, -0.03), (0.14877, -0.02271)]:
+        scene.step(*top)
+    scene.step(0.01504, -0.02146)
+    assert scene.iterations[-1] <= 35

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 import numpy.typing as npt
@@ -12,9 +12,10 @@ import numpy.typing as npt
 from contactx import cpp as core
 from contactx.bodies.bodies import Bodies
 from contactx.bodies.constraints import pair_rows
-from contactx.bodies.modes import Array, RigidModes
+from contactx.bodies.modes import Array, RigidModes, by_body
 from contactx.bulk import Bulk
 from contactx.interface import Interface
+from contactx.law.coulomb import Coulomb
 
 # Force along a free mode, relative to the problem's, that counts as out of balance
 _BALANCED = 1e-6
@@ -29,7 +30,8 @@ class Holder:
     the forces along such modes balance, as many springs as modes are added to the Jacobian: they
     are statically determinate, so they carry no force and change no step. Where the forces do not
     balance, the open nodes that the bodies would meet first on their rigid way are closed, until
-    what is closed holds them. The residual is never touched, so no solution depends on this.
+    what is closed holds them; then the slipping nodes stick whose slip that way takes back first.
+    The residual is never touched, so no solution depends on this.
 
     Attributes:
         unheld: Number of rigid modes that nothing holds at the last iterate.
@@ -51,6 +53,7 @@ class Holder:
         self._modes: RigidModes | None = None
         self.unheld = self.closed = self.drifting = 0
         self._stiffness: Array | None = None
+        self._begins = True
 
     def begin_step(self) -> None:
         """Find the free modes of the rigid."""
@@ -61,6 +64,7 @@ class Holder:
             self._modes.update(x)
         self.unheld = self.closed = self.drifting = 0
         self._stiffness = None
+        self._begins = True
 
     def hold(self, force: Array, scale: float) -> bool:
         """Find what to add to the Jacobian at an iterate, and close nodes that must hold a body.
@@ -70,7 +74,7 @@ class Holder:
             scale: Forces of the problem.
 
         Returns:
-            Whether nodes have been closed.
+            Whether nodes have been closed or stick.
         """
         self._stiffness, self.unheld = None, 0
         rigid = self._modes
@@ -84,13 +88,16 @@ class Holder:
         per_node = np.einsum("nim,ni->nm", modes, -force.reshape(-1, gdim))
         pull = np.zeros((rigid.count, size))
         np.add.at(pull, rigid.body, per_node)
-        closed_any = False
+        closed_any = self._begins and self._close_before_springs(x, pull.ravel())
+        self._begins = False
         while True:
-            N = self._unheld(x)
+            N = self._unheld(x, rigid.free)
             if N.shape[1] == 0:
                 self.drifting = 0
                 break
-            f = N.T @ pull.ravel()
+            # In 3D the tangent across the slip resists motions that slip to all sides does not
+            lacking = self._lacking(x) if gdim == 2 else 0.0
+            f = N.T @ (pull.ravel() + lacking)
             if np.abs(f).max() <= _BALANCED * scale:
                 self.drifting = 0
                 break
@@ -98,11 +105,13 @@ class Holder:
             weight = np.repeat(np.bincount(rigid.body, minlength=rigid.count), size)
             way = N @ np.linalg.solve(N.T @ (weight[:, None] * N), f)
             closed = self._close_first(x, way.reshape(rigid.count, size))
-            closed_any |= closed > 0
             self.closed += closed
-            if closed == 0:
+            if closed == 0 and not self._stick_first(x, way.ravel()):
                 self.drifting += 1
+                # A support may have got its stiffness on the way
+                rigid.update(x)
                 break
+            closed_any = True
         self.unheld = N.shape[1]
         if self.unheld > 0:
             coefficients = N.reshape(rigid.count, size, -1)[rigid.body]
@@ -118,15 +127,38 @@ class Holder:
         """What to add to the Jacobian's diagonal, force/length, shape (num_dofs,)."""
         return self._stiffness
 
-    def _unheld(self, x: Array) -> Array:
-        """Orthonormal basis of the modes that nothing holds, as columns."""
+    def _close_before_springs(self, x: Array, pull: Array) -> bool:
+        """Close what bodies on weak springs meet before these stop them: Newton would pass it.
+
+        Args:
+            x: Positions.
+            pull: Forces along the modes of the bodies, shape (num_bodies * m,).
+
+        Returns:
+            Whether nodes have been closed.
+        """
         rigid = self._modes
         assert rigid is not None
-        size = rigid.free[0].shape[0]
-        first = np.cumsum([0, *(basis.shape[1] for basis in rigid.free)])
-        Z = np.zeros((rigid.count * size, first[-1]))
-        for b, basis in enumerate(rigid.free):
-            Z[b * size : (b + 1) * size, first[b] : first[b + 1]] = basis
+        Z, stiffness = by_body(rigid.weak), np.concatenate(rigid.stiffness)
+        closed_any = False
+        while (N := self._unheld(x, rigid.weak)).shape[1] > 0:
+            combine = Z.T @ N
+            K = combine.T @ (stiffness[:, None] * combine)
+            way = N @ np.linalg.solve(K, N.T @ pull)
+            if not way.any():
+                break
+            closed = self._close_first(x, way.reshape(rigid.count, -1), within=1.0)
+            self.closed += closed
+            if closed == 0:
+                break
+            closed_any = True
+        return closed_any
+
+    def _unheld(self, x: Array, bases: list[Array]) -> Array:
+        """Orthonormal basis of what of some modes nothing holds, as columns."""
+        rigid = self._modes
+        assert rigid is not None
+        Z = by_body(bases)
         gram = np.zeros((Z.shape[1], Z.shape[1]))
         for interface in self._interfaces:
             status = interface.nodes.status
@@ -140,12 +172,13 @@ class Holder:
         null: Array = Z @ vectors[:, values <= 1e-12 * max(values.max(initial=0.0), 1.0)]
         return null
 
-    def _close_first(self, x: Array, way: Array) -> int:
+    def _close_first(self, x: Array, way: Array, within: float = np.inf) -> int:
         """Close the open nodes that bodies on a rigid way meet first.
 
         Args:
             x: Positions.
             way: Coefficients of each body's modes, shape (num_bodies, m).
+            within: Part of the way that they go.
 
         Returns:
             Number of nodes closed.
@@ -165,6 +198,8 @@ class Holder:
         if not any(len(time) for _, _, time in found):
             return 0
         lowest = min(time.min() for _, _, time in found if len(time))
+        if lowest > within:
+            return 0
         # What is closer than this touches at once
         tie = 1e-9 * rigid.size / np.abs(way).max()
         count = 0
@@ -173,6 +208,66 @@ class Holder:
             interface.nodes.close(first)
             count += len(first)
         return count
+
+    def _lacking(self, x: Array) -> Array:
+        """Forces that slipping nodes lack to those of Coulomb's law, shape (num_bodies * m,).
+
+        Newton steps balance bodies with tractions that are not yet on the cone.
+        """
+        rigid = self._modes
+        assert rigid is not None
+        lacking = np.zeros(rigid.count * rigid.free[0].shape[0])
+        for interface, law in self._rubbing():
+            nodes = interface.nodes
+            law.evaluate(nodes)
+            slips = nodes.status == core.SLIP
+            for pairs, rows in pair_rows(interface, rigid, x):
+                force = nodes.value.reshape(nodes.normal.shape)[pairs.slaves]
+                force = _along(rows.normal, np.where(slips[pairs.slaves, None], force, 0.0))
+                lacking -= np.einsum("pi,pim->m", force, rows.movement)
+        return lacking
+
+    def _stick_first(self, x: Array, way: Array) -> bool:
+        """Stick the slipping nodes whose slip a rigid way takes back first.
+
+        Slip to both sides may hold a body that slip along its way alone does not.
+
+        Args:
+            x: Positions.
+            way: Coefficients of each body's modes, shape (num_bodies * m,).
+
+        Returns:
+            Whether any sticks.
+        """
+        rigid = self._modes
+        assert rigid is not None
+        found: list[tuple[Interface, npt.NDArray[np.int32], Array]] = []
+        for interface, law in self._rubbing():
+            nodes, cone = interface.nodes, _on_cone(interface)
+            rubs = (nodes.status == core.SLIP) & (law.friction(nodes) * nodes.pressure > 0)
+            for pairs, rows in pair_rows(interface, rigid, x):
+                movement = _along(rows.normal, rows.movement @ way)
+                # Slip goes against the traction, also where it has only just begun
+                back = np.einsum("pi,pi->p", cone[pairs.slaves], movement) > 0
+                speed = np.linalg.norm(movement, axis=1)
+                able = rubs[pairs.slaves] & back & (speed > 1e-6 * np.abs(way).max())
+                size = np.linalg.norm(nodes.slip[pairs.slaves], axis=1)
+                found.append((interface, pairs.slaves[able], size[able] / speed[able]))
+        if not any(len(time) for _, _, time in found):
+            return False
+        lowest = min(time.min() for _, _, time in found if len(time))
+        for interface, slaves, time in found:
+            nodes, first = interface.nodes, slaves[time <= lowest * (1 + 1e-9)]
+            # With the traction of slip: more than that must not pass for a solution
+            nodes.multiplier.reshape(nodes.slip.shape)[first] = _on_cone(interface)[first]
+            nodes.close(first)
+        return True
+
+    def _rubbing(self) -> Iterator[tuple[Interface, Coulomb]]:
+        """Contacts with friction."""
+        for interface in self._interfaces:
+            if isinstance(interface.law, Coulomb):
+                yield interface, interface.law
 
     def _springs(self, field: Array) -> Array:
         """Springs at as many dofs as there are modes, where they are most independent."""
@@ -185,3 +280,18 @@ class Holder:
             left = left - np.outer(left @ direction, direction)
             springs[dof] = diagonal[dof]
         return springs
+
+
+def _along(normal: Array, vectors: Array) -> Array:
+    """Parts of vectors along the surface, shape (n, gdim)."""
+    along: Array = vectors - np.einsum("pi,pi->p", normal, vectors)[:, None] * normal
+    return along
+
+
+def _on_cone(interface: Interface) -> Array:
+    """Tractions that slipping nodes have by Coulomb's law, shape (n, gdim)."""
+    nodes = interface.nodes
+    interface.law.evaluate(nodes)
+    excess = _along(nodes.normal, nodes.value.reshape(nodes.normal.shape))
+    tractions: Array = nodes.multiplier.reshape(nodes.normal.shape) - excess / nodes.area[:, None]
+    return tractions

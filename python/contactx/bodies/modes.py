@@ -14,8 +14,11 @@ from contactx.bulk import Bulk
 
 type Array = npt.NDArray[np.float64]
 
-# Stiffness against a rigid motion, relative to the diagonal's, that counts as a support
-_SUPPORTED = 1e-10
+# Stiffness against a rigid motion, relative to the diagonal's, that counts as a support: rounding
+# leaves less than 1e-15
+_SUPPORTED = 1e-13
+# And one that lets a body move so far that it may meet others on the way
+_WEAK = 1e-3
 
 
 class RigidModes:
@@ -28,6 +31,8 @@ class RigidModes:
         body: Number of the body of each node, shape (num_nodes,).
         free: For each body the modes that neither Dirichlet conditions nor the bulk's stiffness
             (springs, elastic supports) resist, as columns of coefficients, shape (m, k).
+        weak: For each body those that the bulk's stiffness resists by little, shape (m, j).
+        stiffness: That stiffness, shape (j,).
     """
 
     def __init__(self, bulk: Bulk, bodies: Bodies, x: Array):
@@ -53,6 +58,8 @@ class RigidModes:
         self._bulk = bulk
         self._sprung: list[bool] | None = None
         self.free: list[Array] = []
+        self.weak: list[Array] = []
+        self.stiffness: list[Array] = []
         self.update(x)
 
     @property
@@ -67,8 +74,8 @@ class RigidModes:
 
     @property
     def any_free(self) -> bool:
-        """Whether any body has a free mode."""
-        return any(basis.shape[1] > 0 for basis in self.free)
+        """Whether any body has a free mode, or one that little resists."""
+        return any(basis.shape[1] > 0 for basis in (*self.free, *self.weak))
 
     def at(self, nodes: npt.NDArray[np.int32], x: Array) -> Array:
         """All rigid modes of the bodies of some nodes, at these nodes.
@@ -107,21 +114,59 @@ class RigidModes:
         fixed = self._bulk.markers.reshape(-1, self._gdim) == 1
         first = self._sprung is None
         sprung = self._sprung or []
-        self.free = []
+        self.free, self.weak, self.stiffness = [], [], []
         for b in range(self.count):
             nodes = np.flatnonzero(self.body == b).astype(np.int32)
             modes = self.at(nodes, x)
             held = _null_space(modes[fixed[nodes]], modes.shape[2])
             basis = held
-            # Later on, stresses resist rotations without being a support
-            if held.shape[1] > 0 and (first or sprung[b]):
-                fields = np.zeros((held.shape[1], len(x), self._gdim))
-                fields[:, nodes] = np.einsum("nim,mk->kni", modes, held)
-                basis = held @ _soft(self._bulk.jacobian(), fields.reshape(held.shape[1], -1))
             if first:
-                sprung.append(basis.shape[1] < held.shape[1])
+                sprung.append(False)
+            if held.shape[1] > 0 and not (first or sprung[b]):
+                # Stresses resist rotations without being a support
+                shifts = held @ _null_space(held[self._gdim :], held.shape[1])
+                if shifts.shape[1] > 0:
+                    values, _, scale = self._resistance(nodes, modes, shifts)
+                    sprung[b] = bool(np.abs(values).max() > _SUPPORTED * scale)
+            weak, stiffness = np.zeros((len(held), 0)), np.zeros(0)
+            if held.shape[1] > 0 and (first or sprung[b]):
+                values, vectors, scale = self._resistance(nodes, modes, held)
+                size = np.abs(values)
+                basis = held @ vectors[:, size <= _SUPPORTED * scale]
+                yields = (size > _SUPPORTED * scale) & (size <= _WEAK * scale)
+                weak, stiffness = held @ vectors[:, yields], size[yields]
+                sprung[b] |= basis.shape[1] < held.shape[1]
             self.free.append(basis)
+            self.weak.append(weak)
+            self.stiffness.append(stiffness)
         self._sprung = sprung
+
+    def _resistance(
+        self, nodes: npt.NDArray[np.int32], modes: Array, basis: Array
+    ) -> tuple[Array, Array, float]:
+        """Stiffness of the bulk against motions of a body.
+
+        Args:
+            nodes: Nodes of the body.
+            modes: All of its rigid modes at these nodes.
+            basis: Motions, as columns of coefficients, shape (m, k).
+
+        Returns:
+            Stiffness, shape (k,), the combinations that have it, shape (k, k), and the stiffness
+            against motions that are not rigid.
+        """
+        fields = np.zeros((basis.shape[1], len(self.body), self._gdim))
+        fields[:, nodes] = np.einsum("nim,mk->kni", modes, basis)
+        return _resistance(self._bulk.jacobian(), fields.reshape(basis.shape[1], -1))
+
+
+def by_body(bases: list[Array]) -> Array:
+    """Modes of single bodies as modes of all, in columns."""
+    first = np.cumsum([0, *(basis.shape[1] for basis in bases)])
+    Z = np.zeros((sum(len(basis) for basis in bases), first[-1]))
+    for b, basis in enumerate(bases):
+        Z[b * len(basis) : (b + 1) * len(basis), first[b] : first[b + 1]] = basis
+    return Z
 
 
 def _null_space(rows: Array, size: int) -> Array:
@@ -131,15 +176,14 @@ def _null_space(rows: Array, size: int) -> Array:
     return null
 
 
-def _soft(K: PETSc.Mat, fields: Array) -> Array:
-    """Combinations of fields that a matrix does not resist, shape (k, j)."""
+def _resistance(K: PETSc.Mat, fields: Array) -> tuple[Array, Array, float]:
+    """Stiffness of a matrix against fields, the combinations that have it, and its diagonal's."""
     diagonal = np.abs(K.getDiagonal().array)
     product = np.stack([_multiply(K, field) for field in fields])
     energy = fields @ product.T
     scale = np.einsum("kn,n,kn->k", fields, diagonal, fields).max()
     values, vectors = np.linalg.eigh((energy + energy.T) / 2)
-    soft: Array = vectors[:, np.abs(values) <= _SUPPORTED * scale]
-    return soft
+    return values, vectors, float(scale)
 
 
 def _multiply(K: PETSc.Mat, field: Array) -> Array:

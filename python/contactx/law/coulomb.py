@@ -42,17 +42,37 @@ class Coulomb(Law):
         return np.where(nodes.smooth, 0.0, value)
 
     def set_status(self, nodes: Nodes) -> int:
-        """See ``Law``; on the edge of the cone a node that slips goes on."""
-        edge = np.where(nodes.status == core.SLIP, _EDGE, 1.0)
-        return core.frictional_status(
+        """See ``Law``; on the edge of the cone a node that slips goes on.
+
+        Slip that turns back sticks first. Where that has been tried it turns: a node that opens
+        only on the way back would stick and slip for ever.
+        """
+        before = nodes.status.copy()
+        friction = self.friction(nodes) * np.where(before == core.SLIP, _EDGE, 1.0)
+        core.frictional_status(
             nodes.multiplier,
             nodes.closable_gap,
             nodes.normal,
             nodes.slip,
             nodes.c,
-            self.friction(nodes) * edge,
+            friction,
             nodes.status,
         )
+        # Slip may pull a node off that closes again and again: every fourth time it sticks
+        closing = np.flatnonzero((before == core.OPEN) & (nodes.status == core.SLIP))
+        closing = closing[friction[closing] > 0]
+        nodes.status[closing[nodes.closings[closing] % 4 == 3]] = core.STICK
+        nodes.closings[closing] += 1
+        back = np.flatnonzero((before == core.SLIP) & (nodes.status == core.STICK))
+        if len(back) > 0:
+            traction = nodes.multiplier.reshape(nodes.slip.shape)[back]
+            normal, p = nodes.normal[back], nodes.pressure[back]
+            trial = traction - p[:, None] * normal - nodes.c[back, None] * nodes.slip[back]
+            bound = friction[back] * (p - nodes.c[back] * nodes.gap[back])
+            back = back[np.linalg.norm(trial, axis=1) > bound]
+            nodes.status[back[nodes.turns[back] % 2 == 1]] = core.SLIP
+            nodes.turns[back] += 1
+        return int(np.count_nonzero(nodes.status != before))
 
     def evaluate(self, nodes: Nodes) -> None:
         """See ``Law``."""

@@ -31,6 +31,8 @@ class Nodes:
             multipliers, shape (n, gdim).
         ceded: Whether a node leaves this contact to another one that it closes, shape (n,).
         smooth: Whether friction is left out because a node closes several contacts, shape (n,).
+        turns: How often slip has turned back in this step, shape (n,).
+        closings: How often nodes have closed with slip in this step, shape (n,).
         value: Complementarity function, a force, shape (n * size,).
         by_multiplier: Its derivative, shape (n, size, size).
         by_gap: Its derivative, a view of what the forms read, shape (n * size,).
@@ -60,6 +62,8 @@ class Nodes:
         self.mobile = np.ones((rows, gdim))
         self.ceded = np.zeros(n, dtype=bool)
         self.smooth = np.zeros(n, dtype=bool)
+        self.turns = np.zeros(n, dtype=np.int32)
+        self.closings = np.zeros(n, dtype=np.int32)
         self.value = np.zeros(n * self.size)
         self.by_multiplier = np.zeros((n, self.size, self.size))
         none = np.zeros(0)

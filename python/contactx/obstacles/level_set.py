@@ -21,7 +21,8 @@ class LevelSet(Obstacle):
     """Body where a function is negative; bodies may be where it is positive.
 
     The function need not be a distance: its zero is the surface, and g = f / |grad f| is the
-    distance to first order.
+    distance to first order. A function that changes tells of no movement along its surface: for
+    friction its material is at rest. Plane, Sphere and Cylinder drag what touches them.
     """
 
     usual_mistake = (
