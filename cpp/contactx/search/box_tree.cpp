@@ -53,18 +53,5 @@ void BoxTree::refit(std::span<const Box> boxes)
 {
   if (boxes.size() != _items.size())
     throw std::invalid_argument("refit needs as many boxes as the tree has");
-  // Children come after their parent
-  for (std::size_t i = _nodes.size(); i-- > 0;)
-  {
-    Node& node = _nodes[i];
-    node.box = Box::empty();
-    if (node.right < 0)
-      for (std::int32_t j = node.begin; j < node.end; ++j)
-        node.box.add(boxes[_items[j]]);
-    else
-    {
-      node.box.add(_nodes[i + 1].box);
-      node.box.add(_nodes[node.right].box);
-    }
-  }
+  refit([boxes](std::int32_t i) -> const Box& { return boxes[i]; });
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "box.h"
+#include <concepts>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -25,6 +26,28 @@ public:
   /// @brief Take over moved boxes in the same order as at the build.
   /// @param[in] boxes One box an item.
   void refit(std::span<const Box> boxes);
+
+  /// @brief Take over moved boxes, each asked for once, in the tree's order.
+  /// @param[in] box_of Called as box_of(item), gives the item's box.
+  template <class BoxOf>
+  requires std::invocable<BoxOf, std::int32_t>
+  void refit(BoxOf&& box_of)
+  {
+    // Children come after their parent
+    for (std::size_t i = _nodes.size(); i-- > 0;)
+    {
+      Node& node = _nodes[i];
+      node.box = Box::empty();
+      if (node.right < 0)
+        for (std::int32_t j = node.begin; j < node.end; ++j)
+          node.box.add(box_of(_items[j]));
+      else
+      {
+        node.box.add(_nodes[i + 1].box);
+        node.box.add(_nodes[node.right].box);
+      }
+    }
+  }
 
   /// @brief Visit the items in whose box the distance from a point may be
   /// below a bound, nearest boxes first.
