@@ -8,7 +8,8 @@
 using namespace contactx;
 using namespace contactx::search;
 
-BoxTree::BoxTree(std::span<const Box> boxes) : _items(boxes.size())
+BoxTree::BoxTree(std::span<const Box> boxes)
+    : _items(boxes.size()), _boxes(boxes.size())
 {
   std::iota(_items.begin(), _items.end(), 0);
   if (!boxes.empty())
@@ -31,7 +32,11 @@ void BoxTree::build(std::span<const Box> boxes, std::int32_t begin,
     centres.add(b.lower + b.upper);
   }
   if (end - begin <= leaf_size)
+  {
+    for (std::int32_t i = begin; i < end; ++i)
+      _boxes[i] = boxes[_items[i]];
     return;
+  }
 
   const Vec<3> extent = centres.upper - centres.lower;
   const int axis

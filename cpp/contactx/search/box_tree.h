@@ -40,7 +40,10 @@ public:
       node.box = Box::empty();
       if (node.right < 0)
         for (std::int32_t j = node.begin; j < node.end; ++j)
-          node.box.add(box_of(_items[j]));
+        {
+          _boxes[j] = box_of(_items[j]);
+          node.box.add(_boxes[j]);
+        }
       else
       {
         node.box.add(_nodes[i + 1].box);
@@ -76,7 +79,8 @@ public:
       if (node.right < 0)
       {
         for (std::int32_t i = node.begin; i < node.end; ++i)
-          visit(_items[i]);
+          if (_boxes[i].distance2(p) <= bound2)
+            visit(_items[i]);
         continue;
       }
       Entry a{e.node + 1, _nodes[e.node + 1].box.distance2(p)};
@@ -105,5 +109,6 @@ private:
 
   std::vector<Node> _nodes;
   std::vector<std::int32_t> _items;
+  std::vector<Box> _boxes; // of the items, in their order
 };
 } // namespace contactx::search

@@ -185,13 +185,6 @@ contactx::search::closest_within(const Surface& surface, std::int32_t f,
                       [=]<class F>(F) -> std::optional<Projection>
                       {
                         const auto xf = facet::gather<F>(nodes, x);
-                        // Most facets of a box are farther away than its
-                        // nearest one
-                        Box box = Box::empty();
-                        for (const auto& node : xf)
-                          box.add(pad(node));
-                        if (box.distance2(p) > bound2)
-                          return std::nullopt;
                         const auto q = unpad<F>(p);
                         const auto c = facet::closest_point<F>(xf, q);
                         if (!std::isfinite(c.distance2) or c.distance2 > bound2)
