@@ -144,14 +144,19 @@ void run(Table& table, std::string_view facet)
       {Law::frictionless, "frictionless"},
       {Law::frictional, "frictional"},
       {Law::tied, "tied"}};
+  // A segment has no edges but its vertices
+  const std::vector<std::pair<int, std::string>> features{
+      {facet::interior, "interior"},
+      {1, F::num_edges > 0 ? "edge" : "vertex"},
+      {1 + F::num_edges, "vertex"}};
   for (const auto& [law, law_name] : laws)
     for (std::string_view sliding : {"finite", "small"})
-      for (const int feature : {0, 1, 1 + F::num_edges})
+      for (const auto& [feature, feature_name] : features)
       {
-        const bool vertex = feature > F::num_edges;
-        if ((feature == 1 and vertex and F::num_edges > 0)
-            or (feature > 0 and (law == Law::tied or sliding == "small"))
-            or (F::num_edges == 0 and feature == 1 and false))
+        // These read nothing of the feature
+        if (feature > 0 and (law == Law::tied or sliding == "small"))
+          continue;
+        if (F::num_edges == 0 and &feature == &features.back().first)
           continue;
         const Coefficients c = fill<F>(law, feature, num_pairs);
         const auto cost = [&](std::string_view term)
@@ -163,11 +168,9 @@ void run(Table& table, std::string_view facet)
         const auto rate = [](double t)
         { return t > 0 ? number(1e-6 / t) : std::string("-"); };
         table.row({std::string(facet), law_name, std::string(sliding),
-                   feature == 0 ? "interior"
-                   : vertex     ? "vertex"
-                                : "edge",
-                   rate(gap), rate(residual), rate(stiffness), rate(traction),
-                   rate(constraint), rate(gap + normal + slip + residual),
+                   feature_name, rate(gap), rate(residual), rate(stiffness),
+                   rate(traction), rate(constraint),
+                   rate(gap + normal + slip + residual),
                    rate(stiffness + traction + constraint)});
       }
 }

@@ -30,7 +30,7 @@ public:
   /// @brief Take over moved boxes, each asked for once, in the tree's order.
   /// @param[in] box_of Called as box_of(item), gives the item's box.
   template <class BoxOf>
-  requires std::invocable<BoxOf, std::int32_t>
+    requires std::invocable<BoxOf, std::int32_t>
   void refit(BoxOf&& box_of)
   {
     // Children come after their parent
