@@ -29,7 +29,7 @@ RUN += VTK_DEFAULT_OPENGL_WINDOW=vtkEGLRenderWindow
 endif
 
 .DELETE_ON_ERROR:
-.PHONY: all demo test test-cpp test-python lint format clean help
+.PHONY: all demo test test-cpp test-python bench-core lint format clean help
 
 all: $(INSTALLED)
 
@@ -37,6 +37,7 @@ help:
 	@echo "make          set up .venv, build contactx and install it there"
 	@echo "make demo     solve the Hertz sphere of demos/hertz_sphere.py"
 	@echo "make test     lint, C++ tests, Python tests"
+	@echo "make bench-core  time the kernels and the search"
 	@echo "make lint     check format, style and types"
 	@echo "make format   format C++ and Python"
 	@echo "make clean    remove everything that make made"
@@ -75,6 +76,13 @@ test-cpp: $(DEPENDENCIES)
 
 test-python: $(INSTALLED)
 	$(RUN) $(BIN)/python -m pytest
+
+# Kernels and search on one core: tables, and the same as CSV files.
+bench-core: $(DEPENDENCIES)
+	$(RUN) cmake -S . -B build/bench -G Ninja -DCONTACTX_BENCHMARKS=ON -DCONTACTX_PYTHON=OFF
+	$(RUN) cmake --build build/bench
+	build/bench/bench_kernels build/bench
+	build/bench/bench_search 1000000 build/bench
 
 lint: $(DEPENDENCIES)
 	$(BIN)/clang-format --dry-run --Werror $(CPP_FILES)

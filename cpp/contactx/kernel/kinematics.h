@@ -9,6 +9,18 @@
 
 namespace contactx::kernel
 {
+/// @brief Derivative of the gap over a point that is the projection on a
+/// surface of normal n: n for the slave node, -N_l n for the facet's.
+template <class F>
+Vec<Pair<F>::num_dofs> interior_gap_derivative(const ContactPoint<F>& c)
+{
+  Vec<Pair<F>::num_dofs> dg;
+  for (int a = 0; a <= F::nodes; ++a)
+    for (int k = 0; k < F::gdim; ++k)
+      dg[F::gdim * a + k] = c.normal[k] * c.weight[a];
+  return dg;
+}
+
 /// @brief Kinematics of finite sliding: everything is current.
 template <class Facet>
 struct Finite
@@ -21,7 +33,13 @@ struct Finite
 
   Variation<F> variation() const { return Variation<F>(pair, point); }
 
-  Vec<Pair<F>::num_dofs> gap_derivative() const { return variation().gap; }
+  Vec<Pair<F>::num_dofs> gap_derivative() const
+  {
+    // The projection's movement along the surface does not change the gap
+    if (pair.feature == facet::interior)
+      return interior_gap_derivative(point);
+    return variation().gap;
+  }
 
   Pair<F> pair;
   ContactPoint<F> point;
@@ -43,11 +61,7 @@ struct Small
 
   Vec<Pair<F>::num_dofs> gap_derivative() const
   {
-    Vec<Pair<F>::num_dofs> dg;
-    for (int a = 0; a <= F::nodes; ++a)
-      for (int k = 0; k < F::gdim; ++k)
-        dg[F::gdim * a + k] = point.normal[k] * point.weight[a];
-    return dg;
+    return interior_gap_derivative(point);
   }
 
   Pair<F> pair;

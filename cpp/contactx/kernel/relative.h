@@ -18,17 +18,19 @@ facet_normal_derivative(const facet::Frame<F>& frame, const facet::Local<F>& xi)
   const auto dN = F::derivative(xi);
   std::array<Vec<Pair<F>::num_dofs>, F::gdim> dn{};
   for (int l = 0; l < F::nodes; ++l)
+  {
+    facet::Local<F> dt;
+    for (int b = 0; b < F::tdim; ++b)
+      dt[b] = dN[b][l];
+    const facet::Local<F> y = facet::solve(m, dt);
+    Vec<F::gdim> gradient{}; // of the node's shape function
+    for (int b = 0; b < F::tdim; ++b)
+      gradient = gradient + y[b] * frame.t[b];
+    // n . t_b = 0
     for (int k = 0; k < F::gdim; ++k)
-    {
-      // n . t_b = 0
-      facet::Local<F> w;
-      for (int b = 0; b < F::tdim; ++b)
-        w[b] = -frame.n[k] * dN[b][l];
-      const facet::Local<F> y = facet::solve(m, w);
       for (int q = 0; q < F::gdim; ++q)
-        for (int b = 0; b < F::tdim; ++b)
-          dn[q][F::gdim * (l + 1) + k] += y[b] * frame.t[b][q];
-    }
+        dn[q][F::gdim * (l + 1) + k] = -frame.n[k] * gradient[q];
+  }
   return dn;
 }
 

@@ -45,26 +45,42 @@ struct Variation
     Vec<3> H = m; // m_ab - g k_ab
     H[1] -= c.gap * curvature;
 
+    // Tangents solved with m and with H; the same where the facet is flat
+    std::array<Vec<F::gdim>, F::tdim> dual, along;
+    for (int k = 0; k < F::gdim; ++k)
+    {
+      facet::Local<F> r;
+      for (int b = 0; b < F::tdim; ++b)
+        r[b] = frame.t[b][k];
+      const facet::Local<F> y = facet::solve(m, r);
+      const facet::Local<F> z = F::flat ? y : facet::solve(H, r);
+      for (int b = 0; b < F::tdim; ++b)
+      {
+        dual[b][k] = y[b];
+        along[b][k] = z[b];
+      }
+    }
+
     for (int a = 0; a <= F::nodes; ++a)
     {
+      // Variation of the tangents at fixed xi is dt along a unit vector
+      facet::Local<F> dt{};
+      if (a > 0)
+        for (int b = 0; b < F::tdim; ++b)
+          dt[b] = dN[b][a - 1];
+      const facet::Local<F> slope = facet::solve(H, dt);
+      Vec<F::gdim> gradient{}; // of the node's shape function
+      for (int b = 0; b < F::tdim; ++b)
+        gradient = gradient + dt[b] * dual[b];
+      const double dedge = (a == j + 1) - (a == i + 1);
+
       for (int k = 0; k < F::gdim; ++k)
       {
         const int col = F::gdim * a + k;
-        // Variation of the tangents at fixed xi, along unit vector k
-        facet::Local<F> dt{};
-        if (a > 0)
-          for (int b = 0; b < F::tdim; ++b)
-            dt[b] = dN[b][a - 1];
-
         facet::Local<F> dxi{};
-        const double dedge = (a == j + 1) - (a == i + 1);
         if (interior)
-        {
-          facet::Local<F> r;
           for (int b = 0; b < F::tdim; ++b)
-            r[b] = frame.t[b][k] * c.weight[a] + c.d[k] * dt[b];
-          dxi = facet::solve(H, r);
-        }
+            dxi[b] = c.weight[a] * along[b][k] + c.d[k] * slope[b];
         else if (on_edge)
         {
           const double ds
@@ -73,18 +89,10 @@ struct Variation
         }
 
         // n . t_a = 0 gives the variation of the facet's normal
-        facet::Local<F> w;
-        for (int b = 0; b < F::tdim; ++b)
-          w[b] = -frame.n[k] * dt[b];
+        Vec<F::gdim> dn = -frame.n[k] * gradient;
         if constexpr (!F::flat)
-        {
-          w[0] -= curvature * dxi[1];
-          w[1] -= curvature * dxi[0];
-        }
-        const facet::Local<F> y = facet::solve(m, w);
-        Vec<F::gdim> dn{};
-        for (int b = 0; b < F::tdim; ++b)
-          dn = dn + y[b] * frame.t[b];
+          dn = dn - (curvature * dxi[1]) * dual[0]
+               - (curvature * dxi[0]) * dual[1];
 
         if (!interior)
         {

@@ -8,7 +8,8 @@
 using namespace contactx;
 using namespace contactx::search;
 
-BoxTree::BoxTree(std::span<const Box> boxes) : _items(boxes.size())
+BoxTree::BoxTree(std::span<const Box> boxes)
+    : _items(boxes.size()), _boxes(boxes.size())
 {
   std::iota(_items.begin(), _items.end(), 0);
   if (!boxes.empty())
@@ -31,7 +32,11 @@ void BoxTree::build(std::span<const Box> boxes, std::int32_t begin,
     centres.add(b.lower + b.upper);
   }
   if (end - begin <= leaf_size)
+  {
+    for (std::int32_t i = begin; i < end; ++i)
+      _boxes[i] = boxes[_items[i]];
     return;
+  }
 
   const Vec<3> extent = centres.upper - centres.lower;
   const int axis
@@ -53,18 +58,5 @@ void BoxTree::refit(std::span<const Box> boxes)
 {
   if (boxes.size() != _items.size())
     throw std::invalid_argument("refit needs as many boxes as the tree has");
-  // Children come after their parent
-  for (std::size_t i = _nodes.size(); i-- > 0;)
-  {
-    Node& node = _nodes[i];
-    node.box = Box::empty();
-    if (node.right < 0)
-      for (std::int32_t j = node.begin; j < node.end; ++j)
-        node.box.add(boxes[_items[j]]);
-    else
-    {
-      node.box.add(_nodes[i + 1].box);
-      node.box.add(_nodes[node.right].box);
-    }
-  }
+  refit([boxes](std::int32_t i) -> const Box& { return boxes[i]; });
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "box.h"
+#include <concepts>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -25,6 +26,31 @@ public:
   /// @brief Take over moved boxes in the same order as at the build.
   /// @param[in] boxes One box an item.
   void refit(std::span<const Box> boxes);
+
+  /// @brief Take over moved boxes, each asked for once, in the tree's order.
+  /// @param[in] box_of Called as box_of(item), gives the item's box.
+  template <class BoxOf>
+    requires std::invocable<BoxOf, std::int32_t>
+  void refit(BoxOf&& box_of)
+  {
+    // Children come after their parent
+    for (std::size_t i = _nodes.size(); i-- > 0;)
+    {
+      Node& node = _nodes[i];
+      node.box = Box::empty();
+      if (node.right < 0)
+        for (std::int32_t j = node.begin; j < node.end; ++j)
+        {
+          _boxes[j] = box_of(_items[j]);
+          node.box.add(_boxes[j]);
+        }
+      else
+      {
+        node.box.add(_nodes[i + 1].box);
+        node.box.add(_nodes[node.right].box);
+      }
+    }
+  }
 
   /// @brief Visit the items in whose box the distance from a point may be
   /// below a bound, nearest boxes first.
@@ -53,7 +79,8 @@ public:
       if (node.right < 0)
       {
         for (std::int32_t i = node.begin; i < node.end; ++i)
-          visit(_items[i]);
+          if (_boxes[i].distance2(p) <= bound2)
+            visit(_items[i]);
         continue;
       }
       Entry a{e.node + 1, _nodes[e.node + 1].box.distance2(p)};
@@ -82,5 +109,6 @@ private:
 
   std::vector<Node> _nodes;
   std::vector<std::int32_t> _items;
+  std::vector<Box> _boxes; // of the items, in their order
 };
 } // namespace contactx::search

@@ -3,6 +3,7 @@
 
 #include "pairing.h"
 #include "../facet/gather.h"
+#include "order.h"
 #include <limits>
 #include <stdexcept>
 
@@ -31,11 +32,10 @@ Pairing::Pairing(std::vector<std::int32_t> slave_offsets,
                  std::vector<std::int32_t> master_offsets,
                  std::vector<std::int32_t> master_nodes, int gdim)
     : _slave_offsets(std::move(slave_offsets)),
-      _slave_nodes(std::move(slave_nodes)), _slaves(_slave_nodes),
+      _slave_nodes(std::move(slave_nodes)),
+      _slaves(sorted_unique(_slave_nodes)),
       _master(std::move(master_offsets), std::move(master_nodes), gdim)
 {
-  std::ranges::sort(_slaves);
-  _slaves.erase(std::unique(_slaves.begin(), _slaves.end()), _slaves.end());
   _facet.assign(_slaves.size(), -1);
   _feature.assign(_slaves.size(), facet::interior);
   _xi.assign(2 * _slaves.size(), 0);
@@ -82,22 +82,25 @@ void Pairing::restore(std::span<const std::int32_t> facet,
 
 void Pairing::refit(std::span<const double> x)
 {
-  const std::vector<Box> boxes = _master.boxes(x);
   if (_tree)
-    _tree->refit(boxes);
+    _tree->refit([this, x](std::int32_t f) { return _master.box(f, x); });
   else
-    _tree.emplace(boxes);
+    _tree.emplace(_master.boxes(x));
 }
 
 std::optional<Projection> Pairing::find(std::span<const double> x,
                                         std::span<const double> normals,
-                                        std::int32_t slave, double reach) const
+                                        std::int32_t slave, double reach,
+                                        std::int32_t& hint) const
 {
   const int gdim = _master.gdim();
   const Vec<3> p = padded(x, slave, gdim);
   const auto q = nearest_facet(_master, *_tree, x, p,
-                               padded(normals, slave, gdim), reach);
-  return q ? select(_master, x, p, *q) : q;
+                               padded(normals, slave, gdim), reach, hint);
+  if (!q)
+    return q;
+  hint = q->facet;
+  return select(_master, x, p, *q);
 }
 
 std::optional<Projection> Pairing::keep(std::span<const double> x,
@@ -134,19 +137,27 @@ void Pairing::set(std::size_t i, const std::optional<Projection>& q,
 std::int32_t Pairing::update(std::span<const double> x, double reach,
                              std::span<const std::int8_t> closed)
 {
-  refit(x);
-  const facet::FacetList slave{_slave_offsets, _slave_nodes};
-  const std::vector<double> normals
-      = facet::nodal_normals(slave, x, _master.gdim());
-  std::int32_t changed = 0;
-  for (std::size_t i = 0; i < _slaves.size(); ++i)
+  // What a search needs; where all pairs are kept there is none
+  std::vector<double> normals;
+  if (_order.empty())
+    _order = spatial_order(_slaves, x, _master.gdim());
+  std::int32_t changed = 0, last = -1;
+  for (const std::int32_t i : _order)
   {
     const auto kept = keep(x, i, reach);
     if (kept)
       set(i, kept, x);
     if (kept or _returns[i] >= max_returns)
       continue;
-    const auto q = find(x, normals, _slaves[i], reach);
+    if (normals.empty())
+    {
+      refit(x);
+      normals = facet::nodal_normals({_slave_offsets, _slave_nodes}, x,
+                                     _master.gdim());
+    }
+    if (_facet[i] >= 0)
+      last = _facet[i];
+    const auto q = find(x, normals, _slaves[i], reach, last);
     const std::int32_t now = q ? q->facet : -1;
     const bool same = now == _facet[i] and (!q or q->feature == _feature[i]);
     // On a ridge any normal of the cone will do, but it must not wander
@@ -188,9 +199,10 @@ std::vector<double> Pairing::natural_gaps(std::span<const double> x,
   const std::vector<double> normals
       = facet::nodal_normals({_slave_offsets, _slave_nodes}, x, _master.gdim());
   std::vector<double> gaps;
+  std::int32_t hint = -1;
   for (std::int32_t i : which)
   {
-    const auto q = find(x, normals, _slaves.at(i), reach);
+    const auto q = find(x, normals, _slaves.at(i), reach, hint);
     gaps.push_back(q ? q->gap : std::numeric_limits<double>::quiet_NaN());
   }
   return gaps;
@@ -206,7 +218,8 @@ double Pairing::distance(std::span<const double> x)
     _tree->nearest(p, bound2,
                    [this, &bound2, &p, x](std::int32_t f)
                    {
-                     if (const auto q = closest(_master, f, x, p))
+                     if (const auto q
+                         = closest_within(_master, f, x, p, bound2))
                        bound2 = std::min(bound2, dot(q->d, q->d));
                    });
   }

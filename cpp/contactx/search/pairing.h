@@ -88,7 +88,8 @@ private:
   void refit(std::span<const double> x);
   std::optional<Projection> find(std::span<const double> x,
                                  std::span<const double> normals,
-                                 std::int32_t slave, double reach) const;
+                                 std::int32_t slave, double reach,
+                                 std::int32_t& hint) const;
   std::optional<Projection> keep(std::span<const double> x, std::size_t i,
                                  double reach) const;
   void set(std::size_t i, const std::optional<Projection>& q,
@@ -99,7 +100,8 @@ private:
   std::optional<BoxTree> _tree;
   std::vector<std::int32_t> _facet, _feature;
   std::vector<double> _xi, _cone, _normal;
-  std::vector<std::int32_t> _left; // facet that a node left last
+  std::vector<std::int32_t> _order; // of the searches, near ones in turn
+  std::vector<std::int32_t> _left;  // facet that a node left last
   std::vector<std::int8_t> _returns;
 };
 } // namespace contactx::search

@@ -10,50 +10,74 @@ using namespace contactx::search;
 
 namespace
 {
-/// Beyond the edge or vertex of all facets around it: a ridge or a valley.
-Projection beyond_edge(std::span<const Projection> around, Projection nearest)
+/// What the facets around a feature are to a point.
+struct Around
 {
-  Vec<3> mean{};
-  for (const Projection& q : around)
+  bool any = false;
+  bool penetrated = true; ///< behind all of them
+  Vec<3> mean{};          ///< sum of their normals
+  std::optional<Projection> deepest;
+  /// Of those whose margin holds the projection: the deepest and the one that
+  /// holds it best
+  std::optional<Projection> deepest_inside, inside;
+
+  void add(const Projection& q)
+  {
+    any = true;
+    penetrated = penetrated and q.gap < 0;
     mean = mean + q.normal;
+    if (!deepest or q.gap < deepest->gap)
+      deepest = q;
+    if (q.excess > margin)
+      return;
+    if (!deepest_inside or q.gap < deepest_inside->gap)
+      deepest_inside = q;
+    if (!inside or q.excess < inside->excess)
+      inside = q;
+  }
+};
+
+/// Beyond the edge or vertex of all facets around it: a ridge or a valley.
+Projection beyond_edge(const Around& around, Projection nearest)
+{
   const double distance = norm(nearest.d);
   const bool touching = distance <= 1e-10 * nearest.size;
-  if (!touching and dot(nearest.d, mean) <= 0)
-    return *std::ranges::min_element(around, {}, &Projection::gap);
+  if (!touching and dot(nearest.d, around.mean) <= 0)
+    return *around.deepest;
 
   // On the ridge every normal of the cone is as good: take the middle
-  nearest.normal
-      = touching ? (1 / norm(mean)) * mean : (1 / distance) * nearest.d;
+  nearest.normal = touching ? (1 / norm(around.mean)) * around.mean
+                            : (1 / distance) * nearest.d;
   nearest.gap = distance;
   return nearest;
 }
 } // namespace
 
-std::optional<Projection>
-contactx::search::nearest_facet(const Surface& surface, const BoxTree& tree,
-                                std::span<const double> x, const Vec<3>& p,
-                                const Vec<3>& normal, double reach)
+std::optional<Projection> contactx::search::nearest_facet(
+    const Surface& surface, const BoxTree& tree, std::span<const double> x,
+    const Vec<3>& p, const Vec<3>& normal, double reach, std::int32_t hint)
 {
   std::optional<Projection> best;
   double best2 = reach * reach, bound2 = best2;
   const bool any = dot(normal, normal) == 0;
-  tree.nearest(
-      p, bound2,
-      [&best, &best2, &bound2, &surface, &p, &normal, x, any](std::int32_t f)
-      {
-        const auto q = closest(surface, f, x, p);
-        if (!q or (!any and dot(q->normal, normal) >= 0))
-          return;
-        const double d2 = dot(q->d, q->d);
-        if (d2 < best2 or (d2 == best2 and (!best or f < best->facet)))
-        {
-          best = q;
-          best2 = d2;
-          // Wider, so that rounding in a box's distance hides no tie
-          bound2
-              = std::min(bound2, (1 + 1e-6) * d2 + 1e-28 * q->size * q->size);
-        }
-      });
+  const auto visit
+      = [&best, &best2, &bound2, &surface, &p, &normal, x, any](std::int32_t f)
+  {
+    const auto q = closest_within(surface, f, x, p, bound2);
+    if (!q or (!any and dot(q->normal, normal) >= 0))
+      return;
+    const double d2 = dot(q->d, q->d);
+    if (d2 < best2 or (d2 == best2 and (!best or f < best->facet)))
+    {
+      best = q;
+      best2 = d2;
+      // Wider, so that rounding in a box's distance hides no tie
+      bound2 = std::min(bound2, (1 + 1e-6) * d2 + 1e-28 * q->size * q->size);
+    }
+  };
+  if (hint >= 0)
+    visit(hint);
+  tree.nearest(p, bound2, visit);
   return best;
 }
 
@@ -65,24 +89,16 @@ std::optional<Projection> contactx::search::select(const Surface& surface,
   if (nearest.feature == facet::interior)
     return nearest;
 
-  std::vector<Projection> around;
-  const Projection* inside = nullptr;
-  for (std::int32_t f : surface.star(nearest.facet, nearest.feature))
-    if (const auto q = extended(surface, f, x, p))
-      around.push_back(*q);
-  const bool penetrated
-      = std::ranges::all_of(around, [](auto& q) { return q.gap < 0; });
-  for (const Projection& q : around)
-  {
-    if (q.excess > margin)
-      continue;
-    if (!inside
-        or (penetrated ? q.gap < inside->gap : q.excess < inside->excess))
-      inside = &q;
-  }
-  if (inside)
-    return *inside;
-  if (around.empty() or surface.on_boundary(nearest.facet, nearest.feature))
+  Around around;
+  surface.for_each_around(nearest.facet, nearest.feature,
+                          [&around, &surface, x, &p](std::int32_t f)
+                          {
+                            if (const auto q = extended(surface, f, x, p))
+                              around.add(*q);
+                          });
+  if (around.inside)
+    return around.penetrated ? around.deepest_inside : around.inside;
+  if (!around.any or surface.on_boundary(nearest.facet, nearest.feature))
     return std::nullopt;
   return beyond_edge(around, nearest);
 }

@@ -20,12 +20,14 @@ inline constexpr double margin = 0.05;
 /// @param[in] normal Outward normal at the point; facets whose normal does
 /// not oppose it are passed over. A zero vector accepts every facet.
 /// @param[in] reach Largest distance.
+/// @param[in] hint A facet that may be near, -1 for none: the search is faster,
+/// its result the same.
 /// @return The closest point of that facet, nothing where none is in reach.
 std::optional<Projection> nearest_facet(const Surface& surface,
                                         const BoxTree& tree,
                                         std::span<const double> x,
                                         const Vec<3>& p, const Vec<3>& normal,
-                                        double reach);
+                                        double reach, std::int32_t hint = -1);
 
 /// @brief The projection that contact is measured with.
 ///

@@ -14,23 +14,6 @@ namespace
 /// The facet's area, relative to its diameter, below which it has no normal
 constexpr double degenerate = 1e-14;
 
-/// Local node numbers of a feature of a facet with `num_nodes` nodes.
-std::vector<int> feature_nodes(int num_nodes, int feature)
-{
-  return facet::visit(num_nodes,
-                      [feature]<class F>(F) -> std::vector<int>
-                      {
-                        if (feature == facet::interior)
-                          return {};
-                        if (F::num_edges > 0 and feature <= F::num_edges)
-                        {
-                          const auto [i, j] = F::edges[feature - 1];
-                          return {i, j};
-                        }
-                        return {feature - 1 - F::num_edges};
-                      });
-}
-
 template <std::size_t D>
 Vec<3> pad(const std::array<double, D>& a)
 {
@@ -65,8 +48,7 @@ std::optional<Projection> make(std::int32_t f, const facet::Nodes<F>& x,
 
 Surface::Surface(std::vector<std::int32_t> offsets,
                  std::vector<std::int32_t> nodes, int gdim)
-    : _gdim(gdim), _offsets(std::move(offsets)), _nodes(std::move(nodes)),
-      _vertices(_nodes)
+    : _gdim(gdim), _offsets(std::move(offsets)), _nodes(std::move(nodes))
 {
   if (_offsets.empty() or _offsets.back() != std::ssize(_nodes))
     throw std::invalid_argument("offsets must end at the number of nodes");
@@ -78,96 +60,125 @@ Surface::Surface(std::vector<std::int32_t> offsets,
                                   "four in 3D");
   }
 
-  std::ranges::sort(_vertices);
-  _vertices.erase(std::unique(_vertices.begin(), _vertices.end()),
-                  _vertices.end());
-  std::vector<std::int32_t> position(_nodes.size());
-  _star_offsets.assign(_vertices.size() + 1, 0);
+  const std::vector<std::int32_t> vertices = sorted_unique(_nodes);
+  std::vector<std::int32_t> place(vertices.empty() ? 0 : vertices.back() + 1);
+  for (std::size_t v = 0; v < vertices.size(); ++v)
+    place[vertices[v]] = static_cast<std::int32_t>(v);
+  _vertex.resize(_nodes.size());
+  _star_offsets.assign(vertices.size() + 1, 0);
   for (std::size_t i = 0; i < _nodes.size(); ++i)
   {
-    position[i]
-        = std::ranges::lower_bound(_vertices, _nodes[i]) - _vertices.begin();
-    ++_star_offsets[position[i] + 1];
+    _vertex[i] = place[_nodes[i]];
+    ++_star_offsets[_vertex[i] + 1];
   }
-  for (std::size_t v = 0; v < _vertices.size(); ++v)
+  for (std::size_t v = 0; v < vertices.size(); ++v)
     _star_offsets[v + 1] += _star_offsets[v];
   _stars.resize(_nodes.size());
   std::vector<std::int32_t> next(_star_offsets);
   for (std::int32_t f = 0; f < facets().size(); ++f)
     for (std::int32_t i = _offsets[f]; i < _offsets[f + 1]; ++i)
-      _stars[next[position[i]]++] = f;
+      _stars[next[_vertex[i]]++] = f;
 }
 
-std::vector<std::int32_t> Surface::star(std::int32_t f,
-                                        std::span<const int> local) const
+Surface::Ends Surface::feature_ends(int num_nodes, int feature)
 {
-  if (local.empty())
-    return {f};
-  const auto nodes = facets()[f];
-  const std::size_t v = std::ranges::lower_bound(_vertices, nodes[local[0]])
-                        - _vertices.begin();
-  std::vector<std::int32_t> result;
-  for (std::int32_t i = _star_offsets[v]; i < _star_offsets[v + 1]; ++i)
-  {
-    const auto other = facets()[_stars[i]];
-    if (std::ranges::all_of(
-            local, [&other, &nodes](int l)
-            { return std::ranges::find(other, nodes[l]) != other.end(); }))
-      result.push_back(_stars[i]);
-  }
-  return result;
+  return facet::visit(num_nodes,
+                      [feature]<class F>(F) -> Ends
+                      {
+                        if (F::num_edges > 0 and feature <= F::num_edges)
+                          return F::edges[feature - 1];
+                        const int vertex = feature - 1 - F::num_edges;
+                        return {vertex, vertex};
+                      });
+}
+
+std::int32_t Surface::count_at(std::int32_t f, const Ends& ends) const
+{
+  std::int32_t n = 0;
+  for_each_at(f, ends, [&n](std::int32_t) { ++n; });
+  return n;
 }
 
 std::vector<std::int32_t> Surface::star(std::int32_t f, int feature) const
 {
-  return star(f, feature_nodes(facets()[f].size(), feature));
+  std::vector<std::int32_t> result;
+  for_each_around(f, feature,
+                  [&result](std::int32_t g) { result.push_back(g); });
+  return result;
 }
 
 bool Surface::on_boundary(std::int32_t f, int feature) const
 {
-  const std::vector<int> local = feature_nodes(facets()[f].size(), feature);
-  if (local.empty())
+  if (feature == facet::interior)
     return false;
-  if (local.size() == 2 or _gdim == 2)
-    return star(f, local).size() < 2;
+  const Ends ends = feature_ends(facets()[f].size(), feature);
+  if (ends.first != ends.second or _gdim == 2)
+    return count_at(f, ends) < 2;
   // A vertex is on the boundary where an edge at it has one facet only
-  const std::int32_t vertex = facets()[f][local[0]];
-  for (std::int32_t g : star(f, local))
-  {
-    const auto nodes = facets()[g];
-    const bool open = facet::visit(
-        nodes.size(),
-        [this, nodes, g, vertex]<class F>(F)
-        {
-          return std::ranges::any_of(
-              F::edges,
-              [this, nodes, g, vertex](auto e)
+  const std::int32_t vertex = facets()[f][ends.first];
+  bool open = false;
+  for_each_at(f, ends,
+              [this, vertex, &open](std::int32_t g)
               {
-                const std::array<int, 2> ij{e.first, e.second};
-                return (nodes[e.first] == vertex or nodes[e.second] == vertex)
-                       and star(g, ij).size() < 2;
+                const auto nodes = facets()[g];
+                facet::visit(nodes.size(),
+                             [this, nodes, g, vertex, &open]<class F>(F)
+                             {
+                               for (const auto& e : F::edges)
+                                 if (nodes[e.first] == vertex
+                                     or nodes[e.second] == vertex)
+                                   open = open or count_at(g, e) < 2;
+                             });
               });
-        });
-    if (open)
-      return true;
-  }
-  return false;
+  return open;
+}
+
+Box Surface::box(std::int32_t f, std::span<const double> x) const
+{
+  Box box = Box::empty();
+  for (std::int32_t node : facets()[f])
+    box.add(_gdim == 2 ? pad(facet::point<2>(node, x))
+                       : facet::point<3>(node, x));
+  return box;
 }
 
 std::vector<Box> Surface::boxes(std::span<const double> x) const
 {
-  std::vector<Box> boxes(facets().size(), Box::empty());
+  std::vector<Box> boxes(facets().size());
   for (std::int32_t f = 0; f < facets().size(); ++f)
-    for (std::int32_t node : facets()[f])
-      boxes[f].add(_gdim == 2 ? pad(facet::point<2>(node, x))
-                              : facet::point<3>(node, x));
+    boxes[f] = box(f, x);
   return boxes;
+}
+
+std::vector<std::int32_t>
+contactx::search::sorted_unique(std::span<const std::int32_t> nodes)
+{
+  std::vector<std::int32_t> result;
+  if (nodes.empty())
+    return result;
+  // Marks, not a sort: they are the numbers of a mesh's nodes
+  std::vector<bool> marked(std::ranges::max(nodes) + 1, false);
+  for (std::int32_t node : nodes)
+    marked[node] = true;
+  for (std::size_t node = 0; node < marked.size(); ++node)
+    if (marked[node])
+      result.push_back(static_cast<std::int32_t>(node));
+  return result;
 }
 
 std::optional<Projection> contactx::search::closest(const Surface& surface,
                                                     std::int32_t f,
                                                     std::span<const double> x,
                                                     const Vec<3>& p)
+{
+  return closest_within(surface, f, x, p,
+                        std::numeric_limits<double>::infinity());
+}
+
+std::optional<Projection>
+contactx::search::closest_within(const Surface& surface, std::int32_t f,
+                                 std::span<const double> x, const Vec<3>& p,
+                                 double bound2)
 {
   const auto nodes = surface.facets()[f];
   return facet::visit(nodes.size(),
@@ -176,7 +187,7 @@ std::optional<Projection> contactx::search::closest(const Surface& surface,
                         const auto xf = facet::gather<F>(nodes, x);
                         const auto q = unpad<F>(p);
                         const auto c = facet::closest_point<F>(xf, q);
-                        if (!std::isfinite(c.distance2))
+                        if (!std::isfinite(c.distance2) or c.distance2 > bound2)
                           return std::nullopt;
                         return make<F>(f, xf, c.d, c.feature, c.xi);
                       });

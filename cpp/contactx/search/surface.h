@@ -4,6 +4,7 @@
 #pragma once
 
 #include "../facet/nodal.h"
+#include "../facet/shape.h"
 #include "box.h"
 #include <optional>
 
@@ -27,32 +28,67 @@ public:
   /// @brief Facets of the surface.
   facet::FacetList facets() const { return {_offsets, _nodes}; }
 
-  /// @brief Facets that hold all of the given nodes of facet `f`.
-  /// @param[in] f Facet.
-  /// @param[in] local Local numbers of the nodes on `f`: one for the star of
-  /// a vertex, two for the facets at an edge.
-  std::vector<std::int32_t> star(std::int32_t f,
-                                 std::span<const int> local) const;
-
-  /// @brief Facets that share the feature's nodes with facet `f`.
+  /// @brief Visit the facets that share the feature's nodes with facet `f`, in
+  /// ascending order.
   /// @param[in] f Facet.
   /// @param[in] feature Feature of the facet; its interior gives `f` alone.
+  /// @param[in] visit Called as visit(facet).
+  template <class Visitor>
+  void for_each_around(std::int32_t f, int feature, Visitor&& visit) const
+  {
+    if (feature == facet::interior)
+      visit(f);
+    else
+      for_each_at(f, feature_ends(facets()[f].size(), feature), visit);
+  }
+
+  /// @brief Facets that `for_each_around` visits.
   std::vector<std::int32_t> star(std::int32_t f, int feature) const;
 
   /// @brief Whether a feature of facet `f` lies on the outer edge of the
   /// surface.
   bool on_boundary(std::int32_t f, int feature) const;
 
+  /// @brief Box of a facet.
+  /// @param[in] f Facet.
+  /// @param[in] x Node coordinates (shape=(num_nodes, gdim)), row-major.
+  Box box(std::int32_t f, std::span<const double> x) const;
+
   /// @brief Boxes of the facets.
   /// @param[in] x Node coordinates (shape=(num_nodes, gdim)), row-major.
   std::vector<Box> boxes(std::span<const double> x) const;
 
 private:
+  // Local numbers of two nodes; the same one twice for a vertex
+  using Ends = std::pair<int, int>;
+
+  static Ends feature_ends(int num_nodes, int feature);
+
+  // Visit the facets that hold both of the nodes of facet f
+  template <class Visitor>
+  void for_each_at(std::int32_t f, const Ends& ends, Visitor&& visit) const
+  {
+    const std::int32_t v = _vertex[_offsets[f] + ends.first];
+    const std::int32_t other = _nodes[_offsets[f] + ends.second];
+    for (std::int32_t i = _star_offsets[v]; i < _star_offsets[v + 1]; ++i)
+      if (ends.first == ends.second
+          or std::ranges::find(facets()[_stars[i]], other)
+                 != facets()[_stars[i]].end())
+        visit(_stars[i]);
+  }
+
+  std::int32_t count_at(std::int32_t f, const Ends& ends) const;
+
   int _gdim;
   std::vector<std::int32_t> _offsets, _nodes;
-  // Facets at a node, for nodes numbered in the order of _vertices
-  std::vector<std::int32_t> _vertices, _star_offsets, _stars;
+  // Facets at a node, for nodes in the order of their numbers; _vertex is the
+  // place in that order, for each of _nodes
+  std::vector<std::int32_t> _vertex, _star_offsets, _stars;
 };
+
+/// @brief Nodes in ascending order, each once.
+/// @param[in] nodes Nodes, none negative.
+std::vector<std::int32_t> sorted_unique(std::span<const std::int32_t> nodes);
 
 /// @brief Projection of a point on one facet.
 struct Projection
@@ -75,6 +111,17 @@ struct Projection
 /// @return Nothing where the facet has no area.
 std::optional<Projection> closest(const Surface& surface, std::int32_t f,
                                   std::span<const double> x, const Vec<3>& p);
+
+/// @brief Closest point of a facet that may be near enough to matter.
+/// @param[in] surface Surface.
+/// @param[in] f Facet.
+/// @param[in] x Node coordinates (shape=(num_nodes, gdim)), row-major.
+/// @param[in] p Point.
+/// @param[in] bound2 Squared distance above which the answer is not needed.
+/// @return As `closest`, or nothing where the facet is farther away.
+std::optional<Projection> closest_within(const Surface& surface, std::int32_t f,
+                                         std::span<const double> x,
+                                         const Vec<3>& p, double bound2);
 
 /// @brief Projection on the facet's extended surface, beyond its edges.
 /// @param[in] surface Surface.
