@@ -7,6 +7,7 @@ import pytest
 import stacked_blocks
 from scenes import Blocks, hertz_sphere
 
+import ufl
 from contactx.condensed.solver import CondensedSolver
 from contactx.linear import _rigid_modes
 from dolfinx.mesh import CellType
@@ -135,6 +136,22 @@ def test_five_free_blocks(dim, friction, shear, monkeypatch):
         return problem, contacts
 
     assert_same(*both(create))
+
+
+def test_a_bulk_that_is_not_symmetric():
+    """GMRES takes its place, and the answer is that of the direct solver."""
+
+    def create(solver):
+        scene = Blocks(CellType.hexahedron, n_upper=4, n_lower=3)
+        v = ufl.TestFunction(scene.u.function_space)
+        wind = ufl.as_vector((0.3, 0.0, 0.1))
+        scene.F += ufl.inner(ufl.dot(ufl.grad(scene.u), wind), v) * ufl.dx
+        contact = scene.contact("small")
+        return scene.problem(contact, petsc_options={"pc_type": solver}), [contact]
+
+    direct, condensed = both(create)
+    assert_same(direct, condensed)
+    assert not condensed[2].uncondensed
 
 
 def test_a_hierarchy_is_kept_from_step_to_step():

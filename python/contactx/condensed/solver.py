@@ -19,6 +19,7 @@ from contactx.system import SaddlePointSystem
 # A hierarchy is made anew when it needs so many more iterations than at first
 _TIRED = 1.6
 _SOME = 8
+_SLOW = "the iterations did not converge"
 
 
 class CondensedSolver:
@@ -88,8 +89,10 @@ class CondensedSolver:
         except NotCondensable as reason:
             self._solve_directly(b, x, str(reason))
             return
-        if not self._solve(operator, elimination, blocks, b, x):
-            self._solve_directly(b, x, "the iterations did not converge")
+        # What does not converge twice will not, and each attempt is dear
+        promising = self.direct.count(_SLOW) < 2
+        if not (promising and self._solve(operator, elimination, blocks, b, x)):
+            self._solve_directly(b, x, _SLOW)
 
     def _solve(
         self,
@@ -117,7 +120,8 @@ class CondensedSolver:
         operator.add_law(h, rhs, -1.0)
         rhs.array[:] += elimination.extra(d)
         rhs.array[elimination.eliminated] = 0
-        if not self._krylov(operator, elimination.is_symmetric, rhs, v):
+        is_symmetric = elimination.is_symmetric and _is_symmetric(K)
+        if not self._krylov(operator, is_symmetric, rhs, v):
             return False
         operator.expand(v, work)
         h.axpy(1.0, work)
@@ -197,3 +201,16 @@ class CondensedSolver:
                 ksp.setOperators(self._system.jacobian(springs=self.springs))
                 ksp.solve(b, x)
             ksp.destroy()
+
+
+def _is_symmetric(K: PETSc.Mat) -> bool:
+    """Whether x.Ky = y.Kx for two random vectors: any asymmetry shows, but for chance."""
+    x, y = K.createVecs()
+    work = y.duplicate()
+    rng = np.random.default_rng(0)
+    for vector in (x, y):
+        vector.array[:] = rng.standard_normal(vector.getSize())
+    K.mult(y, work)
+    one, size = x.dot(work), work.norm() * x.norm()
+    K.mult(x, work)
+    return bool(abs(one - y.dot(work)) <= 1e-12 * size)
