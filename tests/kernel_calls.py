@@ -25,6 +25,20 @@ VERTICES = {
 EDGES = {2: [], 3: [(0, 1), (1, 2), (2, 0)], 4: [(0, 1), (1, 3), (3, 2), (2, 0)]}
 
 
+# Random states of each kind of pair, and the kinds: nodes of the facet, feature
+STATES = 100
+CASES = [
+    (2, "interior"),
+    (2, "vertex"),
+    (3, "interior"),
+    (3, "edge"),
+    (3, "vertex"),
+    (4, "interior"),
+    (4, "edge"),
+    (4, "vertex"),
+]
+
+
 @dataclass(frozen=True)
 class Pair:
     """What a kernel reads of one pair: arrays of shape (1 + num_nodes, gdim), the slave first."""
@@ -81,6 +95,25 @@ def call(address: int, w: np.ndarray, shape: tuple[int, ...]) -> np.ndarray:
         out.ctypes.data_as(_DOUBLES), w.ctypes.data_as(_DOUBLES), none, none, None, None, None
     )
     return out
+
+
+def difference(pair: Pair, sliding: str, term: str) -> np.ndarray:
+    """Derivative of a kernel's result with respect to the displacement, by central differences."""
+    h = 1e-5
+    columns = []
+    for i in range(pair.position.size):
+        du = np.zeros(pair.position.size)
+        du[i] = h
+        plus, minus = pair.moved(du), pair.moved(-du)
+        columns.append(
+            (np.ravel(plus.tabulate(sliding, term)) - np.ravel(minus.tabulate(sliding, term)))
+            / (2 * h)
+        )
+    return np.column_stack(columns)
+
+
+def assert_close(computed: np.ndarray, reference: np.ndarray, relative: float) -> None:
+    assert np.abs(computed - reference).max() <= relative * np.abs(reference).max()
 
 
 def random_pair(num_nodes: int, kind: str, rng: np.random.Generator) -> Pair:

@@ -36,6 +36,12 @@ class Pairs:
     data: npt.NDArray[np.float64]
     slip: npt.NDArray[np.float64] | None = None
 
+    @property
+    def normal(self) -> npt.NDArray[np.float64]:
+        """Unit normals that the search found, shape (num_pairs, 3)."""
+        at = core.rigid_layout if self.nodes.shape[1] == 1 else core.pair_layout
+        return self.data[:, at["normal"] : at["normal"] + 3]
+
 
 @dataclass(frozen=True)
 class State:

@@ -194,17 +194,15 @@ class Interface:
         """Forms of the current pairs, one set for each kind of master facet."""
         return self._assembly.forms
 
-    def set_factor(self, stiffness: npt.NDArray[np.float64]) -> None:
+    def set_factor(self, compliance: npt.NDArray[np.float64]) -> None:
         """Set the factor c of the gap: the stiffness of a pair over the slave node's area.
 
         Slave node and master facet are springs in series: where one is much stiffer than the
         other, the softer one decides how fast a gap closes. Any c > 0 has the same solution.
 
         Args:
-            stiffness: Stiffness of each node of the bulk, NaN where it cannot move.
+            compliance: Compliance of each node of the bulk, zero where it cannot move.
         """
-        compliance = np.zeros_like(stiffness)
-        np.divide(1, stiffness, out=compliance, where=stiffness > 0)
         self.nodes.set_factor(compliance[self.slaves] + self.master.compliance(compliance))
 
     def update_gap(self) -> None:

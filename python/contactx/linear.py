@@ -10,6 +10,7 @@ from petsc4py import PETSc
 
 import numpy as np
 
+from contactx.bodies.modes import rigid_modes
 from contactx.bulk import Bulk
 from contactx.callback import keeps_its_error
 from contactx.condensed.blocks import Array
@@ -119,14 +120,13 @@ class Condensed(LinearSolver):
         """
         self._bulk = bulk
         self._system = system
-        self._solver = CondensedSolver(bulk, system, _rigid_modes(x), prefix + "condensed_")
+        self._solver = CondensedSolver(bulk, system, near_null_space(x), prefix + "condensed_")
         size = system.x.getSize()
         self._A = PETSc.Mat().createPython((size, size), self, comm=system.x.comm)
         self._A.setUp()
 
     def begin(self, snes: PETSc.SNES, report: Report) -> None:
         """See ``LinearSolver``."""
-        self._report = report
         self._solver.begin(report)
         snes.setJacobian(self._jacobian, self._A)
         pc = snes.getKSP().getPC()
@@ -165,7 +165,7 @@ class Condensed(LinearSolver):
         self._solver.solve(b, x)
 
     def mult(self, mat: PETSc.Mat, x: PETSc.Vec, y: PETSc.Vec) -> None:
-        """Y = J x; PETSc calls this where the user takes another KSP."""
+        """Multiply, y = J x; PETSc calls this where the user takes another KSP."""
         self._system.assemble_contact().mult(x, y)
         n = self._system.num_bulk
         u, w = self._bulk.jacobian().createVecs()
@@ -180,15 +180,12 @@ class Condensed(LinearSolver):
 _ROUGH = (1e-6, 0.03)
 
 
-def _rigid_modes(x: Array) -> Array:
-    """Orthonormal rigid modes of all nodes, shape (3 or 6, num_nodes * gdim)."""
-    n, gdim = x.shape
-    modes = [np.tile(axis, (n, 1)) for axis in np.eye(gdim)]
-    d = x - x.mean(axis=0)
-    for i in range(gdim):
-        for j in range(i):
-            turn = np.zeros((n, gdim))
-            turn[:, i], turn[:, j] = d[:, j], -d[:, i]
-            modes.append(turn)
-    basis: Array = np.linalg.qr(np.array([m.ravel() for m in modes]).T)[0].T
+def near_null_space(x: Array) -> Array:
+    """Rigid modes of all nodes, orthonormal, shape (3 or 6, num_nodes * gdim).
+
+    Args:
+        x: Positions, shape (num_nodes, gdim).
+    """
+    modes = rigid_modes(x - x.mean(axis=0))
+    basis: Array = np.linalg.qr(modes.reshape(x.size, -1))[0].T
     return basis

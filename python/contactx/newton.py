@@ -118,8 +118,10 @@ class NewtonLoop:
             with report.timing("bulk stiffness"):
                 stiffness = self._bulk.nodal_stiffness()
             self._judge.begin(stiffness)
+            compliance = np.zeros_like(stiffness)
+            np.divide(1, stiffness, out=compliance, where=stiffness > 0)
             for interface in self._interfaces:
-                interface.set_factor(stiffness)
+                interface.set_factor(compliance)
             self._holder.begin_step()
             self._guard.begin_step()
             self._changes = self._settle(first=True)
@@ -200,7 +202,7 @@ class NewtonLoop:
                 interface.master.forget_flips()
         for interface in self._interfaces:
             interface.nodes.drop_open()
-        if self._holder.hold(self._system.displacement_residual(), self._judge.scale()):
+        if self._holder.hold(self._system.displacement_residual, self._judge.scale()):
             self._hold(True)
         for interface in self._interfaces:
             interface.law.evaluate(interface.nodes)

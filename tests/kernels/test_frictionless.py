@@ -4,45 +4,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from kernel_calls import Pair, random_pair, shape
+from kernel_calls import CASES, STATES, assert_close, difference, random_pair, shape
 
 from contactx import cpp as core
-
-STATES = 100
-CASES = [
-    (2, "interior"),
-    (2, "vertex"),
-    (3, "interior"),
-    (3, "edge"),
-    (3, "vertex"),
-    (4, "interior"),
-    (4, "edge"),
-    (4, "vertex"),
-]
 
 
 def pairs(num_nodes: int, kind: str):
     rng = np.random.default_rng(1000 * num_nodes + len(kind))
     return [random_pair(num_nodes, kind, rng) for _ in range(STATES)]
-
-
-def difference(pair: Pair, sliding: str, term: str) -> np.ndarray:
-    """Derivative of a kernel's result with respect to the displacement, by central differences."""
-    h = 1e-5
-    columns = []
-    for i in range(pair.position.size):
-        du = np.zeros(pair.position.size)
-        du[i] = h
-        plus, minus = pair.moved(du), pair.moved(-du)
-        columns.append(
-            (np.ravel(plus.tabulate(sliding, term)) - np.ravel(minus.tabulate(sliding, term)))
-            / (2 * h)
-        )
-    return np.column_stack(columns)
-
-
-def assert_close(computed: np.ndarray, reference: np.ndarray, relative: float) -> None:
-    assert np.abs(computed - reference).max() <= relative * np.abs(reference).max()
 
 
 @pytest.mark.parametrize(("num_nodes", "kind"), CASES)

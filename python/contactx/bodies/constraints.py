@@ -46,11 +46,10 @@ def pair_rows(
     for pairs in interface.master.pairs():
         num_pairs, width = pairs.nodes.shape
         weight = np.ones((num_pairs, width))
-        at = core.rigid_layout if width == 1 else core.pair_layout
         if width > 1:
-            xi = np.ascontiguousarray(pairs.data[:, at["xi"] : at["xi"] + 2])
+            at = core.pair_layout["xi"]
+            xi = np.ascontiguousarray(pairs.data[:, at : at + 2])
             weight[:, 1:] = -core.shape_functions(width - 1, xi)
-        normal = pairs.data[:, at["normal"] : at["normal"] + gdim]
         size = gdim * (gdim + 1) // 2
         movement = np.zeros((num_pairs, gdim, modes.count, size))
         pair = np.arange(num_pairs)
@@ -58,4 +57,4 @@ def pair_rows(
             node = pairs.nodes[:, a]
             field = weight[:, a, None, None] * modes.at(node, x)
             movement[pair, :, modes.body[node]] += field
-        yield pairs, PairRows(normal, movement.reshape(num_pairs, gdim, -1))
+        yield pairs, PairRows(pairs.normal[:, :gdim], movement.reshape(num_pairs, gdim, -1))

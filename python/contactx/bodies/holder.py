@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
 import numpy.typing as npt
@@ -56,7 +56,7 @@ class Holder:
         self._begins = True
 
     def begin_step(self) -> None:
-        """Find the free modes of the rigid."""
+        """Find the free modes of the bodies."""
         x = self._interfaces[0].positions()
         if self._modes is None:
             self._modes = RigidModes(self._bulk, self._bodies, x)
@@ -66,11 +66,12 @@ class Holder:
         self._stiffness = None
         self._begins = True
 
-    def hold(self, force: Array, scale: float) -> bool:
+    def hold(self, residual: Callable[[], Array], scale: float) -> bool:
         """Find what to add to the Jacobian at an iterate, and close nodes that must hold a body.
 
         Args:
-            force: Residual of the displacements without Dirichlet rows, shape (num_dofs,).
+            residual: Gives the residual of the displacements without Dirichlet rows, shape
+                (num_dofs,); called only where a body might need to be held.
             scale: Forces of the problem.
 
         Returns:
@@ -85,7 +86,7 @@ class Holder:
         nodes = np.arange(len(x), dtype=np.int32)
         modes = rigid.at(nodes, x)
         size = modes.shape[2]
-        per_node = np.einsum("nim,ni->nm", modes, -force.reshape(-1, gdim))
+        per_node = np.einsum("nim,ni->nm", modes, -residual().reshape(-1, gdim))
         pull = np.zeros((rigid.count, size))
         np.add.at(pull, rigid.body, per_node)
         closed_any = self._begins and self._close_before_springs(x, pull.ravel())

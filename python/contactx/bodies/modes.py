@@ -88,22 +88,7 @@ class RigidModes:
             Displacements, shape (n, gdim, m) with m = 3 in 2D and 6 in 3D.
         """
         b = self.body[nodes]
-        d = (x[nodes] - self._middle[b]) / self._radius[b][:, None]
-        n, gdim = d.shape
-        if gdim == 2:
-            turn = np.stack([-d[:, 1], d[:, 0]], axis=1)[:, :, None]
-        else:
-            zero = np.zeros(n)
-            turn = np.stack(
-                [
-                    np.stack([zero, -d[:, 2], d[:, 1]], axis=1),
-                    np.stack([d[:, 2], zero, -d[:, 0]], axis=1),
-                    np.stack([-d[:, 1], d[:, 0], zero], axis=1),
-                ],
-                axis=2,
-            )
-        shift = np.tile(np.eye(gdim), (n, 1, 1))
-        return np.concatenate([shift, turn], axis=2)
+        return rigid_modes((x[nodes] - self._middle[b]) / self._radius[b][:, None])
 
     def update(self, x: Array) -> None:
         """Find the free modes in another configuration.
@@ -158,6 +143,32 @@ class RigidModes:
         fields = np.zeros((basis.shape[1], len(self.body), self._gdim))
         fields[:, nodes] = np.einsum("nim,mk->kni", modes, basis)
         return _resistance(self._bulk.jacobian(), fields.reshape(basis.shape[1], -1))
+
+
+def rigid_modes(d: Array) -> Array:
+    """Translations, then rotations about the origin.
+
+    Args:
+        d: Positions, shape (n, gdim).
+
+    Returns:
+        Displacements, shape (n, gdim, m) with m = 3 in 2D and 6 in 3D.
+    """
+    n, gdim = d.shape
+    if gdim == 2:
+        turn = np.stack([-d[:, 1], d[:, 0]], axis=1)[:, :, None]
+    else:
+        zero = np.zeros(n)
+        turn = np.stack(
+            [
+                np.stack([zero, -d[:, 2], d[:, 1]], axis=1),
+                np.stack([d[:, 2], zero, -d[:, 0]], axis=1),
+                np.stack([-d[:, 1], d[:, 0], zero], axis=1),
+            ],
+            axis=2,
+        )
+    shift = np.tile(np.eye(gdim), (n, 1, 1))
+    return np.concatenate([shift, turn], axis=2)
 
 
 def by_body(bases: list[Array]) -> Array:

@@ -50,7 +50,7 @@ class CondensedOperator:
         self._z, self._w = K.createVecs()
 
     def bulk(self, z: PETSc.Vec, w: PETSc.Vec) -> None:
-        """W = (K + S) z."""
+        """Multiply by the bulk, w = (K + S) z."""
         self._K.mult(z, w)
         if self._S is not None:
             self._S.multAdd(z, w, w)
@@ -58,27 +58,27 @@ class CondensedOperator:
             w.array[:] += self._springs * z.array_r
 
     def expand(self, v: PETSc.Vec, z: PETSc.Vec) -> None:
-        """Z = (I + right) v: all displacements."""
+        """Give all displacements, z = (I + right) v."""
         v.copy(z)
         if self._right is not None:
             self._right.multAdd(v, z, z)
 
     def combine(self, w: PETSc.Vec, y: PETSc.Vec) -> None:
-        """Y = (I + left) w, zero in the eliminated rows."""
+        """Combine rows, y = (I + left) w, zero in the eliminated ones."""
         w.copy(y)
         if self._left is not None:
             self._left.multAdd(w, y, y)
         y.array[self._taken] = 0
 
     def add_law(self, z: PETSc.Vec, y: PETSc.Vec, sign: float) -> None:
-        """Y += sign law z."""
+        """Add the law's rows, y += sign law z."""
         if self._law is not None:
             work = y.duplicate()
             self._law.mult(z, work)
             y.axpy(sign, work)
 
     def mult(self, mat: PETSc.Mat, v: PETSc.Vec, y: PETSc.Vec) -> None:
-        """Y = K_c v; PETSc calls this."""
+        """Multiply, y = K_c v; PETSc calls this."""
         self.expand(v, self._z)
         self.bulk(self._z, self._w)
         self.combine(self._w, y)

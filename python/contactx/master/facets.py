@@ -189,8 +189,7 @@ class FacetMaster(Master):
         at = core.pair_layout
         for pairs in self.pairs():
             squares = _free_squares(pairs, pairs.data[:, at["xi"] : at["xi"] + 2], free)
-            normal = pairs.data[:, at["normal"] : at["normal"] + gdim]
-            along[pairs.slaves] = np.sqrt((normal**2 * squares).sum(axis=1))
+            along[pairs.slaves] = np.sqrt((pairs.normal[:, :gdim] ** 2 * squares).sum(axis=1))
             if pairs.slip is not None:
                 xi = pairs.slip[:, _AT["xi"] : _AT["xi"] + 2]
                 each[pairs.slaves] = np.sqrt(_free_squares(pairs, xi, free))

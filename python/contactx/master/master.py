@@ -11,7 +11,6 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from contactx import cpp as core
 from contactx.forms import Pairs
 
 
@@ -113,8 +112,7 @@ class Master(ABC):
         """Unit normals that the last search found, zero where there is no pair, shape (n, 3)."""
         normals = np.zeros((len(self.paired), 3))
         for pairs in self.pairs():
-            at = core.rigid_layout if pairs.nodes.shape[1] == 1 else core.pair_layout
-            normals[pairs.slaves] = pairs.data[:, at["normal"] : at["normal"] + 3]
+            normals[pairs.slaves] = pairs.normal
         return normals
 
     @abstractmethod
