@@ -65,7 +65,9 @@ class Bulk:
         # Those that are left once UFL has differentiated: none is u where the bulk is linear
         self._coefficients = list(self.J._cpp_object.coefficients)
         self.is_linear = all(c is not u._cpp_object for c in self._coefficients)
-        self._A: PETSc.Mat | None = None
+        self._A: PETSc.Mat = None
+        self._rows: PETSc.Mat | None = None
+        self._symmetric: bool | None = None
         self._assembled_with: list[npt.NDArray[np.float64]] | None = None
         self.markers = np.zeros(len(u.x.array), dtype=np.int8)
         for bc in self.bcs:
@@ -93,27 +95,73 @@ class Bulk:
         displacement: npt.NDArray[np.float64] = self.u.x.array - self.dirichlet_defect()
         return displacement
 
-    def jacobian(self) -> PETSc.Mat:
-        """Jacobian, with unit rows and columns at Dirichlet conditions.
+    def renew(self) -> None:
+        """Assemble the Jacobian where a coefficient or a constant of the form has changed.
 
-        It is assembled again only where a coefficient or a constant of the form has changed: one
-        that does not depend on the displacement is assembled once.
+        One that does not depend on the displacement is assembled once.
         """
-        if self._A is None:
-            self._A = dolfinx.fem.petsc.create_matrix(self.J)
-        parameters = [fem.pack_constants(self.J), *(c.x.array.copy() for c in self._coefficients)]
-        unchanged = self._assembled_with is not None and all(
-            map(np.array_equal, parameters, self._assembled_with)
-        )
-        if unchanged:
+        if not self._assemble():
             self.skipped += 1
-            return self._A
+
+    def jacobian(self) -> PETSc.Mat:
+        """Jacobian, with unit rows and columns at Dirichlet conditions."""
+        self.renew()
+        return self._A if self._A.getType() == "seqaij" else self.copy()
+
+    def copy(self) -> PETSc.Mat:
+        """Copy of the Jacobian in rows."""
+        A = self.matrix()
+        return A.copy() if A.getType() == "seqaij" else A.convert("aij", PETSc.Mat())
+
+    def matrix(self) -> PETSc.Mat:
+        """The same for products, of whatever type it is kept as."""
+        self._assemble()
+        return self._A
+
+    def rows(self, dofs: npt.NDArray[np.integer]) -> PETSc.Mat:
+        """Some rows of the Jacobian, for nobody to change.
+
+        Args:
+            dofs: Which ones, in order; the same ones every time.
+        """
+        A = self.matrix()
+        if self._rows is None:
+            some = PETSc.IS().createGeneral(dofs, comm=PETSc.COMM_SELF)
+            every = PETSc.IS().createStride(A.getSize()[1], comm=PETSc.COMM_SELF)
+            self._rows = A.createSubMatrix(some, every)
+        return self._rows
+
+    @property
+    def is_symmetric(self) -> bool:
+        """Whether the Jacobian is symmetric."""
+        self._assemble()
+        if self._symmetric is None:
+            self._symmetric = _is_symmetric(self._A)
+        return self._symmetric
+
+    def keep_half(self) -> None:
+        """Keep only half of a Jacobian that stays and is symmetric: half the memory to pass."""
+        if self.is_linear and self._A.getType() == "seqaij" and self.is_symmetric:
+            whole = self._A
+            whole.setOption(PETSc.Mat.Option.SYMMETRIC, True)
+            self._A = whole.convert("sbaij", PETSc.Mat())
+            whole.destroy()
+
+    def _assemble(self) -> bool:
+        parameters = [fem.pack_constants(self.J), *(c.x.array.copy() for c in self._coefficients)]
+        if self._assembled_with is not None and all(
+            map(np.array_equal, parameters, self._assembled_with)
+        ):
+            return False
+        if self._A is None or self._A.getType() != "seqaij":
+            self._A = dolfinx.fem.petsc.create_matrix(self.J)
         self._A.zeroEntries()
         dolfinx.fem.petsc.assemble_matrix(self._A, self.J, bcs=self.bcs)
         self._A.assemble()
         self._assembled_with = parameters
+        self._symmetric = self._rows = None
         self.assemblies += 1
-        return self._A
+        return True
 
     def nodal_stiffness(self) -> npt.NDArray[np.float64]:
         """Stiffness of each node: the mean of its free diagonal entries, force/length.
@@ -121,7 +169,7 @@ class Bulk:
         Returns:
             Stiffness, shape (num_nodes,); NaN where all of a node's dofs are prescribed.
         """
-        diagonal: npt.NDArray[np.float64] = np.abs(self.jacobian().getDiagonal().array)
+        diagonal: npt.NDArray[np.float64] = np.abs(self.matrix().getDiagonal().array)
         block = self.u.function_space.dofmap.index_map_bs
         free = (self.markers == 0).reshape(-1, block)
         total = np.where(free, diagonal.reshape(-1, block), 0).sum(axis=1)
@@ -129,3 +177,16 @@ class Bulk:
         stiffness = np.full(len(count), np.nan)
         np.divide(total, count, out=stiffness, where=count > 0)
         return stiffness
+
+
+def _is_symmetric(K: PETSc.Mat) -> bool:
+    """Whether x.Ky = y.Kx for two random vectors: any asymmetry shows, but for chance."""
+    x, y = K.createVecs()
+    work = y.duplicate()
+    rng = np.random.default_rng(0)
+    for vector in (x, y):
+        vector.array[:] = rng.standard_normal(vector.getSize())
+    K.mult(y, work)
+    one, size = x.dot(work), work.norm() * x.norm()
+    K.mult(x, work)
+    return bool(abs(one - y.dot(work)) <= 1e-12 * size)

@@ -139,10 +139,8 @@ class Condensed(LinearSolver):
 
     def aim(self, residual: float, tolerance: float, changing: float) -> None:
         """See ``LinearSolver``; a changing status needs no more than its change shows."""
-        needed = 0.1 * tolerance / residual if residual > 0 else 1.0
-        if changing > 0:
-            needed = max(needed, float(np.clip(0.1 * changing, *_ROUGH)))
-        self._solver.rtol = float(np.clip(needed, 1e-13, 0.1))
+        rough = float(np.clip(0.1 * changing, *_ROUGH)) if changing > 0 else 0.0
+        self._solver.target = max(0.1 * tolerance, rough * residual)
 
     def let_go(self) -> None:
         """See ``LinearSolver``; the matrix refers back to it."""
@@ -168,9 +166,9 @@ class Condensed(LinearSolver):
         """Multiply, y = J x; PETSc calls this where the user takes another KSP."""
         self._system.assemble_contact().mult(x, y)
         n = self._system.num_bulk
-        u, w = self._bulk.jacobian().createVecs()
+        u, w = self._bulk.matrix().createVecs()
         u.array[:] = x.array_r[:n]
-        self._bulk.jacobian().mult(u, w)
+        self._bulk.matrix().mult(u, w)
         y.array[:n] += w.array_r
         if self._solver.springs is not None:
             y.array[:n] += self._solver.springs * u.array_r

@@ -55,7 +55,7 @@ def test_one_solve(cell, law, sliding):
     exact = np.linalg.solve(J, b)
     x = contact.interface.state.position.array.reshape(-1, system.block)
     solver = CondensedSolver(problem._bulk, system, near_null_space(x), "one_solve_")
-    solver.rtol = 1e-13
+    solver.target = 1e-13 * np.linalg.norm(b)
     right, result = system.x.duplicate(), system.x.duplicate()
     right.array[:] = b
     solver.solve(right, result)

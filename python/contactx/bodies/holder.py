@@ -272,7 +272,7 @@ class Holder:
 
     def _springs(self, field: Array) -> Array:
         """Springs at as many dofs as there are modes, where they are most independent."""
-        diagonal = np.abs(self._bulk.jacobian().getDiagonal().array)
+        diagonal = np.abs(self._bulk.matrix().getDiagonal().array)
         springs = np.zeros(len(field))
         left = np.where(self._bulk.markers[:, None] == 1, 0.0, field)
         for _ in range(field.shape[1]):

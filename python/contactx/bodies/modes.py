@@ -142,7 +142,7 @@ class RigidModes:
         """
         fields = np.zeros((basis.shape[1], len(self.body), self._gdim))
         fields[:, nodes] = np.einsum("nim,mk->kni", modes, basis)
-        return _resistance(self._bulk.jacobian(), fields.reshape(basis.shape[1], -1))
+        return _resistance(self._bulk.matrix(), fields.reshape(basis.shape[1], -1))
 
 
 def rigid_modes(d: Array) -> Array:

@@ -6,6 +6,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from petsc4py import PETSc
+
 import numpy as np
 
 from contactx import cpp as core
@@ -31,6 +33,7 @@ class Elimination:
         right: Change of the displacements, entries (dof, dof).
         law: Rows of the law that are added, entries (dof, dof).
         eliminated: Displacements that the constraints give, shape (k,).
+        slave_dofs: Displacements of all slave nodes, in order.
         is_symmetric: Whether ``left`` is the transpose of ``right`` and there is no ``law``.
     """
 
@@ -60,6 +63,8 @@ class Elimination:
         self._recover: list[tuple[Index, Index, Array]] = []
         self._open: list[tuple[Index, Array]] = []
         self._slips = False
+        slaves = np.unique(np.concatenate([i.slaves for i in interfaces]))
+        self.slave_dofs = (slaves[:, None] * gdim + np.arange(gdim)).ravel().astype(PETSc.IntType)
         first = 0
         for interface in interfaces:
             self._add(interface, first)

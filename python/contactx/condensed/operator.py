@@ -4,11 +4,14 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from petsc4py import PETSc
 
 import numpy as np
 
-from contactx.condensed.blocks import Array, ContactBlocks, Entries
+from contactx.bulk import Bulk
+from contactx.condensed.blocks import Array, ContactBlocks, Entries, Index
 from contactx.condensed.elimination import Elimination
 
 
@@ -19,12 +22,14 @@ class CondensedOperator:
     entries in contact rows alone.
 
     Attributes:
-        diagonal: Entries that stand for the eliminated displacements, shape (num_dofs,).
+        diagonal: Entries that stand for the eliminated displacements, shape (k,).
+        eliminated: The eliminated displacements, shape (k,).
+        is_symmetric: Whether the condensed matrix is symmetric.
     """
 
     def __init__(
         self,
-        K: PETSc.Mat,
+        bulk: Bulk,
         blocks: ContactBlocks,
         elimination: Elimination,
         springs: Array | None,
@@ -32,22 +37,26 @@ class CondensedOperator:
         """Create the operator.
 
         Args:
-            K: Jacobian of the bulk with unit rows at Dirichlet conditions.
+            bulk: The bulk.
             blocks: Contact blocks of the Jacobian.
             elimination: How the multipliers are eliminated.
             springs: What is added to the diagonal, shape (num_dofs,).
         """
-        self._K = K
-        size = K.getSize()[0]
+        self._bulk = bulk
+        self._K = bulk.matrix()
+        size = self._K.getSize()[0]
+        self.is_symmetric = bulk.is_symmetric and elimination.is_symmetric
         self._S = _sparse(blocks.stiffness, size)
         self._left = _sparse(elimination.left, size)
         self._right = _sparse(elimination.right, size)
         self._law = _sparse(elimination.law, size)
         self._elimination = elimination
         self._springs = springs
-        self._taken = elimination.eliminated
-        self.diagonal = np.abs(K.getDiagonal().array)[self._taken]
-        self._z, self._w = K.createVecs()
+        self.slave_dofs = elimination.slave_dofs
+        self.eliminated = elimination.eliminated
+        self.diagonal = np.abs(self._K.getDiagonal().array)[self.eliminated]
+        self._z, self._w = self._K.createVecs()
+        self._work = self._w.duplicate()
 
     def bulk(self, z: PETSc.Vec, w: PETSc.Vec) -> None:
         """Multiply by the bulk, w = (K + S) z."""
@@ -68,14 +77,13 @@ class CondensedOperator:
         w.copy(y)
         if self._left is not None:
             self._left.multAdd(w, y, y)
-        y.array[self._taken] = 0
+        y.array[self.eliminated] = 0
 
     def add_law(self, z: PETSc.Vec, y: PETSc.Vec, sign: float) -> None:
         """Add the law's rows, y += sign law z."""
         if self._law is not None:
-            work = y.duplicate()
-            self._law.mult(z, work)
-            y.axpy(sign, work)
+            self._law.mult(z, self._work)
+            y.axpy(sign, self._work)
 
     def mult(self, mat: PETSc.Mat, v: PETSc.Vec, y: PETSc.Vec) -> None:
         """Multiply, y = K_c v; PETSc calls this."""
@@ -83,32 +91,71 @@ class CondensedOperator:
         self.bulk(self._z, self._w)
         self.combine(self._w, y)
         self.add_law(self._z, y, 1.0)
-        y.array[self._taken] = self.diagonal * v.array_r[self._taken]
+        y.array[self.eliminated] = self.diagonal * v.array_r[self.eliminated]
 
-    def assembled(self) -> PETSc.Mat:
-        """(I + right)^T (K + S) (I + right): symmetric, without what friction adds."""
+    def change(self) -> Change:
+        """What contact changes in the bulk's matrix, without what friction adds."""
         size = self._K.getSize()[0]
-        every = np.arange(size)
-        right = self._elimination.right
-        T = Entries(
-            np.concatenate([every, right.rows]),
-            np.concatenate([every, right.columns]),
-            np.concatenate([np.ones(size), right.values]),
-        ).matrix(size)
-        K = self._K
-        if self._S is not None:
-            K = K.copy()
-            K.axpy(1.0, self._S, PETSc.Mat.Structure.DIFFERENT_NONZERO_PATTERN)
-        A = K.ptap(T)
-        extra = np.zeros(size)
-        extra[self._taken] = self.diagonal
+        order = np.sort(self.eliminated).astype(PETSc.IntType)
+        eliminated = PETSc.IS().createGeneral(order, comm=PETSc.COMM_SELF)
+        places = np.searchsorted(self.slave_dofs, order).astype(PETSc.IntType)
+        chosen = PETSc.IS().createGeneral(places, comm=PETSc.COMM_SELF)
+        whole = PETSc.IS().createStride(size, comm=PETSc.COMM_SELF)
+        block = self._bulk.rows(self.slave_dofs).createSubMatrix(chosen, eliminated)
+        right = (self._right or _empty(size)).createSubMatrix(eliminated, whole)
+        springs = None
         if self._springs is not None:
-            extra += np.where(np.isin(every, self._taken), 0.0, self._springs)
-        diagonal = A.createVecRight()
-        diagonal.array[:] = extra
-        A.setDiagonal(diagonal, addv=PETSc.InsertMode.ADD)
-        return A
+            held = np.setdiff1d(np.flatnonzero(self._springs), order)
+            springs = Entries(held, held, self._springs[held]).matrix(size)
+        return Change(places, right, block, springs, self._bound())
+
+    def _bound(self) -> PETSc.Vec:
+        """Diagonal D with which the condensed matrix has no larger eigenvalue than the bulk's.
+
+        With K <= lambda D_K and displacements sum_l R_sl v_l of the eliminated s, Cauchy's
+        inequality gives D = D_K + sum_s D_s (sum_l |R_sl|) |R_s|.
+        """
+        bound = self._K.getDiagonal()
+        D = np.abs(bound.array_r)
+        R = self._elimination.right
+        R = R.select(R.rows != R.columns)
+        size = np.abs(R.values)
+        total = np.bincount(R.rows, size, len(D))
+        D = D + np.bincount(R.columns, (D * total)[R.rows] * size, len(D))
+        if self._S is not None:
+            indptr, _, values = self._S.getValuesCSR()
+            rows = np.repeat(np.arange(len(D)), np.diff(indptr))
+            D += np.bincount(rows, np.abs(values), len(D))
+        if self._springs is not None:
+            D += self._springs
+        bound.array[:] = D
+        bound.array[self.eliminated] = self.diagonal
+        return bound
+
+
+@dataclass(frozen=True)
+class Change:
+    """What contact changes in the bulk's matrix K, by the eliminated displacements e in order.
+
+    Attributes:
+        places: Their places among the displacements of the slave nodes, shape (k,).
+        right: Their rows of ``right``, (k, num_dofs).
+        block: Block K_ee, (k, k).
+        springs: Springs elsewhere, (num_dofs, num_dofs); None where there are none.
+        bound: Diagonal with which the eigenvalues stay those of the bulk.
+    """
+
+    places: Index
+    right: PETSc.Mat
+    block: PETSc.Mat
+    springs: PETSc.Mat | None
+    bound: PETSc.Vec
 
 
 def _sparse(entries: Entries, size: int) -> PETSc.Mat | None:
     return entries.matrix(size) if len(entries.rows) > 0 else None
+
+
+def _empty(size: int) -> PETSc.Mat:
+    none = np.zeros(0, dtype=np.int64)
+    return Entries(none, none, np.zeros(0)).matrix(size)

@@ -1,0 +1,72 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""What contact changes in the bulk's matrix, on every level of a hierarchy."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from petsc4py import PETSc
+
+import numpy as np
+
+from contactx.condensed.operator import Change
+
+_DIFFERENT = PETSc.Mat.Structure.DIFFERENT_NONZERO_PATTERN
+# Part of the eliminated displacements that may have changed for a hierarchy to serve as it is
+_FEW = 0.05
+
+
+class Galerkin:
+    """Adds Q^T (T^T K T - K + springs) Q to the matrices of the coarser levels, T = I + right.
+
+    T differs from one in the rows of eliminated displacements e alone: with X = R_e Q, Y = K_e Q
+    and M = X^T (Y + K_ee X / 2) it is M + M^T and the springs, products of few rows. What the
+    turning of normals adds to K is left to the finest level.
+    """
+
+    def __init__(self, slave_rows: PETSc.Mat, prolongations: Sequence[PETSc.Mat]):
+        """Create the projections.
+
+        Args:
+            slave_rows: Rows of the bulk's matrix at the displacements of all slave nodes.
+            prolongations: To the finest level, to the next coarser one, and so on.
+        """
+        self._prolongations = list(prolongations)
+        self._rows = [slave_rows]
+        for Q in prolongations:
+            self._rows.append(self._rows[-1].matMult(Q))
+        self._added: list[PETSc.Mat | None] = [None for _ in prolongations]
+        self._followed = np.zeros(0, dtype=PETSc.IntType)
+
+    def follows(self, part: Change) -> bool:
+        """Whether the matrices are those of nearly the same eliminated displacements."""
+        new = np.setxor1d(part.places, self._followed, assume_unique=True)
+        return part.springs is None and len(new) <= _FEW * len(part.places)
+
+    def update(self, part: Change, matrices: Sequence[PETSc.Mat]) -> None:
+        """Bring the matrices of the coarser levels from one state of the contacts to another.
+
+        Args:
+            part: What contact changes now.
+            matrices: Matrices of the levels, in the order of the prolongations.
+        """
+        X, springs = part.right, part.springs
+        chosen = PETSc.IS().createGeneral(part.places, comm=PETSc.COMM_SELF)
+        levels = zip(self._prolongations, self._rows[1:], matrices, strict=True)
+        for level, (Q, rows, A) in enumerate(levels):
+            X = X.matMult(Q)
+            every = PETSc.IS().createStride(Q.getSize()[1], comm=PETSc.COMM_SELF)
+            Y = part.block.matMult(X)
+            Y.scale(0.5)
+            Y.axpy(1.0, rows.createSubMatrix(chosen, every), _DIFFERENT)
+            change = X.transposeMatMult(Y)
+            change.axpy(1.0, change.transpose(PETSc.Mat()), _DIFFERENT)
+            if springs is not None:
+                springs = springs.ptap(Q)
+                change.axpy(1.0, springs, _DIFFERENT)
+            before, self._added[level] = self._added[level], change.copy()
+            if before is not None:
+                change.axpy(-1.0, before, _DIFFERENT)
+            A.axpy(1.0, change, _DIFFERENT)
+        self._followed = part.places

@@ -1,0 +1,215 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""CG or GMRES with PETSc's algebraic multigrid, kept from one condensed matrix to the next."""
+
+from __future__ import annotations
+
+from petsc4py import PETSc
+
+import numpy as np
+
+from contactx.bulk import Bulk
+from contactx.condensed.blocks import Array, Index
+from contactx.condensed.galerkin import Galerkin
+from contactx.condensed.operator import Change, CondensedOperator
+from contactx.options import multigrid_options
+from contactx.report import Report
+
+# Iterations that cost what a hierarchy costs, as measured from 7,000 to 160,000 displacements
+_COST = 40
+_MAX_IT = 400
+# Relative residual that rounding allows
+_ROUNDING = 1e-13
+
+
+class Multigrid:
+    """A Krylov solver with a hierarchy of the bulk that follows the contact.
+
+    Aggregates and prolongations are those of the bulk without contact, made once. What contact
+    changes in the condensed matrix is few rows, and its projections are added to the matrices of
+    the coarser levels, so these are always the Galerkin products of the current matrix. On the
+    finest level the condensed matrix is applied as it is.
+
+    Where the bulk's own matrix changes the hierarchy is made anew once it has cost as many
+    iterations too many as a new one costs, or where the iterations do not converge with it.
+
+    Attributes:
+        iterations: Krylov iterations.
+        hierarchies: Hierarchies made.
+    """
+
+    def __init__(self, bulk: Bulk, modes: Array, block: int, prefix: str):
+        """Create a solver.
+
+        Args:
+            bulk: The bulk.
+            modes: Rigid modes of the whole, orthonormal, shape (k, num_dofs).
+            block: Displacements a node.
+            prefix: Prefix of the PETSc options.
+        """
+        self._bulk = bulk
+        # Rows of prescribed displacements have a one and no neighbours
+        self._modes = np.where(bulk.markers == 1, 0.0, modes)
+        self._block = block
+        self._prefix = prefix
+        self._ksp: PETSc.KSP | None = None
+        # Iterations for a reduction by e while the hierarchy was new, and those lost since
+        self._rate = self._lost = 0.0
+        self._built_at = 0
+        self._smoothers: list[PETSc.KSP] = []
+        self.iterations = self.hierarchies = 0
+        size = len(bulk.markers)
+        self._A = PETSc.Mat().createPython((size, size), comm=PETSc.COMM_SELF)
+
+    def solve(
+        self,
+        operator: CondensedOperator,
+        rhs: PETSc.Vec,
+        v: PETSc.Vec,
+        target: float,
+        report: Report,
+    ) -> bool:
+        """Solve operator v = rhs.
+
+        Args:
+            operator: The condensed matrix.
+            rhs: Right-hand side.
+            v: Solution, overwritten.
+            target: What the norm of the residual must fall below.
+            report: Report whose times are added to.
+
+        Returns:
+            Whether the iterations converged.
+        """
+        self._A.setPythonContext(operator)
+        self._A.setUp()
+        change = operator.change()
+        if self._lost > _COST:
+            self.forget()
+        if self._ksp is None:
+            self._build(operator.slave_dofs, report)
+        followed = self._galerkin.follows(change)
+        self._follow(change, report, coarse=not followed)
+        if self._iterate(operator, rhs, v, target, report):
+            return True
+        if followed:
+            self._follow(change, report)
+            if self._iterate(operator, rhs, v, target, report):
+                return True
+        if self._built_at != self._bulk.assemblies:
+            self._build(operator.slave_dofs, report)
+            self._follow(change, report)
+            if self._iterate(operator, rhs, v, target, report):
+                return True
+        self.forget()
+        return False
+
+    def forget(self) -> None:
+        """Forget the hierarchy: two at once would be the largest part of the memory."""
+        if self._ksp is not None:
+            self._ksp.destroy()
+        self._ksp = None
+
+    def _iterate(
+        self,
+        operator: CondensedOperator,
+        rhs: PETSc.Vec,
+        v: PETSc.Vec,
+        target: float,
+        report: Report,
+    ) -> bool:
+        ksp = self._ksp
+        assert ksp is not None
+        is_symmetric = operator.is_symmetric
+        ksp.setType("cg" if is_symmetric else "gmres")
+        ksp.setPCSide(PETSc.PC.Side.LEFT if is_symmetric else PETSc.PC.Side.RIGHT)
+        ksp.setNormType(PETSc.KSP.NormType.UNPRECONDITIONED)
+        ksp.setTolerances(rtol=_ROUNDING, atol=target, max_it=_MAX_IT)
+        with report.timing("Krylov"):
+            ksp.solve(rhs, v)
+        count = ksp.getIterationNumber()
+        self.iterations += count
+        reduction = max(1.0, np.log(rhs.norm() / max(target, _ROUNDING * rhs.norm())))
+        if self._built_at == self._bulk.assemblies:
+            self._rate = max(self._rate, count / reduction)
+        else:
+            self._lost += max(0.0, count - self._rate * reduction)
+        return bool(ksp.getConvergedReason() > 0)
+
+    def _build(self, slave_dofs: Index, report: Report) -> None:
+        with report.timing("hierarchy"):
+            self._make(slave_dofs)
+        self._built_at = self._bulk.assemblies
+        self._rate = self._lost = 0.0
+        self.hierarchies += 1
+
+    def _make(self, slave_dofs: Index) -> None:
+        self.forget()
+        P = self._bulk.copy()
+        P.setBlockSize(self._block)
+        vectors = []
+        for mode in self._modes:
+            vector = P.createVecRight()
+            vector.array[:] = mode
+            vectors.append(vector)
+        P.setNearNullSpace(PETSc.NullSpace().create(vectors=vectors))
+        self._ksp = ksp = PETSc.KSP().create(comm=PETSc.COMM_SELF)
+        ksp.setOptionsPrefix(self._prefix)
+        pc = ksp.getPC()
+        pc.setType("gamg")
+        ksp.setOperators(self._A, P)
+        with multigrid_options(self._prefix).in_database():
+            ksp.setFromOptions()
+            ksp.setUp()
+        # From here on the finest level needs a diagonal alone
+        self._D = PETSc.Mat().createDiagonal(P.getDiagonal())
+        ksp.setOperators(self._A, self._D)
+        if pc.getType() != "gamg":
+            raise ValueError(
+                f"option {self._prefix}pc_type: the condensed solver knows gamg alone, not "
+                f"{pc.getType()}; for a direct solver of the whole set pc_type to lu"
+            )
+        levels = pc.getMGLevels()
+        if levels == 1:
+            # A handful of unknowns
+            pc.setType("jacobi")
+            self._smoothers = [ksp]
+        else:
+            pc.setReusePreconditioner(True)
+            smoothers = [pc.getMGSmoother(level) for level in range(levels - 1, 0, -1)]
+            self._smoothers = [*smoothers, pc.getMGCoarseSolve()]
+            direct = self._smoothers[-1].getPC()
+            direct.setType("lu")
+            direct.setFactorShift(PETSc.Mat.FactorShiftType.INBLOCKS)
+        for level, smoother in enumerate(self._smoothers):
+            smoother.getPC().setReusePreconditioner(False)
+            if 0 < level < levels - 1:
+                # Contact adds eigenvalues that no estimate of the bulk foresees; this needs none
+                smoother.setType("richardson")
+                smoother.getPC().setType("sor")
+        self._galerkin = Galerkin(
+            self._bulk.rows(slave_dofs),
+            [pc.getMGInterpolation(level) for level in range(levels - 1, 0, -1)],
+        )
+
+    def _follow(self, change: Change, report: Report, *, coarse: bool = True) -> None:
+        """Bring the hierarchy up to what contact makes of the matrix.
+
+        Args:
+            change: What contact changes in the bulk's matrix.
+            report: Report whose times are added to.
+            coarse: Whether on the coarser levels too.
+        """
+        finest, *coarser = self._smoothers
+        with report.timing("condensation"):
+            self._D.setDiagonal(change.bound)
+            # PETSc looks at a matrix that has changed in place only where it is set again
+            finest.setOperators(self._A, self._D)
+            if not coarse or not coarser:
+                return
+            matrices = [smoother.getOperators()[0] for smoother in coarser]
+            self._galerkin.update(change, matrices)
+            # Nor does it see that a pattern has changed
+            coarser[-1].getPC().reset()
+            for smoother, A in zip(coarser, matrices, strict=True):
+                smoother.setOperators(A, A)
