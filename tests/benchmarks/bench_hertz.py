@@ -4,8 +4,8 @@
 
 Process CPU seconds on one thread from the read mesh to the converged solution, and the largest
 memory above the read mesh; each run in a process of its own, on the same mesh. Small and finite
-sliding with the solver that contactx takes by itself; MUMPS on the saddle point up to h = 0.01, and
-how far its answer is.
+sliding with the solver that contactx takes by itself; up to h = 0.01 with the other one too, MUMPS
+on the saddle point or the condensed one, and how far apart their answers are.
 
     python tests/benchmarks/bench_hertz.py 0.02 0.01
 """
@@ -18,15 +18,18 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import runner
 import tables
 
-import numpy as np
-
 SIZES = (0.04, 0.02, 0.01, 0.005)
 # MUMPS takes minutes and gigabytes below
-SMALLEST_DIRECT = 0.01
+SMALLEST_COMPARED = 0.01
 PEERS = Path(__file__).with_name("peers.csv")
+
+# Marks the solver that contactx takes by itself
+DEFAULT = " *"
+_OPTIONS = {"default": {}, "direct": {"pc_type": "lu"}, "condensed": {"pc_type": "condensed"}}
 
 COLUMNS = [
     ("h", "h", "g"),
@@ -37,14 +40,14 @@ COLUMNS = [
     ("Krylov", "krylov", "d"),
     ("hier.", "hierarchies", "d"),
     ("CPU s", "cpu", ".2f"),
-    (": MUMPS", "ratio", ".2f"),
+    (": direct", "ratio", ".2f"),
     ("MB", "memory", ".0f"),
     ("4F", "force", ".7f"),
     ("p0_err", "p0_err", ".3f"),
     ("p_l2", "p_l2", ".4f"),
     ("pen", "pen", ".1e"),
-    ("u - MUMPS", "u_difference", ".1e"),
-    ("F - MUMPS", "force_difference", ".1e"),
+    ("du", "u_difference", ".1e"),
+    ("dF", "force_difference", ".1e"),
 ]
 
 
@@ -54,16 +57,15 @@ def measure(path: str, sliding: str, solver: str, keep: str) -> dict[str, Any]:
     Args:
         path: File of the mesh.
         sliding: "finite" or "small".
-        solver: "default" or "MUMPS".
+        solver: "default", "direct" or "condensed".
         keep: File to write displacement and force to.
     """
     import hertz_case
     import scenes
 
     data = hertz_case.read_mesh(path)
-    options = {"petsc_options": {"pc_type": "lu"}} if solver == "MUMPS" else {}
     meter = runner.Meter()
-    scene = scenes.HertzSphere(data, sliding, **options)
+    scene = scenes.HertzSphere(data, sliding, petsc_options=_OPTIONS[solver])
     scene.problem.solve()
     measured = meter.read()
     problem, contact = scene.problem, scene.contact
@@ -71,15 +73,17 @@ def measure(path: str, sliding: str, solver: str, keep: str) -> dict[str, Any]:
     return {**hertz_case.counts(problem), **measured, **hertz_case.errors(problem, contact)}
 
 
-def compare(row: dict[str, Any], direct: dict[str, Any], folder: Path) -> None:
-    """Add to a row how far its answer is from another one on the same mesh."""
-    ours, theirs = (np.load(_answer(r, folder)) for r in (row, direct))
-    if not np.array_equal(ours["x"], theirs["x"]):
+def compare(one: dict[str, Any], other: dict[str, Any]) -> None:
+    """Add to both rows how far apart their answers on the same mesh are, and the ratio of times."""
+    first, second = (np.load(row["keep"]) for row in (one, other))
+    if not np.array_equal(first["x"], second["x"]):
         raise RuntimeError("the nodes of the same mesh came in another order")
-    row["ratio"] = row["cpu"] / direct["cpu"]
-    for name, key in (("u", "u_difference"), ("force", "force_difference")):
-        size = np.linalg.norm(theirs[name])
-        row[key] = float(np.linalg.norm(ours[name] - theirs[name]) / size)
+    direct = one if one["took"] == "direct" else other
+    for row in (one, other):
+        row["ratio"] = row["cpu"] / direct["cpu"]
+        for name, key in (("u", "u_difference"), ("force", "force_difference")):
+            size = np.linalg.norm(first[name])
+            row[key] = float(np.linalg.norm(first[name] - second[name]) / size)
 
 
 def run(sizes: Sequence[float]) -> list[dict[str, Any]]:
@@ -87,24 +91,31 @@ def run(sizes: Sequence[float]) -> list[dict[str, Any]]:
     import hertz_case
 
     rows = []
-    with tempfile.TemporaryDirectory() as name:
-        folder = Path(name)
+    with tempfile.TemporaryDirectory() as folder:
         for h in sizes:
             path = str(hertz_case.mesh_file(h))
             for sliding in ("small", "finite"):
-                solvers = ("MUMPS", "default") if h >= SMALLEST_DIRECT else ("default",)
-                found = []
-                for solver in solvers:
-                    job = {"path": path, "sliding": sliding, "solver": solver}
-                    keep = str(_answer({"h": h, **job}, folder))
-                    row = runner.alone("bench_hertz:measure", **job, keep=keep)
-                    found.append({"h": h, **row})
-                if len(found) == 2 and not any("failed" in row for row in found):
-                    compare(found[1], found[0], folder)
-                rows += found
+                row = _run_one(h, path, sliding, "default", folder)
+                rows.append(row)
+                if h < SMALLEST_COMPARED or "failed" in row:
+                    continue
+                other = "condensed" if row["took"] == "direct" else "direct"
+                rows.append(_run_one(h, path, sliding, other, folder))
+                if "failed" not in rows[-1]:
+                    compare(row, rows[-1])
     for row in rows:
-        row.pop("path"), row.pop("keep")
+        for name in ("path", "keep"):
+            del row[name]
     return rows
+
+
+def _run_one(h: float, path: str, sliding: str, solver: str, folder: str) -> dict[str, Any]:
+    keep = f"{folder}/{h:g}_{sliding}_{solver}.npz"
+    job = {"path": path, "sliding": sliding, "solver": solver, "keep": keep}
+    row = runner.alone("bench_hertz:measure", **job)
+    if solver == "default" and "took" in row:
+        row["solver"] = row["took"] + DEFAULT
+    return {"h": h, **row}
 
 
 def draw(rows: Sequence[dict[str, Any]], path: Path) -> None:
@@ -112,9 +123,9 @@ def draw(rows: Sequence[dict[str, Any]], path: Path) -> None:
     import pictures
 
     groups: dict[str, list[dict[str, Any]]] = {}
-    for row in rows:
-        if "failed" not in row:
-            groups.setdefault(f"contactx, {row['sliding']} sliding, {row['solver']}", []).append(row)
+    for row in sorted(rows, key=lambda row: not row["solver"].endswith(DEFAULT)):
+        solver = "default" if row["solver"].endswith(DEFAULT) else "the other solver"
+        groups.setdefault(f"contactx, {row['sliding']} sliding, {solver}", []).append(row)
     ours = len(groups)
     for row in tables.read(PEERS):
         groups.setdefault(f"{row['peer']}, {row['setting']}", []).append(row)
@@ -137,7 +148,9 @@ def main(argv: Sequence[str]) -> list[dict[str, Any]]:
     """Measure, print and draw."""
     warm_up()
     rows = run([float(h) for h in argv] or SIZES)
-    tables.show("Common Hertz problem", COLUMNS, rows, runner.OUTPUT / "hertz.csv")
+    tables.show(
+        f"Common Hertz problem;{DEFAULT} by default", COLUMNS, rows, runner.OUTPUT / "hertz.csv"
+    )
     draw(rows, runner.OUTPUT / "hertz.png")
     return rows
 
@@ -148,15 +161,9 @@ def warm_up() -> None:
 
     path = str(hertz_case.mesh_file(0.2))
     with tempfile.TemporaryDirectory() as name:
-        keep = str(Path(name) / "answer.npz")
-        job = {"path": path, "sliding": "small", "solver": "default", "keep": keep}
-        result = runner.alone("bench_hertz:measure", **job)
+        result = _run_one(0.2, path, "small", "default", name)
     if "failed" in result:
         raise RuntimeError(f"not even a coarse mesh is solved: {result['failed']}")
-
-
-def _answer(row: dict[str, Any], folder: Path) -> Path:
-    return folder / f"{row['h']:g}_{row['sliding']}_{row['solver']}.npz"
 
 
 if __name__ == "__main__":

@@ -4,21 +4,21 @@
 
 from __future__ import annotations
 
+import inspect
+import shutil
 import tempfile
 from pathlib import Path
 from typing import Any
 
-import runner
-import scenes
-
 from mpi4py import MPI
 
 import numpy as np
+import runner
+import scenes
 from matplotlib.tri import LinearTriInterpolator, Triangulation
 
 import contactx as cx
 from contactx import meshes, reference
-from contactx.meshes import Tag
 from dolfinx.io import XDMFFile
 from dolfinx.io.gmsh import MeshData
 
@@ -39,6 +39,9 @@ def mesh_file(h: float) -> Path:
     folder = runner.OUTPUT / "meshes"
     folder.mkdir(parents=True, exist_ok=True)
     made = folder / f"hertz_{h:g}"
+    source = Path(inspect.getfile(meshes.hertz_sphere))
+    if made.exists() and made.stat().st_mtime < source.stat().st_mtime:
+        shutil.rmtree(made)
     if not made.exists():
         with tempfile.TemporaryDirectory(dir=folder) as work:
             result = runner.alone("hertz_case:write_mesh", h=h, folder=work)
@@ -78,6 +81,7 @@ def counts(problem: cx.ContactProblem) -> dict[str, Any]:
     report = problem.report
     return {
         "dofs": len(problem.u.x.array),
+        "took": "condensed" if report.hierarchies or report.krylov else "direct",
         "iterations": report.iterations,
         "krylov": report.krylov,
         "hierarchies": report.hierarchies,

@@ -14,8 +14,8 @@ from matplotlib.ticker import FuncFormatter, NullFormatter
 from contactx.plot.style import COLOURS, DOTS_PER_INCH, INK
 
 _MARKERS = "osD^vP*X<>p"
-_PEERS = ("#5b7f95", "#8aa05a", "#7d6aa8", "#3f8f86", "#a8795a", "#7a7f87")
-_OURS = (COLOURS[3], COLOURS[2], COLOURS[4], INK)
+_OTHERS = ("#5b7f95", "#7f9a3d", "#7d6aa8", "#2f9a8e", "#a8693f", "#7a7f87")
+_OURS = ((COLOURS[3], "-"), (COLOURS[2], "-"), (COLOURS[3], ":"), (COLOURS[2], ":"))
 
 
 def lines(
@@ -30,7 +30,8 @@ def lines(
     """Draw a line for each group in each of several pairs of logarithmic axes.
 
     Args:
-        groups: Rows by the name of their line; a row without one of an axis's values is left out.
+        groups: Rows by the name of their line, what they have in common before a comma; a row
+            without one of an axis's values is left out.
         path: The image file.
         ours: How many of the groups, the first ones, stand out.
         axes: Keys of abscissa and ordinate of each picture.
@@ -39,22 +40,14 @@ def lines(
     """
     figure = Figure(figsize=(6.4 * len(axes), 6.6), layout="constrained")
     handles: dict[str, Any] = {}
+    families = list(dict.fromkeys(name.split(",")[0] for name in list(groups)[ours:]))
     for axis, (x, y) in zip(figure.subplots(1, len(axes), squeeze=False)[0], axes, strict=True):
         for k, (name, rows) in enumerate(groups.items()):
             points = sorted((row[x], row[y]) for row in rows if x in row and y in row)
             if not points:
                 continue
-            (handles[name],) = axis.plot(
-                *zip(*points, strict=True),
-                color=_OURS[k % len(_OURS)] if k < ours else _PEERS[(k - ours) % len(_PEERS)],
-                marker="o" if k < ours else _MARKERS[(k - ours) % len(_MARKERS)],
-                lw=2.2 if k < ours else 1.0,
-                ms=7 if k < ours else 6,
-                mec="white",
-                mew=0.6,
-                alpha=1.0 if k < ours else 0.85,
-                zorder=3 if k < ours else 2,
-            )
+            style = _style(k, name, ours, families)
+            (handles[name],) = axis.plot(*zip(*points, strict=True), mec="white", mew=0.6, **style)
         axis.set_xscale("log")
         axis.set_yscale("log")
         axis.set_xlabel(words[x])
@@ -70,3 +63,12 @@ def lines(
     )
     path.parent.mkdir(parents=True, exist_ok=True)
     figure.savefig(path, dpi=DOTS_PER_INCH, facecolor="white")
+
+
+def _style(k: int, name: str, ours: int, families: Sequence[str]) -> dict[str, Any]:
+    if k < ours:
+        colour, line = _OURS[k % len(_OURS)]
+        return {"color": colour, "ls": line, "marker": "o", "lw": 2.2, "ms": 7, "zorder": 3}
+    colour = _OTHERS[families.index(name.split(",")[0]) % len(_OTHERS)]
+    marker = _MARKERS[(k - ours) % len(_MARKERS)]
+    return {"color": colour, "marker": marker, "lw": 1.0, "ms": 6.5, "zorder": 2}

@@ -16,6 +16,8 @@ import time
 from pathlib import Path
 from typing import Any
 
+import contactx  # noqa: F401  # before any script here imports dolfinx
+
 ROOT = Path(__file__).parents[2]
 OUTPUT = ROOT / "build" / "bench"
 
@@ -78,8 +80,6 @@ def _memory(name: str) -> float:
 
 
 if __name__ == "__main__":
-    import contactx  # noqa: F401  # before dolfinx
-
     module, name = sys.argv[1].split(":")
     answer = getattr(importlib.import_module(module), name)(**json.loads(sys.argv[2]))
     print(json.dumps(answer))

@@ -29,7 +29,9 @@ def show(title: str, columns: Sequence[Column], rows: Sequence[dict[str, Any]], 
         rows: Values by their keys; one that is missing is left out.
         path: CSV file, with all values of the rows.
     """
-    table = Table(*(heading for heading, _, _ in columns), title=title)
+    table = Table(title=title, padding=(0, 0, 0, 1), pad_edge=False)
+    for heading, _, form in columns:
+        table.add_column(heading, justify="left" if form == "s" else "right", overflow="fold")
     for row in rows:
         table.add_row(*(_text(row.get(key), form) for _, key, form in columns))
     console.print(table)
