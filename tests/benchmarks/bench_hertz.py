@@ -86,18 +86,26 @@ def compare(one: dict[str, Any], other: dict[str, Any]) -> None:
             row[key] = float(np.linalg.norm(first[name] - second[name]) / size)
 
 
-def run(sizes: Sequence[float]) -> list[dict[str, Any]]:
-    """Measure all sizes."""
+def run(
+    sizes: Sequence[float], *, slidings: Sequence[str] = ("small", "finite"), compared: bool = True
+) -> list[dict[str, Any]]:
+    """Measure all sizes.
+
+    Args:
+        sizes: Cell sizes.
+        slidings: Kinematics.
+        compared: Whether the other solver runs too where that does not take too long.
+    """
     import hertz_case
 
     rows = []
     with tempfile.TemporaryDirectory() as folder:
         for h in sizes:
             path = str(hertz_case.mesh_file(h))
-            for sliding in ("small", "finite"):
+            for sliding in slidings:
                 row = _run_one(h, path, sliding, "default", folder)
                 rows.append(row)
-                if h < SMALLEST_COMPARED or "failed" in row:
+                if not compared or h < SMALLEST_COMPARED or "failed" in row:
                     continue
                 other = "condensed" if row["took"] == "direct" else "direct"
                 rows.append(_run_one(h, path, sliding, other, folder))
