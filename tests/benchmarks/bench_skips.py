@@ -15,6 +15,7 @@ import runner
 import tables
 
 SIZES = (0.01,)
+TITLE = "What each rule saves (with it : without it)"
 
 COLUMNS = [
     ("h", "h", "g"),
@@ -23,6 +24,7 @@ COLUMNS = [
     ("dofs", "dofs", "d"),
     ("it", "it", "s"),
     ("Krylov", "krylov", "s"),
+    ("pairs", "pairs", "s"),
     ("CPU s", "cpu", ".2f"),
     ("without", "cpu_off", ".2f"),
     ("ratio", "ratio", ".2f"),
@@ -33,7 +35,7 @@ COLUMNS = [
 ]
 
 
-def measure(path: str, rule: str, off: bool) -> dict[str, Any]:
+def measure(path: str, h: float, rule: str, off: bool) -> dict[str, Any]:
     """Solve in this process, watched."""
     import hertz_case
     import parts
@@ -45,7 +47,7 @@ def measure(path: str, rule: str, off: bool) -> dict[str, Any]:
     with (skip.replaced if off else skips.nullcontext)():
         meter = runner.Meter()
         with clock.watching():
-            problem = skip.problem(data, off=off)
+            problem = skip.problem(data, max(2, round(0.14 / h)), off=off)
             problem.solve()
         cpu = meter.read()["cpu"]
     part = {"part_cpu": clock.seconds[skip.part]} if skip.part else {}
@@ -59,12 +61,14 @@ def measure(path: str, rule: str, off: bool) -> dict[str, Any]:
     }
 
 
-def both(path: str, rule: str) -> dict[str, Any]:
+def both(h: float, path: str, rule: str) -> dict[str, Any]:
     """A row with the rule and without it."""
-    on, off = (runner.alone("bench_skips:measure", path=path, rule=rule, off=o) for o in (0, 1))
+    job = {"path": path, "h": h, "rule": rule}
+    on, off = (runner.alone("bench_skips:measure", **job, off=o) for o in (False, True))
     if "failed" in on or "failed" in off:
-        return {"rule": rule, "failed": on.get("failed") or f"without it: {off['failed']}"}
-    row = {key: on[key] for key in ("rule", "instead", "part", "dofs", "cpu")}
+        why = on.get("failed") or f"without it: {off['failed']}"
+        return {"h": h, "rule": rule, "failed": why}
+    row = {key: on[key] for key in ("h", "rule", "instead", "part", "dofs", "cpu")}
     for key, name in (("iterations", "it"), ("krylov", "krylov"), ("pairs", "pairs")):
         row[name] = f"{on[key]} : {off[key]}"
     row |= {"cpu_off": off["cpu"], "ratio": off["cpu"] / on["cpu"]}
@@ -82,13 +86,11 @@ def main(argv: Sequence[str]) -> list[dict[str, Any]]:
 
     bench_hertz.warm_up()
     rows = [
-        {"h": h, **both(str(hertz_case.mesh_file(h)), rule)}
+        both(h, str(hertz_case.mesh_file(h)), rule)
         for h in [float(h) for h in argv] or SIZES
         for rule in skips.SKIPS
     ]
-    tables.show(
-        "What each rule saves: without it, with it", COLUMNS, rows, runner.OUTPUT / "skips.csv"
-    )
+    tables.show(TITLE, COLUMNS, rows, runner.OUTPUT / "skips.csv")
     return rows
 
 
