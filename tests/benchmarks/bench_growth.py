@@ -14,6 +14,8 @@ import sys
 from collections.abc import Sequence
 from typing import Any
 
+import bench_hertz
+import pictures
 import runner
 import tables
 
@@ -38,9 +40,6 @@ COLUMNS = [
 
 def main(argv: Sequence[str]) -> list[dict[str, Any]]:
     """Measure, print, fit and draw."""
-    import bench_hertz
-    import pictures
-
     bench_hertz.warm_up()
     rows = bench_hertz.run([float(h) for h in argv] or SIZES, slidings=(SLIDING,), compared=False)
     whole = [row for row in rows if "failed" not in row]

@@ -18,8 +18,11 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+import hertz_case
 import numpy as np
+import pictures
 import runner
+import scenes
 import tables
 
 SIZES = (0.04, 0.02, 0.01, 0.005)
@@ -60,9 +63,6 @@ def measure(path: str, sliding: str, solver: str, keep: str) -> dict[str, Any]:
         solver: "default", "direct" or "condensed".
         keep: File to write displacement and force to.
     """
-    import hertz_case
-    import scenes
-
     data = hertz_case.read_mesh(path)
     meter = runner.Meter()
     scene = scenes.HertzSphere(data, sliding, petsc_options=_OPTIONS[solver])
@@ -96,8 +96,6 @@ def run(
         slidings: Kinematics.
         compared: Whether the other solver runs too where that does not take too long.
     """
-    import hertz_case
-
     rows = []
     with tempfile.TemporaryDirectory() as folder:
         for h in sizes:
@@ -128,8 +126,6 @@ def _run_one(h: float, path: str, sliding: str, solver: str, folder: str) -> dic
 
 def draw(rows: Sequence[dict[str, Any]], path: Path) -> None:
     """Picture of ours and the peers' time over error and size."""
-    import pictures
-
     groups: dict[str, list[dict[str, Any]]] = {}
     for row in sorted(rows, key=lambda row: not row["solver"].endswith(DEFAULT)):
         solver = "default" if row["solver"].endswith(DEFAULT) else "the other solver"
@@ -165,8 +161,6 @@ def main(argv: Sequence[str]) -> list[dict[str, Any]]:
 
 def warm_up() -> None:
     """Let the forms be compiled, once for all runs."""
-    import hertz_case
-
     path = str(hertz_case.mesh_file(0.2))
     with tempfile.TemporaryDirectory() as name:
         result = _run_one(0.2, path, "small", "default", name)

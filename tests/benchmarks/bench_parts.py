@@ -11,8 +11,11 @@ import sys
 from collections.abc import Sequence
 from typing import Any
 
+import bench_hertz
+import hertz_case
 import parts
 import runner
+import scenes
 import tables
 
 SIZES = (0.02, 0.01, 0.005)
@@ -20,22 +23,19 @@ SIZES = (0.02, 0.01, 0.005)
 
 def measure(path: str, sliding: str) -> dict[str, Any]:
     """Solve in this process, watched."""
-    import hertz_case
-    import scenes
-
     data = hertz_case.read_mesh(path)
     clock = parts.Clock()
     meter = runner.Meter()
     with clock.watching():
         scene = scenes.HertzSphere(data, sliding)
         scene.problem.solve()
-    cpu = meter.read()["cpu"]
+    measured = meter.read()
     seconds = clock.seconds
     contact = sum(seconds[part] for part in parts.OF_CONTACT)
     dearest = clock.dearest(parts.OF_CONTACT, 6)
     return {
         **hertz_case.counts(scene.problem),
-        "cpu": cpu,
+        **measured,
         "share": 100 * contact / sum(seconds.values()),
         **seconds,
         "dearest": ", ".join(f"{name} {s:.2f}" for name, s in dearest.items()),
@@ -44,9 +44,6 @@ def measure(path: str, sliding: str) -> dict[str, Any]:
 
 def main(argv: Sequence[str]) -> list[dict[str, Any]]:
     """Measure and print."""
-    import bench_hertz
-    import hertz_case
-
     bench_hertz.warm_up()
     rows = []
     for h in [float(h) for h in argv] or SIZES:

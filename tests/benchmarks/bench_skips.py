@@ -11,10 +11,21 @@ import sys
 from collections.abc import Sequence
 from typing import Any
 
+import bench_hertz
+import hertz_case
+import parts
 import runner
+import skips
 import tables
 
 SIZES = (0.01,)
+_COUNTED = {
+    "iterations": "it",
+    "krylov": "krylov",
+    "hierarchies": "hierarchies",
+    "assemblies": "assemblies",
+    "pairs": "pairs",
+}
 TITLE = "What each rule saves (with it : without it)"
 
 COLUMNS = [
@@ -24,6 +35,7 @@ COLUMNS = [
     ("dofs", "dofs", "d"),
     ("it", "it", "s"),
     ("Krylov", "krylov", "s"),
+    ("hier.", "hierarchies", "s"),
     ("pairs", "pairs", "s"),
     ("CPU s", "cpu", ".2f"),
     ("without", "cpu_off", ".2f"),
@@ -37,10 +49,6 @@ COLUMNS = [
 
 def measure(path: str, h: float, rule: str, off: bool) -> dict[str, Any]:
     """Solve in this process, watched."""
-    import hertz_case
-    import parts
-    import skips
-
     skip = skips.SKIPS[rule]
     data = hertz_case.read_mesh(path)
     clock = parts.Clock()
@@ -55,6 +63,7 @@ def measure(path: str, h: float, rule: str, off: bool) -> dict[str, Any]:
         **hertz_case.counts(problem),
         "cpu": cpu,
         "pairs": problem.report.pairs,
+        "assemblies": problem._bulk.assemblies,
         "instead": skip.instead,
         "part": skip.part,
         **part,
@@ -69,7 +78,7 @@ def both(h: float, path: str, rule: str) -> dict[str, Any]:
         why = on.get("failed") or f"without it: {off['failed']}"
         return {"h": h, "rule": rule, "failed": why}
     row = {key: on[key] for key in ("h", "rule", "instead", "part", "dofs", "cpu")}
-    for key, name in (("iterations", "it"), ("krylov", "krylov"), ("pairs", "pairs")):
+    for key, name in _COUNTED.items():
         row[name] = f"{on[key]} : {off[key]}"
     row |= {"cpu_off": off["cpu"], "ratio": off["cpu"] / on["cpu"]}
     if "part_cpu" in on:
@@ -80,10 +89,6 @@ def both(h: float, path: str, rule: str) -> dict[str, Any]:
 
 def main(argv: Sequence[str]) -> list[dict[str, Any]]:
     """Measure and print."""
-    import bench_hertz
-    import hertz_case
-    import skips
-
     bench_hertz.warm_up()
     rows = [
         both(h, str(hertz_case.mesh_file(h)), rule)

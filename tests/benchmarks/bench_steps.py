@@ -14,8 +14,18 @@ import sys
 from collections.abc import Callable, Sequence
 from typing import Any
 
+import hertz_case
 import runner
+import scenes
+import story
 import tables
+
+import contactx as cx
+from contactx import meshes
+from contactx.meshes import Tag
+from dolfinx import fem
+from dolfinx.io.gmsh import MeshData
+from dolfinx.mesh import CellType
 
 SIZES = (0.01,)
 STEPS = 10
@@ -45,11 +55,6 @@ def measure(scene: str, h: float, path: str, sliding: str, steps: int) -> dict[s
         sliding: "finite" or "small".
         steps: Number of load steps.
     """
-    import hertz_case
-    import scenes
-
-    import contactx as cx
-
     problem: cx.ContactProblem
     update: Callable[[float], None]
     if scene == "Hertz":
@@ -74,23 +79,15 @@ def measure(scene: str, h: float, path: str, sliding: str, steps: int) -> dict[s
     }
 
 
-def _block_mesh(n: int) -> Any:
-    from contactx import meshes
-    from dolfinx.mesh import CellType
-
+def _block_mesh(n: int) -> MeshData:
     lower = (n + 3, n + 3, n)
     return meshes.blocks(CellType.tetrahedron, (n, n, n), lower, size_lower=(1.5, 1.5, 1.0))
 
 
-def _pressed_block(data: Any, sliding: str) -> tuple[Any, Callable[[float], None]]:
+def _pressed_block(
+    data: MeshData, sliding: str
+) -> tuple[cx.ContactProblem, Callable[[float], None]]:
     """A quarter of a block on a quarter of a wider one, under a pressure on its top."""
-    import scenes
-    import story
-
-    import contactx as cx
-    from contactx.meshes import Tag
-    from dolfinx import fem
-
     tags, u = data.facet_tags, story.displacement(data.mesh)
     load = fem.Constant(data.mesh, (0.0, 0.0, 0.0))
     F = story.elasticity(u, 1.0, scenes.NU) + story.traction(u, tags, Tag.UPPER_TOP, load)
@@ -128,8 +125,6 @@ def both(scene: str, h: float, path: str, sliding: str) -> dict[str, Any]:
 
 def main(argv: Sequence[str]) -> list[dict[str, Any]]:
     """Measure and print."""
-    import hertz_case
-
     sizes = [float(h) for h in argv] or SIZES
     rows = []
     for h in sizes:

@@ -47,6 +47,13 @@ def alone(function: str, **job: Any) -> dict[str, Any]:
         lines = run.stderr.strip().splitlines() or [f"it ended with code {run.returncode}"]
         return {**job, "failed": lines[-1]}
     result: dict[str, Any] = json.loads(run.stdout.splitlines()[-1])
+    return result
+
+
+def here(function: str, **job: Any) -> dict[str, Any]:
+    """Call a function as ``alone`` does, but in this process, and let its errors through."""
+    module, name = function.split(":")
+    result: dict[str, Any] = getattr(importlib.import_module(module), name)(**job)
     return {**job, **result}
 
 
@@ -80,6 +87,4 @@ def _memory(name: str) -> float:
 
 
 if __name__ == "__main__":
-    module, name = sys.argv[1].split(":")
-    answer = getattr(importlib.import_module(module), name)(**json.loads(sys.argv[2]))
-    print(json.dumps(answer))
+    print(json.dumps(here(sys.argv[1], **json.loads(sys.argv[2]))))
