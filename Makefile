@@ -89,9 +89,9 @@ bench-core: $(DEPENDENCIES)
 # Each script takes sizes, so that a part can be run alone. Tables, CSV files and
 # pictures come to build/bench.
 bench: bench-core $(INSTALLED)
-	for name in $(BENCHES); do \
-		$(RUN) $(BIN)/python tests/benchmarks/bench_$$name.py || exit 1; \
-	done
+	status=0; for name in $(BENCHES); do \
+		$(RUN) $(BIN)/python tests/benchmarks/bench_$$name.py || status=1; \
+	done; exit $$status
 
 lint: $(DEPENDENCIES)
 	$(BIN)/clang-format --dry-run --Werror $(CPP_FILES)

@@ -38,6 +38,39 @@ COLUMNS = [
 ]
 
 
+FITS = [
+    ("sizes", "sizes", "s"),
+    ("number", "number", "d"),
+    ("time", "time", ".2f"),
+    ("memory", "memory", ".2f"),
+]
+
+
+def fit(rows: Sequence[dict[str, Any]]) -> tuple[list[dict[str, Any]], list[dict[str, Any]]]:
+    """Fit powers to time and memory.
+
+    Args:
+        rows: Measurements.
+
+    Returns:
+        Exponents of all sizes and of the large ones, and the curve of the latter.
+    """
+    fits, curve = [], []
+    for name, least in (("all", 0), (f"{FROM:,} on", FROM)):
+        # A mesh is as good as of that size
+        some = [row for row in rows if row["dofs"] > 0.95 * least]
+        dofs = [row["dofs"] for row in some]
+        time, memory = (
+            tables.power_law(dofs, [row[key] for row in some]) for key in ("cpu", "memory")
+        )
+        fits.append({"sizes": name, "number": len(some), "time": time[0], "memory": memory[0]})
+        curve = [
+            {"dofs": n, "cpu": time[1] * n ** time[0], "memory": memory[1] * n ** memory[0]}
+            for n in dofs
+        ]
+    return fits, curve
+
+
 def main(argv: Sequence[str]) -> list[dict[str, Any]]:
     """Measure, print, fit and draw."""
     bench_hertz.warm_up()
@@ -48,18 +81,15 @@ def main(argv: Sequence[str]) -> list[dict[str, Any]]:
         row["each_memory"] = 1024 * row["memory"] / row["dofs"]
     title = f"Growth, common Hertz problem, {SLIDING} sliding"
     tables.show(title, COLUMNS, rows, runner.OUTPUT / "growth.csv")
-    for name, least in (("all", 0), (f"{FROM:,} on", FROM)):
-        # A mesh is as good as of that size
-        some = [row for row in whole if row["dofs"] > 0.95 * least]
-        powers = {
-            word: tables.exponent([r["dofs"] for r in some], [r[key] for r in some])
-            for word, key in (("time", "cpu"), ("memory", "memory"))
-        }
-        found = ", ".join(f"{word} as dofs^{power:.2f}" for word, power in powers.items())
-        tables.note(f"exponents, {name} ({len(some)} sizes): {found}")
+    fits, curve = fit(whole)
+    tables.show("Exponents of dofs", FITS, fits, runner.OUTPUT / "growth_fit.csv")
     path = runner.OUTPUT / "growth.png"
     pictures.lines(
-        {f"contactx, {SLIDING} sliding": whole},
+        {
+            f"contactx, {SLIDING} sliding": whole,
+            f"least squares from {FROM:,} on: time as dofs^{fits[-1]['time']:.2f}, "
+            f"memory as dofs^{fits[-1]['memory']:.2f}": curve,
+        },
         path,
         ours=1,
         axes=(("dofs", "cpu"), ("dofs", "memory")),
@@ -75,4 +105,4 @@ def main(argv: Sequence[str]) -> list[dict[str, Any]]:
 
 
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    sys.exit(tables.failures(main(sys.argv[1:])))

@@ -169,4 +169,4 @@ def warm_up() -> None:
 
 
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    sys.exit(tables.failures(main(sys.argv[1:])))

@@ -69,4 +69,4 @@ def main(argv: Sequence[str]) -> list[dict[str, Any]]:
 
 
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    sys.exit(tables.failures(main(sys.argv[1:])))

@@ -10,8 +10,6 @@ import tempfile
 from pathlib import Path
 from typing import Any
 
-from mpi4py import MPI
-
 import numpy as np
 import runner
 import scenes
@@ -69,6 +67,9 @@ def write_mesh(h: float, folder: str) -> dict[str, float]:
 
 def read_mesh(path: str | Path) -> MeshData:
     """Read such a file."""
+    # contactx must load the wheels' MPI first
+    from mpi4py import MPI
+
     with XDMFFile(MPI.COMM_WORLD, path, "r") as file:
         domain = file.read_mesh(name="mesh")
         domain.topology.create_connectivity(2, 3)

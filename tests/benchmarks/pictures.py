@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from matplotlib.figure import Figure
-from matplotlib.ticker import FuncFormatter, NullFormatter
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from contactx.plot.style import COLOURS, DOTS_PER_INCH, INK
 
@@ -53,7 +53,8 @@ def lines(
         axis.set_xlabel(words[x])
         axis.set_ylabel(words[y])
         for side in (axis.xaxis, axis.yaxis):
-            side.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,g}"))
+            side.set_major_locator(LogLocator(subs=(1, 2, 5)))
+            side.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,.10g}"))
             side.set_minor_formatter(NullFormatter())
         axis.grid(color="#e6e9ed", which="both", lw=0.6, zorder=0)
         axis.spines[["top", "right"]].set_visible(False)

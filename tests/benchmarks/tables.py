@@ -48,6 +48,11 @@ def show(title: str, columns: Sequence[Column], rows: Sequence[dict[str, Any]], 
     note(f"see {path}")
 
 
+def failures(rows: Sequence[dict[str, Any]]) -> int:
+    """Number of rows that could not be measured."""
+    return sum("failed" in row for row in rows)
+
+
 def note(text: str) -> None:
     """Print a line."""
     console.print(text, soft_wrap=True, markup=False)
@@ -59,11 +64,20 @@ def read(path: Path) -> list[dict[str, Any]]:
         return [{k: _value(v) for k, v in row.items() if v != ""} for row in csv.DictReader(file)]
 
 
-def exponent(x: npt.ArrayLike, y: npt.ArrayLike) -> float:
-    """Exponent of the power of x that y grows with, by least squares in logarithms."""
+def power_law(x: npt.ArrayLike, y: npt.ArrayLike) -> tuple[float, float]:
+    """Fit y = factor x^exponent by least squares in logarithms.
+
+    Args:
+        x: Positive values, shape (n,).
+        y: Positive values, shape (n,).
+
+    Returns:
+        Exponent and factor, NaN for less than two different x.
+    """
     if np.unique(np.asarray(x)).size < 2:
-        return math.nan
-    return float(np.polyfit(np.log(np.asarray(x)), np.log(np.asarray(y)), 1)[0])
+        return math.nan, math.nan
+    exponent, logarithm = np.polyfit(np.log(np.asarray(x)), np.log(np.asarray(y)), 1)
+    return float(exponent), float(np.exp(logarithm))
 
 
 def _text(value: Any, form: str) -> str:

@@ -57,10 +57,14 @@ def test_growth():
     assert image.imread(runner.OUTPUT / "growth.png").shape[0] > 300
 
 
-def test_an_exponent():
-    x = np.array([1.0, 2.0, 5.0])
-    assert tables.exponent(x, 3 * x**1.5) == pytest.approx(1.5)
-    assert np.isnan(tables.exponent([1.0], [1.0]))
+def test_growth_of_a_power():
+    rows = [{"dofs": n, "cpu": 3 * n**1.5, "memory": 2.0 * n} for n in (10, 30_000, 90_000)]
+    fits, curve = bench_growth.fit(rows)
+    for found in fits:
+        assert found["time"] == pytest.approx(1.5) and found["memory"] == pytest.approx(1)
+    assert [row["dofs"] for row in curve] == [30_000, 90_000]
+    assert curve[0]["cpu"] == pytest.approx(3 * 30_000**1.5)
+    assert np.isnan(tables.power_law([1.0], [1.0])).all()
 
 
 def test_parts():
