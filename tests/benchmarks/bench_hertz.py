@@ -32,7 +32,7 @@ PEERS = Path(__file__).with_name("peers.csv")
 
 # Marks the solver that contactx takes by itself
 DEFAULT = " *"
-_OPTIONS = {"default": {}, "direct": {"pc_type": "lu"}, "condensed": {"pc_type": "condensed"}}
+OPTIONS = {"default": {}, "direct": {"pc_type": "lu"}, "condensed": {"pc_type": "condensed"}}
 
 COLUMNS = [
     ("h", "h", "g"),
@@ -65,7 +65,7 @@ def measure(path: str, sliding: str, solver: str, keep: str) -> dict[str, Any]:
     """
     data = hertz_case.read_mesh(path)
     meter = runner.Meter()
-    scene = scenes.HertzSphere(data, sliding, petsc_options=_OPTIONS[solver])
+    scene = scenes.HertzSphere(data, sliding, petsc_options=OPTIONS[solver])
     scene.problem.solve()
     measured = meter.read()
     problem, contact = scene.problem, scene.contact

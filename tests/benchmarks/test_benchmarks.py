@@ -5,6 +5,7 @@
 import bench_growth
 import bench_hertz
 import bench_parts
+import bench_scenes
 import bench_skips
 import bench_steps
 import numpy as np
@@ -75,6 +76,14 @@ def test_parts():
         assert sum(row[part] for part in parts.PARTS) == pytest.approx(row["cpu"], rel=0.1)
         assert 0 < row["share"] < 100
         assert row[parts.CONTACT] > 0 and row[parts.DIRECT] > 0
+
+
+def test_scenes():
+    rows = bench_scenes.main(["0.1"])
+    assert {row["scene"] for row in rows} == set(bench_scenes.SCENES)
+    for row in rows:
+        assert row["u_difference"] < 1e-7 and row["force_difference"] < 1e-7
+    assert any(row["krylov"] > 0 for row in rows if "friction" in row["scene"])
 
 
 def test_skips():
