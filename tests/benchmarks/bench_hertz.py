@@ -127,9 +127,9 @@ def _run_one(h: float, path: str, sliding: str, solver: str, folder: str) -> dic
 def draw(rows: Sequence[dict[str, Any]], path: Path) -> None:
     """Picture of ours and the peers' time over error and size."""
     groups: dict[str, list[dict[str, Any]]] = {}
-    for row in sorted(rows, key=lambda row: not row["solver"].endswith(DEFAULT)):
-        solver = "default" if row["solver"].endswith(DEFAULT) else "the other solver"
-        groups.setdefault(f"contactx, {row['sliding']} sliding, {solver}", []).append(row)
+    for row in sorted((r for r in rows if "took" in r), key=lambda r: r["took"]):
+        name = f"contactx, {row['sliding']} sliding, {row['took']}"
+        groups.setdefault(name, []).append(row)
     ours = len(groups)
     for row in tables.read(PEERS):
         groups.setdefault(f"{row['peer']}, {row['setting']}", []).append(row)
