@@ -20,6 +20,7 @@ SOURCES := $(shell find cpp/contactx cpp/bindings python/contactx \
 	-name __pycache__ -prune -o -print)
 CPP_FILES = $(shell find cpp -name '*.h' -o -name '*.cpp')
 PY_FOLDERS := python tests demos tools
+BENCHES := hertz scenes parts skips steps growth
 
 # Threads: MPI and the tests' machine decide, not OpenMP. Without a display,
 # VTK need not look for one.
@@ -29,7 +30,7 @@ RUN += VTK_DEFAULT_OPENGL_WINDOW=vtkEGLRenderWindow
 endif
 
 .DELETE_ON_ERROR:
-.PHONY: all demo test test-cpp test-python bench-core lint format clean help
+.PHONY: all demo test test-cpp test-python bench bench-core lint format clean help
 
 all: $(INSTALLED)
 
@@ -37,6 +38,7 @@ help:
 	@echo "make          set up .venv, build contactx and install it there"
 	@echo "make demo     solve the Hertz sphere of demos/hertz_sphere.py"
 	@echo "make test     lint, C++ tests, Python tests"
+	@echo "make bench    all benchmarks, up to a million displacements"
 	@echo "make bench-core  time the kernels and the search"
 	@echo "make lint     check format, style and types"
 	@echo "make format   format C++ and Python"
@@ -83,6 +85,13 @@ bench-core: $(DEPENDENCIES)
 	$(RUN) cmake --build build/bench
 	build/bench/bench_kernels build/bench
 	build/bench/bench_search 1000000 build/bench
+
+# Each script takes sizes, so that a part can be run alone. Tables, CSV files and
+# pictures come to build/bench.
+bench: bench-core $(INSTALLED)
+	status=0; for name in $(BENCHES); do \
+		$(RUN) $(BIN)/python tests/benchmarks/bench_$$name.py || status=1; \
+	done; exit $$status
 
 lint: $(DEPENDENCIES)
 	$(BIN)/clang-format --dry-run --Werror $(CPP_FILES)

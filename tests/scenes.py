@@ -14,47 +14,68 @@ from contactx import meshes, reference
 from contactx.meshes import Tag
 from contactx.obstacles import Obstacle
 from dolfinx import fem, mesh
+from dolfinx.io.gmsh import MeshData
 
 NU = 0.3
 
 
-def hertz_sphere(
-    h: float,
-    sliding: str,
-    *,
-    down: float = 0.02,
-    young: dict[Tag, float] | None = None,
-    friction: Any = 0.0,
-    **options: Any,
-) -> tuple[cx.ContactProblem, cx.Contact]:
-    """The common Hertz problem with any displacement and a modulus for each body."""
-    data = meshes.hertz_sphere(h)
-    tags, u = data.facet_tags, displacement(data.mesh)
-    E = fem.Function(fem.functionspace(data.mesh, ("DG", 0)))
-    E.x.array[:] = 1
-    for body, value in (young or {}).items():
-        E.x.array[data.cell_tags.find(body)] = value
-    bcs = [
-        fix(u, tags, 0, 0.0, Tag.UPPER_X0, Tag.LOWER_X0),
-        fix(u, tags, 1, 0.0, Tag.UPPER_Y0, Tag.LOWER_Y0),
-        *(fix(u, tags, i, 0.0, Tag.LOWER_BOTTOM) for i in range(3)),
-        fix(u, tags, 2, -down, Tag.UPPER_TOP),
-    ]
-    contact = cx.Contact(
-        cx.Surface(tags, Tag.UPPER_CONTACT),
-        cx.Surface(tags, Tag.LOWER_CONTACT),
-        sliding=sliding,
-        friction=friction,
-    )
-    problem = cx.ContactProblem(
-        elasticity(u, E, NU),
-        u,
-        contacts=[contact],
-        bcs=bcs,
-        petsc_options_prefix="sphere_",
-        **options,
-    )
-    return problem, contact
+class HertzSphere:
+    """The common Hertz problem with any displacement and a modulus for each body.
+
+    Attributes:
+        problem: The problem.
+        contact: Its contact.
+    """
+
+    def __init__(
+        self,
+        data: MeshData,
+        sliding: str,
+        *,
+        down: float = 0.02,
+        young: dict[Tag, float] | None = None,
+        friction: Any = 0.0,
+        search_distance: float | None = None,
+        **options: Any,
+    ):
+        tags, u = data.facet_tags, displacement(data.mesh)
+        E = fem.Function(fem.functionspace(data.mesh, ("DG", 0)))
+        E.x.array[:] = 1
+        for body, value in (young or {}).items():
+            E.x.array[data.cell_tags.find(body)] = value
+        self._down = down
+        self._top = fix(u, tags, 2, -down, Tag.UPPER_TOP)
+        bcs = [
+            fix(u, tags, 0, 0.0, Tag.UPPER_X0, Tag.LOWER_X0),
+            fix(u, tags, 1, 0.0, Tag.UPPER_Y0, Tag.LOWER_Y0),
+            *(fix(u, tags, i, 0.0, Tag.LOWER_BOTTOM) for i in range(3)),
+            self._top,
+        ]
+        self.contact = cx.Contact(
+            cx.Surface(tags, Tag.UPPER_CONTACT),
+            cx.Surface(tags, Tag.LOWER_CONTACT),
+            sliding=sliding,
+            friction=friction,
+            search_distance=search_distance,
+        )
+        self.problem = cx.ContactProblem(
+            elasticity(u, E, NU),
+            u,
+            contacts=[self.contact],
+            bcs=bcs,
+            petsc_options_prefix="sphere_",
+            **options,
+        )
+
+    def update(self, t: float) -> None:
+        """Move the top by a part of the displacement."""
+        self._top.g.value[...] = -self._down * t
+
+
+def hertz_sphere(h: float, sliding: str, **options: Any) -> tuple[cx.ContactProblem, cx.Contact]:
+    """``HertzSphere`` on a new mesh."""
+    scene = HertzSphere(meshes.hertz_sphere(h), sliding, **options)
+    return scene.problem, scene.contact
 
 
 def pressure_error(

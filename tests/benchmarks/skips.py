@@ -1,0 +1,212 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""What a scene does not need, and the same scene with it.
+
+What cannot be switched off from outside is switched off here by replacing a part of the library:
+the library has no options for doing needless work.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, contextmanager, nullcontext
+from dataclasses import dataclass, field
+from typing import Any
+
+import parts
+import scenes
+
+import contactx as cx
+from contactx import cpp as core
+from contactx import linear, meshes
+from contactx.bulk import Bulk
+from contactx.condensed import solver
+from contactx.master.facets import FacetMaster
+from contactx.meshes import Tag
+from dolfinx.io.gmsh import MeshData
+from dolfinx.mesh import CellType
+
+# Not the default on the coarse meshes that try these scripts out
+CONDENSED: dict[str, Any] = {"petsc_options": {"pc_type": "condensed"}}
+DIRECT: dict[str, Any] = {"petsc_options": {"pc_type": "lu"}}
+
+
+def hertz(data: MeshData, n: int, **options: Any) -> cx.ContactProblem:
+    """The common Hertz problem."""
+    return scenes.HertzSphere(data, **options).problem
+
+
+def on_plane(data: MeshData, n: int, sliding: str, **options: Any) -> cx.ContactProblem:
+    """Its upper body alone, on a rigid plane."""
+    mesh, tags = meshes.single(data, Tag.UPPER)
+    u = scenes.displacement(mesh)
+    bcs = [
+        scenes.fix(u, tags, 0, 0.0, Tag.UPPER_X0),
+        scenes.fix(u, tags, 1, 0.0, Tag.UPPER_Y0),
+        scenes.fix(u, tags, 2, -0.02, Tag.UPPER_TOP),
+    ]
+    plane = cx.Plane((0.0, 0.0, 0.0), (0.0, 0.0, 1.0))
+    contact = cx.Contact(cx.Surface(tags, Tag.UPPER_CONTACT), plane, sliding=sliding)
+    return cx.ContactProblem(
+        scenes.elasticity(u, 1.0, scenes.NU),
+        u,
+        contacts=[contact],
+        bcs=bcs,
+        petsc_options_prefix="sphere_",
+        **options,
+    )
+
+
+def blocks(
+    data: MeshData,
+    n: int,
+    sliding: str,
+    *,
+    petsc_options: dict[str, Any],
+    rounded: float = 0.0,
+    **options: Any,
+) -> cx.ContactProblem:
+    """Two blocks on even grids, n cells high; the lower side of the upper one may be rounded.
+
+    No node of the contact is on a plane of symmetry, where friction is not condensed.
+    """
+    scene = scenes.Blocks(CellType.tetrahedron, n_upper=n, n_lower=n + 3, gap=1e-6, down=0.02)
+    x = scene.u.function_space.mesh.geometry.x
+    upper = x[:, 2] > 5e-7
+    middle = x[upper, :2].mean(axis=0)
+    x[upper, 2] += rounded * ((x[upper, :2] - middle) ** 2).sum(axis=1)
+    return scene.problem(scene.contact(sliding, **options), petsc_options=petsc_options)
+
+
+@dataclass(frozen=True)
+class Skip:
+    """A rule by which the library skips what a scene does not need.
+
+    Attributes:
+        instead: What is done without it.
+        part: The part of the time that it is about; the whole if empty.
+        scene: Makes the problem of a mesh, a number of cells and options.
+        scene_off: The same without the rule, if another one.
+        on: Options of the scene.
+        off: Options of the scene without the rule, added to the others.
+        replaced: What switches the rule off in the library.
+    """
+
+    instead: str
+    part: str = ""
+    scene: Callable[..., cx.ContactProblem] = hertz
+    scene_off: Callable[..., cx.ContactProblem] | None = None
+    on: dict[str, Any] = field(default_factory=dict)
+    off: dict[str, Any] = field(default_factory=dict)
+    replaced: Callable[[], AbstractContextManager[None]] = nullcontext
+
+    def problem(self, data: MeshData, n: int, *, off: bool) -> cx.ContactProblem:
+        """The problem with the rule, or without it."""
+        options = {"sliding": "small", **CONDENSED, **self.on, **(self.off if off else {})}
+        scene = self.scene_off if off and self.scene_off else self.scene
+        return scene(data, n, **options)
+
+
+@contextmanager
+def _replaced(owner: Any, **values: Any) -> Iterator[None]:
+    """Give attributes of a class or module other values; they must exist."""
+    before = {name: getattr(owner, name) for name in values}
+    for name, value in values.items():
+        setattr(owner, name, value)
+    try:
+        yield
+    finally:
+        for name, value in before.items():
+            setattr(owner, name, value)
+
+
+def _jacobian_each_time() -> AbstractContextManager[None]:
+    """The bulk's Jacobian as one that depends on the displacement."""
+    before = Bulk.__init__
+
+    def init(self: Bulk, F: Any, u: Any, *args: Any, **kwargs: Any) -> None:
+        before(self, F, u, *args, **kwargs)
+        self._coefficients.append(u._cpp_object)
+
+    return _replaced(Bulk, __init__=init)
+
+
+def _hierarchy_each_time() -> AbstractContextManager[None]:
+    """A hierarchy that is tired after any solve."""
+    return _replaced(solver, _TIRED=0, _SOME=-1)
+
+
+def _exact() -> AbstractContextManager[None]:
+    """Solves as accurate as a status asks for that no longer changes."""
+    before = linear.Condensed.aim
+
+    def aim(
+        self: linear.Condensed, residual: float, tolerance: float, changing: float, **more: Any
+    ) -> None:
+        before(self, residual, tolerance, 0.0, **more)
+
+    return _replaced(linear.Condensed, aim=aim)
+
+
+def _pattern_each_time() -> AbstractContextManager[None]:
+    """A new matrix for each factorisation."""
+    before = linear.SaddlePoint.provide
+
+    def provide(self: linear.SaddlePoint, *args: Any, **kwargs: Any) -> None:
+        self.forget()
+        before(self, *args, **kwargs)
+
+    return _replaced(linear.SaddlePoint, provide=provide)
+
+
+@contextmanager
+def _search_anew() -> Iterator[None]:
+    """Each search also builds a tree and asks it for all nodes; its answer is dropped.
+
+    So pairs and iterations stay the same; the search that the library does comes on top.
+    """
+    init, search = FacetMaster.__init__, FacetMaster.search
+
+    def new_init(self: Any, slave: Any, master: Any, x: Any, *args: Any, **kwargs: Any) -> None:
+        lists = (slave.offsets, slave.nodes, master.offsets, master.nodes)
+        self.surfaces = (*lists, x.shape[1])
+        init(self, slave, master, x, *args, **kwargs)
+
+    def new_search(self: Any, x: Any, closed: Any) -> tuple[int, bool]:
+        core.Pairing(*self.surfaces).update(x, self.reach, closed)
+        return search(self, x, closed)
+
+    # What is measured as the library's own must bear its name
+    new_search.__code__ = new_search.__code__.replace(
+        co_filename=search.__code__.co_filename, co_qualname=search.__code__.co_qualname
+    )
+    with _replaced(FacetMaster, __init__=new_init, search=new_search):
+        yield
+
+
+SKIPS = {
+    "no tangential unknowns": Skip("friction 1e-8", scene=blocks, off={"friction": 1e-8}),
+    "no master side": Skip(
+        "a block of 1e6 E",
+        scene=on_plane,
+        scene_off=hertz,
+        off={"young": {Tag.LOWER: 1e6}},
+    ),
+    "only nodes in reach": Skip(
+        "all nodes have pairs",
+        parts.CONTACT,
+        scene=blocks,
+        on={"search_distance": 0.05, "sliding": "finite", "rounded": 0.5},
+        off={"search_distance": None},
+    ),
+    "bulk Jacobian once": Skip(
+        "assembled when u changes", parts.ASSEMBLY, replaced=_jacobian_each_time
+    ),
+    "hierarchies kept": Skip("one for each solve", parts.HIERARCHY, replaced=_hierarchy_each_time),
+    "matrix's pattern kept": Skip("a new one each time", on=DIRECT, replaced=_pattern_each_time),
+    "rough early solves": Skip("all to the tolerance", parts.KRYLOV, replaced=_exact),
+    "pairs kept, tree refitted": Skip(
+        "built, searched anew", parts.SEARCH, on={"sliding": "finite"}, replaced=_search_anew
+    ),
+    "small sliding": Skip("finite sliding", off={"sliding": "finite"}),
+}

@@ -1,0 +1,108 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""The benchmarks run on coarse meshes, so that they cannot rot; what they measure is not judged."""
+
+import bench_growth
+import bench_hertz
+import bench_parts
+import bench_scenes
+import bench_skips
+import bench_steps
+import numpy as np
+import parts
+import pytest
+import runner
+import tables
+from matplotlib import image
+
+ALONE = runner.alone
+
+
+@pytest.fixture(scope="module", autouse=True)
+def in_this_process(tmp_path_factory):
+    """All runs come into this process, which is faster, and files into a folder of the tests."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(runner, "OUTPUT", tmp_path_factory.mktemp("bench"))
+        patch.setattr(runner, "alone", runner.here)
+        yield
+
+
+def two(text):
+    """Numbers of a column that has a rule's two."""
+    return [int(number) for number in text.split(":")]
+
+
+def test_a_process_of_its_own(tmp_path):
+    result = ALONE("hertz_case:write_mesh", h=0.2, folder=str(tmp_path))
+    assert result["cells"] > 100
+    assert (tmp_path / "whole" / "mesh.xdmf").exists()
+    again = ALONE("hertz_case:write_mesh", h=0.2, folder=str(tmp_path))
+    assert "FileExistsError" in again["failed"]
+
+
+def test_hertz():
+    rows = bench_hertz.main(["0.2"])
+    assert [row["solver"] for row in rows] == ["direct *", "condensed"] * 2
+    for row in rows:
+        assert row["u_difference"] < 1e-9 and row["force_difference"] < 1e-9
+        assert row["cpu"] > 0 and row["memory"] > 0
+        assert 0 < row["p_l2"] < 1 and 0 <= row["pen"] < 0.1
+    written = tables.read(runner.OUTPUT / "hertz.csv")
+    assert [row["force"] for row in written] == [row["force"] for row in rows]
+    assert image.imread(runner.OUTPUT / "hertz.png").shape[0] > 300
+
+
+def test_growth():
+    rows = bench_growth.main(["0.2", "0.1"])
+    assert rows[0]["dofs"] < rows[1]["dofs"]
+    assert image.imread(runner.OUTPUT / "growth.png").shape[0] > 300
+
+
+def test_growth_of_a_power():
+    rows = [{"dofs": n, "cpu": 3 * n**1.5, "memory": 2.0 * n} for n in (10, 30_000, 90_000)]
+    fits, curve = bench_growth.fit(rows)
+    for found in fits:
+        assert found["time"] == pytest.approx(1.5) and found["memory"] == pytest.approx(1)
+    assert [row["dofs"] for row in curve] == [30_000, 90_000]
+    assert curve[0]["cpu"] == pytest.approx(3 * 30_000**1.5)
+    assert np.isnan(tables.power_law([1.0], [1.0])).all()
+
+
+def test_parts():
+    assert parts.outdated() == []
+    rows = bench_parts.main(["0.2"])
+    assert [row["sliding"] for row in rows] == ["small", "finite"]
+    for row in rows:
+        assert sum(row[part] for part in parts.PARTS) == pytest.approx(row["cpu"], rel=0.1)
+        assert 0 < row["share"] < 100
+        assert row[parts.CONTACT] > 0 and row[parts.DIRECT] > 0
+
+
+def test_scenes():
+    rows = bench_scenes.main(["0.1"])
+    assert {row["scene"] for row in rows} == set(bench_scenes.SCENES)
+    for row in rows:
+        assert row["u_difference"] < 1e-7 and row["force_difference"] < 1e-7
+    assert any(row["krylov"] > 0 for row in rows if "friction" in row["scene"])
+
+
+def test_skips():
+    rows = {row["rule"]: row for row in bench_skips.main(["0.07"])}
+    assert all(row["cpu"] > 0 and row["cpu_off"] > 0 for row in rows.values())
+    # What switches a rule off does so
+    once, each = two(rows["bulk Jacobian once"]["assemblies"])
+    assert once == 1 and each > 2
+    kept, new = two(rows["hierarchies kept"]["hierarchies"])
+    assert kept < new
+    rough, exact = two(rows["rough early solves"]["krylov"])
+    assert rough < exact
+    near, every = two(rows["only nodes in reach"]["pairs"])
+    assert near < every
+
+
+def test_steps():
+    rows = bench_steps.main(["0.2"])
+    assert [row["scene"] for row in rows] == ["pressed block"] * 2 + ["Hertz"] * 2
+    for row in rows:
+        assert len(row["each"].split()) == bench_steps.STEPS
+        assert row["ratio"] > 1
