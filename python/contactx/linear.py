@@ -121,6 +121,8 @@ class Condensed(LinearSolver):
         self._bulk = bulk
         self._system = system
         self._solver = CondensedSolver(bulk, system, near_null_space(x), prefix + "condensed_")
+        # Residual of the iterate before, and what Newton's method makes of its square
+        self._before = self._curvature = 0.0
         size = system.x.getSize()
         self._A = PETSc.Mat().createPython((size, size), self, comm=system.x.comm)
         self._A.setUp()
@@ -128,6 +130,7 @@ class Condensed(LinearSolver):
     def begin(self, snes: PETSc.SNES, report: Report) -> None:
         """See ``LinearSolver``."""
         self._solver.begin(report)
+        self._before = 0.0
         snes.setJacobian(self._jacobian, self._A)
         pc = snes.getKSP().getPC()
         pc.setType("python")
@@ -138,9 +141,18 @@ class Condensed(LinearSolver):
         self._solver.springs = springs
 
     def aim(self, residual: float, tolerance: float, changing: float) -> None:
-        """See ``LinearSolver``; a changing status needs no more than its change shows."""
-        rough = float(np.clip(0.1 * changing, *_ROUGH)) if changing > 0 else 0.0
-        self._solver.target = max(0.1 * tolerance, rough * residual)
+        """See ``LinearSolver``; no more than what the next residual will show.
+
+        That is the change of the status, or where it has settled what Newton's method leaves: a
+        multiple of the residual's square, as seen in the last iteration.
+        """
+        if changing == 0 and self._before > 0:
+            self._curvature = residual / self._before**2
+        self._before = residual if changing == 0 else 0.0
+        left = min(self._curvature * residual**2, 0.1 * residual)
+        if changing > 0:
+            left = max(left, float(np.clip(changing, *_ROUGH)) * residual)
+        self._solver.target = 0.1 * max(tolerance, left)
 
     def let_go(self) -> None:
         """See ``LinearSolver``; the matrix refers back to it."""
@@ -174,8 +186,8 @@ class Condensed(LinearSolver):
             y.array[:n] += self._solver.springs * u.array_r
 
 
-# Relative tolerance while few or all nodes change
-_ROUGH = (1e-6, 0.03)
+# Part of the residual that a solve may leave ten times less of, while few or all nodes change
+_ROUGH = (1e-5, 0.3)
 
 
 def near_null_space(x: Array) -> Array:

@@ -56,12 +56,13 @@ _RULES: dict[str, dict[str, str | None]] = {
         "CondensedOperator.mult": KRYLOV,
         "CondensedOperator.bulk": KRYLOV,
     },
-    "condensed/solver": {
+    "condensed/guess": {"": KRYLOV},
+    "condensed/multigrid": {
         "": CONDENSATION,
-        "CondensedSolver._krylov": KRYLOV,
-        "CondensedSolver._build": HIERARCHY,
-        "CondensedSolver._solve_directly": DIRECT,
+        "Multigrid._iterate": KRYLOV,
+        "Multigrid._make": HIERARCHY,
     },
+    "condensed/solver": {"": CONDENSATION, "CondensedSolver._solve_directly": DIRECT},
     "contact": {"": CONTACT},
     "contact_mesh": {"": CONTACT},
     "convergence": {"": STATUS},

@@ -20,7 +20,7 @@ import contactx as cx
 from contactx import cpp as core
 from contactx import linear, meshes
 from contactx.bulk import Bulk
-from contactx.condensed import solver
+from contactx.condensed.multigrid import Multigrid
 from contactx.master.facets import FacetMaster
 from contactx.meshes import Tag
 from dolfinx.io.gmsh import MeshData
@@ -132,8 +132,14 @@ def _jacobian_each_time() -> AbstractContextManager[None]:
 
 
 def _hierarchy_each_time() -> AbstractContextManager[None]:
-    """A hierarchy that is tired after any solve."""
-    return _replaced(solver, _TIRED=0, _SOME=-1)
+    """A hierarchy that is forgotten before any solve."""
+    before = Multigrid.solve
+
+    def solve(self: Multigrid, *args: Any) -> bool:
+        self.forget()
+        return before(self, *args)
+
+    return _replaced(Multigrid, solve=solve)
 
 
 def _exact() -> AbstractContextManager[None]:

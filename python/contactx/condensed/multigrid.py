@@ -74,7 +74,7 @@ class Multigrid:
         Args:
             operator: The condensed matrix.
             rhs: Right-hand side.
-            v: Solution, overwritten.
+            v: Start of the iterations, overwritten by the solution.
             target: What the norm of the residual must fall below.
             report: Report whose times are added to.
 
@@ -126,15 +126,19 @@ class Multigrid:
         ksp.setNormType(PETSc.KSP.NormType.UNPRECONDITIONED)
         ksp.setTolerances(rtol=_ROUNDING, atol=target, max_it=_MAX_IT)
         with report.timing("Krylov"):
+            start = _distance(operator, rhs, v)
             ksp.solve(rhs, v)
         count = ksp.getIterationNumber()
         self.iterations += count
-        reduction = max(1.0, np.log(rhs.norm() / max(target, _ROUNDING * rhs.norm())))
+        reduction = max(1.0, np.log(start / max(target, _ROUNDING * rhs.norm())))
         if self._built_at == self._bulk.assemblies:
             self._rate = max(self._rate, count / reduction)
         else:
             self._lost += max(0.0, count - self._rate * reduction)
-        return bool(ksp.getConvergedReason() > 0)
+        if ksp.getConvergedReason() < 0:
+            v.set(0.0)
+            return False
+        return True
 
     def _build(self, slave_dofs: Index, report: Report) -> None:
         with report.timing("hierarchy"):
@@ -160,6 +164,7 @@ class Multigrid:
         ksp.setOperators(self._A, P)
         with multigrid_options(self._prefix).in_database():
             ksp.setFromOptions()
+            ksp.setInitialGuessNonzero(True)
             ksp.setUp()
         # From here on the finest level needs a diagonal alone
         self._D = PETSc.Mat().createDiagonal(P.getDiagonal())
@@ -213,3 +218,11 @@ class Multigrid:
             coarser[-1].getPC().reset()
             for smoother, A in zip(coarser, matrices, strict=True):
                 smoother.setOperators(A, A)
+
+
+def _distance(operator: CondensedOperator, rhs: PETSc.Vec, v: PETSc.Vec) -> float:
+    """Norm of the residual."""
+    residual = rhs.duplicate()
+    operator.mult(None, v, residual)
+    residual.aypx(-1.0, rhs)
+    return float(residual.norm())

@@ -11,6 +11,7 @@ import numpy as np
 from contactx.bulk import Bulk
 from contactx.condensed.blocks import Array, ContactBlocks
 from contactx.condensed.elimination import Elimination, NotCondensable
+from contactx.condensed.guess import Guess
 from contactx.condensed.multigrid import Multigrid
 from contactx.condensed.operator import CondensedOperator
 from contactx.options import direct_options
@@ -46,6 +47,7 @@ class CondensedSolver:
         self._system = system
         self._prefix = prefix
         self._free = (bulk.markers == 0).astype(np.float64)
+        self._guess = Guess()
         self._multigrid = Multigrid(bulk, modes, system.block, prefix)
         self.target = 0.0
         self.springs: Array | None = None
@@ -58,6 +60,7 @@ class CondensedSolver:
             report: Report whose times are added to.
         """
         self._report = report
+        self._guess.begin_step()
         self._multigrid.iterations = self._multigrid.hierarchies = 0
         self.direct: list[str] = []
 
@@ -122,8 +125,11 @@ class CondensedSolver:
         operator.add_law(h, rhs, -1.0)
         rhs.array[:] += elimination.extra(d)
         rhs.array[elimination.eliminated] = 0
+        v.set(0.0)
+        self._guess.start(operator, rhs, v)
         if not self._multigrid.solve(operator, rhs, v, self.target, self._report):
             return False
+        self._guess.keep(v)
         operator.expand(v, work)
         h.axpy(1.0, work)
         operator.bulk(h, work)

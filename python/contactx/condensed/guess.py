@@ -1,0 +1,63 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""A first guess of a step's first solution from those of the steps before."""
+
+from __future__ import annotations
+
+from petsc4py import PETSc
+
+import numpy as np
+
+from contactx.condensed.operator import CondensedOperator
+
+# Steps that are remembered: loads grow evenly, or their growth changes evenly
+_STEPS = 2
+# Part of the right-hand side that a guess must leave at most
+_USEFUL = 0.5
+
+
+class Guess:
+    """Combines the first solutions of earlier steps so that the residual is smallest.
+
+    Where the status has settled and the load grows evenly, the next step's increment is that of the
+    last one but for a factor.
+    """
+
+    def __init__(self) -> None:
+        self._solutions: list[PETSc.Vec] = []
+        self._is_first = False
+
+    def begin_step(self) -> None:
+        """The next solve is the first of a step."""
+        self._is_first = True
+
+    def start(self, operator: CondensedOperator, rhs: PETSc.Vec, v: PETSc.Vec) -> None:
+        """Set a start of the iterations.
+
+        Args:
+            operator: The condensed matrix.
+            rhs: Right-hand side.
+            v: Start, overwritten where there is one.
+        """
+        if not self._is_first or not self._solutions:
+            return
+        known = [solution.copy() for solution in self._solutions]
+        products = []
+        for vector in known:
+            vector.array[operator.eliminated] = 0
+            product = rhs.duplicate()
+            operator.mult(None, vector, product)
+            products.append(product.array_r)
+        matrix = np.stack(products, axis=1)
+        factors, *_ = np.linalg.lstsq(matrix, rhs.array_r)
+        left = np.linalg.norm(rhs.array_r - matrix @ factors)
+        if left > _USEFUL * rhs.norm():
+            return
+        v.zeroEntries()
+        v.maxpy(factors, known)
+
+    def keep(self, v: PETSc.Vec) -> None:
+        """Remember a solution, where it is the first of a step."""
+        if self._is_first:
+            self._solutions = [v.copy(), *self._solutions][:_STEPS]
+        self._is_first = False
