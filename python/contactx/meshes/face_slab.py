@@ -43,7 +43,7 @@ class FaceSlab:
         opening: Width of the joints before any load, at the slabs' top and bottom, m.
         layers: Cells through a slab.
         rows: Cells along the slope.
-        joint_size: Width of the slabs' cells at a joint, m; None for that of a layer at mid length.
+        joint_size: Width of the slabs' cells at a joint, m; None for half of a layer at mid length.
         growth: Width of a slab's cell over that of its neighbour towards the joint.
         largest: Width that no slab's cell exceeds, m.
         cushion_thickness: Thickness of the cushion, m.
@@ -131,7 +131,7 @@ class FaceSlab:
             end: Upper place, m.
             scale: Factor of the size of the cells.
         """
-        first = self.joint_size or float(self.thickness_at(self.length / 2)) / self.layers
+        first = self.joint_size or 0.5 * float(self.thickness_at(self.length / 2)) / self.layers
         fine = [bool(np.any(np.isclose(self.joints, place))) for place in (begin, end)]
         sizes = (scale * first, self.growth, scale * self.largest)
         return graded_between(begin, end, (fine[0], fine[1]), *sizes)
@@ -152,8 +152,8 @@ FACE_SLABS: Mapping[str, FaceSlab] = MappingProxyType(
         "slice": FaceSlab(
             length=1.0, rows=1, thickness=0.505, thickening=0.0, largest=0.5, cushion_layers=6
         ),
-        "coarse": FaceSlab(growth=1.22, cushion_layers=5, cushion_size=0.95),
-        "paper": FaceSlab(rows=66, growth=1.12, largest=1.0, cushion_layers=7),
+        "coarse": FaceSlab(joint_size=0.025, growth=1.32),
+        "paper": FaceSlab(rows=55, joint_size=0.025, growth=1.16, largest=1.0, cushion_layers=7),
     }
 )
 
