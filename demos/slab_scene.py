@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -16,7 +15,7 @@ from story import displacement
 import contactx as cx
 import ufl
 from contactx.meshes import FaceSlab, block_tag, face_slab
-from dolfinx import fem, mesh
+from dolfinx import fem
 
 CONCRETE, CUSHION, NU = 30_000.0, 144.0, 0.2  # MPa
 Array = npt.NDArray[np.float64]
@@ -40,7 +39,7 @@ class Setting:
     joint_friction: float = 0.75
     cushion_friction: float = 0.7
     sliding: str = "small"
-    cushion_is_slave: bool = False
+    cushion_is_slave: bool = True
     axes: tuple[int, int, int] = (0, 1, 2)
     options: tuple[tuple[str, Any], ...] = ()
 
@@ -71,7 +70,8 @@ class Scene:
         self.setting = setting
         self.model = model = setting.model
         data = face_slab(model)
-        self.mesh, self.tags = domain, tags = data.mesh, data.facet_tags
+        domain = self.mesh = data.mesh
+        self.tags = data.facet_tags
         axes = list(setting.axes)
         straight = domain.geometry.x.copy()
         domain.geometry.x[:, axes] = straight
@@ -153,9 +153,7 @@ class Scene:
         s, tags = self.setting, self.tags
         slabs = range(1, 1 + self.model.slabs)
         top = cx.Surface(tags, block_tag(0, "top"))
-        # Half a slab is far more than anything moves
-        common = {"sliding": s.sliding}
-        below = {"friction": s.cushion_friction, **common}
+        below = {"friction": s.cushion_friction, "sliding": s.sliding}
         if s.cushion_is_slave:
             bottoms = cx.Surface(tags, *(block_tag(i, "bottom") for i in slabs))
             cushion = [cx.Contact(slave=top, master=bottoms, **below)]
@@ -169,7 +167,7 @@ class Scene:
                 slave=cx.Surface(tags, block_tag(i, "x1")),
                 master=cx.Surface(tags, block_tag(i + 1, "x0")),
                 friction=s.joint_friction,
-                **common,
+                sliding=s.sliding,
             )
             for i in slabs[:-1]
         ]
@@ -179,6 +177,10 @@ class Scene:
         """Nodes of a body: 0 is the cushion, 1, 2, ... are the slabs."""
         cells = self._bodies.find(block_tag(body))
         return np.unique(self.u.function_space.dofmap.list[cells])
+
+    def nodes_of_slabs(self) -> npt.NDArray[np.int32]:
+        """Nodes of all slabs."""
+        return np.concatenate([self.nodes_of(i) for i in range(1, 1 + self.model.slabs)])
 
     def moved(self) -> Array:
         """Displacement along dam, slope and normal, m, shape (num_nodes, 3)."""
@@ -207,23 +209,3 @@ class Scene:
             distance = np.abs(self.x[nodes, 0] - x)
             nodes = nodes[distance < distance.min() + 1e-9]
         return nodes[np.lexsort((self.x[nodes, 0], self.x[nodes, 1]))]
-
-
-def nodal_forces(scene: Scene, contacts: Sequence[cx.Contact]) -> Array:
-    """Contact forces on all nodes, MN, along dam, slope and normal, shape (num_nodes, 3)."""
-    forces = np.zeros(len(scene.u.x.array))
-    for contact in contacts:
-        for form in contact.forms:
-            fem.assemble_vector(forces, form.residual)
-    return -forces.reshape(-1, 3)[:, list(scene.setting.axes)]
-
-
-def area_of(scene: Scene, tag: int) -> float:
-    """Area of a tagged face, m^2."""
-    ds = ufl.Measure("ds", domain=scene.mesh, subdomain_data=scene.tags)
-    return fem.assemble_scalar(fem.form(fem.Constant(scene.mesh, 1.0) * ds(tag)))
-
-
-def all_facets(domain: mesh.Mesh) -> int:
-    """Number of facets."""
-    return domain.topology.index_map(2).size_local
