@@ -17,6 +17,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+import contactx  # noqa: F401 - before dolfinx
 import ufl
 from dolfinx import fem, mesh
 

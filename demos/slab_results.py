@@ -94,17 +94,32 @@ def rotation(scene: Scene) -> float:
     return float(np.degrees(np.mean(angles)))
 
 
+def opening(scene: Scene, left: Array, right: Array) -> Array:
+    """Distance of nodes of two slabs that face each other, m."""
+    x = scene.x[:, 0] + scene.moved()[:, 0]
+    return np.asarray(x[right] - x[left])
+
+
+def faces_of_joint(scene: Scene, y: float | None = None) -> tuple[Array, Array]:
+    """Nodes of the two faces of the middle joint, in the same order, at mid length or another y."""
+    left, pair = middle_joint(scene), []
+    for body, side in ((left, "x1"), (left + 1, "x0")):
+        nodes = scene.nodes_on(block_tag(body, side))
+        if y is not None:
+            nodes = nodes[np.isclose(scene.x[nodes, 1], y, atol=1e-6)]
+        pair.append(nodes[np.lexsort((scene.x[nodes, 2].round(9), scene.x[nodes, 1].round(9)))])
+    return pair[0], pair[1]
+
+
 def measure(scene: Scene) -> Measured:
     """Read the results off a solved scene."""
     left = middle_joint(scene)
-    edge, y, u = scene.model.edges[left], scene.section(), scene.moved()
+    edge, y = scene.model.edges[left], scene.section()
     stress = -scene.sigma.update()
     nodes = scene.nodes_of_slabs()
     here = nodes[np.isclose(scene.x[nodes, 1], y, atol=1e-6)]
     low = nodes[np.isclose(scene.x[nodes, 1], 0, atol=1e-6)]
-    corners = [scene.at(body, x=edge, y=y, top=False) for body in (left, left + 1)]
-    places = (scene.x[corner, 0] + u[corner, 0] for corner in corners)
-    opening = -np.subtract(*places).item()
+    lowest = [face[0] for face in faces_of_joint(scene, y)]
 
     section, surface = [], []
     for body, sign in ((left, -1), (left + 1, 1)):
@@ -117,7 +132,7 @@ def measure(scene: Scene) -> Measured:
         surface.append(_mean(stress[top], scene.x[top, 0]))
     return Measured(
         rotation=rotation(scene),
-        opening=float(opening),
+        opening=float(opening(scene, *lowest)),
         stress=float(stress[here].max()),
         lower=float(stress[low].max()),
         largest=float(stress[nodes].max()),

@@ -178,6 +178,10 @@ class Scene:
         cells = self._bodies.find(block_tag(body))
         return np.unique(self.u.function_space.dofmap.list[cells])
 
+    def nodes_on(self, face: int) -> npt.NDArray[np.int32]:
+        """Nodes of a tagged face."""
+        return cx.Surface(self.tags, face).nodes(self.u.function_space)
+
     def nodes_of_slabs(self) -> npt.NDArray[np.int32]:
         """Nodes of all slabs."""
         return np.concatenate([self.nodes_of(i) for i in range(1, 1 + self.model.slabs)])
@@ -208,4 +212,5 @@ class Scene:
         if x is not None:
             distance = np.abs(self.x[nodes, 0] - x)
             nodes = nodes[distance < distance.min() + 1e-9]
-        return nodes[np.lexsort((self.x[nodes, 0], self.x[nodes, 1]))]
+        # Rows but for rounding
+        return nodes[np.lexsort(self.x[nodes, :2].T.round(9))]
