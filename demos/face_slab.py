@@ -128,7 +128,7 @@ def show_rows(title: str, rows: Sequence[tuple[str, float, float, Measured]]) ->
         "p\nMPa",
         "paper\nMPa",
         "computed\nMPa",
-        "difference",
+        "error",
         "lower end\nMPa",
         "opening\nmm",
         "factor\npaper",

@@ -40,7 +40,7 @@ def mesh(scene: Scene, path: Path) -> None:
         fem.Function(V),
         young,
         path,
-        title="Mesh",
+        title="Mesh (lengths in metres)",
         label="Young's modulus / GPa",
         clim=(0.0, 75.0),  # light enough for the lines of the mesh
         camera=_camera(scene),
@@ -56,7 +56,7 @@ def deformed(scene: Scene, path: Path, *, scale: float = 1.0, thickness: float =
         scene.u,
         compression,
         path,
-        title="Deformed slabs",
+        title="Deformed slabs (lengths in metres)",
         label="compression along the dam / MPa",
         scale=scale,
         stretch=(1.0, 1.0, thickness),

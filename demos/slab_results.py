@@ -125,7 +125,8 @@ def measure(scene: Scene) -> Measured:
     for body, sign in ((left, -1), (left + 1, 1)):
         own = np.intersect1d(scene.nodes_of(body), here)
         off = np.abs(scene.x[own, 0] - edge - sign * scene.model.width / 2)
-        through = own[off < off.min() + 1e-9]
+        # Cells at a joint that gapes lean by its opening at most
+        through = own[off < off.min() + 1e-9 + max(scene.model.opening)]
         section.append(_mean(stress[through], scene.x[through, 2]))
         top = scene.at(body, y=y, top=True)
         top = top[np.abs(scene.x[top, 0] - edge) <= scene.model.width / 2]

@@ -45,7 +45,11 @@ def nodal_map(
     figure = import_plotter("matplotlib.figure").Figure(figsize=(9.0, 4.8), layout="constrained")
     axis = figure.subplots()
     if kinds is None:
-        drawn = axis.tripcolor(*places.T, values, shading="gouraud", cmap=colour_map())
+        tri = import_plotter("matplotlib.tri")
+        cells = tri.Triangulation(*places.T)
+        # Nodes on a straight edge give triangles of hardly any height beside it
+        cells.set_mask(tri.TriAnalyzer(cells).get_flat_tri_mask(0.01))
+        drawn = axis.tripcolor(cells, values, shading="gouraud", cmap=colour_map())
         figure.colorbar(drawn, ax=axis).set_label(label, color=INK)
         axis.plot(*places.T, ".", color=INK, ms=1.0, alpha=0.4)
     else:
