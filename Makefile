@@ -35,7 +35,7 @@ all: $(INSTALLED)
 
 help:
 	@echo "make          set up .venv, build contactx and install it there"
-	@echo "make demo     solve the Hertz sphere of demos/hertz_sphere.py"
+	@echo "make demo     solve the Hertz sphere and the face slabs of demos/"
 	@echo "make test     lint, C++ tests, Python tests"
 	@echo "make bench-core  time the kernels and the search"
 	@echo "make lint     check format, style and types"
@@ -66,6 +66,8 @@ $(INSTALLED): $(DEPENDENCIES) CMakeLists.txt README.md $(SOURCES)
 
 demo: $(INSTALLED)
 	$(RUN) $(BIN)/python demos/hertz_sphere.py
+	$(RUN) $(BIN)/python demos/face_slab.py
+	$(RUN) $(BIN)/python demos/face_slab.py --scheme 2
 
 test: lint test-cpp test-python
 

@@ -173,7 +173,7 @@ def run_1(args: argparse.Namespace) -> list[story.Result]:
                 name = f"stress, {angle:g} degrees, {p:g} MPa"
                 results.append(story.Result(name, expected, found.stress))
     files = []
-    if not args.table and args.slabs > 1:
+    if not args.table:
         with story.progress("drawing"):
             files = slab_figures.draw(scene, args.output / "face_slab_1")
     show_rows("Slabs turned: largest compression at mid length", rows)

@@ -19,8 +19,8 @@ PEAK = (10.0, 25.0)  # the paper's peak of scheme 2: mm, MPa
 
 
 def _box(scene: Scene, width: float) -> tuple[tuple[float, ...], tuple[float, ...]]:
-    """Surroundings of the middle joint at the lower end, m."""
-    edge = scene.model.edges[middle_joint(scene)]
+    """Surroundings of the middle joint at the lower end, m; of one slab those of its middle."""
+    edge = scene.model.edges[middle_joint(scene)] if scene.joints else 0.0
     thickness = float(scene.model.thickness_at(0.0))
     return (edge - width, -1.0, -width / 2), (edge + width, 1.0, 1.01 * thickness)
 
@@ -184,23 +184,25 @@ def draw(scene: Scene, stem: Path) -> list[Path]:
     """Draw all pictures of a solved scene and write the file for ParaView.
 
     Args:
-        scene: Scene with a joint.
+        scene: Scene; of one slab alone there are no pictures of a joint.
         stem: Folder and first part of the files' names.
 
     Returns:
         The files.
     """
-    named = {
-        end: stem.with_name(stem.name + end)
-        for end in ("_mesh.png", "_deformed.png", "_joint.png", "_pressure.png", "_stress.png")
-    }
-    mesh(scene, named["_mesh.png"])
-    deformed(scene, named["_deformed.png"])
-    deformed(scene, named["_joint.png"], scale=100.0, thickness=1.0)
-    joint_pressure(scene, named["_pressure.png"])
-    top_stress(scene, named["_stress.png"])
-    others = joint_opening(scene, stem)
-    files = [stem.with_name(stem.name + end) for end in ("_status.png", ".pvd")]
-    statuses(scene, files[0])
-    write(scene, files[1])
-    return [*named.values(), *others, *files]
+
+    def named(end: str) -> Path:
+        files.append(stem.with_name(stem.name + end))
+        return files[-1]
+
+    files: list[Path] = []
+    mesh(scene, named("_mesh.png"))
+    deformed(scene, named("_deformed.png"))
+    deformed(scene, named("_joint.png"), scale=100.0, thickness=1.0)
+    statuses(scene, named("_status.png"))
+    write(scene, named(".pvd"))
+    if scene.joints:
+        joint_pressure(scene, named("_pressure.png"))
+        top_stress(scene, named("_stress.png"))
+        files += joint_opening(scene, stem)
+    return files

@@ -112,34 +112,43 @@ def faces_of_joint(scene: Scene, y: float | None = None) -> tuple[Array, Array]:
 
 
 def measure(scene: Scene) -> Measured:
-    """Read the results off a solved scene."""
-    left = middle_joint(scene)
-    edge, y = scene.model.edges[left], scene.section()
-    stress = -scene.sigma.update()
+    """Read the results off a solved scene; of one slab alone what needs a joint is NaN."""
+    stress, y = -scene.sigma.update(), scene.section()
     nodes = scene.nodes_of_slabs()
     here = nodes[np.isclose(scene.x[nodes, 1], y, atol=1e-6)]
     low = nodes[np.isclose(scene.x[nodes, 1], 0, atol=1e-6)]
-    lowest = [face[0] for face in faces_of_joint(scene, y)]
+    angle = wide = section = surface = np.nan
+    if scene.model.slabs > 1:
+        angle = rotation(scene)
+        wide = float(opening(scene, *(face[0] for face in faces_of_joint(scene, y))))
+        section, surface = _means(scene, stress)
+    return Measured(
+        rotation=angle,
+        opening=wide,
+        stress=float(stress[here].max()),
+        lower=float(stress[low].max()),
+        largest=float(stress[nodes].max()),
+        section=section,
+        surface=surface,
+    )
 
+
+def _means(scene: Scene, stress: Array) -> tuple[float, float]:
+    """Mean stress of slabs' middle sections, and of the top beside the joint, at mid length."""
+    left, y = middle_joint(scene), scene.section()
+    edge, half = scene.model.edges[left], scene.model.width / 2
     section, surface = [], []
     for body, sign in ((left, -1), (left + 1, 1)):
-        own = np.intersect1d(scene.nodes_of(body), here)
-        off = np.abs(scene.x[own, 0] - edge - sign * scene.model.width / 2)
+        own = scene.nodes_of(body)
+        own = own[np.isclose(scene.x[own, 1], y, atol=1e-6)]
+        off = np.abs(scene.x[own, 0] - edge - sign * half)
         # Cells at a joint that gapes lean by its opening at most
         through = own[off < off.min() + 1e-9 + max(scene.model.opening)]
         section.append(_mean(stress[through], scene.x[through, 2]))
         top = scene.at(body, y=y, top=True)
-        top = top[np.abs(scene.x[top, 0] - edge) <= scene.model.width / 2]
+        top = top[np.abs(scene.x[top, 0] - edge) <= half]
         surface.append(_mean(stress[top], scene.x[top, 0]))
-    return Measured(
-        rotation=rotation(scene),
-        opening=float(opening(scene, *lowest)),
-        stress=float(stress[here].max()),
-        lower=float(stress[low].max()),
-        largest=float(stress[nodes].max()),
-        section=float(np.mean(section)),
-        surface=float(np.mean(surface)),
-    )
+    return float(np.mean(section)), float(np.mean(surface))
 
 
 def nodal_forces(scene: Scene, contacts: Sequence[cx.Contact]) -> Array:
