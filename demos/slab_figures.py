@@ -105,8 +105,18 @@ def joint_pressure(scene: Scene, path: Path) -> None:
     title, label = "Contact pressure in the joint", "contact pressure / MPa"
     if scene.model.rows > 1:
         places = scene.x[nodes][:, 1:]
+        ((_, facets),) = contact.slave.facet_nodes(scene.u.function_space).groups()
+        halves = facets[:, [[0, 1, 2], [1, 3, 2]]].reshape(-1, 3)
         labels = ("distance up the slope / m", "height above the slab's bottom / m")
-        plot.nodal_map(places, pressure[nodes], path, labels=labels, title=title, label=label)
+        plot.nodal_map(
+            places,
+            pressure[nodes],
+            path,
+            labels=labels,
+            title=title,
+            label=label,
+            triangles=np.searchsorted(nodes, halves),
+        )
         return
     left, _ = faces_of_joint(scene, scene.section())
     plot.curves(

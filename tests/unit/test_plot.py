@@ -190,17 +190,22 @@ def test_marks_and_close_up(tmp_path: Path) -> None:
 
 def test_map(tmp_path: Path) -> None:
     """Values are interpolated between nodes; kinds have a colour and a count each."""
-    places = np.stack(np.meshgrid(np.linspace(0, 4, 20), [0, 1, 2 + 1e-15, 2]), axis=-1)
-    places = places.reshape(-1, 2)
+    places = np.stack(np.meshgrid(np.linspace(0, 4, 20), [0, 1]), axis=-1).reshape(-1, 2)
+    left = np.arange(19)
+    triangles = np.concatenate([[left, left + 1, left + 20], [left + 1, left + 21, left + 20]], 1).T
     labels = ("x", "y")
-    nodal_map(places, places[:, 0], tmp_path / "values.png", labels=labels, title="", label="p")
-    assert len(np.unique(colours(tmp_path / "values.png"), axis=0)) > 200
+    options: dict[str, Any] = {"labels": labels, "title": ""}
+    path = tmp_path / "values.png"
+    nodal_map(places, places[:, 0], path, label="p", triangles=triangles, **options)
+    assert len(np.unique(colours(path), axis=0)) > 200
     status = (places[:, 0] > 2).astype(int)
-    nodal_map(places, status, tmp_path / "k.png", labels=labels, title="", kinds=STATUS_NAMES)
-    pixels = colours(tmp_path / "k.png")
+    nodal_map(places, status, tmp_path / "kinds.png", kinds=STATUS_NAMES, **options)
+    pixels = colours(tmp_path / "kinds.png")
     for kind in ("c7ccd3", "2b6cb0"):
         rgb = [int(kind[i : i + 2], 16) for i in (0, 2, 4)]
         assert np.all(pixels == rgb, axis=1).sum() > 100
+    with pytest.raises(ValueError, match="give triangles to interpolate values on"):
+        nodal_map(places, status, tmp_path / "x.png", **options)
 
 
 def test_curves(tmp_path: Path) -> None:

@@ -153,7 +153,7 @@ FACE_SLABS: Mapping[str, FaceSlab] = MappingProxyType(
             length=1.0, rows=1, thickness=0.505, thickening=0.0, largest=0.5, cushion_layers=6
         ),
         "coarse": FaceSlab(joint_size=0.025, growth=1.32),
-        "paper": FaceSlab(rows=55, joint_size=0.025, growth=1.16, largest=1.0, cushion_layers=7),
+        "paper": FaceSlab(rows=56, joint_size=0.025, growth=1.16, largest=1.0, cushion_layers=7),
     }
 )
 

@@ -25,6 +25,7 @@ def nodal_map(
     labels: tuple[str, str],
     title: str,
     label: str = "",
+    triangles: npt.NDArray[np.integer] | None = None,
     kinds: Mapping[int, str] | None = None,
 ) -> None:
     """Draw nodal values of a flat face: interpolated, or as points where they are kinds.
@@ -36,21 +37,26 @@ def nodal_map(
         labels: Names and units of the two axes.
         title: Title of the picture.
         label: Name and unit of the values, for the colour bar.
+        triangles: Nodes of triangles that make up the face, shape (m, 3), to interpolate on.
         kinds: Names of values that are whole numbers, such as ``STATUS_NAMES``; None for values of
             a continuous quantity.
 
     Raises:
         ImportError: If matplotlib is not installed.
+        ValueError: If there are neither triangles nor kinds.
     """
+    if kinds is None and triangles is None:
+        raise ValueError("triangles and kinds are None; give triangles to interpolate values on.")
     figure = import_plotter("matplotlib.figure").Figure(figsize=(9.0, 4.8), layout="constrained")
     axis = figure.subplots()
     if kinds is None:
-        tri = import_plotter("matplotlib.tri")
-        cells = tri.Triangulation(*places.T)
-        # Nodes on a straight edge give triangles of hardly any height beside it
-        cells.set_mask(tri.TriAnalyzer(cells).get_flat_tri_mask(0.01))
-        drawn = axis.tripcolor(cells, values, shading="gouraud", cmap=colour_map())
-        figure.colorbar(drawn, ax=axis).set_label(label, color=INK)
+        low, high = float(values.min()), float(values.max())
+        levels = np.linspace(low, max(high, low + 1e-12), 65)
+        drawn = axis.tricontourf(*places.T, triangles, values, levels=levels, cmap=colour_map())
+        bar = figure.colorbar(drawn, ax=axis)
+        bar.locator = import_plotter("matplotlib.ticker").MaxNLocator()
+        bar.update_ticks()
+        bar.set_label(label, color=INK)
         axis.plot(*places.T, ".", color=INK, ms=1.0, alpha=0.4)
     else:
         for (kind, name), colour in zip(kinds.items(), _KINDS, strict=False):
