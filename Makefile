@@ -36,7 +36,7 @@ all: $(INSTALLED)
 
 help:
 	@echo "make          set up .venv, build contactx and install it there"
-	@echo "make demo     solve the Hertz sphere of demos/hertz_sphere.py"
+	@echo "make demo     solve the Hertz sphere and the face slabs of demos/"
 	@echo "make test     lint, C++ tests, Python tests"
 	@echo "make bench    all benchmarks, up to a million displacements"
 	@echo "make bench-core  time the kernels and the search"
@@ -68,6 +68,8 @@ $(INSTALLED): $(DEPENDENCIES) CMakeLists.txt README.md $(SOURCES)
 
 demo: $(INSTALLED)
 	$(RUN) $(BIN)/python demos/hertz_sphere.py
+	$(RUN) $(BIN)/python demos/face_slab.py
+	$(RUN) $(BIN)/python demos/face_slab.py --scheme 2
 
 test: lint test-cpp test-python
 

@@ -22,13 +22,21 @@ class VTKOutput:
             output.write(0.0)
     """
 
-    def __init__(self, path: str | Path, u: fem.Function, contacts: Sequence[Contact]):
+    def __init__(
+        self,
+        path: str | Path,
+        u: fem.Function,
+        contacts: Sequence[Contact],
+        *,
+        fields: Sequence[fem.Function] = (),
+    ):
         """Open the file.
 
         Args:
             path: File with the suffix ``.pvd``; the data go into files beside it.
             u: Displacement.
             contacts: Contacts of a ContactProblem.
+            fields: Other functions of linear Lagrange spaces to write, such as stresses.
 
         Raises:
             ValueError: If the suffix is another one.
@@ -39,6 +47,7 @@ class VTKOutput:
         path.parent.mkdir(parents=True, exist_ok=True)
         self._u = u
         self._contacts = list(contacts)
+        self._fields = list(fields)
         self._file = io.VTKFile(u.function_space.mesh.comm, path, "w")
 
     def __enter__(self) -> VTKOutput:
@@ -60,7 +69,7 @@ class VTKOutput:
         Args:
             t: Time or load factor.
         """
-        functions = [self._u]
+        functions = [self._u, *self._fields]
         for k, contact in enumerate(self._contacts):
             # Several contacts have fields of the same names
             suffix = f"_{k}" if len(self._contacts) > 1 else ""

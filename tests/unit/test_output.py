@@ -12,6 +12,7 @@ from story import displacement
 
 import contactx as cx
 from contactx.meshes import Tag
+from dolfinx import fem
 from dolfinx.mesh import CellType
 
 
@@ -25,7 +26,9 @@ def test_paraview_output(tmp_path: Path, contacts):
     ][:contacts]
     problem = scene.problem(*all_contacts)
     path = tmp_path / "new" / "blocks.pvd"
-    with cx.VTKOutput(path, scene.u, all_contacts) as output:
+    height = fem.Function(all_contacts[0].pressure.function_space, name="height")
+    height.interpolate(lambda x: x[2])
+    with cx.VTKOutput(path, scene.u, all_contacts, fields=[height]) as output:
         output.write(0.0)
         problem.solve()
         output.write(1.0)
@@ -33,6 +36,7 @@ def test_paraview_output(tmp_path: Path, contacts):
     assert reader.time_values == [0.0, 1.0]
     reader.set_active_time_value(1.0)
     data = reader.read()[0].point_data
+    assert data["height"].max() == pytest.approx(height.x.array.max())
     suffix = "_0" if contacts == 2 else ""
     assert data["displacement"].shape[1] == 3
     assert data["pressure" + suffix].max() == pytest.approx(all_contacts[0].multiplier.max())

@@ -16,8 +16,8 @@ import pytest
 from matplotlib import image
 
 from contactx.meshes import Tag, blocks, hertz_cap, hertz_cylinder, hertz_sphere
-from contactx.plot import curves, deformed_bodies, pressure_curve
-from contactx.plot.style import COLOURS
+from contactx.plot import STATUS_NAMES, curves, deformed_bodies, nodal_map, pressure_curve
+from contactx.plot.style import COLOURS, INK
 from contactx.plot.surface import deformed_surface, mirrored, peak_body
 from dolfinx import fem
 from dolfinx.io.gmsh import MeshData
@@ -152,6 +152,60 @@ def test_pressure_curve(tmp_path: Path) -> None:
     for colour in ("#22262b", COLOURS[3]):
         rgb = [int(colour[i : i + 2], 16) for i in (1, 3, 5)]
         assert np.all(pixels == rgb, axis=1).sum() > 50
+
+
+def test_box_and_stretch(tmp_path: Path) -> None:
+    """A close-up of a box is a second picture; a stretched body fills more of the first."""
+    u, pressure = pressed(blocks(CellType.hexahedron, (4, 1, 4), (3, 1, 3)))
+    sizes = []
+    for name, options in {
+        "plain": {"box": None},
+        "box": {"box": ((0.3, -1.0, -0.2), (0.7, 1.0, 0.2))},
+        "wide": {"box": ((0.3, -1.0, -0.2), (0.7, 1.0, 0.2)), "stretch": (3.0, 1.0, 1.0)},
+    }.items():
+        path = tmp_path / f"{name}.png"
+        pressure.x.array[:] *= 0 if name == "plain" else 1
+        deformed_bodies(u, pressure, path, title="", camera=(0, -1, 0), **options)
+        sizes.append(image.imread(path).shape[1])
+    assert sizes[0] < sizes[1] < sizes[2]
+    with pytest.raises(ValueError, match="holds no node of the surface; make it larger"):
+        box = ((5.0, 5.0, 5.0), (6.0, 6.0, 6.0))
+        deformed_bodies(u, pressure, tmp_path / "x.png", title="", box=box)
+
+
+def test_marks_and_close_up(tmp_path: Path) -> None:
+    """A mark adds dark points, a close-up a second pair of axes."""
+    x = np.linspace(-1, 1, 50)
+    dark, widths = [], []
+    for marks, close_up in ((None, None), ({"here": (0.5, 0.5)}, None), (None, (-0.1, 0.1))):
+        path = tmp_path / "curve.png"
+        arguments: dict[str, Any] = {"marks": marks, "close_up": close_up}
+        curves({"p": (x, x**2)}, {}, path, labels=("x", "y"), title="", **arguments)
+        ink = [int(INK[i : i + 2], 16) for i in (1, 3, 5)]
+        dark.append(int(np.all(colours(path) == ink, axis=1).sum()))
+        widths.append(image.imread(path).shape[1])
+    assert dark[1] > dark[0] + 100
+    assert widths[2] == 2 * widths[0]
+
+
+def test_map(tmp_path: Path) -> None:
+    """Values are interpolated between nodes; kinds have a colour and a count each."""
+    places = np.stack(np.meshgrid(np.linspace(0, 4, 20), [0, 1]), axis=-1).reshape(-1, 2)
+    left = np.arange(19)
+    triangles = np.concatenate([[left, left + 1, left + 20], [left + 1, left + 21, left + 20]], 1).T
+    labels = ("x", "y")
+    options: dict[str, Any] = {"labels": labels, "title": ""}
+    path = tmp_path / "values.png"
+    nodal_map(places, places[:, 0], path, label="p", triangles=triangles, **options)
+    assert len(np.unique(colours(path), axis=0)) > 200
+    status = (places[:, 0] > 2).astype(int)
+    nodal_map(places, status, tmp_path / "kinds.png", kinds=STATUS_NAMES, **options)
+    pixels = colours(tmp_path / "kinds.png")
+    for kind in ("c7ccd3", "2b6cb0"):
+        rgb = [int(kind[i : i + 2], 16) for i in (0, 2, 4)]
+        assert np.all(pixels == rgb, axis=1).sum() > 100
+    with pytest.raises(ValueError, match="give triangles to interpolate values on"):
+        nodal_map(places, status, tmp_path / "x.png", **options)
 
 
 def test_curves(tmp_path: Path) -> None:

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from contactx.meshes.cap import hertz_cap
 from contactx.meshes.cylinder import hertz_cylinder
+from contactx.meshes.face_slab import FACE_SLABS, FaceSlab, face_slab
 from contactx.meshes.half_cylinders import half_cylinders
 from contactx.meshes.rings import rings
 from contactx.meshes.single import single
@@ -15,9 +16,12 @@ from contactx.meshes.stacked import blocks
 from contactx.meshes.tags import Tag, block_tag
 
 __all__ = [
+    "FACE_SLABS",
+    "FaceSlab",
     "Tag",
     "block_tag",
     "blocks",
+    "face_slab",
     "half_cylinders",
     "hertz_cap",
     "hertz_cylinder",

@@ -6,5 +6,6 @@ from __future__ import annotations
 
 from contactx.plot.curve import curves, pressure_curve
 from contactx.plot.deformed import deformed_bodies
+from contactx.plot.face_map import STATUS_NAMES, nodal_map
 
-__all__ = ["curves", "deformed_bodies", "pressure_curve"]
+__all__ = ["STATUS_NAMES", "curves", "deformed_bodies", "nodal_map", "pressure_curve"]

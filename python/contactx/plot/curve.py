@@ -7,6 +7,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from itertools import cycle
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -26,6 +27,8 @@ def curves(
     labels: tuple[str, str],
     title: str,
     joined: bool = False,
+    marks: Mapping[str, tuple[float, float]] | None = None,
+    close_up: tuple[float, float] | None = None,
 ) -> None:
     """Draw computed values as points against closed curves.
 
@@ -36,12 +39,41 @@ def curves(
         labels: Names and units of the two axes.
         title: Title of the picture.
         joined: Whether the points of a curve follow each other, and lines join them.
+        marks: Single points to draw as stars, by their names.
+        close_up: Lowest and highest position of a close-up beside the picture; none if None.
 
     Raises:
         ImportError: If matplotlib is not installed.
     """
-    figure = import_plotter("matplotlib.figure").Figure(figsize=(7.2, 4.6), layout="constrained")
-    axis = figure.subplots()
+    count = 1 if close_up is None else 2
+    figure = import_plotter("matplotlib.figure").Figure(
+        figsize=(7.2 * count, 4.6), layout="constrained"
+    )
+    axes = figure.subplots(1, count, squeeze=False)[0]
+    for axis in axes:
+        _draw(axis, computed, exact, marks or {}, joined)
+        axis.set_xlabel(labels[0])
+        axis.grid(color="#e6e9ed", zorder=0)
+        axis.spines[["top", "right"]].set_visible(False)
+    axes[0].set_ylabel(labels[1])
+    if close_up is not None:
+        axes[1].set_xlim(*close_up)
+        axes[1].set_title("close-up", fontsize=11, color=INK)
+    figure.suptitle(title, fontsize=14, color=INK)
+    handles, names = axes[0].get_legend_handles_labels()
+    if handles:
+        figure.legend(handles, names, frameon=False, loc="outside lower center", ncols=4)
+    figure.savefig(path, dpi=DOTS_PER_INCH, facecolor="white")
+
+
+def _draw(
+    axis: Any,
+    computed: Mapping[str, Curve],
+    exact: Mapping[str, Curve],
+    marks: Mapping[str, tuple[float, float]],
+    joined: bool,
+) -> None:
+    """Draw all curves into one pair of axes."""
     for (name, (x, y)), line in zip(exact.items(), cycle(_LINES), strict=False):
         axis.plot(x, y, line, color=INK, lw=1.8, label=name, zorder=2)
     for (name, (x, y)), colour in zip(computed.items(), cycle(_POINTS), strict=False):
@@ -57,15 +89,10 @@ def curves(
             label=name,
             zorder=3,
         )
-    axis.set_xlabel(labels[0])
-    axis.set_ylabel(labels[1])
-    axis.set_title(title, fontsize=14, color=INK)
+    for name, (place, value) in marks.items():
+        axis.plot([place], [value], "*", color=INK, ms=15, ls="none", label=name, zorder=4)
     if all(np.all(np.asarray(y) >= 0) for _, y in (*computed.values(), *exact.values())):
         axis.set_ylim(bottom=0)
-    axis.grid(color="#e6e9ed", zorder=0)
-    axis.spines[["top", "right"]].set_visible(False)
-    figure.legend(frameon=False, loc="outside lower center", ncols=4)
-    figure.savefig(path, dpi=DOTS_PER_INCH, facecolor="white")
 
 
 def pressure_curve(

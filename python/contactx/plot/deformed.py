@@ -28,6 +28,7 @@ def _draw(
     camera: Sequence[float] | None,
     clim: Sequence[float],
     flat: bool,
+    box: Sequence[Sequence[float]] | None,
 ) -> list[tuple[npt.NDArray[np.uint8], float]]:
     """Draw the overview and, where it shows more, the close-up; each with its width."""
     if camera is None:
@@ -39,6 +40,15 @@ def _draw(
     view = overview = View(body.points, direction, margin=0.04)
     edges = sharp_edges(body, shown, flat)
     images = [(view.render(body, edges, clim, lighting=not flat), float(view.extent[0]))]
+    if box is not None:
+        low, high = np.asarray(box, dtype=np.float64)
+        reference = body.point_data["reference"][:, : len(low)]
+        inside = np.all((reference >= low) & (reference <= high), axis=1)
+        if not inside.any():
+            raise ValueError(f"box is {box}, which holds no node of the surface; make it larger.")
+        view = View(body.points[inside], direction, margin=0.0, square=True)
+        images.append((view.render(body, edges, clim, lighting=False), float(view.extent[0])))
+        return images
     if not np.any(surface.point_data["scalar"]):
         return images
     if not flat:
@@ -60,6 +70,15 @@ def _draw(
     return images
 
 
+def _note(scale: float, stretch: Sequence[float]) -> str:
+    """Say what is not drawn as it is."""
+    notes = [] if scale == 1 else [f"displacement drawn {scale:g} times as large"]
+    for axis, factor in zip(AXES, stretch, strict=True):
+        if factor != 1:
+            notes.append(f"{axis} drawn {factor:g} times as long")
+    return ", ".join(notes)
+
+
 def deformed_bodies(
     u: fem.Function[Any],
     scalar: fem.Function[Any],
@@ -71,12 +90,15 @@ def deformed_bodies(
     clim: tuple[float, float] | None = None,
     camera: Sequence[float] | None = None,
     mirror: Sequence[str] = (),
+    stretch: Sequence[float] = (1.0, 1.0, 1.0),
+    box: Sequence[Sequence[float]] | None = None,
 ) -> None:
     """Draw the deformed bodies and a close-up of the contact zone, coloured by a scalar.
 
-    The overview shows all bodies. The close-up shows where the scalar is not zero: in 2D of all
-    bodies, and only where that is a small part of them, in 3D the surface of the body with the
-    largest value, seen from where the other body was. Collective; rank 0 draws.
+    The overview shows all bodies. The close-up shows the same in a box, if one is given; else where
+    the scalar is not zero: in 2D of all bodies, and only where that is a small part of them, in 3D
+    the surface of the body with the largest value, seen from where the other body was. Collective;
+    rank 0 draws.
 
     Args:
         u: Displacement, length, a Lagrange function with one component per direction.
@@ -91,10 +113,15 @@ def deformed_bodies(
         camera: Direction from the bodies towards the viewer of the overview, shape (3,).
         mirror: Planes of symmetry through the origin, by their normals "x", "y" or "z". With
             two of them in 3D the overview leaves the last one open and shows the section there.
+        stretch: Factor of each axis of the drawing, shape (3,); a thin body is easier to see
+            through with its thickness stretched.
+        box: Lowest and highest coordinates before the deformation of what the close-up shows, shape
+            (2, dim). There must be nodes of the surface in it.
 
     Raises:
         ImportError: If pyvista or matplotlib is not installed.
-        ValueError: If a mirror plane is not the name of an axis, or the scalar is of another kind.
+        ValueError: If a mirror plane is not the name of an axis, the scalar is of another kind or
+            the box is empty.
     """
     for plane in mirror:
         if plane not in AXES:
@@ -102,7 +129,7 @@ def deformed_bodies(
     element = scalar.function_space.ufl_element()
     if element.degree != 1 or element.discontinuous or element.block_size != 1:
         raise ValueError(f"scalar is of {element}; interpolate it into a space of ('P', 1).")
-    surface = deformed_surface(u, scalar, scale)
+    surface = deformed_surface(u, scalar, scale, stretch)
     if surface is None:
         return
     if clim is None:
@@ -110,12 +137,12 @@ def deformed_bodies(
         low = min(0.0, float(values.min()))
         clim = (low, max(float(values.max()), low + 1e-12))
     flat = u.function_space.mesh.geometry.dim == 2
-    images = _draw(surface, tuple(mirror), camera, clim, flat)
+    images = _draw(surface, tuple(mirror), camera, clim, flat, box)
     compose(
         images,
         path,
         title=title,
         label=scalar.name if label is None else label,
         clim=clim,
-        note="" if scale == 1 else f"displacement drawn {scale:g} times as large",
+        note=_note(scale, stretch),
     )

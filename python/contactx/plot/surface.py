@@ -20,13 +20,19 @@ _vtk_mesh: Any = vtk_mesh
 AXES = {"x": 0, "y": 1, "z": 2}
 
 
-def deformed_surface(u: fem.Function[Any], scalar: fem.Function[Any], scale: float) -> Any:
+def deformed_surface(
+    u: fem.Function[Any],
+    scalar: fem.Function[Any],
+    scale: float,
+    stretch: Sequence[float] = (1.0, 1.0, 1.0),
+) -> Any:
     """Gather the outer surface of the deformed mesh (collective).
 
     Args:
         u: Displacement, length.
         scalar: Continuous scalar function of degree 1.
         scale: Factor of the displacement.
+        stretch: Factor of each axis of the deformed position.
 
     Returns:
         On rank 0 a pyvista surface with the point data "scalar" and "reference", the position
@@ -52,6 +58,7 @@ def deformed_surface(u: fem.Function[Any], scalar: fem.Function[Any], scale: flo
     connected, types, deformed, reference, values = (
         np.concatenate(arrays) for arrays in zip(*parts, strict=True)
     )
+    deformed *= stretch
     cells = np.insert(connected, 0, connected.shape[1], axis=1)
     grid = import_plotter("pyvista").UnstructuredGrid(cells.ravel(), types, deformed)
     grid.point_data["reference"] = reference

@@ -1,0 +1,184 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""What is read off face slabs: rotation, opening, stresses, and whether the laws hold."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from slab_scene import Array, Scene
+
+import contactx as cx
+import ufl
+from contactx.meshes import block_tag
+from dolfinx import fem
+
+
+@dataclass(frozen=True)
+class Measured:
+    """Results at the joint nearest to the middle of the row; stresses are compression positive.
+
+    Attributes:
+        rotation: Mean rotation of the two slabs at mid length, degrees.
+        opening: Distance of the slabs' bottom edges at mid length, m.
+        stress: Largest stress along the dam of the section at mid length, MPa.
+        lower: The same at the lower end, MPa.
+        largest: The same of all slabs, MPa.
+        section: Mean stress of the section through the middle of a slab at mid length, MPa.
+        surface: Mean stress of the top at mid length, of the half slabs beside the joint, MPa.
+    """
+
+    rotation: float
+    opening: float
+    stress: float
+    lower: float
+    largest: float
+    section: float
+    surface: float
+
+    @property
+    def section_factor(self) -> float:
+        """Largest stress over the mean stress of the slab's middle section."""
+        return self.stress / self.section
+
+    @property
+    def surface_factor(self) -> float:
+        """Largest stress over the mean stress of the top beside the joint."""
+        return self.stress / self.surface
+
+
+@dataclass(frozen=True)
+class Laws:
+    """How well the laws hold.
+
+    Attributes:
+        balance: Largest difference of the contact forces on a slab and its water load along the
+            normal, relative to the load.
+        penetration: Deepest penetration, m; 0 if there is none.
+        coulomb: Largest excess of |t| over mu p at a node, relative to the largest pressure.
+    """
+
+    balance: float
+    penetration: float
+    coulomb: float
+
+
+def _mean(values: Array, places: Array) -> float:
+    """Mean of a function that is linear between places."""
+    order = np.argsort(places)
+    length = float(np.ptp(places))
+    return float(np.trapezoid(values[order], places[order]) / length)
+
+
+def middle_joint(scene: Scene) -> int:
+    """Number of the slab to the left of the joint that is nearest to the middle; at least 2 slabs.
+
+    Raises:
+        ValueError: If there is one slab only.
+    """
+    if scene.model.slabs < 2:
+        raise ValueError("a row of one slab has no joint; give at least two slabs")
+    return scene.model.slabs // 2
+
+
+def rotation(scene: Scene) -> float:
+    """Mean rotation at mid length of the slabs beside the middle joint, degrees."""
+    left = middle_joint(scene)
+    edges, y, w = scene.model.edges, scene.section(), scene.moved()[:, 2]
+    angles = []
+    for body, joint, outer in ((left, left, left - 1), (left + 1, left, left + 1)):
+        inner, far = (scene.at(body, x=edges[i], y=y, top=True) for i in (joint, outer))
+        angles.append(np.arctan((w[far] - w[inner]).item() / scene.model.width))
+    return float(np.degrees(np.mean(angles)))
+
+
+def opening(scene: Scene, left: Array, right: Array) -> Array:
+    """Distance of nodes of two slabs that face each other, m."""
+    x = scene.x[:, 0] + scene.moved()[:, 0]
+    return np.asarray(x[right] - x[left])
+
+
+def faces_of_joint(scene: Scene, y: float | None = None) -> tuple[Array, Array]:
+    """Nodes of the two faces of the middle joint, in the same order, at mid length or another y."""
+    left, pair = middle_joint(scene), []
+    for body, side in ((left, "x1"), (left + 1, "x0")):
+        nodes = scene.nodes_on(block_tag(body, side))
+        if y is not None:
+            nodes = nodes[np.isclose(scene.x[nodes, 1], y, atol=1e-6)]
+        pair.append(nodes[np.lexsort((scene.x[nodes, 2].round(9), scene.x[nodes, 1].round(9)))])
+    return pair[0], pair[1]
+
+
+def measure(scene: Scene) -> Measured:
+    """Read the results off a solved scene; of one slab alone what needs a joint is NaN."""
+    stress, y = -scene.sigma.update(), scene.section()
+    nodes = scene.nodes_of_slabs()
+    here = nodes[np.isclose(scene.x[nodes, 1], y, atol=1e-6)]
+    low = nodes[np.isclose(scene.x[nodes, 1], 0, atol=1e-6)]
+    angle = wide = section = surface = np.nan
+    if scene.model.slabs > 1:
+        angle = rotation(scene)
+        wide = float(opening(scene, *(face[0] for face in faces_of_joint(scene, y))))
+        section, surface = _means(scene, stress)
+    return Measured(
+        rotation=angle,
+        opening=wide,
+        stress=float(stress[here].max()),
+        lower=float(stress[low].max()),
+        largest=float(stress[nodes].max()),
+        section=section,
+        surface=surface,
+    )
+
+
+def _means(scene: Scene, stress: Array) -> tuple[float, float]:
+    """Mean stress of slabs' middle sections, and of the top beside the joint, at mid length."""
+    left, y = middle_joint(scene), scene.section()
+    edge, half = scene.model.edges[left], scene.model.width / 2
+    section, surface = [], []
+    for body, sign in ((left, -1), (left + 1, 1)):
+        own = scene.nodes_of(body)
+        own = own[np.isclose(scene.x[own, 1], y, atol=1e-6)]
+        off = np.abs(scene.x[own, 0] - edge - sign * half)
+        # Cells at a joint that gapes lean by its opening at most
+        through = own[off < off.min() + 1e-9 + max(scene.model.opening)]
+        section.append(_mean(stress[through], scene.x[through, 2]))
+        top = scene.at(body, y=y, top=True)
+        top = top[np.abs(scene.x[top, 0] - edge) <= half]
+        surface.append(_mean(stress[top], scene.x[top, 0]))
+    return float(np.mean(section)), float(np.mean(surface))
+
+
+def nodal_forces(scene: Scene, contacts: Sequence[cx.Contact]) -> Array:
+    """Contact forces on all nodes along dam, slope and normal, MN, shape (num_nodes, 3)."""
+    forces = np.zeros(len(scene.u.x.array))
+    for contact in contacts:
+        for form in contact.forms:
+            fem.assemble_vector(forces, form.residual)
+    return -forces.reshape(-1, 3)[:, list(scene.setting.axes)]
+
+
+def laws(scene: Scene) -> Laws:
+    """Check balance, penetration and Coulomb's law of a solved scene."""
+    forces = nodal_forces(scene, scene.problem.contacts)
+    ds = ufl.Measure("ds", domain=scene.mesh, subdomain_data=scene.tags)
+    balance = 0.0
+    for i in range(1, 1 + scene.model.slabs):
+        load = fem.assemble_scalar(fem.form(scene.pressure * ds(block_tag(i, "top"))))
+        force = forces[scene.nodes_of(i), 2].sum()
+        balance = max(balance, abs(force - load) / load)
+    excess, pressure, gap = -np.inf, 0.0, 0.0
+    for contact in scene.problem.contacts:
+        mu = scene.setting.joint_friction
+        if contact in scene.cushion_contacts:
+            mu = scene.setting.cushion_friction
+        p = contact.pressure.x.array[contact.slave_nodes]
+        traction = contact.multiplier
+        if traction.ndim == 2:
+            shear = np.sqrt(np.maximum(np.sum(traction**2, axis=1) - p**2, 0))
+            excess = max(excess, float(np.max(shear - mu * p)))
+        pressure = max(pressure, float(p.max()))
+        gap = min(gap, float(np.nanmin(contact.gap.x.array[contact.slave_nodes], initial=0.0)))
+    return Laws(balance, -gap, max(excess, 0.0) / pressure)

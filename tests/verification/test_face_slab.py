@@ -1,0 +1,168 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Face slabs on slices: Table 1 of the paper, invariance, laws, meshes, rows of slabs."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from face_slab import TABLE
+from slab_results import laws, measure
+from slab_scene import Setting
+from slab_schemes import scheme_1, scheme_2, secant, try_supports
+
+from contactx.meshes import FACE_SLABS
+
+SLICE = replace(FACE_SLABS["slice"], layers=10)
+# Settlements that the trial computation finds, m
+SETTLEMENTS = {
+    (0.11, 0.3): 0.04393,
+    (0.17, 0.3): 0.07339,
+    (0.22, 0.3): 0.10091,
+    (0.17, 0.5): 0.06712,
+    (0.17, 0.8): 0.06324,
+}
+ROW_2 = (SETTLEMENTS[0.17, 0.3], 0.3)
+
+
+def turned(setting=None, settlement=ROW_2[0], pressure=ROW_2[1], steps=1, **model):
+    setting = setting or Setting(replace(SLICE, **model))
+    return scheme_1(setting, settlement, pressure, steps=steps, progress=False)
+
+
+def check_laws(scene):
+    held = laws(scene)
+    assert held.balance < 1e-8
+    assert held.penetration < 1e-9
+    assert held.coulomb < 1e-8
+
+
+@pytest.fixture(scope="module")
+def reference():
+    """Row 2 of the table in one step."""
+    return turned()
+
+
+@pytest.fixture(scope="module")
+def table():
+    """All rows of the table."""
+    found = {}
+    for row, settlement in SETTLEMENTS.items():
+        scene = turned(settlement=settlement, pressure=row[1])
+        check_laws(scene)
+        found[row] = measure(scene)
+    return found
+
+
+def test_table(table):
+    """Rotations are met, stresses within 8 % of the paper's, their order is the same."""
+    for row, m in table.items():
+        assert m.rotation == pytest.approx(row[0], rel=5e-3)
+        assert m.stress == pytest.approx(TABLE[row][0], rel=0.08)
+    by_rotation = [table[a, 0.3].stress for a in (0.11, 0.17, 0.22)]
+    by_pressure = [table[0.17, p].stress for p in (0.3, 0.5, 0.8)]
+    assert np.all(np.diff(by_rotation) > 0) and np.all(np.diff(by_pressure) > 0)
+    # By homogeneity the stress over the rotation depends on pressure over rotation alone
+    rows = sorted(table, key=lambda row: row[1] / row[0])
+    assert np.all(np.diff([table[row].stress / row[0] for row in rows]) > 0)
+
+
+def test_opening(table):
+    """The joint touches at its top and opens below; the paper has 0.48 mm."""
+    assert 0.44e-3 < table[0.17, 0.3].opening < 0.53e-3
+
+
+def test_trial_finds_the_support():
+    """A try is one step, and the ten steps that follow end at the same rotation."""
+    tries = []
+    setting = Setting(replace(SLICE, layers=5))
+    found = try_supports(setting, 0.17, 0.8, tries.append)
+    assert found is tries[-1] and 2 <= len(tries) <= 5
+    scene = turned(setting, found.settlement, 0.8, steps=10)
+    assert measure(scene).rotation == pytest.approx(0.17, rel=2e-3)
+    assert measure(scene).rotation == pytest.approx(found.rotation, rel=1e-9)
+
+
+def test_secant_gives_up():
+    """Where the rotation does not follow the settlement it says so."""
+    with pytest.raises(RuntimeError, match="in 5 tries turns the slabs by 1 degrees"):
+        secant(lambda s: 0.5 + 0.01 * np.sin(1e3 * s), 1, most=5)
+
+
+def test_homogeneous(reference):
+    """Twice the load on the same springs doubles everything."""
+    double = turned(settlement=2 * ROW_2[0], pressure=2 * ROW_2[1])
+    size = np.abs(reference.u.x.array).max()
+    assert np.abs(double.u.x.array - 2 * reference.u.x.array).max() < 1e-7 * size
+    for one, two in zip(reference.problem.contacts, double.problem.contacts, strict=True):
+        assert np.allclose(two.multiplier, 2 * one.multiplier, rtol=0, atol=1e-7)
+
+
+@pytest.mark.parametrize("axes", [(1, 2, 0), (1, 0, 2)])
+def test_axes(reference, axes):
+    """Nothing depends on the names of the axes, turned or mirrored."""
+    scene = turned(Setting(SLICE, axes=axes))
+    size = np.abs(reference.u.x.array).max()
+    assert np.abs(scene.moved() - reference.moved()).max() < 1e-11 * size
+    assert measure(scene).stress == pytest.approx(measure(reference).stress, rel=1e-10)
+
+
+def test_finite_sliding_differs_little(reference):
+    """The slabs turn by a fifth of a degree: small sliding is right within a thousandth."""
+    finite = turned(Setting(SLICE, sliding="finite"))
+    check_laws(finite)
+    assert measure(finite).stress == pytest.approx(measure(reference).stress, rel=1e-3)
+    assert measure(finite).stress != measure(reference).stress
+
+
+def test_slave_and_master_swapped(reference):
+    """Either side of the cushion's contact may be the slave."""
+    swapped = turned(Setting(SLICE, cushion_is_slave=False))
+    check_laws(swapped)
+    assert measure(swapped).stress == pytest.approx(measure(reference).stress, rel=0.03)
+
+
+def test_matching_meshes(reference):
+    """Cells that do not match change the stress little."""
+    assert measure(turned(matching=True)).stress == pytest.approx(
+        measure(reference).stress, rel=0.03
+    )
+
+
+def test_mesh_convergence(reference):
+    """The stress grows with the layers, less and less."""
+    coarse, fine = (measure(turned(layers=n)).stress for n in (5, 20))
+    middle = measure(reference).stress
+    assert coarse < middle < fine
+    assert fine - middle < 0.7 * (middle - coarse)
+    assert fine == pytest.approx(coarse, rel=0.08)
+
+
+@pytest.mark.parametrize("slabs", [1, 3, 4, 5, 6])
+def test_row(slabs):
+    """Rows of any number of slabs are balanced and symmetric but for the node below a joint."""
+    scene = turned(slabs=slabs, layers=5)
+    check_laws(scene)
+    top = scene.nodes_of_slabs()
+    top = top[np.isclose(scene.x[top, 2], scene.model.thickness) & np.isclose(scene.x[top, 1], 0)]
+    top = top[np.argsort(scene.x[top, 0])]
+    settled = scene.moved()[top, 2]
+    assert np.allclose(settled, settled[::-1], rtol=1e-2)
+    assert settled.min() < -0.03
+
+
+def test_pushed():
+    """Scheme 2 on five layers: the stress rises to a peak near the paper's and falls."""
+    pushes, stresses = [], []
+
+    def each(scene):
+        pushes.append(1000 * float(scene.push[0].value))
+        stresses.append(measure(scene).largest)
+
+    model = replace(SLICE, layers=5, cushion_thickness=2.0, opening=(0.0, 2e-3))
+    scene = scheme_2(Setting(model), 0.3, 0.02, steps=20, each=each, progress=False)
+    check_laws(scene)
+    peak = int(np.argmax(stresses))
+    assert 23 < stresses[peak] < 27
+    assert 7.5 <= pushes[peak] <= 11
+    assert np.all(np.diff(stresses)[:peak] > 0) and np.all(np.diff(stresses)[peak:] < 0)
