@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from petsc4py import PETSc
 
 import numpy as np
@@ -30,11 +32,15 @@ class Entries:
         """Some of the entries."""
         return Entries(self.rows[which], self.columns[which], self.values[which])
 
-    def matrix(self, size: int) -> PETSc.Mat:
-        """Square AIJ matrix; entries of one place are added."""
+    def scaled(self, factor: float) -> Entries:
+        """The entries times a factor."""
+        return Entries(self.rows, self.columns, factor * self.values)
+
+    def matrix(self, shape: tuple[int, int]) -> PETSc.Mat:
+        """AIJ matrix; entries of one place are added."""
         order = np.argsort(self.rows, kind="stable")
-        indptr = np.searchsorted(self.rows[order], np.arange(size + 1)).astype(PETSc.IntType)
-        A = PETSc.Mat().createAIJ((size, size), comm=PETSc.COMM_SELF)
+        indptr = np.searchsorted(self.rows[order], np.arange(shape[0] + 1)).astype(PETSc.IntType)
+        A = PETSc.Mat().createAIJ(shape, comm=PETSc.COMM_SELF)
         A.setPreallocationNNZ(np.maximum(np.diff(indptr), 0).astype(PETSc.IntType))
         A.setValuesIJV(
             indptr,
@@ -46,6 +52,22 @@ class Entries:
         return A
 
 
+def entries_of(A: PETSc.Mat) -> Entries:
+    """Entries of a matrix that are not zero."""
+    indptr, columns, values = A.getValuesCSR()
+    rows = np.repeat(np.arange(len(indptr) - 1), np.diff(indptr))
+    return Entries(rows, columns, values).select(values != 0)
+
+
+def multiplied(A: PETSc.Mat, x: Array) -> Array:
+    """Product of a matrix and an array."""
+    vector, product = A.createVecs()
+    vector.array[:] = x
+    A.mult(vector, product)
+    result: Array = product.array
+    return result
+
+
 def joined(parts: list[Entries]) -> Entries:
     """All entries of several matrices."""
     return Entries(
@@ -55,6 +77,7 @@ def joined(parts: list[Entries]) -> Entries:
     )
 
 
+@dataclass(frozen=True)
 class ContactBlocks:
     """Blocks of the contact part of a Jacobian, in the unknowns (displacements, multipliers).
 
@@ -64,19 +87,25 @@ class ContactBlocks:
         stiffness: Derivative of the displacements' rows by the displacements.
     """
 
-    def __init__(self, contact: PETSc.Mat, num_bulk: int):
+    traction: Entries
+    constraint: Entries
+    stiffness: Entries
+
+    @staticmethod
+    def of(contact: PETSc.Mat, num_bulk: int) -> ContactBlocks:
         """Sort a matrix into blocks.
 
         Args:
             contact: Contact part of the Jacobian.
             num_bulk: Number of displacements.
         """
-        indptr, columns, values = contact.getValuesCSR()
-        rows = np.repeat(np.arange(len(indptr) - 1), np.diff(indptr))
-        every = Entries(rows, columns, values).select(values != 0)
+        every = entries_of(contact)
         below, right = every.rows >= num_bulk, every.columns >= num_bulk
-        self.stiffness = every.select(~below & ~right)
-        self.traction = every.select(~below & right)
-        self.traction.columns = self.traction.columns - num_bulk
-        self.constraint = every.select(below & ~right)
-        self.constraint.rows = self.constraint.rows - num_bulk
+        traction, constraint = every.select(~below & right), every.select(below & ~right)
+        traction.columns = traction.columns - num_bulk
+        constraint.rows = constraint.rows - num_bulk
+        return ContactBlocks(traction, constraint, every.select(~below & ~right))
+
+
+class NotCondensable(Exception):
+    """A multiplier has no equation of its own; the message says which."""

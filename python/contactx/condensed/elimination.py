@@ -9,14 +9,12 @@ from collections.abc import Sequence
 from petsc4py import PETSc
 
 import numpy as np
+import numpy.typing as npt
 
 from contactx import cpp as core
-from contactx.condensed.blocks import Array, ContactBlocks, Entries, Index, joined
+from contactx.condensed.blocks import Array, Entries, Index, NotCondensable, joined
+from contactx.condensed.prescribed import Prescribed
 from contactx.interface import Interface
-
-
-class NotCondensable(Exception):
-    """A multiplier has no equation of its own; the message says which."""
 
 
 class Elimination:
@@ -38,20 +36,20 @@ class Elimination:
     """
 
     def __init__(
-        self, interfaces: Sequence[Interface], blocks: ContactBlocks, free: Array, gdim: int
+        self, interfaces: Sequence[Interface], contact: Prescribed, free: Array, gdim: int
     ):
         """Find the transforms.
 
         Args:
             interfaces: Discrete sides of the contacts.
-            blocks: Contact blocks of the Jacobian.
+            contact: Contact blocks of the Jacobian, without multipliers that the bulk cannot give.
             free: 1 at displacements that are not prescribed, else 0, shape (num_dofs,).
             gdim: Geometric dimension.
 
         Raises:
             NotCondensable: Where a multiplier has no equation of its own.
         """
-        self._blocks = blocks
+        self._blocks = contact.blocks
         self._free = free
         self._gdim = gdim
         self._left: list[Entries] = []
@@ -66,8 +64,8 @@ class Elimination:
         slaves = np.unique(np.concatenate([i.slaves for i in interfaces]))
         self.slave_dofs = (slaves[:, None] * gdim + np.arange(gdim)).ravel().astype(PETSc.IntType)
         first = 0
-        for interface in interfaces:
-            self._add(interface, first)
+        for k, interface in enumerate(interfaces):
+            self._add(interface, first, contact.by_multiplier[k], contact.own[k])
             first += len(interface.nodes.multiplier)
         self.num_multipliers = first
         self.left, self.right, self.law = (
@@ -79,29 +77,27 @@ class Elimination:
         self._check_chains()
         self.is_symmetric = not self._slips and self._transposed()
 
-    def _add(self, interface: Interface, first: int) -> None:
+    def _add(self, interface: Interface, first: int, by: Array, own: npt.NDArray[np.bool_]) -> None:
         nodes = interface.nodes
         n = len(nodes.area)
         multipliers = first + np.arange(n * nodes.size).reshape(n, nodes.size)
         closed = nodes.closed
-        by = nodes.by_multiplier
-        diagonal = np.einsum("nii->ni", by)[~closed]
+        diagonal = np.einsum("nii->ni", nodes.by_multiplier)[~closed]
         self._open.append((multipliers[~closed].ravel(), diagonal.ravel()))
         slaves = interface.slaves
         if nodes.size == 1:
             self._add_scalar(slaves[closed], multipliers[closed, 0])
             return
         dofs = slaves[:, None] * self._gdim + np.arange(self._gdim)
-        if np.any(self._free[dofs[closed]] == 0):
-            raise NotCondensable("a slave node with friction or a tie has a prescribed value")
-        area = nodes.area[:, None, None]
+        held = closed[:, None] & own
+        self._add_forces(dofs[held], multipliers[held])
         stick = nodes.status == core.STICK
         slip = nodes.status == core.SLIP
-        self._add_forces(dofs[closed], multipliers[closed], nodes.area[closed])
-        self._add_stick(dofs[stick], multipliers[stick])
+        self._add_stick(dofs[stick], multipliers[stick], own[stick])
         if slip.any():
             self._slips = True
-            self._add_slip(dofs[slip], multipliers[slip], nodes.normal[slip], (by / area)[slip])
+            by = by[slip] / nodes.area[slip, None, None]
+            self._add_slip(dofs[slip], multipliers[slip], nodes.normal[slip], by, own[slip])
 
     def _add_scalar(self, slaves: Index, multipliers: Index) -> None:
         """Frictionless nodes: the pressure follows from one row of the slave node."""
@@ -127,41 +123,48 @@ class Elimination:
         self._left.append(Entries(T.rows, pivot[T.columns], -T.values / t[T.columns]).select(~at))
         self._recover.append((multipliers, pivot, t))
 
-    def _add_forces(self, dofs: Index, multipliers: Index, area: Array) -> None:
+    def _add_forces(self, rows: Index, multipliers: Index) -> None:
         """Vector multipliers: master rows take over the slave nodes' rows."""
-        flat, rows = multipliers.ravel(), dofs.ravel()
-        T = self._columns_of(flat)
+        T = self._columns_of(multipliers)
         own = T.rows == rows[T.columns]
-        factor = np.zeros(len(flat))
+        factor = np.zeros(len(multipliers))
         factor[T.columns[own]] = T.values[own]
         self._left.append(
             Entries(T.rows, rows[T.columns], -T.values / factor[T.columns]).select(~own)
         )
-        self._recover.append((flat, rows, factor))
+        self._recover.append((multipliers, rows, factor))
 
-    def _add_stick(self, dofs: Index, multipliers: Index) -> None:
-        """Sticking and tied nodes: the constraint gives all displacements of the slave node."""
+    def _add_stick(self, dofs: Index, multipliers: Index, own: npt.NDArray[np.bool_]) -> None:
+        """Sticking and tied nodes: the constraints give the displacements of the slave node."""
         if len(dofs) == 0:
             return
         g = self._gdim
         C = self._rows_of(multipliers.ravel())
         node, component = C.rows // g, C.columns - dofs[C.rows // g, 0]
         mine = (component >= 0) & (component < g)
-        own = np.zeros((len(dofs), g, g))
-        own[node[mine], C.rows[mine] % g, component[mine]] = C.values[mine]
-        inverse = np.linalg.inv(own)
+        block = ~own[:, :, None] * np.eye(g)
+        block[node[mine], C.rows[mine] % g, component[mine]] += C.values[mine]
+        inverse = np.linalg.inv(block)
         other = C.select(~mine)
         k = other.rows // g
         for i in range(g):
             factor = inverse[k, i, other.rows % g]
-            self._right.append(Entries(dofs[k, i], other.columns, -factor * other.values))
-        flat = dofs.ravel()
+            part = Entries(dofs[k, i], other.columns, -factor * other.values)
+            self._right.append(part.select(own[k, i]))
+        flat = dofs[own]
         self._right.append(Entries(flat, flat, np.full(len(flat), -1.0)))
         place = np.repeat(np.arange(len(flat)), g)
-        columns = np.repeat(multipliers, g, axis=0).ravel()
-        self._pivots.append((flat, Entries(place, columns, inverse.ravel())))
+        columns = np.repeat(multipliers, g, axis=0)[own.ravel()].ravel()
+        self._pivots.append((flat, Entries(place, columns, inverse[own].ravel())))
 
-    def _add_slip(self, dofs: Index, multipliers: Index, normal: Array, by: Array) -> None:
+    def _add_slip(
+        self,
+        dofs: Index,
+        multipliers: Index,
+        normal: Array,
+        by: Array,
+        own: npt.NDArray[np.bool_],
+    ) -> None:
         """Slipping nodes: the normal row gives a displacement, the others are the law's."""
         g = self._gdim
         n = len(dofs)
@@ -169,16 +172,19 @@ class Elimination:
         C = self._rows_of(multipliers.ravel())
         node = C.rows // g
         along = Entries(node, C.columns, normal[node, C.rows % g] * C.values)
-        k = np.argmax(np.abs(normal), axis=1)
+        k = np.argmax(np.abs(normal) * own, axis=1)
         pivot = dofs[every, k]
         factor = np.zeros(n)
         at = along.columns == pivot[along.rows]
         np.add.at(factor, along.rows[at], along.values[at])
+        if np.any(factor == 0):
+            raise NotCondensable("all displacements of a slave node are prescribed")
         self._eliminate(pivot, along, factor)
         weights = (normal / factor[:, None]).ravel()
         self._pivots.append((pivot, Entries(np.repeat(every, g), multipliers.ravel(), weights)))
         for step in range(1, g):
             i = (k + step) % g
+            free = own[every, i]
             row = dofs[every, i]
             tau = np.zeros((n, g))
             tau[every, i] = 1
@@ -186,9 +192,12 @@ class Elimination:
             # by is C_l / A
             combination = np.einsum("ni,nij->nj", tau, by)
             combination[every, i] -= 1
-            self._left.append(Entries(np.repeat(row, g), dofs.ravel(), combination.ravel()))
-            self._law.append(Entries(row[node], C.columns, tau[node, C.rows % g] * C.values))
-            self._extra.append(Entries(np.repeat(row, g), multipliers.ravel(), tau.ravel()))
+            combined = Entries(np.repeat(row, g), dofs.ravel(), combination.ravel())
+            self._left.append(combined.select((free[:, None] & own).ravel()))
+            law = Entries(row[node], C.columns, tau[node, C.rows % g] * C.values)
+            self._law.append(law.select(free[node]))
+            extra = Entries(np.repeat(row, g), multipliers.ravel(), tau.ravel())
+            self._extra.append(extra.select(np.repeat(free, g)))
 
     def _eliminate(self, pivot: Index, C: Entries, factor: Array) -> None:
         self._right.append(Entries(pivot[C.rows], C.columns, -C.values / factor[C.rows]))

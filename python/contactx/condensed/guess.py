@@ -24,6 +24,7 @@ class Guess:
     """
 
     def __init__(self) -> None:
+        """Create a guess that knows nothing."""
         self._solutions: list[PETSc.Vec] = []
         self._is_first = False
 

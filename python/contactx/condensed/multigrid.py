@@ -18,6 +18,12 @@ from contactx.report import Report
 # Iterations that cost what a hierarchy costs, as measured from 7,000 to 160,000 displacements
 _COST = 40
 _MAX_IT = 400
+# Preconditioned from where the norm of the residual itself is at hand
+_SIDES = {"cg": PETSc.PC.Side.LEFT, "gmres": PETSc.PC.Side.RIGHT}
+_INDEFINITE = (
+    PETSc.KSP.ConvergedReason.DIVERGED_INDEFINITE_MAT,
+    PETSc.KSP.ConvergedReason.DIVERGED_INDEFINITE_PC,
+)
 # Relative residual that rounding allows
 _ROUNDING = 1e-13
 
@@ -120,25 +126,29 @@ class Multigrid:
     ) -> bool:
         ksp = self._ksp
         assert ksp is not None
-        is_symmetric = operator.is_symmetric
-        ksp.setType("cg" if is_symmetric else "gmres")
-        ksp.setPCSide(PETSc.PC.Side.LEFT if is_symmetric else PETSc.PC.Side.RIGHT)
-        ksp.setNormType(PETSc.KSP.NormType.UNPRECONDITIONED)
-        ksp.setTolerances(rtol=_ROUNDING, atol=target, max_it=_MAX_IT)
-        with report.timing("Krylov"):
-            start = _distance(operator, rhs, v)
-            ksp.solve(rhs, v)
-        count = ksp.getIterationNumber()
-        self.iterations += count
-        reduction = max(1.0, np.log(start / max(target, _ROUNDING * rhs.norm())))
-        if self._built_at == self._bulk.assemblies:
-            self._rate = max(self._rate, count / reduction)
-        else:
-            self._lost += max(0.0, count - self._rate * reduction)
-        if ksp.getConvergedReason() < 0:
+        least = _ROUNDING * rhs.norm()
+        reduction = max(1.0, np.log(_distance(operator, rhs, v) / max(target, least)))
+        # Pressures on turning normals and bodies without support may leave a matrix indefinite
+        for method in ("cg", "gmres") if operator.is_symmetric else ("gmres",):
+            ksp.setType(method)
+            ksp.setPCSide(_SIDES[method])
+            ksp.setNormType(PETSc.KSP.NormType.UNPRECONDITIONED)
+            ksp.setTolerances(rtol=_ROUNDING, atol=target, max_it=_MAX_IT)
+            with report.timing("Krylov"):
+                ksp.solve(rhs, v)
+            count = ksp.getIterationNumber()
+            self.iterations += count
+            if self._built_at == self._bulk.assemblies:
+                self._rate = max(self._rate, count / reduction)
+            else:
+                self._lost += max(0.0, count - self._rate * reduction)
+            reason = ksp.getConvergedReason()
+            if reason > 0:
+                return True
             v.set(0.0)
-            return False
-        return True
+            if reason not in _INDEFINITE:
+                break
+        return False
 
     def _build(self, slave_dofs: Index, report: Report) -> None:
         with report.timing("hierarchy"):

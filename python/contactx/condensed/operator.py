@@ -106,7 +106,7 @@ class CondensedOperator:
         springs = None
         if self._springs is not None:
             held = np.setdiff1d(np.flatnonzero(self._springs), order)
-            springs = Entries(held, held, self._springs[held]).matrix(size)
+            springs = Entries(held, held, self._springs[held]).matrix((size, size))
         return Change(places, right, block, springs, self._bound())
 
     def _bound(self) -> PETSc.Vec:
@@ -153,9 +153,9 @@ class Change:
 
 
 def _sparse(entries: Entries, size: int) -> PETSc.Mat | None:
-    return entries.matrix(size) if len(entries.rows) > 0 else None
+    return entries.matrix((size, size)) if len(entries.rows) > 0 else None
 
 
 def _empty(size: int) -> PETSc.Mat:
     none = np.zeros(0, dtype=np.int64)
-    return Entries(none, none, np.zeros(0)).matrix(size)
+    return Entries(none, none, np.zeros(0)).matrix((size, size))

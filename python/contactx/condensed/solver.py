@@ -9,11 +9,12 @@ from petsc4py import PETSc
 import numpy as np
 
 from contactx.bulk import Bulk
-from contactx.condensed.blocks import Array, ContactBlocks
-from contactx.condensed.elimination import Elimination, NotCondensable
+from contactx.condensed.blocks import Array, ContactBlocks, NotCondensable
+from contactx.condensed.elimination import Elimination
 from contactx.condensed.guess import Guess
 from contactx.condensed.multigrid import Multigrid
 from contactx.condensed.operator import CondensedOperator
+from contactx.condensed.prescribed import Prescribed
 from contactx.options import direct_options
 from contactx.report import Report
 from contactx.system import SaddlePointSystem
@@ -83,37 +84,38 @@ class CondensedSolver:
         """
         try:
             with self._report.timing("condensation"):
-                contact = self._system.assemble_contact()
-                blocks = ContactBlocks(contact, self._system.num_bulk)
-                elimination = Elimination(
-                    self._system.interfaces, blocks, self._free, self._system.block
-                )
+                A = self._system.assemble_contact()
+                blocks = ContactBlocks.of(A, self._system.num_bulk)
+                interfaces, where = self._system.interfaces, (self._free, self._system.block)
+                contact = Prescribed(interfaces, blocks, *where)
+                elimination = Elimination(interfaces, contact, *where)
                 self._bulk.renew()
                 self._bulk.rows(elimination.slave_dofs)
                 self._bulk.keep_half()
-                operator = CondensedOperator(self._bulk, blocks, elimination, self.springs)
+                operator = CondensedOperator(self._bulk, contact.blocks, elimination, self.springs)
         except NotCondensable as reason:
             self._solve_directly(b, x, str(reason))
             return
         # What does not converge twice will not, and each attempt is dear
         promising = self.direct.count(_SLOW) < 2
-        if not (promising and self._solve(operator, elimination, blocks, b, x)):
+        if not (promising and self._solve(operator, elimination, contact, b, x)):
             self._solve_directly(b, x, _SLOW)
 
     def _solve(
         self,
         operator: CondensedOperator,
         elimination: Elimination,
-        blocks: ContactBlocks,
+        contact: Prescribed,
         b: PETSc.Vec,
         x: PETSc.Vec,
     ) -> bool:
-        force, d = np.split(b.array_r, [self._system.num_bulk])
+        given, constraints = np.split(b.array_r, [self._system.num_bulk])
+        force, d = contact.right_hand_side(given, constraints)
         known = elimination.open_multipliers(d)
         h, w = self._bulk.matrix().createVecs()
         rhs, v = w.duplicate(), h.duplicate()
         w.array[:] = force
-        T = blocks.traction
+        T = contact.blocks.traction
         np.add.at(w.array, T.rows, -T.values * known[T.columns])
         balance = w.duplicate()
         w.copy(balance)
@@ -135,7 +137,8 @@ class CondensedSolver:
         operator.bulk(h, work)
         balance.axpy(-1.0, work)
         elimination.recover(balance.array_r, known)
-        x.array[: self._system.num_bulk] = np.where(self._free == 1, h.array_r, force)
+        contact.recover(constraints, h.array_r, known)
+        x.array[: self._system.num_bulk] = np.where(self._free == 1, h.array_r, given)
         x.array[self._system.num_bulk :] = known
         return True
 
