@@ -147,12 +147,16 @@ class Condensed(LinearSolver):
         multiple of the residual's square, as seen in the last iteration.
         """
         if changing == 0 and self._before > 0:
-            self._curvature = residual / self._before**2
+            seen = residual / self._before**2
+            # What the solve itself has left says no more than that it is not larger
+            shown = residual > 10 * self._solver.target
+            self._curvature = seen if shown else min(seen, self._curvature)
         self._before = residual if changing == 0 else 0.0
         left = min(self._curvature * residual**2, 0.1 * residual)
         if changing > 0:
             left = max(left, float(np.clip(changing, *_ROUGH)) * residual)
-        self._solver.target = 0.1 * max(tolerance, left)
+        # At the end far below the tolerance: rounding must not decide between stick and slip
+        self._solver.target = max(0.1 * left, 0.01 * tolerance)
 
     def let_go(self) -> None:
         """See ``LinearSolver``; the matrix refers back to it."""

@@ -120,9 +120,10 @@ def _direct() -> dict[str, Any]:
 
 
 def direct_options(prefix: str) -> SolverOptions:
-    """Options of a direct solver.
+    """Options of a direct solver whose factors serve several matrices.
 
     Args:
         prefix: Prefix of the options in PETSc's database.
     """
-    return SolverOptions(prefix, {}, _direct())
+    krylov = {"ksp_type": "gmres", "ksp_pc_side": "right", "ksp_gmres_restart": 60}
+    return SolverOptions(prefix, {}, {**_direct(), **krylov})

@@ -15,7 +15,7 @@ from contactx.condensed.guess import Guess
 from contactx.condensed.multigrid import Multigrid
 from contactx.condensed.operator import CondensedOperator
 from contactx.condensed.prescribed import Prescribed
-from contactx.options import direct_options
+from contactx.factorised import FactorisedSolver
 from contactx.report import Report
 from contactx.system import SaddlePointSystem
 
@@ -46,8 +46,8 @@ class CondensedSolver:
         """
         self._bulk = bulk
         self._system = system
-        self._prefix = prefix
         self._free = (bulk.markers == 0).astype(np.float64)
+        self._factorised = FactorisedSolver(system, prefix + "direct_")
         self._guess = Guess()
         self._multigrid = Multigrid(bulk, modes, system.block, prefix)
         self.target = 0.0
@@ -63,17 +63,23 @@ class CondensedSolver:
         self._report = report
         self._guess.begin_step()
         self._multigrid.iterations = self._multigrid.hierarchies = 0
+        self._factorised.iterations = self._factorised.factorisations = 0
         self.direct: list[str] = []
 
     @property
     def iterations(self) -> int:
-        """Krylov iterations since ``begin``."""
-        return self._multigrid.iterations
+        """Krylov iterations since ``begin``, with a hierarchy or with older factors."""
+        return self._multigrid.iterations + self._factorised.iterations
 
     @property
     def hierarchies(self) -> int:
         """Hierarchies made since ``begin``."""
         return self._multigrid.hierarchies
+
+    @property
+    def factorisations(self) -> int:
+        """Factorisations since ``begin``, where it could not be condensed."""
+        return self._factorised.factorisations
 
     def solve(self, b: PETSc.Vec, x: PETSc.Vec) -> None:
         """Solve J x = b.
@@ -144,12 +150,4 @@ class CondensedSolver:
 
     def _solve_directly(self, b: PETSc.Vec, x: PETSc.Vec, reason: str) -> None:
         self.direct.append(reason)
-        with self._report.timing("direct"):
-            ksp = PETSc.KSP().create(comm=b.comm)
-            prefix = self._prefix + "direct_"
-            ksp.setOptionsPrefix(prefix)
-            with direct_options(prefix).in_database():
-                ksp.setFromOptions()
-                ksp.setOperators(self._system.jacobian(springs=self.springs))
-                ksp.solve(b, x)
-            ksp.destroy()
+        self._factorised.solve(b, x, self.target, self.springs, self._report)
