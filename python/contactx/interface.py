@@ -46,6 +46,7 @@ class Interface:
         history: Slip of the accepted steps; None where none is measured.
         master: Pairs with the master side.
         active: Whether the contact is switched on.
+        skipped_searches: Iterates of this step that needed no search.
     """
 
     def __init__(
@@ -104,6 +105,7 @@ class Interface:
         self.history = SlipHistory(n, gdim) if law.is_vector and not law.is_tied else None
         self._touched = np.zeros(n, dtype=bool)
         self.active = True
+        self.skipped_searches = 0
         self._offset = offset
         self._free = markers.reshape(-1, gdim) == 0
         self.master.accept(self.positions())
@@ -125,6 +127,7 @@ class Interface:
 
     def begin_step(self) -> None:
         """Start a step: pairs are released, and a moved obstacle of small sliding is seen."""
+        self.skipped_searches = 0
         self.hold(False)
         self._turn_tractions()
         self.master.begin_step()
@@ -156,7 +159,10 @@ class Interface:
         Returns:
             Number of nodes in contact whose facet has changed.
         """
-        return self._pair(self.positions()) if self.follows and not self._held else 0
+        if self._held or not self.follows:
+            self.skipped_searches += 1
+            return 0
+        return self._pair(self.positions())
 
     def _pair(self, x: npt.NDArray[np.float64]) -> int:
         changed, new = self.master.search(x, self.nodes.closed.astype(np.int8))
@@ -173,6 +179,16 @@ class Interface:
         if self.law.is_vector:
             # A projection over an open gap on a tilted facet leaves a symmetry plane by a little
             self.nodes.mobile = np.where(each < _MOBILE, 0.0, 1.0)
+
+    def skipped(self) -> dict[str, int]:
+        """What this contact does not need, and how often: nodes, unknowns and searches."""
+        n, paired = len(self.slaves), int(self.master.paired.sum())
+        return {
+            "search": self.skipped_searches,
+            "pairs out of reach": n - paired,
+            "tangential unknowns": 0 if self.law.is_vector else n * (self._gdim - 1),
+            "master sides": paired if self.master.is_rigid else 0,
+        }
 
     def hold(self, held: bool) -> None:
         """Hold the pairs of finite sliding with their normals and projections, or release them.

@@ -57,6 +57,10 @@ class LinearSolver(ABC):
     def end(self, report: Report) -> None:
         """Write what was done into the report."""
 
+    def skipped(self) -> dict[str, int]:
+        """What was not done again in this step, and how often."""
+        return {}
+
     def forget(self) -> None:
         """Forget the matrix: an error inside PETSc may have left it half done."""
 
@@ -167,6 +171,11 @@ class Condensed(LinearSolver):
         report.krylov = self._solver.iterations
         report.hierarchies = self._solver.hierarchies
         report.uncondensed = list(self._solver.direct)
+        report.factorisations = self._solver.factorisations
+
+    def skipped(self) -> dict[str, int]:
+        """See ``LinearSolver``."""
+        return self._solver.skipped()
 
     @keeps_its_error
     def _jacobian(self, snes: PETSc.SNES, x: PETSc.Vec, A: PETSc.Mat, P: PETSc.Mat) -> None:

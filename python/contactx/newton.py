@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from contextlib import ExitStack
 from typing import Any
@@ -103,7 +104,7 @@ class NewtonLoop:
         """
         self._report = report
         self._converged = False
-        before = (self._bulk.assemblies, self._bulk.skipped)
+        skipped = self._bulk.skipped
         self._system.forget()
         self._system.renew()
         self.snes.setFunction(self._function, self._system.b)
@@ -141,7 +142,9 @@ class NewtonLoop:
         report.corners = self._junctions.corners
         report.unheld = self._holder.unheld
         report.closed_to_hold = self._holder.closed
-        report.skipped["bulk Jacobian assembly"] = self._bulk.skipped - before[1]
+        report.skipped = Counter({"bulk Jacobian assembly": self._bulk.skipped - skipped})
+        for part in (self._linear.skipped(), *(i.skipped() for i in self._interfaces)):
+            report.skipped.update(part)
 
     def begin(self) -> None:
         """Find what the first run would find at its start."""

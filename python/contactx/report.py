@@ -58,6 +58,7 @@ class Report:
             slide without friction there, and of parallel contacts only the deepest counts.
         krylov: Iterations of the condensed solver.
         hierarchies: Multigrid hierarchies made for it.
+        factorisations: Factorisations of what was not condensed.
         uncondensed: Why solves were not condensed, one entry a solve.
         cycles: How often the status of an iterate came back and steps were shortened.
         unheld: Rigid motions of bodies that nothing held at the end; the forces along them balance.
@@ -68,7 +69,9 @@ class Report:
         frozen_gap: Smallest gap that a held pair hides; a negative one is a penetration.
         imbalance: Sum of all contact forces on both sides, shape (gdim,): zero but for rounding.
         force: Force on the slave side of each contact, a list of arrays of shape (gdim,).
-        skipped: What was not done because nothing had changed, and how often.
+        skipped: What the scene did not need: what was not done again because it still served
+            (assembly of the bulk's Jacobian, hierarchies, factorisations, searches), and how many
+            pairs out of reach, tangential unknowns and master sides there are not.
         times: Wall seconds of each part.
     """
 
@@ -82,6 +85,7 @@ class Report:
     corners: int = 0
     krylov: int = 0
     hierarchies: int = 0
+    factorisations: int = 0
     uncondensed: list[str] = field(default_factory=list)
     cycles: int = 0
     unheld: int = 0
@@ -142,7 +146,8 @@ class Report:
             lines.append(f"contact {k}: force on the slave ({components})")
         if self.krylov:
             lines.append(
-                f"condensed: {self.krylov} Krylov iterations, {self.hierarchies} hierarchies"
+                f"linear solves: {self.krylov} Krylov iterations, {self.hierarchies} hierarchies, "
+                f"{self.factorisations} factorisations"
             )
         for reason in sorted(set(self.uncondensed)):
             lines.append(f"solved directly {self.uncondensed.count(reason)} times: {reason}")

@@ -68,6 +68,7 @@ _RULES: dict[str, dict[str, str | None]] = {
     "convergence": {"": STATUS},
     "cycling": {"": STATUS},
     "errors": {"": None},
+    "factorised": {"": DIRECT},
     "fields": {"": CONTACT},
     "forms": {"": CONTACT},
     "interface": {

@@ -65,6 +65,7 @@ class CondensedSolver:
         self._multigrid.iterations = self._multigrid.hierarchies = 0
         self._factorised.iterations = self._factorised.factorisations = 0
         self.direct: list[str] = []
+        self._solves = 0
 
     @property
     def iterations(self) -> int:
@@ -81,6 +82,14 @@ class CondensedSolver:
         """Factorisations since ``begin``, where it could not be condensed."""
         return self._factorised.factorisations
 
+    def skipped(self) -> dict[str, int]:
+        """Hierarchies and factorisations of solves that used an older one."""
+        direct = len(self.direct)
+        return {
+            "hierarchy": max(0, self._solves - direct - self.hierarchies),
+            "factorisation": max(0, direct - self.factorisations),
+        }
+
     def solve(self, b: PETSc.Vec, x: PETSc.Vec) -> None:
         """Solve J x = b.
 
@@ -88,6 +97,7 @@ class CondensedSolver:
             b: Right-hand side in all unknowns.
             x: Solution, overwritten.
         """
+        self._solves += 1
         try:
             with self._report.timing("condensation"):
                 A = self._system.assemble_contact()

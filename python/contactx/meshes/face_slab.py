@@ -153,7 +153,7 @@ FACE_SLABS: Mapping[str, FaceSlab] = MappingProxyType(
             length=1.0, rows=1, thickness=0.505, thickening=0.0, largest=0.5, cushion_layers=6
         ),
         "coarse": FaceSlab(rows=12, joint_size=0.025, growth=1.18, largest=3.0, cushion_layers=3),
-        "paper": FaceSlab(rows=56, joint_size=0.025, growth=1.16, largest=1.0, cushion_layers=7),
+        "paper": FaceSlab(rows=128, joint_size=0.025, growth=1.3, largest=2.5, cushion_layers=3),
     }
 )
 
