@@ -159,8 +159,9 @@ class Condensed(LinearSolver):
         left = min(self._curvature * residual**2, 0.1 * residual)
         if changing > 0:
             left = max(left, float(np.clip(changing, *_ROUGH)) * residual)
-        # At the end far below the tolerance: rounding must not decide between stick and slip
+        # At the end far below the tolerance: errors must not decide between stick and slip
         self._solver.target = max(0.1 * left, 0.01 * tolerance)
+        self._solver.is_last = self._solver.target < 0.1 * tolerance
 
     def let_go(self) -> None:
         """See ``LinearSolver``; the matrix refers back to it."""
