@@ -93,7 +93,8 @@ bench-core: $(DEPENDENCIES)
 bench: bench-core $(INSTALLED)
 	status=0; for name in $(BENCHES); do \
 		$(RUN) $(BIN)/python tests/benchmarks/bench_$$name.py || status=1; \
-	done; exit $$status
+	done; \
+	$(RUN) $(BIN)/python tests/benchmarks/bench_face_slab.py paper || status=1; exit $$status
 
 lint: $(DEPENDENCIES)
 	$(BIN)/clang-format --dry-run --Werror $(CPP_FILES)

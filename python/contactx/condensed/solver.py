@@ -19,7 +19,7 @@ from contactx.factorised import FactorisedSolver
 from contactx.report import Report
 from contactx.system import SaddlePointSystem
 
-_SLOW = "the iterations did not converge"
+_SLOW = "multigrid is slow here"
 
 
 class CondensedSolver:
@@ -53,6 +53,7 @@ class CondensedSolver:
         self._multigrid = Multigrid(bulk, modes, system.block, prefix)
         self.target = 0.0
         self.is_last = False
+        self._failures = 0
         self.springs: Array | None = None
         self.begin(Report())
 
@@ -115,9 +116,11 @@ class CondensedSolver:
             self._solve_directly(b, x, str(reason))
             return
         # What does not converge twice will not, and each attempt is dear
-        promising = self.direct.count(_SLOW) < 2
-        if not (promising and self._solve(operator, elimination, contact, b, x)):
-            self._solve_directly(b, x, _SLOW)
+        if self._failures < 2:
+            if self._solve(operator, elimination, contact, b, x):
+                return
+            self._failures += 1
+        self._solve_directly(b, x, _SLOW)
 
     def _solve(
         self,
