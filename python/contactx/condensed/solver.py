@@ -165,6 +165,6 @@ class CondensedSolver:
 
     def _solve_directly(self, b: PETSc.Vec, x: PETSc.Vec, reason: str) -> None:
         self.direct.append(reason)
-        # With factors a few more digits cost little
-        target = (0.01 if self.is_last else 1.0) * self.target
-        self._factorised.solve(b, x, target, self.springs, self._report)
+        # With factors one more digit costs nothing
+        target = (0.1 if self.is_last else 1.0) * self.target
+        self._factorised.solve(b, x, target, self.springs, self._report, last=self.is_last)
