@@ -46,6 +46,8 @@ class FactorisedSolver:
         self._ksp: PETSc.KSP | None = None
         self._A: PETSc.Mat | None = None
         self._forms: list[list[ContactForms]] = []
+        # The matrix whose pattern the factors have
+        self._factorised = 0
         self._lost = 0
         self.factorisations = self.iterations = 0
 
@@ -103,15 +105,21 @@ class FactorisedSolver:
         return bool(ksp.getConvergedReason() > 0)
 
     def _factorise(self, A: PETSc.Mat) -> None:
-        if self._ksp is not None:
+        if self._ksp is not None and self._factorised != A.handle:
             # Two factorisations at once would be the largest part of the memory
             self._ksp.destroy()
-        self._ksp = ksp = PETSc.KSP().create(comm=A.comm)
-        ksp.setOptionsPrefix(self._prefix)
-        with direct_options(self._prefix).in_database():
-            ksp.setFromOptions()
-        ksp.setOperators(A)
-        ksp.setUp()
-        ksp.getPC().setReusePreconditioner(True)
+            self._ksp = None
+        if self._ksp is None:
+            self._ksp = PETSc.KSP().create(comm=A.comm)
+            self._ksp.setOptionsPrefix(self._prefix)
+            with direct_options(self._prefix).in_database():
+                self._ksp.setFromOptions()
+        # A matrix of the same pattern needs no new analysis
+        pc = self._ksp.getPC()
+        pc.setReusePreconditioner(False)
+        self._ksp.setOperators(A)
+        self._ksp.setUp()
+        pc.setReusePreconditioner(True)
+        self._factorised = A.handle
         self._lost = 0
         self.factorisations += 1
