@@ -11,9 +11,10 @@ from contactx.law.law import Law
 from contactx.law.nodes import Array, Nodes
 from contactx.nodal import NodalValue
 
-# A node that slips starts the next step on the edge of the cone: rounding must not say on which
-# side of it
-_EDGE = 1 - 1e-10
+# A node that slips starts the next step on the edge of the cone: what a solve has left must not say
+# on which side of it. Parts of the node's pressure and of the largest one
+_EDGE = 1e-10
+_LEFT = 1e-9
 
 
 class Coulomb(Law):
@@ -48,7 +49,7 @@ class Coulomb(Law):
         only on the way back would stick and slip for ever.
         """
         before = nodes.status.copy()
-        friction = self.friction(nodes) * np.where(before == core.SLIP, _EDGE, 1.0)
+        friction = self.friction(nodes) * np.where(before == core.SLIP, 1 - _edge(nodes), 1.0)
         core.frictional_status(
             nodes.multiplier,
             nodes.closable_gap,
@@ -92,6 +93,14 @@ class Coulomb(Law):
             nodes.by_slip,
             nodes.by_normal,
         )
+
+
+def _edge(nodes: Nodes) -> Array:
+    """Part of the friction bound that a slipping node may fall short of."""
+    p = np.maximum(nodes.pressure, 0.0)
+    edge = np.full_like(p, 0.5)
+    np.divide(_LEFT * p.max(initial=0.0), p, out=edge, where=p > 0)
+    return np.minimum(_EDGE + edge, 0.5)
 
 
 class Tied(Law):
