@@ -203,6 +203,9 @@ class Multigrid:
                 # Contact adds eigenvalues that no estimate of the bulk foresees; this needs none
                 smoother.setType("richardson")
                 smoother.getPC().setType("sor")
+        self._smoothers[0].setOperators(self._A, self._D)
+        # PETSc keeps hold of the matrix, but nothing in it is used again
+        P.setPreallocationNNZ(0)
         self._galerkin = Galerkin(
             self._bulk.rows(slave_dofs),
             [pc.getMGInterpolation(level) for level in range(levels - 1, 0, -1)],
