@@ -14,7 +14,7 @@ from contactx.condensed.operator import Change
 
 _DIFFERENT = PETSc.Mat.Structure.DIFFERENT_NONZERO_PATTERN
 # Part of the eliminated displacements that may have changed for a hierarchy to serve as it is
-_FEW = 0.05
+_FEW = 0.15
 
 
 class Galerkin:
