@@ -13,7 +13,7 @@ from story import displacement, fix
 
 import contactx as cx
 import ufl
-from contactx import meshes
+from contactx import meshes, saving
 from contactx.meshes import Tag
 from dolfinx import fem
 from dolfinx.mesh import CellType
@@ -66,7 +66,7 @@ class Sheared:
     def state(self) -> list[bytes]:
         """Bits of what a failed step must leave alone."""
         interface, fields = self.contact.interface, self.contact.fields
-        arrays = [self.u.x.array, self.history.x.array, *interface.save().values()]
+        arrays = [self.u.x.array, self.history.x.array, *saving.save(interface).values()]
         arrays += [
             interface.nodes.immobile,
             fields.force,

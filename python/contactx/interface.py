@@ -4,9 +4,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any
-
 import numpy as np
 import numpy.typing as npt
 
@@ -27,9 +24,6 @@ from dolfinx import cpp, fem, la
 
 # Share of a relative movement that must be free for a constraint on it
 _MOBILE = 0.05
-
-# State of the slave nodes that outlives a step
-_NODAL = ("multiplier", "status", "gap", "normal", "slip", "immobile", "mobile")
 
 
 class Interface:
@@ -291,35 +285,7 @@ class Interface:
         """
         self._assembly.add_residual(b)
 
-    def save(self) -> dict[str, npt.NDArray[Any]]:
-        """Copy of all that the next step depends on.
-
-        Returns:
-            Arrays by their names, with shapes and types that never change.
-        """
-        history = {} if self.history is None else vars(self.history)
-        return {
-            "active": np.array(self.active),
-            **{name: getattr(self.nodes, name).copy() for name in _NODAL},
-            **{f"history_{name}": values.copy() for name, values in history.items()},
-            **{f"master_{name}": values for name, values in self.master.save().items()},
-        }
-
-    def load(self, saved: Mapping[str, npt.NDArray[Any]]) -> None:
-        """Go on from what ``save`` gave for the same contact.
-
-        Args:
-            saved: Arrays by their names, of the same shapes and types.
-
-        Raises:
-            ValueError: If a pair is with a facet that does not exist; nothing has changed.
-        """
-        self.master.load({name.removeprefix("master_"): saved[name] for name in saved})
-        self.active = bool(saved["active"])
-        for name in _NODAL:
-            getattr(self.nodes, name)[:] = saved[name]
-        if self.history is not None:
-            for name in vars(self.history):
-                setattr(self.history, name, saved[f"history_{name}"].copy())
+    def begin_anew(self) -> None:
+        """Take over pairs that the master was given, not held."""
         self._held = self.sliding == "small"
         self._make_forms()

@@ -14,7 +14,7 @@ from petsc4py import PETSc
 import numpy as np
 
 import ufl
-from contactx import compat, validate
+from contactx import compat, saving, validate
 from contactx.bodies.bodies import Bodies
 from contactx.bulk import Bulk
 from contactx.checks.over_constrained import check_over_constrained
@@ -141,7 +141,7 @@ class ContactProblem:
         validate.check_finite(the_displacement_u_is=self.u.x)
         check_over_constrained(self._interfaces, self.contacts, self._bulk.prescribed())
         displacement = self.u.x.array.copy()
-        saved = [interface.save() for interface in self._interfaces]
+        saved = [saving.save(interface) for interface in self._interfaces]
         self.report = report = Report()
         try:
             with report.timing("total"):
@@ -153,7 +153,7 @@ class ContactProblem:
         except BaseException as error:
             self.u.x.array[:] = displacement
             for interface, before in zip(self._interfaces, saved, strict=True):
-                interface.load(before)
+                saving.load(interface, before)
             self._newton.reset()
             # An error of Python inside PETSc comes back as the cause of one of PETSc, or without it
             cause = self._newton.take_error() or error.__cause__

@@ -88,6 +88,7 @@ _RULES: dict[str, dict[str, str | None]] = {
     "options": {"": None},
     "problem": {"": REST},
     "report": {"": None},
+    "saving": {"": CONTACT},
     "slip": {"": CONTACT},
     "steps": {"": REST},
     "surface": {"": SEARCH},

@@ -14,6 +14,7 @@ from scenes import Blocks
 from step_scenes import DentedBlock, LooseBlock, Sheared, SlidingBlocks
 
 import contactx as cx
+from contactx import saving
 from contactx.steps import archive
 from dolfinx import fem
 from dolfinx.mesh import CellType
@@ -46,7 +47,7 @@ def run(scene, until=None, **options):
             break
     interface = scene.contact.interface
     arrays = [scene.u.x.array, *(f.x.array for f in scene.history)]
-    arrays += [*interface.save().values(), scene.contact.force]
+    arrays += [*saving.save(interface).values(), scene.contact.force]
     return [a.tobytes() for a in arrays], steps
 
 

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from contactx import saving
 from contactx.interface import Interface
 from contactx.problem import ContactProblem
 from contactx.steps.snapshot import Snapshot
@@ -31,7 +32,7 @@ def save(problem: ContactProblem, history: Sequence[fem.Function]) -> Arrays:
     """
     arrays = {**_identity(problem), "u": problem.u.x.array.copy()}
     for k, contact in enumerate(problem.contacts):
-        arrays |= {f"contact {k}: {name}": a for name, a in contact.interface.save().items()}
+        arrays |= {f"contact {k}: {name}": a for name, a in saving.save(contact.interface).items()}
     return arrays | {f"history {k}": f.x.array.copy() for k, f in enumerate(history)}
 
 
@@ -56,8 +57,9 @@ def load(
             function.x.array[:] = saved[f"history {k}"]
         for k, contact in enumerate(problem.contacts):
             start = f"contact {k}: "
-            contact.interface.load(
-                {n.removeprefix(start): a for n, a in saved.items() if n.startswith(start)}
+            saving.load(
+                contact.interface,
+                {n.removeprefix(start): a for n, a in saved.items() if n.startswith(start)},
             )
             contact.fields.update()
     except BaseException:

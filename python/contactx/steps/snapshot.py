@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from contactx import saving
 from contactx.problem import ContactProblem
 from dolfinx import fem
 
@@ -20,7 +21,7 @@ class Snapshot:
             problem: The problem.
             history: Functions that belong to its state.
         """
-        self._contacts = [(c.interface, c.interface.save()) for c in problem.contacts]
+        self._contacts = [(c.interface, saving.save(c.interface)) for c in problem.contacts]
         self._fields = [(c.fields, dict(vars(c.fields))) for c in problem.contacts]
         results = [
             value
@@ -35,6 +36,6 @@ class Snapshot:
         for function, values in self._functions:
             function.x.array[:] = values
         for interface, saved in self._contacts:
-            interface.load(saved)
+            saving.load(interface, saved)
         for fields, attributes in self._fields:
             vars(fields).update(attributes)
