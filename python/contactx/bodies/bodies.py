@@ -31,14 +31,17 @@ class Bodies:
         self.x = x
         cells = V.dofmap.list
         body = np.arange(len(x))
-        while True:
-            merged, there = body.copy(), body[cells]
-            np.minimum.at(merged, there, there.min(axis=1, keepdims=True))
-            # Names lead to smaller ones, which halves the way to the smallest each time
-            merged = merged[merged]
-            if np.array_equal(merged, body):
-                break
-            body = merged
+        # Cells whose nodes have several names; once they have one it stays so
+        mixed = cells
+        while len(mixed) > 0:
+            there = body[mixed]
+            least = there.min(axis=1, keepdims=True)
+            several = there.max(axis=1) > least[:, 0]
+            mixed = mixed[several]
+            np.minimum.at(body, there[several], least[several])
+            # Names lead to smaller ones, down to the smallest
+            while not np.array_equal(body, body[body]):
+                body = body[body]
         self.of_node = body
         self.of_cell = body[cells[:, 0]]
 

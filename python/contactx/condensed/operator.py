@@ -47,8 +47,10 @@ class CondensedOperator:
         size = self._K.getSize()[0]
         self.is_symmetric = bulk.is_symmetric and elimination.is_symmetric
         self._S = _sparse(blocks.stiffness, size)
-        self._left = _sparse(elimination.left, size)
         self._right = _sparse(elimination.right, size)
+        # Where left is the transpose of right it is not made
+        self._transposed = self._right if elimination.is_symmetric else None
+        self._left = None if elimination.is_symmetric else _sparse(elimination.left, size)
         self._law = _sparse(elimination.law, size)
         self._elimination = elimination
         self._springs = springs
@@ -68,15 +70,19 @@ class CondensedOperator:
 
     def expand(self, v: PETSc.Vec, z: PETSc.Vec) -> None:
         """Give all displacements, z = (I + right) v."""
-        v.copy(z)
-        if self._right is not None:
-            self._right.multAdd(v, z, z)
+        if self._right is None:
+            v.copy(z)
+        else:
+            self._right.multAdd(v, v, z)
 
     def combine(self, w: PETSc.Vec, y: PETSc.Vec) -> None:
         """Combine rows, y = (I + left) w, zero in the eliminated ones."""
-        w.copy(y)
-        if self._left is not None:
-            self._left.multAdd(w, y, y)
+        if self._transposed is not None:
+            self._transposed.multTransposeAdd(w, w, y)
+        elif self._left is None:
+            w.copy(y)
+        else:
+            self._left.multAdd(w, w, y)
         y.array[self.eliminated] = 0
 
     def add_law(self, z: PETSc.Vec, y: PETSc.Vec, sign: float) -> None:
