@@ -127,8 +127,9 @@ class Multigrid:
     ) -> bool:
         ksp = self._ksp
         assert ksp is not None
-        least = _ROUNDING * rhs.norm()
-        reduction = max(1.0, np.log(_distance(operator, rhs, v) / max(target, least)))
+        start = _distance(operator, rhs, v)
+        goal = max(target, _ROUNDING * rhs.norm())
+        reduction = max(1.0, np.log(start / goal)) if start > goal > 0 else 1.0
         # Pressures on turning normals and bodies without support may leave a matrix indefinite
         for method in ("cg", "gmres") if operator.is_symmetric else ("gmres",):
             ksp.setType(method)
