@@ -10,7 +10,6 @@ from petsc4py import PETSc
 
 import numpy as np
 
-from contactx.bodies.modes import rigid_modes
 from contactx.bulk import Bulk
 from contactx.callback import keeps_its_error
 from contactx.condensed.blocks import Array
@@ -124,7 +123,7 @@ class Condensed(LinearSolver):
         """
         self._bulk = bulk
         self._system = system
-        self._solver = CondensedSolver(bulk, system, near_null_space(x), prefix + "condensed_")
+        self._solver = CondensedSolver(bulk, system, x, prefix + "condensed_")
         # Residual of the iterate before, and what Newton's method makes of its square
         self._before = self._curvature = 0.0
         size = system.x.getSize()
@@ -202,14 +201,3 @@ class Condensed(LinearSolver):
 
 # Part of the residual that a solve may leave ten times less of, while few or all nodes change
 _ROUGH = (1e-5, 0.3)
-
-
-def near_null_space(x: Array) -> Array:
-    """Rigid modes of all nodes, orthonormal, shape (3 or 6, num_nodes * gdim).
-
-    Args:
-        x: Positions, shape (num_nodes, gdim).
-    """
-    modes = rigid_modes(x - x.mean(axis=0))
-    basis: Array = np.linalg.qr(modes.reshape(x.size, -1))[0].T
-    return basis

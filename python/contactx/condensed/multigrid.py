@@ -8,6 +8,7 @@ from petsc4py import PETSc
 
 import numpy as np
 
+from contactx.bodies.modes import rigid_modes
 from contactx.bulk import Bulk
 from contactx.condensed.blocks import Array, Index
 from contactx.condensed.galerkin import Galerkin
@@ -45,19 +46,16 @@ class Multigrid:
         hierarchies: Hierarchies made.
     """
 
-    def __init__(self, bulk: Bulk, modes: Array, block: int, prefix: str):
+    def __init__(self, bulk: Bulk, x: Array, prefix: str):
         """Create a solver.
 
         Args:
             bulk: The bulk.
-            modes: Rigid modes of the whole, orthonormal, shape (k, num_dofs).
-            block: Displacements a node.
+            x: Reference positions, shape (num_nodes, gdim).
             prefix: Prefix of the PETSc options.
         """
         self._bulk = bulk
-        # Rows of prescribed displacements have a one and no neighbours
-        self._modes = np.where(bulk.markers == 1, 0.0, modes)
-        self._block = block
+        self._x = x
         self._prefix = prefix
         self._ksp: PETSc.KSP | None = None
         # Iterations for a reduction by e while the hierarchy was new, and those lost since
@@ -162,11 +160,12 @@ class Multigrid:
     def _make(self, slave_dofs: Index) -> None:
         self.forget()
         P = self._bulk.copy()
-        P.setBlockSize(self._block)
+        P.setBlockSize(self._x.shape[1])
         vectors = []
-        for mode in self._modes:
+        for mode in near_null_space(self._x):
             vector = P.createVecRight()
-            vector.array[:] = mode
+            # Rows of prescribed displacements have a one and no neighbours
+            vector.array[:] = np.where(self._bulk.markers == 1, 0.0, mode)
             vectors.append(vector)
         P.setNearNullSpace(PETSc.NullSpace().create(vectors=vectors))
         self._ksp = ksp = PETSc.KSP().create(comm=PETSc.COMM_SELF)
@@ -207,6 +206,7 @@ class Multigrid:
         self._smoothers[0].setOperators(self._A, self._D)
         # PETSc keeps hold of the matrix, but nothing in it is used again
         P.setPreallocationNNZ(0)
+        P.setNearNullSpace(PETSc.NullSpace())
         self._galerkin = Galerkin(
             self._bulk.rows(slave_dofs),
             [pc.getMGInterpolation(level) for level in range(levels - 1, 0, -1)],
@@ -241,3 +241,14 @@ def _distance(operator: CondensedOperator, rhs: PETSc.Vec, v: PETSc.Vec) -> floa
     operator.mult(None, v, residual)
     residual.aypx(-1.0, rhs)
     return float(residual.norm())
+
+
+def near_null_space(x: Array) -> Array:
+    """Rigid modes of all nodes, orthonormal, shape (3 or 6, num_nodes * gdim).
+
+    Args:
+        x: Positions, shape (num_nodes, gdim).
+    """
+    modes = rigid_modes(x - x.mean(axis=0))
+    basis: Array = np.linalg.qr(modes.reshape(x.size, -1))[0].T
+    return basis

@@ -36,13 +36,13 @@ class CondensedSolver:
         direct: Solves that were not condensed since ``begin``, and why.
     """
 
-    def __init__(self, bulk: Bulk, system: SaddlePointSystem, modes: Array, prefix: str):
+    def __init__(self, bulk: Bulk, system: SaddlePointSystem, x: Array, prefix: str):
         """Create the solver.
 
         Args:
             bulk: The bulk.
             system: The coupled system.
-            modes: Rigid modes of the whole, orthonormal, shape (k, num_dofs).
+            x: Reference positions, shape (num_nodes, gdim).
             prefix: Prefix of the options of the inner solver.
         """
         self._bulk = bulk
@@ -50,7 +50,7 @@ class CondensedSolver:
         self._free = (bulk.markers == 0).astype(np.float64)
         self._factorised = FactorisedSolver(system, prefix + "direct_")
         self._guess = Guess()
-        self._multigrid = Multigrid(bulk, modes, system.block, prefix)
+        self._multigrid = Multigrid(bulk, x, prefix)
         self.target = 0.0
         self.is_last = False
         self._failures = 0
