@@ -26,9 +26,8 @@ class CondensedSolver:
     """Solves the system of the Jacobian.
 
     The multipliers are eliminated and the displacements found by CG, or GMRES where friction slips,
-    with PETSc's algebraic multigrid on the condensed matrix and the rigid modes of the bodies. A
-    hierarchy is kept until it converges too slowly, over iterations and steps. What cannot be
-    condensed is solved with a direct solver as it is.
+    with a multigrid hierarchy that follows the contact. What cannot be condensed, and bodies on
+    which multigrid is slow, go to a direct solver whose factors serve several Jacobians.
 
     Attributes:
         target: What the norm of the next solve's residual must fall below, a force.
