@@ -82,11 +82,7 @@ def try_supports(
     thin = replace(setting, model=slice_of(setting.model))
 
     def turn(settlement: float) -> float:
-        scene = Scene(thin, springs=True)
-        scene.compliance.value = settlement / pressure
-        scene.pressure.value = pressure
-        scene.problem.solve()
-        return rotation(scene)
+        return rotation(scheme_1(thin, settlement, pressure, steps=1, progress=False))
 
     return secant(turn, wanted, show=show)
 

@@ -148,7 +148,7 @@ class Bulk:
             whole.destroy()
 
     def _assemble(self) -> bool:
-        parameters = [fem.pack_constants(self.J), *(c.x.array.copy() for c in self._coefficients)]
+        parameters = [fem.pack_constants(self.J), *(c.x.array for c in self._coefficients)]
         if self._assembled_with is not None and all(
             map(np.array_equal, parameters, self._assembled_with)
         ):
@@ -158,7 +158,7 @@ class Bulk:
         self._A.zeroEntries()
         dolfinx.fem.petsc.assemble_matrix(self._A, self.J, bcs=self.bcs)
         self._A.assemble()
-        self._assembled_with = parameters
+        self._assembled_with = [values.copy() for values in parameters]
         self._symmetric = self._rows = None
         self.assemblies += 1
         return True

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from contactx.forms import ContactForms
-from contactx.options import direct_options
+from contactx.options import ROUNDING, direct_options
 from contactx.report import Report
 from contactx.system import SaddlePointSystem
 
@@ -18,8 +18,6 @@ from contactx.system import SaddlePointSystem
 _COST = 40
 # Iterations with the factors of the same Jacobian, but for rounding
 _AT_ONCE = 4
-# Relative residual that rounding allows
-_ROUNDING = 1e-13
 
 
 class FactorisedSolver:
@@ -87,17 +85,10 @@ class FactorisedSolver:
             self._factorise(A)
             self._iterate(b, x, target, _COST)
 
-    def forget(self) -> None:
-        """Forget the factors and the matrix."""
-        if self._ksp is not None:
-            self._ksp.destroy()
-        self._ksp = self._A = None
-        self._forms = []
-
     def _iterate(self, b: PETSc.Vec, x: PETSc.Vec, target: float, most: int) -> bool:
         ksp = self._ksp
         assert ksp is not None
-        ksp.setTolerances(rtol=_ROUNDING, atol=target, max_it=most)
+        ksp.setTolerances(rtol=ROUNDING, atol=target, max_it=most)
         ksp.solve(b, x)
         count = ksp.getIterationNumber()
         self._lost += count

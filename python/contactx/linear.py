@@ -17,6 +17,9 @@ from contactx.condensed.solver import CondensedSolver
 from contactx.report import Report
 from contactx.system import SaddlePointSystem
 
+# Part of the residual that a solve may leave ten times less of, while few or all nodes change
+_ROUGH = (1e-5, 0.3)
+
 
 class LinearSolver(ABC):
     """What gives SNES its Jacobian.
@@ -197,7 +200,3 @@ class Condensed(LinearSolver):
         y.array[:n] += w.array_r
         if self._solver.springs is not None:
             y.array[:n] += self._solver.springs * u.array_r
-
-
-# Part of the residual that a solve may leave ten times less of, while few or all nodes change
-_ROUGH = (1e-5, 0.3)

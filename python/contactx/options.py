@@ -12,6 +12,9 @@ from petsc4py import PETSc
 
 from contactx import compat
 
+# Relative residual of a linear solve that rounding allows
+ROUNDING = 1e-13
+
 # Displacements from which on multigrid is faster than a direct solver, by the dimension
 _MANY = {2: 300_000, 3: 10_000}
 

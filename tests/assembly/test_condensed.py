@@ -153,17 +153,23 @@ def test_one_solve_with_prescribed_slave_nodes():
     compare_one_solve(problem, interface, rng)
 
 
-def test_slave_nodes_that_are_held_are_solved_directly():
-    """The report says what was not condensed, and why."""
+@pytest.fixture
+def report_of_held_slaves():
+    """Report of a scene whose slave nodes are held where they press on the master."""
     scene = Blocks(CellType.tetrahedron, gap=1e-9)
     contact = scene.contact(friction=0.3)
     scene.bcs += [fix(scene.u, scene.tags, i, -0.01 * i, Tag.UPPER_CONTACT) for i in range(3)]
     problem = scene.problem(contact, petsc_options={"pc_type": "condensed"})
     problem.solve()
-    reasons = problem.report.uncondensed
+    return problem.report
+
+
+def test_slave_nodes_that_are_held_are_solved_directly(report_of_held_slaves):
+    """The report says what was not condensed, and why."""
+    reasons = report_of_held_slaves.uncondensed
     assert len(reasons) > 0
     assert set(reasons) == {"a slave node with a prescribed displacement moves its master"}
-    assert f"solved directly {len(reasons)} times" in str(problem.report)
+    assert f"solved directly {len(reasons)} times" in str(report_of_held_slaves)
 
 
 @pytest.mark.parametrize(("friction", "shear"), [(0.3, 0.001), (0.3, 0.0025)])
@@ -230,15 +236,20 @@ def test_what_a_scene_does_not_need_is_reported(sliding):
     assert problem.report.hierarchies == 0
 
 
-def test_factors_serve_several_solves():
+def test_factors_serve_several_solves(report_of_held_slaves):
     """Where nothing can be condensed, few rows change from one Jacobian to the next."""
-    scene = Blocks(CellType.tetrahedron, gap=1e-9)
-    contact = scene.contact(friction=0.3)
-    scene.bcs += [fix(scene.u, scene.tags, i, -0.01 * i, Tag.UPPER_CONTACT) for i in range(3)]
-    problem = scene.problem(contact, petsc_options={"pc_type": "condensed"})
-    problem.solve()
-    report = problem.report
+    report = report_of_held_slaves
     assert 0 < report.factorisations < len(report.uncondensed)
     again = len(report.uncondensed) - report.factorisations
     assert report.skipped["factorisation"] == again
     assert f"factorisation {again}x" in str(report).replace("\n", " ")
+
+
+def test_another_preconditioner_is_refused():
+    """At every solve, not only at the first."""
+    scene = Blocks(CellType.tetrahedron)
+    options = {"pc_type": "condensed", "condensed_pc_type": "lu"}
+    problem = scene.problem(scene.contact(), petsc_options=options)
+    for _ in range(2):
+        with pytest.raises(ValueError, match=r"condensed_pc_type.*set pc_type to lu"):
+            problem.solve()

@@ -36,21 +36,13 @@ OPTIONS = {"default": {}, "direct": {"pc_type": "lu"}, "condensed": {"pc_type": 
 
 COLUMNS = [
     ("h", "h", "g"),
-    ("sliding", "sliding", "s"),
-    ("solver", "solver", "s"),
-    ("dofs", "dofs", "d"),
-    ("it", "iterations", "d"),
-    ("Krylov", "krylov", "d"),
-    ("hier.", "hierarchies", "d"),
-    ("CPU s", "cpu", ".2f"),
-    (": direct", "ratio", ".2f"),
-    ("MB", "memory", ".0f"),
+    *tables.SOLVER,
+    *tables.COST,
     ("4F", "force", ".7f"),
     ("p0_err", "p0_err", ".3f"),
     ("p_l2", "p_l2", ".4f"),
     ("pen", "pen", ".1e"),
-    ("du", "u_difference", ".1e"),
-    ("dF", "force_difference", ".1e"),
+    *tables.DIFFERENCE,
 ]
 
 

@@ -32,18 +32,10 @@ SCENES = {
 
 COLUMNS = [
     ("scene", "scene", "s"),
-    ("sliding", "sliding", "s"),
-    ("solver", "solver", "s"),
-    ("dofs", "dofs", "d"),
-    ("it", "iterations", "d"),
-    ("Krylov", "krylov", "d"),
-    ("hier.", "hierarchies", "d"),
+    *tables.SOLVER,
     ("not condensed", "uncondensed", "d"),
-    ("CPU s", "cpu", ".2f"),
-    (": direct", "ratio", ".2f"),
-    ("MB", "memory", ".0f"),
-    ("du", "u_difference", ".1e"),
-    ("dF", "force_difference", ".1e"),
+    *tables.COST,
+    *tables.DIFFERENCE,
 ]
 
 

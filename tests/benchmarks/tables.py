@@ -17,6 +17,21 @@ from rich.table import Table
 
 # Heading, key in the rows and format
 Column = tuple[str, str, str]
+# What two solvers of one scene are compared by
+SOLVER: list[Column] = [
+    ("sliding", "sliding", "s"),
+    ("solver", "solver", "s"),
+    ("dofs", "dofs", "d"),
+    ("it", "iterations", "d"),
+    ("Krylov", "krylov", "d"),
+    ("hier.", "hierarchies", "d"),
+]
+COST: list[Column] = [
+    ("CPU s", "cpu", ".2f"),
+    (": direct", "ratio", ".2f"),
+    ("MB", "memory", ".0f"),
+]
+DIFFERENCE: list[Column] = [("du", "u_difference", ".1e"), ("dF", "force_difference", ".1e")]
 console = Console(width=150, highlight=False)
 
 

@@ -13,7 +13,7 @@ from contactx.bulk import Bulk
 from contactx.condensed.blocks import Array, Index
 from contactx.condensed.galerkin import Galerkin
 from contactx.condensed.operator import Change, CondensedOperator
-from contactx.options import multigrid_options
+from contactx.options import ROUNDING, multigrid_options
 from contactx.report import Report
 
 # Iterations that cost what a hierarchy costs, as measured from 7,000 to 160,000 displacements
@@ -26,8 +26,6 @@ _INDEFINITE = (
     PETSc.KSP.ConvergedReason.DIVERGED_INDEFINITE_MAT,
     PETSc.KSP.ConvergedReason.DIVERGED_INDEFINITE_PC,
 )
-# Relative residual that rounding allows
-_ROUNDING = 1e-13
 
 
 class Multigrid:
@@ -126,14 +124,16 @@ class Multigrid:
         ksp = self._ksp
         assert ksp is not None
         start = _distance(operator, rhs, v)
-        goal = max(target, _ROUNDING * rhs.norm())
+        goal = max(target, ROUNDING * rhs.norm())
         reduction = max(1.0, np.log(start / goal)) if start > goal > 0 else 1.0
         # Pressures on turning normals and bodies without support may leave a matrix indefinite
         for method in ("cg", "gmres") if operator.is_symmetric else ("gmres",):
             ksp.setType(method)
             ksp.setPCSide(_SIDES[method])
             ksp.setNormType(PETSc.KSP.NormType.UNPRECONDITIONED)
-            ksp.setTolerances(rtol=_ROUNDING, atol=target, max_it=20 + int(_SLOW * reduction))
+            # A start of zero costs no product
+            ksp.setInitialGuessNonzero(v.norm() > 0)
+            ksp.setTolerances(rtol=ROUNDING, atol=target, max_it=20 + int(_SLOW * reduction))
             with report.timing("Krylov"):
                 ksp.solve(rhs, v)
             count = ksp.getIterationNumber()
@@ -168,23 +168,22 @@ class Multigrid:
             vector.array[:] = np.where(self._bulk.markers == 1, 0.0, mode)
             vectors.append(vector)
         P.setNearNullSpace(PETSc.NullSpace().create(vectors=vectors))
-        self._ksp = ksp = PETSc.KSP().create(comm=PETSc.COMM_SELF)
+        ksp = PETSc.KSP().create(comm=PETSc.COMM_SELF)
         ksp.setOptionsPrefix(self._prefix)
         pc = ksp.getPC()
         pc.setType("gamg")
         ksp.setOperators(self._A, P)
         with multigrid_options(self._prefix).in_database():
             ksp.setFromOptions()
-            ksp.setInitialGuessNonzero(True)
+            if pc.getType() != "gamg":
+                raise ValueError(
+                    f"option {self._prefix}pc_type: the condensed solver knows gamg alone, not "
+                    f"{pc.getType()}; for a direct solver of the whole set pc_type to lu"
+                )
             ksp.setUp()
         # From here on the finest level needs a diagonal alone
         self._D = PETSc.Mat().createDiagonal(P.getDiagonal())
         ksp.setOperators(self._A, self._D)
-        if pc.getType() != "gamg":
-            raise ValueError(
-                f"option {self._prefix}pc_type: the condensed solver knows gamg alone, not "
-                f"{pc.getType()}; for a direct solver of the whole set pc_type to lu"
-            )
         levels = pc.getMGLevels()
         if levels == 1:
             # A handful of unknowns
@@ -211,6 +210,7 @@ class Multigrid:
             self._bulk.rows(slave_dofs),
             [pc.getMGInterpolation(level) for level in range(levels - 1, 0, -1)],
         )
+        self._ksp = ksp
 
     def _follow(self, change: Change, report: Report, *, coarse: bool = True) -> None:
         """Bring the hierarchy up to what contact makes of the matrix.
@@ -237,6 +237,8 @@ class Multigrid:
 
 def _distance(operator: CondensedOperator, rhs: PETSc.Vec, v: PETSc.Vec) -> float:
     """Norm of the residual."""
+    if v.norm() == 0:
+        return float(rhs.norm())
     residual = rhs.duplicate()
     operator.mult(None, v, residual)
     residual.aypx(-1.0, rhs)

@@ -1,6 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""The condensed matrix, as a product and assembled for a preconditioner."""
+"""The condensed matrix as a product, and what contact changes in it."""
 
 from __future__ import annotations
 

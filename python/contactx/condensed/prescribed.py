@@ -57,7 +57,6 @@ class Prescribed:
         self.blocks = blocks
         self.own = []
         self.by_multiplier = []
-        self._constraint = blocks.constraint
         self._places: list[Index] = []
         self._D: list[Array] = []
         self._G: list[Array] = []

@@ -100,6 +100,10 @@ class CondensedSolver:
             x: Solution, overwritten.
         """
         self._solves += 1
+        # What does not converge twice will not, and each attempt is dear
+        if self._failures == 2:
+            self._solve_directly(b, x, _SLOW)
+            return
         try:
             with self._report.timing("condensation"):
                 A = self._system.assemble_contact()
@@ -114,12 +118,9 @@ class CondensedSolver:
         except NotCondensable as reason:
             self._solve_directly(b, x, str(reason))
             return
-        # What does not converge twice will not, and each attempt is dear
-        if self._failures < 2:
-            if self._solve(operator, elimination, contact, b, x):
-                return
+        if not self._solve(operator, elimination, contact, b, x):
             self._failures += 1
-        self._solve_directly(b, x, _SLOW)
+            self._solve_directly(b, x, _SLOW)
 
     def _solve(
         self,
