@@ -41,7 +41,7 @@ def _grade(x: npt.NDArray[np.float64], n: int, length: float) -> npt.NDArray[np.
     return np.asarray(np.sign(x) * length * (total ** (np.abs(x) / length) - 1) / (total - 1))
 
 
-def _move_nodes(
+def move_nodes(
     gmsh: ModuleType,
     body: int,
     moved: Callable[[npt.NDArray[np.float64]], npt.NDArray[np.float64]],
@@ -52,7 +52,7 @@ def _move_nodes(
         gmsh.model.mesh.setNode(node, x, [])
 
 
-def _bend(x: npt.NDArray[np.float64], length: float, radius: float) -> npt.NDArray[np.float64]:
+def bend(x: npt.NDArray[np.float64], length: float, radius: float) -> npt.NDArray[np.float64]:
     """Lift points so that a block's bottom z = 0 becomes a cap and its top stays flat."""
     rise = radius - np.sqrt(radius**2 - x[0] ** 2 - x[1] ** 2)
     return np.stack((x[0], x[1], x[2] + rise * (1 - x[2] / length)))
@@ -108,7 +108,7 @@ def hertz_cap(
         tag_body(gmsh, 3, upper, Tag.UPPER, _UPPER_FACES)
         tag_body(gmsh, 3, lower, Tag.LOWER, _LOWER_FACES)
         gmsh.model.mesh.generate(3)
-        _move_nodes(gmsh, upper, lambda x: _bend(_grade(x, n, length), length, cap_radius))
-        _move_nodes(gmsh, lower, lambda x: _grade(x, n_lower, length))
+        move_nodes(gmsh, upper, lambda x: bend(_grade(x, n, length), length, cap_radius))
+        move_nodes(gmsh, lower, lambda x: _grade(x, n_lower, length))
 
     return build_mesh("hertz_cap", 3, recipe, comm)
