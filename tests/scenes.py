@@ -18,7 +18,6 @@ from dolfinx import fem, mesh
 from dolfinx.io.gmsh import MeshData
 
 NU = 0.3
-METHODS = ("node-to-surface",)
 
 
 class HertzSphere:

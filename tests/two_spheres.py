@@ -4,11 +4,18 @@
 
 Both diameters are 12.2474, so that 1/R = 2/6.1237. With E of 1e8 and 1e6, nu = 0.29 and
 F = 117808.787 Hertz's formulas give the contact radius 0.63018 and the peak pressure 1.41642e5.
+
+The soft sphere is strained by 14 %. Hertz's theory is linear: it tells neither current from
+reference area nor where a node is from where it was. What is measured on the soft sphere, or in
+small sliding, agrees with it. In finite sliding with the stiff sphere as the slave area and radius
+are current ones: by an axisymmetric model the radius is 2.4 % below Hertz's and the
+peak pressure 5 % above.
 """
 
 from __future__ import annotations
 
 import numpy as np
+import numpy.typing as npt
 from story import displacement, elasticity, fix
 
 import contactx as cx
@@ -17,6 +24,7 @@ from contactx.meshes import Tag
 from dolfinx import fem
 from dolfinx.io.gmsh import MeshData
 
+Array = npt.NDArray[np.float64]
 RADIUS = 12.2474 / 2
 STIFF, SOFT, NU = 1e8, 1e6, 0.29
 FORCE = 117808.787
@@ -26,8 +34,9 @@ HERTZ = reference.HertzSphere(
     modulus=reference.contact_modulus(STIFF, NU, SOFT, NU),
 )
 ZONE = 1.3 * HERTZ.contact_radius
-# Relative error of the force at which the secants end
+# Relative error of the force at which the secants end, and how many there are at most
 TOLERANCE = 1e-4
+MOST_TRIES = 8
 
 
 def mesh(h: float, h_master: float | None = None) -> MeshData:
@@ -88,34 +97,32 @@ class TwoSpheres:
 
     def press(self) -> None:
         """Find the displacement that gives the force, from Hertz's approach on by secants."""
-        path = [(0.0, 0.0)]
-        down = HERTZ.approach
-        while abs(path[-1][1] / FORCE - 1) > TOLERANCE:
+        down, before = HERTZ.approach, (0.0, 0.0)
+        for _ in range(MOST_TRIES):
             self._top.g.value[...] = -down
             self.problem.solve()
             self.iterations.append(self.problem.report.iterations)
-            # Hertz's force is the power 3/2 of the approach
-            path.append((down, self.force ** (2 / 3)))
-            (d_0, f_0), (d_1, f_1) = path[-2:]
-            down = d_1 + (FORCE ** (2 / 3) - f_1) * (d_1 - d_0) / (f_1 - f_0)
-            path[-1] = (d_1, self.force ** (2 / 3))
-            if len(path) > 8:
-                raise RuntimeError(f"no displacement gives the force: {path}")
             if abs(self.force / FORCE - 1) <= TOLERANCE:
                 return
+            # Hertz's approach is the power 2/3 of the force
+            now = (down, self.force ** (2 / 3))
+            slope = (now[0] - before[0]) / (now[1] - before[1])
+            down, before = down + slope * (FORCE ** (2 / 3) - now[1]), now
+        raise RuntimeError(f"no displacement in {MOST_TRIES} tries gives the force {FORCE}")
 
+    def errors(self, pressure: Array) -> tuple[float, float]:
+        """Relative errors of contact radius and peak pressure.
 
-def errors(contact: cx.Contact, x: np.ndarray, p: np.ndarray) -> dict[str, float]:
-    """Relative errors of contact radius and peak pressure.
+        Hertz's mean distance from the axis, weighted by the pressure, is 3 pi/16 of the radius. As
+        in his theory it is that of the undeformed bodies.
 
-    Args:
-        contact: The contact.
-        x: Positions of its slave nodes, shape (n, 3).
-        p: Their pressures, shape (n,).
-    """
-    w, r = contact.area * p, np.hypot(x[:, 0], x[:, 1])
-    radius = 16 / (3 * np.pi) * (w @ r) / w.sum()
-    return {
-        "a_err": float(radius / HERTZ.contact_radius - 1),
-        "p0_err": float(p.max() / HERTZ.peak_pressure - 1),
-    }
+        Args:
+            pressure: Pressures of the slave nodes, shape (n,).
+        """
+        x = self.problem.u.function_space.tabulate_dof_coordinates()[self.contact.slave_nodes]
+        forces = self.contact.area * pressure
+        radius = 16 / (3 * np.pi) * (forces @ np.hypot(x[:, 0], x[:, 1])) / forces.sum()
+        return (
+            float(radius / HERTZ.contact_radius - 1),
+            float(pressure.max() / HERTZ.peak_pressure - 1),
+        )

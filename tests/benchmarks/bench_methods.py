@@ -21,6 +21,7 @@ import hertz_case
 import pictures
 import runner
 import scenes
+import story
 import tables
 
 from contactx.meshes import Tag
@@ -95,7 +96,7 @@ def both(
         for h in of_cells:
             job = {"path": str(hertz_case.mesh_file(h, cells))}
             for sliding in slidings:
-                found: dict[str, list[dict[str, Any]]] = {method: [] for method in scenes.METHODS}
+                found: dict[str, list[dict[str, Any]]] = {method: [] for method in story.METHODS}
                 for _ in range(runs):
                     for method, rows in found.items():
                         rows.append(_run(**job, sliding=sliding, method=method))
@@ -110,7 +111,7 @@ def unlike(h: float) -> Iterator[dict[str, Any]]:
     """Measure both methods with either body much stiffer."""
     path = str(hertz_case.mesh_file(h))
     for stiff in BODIES:
-        for method in scenes.METHODS:
+        for method in story.METHODS:
             yield {"h": h, **_run(path=path, sliding="finite", method=method, stiff=stiff)}
 
 

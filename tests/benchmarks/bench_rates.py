@@ -17,8 +17,8 @@ from typing import Any
 
 import numpy as np
 import runner
-import scenes
 import solved_blocks
+import story
 import tables
 
 # Cells along a unit of length of the slave, multiples of 3
@@ -32,8 +32,8 @@ CASES = {
     ("hertz", "quadrilateral"): PLANE,
 }
 ERRORS = ("H1", "L2", "raw", "best")
-# Linear elements. Dual multipliers reproduce constants: their error in L2 is of order h for a smooth
-# pressure, and hardly less for Hertz's, which ends as a square root. His displacement, in
+# Linear elements. Dual multipliers reproduce constants: their error in L2 is of order h for a
+# smooth pressure, and hardly less for Hertz's, which ends as a square root. His displacement, in
 # H^(5/2 - eps), may lose half a power in L2 at the edge of the contact. Node to surface fails the
 # patch test where nodes do not match: its pressure does not converge, and its displacement only
 # as the bodies feel less of a pressure the finer it swings.
@@ -72,7 +72,7 @@ def run(sizes: Sequence[int]) -> list[dict[str, Any]]:
     """
     rows = []
     for (solution, cells), of_case in CASES.items():
-        for method in scenes.METHODS:
+        for method in story.METHODS:
             job = {"solution": solution, "cells": cells, "method": method}
             before: dict[str, Any] = {}
             for n in sizes or of_case:

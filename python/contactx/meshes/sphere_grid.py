@@ -10,8 +10,8 @@ from mpi4py import MPI
 
 import numpy as np
 
+from contactx.meshes.bend import Bottom, move_nodes
 from contactx.meshes.build import build_mesh
-from contactx.meshes.cap import bend, move_nodes
 from contactx.meshes.checks import check_positive
 from contactx.meshes.entities import tag_body
 from contactx.meshes.grids import Coordinates, add_grid, graded
@@ -83,6 +83,6 @@ def hertz_grid(
         tag_body(gmsh, 3, upper, Tag.UPPER, _UPPER_FACES)
         tag_body(gmsh, 3, lower, Tag.LOWER, _LOWER_FACES)
         gmsh.model.mesh.generate(3)
-        move_nodes(gmsh, upper, lambda x: bend(x, 1.0, 1.0))
+        move_nodes(gmsh, 3, upper, Bottom((0, 0), 0.0, 1.0, 1.0).bend)
 
     return build_mesh("hertz_grid", 3, recipe, comm)
