@@ -192,7 +192,8 @@ class SaddlePointSystem:
             for form in interface.forms:
                 if form.stiffness is not None:
                     _assemble(A, form.stiffness, (bulk, bulk), (markers, markers))
-                _assemble(A, form.traction, (bulk, slave), (markers, _NONE))
+                if form.traction is not None:
+                    _assemble(A, form.traction, (bulk, slave), (markers, _NONE))
                 _assemble(A, form.constraint, (slave, bulk), (_NONE, markers))
             size = interface.nodes.size
             rows = np.arange(first, last, dtype=PETSc.IntType)
