@@ -40,11 +40,12 @@ void contactx_bindings::mortar(py::module_& m)
       .def(
           "integrals",
           [](const FacetSearch& self, const FacetPairs& pairs,
-             const Array<double>& x, const Array<double>& reference)
+             const Array<double>& x, const Array<double>& reference,
+             const Array<double>& normal)
           {
             const auto all = contactx::mortar::integrals(
                 self.slave(), self.master(), pairs, view(x), view(reference),
-                self.gdim());
+                self.gdim(), view(normal));
             const auto shaped
                 = [](const std::vector<double>& v,
                      std::vector<py::ssize_t> width)
@@ -62,5 +63,6 @@ void contactx_bindings::mortar(py::module_& m)
                             py::arg("normal") = shaped(all.normal, {3}));
           },
           py::arg("pairs"), py::arg("x"), py::arg("reference"),
+          py::arg("normal") = Array<double>(0),
           "Integrals of the dual basis functions");
 }

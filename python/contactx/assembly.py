@@ -65,14 +65,13 @@ class Assembly:
             form.update(pairs)
 
     def kinematics(self, nodes: Nodes) -> None:
-        """Assemble gap, normal and slip of the slave nodes; zero where there is no pair."""
+        """Assemble gap and normal of the slave nodes; zero where there is no pair."""
         nodes.gap[:] = nodes.normal[:] = 0
         for form in self.forms:
             if form.gap is not None:
                 fem.assemble_vector(nodes.gap, form.gap)
             if form.normal is not None:
                 fem.assemble_vector(nodes.normal.reshape(-1), form.normal)
-        self.slip(nodes)
 
     def slip(self, nodes: Nodes) -> None:
         """Assemble the slip of the slave nodes, or their movement."""

@@ -101,6 +101,19 @@ double facet_area(const facet::Nodes<S>& x)
   return S::nodes == 3 ? 0.5 * jacobian : jacobian;
 }
 
+/// Plane of a slave facet, projected along a given normal of the master.
+template <class S>
+Plane<S> plane_of(const facet::Nodes<S>& x, std::int32_t f,
+                  std::span<const double> normal)
+{
+  if (normal.empty())
+    return Plane<S>(x);
+  Vec<S::gdim> n;
+  for (int k = 0; k < S::gdim; ++k)
+    n[k] = -normal[3 * f + k];
+  return {x, n};
+}
+
 /// Rows combined with the coefficients of the dual functions.
 template <class S>
 void combine_rows(const Square<S::nodes>& dual, double* rows, int width)
@@ -122,7 +135,7 @@ Integrals contactx::mortar::integrals(const facet::FacetList& slave,
                                       const FacetPairs& pairs,
                                       std::span<const double> x,
                                       std::span<const double> reference,
-                                      int gdim)
+                                      int gdim, std::span<const double> normal)
 {
   constexpr int n = most_nodes;
   Integrals all;
@@ -145,7 +158,7 @@ Integrals contactx::mortar::integrals(const facet::FacetList& slave,
           using S = decltype(kind);
           const auto xs = facet::gather<S>(slave[f], x);
           const auto X = facet::gather<S>(slave[f], reference);
-          const SlaveFacet<S> projected(xs, X);
+          const SlaveFacet<S> projected(plane_of<S>(xs, f, normal), xs, X);
           for (int k = 0; k < gdim; ++k)
             all.normal[3 * f + k] = -projected.plane.n[k];
           Cover<S> cover;

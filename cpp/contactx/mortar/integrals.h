@@ -38,15 +38,15 @@ struct Integrals
 {
   /// int Phi_s N_l of each pair (shape=(num_pairs, 4, 4))
   std::vector<double> weight;
-  /// int Phi_s gap of each pair, the gap measured along the slave facet's
-  /// normal (shape=(num_pairs, 4))
+  /// int Phi_s gap of each pair, the gap measured along the direction of the
+  /// projection (shape=(num_pairs, 4))
   std::vector<double> gap;
   /// Coefficients a_st of each slave facet (shape=(num_facets, 4, 4))
   std::vector<double> dual;
   /// int Phi_s = int N_s over the covered part (shape=(num_facets, 4))
   std::vector<double> area;
-  /// Unit normal of the master, against that of the slave facet
-  /// (shape=(num_facets, 3))
+  /// Unit normal of the master: against the direction that the slave facet is
+  /// projected along (shape=(num_facets, 3))
   std::vector<double> normal;
 };
 
@@ -61,8 +61,11 @@ inline constexpr double least_cover = 1e-3;
 /// @param[in] x Node coordinates (shape=(num_nodes, gdim)), row-major.
 /// @param[in] reference Node coordinates in the reference configuration.
 /// @param[in] gdim Geometric dimension, 2 or 3.
+/// @param[in] normal Unit normals of the master to project along, one a slave
+/// facet (shape=(num_facets, 3)); those against the slave facets' own if empty.
 Integrals integrals(const facet::FacetList& slave,
                     const facet::FacetList& master, const FacetPairs& pairs,
                     std::span<const double> x,
-                    std::span<const double> reference, int gdim);
+                    std::span<const double> reference, int gdim,
+                    std::span<const double> normal = {});
 } // namespace contactx::mortar

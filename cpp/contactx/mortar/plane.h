@@ -19,21 +19,21 @@ constexpr facet::Local<S> plane_origin()
 }
 
 /// @brief The plane that a slave facet and the master facets in front of it are
-/// projected on, along its normal: that of the facet, or of a quadrilateral's
-/// centre.
+/// projected on: that of the facet, or of a quadrilateral's centre.
 ///
 /// M. A. Puso and T. A. Laursen, Comput. Methods Appl. Mech. Engrg. 193, 2004.
-/// A point is o + r_a t_a + height n, with the tangents t_a; on a flat facet
-/// r are its local coordinates.
+/// A point is o + r_a t_a + height n, with the tangents t_a and the direction n
+/// of the projection; on a flat facet r are its local coordinates.
 template <class S>
 struct Plane
 {
   Vec<S::gdim> origin;
   std::array<Vec<S::gdim>, S::tdim> t;    ///< tangents
   std::array<Vec<S::gdim>, S::tdim> dual; ///< t_a . dual_b = delta_ab
-  Vec<S::gdim> n;                         ///< unit normal, outward
+  Vec<S::gdim> n;     ///< unit vector that is projected along, outward
+  Vec<S::gdim> conormal; ///< across the tangents, conormal . n = 1
 
-  /// @brief Create the plane.
+  /// @brief Create the plane and project along its normal.
   /// @param[in] x Nodes of the slave facet.
   explicit Plane(const facet::Nodes<S>& x)
   {
@@ -41,7 +41,7 @@ struct Plane
     const auto frame = facet::frame<S>(x, xi);
     origin = facet::combine<S>(S::shape(xi), x);
     t = frame.t;
-    n = frame.n;
+    n = conormal = frame.n;
     const Vec<3> m = facet::metric(t);
     for (int k = 0; k < S::gdim; ++k)
     {
@@ -54,6 +54,18 @@ struct Plane
     }
   }
 
+  /// @brief Create the plane and project along another direction.
+  /// @param[in] x Nodes of the slave facet.
+  /// @param[in] direction Unit vector on the outer side of the facet.
+  Plane(const facet::Nodes<S>& x, const Vec<S::gdim>& direction) : Plane(x)
+  {
+    const double cosine = dot(conormal, direction);
+    for (auto& d : dual)
+      d = d - (dot(d, direction) / cosine) * conormal;
+    n = direction;
+    conormal = (1 / cosine) * conormal;
+  }
+
   /// @brief Coordinates r of a point's projection.
   facet::Local<S> project(const Vec<S::gdim>& x) const
   {
@@ -63,8 +75,11 @@ struct Plane
     return r;
   }
 
-  /// @brief Height of a point over the plane.
-  double height(const Vec<S::gdim>& x) const { return dot(n, x - origin); }
+  /// @brief Height of a point over the plane, along n.
+  double height(const Vec<S::gdim>& x) const
+  {
+    return dot(conormal, x - origin);
+  }
 };
 
 /// @brief Coordinates of a facet's nodes in a plane.

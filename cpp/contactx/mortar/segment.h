@@ -16,7 +16,17 @@ struct SlaveFacet
   /// @param[in] x Its nodes.
   /// @param[in] reference Its nodes in the reference configuration.
   SlaveFacet(const facet::Nodes<S>& x, const facet::Nodes<S>& reference)
-      : reference(reference), plane(x), map(project<S>(plane, x)),
+      : SlaveFacet(Plane<S>(x), x, reference)
+  {
+  }
+
+  /// @brief Project the facet on a plane of its own.
+  /// @param[in] plane The plane.
+  /// @param[in] x Its nodes.
+  /// @param[in] reference Its nodes in the reference configuration.
+  SlaveFacet(const Plane<S>& plane, const facet::Nodes<S>& x,
+             const facet::Nodes<S>& reference)
+      : reference(reference), plane(plane), map(project<S>(plane, x)),
         shape(outline<S>(project<S>(plane, x)))
   {
     if constexpr (S::flat)

@@ -4,12 +4,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 from petsc4py import PETSc
 
 import numpy as np
 import numpy.typing as npt
+
+from contactx.interface import Interface
 
 type Array = npt.NDArray[np.float64]
 type Index = npt.NDArray[np.integer]
@@ -105,6 +108,40 @@ class ContactBlocks:
         traction.columns = traction.columns - num_bulk
         constraint.rows = constraint.rows - num_bulk
         return ContactBlocks(traction, constraint, every.select(~below & ~right))
+
+
+def lumped(blocks: ContactBlocks, interfaces: Sequence[Interface], gdim: int) -> ContactBlocks:
+    """Constraints in which a slave node stands for the others of its facets.
+
+    A constraint that is integrated over slave facets feels all of their nodes as they slide, if
+    only by the angle between the surfaces. As if they all slid like its own node, the slave side
+    is diagonal.
+
+    Args:
+        blocks: Contact blocks of a Jacobian.
+        interfaces: Discrete sides of the contacts.
+        gdim: Geometric dimension.
+
+    Returns:
+        The same blocks where no constraint has such entries.
+    """
+    C = blocks.constraint
+    owner, contact = [], []
+    size = 1 + max([C.columns.max(initial=-1) // gdim, *(i.slaves.max() for i in interfaces)])
+    slaves_of = np.zeros((len(interfaces), size), dtype=bool)
+    for k, interface in enumerate(interfaces):
+        count = interface.nodes.size
+        owner.append(np.repeat(interface.slaves, count))
+        contact.append(np.full(len(interface.slaves) * count, k))
+        slaves_of[k, interface.slaves] = True
+    own = np.concatenate(owner)[C.rows]
+    node = C.columns // gdim
+    others = slaves_of[np.concatenate(contact)[C.rows], node] & (node != own)
+    if not others.any():
+        return blocks
+    columns = np.where(others, own * gdim + C.columns % gdim, C.columns)
+    shape = (len(np.concatenate(owner)), size * gdim)
+    return replace(blocks, constraint=entries_of(Entries(C.rows, columns, C.values).matrix(shape)))
 
 
 class NotCondensable(Exception):

@@ -13,6 +13,7 @@ import numpy.typing as npt
 from contactx import cpp as core
 from contactx.forms import Pairs
 from contactx.master.master import Master, Weights, touching
+from contactx.master.reach import default_reach
 from contactx.surface import FacetList
 
 _SAVED = ("facet", "feature", "xi", "cone", "normal")
@@ -54,7 +55,7 @@ class FacetMaster(Master):
         # node's slip starts, as a place in the configuration of the step's start
         self._x0 = self._at = x
         self._start = np.zeros((0, x.shape[1]))
-        self.reach = search_distance or _default_reach(x, slave, master)
+        self.reach = search_distance or default_reach(x, slave, master)
         self._pairing = core.Pairing(
             slave.offsets, slave.nodes, master.offsets, master.nodes, x.shape[1]
         )
@@ -265,15 +266,3 @@ def _weights(pairs: Pairs, xi: npt.NDArray[np.float64]) -> npt.NDArray[np.float6
     """1 for the slave node and -N_l at local coordinates, shape (num_pairs, 1 + num_nodes)."""
     N = core.shape_functions(pairs.num_nodes, np.ascontiguousarray(xi))
     return np.column_stack([np.ones(len(N)), -N])
-
-
-def _default_reach(x: npt.NDArray[np.float64], slave: FacetList, master: FacetList) -> float:
-    """Diameter of the larger surface: twice the largest distance of its nodes from their mean.
-
-    A body that has moved into another within one iteration must still be found.
-    """
-    radii = []
-    for facets in (slave, master):
-        nodes = x[np.unique(facets.nodes)]
-        radii.append(np.linalg.norm(nodes - nodes.mean(axis=0), axis=1).max())
-    return 2 * float(max(radii))
