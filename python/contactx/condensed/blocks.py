@@ -41,7 +41,7 @@ class Entries:
 
     def matrix(self, shape: tuple[int, int]) -> PETSc.Mat:
         """AIJ matrix; entries of one place are added."""
-        order = np.argsort(self.rows, kind="stable")
+        order = np.argsort(self.rows)
         indptr = np.searchsorted(self.rows[order], np.arange(shape[0] + 1)).astype(PETSc.IntType)
         A = PETSc.Mat().createAIJ(shape, comm=PETSc.COMM_SELF)
         A.setPreallocationNNZ(np.maximum(np.diff(indptr), 0).astype(PETSc.IntType))
@@ -83,6 +83,8 @@ def joined(parts: list[Entries]) -> Entries:
 @dataclass(frozen=True)
 class ContactBlocks:
     """Blocks of the contact part of a Jacobian, in the unknowns (displacements, multipliers).
+
+    Entries of one place add up.
 
     Attributes:
         traction: Derivative of the displacements' rows by the multipliers, (dof, multiplier).
@@ -140,8 +142,7 @@ def lumped(blocks: ContactBlocks, interfaces: Sequence[Interface], gdim: int) ->
     if not others.any():
         return blocks
     columns = np.where(others, own * gdim + C.columns % gdim, C.columns)
-    shape = (len(np.concatenate(owner)), size * gdim)
-    return replace(blocks, constraint=entries_of(Entries(C.rows, columns, C.values).matrix(shape)))
+    return replace(blocks, constraint=Entries(C.rows, columns, C.values))
 
 
 class NotCondensable(Exception):

@@ -112,7 +112,7 @@ class CondensedSolver:
             return
         try:
             with self._report.timing("condensation"):
-                A = self._system.assemble_contact()
+                A = self._system.contact_entries()
                 blocks = ContactBlocks.of(A, self._system.num_bulk)
                 interfaces, where = self._system.interfaces, (self._free, self._system.block)
                 diagonal = lumped(blocks, interfaces, self._system.block)
@@ -127,12 +127,16 @@ class CondensedSolver:
             return
         solve = partial(self._solve, operator, elimination, contact)
         exact = diagonal is blocks
-        if not (solve(b, x, self.target) if exact else self._correct(solve, b, x)):
+        if not (solve(b, x, self.target) if exact else self._correct(solve, A, b, x)):
             self._failures += 1
             self._solve_directly(b, x, _SLOW)
 
     def _correct(
-        self, solve: Callable[[PETSc.Vec, PETSc.Vec, float], bool], b: PETSc.Vec, x: PETSc.Vec
+        self,
+        solve: Callable[[PETSc.Vec, PETSc.Vec, float], bool],
+        contact: PETSc.Mat,
+        b: PETSc.Vec,
+        x: PETSc.Vec,
     ) -> bool:
         """Solve J x = b with a solver of nearly the same system, correcting what it leaves."""
         part, left, product = x.duplicate(), b.copy(), b.duplicate()
@@ -142,7 +146,7 @@ class CondensedSolver:
             if not solve(left, part, max(self.target, _NEARLY * norm)):
                 return False
             x.axpy(1.0, part)
-            self.multiply(x, product)
+            self._multiply(contact, x, product)
             b.copy(left)
             left.axpy(-1.0, product)
             norm, before = left.norm(), norm
@@ -157,7 +161,10 @@ class CondensedSolver:
             x: Vector of all unknowns.
             y: Product, overwritten.
         """
-        self._system.assemble_contact().mult(x, y)
+        self._multiply(self._system.contact_entries(), x, y)
+
+    def _multiply(self, contact: PETSc.Mat, x: PETSc.Vec, y: PETSc.Vec) -> None:
+        contact.mult(x, y)
         n = self._system.num_bulk
         u, w = self._bulk.matrix().createVecs()
         u.array[:] = x.array_r[:n]
