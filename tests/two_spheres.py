@@ -39,9 +39,18 @@ TOLERANCE = 1e-4
 MOST_TRIES = 8
 
 
-def mesh(h: float, h_master: float | None = None) -> MeshData:
-    """The spheres with cells of a size in the contact."""
-    return meshes.half_spheres(RADIUS, h, h_master, zone=ZONE)
+def mesh(h: float, slave: str) -> MeshData:
+    """Mesh the spheres, the upper one for the slave.
+
+    The soft body has the finer cells: a multiplier on cells finer than those that yield to it
+    is not determined well.
+
+    Args:
+        h: Cell size of the soft sphere in the contact; those of the stiff one are 1.5 times larger.
+        slave: "soft" or "stiff".
+    """
+    sizes = (h, 1.5 * h) if slave == "soft" else (1.5 * h, h)
+    return meshes.half_spheres(RADIUS, *sizes, zone=ZONE)
 
 
 class TwoSpheres:

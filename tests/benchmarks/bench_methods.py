@@ -38,14 +38,13 @@ ERRORS: list[tables.Column] = [
     ("p0", "p0_best", ".4f"),
     ("p_l2 raw", "p_l2", ".4f"),
     ("p_l2", "p_l2_best", ".4f"),
-    ("force of p", "force_best", ".0e"),
+    ("dF", "force_best", "+.0e"),
     ("pen", "pen", ".1e"),
     ("gap", "gap", ".0e"),
 ]
 SIZE: list[tables.Column] = [
     ("dofs", "dofs", "d"),
     ("it", "iterations", "d"),
-    ("Krylov", "krylov", "d"),
 ]
 COLUMNS: list[tables.Column] = [
     ("cells", "cells", "s"),
@@ -54,8 +53,7 @@ COLUMNS: list[tables.Column] = [
     ("method", "method", "s"),
     *SIZE,
     ("CPU s", "cpu", ".2f"),
-    (": first", "ratio", ".2f"),
-    ("MB", "memory", ".0f"),
+    (": n", "ratio", ".2f"),
     ("4F", "force", ".7f"),
     *ERRORS,
 ]

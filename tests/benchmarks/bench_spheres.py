@@ -4,7 +4,7 @@
 
 A quarter of two half spheres, whose flat faces stay plane and whose displacement is found by
 secants. Either sphere is the slave; with the stiff one in finite sliding Hertz's linear theory does
-not hold, see ``two_spheres``. The slave's cells are 1.5 times smaller than the master's.
+not hold, see ``two_spheres``. The soft sphere's cells are 1.5 times smaller than the stiff one's.
 
     python tests/benchmarks/bench_spheres.py 0.1 0.05
 """
@@ -43,12 +43,12 @@ def measure(h: float, slave: str, sliding: str, method: str) -> dict[str, Any]:
     """Solve in this process.
 
     Args:
-        h: Cell size of the slave in the contact.
+        h: Cell size of the soft sphere in the contact.
         slave: "soft" or "stiff".
         sliding: "finite" or "small".
         method: Method of the contact.
     """
-    data = two_spheres.mesh(h)
+    data = two_spheres.mesh(h, slave)
     meter = runner.Meter()
     scene = two_spheres.TwoSpheres(data, slave=slave, sliding=sliding, method=method)
     scene.press()
