@@ -2,13 +2,13 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """Ironing: a stiff round die is pressed into a soft block and dragged over it.
 
-Die and block are neo-Hookean, E = 100 and 1, nu = 0.3. The die's bottom is round, R = 0.7; its top
-goes down by 0.1, an eighth of the die's width, and then 1.3 along the block, over 15 of its facets
-(10 in 3D), without friction and with mu = 0.3. What passes under the die is not the same from
-step to step, so that forces swing: by how much is what the method of contact makes of it. Both
-methods are compared. Dragged without friction the die meets no resistance but what the ends of the
-block and the cells make; with friction it is mu times the vertical force, and a little for the wave
-that the die pushes ahead.
+Die and block are neo-Hookean, E = 100 and 1, nu = 0.3. The die's bottom is round, R = 0.7 (in 3D a
+sphere of R = 1); its top goes down by 0.1, an eighth of the die's width, and then 1.3 along the
+block, over 15 of its facets (10 in 3D), without friction and with mu = 0.3. What passes under
+the die is not the same from step to step, so that forces swing: by how much is what the method of
+contact makes of it. Dragged without friction the die meets no resistance but what the ends of the
+block and its cells make; with friction it is mu times the vertical force, and a little for the
+wave that the die pushes ahead. Both methods run.
 
 The swing is the largest deviation of a force from a cubic along the path, without the first fifth
 in which friction builds up, over the mean vertical force.
@@ -38,7 +38,7 @@ STIFF, SOFT, NU = 100.0, 1.0, 0.3
 FRICTIONS = (0.0, 0.3)
 # Lengths of block and die along the drag, across it and upward; the die's corner on the block
 BLOCK, DIE, CORNER = (2.6, 1.2, 0.7), (0.8, 0.8, 0.3), (0.25, 0.2)
-RADIUS, DEPTH, WAY = 0.7, 0.1, 1.3
+RADIUS, DEPTH, WAY = {2: 0.7, 3: 1.0}, 0.1, 1.3
 # Cells of the block over those of the die
 COARSER = 1.3
 # Steps of the way down, and those a facet of the block: not whole, to see all places in it
@@ -90,7 +90,7 @@ class Ironing:
             size_upper=die,
             size_lower=block,
             shift=CORNER[: dim - 1],
-            radius=RADIUS,
+            radius=RADIUS[dim],
         )
         tags = data.facet_tags
         self.u = u = story.displacement(data.mesh)
