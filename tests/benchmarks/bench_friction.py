@@ -70,14 +70,12 @@ def slab(layers: int, cushion_is_slave: bool, method: str) -> dict[str, Any]:
         setting, bench_face_slab.SETTLEMENT, bench_face_slab.PRESSURE, steps=1, progress=False
     )
     found = slab_results.measure(scene)
-    held = slab_results.laws(scene)
     return {
         "results": [
             ("rotation, degrees", None, found.rotation),
             ("largest stress, MPa", None, found.stress),
             ("opening below, mm", None, 1000 * found.opening),
             ("stress of the top beside the joint, MPa", None, found.surface),
-            ("penetration, m", None, held.penetration),
         ]
     }
 

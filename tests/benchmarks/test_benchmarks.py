@@ -150,7 +150,7 @@ def test_ironing():
 
 
 def test_friction():
-    rows = bench_friction.main(["block", "slab", "5"])
+    rows = bench_friction.main(["block", "0.5"]) + bench_friction.main(["slab", "5"])
     assert not any("failed" in row for row in rows)
     assert {row["scene"] for row in rows} >= {"slice, 5 layers, slave slabs"}
     apart = [row for row in rows if "difference" in row]
