@@ -53,4 +53,5 @@ void facet(py::module_& m);
 void search(py::module_& m);
 void law(py::module_& m);
 void kernel(py::module_& m);
+void mortar(py::module_& m);
 } // namespace contactx_bindings

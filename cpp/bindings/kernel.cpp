@@ -49,12 +49,36 @@ void contactx_bindings::kernel(py::module_& m)
                  py::arg("curvature") = kernel::rigid_curvature,
                  py::arg("size") = kernel::rigid_size);
   m.def(
+      "mortar_layout",
+      [](int num_slaves, int num_nodes)
+      {
+        const kernel::MortarLayout at(num_slaves, num_nodes);
+        return py::dict(py::arg("weight") = at.weight,
+                        py::arg("dual") = at.dual, py::arg("gap") = at.gap,
+                        py::arg("normal") = at.normal,
+                        py::arg("size") = at.size);
+      },
+      py::arg("num_slaves"), py::arg("num_nodes"),
+      "Places of the values of a pair of two facets");
+  m.def(
+      "rigid_mortar_layout",
+      [](int num_slaves, int gdim)
+      {
+        const kernel::RigidMortarLayout at(num_slaves, gdim);
+        return py::dict(
+            py::arg("area") = at.area, py::arg("gap") = at.gap,
+            py::arg("gradient") = at.gradient, py::arg("normal") = at.normal,
+            py::arg("curvature") = at.curvature, py::arg("size") = at.size);
+      },
+      py::arg("num_slaves"), py::arg("gdim"),
+      "Places of the values of a slave facet before a rigid obstacle");
+  m.def(
       "coefficients",
-      [](const std::string& law, int num_nodes, int gdim)
+      [](const std::string& law, int num_nodes, int gdim, int num_slaves)
       {
         py::list table;
         for (const kernel::CoefficientInfo& c :
-             kernel::coefficients(law_named(law), num_nodes, gdim))
+             kernel::coefficients(law_named(law), num_nodes, gdim, num_slaves))
         {
           if (c.size == 0)
             continue;
@@ -66,15 +90,32 @@ void contactx_bindings::kernel(py::module_& m)
         return py::tuple(table);
       },
       py::arg("law"), py::arg("num_nodes"), py::arg("gdim"),
+      py::arg("num_slaves") = 1,
       "Name, site and size of the coefficients that the kernels are given");
+  m.def(
+      "terms",
+      [](const std::string& law, const std::string& sliding, int num_nodes,
+         int gdim, int num_slaves)
+      {
+        py::list terms;
+        for (const kernel::Entry& e : kernel::registry())
+          if (e.law == law_named(law) and e.sliding == sliding
+              and e.num_nodes == num_nodes and e.gdim == gdim
+              and e.num_slaves == num_slaves)
+            terms.append(std::string(e.term));
+        return terms;
+      },
+      py::arg("law"), py::arg("sliding"), py::arg("num_nodes"), py::arg("gdim"),
+      py::arg("num_slaves") = 1, "Terms that have a kernel");
   m.def(
       "kernel",
       [](const std::string& law, const std::string& sliding,
-         const std::string& term, int num_nodes, int gdim)
+         const std::string& term, int num_nodes, int gdim, int num_slaves)
       {
-        const kernel::Entry& e
-            = kernel::find(law_named(law), sliding, term, num_nodes, gdim);
-        const auto table = kernel::coefficients(e.law, num_nodes, gdim);
+        const kernel::Entry& e = kernel::find(law_named(law), sliding, term,
+                                              num_nodes, gdim, num_slaves);
+        const auto table
+            = kernel::coefficients(e.law, num_nodes, gdim, num_slaves);
         Array<std::int8_t> active(e.active.size());
         for (std::size_t i = 0; i < e.active.size(); ++i)
         {
@@ -89,6 +130,6 @@ void contactx_bindings::kernel(py::module_& m)
                               active);
       },
       py::arg("law"), py::arg("sliding"), py::arg("term"), py::arg("num_nodes"),
-      py::arg("gdim"),
+      py::arg("gdim"), py::arg("num_slaves") = 1,
       "Address of a kernel and the coefficients that it reads");
 }

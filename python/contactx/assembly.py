@@ -39,6 +39,7 @@ class Assembly:
         self._state = state
         self._maps = bulk_map, slave_map
         self.forms: list[ContactForms] = []
+        self._sliding = ""
 
     def renew(self, groups: Sequence[Pairs], sliding: str) -> None:
         """Make the forms of new pairs.
@@ -47,27 +48,33 @@ class Assembly:
             groups: Pairs by the kind of their facets.
             sliding: Kinematics, "finite" or "small".
         """
+        self._sliding = sliding
         self.forms = [
             ContactForms(self._comm, self._law, sliding, pairs, self._state, *self._maps)
             for pairs in groups
         ]
 
     def update(self, groups: Sequence[Pairs]) -> None:
-        """Take over new data of the same pairs."""
+        """Take over new data, with new forms where the pairs are others."""
+        if len(groups) != len(self.forms) or not all(
+            form.pairs.same(pairs) for form, pairs in zip(self.forms, groups, strict=True)
+        ):
+            self.renew(groups, self._sliding)
+            return
         for form, pairs in zip(self.forms, groups, strict=True):
             form.update(pairs)
 
     def kinematics(self, nodes: Nodes) -> None:
-        """Assemble gap, normal and slip of the slave nodes; zero where there is no pair."""
+        """Assemble gap and normal of the slave nodes; zero where there is no pair."""
         nodes.gap[:] = nodes.normal[:] = 0
         for form in self.forms:
-            fem.assemble_vector(nodes.gap, form.gap)
+            if form.gap is not None:
+                fem.assemble_vector(nodes.gap, form.gap)
             if form.normal is not None:
                 fem.assemble_vector(nodes.normal.reshape(-1), form.normal)
-        self.slip(nodes)
 
     def slip(self, nodes: Nodes) -> None:
-        """Assemble the slip of the slave nodes."""
+        """Assemble the slip of the slave nodes, or their movement."""
         nodes.slip[:] = 0
         for form in self.forms:
             if form.slip is not None:
@@ -76,4 +83,5 @@ class Assembly:
     def add_residual(self, b: npt.NDArray[np.float64]) -> None:
         """Add the contact forces to a vector of the bulk, shape (num_nodes * gdim,)."""
         for form in self.forms:
-            fem.assemble_vector(b, form.residual)
+            if form.residual is not None:
+                fem.assemble_vector(b, form.residual)

@@ -64,6 +64,31 @@ class Pairing:
         self, x: NDArray[np.float64], xi: NDArray[np.float64]
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...
 
+class FacetPairs:
+    @property
+    def slave(self) -> NDArray[np.int32]: ...
+    @property
+    def master(self) -> NDArray[np.int32]: ...
+    def contains(self, part: FacetPairs) -> bool: ...
+
+class FacetSearch:
+    def __init__(
+        self,
+        slave_offsets: NDArray[np.int32],
+        slave_nodes: NDArray[np.int32],
+        master_offsets: NDArray[np.int32],
+        master_nodes: NDArray[np.int32],
+        gdim: int,
+    ) -> None: ...
+    def find(self, x: NDArray[np.float64], reach: float, margin: float) -> FacetPairs: ...
+    def integrals(
+        self,
+        pairs: FacetPairs,
+        x: NDArray[np.float64],
+        reference: NDArray[np.float64],
+        normal: NDArray[np.float64] = ...,
+    ) -> dict[str, NDArray[np.float64]]: ...
+
 def normal_status(
     pressure: NDArray[np.float64],
     gap: NDArray[np.float64],
@@ -105,7 +130,12 @@ def frictional_complementarity(
     by_slip: NDArray[np.float64],
     by_normal: NDArray[np.float64],
 ) -> None: ...
-def coefficients(law: str, num_nodes: int, gdim: int) -> tuple[tuple[str, str, int], ...]: ...
+def mortar_layout(num_slaves: int, num_nodes: int) -> dict[str, int]: ...
+def rigid_mortar_layout(num_slaves: int, gdim: int) -> dict[str, int]: ...
+def coefficients(
+    law: str, num_nodes: int, gdim: int, num_slaves: int = 1
+) -> tuple[tuple[str, str, int], ...]: ...
+def terms(law: str, sliding: str, num_nodes: int, gdim: int, num_slaves: int = 1) -> list[str]: ...
 def kernel(
-    law: str, sliding: str, term: str, num_nodes: int, gdim: int
+    law: str, sliding: str, term: str, num_nodes: int, gdim: int, num_slaves: int = 1
 ) -> tuple[int, NDArray[np.int8]]: ...

@@ -19,27 +19,43 @@ from dolfinx import cpp, fem, la
 
 @dataclass(frozen=True)
 class Pairs:
-    """Pairs of slave nodes with facets of one kind.
+    """Pairs of slave nodes, or of slave facets, with master facets of one kind.
 
     Attributes:
-        slaves: Slave nodes, by their number in the contact, shape (num_pairs,).
-        nodes: The slave node and the facet's nodes, numbered as the blocks of the
-            displacement's dofmap, shape (num_pairs, 1 + num_nodes).
-        data: What the kernels read of a pair, as cpp/contactx/kernel/layout.h says: shape
-            (num_pairs, 9) with a facet, (num_pairs, 16) with a rigid obstacle.
-        slip: What they read where slip is measured, else None: shape (num_pairs, 6) or
-            (num_pairs, 12).
+        slaves: Slave nodes by their number in the contact: one a pair, or those of a slave facet,
+            shape (num_pairs, num_slaves).
+        nodes: The slave nodes and the master facet's nodes, numbered as the blocks of the
+            displacement's dofmap, shape (num_pairs, num_slaves + num_nodes).
+        data: What the kernels read of a pair, as cpp/contactx/kernel/layout.h says, shape
+            (num_pairs, size).
+        slip: What they read of slip a slave node, else None: shape (num_pairs, 6) with a facet,
+            (num_pairs, 12) with a rigid obstacle.
+        is_movement: Whether they measure slip alone: pairs of facets of the step's start.
     """
 
     slaves: npt.NDArray[np.int32]
     nodes: npt.NDArray[np.int32]
     data: npt.NDArray[np.float64]
     slip: npt.NDArray[np.float64] | None = None
+    is_movement: bool = False
+
+    @property
+    def num_nodes(self) -> int:
+        """Nodes of the master facet, 0 for a rigid obstacle."""
+        return self.nodes.shape[1] - self.slaves.shape[1]
+
+    def same(self, other: Pairs) -> bool:
+        """Whether others have the same nodes, so that forms of these serve them, too."""
+        return (
+            self.is_movement == other.is_movement
+            and np.array_equal(self.nodes, other.nodes)
+            and np.array_equal(self.slaves, other.slaves)
+        )
 
     @property
     def normal(self) -> npt.NDArray[np.float64]:
-        """Unit normals that the search found, shape (num_pairs, 3)."""
-        at = core.rigid_layout if self.nodes.shape[1] == 1 else core.pair_layout
+        """Unit normals that the search found for single slave nodes, shape (num_pairs, 3)."""
+        at = core.rigid_layout if self.num_nodes == 0 else core.pair_layout
         return self.data[:, at["normal"] : at["normal"] + 3]
 
 
@@ -98,15 +114,28 @@ class ContactForms:
     nodes, so a form is assembled straight into vectors and matrices of either.
 
     Attributes:
+    Those that vanish, or that other pairs have, are None.
+
+    Attributes:
+        pairs: The pairs.
         gap: Gap of each slave node, a vector of the slave nodes.
-        normal: Unit normal of its master; None for scalar multipliers.
-        slip: Its slip; None for scalar multipliers.
+        normal: Normal of its master, of unit length but for a mean over facets; for vector
+            multipliers.
+        slip: Its slip, or its movement along with the normal part; for vector multipliers.
         residual: Contact forces -A lambda . (v_s - sum_l N_l v_l), a vector of the bulk.
-        stiffness: Derivative of the residual with respect to the displacement; None where it
-            vanishes: small sliding, and vector multipliers on a rigid obstacle.
+        stiffness: Derivative of the residual with respect to the displacement; it vanishes in
+            small sliding, and for vector multipliers on a rigid obstacle.
         traction: Derivative of the residual with respect to the multiplier.
         constraint: Derivative of the complementarity function with respect to the displacement.
     """
+
+    gap: fem.Form | None
+    normal: fem.Form | None
+    slip: fem.Form | None
+    residual: fem.Form | None
+    stiffness: fem.Form | None
+    traction: fem.Form | None
+    constraint: fem.Form | None
 
     def __init__(
         self,
@@ -129,8 +158,12 @@ class ContactForms:
             bulk_map: Index map of the bulk's nodes.
             slave_map: Index map of the slave nodes.
         """
-        num_pairs, width = pairs.nodes.shape
+        self.pairs = pairs
+        num_pairs, num_slaves = pairs.slaves.shape
         gdim = state.displacement.block_size
+        kind = (pairs.num_nodes, gdim, num_slaves)
+        # The kernels of a tie measure movement
+        law = "tied" if pairs.is_movement else law
         mesh = contact_mesh.carrier(comm, num_pairs)
         pair_map = cpp.common.IndexMap(comm, num_pairs)
         self._pair_data = la.vector(pair_map, pairs.data.shape[1])
@@ -141,37 +174,59 @@ class ContactForms:
         sites: dict[str, tuple[Any, npt.NDArray[np.int32]]] = {
             "nodes": (bulk_map, pairs.nodes),
             "pair": (pair_map, np.arange(num_pairs, dtype=np.int32)[:, None]),
-            "slave": (slave_map, pairs.slaves[:, None]),
+            "slave": (slave_map, pairs.slaves),
         }
         spaces: dict[tuple[str, int], Any] = {}
         coefficients = []
-        for name, site, size in core.coefficients(law, width - 1, gdim):
+        for name, site, size in core.coefficients(law, *kind):
             if (site, size) not in spaces:
                 spaces[site, size] = contact_mesh.borrow(mesh, *sites[site], size)
             coefficients.append(
                 cpp.fem.Function_float64(spaces[site, size], vectors[name]._cpp_object)
             )
-        is_vector = pairs.slip is not None
-        U, S = spaces["nodes", gdim], spaces["slave", gdim if is_vector else 1]
+        terms = core.terms(law, sliding, *kind)
+        if pairs.is_movement:
+            terms = [term for term in terms if term in ("slip", "constraint")]
+        U = spaces["nodes", gdim]
+        S = spaces["slave", state.multiplier.block_size]
+        arguments = {
+            "gap": [spaces["slave", 1]],
+            "normal": [S],
+            "slip": [S],
+            "residual": [U],
+            "stiffness": [U, U],
+            "traction": [U, S],
+            "constraint": [S, U],
+        }
 
-        def form(term: str, *arguments: Any) -> fem.Form:
-            address, active = core.kernel(law, sliding, term, width - 1, gdim)
-            cells = np.arange(num_pairs, dtype=np.int32)
+        def form(term: str, cells: npt.NDArray[np.int32]) -> fem.Form | None:
+            if term not in terms:
+                return None
+            address, active = core.kernel(law, sliding, term, *kind)
             integrals = {fem.IntegralType.cell: [(0, address, cells, active)]}
             make = fem.form_cpp_class(np.float64)
-            return fem.Form(make(list(arguments), integrals, coefficients, [], False, [], mesh))
+            return fem.Form(make(arguments[term], integrals, coefficients, [], False, [], mesh))
 
-        turns = sliding == "finite" and not (is_vector and width == 1)
-        self.gap = form("gap", spaces["slave", 1])
-        self.normal = form("normal", S) if is_vector else None
-        self.slip = form("slip", S) if is_vector else None
-        self.residual = form("residual", U)
-        self.stiffness = form("stiffness", U, U) if turns else None
-        self.traction = form("traction", U, S)
-        self.constraint = form("constraint", S, U)
+        self._form = form
+        every = np.arange(num_pairs, dtype=np.int32)
+        for term in arguments:
+            setattr(self, term, form(term, every))
+
+    def blocks(self, which: npt.NDArray[np.bool_]) -> list[fem.Form | None]:
+        """Forms of the Jacobian over the pairs of some slave nodes.
+
+        Args:
+            which: Slave nodes, shape (n,).
+
+        Returns:
+            Stiffness, traction and constraint; None for those that vanish.
+        """
+        cells = np.flatnonzero(which[self.pairs.slaves].any(axis=1)).astype(np.int32)
+        return [self._form(term, cells) for term in ("stiffness", "traction", "constraint")]
 
     def update(self, pairs: Pairs) -> None:
         """Take over new data of the same pairs."""
+        self.pairs = pairs
         self._pair_data.array[:] = pairs.data.ravel()
         if self._slip_data is not None and pairs.slip is not None:
             self._slip_data.array[:] = pairs.slip.ravel()

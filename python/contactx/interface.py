@@ -51,6 +51,7 @@ class Interface:
         X: la.Vector,
         *,
         law: Law,
+        method: str,
         sliding: str,
         search_distance: float | None,
         offset: NodalValue,
@@ -65,6 +66,7 @@ class Interface:
             u: Displacement.
             X: Reference positions of the nodes of ``u``.
             law: Contact law.
+            method: "node-to-surface" or "surface-to-surface".
             sliding: "finite" or "small".
             search_distance: Largest distance of a pair; chosen if None.
             offset: What is taken off the gap.
@@ -86,16 +88,21 @@ class Interface:
         self.slaves = np.unique(facets.nodes)
         x = X.array.reshape(-1, gdim)
         self.master: Master = make_master(
-            slave, master, bodies, law, sliding=sliding, search_distance=search_distance
+            slave,
+            master,
+            bodies,
+            law,
+            method=method,
+            sliding=sliding,
+            search_distance=search_distance,
         )
         n = len(self.slaves)
         slave_map = cpp.common.IndexMap(V.mesh.comm, n)
         self.state = State.of(u, X, slave_map, is_vector=law.is_vector)
         self._assembly = Assembly(V.mesh.comm, law.name, self.state, V.dofmap.index_map, slave_map)
-        self.state.area.array[:] = core.nodal_areas(facets.offsets, facets.nodes, x, gdim)[
-            self.slaves
-        ]
-        self.nodes = Nodes(self.state, gdim)
+        area = core.nodal_areas(facets.offsets, facets.nodes, x, gdim)
+        self._whole: npt.NDArray[np.float64] = area[self.slaves]
+        self.nodes = Nodes(self.state, gdim, has_means=method == "surface-to-surface")
         self.history = SlipHistory(n, gdim) if law.is_vector and not law.is_tied else None
         self._touched = np.zeros(n, dtype=bool)
         self.active = True
@@ -105,7 +112,9 @@ class Interface:
         self.master.accept(self.positions())
         self.master.begin_step()
         self.master.search(x, self.nodes.status)
+        self.nodes.area[:] = self.master.area(self._whole)
         check_facing(slave, master, facets, self.master, x)
+        self.master.begin_step()
         self._make_forms()
         self._find_immobile()
 
@@ -160,6 +169,7 @@ class Interface:
 
     def _pair(self, x: npt.NDArray[np.float64]) -> int:
         changed, new = self.master.search(x, self.nodes.closed.astype(np.int8))
+        self.nodes.area[:] = self.master.area(self._whole)
         if new:
             self._make_forms()
         else:
@@ -220,11 +230,22 @@ class Interface:
         offset = self.offset()
         fresh = self.master.refresh(self.positions(), self._held, offset)
         if fresh is not None:
+            self.nodes.area[:] = self.master.area(self._whole)
             self._assembly.update(fresh)
         gap = self.nodes.gap
         self._assembly.kinematics(self.nodes)
+        if self.nodes.mean is not None:
+            self.nodes.mean.normalise(self.nodes.normal)
+        self._measure_slip()
         gap -= offset
         gap[~(self.master.paired & self.active)] = np.nan
+
+    def _measure_slip(self) -> None:
+        nodes = self.nodes
+        self._assembly.slip(nodes)
+        if nodes.mean is not None and not self.law.is_tied:
+            nodes.slip -= self.master.origin
+            nodes.mean.project(nodes.normal, nodes.slip)
 
     def offset(self) -> npt.NDArray[np.float64]:
         """What is taken off the gap now, shape (n,)."""
@@ -256,7 +277,7 @@ class Interface:
         self._touched = self._touched | which
         fresh = self.master.refresh(x, self._held, offset)
         self._assembly.update(self.master.pairs() if fresh is None else fresh)
-        self._assembly.slip(self.nodes)
+        self._measure_slip()
 
     def closing(self, first: bool = False) -> npt.NDArray[np.bool_]:
         """Which nodes the complementarity closes.

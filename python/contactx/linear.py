@@ -192,11 +192,4 @@ class Condensed(LinearSolver):
 
     def mult(self, mat: PETSc.Mat, x: PETSc.Vec, y: PETSc.Vec) -> None:
         """Multiply, y = J x; PETSc calls this where the user takes another KSP."""
-        self._system.assemble_contact().mult(x, y)
-        n = self._system.num_bulk
-        u, w = self._bulk.matrix().createVecs()
-        u.array[:] = x.array_r[:n]
-        self._bulk.matrix().mult(u, w)
-        y.array[:n] += w.array_r
-        if self._solver.springs is not None:
-            y.array[:n] += self._solver.springs * u.array_r
+        self._solver.multiply(x, y)

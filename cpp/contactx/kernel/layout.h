@@ -26,9 +26,9 @@ enum class Law : std::int8_t
 /// @brief What a coefficient's degrees of freedom belong to.
 enum class Site : std::int8_t
 {
-  nodes, ///< the nodes of a pair: the slave node, then those of the facet
+  nodes, ///< the nodes of a pair: those of the slave, then those of the facet
   pair,  ///< the pair
-  slave  ///< the slave node
+  slave  ///< the slave nodes: one, or those of a slave facet
 };
 
 /// @brief Coefficients that kernels are given, in this order. Those of slip
@@ -88,26 +88,69 @@ inline constexpr int rigid_slip = 0;
 inline constexpr int rigid_slip_derivative = 3;
 inline constexpr int rigid_slip_size = 12;
 
-/// @brief The coefficients in their order.
+/// @brief Places of the values a pair of two facets, with `s` slave and `m`
+/// master nodes: integrals of the dual basis functions with the master's shape
+/// functions, the dual functions' coefficients, integrals of the gap, and the
+/// unit normal that the search found.
+struct MortarLayout
+{
+  int weight, dual, gap, normal, size;
+
+  constexpr MortarLayout(int s, int m)
+      : weight(0), dual(s * m), gap(dual + s * s), normal(gap + s),
+        size(normal + 3)
+  {
+  }
+};
+
+/// @brief Places of the values a slave facet before a rigid obstacle, with `s`
+/// nodes: integrals of the dual basis functions alone, with the gap, with its
+/// gradient, with the normal and its derivative, the derivatives by the nodes
+/// of the facet, row-major.
+struct RigidMortarLayout
+{
+  int area, gap, gradient, normal, curvature, size;
+
+  constexpr RigidMortarLayout(int s, int gdim)
+      : area(0), gap(s), gradient(2 * s), normal(gradient + s * s * gdim),
+        curvature(normal + s * gdim), size(curvature + s * s * gdim * gdim)
+  {
+  }
+};
+
+/// @brief Number of values a pair.
+/// @param[in] num_slaves Number of slave nodes.
+/// @param[in] num_nodes Number of nodes of the facet, 0 for a rigid obstacle.
+/// @param[in] gdim Geometric dimension.
+constexpr int pair_values(int num_slaves, int num_nodes, int gdim)
+{
+  if (num_slaves > 1)
+    return num_nodes > 0 ? MortarLayout(num_slaves, num_nodes).size
+                         : RigidMortarLayout(num_slaves, gdim).size;
+  return num_nodes > 0 ? pair_size : rigid_size;
+}
+
+/// @brief The coefficients in their order. Those of slip a pair exist for
+/// single slave nodes alone.
 /// @param[in] law Contact law.
 /// @param[in] num_nodes Number of nodes of the facet, 0 for a rigid obstacle.
 /// @param[in] gdim Geometric dimension.
+/// @param[in] num_slaves Number of slave nodes: 1, or those of a slave facet.
 constexpr std::array<CoefficientInfo, num_coefficients>
-coefficients(Law law, int num_nodes, int gdim)
+coefficients(Law law, int num_nodes, int gdim, int num_slaves = 1)
 {
-  const bool facet = num_nodes > 0;
   const bool vector = law != Law::frictionless;
+  const int slip = num_nodes > 0 ? slip_size : rigid_slip_size;
   const int n = vector ? gdim : 1;
-  return {
-      {{"displacement", Site::nodes, gdim},
-       {"position", Site::nodes, gdim},
-       {"pair", Site::pair, facet ? pair_size : rigid_size},
-       {"slip", Site::pair, vector ? (facet ? slip_size : rigid_slip_size) : 0},
-       {"multiplier", Site::slave, n},
-       {"area", Site::slave, 1},
-       {"gap_derivative", Site::slave, n},
-       {"slip_derivative", Site::slave, vector ? gdim * gdim : 0},
-       {"normal_derivative", Site::slave, vector ? gdim * gdim : 0}}};
+  return {{{"displacement", Site::nodes, gdim},
+           {"position", Site::nodes, gdim},
+           {"pair", Site::pair, pair_values(num_slaves, num_nodes, gdim)},
+           {"slip", Site::pair, vector and num_slaves == 1 ? slip : 0},
+           {"multiplier", Site::slave, n},
+           {"area", Site::slave, 1},
+           {"gap_derivative", Site::slave, n},
+           {"slip_derivative", Site::slave, vector ? gdim * gdim : 0},
+           {"normal_derivative", Site::slave, vector ? gdim * gdim : 0}}};
 }
 
 /// @brief Place of a coefficient in the array that a kernel is given.
@@ -115,12 +158,20 @@ coefficients(Law law, int num_nodes, int gdim)
 /// @param[in] c Coefficient.
 /// @param[in] num_nodes Number of nodes of the facet, 0 for a rigid obstacle.
 /// @param[in] gdim Geometric dimension.
-constexpr int offset(Law law, Coefficient c, int num_nodes, int gdim)
+/// @param[in] num_slaves Number of slave nodes: 1, or those of a slave facet.
+constexpr int offset(Law law, Coefficient c, int num_nodes, int gdim,
+                     int num_slaves = 1)
 {
-  const auto table = coefficients(law, num_nodes, gdim);
+  const auto table = coefficients(law, num_nodes, gdim, num_slaves);
   int n = 0;
   for (int i = 0; i < static_cast<int>(c); ++i)
-    n += (table[i].site == Site::nodes ? num_nodes + 1 : 1) * table[i].size;
+  {
+    const Site site = table[i].site;
+    const int count = site == Site::nodes   ? num_slaves + num_nodes
+                      : site == Site::slave ? num_slaves
+                                            : 1;
+    n += count * table[i].size;
+  }
   return n;
 }
 } // namespace contactx::kernel

@@ -4,6 +4,8 @@
 #include "registry.h"
 #include "frictional.h"
 #include "frictionless.h"
+#include "mortar.h"
+#include "mortar_tied.h"
 #include "rigid.h"
 #include "tied.h"
 #include <stdexcept>
@@ -16,7 +18,8 @@ std::span<const Entry> contactx::kernel::registry()
   static const std::vector<Entry> entries = []
   {
     std::vector<Entry> all;
-    for (auto& part : {frictionless(), frictional(), tied(), rigid()})
+    for (auto& part : {frictionless(), frictional(), tied(), rigid(), mortar(),
+                       mortar_tied()})
       all.insert(all.end(), part.begin(), part.end());
     return all;
   }();
@@ -25,11 +28,12 @@ std::span<const Entry> contactx::kernel::registry()
 
 const Entry& contactx::kernel::find(Law law, std::string_view sliding,
                                     std::string_view term, int num_nodes,
-                                    int gdim)
+                                    int gdim, int num_slaves)
 {
   for (const Entry& e : registry())
     if (e.law == law and e.sliding == sliding and e.term == term
-        and e.num_nodes == num_nodes and e.gdim == gdim)
+        and e.num_nodes == num_nodes and e.gdim == gdim
+        and e.num_slaves == num_slaves)
       return e;
   throw std::invalid_argument("there is no kernel for " + std::string(sliding)
                               + " sliding, term " + std::string(term)

@@ -19,6 +19,7 @@ struct Entry
   int gdim;                 ///< geometric dimension
   Kernel* function;
   std::vector<Coefficient> active; ///< coefficients that the kernel reads
+  int num_slaves = 1; ///< slave nodes: one, or those of a slave facet
 };
 
 /// @brief All kernels.
@@ -34,7 +35,8 @@ std::span<const Entry> registry();
 /// too.
 /// @param[in] num_nodes Number of nodes of the facet, 0 for a rigid obstacle.
 /// @param[in] gdim Geometric dimension.
+/// @param[in] num_slaves Number of slave nodes: 1, or those of a slave facet.
 /// @throws std::invalid_argument where there is no such kernel.
 const Entry& find(Law law, std::string_view sliding, std::string_view term,
-                  int num_nodes, int gdim);
+                  int num_nodes, int gdim, int num_slaves = 1);
 } // namespace contactx::kernel

@@ -3,6 +3,7 @@
 
 #include "tied.h"
 #include "node_state.h"
+#include "normal_hessian.h"
 #include "relative.h"
 
 using namespace contactx;
@@ -105,45 +106,6 @@ void constraint(double* A, const double* w, const double*, const double*,
         A[n * i + col] += node.slip_derivative[F::gdim * i + j] * dw[j][col];
 }
 
-/// A vector that is not normalised, t_1 x t_2 or in 2D the turned tangent, and
-/// its derivative by the master nodes.
-template <class F>
-struct AreaVector
-{
-  AreaVector(const facet::Frame<F>& frame, const facet::Local<F>& xi)
-      : dN(F::derivative(xi))
-  {
-    for (int l = 0; l < F::nodes; ++l)
-      for (int k = 0; k < F::gdim; ++k)
-      {
-        Vec<F::gdim> e{};
-        e[k] = 1;
-        if constexpr (F::gdim == 2)
-          first[F::gdim * l + k] = {dN[0][l] * e[1], -dN[0][l] * e[0]};
-        else
-          first[F::gdim * l + k] = dN[0][l] * cross(e, frame.t[1])
-                                   + dN[1][l] * cross(frame.t[0], e);
-      }
-  }
-
-  /// Second derivative by components `k` of node `l` and `q` of node `m`.
-  Vec<F::gdim> second(int l, int k, int m, int q) const
-  {
-    if constexpr (F::gdim == 2)
-      return {};
-    else
-    {
-      Vec<3> a{}, b{};
-      a[k] = 1;
-      b[q] = 1;
-      return (dN[0][l] * dN[1][m] - dN[0][m] * dN[1][l]) * cross(a, b);
-    }
-  }
-
-  std::array<Vec<F::nodes>, F::tdim> dN;
-  std::array<Vec<F::gdim>, F::gdim * F::nodes> first;
-};
-
 /// Derivative of the forces: -A lambda . d^2 w = A g_0 d^2 (lambda . n).
 template <class F>
 void stiffness(double* A, const double* w, const double*, const double*,
@@ -159,25 +121,11 @@ void stiffness(double* A, const double* w, const double*, const double*,
   const NodeState<F> node(w);
   Vec<gdim> lambda;
   std::copy_n(node.multiplier, gdim, lambda.begin());
-  const facet::Frame<F>& frame = movement.frame;
-  const AreaVector<F> a(frame, movement.xi);
-  const double p = dot(lambda, frame.n);
-  const double size = frame.jacobian;
-  const Vec<gdim> across = lambda - p * frame.n;
-  const double factor = node.area * movement.gap / size;
-  for (int i = 0; i < gdim * F::nodes; ++i)
-    for (int j = 0; j < gdim * F::nodes; ++j)
-    {
-      const Vec<gdim>& di = a.first[i];
-      const Vec<gdim>& dj = a.first[j];
-      const double ni = dot(frame.n, di), nj = dot(frame.n, dj);
-      const double curvature = -(ni * dot(across, dj) + dot(across, di) * nj
-                                 + p * (dot(di, dj) - ni * nj))
-                               / size;
-      const double bend
-          = dot(across, a.second(i / gdim, i % gdim, j / gdim, j % gdim));
-      A[n * (gdim + i) + gdim + j] += factor * (curvature + bend);
-    }
+  const double factor = node.area * movement.gap;
+  for_each_normal_hessian<F>(
+      movement.frame, movement.xi, lambda,
+      [A, factor](int i, int j, double value)
+      { A[n * (gdim + i) + gdim + j] += factor * value; });
 }
 
 template <class Kinematics>

@@ -94,6 +94,34 @@ public:
     }
   }
 
+  /// @brief Visit the items whose box may matter.
+  /// @param[in] matters Called as matters(box), of an item or of several.
+  /// @param[in] visit Called as visit(item).
+  template <class Predicate, class Visitor>
+  void for_each(Predicate&& matters, Visitor&& visit) const
+  {
+    std::array<std::int32_t, 64> stack;
+    int top = 0;
+    if (!_nodes.empty())
+      stack[top++] = 0;
+    while (top > 0)
+    {
+      const std::int32_t i = stack[--top];
+      const Node& node = _nodes[i];
+      if (!matters(node.box))
+        continue;
+      if (node.right >= 0)
+      {
+        stack[top++] = node.right;
+        stack[top++] = i + 1;
+        continue;
+      }
+      for (std::int32_t j = node.begin; j < node.end; ++j)
+        if (matters(_boxes[j]))
+          visit(_items[j]);
+    }
+  }
+
 private:
   static constexpr std::int32_t leaf_size = 4;
 

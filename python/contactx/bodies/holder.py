@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from contactx import cpp as core
 from contactx.bodies.bodies import Bodies
-from contactx.bodies.constraints import pair_rows
+from contactx.bodies.constraints import contact_rows
 from contactx.bodies.modes import Array, RigidModes, by_body
 from contactx.bulk import Bulk
 from contactx.interface import Interface
@@ -162,13 +162,12 @@ class Holder:
         Z = by_body(bases)
         gram = np.zeros((Z.shape[1], Z.shape[1]))
         for interface in self._interfaces:
-            status = interface.nodes.status
-            for pairs, rows in pair_rows(interface, rigid, x):
-                kind = status[pairs.slaves]
-                along = np.einsum("pi,pim->pm", rows.normal, rows.movement)[kind != core.OPEN]
-                every = rows.movement[kind == core.STICK].reshape(-1, Z.shape[0])
-                for part in (along @ Z, every @ Z):
-                    gram += part.T @ part
+            rows = contact_rows(interface, rigid, x)
+            kind = interface.nodes.status[rows.slaves]
+            along = np.einsum("pi,pim->pm", rows.normal, rows.movement)[kind != core.OPEN]
+            every = rows.movement[kind == core.STICK].reshape(-1, Z.shape[0])
+            for part in (along @ Z, every @ Z):
+                gram += part.T @ part
         values, vectors = np.linalg.eigh(gram)
         null: Array = Z @ vectors[:, values <= 1e-12 * max(values.max(initial=0.0), 1.0)]
         return null
@@ -186,16 +185,16 @@ class Holder:
         """
         rigid = self._modes
         assert rigid is not None
-        found: list[tuple[Interface, npt.NDArray[np.int32], Array]] = []
+        found: list[tuple[Interface, npt.NDArray[np.integer], Array]] = []
         for interface in self._interfaces:
             nodes = interface.nodes
-            for pairs, rows in pair_rows(interface, rigid, x):
-                speed = -np.einsum("pi,pim,m->p", rows.normal, rows.movement, way.ravel())
-                gap = nodes.closable_gap[pairs.slaves]
-                able = ~nodes.closed[pairs.slaves] & np.isfinite(gap)
-                able &= speed > 1e-6 * np.abs(way).max()
-                time = np.maximum(gap[able], 0) / speed[able]
-                found.append((interface, pairs.slaves[able], time))
+            rows = contact_rows(interface, rigid, x)
+            speed = -np.einsum("pi,pim,m->p", rows.normal, rows.movement, way.ravel())
+            gap = nodes.closable_gap[rows.slaves]
+            able = ~nodes.closed[rows.slaves] & np.isfinite(gap)
+            able &= speed > 1e-6 * np.abs(way).max()
+            time = np.maximum(gap[able], 0) / speed[able]
+            found.append((interface, rows.slaves[able], time))
         if not any(len(time) for _, _, time in found):
             return 0
         lowest = min(time.min() for _, _, time in found if len(time))
@@ -222,10 +221,10 @@ class Holder:
             nodes = interface.nodes
             law.evaluate(nodes)
             slips = nodes.status == core.SLIP
-            for pairs, rows in pair_rows(interface, rigid, x):
-                force = nodes.value.reshape(nodes.normal.shape)[pairs.slaves]
-                force = _along(rows.normal, np.where(slips[pairs.slaves, None], force, 0.0))
-                lacking -= np.einsum("pi,pim->m", force, rows.movement)
+            rows = contact_rows(interface, rigid, x)
+            force = nodes.value.reshape(nodes.normal.shape)[rows.slaves]
+            force = _along(rows.normal, np.where(slips[rows.slaves, None], force, 0.0))
+            lacking -= np.einsum("pi,pim->m", force, rows.movement)
         return lacking
 
     def _stick_first(self, x: Array, way: Array) -> bool:
@@ -242,18 +241,18 @@ class Holder:
         """
         rigid = self._modes
         assert rigid is not None
-        found: list[tuple[Interface, npt.NDArray[np.int32], Array]] = []
+        found: list[tuple[Interface, npt.NDArray[np.integer], Array]] = []
         for interface, law in self._rubbing():
             nodes, cone = interface.nodes, _on_cone(interface)
             rubs = (nodes.status == core.SLIP) & (law.friction(nodes) * nodes.pressure > 0)
-            for pairs, rows in pair_rows(interface, rigid, x):
-                movement = _along(rows.normal, rows.movement @ way)
-                # Slip goes against the traction, also where it has only just begun
-                back = np.einsum("pi,pi->p", cone[pairs.slaves], movement) > 0
-                speed = np.linalg.norm(movement, axis=1)
-                able = rubs[pairs.slaves] & back & (speed > 1e-6 * np.abs(way).max())
-                size = np.linalg.norm(nodes.slip[pairs.slaves], axis=1)
-                found.append((interface, pairs.slaves[able], size[able] / speed[able]))
+            rows = contact_rows(interface, rigid, x)
+            movement = _along(rows.normal, rows.movement @ way)
+            # Slip goes against the traction, also where it has only just begun
+            back = np.einsum("pi,pi->p", cone[rows.slaves], movement) > 0
+            speed = np.linalg.norm(movement, axis=1)
+            able = rubs[rows.slaves] & back & (speed > 1e-6 * np.abs(way).max())
+            size = np.linalg.norm(nodes.slip[rows.slaves], axis=1)
+            found.append((interface, rows.slaves[able], size[able] / speed[able]))
         if not any(len(time) for _, _, time in found):
             return False
         lowest = min(time.min() for _, _, time in found if len(time))

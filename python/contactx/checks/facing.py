@@ -11,6 +11,7 @@ from contactx import cpp as core
 from contactx.checks.shape import corner_normals
 from contactx.master.facets import FacetMaster
 from contactx.master.master import Master
+from contactx.master.mortar import MortarMaster
 from contactx.obstacles import Obstacle
 from contactx.surface import FacetList, Surface
 
@@ -39,7 +40,7 @@ def check_facing(
     Raises:
         ValueError: If it does.
     """
-    if not isinstance(pairs, FacetMaster) or pairs.paired.any():
+    if not isinstance(pairs, FacetMaster | MortarMaster) or pairs.paired.any():
         return
     distance = pairs.distance(x)
     if distance <= pairs.reach and not _opposes(facets, pairs.facets, x, pairs.reach):

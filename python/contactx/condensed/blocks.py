@@ -4,12 +4,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 from petsc4py import PETSc
 
 import numpy as np
 import numpy.typing as npt
+
+from contactx.interface import Interface
 
 type Array = npt.NDArray[np.float64]
 type Index = npt.NDArray[np.integer]
@@ -38,7 +41,7 @@ class Entries:
 
     def matrix(self, shape: tuple[int, int]) -> PETSc.Mat:
         """AIJ matrix; entries of one place are added."""
-        order = np.argsort(self.rows, kind="stable")
+        order = np.argsort(self.rows)
         indptr = np.searchsorted(self.rows[order], np.arange(shape[0] + 1)).astype(PETSc.IntType)
         A = PETSc.Mat().createAIJ(shape, comm=PETSc.COMM_SELF)
         A.setPreallocationNNZ(np.maximum(np.diff(indptr), 0).astype(PETSc.IntType))
@@ -81,6 +84,8 @@ def joined(parts: list[Entries]) -> Entries:
 class ContactBlocks:
     """Blocks of the contact part of a Jacobian, in the unknowns (displacements, multipliers).
 
+    Entries of one place add up.
+
     Attributes:
         traction: Derivative of the displacements' rows by the multipliers, (dof, multiplier).
         constraint: Derivative of the multipliers' rows by the displacements, (multiplier, dof).
@@ -105,6 +110,39 @@ class ContactBlocks:
         traction.columns = traction.columns - num_bulk
         constraint.rows = constraint.rows - num_bulk
         return ContactBlocks(traction, constraint, every.select(~below & ~right))
+
+
+def lumped(blocks: ContactBlocks, interfaces: Sequence[Interface], gdim: int) -> ContactBlocks:
+    """Constraints in which a slave node stands for the others of its facets.
+
+    A constraint that is integrated over slave facets feels all of their nodes as they slide, if
+    only by the angle between the surfaces. As if they all slid like its own node, the slave side
+    is diagonal.
+
+    Args:
+        blocks: Contact blocks of a Jacobian.
+        interfaces: Discrete sides of the contacts.
+        gdim: Geometric dimension.
+
+    Returns:
+        The same blocks where no constraint has such entries.
+    """
+    C = blocks.constraint
+    owner, contact = [], []
+    size = 1 + max([C.columns.max(initial=-1) // gdim, *(i.slaves.max() for i in interfaces)])
+    slaves_of = np.zeros((len(interfaces), size), dtype=bool)
+    for k, interface in enumerate(interfaces):
+        count = interface.nodes.size
+        owner.append(np.repeat(interface.slaves, count))
+        contact.append(np.full(len(interface.slaves) * count, k))
+        slaves_of[k, interface.slaves] = True
+    own = np.concatenate(owner)[C.rows]
+    node = C.columns // gdim
+    others = slaves_of[np.concatenate(contact)[C.rows], node] & (node != own)
+    if not others.any():
+        return blocks
+    columns = np.where(others, own * gdim + C.columns % gdim, C.columns)
+    return replace(blocks, constraint=Entries(C.rows, columns, C.values))
 
 
 class NotCondensable(Exception):

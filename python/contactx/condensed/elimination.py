@@ -109,7 +109,7 @@ class Elimination:
         own = np.zeros((len(slaves), self._gdim))
         component = C.columns - dofs[C.rows, 0]
         mine = (component >= 0) & (component < self._gdim)
-        own[C.rows[mine], component[mine]] = C.values[mine]
+        np.add.at(own, (C.rows[mine], component[mine]), C.values[mine])
         k = np.argmax(np.abs(own) * self._free[dofs], axis=1)
         pivot = dofs[np.arange(len(slaves)), k]
         factor = own[np.arange(len(slaves)), k] * self._free[pivot]
@@ -143,7 +143,7 @@ class Elimination:
         node, component = C.rows // g, C.columns - dofs[C.rows // g, 0]
         mine = (component >= 0) & (component < g)
         block = ~own[:, :, None] * np.eye(g)
-        block[node[mine], C.rows[mine] % g, component[mine]] += C.values[mine]
+        np.add.at(block, (node[mine], C.rows[mine] % g, component[mine]), C.values[mine])
         inverse = np.linalg.inv(block)
         other = C.select(~mine)
         k = other.rows // g

@@ -93,6 +93,8 @@ class Coulomb(Law):
             nodes.by_slip,
             nodes.by_normal,
         )
+        if nodes.mean is not None:
+            nodes.mean.chain(nodes.normal, nodes.by_slip, nodes.by_normal)
 
 
 def _edge(nodes: Nodes) -> Array:

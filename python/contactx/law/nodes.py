@@ -9,6 +9,7 @@ import numpy.typing as npt
 
 from contactx import cpp as core
 from contactx.forms import State
+from contactx.law.mean_normal import MeanNormal
 
 type Array = npt.NDArray[np.float64]
 
@@ -38,14 +39,16 @@ class Nodes:
         by_gap: Its derivative, a view of what the forms read, shape (n * size,).
         by_slip: Its derivative; empty for scalar multipliers, shape (n * gdim**2,).
         by_normal: Its derivative; empty for scalar multipliers, shape (n * gdim**2,).
+        mean: Normals that are means over facets; None where a node has one of its own.
     """
 
-    def __init__(self, state: State, gdim: int):
+    def __init__(self, state: State, gdim: int, *, has_means: bool = False):
         """Create the state: every node open.
 
         Args:
             state: Vectors that the forms read.
             gdim: Geometric dimension.
+            has_means: Whether normals are means over facets.
         """
         self.multiplier: Array = state.multiplier.array
         self.area: Array = state.area.array
@@ -53,6 +56,7 @@ class Nodes:
         n = len(self.area)
         self.size: int = state.multiplier.block_size
         rows = n if state.slip_derivative is not None else 0
+        self.mean = MeanNormal(n, gdim) if has_means and rows > 0 else None
         self.status = np.full(n, core.OPEN, dtype=np.int8)
         self.gap = np.full(n, np.nan)
         self.normal = np.zeros((rows, gdim))

@@ -12,7 +12,8 @@ import numpy.typing as npt
 
 from contactx import cpp as core
 from contactx.forms import Pairs
-from contactx.master.master import Master, touching
+from contactx.master.master import Master, Weights, touching
+from contactx.master.reach import default_reach
 from contactx.surface import FacetList
 
 _SAVED = ("facet", "feature", "xi", "cone", "normal")
@@ -54,7 +55,7 @@ class FacetMaster(Master):
         # node's slip starts, as a place in the configuration of the step's start
         self._x0 = self._at = x
         self._start = np.zeros((0, x.shape[1]))
-        self.reach = search_distance or _default_reach(x, slave, master)
+        self.reach = search_distance or default_reach(x, slave, master)
         self._pairing = core.Pairing(
             slave.offsets, slave.nodes, master.offsets, master.nodes, x.shape[1]
         )
@@ -90,7 +91,7 @@ class FacetMaster(Master):
             facets = self.facets.nodes[first[:, None] + np.arange(size)]
             nodes = np.column_stack([self._slaves[slaves], facets])
             groups.append(
-                Pairs(slaves, nodes, data[slaves], None if slip is None else slip[slaves])
+                Pairs(slaves[:, None], nodes, data[slaves], None if slip is None else slip[slaves])
             )
         return groups
 
@@ -175,7 +176,7 @@ class FacetMaster(Master):
         """See ``Master``; the mean of the facet's nodes."""
         result = np.full(len(self._slaves), np.median(nodal[self.facets.nodes]))
         for pairs in self.pairs():
-            result[pairs.slaves] = nodal[pairs.nodes[:, 1:]].mean(axis=1)
+            result[pairs.slaves[:, 0]] = nodal[pairs.nodes[:, 1:]].mean(axis=1)
         return result
 
     def mobility(
@@ -188,12 +189,27 @@ class FacetMaster(Master):
             return along, each
         at = core.pair_layout
         for pairs in self.pairs():
+            slaves = pairs.slaves[:, 0]
             squares = _free_squares(pairs, pairs.data[:, at["xi"] : at["xi"] + 2], free)
-            along[pairs.slaves] = np.sqrt((pairs.normal[:, :gdim] ** 2 * squares).sum(axis=1))
+            along[slaves] = np.sqrt((pairs.normal[:, :gdim] ** 2 * squares).sum(axis=1))
             if pairs.slip is not None:
                 xi = pairs.slip[:, _AT["xi"] : _AT["xi"] + 2]
-                each[pairs.slaves] = np.sqrt(_free_squares(pairs, xi, free))
+                each[slaves] = np.sqrt(_free_squares(pairs, xi, free))
         return along, each
+
+    def weights(self) -> Weights:
+        """See ``Master``."""
+        at = core.pair_layout["xi"]
+        parts = [
+            (
+                np.repeat(pairs.slaves[:, 0], pairs.nodes.shape[1]),
+                pairs.nodes.ravel(),
+                _weights(pairs, pairs.data[:, at : at + 2]).ravel(),
+            )
+            for pairs in self.pairs()
+        ]
+        none = np.zeros(0, dtype=np.int32)
+        return Weights(*map(np.concatenate, zip((none, none, np.zeros(0)), *parts, strict=True)))
 
     def identity(self) -> dict[str, npt.NDArray[Any]]:
         """See ``Master``."""
@@ -241,19 +257,12 @@ def _free_squares(
     pairs: Pairs, xi: npt.NDArray[np.float64], free: npt.NDArray[np.bool_]
 ) -> npt.NDArray[np.float64]:
     """Sums of the squared weights of what may move, shape (num_pairs, gdim)."""
-    N = core.shape_functions(pairs.nodes.shape[1] - 1, np.ascontiguousarray(xi))
-    weight = np.column_stack([np.ones(len(N)), N])
+    weight = _weights(pairs, xi)
     squares: npt.NDArray[np.float64] = ((weight[:, :, None] * free[pairs.nodes]) ** 2).sum(axis=1)
     return squares
 
 
-def _default_reach(x: npt.NDArray[np.float64], slave: FacetList, master: FacetList) -> float:
-    """Diameter of the larger surface: twice the largest distance of its nodes from their mean.
-
-    A body that has moved into another within one iteration must still be found.
-    """
-    radii = []
-    for facets in (slave, master):
-        nodes = x[np.unique(facets.nodes)]
-        radii.append(np.linalg.norm(nodes - nodes.mean(axis=0), axis=1).max())
-    return 2 * float(max(radii))
+def _weights(pairs: Pairs, xi: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+    """1 for the slave node and -N_l at local coordinates, shape (num_pairs, 1 + num_nodes)."""
+    N = core.shape_functions(pairs.num_nodes, np.ascontiguousarray(xi))
+    return np.column_stack([np.ones(len(N)), -N])

@@ -12,8 +12,9 @@ from contactx.checks.shape import check_facets
 from contactx.law.law import Law
 from contactx.master.facets import FacetMaster
 from contactx.master.master import Master
+from contactx.master.mortar import MortarMaster
 from contactx.master.obstacle import ObstacleMaster
-from contactx.master.ties import FacetTie, ObstacleTie
+from contactx.master.ties import FacetTie, MortarTie, ObstacleTie
 from contactx.obstacles import Obstacle
 from contactx.surface import Surface
 
@@ -24,6 +25,7 @@ def make_master(
     bodies: Bodies,
     law: Law,
     *,
+    method: str,
     sliding: str,
     search_distance: float | None,
 ) -> Master:
@@ -34,6 +36,7 @@ def make_master(
         master: Master surface or rigid obstacle.
         bodies: Bodies of the mesh.
         law: Contact law.
+        method: "node-to-surface" or "surface-to-surface".
         sliding: "finite" or "small".
         search_distance: Largest distance of a pair; chosen if None.
 
@@ -56,7 +59,11 @@ def make_master(
     others = master.facet_nodes(V)
     check_facets(master, "master", others, x)
     check_apart(slave, master, facets, others, bodies)
-    deformable = FacetTie if law.is_tied else FacetMaster
+    deformable: type[FacetMaster | MortarMaster]
+    if method == "surface-to-surface":
+        deformable = MortarTie if law.is_tied else MortarMaster
+    else:
+        deformable = FacetTie if law.is_tied else FacetMaster
     return deformable(
         facets, others, x, search_distance, sliding=sliding, measures_slip=law.is_vector
     )

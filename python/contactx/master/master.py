@@ -6,12 +6,28 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from contactx.forms import Pairs
+
+
+@dataclass(frozen=True)
+class Weights:
+    """Matrix of slave nodes and nodes of the bulk, as triplets.
+
+    Attributes:
+        slaves: Slave nodes by their number in the contact.
+        nodes: Nodes of the bulk.
+        values: 1 for the slave node itself, -N_l for those of its master facet.
+    """
+
+    slaves: npt.NDArray[np.integer]
+    nodes: npt.NDArray[np.integer]
+    values: npt.NDArray[np.float64]
 
 
 class Master(ABC):
@@ -112,8 +128,28 @@ class Master(ABC):
         """Unit normals that the last search found, zero where there is no pair, shape (n, 3)."""
         normals = np.zeros((len(self.paired), 3))
         for pairs in self.pairs():
-            normals[pairs.slaves] = pairs.normal
+            normals[pairs.slaves[:, 0]] = pairs.normal
         return normals
+
+    @abstractmethod
+    def weights(self) -> Weights:
+        """Relative movement of each slave node and its master by those of the bulk's nodes."""
+
+    def area(self, whole: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+        """Area that each slave node's multiplier acts on.
+
+        Args:
+            whole: Its part of the slave surface, shape (n,).
+
+        Returns:
+            Areas, shape (n,).
+        """
+        return whole
+
+    @property
+    def origin(self) -> npt.NDArray[np.float64]:
+        """What is taken off the movement that forms assemble, shape (n, gdim); or zero."""
+        return np.zeros(1)
 
     @abstractmethod
     def compliance(self, nodal: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:

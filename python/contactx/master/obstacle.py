@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from contactx import cpp as core
 from contactx.forms import Pairs
-from contactx.master.master import Master, touching
+from contactx.master.master import Master, Weights, touching
 from contactx.obstacles import Geometry, Obstacle
 from contactx.obstacles.obstacle import Placement
 
@@ -156,7 +156,7 @@ class ObstacleMaster(Master):
         if len(slaves) == 0:
             return []
         slip = self._slip_data[slaves] if self._measures_slip else None
-        return [Pairs(slaves, self._slaves[slaves][:, None], data[slaves], slip)]
+        return [Pairs(slaves[:, None], self._slaves[slaves][:, None], data[slaves], slip)]
 
     def compliance(self, nodal: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
         """See ``Master``; none."""
@@ -169,6 +169,11 @@ class ObstacleMaster(Master):
         normal = _columns(self._data, "normal", free.shape[1])
         moves = free[self._slaves].astype(np.float64)
         return np.linalg.norm(normal * moves, axis=1), moves
+
+    def weights(self) -> Weights:
+        """See ``Master``; the obstacle does not move."""
+        which = np.flatnonzero(self.paired)
+        return Weights(which, self._slaves[which], np.ones(len(which)))
 
     def inside(self, x: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
         """Gap of the slave nodes at positions of all nodes, shape (n,)."""

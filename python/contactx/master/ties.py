@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -12,6 +14,7 @@ import numpy.typing as npt
 from contactx import cpp as core
 from contactx.forms import Pairs
 from contactx.master.facets import FacetMaster
+from contactx.master.mortar import MortarMaster
 from contactx.master.obstacle import ObstacleMaster
 
 _AT = core.slip_layout
@@ -53,6 +56,38 @@ class FacetTie(FacetMaster):
         origin = self._arm + self._offset[:, None] * self._normal
         data[:, _AT["origin"] : _AT["origin"] + origin.shape[1]] = origin
         return data
+
+
+class MortarTie(MortarMaster):
+    """Slave facets tied to facets of a deformable body."""
+
+    def __init__(self, *args: Any, **options: Any):
+        """Create the pairs, none yet; the arguments are those of ``FacetMaster``."""
+        super().__init__(*args, **{**options, "measures_slip": False})
+        self._offset = np.zeros(len(self._slaves))
+
+    def search(self, x: npt.NDArray[np.float64], closed: npt.NDArray[np.int8]) -> tuple[int, bool]:
+        """See ``Master``; only the first search counts."""
+        return super().search(x, closed) if self._found is None else (0, False)
+
+    def refresh(
+        self, x: npt.NDArray[np.float64], held: bool, offset: npt.NDArray[np.float64]
+    ) -> list[Pairs] | None:
+        """See ``Master``; the offset is what a tie is longer by."""
+        if np.array_equal(offset, self._offset):
+            return None
+        self._offset = offset
+        return self.pairs()
+
+    def pairs(self) -> list[Pairs]:
+        """See ``Master``."""
+        mortar = self._mortar
+        longer = mortar.weight.sum(axis=2) * self._offset[self._numbers[mortar.slave]]
+        return self._groups(replace(mortar, gap=mortar.gap + longer), is_movement=False)
+
+    def load(self, saved: Mapping[str, npt.NDArray[Any]]) -> None:
+        """See ``Master``; the pairs are those of the reference."""
+        self._x0 = saved["before"]
 
 
 class ObstacleTie(ObstacleMaster):

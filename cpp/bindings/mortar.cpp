@@ -1,0 +1,67 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include "bindings.h"
+#include <contactx/mortar/facet_search.h>
+
+namespace py = pybind11;
+using namespace contactx_bindings;
+using contactx::mortar::FacetPairs;
+using contactx::mortar::FacetSearch;
+
+void contactx_bindings::mortar(py::module_& m)
+{
+  py::class_<FacetPairs>(m, "FacetPairs", "Pairs of slave and master facets")
+      .def_property_readonly("slave", [](const FacetPairs& self)
+                             { return array(self.slave); })
+      .def_property_readonly("master", [](const FacetPairs& self)
+                             { return array(self.master); })
+      .def("contains", &contactx::mortar::contains, py::arg("part"),
+           "Whether all pairs of others are among these");
+  py::class_<FacetSearch>(m, "FacetSearch",
+                          "Finds the master facets in front of slave facets")
+      .def(py::init(
+               [](const Array<std::int32_t>& slave_offsets,
+                  const Array<std::int32_t>& slave_nodes,
+                  const Array<std::int32_t>& master_offsets,
+                  const Array<std::int32_t>& master_nodes, int gdim)
+               {
+                 return FacetSearch(copy(slave_offsets), copy(slave_nodes),
+                                    copy(master_offsets), copy(master_nodes),
+                                    gdim);
+               }),
+           py::arg("slave_offsets"), py::arg("slave_nodes"),
+           py::arg("master_offsets"), py::arg("master_nodes"), py::arg("gdim"))
+      .def(
+          "find",
+          [](FacetSearch& self, const Array<double>& x, double reach,
+             double margin) { return self.find(view(x), reach, margin); },
+          py::arg("x"), py::arg("reach"), py::arg("margin"), "Find the pairs")
+      .def(
+          "integrals",
+          [](const FacetSearch& self, const FacetPairs& pairs,
+             const Array<double>& x, const Array<double>& reference,
+             const Array<double>& normal)
+          {
+            const auto all = contactx::mortar::integrals(
+                self.slave(), self.master(), pairs, view(x), view(reference),
+                self.gdim(), view(normal));
+            const auto shaped =
+                [](const std::vector<double>& v, std::vector<py::ssize_t> width)
+            {
+              py::ssize_t stride = 1;
+              for (const py::ssize_t n : width)
+                stride *= n;
+              width.insert(width.begin(), py::ssize_t(v.size()) / stride);
+              return array(v, width);
+            };
+            return py::dict(py::arg("weight") = shaped(all.weight, {4, 4}),
+                            py::arg("gap") = shaped(all.gap, {4}),
+                            py::arg("dual") = shaped(all.dual, {4, 4}),
+                            py::arg("area") = shaped(all.area, {4}),
+                            py::arg("normal") = shaped(all.normal, {3}));
+          },
+          py::arg("pairs"), py::arg("x"), py::arg("reference"),
+          py::arg("normal") = Array<double>(0),
+          "Integrals of the dual basis functions");
+}

@@ -1,0 +1,212 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#pragma once
+
+#include "../mortar/segment.h"
+#include "mortar_pair.h"
+
+namespace contactx::kernel
+{
+/// @brief First variation of what a pair of facets is integrated with, by the
+/// positions of all nodes.
+///
+/// At a point of the slave facet the master point moves by v = sum_j N_j dr_j
+/// - b dc in the slave facet's plane, with the plane's coordinates r_j of the
+/// master's nodes and the distortion c of a quadrilateral, b = s_1 s_2 from
+/// its centre. Shape functions of the master change by -grad N_l . v. As they
+/// are continuous from facet to facet, the ends of the parts add nothing;
+/// only where the master ends they do, and there they are left out.
+template <class S, class M>
+class MortarVariation
+{
+public:
+  static constexpr int gdim = S::gdim;
+  static constexpr int tdim = S::tdim;
+  static constexpr int num_dofs = MortarPair<S, M>::num_dofs;
+  using Row = Vec<num_dofs>;
+  using Local = facet::Local<S>;
+
+  /// @brief What multiplies the variations of r_j and c.
+  struct Factors
+  {
+    std::array<Local, M::nodes> r{};
+    Local c{};
+  };
+
+  /// @brief Project the facets.
+  /// @param[in] pair Pair.
+  explicit MortarVariation(const MortarPair<S, M>& pair)
+      : _pair(pair), _slave(pair.slave, pair.reference),
+        _r(mortar::project<M>(_slave.plane, pair.master)),
+        _slope(S::derivative(mortar::plane_origin<S>()))
+  {
+    const auto& plane = _slave.plane;
+    for (int l = 0; l < M::nodes; ++l)
+      _height[l] = plane.height(pair.master[l]);
+    for (int a = 0; a < tdim; ++a)
+      for (int b = 0; b < tdim; ++b)
+        _metric[a][b] = dot(plane.dual[a], plane.dual[b]);
+    if constexpr (!S::flat)
+    {
+      Vec<gdim> w{};
+      for (int t = 0; t < S::nodes; ++t)
+        w = w + S::mixed_derivative[t] * pair.slave[t];
+      for (int a = 0; a < tdim; ++a)
+        _twist[a] = dot(plane.dual[a], w);
+      _warp = dot(plane.n, w);
+    }
+  }
+
+  /// @brief Derivatives of the pair's normal, [gdim][num_dofs].
+  std::array<Row, gdim> normal() const
+  {
+    std::array<Row, gdim> dn{};
+    const auto& plane = _slave.plane;
+    for (int i = 0; i < gdim; ++i)
+      for (int t = 0; t < S::nodes; ++t)
+        for (int k = 0; k < gdim; ++k)
+          for (int a = 0; a < tdim; ++a)
+            dn[i][gdim * t + k] += plane.dual[a][i] * plane.n[k] * _slope[a][t];
+    return dn;
+  }
+
+  /// @brief Factors of int Phi_s n . dx_master, the way that the master's
+  /// surface moves along the normal under each slave node.
+  std::array<Factors, S::nodes> gap() const
+  {
+    std::array<Factors, S::nodes> all{};
+    moments(
+        [&](const Vec<S::nodes>& weight, const Local& slope_of,
+            int j) // of one node of the master
+        {
+          for (int s = 0; s < S::nodes; ++s)
+            at(all[s], j) = at(all[s], j) + weight[s] * slope_of;
+        },
+        [this](const auto& slope)
+        {
+          Local d{};
+          for (int a = 0; a < tdim; ++a)
+            d[a] = -dot(slope[a], _height);
+          return d;
+        });
+    return all;
+  }
+
+  /// @brief Factors of sum_s q_s int Phi_s dN_l of each node of the master.
+  /// @param[in] q Factors of the slave nodes.
+  std::array<Factors, M::nodes> weights(const Vec<S::nodes>& q) const
+  {
+    std::array<Factors, M::nodes> all{};
+    moments(
+        [&](const Vec<S::nodes>& weight, const auto& slope, int j)
+        {
+          const double force = dot(q, weight);
+          for (int l = 0; l < M::nodes; ++l)
+            for (int a = 0; a < tdim; ++a)
+              at(all[l], j)[a] -= force * slope[a][l];
+        },
+        [](const auto& slope) { return slope; });
+    return all;
+  }
+
+  /// @brief Add factor times the variation that factors stand for.
+  /// @param[in] f Factors.
+  /// @param[in] factor Factor.
+  /// @param[in,out] row Derivatives by the positions of all nodes.
+  void add(const Factors& f, double factor, double* row) const
+  {
+    const auto& plane = _slave.plane;
+    constexpr Local o = mortar::plane_origin<S>();
+    const auto N = S::shape(o);
+    Vec<S::nodes> along{}; // of the height over a turning plane, by slope
+    std::array<Vec<S::nodes>, tdim> across{};
+    Local turn{};
+    for (int j = 0; j < M::nodes; ++j)
+      for (int a = 0; a < tdim; ++a)
+      {
+        const double q = f.r[j][a];
+        for (int k = 0; k < gdim; ++k)
+          row[gdim * (S::nodes + j) + k] += factor * q * plane.dual[a][k];
+        Vec<S::nodes> affine = N;
+        for (int b = 0; b < tdim; ++b)
+        {
+          affine = affine + _r[j][b] * _slope[b];
+          turn[b] += q * _height[j] * _metric[a][b];
+        }
+        across[a] = across[a] - q * affine;
+      }
+    if constexpr (!S::flat)
+      for (int a = 0; a < tdim; ++a)
+      {
+        Vec<S::nodes> d = S::mixed_derivative;
+        for (int b = 0; b < tdim; ++b)
+        {
+          d = d - _twist[b] * _slope[b];
+          turn[b] -= f.c[a] * _warp * _metric[a][b];
+        }
+        across[a] = across[a] - f.c[a] * d;
+      }
+    for (int b = 0; b < tdim; ++b)
+      along = along + turn[b] * _slope[b];
+    for (int t = 0; t < S::nodes; ++t)
+      for (int k = 0; k < gdim; ++k)
+      {
+        double d = along[t] * plane.n[k];
+        for (int a = 0; a < tdim; ++a)
+          d += across[a][t] * plane.dual[a][k];
+        row[gdim * t + k] += factor * d;
+      }
+  }
+
+private:
+  // Number of the distortion among what the factors multiply
+  static constexpr int distortion = -1;
+
+  static Local& at(Factors& f, int j) { return j < 0 ? f.c : f.r[j]; }
+
+  // Call add(int Phi_s N_j, reduce(grad N), j) in parts, once on flat facets
+  template <class Add, class Reduce>
+  void moments(Add&& add, Reduce&& reduce) const
+  {
+    if constexpr (S::flat and M::flat)
+    {
+      const auto slope = reduce(mortar::InverseMap<M>(_r).at({}).slope);
+      for (int j = 0; j < M::nodes; ++j)
+      {
+        Vec<S::nodes> weight;
+        for (int s = 0; s < S::nodes; ++s)
+          weight[s] = _pair.weight(s, j);
+        add(weight, slope, j);
+      }
+    }
+    else
+      mortar::integrate<M>(
+          _slave, _pair.master,
+          [&](const mortar::Shape<S>& s, const mortar::Shape<M>& m, double w)
+          {
+            Vec<S::nodes> phi{};
+            for (int i = 0; i < S::nodes; ++i)
+              for (int t = 0; t < S::nodes; ++t)
+                phi[i] += w * _pair.dual(i, t) * s.N[t];
+            const auto slope = reduce(m.slope);
+            for (int j = 0; j < M::nodes; ++j)
+              add(m.N[j] * phi, slope, j);
+            if constexpr (!S::flat)
+            {
+              const Local y = s.xi - mortar::plane_origin<S>();
+              add((y[0] * y[1]) * phi, slope, distortion);
+            }
+          });
+  }
+
+  const MortarPair<S, M>& _pair;
+  mortar::SlaveFacet<S> _slave;
+  mortar::Flat<M> _r;
+  Vec<M::nodes> _height;
+  std::array<Vec<S::nodes>, tdim> _slope; // of the slave facet's centre
+  std::array<Local, tdim> _metric{};
+  Local _twist{};
+  double _warp = 0;
+};
+} // namespace contactx::kernel

@@ -1,0 +1,98 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#pragma once
+
+#include "plane.h"
+
+namespace contactx::mortar
+{
+/// @brief Convex part of a plane that two facets share: an interval, or a
+/// polygon traversed counterclockwise.
+template <int D>
+struct Overlap
+{
+  static constexpr int most = D == 1 ? 2 : 8; ///< corners of two quadrilaterals
+  std::array<Vec<D>, most + 1> corner;
+  int size = 0; ///< number of corners, 0 where nothing is shared
+
+  void push(const Vec<D>& p)
+  {
+    if (size <= most)
+      corner[size++] = p;
+  }
+};
+
+/// @brief Corners of a facet in a plane, in order and counterclockwise.
+/// @param[in] r Nodes in the plane.
+template <class F>
+Overlap<F::tdim> outline(const Flat<F>& r)
+{
+  Overlap<F::tdim> p;
+  if constexpr (F::tdim == 1)
+  {
+    const bool turned = r[0][0] > r[1][0];
+    p.push(r[turned]);
+    p.push(r[!turned]);
+  }
+  else
+  {
+    for (const auto& edge : F::edges)
+      p.push(r[edge.first]);
+    double area = 0;
+    for (int i = 0; i < p.size; ++i)
+    {
+      const auto &a = p.corner[i], &b = p.corner[(i + 1) % p.size];
+      area += a[0] * b[1] - a[1] * b[0];
+    }
+    if (area < 0)
+      std::reverse(p.corner.begin(), p.corner.begin() + p.size);
+  }
+  return p;
+}
+
+/// @brief What two intervals share.
+inline Overlap<1> clip(const Overlap<1>& a, const Overlap<1>& b)
+{
+  Overlap<1> c;
+  const double low = std::max(a.corner[0][0], b.corner[0][0]);
+  const double high = std::min(a.corner[1][0], b.corner[1][0]);
+  if (low < high)
+  {
+    c.push({low});
+    c.push({high});
+  }
+  return c;
+}
+
+/// @brief What two convex polygons share: the one is cut with each edge of the
+/// other. I. E. Sutherland and G. W. Hodgman, Commun. ACM 17, 1974.
+inline Overlap<2> clip(Overlap<2> a, const Overlap<2>& b)
+{
+  for (int i = 0; i < b.size and a.size > 0; ++i)
+  {
+    const Vec<2>& p = b.corner[i];
+    const Vec<2> e = b.corner[(i + 1) % b.size] - p;
+    // Positive on the left of the edge
+    const auto side = [&p, &e](const Vec<2>& q)
+    { return e[0] * (q[1] - p[1]) - e[1] * (q[0] - p[0]); };
+    Overlap<2> cut;
+    double before = side(a.corner[a.size - 1]);
+    for (int j = 0; j < a.size; ++j)
+    {
+      const Vec<2>& from = a.corner[(j + a.size - 1) % a.size];
+      const Vec<2>& to = a.corner[j];
+      const double now = side(to);
+      if ((before > 0 and now < 0) or (before < 0 and now > 0))
+        cut.push(from + (before / (before - now)) * (to - from));
+      if (now >= 0)
+        cut.push(to);
+      before = now;
+    }
+    a = cut;
+  }
+  if (a.size < 3)
+    a.size = 0;
+  return a;
+}
+} // namespace contactx::mortar

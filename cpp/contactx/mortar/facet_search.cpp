@@ -1,0 +1,228 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include "facet_search.h"
+#include "../facet/gather.h"
+#include "segment.h"
+
+using namespace contactx;
+using namespace contactx::mortar;
+
+namespace
+{
+/// Cosine of the angle at which a master facet counts as upright
+constexpr double least_cosine = 0.1;
+
+/// Overlap in excess of the facet at which it lies under several layers
+constexpr double layers = 1e-6;
+
+struct Found
+{
+  std::int32_t facet;
+  double area; ///< shared with the slave facet itself
+  double distance;
+};
+
+/// Area of a polygon, or length.
+template <int D>
+double size_of(const Overlap<D>& o)
+{
+  double area = 0;
+  integrate(o, 0, [&area](const auto&, double w) { area += w; });
+  return area;
+}
+
+/// The prism over a slave facet, for boxes.
+template <class S>
+class Prism
+{
+public:
+  Prism(const Plane<S>& plane, const Overlap<S::tdim>& outline, double low,
+        double high)
+      : _plane(plane), _low(low), _high(high)
+  {
+    _from = _to = outline.corner[0];
+    for (int i = 1; i < outline.size; ++i)
+      for (int a = 0; a < S::tdim; ++a)
+      {
+        _from[a] = std::min(_from[a], outline.corner[i][a]);
+        _to[a] = std::max(_to[a], outline.corner[i][a]);
+      }
+  }
+
+  bool meets(const search::Box& box) const
+  {
+    Vec<S::gdim> centre, half;
+    for (int k = 0; k < S::gdim; ++k)
+    {
+      centre[k] = 0.5 * (box.lower[k] + box.upper[k]) - _plane.origin[k];
+      half[k] = 0.5 * (box.upper[k] - box.lower[k]);
+    }
+    const auto apart = [&](const Vec<S::gdim>& axis, double from, double to)
+    {
+      double reach = 0;
+      for (int k = 0; k < S::gdim; ++k)
+        reach += std::abs(axis[k]) * half[k];
+      const double at = dot(axis, centre);
+      return at + reach < from or at - reach > to;
+    };
+    for (int a = 0; a < S::tdim; ++a)
+      if (apart(_plane.dual[a], _from[a], _to[a]))
+        return false;
+    return !apart(_plane.n, _low, _high);
+  }
+
+private:
+  const Plane<S>& _plane;
+  double _low, _high;
+  facet::Local<S> _from, _to;
+};
+
+/// Where several layers are found, keep the nearest ones, as far as connected.
+void keep_nearest(std::vector<Found>& found, double area,
+                  const search::Surface& master)
+{
+  double total = 0;
+  for (const Found& f : found)
+    total += f.area;
+  if (total <= (1 + layers) * area)
+    return;
+  const auto share_a_node = [&master](std::int32_t a, std::int32_t b)
+  {
+    const auto facets = master.facets();
+    return std::ranges::any_of(
+        facets[a], [nodes = facets[b]](std::int32_t node)
+        { return std::ranges::find(nodes, node) != nodes.end(); });
+  };
+  std::ranges::sort(found, {}, &Found::distance);
+  std::vector<Found> kept;
+  total = 0;
+  while (!found.empty())
+  {
+    // A layer: what is connected with the nearest facet that is left
+    std::vector<Found> layer{found.front()};
+    found.erase(found.begin());
+    for (std::size_t i = 0; i < layer.size(); ++i)
+      std::erase_if(found,
+                    [&](const Found& f)
+                    {
+                      if (!share_a_node(layer[i].facet, f.facet))
+                        return false;
+                      layer.push_back(f);
+                      return true;
+                    });
+    double more = 0;
+    for (const Found& f : layer)
+      more += f.area;
+    if (kept.empty() or total + more <= (1 + layers) * area)
+    {
+      total += more;
+      kept.insert(kept.end(), layer.begin(), layer.end());
+    }
+  }
+  found = std::move(kept);
+}
+} // namespace
+
+FacetSearch::FacetSearch(std::vector<std::int32_t> slave_offsets,
+                         std::vector<std::int32_t> slave_nodes,
+                         std::vector<std::int32_t> master_offsets,
+                         std::vector<std::int32_t> master_nodes, int gdim)
+    : _slave_offsets(std::move(slave_offsets)),
+      _slave_nodes(std::move(slave_nodes)),
+      _master(std::move(master_offsets), std::move(master_nodes), gdim)
+{
+}
+
+FacetPairs FacetSearch::find(std::span<const double> x, double reach,
+                             double margin)
+{
+  if (!_tree)
+    _tree.emplace(_master.boxes(x));
+  else
+    _tree->refit([this, x](std::int32_t f) { return _master.box(f, x); });
+  FacetPairs pairs;
+  std::vector<Found> found;
+  for (std::int32_t f = 0; f < slave().size(); ++f)
+  {
+    found.clear();
+    facet::visit(
+        static_cast<int>(slave()[f].size()),
+        [&]<class S>(S)
+        {
+          const auto xs = facet::gather<S>(slave()[f], x);
+          const Plane<S> plane(xs);
+          const Overlap<S::tdim> outline
+              = mortar::outline<S>(project<S>(plane, xs));
+          Overlap<S::tdim> wide = outline;
+          facet::Local<S> middle{};
+          for (int i = 0; i < outline.size; ++i)
+            middle = middle + (1.0 / outline.size) * outline.corner[i];
+          for (int i = 0; i < wide.size; ++i)
+            wide.corner[i]
+                = wide.corner[i] + margin * (outline.corner[i] - middle);
+          double low = 0, high = 0;
+          for (const auto& p : xs)
+          {
+            low = std::min(low, plane.height(p));
+            high = std::max(high, plane.height(p));
+          }
+          const Prism<S> prism(plane, wide, low - reach, high + reach);
+          const auto look = [&]<class M>(std::int32_t m, M)
+          {
+            const auto xm = facet::gather<M>(master()[m], x);
+            if (not(dot(facet::frame<M>(xm, plane_origin<M>()).n, plane.n)
+                    < -least_cosine))
+              return;
+            double nearest = plane.height(xm[0]), farthest = nearest;
+            for (const auto& p : xm)
+            {
+              nearest = std::min(nearest, plane.height(p));
+              farthest = std::max(farthest, plane.height(p));
+            }
+            if (nearest - high > reach or farthest - low < -reach)
+              return;
+            const auto shape = mortar::outline<M>(project<M>(plane, xm));
+            if (size_of(clip(shape, wide)) > 0)
+              found.push_back({m, size_of(clip(shape, outline)),
+                               std::abs(0.5 * (nearest + farthest))});
+          };
+          _tree->for_each([&prism](const search::Box& box)
+                          { return prism.meets(box); },
+                          [&](std::int32_t m)
+                          {
+                            facet::visit(static_cast<int>(master()[m].size()),
+                                         [&]<class M>(M kind)
+                                         {
+                                           if constexpr (M::gdim == S::gdim)
+                                             look(m, kind);
+                                         });
+                          });
+          keep_nearest(found, size_of(outline), _master);
+        });
+    std::ranges::sort(found, {}, &Found::facet);
+    for (const Found& m : found)
+    {
+      pairs.slave.push_back(f);
+      pairs.master.push_back(m.facet);
+    }
+  }
+  return pairs;
+}
+
+bool contactx::mortar::contains(const FacetPairs& all, const FacetPairs& part)
+{
+  std::size_t j = 0;
+  for (std::size_t i = 0; i < part.size(); ++i)
+  {
+    while (j < all.size()
+           and (all.slave[j] < part.slave[i]
+                or (all.slave[j] == part.slave[i]
+                    and all.master[j] < part.master[i])))
+      ++j;
+    if (j == all.size() or all.slave[j] != part.slave[i]
+        or all.master[j] != part.master[i])
+      return false;
+  }
+  return true;
+}

@@ -1,0 +1,57 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#pragma once
+
+#include "../search/box_tree.h"
+#include "../search/surface.h"
+#include "integrals.h"
+#include <optional>
+
+namespace contactx::mortar
+{
+/// @brief Finds the master facets in front of each slave facet.
+///
+/// Both are projected on the slave facet's plane. Where several layers of the
+/// master lie over one another the nearest one counts.
+class FacetSearch
+{
+public:
+  /// @brief Create the search.
+  /// @param[in] slave_offsets First node of each slave facet and the end.
+  /// @param[in] slave_nodes Nodes of the slave facets.
+  /// @param[in] master_offsets First node of each master facet and the end.
+  /// @param[in] master_nodes Nodes of the master facets.
+  /// @param[in] gdim Geometric dimension, 2 or 3.
+  FacetSearch(std::vector<std::int32_t> slave_offsets,
+              std::vector<std::int32_t> slave_nodes,
+              std::vector<std::int32_t> master_offsets,
+              std::vector<std::int32_t> master_nodes, int gdim);
+
+  /// @brief Find the pairs.
+  /// @param[in] x Node coordinates (shape=(num_nodes, gdim)), row-major.
+  /// @param[in] reach Largest distance of a pair.
+  /// @param[in] margin How far beyond its edges a slave facet looks, as a part
+  /// of its size: pairs that share nothing yet.
+  FacetPairs find(std::span<const double> x, double reach, double margin);
+
+  /// @brief Geometric dimension.
+  int gdim() const { return _master.gdim(); }
+
+  /// @brief Slave facets.
+  facet::FacetList slave() const { return {_slave_offsets, _slave_nodes}; }
+
+  /// @brief Master facets.
+  facet::FacetList master() const { return _master.facets(); }
+
+private:
+  std::vector<std::int32_t> _slave_offsets, _slave_nodes;
+  search::Surface _master;
+  std::optional<search::BoxTree> _tree;
+};
+
+/// @brief Whether all pairs are among others.
+/// @param[in] part Pairs, ascending by slave and then by master facet.
+/// @param[in] all Others, in the same order.
+bool contains(const FacetPairs& all, const FacetPairs& part);
+} // namespace contactx::mortar

@@ -1,0 +1,71 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#pragma once
+
+#include "../facet/nodal.h"
+#include "../vec.h"
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace contactx::mortar
+{
+/// @brief Pairs of slave and master facets.
+struct FacetPairs
+{
+  std::vector<std::int32_t> slave;  ///< slave facet of each pair, ascending
+  std::vector<std::int32_t> master; ///< its master facet
+
+  /// @brief Number of pairs.
+  std::size_t size() const { return slave.size(); }
+
+  bool operator==(const FacetPairs&) const = default;
+};
+
+/// Most nodes of a facet, the stride of arrays over facets' nodes
+inline constexpr int most_nodes = 4;
+
+/// @brief Integrals of the dual basis functions of the slave facets over the
+/// parts that face master facets, by reference area.
+///
+/// The dual functions Phi_s = sum_t a_st N_t of a slave facet are biorthogonal
+/// to its shape functions over all of its parts, int Phi_s N_t = delta_st
+/// area_s (B. I. Wohlmuth, SIAM J. Numer. Anal. 38, 2000; on facets that are
+/// partly covered: T. Cichosz and M. Bischoff, Comput. Methods Appl. Mech.
+/// Engrg. 200, 2011).
+struct Integrals
+{
+  /// int Phi_s N_l of each pair (shape=(num_pairs, 4, 4))
+  std::vector<double> weight;
+  /// int Phi_s gap of each pair, the gap measured along the direction of the
+  /// projection (shape=(num_pairs, 4))
+  std::vector<double> gap;
+  /// Coefficients a_st of each slave facet (shape=(num_facets, 4, 4))
+  std::vector<double> dual;
+  /// int Phi_s = int N_s over the covered part (shape=(num_facets, 4))
+  std::vector<double> area;
+  /// Unit normal of the master: against the direction that the slave facet is
+  /// projected along (shape=(num_facets, 3))
+  std::vector<double> normal;
+};
+
+/// Part of a slave facet that must be covered to count
+inline constexpr double least_cover = 1e-3;
+
+/// @brief Compute the integrals.
+/// @param[in] slave Slave facets.
+/// @param[in] master Master facets.
+/// @param[in] pairs Pairs, ascending by slave facet. Those that share nothing
+/// get zeros.
+/// @param[in] x Node coordinates (shape=(num_nodes, gdim)), row-major.
+/// @param[in] reference Node coordinates in the reference configuration.
+/// @param[in] gdim Geometric dimension, 2 or 3.
+/// @param[in] normal Unit normals of the master to project along, one a slave
+/// facet (shape=(num_facets, 3)); those against the slave facets' own if empty.
+Integrals integrals(const facet::FacetList& slave,
+                    const facet::FacetList& master, const FacetPairs& pairs,
+                    std::span<const double> x,
+                    std::span<const double> reference, int gdim,
+                    std::span<const double> normal = {});
+} // namespace contactx::mortar

@@ -1,0 +1,98 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#pragma once
+
+#include "../facet/frame.h"
+
+/// @brief Integrals over the parts of slave facets that face master facets.
+namespace contactx::mortar
+{
+/// @brief Local coordinates that a slave facet's plane has its origin at.
+template <class S>
+constexpr facet::Local<S> plane_origin()
+{
+  if constexpr (S::flat)
+    return {};
+  else
+    return {0.5, 0.5};
+}
+
+/// @brief The plane that a slave facet and the master facets in front of it are
+/// projected on: that of the facet, or of a quadrilateral's centre.
+///
+/// M. A. Puso and T. A. Laursen, Comput. Methods Appl. Mech. Engrg. 193, 2004.
+/// A point is o + r_a t_a + height n, with the tangents t_a and the direction n
+/// of the projection; on a flat facet r are its local coordinates.
+template <class S>
+struct Plane
+{
+  Vec<S::gdim> origin;
+  std::array<Vec<S::gdim>, S::tdim> t;    ///< tangents
+  std::array<Vec<S::gdim>, S::tdim> dual; ///< t_a . dual_b = delta_ab
+  Vec<S::gdim> n;        ///< unit vector that is projected along, outward
+  Vec<S::gdim> conormal; ///< across the tangents, conormal . n = 1
+
+  /// @brief Create the plane and project along its normal.
+  /// @param[in] x Nodes of the slave facet.
+  explicit Plane(const facet::Nodes<S>& x)
+  {
+    const facet::Local<S> xi = plane_origin<S>();
+    const auto frame = facet::frame<S>(x, xi);
+    origin = facet::combine<S>(S::shape(xi), x);
+    t = frame.t;
+    n = conormal = frame.n;
+    const Vec<3> m = facet::metric(t);
+    for (int k = 0; k < S::gdim; ++k)
+    {
+      facet::Local<S> r;
+      for (int a = 0; a < S::tdim; ++a)
+        r[a] = t[a][k];
+      const facet::Local<S> y = facet::solve(m, r);
+      for (int a = 0; a < S::tdim; ++a)
+        dual[a][k] = y[a];
+    }
+  }
+
+  /// @brief Create the plane and project along another direction.
+  /// @param[in] x Nodes of the slave facet.
+  /// @param[in] direction Unit vector on the outer side of the facet.
+  Plane(const facet::Nodes<S>& x, const Vec<S::gdim>& direction) : Plane(x)
+  {
+    const double cosine = dot(conormal, direction);
+    for (auto& d : dual)
+      d = d - (dot(d, direction) / cosine) * conormal;
+    n = direction;
+    conormal = (1 / cosine) * conormal;
+  }
+
+  /// @brief Coordinates r of a point's projection.
+  facet::Local<S> project(const Vec<S::gdim>& x) const
+  {
+    facet::Local<S> r;
+    for (int a = 0; a < S::tdim; ++a)
+      r[a] = dot(dual[a], x - origin);
+    return r;
+  }
+
+  /// @brief Height of a point over the plane, along n.
+  double height(const Vec<S::gdim>& x) const
+  {
+    return dot(conormal, x - origin);
+  }
+};
+
+/// @brief Coordinates of a facet's nodes in a plane.
+template <class F>
+using Flat = std::array<facet::Local<F>, F::nodes>;
+
+/// @brief Project the nodes of a facet on a plane.
+template <class F, class S>
+Flat<F> project(const Plane<S>& plane, const facet::Nodes<F>& x)
+{
+  Flat<F> r;
+  for (int l = 0; l < F::nodes; ++l)
+    r[l] = plane.project(x[l]);
+  return r;
+}
+} // namespace contactx::mortar

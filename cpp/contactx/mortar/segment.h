@@ -1,0 +1,134 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#pragma once
+
+#include "inverse_map.h"
+#include "quadrature.h"
+
+namespace contactx::mortar
+{
+/// @brief A slave facet projected on its plane.
+template <class S>
+struct SlaveFacet
+{
+  /// @brief Project the facet.
+  /// @param[in] x Its nodes.
+  /// @param[in] reference Its nodes in the reference configuration.
+  SlaveFacet(const facet::Nodes<S>& x, const facet::Nodes<S>& reference)
+      : SlaveFacet(Plane<S>(x), x, reference)
+  {
+  }
+
+  /// @brief Project the facet on a plane of its own.
+  /// @param[in] plane The plane.
+  /// @param[in] x Its nodes.
+  /// @param[in] reference Its nodes in the reference configuration.
+  SlaveFacet(const Plane<S>& plane, const facet::Nodes<S>& x,
+             const facet::Nodes<S>& reference)
+      : reference(reference), plane(plane), map(project<S>(plane, x)),
+        shape(outline<S>(project<S>(plane, x)))
+  {
+    if constexpr (S::flat)
+      area = facet::frame<S>(reference, {}).jacobian;
+    else
+    {
+      // How much the reference area varies over the facet
+      const Plane<S> before(reference);
+      const InverseMap<S> flat(project<S>(before, reference));
+      Vec<S::gdim> w{};
+      for (int t = 0; t < S::nodes; ++t)
+        w = w + S::mixed_derivative[t] * reference[t];
+      const double height = dot(w, before.n);
+      const double size = std::min(norm(before.t[0]), norm(before.t[1]));
+      bend = std::max(
+          {map.distortion(), flat.distortion(), std::abs(height) / size});
+    }
+  }
+
+  /// @brief Reference area a unit of the plane's, at a point.
+  double reference_area(const Shape<S>& s) const
+  {
+    if constexpr (S::flat)
+      return area;
+    else
+      return facet::frame<S>(reference, s.xi).jacobian / s.jacobian;
+  }
+
+  facet::Nodes<S> reference;
+  Plane<S> plane;
+  InverseMap<S> map;
+  Overlap<S::tdim> shape; ///< its outline
+  double area = 0;
+  double bend = 0;
+};
+
+/// @brief Degree of the rule: of the products of shape functions, and where
+/// facets are distorted what makes their inverse maps exact to rounding.
+template <class S, class M>
+int rule_degree(double distortion)
+{
+  constexpr int degree
+      = (S::flat ? 1 : 2) + std::max(S::flat ? 1 : 2, M::flat ? 1 : 2);
+  if (distortion < 1e-13)
+    return degree;
+  // The error falls by half the distortion with every degree
+  constexpr double digits = 25; // -log(1e-11)
+  return degree
+         + static_cast<int>(digits / std::log(2 / std::min(distortion, 1.0)));
+}
+
+/// @brief Integrate over the part of a slave facet that faces a master facet,
+/// with the slave facet's reference area.
+/// @param[in] slave Slave facet.
+/// @param[in] master Nodes of the master facet.
+/// @param[in] f Called as f(slave's shape, master's shape, weight).
+template <class M, class S, class Function>
+void integrate(const SlaveFacet<S>& slave, const facet::Nodes<M>& master,
+               Function&& f)
+{
+  const Flat<M> r = project<M>(slave.plane, master);
+  const Overlap<S::tdim> overlap = clip(outline<M>(r), slave.shape);
+  if (overlap.size == 0)
+    return;
+  const InverseMap<M> map(r);
+  const int degree = rule_degree<S, M>(std::max(slave.bend, map.distortion()));
+  integrate(overlap, degree,
+            [&](const facet::Local<S>& p, double weight)
+            {
+              const Shape<S> s = slave.map.at(p);
+              f(s, map.at(p), weight * slave.reference_area(s));
+            });
+}
+
+/// @brief Call `f` with each kind of slave and master facet that can meet.
+template <class Function>
+void for_all_kinds(Function&& f)
+{
+  using facet::Quadrilateral;
+  using facet::Segment;
+  using facet::Triangle;
+  f(Segment{}, Segment{});
+  f(Triangle{}, Triangle{});
+  f(Triangle{}, Quadrilateral{});
+  f(Quadrilateral{}, Triangle{});
+  f(Quadrilateral{}, Quadrilateral{});
+}
+
+/// @brief Call `f` with the facet types of so many nodes, of one dimension.
+template <class Function>
+decltype(auto) visit(int slave_nodes, int master_nodes, Function&& f)
+{
+  return facet::visit(slave_nodes,
+                      [&](auto s)
+                      {
+                        using S = decltype(s);
+                        if constexpr (S::tdim == 1)
+                          return f(s, facet::Segment{});
+                        else
+                          return master_nodes == 3
+                                     ? f(s, facet::Triangle{})
+                                     : f(s, facet::Quadrilateral{});
+                      });
+}
+} // namespace contactx::mortar
