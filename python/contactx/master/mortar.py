@@ -182,21 +182,20 @@ class MortarMaster(Master):
         return self._start.scaled(self._area[self._numbers[self._start.slave]])
 
     def _groups(self, mortar: Mortar, *, is_movement: bool) -> list[Pairs]:
-        e, f = mortar.slave, mortar.master
-        k, m = self._sizes[0][e], self._sizes[1][f]
+        kind = 5 * self._sizes[0][mortar.slave] + self._sizes[1][mortar.master]
         groups = []
-        for kind in np.unique(5 * k + m):
-            some = np.flatnonzero(5 * k + m == kind)
-            n, l = divmod(int(kind), 5)
+        for one in np.unique(kind):
+            some = np.flatnonzero(kind == one)
+            n, m = divmod(int(one), 5)
             e, f = mortar.slave[some], mortar.master[some]
             parts = [
-                mortar.weight[some, :n, :l],
+                mortar.weight[some, :n, :m],
                 self._dual[e, :n, :n],
                 mortar.gap[some, :n],
                 self._normal[e],
             ]
             data = np.concatenate([part.reshape(len(some), -1) for part in parts], axis=1)
-            nodes = np.concatenate([self._nodes[0][e, :n], self._nodes[1][f, :l]], axis=1)
+            nodes = np.concatenate([self._nodes[0][e, :n], self._nodes[1][f, :m]], axis=1)
             groups.append(Pairs(self._numbers[e, :n], nodes, data, is_movement=is_movement))
         return groups
 
