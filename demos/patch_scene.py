@@ -50,7 +50,7 @@ class Shape:
     cell_type: CellType
     upper: int = 4
     lower: int = 3
-    distortion: float = 0.2
+    distortion: float = 0.15
     seed: int = 0
     lean: float = 0.0
     turn: Array | None = None

@@ -6,8 +6,8 @@ Two elastic blocks, E = 1, nu = 0.3, are pressed on each other through 1 % of th
 friction and with free sides; the whole scene is tilted. The exact stress is the same everywhere, a
 pressure p = 0.01 across the interface. Linear elements contain this solution, whatever their size
 and shape: what a method makes of it is its own error, and the same on any mesh. The upper block,
-the slave, has one cell more along each edge than the lower one, and all inner nodes and those of
-the interface are moved at random by up to a fifth of a cell.
+the slave, has one cell more along each edge than the lower one, and nodes are moved at random by up
+to 0.15 cells, those of the faces within their planes.
 
 Node-to-surface contact has no nodal forces on the master that are those of a uniform pressure:
 pressures are some 10 % off, stresses beside the interface more, and a finer mesh does not help.

@@ -90,7 +90,6 @@ def test_random_scenes(cell, slave, seed):
     shape = Shape(
         cell,
         *(int(n) for n in rng.integers(1, 6, size=2)),
-        distortion=0.25,
         seed=seed,
         lean=rng.uniform(-1, 1),
         turn=rotation(rng, dimension(cell)),
@@ -118,16 +117,24 @@ def test_wider_master(cell, sliding):
 @both_slaves
 @both_slidings
 def test_slave_beyond_the_edge(cell, method, slave, sliding):
-    """Of the outermost slave facets much, little or next to nothing is covered."""
+    """Of the outermost slave facets a fifth, little or next to nothing is covered.
+
+    What little of a node is covered may bear a pressure far above the others, but no force.
+    """
     n, forces = 4 if slave == "upper" else 3, {}
+    area = n ** (1 - dimension(cell))
     for covered in (0.05, 1e-4, 1e-8, 0.0, -1e-8):
         shape = Shape(cell, 4, 3, distortion=0.0, shift=1 / n - covered)
         patch = Patch(shape, slave=slave, sliding=sliding, method=method)
         patch.problem.solve()
-        share = patch.contact.multiplier / patch.pressure
-        forces[covered] = float(np.linalg.norm(patch.contact.force)) / patch.pressure
-        print(f"{covered:g}: pressures up to {share.max():.2f}, force {forces[covered]:.6f}")
-        assert np.all((share >= 0) & (share <= 3))
-    area = (1 - 1 / n) ** (dimension(cell) - 1)
-    assert area <= forces[0.0] <= 1.5 * area
+        contact, p = patch.contact, patch.pressure
+        pressure, nodal = contact.multiplier / p, contact.multiplier * contact.area / (p * area)
+        forces[covered] = float(np.linalg.norm(contact.force)) / p
+        print(
+            f"{covered:g}: pressures up to {pressure.max():.2f}, nodal forces {nodal.max():.2f}, "
+            f"force {forces[covered]:.6f}"
+        )
+        assert np.all((pressure >= 0) & (pressure <= 20) & (nodal <= 2))
+    whole = (1 - 1 / n) ** (dimension(cell) - 1)
+    assert whole <= forces[0.0] <= 1.5 * whole
     assert list(forces.values())[1:] == pytest.approx([forces[0.0]] * 4, rel=0.01)
