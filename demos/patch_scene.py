@@ -130,6 +130,7 @@ class Patch:
         slave: str = "upper",
         young: tuple[float, float] = (1.0, 1.0),
         lateral: float = 0.0,
+        petsc_options: dict[str, Any] | None = None,
         **options: Any,
     ):
         """Set the problem up.
@@ -139,6 +140,7 @@ class Patch:
             slave: Which block is the slave, "upper" or "lower".
             young: Young's moduli of the upper and the lower block.
             lateral: Pressure on the side faces over that on the interface. Faces that lean need 1.
+            petsc_options: Options of the solver.
             options: Options of the contact.
         """
         self.shape, self._slave = shape, slave
@@ -164,6 +166,7 @@ class Patch:
             contacts=[self.contact],
             bcs=[fem.dirichletbc(exact, dofs)],
             petsc_options_prefix="patch_",
+            petsc_options=petsc_options,
         )
 
     def _material(self, data: MeshData, young: tuple[float, float], lateral: float) -> fem.Function:

