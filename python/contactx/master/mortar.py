@@ -327,7 +327,10 @@ class MortarMaster(Master):
         return np.divide(mean, total, out=result, where=total > 0)
 
     def mobility(self, free: npt.NDArray[np.bool_]) -> tuple[Array, Array]:
-        """See ``Master``."""
+        """See ``Master``; on a plane of symmetry nothing moves across it.
+
+        Only half of what is around its slave nodes is integrated, where the master seems to.
+        """
         n, gdim = len(self._slaves), free.shape[1]
         if free[self._slaves].all() and free[self.facets.nodes].all():
             return np.ones(n), np.ones((n, gdim))
@@ -339,6 +342,11 @@ class MortarMaster(Master):
         moves = np.bincount(place, weights.values)[:, None] * free[nodes]
         squares = np.stack([np.bincount(slaves, m**2, n) for m in moves.T], axis=1)
         squares[~self._paired] = 1
+        own = free[self._slaves]
+        around = np.zeros((n, gdim), dtype=bool)
+        for corner in self._numbers.T:
+            np.logical_or.at(around, corner, free[self._nodes[0]].any(axis=1))
+        squares[~own & around] = 0
         normal = self.normals()[:, :gdim]
         return np.sqrt((normal**2 * squares).sum(axis=1)), np.sqrt(squares)
 
