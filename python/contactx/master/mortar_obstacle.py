@@ -56,23 +56,21 @@ class _Facets:
         cell = _CELLS[nodes.shape[1]]
         points, weights = basix.make_quadrature(cell, _DEGREE)
         element = basix.create_element(basix.ElementFamily.P, cell, 1)
-        table = element.tabulate(1, points)[..., 0]
+        table: list[Array] = [np.asarray(t) for t in element.tabulate(1, points)[..., 0]]
         N = table[0]
-        tangents = np.einsum("aqk,mki->mqai", table[1:], x[nodes])
-        if tangents.shape[2] == 1:
-            size = np.linalg.norm(tangents[:, :, 0], axis=2)
-        else:
-            size = np.linalg.norm(np.cross(tangents[:, :, 0], tangents[:, :, 1]), axis=2)
+        tangents = [slope @ x[nodes] for slope in table[1:]]
+        across = tangents[0] if len(tangents) == 1 else np.cross(*tangents)
+        size: Array = np.linalg.norm(across, axis=2)
         area = size * weights
-        mass = np.einsum("mq,qs,qt->mst", area, N, N)
-        dual = np.einsum("mq,qs->ms", area, N)[:, :, None] * np.linalg.inv(mass)
-        weight = np.einsum("mst,qt,mq->msq", dual, N, area)
+        mass = N.T @ (area[:, :, None] * N)
+        dual = (area @ N)[:, :, None] * np.linalg.inv(mass)
+        weight = (dual @ N.T) * area[:, None, :]
         numbers = np.searchsorted(slaves, nodes).astype(np.int32)
         return _Facets(nodes, numbers, N, weight)
 
     def points(self, x: Array) -> Array:
         """Points of the rule, shape (m * q, gdim)."""
-        points: Array = np.einsum("qk,mki->mqi", self.N, x[self.nodes])
+        points: Array = self.N @ x[self.nodes]
         return points.reshape(-1, x.shape[1])
 
 
@@ -125,9 +123,10 @@ class MortarObstacle(ObstacleMaster):
         def integral(values: Array, by: str = "") -> Array:
             """Integral with the dual functions, and with the shape functions where asked for."""
             values = values.reshape(m, q, -1)
-            if not by:
-                return np.einsum("msq,mqi->msi", facets.weight, values).reshape(m, -1)
-            total = np.einsum("msq,qt,mqi->msti", facets.weight, facets.N, values, optimize=True)
+            weight = facets.weight
+            if by:
+                weight = (weight[:, :, None, :] * facets.N.T).reshape(m, k * k, q)
+            total: Array = weight @ values
             return total.reshape(m, -1)
 
         data = np.empty((m, at["size"]))
