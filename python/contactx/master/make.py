@@ -16,7 +16,7 @@ from contactx.master.mortar import MortarMaster
 from contactx.master.mortar_obstacle import MortarObstacle
 from contactx.master.obstacle import ObstacleMaster
 from contactx.master.ties import FacetTie, MortarTie, ObstacleTie
-from contactx.obstacles import Obstacle
+from contactx.obstacles import Obstacle, Plane
 from contactx.surface import Surface
 
 
@@ -56,11 +56,11 @@ def make_master(
         options = (master, x, search_distance)
         obstacle: ObstacleMaster
         if law.is_tied:
-            # Dual functions weigh a body's own linear field at its nodes
             obstacle = ObstacleTie(slaves, *options, measures_slip=True)
-        elif method == "surface-to-surface":
+        elif method == "surface-to-surface" and not isinstance(master, Plane):
             obstacle = MortarObstacle(facets, *options, measures_slip=law.is_vector)
         else:
+            # Dual functions weigh what is linear on a facet, as a plane's gap, at its nodes
             obstacle = ObstacleMaster(slaves, *options, measures_slip=law.is_vector)
         check_outside(slave, slaves, obstacle.inside(x), master, bodies)
         return obstacle

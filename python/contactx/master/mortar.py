@@ -80,6 +80,8 @@ class MortarMaster(Master):
             self._found = self._search.find(x, self.reach, margin)
             new = True
         self._integrate(x)
+        least = np.where(self._paired, _LEAVE, _ENTER)
+        self._paired = self._area > least * self._whole
         return 0, new
 
     def _integrate(self, x: Array) -> None:
@@ -91,8 +93,6 @@ class MortarMaster(Master):
         self._dual, self._normal = found["dual"], found["normal"]
         self._mortar = Mortar(self._found.slave, self._found.master, found["weight"], found["gap"])
         self._area = self._sides.total(found["area"])
-        least = np.where(self._paired, _LEAVE, _ENTER)
-        self._paired = self._area > least * self._whole
 
     def _between(self, found: Mapping[str, Array], x: Array) -> Array:
         """Normals midway between those of each slave facet and its master, shape (num_facets, 3).
@@ -112,14 +112,17 @@ class MortarMaster(Master):
         return self._paired
 
     def area(self, whole: Array) -> Array:
-        """See ``Master``; what is in front of the master."""
-        return np.where(self._paired, self._area, whole)
+        """See ``Master``; what is in front of the master.
+
+        A node that is pushed off within an iteration keeps some until the next search.
+        """
+        return np.where(self._paired, np.maximum(self._area, 0.1 * _LEAVE * whole), whole)
 
     def pairs(self) -> list[Pairs]:
         """See ``Master``; by the kinds of both facets, those that measure slip last."""
         groups = self._sides.pairs(self._mortar, self._dual, self._normal)
         if self._measures_slip:
-            movement = self._slip.pairs(self._mortar, self._area)
+            movement = self._slip.pairs(self._mortar, self.area(self._whole))
             groups += self._sides.pairs(movement, self._dual, self._normal, is_movement=True)
         return groups
 
@@ -179,7 +182,7 @@ class MortarMaster(Master):
 
     def _normalised(self) -> Mortar:
         """Pairs divided by the slave nodes' areas."""
-        inverse = np.divide(1, self._area, out=np.zeros_like(self._area), where=self._paired)
+        inverse = np.where(self._paired, 1 / self.area(self._whole), 0.0)
         return self._mortar.scaled(inverse[self._sides.numbers[self._mortar.slave]])
 
     def touch(self, which: npt.NDArray[np.bool_], x: Array, offset: Array) -> None:

@@ -54,14 +54,15 @@ class _Facets:
             x: Reference positions.
         """
         cell = _CELLS[nodes.shape[1]]
-        points, weights = basix.make_quadrature(cell, _DEGREE)
-        element = basix.create_element(basix.ElementFamily.P, cell, 1)
-        table: Array = np.asarray(element.tabulate(1, points)[..., 0], dtype=np.float64)
+        rule: Any = basix.make_quadrature(cell, _DEGREE)
+        points, weights = rule
+        values: Any = basix.create_element(basix.ElementFamily.P, cell, 1).tabulate(1, points)
+        table: Array = values[..., 0]
         N = table[0]
         tangents = [slope @ x[nodes] for slope in table[1:]]
         if len(tangents) > 1:
             tangents = [np.cross(tangents[0], tangents[1])]
-        area = np.linalg.norm(tangents[0], axis=2) * np.asarray(weights, dtype=np.float64)
+        area: Array = np.linalg.norm(tangents[0], axis=2) * weights
         mass = N.T @ (area[:, :, None] * N)
         dual = (area @ N)[:, :, None] * np.linalg.inv(mass)
         weight = (dual @ N.T) * area[:, None, :]
