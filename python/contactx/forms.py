@@ -42,7 +42,7 @@ class Pairs:
     @property
     def num_nodes(self) -> int:
         """Nodes of the master facet, 0 for a rigid obstacle."""
-        return self.nodes.shape[1] - self.slaves.shape[1]
+        return int(self.nodes.shape[1] - self.slaves.shape[1])
 
     def same(self, other: Pairs) -> bool:
         """Whether others have the same nodes, so that forms of these serve them, too."""

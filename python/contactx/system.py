@@ -163,14 +163,21 @@ class SaddlePointSystem:
             A.setDiagonal(diagonal, addv=PETSc.InsertMode.ADD)
         return A
 
-    def contact_entries(self) -> PETSc.Mat:
-        """Assemble the closed nodes' part of the Jacobian, with no place for what is zero.
+    def contact_entries(self, b: PETSc.Vec | None = None) -> PETSc.Mat:
+        """Assemble the contacts' part of the Jacobian with no place for what is zero.
 
-        Where the multipliers of open nodes are zero they stay so, whatever else their entries are.
+        Args:
+            b: Right-hand side; where it is zero the multipliers of open nodes are, and nothing is
+                assembled for them. Any right-hand side if None.
         """
+        which = []
+        for k, interface in enumerate(self.interfaces, start=1):
+            rows = slice(self._offsets[k], self._offsets[k + 1])
+            known = np.ones(1) if b is None else b.array_r[rows].reshape(-1, interface.nodes.size)
+            which.append(interface.nodes.closed | (known != 0).any(axis=-1))
         A = self._new_matrix()
         A.setOption(PETSc.Mat.Option.IGNORE_ZERO_ENTRIES, True)
-        self._assemble_contact(A, [i.nodes.closed for i in self.interfaces])
+        self._assemble_contact(A, which)
         return A
 
     def assemble_contact(self) -> PETSc.Mat:
@@ -179,7 +186,7 @@ class SaddlePointSystem:
             self._contact = self._new_matrix()
             self._contact_pairs = [list(interface.forms) for interface in self.interfaces]
         self._contact.zeroEntries()
-        every = [np.ones(len(i.slaves), dtype=bool) for i in self.interfaces]
+        every = [np.ones_like(i.nodes.closed) for i in self.interfaces]
         self._assemble_contact(self._contact, every)
         return self._contact
 

@@ -49,5 +49,5 @@ def contact_rows(interface: Interface, modes: RigidModes, x: Array) -> ContactRo
     movement = np.zeros((len(slaves), modes.count, gdim, size))
     field = weights.values[some, None, None] * modes.at(node, x)
     np.add.at(movement, (row, modes.body[node]), field)
-    movement = movement.transpose(0, 2, 1, 3).reshape(len(slaves), gdim, -1)
+    movement = movement.transpose(0, 2, 1, 3).reshape(len(slaves), gdim, modes.count * size)
     return ContactRows(slaves, master.normals()[slaves, :gdim], movement)

@@ -119,7 +119,7 @@ class Elimination:
         self._pivots.append((pivot, Entries(np.arange(len(pivot)), multipliers, 1 / factor)))
         t = np.zeros(len(slaves))
         at = T.rows == pivot[T.columns]
-        t[T.columns[at]] = T.values[at]
+        np.add.at(t, T.columns[at], T.values[at])
         self._left.append(Entries(T.rows, pivot[T.columns], -T.values / t[T.columns]).select(~at))
         self._recover.append((multipliers, pivot, t))
 
@@ -128,7 +128,7 @@ class Elimination:
         T = self._columns_of(multipliers)
         own = T.rows == rows[T.columns]
         factor = np.zeros(len(multipliers))
-        factor[T.columns[own]] = T.values[own]
+        np.add.at(factor, T.columns[own], T.values[own])
         self._left.append(
             Entries(T.rows, rows[T.columns], -T.values / factor[T.columns]).select(~own)
         )
