@@ -63,7 +63,7 @@ def test_cylinders_on_a_coarser_master():
 
 @pytest.mark.parametrize("base", BASES)
 def test_sliding_block(base):
-    """The same loops, on a plane to the bit, as it has no second mesh."""
+    """The same loops, on a plane to rounding, where a gap that is linear is its own mean."""
     sliders = [Slider(0.2, 2, base, "finite", method) for method in METHODS]
     for slider in sliders:
         slider.run()
@@ -89,4 +89,4 @@ def test_slice():
     for one in found.values():
         assert one.stress == pytest.approx(reference.stress, rel=0.03)
         assert one.rotation == pytest.approx(reference.rotation, rel=1e-3)
-    assert found[MORTAR, False].stress == pytest.approx(found[MORTAR, True].stress, rel=0.012)
+    assert found[MORTAR, False].stress == pytest.approx(found[MORTAR, True].stress, rel=0.015)
