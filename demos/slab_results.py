@@ -155,8 +155,7 @@ def nodal_forces(scene: Scene, contacts: Sequence[cx.Contact]) -> Array:
     """Contact forces on all nodes along dam, slope and normal, MN, shape (num_nodes, 3)."""
     forces = np.zeros(len(scene.u.x.array))
     for contact in contacts:
-        for form in contact.forms:
-            fem.assemble_vector(forces, form.residual)
+        contact.interface.add_residual(forces)
     return -forces.reshape(-1, 3)[:, list(scene.setting.axes)]
 
 

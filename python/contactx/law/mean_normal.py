@@ -11,9 +11,9 @@ type Array = npt.NDArray[np.float64]
 
 
 class MeanNormal:
-    """Unit normals n = m / |m| of means m, and the part s = (I - n n^T) w of a movement w.
+    """Unit normals n = m / |m| of means m, and the slip s = M (I - n n^T) w of a movement w.
 
-    The laws are written for n and s, forms assemble m and w.
+    The laws are written for n and s, forms assemble m and w. M drops directions that cannot move.
     """
 
     def __init__(self, n: int, gdim: int):
@@ -25,6 +25,7 @@ class MeanNormal:
         """
         self._length = np.ones(n)
         self._movement = np.zeros((n, gdim))
+        self._mobile = np.ones((n, gdim))
 
     def normalise(self, normal: Array) -> None:
         """Scale means to unit length; zero stays zero.
@@ -36,15 +37,17 @@ class MeanNormal:
         self._length = np.where(length > 0, length, 1.0)
         normal /= self._length[:, None]
 
-    def project(self, normal: Array, slip: Array) -> None:
+    def project(self, normal: Array, slip: Array, mobile: Array) -> None:
         """Take the part of movements along the surface.
 
         Args:
             normal: Unit normals, shape (n, gdim).
             slip: Movements, overwritten, shape (n, gdim).
+            mobile: 1 in directions that can move, else 0, shape (n, gdim).
         """
-        self._movement = slip.copy()
+        self._movement, self._mobile = slip.copy(), mobile
         slip -= np.einsum("ij,ij->i", normal, slip)[:, None] * normal
+        slip *= mobile
 
     def chain(self, normal: Array, by_slip: Array, by_normal: Array) -> None:
         """Turn derivatives by slip and normal into those by movement and mean.
@@ -57,6 +60,7 @@ class MeanNormal:
         n, gdim = normal.shape
         S, N = (by.reshape(n, gdim, gdim) for by in (by_slip, by_normal))
         w = self._movement
+        S *= self._mobile[:, None, :]
         height = np.einsum("ij,ij->i", normal, w)
         along = np.einsum("nij,nj->ni", S, normal)
         N -= height[:, None, None] * S + along[:, :, None] * w[:, None, :]
