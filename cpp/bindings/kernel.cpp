@@ -78,8 +78,7 @@ void contactx_bindings::kernel(py::module_& m)
       {
         py::list table;
         for (const kernel::CoefficientInfo& c :
-             kernel::coefficients(law_named(law), num_nodes, gdim,
-                                  num_slaves))
+             kernel::coefficients(law_named(law), num_nodes, gdim, num_slaves))
         {
           if (c.size == 0)
             continue;

@@ -46,9 +46,8 @@ void contactx_bindings::mortar(py::module_& m)
             const auto all = contactx::mortar::integrals(
                 self.slave(), self.master(), pairs, view(x), view(reference),
                 self.gdim(), view(normal));
-            const auto shaped
-                = [](const std::vector<double>& v,
-                     std::vector<py::ssize_t> width)
+            const auto shaped =
+                [](const std::vector<double>& v, std::vector<py::ssize_t> width)
             {
               py::ssize_t stride = 1;
               for (const py::ssize_t n : width)

@@ -42,7 +42,7 @@ class Pairs:
     @property
     def num_nodes(self) -> int:
         """Nodes of the master facet, 0 for a rigid obstacle."""
-        return self.nodes.shape[1] - self.slaves.shape[1]
+        return int(self.nodes.shape[1] - self.slaves.shape[1])
 
     def same(self, other: Pairs) -> bool:
         """Whether others have the same nodes, so that forms of these serve them, too."""
@@ -129,6 +129,14 @@ class ContactForms:
         constraint: Derivative of the complementarity function with respect to the displacement.
     """
 
+    gap: fem.Form | None
+    normal: fem.Form | None
+    slip: fem.Form | None
+    residual: fem.Form | None
+    stiffness: fem.Form | None
+    traction: fem.Form | None
+    constraint: fem.Form | None
+
     def __init__(
         self,
         comm: MPI.Comm,
@@ -179,25 +187,42 @@ class ContactForms:
         terms = core.terms(law, sliding, *kind)
         if pairs.is_movement:
             terms = [term for term in terms if term in ("slip", "constraint")]
+        U = spaces["nodes", gdim]
+        S = spaces["slave", state.multiplier.block_size]
+        arguments = {
+            "gap": [spaces["slave", 1]],
+            "normal": [S],
+            "slip": [S],
+            "residual": [U],
+            "stiffness": [U, U],
+            "traction": [U, S],
+            "constraint": [S, U],
+        }
 
-        def form(term: str, *arguments: Any) -> fem.Form | None:
+        def form(term: str, cells: npt.NDArray[np.int32]) -> fem.Form | None:
             if term not in terms:
                 return None
             address, active = core.kernel(law, sliding, term, *kind)
-            cells = np.arange(num_pairs, dtype=np.int32)
             integrals = {fem.IntegralType.cell: [(0, address, cells, active)]}
             make = fem.form_cpp_class(np.float64)
-            return fem.Form(make(list(arguments), integrals, coefficients, [], False, [], mesh))
+            return fem.Form(make(arguments[term], integrals, coefficients, [], False, [], mesh))
 
-        U = spaces["nodes", gdim]
-        S = spaces["slave", state.multiplier.block_size]
-        self.gap = form("gap", spaces["slave", 1])
-        self.normal = form("normal", S)
-        self.slip = form("slip", S)
-        self.residual = form("residual", U)
-        self.stiffness = form("stiffness", U, U)
-        self.traction = form("traction", U, S)
-        self.constraint = form("constraint", S, U)
+        self._form = form
+        every = np.arange(num_pairs, dtype=np.int32)
+        for term in arguments:
+            setattr(self, term, form(term, every))
+
+    def blocks(self, which: npt.NDArray[np.bool_]) -> list[fem.Form | None]:
+        """Forms of the Jacobian over the pairs of some slave nodes.
+
+        Args:
+            which: Slave nodes, shape (n,).
+
+        Returns:
+            Stiffness, traction and constraint; None for those that vanish.
+        """
+        cells = np.flatnonzero(which[self.pairs.slaves].any(axis=1)).astype(np.int32)
+        return [self._form(term, cells) for term in ("stiffness", "traction", "constraint")]
 
     def update(self, pairs: Pairs) -> None:
         """Take over new data of the same pairs."""

@@ -122,7 +122,8 @@ class SaddlePointSystem:
             for form in interface.forms:
                 if form.stiffness is not None:
                     fem.apply_lifting(force, [form.stiffness], bcs, [u], alpha=-1.0)
-                fem.apply_lifting(row, [form.constraint], bcs, [u], alpha=-1.0)
+                if form.constraint is not None:
+                    fem.apply_lifting(row, [form.constraint], bcs, [u], alpha=-1.0)
 
     def fits(self) -> bool:
         """Whether the last Jacobian has the pattern of the current pairs."""
@@ -162,13 +163,31 @@ class SaddlePointSystem:
             A.setDiagonal(diagonal, addv=PETSc.InsertMode.ADD)
         return A
 
+    def contact_entries(self, b: PETSc.Vec | None = None) -> PETSc.Mat:
+        """Assemble the contacts' part of the Jacobian with no place for what is zero.
+
+        Args:
+            b: Right-hand side; where it is zero the multipliers of open nodes are, and nothing is
+                assembled for them. Any right-hand side if None.
+        """
+        which = []
+        for k, interface in enumerate(self.interfaces, start=1):
+            rows = slice(self._offsets[k], self._offsets[k + 1])
+            known = np.ones(1) if b is None else b.array_r[rows].reshape(-1, interface.nodes.size)
+            which.append(interface.nodes.closed | (known != 0).any(axis=-1))
+        A = self._new_matrix()
+        A.setOption(PETSc.Mat.Option.IGNORE_ZERO_ENTRIES, True)
+        self._assemble_contact(A, which)
+        return A
+
     def assemble_contact(self) -> PETSc.Mat:
         """Assemble the contacts' part of the Jacobian, in all unknowns."""
         if self._contact is None or not self.fits():
             self._contact = self._new_matrix()
             self._contact_pairs = [list(interface.forms) for interface in self.interfaces]
         self._contact.zeroEntries()
-        self._assemble_contact(self._contact)
+        every = [np.ones_like(i.nodes.closed) for i in self.interfaces]
+        self._assemble_contact(self._contact, every)
         return self._contact
 
     def _new_matrix(self) -> PETSc.Mat:
@@ -181,7 +200,7 @@ class SaddlePointSystem:
         A.setLGMap(local, local)
         return A
 
-    def _assemble_contact(self, A: PETSc.Mat) -> None:
+    def _assemble_contact(self, A: PETSc.Mat, which: Sequence[npt.NDArray[np.bool_]]) -> None:
         serial = PETSc.COMM_SELF
         nodes = np.arange(self.num_bulk // self.block, dtype=PETSc.IntType)
         bulk = PETSc.IS().createBlock(self.block, nodes, comm=serial)
@@ -190,11 +209,13 @@ class SaddlePointSystem:
             first, last = self._offsets[k], self._offsets[k + 1]
             slave = PETSc.IS().createStride(last - first, first, 1, comm=serial)
             for form in interface.forms:
-                if form.stiffness is not None:
-                    _assemble(A, form.stiffness, (bulk, bulk), (markers, markers))
-                if form.traction is not None:
-                    _assemble(A, form.traction, (bulk, slave), (markers, _NONE))
-                _assemble(A, form.constraint, (slave, bulk), (_NONE, markers))
+                stiffness, traction, constraint = form.blocks(which[k - 1])
+                if stiffness is not None:
+                    _assemble(A, stiffness, (bulk, bulk), (markers, markers))
+                if traction is not None:
+                    _assemble(A, traction, (bulk, slave), (markers, _NONE))
+                if constraint is not None:
+                    _assemble(A, constraint, (slave, bulk), (_NONE, markers))
             size = interface.nodes.size
             rows = np.arange(first, last, dtype=PETSc.IntType)
             A.setValuesLocalIJV(

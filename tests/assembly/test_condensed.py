@@ -14,9 +14,11 @@ from contactx.meshes import Tag
 from dolfinx.mesh import CellType
 
 CELLS = [CellType.triangle, CellType.quadrilateral, CellType.tetrahedron, CellType.hexahedron]
+MORTAR = {"method": "surface-to-surface"}
 LAWS = [{}, {"friction": 0.3}, {"tied": True}]
+LAWS += [MORTAR, {"friction": 0.3, **MORTAR}, {"tied": True, **MORTAR}]
 every_cell = pytest.mark.parametrize("cell", CELLS, ids=lambda c: c.name)
-every_law = pytest.mark.parametrize("law", LAWS, ids=lambda law: next(iter(law), "frictionless"))
+every_law = pytest.mark.parametrize("law", LAWS, ids=lambda law: "-".join(law) or "frictionless")
 
 
 def random_state(cell, law, sliding):

@@ -14,6 +14,8 @@ CELLS = [CellType.triangle, CellType.quadrilateral, CellType.tetrahedron, CellTy
 every_cell = pytest.mark.parametrize("cell", CELLS, ids=lambda c: c.name)
 both_slidings = pytest.mark.parametrize("sliding", ["finite", "small"])
 OBSTACLES = ["facets", "plane", "sphere", "level set"]
+METHODS = ["node-to-surface", "surface-to-surface"]
+both_methods = pytest.mark.parametrize("method", METHODS)
 
 
 def obstacle(kind, gdim):
@@ -89,9 +91,10 @@ def assert_consistent(problem, interface):
 
 @every_cell
 @both_slidings
+@both_methods
 @pytest.mark.parametrize("master", OBSTACLES)
-def test_with_friction(cell, sliding, master):
-    problem, interface, rng = scene_with(cell, sliding, master, friction=0.4)
+def test_with_friction(cell, sliding, method, master):
+    problem, interface, rng = scene_with(cell, sliding, master, friction=0.4, method=method)
     nodes = interface.nodes
     nodes.status[:] = rng.permutation(np.arange(len(nodes.status)) % 3)
     assert np.abs(nodes.slip).max() > 1e-3
@@ -99,8 +102,9 @@ def test_with_friction(cell, sliding, master):
 
 
 @every_cell
-def test_with_held_pairs(cell):
-    problem, interface, rng = scene_with(cell, "finite", "facets", friction=0.4)
+@both_methods
+def test_with_held_pairs(cell, method):
+    problem, interface, rng = scene_with(cell, "finite", "facets", friction=0.4, method=method)
     interface.hold(True)
     interface.nodes.status[:] = rng.integers(3, size=len(interface.nodes.status))
     assert_consistent(problem, interface)
@@ -109,9 +113,10 @@ def test_with_held_pairs(cell):
 
 
 @every_cell
+@both_methods
 @pytest.mark.parametrize("master", ["facets", "sphere"])
-def test_after_the_nodes_have_touched(cell, master):
-    problem, interface, rng = scene_with(cell, "finite", master, friction=0.4)
+def test_after_the_nodes_have_touched(cell, method, master):
+    problem, interface, rng = scene_with(cell, "finite", master, friction=0.4, method=method)
     before = interface.nodes.slip.copy()
     interface.update_status()
     assert np.abs(interface.nodes.slip - before).max() > 1e-3
@@ -121,9 +126,10 @@ def test_after_the_nodes_have_touched(cell, master):
 
 @every_cell
 @both_slidings
+@both_methods
 @pytest.mark.parametrize("master", OBSTACLES)
-def test_with_ties(cell, sliding, master):
-    problem, interface, _ = scene_with(cell, sliding, master, tied=True)
+def test_with_ties(cell, sliding, method, master):
+    problem, interface, _ = scene_with(cell, sliding, master, tied=True, method=method)
     nodes = interface.nodes
     interface.update_status()
     assert np.all(nodes.status == core.STICK)

@@ -113,8 +113,7 @@ struct RigidMortarLayout
 
   constexpr RigidMortarLayout(int s, int gdim)
       : area(0), gap(s), gradient(2 * s), normal(gradient + s * s * gdim),
-        curvature(normal + s * gdim),
-        size(curvature + s * s * gdim * gdim)
+        curvature(normal + s * gdim), size(curvature + s * s * gdim * gdim)
   {
   }
 };
@@ -143,16 +142,15 @@ coefficients(Law law, int num_nodes, int gdim, int num_slaves = 1)
   const bool vector = law != Law::frictionless;
   const int slip = num_nodes > 0 ? slip_size : rigid_slip_size;
   const int n = vector ? gdim : 1;
-  return {
-      {{"displacement", Site::nodes, gdim},
-       {"position", Site::nodes, gdim},
-       {"pair", Site::pair, pair_values(num_slaves, num_nodes, gdim)},
-       {"slip", Site::pair, vector and num_slaves == 1 ? slip : 0},
-       {"multiplier", Site::slave, n},
-       {"area", Site::slave, 1},
-       {"gap_derivative", Site::slave, n},
-       {"slip_derivative", Site::slave, vector ? gdim * gdim : 0},
-       {"normal_derivative", Site::slave, vector ? gdim * gdim : 0}}};
+  return {{{"displacement", Site::nodes, gdim},
+           {"position", Site::nodes, gdim},
+           {"pair", Site::pair, pair_values(num_slaves, num_nodes, gdim)},
+           {"slip", Site::pair, vector and num_slaves == 1 ? slip : 0},
+           {"multiplier", Site::slave, n},
+           {"area", Site::slave, 1},
+           {"gap_derivative", Site::slave, n},
+           {"slip_derivative", Site::slave, vector ? gdim * gdim : 0},
+           {"normal_derivative", Site::slave, vector ? gdim * gdim : 0}}};
 }
 
 /// @brief Place of a coefficient in the array that a kernel is given.

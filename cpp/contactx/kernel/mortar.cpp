@@ -174,9 +174,9 @@ void constraint(double* A, const double* w, const double*, const double*,
   using K = Mortar<S, M, L, Turning>;
   constexpr int n = K::num_dofs, gdim = K::gdim, size = K::size;
   const K k(w);
-  const double* by_normal
-      = L == Law::frictionless ? nullptr
-                               : K::at(w, Coefficient::normal_derivative);
+  const double* by_normal = L == Law::frictionless
+                                ? nullptr
+                                : K::at(w, Coefficient::normal_derivative);
   const auto zero = [](double d) { return d == 0; };
   if (std::all_of(k.gap_derivative, k.gap_derivative + K::width, zero)
       and (!by_normal
@@ -227,8 +227,8 @@ void add(std::vector<Entry>& entries)
   {
     std::vector<Coefficient> active{displacement, position, pair};
     active.insert(active.end(), extra.begin(), extra.end());
-    entries.push_back({L, Turning ? "finite" : "small", term, M::nodes,
-                       S::gdim, function, std::move(active), S::nodes});
+    entries.push_back({L, Turning ? "finite" : "small", term, M::nodes, S::gdim,
+                       function, std::move(active), S::nodes});
   };
   push("gap", &gap<K>, {area});
   push("residual", &residual<K>, {multiplier});

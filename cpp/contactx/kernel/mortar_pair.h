@@ -17,10 +17,10 @@ struct MortarPair
   static constexpr int num_dofs = gdim * (S::nodes + M::nodes);
   static constexpr MortarLayout layout{S::nodes, M::nodes};
 
-  facet::Nodes<S> slave;      ///< positions of the slave facet's nodes
-  facet::Nodes<S> reference;  ///< in the reference configuration
-  facet::Nodes<M> master;     ///< positions of the master facet's nodes
-  const double* data;         ///< values of the pair
+  facet::Nodes<S> slave;     ///< positions of the slave facet's nodes
+  facet::Nodes<S> reference; ///< in the reference configuration
+  facet::Nodes<M> master;    ///< positions of the master facet's nodes
+  const double* data;        ///< values of the pair
 
   /// @brief Read a pair from the coefficients.
   /// @param[in] w Coefficients.

@@ -76,19 +76,20 @@ public:
   std::array<Factors, S::nodes> gap() const
   {
     std::array<Factors, S::nodes> all{};
-    moments([&](const Vec<S::nodes>& weight, const Local& slope_of,
-                int j) // of one node of the master
-            {
-              for (int s = 0; s < S::nodes; ++s)
-                at(all[s], j) = at(all[s], j) + weight[s] * slope_of;
-            },
-            [this](const auto& slope)
-            {
-              Local d{};
-              for (int a = 0; a < tdim; ++a)
-                d[a] = -dot(slope[a], _height);
-              return d;
-            });
+    moments(
+        [&](const Vec<S::nodes>& weight, const Local& slope_of,
+            int j) // of one node of the master
+        {
+          for (int s = 0; s < S::nodes; ++s)
+            at(all[s], j) = at(all[s], j) + weight[s] * slope_of;
+        },
+        [this](const auto& slope)
+        {
+          Local d{};
+          for (int a = 0; a < tdim; ++a)
+            d[a] = -dot(slope[a], _height);
+          return d;
+        });
     return all;
   }
 

@@ -122,10 +122,10 @@ void stiffness(double* A, const double* w, const double*, const double*,
   Vec<gdim> lambda;
   std::copy_n(node.multiplier, gdim, lambda.begin());
   const double factor = node.area * movement.gap;
-  for_each_normal_hessian<F>(movement.frame, movement.xi, lambda,
-                             [A, factor](int i, int j, double value) {
-                               A[n * (gdim + i) + gdim + j] += factor * value;
-                             });
+  for_each_normal_hessian<F>(
+      movement.frame, movement.xi, lambda,
+      [A, factor](int i, int j, double value)
+      { A[n * (gdim + i) + gdim + j] += factor * value; });
 }
 
 template <class Kinematics>

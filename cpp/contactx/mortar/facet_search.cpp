@@ -58,8 +58,7 @@ public:
       centre[k] = 0.5 * (box.lower[k] + box.upper[k]) - _plane.origin[k];
       half[k] = 0.5 * (box.upper[k] - box.lower[k]);
     }
-    const auto apart
-        = [&](const Vec<S::gdim>& axis, double from, double to)
+    const auto apart = [&](const Vec<S::gdim>& axis, double from, double to)
     {
       double reach = 0;
       for (int k = 0; k < S::gdim; ++k)

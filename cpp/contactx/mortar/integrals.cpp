@@ -59,9 +59,9 @@ bool invert(const Square<N>& m, Square<N>& inverse)
 template <class S>
 struct Cover
 {
-  Square<S::nodes> mass{};    ///< int N_s N_t
-  Vec<S::nodes> area{};       ///< int N_s
-  double total = 0;           ///< area
+  Square<S::nodes> mass{}; ///< int N_s N_t
+  Vec<S::nodes> area{};    ///< int N_s
+  double total = 0;        ///< area
 };
 
 /// Add int N_t N_l and int N_t gap of a pair.

@@ -12,9 +12,9 @@ namespace contactx::mortar
 template <class F>
 struct Shape
 {
-  Vec<F::nodes> N;                         ///< shape functions
+  Vec<F::nodes> N;                          ///< shape functions
   std::array<Vec<F::nodes>, F::tdim> slope; ///< by the plane's coordinates
-  double jacobian; ///< of the plane's coordinates by the local ones
+  double jacobian;    ///< of the plane's coordinates by the local ones
   facet::Local<F> xi; ///< local coordinates
 };
 

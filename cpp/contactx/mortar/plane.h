@@ -30,7 +30,7 @@ struct Plane
   Vec<S::gdim> origin;
   std::array<Vec<S::gdim>, S::tdim> t;    ///< tangents
   std::array<Vec<S::gdim>, S::tdim> dual; ///< t_a . dual_b = delta_ab
-  Vec<S::gdim> n;     ///< unit vector that is projected along, outward
+  Vec<S::gdim> n;        ///< unit vector that is projected along, outward
   Vec<S::gdim> conormal; ///< across the tangents, conormal . n = 1
 
   /// @brief Create the plane and project along its normal.

@@ -41,8 +41,8 @@ struct SlaveFacet
         w = w + S::mixed_derivative[t] * reference[t];
       const double height = dot(w, before.n);
       const double size = std::min(norm(before.t[0]), norm(before.t[1]));
-      bend = std::max({map.distortion(), flat.distortion(),
-                       std::abs(height) / size});
+      bend = std::max(
+          {map.distortion(), flat.distortion(), std::abs(height) / size});
     }
   }
 
@@ -68,8 +68,8 @@ struct SlaveFacet
 template <class S, class M>
 int rule_degree(double distortion)
 {
-  constexpr int degree = (S::flat ? 1 : 2) + std::max(S::flat ? 1 : 2,
-                                                      M::flat ? 1 : 2);
+  constexpr int degree
+      = (S::flat ? 1 : 2) + std::max(S::flat ? 1 : 2, M::flat ? 1 : 2);
   if (distortion < 1e-13)
     return degree;
   // The error falls by half the distortion with every degree
@@ -92,8 +92,7 @@ void integrate(const SlaveFacet<S>& slave, const facet::Nodes<M>& master,
   if (overlap.size == 0)
     return;
   const InverseMap<M> map(r);
-  const int degree
-      = rule_degree<S, M>(std::max(slave.bend, map.distortion()));
+  const int degree = rule_degree<S, M>(std::max(slave.bend, map.distortion()));
   integrate(overlap, degree,
             [&](const facet::Local<S>& p, double weight)
             {
@@ -120,16 +119,16 @@ void for_all_kinds(Function&& f)
 template <class Function>
 decltype(auto) visit(int slave_nodes, int master_nodes, Function&& f)
 {
-  return facet::visit(
-      slave_nodes,
-      [&](auto s)
-      {
-        using S = decltype(s);
-        if constexpr (S::tdim == 1)
-          return f(s, facet::Segment{});
-        else
-          return master_nodes == 3 ? f(s, facet::Triangle{})
-                                   : f(s, facet::Quadrilateral{});
-      });
+  return facet::visit(slave_nodes,
+                      [&](auto s)
+                      {
+                        using S = decltype(s);
+                        if constexpr (S::tdim == 1)
+                          return f(s, facet::Segment{});
+                        else
+                          return master_nodes == 3
+                                     ? f(s, facet::Triangle{})
+                                     : f(s, facet::Quadrilateral{});
+                      });
 }
 } // namespace contactx::mortar

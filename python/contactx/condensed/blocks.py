@@ -41,7 +41,7 @@ class Entries:
 
     def matrix(self, shape: tuple[int, int]) -> PETSc.Mat:
         """AIJ matrix; entries of one place are added."""
-        order = np.argsort(self.rows, kind="stable")
+        order = np.argsort(self.rows)
         indptr = np.searchsorted(self.rows[order], np.arange(shape[0] + 1)).astype(PETSc.IntType)
         A = PETSc.Mat().createAIJ(shape, comm=PETSc.COMM_SELF)
         A.setPreallocationNNZ(np.maximum(np.diff(indptr), 0).astype(PETSc.IntType))
@@ -84,6 +84,8 @@ def joined(parts: list[Entries]) -> Entries:
 class ContactBlocks:
     """Blocks of the contact part of a Jacobian, in the unknowns (displacements, multipliers).
 
+    Entries of one place add up.
+
     Attributes:
         traction: Derivative of the displacements' rows by the multipliers, (dof, multiplier).
         constraint: Derivative of the multipliers' rows by the displacements, (multiplier, dof).
@@ -111,11 +113,11 @@ class ContactBlocks:
 
 
 def lumped(blocks: ContactBlocks, interfaces: Sequence[Interface], gdim: int) -> ContactBlocks:
-    """Constraints in which a slave node stands for the others of its facets.
+    """Blocks in which a slave node stands for the others of its facets.
 
-    A constraint that is integrated over slave facets feels all of their nodes as they slide, if
-    only by the angle between the surfaces. As if they all slid like its own node, the slave side
-    is diagonal.
+    What is integrated over slave facets feels all of their nodes as they slide, if only by the
+    angle between the surfaces, and ties turn with them. As if all moved like the constraint's own
+    node, the slave side is diagonal.
 
     Args:
         blocks: Contact blocks of a Jacobian.
@@ -123,25 +125,32 @@ def lumped(blocks: ContactBlocks, interfaces: Sequence[Interface], gdim: int) ->
         gdim: Geometric dimension.
 
     Returns:
-        The same blocks where no constraint has such entries.
+        The same blocks where there are no such entries.
     """
-    C = blocks.constraint
-    owner, contact = [], []
-    size = 1 + max([C.columns.max(initial=-1) // gdim, *(i.slaves.max() for i in interfaces)])
-    slaves_of = np.zeros((len(interfaces), size), dtype=bool)
+    own = np.concatenate([np.repeat(i.slaves, i.nodes.size) for i in interfaces])
+    contact = np.repeat(
+        np.arange(len(interfaces)), [len(i.slaves) * i.nodes.size for i in interfaces]
+    )
+    C, T = blocks.constraint, blocks.traction
+    last = max(e.max(initial=-1) for e in (C.columns, T.rows)) // gdim
+    size = 1 + max(last, *(i.slaves.max() for i in interfaces))
+    slaves = np.zeros((len(interfaces), size), dtype=bool)
     for k, interface in enumerate(interfaces):
-        count = interface.nodes.size
-        owner.append(np.repeat(interface.slaves, count))
-        contact.append(np.full(len(interface.slaves) * count, k))
-        slaves_of[k, interface.slaves] = True
-    own = np.concatenate(owner)[C.rows]
-    node = C.columns // gdim
-    others = slaves_of[np.concatenate(contact)[C.rows], node] & (node != own)
-    if not others.any():
+        slaves[k, interface.slaves] = True
+
+    def moved(dofs: Index, multipliers: Index) -> Index:
+        node, home = dofs // gdim, own[multipliers]
+        away = slaves[contact[multipliers], node] & (node != home)
+        return np.where(away, home * gdim + dofs % gdim, dofs)
+
+    columns, rows = moved(C.columns, C.rows), moved(T.rows, T.columns)
+    if np.array_equal(columns, C.columns) and np.array_equal(rows, T.rows):
         return blocks
-    columns = np.where(others, own * gdim + C.columns % gdim, C.columns)
-    shape = (len(np.concatenate(owner)), size * gdim)
-    return replace(blocks, constraint=entries_of(Entries(C.rows, columns, C.values).matrix(shape)))
+    return replace(
+        blocks,
+        constraint=Entries(C.rows, columns, C.values),
+        traction=Entries(rows, T.columns, T.values),
+    )
 
 
 class NotCondensable(Exception):

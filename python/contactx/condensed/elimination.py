@@ -109,7 +109,7 @@ class Elimination:
         own = np.zeros((len(slaves), self._gdim))
         component = C.columns - dofs[C.rows, 0]
         mine = (component >= 0) & (component < self._gdim)
-        own[C.rows[mine], component[mine]] = C.values[mine]
+        np.add.at(own, (C.rows[mine], component[mine]), C.values[mine])
         k = np.argmax(np.abs(own) * self._free[dofs], axis=1)
         pivot = dofs[np.arange(len(slaves)), k]
         factor = own[np.arange(len(slaves)), k] * self._free[pivot]
@@ -119,7 +119,7 @@ class Elimination:
         self._pivots.append((pivot, Entries(np.arange(len(pivot)), multipliers, 1 / factor)))
         t = np.zeros(len(slaves))
         at = T.rows == pivot[T.columns]
-        t[T.columns[at]] = T.values[at]
+        np.add.at(t, T.columns[at], T.values[at])
         self._left.append(Entries(T.rows, pivot[T.columns], -T.values / t[T.columns]).select(~at))
         self._recover.append((multipliers, pivot, t))
 
@@ -128,7 +128,7 @@ class Elimination:
         T = self._columns_of(multipliers)
         own = T.rows == rows[T.columns]
         factor = np.zeros(len(multipliers))
-        factor[T.columns[own]] = T.values[own]
+        np.add.at(factor, T.columns[own], T.values[own])
         self._left.append(
             Entries(T.rows, rows[T.columns], -T.values / factor[T.columns]).select(~own)
         )
@@ -143,7 +143,7 @@ class Elimination:
         node, component = C.rows // g, C.columns - dofs[C.rows // g, 0]
         mine = (component >= 0) & (component < g)
         block = ~own[:, :, None] * np.eye(g)
-        block[node[mine], C.rows[mine] % g, component[mine]] += C.values[mine]
+        np.add.at(block, (node[mine], C.rows[mine] % g, component[mine]), C.values[mine])
         inverse = np.linalg.inv(block)
         other = C.select(~mine)
         k = other.rows // g

@@ -19,12 +19,13 @@ from contactx.condensed.multigrid import Multigrid
 from contactx.condensed.operator import CondensedOperator
 from contactx.condensed.prescribed import Prescribed
 from contactx.factorised import FactorisedSolver
+from contactx.options import ROUNDING
 from contactx.report import Report
 from contactx.system import SaddlePointSystem
 
 _SLOW = "multigrid is slow here"
-# Most corrections of a solve, and what each of them leaves
-_CORRECTIONS = 8
+# Most solves of nearly the same system for one solution, and how accurate each is
+_CORRECTIONS = 30
 _NEARLY = 0.01
 
 
@@ -112,7 +113,7 @@ class CondensedSolver:
             return
         try:
             with self._report.timing("condensation"):
-                A = self._system.assemble_contact()
+                A = self._system.contact_entries(b)
                 blocks = ContactBlocks.of(A, self._system.num_bulk)
                 interfaces, where = self._system.interfaces, (self._free, self._system.block)
                 diagonal = lumped(blocks, interfaces, self._system.block)
@@ -127,28 +128,33 @@ class CondensedSolver:
             return
         solve = partial(self._solve, operator, elimination, contact)
         exact = diagonal is blocks
-        if not (solve(b, x, self.target) if exact else self._correct(solve, b, x)):
+        if not (solve(b, x, self.target) if exact else self._correct(solve, A, b, x)):
             self._failures += 1
             self._solve_directly(b, x, _SLOW)
 
     def _correct(
-        self, solve: Callable[[PETSc.Vec, PETSc.Vec, float], bool], b: PETSc.Vec, x: PETSc.Vec
+        self,
+        solve: Callable[[PETSc.Vec, PETSc.Vec, float], bool],
+        contact: PETSc.Mat,
+        b: PETSc.Vec,
+        x: PETSc.Vec,
     ) -> bool:
-        """Solve J x = b with a solver of nearly the same system, correcting what it leaves."""
-        part, left, product = x.duplicate(), b.copy(), b.duplicate()
-        x.zeroEntries()
-        norm = left.norm()
-        for _ in range(_CORRECTIONS):
-            if not solve(left, part, max(self.target, _NEARLY * norm)):
-                return False
-            x.axpy(1.0, part)
-            self.multiply(x, product)
-            b.copy(left)
-            left.axpy(-1.0, product)
-            norm, before = left.norm(), norm
-            if norm <= self.target or norm > 0.5 * before:
-                break
-        return True
+        """Solve J x = b by FGMRES with a solver of nearly the same system."""
+        nearly = _Nearly(solve, partial(self._multiply, contact))
+        size = x.getSize()
+        J = PETSc.Mat().createPython((size, size), nearly, comm=x.comm)
+        ksp = PETSc.KSP().create(comm=x.comm)
+        ksp.setOperators(J)
+        ksp.setType("fgmres")
+        ksp.getPC().setType("python")
+        ksp.getPC().setPythonContext(nearly)
+        ksp.setTolerances(rtol=ROUNDING, atol=self.target, max_it=_CORRECTIONS)
+        ksp.solve(b, x)
+        converged = ksp.getConvergedReason() > 0 and not nearly.has_failed
+        # The matrix refers back to the solver
+        ksp.destroy()
+        J.destroy()
+        return converged
 
     def multiply(self, x: PETSc.Vec, y: PETSc.Vec) -> None:
         """Multiply by the Jacobian, y = J x.
@@ -157,7 +163,10 @@ class CondensedSolver:
             x: Vector of all unknowns.
             y: Product, overwritten.
         """
-        self._system.assemble_contact().mult(x, y)
+        self._multiply(self._system.contact_entries(), x, y)
+
+    def _multiply(self, contact: PETSc.Mat, x: PETSc.Vec, y: PETSc.Vec) -> None:
+        contact.mult(x, y)
         n = self._system.num_bulk
         u, w = self._bulk.matrix().createVecs()
         u.array[:] = x.array_r[:n]
@@ -213,3 +222,26 @@ class CondensedSolver:
         # With factors one more digit costs nothing
         target = (0.1 if self.is_last else 1.0) * self.target
         self._factorised.solve(b, x, target, self.springs, self._report, last=self.is_last)
+
+
+class _Nearly:
+    """A matrix with a solver of nearly the same system, as PETSc calls them."""
+
+    def __init__(
+        self,
+        solve: Callable[[PETSc.Vec, PETSc.Vec, float], bool],
+        multiply: Callable[[PETSc.Vec, PETSc.Vec], None],
+    ):
+        """Take both."""
+        self._solve, self._multiply = solve, multiply
+        self.has_failed = False
+
+    def apply(self, pc: PETSc.PC, b: PETSc.Vec, x: PETSc.Vec) -> None:
+        """Solve, to a part of the right-hand side."""
+        if self.has_failed or not self._solve(b, x, _NEARLY * b.norm()):
+            self.has_failed = True
+            x.zeroEntries()
+
+    def mult(self, mat: PETSc.Mat, x: PETSc.Vec, y: PETSc.Vec) -> None:
+        """Multiply."""
+        self._multiply(x, y)

@@ -46,9 +46,7 @@ class Mortar:
 
     def scaled(self, factor: Array) -> Mortar:
         """With rows multiplied by factors, shape (num_pairs, 4)."""
-        return Mortar(
-            self.slave, self.master, self.weight * factor[:, :, None], self.gap * factor
-        )
+        return Mortar(self.slave, self.master, self.weight * factor[:, :, None], self.gap * factor)
 
     def joined(self, other: Mortar) -> Mortar:
         """With the pairs of another one that have any weight."""
@@ -129,12 +127,8 @@ class MortarMaster(Master):
             found = self._search.integrals(self._found, x, self._reference, normal)
         self._at = x
         self._dual, self._normal = found["dual"], found["normal"]
-        self._mortar = Mortar(
-            self._found.slave, self._found.master, found["weight"], found["gap"]
-        )
-        self._area = np.bincount(
-            self._numbers.ravel(), found["area"].ravel(), len(self._slaves)
-        )
+        self._mortar = Mortar(self._found.slave, self._found.master, found["weight"], found["gap"])
+        self._area = np.bincount(self._numbers.ravel(), found["area"].ravel(), len(self._slaves))
         least = np.where(self._paired, _LEAVE, _ENTER)
         self._paired = self._area > least * self._whole
 
@@ -188,21 +182,20 @@ class MortarMaster(Master):
         return self._start.scaled(self._area[self._numbers[self._start.slave]])
 
     def _groups(self, mortar: Mortar, *, is_movement: bool) -> list[Pairs]:
-        e, f = mortar.slave, mortar.master
-        k, m = self._sizes[0][e], self._sizes[1][f]
+        kind = 5 * self._sizes[0][mortar.slave] + self._sizes[1][mortar.master]
         groups = []
-        for kind in np.unique(5 * k + m):
-            some = np.flatnonzero(5 * k + m == kind)
-            n, l = divmod(int(kind), 5)
+        for one in np.unique(kind):
+            some = np.flatnonzero(kind == one)
+            n, m = divmod(int(one), 5)
             e, f = mortar.slave[some], mortar.master[some]
             parts = [
-                mortar.weight[some, :n, :l],
+                mortar.weight[some, :n, :m],
                 self._dual[e, :n, :n],
                 mortar.gap[some, :n],
                 self._normal[e],
             ]
             data = np.concatenate([part.reshape(len(some), -1) for part in parts], axis=1)
-            nodes = np.concatenate([self._nodes[0][e, :n], self._nodes[1][f, :l]], axis=1)
+            nodes = np.concatenate([self._nodes[0][e, :n], self._nodes[1][f, :m]], axis=1)
             groups.append(Pairs(self._numbers[e, :n], nodes, data, is_movement=is_movement))
         return groups
 
@@ -223,7 +216,9 @@ class MortarMaster(Master):
         normals = np.zeros((len(self._slaves), 3))
         weight = self._mortar.weight.sum(axis=2)
         share = weight[:, :, None] * self._normal[self._mortar.slave, None, :]
-        np.add.at(normals, self._numbers[self._mortar.slave], share)
+        numbers = self._numbers[self._mortar.slave].ravel()
+        for k in range(self._gdim):
+            normals[:, k] = np.bincount(numbers, share[:, :, k].ravel(), len(normals))
         length = np.linalg.norm(normals, axis=1, keepdims=True)
         use = self._paired[:, None] & (length > 0)
         return np.divide(normals, length, out=np.zeros_like(normals), where=use)
@@ -338,12 +333,11 @@ class MortarMaster(Master):
             return np.ones(n), np.ones((n, gdim))
         weights = self.weights()
         # Parts of several facets with the same node add up
-        key, place = np.unique(
-            np.stack([weights.slaves, weights.nodes]), axis=1, return_inverse=True
-        )
-        total = np.bincount(place, weights.values)
-        squares = np.zeros((n, gdim))
-        np.add.at(squares, key[0], (total[:, None] * free[key[1]]) ** 2)
+        key = weights.slaves * np.int64(len(free)) + weights.nodes
+        key, place = np.unique(key, return_inverse=True)
+        slaves, nodes = np.divmod(key, len(free))
+        moves = np.bincount(place, weights.values)[:, None] * free[nodes]
+        squares = np.stack([np.bincount(slaves, m**2, n) for m in moves.T], axis=1)
         squares[~self._paired] = 1
         normal = self.normals()[:, :gdim]
         return np.sqrt((normal**2 * squares).sum(axis=1)), np.sqrt(squares)
