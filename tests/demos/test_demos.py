@@ -7,6 +7,7 @@ import hertz_cylinder
 import hertz_sphere
 import level_set
 import numpy as np
+import patch_test
 import press_fit
 import pytest
 import pyvista
@@ -55,4 +56,22 @@ def test_finite_strain(tmp_path, capsys):
     for name in ("ball", "block"):
         assert image.imread(tmp_path / f"finite_strain_{name}.png").shape[0] > 300
         path = str(tmp_path / f"finite_strain_{name}.pvd")
+        assert "pressure" in pyvista.get_reader(path).read()[0].point_data
+
+
+@pytest.mark.parametrize(("dim", "sliding"), [("2", "small"), ("3", "finite")])
+def test_patch_test(dim, sliding, tmp_path, capsys):
+    arguments = ("--dim", dim, "--sliding", sliding, "--output", str(tmp_path))
+    results = patch_test.main(arguments)
+    node_to_surface, surface_to_surface = results[:4], results[4:]
+    assert all(result.error > 0.05 for result in node_to_surface)
+    assert len(surface_to_surface) == 4
+    assert all(result.error <= 1e-9 for result in surface_to_surface)
+    printed = capsys.readouterr().out
+    for text in ("expected", "computed", "error", "converged after", "see "):
+        assert text in printed
+    for name in ("node-to-surface", "surface-to-surface", "pressure"):
+        assert image.imread(tmp_path / f"patch_test_{name}.png").shape[0] > 300
+    for method in patch_test.METHODS:
+        path = str(tmp_path / f"patch_test_{method}.pvd")
         assert "pressure" in pyvista.get_reader(path).read()[0].point_data

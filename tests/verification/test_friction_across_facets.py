@@ -25,7 +25,7 @@ def facets(scene):
     """Nodes of the facet that each slave node is paired with."""
     result = [()] * len(scene.contact.area)
     for pairs in scene.contact.interface.master.pairs():
-        for slave, nodes in zip(pairs.slaves, pairs.nodes[:, 1:], strict=True):
+        for slave, nodes in zip(pairs.slaves[:, 0], pairs.nodes[:, 1:], strict=True):
             result[slave] = tuple(nodes)
     return result
 

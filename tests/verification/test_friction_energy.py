@@ -40,7 +40,7 @@ def relative(scene, du):
         at = core.pair_layout["xi"]
         xi = np.ascontiguousarray(pairs.data[:, at : at + 2])
         N = core.shape_functions(pairs.nodes.shape[1] - 1, xi)
-        way[pairs.slaves] -= np.einsum("il,ilk->ik", N, du[pairs.nodes[:, 1:]])
+        way[pairs.slaves[:, 0]] -= np.einsum("il,ilk->ik", N, du[pairs.nodes[:, 1:]])
     return way
 
 

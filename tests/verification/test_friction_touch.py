@@ -52,10 +52,10 @@ def test_sticks_where_it_touches(steps, cell, base, sliding):
             if sliding == "finite":
                 # The place on the base that it came to, in the reference
                 foot = np.einsum("il,ilk->ik", N, X[masters])
-                aside[pairs.slaves] = (foot - X[pairs.nodes[:, 0]])[:, 0]
+                aside[pairs.slaves[:, 0]] = (foot - X[pairs.nodes[:, 0]])[:, 0]
             else:
                 moved = np.einsum("il,ilk->ik", N, u[masters])
-                aside[pairs.slaves] = (u[pairs.nodes[:, 0]] - moved)[:, 0]
+                aside[pairs.slaves[:, 0]] = (u[pairs.nodes[:, 0]] - moved)[:, 0]
     stick = interface.nodes.status == 1
     print(scene.iterations, interface.nodes.status, aside)
     assert stick.sum() >= len(stick) / 2

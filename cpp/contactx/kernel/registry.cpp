@@ -7,6 +7,7 @@
 #include "mortar.h"
 #include "mortar_tied.h"
 #include "rigid.h"
+#include "rigid_mortar.h"
 #include "tied.h"
 #include <stdexcept>
 #include <string>
@@ -19,7 +20,7 @@ std::span<const Entry> contactx::kernel::registry()
   {
     std::vector<Entry> all;
     for (auto& part : {frictionless(), frictional(), tied(), rigid(), mortar(),
-                       mortar_tied()})
+                       mortar_tied(), rigid_mortar()})
       all.insert(all.end(), part.begin(), part.end());
     return all;
   }();

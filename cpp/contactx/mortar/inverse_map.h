@@ -66,7 +66,7 @@ public:
     if constexpr (F::flat)
       return 0;
     else
-      return std::max(std::abs(_twist[0]), std::abs(_twist[1]));
+      return std::abs(_twist[0]) + std::abs(_twist[1]);
   }
 
   /// @brief Shape functions at a point of the plane.

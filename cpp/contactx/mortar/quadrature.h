@@ -9,7 +9,7 @@
 namespace contactx::mortar
 {
 /// Most points of a Gauss rule
-inline constexpr int max_points = 12;
+inline constexpr int max_points = 16;
 
 /// @brief Point of a rule on [0, 1] and its weight.
 struct GaussPoint

@@ -13,6 +13,7 @@ from contactx.law.law import Law
 from contactx.master.facets import FacetMaster
 from contactx.master.master import Master
 from contactx.master.mortar import MortarMaster
+from contactx.master.mortar_obstacle import MortarObstacle
 from contactx.master.obstacle import ObstacleMaster
 from contactx.master.ties import FacetTie, MortarTie, ObstacleTie
 from contactx.obstacles import Obstacle
@@ -51,9 +52,16 @@ def make_master(
     facets = slave.facet_nodes(V)
     check_facets(slave, "slave", facets, x)
     if isinstance(master, Obstacle):
-        rigid = ObstacleTie if law.is_tied else ObstacleMaster
         slaves = np.unique(facets.nodes)
-        obstacle = rigid(slaves, master, x, search_distance, measures_slip=law.is_vector)
+        options = (master, x, search_distance)
+        obstacle: ObstacleMaster
+        if law.is_tied:
+            # Dual functions weigh a body's own linear field at its nodes
+            obstacle = ObstacleTie(slaves, *options, measures_slip=True)
+        elif method == "surface-to-surface":
+            obstacle = MortarObstacle(facets, *options, measures_slip=law.is_vector)
+        else:
+            obstacle = ObstacleMaster(slaves, *options, measures_slip=law.is_vector)
         check_outside(slave, slaves, obstacle.inside(x), master, bodies)
         return obstacle
     others = master.facet_nodes(V)

@@ -64,7 +64,7 @@ class MortarTie(MortarMaster):
     def __init__(self, *args: Any, **options: Any):
         """Create the pairs, none yet; the arguments are those of ``FacetMaster``."""
         super().__init__(*args, **{**options, "measures_slip": False})
-        self._offset = np.zeros(len(self._slaves))
+        self._offset = np.zeros(len(self._paired))
 
     def search(self, x: npt.NDArray[np.float64], closed: npt.NDArray[np.int8]) -> tuple[int, bool]:
         """See ``Master``; only the first search counts."""
@@ -81,9 +81,9 @@ class MortarTie(MortarMaster):
 
     def pairs(self) -> list[Pairs]:
         """See ``Master``."""
-        mortar = self._mortar
-        longer = mortar.weight.sum(axis=2) * self._offset[self._numbers[mortar.slave]]
-        return self._groups(replace(mortar, gap=mortar.gap + longer), is_movement=False)
+        mortar, sides = self._mortar, self._sides
+        longer = mortar.weight.sum(axis=2) * self._offset[sides.numbers[mortar.slave]]
+        return sides.pairs(replace(mortar, gap=mortar.gap + longer), self._dual, self._normal)
 
     def load(self, saved: Mapping[str, npt.NDArray[Any]]) -> None:
         """See ``Master``; the pairs are those of the reference."""
