@@ -32,6 +32,7 @@ from contactx import cpp as core
 from contactx.surface import FacetList
 
 type Array = npt.NDArray[np.float64]
+type Index = npt.NDArray[np.int64]
 
 _PASSES = 2
 
@@ -72,10 +73,9 @@ class Recovery:
         Returns:
             Averages, shape (n,).
         """
-        rates = self._rates(area, closed)
+        to, from_, rate = self._flows(area, closed)
         for _ in range(_PASSES):
-            flow = rates * (p[self._from] - p[self._to])
-            p = p + np.bincount(self._to, flow, len(p))
+            p = p + np.bincount(to, rate * (p[from_] - p[to]), len(p))
         return p
 
     def shear(self, t: Array, normal: Array, area: Array, closed: npt.NDArray[np.bool_]) -> Array:
@@ -93,27 +93,25 @@ class Recovery:
         Returns:
             Averages, normal to the normals, shape (n, gdim).
         """
-        rates = self._rates(area, closed)[:, None]
-        a, b = normal[self._from], normal[self._to]
+        to, from_, rate = self._flows(area, closed)
+        a, b = normal[from_], normal[to]
         for _ in range(_PASSES):
-            flow = rates * (_turned(t[self._from], a, b) - t[self._to])
-            t = t + np.stack([np.bincount(self._to, f, len(t)) for f in flow.T], axis=1)
+            flow = rate[:, None] * (_turned(t[from_], a, b) - t[to])
+            t = t + np.stack([np.bincount(to, f, len(t)) for f in flow.T], axis=1)
         return t
 
-    def _rates(self, area: Array, closed: npt.NDArray[np.bool_]) -> Array:
-        """m_ij/A_i of each flow from j to i, zero unless both are closed, shape (num_flows,)."""
+    def _flows(self, area: Array, closed: npt.NDArray[np.bool_]) -> tuple[Index, Index, Array]:
+        """Nodes i and j, both closed, and m_ij/A_i of each flow from j to i."""
         to, from_ = self._to, self._from
         beside_open = np.bincount(to, self._weight * ~closed[from_], len(area))
         surroundings = 1 - beside_open / self._area
         # Less than one where the master covers a node's facets in part
         covered = area / self._area
-        rates = np.zeros(len(to))
         both = closed[to] & closed[from_]
         to, from_ = to[both], from_[both]
         less, more = np.sort([surroundings[to], surroundings[from_]], axis=0)
-        common = np.minimum(covered[to], covered[from_])
-        rates[both] = self._weight[both] * common * (less / more) ** 2 / area[to]
-        return rates
+        weight = self._weight[both] * np.minimum(covered[to], covered[from_])
+        return to, from_, weight * (less / more) ** 2 / area[to]
 
 
 def _turned(t: Array, a: Array, b: Array) -> Array:
