@@ -6,6 +6,9 @@
 #include <contactx/facet/nodal.h>
 #include <contactx/facet/shape.h>
 
+#include <stdexcept>
+#include <string>
+
 namespace py = pybind11;
 using namespace contactx_bindings;
 
@@ -36,6 +39,9 @@ void contactx_bindings::facet(py::module_& m)
       "shape_functions",
       [](int num_nodes, const Array<double>& xi)
       {
+        if (num_nodes < 2 or num_nodes > 4)
+          throw std::invalid_argument("there is no facet of "
+                                      + std::to_string(num_nodes) + " nodes");
         const py::ssize_t n = xi.size() / 2;
         py::array_t<double> values({n, static_cast<py::ssize_t>(num_nodes)});
         contactx::facet::visit(

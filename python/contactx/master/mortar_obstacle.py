@@ -56,12 +56,12 @@ class _Facets:
         cell = _CELLS[nodes.shape[1]]
         points, weights = basix.make_quadrature(cell, _DEGREE)
         element = basix.create_element(basix.ElementFamily.P, cell, 1)
-        table: list[Array] = [np.asarray(t) for t in element.tabulate(1, points)[..., 0]]
+        table: Array = np.asarray(element.tabulate(1, points)[..., 0], dtype=np.float64)
         N = table[0]
         tangents = [slope @ x[nodes] for slope in table[1:]]
-        across = tangents[0] if len(tangents) == 1 else np.cross(*tangents)
-        size: Array = np.linalg.norm(across, axis=2)
-        area = size * weights
+        if len(tangents) > 1:
+            tangents = [np.cross(tangents[0], tangents[1])]
+        area = np.linalg.norm(tangents[0], axis=2) * np.asarray(weights, dtype=np.float64)
         mass = N.T @ (area[:, :, None] * N)
         dual = (area @ N)[:, :, None] * np.linalg.inv(mass)
         weight = (dual @ N.T) * area[:, None, :]
