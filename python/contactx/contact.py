@@ -259,9 +259,8 @@ class Contact:
     def pressure(self) -> fem.Function:
         """Contact pressure, force/area, zero off the slave surface and on open nodes.
 
-        It is recovered from the multipliers, whatever the method, tied or not: each node in contact
-        exchanges force with those beside it, twice, so that pressures become means over facets. The
-        sum of the forces stays, as do a uniform pressure and signs; see ``contactx.recovery``.
+        For either method, tied or not, it is recovered from the multipliers: nodes in contact
+        exchange force with their neighbours, which keeps its sum; see ``contactx.recovery``.
         """
         return self.fields.pressure
 
@@ -269,10 +268,9 @@ class Contact:
     def traction(self) -> fem.Function:
         """Traction that the master exerts on the slave, force/area, zero off the slave surface.
 
-        It is p n + t with the recovered pressure p and the master's normal n of each node, and the
-        tangential traction t recovered in the same way, so that |t| <= friction p wherever the
-        coefficient is uniform. On a curved surface the total force changes by a little, which the
-        problem's report states.
+        It is p n + t with the pressure above, the master's normal n and the tangential traction t,
+        recovered likewise: |t| <= friction p holds where the coefficient is uniform. Where normals
+        turn from node to node the total force changes by a little, which the report states.
         """
         return self.fields.traction
 
