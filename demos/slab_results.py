@@ -173,8 +173,8 @@ def laws(scene: Scene) -> Laws:
         mu = scene.setting.joint_friction
         if contact in scene.cushion_contacts:
             mu = scene.setting.cushion_friction
-        p = contact.pressure.x.array[contact.slave_nodes]
-        traction = contact.multiplier
+        # Coulomb's law is one of the raw multipliers
+        p, traction = contact.interface.nodes.pressure, contact.multiplier
         if traction.ndim == 2:
             shear = np.sqrt(np.maximum(np.sum(traction**2, axis=1) - p**2, 0))
             excess = max(excess, float(np.max(shear - mu * p)))

@@ -7,6 +7,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 from story import displacement, elasticity, fix
 
 import contactx as cx
@@ -36,6 +37,7 @@ class HertzSphere:
         young: dict[Tag, float] | None = None,
         friction: Any = 0.0,
         search_distance: float | None = None,
+        method: str = "node-to-surface",
         **options: Any,
     ):
         tags, u = data.facet_tags, displacement(data.mesh)
@@ -57,6 +59,7 @@ class HertzSphere:
             sliding=sliding,
             friction=friction,
             search_distance=search_distance,
+            method=method,
         )
         self.problem = cx.ContactProblem(
             elasticity(u, E, NU),
@@ -78,24 +81,39 @@ def hertz_sphere(h: float, sliding: str, **options: Any) -> tuple[cx.ContactProb
     return scene.problem, scene.contact
 
 
+def hertz_of(contact: cx.Contact, young: dict[Tag, float] | None = None) -> reference.HertzSphere:
+    """Closed formula for the computed force of a quarter of the common Hertz problem."""
+    E = {Tag.UPPER: 1.0, Tag.LOWER: 1.0, **(young or {})}
+    return reference.HertzSphere(
+        force=4 * float(contact.force[2]),
+        radius=1.0,
+        modulus=reference.contact_modulus(E[Tag.UPPER], NU, E[Tag.LOWER], NU),
+    )
+
+
 def pressure_error(
-    problem: cx.ContactProblem, contact: cx.Contact, young: dict[Tag, float] | None = None
+    problem: cx.ContactProblem,
+    contact: cx.Contact,
+    young: dict[Tag, float] | None = None,
+    pressure: npt.NDArray[np.float64] | None = None,
 ) -> float:
     """Relative L2 error of a Hertz sphere's nodal pressures, weighted by area.
 
     Nodes within 1.3 contact radii count; Hertz's pressure is that of the computed force.
+
+    Args:
+        problem: The solved problem.
+        contact: Its contact.
+        young: Young's modulus of each body; 1 where it is not given.
+        pressure: Pressures of the slave nodes, shape (n,); the raw ones if None.
     """
-    E = {Tag.UPPER: 1.0, Tag.LOWER: 1.0, **(young or {})}
-    hertz = reference.HertzSphere(
-        force=4 * contact.force[2],
-        radius=1.0,
-        modulus=reference.contact_modulus(E[Tag.UPPER], NU, E[Tag.LOWER], NU),
-    )
+    hertz = hertz_of(contact, young)
+    p = contact.multiplier if pressure is None else pressure
     x = problem.u.function_space.tabulate_dof_coordinates()[contact.slave_nodes]
     r = np.hypot(x[:, 0], x[:, 1])
     near = r <= 1.3 * hertz.contact_radius
     w, exact = contact.area[near], hertz.pressure(r[near])
-    return float(np.sqrt(w @ (contact.multiplier[near] - exact) ** 2 / (w @ exact**2)))
+    return float(np.sqrt(w @ (p[near] - exact) ** 2 / (w @ exact**2)))
 
 
 class Blocks:
