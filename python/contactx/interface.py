@@ -235,7 +235,7 @@ class Interface:
         gap = self.nodes.gap
         self._assembly.kinematics(self.nodes)
         if self.nodes.mean is not None:
-            self.nodes.mean.normalise(self.nodes.normal)
+            self.nodes.mean.normalise(self.nodes.normal, self.nodes.mobile)
         self._measure_slip()
         gap -= offset
         gap[~(self.master.paired & self.active)] = np.nan

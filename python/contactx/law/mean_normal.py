@@ -11,9 +11,10 @@ type Array = npt.NDArray[np.float64]
 
 
 class MeanNormal:
-    """Unit normals n = m / |m| of means m, and the slip s = M (I - n n^T) w of a movement w.
+    """Unit normals n = M m / |M m| of means m, and the slip s = M (I - n n^T) w of a movement w.
 
-    The laws are written for n and s, forms assemble m and w. M drops directions that cannot move.
+    The laws are written for n and s, forms assemble m and w. M drops directions that cannot move:
+    across a plane of symmetry, whose other half would lean the other way.
     """
 
     def __init__(self, n: int, gdim: int):
@@ -24,15 +25,22 @@ class MeanNormal:
             gdim: Geometric dimension.
         """
         self._length = np.ones(n)
+        self._kept = np.ones((n, gdim))
         self._movement = np.zeros((n, gdim))
         self._mobile = np.ones((n, gdim))
 
-    def normalise(self, normal: Array) -> None:
+    def normalise(self, normal: Array, mobile: Array) -> None:
         """Scale means to unit length; zero stays zero.
 
         Args:
             normal: Means, overwritten, shape (n, gdim).
+            mobile: 1 in directions that can move, else 0, shape (n, gdim).
         """
+        length = np.linalg.norm(normal * mobile, axis=1)
+        # What has all of its normal in such directions has nothing that moves
+        leans = length > 0.5 * np.linalg.norm(normal, axis=1)
+        self._kept = np.where(leans[:, None], mobile, 1.0)
+        normal *= self._kept
         length = np.linalg.norm(normal, axis=1)
         self._length = np.where(length > 0, length, 1.0)
         normal /= self._length[:, None]
@@ -66,4 +74,4 @@ class MeanNormal:
         N -= height[:, None, None] * S + along[:, :, None] * w[:, None, :]
         S -= along[:, :, None] * normal[:, None, :]
         N -= np.einsum("nij,nj->ni", N, normal)[:, :, None] * normal[:, None, :]
-        N /= self._length[:, None, None]
+        N *= (self._kept / self._length[:, None])[:, None, :]
