@@ -66,7 +66,7 @@ def main(argv: Sequence[str] | None = None) -> list[story.Result]:
         force=force, radius=1.0, modulus=reference.contact_modulus(E, NU, E, NU)
     )
     x = problem.u.function_space.tabulate_dof_coordinates()[contact.slave_nodes, 0]
-    pressure = contact.multiplier
+    pressure = story.nodal_pressure(contact)
     carried = 2 * np.dot(contact.area, pressure)
     results = [
         story.Result("force per length, sum of the pressures", force, carried),

@@ -14,10 +14,10 @@ with the interference d, radii a, b and c, E' = E/(1 - nu^2) and nu' = nu/(1 - n
 
 Slave nodes lie on the circle, but the master's facets are its chords: they are inside by up to
 h_master^2/(8 b), two thirds of it on average, and that much the rings interfere more. The mean
-pressure hardly minds. Nodal pressures scatter, by a third at the default h: nodes over the middle
+pressure hardly minds. The multipliers scatter, by a third at the default h: nodes over the middle
 of a chord interfere more than nodes at its ends, which fades with h over the interference, and
 node to surface does not spread a constant pressure evenly over a master that does not match,
-which stays at about 15 %.
+which stays at about 15 %. The pressures recovered from them are 0.2 % off.
 
     python demos/press_fit.py --h 0.025
 """
@@ -82,7 +82,7 @@ def compare(
     problem: cx.ContactProblem, contact: cx.Contact, exact: reference.PressFit
 ) -> list[story.Result]:
     """What the solved problem and the formula give."""
-    pressure = contact.multiplier
+    pressure = story.nodal_pressure(contact)
     farthest = pressure[np.abs(pressure - exact.pressure).argmax()]
     return [
         story.Result("mean pressure", exact.pressure, np.average(pressure, weights=contact.area)),
@@ -103,7 +103,7 @@ def draw(
         "An elastic ring pressed into another one",
         problem,
         contact,
-        (np.degrees(np.arctan2(x[:, 1], x[:, 0])), contact.multiplier),
+        (np.degrees(np.arctan2(x[:, 1], x[:, 0])), story.nodal_pressure(contact)),
         ([0, 90], [exact.pressure] * 2),
         ("angle, degrees", "Lame"),
     )

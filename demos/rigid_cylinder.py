@@ -63,7 +63,7 @@ def main(argv: Sequence[str] | None = None) -> list[story.Result]:
         force=force, radius=1.0, modulus=reference.contact_modulus(E, NU, np.inf, NU)
     )
     slave = x[contact.slave_nodes]
-    pressure, width = contact.multiplier, contact.area / thickness
+    pressure, width = story.nodal_pressure(contact), contact.area / thickness
     results = [
         story.Result("force per length, sum of pressures", force, 2 * np.dot(width, pressure)),
         story.Result("contact half-width", hertz.half_width, width[pressure > 0].sum()),

@@ -156,6 +156,12 @@ def solve(problem: cx.ContactProblem) -> None:
     console.print(str(problem.report), highlight=False)
 
 
+def nodal_pressure(contact: cx.Contact) -> npt.NDArray[np.float64]:
+    """Pressures of the slave nodes, shape (n,)."""
+    pressure: npt.NDArray[np.float64] = contact.pressure.x.array[contact.slave_nodes]
+    return pressure
+
+
 def show(title: str, results: Sequence[Result], files: Sequence[Path]) -> None:
     """Print the results against the formula, and where the pictures are."""
     table = Table("", "expected", "computed", "error", title=title)
@@ -191,14 +197,15 @@ def draw(
     Returns:
         The files.
     """
-    end = 1.5 * r[contact.multiplier > 0].max()
+    pressure = nodal_pressure(contact)
+    end = 1.5 * r[pressure > 0].max()
     curve = np.linspace(0, end, 400)
     return pictures(
         folder / name,
         title,
         problem,
         contact,
-        (r[r < end], contact.multiplier[r < end]),
+        (r[r < end], pressure[r < end]),
         (curve, hertz.pressure(curve)),
         ("distance from the axis / R", "Hertz"),
         mirror,
@@ -258,7 +265,7 @@ def hertz(
 ) -> list[Result]:
     """Compare a quarter of a point contact of radius 1 about the z-axis with Hertz, and draw it."""
     x = problem.u.function_space.tabulate_dof_coordinates()[contact.slave_nodes]
-    r, p = np.hypot(x[:, 0], x[:, 1]), contact.multiplier
+    r, p = np.hypot(x[:, 0], x[:, 1]), nodal_pressure(contact)
     force = 4 * abs(contact.force[2])
     exact = reference.HertzSphere(force=force, radius=1.0, modulus=modulus)
     radius = np.sqrt(4 * contact.area[p > 0].sum() / np.pi)

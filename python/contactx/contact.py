@@ -193,7 +193,7 @@ class Contact:
             markers=markers,
             bodies=bodies,
         )
-        self._fields = Fields(interface, V)
+        self._fields = Fields(interface, V, self.slave.facet_nodes(V))
         self._interface = interface
         return interface
 
@@ -246,22 +246,32 @@ class Contact:
 
     @property
     def multiplier(self) -> npt.NDArray[np.float64]:
-        """Multiplier of each slave node, force per reference area.
+        """Multiplier of each slave node as it was solved for, force per reference area.
 
         Without friction its pressure, shape (n,); with friction, or tied, the traction that the
-        master exerts on it, shape (n, gdim).
+        master exerts on it, shape (n, gdim). Laws and balance hold for it; it scatters more than
+        ``pressure`` and ``traction``.
         """
         nodes = self.interface.nodes
         return nodes.multiplier if nodes.size == 1 else nodes.multiplier.reshape(-1, nodes.size)
 
     @property
     def pressure(self) -> fem.Function:
-        """Contact pressure, force/area, zero off the slave surface."""
+        """Contact pressure, force/area, zero off the slave surface and on open nodes.
+
+        For either method, tied or not, it is recovered from the multipliers: nodes in contact
+        exchange force with their neighbours, which keeps its sum; see ``contactx.recovery``.
+        """
         return self.fields.pressure
 
     @property
     def traction(self) -> fem.Function:
-        """Traction that the master exerts on the slave, force/area, zero off the slave surface."""
+        """Traction that the master exerts on the slave, force/area, zero off the slave surface.
+
+        It is p n + t with the pressure above, the master's normal n and the tangential traction t,
+        recovered likewise: |t| <= friction p holds where the coefficient is uniform. Where normals
+        turn from node to node the total force changes by a little, which the report states.
+        """
         return self.fields.traction
 
     @property

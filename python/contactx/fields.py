@@ -1,6 +1,10 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Results of a contact as functions of the bulk."""
+"""Results of a contact as functions of the bulk.
+
+Pressure and traction are recovered from the multipliers, for every kind of contact as ``recovery``
+describes; all else is as it was solved for.
+"""
 
 from __future__ import annotations
 
@@ -8,6 +12,8 @@ import numpy as np
 
 from contactx.interface import Interface
 from contactx.nodal import matching_nodes
+from contactx.recovery import Array, Recovery
+from contactx.surface import FacetList
 from dolfinx import fem
 
 
@@ -15,25 +21,30 @@ class Fields:
     """Results of a contact in the bulk's nodal spaces.
 
     Attributes:
-        pressure: Contact pressure.
-        traction: Traction that the master exerts on the slave.
+        pressure: Contact pressure, recovered.
+        traction: Traction that the master exerts on the slave, recovered.
         gap: Gap.
         status: Status.
         slip: Slip increment of the last step; None without friction.
         slip_total: Its accumulated length; None without friction.
         force: Total force on the slave side, shape (gdim,).
         imbalance: Sum of the contact's forces on both sides, shape (gdim,).
+        recovery_change: By how much the recovered tractions change the force, over the sum of the
+            nodes' forces.
     """
 
-    def __init__(self, interface: Interface, V: fem.FunctionSpace):
+    def __init__(self, interface: Interface, V: fem.FunctionSpace, facets: FacetList):
         """Create the functions.
 
         Args:
             interface: Discrete side of the contact.
             V: Space of the displacement.
+            facets: Facets of the slave surface.
         """
         self._interface = interface
         self._gdim = V.mesh.geometry.dim
+        X = interface.state.position.array.reshape(-1, self._gdim)
+        self._recovery = Recovery(facets, X)
         Q = fem.functionspace(V.mesh, ("Lagrange", 1))
         # Both spaces number the vertices; where they differ the results must follow the bulk
         self._nodes = matching_nodes(V, Q)[interface.slaves]
@@ -46,6 +57,7 @@ class Fields:
         self.slip_total = fem.Function(Q, name="slip_total") if measured else None
         self.force = np.zeros(self._gdim)
         self.imbalance = np.zeros(self._gdim)
+        self.recovery_change = 0.0
         self.gap.x.array[:] = np.nan
         self.status.x.array[:] = -1
         self.status.x.array[self._nodes] = 0
@@ -54,8 +66,6 @@ class Fields:
         """Read the results from the discrete side."""
         interface = self._interface
         nodes = interface.nodes
-        area = nodes.area[:, None]
-        self.pressure.x.array[self._nodes] = nodes.pressure
         self.gap.x.array[self._nodes] = nodes.gap
         self.status.x.array[self._nodes] = nodes.status
         if interface.history is not None and self.slip is not None and self.slip_total is not None:
@@ -63,15 +73,41 @@ class Fields:
             slip[interface.slaves] = interface.history.slip
             self.slip_total.x.array[self._nodes] = interface.history.total
 
-        forces = np.zeros_like(self.traction.x.array)
-        interface.add_residual(forces)
-        forces = -forces.reshape(-1, self._gdim)
+        forces = self._forces()
         on_slave = forces[interface.slaves]
-        traction = self.traction.x.array.reshape(-1, self._gdim)
-        traction[interface.slaves] = np.divide(
-            on_slave, area, out=np.zeros_like(on_slave), where=area > 0
-        )
         self.force = on_slave.sum(axis=0)
         # What a rigid obstacle is pushed with goes to its support
         carried = self.force if interface.master.is_rigid else 0
         self.imbalance = forces.sum(axis=0) - carried
+        self._recover(on_slave)
+
+    def _forces(self) -> Array:
+        """Forces of the multipliers on the bulk's nodes, shape (num_nodes, gdim)."""
+        forces: Array = np.zeros_like(self.traction.x.array).reshape(-1, self._gdim)
+        self._interface.add_residual(forces.ravel())
+        return -forces
+
+    def _recover(self, forces: Array) -> None:
+        """Set pressure and traction.
+
+        Args:
+            forces: Forces of the multipliers on the slave nodes, shape (n, gdim).
+        """
+        nodes, slaves = self._interface.nodes, self._interface.slaves
+        area, closed, n = nodes.area, nodes.closed, nodes.normal
+        p = self._recovery.pressure(nodes.pressure, area, closed)
+        if nodes.size == 1:
+            raw = nodes.multiplier.copy()
+            nodes.multiplier[:] = p
+            recovered = self._forces()[slaves]
+            nodes.multiplier[:] = raw
+            traction = recovered / area[:, None]
+        else:
+            t = nodes.multiplier.reshape(-1, self._gdim) - nodes.pressure[:, None] * n
+            traction = p[:, None] * n + self._recovery.shear(t, n, area, closed)
+            recovered = area[:, None] * traction
+        self.pressure.x.array[self._nodes] = p
+        self.traction.x.array.reshape(-1, self._gdim)[slaves] = traction
+        size = np.linalg.norm(forces, axis=1).sum()
+        change = np.linalg.norm((recovered - forces).sum(axis=0))
+        self.recovery_change = float(change / size) if size > 0 else 0.0

@@ -110,7 +110,6 @@ class Interface:
         self._offset = offset
         self._free = markers.reshape(-1, gdim) == 0
         self.master.accept(self.positions())
-        self.master.begin_step()
         self.master.search(x, self.nodes.status)
         self.nodes.area[:] = self.master.area(self._whole)
         check_facing(slave, master, facets, self.master, x)
@@ -134,11 +133,12 @@ class Interface:
         self.hold(False)
         self._turn_tractions()
         self.master.begin_step()
+        self.nodes.area[:] = self.master.area(self._whole)
         self._touched = self.nodes.closed
         self.nodes.turns[:] = self.nodes.closings[:] = 0
         if self.sliding == "small" and self.master.is_rigid:
             self._pair(self.state.position.array.reshape(-1, self._gdim))
-        elif self.history is not None:
+        else:
             self._assembly.update(self.master.pairs())
 
     def _turn_tractions(self) -> None:
@@ -235,7 +235,7 @@ class Interface:
         gap = self.nodes.gap
         self._assembly.kinematics(self.nodes)
         if self.nodes.mean is not None:
-            self.nodes.mean.normalise(self.nodes.normal)
+            self.nodes.mean.normalise(self.nodes.normal, self.nodes.mobile)
         self._measure_slip()
         gap -= offset
         gap[~(self.master.paired & self.active)] = np.nan
@@ -245,7 +245,7 @@ class Interface:
         self._assembly.slip(nodes)
         if nodes.mean is not None and not self.law.is_tied:
             nodes.slip -= self.master.origin
-            nodes.mean.project(nodes.normal, nodes.slip)
+            nodes.mean.project(nodes.normal, nodes.slip, nodes.mobile)
 
     def offset(self) -> npt.NDArray[np.float64]:
         """What is taken off the gap now, shape (n,)."""
@@ -309,4 +309,5 @@ class Interface:
     def begin_anew(self) -> None:
         """Take over pairs that the master was given, not held."""
         self._held = self.sliding == "small"
+        self.nodes.area[:] = self.master.area(self._whole)
         self._make_forms()

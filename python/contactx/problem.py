@@ -179,6 +179,7 @@ class ContactProblem:
         report.slip = float(sum(np.linalg.norm(h.slip, axis=1).sum() for h in histories))
         report.dissipation = float(sum(h.dissipation.sum() for h in histories))
         report.force = [contact.force for contact in self.contacts]
+        report.recovery = [contact.fields.recovery_change for contact in self.contacts]
         report.imbalance = np.sum([contact.fields.imbalance for contact in self.contacts], axis=0)
         for k, interface in enumerate(self._interfaces):
             self._warn(k, interface, hidden[k])

@@ -69,6 +69,8 @@ class Report:
         frozen_gap: Smallest gap that a held pair hides; a negative one is a penetration.
         imbalance: Sum of all contact forces on both sides, shape (gdim,): zero but for rounding.
         force: Force on the slave side of each contact, a list of arrays of shape (gdim,).
+        recovery: By how much the recovered pressures and tractions of each contact change its
+            force, over the sum of its nodes' forces: nothing on plane surfaces, but for rounding.
         skipped: What the scene did not need: what was not done again because it still served
             (assembly of the bulk's Jacobian, hierarchies, factorisations, searches), and how many
             pairs out of reach, tangential unknowns and master sides there are not.
@@ -96,6 +98,7 @@ class Report:
     frozen_gap: float = 0.0
     imbalance: npt.NDArray[np.float64] = field(default_factory=lambda: np.zeros(0))
     force: list[npt.NDArray[np.float64]] = field(default_factory=list)
+    recovery: list[float] = field(default_factory=list)
     skipped: dict[str, int] = field(default_factory=dict)
     times: dict[str, float] = field(default_factory=dict)
 
@@ -141,9 +144,12 @@ class Report:
             + (f", {self.immobile} nothing to yield" if self.immobile else "")
             + (frozen if self.frozen else ""),
         ]
-        for k, force in enumerate(self.force):
+        for k, (force, change) in enumerate(zip(self.force, self.recovery, strict=True)):
             components = ", ".join(f"{f:.6g}" for f in force)
-            lines.append(f"contact {k}: force on the slave ({components})")
+            lines.append(
+                f"contact {k}: force on the slave ({components}); pressures averaged with their "
+                f"neighbours', which changes it by {change:.1e}"
+            )
         if self.krylov:
             lines.append(
                 f"linear solves: {self.krylov} Krylov iterations, {self.hierarchies} hierarchies, "

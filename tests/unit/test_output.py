@@ -39,7 +39,7 @@ def test_paraview_output(tmp_path: Path, contacts):
     assert data["height"].max() == pytest.approx(height.x.array.max())
     suffix = "_0" if contacts == 2 else ""
     assert data["displacement"].shape[1] == 3
-    assert data["pressure" + suffix].max() == pytest.approx(all_contacts[0].multiplier.max())
+    assert data["pressure" + suffix].max() == pytest.approx(all_contacts[0].pressure.x.array.max())
     assert np.nanmin(data["gap" + suffix]) == pytest.approx(0, abs=1e-12)
     assert set(data["status" + suffix]) <= {-1, 0, 2}
 

@@ -29,7 +29,7 @@ def test_press_fit(sliding, young_outer):
     default = errors(press_fit.H, sliding, young_outer)
     finer = errors(press_fit.H / 2, sliding, young_outer)
     assert np.all(default[:2] <= 0.003)
-    assert default[2] <= 0.4
+    assert default[2] <= 0.004
     assert np.all(finer < default)
 
 

@@ -173,12 +173,14 @@ class MortarMaster(Master):
         self._x0 = x
 
     def begin_step(self) -> None:
-        """See ``Master``."""
-        if not self._measures_slip or self._found is None:
+        """See ``Master``; pairs are then those of the start alone, whatever has been before."""
+        if self._found is None:
             return
-        if not self._small and not np.array_equal(self._x0, self._at):
+        if not self._small:
+            self._found = None
             self.search(self._x0, np.zeros(0, dtype=np.int8))
-        self._slip.begin(self._normalised(), self._distances(self._x0))
+        if self._measures_slip:
+            self._slip.begin(self._normalised(), self._distances(self._x0))
 
     def _normalised(self) -> Mortar:
         """Pairs divided by the slave nodes' areas."""
@@ -241,12 +243,11 @@ class MortarMaster(Master):
 
     def save(self) -> dict[str, npt.NDArray[Any]]:
         """See ``Master``; pairs follow from the positions."""
-        return {"paired": self._paired, "before": self._x0, "at": self._at}
+        return {"paired": self._paired, "before": self._x0}
 
     def load(self, saved: Mapping[str, npt.NDArray[Any]]) -> None:
         """See ``Master``."""
         self._paired, self._x0 = saved["paired"], saved["before"]
-        self.search(saved["at"], np.zeros(0, dtype=np.int8))
         self.begin_step()
 
     def distance(self, x: Array) -> float:

@@ -77,7 +77,9 @@ class Sides:
         Returns:
             Sums, shape (n,).
         """
-        return np.bincount(self.numbers[facets].ravel(), values.ravel(), len(self.slaves))
+        total = np.bincount(self.numbers[facets].ravel(), values.ravel(), len(self.slaves))
+        # Of no values at all NumPy makes integers
+        return total.astype(np.float64)
 
     def pairs(
         self, mortar: Mortar, dual: Array, normal: Array, *, is_movement: bool = False

@@ -70,6 +70,9 @@ class MortarTie(MortarMaster):
         """See ``Master``; only the first search counts."""
         return super().search(x, closed) if self._found is None else (0, False)
 
+    def begin_step(self) -> None:
+        """See ``Master``; nothing changes."""
+
     def refresh(
         self, x: npt.NDArray[np.float64], held: bool, offset: npt.NDArray[np.float64]
     ) -> list[Pairs] | None:
