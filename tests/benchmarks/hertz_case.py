@@ -100,8 +100,8 @@ def errors(
     """Errors as the peers' are measured: peak and L2 norm of the pressure, penetration.
 
     ``p0_err`` and ``p_l2`` are those of the raw multipliers, ``p0_best`` and ``p_l2_best`` those of
-    ``contact.pressure``, whose total force is off by ``force_best``. ``pen`` is geometric, ``gap``
-    the most negative gap of the method, both relative to the prescribed displacement.
+    ``contact.pressure``, which changes the total force by ``force_best``. ``pen`` is geometric,
+    ``gap`` the most negative gap of the method, both relative to the prescribed displacement.
     """
     peak = scenes.hertz_of(contact, young).peak_pressure
     best = contact.pressure.x.array[contact.slave_nodes]
@@ -112,7 +112,7 @@ def errors(
         "p_l2": scenes.pressure_error(problem, contact, young),
         "p0_best": float(abs(best.max() / peak - 1)),
         "p_l2_best": scenes.pressure_error(problem, contact, young, best),
-        "force_best": float(contact.area @ best / (contact.area @ raw) - 1),
+        "force_best": problem.report.recovery[0],
         "pen": _penetration(problem, contact) / DOWN,
         "gap": max(0.0, -float(np.nanmin(contact.interface.nodes.gap))) / DOWN,
     }

@@ -21,32 +21,44 @@ MORTAR = METHODS[1]
 
 
 def hertz(data, sliding, method, young=None):
-    """Force and error of the raw pressure of the common Hertz problem."""
+    """Force of the common Hertz problem and errors of its pressures, raw and recovered."""
     scene = scenes.HertzSphere(data, sliding, method=method, young=young)
     scene.problem.solve()
-    error = scenes.pressure_error(scene.problem, scene.contact, young)
-    print(f"{sliding} {method} {young}: {scene.problem.report.iterations} its, p_l2 {error:.4f}")
-    assert np.nanmin(scene.contact.interface.nodes.gap) > -1e-12
-    assert scene.problem.report.iterations <= 12
-    return 4 * scene.contact.force[2], error
+    contact = scene.contact
+    raw, best = (
+        scenes.pressure_error(scene.problem, contact, young, p)
+        for p in (contact.multiplier, contact.pressure.x.array[contact.slave_nodes])
+    )
+    iterations = scene.problem.report.iterations
+    print(f"{sliding} {method} {young}: {iterations} iterations, p_l2 {raw:.4f}, {best:.4f}")
+    assert np.nanmin(contact.interface.nodes.gap) > -1e-12
+    assert iterations <= 12
+    return 4 * contact.force[2], raw, best
 
 
 @pytest.mark.parametrize("sliding", ["finite", "small"])
-@pytest.mark.parametrize(("make", "better"), [(meshes.hertz_sphere, 0.8), (meshes.hertz_grid, 0.5)])
-def test_hertz(make, better, sliding):
-    """The same force; raw pressures that scatter less, on hexahedra less by half."""
+@pytest.mark.parametrize(
+    ("make", "better", "most"), [(meshes.hertz_sphere, 0.8, 0.06), (meshes.hertz_grid, 0.5, 0.07)]
+)
+def test_hertz(make, better, most, sliding):
+    """The same force; raw pressures that scatter less, on hexahedra less by half.
+
+    There they are smooth already, and recovery, which flattens the edge, makes them worse.
+    """
     data = make(0.02)
-    (first, scattered), (force, error) = (hertz(data, sliding, method) for method in METHODS)
-    assert force == pytest.approx(first, rel=3e-3)
-    assert error < better * scattered
+    nodes, facets = (hertz(data, sliding, method) for method in METHODS)
+    assert facets[0] == pytest.approx(nodes[0], rel=3e-3)
+    assert facets[1] < better * nodes[1]
+    assert max(nodes[2], facets[2]) < most
 
 
 @pytest.mark.parametrize("body", [Tag.UPPER, Tag.LOWER])
 def test_one_body_is_much_stiffer(body):
     """The multipliers of a stiff slave on a soft master are the least determined."""
     data = meshes.hertz_sphere(0.02)
-    _, error = hertz(data, "finite", MORTAR, {body: 1e4})
-    assert error < (0.3 if body == Tag.UPPER else 0.1)
+    _, raw, best = hertz(data, "finite", MORTAR, {body: 1e4})
+    assert raw < (0.3 if body == Tag.UPPER else 0.1)
+    assert best < 0.12
 
 
 def test_cylinders_on_a_coarser_master():

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """Two spheres pressed together by a force, against Hertz; the benchmark has finer meshes."""
 
+import numpy as np
 import pytest
 import two_spheres
 from story import METHODS
@@ -14,11 +15,11 @@ def test_formula():
 
 
 @pytest.mark.parametrize(
-    ("slave", "sliding", "radius"),
-    [("soft", "finite", 0.006), ("soft", "small", 0.006), ("stiff", "small", 0.004)],
+    ("slave", "sliding"), [("soft", "finite"), ("soft", "small"), ("stiff", "small")]
 )
 @pytest.mark.parametrize("method", METHODS)
-def test_radius_and_peak(method, slave, sliding, radius):
+def test_radius_and_peak(method, slave, sliding):
+    """As asked within 0.5 and 1 %, by the recovered pressure of the soft sphere."""
     scene = two_spheres.TwoSpheres(
         two_spheres.mesh(0.05, slave), slave=slave, sliding=sliding, method=method
     )
@@ -27,12 +28,12 @@ def test_radius_and_peak(method, slave, sliding, radius):
     best = scene.errors(scene.contact.pressure.x.array[scene.contact.slave_nodes])
     print(f"{method} {slave} {sliding}: raw {raw}, best {best}, iterations {scene.iterations}")
     assert scene.force == pytest.approx(two_spheres.FORCE, rel=two_spheres.TOLERANCE)
-    assert abs(raw[0]) < radius and abs(best[0]) < radius
-    # The nodes of a stiff slave press into a soft master one by one
-    scatter = method == METHODS[0] and slave == "stiff"
-    assert abs(raw[1]) < (0.5 if scatter else 0.03)
-    assert abs(best[1]) < (0.5 if scatter else 0.03)
     assert max(scene.iterations) <= 10
+    # The stiff slave has 8 cells in the radius, which recovery spreads the pressure over
+    assert np.all(np.abs(best) < ([0.005, 0.01] if slave == "soft" else [0.01, 0.015]))
+    # Its nodes press into the soft master one by one
+    scatter = method == METHODS[0] and slave == "stiff"
+    assert np.all(np.abs(raw) < [0.006, 0.5 if scatter else 0.03])
 
 
 def test_current_area():
