@@ -15,7 +15,7 @@ import numpy.typing as npt
 from contactx.plot.style import COLOURS, DOTS_PER_INCH, INK, import_plotter
 
 Curve = tuple[npt.ArrayLike, npt.ArrayLike]
-_POINTS = (COLOURS[3], COLOURS[2], COLOURS[4])
+_POINTS = (COLOURS[3], COLOURS[2], COLOURS[4], "#5b7f95")
 _LINES = ("-", "--", ":")
 
 
