@@ -14,6 +14,8 @@ from contactx.meshes import Tag
 from dolfinx import default_scalar_type, fem
 from dolfinx.mesh import CellType
 
+pytestmark = pytest.mark.usefixtures("method")
+
 
 def pressed_sphere(master, sliding="finite", h=0.04):
     """The common Hertz problem's sphere on a rigid obstacle; the block takes no part."""
@@ -114,15 +116,20 @@ def rod(x):
     ],
     ids=["sphere", "cylinder"],
 )
-def test_shapes_agree_with_their_level_sets(obstacle, others):
+def test_shapes_agree_with_their_level_sets(obstacle, others, method):
     scene = Indented(obstacle)
     u = scene.solve()
     assert (scene.contact.multiplier > 0).sum() > 5
     assert scene.problem.report.iterations <= 10
     for other in others:
         twin = Indented(other)
-        assert np.abs(twin.solve() - u).max() <= 1e-10 * np.abs(u).max()
-        assert twin.contact.multiplier == pytest.approx(scene.contact.multiplier, rel=1e-8)
+        # Beside a node the function over its gradient is the distance to second order only
+        exact = method == "node-to-surface"
+        assert np.abs(twin.solve() - u).max() <= (1e-10 if exact else 1e-3) * np.abs(u).max()
+        p = scene.contact.multiplier
+        assert twin.contact.multiplier == pytest.approx(
+            p, rel=1e-8, abs=0 if exact else 2e-3 * p.max()
+        )
 
 
 def test_pushed_by_a_moving_obstacle_is_pushed_by_its_support():
