@@ -46,9 +46,7 @@ def check_full_slide(scene, exact, method):
     flat = method == "node-to-surface"
     assert scene.normal == pytest.approx(w @ p, rel=1e-12 if flat else 0.02)
     size = np.linalg.norm(scene.tangential)
-    assert size == pytest.approx(
-        MU * scene.normal, rel=(1e-8 if exact else 1e-3) if flat else 0.1
-    )
+    assert size == pytest.approx(MU * scene.normal, rel=(1e-8 if exact else 1e-3) if flat else 0.1)
     return size
 
 

@@ -68,5 +68,5 @@ def test_sticks_where_it_touches(steps, cell, base, sliding, method):
     assert stick.sum() >= len(stick) / 2
     # Where facets bend, the mean of places is not the place of the mean
     bends = (method, base, sliding) == ("surface-to-surface", "elastic", "finite")
-    assert aside[stick] == pytest.approx(0.5, abs=0.04 if bends else 1e-8)
+    assert aside[stick] == pytest.approx(0.5, abs=0.05 if bends else 1e-8)
     assert np.abs(interface.history.slip[stick]).max() < 1e-9

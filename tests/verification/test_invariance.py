@@ -154,7 +154,10 @@ def test_renumbered_hertz(seed, sliding, method):
     Which of them it has is a tie. The dented corner makes their normals differ, and so the force
     that the supports in the planes of symmetry take; the displacement does not notice.
     """
-    first, answer = hertz_answer(sliding, method), solve(renumbered(hertz(), seed), HERTZ, sliding=sliding)
+    first, answer = (
+        hertz_answer(sliding, method),
+        solve(renumbered(hertz(), seed), HERTZ, sliding=sliding),
+    )
     assert answer.iterations == first.iterations
     # Rounding decides whether the first gap of the lowest node is below zero
     assert answer.closed[1:] == first.closed[1:]

@@ -132,7 +132,7 @@ def test_shapes_agree_with_their_level_sets(obstacle, others, method):
         )
 
 
-def test_pushed_by_a_moving_obstacle_is_pushed_by_its_support():
+def test_pushed_by_a_moving_obstacle_is_pushed_by_its_support(method):
     """What counts is the relative motion: a ball that rises does what a block that sinks does."""
     sunk = Indented(cx.Sphere((0, 0, -2), 2.0), down=0.05)
     u = sunk.solve()
@@ -140,7 +140,9 @@ def test_pushed_by_a_moving_obstacle_is_pushed_by_its_support():
     mesh = risen.u.function_space.mesh
     centre = fem.Constant(mesh, np.array([0.0, 0.0, -2.0], dtype=default_scalar_type))
     risen = Indented(cx.Sphere(centre, 2.0), down=0.0)
-    assert not risen.solve().any()
+    # In the mean over facets of size h a ball that only touches is inside, by less than h^2 / R
+    inside = 0.0 if method == "node-to-surface" else (1 / 6) ** 2 / 2
+    assert np.abs(risen.solve()).max() <= inside
     for z in (-1.98, -1.95):
         centre.value[2] = z
         risen.solve()

@@ -39,8 +39,8 @@ def test_sphere(sliding, h, method):
     force = hertz_sphere.reaction(problem, F)
     error = pressure_error(problem, contact)
     print(
-        f"{method} {sliding} h={h}: 4F {force:.7f}, {report.iterations} iterations, p_l2 {error:.4f}, "
-        f"gap {np.nanmin(contact.interface.nodes.gap):.1e}"
+        f"{method} {sliding} h={h}: 4F {force:.7f}, {report.iterations} iterations, "
+        f"p_l2 {error:.4f}, gap {np.nanmin(contact.interface.nodes.gap):.1e}"
     )
     assert force == pytest.approx(FORCES[method, sliding, h], rel=3e-4 if method == NODES else 4e-5)
     assert 4 * contact.force[2] == pytest.approx(force, rel=1e-10)
