@@ -37,9 +37,23 @@ class HertzSphere:
         young: dict[Tag, float] | None = None,
         friction: Any = 0.0,
         search_distance: float | None = None,
-        method: str = "node-to-surface",
+        swapped: bool = False,
+        method: str | None = None,
         **options: Any,
     ):
+        """Set the problem up.
+
+        Args:
+            data: Mesh.
+            sliding: "finite" or "small".
+            down: Displacement of the top.
+            young: Young's modulus of each body; 1 where it is not given.
+            friction: Coefficient.
+            search_distance: That of the contact.
+            swapped: Whether the block is the slave.
+            method: That of the contact; the default one if None.
+            options: Those of the problem.
+        """
         tags, u = data.facet_tags, displacement(data.mesh)
         E = fem.Function(fem.functionspace(data.mesh, ("DG", 0)))
         E.x.array[:] = 1
@@ -53,13 +67,13 @@ class HertzSphere:
             *(fix(u, tags, i, 0.0, Tag.LOWER_BOTTOM) for i in range(3)),
             self._top,
         ]
+        sides = [cx.Surface(tags, side) for side in (Tag.UPPER_CONTACT, Tag.LOWER_CONTACT)]
         self.contact = cx.Contact(
-            cx.Surface(tags, Tag.UPPER_CONTACT),
-            cx.Surface(tags, Tag.LOWER_CONTACT),
+            *(sides[::-1] if swapped else sides),
             sliding=sliding,
             friction=friction,
             search_distance=search_distance,
-            method=method,
+            **({} if method is None else {"method": method}),
         )
         self.problem = cx.ContactProblem(
             elasticity(u, E, NU),

@@ -46,6 +46,7 @@ class Tower:
         upper: Nodes of the upper box.
         top: Displacement of the upper box's top.
         bottom: Displacement of the lower box's bottom.
+        stress: What loads the side faces, if they are asked for.
         contact: The contact.
         problem: The problem.
     """
@@ -62,6 +63,7 @@ class Tower:
         shift: float = 0.0,
         neo: bool = False,
         free_top: bool = False,
+        sides: bool = False,
         **options: Any,
     ):
         gdim = 2 if cell in CELLS[:2] else 3
@@ -81,13 +83,25 @@ class Tower:
             master or cx.Surface(self.tags, Tag.LOWER_CONTACT),
             **options,
         )
+        F = (neo_hookean if neo else elasticity)(self.u, 1.0, nu)
+        self.stress = fem.Constant(data.mesh, np.zeros((gdim, gdim)))
+        if sides:
+            F -= self._side_forces()
         self.problem = cx.ContactProblem(
-            (neo_hookean if neo else elasticity)(self.u, 1.0, nu),
+            F,
             self.u,
             contacts=[self.contact],
             bcs=bcs,
             petsc_options_prefix="tower_",
         )
+
+    def _side_forces(self) -> ufl.Form:
+        """Virtual work of the stress on all side faces."""
+        sides = [t for t in Tag if t.name[-2:] in ("X0", "X1", "Y0", "Y1")]
+        faces = tuple(int(t) for t in sides if t in self.tags.values)
+        ds = ufl.Measure("ds", self.mesh, subdomain_data=self.tags)(faces)
+        v = ufl.TestFunction(self.u.function_space)
+        return ufl.inner(self.stress * ufl.FacetNormal(self.mesh), v) * ds
 
     def _held(self, value: fem.Function, face: int) -> fem.DirichletBC:
         V = self.u.function_space

@@ -5,11 +5,11 @@
 // calls them: through their address, on packed coefficients, into a cleared
 // local tensor.
 
+#include "facing.h"
 #include "table.h"
 #include <cmath>
 #include <contactx/facet/ridge.h>
 #include <contactx/kernel/registry.h>
-#include <random>
 
 using namespace contactx;
 using namespace contactx::benchmarks;
@@ -17,6 +17,13 @@ using namespace contactx::kernel;
 
 namespace
 {
+constexpr int num_pairs = 20000;
+
+const std::vector<std::pair<Law, std::string>> laws{
+    {Law::frictionless, "frictionless"},
+    {Law::frictional, "frictional"},
+    {Law::tied, "tied"}};
+
 /// Coefficients of many pairs, one after another.
 struct Coefficients
 {
@@ -74,46 +81,52 @@ void fill_pair(double* w, Law law, int feature, std::mt19937& random)
       s[slip_xi + a] = xi[a] + 0.05 * unit(random);
     s[slip_gap] = gap;
   }
-  const int end = at(Coefficient::multiplier) - w;
-  const auto table = coefficients(law, F::nodes, D);
-  int size = 0;
-  for (std::size_t c = std::size_t(Coefficient::multiplier); c < table.size();
-       ++c)
-    size += table[c].size;
-  for (int i = end; i < end + size; ++i)
-    w[i] = 0.5 + unit(random);
 }
 
-template <class F>
-Coefficients fill(Law law, int feature, int num_pairs)
+/// Coefficients of random pairs: geometry(w, random) fills what a search finds,
+/// the law's numbers follow.
+template <class Geometry>
+Coefficients fill(Law law, int num_nodes, int gdim, int num_slaves,
+                  Geometry&& geometry)
 {
   std::mt19937 random(1);
-  const int last
-      = offset(law, Coefficient::normal_derivative, F::nodes, F::gdim);
-  const int stride = last + coefficients(law, F::nodes, F::gdim).back().size;
+  std::uniform_real_distribution<double> unit(0, 1);
+  const auto at = [=](Coefficient c)
+  { return offset(law, c, num_nodes, gdim, num_slaves); };
+  const int stride
+      = at(Coefficient::normal_derivative)
+        + num_slaves
+              * coefficients(law, num_nodes, gdim, num_slaves).back().size;
   Coefficients c{std::vector<double>(std::size_t(stride) * num_pairs), stride};
   for (int i = 0; i < num_pairs; ++i)
-    fill_pair<F>(c.values.data() + std::size_t(i) * stride, law, feature,
-                 random);
+  {
+    double* w = c.values.data() + std::size_t(i) * stride;
+    geometry(w, random);
+    for (int j = at(Coefficient::multiplier); j < stride; ++j)
+      w[j] = 0.5 + unit(random);
+  }
   return c;
 }
 
 /// Seconds a pair of one kernel, zero where there is none.
 double time(Law law, std::string_view sliding, std::string_view term,
-            int num_nodes, int gdim, const Coefficients& c, int num_pairs)
+            int num_nodes, int gdim, int num_slaves, const Coefficients& c)
 {
-  const Entry* entry = nullptr;
-  for (const Entry& e : registry())
-    if (e.law == law and e.sliding == sliding and e.term == term
-        and e.num_nodes == num_nodes and e.gdim == gdim)
-      entry = &e;
-  if (!entry)
+  const auto entry = std::ranges::find_if(
+      registry(),
+      [&](const Entry& e)
+      {
+        return e.law == law and e.sliding == sliding and e.term == term
+               and e.num_nodes == num_nodes and e.gdim == gdim
+               and e.num_slaves == num_slaves;
+      });
+  if (entry == registry().end())
     return 0;
   // Rows and columns of the local tensor
-  const int dofs = gdim * (num_nodes + 1);
-  const int dim = law == Law::frictionless ? 1 : gdim;
-  const int size = term == "gap"                        ? 1
-                   : term == "normal" or term == "slip" ? gdim
+  const int dofs = gdim * (num_nodes + num_slaves);
+  const int dim = num_slaves * (law == Law::frictionless ? 1 : gdim);
+  const int size = term == "gap"                        ? num_slaves
+                   : term == "normal" or term == "slip" ? num_slaves * gdim
                    : term == "residual"                 ? dofs
                    : term == "stiffness"                ? dofs * dofs
                                                         : dofs * dim;
@@ -136,21 +149,36 @@ double time(Law law, std::string_view sliding, std::string_view term,
   return t / num_pairs;
 }
 
-template <class F>
-void run(Table& table, std::string_view facet)
+/// Add a row: what all the kernels of a law cost.
+void add_row(Table& table, const std::vector<std::string>& name, Law law,
+             std::string_view sliding, int num_nodes, int gdim, int num_slaves,
+             const Coefficients& c)
 {
-  constexpr int num_pairs = 20000;
-  const std::vector<std::pair<Law, std::string>> laws{
-      {Law::frictionless, "frictionless"},
-      {Law::frictional, "frictional"},
-      {Law::tied, "tied"}};
+  const auto cost = [&](std::string_view term)
+  { return time(law, sliding, term, num_nodes, gdim, num_slaves, c); };
+  const double gap = cost("gap"), normal = cost("normal"), slip = cost("slip"),
+               residual = cost("residual"), stiffness = cost("stiffness"),
+               traction = cost("traction"), constraint = cost("constraint");
+  const auto rate
+      = [](double t) { return t > 0 ? number(1e-6 / t) : std::string("-"); };
+  std::vector<std::string> cells = name;
+  for (const double t :
+       {gap, residual, stiffness, traction, constraint,
+        gap + normal + slip + residual, stiffness + traction + constraint})
+    cells.push_back(rate(t));
+  table.row(cells);
+}
+
+template <class F>
+void run(Table& table, const std::string& facet)
+{
   // A segment has no edges but its vertices
   const std::vector<std::pair<int, std::string>> features{
       {facet::interior, "interior"},
       {1, F::num_edges > 0 ? "edge" : "vertex"},
       {1 + F::num_edges, "vertex"}};
   for (const auto& [law, law_name] : laws)
-    for (std::string_view sliding : {"finite", "small"})
+    for (const std::string sliding : {"finite", "small"})
       for (const auto& [feature, feature_name] : features)
       {
         // These read nothing of the feature
@@ -158,33 +186,56 @@ void run(Table& table, std::string_view facet)
           continue;
         if (F::num_edges == 0 and &feature == &features.back().first)
           continue;
-        const Coefficients c = fill<F>(law, feature, num_pairs);
-        const auto cost = [&](std::string_view term)
-        { return time(law, sliding, term, F::nodes, F::gdim, c, num_pairs); };
-        const double gap = cost("gap"), normal = cost("normal"),
-                     slip = cost("slip"), residual = cost("residual"),
-                     stiffness = cost("stiffness"), traction = cost("traction"),
-                     constraint = cost("constraint");
-        const auto rate = [](double t)
-        { return t > 0 ? number(1e-6 / t) : std::string("-"); };
-        table.row({std::string(facet), law_name, std::string(sliding),
-                   feature_name, rate(gap), rate(residual), rate(stiffness),
-                   rate(traction), rate(constraint),
-                   rate(gap + normal + slip + residual),
-                   rate(stiffness + traction + constraint)});
+        const Coefficients c
+            = fill(law, F::nodes, F::gdim, 1,
+                   [law, feature](double* w, std::mt19937& random)
+                   { fill_pair<F>(w, law, feature, random); });
+        add_row(table, {facet, law_name, sliding, feature_name}, law, sliding,
+                F::nodes, F::gdim, 1, c);
       }
+}
+
+template <class S, class M>
+void run_facing(Table& table, const std::string& slave,
+                const std::string& master)
+{
+  for (const auto& [law, law_name] : laws)
+    for (const std::string sliding : {"finite", "small"})
+    {
+      const Coefficients c = fill(law, M::nodes, S::gdim, S::nodes,
+                                  [law](double* w, std::mt19937& random)
+                                  { fill_facing<S, M>(w, law, random); });
+      add_row(table, {slave, master, law_name, sliding}, law, sliding, M::nodes,
+              S::gdim, S::nodes, c);
+    }
 }
 } // namespace
 
 int main(int argc, char** argv)
 {
+  using namespace facet;
   const std::string folder = argc > 1 ? std::string(argv[1]) + "/" : "";
   std::cout << "\nMillions of pairs a second. Residual: all the vectors of an "
                "evaluation;\nJacobian: stiffness, traction and constraint\n";
-  Table table(folder + "kernels.csv",
-              {"facet", "law         ", "sliding", "feature", "gap", "forces",
-               "stiffness", "traction", "constraint", "residual", "jacobian"});
-  run<facet::Segment>(table, "segment");
-  run<facet::Triangle>(table, "triangle");
-  run<facet::Quadrilateral>(table, "quad");
+  const std::vector<std::string> terms{"gap",      "forces",     "stiffness",
+                                       "traction", "constraint", "residual",
+                                       "jacobian"};
+  const auto head = [&terms](std::vector<std::string> names)
+  {
+    names.insert(names.end(), terms.begin(), terms.end());
+    return names;
+  };
+  Table nodes(folder + "kernels.csv",
+              head({"facet", "law         ", "sliding", "feature"}));
+  run<Segment>(nodes, "segment");
+  run<Triangle>(nodes, "triangle");
+  run<Quadrilateral>(nodes, "quad");
+  std::cout << "\nPairs of facets\n";
+  Table facets(folder + "kernels_facets.csv",
+               head({"slave", "master", "law         ", "sliding"}));
+  run_facing<Segment, Segment>(facets, "segment", "segment");
+  run_facing<Triangle, Triangle>(facets, "triangle", "triangle");
+  run_facing<Triangle, Quadrilateral>(facets, "triangle", "quad");
+  run_facing<Quadrilateral, Triangle>(facets, "quad", "triangle");
+  run_facing<Quadrilateral, Quadrilateral>(facets, "quad", "quad");
 }

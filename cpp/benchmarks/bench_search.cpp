@@ -1,11 +1,13 @@
 // Copyright (C) 2026 contactx authors
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
-// Times of the box tree and of the pairing, on one core, and how they grow.
+// Times of the box tree, of the pairing and of surface-to-surface pairs, on one
+// core, and how they grow.
 
 #include "table.h"
 #include "wavy.h"
 #include <cmath>
+#include <contactx/mortar/facet_search.h>
 #include <contactx/search/pairing.h>
 #include <cstdlib>
 #include <map>
@@ -79,11 +81,39 @@ void time_pairing(WavySquares& w, Times& times)
   times.emplace_back("still far off", seconds(update));
 }
 
-Times run(int n, bool shuffled)
+/// Times of surface-to-surface pairs: found from nothing and again, with the
+/// margin of finite sliding, and integrated.
+/// @return Number of pairs.
+std::size_t time_facets(const WavySquares& w, int repeats, Times& times)
+{
+  mortar::FacetSearch search(w.slave_offsets, w.slave_nodes, w.master_offsets,
+                             w.master_nodes, 3);
+  mortar::FacetPairs pairs;
+  const auto find = [&] { pairs = search.find(w.x, 1, 0.1); };
+  times.emplace_back("facets: first", seconds(find));
+  times.emplace_back("facets: again", best_seconds(repeats, find));
+  mortar::Integrals found;
+  times.emplace_back("facets: integrals",
+                     best_seconds(repeats,
+                                  [&]
+                                  {
+                                    found = mortar::integrals(
+                                        search.slave(), search.master(), pairs,
+                                        w.x, w.x, 3);
+                                  }));
+  if (std::ranges::count(found.area, 0.0) != search.slave().size())
+    throw std::runtime_error("a slave facet faces no master");
+  return pairs.size();
+}
+
+/// @param[out] num_pairs Number of pairs of facets.
+Times run(int n, bool shuffled, std::size_t& num_pairs)
 {
   Times times;
   WavySquares w(n, 0.3, shuffled);
-  time_tree(w, n > 300000 ? 3 : 10, times);
+  const int repeats = n > 300000 ? 3 : 10;
+  time_tree(w, repeats, times);
+  num_pairs = time_facets(w, repeats, times);
   time_pairing(w, times);
   return times;
 }
@@ -100,10 +130,11 @@ int main(int argc, char** argv)
               << "; times in s, growth as n^k over the last decade\n";
     std::vector<int> sizes;
     std::vector<Times> all;
+    std::size_t num_pairs = 0;
     for (int n = 1000; n <= largest; n *= 10)
     {
       sizes.push_back(n);
-      all.push_back(run(n, shuffled));
+      all.push_back(run(n, shuffled, num_pairs));
     }
     std::vector<std::string> head{"what"};
     for (int n : sizes)
@@ -127,6 +158,11 @@ int main(int argc, char** argv)
     std::map<std::string, double> t(all.back().begin(), all.back().end());
     std::cout << "a build costs " << number(t["tree build"] / t["tree refit"])
               << " refits; a query takes "
-              << number(1e6 * t["queries"] / sizes.back()) << " us\n";
+              << number(1e6 * t["queries"] / sizes.back()) << " us\n"
+              << num_pairs << " pairs of facets: "
+              << number(1e-6 * num_pairs / t["facets: again"])
+              << " million a second are found, "
+              << number(1e-6 * num_pairs / t["facets: integrals"])
+              << " integrated\n";
   }
 }

@@ -73,12 +73,23 @@ class Assembly:
             if form.normal is not None:
                 fem.assemble_vector(nodes.normal.reshape(-1), form.normal)
 
-    def slip(self, nodes: Nodes) -> None:
-        """Assemble the slip of the slave nodes, or their movement."""
+        if nodes.mean is not None:
+            nodes.mean.normalise(nodes.normal, nodes.mobile)
+
+    def slip(self, nodes: Nodes, origin: npt.NDArray[np.float64]) -> None:
+        """Assemble the slip of the slave nodes.
+
+        Args:
+            nodes: Slave nodes, with their normals.
+            origin: What is taken off movements over several facets, shape (n, gdim), or zero.
+        """
         nodes.slip[:] = 0
         for form in self.forms:
             if form.slip is not None:
                 fem.assemble_vector(nodes.slip.reshape(-1), form.slip)
+        if nodes.mean is not None and self._law != "tied":
+            nodes.slip -= origin
+            nodes.mean.project(nodes.normal, nodes.slip, nodes.mobile)
 
     def add_residual(self, b: npt.NDArray[np.float64]) -> None:
         """Add the contact forces to a vector of the bulk, shape (num_nodes * gdim,)."""

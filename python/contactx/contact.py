@@ -4,12 +4,11 @@
 
 from __future__ import annotations
 
-from typing import SupportsFloat
-
 import numpy as np
 import numpy.typing as npt
 
 from contactx.bodies.bodies import Bodies
+from contactx.checks.options import check_options
 from contactx.fields import Fields
 from contactx.forms import ContactForms
 from contactx.interface import Interface
@@ -20,8 +19,6 @@ from contactx.obstacles import Obstacle
 from contactx.surface import Surface
 from dolfinx import fem, la
 
-_SLIDING = ("finite", "small")
-_METHODS = ("node-to-surface", "surface-to-surface")
 _OPTIONS = (
     "slave",
     "master",
@@ -89,43 +86,16 @@ class Contact:
             TypeError: If slave, master, friction or offset is something else.
             ValueError: If the surfaces share facets, or an option is out of its range.
         """
-        if not isinstance(slave, Surface):
-            raise TypeError(
-                f"slave must be a contactx.Surface, not {type(slave).__name__}: "
-                "write Surface(facet_tags, tag)"
-            )
-        if not isinstance(master, Surface | Obstacle):
-            raise TypeError(
-                f"master must be a contactx.Surface or a rigid obstacle, not "
-                f"{type(master).__name__}: write Surface(facet_tags, tag), or Plane, Sphere, "
-                "Cylinder or LevelSet"
-            )
-        if isinstance(master, Surface) and slave.facet_tags.topology is master.facet_tags.topology:
-            shared = np.intersect1d(slave.facets, master.facets)
-            if len(shared) > 0:
-                raise ValueError(
-                    f"slave and master overlap: {slave} and {master} have {len(shared)} facets in "
-                    "common. Give each surface its own tags"
-                )
-        if sliding not in _SLIDING:
-            raise ValueError(f'sliding must be "finite" or "small", not {sliding!r}')
-        if method not in _METHODS:
-            raise ValueError(
-                f'method must be "node-to-surface" or "surface-to-surface", not {method!r}'
-            )
-        for name, value in (("friction", friction), ("offset", offset)):
-            if not isinstance(value, SupportsFloat | fem.Function):
-                raise TypeError(
-                    f"{name} must be a number, a fem.Constant or a fem.Function, not "
-                    f"{type(value).__name__}"
-                )
-        fixed = None if isinstance(friction, fem.Constant | fem.Function) else float(friction)
-        if fixed is not None and not (np.isfinite(fixed) and fixed >= 0):
-            raise ValueError(f"friction is {friction}: give a number of at least 0")
-        if tied and fixed != 0:
-            raise ValueError("tied excludes friction: a tied slave node does not slip")
-        if search_distance is not None and not search_distance > 0:
-            raise ValueError(f"search_distance is {search_distance}: give a positive length")
+        check_options(
+            slave,
+            master,
+            friction=friction,
+            sliding=sliding,
+            method=method,
+            tied=tied,
+            search_distance=search_distance,
+            offset=offset,
+        )
         self.slave = slave
         self.master = master
         self.sliding = sliding

@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 import numpy.typing as npt
 
@@ -11,7 +13,7 @@ from contactx import cpp as core
 from contactx.assembly import Assembly
 from contactx.bodies.bodies import Bodies
 from contactx.checks.facing import check_facing
-from contactx.forms import ContactForms, State
+from contactx.forms import ContactForms, Pairs, State
 from contactx.law.law import Law
 from contactx.law.nodes import Nodes
 from contactx.master.make import make_master
@@ -111,7 +113,6 @@ class Interface:
         self._free = markers.reshape(-1, gdim) == 0
         self.master.accept(self.positions())
         self.master.search(x, self.nodes.status)
-        self.nodes.area[:] = self.master.area(self._whole)
         check_facing(slave, master, facets, self.master, x)
         self.master.begin_step()
         self._make_forms()
@@ -133,13 +134,12 @@ class Interface:
         self.hold(False)
         self._turn_tractions()
         self.master.begin_step()
-        self.nodes.area[:] = self.master.area(self._whole)
         self._touched = self.nodes.closed
         self.nodes.turns[:] = self.nodes.closings[:] = 0
         if self.sliding == "small" and self.master.is_rigid:
             self._pair(self.state.position.array.reshape(-1, self._gdim))
         else:
-            self._assembly.update(self.master.pairs())
+            self._take(self.master.pairs())
 
     def _turn_tractions(self) -> None:
         """Turn the tractions with a master that has turned since, as a better start."""
@@ -169,11 +169,10 @@ class Interface:
 
     def _pair(self, x: npt.NDArray[np.float64]) -> int:
         changed, new = self.master.search(x, self.nodes.closed.astype(np.int8))
-        self.nodes.area[:] = self.master.area(self._whole)
         if new:
             self._make_forms()
         else:
-            self._assembly.update(self.master.pairs())
+            self._take(self.master.pairs())
         self._find_immobile()
         return changed
 
@@ -206,7 +205,13 @@ class Interface:
             self._held = held
             self._make_forms()
 
+    def _take(self, groups: Sequence[Pairs]) -> None:
+        """Take over new data of pairs."""
+        self.nodes.area[:] = self.master.area(self._whole)
+        self._assembly.update(groups)
+
     def _make_forms(self) -> None:
+        self.nodes.area[:] = self.master.area(self._whole)
         self._assembly.renew(self.master.pairs(), "small" if self._held else "finite")
 
     @property
@@ -230,22 +235,12 @@ class Interface:
         offset = self.offset()
         fresh = self.master.refresh(self.positions(), self._held, offset)
         if fresh is not None:
-            self.nodes.area[:] = self.master.area(self._whole)
-            self._assembly.update(fresh)
+            self._take(fresh)
         gap = self.nodes.gap
         self._assembly.kinematics(self.nodes)
-        if self.nodes.mean is not None:
-            self.nodes.mean.normalise(self.nodes.normal, self.nodes.mobile)
-        self._measure_slip()
+        self._assembly.slip(self.nodes, self.master.origin)
         gap -= offset
         gap[~(self.master.paired & self.active)] = np.nan
-
-    def _measure_slip(self) -> None:
-        nodes = self.nodes
-        self._assembly.slip(nodes)
-        if nodes.mean is not None and not self.law.is_tied:
-            nodes.slip -= self.master.origin
-            nodes.mean.project(nodes.normal, nodes.slip, nodes.mobile)
 
     def offset(self) -> npt.NDArray[np.float64]:
         """What is taken off the gap now, shape (n,)."""
@@ -276,8 +271,8 @@ class Interface:
         self.master.touch(which, x, offset)
         self._touched = self._touched | which
         fresh = self.master.refresh(x, self._held, offset)
-        self._assembly.update(self.master.pairs() if fresh is None else fresh)
-        self._measure_slip()
+        self._take(self.master.pairs() if fresh is None else fresh)
+        self._assembly.slip(self.nodes, self.master.origin)
 
     def closing(self, first: bool = False) -> npt.NDArray[np.bool_]:
         """Which nodes the complementarity closes.
@@ -309,5 +304,4 @@ class Interface:
     def begin_anew(self) -> None:
         """Take over pairs that the master was given, not held."""
         self._held = self.sliding == "small"
-        self.nodes.area[:] = self.master.area(self._whole)
         self._make_forms()

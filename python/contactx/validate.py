@@ -45,9 +45,7 @@ def check_displacement(u: Any) -> None:
             f"mesh needs ({gdim},): {wanted}"
         )
     if element.degree != 1:
-        raise ValueError(
-            f"u is of degree {element.degree}; node-to-surface contact needs degree 1: {wanted}"
-        )
+        raise ValueError(f"u is of degree {element.degree}; contact needs degree 1: {wanted}")
     if element.element_family != basix.ElementFamily.P or element.discontinuous:
         raise ValueError(f"u is not in a continuous Lagrange space; contact needs {wanted}")
 

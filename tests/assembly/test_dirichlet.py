@@ -11,6 +11,8 @@ from contactx.meshes import Tag
 from dolfinx import fem
 from dolfinx.mesh import CellType
 
+pytestmark = pytest.mark.usefixtures("method")
+
 
 def master_values(scene):
     """A non-zero value for some contact nodes of the lower block, in every component."""

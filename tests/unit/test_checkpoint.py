@@ -19,6 +19,7 @@ from contactx.steps import archive
 from dolfinx import fem
 from dolfinx.mesh import CellType
 
+FACETS = {"method": "surface-to-surface"}
 SCENES = {
     "triangles": lambda: SlidingBlocks(CellType.triangle),
     "quadrilaterals": lambda: SlidingBlocks(CellType.quadrilateral),
@@ -29,6 +30,14 @@ SCENES = {
     "friction, plane": lambda: SlidingBlocks(CellType.quadrilateral, friction=0.2),
     "friction, small": lambda: SlidingBlocks(CellType.triangle, friction=0.2, sliding="small"),
     "tied": lambda: SlidingBlocks(CellType.tetrahedron, tied=True, offset=0.01),
+    "facets": lambda: SlidingBlocks(CellType.triangle, **FACETS),
+    "facets, small": lambda: SlidingBlocks(CellType.hexahedron, sliding="small", **FACETS),
+    "facets, friction": lambda: SlidingBlocks(CellType.tetrahedron, friction=0.2, **FACETS),
+    "facets, friction, small": lambda: SlidingBlocks(
+        CellType.triangle, friction=0.2, sliding="small", **FACETS
+    ),
+    "facets, tied": lambda: SlidingBlocks(CellType.hexahedron, tied=True, offset=0.01, **FACETS),
+    "facets, plastic with friction": lambda: DentedBlock(friction=0.3, **FACETS),
     "held by contact alone": LooseBlock,
     "plastic under a ball": DentedBlock,
     "plastic with friction": lambda: DentedBlock(friction=0.3),
@@ -84,13 +93,14 @@ def test_results_are_there_at_once(name, tmp_path):
     assert other.contact.force == pytest.approx(scene.contact.force, rel=1e-11, abs=1e-13)
 
 
-def test_a_new_process_goes_on_to_the_same_bits(tmp_path):
-    make = SCENES["tetrahedra"]
+@pytest.mark.parametrize("name", ["tetrahedra", "facets, friction"])
+def test_a_new_process_goes_on_to_the_same_bits(name, tmp_path):
+    make = SCENES[name]
     straight, _ = run(make())
     run(make(), until=4, checkpoint=tmp_path / "run.npz")
     program = (
         "import contactx, sys, test_checkpoint as t\n"
-        "bits, _ = t.run(t.SCENES['tetrahedra'](), restart='run.npz')\n"
+        f"bits, _ = t.run(t.SCENES[{name!r}](), restart='run.npz')\n"
         "sys.stdout.buffer.write(b''.join(bits))"
     )
     here = Path(__file__).parent

@@ -44,6 +44,11 @@ def test_unknown_sliding(scene):
         )
 
 
+def test_unknown_method(scene):
+    with pytest.raises(ValueError, match='method must be "node-to-surface" or "surface-to-surf'):
+        scene.contact(method="nonsense")
+
+
 @pytest.mark.parametrize("name", ["pressure", "force", "multiplier", "forms", "gap"])
 def test_results_before_there_are_any(scene, name):
     with pytest.raises(RuntimeError, match="has no results yet: pass it to a ContactProblem first"):

@@ -14,6 +14,8 @@ from step_scenes import Sheared
 import contactx as cx
 from dolfinx import fem
 
+pytestmark = pytest.mark.usefixtures("method")
+
 
 def test_the_loop_sees_each_step_and_update_comes_before_it():
     scene = Sheared()

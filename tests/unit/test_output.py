@@ -15,6 +15,8 @@ from contactx.meshes import Tag
 from dolfinx import fem
 from dolfinx.mesh import CellType
 
+pytestmark = pytest.mark.usefixtures("method")
+
 
 @pytest.mark.parametrize("contacts", [1, 2])
 def test_paraview_output(tmp_path: Path, contacts):

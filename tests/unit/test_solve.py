@@ -14,6 +14,8 @@ from contactx.meshes import Tag
 from dolfinx import default_scalar_type, fem
 from dolfinx.mesh import CellType
 
+pytestmark = pytest.mark.usefixtures("method")
+
 
 def test_changed_loads_are_seen():
     scene = Blocks(CellType.tetrahedron, down=0.0, gap=0.01)
@@ -115,7 +117,8 @@ def test_touching_without_force():
         assert np.abs(contact.multiplier).max() <= 1e-13
 
 
-def test_held_pairs_that_hide_a_penetration_warn(monkeypatch):
+@pytest.mark.parametrize("method", ["node-to-surface"], indirect=True)
+def test_held_pairs_that_hide_a_penetration_warn(monkeypatch, method):
     scene = Blocks(CellType.tetrahedron)
     contact = scene.contact()
     problem = scene.problem(contact)

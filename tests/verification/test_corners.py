@@ -13,6 +13,8 @@ from contactx.meshes import Tag, block_tag
 from dolfinx import fem
 from dolfinx.mesh import CellType
 
+pytestmark = pytest.mark.usefixtures("method")
+
 CELLS = [CellType.quadrilateral, CellType.tetrahedron, CellType.hexahedron]
 LOAD = 0.01
 

@@ -17,9 +17,11 @@ from contactx.meshes import Tag
 from dolfinx import fem
 from dolfinx.mesh import CellType
 
+pytestmark = pytest.mark.usefixtures("method")
+
 
 @pytest.mark.parametrize("make", [finite_strain.on_ball, finite_strain.on_block])
-def test_a_block_through_30_percent_of_its_height(make):
+def test_a_block_through_30_percent_of_its_height(make, method):
     """In at most ten steps, and in balance: without friction work is energy."""
     press = make(4, "finite")
     reports = []
@@ -39,7 +41,9 @@ def test_a_block_through_30_percent_of_its_height(make):
     least, most = press.volume_ratios()
     assert 0.5 < least <= most < 1.1
     assert np.nanmin(press.contact.interface.nodes.gap) > -1e-11
-    assert stored == pytest.approx(work, rel=0.01)
+    # On a ball, mean normals times the slave's own nodes are no gradient of the mean gaps: their
+    # work is energy to the square of the mesh size
+    assert stored == pytest.approx(work, rel=0.01 if method == "node-to-surface" else 0.015)
 
 
 def test_convergence_of_the_last_step_is_quadratic():

@@ -8,6 +8,8 @@ from driven_blocks import DrivenBlock, neo_hookean
 
 from dolfinx.mesh import CellType
 
+pytestmark = pytest.mark.usefixtures("method")
+
 CENTRE = np.array([1.1, 0.4, -0.7])
 CASES = [
     (CellType.triangle, None, 0.3),

@@ -30,28 +30,31 @@ def facets(scene):
     return result
 
 
-def check_full_slide(scene, exact):
+def check_full_slide(scene, exact, method):
     """All slide against friction times pressure; returns the size of the friction force.
 
     Args:
         scene: Scene.
         exact: Whether all slide in the same direction.
+        method: By surface-to-surface normals are the slave's, which bends at its free edges.
     """
     contact = scene.contact
     p, t = parts(contact)
     w = contact.area
     assert np.all(contact.interface.nodes.status[p > 0] == 2)
     assert w @ np.linalg.norm(t, axis=1) == pytest.approx(MU * (w @ p), rel=1e-8)
-    assert scene.normal == pytest.approx(w @ p, rel=1e-12)
+    flat = method == "node-to-surface"
+    assert scene.normal == pytest.approx(w @ p, rel=1e-12 if flat else 0.02)
     size = np.linalg.norm(scene.tangential)
-    assert size == pytest.approx(MU * scene.normal, rel=1e-8 if exact else 1e-3)
+    assert size == pytest.approx(MU * scene.normal, rel=(1e-8 if exact else 1e-3) if flat else 0.1)
     return size
 
 
 @CELLS
 @pytest.mark.parametrize("n_lower", [2, 5, 12])
 @pytest.mark.parametrize("direction", [(1.0, 0.0), (0.6, 0.8)])
-def test_many_facets_in_one_step(direction, n_lower, cell):
+@pytest.mark.parametrize("method", ["node-to-surface"], indirect=True)
+def test_many_facets_in_one_step(direction, n_lower, cell, method):
     """Facets of 1.5, 0.6 and 0.25 under a block whose nodes stand 0.33 apart."""
     scene = block(cell, n_lower)
     across = np.array(direction[: scene.gdim - 1]) if scene.gdim == 3 else np.array([1.0])
@@ -65,7 +68,7 @@ def test_many_facets_in_one_step(direction, n_lower, cell):
         before = facets(scene)
         scene.step(*place, -0.02)
         crossed.append(np.mean([a != b for a, b in zip(before, facets(scene), strict=True)]))
-        size = check_full_slide(scene, exact)
+        size = check_full_slide(scene, exact, method)
         cosine = -np.sign(length) * (scene.tangential @ across) / size
         assert cosine == pytest.approx(1, abs=1e-8 if exact else 1e-2)
     print(scene.iterations, "changed facet:", crossed)
@@ -74,7 +77,7 @@ def test_many_facets_in_one_step(direction, n_lower, cell):
 
 
 @CELLS
-def test_over_the_outer_edge(cell):
+def test_over_the_outer_edge(cell, method):
     """Nodes beyond the edge open; the others go on with friction times what they carry."""
     scene = block(cell, 4, width=2.0, shift=0.55)
     zero = (0.0,) * (scene.gdim - 2)
@@ -83,9 +86,13 @@ def test_over_the_outer_edge(cell):
         scene.step(x, *zero, -0.02)
         open_nodes.append(int((scene.contact.interface.nodes.status == 0).sum()))
         if x > 0:
-            check_full_slide(scene, cell != CellType.tetrahedron)
+            check_full_slide(scene, cell != CellType.tetrahedron, method)
     print(scene.iterations, open_nodes)
     # A block that hangs over tilts and may lift one more
     assert open_nodes[:2] == [0, 0]
-    assert open_nodes[2] >= scene.gdim**2 // 4
+    if method == "node-to-surface":
+        assert open_nodes[2] >= scene.gdim**2 // 4
+    else:
+        # Part of its facets still carries
+        assert open_nodes[-1] >= scene.gdim**2 // 4
     assert np.all(np.diff(open_nodes) >= 0)

@@ -9,11 +9,13 @@ from scenes import hertz_sphere
 
 from contactx.meshes import Tag
 
+# On a coarser mesh by surface-to-surface
+H = {"node-to-surface": 0.02, "surface-to-surface": 0.04}
 SLIDING = pytest.mark.parametrize("sliding", ["finite", "small"])
 
 
-def solve(sliding, friction, **options):
-    problem, contact = hertz_sphere(0.02, sliding, friction=friction, **options)
+def solve(sliding, method, friction, **options):
+    problem, contact = hertz_sphere(H[method], sliding, friction=friction, **options)
     problem.solve()
     report = problem.report
     nodes = contact.interface.nodes
@@ -39,9 +41,9 @@ def solve(sliding, friction, **options):
 
 @SLIDING
 @pytest.mark.parametrize("friction", [0.01, 0.3, 1.5, 10.0])
-def test_equal_bodies(friction, sliding):
+def test_equal_bodies(friction, sliding, method):
     """Sphere and block of one material all but stick: their surfaces move together."""
-    iterations, contact, _ = solve(sliding, friction)
+    iterations, contact, _ = solve(sliding, method, friction)
     assert iterations <= 12
     # What friction adds to the normal force is small
     assert 4 * contact.force[2] == pytest.approx(0.00237, rel=0.02)
@@ -50,8 +52,8 @@ def test_equal_bodies(friction, sliding):
 @SLIDING
 @pytest.mark.parametrize("body", [Tag.UPPER, Tag.LOWER])
 @pytest.mark.parametrize("friction", [0.5, 1.5])
-def test_one_body_is_much_stiffer(friction, body, sliding):
-    iterations, contact, count = solve(sliding, friction, young={body: 1e6})
+def test_one_body_is_much_stiffer(friction, body, sliding, method):
+    iterations, contact, count = solve(sliding, method, friction, young={body: 1e6})
     assert iterations <= (12 if friction < 1 else 25)
     assert count["stick"] > 0
     p, t = parts(contact)
@@ -60,11 +62,11 @@ def test_one_body_is_much_stiffer(friction, body, sliding):
 
 
 @SLIDING
-def test_stick_grows_with_friction(sliding):
+def test_stick_grows_with_friction(sliding, method):
     """A soft sphere on a stiff block: a ring slips around a core that sticks."""
     shares = []
     for friction in (0.02, 0.1, 0.3):
-        iterations, _, count = solve(sliding, friction, young={Tag.LOWER: 1e6})
+        iterations, _, count = solve(sliding, method, friction, young={Tag.LOWER: 1e6})
         shares.append(count["stick"] / (count["stick"] + count["slip"]))
         assert iterations <= 12
     assert np.all(np.diff(shares) > 0)

@@ -8,6 +8,8 @@ from driven_blocks import DrivenBlock
 import contactx as cx
 from dolfinx.mesh import CellType
 
+pytestmark = pytest.mark.usefixtures("method")
+
 
 @pytest.mark.parametrize("sliding", ["finite", "small"])
 @pytest.mark.parametrize("base", ["plane", "elastic"])

@@ -10,6 +10,8 @@ import contactx as cx
 from contactx import cpp as core
 from dolfinx.mesh import CellType
 
+pytestmark = pytest.mark.usefixtures("method")
+
 
 @pytest.mark.parametrize("sliding", ["finite", "small"])
 @pytest.mark.parametrize("base", ["plane", "elastic"])
@@ -17,7 +19,7 @@ from dolfinx.mesh import CellType
     "cell", [CellType.triangle, CellType.quadrilateral, CellType.tetrahedron, CellType.hexahedron]
 )
 @pytest.mark.parametrize("steps", [1, 2])
-def test_sticks_where_it_touches(steps, cell, base, sliding):
+def test_sticks_where_it_touches(steps, cell, base, sliding, method):
     """Half way down: of 0.2 the gap takes 0.1; the straight way is half way aside there."""
     gdim = 2 if cell in (CellType.triangle, CellType.quadrilateral) else 3
     scene = DrivenBlock(
@@ -42,6 +44,11 @@ def test_sticks_where_it_touches(steps, cell, base, sliding):
     u = scene.u.x.array.reshape(-1, gdim)
     if base == "plane":
         aside = u[interface.slaves, 0]
+    elif method == "surface-to-surface":
+        # The place on the base that it came to, in the mean
+        weights, n = interface.master.weights(), len(interface.slaves)
+        moved = X[:, 0] if sliding == "finite" else -u[:, 0]
+        aside = -np.bincount(weights.slaves, weights.values * moved[weights.nodes], n)
     else:
         aside = np.full(len(interface.slaves), np.nan)
         at = core.pair_layout["xi"]
@@ -59,5 +66,7 @@ def test_sticks_where_it_touches(steps, cell, base, sliding):
     stick = interface.nodes.status == 1
     print(scene.iterations, interface.nodes.status, aside)
     assert stick.sum() >= len(stick) / 2
-    assert aside[stick] == pytest.approx(0.5, abs=1e-8)
+    # Where facets bend, the mean of places is not the place of the mean
+    bends = (method, base, sliding) == ("surface-to-surface", "elastic", "finite")
+    assert aside[stick] == pytest.approx(0.5, abs=0.05 if bends else 1e-8)
     assert np.abs(interface.history.slip[stick]).max() < 1e-9

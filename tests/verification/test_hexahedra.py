@@ -51,11 +51,12 @@ def errors(problem, contact, force):
 
 
 @pytest.mark.parametrize("sliding", ["finite", "small"])
-def test_cap(sliding):
+def test_cap(sliding, method):
     """Meshes of the same and of other divisions carry the same force.
 
     The nodal pressures agree with Hertz where the meshes match. Where they do not, single-pass
-    node-to-surface contact makes them scatter, here by a quarter of the peak at any mesh size.
+    node-to-surface contact makes them scatter, here by a quarter of the peak at any mesh size;
+    surface-to-surface contact does not.
     """
     matching, other = solve(12, sliding), solve(18, sliding)
     for problem, contact, force in (matching, other):
@@ -63,5 +64,6 @@ def test_cap(sliding):
         assert 4 * contact.force[2] == pytest.approx(force, rel=1e-10)
         assert np.nanmin(contact.interface.nodes.gap) > -1e-12
     assert other[2] == pytest.approx(matching[2], rel=0.01)
+    radius, peak, l2 = (0.05, 0.30, 0.20) if method == "node-to-surface" else (0.09, 0.03, 0.07)
     assert np.all(errors(*matching) <= [0.09, 0.03, 0.07])
-    assert np.all(errors(*other) <= [0.05, 0.30, 0.20])
+    assert np.all(errors(*other) <= [radius, peak, l2])

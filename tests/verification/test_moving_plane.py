@@ -11,6 +11,8 @@ from tower import CELLS, Tower, lift
 import contactx as cx
 from dolfinx import fem, mesh
 
+pytestmark = pytest.mark.usefixtures("method")
+
 both_slidings = pytest.mark.parametrize("sliding", ["finite", "small"])
 every_cell = pytest.mark.parametrize("cell", CELLS, ids=lambda c: c.name)
 

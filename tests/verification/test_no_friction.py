@@ -12,6 +12,8 @@ from scenes import hertz_sphere
 
 from dolfinx import fem, mesh
 
+pytestmark = pytest.mark.usefixtures("method")
+
 
 def constant(value):
     return fem.Constant(mesh.create_unit_interval(MPI.COMM_SELF, 1), value)

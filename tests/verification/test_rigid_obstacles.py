@@ -14,6 +14,8 @@ from contactx.meshes import Tag
 from dolfinx import default_scalar_type, fem
 from dolfinx.mesh import CellType
 
+pytestmark = pytest.mark.usefixtures("method")
+
 
 def pressed_sphere(master, sliding="finite", h=0.04):
     """The common Hertz problem's sphere on a rigid obstacle; the block takes no part."""
@@ -114,18 +116,23 @@ def rod(x):
     ],
     ids=["sphere", "cylinder"],
 )
-def test_shapes_agree_with_their_level_sets(obstacle, others):
+def test_shapes_agree_with_their_level_sets(obstacle, others, method):
     scene = Indented(obstacle)
     u = scene.solve()
     assert (scene.contact.multiplier > 0).sum() > 5
     assert scene.problem.report.iterations <= 10
     for other in others:
         twin = Indented(other)
-        assert np.abs(twin.solve() - u).max() <= 1e-10 * np.abs(u).max()
-        assert twin.contact.multiplier == pytest.approx(scene.contact.multiplier, rel=1e-8)
+        # Beside a node the function over its gradient is the distance to second order only
+        exact = method == "node-to-surface"
+        assert np.abs(twin.solve() - u).max() <= (1e-10 if exact else 1e-3) * np.abs(u).max()
+        p = scene.contact.multiplier
+        assert twin.contact.multiplier == pytest.approx(
+            p, rel=1e-8, abs=0 if exact else 2e-3 * p.max()
+        )
 
 
-def test_pushed_by_a_moving_obstacle_is_pushed_by_its_support():
+def test_pushed_by_a_moving_obstacle_is_pushed_by_its_support(method):
     """What counts is the relative motion: a ball that rises does what a block that sinks does."""
     sunk = Indented(cx.Sphere((0, 0, -2), 2.0), down=0.05)
     u = sunk.solve()
@@ -133,7 +140,9 @@ def test_pushed_by_a_moving_obstacle_is_pushed_by_its_support():
     mesh = risen.u.function_space.mesh
     centre = fem.Constant(mesh, np.array([0.0, 0.0, -2.0], dtype=default_scalar_type))
     risen = Indented(cx.Sphere(centre, 2.0), down=0.0)
-    assert not risen.solve().any()
+    # In the mean over facets of size h a ball that only touches is inside, by less than h^2 / R
+    inside = 0.0 if method == "node-to-surface" else (1 / 6) ** 2 / 2
+    assert np.abs(risen.solve()).max() <= inside
     for z in (-1.98, -1.95):
         centre.value[2] = z
         risen.solve()

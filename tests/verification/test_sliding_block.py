@@ -12,6 +12,8 @@ import contactx as cx
 from dolfinx import fem, mesh
 from dolfinx.mesh import CellType
 
+pytestmark = pytest.mark.usefixtures("method")
+
 MU = 0.3
 DOWN = -0.02
 SLIDING = pytest.mark.parametrize("sliding", ["finite", "small"])

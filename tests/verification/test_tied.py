@@ -11,6 +11,8 @@ from tower import CELLS, Tower, lift, one_body
 import contactx as cx
 from dolfinx import fem, mesh
 
+pytestmark = pytest.mark.usefixtures("method")
+
 every_cell = pytest.mark.parametrize("cell", CELLS, ids=lambda c: c.name)
 both_slidings = pytest.mark.parametrize("sliding", ["finite", "small"])
 HEXAHEDRON = mesh.CellType.hexahedron
@@ -104,7 +106,7 @@ def test_tension_is_compression_with_the_other_sign(cell, sliding):
 
 @every_cell
 @both_slidings
-def test_much_friction_under_pressure_is_a_tie(cell, sliding):
+def test_much_friction_under_pressure_is_a_tie(cell, sliding, method):
     tied = Tower(cell, 4, 3, tied=True, nu=0.3, sliding=sliding)
     rough = Tower(cell, 4, 3, friction=1e6, nu=0.3, sliding=sliding)
     for tower in (tied, rough):
@@ -113,8 +115,11 @@ def test_much_friction_under_pressure_is_a_tie(cell, sliding):
     size = np.abs(tied.contact.multiplier).max()
     difference = np.abs(rough.contact.multiplier - tied.contact.multiplier).max()
     print(f"{difference / size:.1e}")
-    assert difference <= 1e-6 * size
-    assert np.abs(rough.u.x.array - tied.u.x.array).max() <= 1e-6 * 0.1
+    # Means over facets follow the deformation in finite sliding, a tie keeps those of the reference
+    follows = (method, sliding) == ("surface-to-surface", "finite")
+    least = 1e-4 if follows else 1e-6
+    assert difference <= least * size
+    assert np.abs(rough.u.x.array - tied.u.x.array).max() <= least * 0.1
 
 
 @both_slidings
@@ -153,13 +158,18 @@ def test_ties_to_a_plane_follow_it(cell, sliding):
 
 
 @every_cell
-def test_slave_nodes_beyond_the_outer_edge_are_not_tied(cell):
+def test_slave_nodes_beyond_the_outer_edge_are_not_tied(cell, method):
     tower = Tower(cell, 4, 3, tied=True, nu=0.3, shift=0.4)
     gdim = tower.gdim
     tower.solve(*lift(gdim, 0.1))
     contact, nodes = tower.contact, tower.contact.interface.nodes
     x = tower.X[contact.slave_nodes]
+    # By surface-to-surface one whose facets reach over the edge, 0.25 wide, may be tied
     beyond = (x[:, :-1] > 1.0 + 0.1).any(axis=1)
+    if method == "surface-to-surface":
+        assert np.all(nodes.status[~beyond] == 1)
+        assert np.all(nodes.status[(x[:, :-1] > 1.0 + 0.3).any(axis=1)] == 0)
+        beyond = nodes.status == 0
     assert 0 < beyond.sum() < len(beyond)
     assert np.all(np.isnan(nodes.gap[beyond]))
     assert np.array_equal(nodes.status, np.where(beyond, 0, 1))

@@ -11,6 +11,8 @@ from tower import CELLS, Tower, lift
 import contactx as cx
 from dolfinx import fem, mesh
 
+pytestmark = pytest.mark.usefixtures("method")
+
 every_cell = pytest.mark.parametrize("cell", CELLS, ids=lambda c: c.name)
 gaps = pytest.mark.parametrize("gap", [0.0, 0.1, -0.05])
 

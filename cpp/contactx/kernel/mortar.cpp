@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "mortar.h"
+#include "mortar_terms.h"
 #include "mortar_variation.h"
 
 using namespace contactx;
@@ -15,9 +16,10 @@ template <class S, class M, Law L, bool Turning>
 struct Mortar
 {
   static constexpr int gdim = S::gdim;
+  static constexpr int slaves = S::nodes;
   static constexpr int size = L == Law::frictionless ? 1 : gdim;
   static constexpr int num_dofs = MortarPair<S, M>::num_dofs;
-  static constexpr int width = size * S::nodes; ///< multipliers
+  static constexpr int width = size * slaves; ///< multipliers
 
   explicit Mortar(const double* w)
       : pair(w), normal(pair.template normal<Turning>()),
@@ -46,27 +48,6 @@ struct Mortar
   Vec<gdim> normal;
   const double *multiplier, *area, *gap_derivative;
 };
-
-template <class K>
-void gap(double* b, const double* w, const double*, const double*, const int*,
-         const std::uint8_t*, void*)
-{
-  const K k(w);
-  for (int s = 0; s < k.width / k.size; ++s)
-    b[s] += dot(k.normal, k.pair.distance(s)) / k.area[s];
-}
-
-/// Share of the pair in the mean normal of each slave node, which is none of
-/// unit length.
-template <class K>
-void normal(double* b, const double* w, const double*, const double*,
-            const int*, const std::uint8_t*, void*)
-{
-  const K k(w);
-  for (int s = 0; s < k.width / k.size; ++s)
-    for (int i = 0; i < K::gdim; ++i)
-      b[K::gdim * s + i] += k.pair.area(s) / k.area[s] * k.normal[i];
-}
 
 /// Call f(node of the pair, slave node, weight) for the parts of the virtual
 /// displacements that the slave nodes' multipliers work on.
@@ -230,14 +211,14 @@ void add(std::vector<Entry>& entries)
     entries.push_back({L, Turning ? "finite" : "small", term, M::nodes, S::gdim,
                        function, std::move(active), S::nodes});
   };
-  push("gap", &gap<K>, {area});
+  push("gap", &mortar_gap<K>, {area});
   push("residual", &residual<K>, {multiplier});
   push("traction", &traction<K>, {});
   if constexpr (L == Law::frictionless)
     push("constraint", &constraint<S, M, L, Turning>, {area, gap_derivative});
   else
   {
-    push("normal", &normal<K>, {area});
+    push("normal", &mortar_normal<K>, {area});
     push("constraint", &constraint<S, M, L, Turning>,
          {area, gap_derivative, normal_derivative});
   }

@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "../facet/frame.h"
+#include "../mortar/plane.h"
 #include "layout.h"
 #include <algorithm>
 
@@ -82,7 +82,7 @@ struct MortarPair
   {
     Vec<gdim> n;
     if constexpr (Turning)
-      n = -1. * facet::frame<S>(slave, middle()).n;
+      n = -1. * facet::frame<S>(slave, mortar::plane_origin<S>()).n;
     else
       std::copy_n(data + layout.normal, gdim, n.begin());
     return n;
@@ -95,15 +95,6 @@ struct MortarPair
     for (int l = 0; l < M::nodes; ++l)
       d = d - weight(s, l) * master[l];
     return d;
-  }
-
-  /// @brief Where a slave facet's normal is taken.
-  static constexpr facet::Local<S> middle()
-  {
-    if constexpr (S::flat)
-      return {};
-    else
-      return {0.5, 0.5};
   }
 };
 } // namespace contactx::kernel

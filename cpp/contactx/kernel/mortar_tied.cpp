@@ -3,7 +3,7 @@
 
 #include "mortar_tied.h"
 #include "../mortar/segment.h"
-#include "mortar_pair.h"
+#include "mortar_terms.h"
 #include "normal_hessian.h"
 
 using namespace contactx;
@@ -50,7 +50,7 @@ struct Tie
       }
     if constexpr (Turning)
     {
-      const auto xi = MortarPair<S, M>::middle();
+      const auto xi = contactx::mortar::plane_origin<S>();
       const contactx::mortar::Plane<S> plane(pair.slave);
       const auto slope = S::derivative(xi);
       for (int t = 0; t < slaves; ++t)
@@ -71,25 +71,6 @@ struct Tie
   Vec<gdim> normal;
   const double *multiplier, *area;
 };
-
-template <class K>
-void gap(double* b, const double* w, const double*, const double*, const int*,
-         const std::uint8_t*, void*)
-{
-  const K k(w);
-  for (int s = 0; s < K::slaves; ++s)
-    b[s] += dot(k.normal, k.pair.distance(s)) / k.area[s];
-}
-
-template <class K>
-void normal(double* b, const double* w, const double*, const double*,
-            const int*, const std::uint8_t*, void*)
-{
-  const K k(w);
-  for (int s = 0; s < K::slaves; ++s)
-    for (int i = 0; i < K::gdim; ++i)
-      b[K::gdim * s + i] += k.pair.area(s) / k.area[s] * k.normal[i];
-}
 
 template <class K>
 void slip(double* b, const double* w, const double*, const double*, const int*,
@@ -154,7 +135,7 @@ void stiffness(double* A, const double* w, const double*, const double*,
       sum[i] += k.pair.gap(s) * k.multiplier[K::gdim * s + i];
   if (dot(sum, sum) == 0)
     return;
-  const auto xi = MortarPair<S, typename K::Master>::middle();
+  const auto xi = contactx::mortar::plane_origin<S>();
   // The pair's normal is against that of the slave facet
   for_each_normal_hessian<S>(facet::frame<S>(k.pair.slave, xi), xi, sum,
                              [A](int i, int j, double value)
@@ -174,8 +155,8 @@ void add(std::vector<Entry>& entries)
                        K::Master::nodes, K::gdim, function, std::move(active),
                        K::slaves});
   };
-  push("gap", &gap<K>, {area});
-  push("normal", &normal<K>, {area});
+  push("gap", &mortar_gap<K>, {area});
+  push("normal", &mortar_normal<K>, {area});
   push("slip", &::slip<K>, {area});
   push("residual", &residual<K>, {multiplier});
   push("traction", &traction<K>, {});

@@ -107,8 +107,9 @@ void residual(double* b, const double* w, const double*, const double*,
 {
   const F f(w);
   const double* multiplier = f.at(Coefficient::multiplier);
-  for_each_force(f, [&](int s, int k, int i, double force)
-                 { b[Sizes<F>::gdim * s + k] -= force * multiplier[F::size * s + i]; });
+  for_each_force(
+      f, [&](int s, int k, int i, double force)
+      { b[Sizes<F>::gdim * s + k] -= force * multiplier[F::size * s + i]; });
 }
 
 template <class F>
@@ -117,12 +118,9 @@ void traction(double* A, const double* w, const double*, const double*,
 {
   const F f(w);
   constexpr int width = F::size * Sizes<F>::nodes;
-  for_each_force(f,
-                 [&](int s, int k, int i, double force)
-                 {
-                   A[width * (Sizes<F>::gdim * s + k) + F::size * s + i]
-                       -= force;
-                 });
+  for_each_force(
+      f, [&](int s, int k, int i, double force)
+      { A[width * (Sizes<F>::gdim * s + k) + F::size * s + i] -= force; });
 }
 
 template <class F>
@@ -179,7 +177,8 @@ void add(std::vector<Entry>& entries)
   for (std::string_view sliding : {"finite", "small"})
   {
     const auto push = [&](std::string_view term, Kernel* function,
-                          std::vector<Coefficient> active) {
+                          std::vector<Coefficient> active)
+    {
       entries.push_back(
           {L, sliding, term, 0, D, function, std::move(active), N});
     };

@@ -140,7 +140,9 @@ class CondensedSolver:
         x: PETSc.Vec,
     ) -> bool:
         """Solve J x = b by FGMRES with a solver of nearly the same system."""
-        nearly = _Nearly(solve, partial(self._multiply, contact))
+        norm = b.norm()
+        part = max(_NEARLY, 0.5 * self.target / norm) if norm > 0 else 1.0
+        nearly = _Nearly(solve, partial(self._multiply, contact), part)
         size = x.getSize()
         J = PETSc.Mat().createPython((size, size), nearly, comm=x.comm)
         ksp = PETSc.KSP().create(comm=x.comm)
@@ -231,14 +233,15 @@ class _Nearly:
         self,
         solve: Callable[[PETSc.Vec, PETSc.Vec, float], bool],
         multiply: Callable[[PETSc.Vec, PETSc.Vec], None],
+        part: float,
     ):
-        """Take both."""
-        self._solve, self._multiply = solve, multiply
+        """Take both, and the part of a right-hand side that a solve may leave."""
+        self._solve, self._multiply, self._part = solve, multiply, part
         self.has_failed = False
 
     def apply(self, pc: PETSc.PC, b: PETSc.Vec, x: PETSc.Vec) -> None:
         """Solve, to a part of the right-hand side."""
-        if self.has_failed or not self._solve(b, x, _NEARLY * b.norm()):
+        if self.has_failed or not self._solve(b, x, self._part * b.norm()):
             self.has_failed = True
             x.zeroEntries()
 

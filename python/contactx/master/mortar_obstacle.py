@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -183,12 +184,16 @@ class MortarObstacle(ObstacleMaster):
         normals[self._paired, :gdim] = self._data[self._paired, at : at + gdim]
         return normals
 
-    def load(self, saved: Any) -> None:
+    def save(self) -> dict[str, npt.NDArray[Any]]:
+        """See ``Master``."""
+        values = {f"facets_{k}": data for k, data in enumerate(self._values)}
+        return super().save() | values | {"positions": self._positions}
+
+    def load(self, saved: Mapping[str, npt.NDArray[Any]]) -> None:
         """See ``Master``."""
         super().load(saved)
-        self._positions = self._positions.copy()
-        self._positions[self._slaves] = self._at
-        self._values = [self._integrate(facets, self._positions) for facets in self._kinds]
+        self._values = [saved[f"facets_{k}"] for k in range(len(self._kinds))]
+        self._positions = saved["positions"]
 
     def _update_slip(self, x: Array, data: Array) -> None:
         """The kernels measure it by themselves."""
