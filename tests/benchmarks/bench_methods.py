@@ -120,13 +120,17 @@ def _run(**job: Any) -> dict[str, Any]:
 
 
 def draw(rows: Sequence[dict[str, Any]], path: Path) -> None:
-    """Picture of the errors in finite sliding over time and size."""
+    """Picture of the errors in finite sliding over time and size, raw ones with thin lines."""
     groups: dict[str, list[dict[str, Any]]] = {}
+    raw: dict[str, list[dict[str, Any]]] = {}
     for row in rows:
         if row["sliding"] == SLIDINGS[0] and "cpu" in row:
-            groups.setdefault(f"{row['method']}, {row['cells']}", []).append(row)
+            name = f"{row['method']}, {row['cells']}"
+            groups.setdefault(name, []).append(row)
+            multipliers = {"p_l2_best": row["p_l2"], "p0_best": row["p0_err"]}
+            raw.setdefault(f"{name}, raw", []).append({**row, **multipliers})
     pictures.lines(
-        groups,
+        {**groups, **raw},
         path,
         ours=len(groups),
         axes=(("cpu", "p_l2_best"), ("h", "p_l2_best"), ("h", "p0_best")),
