@@ -30,14 +30,11 @@ SCENES = {
     "friction, plane": lambda: SlidingBlocks(CellType.quadrilateral, friction=0.2),
     "friction, small": lambda: SlidingBlocks(CellType.triangle, friction=0.2, sliding="small"),
     "tied": lambda: SlidingBlocks(CellType.tetrahedron, tied=True, offset=0.01),
-    "facets": lambda: SlidingBlocks(CellType.triangle, **FACETS),
-    "facets, small": lambda: SlidingBlocks(CellType.hexahedron, sliding="small", **FACETS),
-    "facets, friction": lambda: SlidingBlocks(CellType.tetrahedron, friction=0.2, **FACETS),
-    "facets, friction, small": lambda: SlidingBlocks(
-        CellType.triangle, friction=0.2, sliding="small", **FACETS
+    "facets, small": lambda: SlidingBlocks(
+        CellType.hexahedron, sliding="small", friction=0.2, **FACETS
     ),
+    "facets, friction": lambda: SlidingBlocks(CellType.tetrahedron, friction=0.2, **FACETS),
     "facets, tied": lambda: SlidingBlocks(CellType.hexahedron, tied=True, offset=0.01, **FACETS),
-    "facets, plastic with friction": lambda: DentedBlock(friction=0.3, **FACETS),
     "held by contact alone": LooseBlock,
     "plastic under a ball": DentedBlock,
     "plastic with friction": lambda: DentedBlock(friction=0.3),
