@@ -26,7 +26,7 @@ from contactx.system import SaddlePointSystem
 _SLOW = "multigrid is slow here"
 # Most solves of nearly the same system for one solution, and how accurate each is
 _CORRECTIONS = 30
-_NEARLY = 0.01
+_NEARLY = 0.1
 
 
 class CondensedSolver:

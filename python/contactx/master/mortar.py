@@ -63,7 +63,7 @@ class MortarMaster(Master):
         lists = (slave.offsets, slave.nodes, master.offsets, master.nodes)
         self._search = core.FacetSearch(*lists, self._gdim)
         self._pairing = core.Pairing(*lists, self._gdim)
-        self._sides = Sides(slave, master)
+        self._sides = Sides(slave, master, x)
         self._slip = MortarSlip(self._sides, self._gdim, small=self._small)
         self._measures_slip = measures_slip
         area = core.nodal_areas(slave.offsets, slave.nodes, x, self._gdim)
@@ -71,16 +71,26 @@ class MortarMaster(Master):
         self._area = np.zeros(len(self._whole))
         self._paired = np.zeros(len(self._whole), dtype=bool)
         self._found: Any = None
+        self._nodes = np.union1d(slave.nodes, master.nodes)
 
     def search(self, x: Array, closed: npt.NDArray[np.int8]) -> int:
         """See ``Master``; as integrals change continuously no node changes its facet."""
         margin = 0.0 if self._small else _MARGIN
-        if self._found is None or not self._found.contains(self._search.find(x, self.reach, 0.0)):
-            self._found = self._search.find(x, self.reach, margin)
+        if self._found is None or self._moved(x):
+            found = self._search.find(x, self.reach, 0.0)
+            if self._found is None or not self._found.contains(found):
+                self._found = self._search.find(x, self.reach, margin)
+                self._searched = x[self._nodes]
         self._integrate(x)
         least = np.where(self._paired, _LEAVE, _ENTER)
         self._paired = self._area > least * self._whole
         return 0
+
+    def _moved(self, x: Array) -> bool:
+        """Whether anything has moved so far since the search that pairs may lack."""
+        way = np.abs(x[self._nodes] - self._searched).max(initial=0.0)
+        # Both sides may have moved, and not a number is far
+        return not way <= 0.25 * _MARGIN * self._sides.inradius
 
     def _integrate(self, x: Array) -> None:
         found = self._search.integrals(self._found, x, self._reference)
@@ -220,13 +230,17 @@ class MortarMaster(Master):
         if own.all() and free[self.facets.nodes].all():
             return np.ones(n), np.ones((n, gdim))
         weights = self.weights()
+        held = np.zeros(n, dtype=bool)
+        held[weights.slaves[~free.all(axis=1)[weights.nodes]]] = True
+        some = held[weights.slaves]
+        weights = Weights(*(a[some] for a in vars(weights).values()))
         # Parts of several facets with the same node add up
         key = weights.slaves * np.int64(len(free)) + weights.nodes
         key, place = np.unique(key, return_inverse=True)
         slaves, nodes = np.divmod(key, len(free))
         moves = np.bincount(place, weights.values)[:, None] * free[nodes]
         squares = np.stack([np.bincount(slaves, m**2, n) for m in moves.T], axis=1)
-        squares[~self._paired] = 1
+        squares[~(self._paired & held)] = 1
         around = np.zeros((n, gdim), dtype=bool)
         some = free[self._sides.nodes[0]].any(axis=1)
         for corner in self._sides.numbers.T:

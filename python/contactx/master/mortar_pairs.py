@@ -58,14 +58,27 @@ class Sides:
         nodes: Nodes of the slave and of the master facets, each of shape (num_facets, 4).
         sizes: Numbers of their nodes, each of shape (num_facets,).
         numbers: Nodes of the slave facets by their place in ``slaves``, shape (num_facets, 4).
+        inradius: Radius of the smallest slave facet's circle inside, about.
     """
 
-    def __init__(self, slave: FacetList, master: FacetList):
-        """Take both surfaces."""
+    def __init__(self, slave: FacetList, master: FacetList, x: Array):
+        """Take both surfaces.
+
+        Args:
+            slave: Slave facets.
+            master: Master facets.
+            x: Reference positions.
+        """
         self.slaves: Index = np.unique(slave.nodes)
         self.nodes = _padded(slave), _padded(master)
         self.sizes = np.diff(slave.offsets), np.diff(master.offsets)
         self.numbers: Index = np.searchsorted(self.slaves, self.nodes[0]).astype(np.int32)
+        corners = x[self.nodes[0]]
+        first, second = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+        longest = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
+        # Twice the area over the perimeter is no less than a third of it over the longest edge
+        area = longest**2 if x.shape[1] == 2 else np.linalg.norm(np.cross(first, second), axis=1)
+        self.inradius = float((area / longest).min() / 3)
 
     def total(self, values: Array, facets: Index | slice = slice(None)) -> Array:
         """Sums over the facets of each slave node.
