@@ -9,7 +9,6 @@ from scenes import hertz_sphere
 
 from contactx.meshes import Tag
 
-
 NODES, FACETS = "node-to-surface", "surface-to-surface"
 # By surface-to-surface on a coarser mesh, which is cheaper
 H = {NODES: 0.02, FACETS: 0.04}
