@@ -58,16 +58,20 @@ class Scene:
     push: fem.DirichletBC
 
 
-def create(h: float, sliding: str) -> Scene:
-    """The cylinders, their flat faces and the contact."""
-    data = meshes.half_cylinders(RADIUS, h, h, zone=ZONE)
+def create(
+    h: float, sliding: str, method: str = story.METHODS[0], h_master: float | None = None
+) -> Scene:
+    """The cylinders, their flat faces and the contact; cells of one size if the master has none."""
+    data = meshes.half_cylinders(RADIUS, h, h if h_master is None else h_master, zone=ZONE)
     tags = data.facet_tags
     u = story.displacement(data.mesh)
     push, press = (story.fix(u, tags, i, 0.0, Tag.UPPER_TOP) for i in range(2))
     bcs = [*(story.fix(u, tags, i, 0.0, Tag.LOWER_BOTTOM) for i in range(2)), push, press]
     upper, lower = cx.Surface(tags, Tag.UPPER_CONTACT), cx.Surface(tags, Tag.LOWER_CONTACT)
     friction = fem.Constant(data.mesh, 0.0)
-    contact = cx.Contact(slave=upper, master=lower, friction=friction, sliding=sliding)
+    contact = cx.Contact(
+        slave=upper, master=lower, friction=friction, sliding=sliding, method=method
+    )
     problem = cx.ContactProblem(
         story.elasticity(u, E, NU), u, contacts=[contact], bcs=bcs, petsc_options_prefix="mindlin_"
     )
@@ -99,6 +103,14 @@ def load(
             story.console.print(f"{text} iterations", highlight=False)
         (u_0, f_0), (u_1, f_1) = path[-2:]
         end, steps = u_1 + (target - f_1) * (u_1 - u_0) / (f_1 - f_0), 1
+
+
+def apply(scene: Scene) -> None:
+    """Press without friction, then push with it."""
+    problem, contact = scene.problem, scene.contact
+    load(problem, scene.press, lambda: contact.force[1], NORMAL, first=-0.18, steps=PRESS)
+    scene.friction.value = FRICTION
+    load(problem, scene.push, lambda: -contact.force[0], TANGENTIAL, first=0.028, steps=PUSH)
 
 
 def formula(contact: cx.Contact) -> reference.CattaneoMindlin:
@@ -144,7 +156,7 @@ class Tractions:
         return [
             story.Result("normal force", NORMAL, exact.force),
             story.Result("tangential force", TANGENTIAL, exact.tangential),
-            story.Result("half-width", exact.half_width, self.half_width(self.p > 0)),
+            story.Result("half-width", exact.half_width, self.half_width(self.status > 0)),
             story.Result("peak pressure", exact.peak_pressure, self.p.max()),
             story.Result("half-width that sticks", exact.stick_half_width, stick),
             story.Deviation.of("pressure, L2", self.area, self.p, exact.pressure(self.x)),
@@ -185,13 +197,13 @@ def draw(
 
 def main(argv: Sequence[str] | None = None) -> list[story.Result]:
     """Press, push, compare with the formula and draw."""
-    args = story.arguments("Two cylinders with friction", 0.015, "a length; R is 8", argv)
+    args = story.arguments(
+        "Two cylinders with friction", 0.015, "a length; R is 8", argv, methods=True
+    )
     with story.progress("meshing"):
-        scene = create(args.h, args.sliding)
+        scene = create(args.h, args.sliding, args.method)
     problem, contact = scene.problem, scene.contact
-    load(problem, scene.press, lambda: contact.force[1], NORMAL, first=-0.18, steps=PRESS)
-    scene.friction.value = FRICTION
-    load(problem, scene.push, lambda: -contact.force[0], TANGENTIAL, first=0.028, steps=PUSH)
+    apply(scene)
     story.console.print(str(problem.report), highlight=False)
     exact, tractions = formula(contact), Tractions(scene)
     results = tractions.compare(exact)

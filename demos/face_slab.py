@@ -60,6 +60,7 @@ def arguments(argv: Sequence[str] | None) -> argparse.Namespace:
     add("--matching", action="store_true", help="cushion with the nodes of the slabs")
     add("--slave", choices=("cushion", "slabs"), default="cushion", help="slave of their contact")
     add("--sliding", choices=("small", "finite"), default="small", help="kinematics of contact")
+    add("--method", choices=story.METHODS, default=story.METHODS[0], help="method of contact")
     add("--rotation", type=float, default=0.17, help="wanted rotation of scheme 1, degrees")
     add("--pressure", type=float, default=0.3, help="water pressure, MPa")
     add("--push", type=float, default=20.0, help="push of each side in scheme 2, mm")
@@ -84,6 +85,7 @@ def settings(args: argparse.Namespace) -> list[Setting]:
             joint_friction=args.joint_friction,
             cushion_friction=args.cushion_friction,
             sliding=args.sliding,
+            method=args.method,
             cushion_is_slave=args.slave == "cushion",
         )
         for n in layers

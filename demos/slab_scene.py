@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 from hexahedra import NodalStress, elasticity, stress
-from story import displacement
+from story import METHODS, displacement
 
 import contactx as cx
 import ufl
@@ -30,6 +30,7 @@ class Setting:
         joint_friction: Coulomb's coefficient between slabs.
         cushion_friction: Coulomb's coefficient between slabs and cushion.
         sliding: Kinematics of contact.
+        method: Method of contact.
         cushion_is_slave: Whether the cushion's nodes are the slaves, not the slabs'.
         axes: Which coordinate is along the dam, up the slope, and normal to the face.
         options: PETSc options.
@@ -39,6 +40,7 @@ class Setting:
     joint_friction: float = 0.75
     cushion_friction: float = 0.7
     sliding: str = "small"
+    method: str = METHODS[0]
     cushion_is_slave: bool = True
     axes: tuple[int, int, int] = (0, 1, 2)
     options: tuple[tuple[str, Any], ...] = ()
@@ -153,7 +155,7 @@ class Scene:
         s, tags = self.setting, self.tags
         slabs = range(1, 1 + self.model.slabs)
         top = cx.Surface(tags, block_tag(0, "top"))
-        below = {"friction": s.cushion_friction, "sliding": s.sliding}
+        below = {"friction": s.cushion_friction, "sliding": s.sliding, "method": s.method}
         if s.cushion_is_slave:
             bottoms = cx.Surface(tags, *(block_tag(i, "bottom") for i in slabs))
             cushion = [cx.Contact(slave=top, master=bottoms, **below)]
@@ -168,6 +170,7 @@ class Scene:
                 master=cx.Surface(tags, block_tag(i + 1, "x0")),
                 friction=s.joint_friction,
                 sliding=s.sliding,
+                method=s.method,
             )
             for i in slabs[:-1]
         ]

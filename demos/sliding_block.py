@@ -74,7 +74,7 @@ class Slider:
         sticks: Whether some node sticks.
     """
 
-    def __init__(self, h: float, dim: int, base: str, sliding: str):
+    def __init__(self, h: float, dim: int, base: str, sliding: str, method: str = story.METHODS[0]):
         """Set the problem up; an elastic base is fixed at its bottom."""
         mesh, tags, master = bodies(h, dim, base)
         self.u = u = story.displacement(mesh)
@@ -89,6 +89,7 @@ class Slider:
             master=master,
             friction=FRICTION,
             sliding=sliding,
+            method=method,
             offset=INTERFERENCE,
         )
         self.problem = cx.ContactProblem(
@@ -157,12 +158,17 @@ def draw(folder: Path, sliders: dict[str, Slider]) -> list[Path]:
 def main(argv: Sequence[str] | None = None) -> list[story.Result]:
     """Push the block on both bases, compare with Coulomb's law and draw the loops."""
     args = story.arguments(
-        "A block pushed to and fro", 0.1, "in heights of the block", argv, dimensions=(2, 3)
+        "A block pushed to and fro",
+        0.1,
+        "in heights of the block",
+        argv,
+        dimensions=(2, 3),
+        methods=True,
     )
     sliders, results = {}, []
     for base in BASES:
         with story.progress("meshing"):
-            slider = Slider(args.h, args.dim, base, args.sliding)
+            slider = Slider(args.h, args.dim, base, args.sliding, args.method)
         slider.run()
         results += slider.compare(base)
         sliders[base] = slider

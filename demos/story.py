@@ -22,6 +22,7 @@ from contactx import plot, reference
 from dolfinx import fem, mesh
 
 console = Console()
+METHODS = ("node-to-surface", "surface-to-surface")
 
 
 @dataclass(frozen=True)
@@ -96,10 +97,17 @@ def arguments(
     unit: str,
     argv: Sequence[str] | None,
     dimensions: Sequence[int] = (),
+    methods: bool = False,
 ) -> argparse.Namespace:
-    """Read the command line: size h, sliding, folder of the pictures, dimension if there are two.
+    """Read the command line: size h, sliding, folder of the pictures.
 
-    The first dimension is the default.
+    Args:
+        description: What the demo shows.
+        h: Default of the size.
+        unit: Unit of the size.
+        argv: The command line; that of the process if None.
+        dimensions: Dimensions of space to choose from, the default first; no choice if empty.
+        methods: Whether the method of contact can be chosen.
     """
     parser = argparse.ArgumentParser(description=description)
     parser.add_argument("--h", type=float, default=h, help=f"cell size in the contact, {unit}")
@@ -115,6 +123,10 @@ def arguments(
     if dimensions:
         parser.add_argument(
             "--dim", type=int, choices=dimensions, default=dimensions[0], help="dimension of space"
+        )
+    if methods:
+        parser.add_argument(
+            "--method", choices=METHODS, default=METHODS[0], help="discretisation of contact"
         )
     return parser.parse_args(argv)
 

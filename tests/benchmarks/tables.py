@@ -36,13 +36,13 @@ console = Console(width=150, highlight=False)
 
 
 def show(title: str, columns: Sequence[Column], rows: Sequence[dict[str, Any]], path: Path) -> None:
-    """Print rows and write them to a file.
+    """Print rows and write them to files.
 
     Args:
         title: Title of the table.
         columns: Columns of the table.
         rows: Values by their keys; one that is missing is left out.
-        path: CSV file, with all values of the rows.
+        path: CSV file, with all values of the rows; beside it the table itself, as Markdown.
     """
     table = Table(title=title, padding=(0, 0, 0, 1), pad_edge=False)
     for heading, _, form in columns:
@@ -60,6 +60,7 @@ def show(title: str, columns: Sequence[Column], rows: Sequence[dict[str, Any]], 
         writer = csv.DictWriter(file, names)
         writer.writeheader()
         writer.writerows(rows)
+    path.with_suffix(".md").write_text(_markdown(columns, rows))
     note(f"see {path}")
 
 
@@ -93,6 +94,15 @@ def power_law(x: npt.ArrayLike, y: npt.ArrayLike) -> tuple[float, float]:
         return math.nan, math.nan
     exponent, logarithm = np.polyfit(np.log(np.asarray(x)), np.log(np.asarray(y)), 1)
     return float(exponent), float(np.exp(logarithm))
+
+
+def _markdown(columns: Sequence[Column], rows: Sequence[dict[str, Any]]) -> str:
+    table = [
+        [heading for heading, _, _ in columns],
+        ["---" if form == "s" else "---:" for _, _, form in columns],
+        *([_text(row.get(key), form) for _, key, form in columns] for row in rows),
+    ]
+    return "".join(f"| {' | '.join(cells)} |\n" for cells in table)
 
 
 def _text(value: Any, form: str) -> str:

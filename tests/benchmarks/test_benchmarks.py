@@ -2,11 +2,16 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """The benchmarks run on coarse meshes, so that they cannot rot; what they measure is not judged."""
 
+import bench_friction
 import bench_growth
 import bench_hertz
+import bench_ironing
+import bench_methods
 import bench_parts
+import bench_rates
 import bench_scenes
 import bench_skips
+import bench_spheres
 import bench_steps
 import numpy as np
 import parts
@@ -14,6 +19,7 @@ import pytest
 import runner
 import tables
 from matplotlib import image
+from story import METHODS
 
 ALONE = runner.alone
 
@@ -108,3 +114,44 @@ def test_steps():
     for row in rows:
         assert len(row["each"].split()) == bench_steps.STEPS
         assert row["ratio"] > 1
+
+
+def test_methods(monkeypatch):
+    monkeypatch.setattr(bench_methods, "RUNS", 1)
+    rows = bench_methods.main(["0.2"])
+    assert [row["method"] for row in rows] == list(METHODS) * (len(rows) // len(METHODS))
+    assert {row.get("cells") for row in rows} == {"tetrahedra", "hexahedra", None}
+    for row in rows:
+        assert 0 < row["p_l2_best"] < 3 and row["gap"] < 1e-9
+    assert all(row["ratio"] > 0 for row in rows if "cells" in row)
+    assert image.imread(runner.OUTPUT / "methods.png").shape[0] > 300
+    lines = (runner.OUTPUT / "methods.md").read_text().splitlines()
+    assert len(lines) == 2 + sum("cells" in row for row in rows)
+
+
+def test_rates():
+    rows = bench_rates.main(["6", "12"])
+    assert len(rows) == 2 * len(bench_rates.CASES) * len(METHODS)
+    assert all(0.5 < row["H1 rate"] < 1.5 for row in rows if row["n"] == 12)
+
+
+def test_spheres():
+    rows = bench_spheres.main(["0.2"])
+    assert len(rows) == len(bench_spheres.CASES) * len(METHODS)
+    assert all(abs(row["a_best"]) < 0.2 for row in rows)
+
+
+def test_ironing():
+    rows = bench_ironing.main(["2", "0.17"])
+    assert len(rows) == 4 * len(METHODS)
+    for first, other in zip(rows[::2], rows[1::2], strict=True):
+        assert other["apart"] == pytest.approx(other["down"] / first["down"] - 1)
+        assert 0 < other["swing_along"] < first["swing_along"]
+
+
+def test_friction():
+    rows = bench_friction.main(["block", "0.5"]) + bench_friction.main(["slab", "5"])
+    assert not any("failed" in row for row in rows)
+    assert {row["scene"] for row in rows} >= {"slice, 5 layers, slave slabs"}
+    apart = [row for row in rows if "difference" in row]
+    assert len(apart) > 8 and all(np.isfinite(row["difference"]) for row in apart)

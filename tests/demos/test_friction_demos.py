@@ -3,6 +3,7 @@
 """The demos with friction run, print what they should and leave their pictures."""
 
 import cattaneo_mindlin
+import ironing
 import numpy as np
 import pytest
 import pyvista
@@ -57,3 +58,16 @@ def test_sliding_block(sliding, ploughing, dim, h, held, last, slides, tmp_path,
 def test_stacked_blocks(sliding, dim, h, tmp_path, capsys):
     arguments = ("--h", h, "--dim", dim, "--sliding", sliding)
     check(stacked_blocks, arguments, [1e-7] * 10, ("stacked_blocks.png",), tmp_path, capsys)
+
+
+def test_ironing(tmp_path, capsys):
+    results = ironing.main(["--h", "0.15", "--output", str(tmp_path)])
+    assert len(results) == 2 * (4 + 1) + 2
+    assert all(abs(result.error) < 0.05 for result in results)
+    printed = capsys.readouterr().out
+    for text in ("expected", "computed", "error", "iterations", "see "):
+        assert text in printed
+    for picture in ("ironing.png", "ironing_force.png"):
+        assert image.imread(tmp_path / picture).shape[0] > 300
+    saved = pyvista.get_reader(str(tmp_path / "ironing.pvd")).read()[0].point_data
+    assert any(name.startswith("pressure") for name in saved)

@@ -23,7 +23,8 @@ struct Overlap
   }
 };
 
-/// @brief Corners of a facet in a plane, in order and counterclockwise.
+/// @brief Corners of a facet in a plane, in order and counterclockwise; none of
+/// a facet whose position is no number.
 /// @param[in] r Nodes in the plane.
 template <class F>
 Overlap<F::tdim> outline(const Flat<F>& r)
@@ -34,6 +35,8 @@ Overlap<F::tdim> outline(const Flat<F>& r)
     const bool turned = r[0][0] > r[1][0];
     p.push(r[turned]);
     p.push(r[!turned]);
+    if (!std::isfinite(r[1][0] - r[0][0]))
+      p.size = 0;
   }
   else
   {
@@ -47,14 +50,43 @@ Overlap<F::tdim> outline(const Flat<F>& r)
     }
     if (area < 0)
       std::reverse(p.corner.begin(), p.corner.begin() + p.size);
+    if (!std::isfinite(area))
+      p.size = 0;
   }
   return p;
+}
+
+/// @brief Whether a facet is convex in a plane. A quadrilateral that is not has
+/// no inverse map: it is folded, if only as seen along the projection.
+/// @param[in] r Nodes in the plane.
+template <class F>
+bool is_convex(const Flat<F>& r)
+{
+  if constexpr (!F::flat)
+  {
+    double least = 0, most = 0;
+    for (int i = 0; i < F::nodes; ++i)
+    {
+      const auto& [from, to] = F::edges[i];
+      const auto e = r[to] - r[from];
+      const auto f = r[F::edges[(i + 1) % F::nodes].second] - r[to];
+      const double turn = e[0] * f[1] - e[1] * f[0];
+      least = std::min(least, turn);
+      most = std::max(most, turn);
+    }
+    // Three nodes on a line are no fold
+    constexpr double rounding = 1e-10;
+    return std::min(-least, most) <= rounding * std::max(-least, most);
+  }
+  return true;
 }
 
 /// @brief What two intervals share.
 inline Overlap<1> clip(const Overlap<1>& a, const Overlap<1>& b)
 {
   Overlap<1> c;
+  if (a.size == 0 or b.size == 0)
+    return c;
   const double low = std::max(a.corner[0][0], b.corner[0][0]);
   const double high = std::min(a.corner[1][0], b.corner[1][0]);
   if (low < high)
@@ -69,10 +101,14 @@ inline Overlap<1> clip(const Overlap<1>& a, const Overlap<1>& b)
 /// other. I. E. Sutherland and G. W. Hodgman, Commun. ACM 17, 1974.
 inline Overlap<2> clip(Overlap<2> a, const Overlap<2>& b)
 {
+  int edges = 0;
   for (int i = 0; i < b.size and a.size > 0; ++i)
   {
     const Vec<2>& p = b.corner[i];
     const Vec<2> e = b.corner[(i + 1) % b.size] - p;
+    if (e[0] == 0 and e[1] == 0)
+      continue;
+    ++edges;
     // Positive on the left of the edge
     const auto side = [&p, &e](const Vec<2>& q)
     { return e[0] * (q[1] - p[1]) - e[1] * (q[0] - p[0]); };
@@ -91,7 +127,7 @@ inline Overlap<2> clip(Overlap<2> a, const Overlap<2>& b)
     }
     a = cut;
   }
-  if (a.size < 3)
+  if (a.size < 3 or edges < 3)
     a.size = 0;
   return a;
 }

@@ -19,8 +19,8 @@ constexpr double layers = 1e-6;
 struct Found
 {
   std::int32_t facet;
-  double area; ///< shared with the slave facet itself
-  double distance;
+  double area;     ///< shared with the slave facet itself
+  double distance; ///< where it shares something
 };
 
 /// Area of a polygon, or length.
@@ -55,6 +55,8 @@ public:
     Vec<S::gdim> centre, half;
     for (int k = 0; k < S::gdim; ++k)
     {
+      if (not(box.lower[k] <= box.upper[k]))
+        return false; // empty: positions that are no numbers
       centre[k] = 0.5 * (box.lower[k] + box.upper[k]) - _plane.origin[k];
       half[k] = 0.5 * (box.upper[k] - box.lower[k]);
     }
@@ -78,7 +80,19 @@ private:
   facet::Local<S> _from, _to;
 };
 
+/// Distance of a facet, in the middle of what it shares.
+template <class M>
+double distance_at(const Overlap<M::tdim>& part, const Flat<M>& r,
+                   const Vec<M::nodes>& height)
+{
+  facet::Local<M> middle{};
+  for (int i = 0; i < part.size; ++i)
+    middle = middle + (1.0 / part.size) * part.corner[i];
+  return std::abs(dot(InverseMap<M>(r).at(middle).N, height));
+}
+
 /// Where several layers are found, keep the nearest ones, as far as connected.
+/// What lies beside the slave facet connects no layers, but goes with them.
 void keep_nearest(std::vector<Found>& found, double area,
                   const search::Surface& master)
 {
@@ -94,16 +108,11 @@ void keep_nearest(std::vector<Found>& found, double area,
         facets[a], [nodes = facets[b]](std::int32_t node)
         { return std::ranges::find(nodes, node) != nodes.end(); });
   };
-  std::ranges::sort(found, {}, &Found::distance);
-  std::vector<Found> kept;
-  total = 0;
-  while (!found.empty())
+  const auto gather
+      = [&share_a_node](std::vector<Found>& layer, std::vector<Found>& from)
   {
-    // A layer: what is connected with the nearest facet that is left
-    std::vector<Found> layer{found.front()};
-    found.erase(found.begin());
     for (std::size_t i = 0; i < layer.size(); ++i)
-      std::erase_if(found,
+      std::erase_if(from,
                     [&](const Found& f)
                     {
                       if (!share_a_node(layer[i].facet, f.facet))
@@ -111,15 +120,32 @@ void keep_nearest(std::vector<Found>& found, double area,
                       layer.push_back(f);
                       return true;
                     });
+  };
+  const auto border = std::ranges::partition(found, [](const Found& f)
+                                             { return f.area > 0; });
+  std::vector<Found> beside(border.begin(), border.end());
+  found.erase(border.begin(), border.end());
+  std::ranges::sort(found, {}, &Found::distance);
+  std::vector<Found> kept, left;
+  total = 0;
+  while (!found.empty())
+  {
+    // A layer: what is connected with the nearest facet that is left
+    std::vector<Found> layer{found.front()};
+    found.erase(found.begin());
+    gather(layer, found);
     double more = 0;
     for (const Found& f : layer)
       more += f.area;
-    if (kept.empty() or total + more <= (1 + layers) * area)
-    {
+    const bool fits = kept.empty() or total + more <= (1 + layers) * area;
+    if (fits)
       total += more;
-      kept.insert(kept.end(), layer.begin(), layer.end());
-    }
+    auto& side = fits ? kept : left;
+    side.insert(side.end(), layer.begin(), layer.end());
   }
+  gather(kept, beside);
+  gather(left, beside);
+  kept.insert(kept.end(), beside.begin(), beside.end());
   found = std::move(kept);
 }
 } // namespace
@@ -128,8 +154,7 @@ FacetSearch::FacetSearch(std::vector<std::int32_t> slave_offsets,
                          std::vector<std::int32_t> slave_nodes,
                          std::vector<std::int32_t> master_offsets,
                          std::vector<std::int32_t> master_nodes, int gdim)
-    : _slave_offsets(std::move(slave_offsets)),
-      _slave_nodes(std::move(slave_nodes)),
+    : _slave(std::move(slave_offsets), std::move(slave_nodes), gdim),
       _master(std::move(master_offsets), std::move(master_nodes), gdim)
 {
 }
@@ -152,6 +177,8 @@ FacetPairs FacetSearch::find(std::span<const double> x, double reach,
         {
           const auto xs = facet::gather<S>(slave()[f], x);
           const Plane<S> plane(xs);
+          if (not std::isfinite(plane.n[0]))
+            return;
           const Overlap<S::tdim> outline
               = mortar::outline<S>(project<S>(plane, xs));
           Overlap<S::tdim> wide = outline;
@@ -174,18 +201,22 @@ FacetPairs FacetSearch::find(std::span<const double> x, double reach,
             if (not(dot(facet::frame<M>(xm, plane_origin<M>()).n, plane.n)
                     < -least_cosine))
               return;
-            double nearest = plane.height(xm[0]), farthest = nearest;
-            for (const auto& p : xm)
-            {
-              nearest = std::min(nearest, plane.height(p));
-              farthest = std::max(farthest, plane.height(p));
-            }
+            Vec<M::nodes> height;
+            for (int l = 0; l < M::nodes; ++l)
+              height[l] = plane.height(xm[l]);
+            const auto [nearest, farthest] = std::ranges::minmax(height);
             if (nearest - high > reach or farthest - low < -reach)
               return;
-            const auto shape = mortar::outline<M>(project<M>(plane, xm));
-            if (size_of(clip(shape, wide)) > 0)
-              found.push_back({m, size_of(clip(shape, outline)),
-                               std::abs(0.5 * (nearest + farthest))});
+            const Flat<M> r = project<M>(plane, xm);
+            if (!is_convex<M>(r))
+              return;
+            const auto shape = mortar::outline<M>(r);
+            if (not(size_of(clip(shape, wide)) > 0))
+              return;
+            const auto part = clip(shape, outline);
+            const double area = size_of(part);
+            found.push_back(
+                {m, area, area > 0 ? distance_at<M>(part, r, height) : 0});
           };
           _tree->for_each([&prism](const search::Box& box)
                           { return prism.meets(box); },

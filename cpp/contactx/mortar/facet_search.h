@@ -13,7 +13,8 @@ namespace contactx::mortar
 /// @brief Finds the master facets in front of each slave facet.
 ///
 /// Both are projected on the slave facet's plane. Where several layers of the
-/// master lie over one another the nearest one counts.
+/// master lie over one another the nearest one counts. Facets without area or
+/// position, and those that look folded from the slave facet, are in no pair.
 class FacetSearch
 {
 public:
@@ -23,6 +24,7 @@ public:
   /// @param[in] master_offsets First node of each master facet and the end.
   /// @param[in] master_nodes Nodes of the master facets.
   /// @param[in] gdim Geometric dimension, 2 or 3.
+  /// @throws std::invalid_argument where facets are none of that dimension.
   FacetSearch(std::vector<std::int32_t> slave_offsets,
               std::vector<std::int32_t> slave_nodes,
               std::vector<std::int32_t> master_offsets,
@@ -31,27 +33,26 @@ public:
   /// @brief Find the pairs.
   /// @param[in] x Node coordinates (shape=(num_nodes, gdim)), row-major.
   /// @param[in] reach Largest distance of a pair.
-  /// @param[in] margin How far beyond its edges a slave facet looks, as a part
-  /// of its size: pairs that share nothing yet.
+  /// @param[in] margin By which part a slave facet is enlarged about its middle
+  /// when it looks: pairs that share nothing yet.
   FacetPairs find(std::span<const double> x, double reach, double margin);
 
   /// @brief Geometric dimension.
   int gdim() const { return _master.gdim(); }
 
   /// @brief Slave facets.
-  facet::FacetList slave() const { return {_slave_offsets, _slave_nodes}; }
+  facet::FacetList slave() const { return _slave.facets(); }
 
   /// @brief Master facets.
   facet::FacetList master() const { return _master.facets(); }
 
 private:
-  std::vector<std::int32_t> _slave_offsets, _slave_nodes;
-  search::Surface _master;
+  search::Surface _slave, _master;
   std::optional<search::BoxTree> _tree;
 };
 
-/// @brief Whether all pairs are among others.
-/// @param[in] part Pairs, ascending by slave and then by master facet.
-/// @param[in] all Others, in the same order.
+/// @brief Whether all pairs of a part are among others.
+/// @param[in] all Pairs, ascending by slave and then by master facet.
+/// @param[in] part Others, in the same order.
 bool contains(const FacetPairs& all, const FacetPairs& part);
 } // namespace contactx::mortar

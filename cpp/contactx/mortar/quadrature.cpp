@@ -3,15 +3,17 @@
 
 #include "quadrature.h"
 #include <numbers>
-#include <vector>
 
 using namespace contactx::mortar;
 
 namespace
 {
-std::vector<GaussPoint> make(int n)
+// Of fixed size: kernels must not allocate, not even at their first call
+using Rule = std::array<GaussPoint, max_points>;
+
+Rule make(int n)
 {
-  std::vector<GaussPoint> rule;
+  Rule rule{};
   for (int i = 0; i < n; ++i)
   {
     // Newton's method for the roots of the Legendre polynomial
@@ -32,7 +34,7 @@ std::vector<GaussPoint> make(int n)
       if (std::abs(step) < 1e-16)
         break;
     }
-    rule.push_back({0.5 * (1 - x), 1 / ((1 - x * x) * slope * slope)});
+    rule[i] = {0.5 * (1 - x), 1 / ((1 - x * x) * slope * slope)};
   }
   return rule;
 }
@@ -42,10 +44,10 @@ std::span<const GaussPoint> contactx::mortar::gauss(int n)
 {
   static const auto rules = []
   {
-    std::array<std::vector<GaussPoint>, max_points + 1> all;
+    std::array<Rule, max_points + 1> all{};
     for (int i = 1; i <= max_points; ++i)
       all[i] = make(i);
     return all;
   }();
-  return rules[n];
+  return {rules[n].data(), static_cast<std::size_t>(n)};
 }

@@ -70,7 +70,7 @@ int rule_degree(double distortion)
 {
   constexpr int degree
       = (S::flat ? 1 : 2) + std::max(S::flat ? 1 : 2, M::flat ? 1 : 2);
-  if (distortion < 1e-13)
+  if (not(distortion >= 1e-13))
     return degree;
   // The error falls by half the distortion with every degree
   constexpr double digits = 25; // -log(1e-11)
@@ -79,7 +79,8 @@ int rule_degree(double distortion)
 }
 
 /// @brief Integrate over the part of a slave facet that faces a master facet,
-/// with the slave facet's reference area.
+/// with the slave facet's reference area. A master facet that is folded shares
+/// nothing.
 /// @param[in] slave Slave facet.
 /// @param[in] master Nodes of the master facet.
 /// @param[in] f Called as f(slave's shape, master's shape, weight).
@@ -88,6 +89,8 @@ void integrate(const SlaveFacet<S>& slave, const facet::Nodes<M>& master,
                Function&& f)
 {
   const Flat<M> r = project<M>(slave.plane, master);
+  if (!is_convex<M>(r))
+    return;
   const Overlap<S::tdim> overlap = clip(outline<M>(r), slave.shape);
   if (overlap.size == 0)
     return;

@@ -4,6 +4,7 @@
 #include "generator.h"
 #include <atomic>
 #include <contactx/kernel/registry.h>
+#include <contactx/mortar/segment.h>
 #include <cstdlib>
 #include <gtest/gtest.h>
 #include <new>
@@ -31,23 +32,45 @@ void operator delete(void* p, std::size_t) noexcept { std::free(p); }
 
 namespace
 {
+/// Put a slave facet and a master facet over one another.
+template <class S, class M>
+void face(double* w, Law law)
+{
+  constexpr int D = S::gdim;
+  const auto at = [w, law](Coefficient c)
+  { return w + offset(law, c, M::nodes, D, S::nodes); };
+  double* u = at(Coefficient::displacement);
+  double* x = at(Coefficient::position);
+  std::fill(u, x, 0);
+  for (int a = 0; a < S::nodes + M::nodes; ++a)
+    for (int k = 0; k < S::tdim; ++k)
+      x[D * a + k] = a < S::nodes ? S::vertices[a][S::tdim - 1 - k]
+                                  : M::vertices[a - S::nodes][k];
+}
+
 TEST(Kernels, AllocateNothing)
 {
   Generator random(1);
-  std::vector<double> A(1000), w(200);
-  for (double& c : w)
+  std::vector<double> A(1000), numbers(200);
+  for (double& c : numbers)
     c = random(0.1, 1);
   const long before = allocations;
   std::vector<double> counted(1);
   ASSERT_EQ(allocations, before + 1);
 
+  std::vector<double> w(numbers);
   for (const Entry& e : registry())
   {
+    std::ranges::copy(numbers, w.begin());
     // The interior, edges and vertices
-    const int features = e.num_nodes == 0 ? 1 : 1 + (e.gdim - 1) * e.num_nodes;
+    const bool has_features = e.num_nodes > 0 and e.num_slaves == 1;
+    const int features = has_features ? 1 + (e.gdim - 1) * e.num_nodes : 1;
+    if (e.num_nodes > 0 and e.num_slaves > 1)
+      mortar::visit(e.num_slaves, e.num_nodes, [&]<class S, class M>(S, M)
+                    { face<S, M>(w.data(), e.law); });
     for (int feature = 0; feature < features; ++feature)
     {
-      if (e.num_nodes > 0)
+      if (has_features)
         w[offset(e.law, Coefficient::pair, e.num_nodes, e.gdim) + pair_feature]
             = feature;
       const long start = allocations;

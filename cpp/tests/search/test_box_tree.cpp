@@ -137,6 +137,69 @@ TEST(BoxTree, RefitKnowsTheMovedBoxes)
   }
 }
 
+bool meet(const Box& a, const Box& b)
+{
+  for (int k = 0; k < 3; ++k)
+    if (not(a.lower[k] <= b.upper[k] and b.lower[k] <= a.upper[k]))
+      return false;
+  return true;
+}
+
+/// The items whose boxes meet a box, with the number of boxes looked at.
+std::pair<std::multiset<std::int32_t>, int> met(const BoxTree& tree,
+                                                const Box& box)
+{
+  std::multiset<std::int32_t> items;
+  int looked_at = 0;
+  tree.for_each(
+      [&](const Box& b)
+      {
+        ++looked_at;
+        return meet(b, box);
+      },
+      [&items](std::int32_t i) { items.insert(i); });
+  return {items, looked_at};
+}
+
+TEST(BoxTree, ForEachVisitsEachBoxThatMattersOnce)
+{
+  Generator random(7);
+  for (int n : {1, 2, 4, 5, 9, 100, 1000})
+    for (int i = 0; i < 20; ++i)
+    {
+      auto boxes = random_boxes(random, n);
+      if (i % 4 == 0)
+        boxes[n / 2] = Box::empty();
+      BoxTree tree(boxes);
+      if (i % 2)
+      {
+        boxes = random_boxes(random, n);
+        tree.refit(boxes);
+      }
+      Box box = Box::empty();
+      const Vec<3> p = random.vector<3>(-1, 1);
+      box.add(p);
+      box.add(p + random.vector<3>(-1, 1));
+      std::multiset<std::int32_t> expected;
+      for (int j = 0; j < n; ++j)
+        if (meet(boxes[j], box))
+          expected.insert(j);
+      EXPECT_EQ(met(tree, box).first, expected);
+    }
+}
+
+TEST(BoxTree, ForEachPassesOverWhatDoesNotMatter)
+{
+  Generator random(8);
+  const auto boxes = random_boxes(random, 10000);
+  const BoxTree tree(boxes);
+  const auto [items, looked_at] = met(tree, {{0, 0, 0}, {0.05, 0.05, 0.05}});
+  EXPECT_FALSE(items.empty());
+  EXPECT_LT(looked_at, 1000);
+  EXPECT_EQ(met(tree, {{9, 9, 9}, {10, 10, 10}}).second, 1);
+  EXPECT_EQ(met(BoxTree({}), {{0, 0, 0}, {1, 1, 1}}).second, 0);
+}
+
 TEST(BoxTree, RefitNeedsAsManyBoxes)
 {
   Generator random(6);

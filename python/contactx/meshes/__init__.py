@@ -8,9 +8,11 @@ from contactx.meshes.cap import hertz_cap
 from contactx.meshes.cylinder import hertz_cylinder
 from contactx.meshes.face_slab import FACE_SLABS, FaceSlab, face_slab
 from contactx.meshes.half_cylinders import half_cylinders
+from contactx.meshes.half_spheres import half_spheres
 from contactx.meshes.rings import rings
 from contactx.meshes.single import single
 from contactx.meshes.sphere import hertz_sphere
+from contactx.meshes.sphere_grid import hertz_grid
 from contactx.meshes.stack import stack
 from contactx.meshes.stacked import blocks
 from contactx.meshes.tags import Tag, block_tag
@@ -23,8 +25,10 @@ __all__ = [
     "blocks",
     "face_slab",
     "half_cylinders",
+    "half_spheres",
     "hertz_cap",
     "hertz_cylinder",
+    "hertz_grid",
     "hertz_sphere",
     "rings",
     "single",

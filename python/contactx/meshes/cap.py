@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from types import ModuleType
 
 from mpi4py import MPI
@@ -12,6 +11,7 @@ from mpi4py import MPI
 import numpy as np
 import numpy.typing as npt
 
+from contactx.meshes.bend import Bottom, move_nodes
 from contactx.meshes.build import build_mesh
 from contactx.meshes.checks import check_divisions, check_positive
 from contactx.meshes.entities import add_box, tag_body
@@ -39,23 +39,6 @@ def _grade(x: npt.NDArray[np.float64], n: int, length: float) -> npt.NDArray[np.
         return x
     total = _GROWTH ** (n / (n - 1))
     return np.asarray(np.sign(x) * length * (total ** (np.abs(x) / length) - 1) / (total - 1))
-
-
-def _move_nodes(
-    gmsh: ModuleType,
-    body: int,
-    moved: Callable[[npt.NDArray[np.float64]], npt.NDArray[np.float64]],
-) -> None:
-    """Map the coordinates of all nodes of a body, shape (3, nodes)."""
-    nodes, flat, _ = gmsh.model.mesh.getNodes(3, body, includeBoundary=True)
-    for node, x in zip(nodes, moved(np.reshape(flat, (-1, 3)).T).T, strict=True):
-        gmsh.model.mesh.setNode(node, x, [])
-
-
-def _bend(x: npt.NDArray[np.float64], length: float, radius: float) -> npt.NDArray[np.float64]:
-    """Lift points so that a block's bottom z = 0 becomes a cap and its top stays flat."""
-    rise = radius - np.sqrt(radius**2 - x[0] ** 2 - x[1] ** 2)
-    return np.stack((x[0], x[1], x[2] + rise * (1 - x[2] / length)))
 
 
 def hertz_cap(
@@ -108,7 +91,8 @@ def hertz_cap(
         tag_body(gmsh, 3, upper, Tag.UPPER, _UPPER_FACES)
         tag_body(gmsh, 3, lower, Tag.LOWER, _LOWER_FACES)
         gmsh.model.mesh.generate(3)
-        _move_nodes(gmsh, upper, lambda x: _bend(_grade(x, n, length), length, cap_radius))
-        _move_nodes(gmsh, lower, lambda x: _grade(x, n_lower, length))
+        bottom = Bottom((0, 0), 0.0, length, cap_radius)
+        move_nodes(gmsh, 3, upper, lambda x: bottom.bend(_grade(x, n, length)))
+        move_nodes(gmsh, 3, lower, lambda x: _grade(x, n_lower, length))
 
     return build_mesh("hertz_cap", 3, recipe, comm)

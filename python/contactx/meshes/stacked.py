@@ -1,6 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Two boxes, one on the other, on structured grids."""
+"""Two boxes, one on the other, on structured grids; the upper one's bottom may be round."""
 
 from __future__ import annotations
 
@@ -10,6 +10,9 @@ from types import ModuleType
 
 from mpi4py import MPI
 
+import numpy as np
+
+from contactx.meshes.bend import Bottom, move_nodes
 from contactx.meshes.build import build_mesh
 from contactx.meshes.checks import (
     check_cell_type,
@@ -42,6 +45,7 @@ def blocks(
     size_lower: Sequence[float] | None = None,
     shift: Sequence[float] | None = None,
     gap: float = 0.0,
+    radius: float | None = None,
     comm: MPI.Comm = MPI.COMM_WORLD,
 ) -> MeshData:
     """Mesh two boxes, the upper on the lower one (collective).
@@ -59,6 +63,8 @@ def blocks(
         shift: Horizontal offset of the upper box's corner from the lower box's, shape
             (dim - 1,); zero if None.
         gap: Distance between the boxes; negative if they overlap.
+        radius: Radius of the sphere, or circle in 2D, that the upper box's bottom is bent to, by
+            lifting its nodes about the middle; flat if None.
         comm: Communicator of the mesh; rank 0 makes it.
 
     Returns:
@@ -66,7 +72,8 @@ def blocks(
 
     Raises:
         ValueError: If the cell type is another one, a sequence has a wrong length, a number of
-            cells is below one, a length is not positive or a position is not finite.
+            cells is below one, a length is not positive, a position is not finite, or the radius
+            does not span the upper box or lifts its bottom's corners to its top.
     """
     dim = check_cell_type(cell_type)
     size_upper = (1.0,) * dim if size_upper is None else size_upper
@@ -81,6 +88,19 @@ def blocks(
     check_vector("shift", shift, dim - 1)
     if not math.isfinite(gap):
         raise ValueError(f"gap is {gap}; give a finite number.")
+    bottom: Bottom | None = None
+    if radius is not None:
+        check_positive(radius=radius)
+        half = float(np.hypot.reduce(np.asarray(size_upper[:-1]) / 2))
+        # Below it the corners would be as high as the box, or not be on the sphere at all
+        least = half if half < size_upper[-1] else (half**2 / size_upper[-1] + size_upper[-1]) / 2
+        if radius <= least:
+            raise ValueError(
+                f"radius is {radius}; give more than {least:g}, or the corners of the upper box "
+                "do not stay below its top."
+            )
+        middle = [s + size / 2 for s, size in zip(shift, size_upper[:-1], strict=True)]
+        bottom = Bottom(middle, gap, size_upper[-1], radius)
     corner_upper = (*shift, gap)
     corner_lower = (0.0,) * (dim - 1) + (-size_lower[-1],)
     recombine = cell_type in (CellType.quadrilateral, CellType.hexahedron)
@@ -91,5 +111,7 @@ def blocks(
         tag_body(gmsh, dim, upper, Tag.UPPER, _faces("UPPER", dim))
         tag_body(gmsh, dim, lower, Tag.LOWER, _faces("LOWER", dim))
         gmsh.model.mesh.generate(dim)
+        if bottom is not None:
+            move_nodes(gmsh, dim, upper, bottom.bend)
 
     return build_mesh("blocks", dim, recipe, comm)

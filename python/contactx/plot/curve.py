@@ -15,7 +15,7 @@ import numpy.typing as npt
 from contactx.plot.style import COLOURS, DOTS_PER_INCH, INK, import_plotter
 
 Curve = tuple[npt.ArrayLike, npt.ArrayLike]
-_POINTS = (COLOURS[3], COLOURS[2], COLOURS[4])
+_POINTS = (COLOURS[3], COLOURS[2], COLOURS[4], "#5b7f95")
 _LINES = ("-", "--", ":")
 
 
@@ -62,7 +62,9 @@ def curves(
     figure.suptitle(title, fontsize=14, color=INK)
     handles, names = axes[0].get_legend_handles_labels()
     if handles:
-        figure.legend(handles, names, frameon=False, loc="outside lower center", ncols=4)
+        # A row of the page's width holds some 60 letters beside the marks
+        columns = max(1, min(4, 60 // max(map(len, names))))
+        figure.legend(handles, names, frameon=False, loc="outside lower center", ncols=columns)
     figure.savefig(path, dpi=DOTS_PER_INCH, facecolor="white")
 
 

@@ -72,6 +72,22 @@ def test_flat_box_keeps_its_sides_apart(measures: Any) -> None:
     assert faces[Tag.UPPER_X0] == pytest.approx(1e-3)
 
 
+@pytest.mark.parametrize("cell_type", [CellType.triangle, CellType.hexahedron])
+def test_round_bottom(measures: Any, cell_type: CellType) -> None:
+    """It lies on its sphere above the middle of the box, and the top stays flat."""
+    dim = 2 if cell_type == CellType.triangle else 3
+    n, shift = (4,) * dim, (0.3, -0.2)[: dim - 1]
+    measured = measures(blocks(cell_type, n, n, shift=shift, gap=0.1, radius=2.0))
+    measured.check_topology()
+    centre = np.zeros(3)
+    centre[:dim] = (*(s + 0.5 for s in shift), 2.1)
+    bottom = measured.facet_points(Tag.UPPER_CONTACT)
+    assert np.allclose(np.linalg.norm(bottom - centre, axis=2), 2, rtol=0, atol=1e-12)
+    assert bottom[..., dim - 1].min() == pytest.approx(0.1)
+    assert np.allclose(measured.facet_points(Tag.UPPER_TOP)[..., dim - 1], 1.1)
+    assert measured.bodies()[Tag.LOWER] == pytest.approx(1)
+
+
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
@@ -83,6 +99,9 @@ def test_flat_box_keeps_its_sides_apart(measures: Any) -> None:
         ({"size_lower": (1,)}, r"size_lower is \(1,\); give 2 finite numbers"),
         ({"shift": (1, 1)}, r"shift is \(1, 1\); give 1 finite numbers"),
         ({"gap": np.nan}, "gap is nan; give a finite number"),
+        ({"radius": 0.0}, r"radius is 0\.0; give a positive number"),
+        ({"radius": 0.5}, r"radius is 0\.5; give more than 0\.5, or the corners"),
+        ({"radius": 0.6, "size_upper": (1, 0.25)}, r"radius is 0\.6; give more than 0\.625"),
     ],
 )
 def test_bad_input(arguments: dict[str, Any], message: str) -> None:

@@ -1,0 +1,156 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#pragma once
+
+#include "facets.h"
+#include "scene.h"
+#include <contactx/facet/gather.h>
+#include <contactx/mortar/facet_search.h>
+
+namespace contactx::tests
+{
+/// @brief The same facet seen from behind.
+template <class F>
+facet::Nodes<F> turned(facet::Nodes<F> x)
+{
+  if constexpr (F::nodes == 2)
+    std::swap(x[0], x[1]);
+  else
+    std::swap(x[1], x[2]);
+  return x;
+}
+
+/// @brief Polyline of n segments, its node i at position(i / n).
+template <class Position>
+Scene line(int n, Position position)
+{
+  Scene scene(2);
+  for (int i = 0; i <= n; ++i)
+    scene.node(position(double(i) / n));
+  for (int i = 0; i < n; ++i)
+    scene.facet({i, i + 1});
+  return scene;
+}
+
+/// @brief Surface of n segments, or n x n cells, over [low, high]^2.
+/// @param[in] gdim Geometric dimension.
+/// @param[in] n Number of cells an axis.
+/// @param[in] cells What a surface is made of.
+/// @param[in] up Whether it looks up, along the last axis.
+/// @param[in] position Called as position(s, t), s and t from low to high.
+template <class Position>
+Scene sheet(int gdim, int n, Cells cells, bool up, double low, double high,
+            Position position)
+{
+  const auto at = [low, high](double s) { return low + s * (high - low); };
+  if (gdim == 2)
+    return line(n, [&](double s) { return position(at(up ? 1 - s : s), 0.0); });
+  return grid(n, cells, [&](double s, double t)
+              { return up ? position(at(s), at(t)) : position(at(t), at(s)); });
+}
+
+/// @brief The nodes of a flat sheet: at height `z`.
+inline auto level(int gdim, double z)
+{
+  return [gdim, z](double s, double t)
+  { return gdim == 2 ? Vec<3>{s, z, 0} : Vec<3>{s, t, z}; };
+}
+
+/// @brief A surface of one facet.
+template <class F>
+Scene single(const facet::Nodes<F>& x)
+{
+  Scene scene(F::gdim);
+  std::vector<std::int32_t> nodes;
+  for (const auto& p : x)
+  {
+    Vec<3> q{};
+    std::copy(p.begin(), p.end(), q.begin());
+    nodes.push_back(scene.node(q));
+  }
+  scene.facet(nodes);
+  return scene;
+}
+
+/// @brief A slave and a master surface, over common nodes.
+struct Facing
+{
+  int gdim;
+  std::vector<double> x;
+  Scene slave, master; ///< with the numbers of the common nodes
+
+  Facing(const Scene& below, const Scene& above)
+      : gdim(below.gdim), x(below.x), slave(below), master(above)
+  {
+    const auto first = static_cast<std::int32_t>(x.size()) / gdim;
+    x.insert(x.end(), above.x.begin(), above.x.end());
+    for (std::int32_t& node : master.nodes)
+      node += first;
+  }
+
+  /// @brief Move all nodes: p becomes map(p).
+  template <class Map>
+  void move(Map&& map)
+  {
+    for (std::size_t i = 0; i < x.size(); i += gdim)
+    {
+      Vec<3> p{};
+      std::copy_n(x.begin() + i, gdim, p.begin());
+      p = map(p);
+      std::copy_n(p.begin(), gdim, x.begin() + i);
+    }
+  }
+
+  mortar::FacetSearch search() const
+  {
+    return {slave.offsets, slave.nodes, master.offsets, master.nodes, gdim};
+  }
+
+  mortar::FacetPairs find(double reach = 10, double margin = 0) const
+  {
+    return search().find(x, reach, margin);
+  }
+
+  /// @brief Each slave facet with each master facet.
+  mortar::FacetPairs all_pairs() const
+  {
+    mortar::FacetPairs pairs;
+    for (std::int32_t f = 0; f < slave.facets().size(); ++f)
+      for (std::int32_t g = 0; g < master.facets().size(); ++g)
+      {
+        pairs.slave.push_back(f);
+        pairs.master.push_back(g);
+      }
+    return pairs;
+  }
+
+  mortar::Integrals integrals(const mortar::FacetPairs& pairs,
+                              std::span<const double> reference,
+                              std::span<const double> normal = {}) const
+  {
+    return mortar::integrals(slave.facets(), master.facets(), pairs, x,
+                             reference, gdim, normal);
+  }
+
+  mortar::Integrals integrals(const mortar::FacetPairs& pairs) const
+  {
+    return integrals(pairs, x);
+  }
+
+  Vec<3> point(std::int32_t node) const
+  {
+    Vec<3> p{};
+    std::copy_n(x.begin() + node * gdim, gdim, p.begin());
+    return p;
+  }
+};
+
+/// @brief Weight int Phi_s N_l of a pair.
+inline double weight(const mortar::Integrals& found, std::size_t pair, int s,
+                     int l)
+{
+  constexpr int n = mortar::most_nodes;
+  return found.weight[n * n * pair + n * s + l];
+}
+} // namespace contactx::tests

@@ -1,0 +1,160 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Two blocks in contact whose exact solution is known: one that is smooth, and Hertz's half-planes.
+
+Both are linear, on flat faces with small sliding, so that nothing but the discretisation errs.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import exact
+import numpy as np
+import numpy.typing as npt
+from story import displacement
+
+import contactx as cx
+import ufl
+from contactx import meshes
+from contactx.meshes import Tag
+from dolfinx import fem, mesh
+
+Array = npt.NDArray[np.float64]
+# Divisions of the master over those of the slave
+COARSER = 2 / 3
+# Exact functions are no polynomials
+_DEGREE = 6
+# Degree of the functions that stand for Hertz's solution
+_HIGH = 3
+
+
+class Case:
+    """Two blocks, one above the other, the upper one the slave.
+
+    Attributes:
+        domain: The mesh.
+        tags: Facet tags.
+        cells: Cells of each body.
+        u: Displacement.
+        contact: Contact of the two.
+        problem: The problem.
+    """
+
+    def __init__(self, cell: str, n: int, length: float, method: str):
+        """Mesh the blocks.
+
+        Args:
+            cell: Cell type.
+            n: Number of cells along a unit of length of the slave, a multiple of 3.
+            length: Length of the blocks along the first axis; the other ones are 1.
+            method: Method of the contact.
+        """
+        gdim = 2 if cell in ("triangle", "quadrilateral") else 3
+        size = (length, *(1.0,) * (gdim - 1))
+        fine, coarse = ([round(count * side) for side in size] for count in (n, round(COARSER * n)))
+        data = meshes.blocks(mesh.CellType[cell], fine, coarse, size_upper=size, size_lower=size)
+        self.domain, self.tags = data.mesh, data.facet_tags
+        self.cells = {body: data.cell_tags.find(body) for body in (Tag.UPPER, Tag.LOWER)}
+        self.u = displacement(self.domain)
+        self._method = method
+        self._measure = ufl.Measure(
+            "dx",
+            self.domain,
+            subdomain_data=data.cell_tags,
+            metadata={"quadrature_degree": _DEGREE},
+        )
+
+    def integral(self, density: Callable[[Tag], Any]) -> ufl.Form:
+        """Integrate a density that differs between the bodies."""
+        return sum(density(body) * self._measure(int(body)) for body in self.cells)
+
+    def internal(self, u: Mapping[Tag, Any]) -> ufl.Form:
+        """Residual of the stress of a displacement in each body."""
+        v = ufl.TestFunction(self.u.function_space)
+        return self.integral(lambda body: ufl.inner(exact.stress(u[body], body), ufl.grad(v)))
+
+    def fix(self, values: fem.Function, *faces: int) -> fem.DirichletBC:
+        """Prescribe all displacements of faces."""
+        facets = np.concatenate([self.tags.find(face) for face in faces])
+        dofs = fem.locate_dofs_topological(self.u.function_space, self.tags.dim, facets)
+        return fem.dirichletbc(values, dofs)
+
+    def solve(self, F: ufl.Form, bc: fem.DirichletBC, offset: Any = 0.0) -> None:
+        """Solve the problem of a residual without contact."""
+        self.contact = cx.Contact(
+            cx.Surface(self.tags, Tag.UPPER_CONTACT),
+            cx.Surface(self.tags, Tag.LOWER_CONTACT),
+            sliding="small",
+            method=self._method,
+            offset=offset,
+        )
+        self.problem = cx.ContactProblem(
+            F, self.u, contacts=[self.contact], bcs=[bc], petsc_options_prefix="rates_"
+        )
+        self.problem.solve()
+
+    def errors(self, u: Mapping[Tag, Any], pressure: Callable[[Array], Array]) -> dict[str, float]:
+        """Relative errors: displacement in H1 and L2, raw and best nodal pressure in L2.
+
+        Args:
+            u: Exact displacement in each body.
+            pressure: Exact pressure at points of the interface, shape (n, 3).
+        """
+
+        def norm(of: Callable[[Any], Any], w: Mapping[Tag, Any]) -> float:
+            square = self.integral(lambda body: ufl.inner(of(w[body]), of(w[body])))
+            return float(np.sqrt(fem.assemble_scalar(fem.form(square))))
+
+        off = {body: self.u - u[body] for body in self.cells}
+        contact, x = self.contact, self.u.function_space.tabulate_dof_coordinates()
+        w, p = contact.area, pressure(x[contact.slave_nodes])
+        best = contact.pressure.x.array[contact.slave_nodes]
+        return {
+            "H1": norm(ufl.grad, off) / norm(ufl.grad, u),
+            "L2": norm(lambda f: f, off) / norm(lambda f: f, u),
+            "raw": float(np.sqrt(w @ (contact.multiplier - p) ** 2 / (w @ p**2))),
+            "best": float(np.sqrt(w @ (best - p) ** 2 / (w @ p**2))),
+        }
+
+
+def smooth(cell: str, n: int, method: str) -> dict[str, Any]:
+    """Solve with a smooth exact solution; all nodes are in contact, the sides carry tractions."""
+    case = Case(cell, n, 1.0, method)
+    V = case.u.function_space
+    x = ufl.SpatialCoordinate(case.domain)
+    u = {body: exact.smooth(x, body) for body in case.cells}
+    held = fem.Function(V)
+    for body, cells in case.cells.items():
+        held.interpolate(fem.Expression(u[body], V.element.interpolation_points), cells)
+    # Loads and tractions of the sides, by Green: work of the exact stress less that of the pressure
+    ds = ufl.Measure("ds", case.domain, subdomain_data=case.tags)
+    degree = {"quadrature_degree": _DEGREE}
+    v = ufl.TestFunction(V)[len(x) - 1]
+    p = exact.smooth_pressure(x)
+    faces = (ds(int(face), metadata=degree) for face in (Tag.UPPER_CONTACT, Tag.LOWER_CONTACT))
+    pushed = sum(sign * p * v * face for sign, face in zip((1, -1), faces, strict=True))
+    zero = {body: case.u - u[body] for body in case.cells}
+    case.solve(case.internal(zero) + pushed, case.fix(held, Tag.UPPER_TOP, Tag.LOWER_BOTTOM))
+    found = case.errors(u, lambda points: exact.smooth_pressure(points.T[: len(x)], np.cos))
+    return {"h": 1 / n, "dofs": len(case.u.x.array), **found}
+
+
+def hertz(cell: str, n: int, method: str) -> dict[str, Any]:
+    """Solve Hertz's line contact of half-planes cut to blocks, with their exact displacements."""
+    case = Case(cell, n, exact.LENGTH, method)
+    V = case.u.function_space
+    high = fem.Function(fem.functionspace(case.domain, ("Lagrange", _HIGH, (2,))))
+    held = fem.Function(V)
+    for body, cells in case.cells.items():
+        for function in (high, held):
+            function.interpolate(lambda x, body=body: exact.hertz(x, body), cells)
+    offset = fem.Function(fem.functionspace(case.domain, ("Lagrange", 1)))
+    offset.interpolate(lambda x: -exact.hertz_gap(x[0]))
+    sides = (Tag.UPPER_X0, Tag.UPPER_X1, Tag.LOWER_X0, Tag.LOWER_X1)
+    bc = case.fix(held, Tag.UPPER_TOP, Tag.LOWER_BOTTOM, *sides)
+    case.solve(case.internal(dict.fromkeys(case.cells, case.u)), bc, offset)
+    u = dict.fromkeys(case.cells, high)
+    found = case.errors(u, lambda points: exact.hertz_pressure(points[:, 0]))
+    return {"h": 1 / n, "dofs": len(case.u.x.array), **found}
