@@ -20,7 +20,7 @@ def constant(value):
 
 
 @functools.cache
-def solved(sliding):
+def solved(sliding, method):
     problem, contact = hertz_sphere(0.04, sliding)
     problem.solve()
     return problem, contact
@@ -31,8 +31,8 @@ both_slidings = pytest.mark.parametrize("sliding", ["finite", "small"])
 
 @both_slidings
 @pytest.mark.parametrize("friction", [0, 0.0, constant(0.0), 1e-12], ids=str)
-def test_hertz_is_the_same(sliding, friction):
-    first, plain = solved(sliding)
+def test_hertz_is_the_same(sliding, friction, method):
+    first, plain = solved(sliding, method)
     problem, contact = hertz_sphere(0.04, sliding, friction=friction)
     problem.solve()
     size = np.abs(first.u.x.array).max()
@@ -45,16 +45,19 @@ def test_hertz_is_the_same(sliding, friction):
         / plain.pressure.x.array.max(),
     }
     print(problem.report.iterations, {name: f"{value:.1e}" for name, value in off.items()})
-    assert max(off.values()) <= 1e-8
+    # Surface-to-surface has unit normals with friction, which lie in planes of symmetry; without
+    # it the forces of a node's facets are added, each along its own normal
+    same = method == "node-to-surface" or friction in (0, 0.0)
+    assert max(off.values()) <= (1e-8 if same else 0.01)
     assert np.array_equal(contact.status.x.array > 0, plain.status.x.array > 0)
     gap, expected = contact.gap.x.array, plain.gap.x.array
     assert np.array_equal(np.isnan(gap), np.isnan(expected))
-    assert np.nanmax(np.abs(gap - expected)) <= 1e-8 * size
+    assert np.nanmax(np.abs(gap - expected)) <= (1e-8 if same else 1e-4) * size
 
 
 @both_slidings
-def test_nothing_tangential_exists_without_friction(sliding):
-    _, contact = solved(sliding)
+def test_nothing_tangential_exists_without_friction(sliding, method):
+    _, contact = solved(sliding, method)
     interface = contact.interface
     assert contact.multiplier.shape == (len(contact.slave_nodes),)
     assert interface.history is None
