@@ -85,6 +85,7 @@ _RULES: dict[str, dict[str, str | None]] = {
     "master": {"": SEARCH},
     "newton": {"": None, "NewtonLoop.run": DIRECT},
     "nodal": {"": CONTACT},
+    "recovery": {"": CONTACT},
     "obstacles": {"": SEARCH},
     "options": {"": None},
     "problem": {"": REST},
