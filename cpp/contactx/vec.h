@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstddef>
 
-/// @brief Node-to-surface contact, free of DOLFINx and PETSc.
+/// @brief Contact from node or surface to surface, free of DOLFINx and PETSc.
 namespace contactx
 {
 /// @brief Point or vector with `D` components.

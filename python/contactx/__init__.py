@@ -1,6 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Node-to-surface contact with friction for FEniCSx.
+"""Node-to-surface and surface-to-surface contact with friction for FEniCSx.
 
 A ``Contact`` couples a tagged ``Surface`` with another one or with a rigid obstacle: ``Plane``,
 ``Sphere``, ``Cylinder`` or ``LevelSet``. A ``ContactProblem`` solves the bodies with their

@@ -15,7 +15,7 @@ from contactx.bodies.bodies import Bodies
 from contactx.checks.facing import check_facing
 from contactx.forms import ContactForms, Pairs, State
 from contactx.law.law import Law
-from contactx.law.nodes import Nodes
+from contactx.law.nodes import Nodes, touching_gap
 from contactx.master.make import make_master
 from contactx.master.master import Master
 from contactx.nodal import NodalValue
@@ -168,11 +168,8 @@ class Interface:
         return self._pair(self.positions())
 
     def _pair(self, x: npt.NDArray[np.float64]) -> int:
-        changed, new = self.master.search(x, self.nodes.closed.astype(np.int8))
-        if new:
-            self._make_forms()
-        else:
-            self._take(self.master.pairs())
+        changed = self.master.search(x, self.nodes.closed.astype(np.int8))
+        self._take(self.master.pairs())
         self._find_immobile()
         return changed
 
@@ -236,11 +233,10 @@ class Interface:
         fresh = self.master.refresh(self.positions(), self._held, offset)
         if fresh is not None:
             self._take(fresh)
-        gap = self.nodes.gap
         self._assembly.kinematics(self.nodes)
         self._assembly.slip(self.nodes, self.master.origin)
-        gap -= offset
-        gap[~(self.master.paired & self.active)] = np.nan
+        self.nodes.gap -= offset
+        self.nodes.gap[~(self.master.paired & self.active)] = np.nan
 
     def offset(self) -> npt.NDArray[np.float64]:
         """What is taken off the gap now, shape (n,)."""
@@ -288,10 +284,7 @@ class Interface:
         """
         if not first:
             return self.nodes.closing()
-        x = self.positions()[self.slaves]
-        size = np.ptp(x, axis=0).max(initial=0.0)
-        rounding = 16 * np.finfo(np.float64).eps * np.abs(x).max(initial=0.0)
-        return self.nodes.closing(1e-12 * size + rounding)
+        return self.nodes.closing(touching_gap(self.positions()[self.slaves]))
 
     def add_residual(self, b: npt.NDArray[np.float64]) -> None:
         """Third pass: add the contact forces.

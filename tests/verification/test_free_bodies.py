@@ -145,8 +145,12 @@ def test_springs_of_the_user_hold_a_body():
     ("friction", "offset", "shear"),
     [(0.3, 0.0, 0.001), (0.3, 0.0, 0.0), (0.0, 0.0, 0.0), (0.3, -0.01, 0.0), (0.3, 1e-8, 0.001)],
 )
-@pytest.mark.parametrize("dim", [2, 3])
-def test_five_free_blocks(dim, friction, offset, shear, sliding, monkeypatch):
+@pytest.mark.parametrize(
+    ("method", "dim"),
+    [("node-to-surface", 2), ("node-to-surface", 3), ("surface-to-surface", 2)],
+    indirect=["method"],
+)
+def test_five_free_blocks(dim, friction, offset, shear, sliding, method, monkeypatch):
     monkeypatch.setattr(stacked_blocks, "FRICTION", friction)
     monkeypatch.setattr(stacked_blocks, "INTERFERENCE", offset)
     problem, contacts, load = stacked_blocks.create(0.25, sliding, dim)

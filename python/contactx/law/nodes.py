@@ -136,3 +136,14 @@ class Nodes:
         would give to nodes that have just opened throws the next iterate off.
         """
         self.multiplier.reshape(-1, self.size)[~self.closed] = 0
+
+
+def touching_gap(x: Array) -> float:
+    """Gap up to which nodes touch but for rounding.
+
+    Args:
+        x: Their positions, shape (n, gdim).
+    """
+    size = np.ptp(x, axis=0).max(initial=0.0)
+    rounding = 16 * np.finfo(np.float64).eps * np.abs(x).max(initial=0.0)
+    return float(1e-12 * size + rounding)

@@ -63,14 +63,12 @@ class FacetMaster(Master):
         self._facet = self._pairing.facet
         self._feature = self._pairing.feature
 
-    def search(self, x: npt.NDArray[np.float64], closed: npt.NDArray[np.int8]) -> tuple[int, bool]:
+    def search(self, x: npt.NDArray[np.float64], closed: npt.NDArray[np.int8]) -> int:
         """See ``Master``."""
         changed = self._pairing.update(x, self.reach, closed)
         self._at = x
-        facet, feature = self._pairing.facet, self._pairing.feature
-        same = np.array_equal(facet, self._facet) and np.array_equal(feature, self._feature)
-        self._facet, self._feature = facet, feature
-        return changed, not same
+        self._facet, self._feature = self._pairing.facet, self._pairing.feature
+        return changed
 
     @property
     def paired(self) -> npt.NDArray[np.bool_]:

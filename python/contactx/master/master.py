@@ -88,7 +88,7 @@ class Master(ABC):
         """
 
     @abstractmethod
-    def search(self, x: npt.NDArray[np.float64], closed: npt.NDArray[np.int8]) -> tuple[int, bool]:
+    def search(self, x: npt.NDArray[np.float64], closed: npt.NDArray[np.int8]) -> int:
         """Pair the slave nodes.
 
         Args:
@@ -96,8 +96,7 @@ class Master(ABC):
             closed: Whether each slave node is in contact, shape (n,).
 
         Returns:
-            Number of nodes in contact that changed their facet, and whether the forms must be
-            made anew because any pair has changed.
+            Number of nodes in contact that changed their facet.
         """
 
     @property

@@ -72,17 +72,15 @@ class MortarMaster(Master):
         self._paired = np.zeros(len(self._whole), dtype=bool)
         self._found: Any = None
 
-    def search(self, x: Array, closed: npt.NDArray[np.int8]) -> tuple[int, bool]:
+    def search(self, x: Array, closed: npt.NDArray[np.int8]) -> int:
         """See ``Master``; as integrals change continuously no node changes its facet."""
-        new = False
         margin = 0.0 if self._small else _MARGIN
         if self._found is None or not self._found.contains(self._search.find(x, self.reach, 0.0)):
             self._found = self._search.find(x, self.reach, margin)
-            new = True
         self._integrate(x)
         least = np.where(self._paired, _LEAVE, _ENTER)
         self._paired = self._area > least * self._whole
-        return 0, new
+        return 0
 
     def _integrate(self, x: Array) -> None:
         found = self._search.integrals(self._found, x, self._reference)

@@ -108,7 +108,7 @@ class MortarObstacle(ObstacleMaster):
         self._values: list[Array] = []
         self._positions = x
 
-    def search(self, x: Array, closed: npt.NDArray[np.int8]) -> tuple[int, bool]:
+    def search(self, x: Array, closed: npt.NDArray[np.int8]) -> int:
         """See ``Master``."""
         found = super().search(x, closed)
         self._values = [self._integrate(facets, x) for facets in self._kinds]

@@ -58,16 +58,14 @@ class ObstacleMaster(Master):
         self.accept(x)
         self.begin_step()
 
-    def search(self, x: npt.NDArray[np.float64], closed: npt.NDArray[np.int8]) -> tuple[int, bool]:
+    def search(self, x: npt.NDArray[np.float64], closed: npt.NDArray[np.int8]) -> int:
         """See ``Master``; there are no facets to change between."""
         self._at = x[self._slaves]
         geometry = self._obstacle.evaluate(self._at)
         self._data = _kernel_data(geometry)
         self._update_slip(self._at, self._data)
-        paired = np.abs(geometry.gap) <= self.reach
-        changed = not np.array_equal(paired, self._paired)
-        self._paired = paired
-        return 0, changed
+        self._paired = np.abs(geometry.gap) <= self.reach
+        return 0
 
     @property
     def paired(self) -> npt.NDArray[np.bool_]:

@@ -29,10 +29,10 @@ class FacetTie(FacetMaster):
         self._found = False
         self._offset = np.zeros(len(self._slaves))
 
-    def search(self, x: npt.NDArray[np.float64], closed: npt.NDArray[np.int8]) -> tuple[int, bool]:
+    def search(self, x: npt.NDArray[np.float64], closed: npt.NDArray[np.int8]) -> int:
         """See ``Master``; only the first search counts."""
         if self._found:
-            return 0, False
+            return 0
         self._found = True
         found = super().search(x, closed)
         self._xi, self._gap = self._pairing.feet(x, x[self._slaves])
@@ -66,9 +66,9 @@ class MortarTie(MortarMaster):
         super().__init__(*args, **{**options, "measures_slip": False})
         self._offset = np.zeros(len(self._paired))
 
-    def search(self, x: npt.NDArray[np.float64], closed: npt.NDArray[np.int8]) -> tuple[int, bool]:
+    def search(self, x: npt.NDArray[np.float64], closed: npt.NDArray[np.int8]) -> int:
         """See ``Master``; only the first search counts."""
-        return super().search(x, closed) if self._found is None else (0, False)
+        return super().search(x, closed) if self._found is None else 0
 
     def begin_step(self) -> None:
         """See ``Master``; nothing changes."""
@@ -103,10 +103,10 @@ class ObstacleTie(ObstacleMaster):
         self._offset = np.zeros(len(self._slaves))
         self._first = self._placed
 
-    def search(self, x: npt.NDArray[np.float64], closed: npt.NDArray[np.int8]) -> tuple[int, bool]:
+    def search(self, x: npt.NDArray[np.float64], closed: npt.NDArray[np.int8]) -> int:
         """See ``Master``; only the first search counts."""
         if self._found:
-            return 0, False
+            return 0
         self._found = True
         self._reference = x[self._slaves]
         self._normal = self._obstacle.evaluate(self._reference).normal
