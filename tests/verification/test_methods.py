@@ -75,7 +75,7 @@ def test_cylinders_on_a_coarser_master():
 
 @pytest.mark.parametrize("base", BASES)
 def test_sliding_block(base):
-    """The same loops, on a plane to rounding, where a gap that is linear is its own mean."""
+    """The same loops; on a plane, whose gap is linear, the methods are one."""
     sliders = [Slider(0.2, 2, base, "finite", method) for method in METHODS]
     for slider in sliders:
         slider.run()
