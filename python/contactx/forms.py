@@ -221,7 +221,10 @@ class ContactForms:
         Returns:
             Stiffness, traction and constraint; None for those that vanish.
         """
-        cells = np.flatnonzero(which[self.pairs.slaves].any(axis=1)).astype(np.int32)
+        chosen = which[self.pairs.slaves].any(axis=1)
+        if chosen.all():
+            return [self.stiffness, self.traction, self.constraint]
+        cells = np.flatnonzero(chosen).astype(np.int32)
         return [self._form(term, cells) for term in ("stiffness", "traction", "constraint")]
 
     def update(self, pairs: Pairs) -> None:

@@ -155,7 +155,6 @@ def test_rigid_motion_turns_everything_and_changes_nothing(law, slaves, masters)
 @every
 def test_weights_of_a_covered_facet_reproduce_linear_fields(slaves, masters):
     """Biorthogonality: the master's shape functions interpolate at the slave nodes."""
-    rng = np.random.default_rng(3)
     for pair in pairs("frictionless", slaves, masters, inside=False):
         found = pair.integrals
         n, m = pair.slaves, pair.masters
@@ -163,8 +162,7 @@ def test_weights_of_a_covered_facet_reproduce_linear_fields(slaves, masters):
         weight = found["weight"][0, :n, :m]
         assert weight.sum(axis=1) == pytest.approx(area, rel=1e-11)
         # Where both facets are flat and parallel
-        flat = rng.standard_normal((m, pair.gdim - 1)) if m == n and n < 4 else None
-        if flat is None:
+        if (n, m) not in ((2, 2), (3, 3)):
             continue
         normal = found["normal"][0, : pair.gdim]
         x = pair.current

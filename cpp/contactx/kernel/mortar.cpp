@@ -123,7 +123,7 @@ void stiffness(double* A, const double* w, const double*, const double*,
     for (int l = 0; l < M::nodes; ++l)
     {
       Vec<n> row{};
-      d.add(weights[l], 1, row.data());
+      d.add(weights[l], row.data());
       for (int c = 0; c < K::gdim; ++c)
         if (direction[c] != 0)
           for (int col = 0; col < n; ++col)
@@ -176,7 +176,7 @@ void constraint(double* A, const double* w, const double*, const double*,
     const MortarVariation<S, M> d(k.pair);
     const auto factors = d.gap();
     for (int s = 0; s < S::nodes; ++s)
-      d.add(factors[s], 1, dg[s].data());
+      d.add(factors[s], dg[s].data());
     if constexpr (L != Law::frictionless)
       dn = d.normal();
   }

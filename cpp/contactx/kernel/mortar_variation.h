@@ -110,11 +110,10 @@ public:
     return all;
   }
 
-  /// @brief Add factor times the variation that factors stand for.
+  /// @brief Add the variation that factors stand for.
   /// @param[in] f Factors.
-  /// @param[in] factor Factor.
   /// @param[in,out] row Derivatives by the positions of all nodes.
-  void add(const Factors& f, double factor, double* row) const
+  void add(const Factors& f, double* row) const
   {
     const auto& plane = _slave.plane;
     constexpr Local o = mortar::plane_origin<S>();
@@ -127,7 +126,7 @@ public:
       {
         const double q = f.r[j][a];
         for (int k = 0; k < gdim; ++k)
-          row[gdim * (S::nodes + j) + k] += factor * q * plane.dual[a][k];
+          row[gdim * (S::nodes + j) + k] += q * plane.dual[a][k];
         Vec<S::nodes> affine = N;
         for (int b = 0; b < tdim; ++b)
         {
@@ -155,7 +154,7 @@ public:
         double d = along[t] * plane.n[k];
         for (int a = 0; a < tdim; ++a)
           d += across[a][t] * plane.dual[a][k];
-        row[gdim * t + k] += factor * d;
+        row[gdim * t + k] += d;
       }
   }
 

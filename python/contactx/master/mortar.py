@@ -75,16 +75,19 @@ class MortarMaster(Master):
 
     def search(self, x: Array, closed: npt.NDArray[np.int8]) -> int:
         """See ``Master``; as integrals change continuously no node changes its facet."""
-        margin = 0.0 if self._small else _MARGIN
-        if self._found is None or self._moved(x):
-            found = self._search.find(x, self.reach, 0.0)
-            if self._found is None or not self._found.contains(found):
-                self._found = self._search.find(x, self.reach, margin)
-                self._searched = x[self._nodes]
+        self._pair(x)
+        return 0
+
+    def _pair(self, x: Array) -> None:
+        if self._found is None or (
+            self._moved(x) and not self._found.contains(self._search.find(x, self.reach, 0.0))
+        ):
+            margin = 0.0 if self._small else _MARGIN
+            self._found = self._search.find(x, self.reach, margin)
+            self._searched = x[self._nodes]
         self._integrate(x)
         least = np.where(self._paired, _LEAVE, _ENTER)
         self._paired = self._area > least * self._whole
-        return 0
 
     def _moved(self, x: Array) -> bool:
         """Whether anything has moved so far since the search that pairs may lack."""
@@ -186,7 +189,7 @@ class MortarMaster(Master):
             return
         if not self._small:
             self._found = None
-            self.search(self._x0, np.zeros(0, dtype=np.int8))
+            self._pair(self._x0)
         if self._measures_slip:
             self._slip.begin(self._normalised(), self._distances(self._x0))
 

@@ -122,11 +122,11 @@ class MortarObstacle(ObstacleMaster):
         at = core.rigid_mortar_layout(k, gdim)
         there = self._obstacle.evaluate(facets.points(x))
 
-        def integral(values: Array, by: str = "") -> Array:
+        def integral(values: Array, *, by_nodes: bool = False) -> Array:
             """Integral with the dual functions, and with the shape functions where asked for."""
             values = values.reshape(m, q, -1)
             weight = facets.weight
-            if by:
+            if by_nodes:
                 weight = (weight[:, :, None, :] * facets.N.T).reshape(m, k * k, q)
             total: Array = weight @ values
             return total.reshape(m, -1)
@@ -135,9 +135,9 @@ class MortarObstacle(ObstacleMaster):
         parts = {
             "area": facets.weight.sum(axis=2),
             "gap": integral(there.gap),
-            "gradient": integral(there.gradient, by="nodes"),
+            "gradient": integral(there.gradient, by_nodes=True),
             "normal": integral(there.normal),
-            "curvature": integral(there.curvature, by="nodes"),
+            "curvature": integral(there.curvature, by_nodes=True),
         }
         for name, part in parts.items():
             data[:, at[name] : at[name] + part.shape[1]] = part

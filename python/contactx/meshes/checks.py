@@ -32,6 +32,20 @@ def check_positive(**values: float) -> None:
             raise ValueError(f"{name} is {value}; give a positive number.")
 
 
+def check_zone(zone: float, radius: float) -> None:
+    """Check that a contact zone lies within a round body.
+
+    Args:
+        zone: Radius of the zone.
+        radius: Radius of the body.
+
+    Raises:
+        ValueError: If it reaches beyond the radius.
+    """
+    if zone > radius:
+        raise ValueError(f"zone is {zone}; give at most the radius, {radius}.")
+
+
 def check_divisions(**values: int) -> None:
     """Check numbers of cells along an edge.
 

@@ -9,7 +9,7 @@ from types import ModuleType
 from mpi4py import MPI
 
 from contactx.meshes.build import build_mesh
-from contactx.meshes.checks import check_positive
+from contactx.meshes.checks import check_positive, check_zone
 from contactx.meshes.entities import CURVED, tag_body
 from contactx.meshes.sizes import grade_from_origin
 from contactx.meshes.tags import Tag
@@ -72,8 +72,7 @@ def half_cylinders(
     """
     h_lower = 1.5 * h if h_master is None else h_master
     check_positive(radius=radius, h=h, h_master=h_lower, zone=zone)
-    if zone > radius:
-        raise ValueError(f"zone is {zone}; give at most the radius, {radius}.")
+    check_zone(zone, radius)
 
     def recipe(gmsh: ModuleType) -> None:
         upper, lower = _add_half_disc(gmsh, radius), _add_half_disc(gmsh, -radius)

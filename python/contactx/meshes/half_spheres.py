@@ -9,24 +9,14 @@ from types import ModuleType
 from mpi4py import MPI
 
 from contactx.meshes.build import build_mesh
-from contactx.meshes.checks import check_positive
+from contactx.meshes.checks import check_positive, check_zone
 from contactx.meshes.entities import CURVED, tag_body
 from contactx.meshes.sizes import grade_from_origin
-from contactx.meshes.tags import Tag
+from contactx.meshes.tags import LOWER_QUARTER, UPPER_QUARTER, Tag
 from dolfinx.io.gmsh import MeshData
 
-_UPPER_FACES = {
-    CURVED: Tag.UPPER_CONTACT,
-    "z1": Tag.UPPER_TOP,
-    "x0": Tag.UPPER_X0,
-    "y0": Tag.UPPER_Y0,
-}
-_LOWER_FACES = {
-    CURVED: Tag.LOWER_CONTACT,
-    "z0": Tag.LOWER_BOTTOM,
-    "x0": Tag.LOWER_X0,
-    "y0": Tag.LOWER_Y0,
-}
+_UPPER_FACES = {CURVED: Tag.UPPER_CONTACT, **UPPER_QUARTER}
+_LOWER_FACES = {CURVED: Tag.LOWER_CONTACT, **LOWER_QUARTER}
 # Largest cell, in radii
 _COARSEST = 0.2
 
@@ -77,8 +67,7 @@ def half_spheres(
     """
     h_lower = 1.5 * h if h_master is None else h_master
     check_positive(radius=radius, h=h, h_master=h_lower, zone=zone)
-    if zone > radius:
-        raise ValueError(f"zone is {zone}; give at most the radius, {radius}.")
+    check_zone(zone, radius)
 
     def recipe(gmsh: ModuleType) -> None:
         upper, lower = _add_octant(gmsh, radius), _add_octant(gmsh, -radius)

@@ -11,21 +11,11 @@ from mpi4py import MPI
 from contactx.meshes.build import build_mesh
 from contactx.meshes.checks import check_positive
 from contactx.meshes.entities import CURVED, tag_body
-from contactx.meshes.tags import Tag
+from contactx.meshes.tags import LOWER_QUARTER, UPPER_QUARTER, Tag
 from dolfinx.io.gmsh import MeshData
 
-_UPPER_FACES = {
-    CURVED: Tag.UPPER_CONTACT,
-    "z1": Tag.UPPER_TOP,
-    "x0": Tag.UPPER_X0,
-    "y0": Tag.UPPER_Y0,
-}
-_LOWER_FACES = {
-    "z1": Tag.LOWER_CONTACT,
-    "z0": Tag.LOWER_BOTTOM,
-    "x0": Tag.LOWER_X0,
-    "y0": Tag.LOWER_Y0,
-}
+_UPPER_FACES = {CURVED: Tag.UPPER_CONTACT, **UPPER_QUARTER}
+_LOWER_FACES = {"z1": Tag.LOWER_CONTACT, **LOWER_QUARTER}
 # Parallel Delaunay (HXT), and no cell larger than a fifth of the radius.
 _OPTIONS = {"Mesh.Algorithm3D": 10, "Mesh.MeshSizeMax": 0.2}
 

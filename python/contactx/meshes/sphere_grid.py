@@ -15,21 +15,11 @@ from contactx.meshes.build import build_mesh
 from contactx.meshes.checks import check_positive
 from contactx.meshes.entities import tag_body
 from contactx.meshes.grids import Coordinates, add_grid, graded
-from contactx.meshes.tags import Tag
+from contactx.meshes.tags import LOWER_QUARTER, UPPER_QUARTER, Tag
 from dolfinx.io.gmsh import MeshData
 
-_UPPER_FACES = {
-    "z0": Tag.UPPER_CONTACT,
-    "z1": Tag.UPPER_TOP,
-    "x0": Tag.UPPER_X0,
-    "y0": Tag.UPPER_Y0,
-}
-_LOWER_FACES = {
-    "z1": Tag.LOWER_CONTACT,
-    "z0": Tag.LOWER_BOTTOM,
-    "x0": Tag.LOWER_X0,
-    "y0": Tag.LOWER_Y0,
-}
+_UPPER_FACES = {"z0": Tag.UPPER_CONTACT, **UPPER_QUARTER}
+_LOWER_FACES = {"z1": Tag.LOWER_CONTACT, **LOWER_QUARTER}
 # Side of the sphere's part; further out its cells would be flat
 _SIDE = 0.6
 _ZONE, _RATIO, _LARGEST = 0.2, 1.25, 0.2

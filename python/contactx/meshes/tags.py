@@ -34,6 +34,10 @@ class Tag(IntEnum):
     LOWER_Y1 = 26
 
 
+# Faces of quarters of two bodies on top of each other, but for those in contact
+UPPER_QUARTER = {"z1": Tag.UPPER_TOP, "x0": Tag.UPPER_X0, "y0": Tag.UPPER_Y0}
+LOWER_QUARTER = {"z0": Tag.LOWER_BOTTOM, "x0": Tag.LOWER_X0, "y0": Tag.LOWER_Y0}
+
 _SIDES = ("bottom", "top", "x0", "y0", "x1", "y1")
 
 
