@@ -113,17 +113,18 @@ void stiffness(double* A, const double* w, const double*, const double*,
                   [](double t) { return t == 0; }))
     return;
   const MortarVariation<S, M> d(k.pair);
+  std::array<Vec<S::nodes>, K::size> q;
+  for (int i = 0; i < K::size; ++i)
+    for (int s = 0; s < S::nodes; ++s)
+      q[i][s] = k.multiplier[K::size * s + i];
+  const auto weights = d.weights(q);
   for (int i = 0; i < K::size; ++i)
   {
-    Vec<S::nodes> q;
-    for (int s = 0; s < S::nodes; ++s)
-      q[s] = k.multiplier[K::size * s + i];
     const auto direction = k.direction(i);
-    const auto weights = d.weights(q);
     for (int l = 0; l < M::nodes; ++l)
     {
       Vec<n> row{};
-      d.add(weights[l], row.data());
+      d.add(weights[i][l], row.data());
       for (int c = 0; c < K::gdim; ++c)
         if (direction[c] != 0)
           for (int col = 0; col < n; ++col)

@@ -93,18 +93,24 @@ public:
     return all;
   }
 
-  /// @brief Factors of sum_s q_s int Phi_s dN_l of each node of the master.
+  /// @brief Factors of sum_s q_s int Phi_s dN_l of each node of the master, for
+  /// several q at once.
   /// @param[in] q Factors of the slave nodes.
-  std::array<Factors, M::nodes> weights(const Vec<S::nodes>& q) const
+  template <std::size_t K>
+  std::array<std::array<Factors, M::nodes>, K>
+  weights(const std::array<Vec<S::nodes>, K>& q) const
   {
-    std::array<Factors, M::nodes> all{};
+    std::array<std::array<Factors, M::nodes>, K> all{};
     moments(
         [&](const Vec<S::nodes>& weight, const auto& slope, int j)
         {
-          const double force = dot(q, weight);
-          for (int l = 0; l < M::nodes; ++l)
-            for (int a = 0; a < tdim; ++a)
-              at(all[l], j)[a] -= force * slope[a][l];
+          for (std::size_t i = 0; i < K; ++i)
+          {
+            const double force = dot(q[i], weight);
+            for (int l = 0; l < M::nodes; ++l)
+              for (int a = 0; a < tdim; ++a)
+                at(all[i][l], j)[a] -= force * slope[a][l];
+          }
         },
         [](const auto& slope) { return slope; });
     return all;
