@@ -1,0 +1,68 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Messages to few ranks that do not know of them yet."""
+
+from __future__ import annotations
+
+import pickle
+from collections.abc import Mapping
+from typing import Any
+
+from mpi4py import MPI
+
+from contactx.parallel.traffic import Traffic
+
+# Tags in turn, so that a message never ends up in the exchange before its own
+_FIRST, _COUNT = 7100, 16
+
+
+class Exchange:
+    """Sparse exchange by nonblocking consensus (Hoefler, Siebert, Lumsdaine 2010).
+
+    What it costs a rank goes with the ranks that it writes to, not with how many there are.
+    """
+
+    def __init__(self, comm: MPI.Comm, traffic: Traffic):
+        """Create an exchange.
+
+        Args:
+            comm: Communicator.
+            traffic: Where messages are counted.
+        """
+        self.comm = comm
+        self._traffic = traffic
+        self._turn = 0
+
+    def __call__(self, purpose: str, outgoing: Mapping[int, Any]) -> dict[int, Any]:
+        """Send objects and receive those of others; all ranks must take part.
+
+        Args:
+            purpose: What the messages are counted as.
+            outgoing: Objects by the rank that they go to, each of which can be pickled.
+
+        Returns:
+            Objects by the rank that sent them, in ascending order.
+        """
+        comm, tag = self.comm, _FIRST + self._turn
+        self._turn = (self._turn + 1) % _COUNT
+        received = {}
+        sending = []
+        for rank, item in outgoing.items():
+            if rank == comm.rank:
+                received[rank] = item
+                continue
+            data = pickle.dumps(item, protocol=5)
+            self._traffic.add(purpose, 1, len(data))
+            sending.append(comm.Issend([data, MPI.BYTE], dest=rank, tag=tag))
+        if comm.size == 1:
+            return received
+        barrier = None
+        status = MPI.Status()
+        while barrier is None or not barrier.Test():
+            if comm.Iprobe(MPI.ANY_SOURCE, tag, status):
+                data = bytearray(status.Get_count(MPI.BYTE))
+                comm.Recv([data, MPI.BYTE], source=status.source, tag=tag)
+                received[status.source] = pickle.loads(data)
+            if barrier is None and MPI.Request.Testall(sending):
+                barrier = comm.Ibarrier()
+        return dict(sorted(received.items()))

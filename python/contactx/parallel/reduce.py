@@ -1,0 +1,51 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Numbers of all ranks together; on every rank the same, and nothing to do on one."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from mpi4py import MPI
+
+import numpy as np
+import numpy.typing as npt
+
+
+def total(comm: MPI.Comm, value: npt.ArrayLike) -> Any:
+    """Sum of a number, or of arrays of one shape, over the ranks."""
+    return _reduced(comm, value, MPI.SUM)
+
+
+def largest(comm: MPI.Comm, value: npt.ArrayLike) -> Any:
+    """Largest of a number, or of arrays of one shape, over the ranks."""
+    return _reduced(comm, value, MPI.MAX)
+
+
+def least(comm: MPI.Comm, value: npt.ArrayLike) -> Any:
+    """Smallest of a number, or of arrays of one shape, over the ranks."""
+    return _reduced(comm, value, MPI.MIN)
+
+
+def anywhere(comm: MPI.Comm, value: bool | np.bool_) -> bool:
+    """Whether something holds on any rank."""
+    return bool(_reduced(comm, int(value), MPI.MAX))
+
+
+def everywhere(comm: MPI.Comm, value: bool | np.bool_) -> bool:
+    """Whether something holds on all ranks."""
+    return bool(_reduced(comm, int(value), MPI.MIN))
+
+
+def norm(comm: MPI.Comm, *parts: npt.NDArray[np.float64]) -> float:
+    """Euclidean norm of arrays that each rank has a part of."""
+    return float(np.sqrt(total(comm, float(sum(np.dot(part, part) for part in parts)))))
+
+
+def _reduced(comm: MPI.Comm, value: npt.ArrayLike, op: MPI.Op) -> Any:
+    if comm.size == 1:
+        return value
+    mine = np.ascontiguousarray(value)
+    theirs = np.empty_like(mine)
+    comm.Allreduce(mine, theirs, op=op)
+    return theirs if np.ndim(value) > 0 else theirs.item()
