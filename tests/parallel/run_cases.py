@@ -1,9 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Run under mpiexec: solves cases and writes what came out, for test_ranks.py to compare.
-
-mpiexec -n 2 python tests/parallel/run_cases.py FOLDER hertz_2d-node-default
-"""
+"""Run under mpiexec: solves cases and writes what came out, for test_ranks.py to compare."""
 
 from __future__ import annotations
 
@@ -13,19 +10,15 @@ import traceback
 from collections.abc import Sequence
 from pathlib import Path
 
+from mpi4py import MPI
+
 import numpy as np
+import watch
+from cases import METHODS, SCENES, Case
+from outcome import Outcome
+from partitions import partitioned
 
-TESTS = Path(__file__).parents[1]
-sys.path[:0] = [str(TESTS), str(TESTS.parent / "demos")]
-
-from mpi4py import MPI  # noqa: E402
-
-from cases import METHODS, SCENES, Case  # noqa: E402
-from outcome import Outcome  # noqa: E402
-from partitions import partitioned  # noqa: E402
-from watch import Watch  # noqa: E402
-
-import contactx as cx  # noqa: E402
+import contactx as cx
 
 # Seconds a case may take on cores that others use, too, with forms to compile
 LIMIT = 90
@@ -43,9 +36,8 @@ def run(case: Case) -> dict[str, np.ndarray]:
 
 def main(argv: Sequence[str]) -> None:
     """Solve the cases named, and write the results into the folder named first."""
-    folder, comm = argv[0], MPI.COMM_WORLD
-    watch = Watch(folder, comm.rank)
-    for name in argv[2:]:
+    comm = MPI.COMM_WORLD
+    for name in argv[1:]:
         watch.begin(name, LIMIT)
         start = time.perf_counter()
         try:
@@ -57,7 +49,7 @@ def main(argv: Sequence[str]) -> None:
         comm.Barrier()
         if comm.rank == 0:
             seconds = time.perf_counter() - start
-            np.savez(Path(argv[1]) / f"{name}-{comm.size}.npz", seconds=seconds, **found)
+            np.savez(Path(argv[0]) / f"{name}-{comm.size}.npz", seconds=seconds, **found)
     watch.begin("the end", LIMIT)
 
 

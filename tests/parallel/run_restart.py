@@ -11,19 +11,15 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
+from mpi4py import MPI
+
 import numpy as np
+import watch
+from outcome import Outcome
+from step_scenes import DentedBlock, LooseBlock, SlidingBlocks
 
-TESTS = Path(__file__).parents[1]
-sys.path[:0] = [str(TESTS), str(TESTS.parent / "demos")]
-
-from mpi4py import MPI  # noqa: E402
-
-from outcome import Outcome  # noqa: E402
-from step_scenes import DentedBlock, LooseBlock, SlidingBlocks  # noqa: E402
-from watch import Watch  # noqa: E402
-
-import contactx as cx  # noqa: E402
-from dolfinx.mesh import CellType  # noqa: E402
+import contactx as cx
+from dolfinx.mesh import CellType
 
 LIMIT = 60
 STEPS, BREAK = 4, 0.5
@@ -60,9 +56,8 @@ def run(name: str, folder: Path, task: str) -> None:
 
 def main(argv: Sequence[str]) -> None:
     """Run the tasks named, with files in the folder named first."""
-    comm, folder = MPI.COMM_WORLD, Path(argv[1])
-    watch = Watch(argv[0], comm.rank)
-    for task in argv[2:]:
+    comm, folder = MPI.COMM_WORLD, Path(argv[0])
+    for task in argv[1:]:
         for name in SCENES:
             watch.begin(f"{name}, {task}", LIMIT)
             run(name, folder, task)

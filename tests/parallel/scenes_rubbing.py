@@ -72,8 +72,8 @@ def _dragged(
         cell,
         n_upper,
         n_lower,
-        size_upper=(1.0, 0.7, 0.5)[: gdim - 1] + (0.5,),
-        size_lower=(5.0, 1.0, 0.5)[: gdim - 1] + (0.5,),
+        size_upper=(*(1.0, 0.7, 0.5)[: gdim - 1], 0.5),
+        size_lower=(*(5.0, 1.0, 0.5)[: gdim - 1], 0.5),
         shift=(0.1, 0.15)[: gdim - 1],
     )
     tags, u = data.facet_tags, displacement(data.mesh)

@@ -6,7 +6,7 @@ import json
 from pathlib import Path
 
 import pytest
-from launch import launch
+from together import launch_together
 
 SCRIPT = Path(__file__).with_name("run_errors.py")
 # What each function of scenes_errors.py must say
@@ -29,10 +29,16 @@ RAISED = {
 @pytest.fixture(scope="module", params=[1, 2, 4], ids=lambda n: f"{n} ranks")
 def found(request, tmp_path_factory):
     """What came of each function on some ranks."""
-    folder = tmp_path_factory.mktemp("errors")
-    launch(SCRIPT, request.param, str(folder), *RAISED, "nothing_in_reach")
-    read = {path.stem: json.loads(path.read_text()) for path in folder.glob("*.json")}
-    return request.param, {name.rpartition("-")[0]: what for name, what in read.items()}
+    folder, ranks = tmp_path_factory.mktemp("errors"), request.param
+
+    def file(name):
+        return folder / f"{name}-{ranks}.json"
+
+    names = [*RAISED, "nothing_in_reach"]
+    wrong = launch_together(SCRIPT, ranks, folder, names, file)
+    for text in wrong.values():
+        print(text)
+    return ranks, {n: json.loads(file(n).read_text()) for n in names if n not in wrong}
 
 
 @pytest.mark.parametrize("name", RAISED)

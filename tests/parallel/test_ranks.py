@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 from cases import METHODS, SCENES, Case
-from launch import Failure, Hang, launch
 from outcome import differences
+from together import launch_together
 
 SCRIPT = Path(__file__).with_name("run_cases.py")
 TOLERANCE = 1e-9
@@ -56,39 +56,26 @@ class Runs:
         self._folder = folder
         alone = [(Case(case.scene, case.method), 1) for case, _ in wanted]
         self._wanted = list(dict.fromkeys([*wanted, *alone]))
-        self._launched = set()
-        self._hangs = {}
+        self._wrong = {}
 
     def get(self, case, ranks):
         """Results of a case, which fails if it came to none."""
-        if ranks not in self._launched:
-            self._launched.add(ranks)
-            self._launch(ranks)
-        path = self._path(case, ranks)
-        if not path.exists():
-            pytest.fail(self._hangs.get((case, ranks), "not run: others before it hang"))
-        with np.load(path) as file:
+        if ranks not in self._wrong:
+            names = [str(case) for case, n in self._wanted if n == ranks]
+            self._wrong[ranks] = launch_together(
+                SCRIPT, ranks, self._folder, names, lambda name: self._file(name, ranks)
+            )
+        if str(case) in self._wrong[ranks]:
+            pytest.fail(self._wrong[ranks][str(case)])
+        with np.load(self._file(str(case), ranks)) as file:
             found = dict(file)
         print(f"{found.pop('seconds'):.2f} s")
         if "error" in found:
             pytest.fail(str(found["error"]))
         return found
 
-    def _launch(self, ranks):
-        left = [case for case, n in self._wanted if n == ranks]
-        # A few that hang shall not hide the others
-        for _ in range(3):
-            try:
-                launch(SCRIPT, ranks, str(self._folder), *map(str, left))
-                return
-            except (Hang, Failure) as error:
-                left = [case for case in left if not self._path(case, ranks).exists()]
-                if not left:
-                    raise
-                self._hangs[left.pop(0), ranks] = str(error)
-
-    def _path(self, case, ranks):
-        return self._folder / f"{case}-{ranks}.npz"
+    def _file(self, name, ranks):
+        return self._folder / f"{name}-{ranks}.npz"
 
 
 @pytest.fixture(scope="module")

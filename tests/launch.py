@@ -11,10 +11,13 @@ import sys
 import tempfile
 from pathlib import Path
 
-from watch import TIMED_OUT, stacks
+import watch
 
-# What a launch may take in all; each part of a script has a limit of its own
-LONGEST = 600.0
+TESTS = Path(__file__).parent
+# Seconds for a script, or for the last part that it began by ``watch.begin``
+LIMIT = 120.0
+# Seconds after which all is killed in any case
+LONGEST = 1800.0
 
 
 class Hang(AssertionError):
@@ -31,16 +34,17 @@ def mpiexec() -> str:
     return str(own) if own.exists() else "mpiexec"
 
 
-def launch(script: Path, ranks: int, *arguments: str, longest: float = LONGEST) -> str:
-    """Run a script on some ranks.
-
-    The script makes a ``Watch`` of the folder that is its first argument.
+def launch(
+    script: Path, ranks: int, *arguments: str, limit: float = LIMIT, longest: float = LONGEST
+) -> str:
+    """Run a script on some ranks, on one thread each.
 
     Args:
-        script: The script.
+        script: The script; helpers of tests and demos can be imported in it.
         ranks: Number of ranks.
-        arguments: Further arguments of the script.
-        longest: Seconds after which all is killed in any case.
+        arguments: Arguments of the script.
+        limit: Seconds after which it hangs, unless it begins parts with limits of their own.
+        longest: Seconds for all of them.
 
     Returns:
         What it printed.
@@ -49,12 +53,14 @@ def launch(script: Path, ranks: int, *arguments: str, longest: float = LONGEST) 
         Hang: If ranks hang, with the stacks of all of them.
         Failure: If the script fails otherwise, with what it printed.
     """
+    command = [mpiexec(), "-n", str(ranks), sys.executable, watch.__file__, str(limit)]
+    paths = [str(TESTS), str(TESTS.parent / "demos"), *filter(None, [os.getenv("PYTHONPATH")])]
     with tempfile.TemporaryDirectory() as folder:
-        command = [mpiexec(), "-n", str(ranks), sys.executable, str(script), folder, *arguments]
+        own = {"OMP_NUM_THREADS": "1", "PYTHONPATH": os.pathsep.join(paths), watch.FOLDER: folder}
         # A group of its own, so that nothing of it outlives its end
         process = subprocess.Popen(
-            command,
-            env={**os.environ, "OMP_NUM_THREADS": "1"},
+            [*command, str(script), *arguments],
+            env={**os.environ, **own},
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
             text=True,
@@ -62,15 +68,14 @@ def launch(script: Path, ranks: int, *arguments: str, longest: float = LONGEST) 
         )
         try:
             printed, _ = process.communicate(timeout=longest)
-        except subprocess.TimeoutExpired:
+        except BaseException as error:
             os.killpg(process.pid, signal.SIGKILL)
             printed, _ = process.communicate()
-            raise Hang(f"hang: {longest:g} s were too few\n{printed}\n{stacks(folder)}") from None
-        except BaseException:
-            os.killpg(process.pid, signal.SIGKILL)
+            if isinstance(error, subprocess.TimeoutExpired):
+                raise Hang(f"hang: {longest:g} s were too few\n{printed}") from None
             raise
-        found = stacks(folder)
-        if TIMED_OUT in found:
+        found = watch.stacks(folder)
+        if watch.TIMED_OUT in found:
             raise Hang(f"hang of {ranks} ranks in {script.name}\n{found}\n{printed}")
         if process.returncode != 0:
             raise Failure(f"{script.name} on {ranks} ranks: {process.returncode}\n{printed}")
