@@ -14,6 +14,9 @@ import signal
 import sys
 from pathlib import Path
 
+import contactx  # noqa: F401  # it loads the wheels' MPI
+
+# isort: split
 from mpi4py import MPI
 
 # Environment variable with the folder that the stacks come to
