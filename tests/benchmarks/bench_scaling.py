@@ -56,6 +56,11 @@ WEAK = [
     ("bytes\na search", "bytes a search", ",.0f"),
     ("messages\nan iteration", "messages an iteration", ".1f"),
     ("bytes\nan iteration", "bytes an iteration", ",.0f"),
+    ("collectives\na search", "collectives a search", ".1f"),
+    ("an\niteration", "collectives an iteration", ".1f"),
+    ("Krylov", "krylov", "d"),
+    ("PETSc's\nmessages", "PETSc's messages an iteration", ".0f"),
+    ("PETSc's\nkB", "PETSc's kB", ".1f"),
     ("halo\nnodes", "halo", "d"),
     ("wall s", "wall", ".2f"),
     ("F a rank", "force", ".9f"),
@@ -100,6 +105,8 @@ def weak(
                 for n in ranks:
                     job = {"dim": dim, "method": method, "partition": partition}
                     row = runner.on_ranks("scaling_case:weak", n, **job)
+                    if "failed" not in row:
+                        row["PETSc's kB"] = row["PETSc's bytes an iteration"] / 1024
                     if n > cores:
                         row.pop("wall", None)
                     rows.append(row)

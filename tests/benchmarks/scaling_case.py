@@ -4,11 +4,15 @@
 
 from __future__ import annotations
 
+import sys
 import time
 from collections import Counter
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any
 
 from mpi4py import MPI
+from petsc4py import PETSc
 
 import hertz_case
 import scenes
@@ -92,18 +96,52 @@ class LongSlab:
         return self.problem.report.iterations
 
 
+class Collectives:
+    """Counts the collective calls that Python makes on communicators.
+
+    Attributes:
+        count: Number of calls so far.
+    """
+
+    _NAMES = ("allreduce", "Allreduce", "allgather", "Allgather", "bcast", "gather", "Ibarrier")
+
+    def __init__(self) -> None:
+        """Nothing is counted yet."""
+        self.count = 0
+
+    @contextmanager
+    def counting(self) -> Iterator[None]:
+        """Count inside."""
+        call, tool = sys.monitoring.events.CALL, sys.monitoring.PROFILER_ID
+        sys.monitoring.use_tool_id(tool, "collectives")
+        sys.monitoring.register_callback(tool, call, self._called)
+        sys.monitoring.set_events(tool, call)
+        try:
+            yield
+        finally:
+            sys.monitoring.set_events(tool, 0)
+            sys.monitoring.free_tool_id(tool)
+
+    def _called(self, _code: Any, _offset: int, function: Any, argument: Any) -> None:
+        owners = (argument, getattr(function, "__self__", None))
+        if any(isinstance(owner, MPI.Intracomm) and owner.size > 1 for owner in owners):
+            self.count += function.__name__ in self._NAMES
+
+
 class SearchTraffic:
     """What this rank sends within searches and outside of them.
 
     Attributes:
         searches: Number of searches.
-        inside: Messages and bytes by purpose, sent within searches.
+        collectives: Counts collective calls.
+        inside: What was sent within searches, as of ``all``.
     """
 
     def __init__(self, contact: cx.Contact):
         """Count from now on."""
         self._traffic = contact.interface.halo.traffic
         self._traffic.clear()
+        self.collectives = Collectives()
         self.searches = 0
         self.inside: Counter[tuple[str, str]] = Counter()
         master = contact.interface.master
@@ -118,23 +156,30 @@ class SearchTraffic:
         return result
 
     def all(self) -> Counter[tuple[str, str]]:
-        """Messages and bytes by purpose."""
+        """Messages and bytes by purpose, and collective calls."""
         kinds = {"messages": self._traffic.messages, "bytes": self._traffic.bytes}
-        return Counter({(kind, p): n for kind, by in kinds.items() for p, n in by.items()})
+        counts = Counter({(kind, p): n for kind, by in kinds.items() for p, n in by.items()})
+        counts["collectives", "all"] = self.collectives.count
+        return counts
 
 
 def weak(dim: int, method: str, partition: str) -> dict[str, Any]:
     """Drag the long slab on all ranks: time, and what the rank that sends most has sent."""
     comm = MPI.COMM_WORLD
+    PETSc.Log.begin()
     slab = LongSlab(dim, comm.size, method, partition)
     # The first step finds all pairs; what counts is going on
     slab.move(0.0)
-    counter = SearchTraffic(slab.contact)
     comm.Barrier()
     start = time.perf_counter()
-    iterations = slab.move(ASIDE)
+    slab.move(ASIDE)
     comm.Barrier()
     wall = time.perf_counter() - start
+    before = _petsc_traffic()
+    counter = SearchTraffic(slab.contact)
+    with counter.collectives.counting():
+        iterations = slab.move(2 * ASIDE)
+    solver = _petsc_traffic() - before
     outside = counter.all() - counter.inside
     found = {
         "dofs": slab.problem.u.function_space.dofmap.index_map.size_global * dim,
@@ -142,9 +187,14 @@ def weak(dim: int, method: str, partition: str) -> dict[str, Any]:
         "searches": counter.searches,
         "wall": wall,
         "force": float(slab.contact.force[-1]) / comm.size,
+        "krylov": slab.problem.report.krylov,
+        **{
+            f"PETSc's {name} an iteration": comm.allreduce(solver[name] / iterations, MPI.MAX)
+            for name in ("messages", "bytes")
+        },
         "halo": comm.allreduce(_halo_size(slab.contact), MPI.MAX),
     }
-    for kind in ("messages", "bytes"):
+    for kind in ("messages", "bytes", "collectives"):
         inside = _sum(counter.inside, kind, comm.size) / max(1, counter.searches)
         rest = _sum(outside, kind, comm.size) / max(1, iterations)
         found[f"{kind} a search"] = comm.allreduce(inside, MPI.MAX)
@@ -156,6 +206,12 @@ def _sum(counts: Counter[tuple[str, str]], kind: str, ranks: int) -> float:
     # What all ranks gather passes through each of them, from one to the next
     passed = {"boxes": ranks - 1}
     return float(sum(n * passed.get(p, 1) for (what, p), n in counts.items() if what == kind))
+
+
+def _petsc_traffic() -> Counter[str]:
+    """What PETSc has sent in solves, not counting what MUMPS sends inside of it."""
+    found = PETSc.Log.Event("SNESSolve").getPerfInfo()
+    return Counter({"messages": found["numMessages"], "bytes": found["messageLength"]})
 
 
 def _halo_size(contact: cx.Contact) -> int:
