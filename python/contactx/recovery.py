@@ -56,7 +56,8 @@ class Recovery:
         # Each corner of each facet as a node of its own
         corners = np.arange(len(nodes), dtype=np.int32)
         parts = core.nodal_areas(facets.offsets, corners, x[facets.nodes], x.shape[1])
-        area = np.bincount(nodes, parts, len(slave.around))
+        # Of nothing it counts in integers
+        area = np.bincount(nodes, parts, len(slave.around)).astype(np.float64)
         # Of nodes of other ranks not all facets are here
         self._area = slave.extend(area[: len(slave.owned)])
         none = np.zeros(0, dtype=np.int64)
