@@ -56,8 +56,7 @@ class Recovery:
         # Each corner of each facet as a node of its own
         corners = np.arange(len(nodes), dtype=np.int32)
         parts = core.nodal_areas(facets.offsets, corners, x[facets.nodes], x.shape[1])
-        # Of nothing it counts in integers
-        area = np.bincount(nodes, parts, len(slave.around)).astype(np.float64)
+        area = _sums(nodes, parts, len(slave.around))
         # Of nodes of other ranks not all facets are here
         self._area = slave.extend(area[: len(slave.owned)])
         none = np.zeros(0, dtype=np.int64)
@@ -85,7 +84,7 @@ class Recovery:
         to, from_, rate = self._flows(area, closed)
         for _ in range(_PASSES):
             every = self._slave.extend(p)
-            p = p + np.bincount(to, rate * (every[from_] - p[to]), len(p))
+            p = p + _sums(to, rate * (every[from_] - p[to]), len(p))
         return p
 
     def shear(self, t: Array, normal: Array, area: Array, closed: npt.NDArray[np.bool_]) -> Array:
@@ -107,7 +106,7 @@ class Recovery:
         a, b = self._slave.extend(normal)[from_], normal[to]
         for _ in range(_PASSES):
             flow = rate[:, None] * (_turned(self._slave.extend(t)[from_], a, b) - t[to])
-            t = t + np.stack([np.bincount(to, f, len(t)) for f in flow.T], axis=1)
+            t = t + np.stack([_sums(to, f, len(t)) for f in flow.T], axis=1)
         return t
 
     def _flows(self, area: Array, closed: npt.NDArray[np.bool_]) -> tuple[Index, Index, Array]:
@@ -115,7 +114,7 @@ class Recovery:
         to, from_ = self._to, self._from
         n = len(area)
         closed = self._slave.extend(closed)
-        beside_open = np.bincount(to, self._weight * ~closed[from_], len(closed))[:n]
+        beside_open = _sums(to, self._weight * ~closed[from_], len(closed))[:n]
         surroundings = self._slave.extend(1 - beside_open / self._area[:n])
         # Less than one where the master covers a node's facets in part
         covered = self._slave.extend(area / self._area[:n])
@@ -124,6 +123,12 @@ class Recovery:
         less, more = np.sort([surroundings[to], surroundings[from_]], axis=0)
         weight = self._weight[both] * np.minimum(covered[to], covered[from_])
         return to, from_, weight * (less / more) ** 2 / area[to]
+
+
+def _sums(places: Index, values: Array, n: int) -> Array:
+    """Sums of values by their places, shape (n,)."""
+    # Of no values at all NumPy makes integers
+    return np.bincount(places, values, n).astype(np.float64)
 
 
 def _turned(t: Array, a: Array, b: Array) -> Array:

@@ -269,8 +269,8 @@ class SaddlePointSystem:
         markers: npt.NDArray[np.int8],
     ) -> None:
         serial = PETSc.COMM_SELF
-        nodes = np.arange(self.halo.num_nodes, dtype=PETSc.IntType)
-        bulk = PETSc.IS().createBlock(self.block, nodes, comm=serial)
+        # PETSc takes blocks of places for places where the map has none
+        bulk = PETSc.IS().createStride(self.num_local, comm=serial)
         first = self.num_local
         for k, interface in enumerate(self.interfaces):
             size, n = interface.nodes.size, len(interface.slaves)
