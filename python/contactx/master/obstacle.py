@@ -214,7 +214,7 @@ def _kernel_data(geometry: Geometry) -> npt.NDArray[np.float64]:
     data[:, _AT["gap"]] = geometry.gap
     _columns(data, "gradient", gdim)[:] = geometry.gradient
     _columns(data, "normal", gdim)[:] = geometry.normal
-    _columns(data, "curvature", gdim * gdim)[:] = geometry.curvature.reshape(n, -1)
+    _columns(data, "curvature", gdim * gdim)[:] = geometry.curvature.reshape(n, gdim * gdim)
     return data
 
 
