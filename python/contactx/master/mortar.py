@@ -268,8 +268,9 @@ class MortarMaster(Master):
         size = np.abs(weights.values[of_master])
         total = np.bincount(slaves, size, n)
         mean = np.bincount(slaves, size * nodal[weights.nodes[of_master]], n)
-        result = np.full(n, self.surface.mean(nodal))
-        return np.divide(mean, total, out=result, where=total > 0)
+        result: Array = np.full(n, self.surface.mean(nodal))
+        np.divide(mean, total, out=result, where=total > 0)
+        return result
 
     def mobility(self, free: npt.NDArray[np.bool_]) -> tuple[Array, Array]:
         """See ``Master``; on a plane of symmetry nothing moves across it.
