@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from contactx import cpp as core
 from contactx.forms import Pairs
-from contactx.master.master import Master, Weights, touching
+from contactx.master.master import Master, RowKind, Weights, facet_rows, touching
 from contactx.master.reach import default_reach
 from contactx.surface import FacetList
 
@@ -26,6 +26,12 @@ class FacetMaster(Master):
     Attributes:
         facets: The facets.
     """
+
+    saved_rows: Mapping[str, RowKind] = {
+        **dict.fromkeys((*_SAVED, "start"), "slave"),
+        "before": "node",
+        "at": "node",
+    }
 
     def __init__(
         self,
@@ -211,7 +217,7 @@ class FacetMaster(Master):
 
     def identity(self) -> dict[str, npt.NDArray[Any]]:
         """See ``Master``."""
-        return {"nodes": self.facets.nodes, "offsets": self.facets.offsets}
+        return {"facets": facet_rows(self.facets, np.arange(len(self._x0)))}
 
     def save(self) -> dict[str, npt.NDArray[Any]]:
         """See ``Master``; flips are forgotten, as at the start of every step."""

@@ -7,12 +7,17 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import numpy.typing as npt
 
 from contactx.forms import Pairs
+from contactx.surface import FacetList
+
+# What the rows of a saved array stand for: an owned slave node, an owned node of the bulk, or
+# nothing where the array is the same on all ranks
+type RowKind = Literal["slave", "node", "global"]
 
 
 @dataclass(frozen=True)
@@ -30,6 +35,22 @@ class Weights:
     values: npt.NDArray[np.float64]
 
 
+def facet_rows(facets: FacetList, original: npt.NDArray[np.int64]) -> npt.NDArray[np.int64]:
+    """Facets by the numbers of their nodes that are the same on any number of ranks.
+
+    Args:
+        facets: The facets.
+        original: Number of each node in the mesh as it was made.
+
+    Returns:
+        Numbers, -1 where there is no node, shape (num_facets, 4).
+    """
+    rows = np.full((len(facets.offsets) - 1, 4), -1, dtype=np.int64)
+    for which, nodes in facets.groups():
+        rows[which, : nodes.shape[1]] = original[nodes]
+    return rows
+
+
 class Master(ABC):
     """Pairs of the slave nodes with a master.
 
@@ -41,10 +62,12 @@ class Master(ABC):
     Attributes:
         reach: Largest distance of a pair.
         is_rigid: Whether the master has no degrees of freedom.
+        saved_rows: What the rows of each array stand for that ``save`` gives, by its name.
     """
 
     reach: float
     is_rigid = False
+    saved_rows: Mapping[str, RowKind]
 
     @abstractmethod
     def accept(self, x: npt.NDArray[np.float64]) -> None:
@@ -163,13 +186,20 @@ class Master(ABC):
 
     @abstractmethod
     def identity(self) -> dict[str, npt.NDArray[Any]]:
-        """Arrays that tell this master from another one to which ``save`` would not fit."""
+        """Whole numbers that tell this master from another to which ``save`` would not fit.
+
+        Returns:
+            Arrays by their names, each row on one rank alone, such as facets by the numbers of
+            their nodes in the mesh as it was made (``facet_rows``). Their order has no meaning.
+        """
 
     @abstractmethod
     def save(self) -> dict[str, npt.NDArray[Any]]:
         """What the next search remembers, in arrays of shapes that never change.
 
-        Nothing writes to them: what changes is put into new ones.
+        Nothing writes to them: what changes is put into new ones. Where a rank has no row of an
+        array, it has one of no rows. Facets are saved by their nodes (``facet_rows``), not by a
+        number of their own, which other ranks would not know.
         """
 
     @abstractmethod

@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from contactx import cpp as core
 from contactx.forms import Pairs
-from contactx.master.master import Master, Weights
+from contactx.master.master import Master, RowKind, Weights, facet_rows
 from contactx.master.mortar_pairs import Array, Mortar, Sides, unit
 from contactx.master.mortar_slip import MortarSlip
 from contactx.master.reach import default_reach
@@ -34,6 +34,8 @@ class MortarMaster(Master):
     Attributes:
         facets: The master's facets.
     """
+
+    saved_rows: Mapping[str, RowKind] = {"paired": "slave", "before": "node"}
 
     def __init__(
         self,
@@ -254,7 +256,7 @@ class MortarMaster(Master):
 
     def identity(self) -> dict[str, npt.NDArray[Any]]:
         """See ``Master``."""
-        return {"nodes": self.facets.nodes, "offsets": self.facets.offsets}
+        return {"facets": facet_rows(self.facets, np.arange(len(self._x0)))}
 
     def save(self) -> dict[str, npt.NDArray[Any]]:
         """See ``Master``; pairs follow from the positions."""
