@@ -50,12 +50,12 @@ def by_hand(split: bool) -> Callable[[MPI.Comm], Tagged]:
 
 
 MODELS: dict[str, Callable[[MPI.Comm], Tagged]] = {
-    "hertz_sphere": lambda comm: model(meshes.hertz_sphere(0.1, comm)),
+    "hertz_sphere": lambda comm: model(meshes.hertz_sphere(0.2, comm)),
     "hertz_cap": lambda comm: model(meshes.hertz_cap(3, comm=comm)),
     "hertz_grid": lambda comm: model(meshes.hertz_grid(0.2, comm=comm)),
-    "hertz_cylinder": lambda comm: model(meshes.hertz_cylinder(0.1, comm=comm)),
-    "half_cylinders": lambda comm: model(meshes.half_cylinders(1.0, 0.1, zone=0.2, comm=comm)),
-    "half_spheres": lambda comm: model(meshes.half_spheres(1.0, 0.15, zone=0.2, comm=comm)),
+    "hertz_cylinder": lambda comm: model(meshes.hertz_cylinder(0.2, comm=comm)),
+    "half_cylinders": lambda comm: model(meshes.half_cylinders(1.0, 0.2, zone=0.2, comm=comm)),
+    "half_spheres": lambda comm: model(meshes.half_spheres(1.0, 0.2, zone=0.2, comm=comm)),
     "rings": lambda comm: model(meshes.rings(6, comm=comm)),
     "face_slab": lambda comm: model(
         meshes.face_slab(
