@@ -13,6 +13,7 @@ from typing import Any
 from mpi4py import MPI
 
 import numpy as np
+from agreeing import refused
 from relaxed import MESHES, Relaxed
 
 import contactx as cx
@@ -95,21 +96,6 @@ def compare(end: Any, straight: Any, on_one: Any, same_number: bool) -> None:
         if same_number:
             assert values.tobytes() == straight[key].tobytes(), key
         assert np.allclose(values, on_one[key], rtol=0, atol=1e-12), key
-
-
-def refused(kind: type[BaseException], message: str, call: Callable[[], Any]) -> None:
-    """Check that all ranks raise the same."""
-    try:
-        call()
-    except BaseException as error:
-        found = [type(error).__name__, str(error).splitlines()[0]]
-    else:
-        found = ["nothing", ""]
-    every = WORLD.allgather(found)
-    assert all(f == every[0] for f in every), every
-    assert found[0] == kind.__name__ and message in found[1], (found, message)
-    if WORLD.rank == 0:
-        print(f"all ranks: {kind.__name__}: {message}", flush=True)
 
 
 class Wrong(Exception):
