@@ -14,7 +14,7 @@ import numpy.typing as npt
 
 import dolfinx.fem.petsc
 import ufl
-from dolfinx import fem
+from dolfinx import fem, la
 
 
 class Bulk:
@@ -26,7 +26,8 @@ class Bulk:
         F: Residual form.
         J: Jacobian form.
         is_linear: Whether the Jacobian does not depend on u.
-        markers: 1 at dofs with a Dirichlet condition, shape (num_dofs,).
+        markers: 1 at dofs with a Dirichlet condition, those of other ranks last.
+        num_dofs: Number of dofs of this rank.
         assemblies: How often the Jacobian was assembled.
         skipped: How often an assembled Jacobian served again.
     """
@@ -65,6 +66,8 @@ class Bulk:
         # Those that are left once UFL has differentiated: none is u where the bulk is linear
         self._coefficients = list(self.J._cpp_object.coefficients)
         self.is_linear = all(c is not u._cpp_object for c in self._coefficients)
+        self.num_dofs = V.dofmap.index_map.size_local * V.dofmap.index_map_bs
+        self._b = la.vector(V.dofmap.index_map, V.dofmap.index_map_bs)
         self._A: PETSc.Mat = None
         self._rows: PETSc.Mat | None = None
         self._symmetric: bool | None = None
@@ -75,13 +78,25 @@ class Bulk:
         self.assemblies = 0
         self.skipped = 0
 
-    def add_residual(self, b: npt.NDArray[np.float64]) -> None:
-        """Add the residual, without Dirichlet conditions.
+    def residual(self) -> npt.NDArray[np.float64]:
+        """Residual on this rank's dofs, without Dirichlet conditions; all ranks must take part."""
+        self._b.array[:] = 0
+        fem.assemble_vector(self._b.array, self.F)
+        return self._sums()
 
-        Args:
-            b: Residual, shape (num_dofs,).
+    def lifted(self) -> npt.NDArray[np.float64]:
+        """What Dirichlet values that the displacement does not have yet do to other rows.
+
+        All ranks must take part.
         """
-        fem.assemble_vector(b, self.F)
+        self._b.array[:] = 0
+        fem.apply_lifting(self._b.array, [self.J], [self.bcs], [self.u.x.array], alpha=-1.0)
+        return self._sums()
+
+    def _sums(self) -> npt.NDArray[np.float64]:
+        self._b.scatter_reverse(la.InsertMode.add)
+        owned: npt.NDArray[np.float64] = self._b.array[: self.num_dofs].copy()
+        return owned
 
     def dirichlet_defect(self) -> npt.NDArray[np.float64]:
         """Displacement minus the values of the Dirichlet conditions, zero elsewhere."""
@@ -167,11 +182,11 @@ class Bulk:
         """Stiffness of each node: the mean of its free diagonal entries, force/length.
 
         Returns:
-            Stiffness, shape (num_nodes,); NaN where all of a node's dofs are prescribed.
+            Stiffness of this rank's nodes, shape (num_owned,); NaN where all of a node's dofs are prescribed.
         """
         diagonal: npt.NDArray[np.float64] = np.abs(self.matrix().getDiagonal().array)
         block = self.u.function_space.dofmap.index_map_bs
-        free = (self.markers == 0).reshape(-1, block)
+        free = (self.markers[: self.num_dofs] == 0).reshape(-1, block)
         total = np.where(free, diagonal.reshape(-1, block), 0).sum(axis=1)
         count = free.sum(axis=1)
         stiffness = np.full(len(count), np.nan)

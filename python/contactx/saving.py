@@ -4,7 +4,8 @@
 
 Each rank has arrays of its own, and of each it is known what its rows stand for, so that they can
 be brought to other ranks (``rows``): an owned slave node, an owned node of the bulk, or nothing
-where an array is the same on all ranks. Whole numbers in them are no local ones.
+where an array is the same on all ranks. Behind those of owned nodes there may be rows of others,
+which do not count. No number in them is a local one.
 """
 
 from __future__ import annotations

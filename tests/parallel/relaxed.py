@@ -43,6 +43,9 @@ class Relaxed(cx.ContactProblem):
     def begin(self) -> None:
         """Nothing is to be found."""
 
+    def refresh(self) -> None:
+        """There are no pairs with nodes of other ranks."""
+
     def update(self, t: float) -> None:
         self.calls.append(t)
         self.t = t

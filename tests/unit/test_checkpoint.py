@@ -275,7 +275,7 @@ def test_pairs_that_cannot_be(tmp_path):
     run(SlidingBlocks(CellType.triangle), until=2, checkpoint=file)
     scene = SlidingBlocks(CellType.triangle)
     with pytest.raises(ValueError, match="a pair with a facet that does not exist"):
-        run(scene, restart=changed(file, master_facet=99))
+        run(scene, restart=changed(file, master_facet_nodes=99))
     assert not scene.u.x.array.any()
 
 

@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, Literal
 
@@ -13,11 +13,12 @@ import numpy as np
 import numpy.typing as npt
 
 from contactx.forms import Pairs
-from contactx.surface import FacetList
 
 # What the rows of a saved array stand for: an owned slave node, an owned node of the bulk, or
 # nothing where the array is the same on all ranks
 type RowKind = Literal["slave", "node", "global"]
+
+type Array = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -35,26 +36,11 @@ class Weights:
     values: npt.NDArray[np.float64]
 
 
-def facet_rows(facets: FacetList, original: npt.NDArray[np.int64]) -> npt.NDArray[np.int64]:
-    """Facets by the numbers of their nodes that are the same on any number of ranks.
-
-    Args:
-        facets: The facets.
-        original: Number of each node in the mesh as it was made.
-
-    Returns:
-        Numbers, -1 where there is no node, shape (num_facets, 4).
-    """
-    rows = np.full((len(facets.offsets) - 1, 4), -1, dtype=np.int64)
-    for which, nodes in facets.groups():
-        rows[which, : nodes.shape[1]] = original[nodes]
-    return rows
-
-
 class Master(ABC):
     """Pairs of the slave nodes with a master.
 
-    Positions are those of all nodes of the bulk, shape (num_nodes, gdim).
+    Positions are those of all nodes on this rank, shape (num_nodes, gdim). All ranks take part in
+    what is marked as collective; all else is this rank's alone.
 
     Slip is measured from where a slave node was at the step's start; one that touches first
     within the step, from where it touched.
@@ -71,7 +57,7 @@ class Master(ABC):
 
     @abstractmethod
     def accept(self, x: npt.NDArray[np.float64]) -> None:
-        """Take a converged configuration, the start of the next step.
+        """Take a converged configuration, the start of the next step; collective.
 
         Args:
             x: Positions.
@@ -79,7 +65,17 @@ class Master(ABC):
 
     @abstractmethod
     def begin_step(self) -> None:
-        """Start a step: slip is measured from its start, and frozen pairs may move again."""
+        """Start a step: slip is measured from its start, and pairs may move again; collective."""
+
+    def restart(self) -> None:
+        """Name again the nodes that pairs need, once the halo has shrunk; collective."""
+
+    def follow(self, extend: Callable[[Array], Array]) -> None:
+        """Bring positions that were kept up to a halo that has changed; collective.
+
+        Args:
+            extend: Gives those of all nodes from those of owned nodes.
+        """
 
     @abstractmethod
     def turn(self, x: npt.NDArray[np.float64]) -> npt.NDArray[np.float64] | None:
@@ -112,14 +108,14 @@ class Master(ABC):
 
     @abstractmethod
     def search(self, x: npt.NDArray[np.float64], closed: npt.NDArray[np.int8]) -> int:
-        """Pair the slave nodes.
+        """Pair the slave nodes; collective.
 
         Args:
             x: Positions.
             closed: Whether each slave node is in contact, shape (n,).
 
         Returns:
-            Number of nodes in contact that changed their facet.
+            Number of this rank's nodes in contact that changed their facet.
         """
 
     @property
@@ -175,7 +171,7 @@ class Master(ABC):
 
     @abstractmethod
     def compliance(self, nodal: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
-        """Compliance of the master at each slave node.
+        """Compliance of the master at each slave node; collective.
 
         Args:
             nodal: Compliance of each node of the bulk, length/force.
@@ -190,7 +186,7 @@ class Master(ABC):
 
         Returns:
             Arrays by their names, each row on one rank alone, such as facets by the numbers of
-            their nodes in the mesh as it was made (``facet_rows``). Their order has no meaning.
+            their nodes in the mesh as it was made. Their order has no meaning.
         """
 
     @abstractmethod
@@ -198,13 +194,13 @@ class Master(ABC):
         """What the next search remembers, in arrays of shapes that never change.
 
         Nothing writes to them: what changes is put into new ones. Where a rank has no row of an
-        array, it has one of no rows. Facets are saved by their nodes (``facet_rows``), not by a
-        number of their own, which other ranks would not know.
+        array, it has one of no rows. Facets are saved by their nodes' numbers in the mesh as it
+        was made, -1 where there is none, not by a number of their own.
         """
 
     @abstractmethod
     def load(self, saved: Mapping[str, npt.NDArray[Any]]) -> None:
-        """Take over what ``save`` gave for the same surfaces.
+        """Take over what ``save`` gave for the same surfaces; collective.
 
         Raises:
             ValueError: If it does not fit; nothing has changed.
@@ -212,7 +208,7 @@ class Master(ABC):
 
     @abstractmethod
     def distance(self, x: npt.NDArray[np.float64]) -> float:
-        """Distance from the nearest slave node to the master."""
+        """Distance from the nearest of this rank's slave nodes to the master; collective."""
 
     @abstractmethod
     def mobility(
@@ -238,7 +234,7 @@ class Master(ABC):
         """Let frozen pairs move again and count anew how often pairs go back and forth."""
 
     def deepest_frozen(self, x: npt.NDArray[np.float64]) -> float:
-        """Smallest gap that the frozen pairs hide."""
+        """Smallest gap that this rank's frozen pairs hide; collective."""
         return 0.0
 
 

@@ -44,6 +44,7 @@ class Checkpoint:
         self._problem = problem
         self._history = list(history)
         self._comm: MPI.Comm = V.mesh.comm
+        self._owned: int = V.dofmap.index_map.size_local
         self._u = FunctionRows(problem.u, "u")
         self._functions = [FunctionRows(f, f"history[{k}]") for k, f in enumerate(history)]
         self._interfaces: list[Interface] = [c.interface for c in problem.contacts]
@@ -83,6 +84,7 @@ class Checkpoint:
         before = Snapshot(self._problem, self._history)
         try:
             self._u.scatter(saved.get("u"))
+            self._problem.refresh()
             for k, function in enumerate(self._functions):
                 function.scatter(saved.get(f"history {k}"))
             for k, interface in enumerate(self._interfaces):
@@ -100,11 +102,8 @@ class Checkpoint:
     def _identity(self) -> dict[str, npt.NDArray[Any] | None]:
         """Arrays that tell a problem from others to which its state would not fit."""
         V = self._problem.u.function_space
-        owned = V.dofmap.index_map.size_local
-        arrays = {
-            "mesh: coordinates": self._u.rows.gather(V.tabulate_dof_coordinates()[:owned]),
-            "mesh: cells": self._cells,
-        }
+        x = V.tabulate_dof_coordinates()[: self._owned]
+        arrays = {"mesh: coordinates": self._u.rows.gather(x), "mesh: cells": self._cells}
         arrays |= {f"history {k}: rows": f.rows.digest for k, f in enumerate(self._functions)}
         for k, interface in enumerate(self._interfaces):
             arrays[f"surface {k}: slaves"] = self._slaves[k].digest
@@ -118,8 +117,9 @@ class Checkpoint:
     ) -> npt.NDArray[Any] | None:
         if kind == "global":
             return values
-        rows = self._slaves[contact] if kind == "slave" else self._u.rows
-        return rows.gather(values)
+        if kind == "slave":
+            return self._slaves[contact].gather(values)
+        return self._u.rows.gather(values[: self._owned])
 
     def _scatter(
         self, kind: RowKind, contact: int, values: npt.NDArray[Any] | None
