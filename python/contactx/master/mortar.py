@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 from contactx import cpp as core
 from contactx.forms import Pairs
-from contactx.master.master import Master, Weights
+from contactx.master.master import Master, RowKind, Weights
 from contactx.master.mortar_pairs import Array, Mortar, Sides, unit
 from contactx.master.mortar_slip import MortarSlip
 from contactx.master.reach import default_reach
@@ -41,6 +41,8 @@ class MortarMaster(Master):
     Attributes:
         surface: The master's facets.
     """
+
+    saved_rows: Mapping[str, RowKind] = {"paired": "slave", "before": "node"}
 
     def __init__(
         self,
