@@ -182,7 +182,8 @@ class Bulk:
         """Stiffness of each node: the mean of its free diagonal entries, force/length.
 
         Returns:
-            Stiffness of this rank's nodes, shape (num_owned,); NaN where all of a node's dofs are prescribed.
+            Stiffness of this rank's nodes, shape (num_owned,); NaN where all of a node's dofs are
+            prescribed.
         """
         diagonal: npt.NDArray[np.float64] = np.abs(self.matrix().getDiagonal().array)
         block = self.u.function_space.dofmap.index_map_bs
