@@ -116,7 +116,7 @@ class ObstacleMaster(Master):
         self._slip_data = np.zeros((n, _SLIP["size"]))
         self._slip_data[:, _SLIP["slip"] : _SLIP["slip"] + gdim] = slip
         first = _SLIP["derivative"]
-        self._slip_data[:, first : first + gdim * gdim] = derivative.reshape(n, -1)
+        self._slip_data[:, first : first + gdim * gdim] = derivative.reshape(n, gdim * gdim)
 
     def _carried(self) -> npt.NDArray[np.float64]:
         """Where the obstacle has carried the points that slip is measured from."""
