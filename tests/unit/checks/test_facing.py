@@ -57,10 +57,8 @@ def test_facing_away_out_of_reach_is_legal_and_warns():
         problem.solve()
 
 
-@pytest.mark.parametrize("chunk", [1, 1_000_000])
-def test_only_facets_within_reach_count(monkeypatch, chunk):
+def test_only_facets_within_reach_count():
     """What opposes a slave node is farther off than the search distance; what is near does not."""
-    monkeypatch.setattr(facing, "_CHUNK", chunk)
     scene = Blocks(CellType.hexahedron)
     master = cx.Surface(scene.tags, Tag.LOWER_X0, Tag.LOWER_X1)
     # The slave's normal is that of x = 1.5, opposite to x = 0; it is at x = 1.23
