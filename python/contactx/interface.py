@@ -113,7 +113,7 @@ class Interface:
         self._free = markers.reshape(-1, gdim) == 0
         self.master.accept(self.positions())
         self.master.search(x, self.nodes.status)
-        check_facing(slave, master, facets, self.master, x)
+        check_facing(slave, master, facets, self.master, bodies.halo)
         self.master.begin_step()
         self._make_forms()
         self._find_immobile()

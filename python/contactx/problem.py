@@ -22,6 +22,7 @@ from contactx.contact import Contact
 from contactx.errors import ConvergenceError
 from contactx.interface import Interface
 from contactx.newton import NewtonLoop
+from contactx.parallel.halo import Halo
 from contactx.report import Report
 from contactx.system import SaddlePointSystem
 from dolfinx import fem, la
@@ -95,7 +96,8 @@ class ContactProblem:
         self.contacts = list(contacts)
         self.report = Report()
         self._bulk = Bulk(F, u, bcs or [], J, form_compiler_options, jit_options)
-        bodies = Bodies(V, X.array.reshape(-1, gdim))
+        self._halo = Halo(u, X.array.reshape(-1, gdim))
+        bodies = Bodies(V, self._halo)
         self._interfaces = []
         try:
             for contact in self.contacts:
@@ -139,7 +141,8 @@ class ContactProblem:
                 rigid obstacle.
         """
         validate.check_finite(the_displacement_u_is=self.u.x)
-        check_over_constrained(self._interfaces, self.contacts, self._bulk.prescribed())
+        prescribed = self._bulk.prescribed()
+        check_over_constrained(self._interfaces, self.contacts, prescribed, self._halo)
         displacement = self.u.x.array.copy()
         saved = [saving.save(interface) for interface in self._interfaces]
         self.report = report = Report()

@@ -13,6 +13,8 @@ from contactx.master.facets import FacetMaster
 from contactx.master.master import Master
 from contactx.master.mortar import MortarMaster
 from contactx.obstacles import Obstacle
+from contactx.parallel import reduce
+from contactx.parallel.halo import Halo
 from contactx.surface import FacetList, Surface
 
 _CHUNK = 1_000_000
@@ -23,7 +25,7 @@ def check_facing(
     master: Surface | Obstacle,
     facets: FacetList,
     pairs: Master,
-    x: npt.NDArray[np.float64],
+    halo: Halo,
 ) -> None:
     """Check that the slave surface does not face away from all of its master that is in reach.
 
@@ -35,15 +37,20 @@ def check_facing(
         master: Master surface or rigid obstacle.
         facets: Slave facets.
         pairs: Pairs in the reference configuration.
-        x: Reference positions, shape (num_nodes, gdim).
+        halo: Nodes on this rank.
 
     Raises:
-        ValueError: If it does.
+        ValueError: If it does, on all ranks.
     """
-    if not isinstance(pairs, FacetMaster | MortarMaster) or pairs.paired.any():
+    comm, x = halo.comm, halo.x
+    if not isinstance(pairs, FacetMaster | MortarMaster) or reduce.anywhere(
+        comm, pairs.paired.any()
+    ):
         return
-    distance = pairs.distance(x)
-    if distance <= pairs.reach and not _opposes(facets, pairs.facets, x, pairs.reach):
+    distance = reduce.least(comm, pairs.distance(x))
+    if distance <= pairs.reach and not reduce.anywhere(
+        comm, _opposes(facets, pairs.facets, x, pairs.reach)
+    ):
         raise ValueError(
             f"the slave surface {slave} faces away from its master {master}: no slave node has a "
             f"normal that opposes that of a master facet within the search distance "

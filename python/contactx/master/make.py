@@ -17,6 +17,7 @@ from contactx.master.mortar_obstacle import MortarObstacle
 from contactx.master.obstacle import ObstacleMaster
 from contactx.master.ties import FacetTie, MortarTie, ObstacleTie
 from contactx.obstacles import Obstacle, Plane
+from contactx.parallel import reduce
 from contactx.surface import Surface
 
 
@@ -48,11 +49,13 @@ def make_master(
         ValueError: If facets are degenerate, the surfaces share nodes, a body lies wholly inside
             its master, or an obstacle's parameters do not fit.
     """
-    V, x = bodies.V, bodies.x
+    V, x, halo = bodies.V, bodies.x, bodies.halo
     facets = slave.facet_nodes(V)
-    check_facets(slave, "slave", facets, x)
+    check_facets(slave, "slave", facets, halo)
     if isinstance(master, Obstacle):
         slaves = np.unique(facets.nodes)
+        size = float(reduce.extent(halo.comm, x[slaves]).max())
+        master.extent = max(master.extent, size)
         options = (master, x, search_distance)
         obstacle: ObstacleMaster
         if law.is_tied:
@@ -65,7 +68,7 @@ def make_master(
         check_outside(slave, slaves, obstacle.inside(x), master, bodies)
         return obstacle
     others = master.facet_nodes(V)
-    check_facets(master, "master", others, x)
+    check_facets(master, "master", others, halo)
     check_apart(slave, master, facets, others, bodies)
     deformable: type[FacetMaster | MortarMaster]
     if method == "surface-to-surface":
