@@ -63,7 +63,7 @@ class TwoBlocks:
             if partition == "slabs":
                 rank = np.minimum(middle[:, 0] / 1.5 * parts, parts - 1)
             elif partition == "pieces":
-                rank = np.floor(8 * middle[:, 0]) % parts
+                rank = np.floor(middle[:, 0] / 0.375) % parts
             elif partition == "blocks":
                 rank = np.where(middle[:, -1] > 0, parts - 1, 0)
             else:
