@@ -43,7 +43,9 @@ class HeldBlock:
             return SimpleNamespace(array=np.zeros(n * block), block_size=block)
 
         size = dim if friction else 1
-        law = Coulomb(NodalValue(friction, "friction", V, slaves)) if friction else Frictionless()
+        law: Any = Frictionless()
+        if friction:
+            law = Coulomb(NodalValue(friction, "friction", V, slaves), halo.comm)
         state = SimpleNamespace(
             multiplier=vector(size),
             area=vector(1),
@@ -51,7 +53,7 @@ class HeldBlock:
             slip_derivative=vector(dim * dim) if friction else None,
             normal_derivative=vector(dim * dim) if friction else None,
         )
-        self.nodes = Nodes(state, dim)
+        self.nodes = Nodes(state, n, dim)
         self.nodes.area[:] = 0.1
         self.nodes.gap[:] = gap + slope * halo.x[slaves, 0]
         up = np.zeros((n, 3))
