@@ -3,6 +3,7 @@
 """An upper block that only its contact with the lower one holds, without an interface's search."""
 
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 
