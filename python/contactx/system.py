@@ -18,6 +18,7 @@ import numpy.typing as npt
 from contactx.bulk import Bulk
 from contactx.forms import ContactForms
 from contactx.interface import Interface
+from contactx.parallel.halo import Halo
 from dolfinx import cpp, fem
 
 # Relative difference from a Dirichlet value that has no share in the other rows
@@ -32,7 +33,8 @@ class SaddlePointSystem:
         x: Unknowns.
         b: Residual.
         interfaces: Discrete sides of the contacts.
-        num_bulk: Number of displacements.
+        halo: Nodes on this rank.
+        num_bulk: Number of displacements that this rank owns.
         block: Displacements a node.
     """
 
@@ -47,7 +49,9 @@ class SaddlePointSystem:
         self.interfaces = list(interfaces)
         self._comm = bulk.u.function_space.mesh.comm
         self.block = bulk.u.function_space.dofmap.index_map_bs
-        self.num_bulk = len(bulk.u.x.array)
+        self.num_bulk = bulk.num_owned
+        X = self.interfaces[0].state.position
+        self.halo = Halo(bulk.u, X.array.reshape(-1, self.block))
         sizes = [self.num_bulk, *(len(i.nodes.multiplier) for i in self.interfaces)]
         self._offsets = np.cumsum([0, *sizes])
         self.renew()
@@ -83,8 +87,7 @@ class SaddlePointSystem:
         """Residual of the bulk alone, assembled anew only where the displacement has changed."""
         u = self._bulk.u.x.array
         if self._bulk_at is None or not np.array_equal(u, self._bulk_at):
-            self._bulk_residual[:] = 0
-            self._bulk.add_residual(self._bulk_residual)
+            self._bulk_residual[:] = self._bulk.residual()
             self._bulk_at = u.copy()
         return self._bulk_residual
 
@@ -162,6 +165,28 @@ class SaddlePointSystem:
             self.blocks(diagonal.array)[0][:] = springs
             A.setDiagonal(diagonal, addv=PETSc.InsertMode.ADD)
         return A
+
+    @property
+    def num_local(self) -> int:
+        """Number of displacements of all nodes on this rank."""
+        return self.halo.num_nodes * int(self.block)
+
+    def multiply_contact(self, A: PETSc.Mat, x: PETSc.Vec, y: PETSc.Vec) -> None:
+        """Multiply by the contacts' part of the Jacobian, y = A x; all ranks must take part.
+
+        Args:
+            A: What ``contact_entries`` has given.
+            x: Vector of all unknowns.
+            y: Product, overwritten.
+        """
+        n, gdim = self.num_bulk, self.block
+        local, product = A.createVecs()
+        u = self.halo.extend(x.array_r[:n].reshape(-1, gdim)).ravel()
+        local.array[:] = np.concatenate([u, x.array_r[n:]])
+        A.mult(local, product)
+        forces, rows = np.split(product.array_r, [self.num_local])
+        y.array[:n] = self.halo.add_up(forces.reshape(-1, gdim)).ravel()
+        y.array[n:] = rows
 
     def contact_entries(self, b: PETSc.Vec | None = None) -> PETSc.Mat:
         """Assemble the contacts' part of the Jacobian with no place for what is zero.
