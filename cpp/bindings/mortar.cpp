@@ -35,8 +35,10 @@ void contactx_bindings::mortar(py::module_& m)
       .def(
           "find",
           [](FacetSearch& self, const Array<double>& x, double reach,
-             double margin) { return self.find(view(x), reach, margin); },
-          py::arg("x"), py::arg("reach"), py::arg("margin"), "Find the pairs")
+             double margin, bool all_layers)
+          { return self.find(view(x), reach, margin, all_layers); },
+          py::arg("x"), py::arg("reach"), py::arg("margin"),
+          py::arg("all_layers") = false, "Find the pairs")
       .def(
           "integrals",
           [](const FacetSearch& self, const FacetPairs& pairs,

@@ -4,15 +4,115 @@
 #include "bindings.h"
 #include <contactx/search/foot.h>
 #include <contactx/search/pairing.h>
+#include <limits>
 #include <pybind11/stl.h>
 
 namespace py = pybind11;
 using namespace contactx_bindings;
+using contactx::search::Finder;
+using contactx::search::Found;
 using contactx::search::Pairing;
+using contactx::search::Projection;
+
+namespace
+{
+contactx::Vec<3> row(std::span<const double> values, std::size_t i, int width)
+{
+  contactx::Vec<3> v{};
+  std::copy_n(values.begin() + i * width, width, v.begin());
+  return v;
+}
+
+py::dict find(const Finder& self, std::span<const double> x,
+              std::span<const double> points, std::span<const double> normals,
+              std::span<const double> reach)
+{
+  const int gdim = self.surface().gdim();
+  const std::size_t n = reach.size();
+  if (points.size() != n * gdim or normals.size() != n * gdim)
+    throw std::invalid_argument("points and normals must be one a reach");
+  constexpr double none = std::numeric_limits<double>::infinity();
+  std::vector<double> distance(n, none), gap(n, 0), xi(2 * n), normal(3 * n);
+  std::vector<std::int32_t> nearest(n, -1), facet(n, -1), feature(n, 0);
+  std::int32_t hint = -1;
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    const Found found = self.find(x, row(points, i, gdim),
+                                  row(normals, i, gdim), reach[i], hint);
+    if (!found.nearest)
+      continue;
+    hint = nearest[i] = found.nearest->facet;
+    distance[i] = contactx::norm(found.nearest->d);
+    if (!found.selected)
+      continue;
+    const Projection& q = *found.selected;
+    facet[i] = q.facet;
+    feature[i] = q.feature;
+    gap[i] = q.gap;
+    std::copy(q.xi.begin(), q.xi.end(), xi.begin() + 2 * i);
+    std::copy(q.normal.begin(), q.normal.end(), normal.begin() + 3 * i);
+  }
+  const auto rows = static_cast<py::ssize_t>(n);
+  return py::dict(
+      py::arg("distance") = array(distance),
+      py::arg("nearest") = array(nearest), py::arg("facet") = array(facet),
+      py::arg("feature") = array(feature), py::arg("gap") = array(gap),
+      py::arg("xi") = array(xi, {rows, 2}),
+      py::arg("normal") = array(normal, {rows, 3}));
+}
+
+std::int32_t settle(Pairing& self, std::span<const std::int32_t> which,
+                    std::span<const std::int32_t> facet,
+                    std::span<const std::int32_t> feature,
+                    std::span<const double> xi, std::span<const double> normal,
+                    std::span<const double> x, double reach,
+                    std::span<const std::int8_t> closed)
+{
+  const std::size_t n = which.size();
+  if (facet.size() != n or feature.size() != n or xi.size() != 2 * n
+      or normal.size() != 3 * n)
+    throw std::invalid_argument("what was found must be one a slave node");
+  std::int32_t changed = 0;
+  for (std::size_t k = 0; k < n; ++k)
+  {
+    std::optional<Projection> found;
+    if (facet[k] >= 0)
+      found = Projection{facet[k],
+                         feature[k],
+                         {xi[2 * k], xi[2 * k + 1]},
+                         {},
+                         row(normal, k, 3),
+                         0,
+                         0,
+                         0};
+    changed += self.settle(which[k], found, x, reach, closed[which[k]]);
+  }
+  return changed;
+}
+} // namespace
 
 void contactx_bindings::search(py::module_& m)
 {
   m.attr("margin") = contactx::search::margin;
+  py::class_<Finder>(m, "Finder",
+                     "Finds the place of a master surface that points are in "
+                     "contact with")
+      .def(py::init([](const Array<std::int32_t>& offsets,
+                       const Array<std::int32_t>& nodes, int gdim)
+                    { return Finder(copy(offsets), copy(nodes), gdim); }),
+           py::arg("offsets"), py::arg("nodes"), py::arg("gdim"))
+      .def(
+          "find",
+          [](Finder& self, const Array<double>& x, const Array<double>& points,
+             const Array<double>& normals, const Array<double>& reach)
+          {
+            self.refit(view(x));
+            return find(self, view(x), view(points), view(normals),
+                        view(reach));
+          },
+          py::arg("x"), py::arg("points"), py::arg("normals"), py::arg("reach"),
+          "Nearest facets that face points, and the projections that contact "
+          "is measured with");
   py::class_<Pairing>(m, "Pairing",
                       "Pairs of slave nodes and master facets, kept from one "
                       "search to the next")
@@ -20,13 +120,16 @@ void contactx_bindings::search(py::module_& m)
                [](const Array<std::int32_t>& slave_offsets,
                   const Array<std::int32_t>& slave_nodes,
                   const Array<std::int32_t>& master_offsets,
-                  const Array<std::int32_t>& master_nodes, int gdim)
+                  const Array<std::int32_t>& master_nodes, int gdim,
+                  std::int32_t num_owned)
                {
                  return Pairing(copy(slave_offsets), copy(slave_nodes),
-                                copy(master_offsets), copy(master_nodes), gdim);
+                                copy(master_offsets), copy(master_nodes), gdim,
+                                num_owned);
                }),
            py::arg("slave_offsets"), py::arg("slave_nodes"),
-           py::arg("master_offsets"), py::arg("master_nodes"), py::arg("gdim"))
+           py::arg("master_offsets"), py::arg("master_nodes"), py::arg("gdim"),
+           py::arg("num_owned") = std::numeric_limits<std::int32_t>::max())
       .def("begin_step", &Pairing::begin_step,
            "Forget what was learnt in the last step")
       .def(
@@ -47,6 +150,32 @@ void contactx_bindings::search(py::module_& m)
           { return self.update(view(x), reach, view(closed)); },
           py::arg("x"), py::arg("reach"), py::arg("closed"),
           "Search; returns how many closed nodes changed their facet")
+      .def(
+          "set_master",
+          [](Pairing& self, const Array<std::int32_t>& offsets,
+             const Array<std::int32_t>& nodes)
+          { self.set_master(copy(offsets), copy(nodes)); },
+          py::arg("offsets"), py::arg("nodes"),
+          "Take another list of master facets")
+      .def(
+          "seek", [](Pairing& self, const Array<double>& x, double reach)
+          { return array(self.seek(view(x), reach)); }, py::arg("x"),
+          py::arg("reach"), "Slave nodes that do not keep their facet")
+      .def(
+          "settle",
+          [](Pairing& self, const Array<std::int32_t>& which,
+             const Array<std::int32_t>& facet,
+             const Array<std::int32_t>& feature, const Array<double>& xi,
+             const Array<double>& normal, const Array<double>& x, double reach,
+             const Array<std::int8_t>& closed)
+          {
+            return settle(self, view(which), view(facet), view(feature),
+                          view(xi), view(normal), view(x), reach, view(closed));
+          },
+          py::arg("which"), py::arg("facet"), py::arg("feature"), py::arg("xi"),
+          py::arg("normal"), py::arg("x"), py::arg("reach"), py::arg("closed"),
+          "Take what was found for them; returns how many closed nodes changed "
+          "their facet")
       .def_property_readonly("slaves", [](const Pairing& self)
                              { return array(self.slaves()); })
       .def_property_readonly("facet", [](const Pairing& self)
@@ -71,17 +200,6 @@ void contactx_bindings::search(py::module_& m)
       .def(
           "frozen", [](const Pairing& self) { return array(self.frozen()); },
           "Slave nodes whose pair is frozen, by their place in slaves")
-      .def(
-          "natural_gaps",
-          [](Pairing& self, const Array<double>& x, double reach,
-             const Array<std::int32_t>& which)
-          { return array(self.natural_gaps(view(x), reach, view(which))); },
-          py::arg("x"), py::arg("reach"), py::arg("which"),
-          "Gaps that a search without memory finds")
-      .def(
-          "distance", [](Pairing& self, const Array<double>& x)
-          { return self.distance(view(x)); }, py::arg("x"),
-          "Distance from the nearest slave node to the master surface")
       .def(
           "feet",
           [](const Pairing& self, const Array<double>& x,

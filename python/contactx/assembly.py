@@ -5,15 +5,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
-
-from mpi4py import MPI
 
 import numpy as np
 import numpy.typing as npt
 
 from contactx.forms import ContactForms, Pairs, State
 from contactx.law.nodes import Nodes
+from contactx.parallel.halo import Halo
 from dolfinx import fem
 
 
@@ -24,22 +22,20 @@ class Assembly:
         forms: The forms.
     """
 
-    def __init__(self, comm: MPI.Comm, law: str, state: State, bulk_map: Any, slave_map: Any):
+    def __init__(self, law: str, state: State, halo: Halo):
         """Create an assembly without pairs.
 
         Args:
-            comm: Communicator.
             law: Name of the contact law.
             state: Vectors that the forms read at each assembly.
-            bulk_map: Index map of the bulk's nodes.
-            slave_map: Index map of the slave nodes.
+            halo: Nodes of this rank.
         """
-        self._comm = comm
         self._law = law
         self._state = state
-        self._maps = bulk_map, slave_map
+        self._halo = halo
         self.forms: list[ContactForms] = []
         self._sliding = ""
+        self._version = 0
 
     def renew(self, groups: Sequence[Pairs], sliding: str) -> None:
         """Make the forms of new pairs.
@@ -49,14 +45,15 @@ class Assembly:
             sliding: Kinematics, "finite" or "small".
         """
         self._sliding = sliding
+        self._version = self._halo.version
         self.forms = [
-            ContactForms(self._comm, self._law, sliding, pairs, self._state, *self._maps)
-            for pairs in groups
+            ContactForms(self._law, sliding, pairs, self._state, self._halo) for pairs in groups
         ]
 
     def update(self, groups: Sequence[Pairs]) -> None:
-        """Take over new data, with new forms where the pairs are others."""
-        if len(groups) != len(self.forms) or not all(
+        """Take over new data, with new forms where the pairs or the halo are others."""
+        same = self._version == self._halo.version and len(groups) == len(self.forms)
+        if not same or not all(
             form.pairs.same(pairs) for form, pairs in zip(self.forms, groups, strict=True)
         ):
             self.renew(groups, self._sliding)
@@ -66,13 +63,8 @@ class Assembly:
 
     def kinematics(self, nodes: Nodes) -> None:
         """Assemble gap and normal of the slave nodes; zero where there is no pair."""
-        nodes.gap[:] = nodes.normal[:] = 0
-        for form in self.forms:
-            if form.gap is not None:
-                fem.assemble_vector(nodes.gap, form.gap)
-            if form.normal is not None:
-                fem.assemble_vector(nodes.normal.reshape(-1), form.normal)
-
+        self._assemble(nodes.gap, "gap")
+        self._assemble(nodes.normal, "normal")
         if nodes.mean is not None:
             nodes.mean.normalise(nodes.normal, nodes.mobile)
 
@@ -83,16 +75,21 @@ class Assembly:
             nodes: Slave nodes, with their normals.
             origin: What is taken off movements over several facets, shape (n, gdim), or zero.
         """
-        nodes.slip[:] = 0
-        for form in self.forms:
-            if form.slip is not None:
-                fem.assemble_vector(nodes.slip.reshape(-1), form.slip)
+        self._assemble(nodes.slip, "slip")
         if nodes.mean is not None and self._law != "tied":
             nodes.slip -= origin
             nodes.mean.project(nodes.normal, nodes.slip, nodes.mobile)
 
+    def _assemble(self, values: npt.NDArray[np.float64], term: str) -> None:
+        """Set values of this rank's slave nodes; what is assembled for those of others is part."""
+        every = np.zeros((len(self._state.area.array), *values.shape[1:]))
+        for form in self.forms:
+            if getattr(form, term) is not None:
+                fem.assemble_vector(every.reshape(-1), getattr(form, term))
+        values[:] = every[: len(values)]
+
     def add_residual(self, b: npt.NDArray[np.float64]) -> None:
-        """Add the contact forces to a vector of the bulk, shape (num_nodes * gdim,)."""
+        """Add this rank's contact forces to those of all nodes, shape (num_nodes * gdim,)."""
         for form in self.forms:
             if form.residual is not None:
                 fem.assemble_vector(b, form.residual)

@@ -29,8 +29,8 @@ class Bulk:
         J: Jacobian form.
         is_linear: Whether the Jacobian does not depend on u.
         comm: Communicator; what assembles or asks for the matrix needs all ranks.
-        num_owned: Number of dofs that this rank owns.
-        markers: 1 at dofs with a Dirichlet condition, ghosts included, shape (num_dofs,).
+        num_dofs: Number of dofs of this rank.
+        markers: 1 at dofs with a Dirichlet condition, those of other ranks last.
         assemblies: How often the Jacobian was assembled.
         skipped: How often an assembled Jacobian served again.
     """
@@ -70,9 +70,8 @@ class Bulk:
         self._coefficients = list(self.J._cpp_object.coefficients)
         self.is_linear = all(c is not u._cpp_object for c in self._coefficients)
         self.comm: MPI.Comm = V.mesh.comm
-        self._block = V.dofmap.index_map_bs
-        self.num_owned: int = V.dofmap.index_map.size_local * self._block
-        self._forces = la.vector(V.dofmap.index_map, self._block)
+        self.num_dofs = V.dofmap.index_map.size_local * V.dofmap.index_map_bs
+        self._b = la.vector(V.dofmap.index_map, V.dofmap.index_map_bs)
         self._A: PETSc.Mat = None
         self._rows: PETSc.Mat | None = None
         self._symmetric: bool | None = None
@@ -84,13 +83,24 @@ class Bulk:
         self.skipped = 0
 
     def residual(self) -> npt.NDArray[np.float64]:
-        """Residual without Dirichlet conditions, shape (num_owned,); overwritten by the next."""
-        self._forces.array[:] = 0
-        fem.assemble_vector(self._forces.array, self.F)
-        if self.comm.size > 1:
-            self._forces.scatter_reverse(la.InsertMode.add)
-        forces: npt.NDArray[np.float64] = self._forces.array
-        return forces[: self.num_owned]
+        """Residual on this rank's dofs, without Dirichlet conditions; all ranks must take part."""
+        self._b.array[:] = 0
+        fem.assemble_vector(self._b.array, self.F)
+        return self._sums()
+
+    def lifted(self) -> npt.NDArray[np.float64]:
+        """What Dirichlet values that the displacement does not have yet do to other rows.
+
+        All ranks must take part.
+        """
+        self._b.array[:] = 0
+        fem.apply_lifting(self._b.array, [self.J], [self.bcs], [self.u.x.array], alpha=-1.0)
+        return self._sums()
+
+    def _sums(self) -> npt.NDArray[np.float64]:
+        self._b.scatter_reverse(la.InsertMode.add)
+        owned: npt.NDArray[np.float64] = self._b.array[: self.num_dofs].copy()
+        return owned
 
     def dirichlet_defect(self) -> npt.NDArray[np.float64]:
         """Displacement minus Dirichlet values, zero elsewhere, ghosts included."""
@@ -183,11 +193,12 @@ class Bulk:
         """Stiffness of each owned node: the mean of its free diagonal entries, force/length.
 
         Returns:
-            Stiffness, shape (num_owned_nodes,); NaN where all of a node's dofs are prescribed.
+            Stiffness of this rank's nodes, shape (num_owned,); NaN where all of a node's dofs are
+            prescribed.
         """
         diagonal: npt.NDArray[np.float64] = np.abs(self.matrix().getDiagonal().array)
-        block = self._block
-        free = (self.markers[: self.num_owned] == 0).reshape(-1, block)
+        block = self.u.function_space.dofmap.index_map_bs
+        free = (self.markers[: self.num_dofs] == 0).reshape(-1, block)
         total = np.where(free, diagonal.reshape(-1, block), 0).sum(axis=1)
         count = free.sum(axis=1)
         stiffness = np.full(len(count), np.nan)

@@ -16,8 +16,13 @@ from contactx.law.coulomb import Coulomb, Tied
 from contactx.law.law import Frictionless, Law
 from contactx.nodal import NodalValue
 from contactx.obstacles import Obstacle
+from contactx.parallel.agreement import agreed
+from contactx.parallel.halo import Halo
+from contactx.parallel.slaves import SlaveNodes
+from contactx.search.records import slave_facets
+from contactx.search.surface import in_order
 from contactx.surface import Surface
-from dolfinx import fem, la
+from dolfinx import fem
 
 _OPTIONS = (
     "slave",
@@ -122,14 +127,11 @@ class Contact:
         master = self.master if isinstance(self.master, Surface) else type(self.master).__name__
         return f"Contact(slave={self.slave}, master={master}, sliding={self.sliding!r})"
 
-    def attach(
-        self, u: fem.Function, X: la.Vector, markers: npt.NDArray[np.int8], bodies: Bodies
-    ) -> Interface:
+    def attach(self, halo: Halo, markers: npt.NDArray[np.int8], bodies: Bodies) -> Interface:
         """Make the contact's discrete side; ContactProblem calls this.
 
         Args:
-            u: Displacement.
-            X: Reference positions of its nodes.
+            halo: Nodes of this rank.
             markers: 1 at dofs with a Dirichlet condition, shape (num_dofs,).
             bodies: Bodies of the mesh.
 
@@ -143,27 +145,30 @@ class Contact:
             raise RuntimeError(
                 f"{self} belongs to a ContactProblem already: create one Contact a problem"
             )
-        V = u.function_space
-        nodes = self.slave.nodes(V)
-        law: Law = Frictionless()
-        if self.tied:
-            law = Tied()
-        elif self.friction != 0:
-            law = Coulomb(NodalValue(self.friction, "friction", V, nodes))
+        V = bodies.V
+        facets = in_order(self.slave.facet_nodes(V), halo)
+        slaves = SlaveNodes(halo, slave_facets(halo, facets))
+        with agreed(halo.comm):
+            offset = NodalValue(self.offset, "offset", V, slaves.owned)
+            law: Law = Frictionless()
+            if self.tied:
+                law = Tied()
+            elif self.friction != 0:
+                law = Coulomb(NodalValue(self.friction, "friction", V, slaves.owned), halo.comm)
         interface = Interface(
             self.slave,
+            slaves,
             self.master,
-            u,
-            X,
+            halo,
             law=law,
             method=self.method,
             sliding=self.sliding,
             search_distance=self.search_distance,
-            offset=NodalValue(self.offset, "offset", V, nodes),
+            offset=offset,
             markers=markers,
             bodies=bodies,
         )
-        self._fields = Fields(interface, V, self.slave.facet_nodes(V))
+        self._fields = Fields(interface, V, slaves, halo)
         self._interface = interface
         return interface
 
@@ -206,17 +211,17 @@ class Contact:
 
     @property
     def slave_nodes(self) -> npt.NDArray[np.int32]:
-        """Slave nodes, numbered as the blocks of the displacement's dofmap, shape (n,)."""
+        """Slave nodes of this rank, as the blocks of the displacement's dofmap, shape (n,)."""
         return self.interface.slaves
 
     @property
     def area(self) -> npt.NDArray[np.float64]:
-        """Reference area of each slave node (length in 2D), shape (n,)."""
+        """Reference area of each slave node of this rank (length in 2D), shape (n,)."""
         return self.interface.nodes.area
 
     @property
     def multiplier(self) -> npt.NDArray[np.float64]:
-        """Multiplier of each slave node as it was solved for, force per reference area.
+        """Multiplier of each slave node of this rank as it was solved for, force/reference area.
 
         Without friction its pressure, shape (n,); with friction, or tied, the traction that the
         master exerts on it, shape (n, gdim). Laws and balance hold for it; it scatters more than
@@ -286,5 +291,5 @@ class Contact:
 
     @property
     def force(self) -> npt.NDArray[np.float64]:
-        """Total force on the slave side, shape (gdim,)."""
+        """Total force on the slave side of all ranks, shape (gdim,)."""
         return self.fields.force

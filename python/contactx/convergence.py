@@ -11,6 +11,7 @@ import numpy.typing as npt
 
 from contactx.bulk import Bulk
 from contactx.interface import Interface
+from contactx.parallel.reduce import largest, norm
 from contactx.system import SaddlePointSystem
 
 # Rounding errors of a sum of a few terms
@@ -35,6 +36,7 @@ class Judge:
         self._bulk = bulk
         self._interfaces = interfaces
         self._system = system
+        self._comm = system.halo.comm
         self._stiffness = np.zeros(0)
         self._least_scale: float | None = None
 
@@ -42,7 +44,7 @@ class Judge:
         """Start a step.
 
         Args:
-            stiffness: Stiffness of each node of the bulk, NaN where it cannot move.
+            stiffness: Stiffness of each node of this rank, NaN where it cannot move.
         """
         self._stiffness = np.nan_to_num(stiffness)
         self._least_scale = None
@@ -63,20 +65,20 @@ class Judge:
             Dirichlet value.
         """
         force, *constraints = self._system.blocks(self._system.b.array_r)
-        prescribed = self._bulk.markers == 1
-        residual = _norm([force[~prescribed], *constraints])
+        prescribed = self._bulk.markers[: len(force)] == 1
+        residual = norm(self._comm, force[~prescribed], *constraints)
         scale = self.scale()
         if self._least_scale is None:
             # Unloading ends without forces. What the first change of the Dirichlet values asks
             # for says little: a stiff body that moves as a whole asks for much and gets nothing
             self._least_scale = max(scale, 1e-6 * residual)
         scale = max(scale, self._least_scale)
-        defect = float(np.abs(force[prescribed]).max(initial=0.0))
+        defect = largest(self._comm, float(np.abs(force[prescribed]).max(initial=0.0)))
         return residual, max(rtol * scale, atol, self._rounding(scale)), defect
 
     def scale(self) -> float:
         """Forces of the problem: norm of the bulk's residual."""
-        return _norm([self._system.bulk_residual()])
+        return norm(self._comm, self._system.bulk_residual())
 
     def _rounding(self, scale: float) -> float:
         """Residual that rounding leaves.
@@ -89,15 +91,14 @@ class Judge:
             scale: Forces of the problem.
         """
         block = self._bulk.u.function_space.dofmap.index_map_bs
-        u = np.linalg.norm(self._bulk.u.x.array.reshape(-1, block), axis=1)
-        gaps, moved = [], [self._stiffness * u]
-        for interface in self._interfaces:
-            nodes = interface.nodes
-            weight = np.where(nodes.closed, nodes.area * nodes.c, 0.0)
-            gaps.append(weight * np.abs(interface.state.position.array).max())
-            moved.append(weight * u.max())
-        return _EPS * _norm(gaps) + min(_EPS * _norm(moved), 1e-6 * scale)
-
-
-def _norm(parts: Sequence[npt.NDArray[np.float64]]) -> float:
-    return float(np.sqrt(sum(np.dot(p, p) for p in parts)))
+        owned = self._bulk.u.x.array[: self._bulk.num_dofs]
+        u = np.linalg.norm(owned.reshape(-1, block), axis=1)
+        farthest, most = largest(
+            self._comm,
+            np.array([np.abs(self._system.halo.x).max(initial=0.0), u.max(initial=0.0)]),
+        )
+        nodes = [i.nodes for i in self._interfaces]
+        weights = [np.where(n.closed, n.area * n.c, 0.0) for n in nodes]
+        gaps = norm(self._comm, *(w * farthest for w in weights))
+        moved = norm(self._comm, self._stiffness * u, *(w * most for w in weights))
+        return _EPS * gaps + min(_EPS * moved, 1e-6 * scale)

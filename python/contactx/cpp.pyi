@@ -1,6 +1,8 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -21,6 +23,16 @@ def nodal_normals(
 ) -> NDArray[np.float64]: ...
 def shape_functions(num_nodes: int, xi: NDArray[np.float64]) -> NDArray[np.float64]: ...
 
+class Finder:
+    def __init__(self, offsets: NDArray[np.int32], nodes: NDArray[np.int32], gdim: int) -> None: ...
+    def find(
+        self,
+        x: NDArray[np.float64],
+        points: NDArray[np.float64],
+        normals: NDArray[np.float64],
+        reach: NDArray[np.float64],
+    ) -> dict[str, NDArray[Any]]: ...
+
 class Pairing:
     def __init__(
         self,
@@ -29,6 +41,7 @@ class Pairing:
         master_offsets: NDArray[np.int32],
         master_nodes: NDArray[np.int32],
         gdim: int,
+        num_owned: int = ...,
     ) -> None: ...
     @property
     def slaves(self) -> NDArray[np.int32]: ...
@@ -53,10 +66,19 @@ class Pairing:
     ) -> None: ...
     def update(self, x: NDArray[np.float64], reach: float, closed: NDArray[np.int8]) -> int: ...
     def frozen(self) -> NDArray[np.int32]: ...
-    def natural_gaps(
-        self, x: NDArray[np.float64], reach: float, which: NDArray[np.int32]
-    ) -> NDArray[np.float64]: ...
-    def distance(self, x: NDArray[np.float64]) -> float: ...
+    def set_master(self, offsets: NDArray[np.int32], nodes: NDArray[np.int32]) -> None: ...
+    def seek(self, x: NDArray[np.float64], reach: float) -> NDArray[np.int32]: ...
+    def settle(
+        self,
+        which: NDArray[np.int32],
+        facet: NDArray[np.int32],
+        feature: NDArray[np.int32],
+        xi: NDArray[np.float64],
+        normal: NDArray[np.float64],
+        x: NDArray[np.float64],
+        reach: float,
+        closed: NDArray[np.int8],
+    ) -> int: ...
     def feet(
         self, x: NDArray[np.float64], points: NDArray[np.float64]
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...
@@ -80,7 +102,9 @@ class FacetSearch:
         master_nodes: NDArray[np.int32],
         gdim: int,
     ) -> None: ...
-    def find(self, x: NDArray[np.float64], reach: float, margin: float) -> FacetPairs: ...
+    def find(
+        self, x: NDArray[np.float64], reach: float, margin: float, all_layers: bool = ...
+    ) -> FacetPairs: ...
     def integrals(
         self,
         pairs: FacetPairs,

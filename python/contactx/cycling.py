@@ -4,11 +4,16 @@
 
 from __future__ import annotations
 
+import hashlib
 from collections.abc import Sequence
 
+from mpi4py import MPI
 from petsc4py import PETSc
 
+import numpy as np
+
 from contactx.interface import Interface
+from contactx.parallel.reduce import total
 
 _FACTOR = 0.5
 
@@ -24,21 +29,23 @@ class CycleGuard:
         cycles: How often a status has come back.
     """
 
-    def __init__(self, interfaces: Sequence[Interface]):
+    def __init__(self, interfaces: Sequence[Interface], comm: MPI.Comm):
         """Create the guard.
 
         Args:
             interfaces: Discrete sides of the contacts.
+            comm: Communicator.
         """
         self._interfaces = interfaces
+        self._comm = comm
         self.begin_step()
 
     def begin_step(self) -> None:
         """Forget what was seen."""
         self.cycles = 0
         self._short = 0
-        self._seen: dict[bytes, list[float]] = {}
-        self._status = b""
+        self._seen: dict[int, list[float]] = {}
+        self._status = -1
         self._last: PETSc.Vec | None = None
 
     def shorten(self, x: PETSc.Vec) -> bool:
@@ -57,14 +64,14 @@ class CycleGuard:
         return True
 
     def note(self, x: PETSc.Vec, residual: float) -> None:
-        """Remember an iterate.
+        """Remember an iterate; all ranks must take part.
 
         Args:
             x: The iterate.
             residual: Its residual.
         """
         self._last = x.copy()
-        status = b"".join(i.nodes.status.tobytes() for i in self._interfaces)
+        status = self._fingerprint()
         before = self._seen.setdefault(status, [])
         if status == self._status:
             # It may converge slowly; the same residual says that slip turns to and fro
@@ -78,3 +85,11 @@ class CycleGuard:
             # Longer each time
             self._short = 1 + self.cycles
             self._seen.clear()
+
+    def _fingerprint(self) -> int:
+        """Number that stands for the status of all nodes of all ranks."""
+        digest = hashlib.blake2b(digest_size=8)
+        for interface in self._interfaces:
+            digest.update(interface.nodes.status.tobytes())
+        mine = np.frombuffer(digest.digest(), dtype=np.uint64)
+        return int(total(self._comm, mine)[0])

@@ -12,8 +12,10 @@ import numpy as np
 
 from contactx.interface import Interface
 from contactx.nodal import matching_nodes
+from contactx.parallel.halo import Halo
+from contactx.parallel.reduce import total
+from contactx.parallel.slaves import SlaveNodes
 from contactx.recovery import Array, Recovery
-from contactx.surface import FacetList
 from dolfinx import fem
 
 
@@ -33,18 +35,19 @@ class Fields:
             nodes' forces.
     """
 
-    def __init__(self, interface: Interface, V: fem.FunctionSpace, facets: FacetList):
+    def __init__(self, interface: Interface, V: fem.FunctionSpace, slaves: SlaveNodes, halo: Halo):
         """Create the functions.
 
         Args:
             interface: Discrete side of the contact.
             V: Space of the displacement.
-            facets: Facets of the slave surface.
+            slaves: Slave nodes.
+            halo: Nodes of this rank.
         """
         self._interface = interface
-        self._gdim = V.mesh.geometry.dim
-        X = interface.state.position.array.reshape(-1, self._gdim)
-        self._recovery = Recovery(facets, X)
+        self._halo = halo
+        self._gdim = halo.gdim
+        self._recovery = Recovery(slaves, halo.x)
         Q = fem.functionspace(V.mesh, ("Lagrange", 1))
         # Both spaces number the vertices; where they differ the results must follow the bulk
         self._nodes = matching_nodes(V, Q)[interface.slaves]
@@ -61,9 +64,10 @@ class Fields:
         self.gap.x.array[:] = np.nan
         self.status.x.array[:] = -1
         self.status.x.array[self._nodes] = 0
+        self.status.x.scatter_forward()
 
     def update(self) -> None:
-        """Read the results from the discrete side."""
+        """Read the results from the discrete side; all ranks must take part."""
         interface = self._interface
         nodes = interface.nodes
         self.gap.x.array[self._nodes] = nodes.gap
@@ -75,17 +79,21 @@ class Fields:
 
         forces = self._forces()
         on_slave = forces[interface.slaves]
-        self.force = on_slave.sum(axis=0)
+        comm = self._halo.comm
+        self.force, sum_ = total(comm, np.stack([on_slave.sum(axis=0), forces.sum(axis=0)]))
         # What a rigid obstacle is pushed with goes to its support
         carried = self.force if interface.master.is_rigid else 0
-        self.imbalance = forces.sum(axis=0) - carried
+        self.imbalance = sum_ - carried
         self._recover(on_slave)
+        for function in vars(self).values():
+            if isinstance(function, fem.Function):
+                function.x.scatter_forward()
 
     def _forces(self) -> Array:
-        """Forces of the multipliers on the bulk's nodes, shape (num_nodes, gdim)."""
-        forces: Array = np.zeros_like(self.traction.x.array).reshape(-1, self._gdim)
+        """Forces of the multipliers on the nodes that this rank owns, shape (num_owned, gdim)."""
+        forces: Array = np.zeros((self._halo.num_nodes, self._gdim))
         self._interface.add_residual(forces.ravel())
-        return -forces
+        return -self._halo.add_up(forces)
 
     def _recover(self, forces: Array) -> None:
         """Set pressure and traction.
@@ -108,6 +116,7 @@ class Fields:
             recovered = area[:, None] * traction
         self.pressure.x.array[self._nodes] = p
         self.traction.x.array.reshape(-1, self._gdim)[slaves] = traction
-        size = np.linalg.norm(forces, axis=1).sum()
-        change = np.linalg.norm((recovered - forces).sum(axis=0))
+        comm = self._halo.comm
+        size = total(comm, np.linalg.norm(forces, axis=1).sum())
+        change = np.linalg.norm(total(comm, (recovered - forces).sum(axis=0)))
         self.recovery_change = float(change / size) if size > 0 else 0.0

@@ -14,6 +14,7 @@ import numpy.typing as npt
 
 from contactx import contact_mesh
 from contactx import cpp as core
+from contactx.parallel.halo import Halo
 from dolfinx import cpp, fem, la
 
 
@@ -22,10 +23,11 @@ class Pairs:
     """Pairs of slave nodes, or of slave facets, with master facets of one kind.
 
     Attributes:
-        slaves: Slave nodes by their number in the contact: one a pair, or those of a slave facet,
-            shape (num_pairs, num_slaves).
-        nodes: The slave nodes and the master facet's nodes, numbered as the blocks of the
-            displacement's dofmap, shape (num_pairs, num_slaves + num_nodes).
+        slaves: Slave nodes by their number in the contact, those of other ranks last: one a pair,
+            or those of a slave facet, shape (num_pairs, num_slaves).
+        nodes: The slave nodes and the master facet's nodes, numbered as all nodes of this rank:
+            the blocks of the displacement's dofmap, then the halo, shape (num_pairs, num_slaves +
+            num_nodes).
         data: What the kernels read of a pair, as cpp/contactx/kernel/layout.h says, shape
             (num_pairs, size).
         slip: What they read of slip a slave node, else None: shape (num_pairs, 6) with a facet,
@@ -61,11 +63,9 @@ class Pairs:
 
 @dataclass(frozen=True)
 class State:
-    """Vectors that the kernels read.
+    """Vectors of the slave nodes that the kernels read, those of other ranks last.
 
     Attributes:
-        displacement: Displacement of the bulk.
-        position: Reference position of the bulk's nodes.
         multiplier: Multiplier of the slave nodes, force/area: pressure or traction.
         area: Reference area of the slave nodes.
         gap_derivative: Derivative of the complementarity function with respect to the gap.
@@ -73,8 +73,6 @@ class State:
         normal_derivative: With respect to the normal; None for scalar multipliers.
     """
 
-    displacement: la.Vector
-    position: la.Vector
     multiplier: la.Vector
     area: la.Vector
     gap_derivative: la.Vector
@@ -82,23 +80,19 @@ class State:
     normal_derivative: la.Vector | None = None
 
     @staticmethod
-    def of(u: fem.Function, X: la.Vector, slave_map: Any, *, is_vector: bool) -> State:
-        """Make the vectors of the slave nodes, zero.
+    def of(gdim: int, slave_map: Any, *, is_vector: bool) -> State:
+        """Make the vectors, zero.
 
         Args:
-            u: Displacement.
-            X: Reference positions of its nodes.
+            gdim: Geometric dimension.
             slave_map: Index map of the slave nodes.
             is_vector: Whether the multiplier is a vector.
         """
-        gdim = X.block_size
 
         def vector(block: int) -> la.Vector:
             return la.vector(slave_map, block)
 
         return State(
-            displacement=u.x,
-            position=X,
             multiplier=vector(gdim if is_vector else 1),
             area=vector(1),
             gap_derivative=vector(gdim if is_vector else 1),
@@ -111,10 +105,8 @@ class ContactForms:
     """Forms over the pairs of one contact with facets of one kind.
 
     The displacement's spaces borrow the dofs of the bulk, the multiplier's those of the slave
-    nodes, so a form is assembled straight into vectors and matrices of either.
-
-    Attributes:
-    Those that vanish, or that other pairs have, are None.
+    nodes, so a form is assembled straight into vectors and matrices of either. Forms that vanish,
+    or that other pairs have, are None.
 
     Attributes:
         pairs: The pairs.
@@ -137,31 +129,22 @@ class ContactForms:
     traction: fem.Form | None
     constraint: fem.Form | None
 
-    def __init__(
-        self,
-        comm: MPI.Comm,
-        law: str,
-        sliding: str,
-        pairs: Pairs,
-        state: State,
-        bulk_map: Any,
-        slave_map: Any,
-    ):
-        """Create the forms.
+    def __init__(self, law: str, sliding: str, pairs: Pairs, state: State, halo: Halo):
+        """Create the forms of this rank's pairs; they know nothing of other ranks.
 
         Args:
-            comm: Communicator.
             law: "frictionless", "frictional" or "tied".
             sliding: "finite" or "small".
             pairs: The pairs.
             state: Vectors that the forms read at each assembly.
-            bulk_map: Index map of the bulk's nodes.
-            slave_map: Index map of the slave nodes.
+            halo: Nodes of this rank, with displacement and position, which the forms read, too.
         """
         self.pairs = pairs
+        comm = MPI.COMM_SELF
         num_pairs, num_slaves = pairs.slaves.shape
-        gdim = state.displacement.block_size
+        gdim = halo.gdim
         kind = (pairs.num_nodes, gdim, num_slaves)
+        self._num_slaves: int = len(state.area.array)
         # The kernels of a tie measure movement
         law = "tied" if pairs.is_movement else law
         mesh = contact_mesh.carrier(comm, num_pairs)
@@ -170,11 +153,17 @@ class ContactForms:
         self._slip_data = None if pairs.slip is None else la.vector(pair_map, pairs.slip.shape[1])
         self.update(pairs)
 
-        vectors = {"pair": self._pair_data, "slip": self._slip_data, **state.__dict__}
+        vectors = {
+            "displacement": halo.displacement,
+            "position": halo.position,
+            "pair": self._pair_data,
+            "slip": self._slip_data,
+            **vars(state),
+        }
         sites: dict[str, tuple[Any, npt.NDArray[np.int32]]] = {
-            "nodes": (bulk_map, pairs.nodes),
+            "nodes": (halo.index_map, pairs.nodes),
             "pair": (pair_map, np.arange(num_pairs, dtype=np.int32)[:, None]),
-            "slave": (slave_map, pairs.slaves),
+            "slave": (state.area.index_map, pairs.slaves),
         }
         spaces: dict[tuple[str, int], Any] = {}
         coefficients = []
@@ -221,7 +210,8 @@ class ContactForms:
         Returns:
             Stiffness, traction and constraint; None for those that vanish.
         """
-        chosen = which[self.pairs.slaves].any(axis=1)
+        others = np.zeros(self._num_slaves - len(which), dtype=bool)
+        chosen = np.concatenate([which, others])[self.pairs.slaves].any(axis=1)
         if chosen.all():
             return [self.stiffness, self.traction, self.constraint]
         cells = np.flatnonzero(chosen).astype(np.int32)

@@ -6,6 +6,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from mpi4py import MPI
+
 import numpy as np
 import numpy.typing as npt
 
@@ -20,9 +22,13 @@ from contactx.master.make import make_master
 from contactx.master.master import Master
 from contactx.nodal import NodalValue
 from contactx.obstacles import Obstacle
+from contactx.parallel.agreement import agreed
+from contactx.parallel.halo import Halo
+from contactx.parallel.reduce import total
+from contactx.parallel.slaves import SlaveNodes
 from contactx.slip import SlipHistory
 from contactx.surface import Surface
-from dolfinx import cpp, fem, la
+from dolfinx import cpp
 
 # Share of a relative movement that must be free for a constraint on it
 _MOBILE = 0.05
@@ -36,7 +42,9 @@ class Interface:
     Attributes:
         sliding: "finite" or "small".
         law: Contact law.
-        slaves: Slave nodes, numbered as the blocks of the displacement's dofmap, shape (n,).
+        slaves: Slave nodes that this rank owns, numbered as the blocks of the displacement's
+            dofmap, shape (n,).
+        num_others: Number of slave nodes of other ranks that share facets with these.
         state: Vectors that the forms read.
         nodes: State of the slave nodes.
         history: Slip of the accepted steps; None where none is measured.
@@ -48,9 +56,9 @@ class Interface:
     def __init__(
         self,
         slave: Surface,
+        slaves: SlaveNodes,
         master: Surface | Obstacle,
-        u: fem.Function,
-        X: la.Vector,
+        halo: Halo,
         *,
         law: Law,
         method: str,
@@ -60,19 +68,19 @@ class Interface:
         markers: npt.NDArray[np.int8],
         bodies: Bodies,
     ):
-        """Find the slave nodes and pair them in the reference configuration.
+        """Pair the slave nodes in the reference configuration; all ranks must take part.
 
         Args:
             slave: Slave surface.
+            slaves: Its nodes.
             master: Master surface or rigid obstacle.
-            u: Displacement.
-            X: Reference positions of the nodes of ``u``.
+            halo: Nodes of this rank.
             law: Contact law.
             method: "node-to-surface" or "surface-to-surface".
             sliding: "finite" or "small".
             search_distance: Largest distance of a pair; chosen if None.
             offset: What is taken off the gap.
-            markers: 1 at dofs with a Dirichlet condition, shape (num_dofs,).
+            markers: 1 at dofs of the bulk with a Dirichlet condition, shape (num_dofs,).
             bodies: Bodies of the mesh.
 
         Raises:
@@ -80,48 +88,56 @@ class Interface:
                 other, a body lies inside the other or the obstacle, or an obstacle's parameters do
                 not fit.
         """
-        V = u.function_space
-        self._gdim = gdim = V.mesh.geometry.dim
+        self._halo = halo
+        self._gdim = gdim = halo.gdim
         self.law = law
         self.sliding = sliding
         self._held = sliding == "small"
-        self._u = u
-        facets = slave.facet_nodes(V)
-        self.slaves = np.unique(facets.nodes)
-        x = X.array.reshape(-1, gdim)
+        self.slaves = slaves.owned
+        self.num_others = len(slaves.around) - len(slaves.owned)
         self.master: Master = make_master(
             slave,
+            slaves,
             master,
             bodies,
+            halo,
             law,
             method=method,
             sliding=sliding,
             search_distance=search_distance,
         )
+        self._markers = markers.reshape(-1, gdim)
+        halo.follow(self._follow)
+        self._follow()
         n = len(self.slaves)
-        slave_map = cpp.common.IndexMap(V.mesh.comm, n)
-        self.state = State.of(u, X, slave_map, is_vector=law.is_vector)
-        self._assembly = Assembly(V.mesh.comm, law.name, self.state, V.dofmap.index_map, slave_map)
-        area = core.nodal_areas(facets.offsets, facets.nodes, x, gdim)
+        # State is this rank's alone
+        slave_map = cpp.common.IndexMap(MPI.COMM_SELF, len(slaves.around))
+        self.state = State.of(gdim, slave_map, is_vector=law.is_vector)
+        self._assembly = Assembly(law.name, self.state, halo)
+        facets = slaves.facets
+        area = core.nodal_areas(facets.offsets, facets.nodes, halo.x, gdim)
         self._whole: npt.NDArray[np.float64] = area[self.slaves]
-        self.nodes = Nodes(self.state, gdim, has_means=method == "surface-to-surface")
+        self.nodes = Nodes(self.state, n, gdim, has_means=method == "surface-to-surface")
         self.history = SlipHistory(n, gdim) if law.is_vector and not law.is_tied else None
         self._touched = np.zeros(n, dtype=bool)
         self.active = True
         self.skipped_searches = 0
         self._offset = offset
-        self._free = markers.reshape(-1, gdim) == 0
-        self.master.accept(self.positions())
-        self.master.search(x, self.nodes.status)
-        check_facing(slave, master, facets, self.master, x)
+        self._accept()
+        self._search(halo.x)
+        check_facing(slave, slaves, master, self.master, halo)
         self.master.begin_step()
         self._make_forms()
         self._find_immobile()
 
+    def _follow(self) -> None:
+        """Bring what is kept of all nodes up to a halo that has changed."""
+        self._free = self._halo.extend(self._markers) == 0
+        self.master.follow(self._halo.extend)
+
     def positions(self) -> npt.NDArray[np.float64]:
-        """Current positions of the bulk's nodes, shape (num_nodes, gdim)."""
-        x: npt.NDArray[np.float64] = self.state.position.array + self._u.x.array
-        return x.reshape(-1, self._gdim)
+        """Current positions of all nodes, shape (num_nodes, gdim)."""
+        return self._halo.positions()
 
     @property
     def follows(self) -> bool:
@@ -129,15 +145,19 @@ class Interface:
         return self.sliding == "finite" and not self.law.is_tied
 
     def begin_step(self) -> None:
-        """Start a step: pairs are released, and a moved obstacle of small sliding is seen."""
+        """Start a step: pairs are released, and a moved obstacle of small sliding is seen.
+
+        All ranks must take part.
+        """
         self.skipped_searches = 0
+        self.master.restart()
         self.hold(False)
         self._turn_tractions()
         self.master.begin_step()
         self._touched = self.nodes.closed
         self.nodes.turns[:] = self.nodes.closings[:] = 0
         if self.sliding == "small" and self.master.is_rigid:
-            self._pair(self.state.position.array.reshape(-1, self._gdim))
+            self._pair(self._halo.x)
         else:
             self._take(self.master.pairs())
 
@@ -151,16 +171,22 @@ class Interface:
             traction[:] = np.einsum("ijk,ik->ij", turn, traction)
 
     def accept(self) -> None:
-        """Take the converged state as the start of the next step."""
-        self.master.accept(self.positions())
+        """Take the converged state as the start of the next step; all ranks must take part."""
+        self._accept()
         if self.history is not None:
             self.history.add(self.nodes)
+
+    def _accept(self) -> None:
+        with agreed(self._halo.comm):
+            self.master.accept(self.positions())
 
     def search(self) -> int:
         """Pair the slave nodes in the current configuration, unless pairs are held.
 
+        All ranks must take part.
+
         Returns:
-            Number of nodes in contact whose facet has changed.
+            Number of this rank's nodes in contact whose facet has changed.
         """
         if self._held or not self.follows:
             self.skipped_searches += 1
@@ -168,10 +194,18 @@ class Interface:
         return self._pair(self.positions())
 
     def _pair(self, x: npt.NDArray[np.float64]) -> int:
-        changed = self.master.search(x, self.nodes.closed.astype(np.int8))
+        changed = self._search(x)
         self._take(self.master.pairs())
         self._find_immobile()
         return changed
+
+    def _search(self, x: npt.NDArray[np.float64]) -> int:
+        closed = self.nodes.closed.astype(np.int8)
+        if not self.master.is_rigid:
+            return self.master.search(x, closed)
+        with agreed(self._halo.comm):
+            self.master.search(x, closed)
+        return 0
 
     def _find_immobile(self) -> None:
         along, each = self.master.mobility(self._free)
@@ -182,7 +216,8 @@ class Interface:
 
     def skipped(self) -> dict[str, int]:
         """What this contact does not need, and how often: nodes, unknowns and searches."""
-        n, paired = len(self.slaves), int(self.master.paired.sum())
+        counts = np.array([len(self.slaves), self.master.paired.sum()])
+        n, paired = total(self._halo.comm, counts).tolist()
         return {
             "search": self.skipped_searches,
             "pairs out of reach": n - paired,
@@ -222,15 +257,25 @@ class Interface:
         Slave node and master facet are springs in series: where one is much stiffer than the
         other, the softer one decides how fast a gap closes. Any c > 0 has the same solution.
 
+        All ranks must take part.
+
         Args:
-            compliance: Compliance of each node of the bulk, zero where it cannot move.
+            compliance: Compliance of all nodes, zero where one cannot move.
         """
-        self.nodes.set_factor(compliance[self.slaves] + self.master.compliance(compliance))
+        pairs = compliance[self.slaves] + self.master.compliance(compliance)
+        product = pairs * self.nodes.area
+        usable = product[product > 0]
+        # Where nothing can move any factor will do: the geometric mean of the others
+        sums = np.array([np.log(usable).sum(), len(usable)])
+        logs, count = total(self._halo.comm, sums)
+        self.nodes.set_factor(pairs, float(np.exp(logs / count)) if count > 0 else 1.0)
 
     def update_gap(self) -> None:
-        """First pass: assemble gap, normal and slip of each slave node."""
-        offset = self.offset()
-        fresh = self.master.refresh(self.positions(), self._held, offset)
+        """First pass: assemble gap, normal and slip of each slave node; all ranks take part."""
+        with agreed(self._halo.comm):
+            self.law.check(self.nodes)
+            offset = self.offset()
+            fresh = self.master.refresh(self.positions(), self._held, offset)
         if fresh is not None:
             self._take(fresh)
         self._assembly.kinematics(self.nodes)
@@ -245,16 +290,19 @@ class Interface:
     def update_status(self, first: bool = False) -> int:
         """Set each slave node's status from its multiplier, gap and slip.
 
+        All ranks must take part.
+
         Args:
             first: Whether the iterate is the step's start.
 
         Returns:
-            Number of nodes that changed.
+            Number of this rank's nodes that changed.
         """
         nodes, before = self.nodes, self.nodes.status.copy()
         closing = self.closing(first)
         if self.history is not None:
-            self._measure_from_touching(closing & ~self._touched)
+            with agreed(self._halo.comm):
+                self._measure_from_touching(closing & ~self._touched)
         self.law.set_status(nodes)
         if first:
             nodes.close(np.flatnonzero(closing & ~nodes.closed))
@@ -271,7 +319,7 @@ class Interface:
         self._assembly.slip(self.nodes, self.master.origin)
 
     def closing(self, first: bool = False) -> npt.NDArray[np.bool_]:
-        """Which nodes the complementarity closes.
+        """Which nodes the complementarity closes; all ranks must take part at a step's start.
 
         At a step's start also those that touch but for rounding: it must not decide which of them
         are closed, and bodies at rest on one another are held by all of them.
@@ -284,13 +332,14 @@ class Interface:
         """
         if not first:
             return self.nodes.closing()
-        return self.nodes.closing(touching_gap(self.positions()[self.slaves]))
+        tie = touching_gap(self._halo.comm, self.positions()[self.slaves])
+        return self.nodes.closing(tie)
 
     def add_residual(self, b: npt.NDArray[np.float64]) -> None:
-        """Third pass: add the contact forces.
+        """Third pass: add this rank's contact forces.
 
         Args:
-            b: Residual of the bulk, shape (num_nodes * gdim,).
+            b: Forces on all nodes, shape (num_nodes * gdim,).
         """
         self._assembly.add_residual(b)
 

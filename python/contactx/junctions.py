@@ -6,10 +6,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from mpi4py import MPI
+
 import numpy as np
 import numpy.typing as npt
 
 from contactx.interface import Interface
+from contactx.parallel.reduce import anywhere
 
 # Part of a normal that lies outside the span of others and still counts as independent
 _INDEPENDENT = 0.1
@@ -28,21 +31,23 @@ class Junctions:
     a node in every direction: the node's other contacts stay open.
 
     Attributes:
-        shared: Nodes that are slave in several contacts.
-        corners: Nodes that close several contacts at the last iterate.
+        shared: Nodes of this rank that are slave in several contacts.
+        corners: How many of them close several contacts at the last iterate.
     """
 
-    def __init__(self, interfaces: Sequence[Interface]):
+    def __init__(self, interfaces: Sequence[Interface], comm: MPI.Comm):
         """Find the nodes.
 
         Args:
             interfaces: Discrete sides of the contacts.
+            comm: Communicator.
         """
         self._interfaces = interfaces
         slaves = np.concatenate([i.slaves for i in interfaces])
         nodes, count = np.unique(slaves, return_counts=True)
         self.shared: npt.NDArray[np.int32] = nodes[count > 1]
         self.corners = 0
+        self._any = anywhere(comm, len(self.shared) > 0)
         self._places: list[list[tuple[int, int]]] = [[] for _ in self.shared]
         for k, interface in enumerate(interfaces):
             _, which, local = np.intersect1d(
@@ -56,11 +61,13 @@ class Junctions:
     def update(self, first: bool) -> None:
         """Decide which contacts of shared nodes may close, and where friction counts.
 
+        All ranks must take part.
+
         Args:
             first: Whether the iterate is the step's start.
         """
         self.corners = 0
-        if len(self.shared) == 0:
+        if not self._any:
             return
         if first:
             self._deepest[:] = -1

@@ -23,6 +23,7 @@ from contactx.interface import Interface
 from contactx.junctions import Junctions
 from contactx.linear import Condensed, LinearSolver, SaddlePoint
 from contactx.options import is_condensed, newton_options
+from contactx.parallel.reduce import largest, total
 from contactx.report import Iteration, Report
 from contactx.system import SaddlePointSystem
 
@@ -77,7 +78,10 @@ class NewtonLoop:
         self._bulk = bulk
         self._interfaces = interfaces
         self._system = system
-        condensed = is_condensed(options, system.num_bulk, system.block)
+        self._halo = system.halo
+        condensed = is_condensed(
+            options, bulk.u.x.index_map.size_global * system.block, system.block
+        )
         self._options = newton_options(prefix, options, condensed=condensed)
         self._linear: LinearSolver = (
             Condensed(bulk, system, bodies.x, prefix) if condensed else SaddlePoint(system)
@@ -89,8 +93,8 @@ class NewtonLoop:
         self._changes = (0, 0)
         self._judge = Judge(bulk, interfaces, system)
         self._holder = Holder(bulk, interfaces, bodies)
-        self._junctions = Junctions(interfaces)
-        self._guard = CycleGuard(interfaces)
+        self._junctions = Junctions(interfaces, system.halo.comm)
+        self._guard = CycleGuard(interfaces, system.halo.comm)
         self._failure = ""
         self.snes = PETSc.SNES().create(system.x.comm)
         self.snes.setOptionsPrefix(prefix)
@@ -110,6 +114,7 @@ class NewtonLoop:
         self.snes.setFunction(self._function, self._system.b)
         self._held = False
         self._failure = ""
+        self._halo.shrink()
         for interface in self._interfaces:
             interface.begin_step()
         with self._options.in_database():
@@ -121,6 +126,7 @@ class NewtonLoop:
             self._judge.begin(stiffness)
             compliance = np.zeros_like(stiffness)
             np.divide(1, stiffness, out=compliance, where=stiffness > 0)
+            compliance = self._halo.extend(compliance)
             for interface in self._interfaces:
                 interface.set_factor(compliance)
             self._holder.begin_step()
@@ -139,7 +145,7 @@ class NewtonLoop:
             report.reason = self._failure
         self._linear.end(report)
         report.cycles = self._guard.cycles
-        report.corners = self._junctions.corners
+        report.corners = int(total(self._halo.comm, self._junctions.corners))
         report.unheld = self._holder.unheld
         report.closed_to_hold = self._holder.closed
         report.skipped = Counter({"bulk Jacobian assembly": self._bulk.skipped - skipped})
@@ -190,7 +196,8 @@ class NewtonLoop:
             first: Whether the iterate is the step's start.
 
         Returns:
-            Number of nodes that changed their status, and of those that changed their facet.
+            Number of nodes of all ranks that changed their status, and of those that changed their
+            facet.
         """
         status, pairs = self._renew(first)
         self._stale = self._held and self._many(status)
@@ -221,13 +228,15 @@ class NewtonLoop:
         self._junctions.update(first)
         for interface in self._interfaces:
             status += interface.update_status(first)
+        status, pairs = total(self._halo.comm, np.array([status, pairs])).tolist()
         return status, pairs
 
     def _many(self, changes: int) -> bool:
         return changes > max(1, _FEW * self._num_closed())
 
     def _num_closed(self) -> int:
-        return sum(int(i.nodes.closed.sum()) for i in self._interfaces)
+        closed = sum(int(i.nodes.closed.sum()) for i in self._interfaces)
+        return int(total(self._halo.comm, closed))
 
     def _hold(self, held: bool) -> None:
         self._held = held and any(i.follows for i in self._interfaces)
@@ -264,7 +273,7 @@ class NewtonLoop:
         self._guard.note(self._system.x, residual)
         if not np.isfinite(row.residual):
             return reason.DIVERGED_FUNCTION_NANORINF
-        size = np.abs(self._bulk.u.x.array).max(initial=0.0)
+        size = largest(self._halo.comm, np.abs(self._bulk.u.x.array).max(initial=0.0))
         small = row.residual <= row.tolerance and row.dirichlet_defect <= 1e-10 * size
         # Held pairs that are not those of this iterate give no true residual
         self._converged = small and not self._stale

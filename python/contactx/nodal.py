@@ -31,7 +31,7 @@ class NodalValue:
             value: A number, a ``fem.Constant`` or a ``fem.Function``.
             name: Name of the argument.
             V: Space of the displacement.
-            nodes: Nodes of V, shape (n,).
+            nodes: Nodes of V that this rank owns, shape (n,).
 
         Raises:
             ValueError: If the function is not of a scalar linear space on V's mesh, or the constant
@@ -59,7 +59,7 @@ class NodalValue:
         """Current value: a number, or an array of shape (n,).
 
         Raises:
-            ValueError: If it is not finite.
+            ValueError: If it is not finite at the nodes of this rank.
         """
         if isinstance(self._value, fem.Function):
             value = self._value.x.array[self._nodes]

@@ -22,6 +22,8 @@ from contactx.contact import Contact
 from contactx.errors import ConvergenceError
 from contactx.interface import Interface
 from contactx.newton import NewtonLoop
+from contactx.parallel.halo import Halo
+from contactx.parallel.reduce import anywhere, least, total
 from contactx.report import Report
 from contactx.system import SaddlePointSystem
 from dolfinx import fem, la
@@ -73,7 +75,6 @@ class ContactProblem:
             jit_options: Options of the compilation.
 
         Raises:
-            RuntimeError: On more than one rank, on every rank.
             TypeError: If PETSc or u are not real double precision.
             ValueError: If a space, surface or option does not fit, facets are degenerate, a slave
                 surface faces away from its master or a body lies wholly inside the other one or
@@ -81,7 +82,6 @@ class ContactProblem:
         """
         compat.require_real_double()
         validate.check_displacement(u)
-        compat.require_one_rank(u.function_space.mesh.comm)
         validate.check_options(petsc_options, petsc_options_prefix)
         validate.check_contacts(contacts)
 
@@ -89,18 +89,20 @@ class ContactProblem:
         X = la.vector(V.dofmap.index_map, V.dofmap.index_map_bs)
         gdim = V.mesh.geometry.dim
         X.array[:] = V.tabulate_dof_coordinates()[:, :gdim].ravel()
-        validate.check_finite(coordinates_of_the_mesh_are=X)
+        comm = V.mesh.comm
+        validate.check_finite(comm, coordinates_of_the_mesh_are=X)
 
         self.u = u
         self.contacts = list(contacts)
         self.report = Report()
         self._bulk = Bulk(F, u, bcs or [], J, form_compiler_options, jit_options)
-        bodies = Bodies(V, X.array.reshape(-1, gdim))
+        self._halo = Halo(u, X.array.reshape(-1, gdim))
+        bodies = Bodies(V, self._halo)
         self._interfaces = []
         try:
             for contact in self.contacts:
-                self._interfaces.append(contact.attach(u, X, self._bulk.markers, bodies))
-            self._system = SaddlePointSystem(self._bulk, self._interfaces)
+                self._interfaces.append(contact.attach(self._halo, self._bulk.markers, bodies))
+            self._system = SaddlePointSystem(self._bulk, self._interfaces, self._halo)
             self._newton = NewtonLoop(
                 self._bulk,
                 self._interfaces,
@@ -138,9 +140,11 @@ class ContactProblem:
             ValueError: If ``u`` is not finite, or Dirichlet conditions hold a slave node inside a
                 rigid obstacle.
         """
-        validate.check_finite(the_displacement_u_is=self.u.x)
-        check_over_constrained(self._interfaces, self.contacts, self._bulk.prescribed())
+        validate.check_finite(self._halo.comm, the_displacement_u_is=self.u.x)
+        prescribed = self._bulk.prescribed()
+        check_over_constrained(self._interfaces, self.contacts, prescribed, self._halo)
         displacement = self.u.x.array.copy()
+        self._halo.refresh()
         saved = [saving.save(interface) for interface in self._interfaces]
         self.report = report = Report()
         try:
@@ -152,6 +156,7 @@ class ContactProblem:
                 contact.accept()
         except BaseException as error:
             self.u.x.array[:] = displacement
+            self._halo.refresh()
             for interface, before in zip(self._interfaces, saved, strict=True):
                 saving.load(interface, before)
             self._newton.reset()
@@ -169,15 +174,31 @@ class ContactProblem:
             self._newton.destroy()
 
     def _complete(self, report: Report) -> None:
-        report.slaves = sum(len(i.slaves) for i in self._interfaces)
-        report.pairs = sum(int(i.master.paired.sum()) for i in self._interfaces)
-        report.immobile = sum(int(i.nodes.immobile.sum()) for i in self._interfaces)
-        report.frozen = sum(len(i.master.frozen) for i in self._interfaces)
-        hidden = [i.master.deepest_frozen(i.positions()) for i in self._interfaces]
+        comm, interfaces = self._halo.comm, self._interfaces
+        report.slaves, report.pairs, report.immobile, report.frozen = total(
+            comm,
+            np.array(
+                [
+                    sum(len(i.slaves) for i in interfaces),
+                    sum(i.master.paired.sum() for i in interfaces),
+                    sum(i.nodes.immobile.sum() for i in interfaces),
+                    sum(len(i.master.frozen) for i in interfaces),
+                ]
+            ),
+        ).tolist()
+        hidden = [least(comm, i.master.deepest_frozen(i.positions())) for i in interfaces]
         report.frozen_gap = min(hidden)
-        histories = [i.history for i in self._interfaces if i.history is not None]
-        report.slip = float(sum(np.linalg.norm(h.slip, axis=1).sum() for h in histories))
-        report.dissipation = float(sum(h.dissipation.sum() for h in histories))
+        histories = [i.history for i in interfaces if i.history is not None]
+        report.slip, report.dissipation = total(
+            comm,
+            np.array(
+                [
+                    sum(np.linalg.norm(h.slip, axis=1).sum() for h in histories),
+                    sum(h.dissipation.sum() for h in histories),
+                ],
+                dtype=np.float64,
+            ),
+        ).tolist()
         report.force = [contact.force for contact in self.contacts]
         report.recovery = [contact.fields.recovery_change for contact in self.contacts]
         report.imbalance = np.sum([contact.fields.imbalance for contact in self.contacts], axis=0)
@@ -187,10 +208,10 @@ class ContactProblem:
     def _warn(self, k: int, interface: Interface, hidden: float) -> None:
         """Warn of what a converged solution may hide in contact number k, such as a gap."""
         name = f"contact {k} ({self.contacts[k]})"
-        master, x = interface.master, interface.positions()
+        comm, master, x = self._halo.comm, interface.master, interface.positions()
         text = ""
-        if interface.active and not master.paired.any():
-            distance = master.distance(x)
+        if interface.active and not anywhere(comm, master.paired.any()):
+            distance = least(comm, master.distance(x))
             text = f"{name} transmits no force: it has no slave node "
             if distance > master.reach:
                 text += (
@@ -200,11 +221,12 @@ class ContactProblem:
             else:
                 text += f"that faces its master, although the nearest is {distance:.3g} away"
         elif hidden < 0:
+            frozen = total(comm, len(master.frozen))
             text = (
-                f"{name}: {len(master.frozen)} pairs went back and forth between facets and "
+                f"{name}: {frozen} pairs went back and forth between facets and "
                 f"were held; they hide a penetration of {-hidden:.3g}. Refine the master there or "
                 "take smaller steps"
             )
-        if text:
+        if text and comm.rank == 0:
             # Of the user's line, whether that calls solve or a loop of steps does
             warnings.warn(text, skip_file_prefixes=(str(Path(__file__).parent),))

@@ -29,6 +29,7 @@ import numpy as np
 import numpy.typing as npt
 
 from contactx import cpp as core
+from contactx.parallel.slaves import SlaveNodes
 from contactx.surface import FacetList
 
 type Array = npt.NDArray[np.float64]
@@ -38,21 +39,28 @@ _PASSES = 2
 
 
 class Recovery:
-    """Averages tractions of slave nodes with those of their neighbours on the slave surface."""
+    """Averages tractions of slave nodes with those of their neighbours on the slave surface.
 
-    def __init__(self, facets: FacetList, x: Array):
+    All ranks must take part in what it does; neighbours may belong to others.
+    """
+
+    def __init__(self, slave: SlaveNodes, x: Array):
         """Find the neighbours.
 
         Args:
-            facets: Facets of the slave surface.
-            x: Reference positions of the bulk's nodes, shape (num_nodes, gdim).
+            slave: Slave nodes.
+            x: Reference positions of all nodes, shape (num_nodes, gdim).
         """
-        slaves, nodes = np.unique(facets.nodes, return_inverse=True)
+        self._slave, facets = slave, slave.facets
+        nodes = np.searchsorted(slave.around, facets.nodes)
         # Each corner of each facet as a node of its own
         corners = np.arange(len(nodes), dtype=np.int32)
         parts = core.nodal_areas(facets.offsets, corners, x[facets.nodes], x.shape[1])
-        self._area = np.bincount(nodes, parts, len(slaves))
-        to, from_, weight = [], [], []
+        area = _sums(nodes, parts, len(slave.around))
+        # Of nodes of other ranks not all facets are here
+        self._area = slave.extend(area[: len(slave.owned)])
+        none = np.zeros(0, dtype=np.int64)
+        to, from_, weight = [none], [none], [np.zeros(0)]
         for _, corner in FacetList(facets.offsets, corners).groups():
             part = parts[corner]
             i, j = np.nonzero(~np.eye(corner.shape[1], dtype=bool))
@@ -75,7 +83,8 @@ class Recovery:
         """
         to, from_, rate = self._flows(area, closed)
         for _ in range(_PASSES):
-            p = p + np.bincount(to, rate * (p[from_] - p[to]), len(p))
+            every = self._slave.extend(p)
+            p = p + _sums(to, rate * (every[from_] - p[to]), len(p))
         return p
 
     def shear(self, t: Array, normal: Array, area: Array, closed: npt.NDArray[np.bool_]) -> Array:
@@ -94,24 +103,32 @@ class Recovery:
             Averages, normal to the normals, shape (n, gdim).
         """
         to, from_, rate = self._flows(area, closed)
-        a, b = normal[from_], normal[to]
+        a, b = self._slave.extend(normal)[from_], normal[to]
         for _ in range(_PASSES):
-            flow = rate[:, None] * (_turned(t[from_], a, b) - t[to])
-            t = t + np.stack([np.bincount(to, f, len(t)) for f in flow.T], axis=1)
+            flow = rate[:, None] * (_turned(self._slave.extend(t)[from_], a, b) - t[to])
+            t = t + np.stack([_sums(to, f, len(t)) for f in flow.T], axis=1)
         return t
 
     def _flows(self, area: Array, closed: npt.NDArray[np.bool_]) -> tuple[Index, Index, Array]:
-        """Nodes i and j, both closed, and m_ij/A_i of each flow from j to i."""
+        """Nodes i of this rank and j, both closed, and m_ij/A_i of each flow from j to i."""
         to, from_ = self._to, self._from
-        beside_open = np.bincount(to, self._weight * ~closed[from_], len(area))
-        surroundings = 1 - beside_open / self._area
+        n = len(area)
+        closed = self._slave.extend(closed)
+        beside_open = _sums(to, self._weight * ~closed[from_], len(closed))[:n]
+        surroundings = self._slave.extend(1 - beside_open / self._area[:n])
         # Less than one where the master covers a node's facets in part
-        covered = area / self._area
-        both = closed[to] & closed[from_]
+        covered = self._slave.extend(area / self._area[:n])
+        both = closed[to] & closed[from_] & (to < n)
         to, from_ = to[both], from_[both]
         less, more = np.sort([surroundings[to], surroundings[from_]], axis=0)
         weight = self._weight[both] * np.minimum(covered[to], covered[from_])
         return to, from_, weight * (less / more) ** 2 / area[to]
+
+
+def _sums(places: Index, values: Array, n: int) -> Array:
+    """Sums of values by their places, shape (n,)."""
+    # Of no values at all NumPy makes integers
+    return np.bincount(places, values, n).astype(np.float64)
 
 
 def _turned(t: Array, a: Array, b: Array) -> Array:

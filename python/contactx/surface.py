@@ -8,11 +8,13 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from numbers import Integral
 
+from mpi4py import MPI
+
 import numpy as np
 import numpy.typing as npt
 
-from contactx import compat
-from dolfinx import fem, mesh
+from contactx.parallel.reduce import anywhere, total
+from dolfinx import cpp, fem, mesh
 
 
 @dataclass(frozen=True)
@@ -36,12 +38,13 @@ class FacetList:
 
 
 class Surface:
-    """Tagged part of a mesh's boundary.
+    """Tagged part of a mesh's boundary; all ranks make it together.
 
     Attributes:
         facet_tags: The tags.
         tags: Values that make up the surface.
-        facets: Its facets, sorted, shape (num_facets,).
+        facets: Its facets on this rank, sorted.
+        num_facets: Number of its facets on all ranks.
     """
 
     def __init__(self, facet_tags: mesh.MeshTags, *tags: int | Iterable[int]):
@@ -52,7 +55,6 @@ class Surface:
             tags: Values in ``facet_tags`` that make up the surface: one or several.
 
         Raises:
-            RuntimeError: On more than one rank, on every rank.
             TypeError: If the arguments are of another kind.
             ValueError: If the tags are not of facets, no tag is given, or a tag is not there.
         """
@@ -61,7 +63,6 @@ class Surface:
                 f"facet_tags must be dolfinx MeshTags, not {type(facet_tags).__name__}: "
                 "write Surface(facet_tags, tag)"
             )
-        compat.require_one_rank(facet_tags.topology.comm)
         tdim = facet_tags.topology.dim
         if facet_tags.dim != tdim - 1:
             raise ValueError(
@@ -78,7 +79,10 @@ class Surface:
                 values.append(int(value))
         if not values:
             raise ValueError("a Surface needs at least one tag: its surface is empty")
+        comm: MPI.Comm = facet_tags.topology.comm
         present = np.unique(facet_tags.values)
+        if comm.size > 1:
+            present = np.unique(np.concatenate(comm.allgather(present)))
         for tag in values:
             if tag not in present:
                 there = ", ".join(map(str, present)) if len(present) else "none"
@@ -86,17 +90,19 @@ class Surface:
         self.facet_tags = facet_tags
         self.tags = tuple(values)
         self.facets = np.unique(np.concatenate([facet_tags.find(tag) for tag in values]))
+        owned = self.facets < facet_tags.topology.index_map(tdim - 1).size_local
+        self.num_facets = int(total(comm, int(owned.sum())))
 
     def __repr__(self) -> str:
         """Name the tags."""
-        return f"Surface(tags={self.tags}, {len(self.facets)} facets)"
+        return f"Surface(tags={self.tags}, {self.num_facets} facets)"
 
     def nodes(self, V: fem.FunctionSpace) -> npt.NDArray[np.int32]:
-        """Nodes of the surface, sorted, numbered as the blocks of V's dofmap, shape (n,)."""
+        """Nodes of the facets below, sorted, numbered as the blocks of V's dofmap, shape (n,)."""
         return np.unique(self.facet_nodes(V).nodes)
 
     def facet_nodes(self, V: fem.FunctionSpace) -> FacetList:
-        """Nodes of the surface's facets.
+        """Nodes of the surface's facets whose cells this rank owns.
 
         The normal of a facet, t_1 x t_2 of its local coordinates, points out of its cell.
 
@@ -119,15 +125,22 @@ class Surface:
         topology.create_connectivity(tdim - 1, tdim)
         topology.create_connectivity(tdim, tdim - 1)
         facet_cells = topology.connectivity(tdim - 1, tdim)
-        if np.any(np.diff(facet_cells.offsets)[self.facets] != 1):
+        inner = np.diff(facet_cells.offsets)[self.facets] != 1
+        if topology.comm.size > 1:
+            # The cell on the other side may be on another rank
+            inner |= np.isin(self.facets, topology.interprocess_facets())
+        if anywhere(topology.comm, bool(inner.any())):
             raise ValueError(
                 f"{self} has facets inside a body, with a cell on either side: "
                 "a contact surface must be part of the boundary"
             )
         cells = facet_cells.array[facet_cells.offsets[self.facets]]
+        mine = cells < topology.index_map(tdim).size_local
+        facets, cells = self.facets[mine], cells[mine]
         cell_facets = topology.connectivity(tdim, tdim - 1)
-        facets_of_cell = cell_facets.array.reshape(-1, np.diff(cell_facets.offsets)[0])
-        local = np.argmax(facets_of_cell[cells] == self.facets[:, None], axis=1)
+        per_cell = cpp.mesh.cell_num_entities(topology.cell_type, tdim - 1)
+        facets_of_cell = cell_facets.array.reshape(-1, per_cell)
+        local = np.argmax(facets_of_cell[cells] == facets[:, None], axis=1)
 
         dofs = V.dofmap.list
         x = V.tabulate_dof_coordinates()

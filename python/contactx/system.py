@@ -18,7 +18,9 @@ import numpy.typing as npt
 from contactx.bulk import Bulk
 from contactx.forms import ContactForms
 from contactx.interface import Interface
+from contactx.layout import Layout, Where
 from contactx.parallel.halo import Halo
+from contactx.parallel.reduce import everywhere, largest
 from dolfinx import cpp, fem
 
 # Relative difference from a Dirichlet value that has no share in the other rows
@@ -29,36 +31,45 @@ _NONE = np.array([], dtype=np.int8)
 class SaddlePointSystem:
     """Residual and Jacobian of the displacement and the multipliers.
 
+    Unknowns and rows of a rank are those of the nodes that it owns. What is assembled from its
+    pairs concerns all nodes that it has.
+
     Attributes:
         x: Unknowns.
         b: Residual.
         interfaces: Discrete sides of the contacts.
-        halo: Nodes on this rank.
-        num_bulk: Number of displacements that this rank owns.
+        halo: Nodes of this rank.
+        num_bulk: Number of displacements of this rank.
         block: Displacements a node.
     """
 
-    def __init__(self, bulk: Bulk, interfaces: Sequence[Interface]):
+    def __init__(self, bulk: Bulk, interfaces: Sequence[Interface], halo: Halo):
         """Lay out the unknowns.
 
         Args:
             bulk: The bulk.
             interfaces: Discrete sides of the contacts.
+            halo: Nodes of this rank.
         """
         self._bulk = bulk
         self.interfaces = list(interfaces)
-        self._comm = bulk.u.function_space.mesh.comm
-        self.block = bulk.u.function_space.dofmap.index_map_bs
-        self.num_bulk = bulk.num_owned
-        X = self.interfaces[0].state.position
-        self.halo = Halo(bulk.u, X.array.reshape(-1, self.block))
+        self.halo = halo
+        self._comm = halo.comm
+        self.block = halo.gdim
+        self.num_bulk = halo.num_owned * halo.gdim
         sizes = [self.num_bulk, *(len(i.nodes.multiplier) for i in self.interfaces)]
         self._offsets = np.cumsum([0, *sizes])
         self.renew()
+        self._layout = Layout(halo, self._offsets[-1])
         self._bulk_residual = np.zeros(self.num_bulk)
         self._bulk_at: npt.NDArray[np.float64] | None = None
         self._contact: PETSc.Mat | None = None
         self._contact_pairs: list[list[ContactForms]] | None = None
+
+    @property
+    def num_local(self) -> int:
+        """Number of displacements of all nodes that this rank has."""
+        return self.halo.num_nodes * self.block
 
     def renew(self) -> None:
         """Make new vectors: an error inside PETSc leaves the old ones locked."""
@@ -72,22 +83,24 @@ class SaddlePointSystem:
     def gather(self) -> None:
         """Copy the unknowns from the functions into ``x``."""
         displacement, *multipliers = self.blocks(self.x.array)
-        displacement[:] = self._bulk.u.x.array
+        displacement[:] = self._bulk.u.x.array[: self.num_bulk]
         for part, interface in zip(multipliers, self.interfaces, strict=True):
-            part[:] = interface.state.multiplier.array
+            part[:] = interface.nodes.multiplier
 
     def scatter(self, x: PETSc.Vec) -> None:
-        """Copy the unknowns from a vector into the functions."""
+        """Copy the unknowns from a vector into the functions; all ranks must take part."""
         displacement, *multipliers = self.blocks(x.array_r)
-        self._bulk.u.x.array[:] = displacement
+        self._bulk.u.x.array[: self.num_bulk] = displacement
+        self.halo.refresh()
         for part, interface in zip(multipliers, self.interfaces, strict=True):
-            interface.state.multiplier.array[:] = part
+            interface.nodes.multiplier[:] = part
 
     def bulk_residual(self) -> npt.NDArray[np.float64]:
         """Residual of the bulk alone, assembled anew only where the displacement has changed."""
         u = self._bulk.u.x.array
-        if self._bulk_at is None or not np.array_equal(u, self._bulk_at):
-            self._bulk_residual[:] = self._bulk.residual()
+        same = self._bulk_at is not None and np.array_equal(u, self._bulk_at)
+        if not everywhere(self._comm, same):
+            self._bulk_residual = self._bulk.residual()
             self._bulk_at = u.copy()
         return self._bulk_residual
 
@@ -103,41 +116,59 @@ class SaddlePointSystem:
         """
         force, *constraints = self.blocks(b.array)
         force[:] = self.bulk_residual()
+        pushed = np.zeros(self.num_local)
         for interface, row in zip(self.interfaces, constraints, strict=True):
             interface.update_gap()
             interface.law.evaluate(interface.nodes)
-            interface.add_residual(force)
+            interface.add_residual(pushed)
             row[:] = interface.nodes.value
         defect = self._bulk.dirichlet_defect()
         size = np.abs(self._bulk.u.x.array).max(initial=0.0)
-        if np.abs(defect).max(initial=0.0) > _ROUNDING * size:
-            self._lift(force, constraints)
-        prescribed = self._bulk.markers == 1
-        force[prescribed] = defect[prescribed]
+        largest_, size = largest(self._comm, np.array([np.abs(defect).max(initial=0.0), size]))
+        if largest_ > _ROUNDING * size:
+            self._lift(force, pushed, constraints, defect)
+        force += self._sums(pushed)
+        prescribed = self._bulk.markers[: self.num_bulk] == 1
+        force[prescribed] = defect[: self.num_bulk][prescribed]
+
+    def _sums(self, pushed: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+        """Forces on this rank's nodes from what the ranks have for theirs, shape (num_bulk,)."""
+        return self.halo.add_up(pushed.reshape(-1, self.block)).ravel()
 
     def _lift(
-        self, force: npt.NDArray[np.float64], constraints: list[npt.NDArray[np.float64]]
+        self,
+        force: npt.NDArray[np.float64],
+        pushed: npt.NDArray[np.float64],
+        constraints: list[npt.NDArray[np.float64]],
+        defect: npt.NDArray[np.float64],
     ) -> None:
         """Take Dirichlet values that the displacement does not have yet to the other rows."""
-        u, bcs = self._bulk.u.x.array, [self._bulk.bcs]
-        fem.apply_lifting(force, [self._bulk.J], bcs, [u], alpha=-1.0)
-        for interface, row in zip(self.interfaces, constraints, strict=True):
-            for form in interface.forms:
-                if form.stiffness is not None:
-                    fem.apply_lifting(force, [form.stiffness], bcs, [u], alpha=-1.0)
-                if form.constraint is not None:
-                    fem.apply_lifting(row, [form.constraint], bcs, [u], alpha=-1.0)
+        force += self._bulk.lifted()
+        A = self._new_matrix(self._layout.alone())
+        self._assemble_contact(A, None, np.zeros(self.num_local, dtype=np.int8))
+        v, y = A.createVecs()
+        v.array[: self.num_local] = self._to_all(defect)
+        A.mult(v, y)
+        lifted, *rows = np.split(y.array, self.num_local + self._offsets[1:-1] - self.num_bulk)
+        pushed -= lifted
+        for row, part in zip(constraints, rows, strict=True):
+            row -= part
+
+    def _to_all(self, values: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+        """Values of all nodes from those of this rank's, shape (num_local,)."""
+        return self.halo.extend(values.reshape(-1, self.block)).ravel()
 
     def fits(self) -> bool:
-        """Whether the last Jacobian has the pattern of the current pairs."""
-        return self._contact_pairs == [interface.forms for interface in self.interfaces]
+        """Whether the last Jacobian has the pattern of the current pairs; all ranks take part."""
+        same = self._contact_pairs == [interface.forms for interface in self.interfaces]
+        return everywhere(self._comm, same)
 
     def displacement_residual(self) -> npt.NDArray[np.float64]:
         """Forces of bulk and contacts at the functions' state, without Dirichlet conditions."""
-        force = self.bulk_residual().copy()
+        pushed = np.zeros(self.num_local)
         for interface in self.interfaces:
-            interface.add_residual(force)
-        return force
+            interface.add_residual(pushed)
+        return self.bulk_residual() + self._sums(pushed)
 
     def jacobian(
         self, A: PETSc.Mat | None = None, springs: npt.NDArray[np.float64] | None = None
@@ -145,14 +176,14 @@ class SaddlePointSystem:
         """Assemble the Jacobian at the functions' state.
 
         Args:
-            springs: What is added to the diagonal of the displacements, shape (num_dofs,).
+            springs: What is added to the diagonal of the displacements, shape (num_bulk,).
             A: Matrix that an earlier call returned and whose pattern still fits, to write into.
 
         Returns:
             The Jacobian.
         """
         contact = self.assemble_contact()
-        bulk = self._embed(self._bulk.jacobian())
+        bulk = self._layout.embed(self._bulk.jacobian())
         if A is None:
             bulk.axpy(1.0, contact, PETSc.Mat.Structure.DIFFERENT_NONZERO_PATTERN)
             A = bulk
@@ -166,30 +197,10 @@ class SaddlePointSystem:
             A.setDiagonal(diagonal, addv=PETSc.InsertMode.ADD)
         return A
 
-    @property
-    def num_local(self) -> int:
-        """Number of displacements of all nodes on this rank."""
-        return self.halo.num_nodes * int(self.block)
-
-    def multiply_contact(self, A: PETSc.Mat, x: PETSc.Vec, y: PETSc.Vec) -> None:
-        """Multiply by the contacts' part of the Jacobian, y = A x; all ranks must take part.
-
-        Args:
-            A: What ``contact_entries`` has given.
-            x: Vector of all unknowns.
-            y: Product, overwritten.
-        """
-        n, gdim = self.num_bulk, self.block
-        local, product = A.createVecs()
-        u = self.halo.extend(x.array_r[:n].reshape(-1, gdim)).ravel()
-        local.array[:] = np.concatenate([u, x.array_r[n:]])
-        A.mult(local, product)
-        forces, rows = np.split(product.array_r, [self.num_local])
-        y.array[:n] = self.halo.add_up(forces.reshape(-1, gdim)).ravel()
-        y.array[n:] = rows
-
     def contact_entries(self, b: PETSc.Vec | None = None) -> PETSc.Mat:
-        """Assemble the contacts' part of the Jacobian with no place for what is zero.
+        """Assemble this rank's pairs with no place for what is zero, as a matrix of its own.
+
+        Its rows and columns are the displacements of all nodes of this rank, then its multipliers.
 
         Args:
             b: Right-hand side; where it is zero the multipliers of open nodes are, and nothing is
@@ -200,49 +211,81 @@ class SaddlePointSystem:
             rows = slice(self._offsets[k], self._offsets[k + 1])
             known = np.ones(1) if b is None else b.array_r[rows].reshape(-1, interface.nodes.size)
             which.append(interface.nodes.closed | (known != 0).any(axis=-1))
-        A = self._new_matrix()
+        A = self._new_matrix(self._layout.alone())
         A.setOption(PETSc.Mat.Option.IGNORE_ZERO_ENTRIES, True)
-        self._assemble_contact(A, which)
+        self._assemble_contact(A, which, self._markers())
         return A
+
+    def multiply_contact(self, entries: PETSc.Mat, x: PETSc.Vec, y: PETSc.Vec) -> None:
+        """Multiply by the contacts' part of the Jacobian; all ranks must take part.
+
+        Args:
+            entries: What ``contact_entries`` gave.
+            x: Vector of all unknowns.
+            y: Product, overwritten.
+        """
+        n = self.num_bulk
+        v, w = entries.createVecs()
+        v.array[: self.num_local] = self._to_all(x.array_r[:n])
+        v.array[self.num_local :] = x.array_r[n:]
+        entries.mult(v, w)
+        y.array[:n] = self._sums(w.array[: self.num_local])
+        y.array[n:] = w.array[self.num_local :]
 
     def assemble_contact(self) -> PETSc.Mat:
         """Assemble the contacts' part of the Jacobian, in all unknowns."""
         if self._contact is None or not self.fits():
-            self._contact = self._new_matrix()
+            self._contact = self._new_matrix(self._layout.among_ranks())
             self._contact_pairs = [list(interface.forms) for interface in self.interfaces]
         self._contact.zeroEntries()
-        every = [np.ones_like(i.nodes.closed) for i in self.interfaces]
-        self._assemble_contact(self._contact, every)
+        self._assemble_contact(self._contact, None, self._markers())
         return self._contact
 
-    def _new_matrix(self) -> PETSc.Mat:
-        size = (self._offsets[-1], None)
-        A = PETSc.Mat().createAIJ((size, size), comm=self._comm)
+    def _markers(self) -> npt.NDArray[np.int8]:
+        """1 at prescribed displacements of all nodes, shape (num_local,)."""
+        markers = self._bulk.markers.reshape(-1, self.block)
+        return self.halo.extend(markers).ravel().astype(np.int8)
+
+    def _new_matrix(self, where: Where) -> PETSc.Mat:
+        size = (where.size, None)
+        A = PETSc.Mat().createAIJ((size, size), comm=where.comm)
         A.setUp()
-        local = PETSc.LGMap().create(
-            np.arange(self._offsets[-1], dtype=PETSc.IntType), 1, comm=self._comm
-        )
+        slaves = [
+            where.first + first + np.arange(last - first)
+            for first, last in zip(self._offsets[1:], self._offsets[2:], strict=False)
+        ]
+        # What is assembled for slave nodes of other ranks is theirs
+        others = [i.num_others * i.nodes.size for i in self.interfaces]
+        slaves = [np.append(s, np.full(k, -1)) for s, k in zip(slaves, others, strict=True)]
+        rows = np.concatenate([where.nodes, *slaves]).astype(PETSc.IntType)
+        local = PETSc.LGMap().create(rows, 1, comm=where.comm)
         A.setLGMap(local, local)
         return A
 
-    def _assemble_contact(self, A: PETSc.Mat, which: Sequence[npt.NDArray[np.bool_]]) -> None:
+    def _assemble_contact(
+        self,
+        A: PETSc.Mat,
+        which: Sequence[npt.NDArray[np.bool_]] | None,
+        markers: npt.NDArray[np.int8],
+    ) -> None:
         serial = PETSc.COMM_SELF
-        nodes = np.arange(self.num_bulk // self.block, dtype=PETSc.IntType)
-        bulk = PETSc.IS().createBlock(self.block, nodes, comm=serial)
-        markers = self._bulk.markers
-        for k, interface in enumerate(self.interfaces, start=1):
-            first, last = self._offsets[k], self._offsets[k + 1]
-            slave = PETSc.IS().createStride(last - first, first, 1, comm=serial)
+        # PETSc takes blocks of places for places where the map has none
+        bulk = PETSc.IS().createStride(self.num_local, comm=serial)
+        first = self.num_local
+        for k, interface in enumerate(self.interfaces):
+            size, n = interface.nodes.size, len(interface.slaves)
+            every = (n + interface.num_others) * size
+            slave = PETSc.IS().createStride(every, first, 1, comm=serial)
+            some = np.ones(n, dtype=bool) if which is None else which[k]
             for form in interface.forms:
-                stiffness, traction, constraint = form.blocks(which[k - 1])
+                stiffness, traction, constraint = form.blocks(some)
                 if stiffness is not None:
                     _assemble(A, stiffness, (bulk, bulk), (markers, markers))
                 if traction is not None:
                     _assemble(A, traction, (bulk, slave), (markers, _NONE))
                 if constraint is not None:
                     _assemble(A, constraint, (slave, bulk), (_NONE, markers))
-            size = interface.nodes.size
-            rows = np.arange(first, last, dtype=PETSc.IntType)
+            rows = first + np.arange(n * size, dtype=PETSc.IntType)
             A.setValuesLocalIJV(
                 np.arange(0, size * len(rows) + 1, size, dtype=PETSc.IntType),
                 np.repeat(rows.reshape(-1, size), size, axis=0).ravel(),
@@ -250,15 +293,8 @@ class SaddlePointSystem:
                 addv=PETSc.InsertMode.ADD,
                 rowmap=rows,
             )
+            first += every
         A.assemble()
-
-    def _embed(self, K: PETSc.Mat) -> PETSc.Mat:
-        """The bulk's matrix with empty rows and columns for the multipliers."""
-        indptr, indices, values = K.getValuesCSR()
-        multipliers = self._offsets[-1] - self.num_bulk
-        indptr = np.concatenate([indptr, np.full(multipliers, indptr[-1], dtype=indptr.dtype)])
-        size = (self._offsets[-1], None)
-        return PETSc.Mat().createAIJ((size, size), csr=(indptr, indices, values), comm=self._comm)
 
 
 def _assemble(

@@ -7,10 +7,13 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from mpi4py import MPI
+
 import numpy as np
 
 import basix.ufl
 from contactx.contact import Contact
+from contactx.parallel.agreement import agreed
 from dolfinx import fem, la
 
 _TOLERANCES = ("snes_rtol", "snes_atol", "snes_stol", "ksp_rtol", "ksp_atol")
@@ -50,22 +53,24 @@ def check_displacement(u: Any) -> None:
         raise ValueError(f"u is not in a continuous Lagrange space; contact needs {wanted}")
 
 
-def check_finite(**vectors: la.Vector) -> None:
+def check_finite(comm: MPI.Comm, **vectors: la.Vector) -> None:
     """Check that vectors hold no NaN or infinity.
 
     Args:
+        comm: Communicator.
         vectors: Vectors by what they hold.
 
     Raises:
-        ValueError: If one is not finite.
+        ValueError: If one is not finite on any rank, on all ranks.
     """
     for name, vector in vectors.items():
         bad = np.flatnonzero(~np.isfinite(vector.array))
-        if len(bad) > 0:
-            raise ValueError(
-                f"{name.replace('_', ' ')} not finite at {len(bad)} dofs, first at node "
-                f"{bad[0] // vector.block_size}: repair the mesh or the initial guess"
-            )
+        with agreed(comm):
+            if len(bad) > 0:
+                raise ValueError(
+                    f"{name.replace('_', ' ')} not finite at {len(bad)} dofs, first at node "
+                    f"{bad[0] // vector.block_size}: repair the mesh or the initial guess"
+                )
 
 
 def check_options(options: Mapping[str, Any] | None, prefix: str) -> None:

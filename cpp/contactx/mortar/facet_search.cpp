@@ -160,7 +160,7 @@ FacetSearch::FacetSearch(std::vector<std::int32_t> slave_offsets,
 }
 
 FacetPairs FacetSearch::find(std::span<const double> x, double reach,
-                             double margin)
+                             double margin, bool all_layers)
 {
   if (!_tree)
     _tree.emplace(_master.boxes(x));
@@ -229,7 +229,8 @@ FacetPairs FacetSearch::find(std::span<const double> x, double reach,
                                              look(m, kind);
                                          });
                           });
-          keep_nearest(found, size_of(outline), _master);
+          if (!all_layers)
+            keep_nearest(found, size_of(outline), _master);
         });
     std::ranges::sort(found, {}, &Found::facet);
     for (const Found& m : found)

@@ -35,7 +35,9 @@ public:
   /// @param[in] reach Largest distance of a pair.
   /// @param[in] margin By which part a slave facet is enlarged about its middle
   /// when it looks: pairs that share nothing yet.
-  FacetPairs find(std::span<const double> x, double reach, double margin);
+  /// @param[in] all_layers Whether all layers count: for a part of the master.
+  FacetPairs find(std::span<const double> x, double reach, double margin,
+                  bool all_layers = false);
 
   /// @brief Geometric dimension.
   int gdim() const { return _master.gdim(); }

@@ -4,7 +4,6 @@
 #include "pairing.h"
 #include "../facet/gather.h"
 #include "order.h"
-#include <limits>
 #include <stdexcept>
 
 using namespace contactx;
@@ -30,12 +29,14 @@ Vec<3> padded(std::span<const double> x, std::int32_t node, int gdim)
 Pairing::Pairing(std::vector<std::int32_t> slave_offsets,
                  std::vector<std::int32_t> slave_nodes,
                  std::vector<std::int32_t> master_offsets,
-                 std::vector<std::int32_t> master_nodes, int gdim)
+                 std::vector<std::int32_t> master_nodes, int gdim,
+                 std::int32_t num_owned)
     : _slave_offsets(std::move(slave_offsets)),
       _slave_nodes(std::move(slave_nodes)),
       _slaves(sorted_unique(_slave_nodes)),
-      _master(std::move(master_offsets), std::move(master_nodes), gdim)
+      _finder(std::move(master_offsets), std::move(master_nodes), gdim)
 {
+  _slaves.erase(std::ranges::lower_bound(_slaves, num_owned), _slaves.end());
   _facet.assign(_slaves.size(), -1);
   _feature.assign(_slaves.size(), facet::interior);
   _xi.assign(2 * _slaves.size(), 0);
@@ -59,7 +60,7 @@ void Pairing::restore(std::span<const std::int32_t> facet,
       or xi.size() != _xi.size() or cone.size() != _cone.size()
       or normal.size() != _normal.size())
     throw std::invalid_argument("pairs of another number of slave nodes");
-  const facet::FacetList facets = _master.facets();
+  const facet::FacetList facets = master().facets();
   const auto num_facets = static_cast<std::int32_t>(facets.size());
   for (std::size_t i = 0; i < facet.size(); ++i)
   {
@@ -68,7 +69,7 @@ void Pairing::restore(std::span<const std::int32_t> facet,
     // As many vertices as edges; in the plane a facet is an edge itself
     std::ptrdiff_t features = facet::interior;
     if (facet[i] >= 0)
-      features += (_master.gdim() - 1) * std::ssize(facets[facet[i]]);
+      features += (master().gdim() - 1) * std::ssize(facets[facet[i]]);
     if (feature[i] < facet::interior or feature[i] > features)
       throw std::invalid_argument("a pair on a feature that does not exist");
   }
@@ -80,27 +81,10 @@ void Pairing::restore(std::span<const std::int32_t> facet,
   begin_step();
 }
 
-void Pairing::refit(std::span<const double> x)
+void Pairing::set_master(std::vector<std::int32_t> offsets,
+                         std::vector<std::int32_t> nodes)
 {
-  if (_tree)
-    _tree->refit([this, x](std::int32_t f) { return _master.box(f, x); });
-  else
-    _tree.emplace(_master.boxes(x));
-}
-
-std::optional<Projection> Pairing::find(std::span<const double> x,
-                                        std::span<const double> normals,
-                                        std::int32_t slave, double reach,
-                                        std::int32_t& hint) const
-{
-  const int gdim = _master.gdim();
-  const Vec<3> p = padded(x, slave, gdim);
-  const auto q = nearest_facet(_master, *_tree, x, p,
-                               padded(normals, slave, gdim), reach, hint);
-  if (!q)
-    return q;
-  hint = q->facet;
-  return select(_master, x, p, *q);
+  _finder = Finder(std::move(offsets), std::move(nodes), master().gdim());
 }
 
 std::optional<Projection> Pairing::keep(std::span<const double> x,
@@ -108,8 +92,8 @@ std::optional<Projection> Pairing::keep(std::span<const double> x,
 {
   if (_facet[i] < 0 or _feature[i] != facet::interior)
     return std::nullopt;
-  const auto q
-      = extended(_master, _facet[i], x, padded(x, _slaves[i], _master.gdim()));
+  const auto q = extended(master(), _facet[i], x,
+                          padded(x, _slaves[i], master().gdim()));
   // Away from its facet a node may have come close to another one
   if (q
       and (_returns[i] >= max_returns
@@ -130,54 +114,72 @@ void Pairing::set(std::size_t i, const std::optional<Projection>& q,
   std::copy(q->normal.begin(), q->normal.end(), _normal.begin() + 3 * i);
   Vec<3> c{};
   if (q->feature != facet::interior)
-    c = cone_components(_master, x, *q);
+    c = cone_components(master(), x, *q);
   std::copy(c.begin(), c.end(), _cone.begin() + 3 * i);
 }
 
-std::int32_t Pairing::update(std::span<const double> x, double reach,
-                             std::span<const std::int8_t> closed)
+std::vector<std::int32_t> Pairing::seek(std::span<const double> x, double reach)
 {
-  // What a search needs; where all pairs are kept there is none
-  std::vector<double> normals;
   if (_order.empty())
-    _order = spatial_order(_slaves, x, _master.gdim());
-  std::int32_t changed = 0, last = -1;
+    _order = spatial_order(_slaves, x, master().gdim());
+  std::vector<std::int32_t> left;
   for (const std::int32_t i : _order)
   {
     const auto kept = keep(x, i, reach);
     if (kept)
       set(i, kept, x);
-    if (kept or _returns[i] >= max_returns)
-      continue;
-    if (normals.empty())
+    else if (_returns[i] < max_returns)
+      left.push_back(i);
+  }
+  return left;
+}
+
+bool Pairing::settle(std::int32_t i, const std::optional<Projection>& q,
+                     std::span<const double> x, double reach, bool closed)
+{
+  const std::int32_t now = q ? q->facet : -1;
+  const bool same = now == _facet[i] and (!q or q->feature == _feature[i]);
+  // On a ridge any normal of the cone will do, but it must not wander
+  if (same and closed and q and q->feature != facet::interior)
+    return false;
+  // One that came off the surface while in contact comes back open
+  const bool back = _facet[i] < 0 and now == _left[i] and now >= 0;
+  const bool changed = !same and closed and !back;
+  if (changed)
+  {
+    if (now == _left[i] and ++_returns[i] >= max_returns)
     {
-      refit(x);
-      normals = facet::nodal_normals({_slave_offsets, _slave_nodes}, x,
-                                     _master.gdim());
+      if (const auto frozen = keep(x, i, reach))
+        set(i, frozen, x);
+      return false;
     }
+    _left[i] = _facet[i];
+  }
+  _returns[i] += back;
+  set(i, q, x);
+  return changed;
+}
+
+std::int32_t Pairing::update(std::span<const double> x, double reach,
+                             std::span<const std::int8_t> closed)
+{
+  const std::vector<std::int32_t> left = seek(x, reach);
+  if (left.empty())
+    return 0;
+  _finder.refit(x);
+  const std::vector<double> normals = facet::nodal_normals(
+      {_slave_offsets, _slave_nodes}, x, master().gdim());
+  std::int32_t changed = 0, hint = -1;
+  for (const std::int32_t i : left)
+  {
     if (_facet[i] >= 0)
-      last = _facet[i];
-    const auto q = find(x, normals, _slaves[i], reach, last);
-    const std::int32_t now = q ? q->facet : -1;
-    const bool same = now == _facet[i] and (!q or q->feature == _feature[i]);
-    // On a ridge any normal of the cone will do, but it must not wander
-    if (same and closed[i] and q and q->feature != facet::interior)
-      continue;
-    // One that came off the surface while in contact comes back open
-    const bool back = _facet[i] < 0 and now == _left[i] and now >= 0;
-    if (!same and closed[i] and !back)
-    {
-      if (now == _left[i] and ++_returns[i] >= max_returns)
-      {
-        if (const auto frozen = keep(x, i, reach))
-          set(i, frozen, x);
-        continue;
-      }
-      ++changed;
-      _left[i] = _facet[i];
-    }
-    _returns[i] += back;
-    set(i, q, x);
+      hint = _facet[i];
+    const auto found = _finder.find(
+        x, padded(x, _slaves[i], master().gdim()),
+        padded(normals, _slaves[i], master().gdim()), reach, hint);
+    if (found.nearest)
+      hint = found.nearest->facet;
+    changed += settle(i, found.selected, x, reach, closed[i]);
   }
   return changed;
 }
@@ -189,39 +191,4 @@ std::vector<std::int32_t> Pairing::frozen() const
     if (_returns[i] >= max_returns)
       result.push_back(static_cast<std::int32_t>(i));
   return result;
-}
-
-std::vector<double> Pairing::natural_gaps(std::span<const double> x,
-                                          double reach,
-                                          std::span<const std::int32_t> which)
-{
-  refit(x);
-  const std::vector<double> normals
-      = facet::nodal_normals({_slave_offsets, _slave_nodes}, x, _master.gdim());
-  std::vector<double> gaps;
-  std::int32_t hint = -1;
-  for (std::int32_t i : which)
-  {
-    const auto q = find(x, normals, _slaves.at(i), reach, hint);
-    gaps.push_back(q ? q->gap : std::numeric_limits<double>::quiet_NaN());
-  }
-  return gaps;
-}
-
-double Pairing::distance(std::span<const double> x)
-{
-  refit(x);
-  double bound2 = std::numeric_limits<double>::infinity();
-  for (std::int32_t slave : _slaves)
-  {
-    const Vec<3> p = padded(x, slave, _master.gdim());
-    _tree->nearest(p, bound2,
-                   [this, &bound2, &p, x](std::int32_t f)
-                   {
-                     if (const auto q
-                         = closest_within(_master, f, x, p, bound2))
-                       bound2 = std::min(bound2, dot(q->d, q->d));
-                   });
-  }
-  return std::sqrt(bound2);
 }

@@ -3,7 +3,8 @@
 
 #pragma once
 
-#include "select.h"
+#include "finder.h"
+#include <limits>
 
 namespace contactx::search
 {
@@ -22,16 +23,26 @@ public:
   /// @param[in] master_offsets First node of each master facet and the end.
   /// @param[in] master_nodes Nodes of the master facets.
   /// @param[in] gdim Geometric dimension, 2 or 3.
+  /// @param[in] num_owned Nodes of this number and above are paired elsewhere:
+  /// their facets only serve the others' normals.
   Pairing(std::vector<std::int32_t> slave_offsets,
           std::vector<std::int32_t> slave_nodes,
           std::vector<std::int32_t> master_offsets,
-          std::vector<std::int32_t> master_nodes, int gdim);
+          std::vector<std::int32_t> master_nodes, int gdim,
+          std::int32_t num_owned = std::numeric_limits<std::int32_t>::max());
 
   /// @brief Slave nodes in ascending order (shape=(num_slaves)).
   const std::vector<std::int32_t>& slaves() const { return _slaves; }
 
   /// @brief Master surface.
-  const Surface& master() const { return _master; }
+  const Surface& master() const { return _finder.surface(); }
+
+  /// @brief Take another list of master facets; those that have a pair must
+  /// keep their numbers, or pairs be restored.
+  /// @param[in] offsets First node of each master facet and the end.
+  /// @param[in] nodes Nodes of the master facets.
+  void set_master(std::vector<std::int32_t> offsets,
+                  std::vector<std::int32_t> nodes);
 
   /// @brief Forget what was learnt in the last step: nothing is frozen.
   void begin_step();
@@ -44,6 +55,23 @@ public:
   /// @return Number of slave nodes in contact that changed their facet.
   std::int32_t update(std::span<const double> x, double reach,
                       std::span<const std::int8_t> closed);
+
+  /// @brief First half of `update`: what keeps its facet is projected on it.
+  /// @param[in] x Node coordinates (shape=(num_nodes, gdim)), row-major.
+  /// @param[in] reach Largest distance of a pair.
+  /// @return Slave nodes that must be searched for, by their place in
+  /// `slaves`, near ones in turn.
+  std::vector<std::int32_t> seek(std::span<const double> x, double reach);
+
+  /// @brief Second half of `update` for one slave node that `seek` has named.
+  /// @param[in] i Slave node by its place in `slaves`.
+  /// @param[in] found What was found for it.
+  /// @param[in] x Node coordinates (shape=(num_nodes, gdim)), row-major.
+  /// @param[in] reach Largest distance of a pair.
+  /// @param[in] closed Whether the slave node is in contact.
+  /// @return Whether it is in contact and has changed its facet.
+  bool settle(std::int32_t i, const std::optional<Projection>& found,
+              std::span<const double> x, double reach, bool closed);
 
   /// @brief Take over the pairs of another pairing of the same surfaces, as
   /// the functions of these names give them. Nothing is frozen then.
@@ -72,32 +100,14 @@ public:
   /// @brief Slave nodes whose pair is frozen, by their place in `slaves`.
   std::vector<std::int32_t> frozen() const;
 
-  /// @brief Gaps that a search without memory finds for some slave nodes.
-  /// @param[in] x Node coordinates (shape=(num_nodes, gdim)), row-major.
-  /// @param[in] reach Largest distance of a pair.
-  /// @param[in] which Slave nodes by their place in `slaves`.
-  /// @return Gap of each, NaN where there is no facet in reach.
-  std::vector<double> natural_gaps(std::span<const double> x, double reach,
-                                   std::span<const std::int32_t> which);
-
-  /// @brief Distance from the nearest slave node to the master surface.
-  /// @param[in] x Node coordinates (shape=(num_nodes, gdim)), row-major.
-  double distance(std::span<const double> x);
-
 private:
-  void refit(std::span<const double> x);
-  std::optional<Projection> find(std::span<const double> x,
-                                 std::span<const double> normals,
-                                 std::int32_t slave, double reach,
-                                 std::int32_t& hint) const;
   std::optional<Projection> keep(std::span<const double> x, std::size_t i,
                                  double reach) const;
   void set(std::size_t i, const std::optional<Projection>& q,
            std::span<const double> x);
 
   std::vector<std::int32_t> _slave_offsets, _slave_nodes, _slaves;
-  Surface _master;
-  std::optional<BoxTree> _tree;
+  Finder _finder;
   std::vector<std::int32_t> _facet, _feature;
   std::vector<double> _xi, _cone, _normal;
   std::vector<std::int32_t> _order; // of the searches, near ones in turn

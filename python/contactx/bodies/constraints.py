@@ -15,7 +15,7 @@ from contactx.interface import Interface
 
 @dataclass(frozen=True)
 class ContactRows:
-    """Slave nodes with a pair under rigid motions.
+    """Slave nodes of this rank with a pair under rigid motions.
 
     Attributes:
         slaves: Slave nodes by their number in the contact, shape (k,).
@@ -29,8 +29,14 @@ class ContactRows:
     movement: Array
 
 
+def along(normal: Array, vectors: Array) -> Array:
+    """Parts of vectors along the surface, shape (n, gdim)."""
+    along: Array = vectors - np.einsum("pi,pi->p", normal, vectors)[:, None] * normal
+    return along
+
+
 def contact_rows(interface: Interface, modes: RigidModes, x: Array) -> ContactRows:
-    """Slave nodes of a contact under rigid motions of the bodies.
+    """Slave nodes of this rank under rigid motions of the bodies; their masters may be elsewhere.
 
     Args:
         interface: Discrete side of the contact.

@@ -11,16 +11,24 @@ import numpy.typing as npt
 
 from contactx import cpp as core
 from contactx.bodies.bodies import Bodies
-from contactx.bodies.constraints import contact_rows
+from contactx.bodies.constraints import along, contact_rows
 from contactx.bodies.modes import Array, RigidModes, by_body
+from contactx.bodies.springs import independent_springs
 from contactx.bulk import Bulk
 from contactx.interface import Interface
 from contactx.law.coulomb import Coulomb
+from contactx.parallel import reduce
 
 # Force along a free mode, relative to the problem's, that counts as out of balance
 _BALANCED = 1e-6
 # Stiffness of springs that carry no force, relative to the bulk's
 _WEAK = 1e-6
+# Relative difference of what is equal but for rounding
+_TIE = 1e-9
+
+
+# Nodes of a contact that may hold a body, by their numbers there, and the time until they do
+type _Found = tuple[Interface, npt.NDArray[np.integer], Array]
 
 
 class Holder:
@@ -31,7 +39,8 @@ class Holder:
     are statically determinate, so they carry no force and change no step. Where the forces do not
     balance, the open nodes that the bodies would meet first on their rigid way are closed, until
     what is closed holds them; then the slipping nodes stick whose slip that way takes back first.
-    The residual is never touched, so no solution depends on this.
+    The residual is never touched, so no solution depends on this. All ranks must take part in all
+    of it, and find the same.
 
     Attributes:
         unheld: Number of rigid modes that nothing holds at the last iterate.
@@ -50,6 +59,7 @@ class Holder:
         self._bulk = bulk
         self._interfaces = interfaces
         self._bodies = bodies
+        self._comm = bodies.halo.comm
         self._modes: RigidModes | None = None
         self.unheld = self.closed = self.drifting = 0
         self._stiffness: Array | None = None
@@ -70,12 +80,12 @@ class Holder:
         """Find what to add to the Jacobian at an iterate, and close nodes that must hold a body.
 
         Args:
-            residual: Gives the residual of the displacements without Dirichlet rows, shape
-                (num_dofs,); called only where a body might need to be held.
+            residual: Gives the residual of the displacements without Dirichlet rows at owned
+                dofs, shape (num_owned * gdim,); called only where a body might need to be held.
             scale: Forces of the problem.
 
         Returns:
-            Whether nodes have been closed or stick.
+            Whether nodes have been closed or stick on any rank.
         """
         self._stiffness, self.unheld = None, 0
         rigid = self._modes
@@ -83,13 +93,15 @@ class Holder:
             return False
         x = self._interfaces[0].positions()
         gdim = x.shape[1]
-        nodes = np.arange(len(x), dtype=np.int32)
+        nodes = np.arange(self._bodies.halo.num_owned, dtype=np.int32)
+        body = rigid.body[nodes]
         modes = rigid.at(nodes, x)
         size = modes.shape[2]
         per_node = np.einsum("nim,ni->nm", modes, -residual().reshape(-1, gdim))
         pull = np.zeros((rigid.count, size))
-        np.add.at(pull, rigid.body, per_node)
-        closed_any = self._begins and self._close_before_springs(x, pull.ravel())
+        np.add.at(pull, body, per_node)
+        pull = reduce.total(self._comm, pull).ravel()
+        closed_any = self._begins and self._close_before_springs(x, pull)
         self._begins = False
         while True:
             N = self._unheld(x, rigid.free)
@@ -98,12 +110,13 @@ class Holder:
                 break
             # In 3D the tangent across the slip resists motions that slip to all sides does not
             lacking = self._lacking(x) if gdim == 2 else 0.0
-            f = N.T @ (pull.ravel() + lacking)
-            if np.abs(f).max() <= _BALANCED * scale:
+            f = N.T @ (pull + lacking)
+            # A norm that does not depend on which basis of the modes rounding has chosen
+            if np.linalg.norm(f) <= _BALANCED * scale:
                 self.drifting = 0
                 break
             # The rigid way of bodies whose mass goes with their number of nodes
-            weight = np.repeat(np.bincount(rigid.body, minlength=rigid.count), size)
+            weight = np.repeat(rigid.num_nodes, size)
             way = N @ np.linalg.solve(N.T @ (weight[:, None] * N), f)
             closed = self._close_first(x, way.reshape(rigid.count, size))
             self.closed += closed
@@ -115,9 +128,10 @@ class Holder:
             closed_any = True
         self.unheld = N.shape[1]
         if self.unheld > 0:
-            coefficients = N.reshape(rigid.count, size, -1)[rigid.body]
+            coefficients = N.reshape(rigid.count, size, -1)[body]
             field = np.einsum("nim,nmk->nik", modes, coefficients)
-            springs = self._springs(field.reshape(-1, self.unheld))
+            shares = field.reshape(-1, self.unheld)
+            springs = independent_springs(shares, self._bulk, self._bodies.halo)
             # Weak, so that they do not slow down what a little stiffness does hold; a body that
             # nothing can hold stays near, where it may still meet something
             self._stiffness = springs if self.drifting else _WEAK * springs
@@ -125,7 +139,7 @@ class Holder:
 
     @property
     def stiffness(self) -> Array | None:
-        """What to add to the Jacobian's diagonal, force/length, shape (num_dofs,)."""
+        """What to add to the Jacobian's diagonal at owned dofs, force/length."""
         return self._stiffness
 
     def _close_before_springs(self, x: Array, pull: Array) -> bool:
@@ -136,7 +150,7 @@ class Holder:
             pull: Forces along the modes of the bodies, shape (num_bodies * m,).
 
         Returns:
-            Whether nodes have been closed.
+            Whether nodes have been closed on any rank.
         """
         rigid = self._modes
         assert rigid is not None
@@ -168,6 +182,7 @@ class Holder:
             every = rows.movement[kind == core.STICK].reshape(-1, Z.shape[0])
             for part in (along @ Z, every @ Z):
                 gram += part.T @ part
+        gram = reduce.total(self._comm, gram)
         values, vectors = np.linalg.eigh(gram)
         null: Array = Z @ vectors[:, values <= 1e-12 * max(values.max(initial=0.0), 1.0)]
         return null
@@ -181,11 +196,11 @@ class Holder:
             within: Part of the way that they go.
 
         Returns:
-            Number of nodes closed.
+            Number of nodes closed on all ranks.
         """
         rigid = self._modes
         assert rigid is not None
-        found: list[tuple[Interface, npt.NDArray[np.integer], Array]] = []
+        found: list[_Found] = []
         for interface in self._interfaces:
             nodes = interface.nodes
             rows = contact_rows(interface, rigid, x)
@@ -195,19 +210,22 @@ class Holder:
             able &= speed > 1e-6 * np.abs(way).max()
             time = np.maximum(gap[able], 0) / speed[able]
             found.append((interface, rows.slaves[able], time))
-        if not any(len(time) for _, _, time in found):
-            return 0
-        lowest = min(time.min() for _, _, time in found if len(time))
-        if lowest > within:
+        lowest = self._lowest(found)
+        if not np.isfinite(lowest) or lowest > within:
             return 0
         # What is closer than this touches at once
-        tie = 1e-9 * rigid.size / np.abs(way).max()
+        tie = _TIE * rigid.size / np.abs(way).max()
         count = 0
         for interface, slaves, time in found:
             first = slaves[time <= lowest + tie]
             interface.nodes.close(first)
             count += len(first)
-        return count
+        return int(reduce.total(self._comm, count))
+
+    def _lowest(self, found: list[_Found]) -> float:
+        """Shortest of the times that nodes of all ranks need; infinite if there are none."""
+        lowest = min((time.min(initial=np.inf) for _, _, time in found), default=np.inf)
+        return float(reduce.least(self._comm, float(lowest)))
 
     def _lacking(self, x: Array) -> Array:
         """Forces that slipping nodes lack to those of Coulomb's law, shape (num_bodies * m,).
@@ -223,9 +241,10 @@ class Holder:
             slips = nodes.status == core.SLIP
             rows = contact_rows(interface, rigid, x)
             force = nodes.value.reshape(nodes.normal.shape)[rows.slaves]
-            force = _along(rows.normal, np.where(slips[rows.slaves, None], force, 0.0))
+            force = along(rows.normal, np.where(slips[rows.slaves, None], force, 0.0))
             lacking -= np.einsum("pi,pim->m", force, rows.movement)
-        return lacking
+        total: Array = reduce.total(self._comm, lacking)
+        return total
 
     def _stick_first(self, x: Array, way: Array) -> bool:
         """Stick the slipping nodes whose slip a rigid way takes back first.
@@ -237,27 +256,27 @@ class Holder:
             way: Coefficients of each body's modes, shape (num_bodies * m,).
 
         Returns:
-            Whether any sticks.
+            Whether any sticks on any rank.
         """
         rigid = self._modes
         assert rigid is not None
-        found: list[tuple[Interface, npt.NDArray[np.integer], Array]] = []
+        found: list[_Found] = []
         for interface, law in self._rubbing():
             nodes, cone = interface.nodes, _on_cone(interface)
             rubs = (nodes.status == core.SLIP) & (law.friction(nodes) * nodes.pressure > 0)
             rows = contact_rows(interface, rigid, x)
-            movement = _along(rows.normal, rows.movement @ way)
+            movement = along(rows.normal, rows.movement @ way)
             # Slip goes against the traction, also where it has only just begun
             back = np.einsum("pi,pi->p", cone[rows.slaves], movement) > 0
             speed = np.linalg.norm(movement, axis=1)
             able = rubs[rows.slaves] & back & (speed > 1e-6 * np.abs(way).max())
             size = np.linalg.norm(nodes.slip[rows.slaves], axis=1)
             found.append((interface, rows.slaves[able], size[able] / speed[able]))
-        if not any(len(time) for _, _, time in found):
+        lowest = self._lowest(found)
+        if not np.isfinite(lowest):
             return False
-        lowest = min(time.min() for _, _, time in found if len(time))
         for interface, slaves, time in found:
-            nodes, first = interface.nodes, slaves[time <= lowest * (1 + 1e-9)]
+            nodes, first = interface.nodes, slaves[time <= lowest * (1 + _TIE)]
             # With the traction of slip: more than that must not pass for a solution
             nodes.multiplier.reshape(nodes.slip.shape)[first] = _on_cone(interface)[first]
             nodes.close(first)
@@ -269,29 +288,11 @@ class Holder:
             if isinstance(interface.law, Coulomb):
                 yield interface, interface.law
 
-    def _springs(self, field: Array) -> Array:
-        """Springs at as many dofs as there are modes, where they are most independent."""
-        diagonal = np.abs(self._bulk.matrix().getDiagonal().array)
-        springs = np.zeros(len(field))
-        left = np.where(self._bulk.markers[:, None] == 1, 0.0, field)
-        for _ in range(field.shape[1]):
-            dof = int(np.argmax(np.einsum("ij,ij->i", left, left)))
-            direction = left[dof] / np.linalg.norm(left[dof])
-            left = left - np.outer(left @ direction, direction)
-            springs[dof] = diagonal[dof]
-        return springs
-
-
-def _along(normal: Array, vectors: Array) -> Array:
-    """Parts of vectors along the surface, shape (n, gdim)."""
-    along: Array = vectors - np.einsum("pi,pi->p", normal, vectors)[:, None] * normal
-    return along
-
 
 def _on_cone(interface: Interface) -> Array:
     """Tractions that slipping nodes have by Coulomb's law, shape (n, gdim)."""
     nodes = interface.nodes
     interface.law.evaluate(nodes)
-    excess = _along(nodes.normal, nodes.value.reshape(nodes.normal.shape))
+    excess = along(nodes.normal, nodes.value.reshape(nodes.normal.shape))
     tractions: Array = nodes.multiplier.reshape(nodes.normal.shape) - excess / nodes.area[:, None]
     return tractions

@@ -11,6 +11,7 @@ import numpy.typing as npt
 
 from contactx.bodies.bodies import Bodies
 from contactx.bulk import Bulk
+from contactx.parallel import reduce
 
 type Array = npt.NDArray[np.float64]
 
@@ -25,10 +26,11 @@ class RigidModes:
     """Rigid modes of the bodies.
 
     A mode is a field of displacements of all nodes of one body, its largest value about 1. It is
-    kept as coefficients: translations, then rotations about the body's middle over its radius.
+    kept as coefficients: translations, then rotations about the body's middle over its radius. All
+    but displacements is the same on all ranks, and bodies are in the order of their names.
 
     Attributes:
-        body: Number of the body of each node, shape (num_nodes,).
+        num_nodes: Number of nodes of each body, shape (num_bodies,).
         free: For each body the modes that neither Dirichlet conditions nor the bulk's stiffness
             (springs, elastic supports) resist, as columns of coefficients, shape (m, k).
         weak: For each body those that the bulk's stiffness resists by little, shape (m, j).
@@ -36,24 +38,29 @@ class RigidModes:
     """
 
     def __init__(self, bulk: Bulk, bodies: Bodies, x: Array):
-        """Find the free modes.
+        """Find the free modes; all ranks must take part.
 
         Args:
             bulk: The bulk.
             bodies: Bodies of the mesh.
             x: Positions at the start, shape (num_nodes, gdim).
         """
+        self._bodies = bodies
+        self._comm = bodies.halo.comm
+        self._owned = slice(bodies.halo.num_owned)
         self._gdim = x.shape[1]
-        self.body = np.unique(bodies.of_node, return_inverse=True)[1]
-        count = self.body.max(initial=-1) + 1
-        sizes = np.maximum(np.bincount(self.body, minlength=count), 1)[:, None]
-        self._middle = np.column_stack(
-            [np.bincount(self.body, x[:, k], minlength=count) for k in range(self._gdim)]
+        count = len(bodies.names)
+        body, own = self.body[self._owned], x[self._owned]
+        sums = [np.bincount(body, own[:, k], minlength=count) for k in range(self._gdim)]
+        sums = reduce.total(
+            self._comm, np.column_stack([np.bincount(body, minlength=count), *sums])
         )
-        self._middle /= sizes
-        arm = np.linalg.norm(x - self._middle[self.body], axis=1)
-        self._radius = np.zeros(count)
-        np.maximum.at(self._radius, self.body, arm)
+        self.num_nodes: Array = sums[:, 0]
+        self._middle = sums[:, 1:] / np.maximum(sums[:, :1], 1)
+        arm = np.linalg.norm(own - self._middle[body], axis=1)
+        radius = np.zeros(count)
+        np.maximum.at(radius, body, arm)
+        self._radius: Array = reduce.largest(self._comm, radius)
         self._radius[self._radius == 0] = 1.0
         self._bulk = bulk
         self._sprung: list[bool] | None = None
@@ -61,6 +68,11 @@ class RigidModes:
         self.weak: list[Array] = []
         self.stiffness: list[Array] = []
         self.update(x)
+
+    @property
+    def body(self) -> npt.NDArray[np.int64]:
+        """Number of the body of each node, shape (num_nodes,)."""
+        return self._bodies.number
 
     @property
     def count(self) -> int:
@@ -91,31 +103,30 @@ class RigidModes:
         return rigid_modes((x[nodes] - self._middle[b]) / self._radius[b][:, None])
 
     def update(self, x: Array) -> None:
-        """Find the free modes in another configuration.
+        """Find the free modes in another configuration; all ranks must take part.
 
         Args:
             x: Positions, shape (num_nodes, gdim).
         """
-        fixed = self._bulk.markers.reshape(-1, self._gdim) == 1
         first = self._sprung is None
         sprung = self._sprung or []
+        grams, rows = self._prescribed(x)
         self.free, self.weak, self.stiffness = [], [], []
         for b in range(self.count):
-            nodes = np.flatnonzero(self.body == b).astype(np.int32)
-            modes = self.at(nodes, x)
-            held = _null_space(modes[fixed[nodes]], modes.shape[2])
+            held = _null_space(grams[b], rows[b])
             basis = held
             if first:
                 sprung.append(False)
             if held.shape[1] > 0 and not (first or sprung[b]):
                 # Stresses resist rotations without being a support
-                shifts = held @ _null_space(held[self._gdim :], held.shape[1])
+                turns = held[self._gdim :]
+                shifts = held @ _null_space(turns.T @ turns, len(turns))
                 if shifts.shape[1] > 0:
-                    values, _, scale = self._resistance(nodes, modes, shifts)
+                    values, _, scale = self._resistance(b, x, shifts)
                     sprung[b] = bool(np.abs(values).max() > _SUPPORTED * scale)
             weak, stiffness = np.zeros((len(held), 0)), np.zeros(0)
             if held.shape[1] > 0 and (first or sprung[b]):
-                values, vectors, scale = self._resistance(nodes, modes, held)
+                values, vectors, scale = self._resistance(b, x, held)
                 size = np.abs(values)
                 basis = held @ vectors[:, size <= _SUPPORTED * scale]
                 yields = (size > _SUPPORTED * scale) & (size <= _WEAK * scale)
@@ -126,23 +137,55 @@ class RigidModes:
             self.stiffness.append(stiffness)
         self._sprung = sprung
 
-    def _resistance(
-        self, nodes: npt.NDArray[np.int32], modes: Array, basis: Array
-    ) -> tuple[Array, Array, float]:
+    def _prescribed(self, x: Array) -> tuple[Array, Array]:
+        """What prescribed displacements see of the modes of each body.
+
+        Args:
+            x: Positions, shape (num_nodes, gdim).
+
+        Returns:
+            Gram matrix of the modes at prescribed dofs, shape (num_bodies, m, m), and number of
+            these dofs, shape (num_bodies,).
+        """
+        fixed = (self._bulk.markers.reshape(-1, self._gdim) == 1)[self._owned]
+        nodes = np.flatnonzero(fixed.any(axis=1)).astype(np.int32)
+        modes = self.at(nodes, x)
+        m = modes.shape[2]
+        # The last column is the number of rows
+        grams = np.zeros((self.count, m * m + 1))
+        for b in np.unique(self.body[nodes]):
+            some = self.body[nodes] == b
+            part = modes[some][fixed[nodes[some]]]
+            grams[b, :-1] = (part.T @ part).ravel()
+            grams[b, -1] = len(part)
+        grams = reduce.total(self._comm, grams)
+        return grams[:, :-1].reshape(-1, m, m), grams[:, -1]
+
+    def _resistance(self, b: int, x: Array, basis: Array) -> tuple[Array, Array, float]:
         """Stiffness of the bulk against motions of a body.
 
         Args:
-            nodes: Nodes of the body.
-            modes: All of its rigid modes at these nodes.
+            b: Number of the body.
+            x: Positions, shape (num_nodes, gdim).
             basis: Motions, as columns of coefficients, shape (m, k).
 
         Returns:
             Stiffness, shape (k,), the combinations that have it, shape (k, k), and the stiffness
             against motions that are not rigid.
         """
-        fields = np.zeros((basis.shape[1], len(self.body), self._gdim))
-        fields[:, nodes] = np.einsum("nim,mk->kni", modes, basis)
-        return _resistance(self._bulk.matrix(), fields.reshape(basis.shape[1], -1))
+        body = self.body[self._owned]
+        nodes = np.flatnonzero(body == b).astype(np.int32)
+        motions = np.zeros((basis.shape[1], len(body), self._gdim))
+        motions[:, nodes] = np.einsum("nim,mk->kni", self.at(nodes, x), basis)
+        fields = motions.reshape(len(motions), len(body) * self._gdim)
+        K = self._bulk.matrix()
+        diagonal = np.abs(K.getDiagonal().array)
+        product = np.stack([_multiply(K, field) for field in fields])
+        scale = np.einsum("kn,n,kn->k", fields, diagonal, fields)
+        sums = reduce.total(self._comm, np.column_stack([fields @ product.T, scale]))
+        energy = sums[:, :-1]
+        values, vectors = np.linalg.eigh((energy + energy.T) / 2)
+        return values, vectors, float(sums[:, -1].max())
 
 
 def rigid_modes(d: Array) -> Array:
@@ -180,21 +223,16 @@ def by_body(bases: list[Array]) -> Array:
     return Z
 
 
-def _null_space(rows: Array, size: int) -> Array:
-    """Orthonormal basis of the null space of a matrix, shape (size, k)."""
-    _, values, basis = np.linalg.svd(rows.T @ rows if len(rows) else np.zeros((size, size)))
-    null: Array = basis[values <= 1e-12 * max(len(rows), 1)].T
+def _null_space(gram: Array, rows: float) -> Array:
+    """Orthonormal basis of the null space of a matrix, shape (m, k).
+
+    Args:
+        gram: The matrix times its transpose from the left, shape (m, m).
+        rows: Number of its rows.
+    """
+    _, values, basis = np.linalg.svd(gram)
+    null: Array = basis[values <= 1e-12 * max(rows, 1)].T
     return null
-
-
-def _resistance(K: PETSc.Mat, fields: Array) -> tuple[Array, Array, float]:
-    """Stiffness of a matrix against fields, the combinations that have it, and its diagonal's."""
-    diagonal = np.abs(K.getDiagonal().array)
-    product = np.stack([_multiply(K, field) for field in fields])
-    energy = fields @ product.T
-    scale = np.einsum("kn,n,kn->k", fields, diagonal, fields).max()
-    values, vectors = np.linalg.eigh((energy + energy.T) / 2)
-    return values, vectors, float(scale)
 
 
 def _multiply(K: PETSc.Mat, field: Array) -> Array:

@@ -10,6 +10,9 @@ import numpy.typing as npt
 from contactx.bodies.bodies import Bodies
 from contactx.checks.hull import in_hulls
 from contactx.obstacles import Obstacle
+from contactx.parallel import reduce
+from contactx.parallel.agreement import agreed
+from contactx.parallel.halo import Halo
 from contactx.surface import FacetList, Surface
 from dolfinx import geometry
 
@@ -32,17 +35,17 @@ def check_apart(
     Args:
         slave: Slave surface.
         master: Master surface.
-        slave_facets: Its facets.
-        master_facets: The master's facets.
+        slave_facets: Its facets on this rank.
+        master_facets: The master's facets on this rank.
         bodies: Bodies of the mesh.
 
     Raises:
-        ValueError: If they do, or one does.
+        ValueError: If they do, or one does, on all ranks.
     """
-    shared = np.intersect1d(slave_facets.nodes, master_facets.nodes)
-    if len(shared) > 0:
+    shared = _num_shared(slave_facets, master_facets, bodies.halo)
+    if shared > 0:
         raise ValueError(
-            f"slave and master overlap: {slave} and {master} share {len(shared)} nodes. "
+            f"slave and master overlap: {slave} and {master} share {shared} nodes. "
             "Give each body its own nodes and each surface its own facets"
         )
     ours = bodies.carrying(slave_facets.nodes)
@@ -53,38 +56,55 @@ def check_apart(
     ):
         low, high = bodies.boxes(inner)
         below, above = bodies.boxes(outer)
-        room = _SMALL * (above - below).max(axis=1, keepdims=True)
+        size = (above - below).max(axis=1, keepdims=True)
+        room = _SMALL * size
         nested = (low[:, None] >= below - room) & (high[:, None] <= above + room)
         for i, o in np.argwhere(nested.all(axis=2)):
-            if inner[i] != outer[o] and _lies_inside(bodies, inner[i], outer[o]):
+            if inner[i] != outer[o] and _lies_inside(bodies, inner[i], outer[o], size[o, 0]):
                 raise ValueError(
                     f"the body of the {names[0]} lies wholly inside the body of the {names[1]}: "
-                    f"all its {len(bodies.nodes(inner[i]))} nodes are in cells of the other. Move "
+                    f"all its {bodies.count(inner[i])} nodes are in cells of the other. Move "
                     "the bodies apart; they may overlap in part"
                 )
 
 
-def _lies_inside(bodies: Bodies, inner: int, outer: int) -> bool:
+def _num_shared(slave: FacetList, master: FacetList, halo: Halo) -> int:
+    """Number of nodes that both surfaces have; their facets there may be on different ranks."""
+    if halo.comm.size == 1:
+        return len(np.intersect1d(slave.nodes, master.nodes))
+    has = np.zeros((halo.num_nodes, 2))
+    has[slave.nodes, 0] = has[master.nodes, 1] = 1
+    return int(reduce.total(halo.comm, np.count_nonzero((halo.add_up(has) > 0).all(axis=1))))
+
+
+def _lies_inside(bodies: Bodies, inner: int, outer: int, size: float) -> bool:
     """Whether all nodes and midpoints of cells of one body are in cells of another.
 
     The midpoints tell a body that is inside from one that fills a hole of the other exactly.
+
+    Args:
+        bodies: Bodies of the mesh.
+        inner: The one.
+        outer: The other.
+        size: Size of the other.
     """
-    x, dofs, domain = bodies.x, bodies.V.dofmap.list, bodies.V.mesh
+    comm, x, dofs, domain = bodies.halo.comm, bodies.x, bodies.V.dofmap.list, bodies.V.mesh
     points = np.concatenate([x[dofs[bodies.cells(inner)]].mean(axis=1), x[bodies.nodes(inner)]])
-    padding = _SMALL * float(np.ptp(x[bodies.nodes(outer)], axis=0).max())
     tree = geometry.bb_tree(
-        domain, domain.topology.dim, padding=padding, entities=bodies.cells(outer)
+        domain, domain.topology.dim, padding=_SMALL * size, entities=bodies.cells(outer)
     )
     # A few at a time, from everywhere: bodies that are not inside show it soon
-    looks = -(-len(points) // _PER_LOOK)
+    looks = -(-reduce.total(comm, len(points)) // _PER_LOOK)
     for look in range(looks):
-        part = points[look::looks]
+        part = reduce.gathered(comm, points[look::looks])
         padded = np.zeros((len(part), 3))
         padded[:, : part.shape[1]] = part
         near = geometry.compute_collisions_points(tree, padded)
         which = np.repeat(np.arange(len(part)), np.diff(near.offsets))
-        hits = in_hulls(part[which], x[dofs[near.array]], _SMALL)
-        if len(np.unique(which[hits])) < len(part):
+        inside = np.zeros(len(part), dtype=np.int8)
+        inside[which[in_hulls(part[which], x[dofs[near.array]], _SMALL)]] = 1
+        # A point is in a cell of some rank
+        if not reduce.largest(comm, inside).all():
             return False
     return True
 
@@ -100,23 +120,29 @@ def check_outside(
 
     Args:
         slave: Slave surface.
-        nodes: Its nodes, shape (n,).
+        nodes: Its nodes on this rank, shape (n,).
         gap: Their gaps, shape (n,).
         obstacle: The obstacle.
         bodies: Bodies of the mesh.
 
     Raises:
-        ValueError: If one does.
+        ValueError: If one does, on all ranks.
     """
-    for body in bodies.carrying(nodes):
-        x = bodies.x[bodies.nodes(body)]
-        if gap[bodies.of_node[nodes] == body].max() > _SMALL * np.ptp(x, axis=0).max():
-            continue
-        level = obstacle.level(x)
+    comm = bodies.halo.comm
+    names = bodies.carrying(nodes)
+    low, high = bodies.boxes(names)
+    highest = np.full(len(names), -np.inf)
+    np.maximum.at(highest, np.searchsorted(names, bodies.of_node[nodes]), gap)
+    highest = reduce.largest(comm, highest)
+    for body in names[highest <= _SMALL * (high - low).max(axis=1)]:
+        with agreed(comm):
+            level = obstacle.level(bodies.x[bodies.nodes(body)])
+        size = np.abs(level).max(initial=0.0, where=np.isfinite(level))
         # A body that touches the surface from within has nodes at zero
-        if np.all(level <= _SMALL * np.abs(level).max()):
+        within = level <= _SMALL * reduce.largest(comm, float(size))
+        if reduce.everywhere(comm, within.all()):
             raise ValueError(
-                f"the body of the slave surface {slave} lies wholly inside the rigid obstacle: "
-                f"all its {len(x)} nodes are inside the {type(obstacle).__name__}. "
+                f"the body of the slave surface {slave} lies wholly inside the rigid obstacle: all "
+                f"its {bodies.count(body)} nodes are inside the {type(obstacle).__name__}. "
                 f"{obstacle.usual_mistake}, or the body is in the wrong place"
             )

@@ -7,6 +7,8 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
+from contactx.parallel import reduce
+from contactx.parallel.halo import Halo
 from contactx.surface import FacetList, Surface
 
 _SMALL = 1e-10
@@ -32,23 +34,22 @@ def corner_normals(x: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
     return normals
 
 
-def check_facets(
-    surface: Surface, role: str, facets: FacetList, x: npt.NDArray[np.float64]
-) -> None:
+def check_facets(surface: Surface, role: str, facets: FacetList, halo: Halo) -> None:
     """Check that the facets have an area and are not turned inside out at a corner.
 
     Args:
         surface: Surface.
         role: "slave" or "master".
-        facets: Its facets.
-        x: Reference positions of all nodes, shape (num_nodes, gdim).
+        facets: Its facets on this rank.
+        halo: Nodes on this rank.
 
     Raises:
-        ValueError: If a facet is degenerate.
+        ValueError: If a facet of any rank is degenerate, on all ranks.
     """
-    smallest = _SMALL * np.linalg.norm(np.ptp(x[facets.nodes], axis=0))
+    comm, x = halo.comm, halo.x
+    smallest = _SMALL * np.linalg.norm(reduce.extent(comm, x[facets.nodes]))
     bad = []
-    for which, nodes in facets.groups():
+    for _, nodes in facets.groups():
         corners = x[nodes]
         size = np.linalg.norm(np.ptp(corners, axis=1), axis=1)
         normals = corner_normals(corners)
@@ -56,13 +57,15 @@ def check_facets(
         # Compared with size^(gdim - 1), what the normal of a well-shaped facet has
         wanted = _SMALL * size ** (x.shape[1] - 1) * np.linalg.norm(mean, axis=1)
         turned = (np.einsum("fci,fi->fc", normals, mean) <= wanted[:, None]).any(axis=1)
-        bad.append(which[turned | (size <= smallest)])
-    degenerate = np.sort(np.concatenate(bad))
-    if len(degenerate) > 0:
-        first = degenerate[0]
-        at = x[facets.nodes[facets.offsets[first] : facets.offsets[first + 1]]].mean(axis=0)
+        bad.extend(nodes[turned | (size <= smallest)])
+    count = reduce.total(comm, len(bad))
+    if count > 0:
+        ordered = [nodes[np.argsort(halo.original[nodes])] for nodes in bad]
+        names = [halo.original[nodes].tolist() for nodes in ordered]
+        middles = [x[nodes].mean(axis=0) for nodes in ordered]
+        named, at = reduce.first(comm, names, list(zip(names, middles, strict=True)))
         raise ValueError(
-            f"{len(degenerate)} facets of the {role} surface {surface} are degenerate: they have "
-            "no area, or are folded so that their Jacobian changes sign. The first is facet "
-            f"{surface.facets[first]} at {at}: repair the mesh there"
+            f"{count} facets of the {role} surface {surface} are degenerate: they have no area, or "
+            f"are folded so that their Jacobian changes sign. The first is at {at} and has the "
+            f"nodes {', '.join(map(str, named))} of the mesh as it was made: repair the mesh there"
         )

@@ -14,7 +14,7 @@ from contactx.bulk import Bulk
 from contactx.condensed.blocks import Array, ContactBlocks, Entries, Index
 from contactx.condensed.chains import is_symmetric
 from contactx.condensed.elimination import Elimination
-from contactx.condensed.layout import Layout, index_set
+from contactx.condensed.numbering import Numbering, index_set
 from contactx.parallel import reduce
 
 
@@ -34,7 +34,7 @@ class CondensedOperator:
     def __init__(
         self,
         bulk: Bulk,
-        layout: Layout,
+        numbering: Numbering,
         blocks: ContactBlocks,
         elimination: Elimination,
         springs: Array | None,
@@ -43,27 +43,29 @@ class CondensedOperator:
 
         Args:
             bulk: The bulk.
-            layout: Displacements on this rank.
+            numbering: Displacements on this rank.
             blocks: Contact blocks of the Jacobian.
             elimination: How the multipliers are eliminated.
             springs: What is added to the diagonal, shape (num_owned,), on all ranks or on none.
         """
         self._bulk = bulk
-        self._layout = layout
+        self._numbering = numbering
         self._K = bulk.matrix()
         self._elimination = elimination
         self._springs = springs
         self.slave_dofs = elimination.slave_dofs
         self.eliminated = elimination.eliminated
         # Rows of the eliminated displacements alone
-        self._right = layout.matrix(elimination.right, self.eliminated)
+        self._right = numbering.matrix(elimination.right, self.eliminated)
         self._some = self._right.createVecLeft()
-        transposed = is_symmetric(elimination, layout)
+        transposed = is_symmetric(elimination, numbering)
         self.is_symmetric = bulk.is_symmetric and transposed
         others = (blocks.stiffness, elimination.left, elimination.law)
-        counts = reduce.largest(layout.comm, np.array([len(e.rows) for e in others]))
+        counts = reduce.largest(numbering.comm, np.array([len(e.rows) for e in others]))
         self._S, left, self._law = (
-            layout.matrix(e) if count > 0 and not (transposed and e is elimination.left) else None
+            numbering.matrix(e)
+            if count > 0 and not (transposed and e is elimination.left)
+            else None
             for e, count in zip(others, counts, strict=True)
         )
         # Where left is the transpose of right it is not made
@@ -117,12 +119,12 @@ class CondensedOperator:
         rows = self._bulk.rows(self.slave_dofs)
         places = np.searchsorted(self.slave_dofs, self.eliminated)
         block = rows.createSubMatrix(
-            index_set(places, rows), self._layout.index_set(self.eliminated)
+            index_set(places, rows), self._numbering.index_set(self.eliminated)
         )
         springs = None
         if self._springs is not None:
             held = np.setdiff1d(np.flatnonzero(self._springs), self.eliminated)
-            springs = self._layout.matrix(Entries(held, held, self._springs[held]))
+            springs = self._numbering.matrix(Entries(held, held, self._springs[held]))
         return Change(places, self._right, block, springs, self._bound())
 
     def _bound(self) -> PETSc.Vec:
@@ -137,8 +139,8 @@ class CondensedOperator:
         R = R.select(R.rows != R.columns)
         size = np.abs(R.values)
         total = np.bincount(R.rows, size, len(D))
-        more = np.bincount(R.columns, (D * total)[R.rows] * size, self._layout.num_local)
-        D = D + self._layout.add_up(more)
+        more = np.bincount(R.columns, (D * total)[R.rows] * size, self._numbering.num_local)
+        D = D + self._numbering.add_up(more)
         if self._S is not None:
             indptr, _, values = self._S.getValuesCSR()
             rows = np.repeat(np.arange(len(D)), np.diff(indptr))

@@ -17,8 +17,8 @@ from contactx.condensed.blocks import Array, ContactBlocks, NotCondensable, lump
 from contactx.condensed.chains import check_chains
 from contactx.condensed.elimination import Elimination
 from contactx.condensed.guess import Guess
-from contactx.condensed.layout import Layout
 from contactx.condensed.multigrid import Multigrid
+from contactx.condensed.numbering import Numbering
 from contactx.condensed.operator import CondensedOperator
 from contactx.condensed.prescribed import Prescribed
 from contactx.condensed.surroundings import Surroundings
@@ -139,23 +139,23 @@ class CondensedSolver:
         """
         around = self._surroundings
         around.renew()
-        comm, gdim = around.layout.comm, self._system.block
+        comm, gdim = around.numbering.comm, self._system.block
         interfaces = self._system.interfaces
         with agreed(comm):
             A = self._system.contact_entries(b)
-            blocks = ContactBlocks.of(A, around.layout.num_local)
+            blocks = ContactBlocks.of(A, around.numbering.num_local)
             diagonal = lumped(blocks, interfaces, around.is_slave, gdim)
             contact = Prescribed(interfaces, diagonal, around.free, gdim)
             elimination = Elimination(interfaces, contact, around.free, gdim)
-        check_chains(elimination, around.layout, gdim)
+        check_chains(elimination, around.numbering, gdim)
         self._bulk.renew()
         self._bulk.rows(elimination.slave_dofs)
         self._bulk.keep_half()
         operator = CondensedOperator(
-            self._bulk, around.layout, contact.blocks, elimination, self.springs
+            self._bulk, around.numbering, contact.blocks, elimination, self.springs
         )
         is_exact = reduce.everywhere(comm, diagonal is blocks)
-        return A, _Condensed(around.layout, operator, elimination, contact), is_exact
+        return A, _Condensed(around.numbering, operator, elimination, contact), is_exact
 
     def _correct(
         self,
@@ -203,9 +203,9 @@ class CondensedSolver:
 
     def _solve(self, system: _Condensed, b: PETSc.Vec, x: PETSc.Vec, target: float) -> bool:
         """Solve with the multipliers eliminated; whether the iterations converged."""
-        layout, operator = system.layout, system.operator
+        numbering, operator = system.numbering, system.operator
         elimination, contact = system.elimination, system.contact
-        n = layout.num_owned
+        n = numbering.num_owned
         given, constraints = np.split(b.array_r, [n])
         forces, d = contact.right_hand_side(constraints)
         known = elimination.open_multipliers(d)
@@ -213,7 +213,7 @@ class CondensedSolver:
         np.add.at(forces, T.rows, -T.values * known[T.columns])
         h, w = self._bulk.matrix().createVecs()
         rhs, v = w.duplicate(), h.duplicate()
-        w.array[:] = given + layout.add_up(forces)
+        w.array[:] = given + numbering.add_up(forces)
         balance = w.duplicate()
         w.copy(balance)
         h.array[:] = elimination.shift(d)[:n]
@@ -234,7 +234,7 @@ class CondensedSolver:
         operator.bulk(h, work)
         balance.axpy(-1.0, work)
         elimination.recover(balance.array_r, known)
-        contact.recover(constraints, layout.extend(h.array_r), known)
+        contact.recover(constraints, numbering.extend(h.array_r), known)
         x.array[:n] = np.where(self._surroundings.free[:n] == 1, h.array_r, given)
         x.array[n:] = known
         return True
@@ -250,7 +250,7 @@ class CondensedSolver:
 class _Condensed:
     """The system without multipliers, and the way there and back."""
 
-    layout: Layout
+    numbering: Numbering
     operator: CondensedOperator
     elimination: Elimination
     contact: Prescribed

@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from contactx.bulk import Bulk
 from contactx.condensed.blocks import Array
-from contactx.condensed.layout import Layout
+from contactx.condensed.numbering import Numbering
 from contactx.system import SaddlePointSystem
 
 
@@ -17,12 +17,12 @@ class Surroundings:
     """What a rank must know of the nodes of others to eliminate its multipliers.
 
     Attributes:
-        layout: Where the displacements are in the bulk's matrix.
+        numbering: Where the displacements are in the bulk's matrix.
         free: 1 at displacements that are not prescribed, else 0, shape (num_local,).
         is_slave: Whether each node is slave in each contact, shape (num_nodes, num_contacts).
     """
 
-    layout: Layout
+    numbering: Numbering
     free: Array
     is_slave: npt.NDArray[np.bool_]
 
@@ -43,8 +43,8 @@ class Surroundings:
         if self._version == halo.version:
             return
         self._version = halo.version
-        self.layout = Layout(halo)
-        self.free = self.layout.extend((self._bulk.markers == 0).astype(np.float64))
+        self.numbering = Numbering(halo)
+        self.free = self.numbering.extend((self._bulk.markers == 0).astype(np.float64))
         interfaces = self._system.interfaces
         is_slave = np.zeros((halo.num_owned, len(interfaces)), dtype=bool)
         for k, interface in enumerate(interfaces):

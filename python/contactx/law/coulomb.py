@@ -4,12 +4,15 @@
 
 from __future__ import annotations
 
+from mpi4py import MPI
+
 import numpy as np
 
 from contactx import cpp as core
 from contactx.law.law import Law
 from contactx.law.nodes import Array, Nodes
 from contactx.nodal import NodalValue
+from contactx.parallel.reduce import largest
 
 # A node that slips starts the next step on the edge of the cone: what a solve has left must not say
 # on which side of it. Parts of the node's pressure and of the largest one
@@ -23,13 +26,15 @@ class Coulomb(Law):
     name = "frictional"
     is_vector = True
 
-    def __init__(self, friction: NodalValue):
+    def __init__(self, friction: NodalValue, comm: MPI.Comm):
         """Create the law.
 
         Args:
             friction: Coefficient of friction, read anew in each evaluation.
+            comm: Communicator.
         """
         self._friction = friction
+        self._comm = comm
 
     def friction(self, nodes: Nodes) -> Array:
         """Current coefficient of friction, shape (n,).
@@ -42,6 +47,10 @@ class Coulomb(Law):
             raise ValueError(f"friction is {value.min()}: give numbers of at least 0")
         return np.where(nodes.smooth, 0.0, value)
 
+    def check(self, nodes: Nodes) -> None:
+        """See ``Law``."""
+        self.friction(nodes)
+
     def set_status(self, nodes: Nodes) -> int:
         """See ``Law``; on the edge of the cone a node that slips goes on.
 
@@ -49,7 +58,8 @@ class Coulomb(Law):
         only on the way back would stick and slip for ever.
         """
         before = nodes.status.copy()
-        friction = self.friction(nodes) * np.where(before == core.SLIP, 1 - _edge(nodes), 1.0)
+        part = np.where(before == core.SLIP, 1 - self._edge(nodes), 1.0)
+        friction = self.friction(nodes) * part
         core.frictional_status(
             nodes.multiplier,
             nodes.closable_gap,
@@ -75,6 +85,14 @@ class Coulomb(Law):
             nodes.turns[back] += 1
         return int(np.count_nonzero(nodes.status != before))
 
+    def _edge(self, nodes: Nodes) -> Array:
+        """Part of the friction bound that a slipping node may fall short of."""
+        p = np.maximum(nodes.pressure, 0.0)
+        edge = np.full_like(p, 0.5)
+        highest = largest(self._comm, p.max(initial=0.0))
+        np.divide(_LEFT * highest, p, out=edge, where=p > 0)
+        return np.minimum(_EDGE + edge, 0.5)
+
     def evaluate(self, nodes: Nodes) -> None:
         """See ``Law``."""
         core.frictional_complementarity(
@@ -95,14 +113,6 @@ class Coulomb(Law):
         )
         if nodes.mean is not None:
             nodes.mean.chain(nodes.normal, nodes.by_slip, nodes.by_normal)
-
-
-def _edge(nodes: Nodes) -> Array:
-    """Part of the friction bound that a slipping node may fall short of."""
-    p = np.maximum(nodes.pressure, 0.0)
-    edge = np.full_like(p, 0.5)
-    np.divide(_LEFT * p.max(initial=0.0), p, out=edge, where=p > 0)
-    return np.minimum(_EDGE + edge, 0.5)
 
 
 class Tied(Law):

@@ -23,15 +23,25 @@ class Law(ABC):
     is_vector = False
     is_tied = False
 
+    def check(self, nodes: Nodes) -> None:
+        """Look at what a user may have changed.
+
+        Args:
+            nodes: Slave nodes.
+
+        Raises:
+            ValueError: If it is out of its range.
+        """
+
     @abstractmethod
     def set_status(self, nodes: Nodes) -> int:
-        """Set each node's status from its multiplier, gap and slip.
+        """Set each node's status from its multiplier, gap and slip; all ranks must take part.
 
         Args:
             nodes: Slave nodes.
 
         Returns:
-            Number of nodes that changed.
+            Number of this rank's nodes that changed.
         """
 
     @abstractmethod

@@ -4,18 +4,22 @@
 
 from __future__ import annotations
 
+from mpi4py import MPI
+
 import numpy as np
 import numpy.typing as npt
 
 from contactx import cpp as core
 from contactx.forms import State
 from contactx.law.mean_normal import MeanNormal
+from contactx.parallel.reduce import largest
+from dolfinx import la
 
 type Array = npt.NDArray[np.float64]
 
 
 class Nodes:
-    """What a contact law reads and writes, one row a slave node.
+    """What a contact law reads and writes, one row a slave node that this rank owns.
 
     Attributes:
         size: Components of the multiplier: 1, or the geometric dimension.
@@ -42,19 +46,21 @@ class Nodes:
         mean: Normals that are means over facets; None where a node has one of its own.
     """
 
-    def __init__(self, state: State, gdim: int, *, has_means: bool = False):
+    def __init__(self, state: State, n: int, gdim: int, *, has_means: bool = False):
         """Create the state: every node open.
 
         Args:
             state: Vectors that the forms read.
+            n: Number of slave nodes.
             gdim: Geometric dimension.
             has_means: Whether normals are means over facets.
         """
-        self.multiplier: Array = state.multiplier.array
-        self.area: Array = state.area.array
-        self.by_gap: Array = state.gap_derivative.array
-        n = len(self.area)
         self.size: int = state.multiplier.block_size
+        self.multiplier: Array = state.multiplier.array[: n * self.size]
+        self.area: Array = state.area.array[:n]
+        # What is divided by it goes nowhere for slave nodes of other ranks
+        state.area.array[n:] = 1
+        self.by_gap: Array = state.gap_derivative.array[: n * self.size]
         rows = n if state.slip_derivative is not None else 0
         self.mean = MeanNormal(n, gdim) if has_means and rows > 0 else None
         self.status = np.full(n, core.OPEN, dtype=np.int8)
@@ -70,11 +76,12 @@ class Nodes:
         self.closings = np.zeros(n, dtype=np.int32)
         self.value = np.zeros(n * self.size)
         self.by_multiplier = np.zeros((n, self.size, self.size))
-        none = np.zeros(0)
-        self.by_slip: Array = none if state.slip_derivative is None else state.slip_derivative.array
-        self.by_normal: Array = (
-            none if state.normal_derivative is None else state.normal_derivative.array
-        )
+
+        def rows_of(vector: la.Vector | None) -> Array:
+            return np.zeros(0) if vector is None else vector.array[: n * gdim * gdim]
+
+        self.by_slip = rows_of(state.slip_derivative)
+        self.by_normal = rows_of(state.normal_derivative)
 
     @property
     def closed(self) -> npt.NDArray[np.bool_]:
@@ -95,16 +102,15 @@ class Nodes:
         pressure: Array = np.einsum("ij,ij->i", self.normal, self.multiplier.reshape(-1, self.size))
         return pressure
 
-    def set_factor(self, compliance: Array) -> None:
+    def set_factor(self, compliance: Array, usual: float) -> None:
         """Set the factor c: one over the area and the compliance.
 
         Args:
             compliance: Compliance of each pair, length/force, zero where nothing can move.
+            usual: What stands for it there, times an area.
         """
         total = compliance * self.area
-        usable = total > 0
-        self.c[:] = 1 / np.median(total[usable]) if usable.any() else 1.0
-        self.c[usable] = 1 / total[usable]
+        self.c[:] = 1 / np.where(total > 0, total, usual)
 
     def closing(self, tie: float = -1.0) -> npt.NDArray[np.bool_]:
         """Which nodes the complementarity closes: p - c g > 0, or a gap of at most a tie.
@@ -138,12 +144,17 @@ class Nodes:
         self.multiplier.reshape(-1, self.size)[~self.closed] = 0
 
 
-def touching_gap(x: Array) -> float:
-    """Gap up to which nodes touch but for rounding.
+def touching_gap(comm: MPI.Comm, x: Array) -> float:
+    """Gap up to which nodes touch but for rounding; all ranks must take part.
 
     Args:
-        x: Their positions, shape (n, gdim).
+        comm: Communicator.
+        x: Their positions on this rank, shape (n, gdim).
     """
-    size = np.ptp(x, axis=0).max(initial=0.0)
-    rounding = 16 * np.finfo(np.float64).eps * np.abs(x).max(initial=0.0)
+    high, low = (f(axis=0, initial=-np.inf) for f in (x.max, (-x).max))
+    ends = largest(comm, np.concatenate([high, low]))
+    if not np.isfinite(ends).all():
+        return 0.0
+    size = (ends[: x.shape[1]] + ends[x.shape[1] :]).max()
+    rounding = 16 * np.finfo(np.float64).eps * np.abs(ends).max()
     return float(1e-12 * size + rounding)

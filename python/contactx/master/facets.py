@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
@@ -12,11 +12,14 @@ import numpy.typing as npt
 
 from contactx import cpp as core
 from contactx.forms import Pairs
-from contactx.master.master import Master, Weights, touching
+from contactx.master.master import Array, Master, Weights, touching
 from contactx.master.reach import default_reach
+from contactx.parallel.halo import Halo
+from contactx.parallel.slaves import SlaveNodes
+from contactx.search.distributed import master_surface
 from contactx.surface import FacetList
 
-_SAVED = ("facet", "feature", "xi", "cone", "normal")
+_SAVED = ("feature", "xi", "cone", "normal")
 _AT = core.slip_layout
 
 
@@ -24,40 +27,48 @@ class FacetMaster(Master):
     """Pairs with the facets of a deformable body.
 
     Attributes:
-        facets: The facets.
+        surface: The facets.
     """
 
     def __init__(
         self,
-        slave: FacetList,
+        halo: Halo,
+        slave: SlaveNodes,
         master: FacetList,
-        x: npt.NDArray[np.float64],
         search_distance: float | None,
         *,
         sliding: str,
         measures_slip: bool,
     ):
-        """Create the pairs, none yet.
+        """Create the pairs, none yet; all ranks must take part.
 
         Args:
-            slave: Slave facets.
-            master: Master facets.
-            x: Reference positions.
+            halo: Nodes of this rank.
+            slave: Slave nodes.
+            master: Master facets that this rank has.
             search_distance: Largest distance of a pair; chosen if None.
             sliding: "finite" or "small".
             measures_slip: Whether slip is measured.
         """
-        self.facets = master
-        self._sizes = np.diff(master.offsets)
+        self._halo = halo
+        self._facets = slave.facets
+        self.surface = master_surface(halo, master)
+        x = halo.x
         self._small = sliding == "small"
         self._measures_slip = measures_slip
         # Positions of all nodes at the step's start and the last search, and where each slave
         # node's slip starts, as a place in the configuration of the step's start
         self._x0 = self._at = x
         self._start = np.zeros((0, x.shape[1]))
-        self.reach = search_distance or default_reach(x, slave, master)
+        self.reach = search_distance or default_reach(halo, slave.facets, master)
+        known = self.surface.facets
         self._pairing = core.Pairing(
-            slave.offsets, slave.nodes, master.offsets, master.nodes, x.shape[1]
+            slave.facets.offsets,
+            slave.facets.nodes,
+            known.offsets,
+            known.nodes,
+            halo.gdim,
+            halo.num_owned,
         )
         self._slaves = self._pairing.slaves
         self._facet = self._pairing.facet
@@ -65,10 +76,29 @@ class FacetMaster(Master):
 
     def search(self, x: npt.NDArray[np.float64], closed: npt.NDArray[np.int8]) -> int:
         """See ``Master``."""
-        changed = self._pairing.update(x, self.reach, closed)
-        self._at = x
+        version = self._halo.version
+        changed = self.surface.pair(self._pairing, self._facets, x, self.reach, closed)
+        self._at = self._halo.fit(x, version)
         self._facet, self._feature = self._pairing.facet, self._pairing.feature
         return changed
+
+    def restart(self) -> None:
+        """See ``Master``."""
+        if self._halo.comm.size > 1:
+            self._restore(self.surface.restart(self._facet), self._saved_pairs())
+
+    def _restore(self, facet: npt.NDArray[np.int32], saved: Mapping[str, npt.NDArray[Any]]) -> None:
+        known = self.surface.facets
+        self._pairing.set_master(known.offsets, known.nodes)
+        self._pairing.restore(facet, **{name: saved[name] for name in _SAVED})
+        self._facet, self._feature = self._pairing.facet, self._pairing.feature
+
+    def _saved_pairs(self) -> dict[str, npt.NDArray[Any]]:
+        return {name: getattr(self._pairing, name) for name in _SAVED}
+
+    def follow(self, extend: Callable[[Array], Array]) -> None:
+        """See ``Master``."""
+        self._x0, self._at = extend(self._x0), extend(self._at)
 
     @property
     def paired(self) -> npt.NDArray[np.bool_]:
@@ -81,17 +111,24 @@ class FacetMaster(Master):
         found = self._pairing
         data = np.column_stack([found.feature, found.xi, found.cone, found.normal])
         slip = self._slip() if self._measures_slip else None
-        sizes = self._sizes[self._facet]
+        facets = self.surface.facets
+        sizes = self._facet_sizes()
         groups = []
         for size in np.unique(sizes[self.paired]):
             slaves = np.flatnonzero(self.paired & (sizes == size)).astype(np.int32)
-            first = self.facets.offsets[self._facet[slaves]]
-            facets = self.facets.nodes[first[:, None] + np.arange(size)]
-            nodes = np.column_stack([self._slaves[slaves], facets])
+            first = facets.offsets[self._facet[slaves]]
+            corners = facets.nodes[first[:, None] + np.arange(size)]
+            nodes = np.column_stack([self._slaves[slaves], corners])
             groups.append(
                 Pairs(slaves[:, None], nodes, data[slaves], None if slip is None else slip[slaves])
             )
         return groups
+
+    def _facet_sizes(self) -> npt.NDArray[np.int32]:
+        """Nodes of each slave node's facet, 0 where there is none, shape (n,)."""
+        sizes = np.zeros(len(self._facet), dtype=np.int32)
+        sizes[self.paired] = np.diff(self.surface.facets.offsets)[self._facet[self.paired]]
+        return sizes
 
     def _slip(self) -> npt.NDArray[np.float64]:
         """What the kernels read of slip, shape (n, 6)."""
@@ -104,7 +141,7 @@ class FacetMaster(Master):
         else:
             xi, gap = self._pairing.feet(self._x0, self._start)
             # It has no part across the normal of a flat facet
-            gap[(self._feature == 0) & (self._sizes[self._facet] < 4)] = 0
+            gap[(self._feature == 0) & (self._facet_sizes() < 4)] = 0
             data[:, _AT["gap"]] = gap
             origin[:] = gap[:, None] * self._pairing.places(self._at, xi)[1]
         data[:, _AT["xi"] : _AT["xi"] + 2] = xi
@@ -171,8 +208,8 @@ class FacetMaster(Master):
         return None
 
     def compliance(self, nodal: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
-        """See ``Master``; the mean of the facet's nodes."""
-        result = np.full(len(self._slaves), np.median(nodal[self.facets.nodes]))
+        """See ``Master``; the mean of the facet's nodes, without one that of all."""
+        result = np.full(len(self._slaves), self.surface.mean(nodal))
         for pairs in self.pairs():
             result[pairs.slaves[:, 0]] = nodal[pairs.nodes[:, 1:]].mean(axis=1)
         return result
@@ -183,7 +220,7 @@ class FacetMaster(Master):
         """See ``Master``."""
         gdim = free.shape[1]
         along, each = np.ones(len(self._slaves)), np.ones((len(self._slaves), gdim))
-        if free[self._slaves].all() and free[self.facets.nodes].all():
+        if free[self._slaves].all() and free[self.surface.facets.nodes].all():
             return along, each
         at = core.pair_layout
         for pairs in self.pairs():
@@ -211,26 +248,25 @@ class FacetMaster(Master):
 
     def identity(self) -> dict[str, npt.NDArray[Any]]:
         """See ``Master``."""
-        return {"nodes": self.facets.nodes, "offsets": self.facets.offsets}
+        return self.surface.identity()
 
     def save(self) -> dict[str, npt.NDArray[Any]]:
         """See ``Master``; flips are forgotten, as at the start of every step."""
-        saved = {name: getattr(self._pairing, name) for name in _SAVED}
+        saved = {"facet_nodes": self.surface.names(self._facet), **self._saved_pairs()}
         if self._measures_slip:
             saved |= {"start": self._start, "before": self._x0, "at": self._at}
         return saved
 
     def load(self, saved: Mapping[str, npt.NDArray[Any]]) -> None:
         """See ``Master``."""
-        self._pairing.restore(**{name: saved[name] for name in _SAVED})
-        self._facet = self._pairing.facet
-        self._feature = self._pairing.feature
+        self._restore(self.surface.named(saved["facet_nodes"]), saved)
         if self._measures_slip:
-            self._start, self._x0, self._at = saved["start"], saved["before"], saved["at"]
+            self._start = saved["start"]
+            self._x0, self._at = (self._halo.extend(saved[name]) for name in ("before", "at"))
 
     def distance(self, x: npt.NDArray[np.float64]) -> float:
         """See ``Master``."""
-        return self._pairing.distance(x)
+        return self.surface.distance(x, x[self._slaves])
 
     @property
     def frozen(self) -> npt.NDArray[np.int32]:
@@ -243,10 +279,14 @@ class FacetMaster(Master):
 
     def deepest_frozen(self, x: npt.NDArray[np.float64]) -> float:
         """See ``Master``: what a search without memory finds for them."""
-        if len(self.frozen) == 0:
+        frozen = self._slaves[self.frozen]
+        if self._halo.comm.allreduce(len(frozen)) == 0:
             return 0.0
-        gaps = self._pairing.natural_gaps(x, self.reach, self.frozen)
-        deepest = float(np.nanmin(gaps, initial=0.0))
+        normals = core.nodal_normals(
+            self._facets.offsets, self._facets.nodes, x, x.shape[1]
+        ).reshape(x.shape)[frozen]
+        found = self.surface.find(x, x[frozen], normals, self.reach)
+        deepest = float(found.gap[found.facet >= 0].min(initial=0.0))
         # Less is rounding
         return deepest if deepest < -1e-10 * self.reach else 0.0
 

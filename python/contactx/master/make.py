@@ -4,8 +4,6 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from contactx.bodies.bodies import Bodies
 from contactx.checks.inside import check_apart, check_outside
 from contactx.checks.shape import check_facets
@@ -17,25 +15,34 @@ from contactx.master.mortar_obstacle import MortarObstacle
 from contactx.master.obstacle import ObstacleMaster
 from contactx.master.ties import FacetTie, MortarTie, ObstacleTie
 from contactx.obstacles import Obstacle, Plane
+from contactx.parallel.agreement import agreed
+from contactx.parallel.halo import Halo
+from contactx.parallel.reduce import extent
+from contactx.parallel.slaves import SlaveNodes
+from contactx.search.surface import in_order
 from contactx.surface import Surface
 
 
 def make_master(
     slave: Surface,
+    slaves: SlaveNodes,
     master: Surface | Obstacle,
     bodies: Bodies,
+    halo: Halo,
     law: Law,
     *,
     method: str,
     sliding: str,
     search_distance: float | None,
 ) -> Master:
-    """Make the master side of a contact, without pairs yet.
+    """Make the master side of a contact, without pairs yet; all ranks must take part.
 
     Args:
         slave: Slave surface.
+        slaves: Its nodes.
         master: Master surface or rigid obstacle.
         bodies: Bodies of the mesh.
+        halo: Nodes of this rank.
         law: Contact law.
         method: "node-to-surface" or "surface-to-surface".
         sliding: "finite" or "small".
@@ -48,30 +55,34 @@ def make_master(
         ValueError: If facets are degenerate, the surfaces share nodes, a body lies wholly inside
             its master, or an obstacle's parameters do not fit.
     """
-    V, x = bodies.V, bodies.x
-    facets = slave.facet_nodes(V)
-    check_facets(slave, "slave", facets, x)
+    facets = slave.facet_nodes(bodies.V)
+    check_facets(slave, "slave", facets, halo)
     if isinstance(master, Obstacle):
-        slaves = np.unique(facets.nodes)
-        options = (master, x, search_distance)
+        size = float(extent(halo.comm, halo.x[slaves.owned]).max())
+        master.extent = max(master.extent, size)
+        options = (master, halo.x, search_distance)
         obstacle: ObstacleMaster
-        if law.is_tied:
-            obstacle = ObstacleTie(slaves, *options, measures_slip=True)
-        elif method == "surface-to-surface" and not isinstance(master, Plane):
-            obstacle = MortarObstacle(facets, *options, measures_slip=law.is_vector)
-        else:
-            # Dual functions weigh what is linear on a facet, as a plane's gap, at its nodes
-            obstacle = ObstacleMaster(slaves, *options, measures_slip=law.is_vector)
-        check_outside(slave, slaves, obstacle.inside(x), master, bodies)
+        with agreed(halo.comm):
+            if law.is_tied:
+                obstacle = ObstacleTie(slaves.owned, *options, measures_slip=True)
+            elif method == "surface-to-surface" and not isinstance(master, Plane):
+                obstacle = MortarObstacle(
+                    slaves, master, halo, search_distance, measures_slip=law.is_vector
+                )
+            else:
+                # Dual functions weigh what is linear on a facet, as a plane's gap, at its nodes
+                obstacle = ObstacleMaster(slaves.owned, *options, measures_slip=law.is_vector)
+        check_outside(slave, slaves.owned, obstacle.inside(halo.x), master, bodies)
         return obstacle
-    others = master.facet_nodes(V)
-    check_facets(master, "master", others, x)
+    others = master.facet_nodes(bodies.V)
+    check_facets(master, "master", others, halo)
     check_apart(slave, master, facets, others, bodies)
+    others = in_order(others, halo)
     deformable: type[FacetMaster | MortarMaster]
     if method == "surface-to-surface":
         deformable = MortarTie if law.is_tied else MortarMaster
     else:
         deformable = FacetTie if law.is_tied else FacetMaster
     return deformable(
-        facets, others, x, search_distance, sliding=sliding, measures_slip=law.is_vector
+        halo, slaves, others, search_distance, sliding=sliding, measures_slip=law.is_vector
     )

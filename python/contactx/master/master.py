@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -13,6 +13,8 @@ import numpy as np
 import numpy.typing as npt
 
 from contactx.forms import Pairs
+
+type Array = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -33,7 +35,8 @@ class Weights:
 class Master(ABC):
     """Pairs of the slave nodes with a master.
 
-    Positions are those of all nodes of the bulk, shape (num_nodes, gdim).
+    Positions are those of all nodes on this rank, shape (num_nodes, gdim). All ranks take part in
+    what is marked as collective; all else is this rank's alone.
 
     Slip is measured from where a slave node was at the step's start; one that touches first
     within the step, from where it touched.
@@ -48,7 +51,7 @@ class Master(ABC):
 
     @abstractmethod
     def accept(self, x: npt.NDArray[np.float64]) -> None:
-        """Take a converged configuration, the start of the next step.
+        """Take a converged configuration, the start of the next step; collective.
 
         Args:
             x: Positions.
@@ -56,7 +59,17 @@ class Master(ABC):
 
     @abstractmethod
     def begin_step(self) -> None:
-        """Start a step: slip is measured from its start, and frozen pairs may move again."""
+        """Start a step: slip is measured from its start, and pairs may move again; collective."""
+
+    def restart(self) -> None:
+        """Name again the nodes that pairs need, once the halo has shrunk; collective."""
+
+    def follow(self, extend: Callable[[Array], Array]) -> None:
+        """Bring positions that were kept up to a halo that has changed; collective.
+
+        Args:
+            extend: Gives those of all nodes from those of owned nodes.
+        """
 
     @abstractmethod
     def turn(self, x: npt.NDArray[np.float64]) -> npt.NDArray[np.float64] | None:
@@ -89,14 +102,14 @@ class Master(ABC):
 
     @abstractmethod
     def search(self, x: npt.NDArray[np.float64], closed: npt.NDArray[np.int8]) -> int:
-        """Pair the slave nodes.
+        """Pair the slave nodes; collective.
 
         Args:
             x: Positions.
             closed: Whether each slave node is in contact, shape (n,).
 
         Returns:
-            Number of nodes in contact that changed their facet.
+            Number of this rank's nodes in contact that changed their facet.
         """
 
     @property
@@ -152,7 +165,7 @@ class Master(ABC):
 
     @abstractmethod
     def compliance(self, nodal: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
-        """Compliance of the master at each slave node.
+        """Compliance of the master at each slave node; collective.
 
         Args:
             nodal: Compliance of each node of the bulk, length/force.
@@ -174,7 +187,7 @@ class Master(ABC):
 
     @abstractmethod
     def load(self, saved: Mapping[str, npt.NDArray[Any]]) -> None:
-        """Take over what ``save`` gave for the same surfaces.
+        """Take over what ``save`` gave for the same surfaces; collective.
 
         Raises:
             ValueError: If it does not fit; nothing has changed.
@@ -182,7 +195,7 @@ class Master(ABC):
 
     @abstractmethod
     def distance(self, x: npt.NDArray[np.float64]) -> float:
-        """Distance from the nearest slave node to the master."""
+        """Distance from the nearest of this rank's slave nodes to the master; collective."""
 
     @abstractmethod
     def mobility(
@@ -208,7 +221,7 @@ class Master(ABC):
         """Let frozen pairs move again and count anew how often pairs go back and forth."""
 
     def deepest_frozen(self, x: npt.NDArray[np.float64]) -> float:
-        """Smallest gap that the frozen pairs hide."""
+        """Smallest gap that this rank's frozen pairs hide; collective."""
         return 0.0
 
 

@@ -4,7 +4,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -16,6 +17,10 @@ from contactx.master.master import Master, Weights
 from contactx.master.mortar_pairs import Array, Mortar, Sides, unit
 from contactx.master.mortar_slip import MortarSlip
 from contactx.master.reach import default_reach
+from contactx.parallel.halo import Halo
+from contactx.parallel.reduce import anywhere, largest, least
+from contactx.parallel.slaves import SlaveNodes
+from contactx.search.distributed import master_surface
 from contactx.surface import FacetList
 
 # How far beyond a slave facet's edges pairs are found in advance, as a part of its size
@@ -31,47 +36,57 @@ class MortarMaster(Master):
     A slave node's constraint gathers from all pairs of its facets. A node of which little is in
     front of the master is not paired.
 
+    Facets of which slave nodes belong to other ranks are integrated by all of these.
+
     Attributes:
-        facets: The master's facets.
+        surface: The master's facets.
     """
 
     def __init__(
         self,
-        slave: FacetList,
+        halo: Halo,
+        slave: SlaveNodes,
         master: FacetList,
-        x: Array,
         search_distance: float | None,
         *,
         sliding: str,
         measures_slip: bool,
     ):
-        """Create the pairs, none yet.
+        """Create the pairs, none yet; all ranks must take part.
 
         Args:
-            slave: Slave facets.
-            master: Master facets.
-            x: Reference positions.
+            halo: Nodes of this rank.
+            slave: Slave nodes.
+            master: Master facets that this rank has.
             search_distance: Largest distance of a pair; chosen if None.
             sliding: "finite" or "small".
             measures_slip: Whether slip is measured.
         """
-        self.facets = master
-        self._reference = self._x0 = self._at = x
-        self._gdim = x.shape[1]
+        self._halo = halo
+        self._facets = facets = slave.facets
+        self.surface = master_surface(halo, master)
+        self._gdim = halo.gdim
         self._small = sliding == "small"
-        self.reach = search_distance or default_reach(x, slave, master)
-        lists = (slave.offsets, slave.nodes, master.offsets, master.nodes)
-        self._search = core.FacetSearch(*lists, self._gdim)
-        self._pairing = core.Pairing(*lists, self._gdim)
-        self._sides = Sides(slave, master, x)
+        self.reach = search_distance or default_reach(halo, facets, master)
+        self._nodes = np.union1d(facets.nodes, self.surface.own.nodes)
+        self._x0 = self._at = x = halo.x
+        self._sides = Sides(slave, x)
+        self._inradius = least(halo.comm, self._sides.inradius)
+        self._meet()
         self._slip = MortarSlip(self._sides, self._gdim, small=self._small)
         self._measures_slip = measures_slip
-        area = core.nodal_areas(slave.offsets, slave.nodes, x, self._gdim)
+        area = core.nodal_areas(facets.offsets, facets.nodes, x, self._gdim)
         self._whole: Array = area[self._sides.slaves]
         self._area = np.zeros(len(self._whole))
         self._paired = np.zeros(len(self._whole), dtype=bool)
         self._found: Any = None
-        self._nodes = np.union1d(slave.nodes, master.nodes)
+
+    def _meet(self) -> None:
+        """Take the master facets that are known now; those before keep their numbers."""
+        slave, known = self._facets, self.surface.facets
+        lists = (slave.offsets, slave.nodes, known.offsets, known.nodes)
+        self._search = core.FacetSearch(*lists, self._gdim)
+        self._sides.meet(known)
 
     def search(self, x: Array, closed: npt.NDArray[np.int8]) -> int:
         """See ``Master``; as integrals change continuously no node changes its facet."""
@@ -79,27 +94,44 @@ class MortarMaster(Master):
         return 0
 
     def _pair(self, x: Array) -> None:
-        if self._found is None or (
-            self._moved(x) and not self._found.contains(self._search.find(x, self.reach, 0.0))
-        ):
+        version = self._halo.version
+        if self._found is None or (self._moved(x) and self._lacks(x)):
+            x = self._halo.fit(x, version)
+            version = self._halo.version
             margin = 0.0 if self._small else _MARGIN
+            self._look(x, margin)
+            x = self._halo.fit(x, version)
+            version = self._halo.version
             self._found = self._search.find(x, self.reach, margin)
             self._searched = x[self._nodes]
-        self._integrate(x)
-        least = np.where(self._paired, _LEAVE, _ENTER)
-        self._paired = self._area > least * self._whole
+        self._integrate(self._halo.fit(x, version))
+        enough = np.where(self._paired, _LEAVE, _ENTER)
+        self._paired = self._area > enough * self._whole
+
+    def _look(self, x: Array, margin: float) -> None:
+        known = self.surface.facets
+        self.surface.look(x, self._facets, self.reach, margin)
+        if self.surface.facets is not known:
+            self._meet()
+
+    def _lacks(self, x: Array) -> bool:
+        """Whether any rank finds a pair that it does not have."""
+        version = self._halo.version
+        self._look(x, 0.0)
+        found = self._search.find(self._halo.fit(x, version), self.reach, 0.0)
+        return anywhere(self._halo.comm, not self._found.contains(found))
 
     def _moved(self, x: Array) -> bool:
         """Whether anything has moved so far since the search that pairs may lack."""
-        way = np.abs(x[self._nodes] - self._searched).max(initial=0.0)
+        way = largest(self._halo.comm, np.abs(x[self._nodes] - self._searched).max(initial=0.0))
         # Both sides may have moved, and not a number is far
-        return not way <= 0.25 * _MARGIN * self._sides.inradius
+        return not way <= 0.25 * _MARGIN * self._inradius
 
     def _integrate(self, x: Array) -> None:
-        found = self._search.integrals(self._found, x, self._reference)
+        found = self._search.integrals(self._found, x, self._halo.x)
         if self._small:
             normal = self._between(found, x)
-            found = self._search.integrals(self._found, x, self._reference, normal)
+            found = self._search.integrals(self._found, x, self._halo.x, normal)
         self._at = x
         self._dual, self._normal = found["dual"], found["normal"]
         self._mortar = Mortar(self._found.slave, self._found.master, found["weight"], found["gap"])
@@ -142,6 +174,21 @@ class MortarMaster(Master):
         """See ``Master``; where slip is measured from in small sliding."""
         return self._slip.origin
 
+    def restart(self) -> None:
+        """See ``Master``."""
+        if self._halo.comm.size == 1 or self._found is None:
+            return
+        used = np.union1d(self._mortar.master, self._slip.masters)
+        numbers = np.zeros(len(self.surface.facets.offsets), dtype=np.int32)
+        numbers[used] = self.surface.restart(used)
+        self._mortar = replace(self._mortar, master=numbers[self._mortar.master])
+        self._slip.rename(numbers)
+        self._meet()
+
+    def follow(self, extend: Callable[[Array], Array]) -> None:
+        """See ``Master``."""
+        self._x0, self._at = extend(self._x0), extend(self._at)
+
     def refresh(self, x: Array, held: bool, offset: Array) -> list[Pairs] | None:
         """See ``Master``."""
         if held or self._small or np.array_equal(x, self._at):
@@ -164,6 +211,7 @@ class MortarMaster(Master):
         values = mortar.weight
         rows = np.broadcast_to(sides.numbers[mortar.slave][:, :, None], values.shape)
         nodes = np.broadcast_to(sides.nodes[1][mortar.master][:, None, :], values.shape)
+        # Zero for slave nodes of other ranks, too
         used = values != 0
         own = np.flatnonzero(self._paired)
         return Weights(
@@ -196,7 +244,7 @@ class MortarMaster(Master):
     def _normalised(self) -> Mortar:
         """Pairs divided by the slave nodes' areas."""
         inverse = np.where(self._paired, 1 / self.area(self._whole), 0.0)
-        return self._mortar.scaled(inverse[self._sides.numbers[self._mortar.slave]])
+        return self._mortar.scaled(self._sides.at_corners(inverse, self._mortar.slave))
 
     def touch(self, which: npt.NDArray[np.bool_], x: Array, offset: Array) -> None:
         """See ``Master``; ``x`` is where the pairs were integrated last."""
@@ -220,7 +268,7 @@ class MortarMaster(Master):
         size = np.abs(weights.values[of_master])
         total = np.bincount(slaves, size, n)
         mean = np.bincount(slaves, size * nodal[weights.nodes[of_master]], n)
-        result = np.full(n, np.median(nodal[self.facets.nodes]))
+        result = np.full(n, self.surface.mean(nodal))
         return np.divide(mean, total, out=result, where=total > 0)
 
     def mobility(self, free: npt.NDArray[np.bool_]) -> tuple[Array, Array]:
@@ -230,7 +278,7 @@ class MortarMaster(Master):
         """
         n, gdim = len(self._paired), free.shape[1]
         own = free[self._sides.slaves]
-        if own.all() and free[self.facets.nodes].all():
+        if own.all() and free[self.surface.facets.nodes].all():
             return np.ones(n), np.ones((n, gdim))
         weights = self.weights()
         held = np.zeros(n, dtype=bool)
@@ -244,17 +292,17 @@ class MortarMaster(Master):
         moves = np.bincount(place, weights.values)[:, None] * free[nodes]
         squares = np.stack([np.bincount(slaves, m**2, n) for m in moves.T], axis=1)
         squares[~(self._paired & held)] = 1
-        around = np.zeros((n, gdim), dtype=bool)
+        around = np.zeros((len(self._sides.around), gdim), dtype=bool)
         some = free[self._sides.nodes[0]].any(axis=1)
         for corner in self._sides.numbers.T:
             np.logical_or.at(around, corner, some)
-        squares[~own & around] = 0
+        squares[~own & around[:n]] = 0
         normal = self.normals()[:, :gdim]
         return np.sqrt((normal**2 * squares).sum(axis=1)), np.sqrt(squares)
 
     def identity(self) -> dict[str, npt.NDArray[Any]]:
         """See ``Master``."""
-        return {"nodes": self.facets.nodes, "offsets": self.facets.offsets}
+        return self.surface.identity()
 
     def save(self) -> dict[str, npt.NDArray[Any]]:
         """See ``Master``; pairs follow from the positions."""
@@ -262,9 +310,9 @@ class MortarMaster(Master):
 
     def load(self, saved: Mapping[str, npt.NDArray[Any]]) -> None:
         """See ``Master``."""
-        self._paired, self._x0 = saved["paired"], saved["before"]
+        self._paired, self._x0 = saved["paired"], self._halo.extend(saved["before"])
         self.begin_step()
 
     def distance(self, x: Array) -> float:
         """See ``Master``."""
-        return self._pairing.distance(x)
+        return self.surface.distance(x, x[self._sides.slaves])

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -16,7 +16,8 @@ from contactx import cpp as core
 from contactx.forms import Pairs
 from contactx.master.obstacle import ObstacleMaster
 from contactx.obstacles import Obstacle
-from contactx.surface import FacetList
+from contactx.parallel.halo import Halo
+from contactx.parallel.slaves import SlaveNodes
 
 type Array = npt.NDArray[np.float64]
 
@@ -35,7 +36,7 @@ class _Facets:
 
     Attributes:
         nodes: Their nodes, shape (m, k).
-        numbers: Their slave nodes by their number in the contact, shape (m, k).
+        numbers: Their slave nodes by their place among all around, shape (m, k).
         N: Shape functions at the points of the rule, shape (q, k).
         weight: Weights of the dual functions at the points, by reference area, shape (m, k, q).
     """
@@ -46,12 +47,12 @@ class _Facets:
     weight: Array
 
     @staticmethod
-    def of(nodes: npt.NDArray[np.int32], slaves: npt.NDArray[np.int32], x: Array) -> _Facets:
+    def of(nodes: npt.NDArray[np.int32], around: npt.NDArray[np.int32], x: Array) -> _Facets:
         """Prepare the rule and the dual functions.
 
         Args:
             nodes: Nodes of the facets, shape (m, k).
-            slaves: All slave nodes in order.
+            around: All slave nodes in order, those of other ranks last.
             x: Reference positions.
         """
         cell = _CELLS[nodes.shape[1]]
@@ -67,7 +68,7 @@ class _Facets:
         mass = N.T @ (area[:, :, None] * N)
         dual = (area @ N)[:, :, None] * np.linalg.inv(mass)
         weight = (dual @ N.T) * area[:, None, :]
-        numbers = np.searchsorted(slaves, nodes).astype(np.int32)
+        numbers = np.searchsorted(around, nodes).astype(np.int32)
         return _Facets(nodes, numbers, N, weight)
 
     def points(self, x: Array) -> Array:
@@ -86,9 +87,9 @@ class MortarObstacle(ObstacleMaster):
 
     def __init__(
         self,
-        slave: FacetList,
+        slave: SlaveNodes,
         obstacle: Obstacle,
-        x: Array,
+        halo: Halo,
         search_distance: float | None,
         *,
         measures_slip: bool,
@@ -96,15 +97,16 @@ class MortarObstacle(ObstacleMaster):
         """Create the pairs, none yet.
 
         Args:
-            slave: Slave facets.
+            slave: Slave nodes.
             obstacle: The obstacle.
-            x: Reference positions.
+            halo: Nodes of this rank.
             search_distance: Largest distance of a pair; unlimited if None.
             measures_slip: Whether slip is measured.
         """
-        slaves = np.unique(slave.nodes)
-        super().__init__(slaves, obstacle, x, search_distance, measures_slip=measures_slip)
-        self._kinds = [_Facets.of(nodes, slaves, x) for _, nodes in slave.groups()]
+        self._halo, x = halo, halo.x
+        super().__init__(slave.owned, obstacle, x, search_distance, measures_slip=measures_slip)
+        self._kinds = [_Facets.of(nodes, slave.around, x) for _, nodes in slave.facets.groups()]
+        self._others = np.zeros(len(slave.around) - len(slave.owned), dtype=bool)
         self._values: list[Array] = []
         self._positions = x
 
@@ -149,8 +151,9 @@ class MortarObstacle(ObstacleMaster):
 
     def _pairs(self, values: list[Array]) -> list[Pairs]:
         groups = []
+        paired = np.concatenate([self._paired, self._others])
         for facets, data in zip(self._kinds, values, strict=True):
-            near = self._paired[facets.numbers].any(axis=1)
+            near = paired[facets.numbers].any(axis=1)
             if near.any():
                 groups.append(Pairs(facets.numbers[near], facets.nodes[near], data[near]))
         return groups
@@ -186,14 +189,17 @@ class MortarObstacle(ObstacleMaster):
 
     def save(self) -> dict[str, npt.NDArray[Any]]:
         """See ``Master``."""
-        values = {f"facets_{k}": data for k, data in enumerate(self._values)}
-        return super().save() | values | {"positions": self._positions}
+        return super().save() | {"positions": self._positions}
 
     def load(self, saved: Mapping[str, npt.NDArray[Any]]) -> None:
         """See ``Master``."""
         super().load(saved)
-        self._values = [saved[f"facets_{k}"] for k in range(len(self._kinds))]
-        self._positions = saved["positions"]
+        self._positions = self._halo.extend(saved["positions"])
+        self._values = [self._integrate(facets, self._positions) for facets in self._kinds]
+
+    def follow(self, extend: Callable[[Array], Array]) -> None:
+        """See ``Master``."""
+        self._positions = extend(self._positions)
 
     def _update_slip(self, x: Array, data: Array) -> None:
         """The kernels measure it by themselves."""

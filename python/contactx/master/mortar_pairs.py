@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from contactx.forms import Pairs
+from contactx.parallel.slaves import SlaveNodes
 from contactx.surface import FacetList
 
 type Array = npt.NDArray[np.float64]
@@ -54,31 +55,51 @@ class Sides:
     Triangles and segments repeat their last node; their integrals are zero there.
 
     Attributes:
-        slaves: Slave nodes in order, shape (n,).
+        slaves: Slave nodes of this rank in order, shape (n,).
+        around: All slave nodes in order, those of other ranks last, shape (m,).
         nodes: Nodes of the slave and of the master facets, each of shape (num_facets, 4).
         sizes: Numbers of their nodes, each of shape (num_facets,).
-        numbers: Nodes of the slave facets by their place in ``slaves``, shape (num_facets, 4).
+        numbers: Nodes of the slave facets by their place in ``around``, shape (num_facets, 4).
         inradius: Radius of the smallest slave facet's circle inside, about.
     """
 
-    def __init__(self, slave: FacetList, master: FacetList, x: Array):
-        """Take both surfaces.
+    def __init__(self, slave: SlaveNodes, x: Array):
+        """Take the slave's side.
 
         Args:
-            slave: Slave facets.
-            master: Master facets.
+            slave: Slave nodes.
             x: Reference positions.
         """
-        self.slaves: Index = np.unique(slave.nodes)
-        self.nodes = _padded(slave), _padded(master)
-        self.sizes = np.diff(slave.offsets), np.diff(master.offsets)
-        self.numbers: Index = np.searchsorted(self.slaves, self.nodes[0]).astype(np.int32)
+        facets = slave.facets
+        self.slaves, self.around = slave.owned, slave.around
+        none = FacetList(np.zeros(1, dtype=np.int32), np.zeros(0, dtype=np.int32))
+        self.nodes = _padded(facets), _padded(none)
+        self.sizes = np.diff(facets.offsets), np.diff(none.offsets)
+        self.numbers: Index = np.searchsorted(self.around, self.nodes[0]).astype(np.int32)
         corners = x[self.nodes[0]]
         first, second = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
         longest = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
         # Twice the area over the perimeter is no less than a third of it over the longest edge
         area = longest**2 if x.shape[1] == 2 else np.linalg.norm(np.cross(first, second), axis=1)
-        self.inradius = float((area / longest).min() / 3)
+        self.inradius = float((area / longest).min(initial=np.inf) / 3)
+
+    def meet(self, master: FacetList) -> None:
+        """Take the master's side."""
+        self.nodes = self.nodes[0], _padded(master)
+        self.sizes = self.sizes[0], np.diff(master.offsets)
+
+    def at_corners(self, values: Array, facets: Index | slice = slice(None)) -> Array:
+        """Values of slave nodes at the corners of their facets, zero at nodes of other ranks.
+
+        Args:
+            values: Values, shape (n,).
+            facets: The facets, shape (m,); all of them by default.
+
+        Returns:
+            Values, shape (m, 4).
+        """
+        every = np.concatenate([values, np.zeros(len(self.around) - len(values))])
+        return every[self.numbers[facets]]
 
     def total(self, values: Array, facets: Index | slice = slice(None)) -> Array:
         """Sums over the facets of each slave node.
@@ -90,9 +111,9 @@ class Sides:
         Returns:
             Sums, shape (n,).
         """
-        total = np.bincount(self.numbers[facets].ravel(), values.ravel(), len(self.slaves))
+        total = np.bincount(self.numbers[facets].ravel(), values.ravel(), len(self.around))
         # Of no values at all NumPy makes integers
-        return total.astype(np.float64)
+        return total[: len(self.slaves)].astype(np.float64)
 
     def pairs(
         self, mortar: Mortar, dual: Array, normal: Array, *, is_movement: bool = False
@@ -126,9 +147,9 @@ class Sides:
         Returns:
             Frames, shape (n, gdim, gdim).
         """
-        facet = np.zeros(len(self.slaves), dtype=np.int64)
+        facet = np.zeros(len(self.around), dtype=np.int64)
         facet[self.numbers] = np.arange(len(self.numbers))[:, None]
-        corners = x[self.nodes[0][facet]]
+        corners = x[self.nodes[0][facet[: len(self.slaves)]]]
         along = corners[:, 1] - corners[:, 0]
         along /= np.linalg.norm(along, axis=1, keepdims=True)
         if x.shape[1] == 2:

@@ -4,11 +4,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import numpy.typing as npt
 
 from contactx.master.master import touching
-from contactx.master.mortar_pairs import Array, Mortar, Sides
+from contactx.master.mortar_pairs import Array, Index, Mortar, Sides
 
 
 class MortarSlip:
@@ -33,6 +35,7 @@ class MortarSlip:
         self._sides = sides
         self._small = small
         self.origin = np.zeros((len(sides.slaves), gdim))
+        self._start: Mortar | None = None
 
     def begin(self, now: Mortar, distances: Array) -> None:
         """Start a step.
@@ -71,13 +74,14 @@ class MortarSlip:
             self.origin = np.where(which[:, None], before + part * (distances - before), before)
             return
         part = touching(self._gap - offset, self._gaps(now) - offset)
-        numbers, start = self._sides.numbers, self._start
-        known = np.zeros(len(which), dtype=bool)
-        known[numbers[start.slave][start.weight.any(axis=2)]] = True
+        sides, start = self._sides, self._start
+        assert start is not None
+        known = np.zeros(len(sides.around), dtype=bool)
+        known[sides.numbers[start.slave][start.weight.any(axis=2)]] = True
         # What had no master at the start is measured from here
-        part = np.where(which, np.where(known, part, 1.0), 0.0)
-        self._start = start.scaled((1 - part)[numbers[start.slave]]).joined(
-            now.scaled(part[numbers[now.slave]])
+        part = np.where(which, np.where(known[: len(which)], part, 1.0), 0.0)
+        self._start = start.scaled(sides.at_corners(1 - part, start.slave)).joined(
+            now.scaled(sides.at_corners(part, now.slave))
         )
 
     def pairs(self, now: Mortar, area: Array) -> Mortar:
@@ -89,7 +93,18 @@ class MortarSlip:
         """
         if self._small:
             return Mortar(now.slave, now.master, now.weight, np.zeros_like(now.gap))
-        return self._start.scaled(area[self._sides.numbers[self._start.slave]])
+        assert self._start is not None
+        return self._start.scaled(self._sides.at_corners(area, self._start.slave))
+
+    @property
+    def masters(self) -> Index:
+        """Master facets that slip is measured with."""
+        return np.zeros(0, dtype=np.int32) if self._start is None else self._start.master
+
+    def rename(self, numbers: Index) -> None:
+        """Take other numbers of the master facets."""
+        if self._start is not None:
+            self._start = replace(self._start, master=numbers[self._start.master])
 
     def _gaps(self, mortar: Mortar) -> Array:
         return self._sides.total(mortar.gap, mortar.slave)

@@ -203,7 +203,8 @@ class ObstacleMaster(Master):
 
     def distance(self, x: npt.NDArray[np.float64]) -> float:
         """See ``Master``."""
-        return float(np.abs(self._obstacle.evaluate(x[self._slaves]).gap).min())
+        gaps = self._obstacle.evaluate(x[self._slaves]).gap
+        return float(np.abs(gaps).min(initial=np.inf))
 
 
 def _kernel_data(geometry: Geometry) -> npt.NDArray[np.float64]:

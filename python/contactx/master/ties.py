@@ -35,6 +35,7 @@ class FacetTie(FacetMaster):
             return 0
         self._found = True
         found = super().search(x, closed)
+        x = self._at
         self._xi, self._gap = self._pairing.feet(x, x[self._slaves])
         foot, self._normal = self._pairing.places(x, self._xi)
         self._arm = x[self._slaves] - foot
@@ -85,12 +86,12 @@ class MortarTie(MortarMaster):
     def pairs(self) -> list[Pairs]:
         """See ``Master``."""
         mortar, sides = self._mortar, self._sides
-        longer = mortar.weight.sum(axis=2) * self._offset[sides.numbers[mortar.slave]]
+        longer = mortar.weight.sum(axis=2) * sides.at_corners(self._offset, mortar.slave)
         return sides.pairs(replace(mortar, gap=mortar.gap + longer), self._dual, self._normal)
 
     def load(self, saved: Mapping[str, npt.NDArray[Any]]) -> None:
         """See ``Master``; the pairs are those of the reference."""
-        self._x0 = saved["before"]
+        self._x0 = self._halo.extend(saved["before"])
 
 
 class ObstacleTie(ObstacleMaster):

@@ -59,7 +59,10 @@ class LevelSet(Obstacle):
             ValueError: If a Python function has no gradient, a shape does not fit, or the
                 function or its gradient is not finite or its gradient zero at a slave node.
         """
-        gdim = x.shape[1]
+        n, gdim = x.shape
+        if n == 0:
+            # A rank without slave nodes: neither UFL nor a user's function needs to take that
+            return Geometry(*(np.zeros((0,) + (gdim,) * k) for k in (0, 1, 1, 2)))
         if self._gradient is None:
             if x.shape not in self._compiled:
                 self._compiled = {x.shape: _Compiled(self._f, *x.shape)}
@@ -89,6 +92,8 @@ class LevelSet(Obstacle):
 
     def level(self, x: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
         """See ``Obstacle``; the function itself."""
+        if len(x) == 0:
+            return np.zeros(0)
         if self._gradient is not None:
             return np.asarray(self._f(x.T), dtype=np.float64)
         compiled = self._compiled.get(x.shape) or _Compiled(self._f, *x.shape)
@@ -113,11 +118,12 @@ class LevelSet(Obstacle):
 
         They only serve the tangent: the solution does not depend on them.
         """
-        h = 1e-6 * max(np.ptp(x, axis=0).max(initial=0.0), np.abs(x).max(initial=0.0) * 1e-3, 1e-30)
+        # Not a length of these points alone: which ones they are depends on the partition
+        size = self.extent or np.ptp(x, axis=0).max()
+        h = 1e-6 * np.maximum(np.abs(x).max(axis=1, keepdims=True) * 1e-3, max(size, 1e-30))
         columns = []
         for i in range(x.shape[1]):
-            dx = np.zeros(x.shape[1])
-            dx[i] = h
+            dx = h * np.eye(x.shape[1])[i]
             columns.append((self._values(x + dx)[1] - self._values(x - dx)[1]) / (2 * h))
         H = np.stack(columns, axis=2)
         symmetric: npt.NDArray[np.float64] = (H + H.transpose(0, 2, 1)) / 2

@@ -87,9 +87,12 @@ class Obstacle(ABC):
 
     Attributes:
         usual_mistake: What is probably wrong where a whole body is inside: a sentence.
+        extent: Size of the largest surface that is measured against it, the same on all ranks;
+            zero if none is known.
     """
 
     usual_mistake = "It is probably in the wrong place"
+    extent = 0.0
 
     @abstractmethod
     def evaluate(self, x: npt.NDArray[np.float64]) -> Geometry:

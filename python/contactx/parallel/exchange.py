@@ -60,9 +60,9 @@ class Exchange:
         status = MPI.Status()
         while barrier is None or not barrier.Test():
             if comm.Iprobe(MPI.ANY_SOURCE, tag, status):
-                data = bytearray(status.Get_count(MPI.BYTE))
-                comm.Recv([data, MPI.BYTE], source=status.source, tag=tag)
-                received[status.source] = pickle.loads(data)
+                buffer = bytearray(status.Get_count(MPI.BYTE))
+                comm.Recv([buffer, MPI.BYTE], source=status.source, tag=tag)
+                received[status.source] = pickle.loads(buffer)
             if barrier is None and MPI.Request.Testall(sending):
                 barrier = comm.Ibarrier()
         return dict(sorted(received.items()))

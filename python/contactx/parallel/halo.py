@@ -70,7 +70,6 @@ class Halo:
         self._ghosts = np.zeros(0, dtype=np.int64)
         self._owners = np.zeros(0, dtype=np.int32)
         self._kept = 0
-        self._places: dict[int, int] = {}
         self._renew()
 
     @property
@@ -90,7 +89,7 @@ class Halo:
         return x.reshape(-1, self.gdim)
 
     def refresh(self) -> None:
-        """Take over the displacement: its ghosts and those of the halo become the owners' values."""
+        """Take over the displacement: ghosts, also those of the bulk, get the owners' values."""
         if self.comm.size > 1:
             owned = self._u.x.array.reshape(-1, self.gdim)[: self.num_owned]
             values = self.extend(owned)
@@ -114,7 +113,17 @@ class Halo:
         vector.array[: self.num_owned * width] = values[: self.num_owned].ravel()
         vector.scatter_forward()
         self._count_forward(vector)
-        return vector.array.reshape(-1, *values.shape[1:]).astype(values.dtype)
+        everywhere: npt.NDArray[Any] = vector.array.reshape(-1, *values.shape[1:])
+        return everywhere.astype(values.dtype)
+
+    def fit(self, values: npt.NDArray[Any], version: int) -> npt.NDArray[Any]:
+        """Values of all nodes as they were at an older version, for those of now.
+
+        Args:
+            values: Values of all nodes, shape (n, k).
+            version: Version at which they were made.
+        """
+        return values if version == self.version else self.extend(values[: self.num_owned])
 
     def add_up(self, values: Array) -> Array:
         """Sums over the ranks of what each has for its nodes.
@@ -132,7 +141,8 @@ class Halo:
         vector.array[:] = values.ravel()
         vector.scatter_reverse(la.InsertMode.add)
         self._count_reverse(vector)
-        return vector.array.reshape(-1, *values.shape[1:])[: self.num_owned].copy()
+        sums: Array = vector.array.reshape(-1, *values.shape[1:])[: self.num_owned].copy()
+        return sums
 
     def numbers(self, nodes: npt.NDArray[np.integer]) -> npt.NDArray[np.int64]:
         """Global numbers of some nodes, as the bulk's index map has them."""
@@ -153,8 +163,11 @@ class Halo:
         Returns:
             Nodes, of the same shape.
         """
-        flat = [self._places[number] for number in numbers.ravel().tolist()]
-        return np.array(flat, dtype=np.int32).reshape(numbers.shape)
+        if self.comm.size == 1:
+            return numbers.astype(np.int32)
+        place = np.searchsorted(self._sorted, numbers)
+        nodes: npt.NDArray[np.int32] = self._order[place]
+        return nodes
 
     def grow(
         self,
@@ -173,7 +186,7 @@ class Halo:
         if self.comm.size == 1:
             return
         numbers, first = np.unique(numbers, return_index=True)
-        new = np.array([n not in self._places for n in numbers.tolist()], dtype=bool)
+        new = ~np.isin(numbers, self._sorted)
         if self.comm.allreduce(bool(new.any()), MPI.LOR):
             self._ghosts = np.concatenate([self._ghosts, numbers[new]])
             self._owners = np.concatenate([self._owners, owners[first][new]]).astype(np.int32)
@@ -203,9 +216,10 @@ class Halo:
         self._owner = np.concatenate(
             [np.full(self.num_owned, self.comm.rank), self._map.owners]
         ).astype(np.int32)
-        self._places = {}
+        self._order = every
         if self.comm.size > 1:
-            self._places = dict(zip(self._global.tolist(), every.tolist(), strict=True))
+            self._order = np.argsort(self._global).astype(np.int32)
+        self._sorted = self._global[self._order]
         self._vectors: dict[tuple[int, Any], la.Vector] = {}
         self._sent = 0, 0
         if self.comm.size > 1:

@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from operator import itemgetter
 from typing import Any
 
 from mpi4py import MPI
@@ -40,6 +42,40 @@ def everywhere(comm: MPI.Comm, value: bool | np.bool_) -> bool:
 def norm(comm: MPI.Comm, *parts: npt.NDArray[np.float64]) -> float:
     """Euclidean norm of arrays that each rank has a part of."""
     return float(np.sqrt(total(comm, float(sum(np.dot(part, part) for part in parts)))))
+
+
+def gathered(comm: MPI.Comm, rows: npt.NDArray[Any]) -> npt.NDArray[Any]:
+    """Rows of all ranks, one rank's after the other's; for few of them."""
+    return rows if comm.size == 1 else np.concatenate(comm.allgather(rows))
+
+
+def extent(comm: MPI.Comm, x: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+    """Size of the box around points that each rank has some of; zero where there are none.
+
+    Args:
+        comm: Communicator.
+        x: Points of this rank, shape (n, gdim).
+
+    Returns:
+        Lengths, shape (gdim,).
+    """
+    low, high = x.min(axis=0, initial=np.inf), x.max(axis=0, initial=-np.inf)
+    corners = largest(comm, np.stack([-low, high]))
+    size: npt.NDArray[np.float64] = np.maximum(corners.sum(axis=0), 0.0)
+    return size
+
+
+def first(comm: MPI.Comm, keys: Sequence[Any], items: Sequence[Any]) -> Any:
+    """The item with the smallest key on any rank.
+
+    Args:
+        comm: Communicator.
+        keys: Keys of this rank's items, which can be compared; some rank has one.
+        items: Items of this rank.
+    """
+    mine = min(zip(keys, items, strict=True), key=itemgetter(0), default=None)
+    found = [pair for pair in comm.allgather(mine) if pair is not None]
+    return min(found, key=itemgetter(0))[1]
 
 
 def _reduced(comm: MPI.Comm, value: npt.ArrayLike, op: MPI.Op) -> Any:

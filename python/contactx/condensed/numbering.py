@@ -13,7 +13,7 @@ from contactx.condensed.blocks import Array, Entries, Index
 from contactx.parallel.halo import Halo
 
 
-class Layout:
+class Numbering:
     """Where the displacements of a rank are in vectors and matrices of the bulk.
 
     A rank's contact entries are in its local numbers: displacements of its own nodes first, then

@@ -1,0 +1,79 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Where the unknowns of bulk and contacts are in vectors and matrices."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from mpi4py import MPI
+from petsc4py import PETSc
+
+import numpy as np
+import numpy.typing as npt
+
+from contactx.parallel.halo import Halo
+
+type Index = npt.NDArray[np.int64]
+
+
+@dataclass(frozen=True)
+class Where:
+    """Places of unknowns in a matrix.
+
+    Attributes:
+        comm: Communicator of the matrix.
+        size: Number of rows of this rank.
+        first: What this rank's multipliers, counted with its displacements, are shifted by.
+        nodes: Places of the displacements of all nodes, shape (num_nodes * gdim,).
+    """
+
+    comm: MPI.Comm
+    size: int
+    first: int
+    nodes: Index
+
+
+class Layout:
+    """Each rank's displacements, followed by its multipliers."""
+
+    def __init__(self, halo: Halo, size: int):
+        """Create the layout.
+
+        Args:
+            halo: Nodes of this rank.
+            size: Number of this rank's unknowns.
+        """
+        self._halo = halo
+        self._size = int(size)
+        g = halo.gdim
+        counts = halo.comm.allgather((halo.num_owned * g, self._size))
+        # Where the displacements of each rank start in the bulk, and in all
+        self._bulk, self._all = np.cumsum([(0, 0), *counts], axis=0)[:-1].T
+        self._start = int(self._all[halo.comm.rank])
+
+    def alone(self) -> Where:
+        """Places in a matrix of this rank alone: displacements of all nodes, then multipliers."""
+        halo = self._halo
+        n, own = halo.num_nodes * halo.gdim, halo.num_owned * halo.gdim
+        return Where(MPI.COMM_SELF, n + self._size - own, n - own, np.arange(n))
+
+    def among_ranks(self) -> Where:
+        """Places in a matrix of all ranks; all of them must take part."""
+        halo, g = self._halo, self._halo.gdim
+        own = self._start + g * np.arange(halo.num_owned, dtype=np.int64)
+        nodes = (halo.extend(own)[:, None] + np.arange(g)).ravel()
+        return Where(halo.comm, self._size, self._start, nodes)
+
+    def embed(self, K: PETSc.Mat) -> PETSc.Mat:
+        """The bulk's matrix with empty rows and columns for the multipliers."""
+        indptr, indices, values = K.getValuesCSR()
+        multipliers = self._size - self._halo.num_owned * self._halo.gdim
+        indptr = np.concatenate([indptr, np.full(multipliers, indptr[-1], dtype=indptr.dtype)])
+        if len(self._all) > 1:
+            rank = np.searchsorted(self._bulk, indices, side="right") - 1
+            indices = (indices + (self._all - self._bulk)[rank]).astype(PETSc.IntType)
+        size = (self._size, None)
+        return PETSc.Mat().createAIJ(
+            (size, size), csr=(indptr, indices, values), comm=self._halo.comm
+        )
