@@ -4,8 +4,6 @@
 
 import contextlib
 
-from mpi4py import MPI
-
 with contextlib.suppress(ModuleNotFoundError):
     # The PyPI wheels of DOLFINx must load their MPI and PETSc before DOLFINx;
     # other builds do not have this package
@@ -41,19 +39,6 @@ def require_real_double() -> None:
         raise TypeError(
             f"PETSc was built with {np.dtype(PETSc.ScalarType).name} scalars, but contactx needs "
             "real double precision (float64): use a DOLFINx with such a PETSc"
-        )
-
-
-def require_one_rank(comm: MPI.Comm) -> None:
-    """Check that the communicator has one rank.
-
-    Raises:
-        RuntimeError: On every rank, if there are several.
-    """
-    if comm.size > 1:
-        raise RuntimeError(
-            f"contactx runs on one rank, but the mesh is distributed over {comm.size}: "
-            "start it without mpiexec, or with -n 1"
         )
 
 

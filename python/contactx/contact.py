@@ -8,12 +8,14 @@ import numpy as np
 import numpy.typing as npt
 
 from contactx.bodies.bodies import Bodies
+from contactx.checks.facing import check_facing
 from contactx.checks.options import check_options
 from contactx.fields import Fields
 from contactx.forms import ContactForms
 from contactx.interface import Interface
 from contactx.law.coulomb import Coulomb, Tied
 from contactx.law.law import Frictionless, Law
+from contactx.master.make import make_master
 from contactx.nodal import NodalValue
 from contactx.obstacles import Obstacle
 from contactx.parallel.agreement import agreed
@@ -155,19 +157,28 @@ class Contact:
                 law = Tied()
             elif self.friction != 0:
                 law = Coulomb(NodalValue(self.friction, "friction", V, slaves.owned), halo.comm)
-        interface = Interface(
+        master = make_master(
             self.slave,
             slaves,
             self.master,
+            bodies,
             halo,
-            law=law,
+            law,
             method=self.method,
             sliding=self.sliding,
             search_distance=self.search_distance,
+        )
+        interface = Interface(
+            slaves,
+            master,
+            halo,
+            law=law,
+            sliding=self.sliding,
+            has_means=self.method == "surface-to-surface",
             offset=offset,
             markers=markers,
-            bodies=bodies,
         )
+        check_facing(self.slave, slaves, self.master, master, halo)
         self._fields = Fields(interface, V, slaves, halo)
         self._interface = interface
         return interface

@@ -28,3 +28,7 @@ class ConvergenceError(RuntimeError):
         super().__init__(f"contact did not converge: {reason}\n{report.table()}")
         self.reason = reason
         self.report = report
+
+    def __reduce__(self) -> tuple[type[ConvergenceError], tuple[str, Report], dict[str, object]]:
+        """Copy it by what it was made of, to other ranks for example."""
+        return type(self), (self.reason, self.report), self.__dict__

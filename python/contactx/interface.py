@@ -13,21 +13,15 @@ import numpy.typing as npt
 
 from contactx import cpp as core
 from contactx.assembly import Assembly
-from contactx.bodies.bodies import Bodies
-from contactx.checks.facing import check_facing
 from contactx.forms import ContactForms, Pairs, State
 from contactx.law.law import Law
 from contactx.law.nodes import Nodes, touching_gap
-from contactx.master.make import make_master
 from contactx.master.master import Master
 from contactx.nodal import NodalValue
-from contactx.obstacles import Obstacle
 from contactx.parallel.agreement import agreed
 from contactx.parallel.halo import Halo
-from contactx.parallel.reduce import total
 from contactx.parallel.slaves import SlaveNodes
 from contactx.slip import SlipHistory
-from contactx.surface import Surface
 from dolfinx import cpp
 
 # Share of a relative movement that must be free for a constraint on it
@@ -55,38 +49,30 @@ class Interface:
 
     def __init__(
         self,
-        slave: Surface,
         slaves: SlaveNodes,
-        master: Surface | Obstacle,
+        master: Master,
         halo: Halo,
         *,
         law: Law,
-        method: str,
         sliding: str,
-        search_distance: float | None,
+        has_means: bool,
         offset: NodalValue,
         markers: npt.NDArray[np.int8],
-        bodies: Bodies,
     ):
         """Pair the slave nodes in the reference configuration; all ranks must take part.
 
         Args:
-            slave: Slave surface.
-            slaves: Its nodes.
-            master: Master surface or rigid obstacle.
+            slaves: Slave nodes.
+            master: Master side, without pairs yet.
             halo: Nodes of this rank.
             law: Contact law.
-            method: "node-to-surface" or "surface-to-surface".
             sliding: "finite" or "small".
-            search_distance: Largest distance of a pair; chosen if None.
+            has_means: Whether normals are means over facets.
             offset: What is taken off the gap.
             markers: 1 at dofs of the bulk with a Dirichlet condition, shape (num_dofs,).
-            bodies: Bodies of the mesh.
 
         Raises:
-            ValueError: If the surfaces share nodes, have degenerate facets or face away from each
-                other, a body lies inside the other or the obstacle, or an obstacle's parameters do
-                not fit.
+            ValueError: If an obstacle's parameters do not fit.
         """
         self._halo = halo
         self._gdim = gdim = halo.gdim
@@ -95,17 +81,7 @@ class Interface:
         self._held = sliding == "small"
         self.slaves = slaves.owned
         self.num_others = len(slaves.around) - len(slaves.owned)
-        self.master: Master = make_master(
-            slave,
-            slaves,
-            master,
-            bodies,
-            halo,
-            law,
-            method=method,
-            sliding=sliding,
-            search_distance=search_distance,
-        )
+        self.master = master
         self._markers = markers.reshape(-1, gdim)
         halo.follow(self._follow)
         self._follow()
@@ -117,7 +93,7 @@ class Interface:
         facets = slaves.facets
         area = core.nodal_areas(facets.offsets, facets.nodes, halo.x, gdim)
         self._whole: npt.NDArray[np.float64] = area[self.slaves]
-        self.nodes = Nodes(self.state, n, gdim, has_means=method == "surface-to-surface")
+        self.nodes = Nodes(self.state, n, gdim, has_means=has_means)
         self.history = SlipHistory(n, gdim) if law.is_vector and not law.is_tied else None
         self._touched = np.zeros(n, dtype=bool)
         self.active = True
@@ -125,7 +101,6 @@ class Interface:
         self._offset = offset
         self._accept()
         self._search(halo.x)
-        check_facing(slave, slaves, master, self.master, halo)
         self.master.begin_step()
         self._make_forms()
         self._find_immobile()
@@ -214,17 +189,6 @@ class Interface:
             # A projection over an open gap on a tilted facet leaves a symmetry plane by a little
             self.nodes.mobile = np.where(each < _MOBILE, 0.0, 1.0)
 
-    def skipped(self) -> dict[str, int]:
-        """What this contact does not need, and how often: nodes, unknowns and searches."""
-        counts = np.array([len(self.slaves), self.master.paired.sum()])
-        n, paired = total(self._halo.comm, counts).tolist()
-        return {
-            "search": self.skipped_searches,
-            "pairs out of reach": n - paired,
-            "tangential unknowns": 0 if self.law.is_vector else n * (self._gdim - 1),
-            "master sides": paired if self.master.is_rigid else 0,
-        }
-
     def hold(self, held: bool) -> None:
         """Hold the pairs of finite sliding with their normals and projections, or release them.
 
@@ -250,25 +214,6 @@ class Interface:
     def forms(self) -> list[ContactForms]:
         """Forms of the current pairs, one set for each kind of master facet."""
         return self._assembly.forms
-
-    def set_factor(self, compliance: npt.NDArray[np.float64]) -> None:
-        """Set the factor c of the gap: the stiffness of a pair over the slave node's area.
-
-        Slave node and master facet are springs in series: where one is much stiffer than the
-        other, the softer one decides how fast a gap closes. Any c > 0 has the same solution.
-
-        All ranks must take part.
-
-        Args:
-            compliance: Compliance of all nodes, zero where one cannot move.
-        """
-        pairs = compliance[self.slaves] + self.master.compliance(compliance)
-        product = pairs * self.nodes.area
-        usable = product[product > 0]
-        # Where nothing can move any factor will do: the geometric mean of the others
-        sums = np.array([np.log(usable).sum(), len(usable)])
-        logs, count = total(self._halo.comm, sums)
-        self.nodes.set_factor(pairs, float(np.exp(logs / count)) if count > 0 else 1.0)
 
     def update_gap(self) -> None:
         """First pass: assemble gap, normal and slip of each slave node; all ranks take part."""

@@ -24,13 +24,13 @@ class Where:
     Attributes:
         comm: Communicator of the matrix.
         size: Number of rows of this rank.
-        first: What this rank's multipliers, counted with its displacements, are shifted by.
+        multipliers: Place of this rank's first multiplier.
         nodes: Places of the displacements of all nodes, shape (num_nodes * gdim,).
     """
 
     comm: MPI.Comm
     size: int
-    first: int
+    multipliers: int
     nodes: Index
 
 
@@ -56,14 +56,14 @@ class Layout:
         """Places in a matrix of this rank alone: displacements of all nodes, then multipliers."""
         halo = self._halo
         n, own = halo.num_nodes * halo.gdim, halo.num_owned * halo.gdim
-        return Where(MPI.COMM_SELF, n + self._size - own, n - own, np.arange(n))
+        return Where(MPI.COMM_SELF, n + self._size - own, n, np.arange(n))
 
     def among_ranks(self) -> Where:
         """Places in a matrix of all ranks; all of them must take part."""
         halo, g = self._halo, self._halo.gdim
         own = self._start + g * np.arange(halo.num_owned, dtype=np.int64)
         nodes = (halo.extend(own)[:, None] + np.arange(g)).ravel()
-        return Where(halo.comm, self._size, self._start, nodes)
+        return Where(halo.comm, self._size, self._start + g * halo.num_owned, nodes)
 
     def embed(self, K: PETSc.Mat) -> PETSc.Mat:
         """The bulk's matrix with empty rows and columns for the multipliers."""

@@ -19,12 +19,14 @@ from contactx.bulk import Bulk
 from contactx.callback import keeps_its_error
 from contactx.convergence import Judge
 from contactx.cycling import CycleGuard
+from contactx.factor import set_factor
 from contactx.interface import Interface
 from contactx.junctions import Junctions
 from contactx.linear import Condensed, LinearSolver, SaddlePoint
 from contactx.options import is_condensed, newton_options
 from contactx.parallel.reduce import largest, total
 from contactx.report import Iteration, Report
+from contactx.skips import skips
 from contactx.system import SaddlePointSystem
 
 # Share of the closed nodes that may change their status or facet before the pairs are held
@@ -128,7 +130,7 @@ class NewtonLoop:
             np.divide(1, stiffness, out=compliance, where=stiffness > 0)
             compliance = self._halo.extend(compliance)
             for interface in self._interfaces:
-                interface.set_factor(compliance)
+                set_factor(interface, compliance, self._halo.comm)
             self._holder.begin_step()
             self._guard.begin_step()
             self._changes = self._settle(first=True)
@@ -149,8 +151,9 @@ class NewtonLoop:
         report.unheld = self._holder.unheld
         report.closed_to_hold = self._holder.closed
         report.skipped = Counter({"bulk Jacobian assembly": self._bulk.skipped - skipped})
-        for part in (self._linear.skipped(), *(i.skipped() for i in self._interfaces)):
-            report.skipped.update(part)
+        report.skipped.update(self._linear.skipped())
+        for interface in self._interfaces:
+            report.skipped.update(skips(interface, self._halo.gdim, self._halo.comm))
 
     def begin(self) -> None:
         """Find what the first run would find at its start."""

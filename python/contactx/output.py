@@ -9,6 +9,7 @@ from pathlib import Path
 from types import TracebackType
 
 from contactx.contact import Contact
+from contactx.parallel.agreement import agreed
 from dolfinx import fem, io
 
 
@@ -20,6 +21,8 @@ class VTKOutput:
         with cx.VTKOutput("hertz.pvd", u, [contact]) as output:
             problem.solve()
             output.write(0.0)
+
+    On several ranks all of them call it, and each writes a file of its part.
     """
 
     def __init__(
@@ -33,22 +36,27 @@ class VTKOutput:
         """Open the file.
 
         Args:
-            path: File with the suffix ``.pvd``; the data go into files beside it.
+            path: File with the suffix ``.pvd``; the data go into files beside it. Its folder is
+                made.
             u: Displacement.
             contacts: Contacts of a ContactProblem.
             fields: Other functions of linear Lagrange spaces to write, such as stresses.
 
         Raises:
+            OSError: If the folder cannot be made.
             ValueError: If the suffix is another one.
         """
         path = Path(path)
         if path.suffix != ".pvd":
             raise ValueError(f"path ends in {path.suffix!r}: ParaView's collections end in .pvd")
-        path.parent.mkdir(parents=True, exist_ok=True)
+        self._comm = comm = u.function_space.mesh.comm
+        with agreed(comm):
+            if comm.rank == 0:
+                path.parent.mkdir(parents=True, exist_ok=True)
         self._u = u
         self._contacts = list(contacts)
         self._fields = list(fields)
-        self._file = io.VTKFile(u.function_space.mesh.comm, path, "w")
+        self._file = io.VTKFile(comm, path, "w")
 
     def __enter__(self) -> VTKOutput:
         """Use the output in a with statement."""
@@ -61,7 +69,11 @@ class VTKOutput:
         trace: TracebackType | None,
     ) -> None:
         """Close the file."""
-        self.close()
+        if error is None:
+            self.close()
+        else:
+            # Other ranks may not come by
+            self._file.close()
 
     def write(self, t: float) -> None:
         """Write the current results.
@@ -80,5 +92,10 @@ class VTKOutput:
         self._file.write_function(functions, t)
 
     def close(self) -> None:
-        """Close the file."""
-        self._file.close()
+        """Close the file.
+
+        Raises:
+            RuntimeError: If rank 0 cannot write the collection.
+        """
+        with agreed(self._comm):
+            self._file.close()

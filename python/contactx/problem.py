@@ -128,6 +128,10 @@ class ContactProblem:
         """
         self._newton.begin()
 
+    def refresh(self) -> None:
+        """Take over a displacement that was set at owned nodes; all ranks must take part."""
+        self._halo.refresh()
+
     def solve(self) -> fem.Function:
         """Solve for the current loads and Dirichlet values, starting from ``u``.
 

@@ -1,6 +1,12 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""What a contact takes from one step to the next: copied, and put back."""
+"""What a contact takes from one step to the next: copied, and put back.
+
+Each rank has arrays of its own, and of each it is known what its rows stand for, so that they can
+be brought to other ranks (``rows``): an owned slave node, an owned node of the bulk, or nothing
+where an array is the same on all ranks. Behind those of owned nodes there may be rows of others,
+which do not count. No number in them is a local one.
+"""
 
 from __future__ import annotations
 
@@ -11,9 +17,26 @@ import numpy as np
 import numpy.typing as npt
 
 from contactx.interface import Interface
+from contactx.master.master import RowKind
 
-# State of the slave nodes that outlives a step
-_NODAL = ("multiplier", "status", "gap", "normal", "slip", "immobile", "mobile")
+# State of the slave nodes that outlives a step, and what laws of vectors have as well
+_NODAL = ("multiplier", "status", "gap", "immobile")
+_VECTORS = ("normal", "slip", "mobile")
+
+
+def rows(interface: Interface) -> dict[str, RowKind]:
+    """What the rows of arrays stand for that ``save`` may give.
+
+    Args:
+        interface: Discrete side of the contact.
+
+    Returns:
+        Kinds by the names of the arrays.
+    """
+    history = () if interface.history is None else vars(interface.history)
+    nodal = (*_nodal(interface), *(f"history_{name}" for name in history))
+    kinds: dict[str, RowKind] = {"active": "global", **dict.fromkeys(nodal, "slave")}
+    return kinds | {f"master_{name}": kind for name, kind in interface.master.saved_rows.items()}
 
 
 def save(interface: Interface) -> dict[str, npt.NDArray[Any]]:
@@ -23,32 +46,43 @@ def save(interface: Interface) -> dict[str, npt.NDArray[Any]]:
         interface: Discrete side of the contact.
 
     Returns:
-        Arrays by their names, with shapes and types that never change.
+        Arrays of this rank by their names, with shapes and types that never change.
     """
+    nodes = interface.nodes
     history = {} if interface.history is None else vars(interface.history)
+    n = len(nodes.status)
+    shapes = {"multiplier": (n, nodes.size)}
+    nodal = {name: getattr(nodes, name).copy() for name in _nodal(interface)}
     return {
         "active": np.array(interface.active),
-        **{name: getattr(interface.nodes, name).copy() for name in _NODAL},
+        **{name: a.reshape(shapes.get(name, a.shape)) for name, a in nodal.items()},
         **{f"history_{name}": values.copy() for name, values in history.items()},
         **{f"master_{name}": values for name, values in interface.master.save().items()},
     }
 
 
 def load(interface: Interface, saved: Mapping[str, npt.NDArray[Any]]) -> None:
-    """Go on from what ``save`` gave for the same contact.
+    """Go on from what ``save`` gave for the same contact; all ranks must take part.
 
     Args:
         interface: Discrete side of the contact.
-        saved: Arrays by their names, of the same shapes and types.
+        saved: Arrays of this rank by their names, of the same shapes and types.
 
     Raises:
         ValueError: If a pair is with a facet that does not exist; nothing has changed.
     """
-    interface.master.load({name.removeprefix("master_"): saved[name] for name in saved})
+    nodes = interface.nodes
+    master = {n.removeprefix("master_"): a for n, a in saved.items() if n.startswith("master_")}
+    interface.master.load(master)
     interface.active = bool(saved["active"])
-    for name in _NODAL:
-        getattr(interface.nodes, name)[:] = saved[name]
+    for name in _nodal(interface):
+        values = getattr(nodes, name)
+        values[:] = saved[name].reshape(values.shape)
     if interface.history is not None:
         for name in vars(interface.history):
             setattr(interface.history, name, saved[f"history_{name}"].copy())
     interface.begin_anew()
+
+
+def _nodal(interface: Interface) -> tuple[str, ...]:
+    return (*_NODAL, *_VECTORS) if interface.law.is_vector else _NODAL

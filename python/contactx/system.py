@@ -16,16 +16,15 @@ import numpy as np
 import numpy.typing as npt
 
 from contactx.bulk import Bulk
+from contactx.contact_matrix import add_contacts, new_matrix
 from contactx.forms import ContactForms
 from contactx.interface import Interface
-from contactx.layout import Layout, Where
+from contactx.layout import Layout
 from contactx.parallel.halo import Halo
 from contactx.parallel.reduce import everywhere, largest
-from dolfinx import cpp, fem
 
 # Relative difference from a Dirichlet value that has no share in the other rows
 _ROUNDING = 1e-15
-_NONE = np.array([], dtype=np.int8)
 
 
 class SaddlePointSystem:
@@ -69,7 +68,7 @@ class SaddlePointSystem:
     @property
     def num_local(self) -> int:
         """Number of displacements of all nodes that this rank has."""
-        return self.halo.num_nodes * self.block
+        return int(self.halo.num_nodes * self.block)
 
     def renew(self) -> None:
         """Make new vectors: an error inside PETSc leaves the old ones locked."""
@@ -144,8 +143,9 @@ class SaddlePointSystem:
     ) -> None:
         """Take Dirichlet values that the displacement does not have yet to the other rows."""
         force += self._bulk.lifted()
-        A = self._new_matrix(self._layout.alone())
-        self._assemble_contact(A, None, np.zeros(self.num_local, dtype=np.int8))
+        A = new_matrix(self._layout.alone(), self.interfaces)
+        unmarked = np.zeros(self.num_local, dtype=np.int8)
+        add_contacts(A, self.interfaces, self.halo, None, unmarked)
         v, y = A.createVecs()
         v.array[: self.num_local] = self._to_all(defect)
         A.mult(v, y)
@@ -211,9 +211,9 @@ class SaddlePointSystem:
             rows = slice(self._offsets[k], self._offsets[k + 1])
             known = np.ones(1) if b is None else b.array_r[rows].reshape(-1, interface.nodes.size)
             which.append(interface.nodes.closed | (known != 0).any(axis=-1))
-        A = self._new_matrix(self._layout.alone())
+        A = new_matrix(self._layout.alone(), self.interfaces)
         A.setOption(PETSc.Mat.Option.IGNORE_ZERO_ENTRIES, True)
-        self._assemble_contact(A, which, self._markers())
+        add_contacts(A, self.interfaces, self.halo, which, self._markers())
         return A
 
     def multiply_contact(self, entries: PETSc.Mat, x: PETSc.Vec, y: PETSc.Vec) -> None:
@@ -235,86 +235,13 @@ class SaddlePointSystem:
     def assemble_contact(self) -> PETSc.Mat:
         """Assemble the contacts' part of the Jacobian, in all unknowns."""
         if self._contact is None or not self.fits():
-            self._contact = self._new_matrix(self._layout.among_ranks())
+            self._contact = new_matrix(self._layout.among_ranks(), self.interfaces)
             self._contact_pairs = [list(interface.forms) for interface in self.interfaces]
         self._contact.zeroEntries()
-        self._assemble_contact(self._contact, None, self._markers())
+        add_contacts(self._contact, self.interfaces, self.halo, None, self._markers())
         return self._contact
 
     def _markers(self) -> npt.NDArray[np.int8]:
         """1 at prescribed displacements of all nodes, shape (num_local,)."""
         markers = self._bulk.markers.reshape(-1, self.block)
         return self.halo.extend(markers).ravel().astype(np.int8)
-
-    def _new_matrix(self, where: Where) -> PETSc.Mat:
-        size = (where.size, None)
-        A = PETSc.Mat().createAIJ((size, size), comm=where.comm)
-        A.setUp()
-        slaves = [
-            where.first + first + np.arange(last - first)
-            for first, last in zip(self._offsets[1:], self._offsets[2:], strict=False)
-        ]
-        # What is assembled for slave nodes of other ranks is theirs
-        others = [i.num_others * i.nodes.size for i in self.interfaces]
-        slaves = [np.append(s, np.full(k, -1)) for s, k in zip(slaves, others, strict=True)]
-        rows = np.concatenate([where.nodes, *slaves]).astype(PETSc.IntType)
-        local = PETSc.LGMap().create(rows, 1, comm=where.comm)
-        A.setLGMap(local, local)
-        return A
-
-    def _assemble_contact(
-        self,
-        A: PETSc.Mat,
-        which: Sequence[npt.NDArray[np.bool_]] | None,
-        markers: npt.NDArray[np.int8],
-    ) -> None:
-        serial = PETSc.COMM_SELF
-        # PETSc takes blocks of places for places where the map has none
-        bulk = PETSc.IS().createStride(self.num_local, comm=serial)
-        first = self.num_local
-        for k, interface in enumerate(self.interfaces):
-            size, n = interface.nodes.size, len(interface.slaves)
-            every = (n + interface.num_others) * size
-            slave = PETSc.IS().createStride(every, first, 1, comm=serial)
-            some = np.ones(n, dtype=bool) if which is None else which[k]
-            for form in interface.forms:
-                stiffness, traction, constraint = form.blocks(some)
-                if stiffness is not None:
-                    _assemble(A, stiffness, (bulk, bulk), (markers, markers))
-                if traction is not None:
-                    _assemble(A, traction, (bulk, slave), (markers, _NONE))
-                if constraint is not None:
-                    _assemble(A, constraint, (slave, bulk), (_NONE, markers))
-            rows = first + np.arange(n * size, dtype=PETSc.IntType)
-            A.setValuesLocalIJV(
-                np.arange(0, size * len(rows) + 1, size, dtype=PETSc.IntType),
-                np.repeat(rows.reshape(-1, size), size, axis=0).ravel(),
-                interface.nodes.by_multiplier.ravel(),
-                addv=PETSc.InsertMode.ADD,
-                rowmap=rows,
-            )
-            first += every
-        A.assemble()
-
-
-def _assemble(
-    A: PETSc.Mat,
-    form: fem.Form,
-    index_sets: tuple[PETSc.IS, PETSc.IS],
-    markers: tuple[npt.NDArray[np.int8], npt.NDArray[np.int8]],
-) -> None:
-    """Add a contact form to a block of the matrix.
-
-    DOLFINx finds no Dirichlet conditions for a borrowed space: rows and columns to leave out are
-    passed as markers.
-    """
-    block = A.getLocalSubMatrix(*index_sets)
-    cpp.fem.petsc.assemble_matrix(
-        block,
-        form._cpp_object,
-        fem.pack_constants(form),
-        fem.pack_coefficients(form),
-        *markers,
-        True,
-    )
-    A.restoreLocalSubMatrix(*index_sets, block)

@@ -227,8 +227,8 @@ def test_files_of_other_kinds(file, tmp_path):
     refused(other, "holds arrays, but is no checkpoint of contactx")
     np.savez(other, u=np.array([{}]), allow_pickle=True)
     refused(other, "is damaged, or no checkpoint at all: Object arrays cannot be loaded")
-    np.savez(other, contactx_checkpoint=np.array(2))
-    refused(other, "has format 2, but this contactx reads 1")
+    np.savez(other, contactx_checkpoint=np.array(1))
+    refused(other, "has format 1, but this contactx reads 2")
     other.write_text("step,t\n1,0.5\n")
     refused(other, "is truncated, or no checkpoint at all")
 
@@ -275,7 +275,7 @@ def test_pairs_that_cannot_be(tmp_path):
     run(SlidingBlocks(CellType.triangle), until=2, checkpoint=file)
     scene = SlidingBlocks(CellType.triangle)
     with pytest.raises(ValueError, match="a pair with a facet that does not exist"):
-        run(scene, restart=changed(file, master_facet=99))
+        run(scene, restart=changed(file, master_facet_nodes=99))
     assert not scene.u.x.array.any()
 
 

@@ -45,7 +45,7 @@ def check_over_constrained(
             raise ValueError(
                 f"contact {k} ({names[k]}) is over-constrained: Dirichlet conditions hold "
                 f"{count} slave nodes inside the rigid obstacle, first node {first} of the mesh as "
-                f"it was made, at {at} in the mesh. Take these nodes out of the slave surface, release them "
+                f"it was made, at {at}. Take these nodes out of the slave surface, release them "
                 "along the obstacle's normal or prescribe values outside of it"
             )
 

@@ -102,16 +102,6 @@ class Nodes:
         pressure: Array = np.einsum("ij,ij->i", self.normal, self.multiplier.reshape(-1, self.size))
         return pressure
 
-    def set_factor(self, compliance: Array, usual: float) -> None:
-        """Set the factor c: one over the area and the compliance.
-
-        Args:
-            compliance: Compliance of each pair, length/force, zero where nothing can move.
-            usual: What stands for it there, times an area.
-        """
-        total = compliance * self.area
-        self.c[:] = 1 / np.where(total > 0, total, usual)
-
     def closing(self, tie: float = -1.0) -> npt.NDArray[np.bool_]:
         """Which nodes the complementarity closes: p - c g > 0, or a gap of at most a tie.
 

@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from contactx import cpp as core
 from contactx.forms import Pairs
-from contactx.master.master import Array, Master, Weights, touching
+from contactx.master.master import Array, Master, RowKind, Weights, touching
 from contactx.master.reach import default_reach
 from contactx.parallel.halo import Halo
 from contactx.parallel.slaves import SlaveNodes
@@ -29,6 +29,12 @@ class FacetMaster(Master):
     Attributes:
         surface: The facets.
     """
+
+    saved_rows: Mapping[str, RowKind] = {
+        **dict.fromkeys(("facet_nodes", *_SAVED, "start"), "slave"),
+        "before": "node",
+        "at": "node",
+    }
 
     def __init__(
         self,

@@ -7,12 +7,16 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import numpy.typing as npt
 
 from contactx.forms import Pairs
+
+# What the rows of a saved array stand for: an owned slave node, an owned node of the bulk, or
+# nothing where the array is the same on all ranks
+type RowKind = Literal["slave", "node", "global"]
 
 type Array = npt.NDArray[np.float64]
 
@@ -44,10 +48,12 @@ class Master(ABC):
     Attributes:
         reach: Largest distance of a pair.
         is_rigid: Whether the master has no degrees of freedom.
+        saved_rows: What the rows of each array stand for that ``save`` gives, by its name.
     """
 
     reach: float
     is_rigid = False
+    saved_rows: Mapping[str, RowKind]
 
     @abstractmethod
     def accept(self, x: npt.NDArray[np.float64]) -> None:
@@ -176,13 +182,20 @@ class Master(ABC):
 
     @abstractmethod
     def identity(self) -> dict[str, npt.NDArray[Any]]:
-        """Arrays that tell this master from another one to which ``save`` would not fit."""
+        """Whole numbers that tell this master from another to which ``save`` would not fit.
+
+        Returns:
+            Arrays by their names, each row on one rank alone, such as facets by the numbers of
+            their nodes in the mesh as it was made. Their order has no meaning.
+        """
 
     @abstractmethod
     def save(self) -> dict[str, npt.NDArray[Any]]:
         """What the next search remembers, in arrays of shapes that never change.
 
-        Nothing writes to them: what changes is put into new ones.
+        Nothing writes to them: what changes is put into new ones. Where a rank has no row of an
+        array, it has one of no rows. Facets are saved by their nodes' numbers in the mesh as it
+        was made, -1 where there is none, not by a number of their own.
         """
 
     @abstractmethod

@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 from contactx import cpp as core
 from contactx.forms import Pairs
-from contactx.master.master import Master, Weights
+from contactx.master.master import Master, RowKind, Weights
 from contactx.master.mortar_pairs import Array, Mortar, Sides, unit
 from contactx.master.mortar_slip import MortarSlip
 from contactx.master.reach import default_reach
@@ -41,6 +41,8 @@ class MortarMaster(Master):
     Attributes:
         surface: The master's facets.
     """
+
+    saved_rows: Mapping[str, RowKind] = {"paired": "slave", "before": "node"}
 
     def __init__(
         self,
@@ -268,8 +270,9 @@ class MortarMaster(Master):
         size = np.abs(weights.values[of_master])
         total = np.bincount(slaves, size, n)
         mean = np.bincount(slaves, size * nodal[weights.nodes[of_master]], n)
-        result = np.full(n, self.surface.mean(nodal))
-        return np.divide(mean, total, out=result, where=total > 0)
+        result: Array = np.full(n, self.surface.mean(nodal))
+        np.divide(mean, total, out=result, where=total > 0)
+        return result
 
     def mobility(self, free: npt.NDArray[np.bool_]) -> tuple[Array, Array]:
         """See ``Master``; on a plane of symmetry nothing moves across it.

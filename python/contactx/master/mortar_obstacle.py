@@ -14,6 +14,7 @@ import numpy.typing as npt
 import basix
 from contactx import cpp as core
 from contactx.forms import Pairs
+from contactx.master.master import RowKind
 from contactx.master.obstacle import ObstacleMaster
 from contactx.obstacles import Obstacle
 from contactx.parallel.halo import Halo
@@ -84,6 +85,8 @@ class MortarObstacle(ObstacleMaster):
     of a slave node acts on itself alone, along its mean normal. Slip, and which nodes are in reach,
     are those of the nodes.
     """
+
+    saved_rows: Mapping[str, RowKind] = {**ObstacleMaster.saved_rows, "positions": "node"}
 
     def __init__(
         self,

@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from contactx import cpp as core
 from contactx.forms import Pairs
-from contactx.master.master import Master, Weights, touching
+from contactx.master.master import Master, RowKind, Weights, touching
 from contactx.obstacles import Geometry, Obstacle
 from contactx.obstacles.obstacle import Placement
 
@@ -22,12 +22,17 @@ _SLIP = core.rigid_slip_layout
 # What is saved of pairs, and of slip
 _PAIRS = ("paired", "data", "at")
 _SLIPS = ("slip_data", "start", "x0", "gap0")
+_PLACED = ("point", "direction")
 
 
 class ObstacleMaster(Master):
     """Pairs with a rigid obstacle: slave nodes alone."""
 
     is_rigid = True
+    saved_rows: Mapping[str, RowKind] = {
+        **dict.fromkeys((*_PAIRS, *_SLIPS), "slave"),
+        **dict.fromkeys(_PLACED, "global"),
+    }
 
     def __init__(
         self,

@@ -11,6 +11,7 @@ from types import ModuleType
 from mpi4py import MPI
 
 from contactx.meshes.gmsh_session import gmsh_session
+from contactx.parallel.agreement import agreed
 from dolfinx.io.gmsh import MeshData, model_to_mesh
 
 MODEL_RANK = 0
@@ -36,22 +37,13 @@ def build_mesh(
         The mesh with its cell tags and facet tags.
 
     Raises:
-        RuntimeError: On the other ranks, if the recipe failed on rank 0.
+        Exception: What the recipe raised on rank 0, on all ranks.
     """
     with ExitStack() as stack:
         gmsh: ModuleType | None = None
-        error: Exception | None = None
-        if comm.rank == MODEL_RANK:
-            try:
+        with agreed(comm):
+            if comm.rank == MODEL_RANK:
                 gmsh = stack.enter_context(gmsh_session(name, options))
                 recipe(gmsh)
-            except Exception as caught:
-                error = caught
-        # Every rank has to hear of the failure, or it would wait for a mesh for ever.
-        message = comm.bcast(None if error is None else str(error), root=MODEL_RANK)
-        if error is not None:
-            raise error
-        if message is not None:
-            raise RuntimeError(f"gmsh failed on rank {MODEL_RANK}: {message}")
         model = None if gmsh is None else gmsh.model
         return model_to_mesh(model, comm, MODEL_RANK, gdim=dim)

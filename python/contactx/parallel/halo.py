@@ -64,7 +64,7 @@ class Halo:
         self.exchange = Exchange(self.comm, self.traffic)
         self.version = 0
         self._followers: list[Callable[[], None]] = []
-        self._bulk_original = _original(V, self.num_bulk)
+        self._bulk_original = original_nodes(V)
         self._reference = X
         # Global numbers and owners of the halo, and how many of them stay for good
         self._ghosts = np.zeros(0, dtype=np.int64)
@@ -252,11 +252,18 @@ class Halo:
         self.traffic.add("halo", len(np.unique(owners)), size)
 
 
-def _original(V: fem.FunctionSpace, num_nodes: int) -> npt.NDArray[np.int64]:
-    """Number of each node in the mesh as it was made, shape (num_nodes,)."""
+def original_nodes(V: fem.FunctionSpace) -> npt.NDArray[np.int64]:
+    """Number of each node in the mesh as it was made; of owned nodes first, then of ghosts.
+
+    Args:
+        V: Linear Lagrange space.
+
+    Returns:
+        Numbers, the same on any number of ranks, shape (num_nodes,).
+    """
     geometry = V.mesh.geometry
-    dofs = V.dofmap.list
-    original = np.full(num_nodes, -1, dtype=np.int64)
+    dofs, index_map = V.dofmap.list, V.dofmap.index_map
+    original = np.full(index_map.size_local + index_map.num_ghosts, -1, dtype=np.int64)
     # Vertices come first in the geometry of a cell
     vertices = geometry.dofmaps[0][:, : dofs.shape[1]]
     original[dofs.ravel()] = geometry.input_global_indices[vertices.ravel()]

@@ -4,14 +4,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from itertools import cycle
 from pathlib import Path
 from typing import Any
 
+from mpi4py import MPI
+
 import numpy as np
 import numpy.typing as npt
 
+from contactx.parallel.agreement import agreed
 from contactx.plot.style import COLOURS, DOTS_PER_INCH, INK, import_plotter
 
 Curve = tuple[npt.ArrayLike, npt.ArrayLike]
@@ -29,6 +32,7 @@ def curves(
     joined: bool = False,
     marks: Mapping[str, tuple[float, float]] | None = None,
     close_up: tuple[float, float] | None = None,
+    comm: MPI.Comm | None = None,
 ) -> None:
     """Draw computed values as points against closed curves.
 
@@ -41,17 +45,49 @@ def curves(
         joined: Whether the points of a curve follow each other, and lines join them.
         marks: Single points to draw as stars, by their names.
         close_up: Lowest and highest position of a close-up beside the picture; none if None.
+        comm: Ranks that each have a part of all computed curves, one after the other: all of them
+            must call, rank 0 draws, and what goes wrong there is raised on all. None: what is given
+            is drawn, wherever it is called.
 
     Raises:
         ImportError: If matplotlib is not installed.
     """
+    options = (path, labels, title, joined, marks or {}, close_up)
+    if comm is None:
+        _draw_page(computed, exact, *options)
+        return
+    parts = comm.gather(dict(computed))
+    with agreed(comm):
+        if parts is not None:
+            whole = {name: _whole([part[name] for part in parts]) for name in computed}
+            _draw_page(whole, exact, *options)
+
+
+def _whole(parts: Sequence[Curve]) -> Curve:
+    x, y = (
+        np.concatenate([np.atleast_1d(a) for a in arrays]) for arrays in zip(*parts, strict=True)
+    )
+    return x, y
+
+
+def _draw_page(
+    computed: Mapping[str, Curve],
+    exact: Mapping[str, Curve],
+    path: str | Path,
+    labels: tuple[str, str],
+    title: str,
+    joined: bool,
+    marks: Mapping[str, tuple[float, float]],
+    close_up: tuple[float, float] | None,
+) -> None:
+    """Draw whole curves; the arguments are those of ``curves``."""
     count = 1 if close_up is None else 2
     figure = import_plotter("matplotlib.figure").Figure(
         figsize=(7.2 * count, 4.6), layout="constrained"
     )
     axes = figure.subplots(1, count, squeeze=False)[0]
     for axis in axes:
-        _draw(axis, computed, exact, marks or {}, joined)
+        _draw(axis, computed, exact, marks, joined)
         axis.set_xlabel(labels[0])
         axis.grid(color="#e6e9ed", zorder=0)
         axis.spines[["top", "right"]].set_visible(False)
@@ -106,6 +142,7 @@ def pressure_curve(
     *,
     labels: tuple[str, str],
     title: str,
+    comm: MPI.Comm | None = None,
 ) -> None:
     """Draw computed pressures as points against a closed curve.
 
@@ -117,6 +154,7 @@ def pressure_curve(
         path: The image file; its suffix chooses the format.
         labels: Names and units of the two axes.
         title: Title of the picture.
+        comm: Ranks that each have a part of the computed pressures; see ``curves``.
 
     Raises:
         ImportError: If matplotlib is not installed.
@@ -127,4 +165,5 @@ def pressure_curve(
         path,
         labels=labels,
         title=title,
+        comm=comm,
     )

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from contactx.parallel.agreement import agreed
 from contactx.plot.page import compose
 from contactx.plot.surface import AXES, deformed_surface, mirrored, peak_body, sharp_edges
 from contactx.plot.view import View
@@ -97,8 +98,8 @@ def deformed_bodies(
 
     The overview shows all bodies. The close-up shows the same in a box, if one is given; else where
     the scalar is not zero: in 2D of all bodies, and only where that is a small part of them, in 3D
-    the surface of the body with the largest value, seen from where the other body was. Collective;
-    rank 0 draws.
+    the surface of the body with the largest value, seen from where the other body was. Collective:
+    rank 0 draws, and all ranks raise what goes wrong there.
 
     Args:
         u: Displacement, length, a Lagrange function with one component per direction.
@@ -130,19 +131,20 @@ def deformed_bodies(
     if element.degree != 1 or element.discontinuous or element.block_size != 1:
         raise ValueError(f"scalar is of {element}; interpolate it into a space of ('P', 1).")
     surface = deformed_surface(u, scalar, scale, stretch)
-    if surface is None:
-        return
-    if clim is None:
-        values = surface.point_data["scalar"]
-        low = min(0.0, float(values.min()))
-        clim = (low, max(float(values.max()), low + 1e-12))
-    flat = u.function_space.mesh.geometry.dim == 2
-    images = _draw(surface, tuple(mirror), camera, clim, flat, box)
-    compose(
-        images,
-        path,
-        title=title,
-        label=scalar.name if label is None else label,
-        clim=clim,
-        note=_note(scale, stretch),
-    )
+    with agreed(u.function_space.mesh.comm):
+        if surface is None:
+            return
+        if clim is None:
+            values = surface.point_data["scalar"]
+            low = min(0.0, float(values.min()))
+            clim = (low, max(float(values.max()), low + 1e-12))
+        flat = u.function_space.mesh.geometry.dim == 2
+        images = _draw(surface, tuple(mirror), camera, clim, flat, box)
+        compose(
+            images,
+            path,
+            title=title,
+            label=scalar.name if label is None else label,
+            clim=clim,
+            note=_note(scale, stretch),
+        )

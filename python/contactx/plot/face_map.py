@@ -8,9 +8,12 @@ from collections.abc import Mapping
 from pathlib import Path
 from types import MappingProxyType
 
+from mpi4py import MPI
+
 import numpy as np
 import numpy.typing as npt
 
+from contactx.parallel.agreement import agreed
 from contactx.plot.style import DOTS_PER_INCH, INK, colour_map, import_plotter
 
 _KINDS = ("#c7ccd3", "#2b6cb0", "#d1372c", "#5e0d2a")
@@ -27,6 +30,7 @@ def nodal_map(
     label: str = "",
     triangles: npt.NDArray[np.integer] | None = None,
     kinds: Mapping[int, str] | None = None,
+    comm: MPI.Comm | None = None,
 ) -> None:
     """Draw nodal values of a flat face: interpolated, or as points where they are kinds.
 
@@ -40,6 +44,9 @@ def nodal_map(
         triangles: Nodes of triangles that make up the face, shape (m, 3), to interpolate on.
         kinds: Names of values that are whole numbers, such as ``STATUS_NAMES``; None for values of
             a continuous quantity.
+        comm: Ranks that each have a part of the nodes, and triangles of these: all of them must
+            call, rank 0 draws, and what goes wrong there is raised on all. None: what is given is
+            drawn, wherever it is called.
 
     Raises:
         ImportError: If matplotlib is not installed.
@@ -47,6 +54,30 @@ def nodal_map(
     """
     if kinds is None and triangles is None:
         raise ValueError("triangles and kinds are None; give triangles to interpolate values on.")
+    if comm is None:
+        _draw(places, values, path, labels, title, label, triangles, kinds)
+        return
+    parts = comm.gather((places, values, triangles))
+    with agreed(comm):
+        if parts is not None:
+            first = np.cumsum([0, *(len(part[1]) for part in parts[:-1])])
+            places, values = (np.concatenate([part[k] for part in parts]) for k in range(2))
+            if triangles is not None:
+                triangles = np.concatenate([p[2] + n for p, n in zip(parts, first, strict=True)])
+            _draw(places, values, path, labels, title, label, triangles, kinds)
+
+
+def _draw(
+    places: npt.NDArray[np.float64],
+    values: npt.NDArray[np.float64],
+    path: str | Path,
+    labels: tuple[str, str],
+    title: str,
+    label: str,
+    triangles: npt.NDArray[np.integer] | None,
+    kinds: Mapping[int, str] | None,
+) -> None:
+    """Draw a whole face; the arguments are those of ``nodal_map``."""
     figure = import_plotter("matplotlib.figure").Figure(figsize=(9.0, 4.8), layout="constrained")
     axis = figure.subplots()
     if kinds is None:

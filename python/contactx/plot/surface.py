@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from contactx.parallel.agreement import agreed
 from contactx.plot.style import import_plotter
 from dolfinx import fem
 from dolfinx.plot import vtk_mesh
@@ -37,6 +38,9 @@ def deformed_surface(
     Returns:
         On rank 0 a pyvista surface with the point data "scalar" and "reference", the position
         before the deformation; None on the other ranks.
+
+    Raises:
+        ImportError: If rank 0 has no pyvista; on all ranks.
     """
     space = scalar.function_space
     cells, types, reference = _vtk_mesh(space)
@@ -47,14 +51,22 @@ def deformed_surface(
         deformed[:, i] += scale * component.x.array.real
     # Global numbers join the ranks' parts, and never two bodies that only touch.
     numbers = space.dofmap.index_map
-    local = cells.reshape(len(types), -1)[:, 1:].astype(np.int32)
+    width = space.dofmap.dof_layout.num_dofs
+    local = cells.reshape(len(types), 1 + width)[:, 1:].astype(np.int32)
     connected = numbers.local_to_global(local.ravel()).reshape(local.shape)
     owned = slice(0, numbers.size_local)
     values = scalar.x.array.real
     part = (connected, types, deformed[owned], reference[owned], values[owned].copy())
     parts = space.mesh.comm.gather(part, root=0)
-    if parts is None:
-        return None
+    surface = None
+    with agreed(space.mesh.comm):
+        if parts is not None:
+            surface = _joined(parts, stretch)
+    return surface
+
+
+def _joined(parts: Sequence[Sequence[npt.NDArray[Any]]], stretch: Sequence[float]) -> Any:
+    """Make a pyvista surface of the ranks' cells, their types, points and values."""
     connected, types, deformed, reference, values = (
         np.concatenate(arrays) for arrays in zip(*parts, strict=True)
     )

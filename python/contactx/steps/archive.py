@@ -15,7 +15,7 @@ import numpy.typing as npt
 
 # Says what the file is, and the version of its format
 _MARK = "contactx_checkpoint"
-_VERSION = 1
+_VERSION = 2
 
 
 def write(path: Path, arrays: Mapping[str, npt.NDArray[Any]]) -> None:

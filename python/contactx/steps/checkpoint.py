@@ -1,123 +1,131 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""State of a problem as named arrays, and back."""
+"""State of a problem as named arrays, and back, on any number of ranks."""
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Mapping, Sequence
 from typing import Any
+
+from mpi4py import MPI
 
 import numpy as np
 import numpy.typing as npt
 
 from contactx import saving
 from contactx.interface import Interface
+from contactx.master.master import RowKind
+from contactx.parallel.agreement import agreed
+from contactx.parallel.halo import original_nodes
 from contactx.problem import ContactProblem
+from contactx.steps.fitting import check_fit
+from contactx.steps.function_rows import FunctionRows, cell_nodes
+from contactx.steps.rows import Rows
 from contactx.steps.snapshot import Snapshot
 from dolfinx import fem
 
 type Arrays = dict[str, npt.NDArray[Any]]
 
 
-def save(problem: ContactProblem, history: Sequence[fem.Function]) -> Arrays:
-    """Copy all that the next step's answer depends on.
+class Checkpoint:
+    """Brings the state of a problem to rank 0, in an order of the mesh as it was made, and back."""
 
-    Args:
-        problem: The problem.
-        history: Functions that belong to its state.
+    def __init__(self, problem: ContactProblem, history: Sequence[fem.Function]):
+        """Find the order; all ranks must take part.
 
-    Returns:
-        Arrays by their names.
-    """
-    arrays = {**_identity(problem), "u": problem.u.x.array.copy()}
-    for k, contact in enumerate(problem.contacts):
-        arrays |= {f"contact {k}: {name}": a for name, a in saving.save(contact.interface).items()}
-    return arrays | {f"history {k}": f.x.array.copy() for k, f in enumerate(history)}
+        Args:
+            problem: The problem.
+            history: Functions that belong to its state.
 
+        Raises:
+            ValueError: If such a function is of a space that several ranks cannot save.
+        """
+        V = problem.u.function_space
+        self._problem = problem
+        self._history = list(history)
+        self._comm: MPI.Comm = V.mesh.comm
+        self._owned: int = V.dofmap.index_map.size_local
+        self._u = FunctionRows(problem.u, "u")
+        self._functions = [FunctionRows(f, f"history[{k}]") for k, f in enumerate(history)]
+        self._interfaces: list[Interface] = [c.interface for c in problem.contacts]
+        original = original_nodes(V)
+        self._slaves = [Rows(self._comm, original[i.slaves][:, None]) for i in self._interfaces]
+        self._cells = Rows(self._comm, cell_nodes(V)).digest
 
-def load(
-    saved: Mapping[str, npt.NDArray[Any]], problem: ContactProblem, history: Sequence[fem.Function]
-) -> None:
-    """Go on from what ``save`` gave for the same problem, be it another object.
+    def save(self) -> Arrays:
+        """Copy all that the next step's answer depends on; all ranks must take part.
 
-    Args:
-        saved: Arrays by their names.
-        problem: The problem.
-        history: Functions that belong to its state.
+        Returns:
+            Arrays of all ranks by their names; none but on rank 0.
+        """
+        arrays = self._identity() | {"u": self._u.gather()}
+        for k, interface in enumerate(self._interfaces):
+            kinds = saving.rows(interface)
+            for name, values in saving.save(interface).items():
+                arrays[f"contact {k}: {name}"] = self._gather(kinds[name], k, values)
+        arrays |= {f"history {k}": f.gather() for k, f in enumerate(self._functions)}
+        return {n: a for n, a in arrays.items() if a is not None and self._comm.rank == 0}
 
-    Raises:
-        ValueError: If they are of another problem or not finite; nothing has changed.
-    """
-    _check(saved, save(problem, history), problem)
-    before = Snapshot(problem, history)
-    try:
-        problem.u.x.array[:] = saved["u"]
-        for k, function in enumerate(history):
-            function.x.array[:] = saved[f"history {k}"]
-        for k, contact in enumerate(problem.contacts):
-            start = f"contact {k}: "
-            saving.load(
-                contact.interface,
-                {n.removeprefix(start): a for n, a in saved.items() if n.startswith(start)},
-            )
-            contact.fields.update()
-    except BaseException:
-        before.restore()
-        raise
+    def load(self, saved: Mapping[str, npt.NDArray[Any]]) -> None:
+        """Go on from what ``save`` gave for the same problem, be it another object.
 
+        All ranks must take part.
 
-def _identity(problem: ContactProblem) -> Arrays:
-    """Arrays that tell a problem from others to which its state would not fit."""
-    V = problem.u.function_space
-    digest = hashlib.sha256(np.ascontiguousarray(V.dofmap.list).tobytes()).digest()
-    arrays = {
-        "mesh: coordinates": V.tabulate_dof_coordinates(),
-        "mesh: cells": np.frombuffer(digest, dtype=np.uint8),
-    }
-    for k, contact in enumerate(problem.contacts):
-        arrays |= {f"surface {k}: {n}": a for n, a in _surfaces(contact.interface).items()}
-    return arrays
+        Args:
+            saved: Arrays of all ranks by their names; only those of rank 0 count.
 
+        Raises:
+            ValueError: If they are of another problem or not finite; nothing has changed.
+        """
+        present = self.save()
+        with agreed(self._comm):
+            if self._comm.rank == 0:
+                check_fit(saved, present)
+        before = Snapshot(self._problem, self._history)
+        try:
+            self._u.scatter(saved.get("u"))
+            self._problem.refresh()
+            for k, function in enumerate(self._functions):
+                function.scatter(saved.get(f"history {k}"))
+            for k, interface in enumerate(self._interfaces):
+                kinds = saving.rows(interface)
+                mine = {
+                    name: self._scatter(kinds[name], k, saved.get(f"contact {k}: {name}"))
+                    for name in saving.save(interface)
+                }
+                saving.load(interface, mine)
+                self._problem.contacts[k].fields.update()
+        except BaseException:
+            before.restore()
+            raise
 
-def _surfaces(interface: Interface) -> Arrays:
-    master = {f"master {name}": a for name, a in interface.master.identity().items()}
-    return {"slaves": interface.slaves, "sliding": np.array(interface.sliding), **master}
+    def _identity(self) -> dict[str, npt.NDArray[Any] | None]:
+        """Arrays that tell a problem from others to which its state would not fit."""
+        V = self._problem.u.function_space
+        x = V.tabulate_dof_coordinates()[: self._owned]
+        arrays = {"mesh: coordinates": self._u.rows.gather(x), "mesh: cells": self._cells}
+        arrays |= {f"history {k}: rows": f.rows.digest for k, f in enumerate(self._functions)}
+        for k, interface in enumerate(self._interfaces):
+            arrays[f"surface {k}: slaves"] = self._slaves[k].digest
+            arrays[f"surface {k}: sliding"] = np.array(interface.sliding)
+            for name, numbers in interface.master.identity().items():
+                arrays[f"surface {k}: master {name}"] = Rows(self._comm, numbers).digest
+        return arrays
 
+    def _gather(
+        self, kind: RowKind, contact: int, values: npt.NDArray[Any]
+    ) -> npt.NDArray[Any] | None:
+        if kind == "global":
+            return values
+        if kind == "slave":
+            return self._slaves[contact].gather(values)
+        return self._u.rows.gather(values[: self._owned])
 
-def _check(
-    saved: Mapping[str, npt.NDArray[Any]],
-    present: Mapping[str, npt.NDArray[Any]],
-    problem: ContactProblem,
-) -> None:
-    """Check that saved arrays are those of a problem."""
-    for kind, what in (("contact", "contacts"), ("history", "functions of history")):
-        there, here = (
-            len({name.split(":")[0] for name in arrays if name.startswith(f"{kind} ")})
-            for arrays in (saved, present)
-        )
-        if there != here:
-            raise ValueError(f"it holds {there} {what}, but there are {here} here")
-    for name in sorted(saved.keys() ^ present.keys()):
-        side = "only in the file" if name in saved else "missing in the file"
-        raise ValueError(f"{name!r} is {side}: were the options of the contacts others?")
-    for name, array in present.items():
-        other = saved[name]
-        if other.shape != array.shape or other.dtype.kind != array.dtype.kind:
-            raise ValueError(
-                f"{name!r} is {other.dtype} of shape {other.shape} in the file, but {array.dtype} "
-                f"of shape {array.shape} here: is it of another mesh or other surfaces?"
-            )
-    for name, array in _identity(problem).items():
-        if name == "mesh: coordinates":
-            # Another machine may round them in another way
-            same = np.allclose(saved[name], array, rtol=0, atol=1e-12 * np.ptp(array))
-        else:
-            same = np.array_equal(saved[name], array)
-        if not same:
-            raise ValueError(f"{name!r} is another one here: restart the same problem")
-    for name, array in saved.items():
-        if name == "u" or name.endswith(": multiplier"):
-            bad = np.count_nonzero(~np.isfinite(array))
-            if bad:
-                raise ValueError(f"{name!r} is not finite at {bad} dofs")
+    def _scatter(
+        self, kind: RowKind, contact: int, values: npt.NDArray[Any] | None
+    ) -> npt.NDArray[Any]:
+        if kind == "global":
+            same: npt.NDArray[Any] = self._comm.bcast(values)
+            return same
+        rows = self._slaves[contact] if kind == "slave" else self._u.rows
+        return rows.scatter(values)

@@ -8,12 +8,17 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack
 from pathlib import Path
+from typing import Any
+
+from mpi4py import MPI
 
 import numpy as np
 
 from contactx.errors import ConvergenceError
+from contactx.parallel.agreement import agreed
 from contactx.problem import ContactProblem
-from contactx.steps import archive, checkpoint
+from contactx.steps import archive
+from contactx.steps.checkpoint import Checkpoint
 from contactx.steps.display import Show, progress_bar, show_text
 from contactx.steps.plan import make_plan
 from contactx.steps.snapshot import Snapshot
@@ -38,6 +43,12 @@ class LoadSteps:
     between them, so it may update a material's history. A failed attempt leaves u, contacts and
     history as they were, bit for bit. After a break, or an error that was dealt with, another loop
     goes on behind the last accepted step.
+
+    On several ranks all of them run the loop. What ``update``, ``output`` or the solve raises on
+    one rank is raised on all of them. Two errors of a single rank leave the others waiting, which
+    nothing can prevent: one of the loop's body, and one of ``update`` or ``output`` while the
+    others are inside a collective call that it makes. Rank 0 writes checkpoints and shows progress;
+    a checkpoint of some ranks can be gone on from on any other number of them.
     """
 
     def __init__(
@@ -64,7 +75,8 @@ class LoadSteps:
                 none; and at a restart with the t of the file.
             history: Functions that belong to the state of a step, such as plastic strains. They are
                 written to checkpoints, read from them, and what ``update`` does to them is undone
-                when its attempt fails.
+                when its attempt fails. On several ranks a checkpoint holds those of linear
+                Lagrange, quadrature and discontinuous spaces, as the rank has them that owns them.
             output: Called with each accepted step, before the loop's body.
             checkpoint: File to write once the loop's body has ended for an accepted step. The last
                 one stays whole if writing fails.
@@ -78,27 +90,28 @@ class LoadSteps:
             FileNotFoundError: If there is no file to restart from.
             TypeError: If an argument is of another kind.
             ValueError: If an argument is out of its range, or the file to restart from is damaged
-                or of another problem; nothing has changed then.
+                or of another problem; nothing has changed then. On several ranks also if arguments
+                differ between them, or a checkpoint cannot hold the space of a history.
         """
         if not isinstance(problem, ContactProblem):
             raise TypeError(f"problem must be a ContactProblem, not {type(problem).__name__}")
-        if not callable(update):
-            raise TypeError(f"update must be a function of t, not {update!r}")
-        if output is not None and not callable(output):
-            raise TypeError(f"output must be a function of a step, not {output!r}")
-        if isinstance(history, fem.Function):
-            raise TypeError("history must be a list of functions: write history=[function]")
-        for function in history:
-            if not isinstance(function, fem.Function):
-                raise TypeError(f"history holds a {type(function).__name__}: give fem.Functions")
-        self._plan = make_plan(steps, max_cuts, easy)
+        self._comm = comm = problem.u.function_space.mesh.comm
+        with agreed(comm):
+            _check_functions(update, output, history)
+            self._plan = make_plan(steps, max_cuts, easy)
+            self._checkpoint = None if checkpoint is None else Path(checkpoint)
+            if self._checkpoint is not None and comm.rank == 0:
+                _make_place(self._checkpoint)
+        _check_same(comm, self._plan, self._checkpoint, restart, len(history), output is None)
         self._problem = problem
         self._update = update
         self._history = list(history)
         self._output = output
-        self._checkpoint = None if checkpoint is None else _file_to_write(checkpoint)
-        self._progress = progress
+        self._progress = progress and comm.rank == 0
         self._rows: list[Row] = []
+        self._state: Checkpoint | None = None
+        if checkpoint is not None or restart is not None:
+            self._state = Checkpoint(problem, self._history)
         if restart is not None:
             self._restart(Path(restart))
 
@@ -112,7 +125,7 @@ class LoadSteps:
         return table(self._rows)
 
     def save(self, path: str | Path) -> None:
-        """Write a checkpoint of the last accepted step.
+        """Write a checkpoint of the last accepted step; all ranks must take part.
 
         Args:
             path: File in NumPy's format .npz. One of this name is replaced when the new one is
@@ -120,10 +133,18 @@ class LoadSteps:
 
         Raises:
             OSError: If it cannot be written.
+            ValueError: If the path is a folder, or on several ranks a history is of a space that
+                cannot be saved.
         """
+        if self._state is None:
+            self._state = Checkpoint(self._problem, self._history)
         steps = {f"steps: {name}": array for name, array in self._plan.save().items()}
         steps["steps: table"] = np.array(self._rows, dtype=np.float64).reshape(-1, len(Row._fields))
-        archive.write(_file_to_write(path), steps | checkpoint.save(self._problem, self._history))
+        state = self._state.save()
+        with agreed(self._comm):
+            if self._comm.rank == 0:
+                _make_place(Path(path))
+                archive.write(Path(path), steps | state)
 
     def __iter__(self) -> Iterator[Step]:
         """Take the steps that are left.
@@ -138,15 +159,18 @@ class LoadSteps:
             return
         with ExitStack() as stack:
             show: Show = lambda *_: None  # noqa: E731
-            if self._progress:
-                stack.callback(lambda: show_text(self.table()))
-                bar = progress_bar(self._problem, self.t, self._plan.given[-1])
-                show = stack.enter_context(bar)
+            with agreed(self._comm):
+                if self._progress:
+                    # Nothing collective: ranks may end a loop at other times
+                    stack.callback(lambda: show_text(self.table()))
+                    bar = progress_bar(self._problem, self.t, self._plan.given[-1])
+                    show = stack.enter_context(bar)
             while not self._plan.finished:
                 step = self._take_step(show)
-                show(self.t, f"step {step.index}")
-                if self._output is not None:
-                    self._output(step)
+                with agreed(self._comm):
+                    show(self.t, f"step {step.index}")
+                    if self._output is not None:
+                        self._output(step)
                 yield step
                 # The body may have updated the history
                 if self._checkpoint is not None:
@@ -158,12 +182,12 @@ class LoadSteps:
         begin = time.perf_counter()
         index, plan, cuts, discarded = len(self._rows) + 1, self._plan, 0, 0
         while True:
-            show(
-                self.t, f"step {index} to t = {plan.next:.6g}" + (f", cut {cuts}x" if cuts else "")
-            )
+            text = f"step {index} to t = {plan.next:.6g}" + (f", cut {cuts}x" if cuts else "")
             updated = False
             try:
-                self._update(plan.next)
+                with agreed(self._comm):
+                    show(self.t, text)
+                    self._update(plan.next)
                 updated = True
                 self._problem.solve()
                 report = self._problem.report
@@ -197,22 +221,27 @@ class LoadSteps:
     def _update_again(self, error: BaseException) -> None:
         """Set the loads of the last accepted step, whatever that raises."""
         try:
-            self._update(self.t)
+            with agreed(self._comm):
+                self._update(self.t)
         except Exception as second:
             error.add_note(f"update({self.t:.6g}), which sets the loads back, failed: {second!r}")
 
     def _restart(self, path: Path) -> None:
-        saved = archive.read(path)
+        assert self._state is not None
+        with agreed(self._comm):
+            saved = archive.read(path) if self._comm.rank == 0 else {}
         steps = {n: saved.pop(n) for n in list(saved) if n.startswith("steps: ")}
+        steps = self._comm.bcast(steps)
         before = Snapshot(self._problem, self._history)
         try:
             plan = self._plan.load(steps["steps: given"], steps["steps: place"])
             self._problem.begin()
-            checkpoint.load(saved, self._problem, self._history)
+            self._state.load(saved)
         except (KeyError, ValueError) as error:
             raise ValueError(f"cannot restart from {path}: {error}") from error
         try:
-            self._update(plan.t)
+            with agreed(self._comm):
+                self._update(plan.t)
         except BaseException:
             before.restore()
             raise
@@ -220,9 +249,30 @@ class LoadSteps:
         self._plan = plan
 
 
-def _file_to_write(path: str | Path) -> Path:
-    path = Path(path)
+def _make_place(path: Path) -> None:
     if path.is_dir():
         raise ValueError(f"checkpoint is the folder {path}: give the name of a file")
     path.parent.mkdir(parents=True, exist_ok=True)
-    return path
+
+
+def _check_functions(update: Any, output: Any, history: Any) -> None:
+    if not callable(update):
+        raise TypeError(f"update must be a function of t, not {update!r}")
+    if output is not None and not callable(output):
+        raise TypeError(f"output must be a function of a step, not {output!r}")
+    if isinstance(history, fem.Function):
+        raise TypeError("history must be a list of functions: write history=[function]")
+    for function in history:
+        if not isinstance(function, fem.Function):
+            raise TypeError(f"history holds a {type(function).__name__}: give fem.Functions")
+
+
+def _check_same(comm: MPI.Comm, *arguments: Any) -> None:
+    """Check that ranks take the same steps and files, or they would wait for each other."""
+    first = comm.bcast(arguments)
+    with agreed(comm):
+        if arguments != first:
+            raise ValueError(
+                f"rank {comm.rank} has other steps, files, history or output than rank 0: give "
+                "all ranks the same"
+            )

@@ -21,6 +21,7 @@ class Snapshot:
             problem: The problem.
             history: Functions that belong to its state.
         """
+        self._problem = problem
         self._contacts = [(c.interface, saving.save(c.interface)) for c in problem.contacts]
         self._fields = [(c.fields, dict(vars(c.fields))) for c in problem.contacts]
         results = [
@@ -32,9 +33,10 @@ class Snapshot:
         self._functions = [(f, f.x.array.copy()) for f in (problem.u, *history, *results)]
 
     def restore(self) -> None:
-        """Return to the state, bit for bit."""
+        """Return to the state, bit for bit; all ranks must take part."""
         for function, values in self._functions:
             function.x.array[:] = values
+        self._problem.refresh()
         for interface, saved in self._contacts:
             saving.load(interface, saved)
         for fields, attributes in self._fields:

@@ -1,0 +1,103 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Values of functions as rows of nodes or cells, the same on any number of ranks."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from contactx.parallel.halo import original_nodes
+from contactx.steps.rows import Array, Rows
+from dolfinx import cpp, fem
+
+
+class FunctionRows:
+    """Values of a function: a row a node of linear Lagrange spaces, a row a cell of others.
+
+    The others have all their dofs inside of cells: quadrature and discontinuous elements. On one
+    rank there are rows of all spaces, by the numbers of their dofs.
+
+    Attributes:
+        rows: The rows, by the nodes' numbers in the mesh as it was made.
+    """
+
+    def __init__(self, function: fem.Function, name: str):
+        """Find the rows; all ranks must take part.
+
+        Args:
+            function: The function.
+            name: What it is called in errors.
+
+        Raises:
+            ValueError: If its space is of another kind, on more than one rank.
+        """
+        self._function = function
+        V = function.function_space
+        keys, dofs = _nodal(V) or _cellwise(V) or _all(V, name)
+        self._dofs = dofs
+        self.rows = Rows(V.mesh.comm, keys)
+
+    def gather(self) -> Array | None:
+        """Values of all ranks, shape (n,) or (n, width); None but on rank 0."""
+        return self.rows.gather(self._function.x.array[self._dofs])
+
+    def scatter(self, values: Array | None) -> None:
+        """Set the function, its ghosts included.
+
+        Args:
+            values: What ``gather`` gave; None but on rank 0.
+        """
+        self._function.x.array[self._dofs] = self.rows.scatter(values)
+        self._function.x.scatter_forward()
+
+
+type _Keyed = tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]
+
+
+def cell_nodes(V: fem.FunctionSpace) -> npt.NDArray[np.int64]:
+    """Nodes of each owned cell by their numbers in the mesh as it was made, shape (n, k)."""
+    domain = V.mesh
+    owned = domain.topology.index_map(domain.topology.dim).size_local
+    numbers: npt.NDArray[np.int64] = domain.geometry.input_global_indices
+    nodes: npt.NDArray[np.int64] = numbers[domain.geometry.dofmaps[0][:owned]]
+    return nodes
+
+
+def _nodal(V: fem.FunctionSpace) -> _Keyed | None:
+    """Keys and dofs of owned nodes, where each vertex has a dof or block, and nothing else has."""
+    dofmap, index_map = V.dofmap, V.dofmap.index_map
+    layout = dofmap.dof_layout
+    vertices = cpp.mesh.cell_num_vertices(V.mesh.topology.cell_type)
+    if layout.num_dofs != vertices or any(layout.entity_dofs(0, i) != [i] for i in range(vertices)):
+        return None
+    owned = index_map.size_local
+    return original_nodes(V)[:owned, None], _scalars(np.arange(owned)[:, None], dofmap.bs)
+
+
+def _cellwise(V: fem.FunctionSpace) -> _Keyed | None:
+    """Keys and dofs of owned cells, where all dofs lie inside of cells."""
+    layout = V.dofmap.dof_layout
+    if len(layout.entity_dofs(V.mesh.topology.dim, 0)) != layout.num_dofs:
+        return None
+    nodes = cell_nodes(V)
+    return nodes, _scalars(V.dofmap.list[: len(nodes)], V.dofmap.bs)
+
+
+def _all(V: fem.FunctionSpace, name: str) -> _Keyed:
+    """Keys and dofs of one rank."""
+    if V.mesh.comm.size > 1:
+        raise ValueError(
+            f"{name} is of {V.ufl_element()}, which a checkpoint of several ranks cannot hold: "
+            "take a linear Lagrange, a quadrature or a discontinuous space, or one rank"
+        )
+    dofs = np.arange(V.dofmap.index_map.size_local * V.dofmap.index_map_bs)
+    return dofs[:, None], dofs
+
+
+def _scalars(blocks: npt.NDArray[np.integer], size: int) -> npt.NDArray[np.int64]:
+    """Dofs of blocks, shape (n, k * size); (n,) where that is one dof."""
+    dofs = (blocks[:, :, None] * size + np.arange(size)).reshape(
+        len(blocks), blocks.shape[1] * size
+    )
+    return dofs[:, 0] if dofs.shape[1] == 1 else dofs

@@ -1,0 +1,159 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Run by test_output_ranks.py: ParaView's files and pictures of several ranks against one."""
+
+from __future__ import annotations
+
+import sys
+import traceback
+from pathlib import Path
+from typing import Any
+
+from mpi4py import MPI
+
+import numpy as np
+import numpy.typing as npt
+from agreeing import refused
+from relaxed import MESHES
+
+import contactx as cx
+from contactx import plot
+from contactx.meshes.build import build_mesh
+from contactx.plot.surface import deformed_surface
+from dolfinx import fem, mesh
+
+WORLD = MPI.COMM_WORLD
+ROOT = WORLD.rank == 0
+LABELS: dict[str, Any] = {"labels": ("x", "y"), "title": "A picture"}
+
+Array = npt.NDArray[Any]
+
+
+def functions(domain: mesh.Mesh) -> tuple[fem.Function, fem.Function]:
+    """A displacement and a scalar."""
+    dim = domain.geometry.dim
+    u = fem.Function(fem.functionspace(domain, ("P", 1, (dim,))), name="u")
+    u.interpolate(lambda x: 0.1 * np.cos(x[:dim]))
+    p = fem.Function(fem.functionspace(domain, ("P", 1)), name="p")
+    p.interpolate(lambda x: np.sin(x[0]) ** 2 + x[1])
+    return u, p
+
+
+def table(*columns: Array) -> Array:
+    """Different points with their values, in an order of their own."""
+    rows: Array = np.unique(np.column_stack(columns).round(10) + 0.0, axis=0)
+    return rows
+
+
+def surface_tables(surface: Any) -> tuple[Array, Array]:
+    """Points with values, and the middles of faces."""
+    data = surface.point_data
+    points = table(surface.points, data["reference"], data["scalar"])
+    return points, table(surface.cell_centers().points)
+
+
+def check_file(path: Path, u: fem.Function, p: fem.Function) -> None:
+    """Check that a file has the cells and values of functions of one rank."""
+    import pyvista
+
+    reader = pyvista.get_reader(str(path))
+    assert reader.time_values == [0.0, 1.0]
+    read = reader.read()[0]
+    domain = u.function_space.mesh
+    dim = domain.topology.dim
+    assert read.n_cells == domain.topology.index_map(dim).size_local
+    x = p.function_space.tabulate_dof_coordinates()
+    here = table(x, u.x.array.reshape(-1, dim), p.x.array)
+    there = table(read.points, read.point_data["u"][:, :dim], read.point_data["p"])
+    assert np.allclose(there, here, rtol=0, atol=1e-9)
+
+
+def files_and_surfaces(folder: Path) -> None:
+    """Cells, points and values are those of one rank."""
+    for name, make in MESHES.items():
+        u, p = functions(make(WORLD))
+        path = folder / "new" / f"{name.replace(' ', '_')}.pvd"
+        with cx.VTKOutput(path, u, [], fields=[p]) as output:
+            output.write(0.0)
+            output.write(1.0)
+        surface = deformed_surface(u, p, 2.0)
+        assert (surface is not None) == ROOT
+        WORLD.Barrier()
+        if ROOT:
+            alone = functions(make(MPI.COMM_SELF))
+            check_file(path, *alone)
+            tables = (surface_tables(s) for s in (surface, deformed_surface(*alone, 2.0)))
+            for several, one in zip(*tables, strict=True):
+                assert np.allclose(several, one, rtol=0, atol=1e-9)
+            print(f"{name}: files and surface", flush=True)
+
+
+def patch(rank: int) -> tuple[Array, Array]:
+    """Places and triangles of a part of a face; the last rank has nothing."""
+    x, y = np.meshgrid(np.arange(3.0) + 2 * rank, [0.0, 1.0])
+    places = np.stack([x.ravel(), y.ravel()], axis=1)
+    triangles = np.array([[0, 1, 3], [1, 4, 3], [1, 2, 4], [2, 5, 4]])
+    return (places[:0], triangles[:0]) if rank == WORLD.size - 1 else (places, triangles)
+
+
+def parts(folder: Path) -> None:
+    """Parts of all ranks make the picture of the whole."""
+    every = [patch(rank) for rank in range(WORLD.size)]
+    places, triangles = every[WORLD.rank]
+    whole = np.concatenate([p for p, _ in every])
+    joined = np.concatenate([t + 6 * rank for rank, (_, t) in enumerate(every)])
+
+    def draw(name: str, x: Array, corners: Array, **options: Any) -> None:
+        options |= LABELS
+        plot.curves({"p": (x[:, 0], x[:, 1])}, {}, folder / f"{name} c.png", **options)
+        plot.pressure_curve(*x.T, [0, 1], [0, 1], folder / f"{name} p.png", **options)
+        values = x[:, 0] ** 2 + x[:, 1]
+        plot.nodal_map(x, values, folder / f"{name} m.png", triangles=corners, **options)
+        kinds = (x[:, 0] > 2).astype(int)
+        plot.nodal_map(x, kinds, folder / f"{name} k.png", kinds=plot.STATUS_NAMES, **options)
+
+    draw("parts", places, triangles, comm=WORLD)
+    if ROOT:
+        from matplotlib import image
+
+        draw("whole", whole, joined)
+        for kind in "cpmk":
+            images = [image.imread(folder / f"{name} {kind}.png") for name in ("parts", "whole")]
+            assert np.array_equal(*images), kind
+        print("parts make the whole", flush=True)
+
+
+def picture_and_errors(folder: Path) -> None:
+    """A picture is drawn once, and what goes wrong on rank 0 is raised on all."""
+    u, p = functions(MESHES["one block"](WORLD))
+    plot.deformed_bodies(u, p, folder / "bodies.png", title="Bodies")
+    assert (folder / "bodies.png").stat().st_size > 20_000
+    modules = dict(sys.modules)
+    if ROOT:
+        sys.modules["matplotlib.colors"] = None  # type: ignore[assignment]
+    there = folder / "none" / "x.png"
+    needs = "needs matplotlib"
+    refused(ImportError, needs, lambda: plot.deformed_bodies(u, p, there, title=""))
+    sys.modules.update(modules)
+    refused(
+        FileNotFoundError, "", lambda: plot.curves({"p": (1, 1)}, {}, there, comm=WORLD, **LABELS)
+    )
+    (folder / "file").touch()
+    refused(FileExistsError, "", lambda: cx.VTKOutput(folder / "file" / "a.pvd", u, []))
+
+    def recipe(gmsh: Any) -> None:
+        raise ArithmeticError("no such shape")
+
+    refused(ArithmeticError, "no such shape", lambda: build_mesh("test", 2, recipe, WORLD))
+
+
+if __name__ == "__main__":
+    try:
+        place = Path(sys.argv[1])
+        files_and_surfaces(place)
+        parts(place)
+        picture_and_errors(place)
+    except BaseException:
+        traceback.print_exc()
+        sys.stderr.flush()
+        WORLD.Abort(1)
