@@ -61,7 +61,7 @@ def compare_one_solve(problem, interface, rng):
     b[: system.num_bulk][problem._bulk.markers == 1] = 0
     J = system.jacobian().convert("dense").getDenseArray()
     exact = np.linalg.solve(J, b)
-    x = interface.state.position.array.reshape(-1, system.block)
+    x = system.halo.x
     solver = CondensedSolver(problem._bulk, system, x, "one_solve_")
     solver.target = 1e-13 * np.linalg.norm(b)
     right, result = system.x.duplicate(), system.x.duplicate()
