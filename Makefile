@@ -20,7 +20,7 @@ SOURCES := $(shell find cpp/contactx cpp/bindings python/contactx \
 	-name __pycache__ -prune -o -print)
 CPP_FILES = $(shell find cpp -name '*.h' -o -name '*.cpp')
 PY_FOLDERS := python tests demos tools
-BENCHES := hertz methods rates spheres ironing friction scenes parts skips steps growth
+BENCHES := hertz methods rates spheres ironing friction scenes parts skips steps growth scaling
 
 # Threads: MPI and the tests' machine decide, not OpenMP. Without a display,
 # VTK need not look for one.

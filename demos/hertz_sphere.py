@@ -18,6 +18,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from mpi4py import MPI
+
 import numpy as np
 import story
 
@@ -30,9 +32,11 @@ E, NU = 1.0, 0.3
 DISPLACEMENT = -0.02
 
 
-def create(h: float, sliding: str) -> tuple[cx.ContactProblem, cx.Contact, fem.Form]:
+def create(
+    h: float, sliding: str, comm: MPI.Comm = MPI.COMM_WORLD
+) -> tuple[cx.ContactProblem, cx.Contact, fem.Form]:
     """The bodies, their supports and the contact."""
-    data = meshes.hertz_sphere(h)
+    data = meshes.hertz_sphere(h, comm=comm)
     mesh, tags = data.mesh, data.facet_tags
     u = story.displacement(mesh)
     F = story.elasticity(u, E, NU)

@@ -11,6 +11,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from mpi4py import MPI
+
 import numpy as np
 import numpy.typing as npt
 from rich.console import Console
@@ -21,7 +23,8 @@ import ufl
 from contactx import plot, reference
 from dolfinx import fem, mesh
 
-console = Console()
+# One rank speaks for all
+console = Console(quiet=MPI.COMM_WORLD.rank > 0)
 METHODS = ("node-to-surface", "surface-to-surface")
 
 

@@ -184,7 +184,7 @@ def check_coulomb(
     mu = np.broadcast_to(contact.interface.law.friction(nodes), p.shape)
     # A row of the conditions is a force: area times a traction, or times c and a length
     stress = tolerance / nodes.area
-    length = stress / nodes.c + 1e-15 * np.abs(contact.interface.state.position.array).max()
+    length = stress / nodes.c + 1e-15 * np.abs(contact.interface.positions()).max()
     stick, slips, is_open = (nodes.status == k for k in (1, 2, 0))
     which = np.ones(len(p), dtype=bool) if which is None else which
     size_t, size_s = np.linalg.norm(t, axis=1), np.linalg.norm(nodes.slip, axis=1)

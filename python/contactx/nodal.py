@@ -21,6 +21,19 @@ def matching_nodes(V: fem.FunctionSpace, Q: fem.FunctionSpace) -> npt.NDArray[np
     return match
 
 
+def reference_positions(V: fem.FunctionSpace) -> npt.NDArray[np.float64]:
+    """Positions of the nodes of a linear space, ghosts included, shape (num_nodes, gdim).
+
+    They are the mesh's own to the last bit. What DOLFINx evaluates differs by rounding from cell
+    to cell, and with it which of two facets is the nearer one would depend on the ranks.
+    """
+    geometry, dofs, index_map = V.mesh.geometry, V.dofmap.list, V.dofmap.index_map
+    x = np.zeros((index_map.size_local + index_map.num_ghosts, geometry.dim))
+    # Vertices come first in the geometry of a cell
+    x[dofs] = geometry.x[geometry.dofmaps[0][:, : dofs.shape[1]], : geometry.dim]
+    return x
+
+
 class NodalValue:
     """A number, or a function of a scalar linear space, read anew at each use."""
 

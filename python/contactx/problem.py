@@ -22,6 +22,7 @@ from contactx.contact import Contact
 from contactx.errors import ConvergenceError
 from contactx.interface import Interface
 from contactx.newton import NewtonLoop
+from contactx.nodal import reference_positions
 from contactx.parallel.halo import Halo
 from contactx.parallel.reduce import anywhere, least, total
 from contactx.report import Report
@@ -88,7 +89,7 @@ class ContactProblem:
         V = u.function_space
         X = la.vector(V.dofmap.index_map, V.dofmap.index_map_bs)
         gdim = V.mesh.geometry.dim
-        X.array[:] = V.tabulate_dof_coordinates()[:, :gdim].ravel()
+        X.array[:] = reference_positions(V).ravel()
         comm = V.mesh.comm
         validate.check_finite(comm, coordinates_of_the_mesh_are=X)
 

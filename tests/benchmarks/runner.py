@@ -26,6 +26,8 @@ for _folder in ("demos", "tests", "tests/benchmarks"):
     if str(ROOT / _folder) not in sys.path:
         sys.path.insert(0, str(ROOT / _folder))
 
+from launch import Failure, Hang, launch  # noqa: E402
+
 
 def alone(function: str, **job: Any) -> dict[str, Any]:
     """Call a function in a process of its own.
@@ -48,6 +50,23 @@ def alone(function: str, **job: Any) -> dict[str, Any]:
         return {**job, "failed": lines[-1]}
     result: dict[str, Any] = json.loads(run.stdout.splitlines()[-1])
     return result
+
+
+def on_ranks(function: str, ranks: int, limit: float = 600.0, **job: Any) -> dict[str, Any]:
+    """Call a function as ``alone`` does, on some ranks; what rank 0 returns counts.
+
+    Args:
+        function: ``module:function`` of a module beside this one.
+        ranks: Number of ranks.
+        limit: Seconds after which it counts as a hang.
+        job: Arguments that JSON can carry.
+    """
+    try:
+        printed = launch(Path(__file__), ranks, function, json.dumps(job), limit=limit)
+    except (Hang, Failure) as error:
+        return {"ranks": ranks, **job, "failed": str(error)}
+    results = [line for line in printed.splitlines() if line.startswith("{")]
+    return {"ranks": ranks, **json.loads(results[-1])}
 
 
 def here(function: str, **job: Any) -> dict[str, Any]:
@@ -87,4 +106,8 @@ def _memory(name: str) -> float:
 
 
 if __name__ == "__main__":
-    print(json.dumps(here(sys.argv[1], **json.loads(sys.argv[2]))))
+    from mpi4py import MPI
+
+    returned = here(sys.argv[1], **json.loads(sys.argv[2]))
+    if MPI.COMM_WORLD.rank == 0:
+        print(json.dumps(returned), flush=True)

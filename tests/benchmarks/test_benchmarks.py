@@ -9,6 +9,7 @@ import bench_ironing
 import bench_methods
 import bench_parts
 import bench_rates
+import bench_scaling
 import bench_scenes
 import bench_skips
 import bench_spheres
@@ -155,3 +156,29 @@ def test_friction():
     assert {row["scene"] for row in rows} >= {"slice, 5 layers, slave slabs"}
     apart = [row for row in rows if "difference" in row]
     assert len(apart) > 8 and all(np.isfinite(row["difference"]) for row in apart)
+
+
+def test_strong_scaling(monkeypatch):
+    monkeypatch.setattr(bench_scaling, "RUNS", 1)
+    rows = bench_scaling.strong([0.07], ["finite"])
+    assert [row["ranks"] for row in rows] == [1, 2]
+    one, two = rows
+    assert one["iterations"] == two["iterations"]
+    assert two["force"] == pytest.approx(one["force"], rel=1e-9)
+    assert one["ratio"] == 1 and two["ratio"] > 0
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_what_a_rank_sends_does_not_grow_with_their_number(method):
+    """Between 4 and 16 ranks, of which those in the middle have as many neighbours in all."""
+    rows = bench_scaling.weak((1, 4, 16), dims=(3,), methods=(method,), partitions=("shifted",))
+    tables.show(method, bench_scaling.WEAK, rows, runner.OUTPUT / "weak.csv")
+    assert not tables.failures(rows)
+    one, few, many = rows
+    assert one["bytes a search"] == one["halo"] == 0
+    assert few["iterations"] == many["iterations"] and few["searches"] == many["searches"]
+    for what in ("a search", "an iteration"):
+        assert 0 < few[f"bytes {what}"]
+        assert many[f"bytes {what}"] <= 1.1 * few[f"bytes {what}"]
+        assert many[f"messages {what}"] <= 1.1 * few[f"messages {what}"]
+    assert many["halo"] <= 1.1 * few["halo"]

@@ -127,17 +127,6 @@ def test_contact_twice(scene):
         scene.problem(contact, contact)
 
 
-def test_several_ranks():
-    """The check alone; tests/parallel runs it on two ranks."""
-
-    class TwoRanks:
-        size = 2
-
-    with pytest.raises(RuntimeError, match="one rank, but the mesh is distributed over 2"):
-        cx.compat.require_one_rank(TwoRanks())
-    cx.compat.require_one_rank(MPI.COMM_SELF)
-
-
 def test_out_of_reach_warns_with_the_distance():
     scene = Blocks(CellType.tetrahedron, gap=5.0)
     problem = scene.problem(scene.contact())

@@ -51,10 +51,12 @@ class RigidModes:
         self._gdim = x.shape[1]
         count = len(bodies.names)
         body, own = self.body[self._owned], x[self._owned]
-        sums = [np.bincount(body, own[:, k], minlength=count) for k in range(self._gdim)]
-        sums = reduce.total(
-            self._comm, np.column_stack([np.bincount(body, minlength=count), *sums])
-        )
+        # Of no nodes at all NumPy's sums are integers
+        sums = np.zeros((count, 1 + self._gdim))
+        sums[:, 0] = np.bincount(body, minlength=count)
+        for k in range(self._gdim):
+            sums[:, 1 + k] = np.bincount(body, own[:, k], minlength=count)
+        sums = reduce.total(self._comm, sums)
         self.num_nodes: Array = sums[:, 0]
         self._middle = sums[:, 1:] / np.maximum(sums[:, :1], 1)
         arm = np.linalg.norm(own - self._middle[body], axis=1)

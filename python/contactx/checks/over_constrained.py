@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from contactx.checks.place import place
 from contactx.interface import Interface
 from contactx.master.obstacle import ObstacleMaster
 from contactx.parallel import reduce
@@ -39,14 +40,15 @@ def check_over_constrained(
         count = reduce.total(halo.comm, len(bad))
         if count > 0 and interface.active:
             numbers = halo.original[bad].tolist()
+            size = reduce.extent(halo.comm, halo.x[interface.slaves]).max()
             first, at = reduce.first(
                 halo.comm, numbers, list(zip(numbers, halo.x[bad], strict=True))
             )
             raise ValueError(
                 f"contact {k} ({names[k]}) is over-constrained: Dirichlet conditions hold "
                 f"{count} slave nodes inside the rigid obstacle, first node {first} of the mesh as "
-                f"it was made, at {at}. Take these nodes out of the slave surface, release them "
-                "along the obstacle's normal or prescribe values outside of it"
+                f"it was made, at {place(at, size)}. Take these nodes out of the slave surface, "
+                "release them along the obstacle's normal or prescribe values outside of it"
             )
 
 

@@ -7,6 +7,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
+from contactx.checks.place import place
 from contactx.parallel import reduce
 from contactx.parallel.halo import Halo
 from contactx.surface import FacetList, Surface
@@ -47,7 +48,8 @@ def check_facets(surface: Surface, role: str, facets: FacetList, halo: Halo) -> 
         ValueError: If a facet of any rank is degenerate, on all ranks.
     """
     comm, x = halo.comm, halo.x
-    smallest = _SMALL * np.linalg.norm(reduce.extent(comm, x[facets.nodes]))
+    length = float(np.linalg.norm(reduce.extent(comm, x[facets.nodes])))
+    smallest = _SMALL * length
     bad = []
     for _, nodes in facets.groups():
         corners = x[nodes]
@@ -66,6 +68,7 @@ def check_facets(surface: Surface, role: str, facets: FacetList, halo: Halo) -> 
         named, at = reduce.first(comm, names, list(zip(names, middles, strict=True)))
         raise ValueError(
             f"{count} facets of the {role} surface {surface} are degenerate: they have no area, or "
-            f"are folded so that their Jacobian changes sign. The first is at {at} and has the "
-            f"nodes {', '.join(map(str, named))} of the mesh as it was made: repair the mesh there"
+            "are folded so that their Jacobian changes sign. The first is at "
+            f"{place(at, length)} and has the nodes {', '.join(map(str, named))} of the mesh as it "
+            "was made: repair the mesh there"
         )

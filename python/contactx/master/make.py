@@ -72,7 +72,8 @@ def make_master(
             else:
                 # Dual functions weigh what is linear on a facet, as a plane's gap, at its nodes
                 obstacle = ObstacleMaster(slaves.owned, *options, measures_slip=law.is_vector)
-        check_outside(slave, slaves.owned, obstacle.inside(halo.x), master, bodies)
+            gap = obstacle.inside(halo.x)
+        check_outside(slave, slaves.owned, gap, master, bodies)
         return obstacle
     others = master.facet_nodes(bodies.V)
     check_facets(master, "master", others, halo)

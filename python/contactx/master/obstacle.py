@@ -116,7 +116,7 @@ class ObstacleMaster(Master):
         self._slip_data = np.zeros((n, _SLIP["size"]))
         self._slip_data[:, _SLIP["slip"] : _SLIP["slip"] + gdim] = slip
         first = _SLIP["derivative"]
-        self._slip_data[:, first : first + gdim * gdim] = derivative.reshape(n, -1)
+        self._slip_data[:, first : first + gdim * gdim] = derivative.reshape(n, gdim * gdim)
 
     def _carried(self) -> npt.NDArray[np.float64]:
         """Where the obstacle has carried the points that slip is measured from."""
@@ -219,7 +219,7 @@ def _kernel_data(geometry: Geometry) -> npt.NDArray[np.float64]:
     data[:, _AT["gap"]] = geometry.gap
     _columns(data, "gradient", gdim)[:] = geometry.gradient
     _columns(data, "normal", gdim)[:] = geometry.normal
-    _columns(data, "curvature", gdim * gdim)[:] = geometry.curvature.reshape(n, -1)
+    _columns(data, "curvature", gdim * gdim)[:] = geometry.curvature.reshape(n, gdim * gdim)
     return data
 
 

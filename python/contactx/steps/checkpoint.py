@@ -15,6 +15,7 @@ import numpy.typing as npt
 from contactx import saving
 from contactx.interface import Interface
 from contactx.master.master import RowKind
+from contactx.nodal import reference_positions
 from contactx.parallel.agreement import agreed
 from contactx.parallel.halo import original_nodes
 from contactx.problem import ContactProblem
@@ -102,7 +103,7 @@ class Checkpoint:
     def _identity(self) -> dict[str, npt.NDArray[Any] | None]:
         """Arrays that tell a problem from others to which its state would not fit."""
         V = self._problem.u.function_space
-        x = V.tabulate_dof_coordinates()[: self._owned]
+        x = reference_positions(V)[: self._owned]
         arrays = {"mesh: coordinates": self._u.rows.gather(x), "mesh: cells": self._cells}
         arrays |= {f"history {k}: rows": f.rows.digest for k, f in enumerate(self._functions)}
         for k, interface in enumerate(self._interfaces):

@@ -17,6 +17,7 @@ import contactx as cx
 from contactx import meshes
 from contactx.bodies.bodies import Bodies
 from contactx.meshes import Tag
+from contactx.parallel.halo import Halo
 from dolfinx import mesh
 from dolfinx.mesh import CellType
 
@@ -134,7 +135,7 @@ def test_a_refused_problem_frees_its_contacts():
 
 @CELLS
 def test_bodies_are_the_connected_parts(cell):
-    """Against SciPy, with nodes and cells in any order."""
+    """Against SciPy, with nodes and cells in any order; named as the mesh was made."""
     scene = Blocks(cell, n_upper=4, n_lower=5)
     V = scene.u.function_space
     x = V.tabulate_dof_coordinates()
@@ -142,9 +143,13 @@ def test_bodies_are_the_connected_parts(cell):
     edges = np.repeat(cells[:, :1], cells.shape[1], axis=1).ravel(), cells.ravel()
     graph = coo_array((np.ones(cells.size), edges), shape=(len(x), len(x)))
     number, label = connected_components(graph, directed=False)
-    bodies = Bodies(V, x)
+    gdim = V.mesh.geometry.dim
+    halo = Halo(scene.u, x[:, :gdim])
+    bodies = Bodies(V, halo)
+    x = bodies.x
     assert number == 2
-    names = np.array([np.flatnonzero(label == i).min() for i in range(number)])
+    names = np.array([halo.original[label == i].min() for i in range(number)])
+    np.testing.assert_array_equal(bodies.names, np.sort(names))
     np.testing.assert_array_equal(bodies.of_node, names[label])
     for name in names:
         low, high = bodies.boxes(np.array([name]))
@@ -203,3 +208,5 @@ def test_inside_an_obstacle(obstacle, hint):
 )
 def test_deep_in_an_obstacle_is_legal(obstacle):
     Slave().on(obstacle)
+    # What a function's differences are scaled with
+    assert obstacle.extent == pytest.approx(1)

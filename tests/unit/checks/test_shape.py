@@ -2,6 +2,10 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """Facets without an area or turned inside out."""
 
+from types import SimpleNamespace
+
+from mpi4py import MPI
+
 import numpy as np
 import pytest
 from scenes import Blocks
@@ -14,21 +18,13 @@ from dolfinx.mesh import CellType
 SQUARE = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]])
 
 
-class Named:
-    """Stands for a surface; its facets have other numbers in the mesh."""
-
-    facets = np.array([7, 9])
-
-    def __repr__(self):
-        return "the surface"
-
-
 def check(*facets):
-    """Check facets, each given by the positions of its own nodes."""
+    """Check facets, each given by the positions of its own nodes, which are numbered backwards."""
     sizes = [len(f) for f in facets]
     offsets = np.concatenate([[0], np.cumsum(sizes)]).astype(np.int32)
     nodes = np.arange(offsets[-1], dtype=np.int32)
-    check_facets(Named(), "slave", FacetList(offsets, nodes), np.concatenate(facets))
+    halo = SimpleNamespace(comm=MPI.COMM_SELF, x=np.concatenate(facets), original=nodes[::-1])
+    check_facets("the surface", "slave", FacetList(offsets, nodes), halo)
 
 
 def test_corner_normals_of_a_warped_facet():
@@ -77,9 +73,11 @@ def test_facets_that_are_sound(facet, length):
 )
 def test_facets_that_are_degenerate(facet, length):
     sound = SQUARE[: len(facet), : facet.shape[1]]
+    named = ", ".join(map(str, range(len(facet))))
     with pytest.raises(
         ValueError,
-        match=r"^1 facets of the slave surface the surface are degenerate: .* facet 9 at",
+        match=r"^1 facets of the slave surface the surface are degenerate: .*"
+        rf" has the nodes {named} of the mesh",
     ):
         check(length * (sound + 1), length * facet)
 
@@ -95,13 +93,14 @@ def test_a_problem_refuses_them(cell, role, tag):
     nodes = mesh.entities_to_geometry(domain, scene.tags.dim, facets)
     x = domain.geometry.x
     corner = min(np.unique(nodes), key=lambda node: tuple(x[node]))
-    holding = np.flatnonzero((nodes == corner).any(axis=1))
-    across = max(np.unique(nodes[holding]), key=lambda node: np.linalg.norm(x[node] - x[corner]))
+    holding = nodes[(nodes == corner).any(axis=1)]
+    across = max(np.unique(holding), key=lambda node: np.linalg.norm(x[node] - x[corner]))
     x[corner] += (0.7 if cell == CellType.hexahedron else 1.0) * (x[across] - x[corner])
-    bad = holding[(nodes[holding] == across).any(axis=1)]
+    bad = holding[(holding == across).any(axis=1)]
+    named = min(sorted(domain.geometry.input_global_indices[facet].tolist()) for facet in bad)
     with pytest.raises(
         ValueError,
         match=rf"^{len(bad)} facets of the {role} surface Surface\(tags=\({tag},\).* degenerate"
-        rf".* The first is facet {facets[bad[0]]} at",
+        rf".* has the nodes {', '.join(map(str, named))} of the mesh",
     ):
         scene.problem(contact)

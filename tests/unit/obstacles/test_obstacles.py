@@ -65,6 +65,37 @@ def test_derivatives(gdim, name):
         )
 
 
+@pytest.mark.parametrize(("gdim", "name"), CASES)
+def test_no_points(gdim, name):
+    """As on a rank without slave nodes."""
+    obstacle = dict(cases(gdim))[name]
+    at = obstacle.evaluate(np.zeros((0, gdim)))
+    shapes = [part.shape for part in (at.gap, at.gradient, at.normal, at.curvature)]
+    assert shapes == [(0,), (0, gdim), (0, gdim), (0, gdim, gdim)]
+    assert obstacle.level(np.zeros((0, gdim))).shape == (0,)
+
+
+def test_functions_are_not_asked_about_no_points():
+    """They may not be made for that."""
+    level_set = cx.LevelSet(lambda x: x[0] - x[0].min(), lambda x: np.eye(2)[:, [0]] + 0 * x)
+    assert len(level_set.evaluate(np.zeros((0, 2))).gap) == 0
+    assert len(level_set.level(np.zeros((0, 2)))) == 0
+    ufl_set = cx.LevelSet(lambda x: x[0])
+    assert len(ufl_set.level(np.zeros((0, 2)))) == 0
+
+
+def test_a_curvature_does_not_depend_on_other_points():
+    """Which of them a rank has must not matter; one at the origin has no length of its own."""
+    obstacle = cx.LevelSet(
+        lambda x: x[1] + np.sin(x[0]), lambda x: np.stack([np.cos(x[0]), 1 + 0 * x[1]])
+    )
+    obstacle.extent = 2.0
+    x = np.array([[0.0, 0.0], [0.3, 0.1], [-0.7, 1.0]])
+    every = obstacle.evaluate(x).curvature
+    each = np.concatenate([obstacle.evaluate(point[None]).curvature for point in x])
+    assert np.array_equal(each, every)
+
+
 def test_gaps_and_normals_of_known_points():
     x = np.array([[0.0, 0.0, 2.0], [3.0, 4.0, 0.0]])
     plane = cx.Plane((0, 0, 1), (0, 0, 5)).evaluate(x)

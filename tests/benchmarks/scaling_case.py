@@ -1,0 +1,219 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""What is run on several ranks: the common Hertz problem, and a slab as long as there are ranks."""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections import Counter
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+from mpi4py import MPI
+from petsc4py import PETSc
+
+import hertz_case
+import scenes
+from partitions import partitioned
+from story import displacement, elasticity, fix
+
+import contactx as cx
+from contactx import meshes
+from contactx.meshes import Tag
+from dolfinx.mesh import CellType
+
+# Cells of a rank along the slab, across it and over its height; those of the base do not match
+UPPER = {2: (40, 6), 3: (8, 6, 3)}
+LOWER = {2: (52, 6), 3: (10, 7, 3)}
+# Length and width of a rank's part, height
+SIZE = {2: (4.0, 0.6), 3: (1.6, 1.2, 0.6)}
+DOWN, ASIDE = 0.01, 0.15
+
+
+def strong(path: str, sliding: str) -> dict[str, Any]:
+    """Solve the common Hertz problem on all ranks, on the clock from the read mesh on."""
+    data = hertz_case.read_mesh(path)
+    comm = data.mesh.comm
+    comm.Barrier()
+    start = time.perf_counter()
+    scene = scenes.HertzSphere(data, sliding)
+    made = time.perf_counter()
+    scene.problem.solve()
+    comm.Barrier()
+    end = time.perf_counter()
+    report = scene.problem.report
+    return {
+        "dofs": scene.problem.u.function_space.dofmap.index_map.size_global * 3,
+        "iterations": report.iterations,
+        "krylov": report.krylov,
+        "wall": end - start,
+        "setup": made - start,
+        **{f"{name} s": seconds for name, seconds in report.times.items()},
+        "force": 4 * float(scene.contact.force[2]),
+    }
+
+
+class LongSlab:
+    """A slab pressed on a base and dragged along it, as long as there are ranks.
+
+    Attributes:
+        problem: The problem.
+        contact: The contact.
+    """
+
+    def __init__(self, dim: int, ranks: int, method: str, partition: str):
+        """Mesh the bodies and set the problem up."""
+        cell = CellType.quadrilateral if dim == 2 else CellType.hexahedron
+        longer = (ranks, *[1] * (dim - 1))
+        upper, lower, size = (
+            [part * n for part, n in zip(table[dim], longer, strict=True)]
+            for table in (UPPER, LOWER, SIZE)
+        )
+        with partitioned(partition):
+            data = meshes.blocks(cell, upper, lower, size_upper=size, size_lower=size)
+        tags, u = data.facet_tags, displacement(data.mesh)
+        self._moved = [fix(u, tags, i, 0.0, Tag.UPPER_TOP) for i in range(dim)]
+        held = [fix(u, tags, i, 0.0, Tag.LOWER_BOTTOM) for i in range(dim)]
+        self.contact = cx.Contact(
+            cx.Surface(tags, Tag.UPPER_CONTACT), cx.Surface(tags, Tag.LOWER_CONTACT), method=method
+        )
+        self.problem = cx.ContactProblem(
+            elasticity(u, 1.0, 0.3),
+            u,
+            contacts=[self.contact],
+            bcs=[*self._moved, *held],
+            petsc_options_prefix="slab_",
+            # Of any size by the solver that large problems have
+            petsc_options={"pc_type": "condensed"},
+        )
+
+    def move(self, aside: float) -> int:
+        """Press and push the top, and solve; returns the iterations."""
+        self._moved[0].g.value[...], self._moved[-1].g.value[...] = aside, -DOWN
+        self.problem.solve()
+        return self.problem.report.iterations
+
+
+class Collectives:
+    """Counts the collective calls that Python makes on communicators.
+
+    Attributes:
+        count: Number of calls so far.
+    """
+
+    _NAMES = ("allreduce", "Allreduce", "allgather", "Allgather", "bcast", "gather", "Ibarrier")
+
+    def __init__(self) -> None:
+        """Nothing is counted yet."""
+        self.count = 0
+
+    @contextmanager
+    def counting(self) -> Iterator[None]:
+        """Count inside."""
+        call, tool = sys.monitoring.events.CALL, sys.monitoring.PROFILER_ID
+        sys.monitoring.use_tool_id(tool, "collectives")
+        sys.monitoring.register_callback(tool, call, self._called)
+        sys.monitoring.set_events(tool, call)
+        try:
+            yield
+        finally:
+            sys.monitoring.set_events(tool, 0)
+            sys.monitoring.free_tool_id(tool)
+
+    def _called(self, _code: Any, _offset: int, function: Any, argument: Any) -> None:
+        owners = (argument, getattr(function, "__self__", None))
+        if any(isinstance(owner, MPI.Intracomm) and owner.size > 1 for owner in owners):
+            self.count += function.__name__ in self._NAMES
+
+
+class SearchTraffic:
+    """What this rank sends within searches and outside of them.
+
+    Attributes:
+        searches: Number of searches.
+        collectives: Counts collective calls.
+        inside: What was sent within searches, as of ``all``.
+    """
+
+    def __init__(self, contact: cx.Contact):
+        """Count from now on."""
+        self._traffic = contact.interface.halo.traffic
+        self._traffic.clear()
+        self.collectives = Collectives()
+        self.searches = 0
+        self.inside: Counter[tuple[str, str]] = Counter()
+        master = contact.interface.master
+        self._search = master.search
+        master.search = self._counted
+
+    def _counted(self, *arguments: Any) -> Any:
+        before = self.all()
+        result = self._search(*arguments)
+        self.searches += 1
+        self.inside += self.all() - before
+        return result
+
+    def all(self) -> Counter[tuple[str, str]]:
+        """Messages and bytes by purpose, and collective calls."""
+        kinds = {"messages": self._traffic.messages, "bytes": self._traffic.bytes}
+        counts = Counter({(kind, p): n for kind, by in kinds.items() for p, n in by.items()})
+        counts["collectives", "all"] = self.collectives.count
+        return counts
+
+
+def weak(dim: int, method: str, partition: str) -> dict[str, Any]:
+    """Drag the long slab on all ranks: time, and what the rank that sends most has sent."""
+    comm = MPI.COMM_WORLD
+    PETSc.Log.begin()
+    slab = LongSlab(dim, comm.size, method, partition)
+    # The first step finds all pairs; what counts is going on
+    slab.move(0.0)
+    comm.Barrier()
+    start = time.perf_counter()
+    slab.move(ASIDE)
+    comm.Barrier()
+    wall = time.perf_counter() - start
+    before = _petsc_traffic()
+    counter = SearchTraffic(slab.contact)
+    with counter.collectives.counting():
+        iterations = slab.move(2 * ASIDE)
+    solver = _petsc_traffic() - before
+    outside = counter.all() - counter.inside
+    found = {
+        "dofs": slab.problem.u.function_space.dofmap.index_map.size_global * dim,
+        "iterations": iterations,
+        "searches": counter.searches,
+        "wall": wall,
+        "force": float(slab.contact.force[-1]) / comm.size,
+        "krylov": slab.problem.report.krylov,
+        **{
+            f"PETSc's {name} an iteration": comm.allreduce(solver[name] / iterations, MPI.MAX)
+            for name in ("messages", "bytes")
+        },
+        "halo": comm.allreduce(_halo_size(slab.contact), MPI.MAX),
+    }
+    for kind in ("messages", "bytes", "collectives"):
+        inside = _sum(counter.inside, kind, comm.size) / max(1, counter.searches)
+        rest = _sum(outside, kind, comm.size) / max(1, iterations)
+        found[f"{kind} a search"] = comm.allreduce(inside, MPI.MAX)
+        found[f"{kind} an iteration"] = comm.allreduce(rest, MPI.MAX)
+    return found
+
+
+def _sum(counts: Counter[tuple[str, str]], kind: str, ranks: int) -> float:
+    # What all ranks gather passes through each of them, from one to the next
+    passed = {"boxes": ranks - 1}
+    return float(sum(n * passed.get(p, 1) for (what, p), n in counts.items() if what == kind))
+
+
+def _petsc_traffic() -> Counter[str]:
+    """What PETSc has sent in solves, not counting what MUMPS sends inside of it."""
+    found = PETSc.Log.Event("SNESSolve").getPerfInfo()
+    return Counter({"messages": found["numMessages"], "bytes": found["messageLength"]})
+
+
+def _halo_size(contact: cx.Contact) -> int:
+    halo = contact.interface.halo
+    return int(halo.num_nodes - halo.num_bulk)

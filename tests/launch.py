@@ -1,0 +1,82 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Runs a script on several ranks, and ends it if they wait for one another for ever."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import watch
+
+TESTS = Path(__file__).parent
+# Seconds for a script, or for the last part that it began by ``watch.begin``
+LIMIT = 120.0
+# Seconds after which all is killed in any case
+LONGEST = 1800.0
+
+
+class Hang(AssertionError):
+    """Ranks waited for one another until the watchdog came."""
+
+
+class Failure(AssertionError):
+    """The script ended with an error."""
+
+
+def mpiexec() -> str:
+    """Launcher of the MPI that this Python has; that of the path if it brings none."""
+    own = Path(sys.executable).parent / "mpiexec"
+    return str(own) if own.exists() else "mpiexec"
+
+
+def launch(
+    script: Path, ranks: int, *arguments: str, limit: float = LIMIT, longest: float = LONGEST
+) -> str:
+    """Run a script on some ranks, on one thread each.
+
+    Args:
+        script: The script; helpers of tests and demos can be imported in it.
+        ranks: Number of ranks.
+        arguments: Arguments of the script.
+        limit: Seconds after which it hangs, unless it begins parts with limits of their own.
+        longest: Seconds for all of them.
+
+    Returns:
+        What it printed.
+
+    Raises:
+        Hang: If ranks hang, with the stacks of all of them.
+        Failure: If the script fails otherwise, with what it printed.
+    """
+    command = [mpiexec(), "-n", str(ranks), sys.executable, watch.__file__, str(limit)]
+    paths = [str(TESTS), str(TESTS.parent / "demos"), *filter(None, [os.getenv("PYTHONPATH")])]
+    with tempfile.TemporaryDirectory() as folder:
+        own = {"OMP_NUM_THREADS": "1", "PYTHONPATH": os.pathsep.join(paths), watch.FOLDER: folder}
+        # A group of its own, so that nothing of it outlives its end
+        process = subprocess.Popen(
+            [*command, str(script), *arguments],
+            env={**os.environ, **own},
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            start_new_session=True,
+        )
+        try:
+            printed, _ = process.communicate(timeout=longest)
+        except BaseException as error:
+            os.killpg(process.pid, signal.SIGKILL)
+            printed, _ = process.communicate()
+            if isinstance(error, subprocess.TimeoutExpired):
+                raise Hang(f"hang: {longest:g} s were too few\n{printed}") from None
+            raise
+        found = watch.stacks(folder)
+        if watch.TIMED_OUT in found:
+            raise Hang(f"hang of {ranks} ranks in {script.name}\n{found}\n{printed}")
+        if process.returncode != 0:
+            raise Failure(f"{script.name} on {ranks} ranks: {process.returncode}\n{printed}")
+        return printed

@@ -1,0 +1,45 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Scenes, methods and partitions that are run on several ranks."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+import partitions
+import scenes_elastic
+import scenes_rigid
+import scenes_rubbing
+import scenes_several
+
+import contactx as cx
+
+METHODS = {"node": "node-to-surface", "surface": "surface-to-surface"}
+_MODULES = (scenes_elastic, scenes_rubbing, scenes_rigid, scenes_several)
+
+# Functions that yield the problem after each step
+SCENES: dict[str, Callable[[], Iterator[cx.ContactProblem]]] = {
+    name: function
+    for module in _MODULES
+    for name, function in vars(module).items()
+    if inspect.isgeneratorfunction(function) and not name.startswith("_")
+}
+
+
+@dataclass(frozen=True)
+class Case:
+    """A scene by a method on a distributed mesh."""
+
+    scene: str
+    method: str
+    partition: str = partitions.DEFAULT
+
+    def __str__(self) -> str:
+        return f"{self.scene}-{self.method}-{self.partition}"
+
+    @classmethod
+    def read(cls, text: str) -> Case:
+        """A case from its text."""
+        return cls(*text.split("-"))

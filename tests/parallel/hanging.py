@@ -1,0 +1,20 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Run under mpiexec by test_launch.py: rank 0 waits for another one that never comes, or fails."""
+
+import sys
+import time
+
+from mpi4py import MPI
+
+import watch
+
+what = sys.argv[1]
+comm = MPI.COMM_WORLD
+watch.begin("a barrier", 2)
+if what == "hang" and comm.rank > 0:
+    time.sleep(600)
+comm.Barrier()
+if what == "fail" and comm.rank > 0:
+    raise SystemExit("it has failed")
+print("came to the end")

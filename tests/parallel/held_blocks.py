@@ -1,0 +1,101 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""An upper block that only its contact with the lower one holds, without an interface's search."""
+
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+
+from contactx import cpp as core
+from contactx.bodies.holder import Holder
+from contactx.law.coulomb import Coulomb
+from contactx.law.law import Frictionless
+from contactx.law.nodes import Nodes
+from contactx.master.master import Weights
+from contactx.nodal import NodalValue
+
+
+class HeldBlock:
+    """Each node of the upper block's bottom is paired with the nearest one of the lower's top.
+
+    Attributes:
+        scene: The blocks, with all nodes on all ranks.
+        nodes: State of the slave nodes, with a gap that grows with x.
+        holder: What holds the upper block.
+    """
+
+    def __init__(self, scene, *, friction=0.0, slope=0.01, gap=0.05):
+        self.scene = scene
+        halo, V, dim = scene.halo, scene.u.function_space, scene.dim
+        x = scene.everywhere(halo.x[: halo.num_owned])
+        upper = scene.everywhere(scene.bodies.number[: halo.num_owned])[:, 0] == 1
+        height = x[:, -1]
+        bottom = np.flatnonzero(upper & np.isclose(height, 0.1))
+        top = np.flatnonzero(~upper & np.isclose(height, 0))
+        nearest = top[np.linalg.norm(x[bottom, None] - x[top], axis=2).argmin(axis=1)]
+        place = dict(zip(halo.original.tolist(), range(halo.num_nodes), strict=True))
+        here = [(place[s], place[m]) for s, m in zip(bottom, nearest, strict=True)]
+        here = [(s, m) for s, m in here if s < halo.num_owned]
+        slaves, masters = np.array(here, dtype=np.int32).reshape(-1, 2).T
+        n = len(slaves)
+
+        def vector(block):
+            return SimpleNamespace(array=np.zeros(n * block), block_size=block)
+
+        size = dim if friction else 1
+        law: Any = Frictionless()
+        if friction:
+            law = Coulomb(NodalValue(friction, "friction", V, slaves), halo.comm)
+        state = SimpleNamespace(
+            multiplier=vector(size),
+            area=vector(1),
+            gap_derivative=vector(size),
+            slip_derivative=vector(dim * dim) if friction else None,
+            normal_derivative=vector(dim * dim) if friction else None,
+        )
+        self.nodes = Nodes(state, n, dim)
+        self.nodes.area[:] = 0.1
+        self.nodes.gap[:] = gap + slope * halo.x[slaves, 0]
+        up = np.zeros((n, 3))
+        up[:, dim - 1] = 1
+        self.nodes.normal[:] = up[: len(self.nodes.normal), :dim]
+        self.slaves = slaves
+        numbers = np.repeat(np.arange(n), 2)
+        weights = Weights(
+            numbers, np.column_stack([slaves, masters]).ravel(), np.tile([1.0, -1], n)
+        )
+        master = SimpleNamespace(
+            paired=np.ones(n, dtype=bool), weights=lambda: weights, normals=lambda: up
+        )
+        interface = SimpleNamespace(
+            positions=halo.positions, nodes=self.nodes, master=master, law=law
+        )
+        self.holder = Holder(scene.bulk, [interface], scene.bodies)
+
+    def slip(self, p=1.0, aside=0.02):
+        """All nodes slip along x, by what grows with x, under a pressure."""
+        nodes, x = self.nodes, self.scene.halo.x[self.slaves]
+        nodes.status[:] = core.SLIP
+        nodes.gap[:] = 0
+        traction = nodes.multiplier.reshape(nodes.slip.shape)
+        traction[:, -1], traction[:, 0] = p, -aside
+        nodes.slip[:, 0] = 0.01 + 0.01 * x[:, 0]
+
+    def hold(self, *load, growth=1.0):
+        """Begin a step and hold the block under a load on its nodes that grows with x."""
+        halo = self.scene.halo
+        force = np.array(load) * (1 + growth * halo.x[: halo.num_owned, :1])
+        force[self.scene.bodies.number[: halo.num_owned] == 0] = 0
+        self.holder.begin_step()
+        changed = self.holder.hold(lambda: -force.ravel(), 1.0)
+        stiffness = self.holder.stiffness
+        status = np.full(halo.num_owned, -1)
+        status[self.slaves] = self.nodes.status
+        counts = changed, self.holder.unheld, self.holder.closed, self.holder.drifting
+        none = np.zeros(halo.num_owned * halo.gdim)
+        return (
+            counts,
+            self.scene.everywhere(status),
+            self.scene.everywhere(none if stiffness is None else stiffness),
+        )

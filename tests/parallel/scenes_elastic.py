@@ -1,0 +1,99 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Deformable bodies without friction: pressed, tied, held by contact alone."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import hertz_cylinder
+import numpy as np
+from scenes import Blocks, HertzSphere
+from story import fix, traction
+from tower import Tower
+
+import contactx as cx
+from contactx import meshes
+from contactx.meshes import Tag
+from dolfinx import fem
+from dolfinx.mesh import CellType
+
+
+def hertz_2d() -> Iterator[cx.ContactProblem]:
+    problem, _ = hertz_cylinder.create(0.02, "finite")
+    problem.solve()
+    yield problem
+
+
+def hertz_3d() -> Iterator[cx.ContactProblem]:
+    scene = HertzSphere(meshes.hertz_sphere(0.05), "finite")
+    for t in (0.5, 1.0, 0.3):
+        scene.update(t)
+        scene.problem.solve()
+        yield scene.problem
+
+
+def hertz_condensed() -> Iterator[cx.ContactProblem]:
+    scene = HertzSphere(meshes.hertz_sphere(0.1), "small", petsc_options={"pc_type": "condensed"})
+    for t in (0.5, 1.0):
+        scene.update(t)
+        scene.problem.solve()
+        yield scene.problem
+
+
+def hexahedra() -> Iterator[cx.ContactProblem]:
+    """Facets that warp; the outer ring of slave nodes hangs over."""
+    scene = Blocks(CellType.hexahedron, down=0.1, n_upper=4, n_lower=5)
+    problem = scene.problem(scene.contact())
+    problem.solve()
+    yield problem
+
+
+def tied() -> Iterator[cx.ContactProblem]:
+    tower = Tower(CellType.tetrahedron, 3, 2, tied=True, nu=0.3, shift=0.2)
+    tower.solve(0.02, 0.01, 0.05)
+    yield tower.problem
+
+
+def tied_turning() -> Iterator[cx.ContactProblem]:
+    """A tie of soft bodies that turn as a whole."""
+    tower = Tower(CellType.quadrilateral, 9, 7, tied=True, nu=0.3, neo=True)
+    for angle in (0.2, 0.4):
+        c, s = np.cos(angle), np.sin(angle)
+        tower.move(lambda x, c=c, s=s: x @ np.array([[c, s], [-s, 1.05 * c]]))
+        yield tower.problem
+
+
+def floating_2d() -> Iterator[cx.ContactProblem]:
+    yield from _floating(CellType.triangle, 7, 9)
+
+
+def floating_3d() -> Iterator[cx.ContactProblem]:
+    yield from _floating(CellType.hexahedron, 3, 4)
+
+
+def _floating(cell: CellType, n_upper: int, n_lower: int) -> Iterator[cx.ContactProblem]:
+    """A block without supports falls through a gap and comes to rest under a push."""
+    scene = Blocks(cell, gap=0.1, n_upper=n_upper, n_lower=n_lower)
+    gdim = len(scene.u)
+    scene.bcs = scene.bcs[:gdim]
+    force = np.zeros(gdim)
+    force[0], force[-1] = 0.003, -0.01
+    load = fem.Constant(scene.u.function_space.mesh, force)
+    scene.F += traction(scene.u, scene.tags, Tag.UPPER_TOP, load)
+    problem = scene.problem(scene.contact(friction=0.5))
+    problem.solve()
+    yield problem
+
+
+def floating_smooth() -> Iterator[cx.ContactProblem]:
+    """A block that is only guided sideways, without friction."""
+    scene = Blocks(CellType.quadrilateral, n_upper=8, n_lower=11)
+    load = fem.Constant(scene.u.function_space.mesh, (0.0, -0.05))
+    scene.F += traction(scene.u, scene.tags, Tag.UPPER_TOP, load)
+    scene.bcs = [*scene.bcs[:2], fix(scene.u, scene.tags, 0, 0.0, Tag.UPPER_X0)]
+    problem = scene.problem(scene.contact("small"))
+    for value in (-0.05, -0.1):
+        load.value[1] = value
+        problem.solve()
+        yield problem

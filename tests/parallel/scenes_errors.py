@@ -1,0 +1,202 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""What goes wrong on one rank, or on all: each function returns what the ranks made of it."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from partitions import partitioned
+from scenes import NU, Blocks
+from step_scenes import SlidingBlocks
+from story import elasticity, traction
+
+import contactx as cx
+from contactx.meshes import Tag
+from dolfinx import fem
+from dolfinx.mesh import CellType
+
+QUADRILATERAL, HEXAHEDRON = CellType.quadrilateral, CellType.hexahedron
+
+
+class Wrong(Exception):
+    """What a user's function may raise."""
+
+
+def _raised(comm: Any, call: Callable[[], object]) -> list[str]:
+    """What a call raises on each rank; an empty text where it returns."""
+    text = ""
+    try:
+        call()
+    except Exception as error:
+        text = f"{type(error).__name__}: {error}".splitlines()[0]
+    return comm.allgather(text)
+
+
+def _last_with_slaves(contact: cx.Contact, comm: Any) -> int:
+    """The highest rank that owns a slave node."""
+    return max(comm.allgather(comm.rank if len(contact.slave_nodes) else -1))
+
+
+def update_throws(folder: Path) -> dict[str, Any]:
+    """On the last rank, once; afterwards the loop goes on."""
+    scene = SlidingBlocks(QUADRILATERAL)
+    comm = scene.u.function_space.mesh.comm
+    armed = [comm.rank == comm.size - 1]
+
+    def update(t: float) -> None:
+        if t > 0.6 and armed[0]:
+            armed[0] = False
+            raise Wrong("in update")
+        scene.update(t)
+
+    steps = cx.LoadSteps(scene.problem, 4, update=update, progress=False)
+    errors = _raised(comm, lambda: list(steps))
+    place = comm.allgather(steps.t)
+    return {"errors": errors, "t": place, "left": [step.t for step in steps]}
+
+
+def level_set_throws(folder: Path) -> dict[str, Any]:
+    """On one rank, amid the iterations; once."""
+    armed = [False]
+
+    def ball(x: np.ndarray) -> np.ndarray:
+        if armed[0] and x.shape[1] > 0:
+            armed[0] = False
+            raise Wrong("in a level set")
+        return (x[0] - 0.7) ** 2 + (x[1] - 0.6) ** 2 + (x[2] + 2) ** 2 - 4
+
+    def gradient(x: np.ndarray) -> np.ndarray:
+        return 2 * np.stack([x[0] - 0.7, x[1] - 0.6, x[2] + 2])
+
+    scene = Blocks(HEXAHEDRON, n_upper=3)
+    comm = scene.u.function_space.mesh.comm
+    contact = scene.contact(master=cx.LevelSet(ball, gradient))
+    problem = scene.problem(contact)
+    armed[0] = comm.rank == _last_with_slaves(contact, comm)
+    errors = _raised(comm, problem.solve)
+    clean = comm.allgather(not scene.u.x.array.any())
+    problem.solve()
+    return {"errors": errors, "clean": clean, "converged": problem.report.converged}
+
+
+def material_fails(folder: Path) -> dict[str, Any]:
+    """Young's modulus is not a number in one cell; then it is."""
+    scene = Blocks(QUADRILATERAL)
+    domain = scene.u.function_space.mesh
+    E = fem.Function(fem.functionspace(domain, ("DG", 0)))
+    E.x.array[:] = 1.0
+    if domain.comm.rank == domain.comm.size - 1:
+        E.x.array[:1] = np.nan
+    scene.F = elasticity(scene.u, E, NU)
+    problem = scene.problem(scene.contact())
+    errors = _raised(domain.comm, problem.solve)
+    E.x.array[:] = 1.0
+    problem.solve()
+    return {"errors": errors, "converged": problem.report.converged}
+
+
+def friction_is_negative(folder: Path) -> dict[str, Any]:
+    """At one slave node."""
+    scene = Blocks(QUADRILATERAL)
+    domain = scene.u.function_space.mesh
+    friction = fem.Function(fem.functionspace(domain, ("Lagrange", 1)))
+    friction.x.array[:] = 0.3
+    contact = scene.contact(friction=friction)
+    problem = scene.problem(contact)
+    if domain.comm.rank == _last_with_slaves(contact, domain.comm):
+        friction.x.array[contact.status.x.array >= 0] = -0.3
+    return {"errors": _raised(domain.comm, problem.solve)}
+
+
+def displacement_is_infinite(folder: Path) -> dict[str, Any]:
+    """At one node of the last rank."""
+    scene = Blocks(QUADRILATERAL)
+    comm = scene.u.function_space.mesh.comm
+    problem = scene.problem(scene.contact())
+    if comm.rank == comm.size - 1:
+        scene.u.x.array[0] = np.inf
+    return {"errors": _raised(comm, problem.solve)}
+
+
+def tag_is_missing(folder: Path) -> dict[str, Any]:
+    """Of tags that no rank has all of; those that only some have are fine."""
+    with partitioned("layers"):
+        scene = Blocks(HEXAHEDRON)
+    comm = scene.u.function_space.mesh.comm
+    errors = _raised(comm, lambda: cx.Surface(scene.tags, Tag.UPPER_CONTACT, 99))
+    return {"errors": errors}
+
+
+def surfaces_share_nodes(folder: Path) -> dict[str, Any]:
+    """Of which some ranks have none."""
+    with partitioned("layers"):
+        scene = Blocks(HEXAHEDRON)
+    comm = scene.u.function_space.mesh.comm
+    foot, side = (cx.Surface(scene.tags, tag) for tag in (Tag.UPPER_CONTACT, Tag.UPPER_X0))
+    return {"errors": _raised(comm, lambda: scene.problem(cx.Contact(foot, side)))}
+
+
+def node_is_held_inside(folder: Path) -> dict[str, Any]:
+    """The whole block is held where the plane would push it."""
+    scene = Blocks(QUADRILATERAL)
+    comm = scene.u.function_space.mesh.comm
+    foot = scene.tags.find(Tag.UPPER_CONTACT)
+    dofs = fem.locate_dofs_topological(scene.u.function_space, 1, foot)
+    scene.bcs.append(fem.dirichletbc(np.zeros(2), dofs, scene.u.function_space))
+    problem = scene.problem(scene.contact(master=cx.Plane((0.0, 0.1), (0.0, 1.0))))
+    return {"errors": _raised(comm, problem.solve)}
+
+
+def nothing_in_reach(folder: Path) -> dict[str, Any]:
+    """No rank finds a pair: a warning, and the solve goes on without contact."""
+    scene = Blocks(QUADRILATERAL, gap=1.0)
+    comm = scene.u.function_space.mesh.comm
+    contact = scene.contact(search_distance=0.1)
+    problem = scene.problem(contact)
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        errors = _raised(comm, problem.solve)
+    texts = comm.allgather(" ".join(str(warning.message) for warning in caught))
+    return {"errors": errors, "warnings": texts, "force": contact.force.tolist()}
+
+
+def load_is_not_balanced(folder: Path) -> dict[str, Any]:
+    """A block that nothing holds is pulled away."""
+    scene = Blocks(QUADRILATERAL, gap=0.01)
+    domain = scene.u.function_space.mesh
+    scene.bcs = scene.bcs[:2]
+    load = fem.Constant(domain, (0.0, 0.01))
+    scene.F += traction(scene.u, scene.tags, Tag.UPPER_TOP, load)
+    problem = scene.problem(scene.contact())
+    errors = _raised(domain.comm, problem.solve)
+    return {"errors": errors, "clean": domain.comm.allgather(not scene.u.x.array.any())}
+
+
+def checkpoint_is_damaged(folder: Path) -> dict[str, Any]:
+    scene = SlidingBlocks(QUADRILATERAL)
+    comm = scene.u.function_space.mesh.comm
+    path = folder / "damaged.npz"
+    if comm.rank == 0:
+        path.write_bytes(b"no archive")
+    comm.Barrier()
+    steps = lambda: cx.LoadSteps(scene.problem, 2, update=scene.update, restart=path)  # noqa: E731
+    return {"errors": _raised(comm, steps)}
+
+
+def checkpoint_cannot_be_written(folder: Path) -> dict[str, Any]:
+    """Its folder is gone when it is written."""
+    scene = SlidingBlocks(QUADRILATERAL)
+    comm = scene.u.function_space.mesh.comm
+    path = folder / "gone" / "run.npz"
+    steps = cx.LoadSteps(scene.problem, 2, update=scene.update, checkpoint=path, progress=False)
+    comm.Barrier()
+    if comm.rank == 0:
+        path.parent.rmdir()
+        path.parent.write_text("a file in its place")
+    comm.Barrier()
+    return {"errors": _raised(comm, lambda: list(steps))}

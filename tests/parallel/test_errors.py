@@ -1,0 +1,71 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Errors of one rank are errors of all, and nothing hangs."""
+
+import json
+from pathlib import Path
+
+import pytest
+from together import launch_together
+
+SCRIPT = Path(__file__).with_name("run_errors.py")
+# What each function of scenes_errors.py must say
+RAISED = {
+    "update_throws": "Wrong: in update",
+    "level_set_throws": "Wrong: in a level set",
+    "material_fails": "ConvergenceError: contact did not converge: the residual is not finite",
+    "friction_is_negative": "ValueError: friction is -0.3",
+    "displacement_is_infinite": "ValueError: the displacement u is not finite",
+    "tag_is_missing": "ValueError: tag 99 is not in the facet tags; there are: 11, 12, 13, 14, 15, "
+    "16, 21, 22, 23, 24, 25, 26",
+    "surfaces_share_nodes": "ValueError: slave and master overlap",
+    "node_is_held_inside": "hold 3 slave nodes inside the rigid obstacle",
+    "load_is_not_balanced": "ConvergenceError: contact did not converge: the loads on a body",
+    "checkpoint_is_damaged": "is truncated, or no checkpoint at all",
+    "checkpoint_cannot_be_written": "Error: ",
+}
+
+
+@pytest.fixture(scope="module", params=[1, 2, 4], ids=lambda n: f"{n} ranks")
+def found(request, tmp_path_factory):
+    """What came of each function on some ranks."""
+    folder, ranks = tmp_path_factory.mktemp("errors"), request.param
+
+    def file(name):
+        return folder / f"{name}-{ranks}.json"
+
+    names = [*RAISED, "nothing_in_reach"]
+    wrong = launch_together(SCRIPT, ranks, folder, names, file)
+    for text in wrong.values():
+        print(text)
+    return ranks, {n: json.loads(file(n).read_text()) for n in names if n not in wrong}
+
+
+@pytest.mark.parametrize("name", RAISED)
+def test_all_ranks_raise(found, name):
+    ranks, outcomes = found
+    errors = outcomes[name]["errors"]
+    assert len(errors) == ranks
+    assert len(set(errors)) == 1
+    assert RAISED[name] in errors[0]
+
+
+def test_what_is_left_is_as_it_was(found):
+    ranks, outcomes = found
+    assert outcomes["update_throws"]["t"] == [0.5] * ranks
+    assert outcomes["update_throws"]["left"] == [0.75, 1.0]
+    assert outcomes["level_set_throws"]["clean"] == [True] * ranks
+    assert outcomes["load_is_not_balanced"]["clean"] == [True] * ranks
+    for name in ("level_set_throws", "material_fails"):
+        assert outcomes[name]["converged"]
+
+
+def test_a_search_that_finds_nothing(found):
+    ranks, outcomes = found
+    outcome = outcomes["nothing_in_reach"]
+    assert outcome["errors"] == [""] * ranks
+    assert outcome["force"] == [0.0, 0.0]
+    # One of them may tell the user, or all
+    told = [text for text in outcome["warnings"] if text]
+    assert told and told[0] == outcome["warnings"][0]
+    assert all("the nearest is 0.95 away, and the search reaches 0.1" in text for text in told)

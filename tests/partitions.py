@@ -1,0 +1,105 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Meshes distributed in ways that the usual partitioner would not find."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from functools import partial
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from contactx.meshes import build
+from dolfinx import graph, mesh
+from dolfinx.io.gmsh import MeshData, extract_geometry, model_to_mesh
+
+type Points = npt.NDArray[np.float64]
+type Ranks = npt.NDArray[np.int32]
+
+
+def first(x: Points, size: int) -> Ranks:
+    """All on rank 0; the others have nothing."""
+    return np.zeros(len(x), dtype=np.int32)
+
+
+def bodies(x: Points, size: int) -> Ranks:
+    """The upper body on rank 0, the lower one on the last rank, nothing on those between."""
+    return np.where(x[:, -1] > 0, 0, size - 1).astype(np.int32)
+
+
+def opposed(x: Points, size: int) -> Ranks:
+    """Strips, in the upper body from left to right and in the lower one the other way round."""
+    strip = _parts(x[:, 0], size)
+    return np.where(x[:, -1] > 0, strip, size - 1 - strip).astype(np.int32)
+
+
+def layers(x: Points, size: int) -> Ranks:
+    """Layers by the distance from height zero: the last rank is far from any contact there."""
+    return _parts(np.abs(x[:, -1]), size)
+
+
+def scattered(x: Points, size: int) -> Ranks:
+    """Each cell anywhere: nodes of a surface belong to ranks that have no facet of it."""
+    return np.random.default_rng(1).integers(size, size=len(x), dtype=np.int32)
+
+
+def shifted(x: Points, size: int) -> Ranks:
+    """Strips of one width along the first axis, in the lower body shifted by half of it."""
+    low, high = x[:, 0].min(), x[:, 0].max()
+    place = size * (x[:, 0] - low) / (high - low)
+    return np.clip(place + np.where(x[:, -1] > 0, 0.0, 0.5), 0, size - 1).astype(np.int32)
+
+
+CUSTOM: dict[str, Callable[[Points, int], Ranks]] = {
+    function.__name__: function for function in (first, bodies, opposed, layers, scattered, shifted)
+}
+# That of DOLFINx, without and with ghost cells
+DEFAULT, GHOSTED = "default", "ghosted"
+
+
+@contextmanager
+def partitioned(name: str) -> Iterator[None]:
+    """Distribute all meshes made inside as a partition of this name has it."""
+    before = build.model_to_mesh
+    build.model_to_mesh = partial(_distributed, name)
+    try:
+        yield
+    finally:
+        build.model_to_mesh = before
+
+
+def _distributed(name: str, model: Any, comm: Any, rank: int, gdim: int) -> MeshData:
+    partitioner = None
+    if name == GHOSTED and comm.size > 1:
+        partitioner = mesh.create_cell_partitioner(mesh.GhostMode.shared_facet, 2)
+    elif name in CUSTOM and comm.size > 1:
+        x = extract_geometry(model)[:, :gdim] if comm.rank == rank else np.zeros((0, gdim))
+        partitioner = _partitioner(CUSTOM[name], x)
+    elif name not in (DEFAULT, GHOSTED, *CUSTOM):
+        raise ValueError(f"no partition {name}")
+    return model_to_mesh(model, comm, rank, gdim=gdim, partitioner=partitioner)
+
+
+def _partitioner(ranks_of: Callable[[Points, int], Ranks], x: Points) -> Callable[..., Any]:
+    """A partitioner by the middles of cells, all of which are on one rank."""
+
+    def partitioner(comm: Any, size: int, cell_types: Any, cells: Any) -> Any:
+        nodes = np.asarray(cells[0], dtype=np.int64).reshape(-1, _vertices(cell_types[0]))
+        ranks = ranks_of(x[nodes].mean(axis=1), size) if len(nodes) else np.zeros(0, np.int32)
+        return graph.adjacencylist(ranks.reshape(-1, 1))._cpp_object
+
+    return partitioner
+
+
+def _vertices(cell: mesh.CellType) -> int:
+    return {"triangle": 3, "quadrilateral": 4, "tetrahedron": 4, "hexahedron": 8}[cell.name]
+
+
+def _parts(value: npt.NDArray[np.float64], size: int) -> Ranks:
+    """Parts of about as many cells each, in the order of a value."""
+    ranks = np.empty(len(value), dtype=np.int32)
+    ranks[np.argsort(value, kind="stable")] = np.arange(len(value)) * size // len(value)
+    return ranks
