@@ -121,7 +121,7 @@ class Condensed(LinearSolver):
         Args:
             bulk: The bulk.
             system: The coupled system.
-            x: Reference positions, shape (num_nodes, gdim).
+            x: Reference positions, those of owned nodes first, shape (num_nodes, gdim).
             prefix: Prefix of the PETSc options.
         """
         self._bulk = bulk
@@ -129,7 +129,7 @@ class Condensed(LinearSolver):
         self._solver = CondensedSolver(bulk, system, x, prefix + "condensed_")
         # Residual of the iterate before, and what Newton's method makes of its square
         self._before = self._curvature = 0.0
-        size = system.x.getSize()
+        size = system.x.getSizes()
         self._A = PETSc.Mat().createPython((size, size), self, comm=system.x.comm)
         self._A.setUp()
 
