@@ -44,8 +44,8 @@ def sphere() -> Iterator[cx.ContactProblem]:
 
 
 def plastic() -> Iterator[cx.ContactProblem]:
-    """A moving ball leaves a dent, whose history is that of the material; load steps."""
-    scene = DentedBlock(friction=0.2)
+    """A ball leaves a dent, whose history is that of the material; load steps."""
+    scene = DentedBlock(aside=0.05)
     for _ in cx.LoadSteps(
         scene.problem, 3, update=scene.update, history=scene.history, progress=False
     ):

@@ -28,7 +28,7 @@ def corner_3d() -> Iterator[cx.ContactProblem]:
 
 
 def _corner(cell: CellType, n: int) -> Iterator[cx.ContactProblem]:
-    """A block without supports in the corner of floor and wall, and another floor below it."""
+    """A block without supports in the corner of floor and wall, and another floor below."""
     scene = Blocks(cell, n_upper=n)
     u, tags, gdim = scene.u, scene.tags, len(scene.u)
     up, aside = np.eye(gdim)[-1], np.eye(gdim)[0]
@@ -36,7 +36,7 @@ def _corner(cell: CellType, n: int) -> Iterator[cx.ContactProblem]:
         scene.F += traction(u, tags, face, fem.Constant(u.function_space.mesh, -0.01 * load))
     scene.bcs = scene.bcs[:gdim]
     foot, side = cx.Surface(tags, Tag.UPPER_CONTACT), cx.Surface(tags, Tag.UPPER_X0)
-    planes = [(foot, 0 * up, up), (side, 0.23 * aside, aside), (foot, 0 * up, up)]
+    planes = [(foot, 0 * up, up), (side, 0.23 * aside, aside), (foot, -0.001 * up, up)]
     problem = scene.problem(
         *(cx.Contact(face, cx.Plane(point, n), friction=0.3) for face, point, n in planes)
     )
