@@ -14,6 +14,7 @@ import numpy.typing as npt
 
 import dolfinx.fem.petsc
 import ufl
+from contactx.parallel.reduce import everywhere
 from dolfinx import fem, la
 
 
@@ -164,9 +165,10 @@ class Bulk:
 
     def _assemble(self) -> bool:
         parameters = [fem.pack_constants(self.J), *(c.x.array for c in self._coefficients)]
-        if self._assembled_with is not None and all(
-            map(np.array_equal, parameters, self._assembled_with)
-        ):
+        before = self._assembled_with
+        same = before is not None and all(map(np.array_equal, parameters, before))
+        # A rank without cells has nothing that could change
+        if everywhere(self.u.function_space.mesh.comm, same):
             return False
         if self._A is None or self._A.getType() != "seqaij":
             self._A = dolfinx.fem.petsc.create_matrix(self.J)
