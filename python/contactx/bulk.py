@@ -7,6 +7,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+from mpi4py import MPI
 from petsc4py import PETSc
 
 import numpy as np
@@ -14,7 +15,7 @@ import numpy.typing as npt
 
 import dolfinx.fem.petsc
 import ufl
-from contactx.parallel.reduce import everywhere
+from contactx.parallel import reduce
 from dolfinx import fem, la
 
 
@@ -27,8 +28,9 @@ class Bulk:
         F: Residual form.
         J: Jacobian form.
         is_linear: Whether the Jacobian does not depend on u.
-        markers: 1 at dofs with a Dirichlet condition, those of other ranks last.
+        comm: Communicator; what assembles or asks for the matrix needs all ranks.
         num_dofs: Number of dofs of this rank.
+        markers: 1 at dofs with a Dirichlet condition, those of other ranks last.
         assemblies: How often the Jacobian was assembled.
         skipped: How often an assembled Jacobian served again.
     """
@@ -67,6 +69,7 @@ class Bulk:
         # Those that are left once UFL has differentiated: none is u where the bulk is linear
         self._coefficients = list(self.J._cpp_object.coefficients)
         self.is_linear = all(c is not u._cpp_object for c in self._coefficients)
+        self.comm: MPI.Comm = V.mesh.comm
         self.num_dofs = V.dofmap.index_map.size_local * V.dofmap.index_map_bs
         self._b = la.vector(V.dofmap.index_map, V.dofmap.index_map_bs)
         self._A: PETSc.Mat = None
@@ -100,14 +103,14 @@ class Bulk:
         return owned
 
     def dirichlet_defect(self) -> npt.NDArray[np.float64]:
-        """Displacement minus the values of the Dirichlet conditions, zero elsewhere."""
+        """Displacement minus Dirichlet values, zero elsewhere, ghosts included."""
         defect = np.zeros(len(self.u.x.array))
         for bc in self.bcs:
             bc.set(defect, self.u.x.array, alpha=-1.0)
         return defect
 
     def prescribed(self) -> npt.NDArray[np.float64]:
-        """Displacement with the values of the Dirichlet conditions."""
+        """Displacement with the values of the Dirichlet conditions, ghosts included."""
         displacement: npt.NDArray[np.float64] = self.u.x.array - self.dirichlet_defect()
         return displacement
 
@@ -122,28 +125,34 @@ class Bulk:
     def jacobian(self) -> PETSc.Mat:
         """Jacobian, with unit rows and columns at Dirichlet conditions."""
         self.renew()
-        return self._A if self._A.getType() == "seqaij" else self.copy()
+        return self._A if self._is_whole else self.copy()
 
     def copy(self) -> PETSc.Mat:
         """Copy of the Jacobian in rows."""
         A = self.matrix()
-        return A.copy() if A.getType() == "seqaij" else A.convert("aij", PETSc.Mat())
+        return A.copy() if self._is_whole else A.convert("aij", PETSc.Mat())
 
     def matrix(self) -> PETSc.Mat:
         """The same for products, of whatever type it is kept as."""
         self._assemble()
         return self._A
 
+    @property
+    def _is_whole(self) -> bool:
+        """Whether it is kept in rows, not as half of a symmetric one."""
+        return self._A.getType() in ("seqaij", "mpiaij")
+
     def rows(self, dofs: npt.NDArray[np.integer]) -> PETSc.Mat:
         """Some rows of the Jacobian, for nobody to change.
 
         Args:
-            dofs: Which ones, in order; the same ones every time.
+            dofs: Which owned ones, in order; the same ones every time.
         """
         A = self.matrix()
         if self._rows is None:
-            some = PETSc.IS().createGeneral(dofs, comm=PETSc.COMM_SELF)
-            every = PETSc.IS().createStride(A.getSize()[1], comm=PETSc.COMM_SELF)
+            first, last = A.getOwnershipRange()
+            some = PETSc.IS().createGeneral((first + dofs).astype(PETSc.IntType), comm=self.comm)
+            every = PETSc.IS().createStride(last - first, first, comm=self.comm)
             self._rows = A.createSubMatrix(some, every)
         return self._rows
 
@@ -157,7 +166,7 @@ class Bulk:
 
     def keep_half(self) -> None:
         """Keep only half of a Jacobian that stays and is symmetric: half the memory to pass."""
-        if self.is_linear and self._A.getType() == "seqaij" and self.is_symmetric:
+        if self.is_linear and self._is_whole and self.is_symmetric:
             whole = self._A
             whole.setOption(PETSc.Mat.Option.SYMMETRIC, True)
             self._A = whole.convert("sbaij", PETSc.Mat())
@@ -165,12 +174,12 @@ class Bulk:
 
     def _assemble(self) -> bool:
         parameters = [fem.pack_constants(self.J), *(c.x.array for c in self._coefficients)]
-        before = self._assembled_with
-        same = before is not None and all(map(np.array_equal, parameters, before))
-        # A rank without cells has nothing that could change
-        if everywhere(self.u.function_space.mesh.comm, same):
+        same = self._assembled_with is not None and all(
+            map(np.array_equal, parameters, self._assembled_with)
+        )
+        if reduce.everywhere(self.comm, same):
             return False
-        if self._A is None or self._A.getType() != "seqaij":
+        if self._A is None or not self._is_whole:
             self._A = dolfinx.fem.petsc.create_matrix(self.J)
         self._A.zeroEntries()
         dolfinx.fem.petsc.assemble_matrix(self._A, self.J, bcs=self.bcs)
@@ -181,7 +190,7 @@ class Bulk:
         return True
 
     def nodal_stiffness(self) -> npt.NDArray[np.float64]:
-        """Stiffness of each node: the mean of its free diagonal entries, force/length.
+        """Stiffness of each owned node: the mean of its free diagonal entries, force/length.
 
         Returns:
             Stiffness of this rank's nodes, shape (num_owned,); NaN where all of a node's dofs are
@@ -201,9 +210,9 @@ def _is_symmetric(K: PETSc.Mat) -> bool:
     """Whether x.Ky = y.Kx for two random vectors: any asymmetry shows, but for chance."""
     x, y = K.createVecs()
     work = y.duplicate()
-    rng = np.random.default_rng(0)
+    rng = np.random.default_rng(K.comm.rank)
     for vector in (x, y):
-        vector.array[:] = rng.standard_normal(vector.getSize())
+        vector.array[:] = rng.standard_normal(vector.getLocalSize())
     K.mult(y, work)
     one, size = x.dot(work), work.norm() * x.norm()
     K.mult(x, work)

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import functools
+import weakref
 from collections.abc import Callable
 from typing import Concatenate, Protocol
 
@@ -40,5 +41,24 @@ def keeps_its_error[K: Keeper, **P, R](
         except BaseException as error:
             self.error = error
             raise
+
+    return call
+
+
+def weakly[**P, R](method: Callable[P, R]) -> Callable[P, R]:
+    """A method for PETSc to call that does not keep its object alive.
+
+    Python does not see what PETSc holds on to: an object that its own solver refers to would stay
+    for ever, and destroying it by hand is collective, which garbage collection is not.
+
+    Args:
+        method: Bound method.
+    """
+    reference = weakref.WeakMethod(method)
+
+    def call(*args: P.args, **kwargs: P.kwargs) -> R:
+        bound = reference()
+        assert bound is not None
+        return bound(*args, **kwargs)
 
     return call

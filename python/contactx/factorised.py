@@ -11,6 +11,7 @@ import numpy.typing as npt
 
 from contactx.forms import ContactForms
 from contactx.options import ROUNDING, direct_options
+from contactx.parallel import reduce
 from contactx.report import Report
 from contactx.system import SaddlePointSystem
 
@@ -44,8 +45,8 @@ class FactorisedSolver:
         self._ksp: PETSc.KSP | None = None
         self._A: PETSc.Mat | None = None
         self._forms: list[list[ContactForms]] = []
-        # The matrix whose pattern the factors have
-        self._factorised = 0
+        # Patterns so far, and that of the factors
+        self._pattern = self._factorised = 0
         self._lost = 0
         self.factorisations = self.iterations = 0
 
@@ -73,8 +74,10 @@ class FactorisedSolver:
         """
         with report.timing("Jacobian"):
             forms = [list(interface.forms) for interface in self._system.interfaces]
-            A = self._A if self._forms == forms else None
-            self._A = A = self._system.jacobian(A, springs)
+            if not reduce.everywhere(self._system.halo.comm, self._forms == forms):
+                self._A = None
+                self._pattern += 1
+            self._A = A = self._system.jacobian(self._A, springs)
             self._forms = forms
         if self._ksp is not None and self._lost <= _COST:
             self._ksp.setOperators(A)
@@ -96,7 +99,7 @@ class FactorisedSolver:
         return bool(ksp.getConvergedReason() > 0)
 
     def _factorise(self, A: PETSc.Mat) -> None:
-        if self._ksp is not None and self._factorised != A.handle:
+        if self._ksp is not None and self._factorised != self._pattern:
             # Two factorisations at once would be the largest part of the memory
             self._ksp.destroy()
             self._ksp = None
@@ -111,6 +114,6 @@ class FactorisedSolver:
         self._ksp.setOperators(A)
         self._ksp.setUp()
         pc.setReusePreconditioner(True)
-        self._factorised = A.handle
+        self._factorised = self._pattern
         self._lost = 0
         self.factorisations += 1

@@ -5,13 +5,14 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from types import SimpleNamespace
 
 from petsc4py import PETSc
 
 import numpy as np
 
 from contactx.bulk import Bulk
-from contactx.callback import keeps_its_error
+from contactx.callback import keeps_its_error, weakly
 from contactx.condensed.blocks import Array
 from contactx.condensed.solver import CondensedSolver
 from contactx.report import Report
@@ -66,9 +67,6 @@ class LinearSolver(ABC):
     def forget(self) -> None:
         """Forget the matrix: an error inside PETSc may have left it half done."""
 
-    def let_go(self) -> None:
-        """Let go of what PETSc holds of this solver."""
-
 
 class SaddlePoint(LinearSolver):
     """The whole Jacobian as one matrix, for a direct solver or what the user chooses."""
@@ -101,7 +99,7 @@ class SaddlePoint(LinearSolver):
         with self._report.timing("Jacobian"):
             self._A = self._system.jacobian(springs=springs)
         self._is_current = True
-        self._snes.setJacobian(self._jacobian, self._A)
+        self._snes.setJacobian(weakly(self._jacobian), self._A)
 
     @keeps_its_error
     def _jacobian(self, snes: PETSc.SNES, x: PETSc.Vec, A: PETSc.Mat, P: PETSc.Mat) -> None:
@@ -121,7 +119,7 @@ class Condensed(LinearSolver):
         Args:
             bulk: The bulk.
             system: The coupled system.
-            x: Reference positions, shape (num_nodes, gdim).
+            x: Reference positions, those of owned nodes first, shape (num_nodes, gdim).
             prefix: Prefix of the PETSc options.
         """
         self._bulk = bulk
@@ -129,18 +127,18 @@ class Condensed(LinearSolver):
         self._solver = CondensedSolver(bulk, system, x, prefix + "condensed_")
         # Residual of the iterate before, and what Newton's method makes of its square
         self._before = self._curvature = 0.0
-        size = system.x.getSize()
-        self._A = PETSc.Mat().createPython((size, size), self, comm=system.x.comm)
+        size = system.x.getSizes()
+        self._A = PETSc.Mat().createPython((size, size), self._called(), comm=system.x.comm)
         self._A.setUp()
 
     def begin(self, snes: PETSc.SNES, report: Report) -> None:
         """See ``LinearSolver``."""
         self._solver.begin(report)
         self._before = 0.0
-        snes.setJacobian(self._jacobian, self._A)
+        snes.setJacobian(weakly(self._jacobian), self._A)
         pc = snes.getKSP().getPC()
         pc.setType("python")
-        pc.setPythonContext(self)
+        pc.setPythonContext(self._called())
 
     def provide(self, springs: Array | None) -> None:
         """See ``LinearSolver``."""
@@ -165,10 +163,6 @@ class Condensed(LinearSolver):
         self._solver.target = max(0.1 * left, 0.01 * tolerance)
         self._solver.is_last = self._solver.target < 0.1 * tolerance
 
-    def let_go(self) -> None:
-        """See ``LinearSolver``; the matrix refers back to it."""
-        self._A.destroy()
-
     def end(self, report: Report) -> None:
         """See ``LinearSolver``."""
         report.krylov = self._solver.iterations
@@ -184,6 +178,10 @@ class Condensed(LinearSolver):
     def _jacobian(self, snes: PETSc.SNES, x: PETSc.Vec, A: PETSc.Mat, P: PETSc.Mat) -> None:
         self._system.scatter(x)
         A.assemble()
+
+    def _called(self) -> SimpleNamespace:
+        """What PETSc calls as a matrix or a preconditioner."""
+        return SimpleNamespace(apply=weakly(self.apply), mult=weakly(self.mult))
 
     @keeps_its_error
     def apply(self, pc: PETSc.PC, b: PETSc.Vec, x: PETSc.Vec) -> None:

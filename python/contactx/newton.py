@@ -16,7 +16,7 @@ import numpy as np
 from contactx.bodies.bodies import Bodies
 from contactx.bodies.holder import Holder
 from contactx.bulk import Bulk
-from contactx.callback import keeps_its_error
+from contactx.callback import keeps_its_error, weakly
 from contactx.convergence import Judge
 from contactx.cycling import CycleGuard
 from contactx.factor import set_factor
@@ -100,7 +100,7 @@ class NewtonLoop:
         self._failure = ""
         self.snes = PETSc.SNES().create(system.x.comm)
         self.snes.setOptionsPrefix(prefix)
-        self.snes.setConvergenceTest(self._test)
+        self.snes.setConvergenceTest(weakly(self._test))
 
     def run(self, report: Report) -> None:
         """Run the loop from the state of the displacement and the contacts.
@@ -113,7 +113,7 @@ class NewtonLoop:
         skipped = self._bulk.skipped
         self._system.forget()
         self._system.renew()
-        self.snes.setFunction(self._function, self._system.b)
+        self.snes.setFunction(weakly(self._function), self._system.b)
         self._held = False
         self._failure = ""
         self._halo.shrink()
@@ -170,11 +170,6 @@ class NewtonLoop:
         self.snes.reset()
         self._linear.forget()
 
-    def destroy(self) -> None:
-        """Destroy the solver."""
-        self.snes.destroy()
-        self._linear.let_go()
-
     def _time_linear_solves(self, report: Report) -> None:
         timer = ExitStack()
         ksp = self.snes.getKSP()
@@ -202,6 +197,8 @@ class NewtonLoop:
             Number of nodes of all ranks that changed their status, and of those that changed their
             facet.
         """
+        # Only all ranks together can free what they have dropped
+        PETSc.garbage_cleanup(self._halo.comm)
         status, pairs = self._renew(first)
         self._stale = self._held and self._many(status)
         if self._held and not self._stale:

@@ -173,11 +173,6 @@ class ContactProblem:
         self._complete(report)
         return self.u
 
-    def __del__(self) -> None:
-        """Destroy the solver, which refers to itself through its callbacks."""
-        if hasattr(self, "_newton"):
-            self._newton.destroy()
-
     def _complete(self, report: Report) -> None:
         comm, interfaces = self._halo.comm, self._interfaces
         report.slaves, report.pairs, report.immobile, report.frozen = total(

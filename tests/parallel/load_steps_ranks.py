@@ -13,7 +13,7 @@ from typing import Any
 from mpi4py import MPI
 
 import numpy as np
-from agreeing import refused
+from agreeing import refused, some_ranks, wait
 from relaxed import MESHES, Relaxed
 
 import contactx as cx
@@ -25,18 +25,16 @@ WORLD = MPI.COMM_WORLD
 
 # Ranks that write a checkpoint, and those that go on from it
 PAIRS = ((1, 1), (1, 3), (1, 4), (2, 4), (3, 1), (3, 2), (3, 3), (4, 1), (4, 4))
-COMMS: dict[int, MPI.Comm] = {}
 MADE: dict[tuple[str, int], mesh.Mesh] = {}
 
 
 def problem_on(name: str, size: int) -> Relaxed | None:
     """A new problem on the first so many ranks; None on the others."""
-    if size not in COMMS:
-        COMMS[size] = WORLD.Split(0 if WORLD.rank < size else 1)
-    if WORLD.rank >= size:
+    comm = some_ranks(size)
+    if comm is None:
         return None
     if (name, size) not in MADE:
-        MADE[name, size] = MESHES[name](COMMS[size])
+        MADE[name, size] = MESHES[name](comm)
     return Relaxed(MADE[name, size], fails_above=0.2)
 
 
@@ -51,9 +49,11 @@ def run(problem: Relaxed, until: int | None = None, steps: Any = 3, **options: A
     return loop
 
 
-def state(loop: cx.LoadSteps, file: Path, comm: MPI.Comm) -> dict[str, Any] | None:
+def state(loop: cx.LoadSteps, file: Path, ranks: int) -> dict[str, Any] | None:
     """All arrays of a state but for the wall times, on rank 0."""
     loop.save(file)
+    comm = some_ranks(ranks)
+    assert comm is not None
     comm.Barrier()
     if comm.rank > 0:
         return None
@@ -72,20 +72,20 @@ def checkpoints(folder: Path) -> None:
                 loop = run(problem)
                 # Each of the three given steps was halved
                 assert loop.t == 1 and len(problem.calls) > 6
-                ends[n] = state(loop, folder / "end.npz", COMMS[n])
+                ends[n] = state(loop, folder / "end.npz", n)
                 run(problem_on(name, n), until=3).save(folder / f"{name} {n}.npz")
-            WORLD.Barrier()
+            wait()
         for n, m in PAIRS:
             problem = problem_on(name, m)
             if problem is not None:
                 problem.before = 0.5
                 loop = run(problem, restart=folder / f"{name} {n}.npz")
                 assert loop.t == 1
-                end = state(loop, folder / "end.npz", COMMS[m])
+                end = state(loop, folder / "end.npz", m)
                 if end is not None:
                     compare(end, ends[m], ends[1], n == m)
                     print(f"{name}: {n} ranks, then {m}", flush=True)
-            WORLD.Barrier()
+            wait()
 
 
 def compare(end: Any, straight: Any, on_one: Any, same_number: bool) -> None:

@@ -13,7 +13,7 @@ from pathlib import Path
 HERE = Path(__file__).parent
 
 
-def run_ranks(script: str, ranks: int, *arguments: object, seconds: float = 60) -> str:
+def run_ranks(script: str, ranks: int, *arguments: object, seconds: float = 200) -> str:
     """Run a script of this folder under mpiexec, and return what it printed.
 
     Args:

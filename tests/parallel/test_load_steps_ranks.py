@@ -8,7 +8,7 @@ from run_ranks import run_ranks
 
 
 def test_checkpoints_errors_and_the_table(tmp_path):
-    output = run_ranks("load_steps_ranks.py", 4, tmp_path, seconds=100)
+    output = run_ranks("load_steps_ranks.py", 4, tmp_path)
     for name in MESHES:
         for n, m in PAIRS:
             assert f"{name}: {n} ranks, then {m}" in output

@@ -40,18 +40,10 @@ class Entries:
         return Entries(self.rows, self.columns, factor * self.values)
 
     def matrix(self, shape: tuple[int, int]) -> PETSc.Mat:
-        """AIJ matrix; entries of one place are added."""
-        order = np.argsort(self.rows)
-        indptr = np.searchsorted(self.rows[order], np.arange(shape[0] + 1)).astype(PETSc.IntType)
+        """AIJ matrix of this rank alone; entries of one place are added."""
         A = PETSc.Mat().createAIJ(shape, comm=PETSc.COMM_SELF)
-        A.setPreallocationNNZ(np.maximum(np.diff(indptr), 0).astype(PETSc.IntType))
-        A.setValuesIJV(
-            indptr,
-            self.columns[order].astype(PETSc.IntType),
-            self.values[order],
-            addv=PETSc.InsertMode.ADD,
-        )
-        A.assemble()
+        A.setPreallocationCOO(self.rows.astype(PETSc.IntType), self.columns.astype(PETSc.IntType))
+        A.setValuesCOO(self.values, PETSc.InsertMode.ADD)
         return A
 
 
@@ -82,9 +74,10 @@ def joined(parts: list[Entries]) -> Entries:
 
 @dataclass(frozen=True)
 class ContactBlocks:
-    """Blocks of the contact part of a Jacobian, in the unknowns (displacements, multipliers).
+    """Blocks of a rank's contact part of a Jacobian, in its unknowns (displacements, multipliers).
 
-    Entries of one place add up.
+    The displacements are those of all nodes on the rank. Entries of one place add up, those of
+    other ranks included.
 
     Attributes:
         traction: Derivative of the displacements' rows by the multipliers, (dof, multiplier).
@@ -97,22 +90,27 @@ class ContactBlocks:
     stiffness: Entries
 
     @staticmethod
-    def of(contact: PETSc.Mat, num_bulk: int) -> ContactBlocks:
+    def of(contact: PETSc.Mat, num_local: int) -> ContactBlocks:
         """Sort a matrix into blocks.
 
         Args:
-            contact: Contact part of the Jacobian.
-            num_bulk: Number of displacements.
+            contact: Contact part of the Jacobian, of this rank's pairs.
+            num_local: Number of displacements of all nodes on this rank.
         """
         every = entries_of(contact)
-        below, right = every.rows >= num_bulk, every.columns >= num_bulk
+        below, right = every.rows >= num_local, every.columns >= num_local
         traction, constraint = every.select(~below & right), every.select(below & ~right)
-        traction.columns = traction.columns - num_bulk
-        constraint.rows = constraint.rows - num_bulk
+        traction.columns = traction.columns - num_local
+        constraint.rows = constraint.rows - num_local
         return ContactBlocks(traction, constraint, every.select(~below & ~right))
 
 
-def lumped(blocks: ContactBlocks, interfaces: Sequence[Interface], gdim: int) -> ContactBlocks:
+def lumped(
+    blocks: ContactBlocks,
+    interfaces: Sequence[Interface],
+    is_slave: npt.NDArray[np.bool_],
+    gdim: int,
+) -> ContactBlocks:
     """Blocks in which a slave node stands for the others of its facets.
 
     What is integrated over slave facets feels all of their nodes as they slide, if only by the
@@ -122,6 +120,7 @@ def lumped(blocks: ContactBlocks, interfaces: Sequence[Interface], gdim: int) ->
     Args:
         blocks: Contact blocks of a Jacobian.
         interfaces: Discrete sides of the contacts.
+        is_slave: Whether each of all nodes is slave in each contact, shape (num_nodes, contacts).
         gdim: Geometric dimension.
 
     Returns:
@@ -131,18 +130,13 @@ def lumped(blocks: ContactBlocks, interfaces: Sequence[Interface], gdim: int) ->
     contact = np.repeat(
         np.arange(len(interfaces)), [len(i.slaves) * i.nodes.size for i in interfaces]
     )
-    C, T = blocks.constraint, blocks.traction
-    last = max(e.max(initial=-1) for e in (C.columns, T.rows)) // gdim
-    size = 1 + max(last, *(i.slaves.max() for i in interfaces))
-    slaves = np.zeros((len(interfaces), size), dtype=bool)
-    for k, interface in enumerate(interfaces):
-        slaves[k, interface.slaves] = True
 
     def moved(dofs: Index, multipliers: Index) -> Index:
         node, home = dofs // gdim, own[multipliers]
-        away = slaves[contact[multipliers], node] & (node != home)
+        away = is_slave[node, contact[multipliers]] & (node != home)
         return np.where(away, home * gdim + dofs % gdim, dofs)
 
+    C, T = blocks.constraint, blocks.traction
     columns, rows = moved(C.columns, C.rows), moved(T.rows, T.columns)
     if np.array_equal(columns, C.columns) and np.array_equal(rows, T.rows):
         return blocks

@@ -26,13 +26,17 @@ class Elimination:
     slips the tangential rows are those of the law: with tangential vectors tau_i the row of the
     displacement i becomes tau_i (C_l A^-1 K_s + C_u), the natural one for no friction.
 
+    All of it is of one rank alone: its slave nodes, in the numbers of all nodes' displacements on
+    the rank, those of its own nodes first.
+
     Attributes:
         left: Change of the rows' combinations, entries (dof, dof).
         right: Change of the displacements, entries (dof, dof).
         law: Rows of the law that are added, entries (dof, dof).
-        eliminated: Displacements that the constraints give, shape (k,).
+        eliminated: Displacements that the constraints give, in order, shape (k,).
+        recovered: Displacements whose rows give multipliers, shape (m,).
         slave_dofs: Displacements of all slave nodes, in order.
-        is_symmetric: Whether ``left`` is the transpose of ``right`` and there is no ``law``.
+        slips: Whether a node slips with friction.
     """
 
     def __init__(
@@ -43,7 +47,7 @@ class Elimination:
         Args:
             interfaces: Discrete sides of the contacts.
             contact: Contact blocks of the Jacobian, without multipliers that the bulk cannot give.
-            free: 1 at displacements that are not prescribed, else 0, shape (num_dofs,).
+            free: 1 at displacements that are not prescribed, else 0, shape (num_local,).
             gdim: Geometric dimension.
 
         Raises:
@@ -60,7 +64,7 @@ class Elimination:
         self._extra: list[Entries] = []
         self._recover: list[tuple[Index, Index, Array]] = []
         self._open: list[tuple[Index, Array]] = []
-        self._slips = False
+        self.slips = False
         slaves = np.unique(np.concatenate([i.slaves for i in interfaces]))
         self.slave_dofs = (slaves[:, None] * gdim + np.arange(gdim)).ravel().astype(PETSc.IntType)
         first = 0
@@ -71,11 +75,10 @@ class Elimination:
         self.left, self.right, self.law = (
             joined(parts or [_none()]) for parts in (self._left, self._right, self._law)
         )
-        self.eliminated = np.concatenate(
-            [np.zeros(0, dtype=np.int64), *(dofs for dofs, _ in self._pivots)]
-        )
-        self._check_chains()
-        self.is_symmetric = not self._slips and self._transposed()
+        self.eliminated = np.sort(_all_of([dofs for dofs, _ in self._pivots]))
+        self.recovered = _all_of([rows for _, rows, _ in self._recover])
+        if len(np.unique(self.recovered)) < len(self.recovered):
+            raise NotCondensable("a node is slave in several contacts that are closed")
 
     def _add(self, interface: Interface, first: int, by: Array, own: npt.NDArray[np.bool_]) -> None:
         nodes = interface.nodes
@@ -95,7 +98,7 @@ class Elimination:
         slip = nodes.status == core.SLIP
         self._add_stick(dofs[stick], multipliers[stick], own[stick])
         if slip.any():
-            self._slips = True
+            self.slips = True
             by = by[slip] / nodes.area[slip, None, None]
             self._add_slip(dofs[slip], multipliers[slip], nodes.normal[slip], by, own[slip])
 
@@ -227,46 +230,15 @@ class Elimination:
         place[multipliers] = np.arange(len(multipliers))
         return place
 
-    def _check_chains(self) -> None:
-        slaves = np.concatenate([np.zeros(0, dtype=np.int64), *(r for _, r, _ in self._recover)])
-        if len(np.unique(slaves)) < len(slaves):
-            raise NotCondensable("a node is slave in several contacts that are closed")
-        mark = np.zeros(len(self._free), dtype=bool)
-        mark[slaves] = True
-        taken = np.zeros(len(self._free), dtype=bool)
-        taken[self.eliminated] = True
-        # A row that is taken over must not get one, nor a displacement follow from another
-        crossed = mark[self.left.rows] & mark[self.left.columns]
-        within = self.left.rows // self._gdim == self.left.columns // self._gdim
-        chained = taken[self.right.columns] & (self.right.rows != self.right.columns)
-        if np.any(crossed & ~within) or np.any(chained):
-            raise NotCondensable("a node is slave in one contact and master in another")
-
-    def _transposed(self) -> bool:
-        """Whether left = right^T, but for the eliminated rows and rounding."""
-        size = len(self._free)
-        taken = np.zeros(size, dtype=bool)
-        taken[self.eliminated] = True
-        left = self.left.select(~taken[self.left.rows])
-        right = self.right.select(self.right.rows != self.right.columns)
-        a = np.lexsort((left.rows, left.columns))
-        b = np.lexsort((right.columns, right.rows))
-        if len(a) != len(b) or not np.array_equal(left.rows[a], right.columns[b]):
-            return False
-        return bool(
-            np.array_equal(left.columns[a], right.rows[b])
-            and np.allclose(left.values[a], right.values[b], rtol=0, atol=1e-8)
-        )
-
     def shift(self, d: Array) -> Array:
-        """What the constraints' right-hand side gives of the displacements, shape (num_dofs,)."""
+        """What the constraints' right-hand side gives of displacements, shape (num_local,)."""
         shift = np.zeros(len(self._free))
         for dofs, factors in self._pivots:
             np.add.at(shift, dofs[factors.rows], factors.values * d[factors.columns])
         return shift
 
     def extra(self, d: Array) -> Array:
-        """What the law's right-hand side adds to the rows, shape (num_dofs,)."""
+        """What the law's right-hand side adds to the rows, shape (num_local,)."""
         extra = np.zeros(len(self._free))
         for part in self._extra:
             np.add.at(extra, part.rows, part.values * d[part.columns])
@@ -283,11 +255,16 @@ class Elimination:
         """Set the multipliers of closed nodes.
 
         Args:
-            defect: b - K du, shape (num_dofs,).
+            defect: b - K du, shape (num_owned,).
             multipliers: Values to write into, shape (num_multipliers,).
         """
         for which, rows, factor in self._recover:
             multipliers[which] = defect[rows] / factor
+
+
+def _all_of(parts: list[Index]) -> Index:
+    """All of several arrays, of which there may be none."""
+    return np.concatenate([np.zeros(0, dtype=np.int64), *parts])
 
 
 def _none() -> Entries:

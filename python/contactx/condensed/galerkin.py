@@ -6,11 +6,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from mpi4py import MPI
 from petsc4py import PETSc
 
 import numpy as np
 
+from contactx.condensed.blocks import Index
+from contactx.condensed.numbering import index_set, own_columns
 from contactx.condensed.operator import Change
+from contactx.parallel import reduce
 
 _DIFFERENT = PETSc.Mat.Structure.DIFFERENT_NONZERO_PATTERN
 # Part of the eliminated displacements that may have changed for a hierarchy to serve as it is
@@ -25,41 +29,48 @@ class Galerkin:
     turning of normals adds to K is left to the finest level.
     """
 
-    def __init__(self, slave_rows: PETSc.Mat, prolongations: Sequence[PETSc.Mat]):
+    def __init__(self, comm: MPI.Comm, slave_rows: PETSc.Mat, prolongations: Sequence[PETSc.Mat]):
         """Create the projections.
 
         Args:
+            comm: Communicator.
             slave_rows: Rows of the bulk's matrix at the displacements of all slave nodes.
             prolongations: To the finest level, to the next coarser one, and so on.
         """
+        self._comm = comm
         self._prolongations = list(prolongations)
         self._rows = [slave_rows]
         for Q in prolongations:
             self._rows.append(self._rows[-1].matMult(Q))
         self._added: list[PETSc.Mat | None] = [None for _ in prolongations]
-        self._followed = np.zeros(0, dtype=PETSc.IntType)
+        self._followed: Index = np.zeros(0, dtype=np.int64)
 
     def follows(self, part: Change) -> bool:
-        """Whether the matrices are those of nearly the same eliminated displacements."""
+        """Whether the matrices are those of nearly the same eliminated displacements.
+
+        All ranks must take part, and have the same answer.
+        """
         new = np.setxor1d(part.places, self._followed, assume_unique=True)
-        return part.springs is None and len(new) <= _FEW * len(part.places)
+        changed, count = reduce.total(self._comm, np.array([len(new), len(part.places)]))
+        return part.springs is None and bool(changed <= _FEW * count)
 
     def update(self, part: Change, matrices: Sequence[PETSc.Mat]) -> None:
         """Bring the matrices of the coarser levels from one state of the contacts to another.
+
+        All ranks must take part.
 
         Args:
             part: What contact changes now.
             matrices: Matrices of the levels, in the order of the prolongations.
         """
         X, springs = part.right, part.springs
-        chosen = PETSc.IS().createGeneral(part.places, comm=PETSc.COMM_SELF)
+        chosen = index_set(part.places, self._rows[0])
         levels = zip(self._prolongations, self._rows[1:], matrices, strict=True)
         for level, (Q, rows, A) in enumerate(levels):
             X = X.matMult(Q)
-            every = PETSc.IS().createStride(Q.getSize()[1], comm=PETSc.COMM_SELF)
             Y = part.block.matMult(X)
             Y.scale(0.5)
-            Y.axpy(1.0, rows.createSubMatrix(chosen, every), _DIFFERENT)
+            Y.axpy(1.0, rows.createSubMatrix(chosen, own_columns(rows)), _DIFFERENT)
             change = X.transposeMatMult(Y)
             change.axpy(1.0, change.transpose(PETSc.Mat()), _DIFFERENT)
             if springs is not None:

@@ -6,14 +6,14 @@ from __future__ import annotations
 
 from petsc4py import PETSc
 
-import numpy as np
-
 from contactx.condensed.operator import CondensedOperator
 
 # Steps that are remembered: loads grow evenly, or their growth changes evenly
 _STEPS = 2
 # Part of the right-hand side that a guess must leave at most
 _USEFUL = 0.5
+# Part of a solution's product that must be new
+_SAME = 1e-10
 
 
 class Guess:
@@ -42,20 +42,30 @@ class Guess:
         """
         if not self._is_first or not self._solutions:
             return
-        known = [solution.copy() for solution in self._solutions]
-        products = []
-        for vector in known:
+        start, left = v.duplicate(), rhs.copy()
+        start.zeroEntries()
+        # Orthonormal products of the matrix, each with its vector
+        basis: list[tuple[PETSc.Vec, PETSc.Vec]] = []
+        for solution in self._solutions:
+            vector, product = solution.copy(), rhs.duplicate()
             vector.array[operator.eliminated] = 0
-            product = rhs.duplicate()
             operator.mult(None, vector, product)
-            products.append(product.array_r)
-        matrix = np.stack(products, axis=1)
-        factors, *_ = np.linalg.lstsq(matrix, rhs.array_r)
-        left = np.linalg.norm(rhs.array_r - matrix @ factors)
-        if left > _USEFUL * rhs.norm():
-            return
-        v.zeroEntries()
-        v.maxpy(factors, known)
+            size = product.norm()
+            for other, of_other in basis:
+                factor = of_other.dot(product)
+                product.axpy(-factor, of_other)
+                vector.axpy(-factor, other)
+            new = product.norm()
+            if new <= _SAME * size:
+                continue
+            vector.scale(1 / new)
+            product.scale(1 / new)
+            basis.append((vector, product))
+            factor = product.dot(left)
+            start.axpy(factor, vector)
+            left.axpy(-factor, product)
+        if left.norm() <= _USEFUL * rhs.norm():
+            start.copy(v)
 
     def keep(self, v: PETSc.Vec) -> None:
         """Remember a solution, where it is the first of a step."""

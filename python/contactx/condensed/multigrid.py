@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from mpi4py import MPI
 from petsc4py import PETSc
 
 import numpy as np
@@ -14,6 +15,7 @@ from contactx.condensed.blocks import Array, Index
 from contactx.condensed.galerkin import Galerkin
 from contactx.condensed.operator import Change, CondensedOperator
 from contactx.options import ROUNDING, multigrid_options
+from contactx.parallel import reduce
 from contactx.report import Report
 
 # Iterations that cost what a hierarchy costs, as measured from 7,000 to 160,000 displacements
@@ -49,10 +51,11 @@ class Multigrid:
 
         Args:
             bulk: The bulk.
-            x: Reference positions, shape (num_nodes, gdim).
+            x: Reference positions of the owned nodes, shape (num_owned, gdim).
             prefix: Prefix of the PETSc options.
         """
         self._bulk = bulk
+        self._comm: MPI.Comm = bulk.comm
         self._x = x
         self._prefix = prefix
         self._ksp: PETSc.KSP | None = None
@@ -61,8 +64,8 @@ class Multigrid:
         self._built_at = 0
         self._smoothers: list[PETSc.KSP] = []
         self.iterations = self.hierarchies = 0
-        size = len(bulk.markers)
-        self._A = PETSc.Mat().createPython((size, size), comm=PETSc.COMM_SELF)
+        size = (x.size, None)
+        self._A = PETSc.Mat().createPython((size, size), comm=self._comm)
 
     def solve(
         self,
@@ -162,13 +165,14 @@ class Multigrid:
         P = self._bulk.copy()
         P.setBlockSize(self._x.shape[1])
         vectors = []
-        for mode in near_null_space(self._x):
+        prescribed = self._bulk.markers[: self._x.size] == 1
+        for mode in near_null_space(self._x, self._comm):
             vector = P.createVecRight()
             # Rows of prescribed displacements have a one and no neighbours
-            vector.array[:] = np.where(self._bulk.markers == 1, 0.0, mode)
+            vector.array[:] = np.where(prescribed, 0.0, mode)
             vectors.append(vector)
-        P.setNearNullSpace(PETSc.NullSpace().create(vectors=vectors))
-        ksp = PETSc.KSP().create(comm=PETSc.COMM_SELF)
+        P.setNearNullSpace(PETSc.NullSpace().create(vectors=vectors, comm=self._comm))
+        ksp = PETSc.KSP().create(comm=self._comm)
         ksp.setOptionsPrefix(self._prefix)
         pc = ksp.getPC()
         pc.setType("gamg")
@@ -193,9 +197,11 @@ class Multigrid:
             pc.setReusePreconditioner(True)
             smoothers = [pc.getMGSmoother(level) for level in range(levels - 1, 0, -1)]
             self._smoothers = [*smoothers, pc.getMGCoarseSolve()]
-            direct = self._smoothers[-1].getPC()
-            direct.setType("lu")
-            direct.setFactorShift(PETSc.Mat.FactorShiftType.INBLOCKS)
+            if self._comm.size == 1:
+                # Of several ranks the first has all of the coarsest level, as one block
+                direct = self._smoothers[-1].getPC()
+                direct.setType("lu")
+                direct.setFactorShift(PETSc.Mat.FactorShiftType.INBLOCKS)
         for level, smoother in enumerate(self._smoothers):
             smoother.getPC().setReusePreconditioner(False)
             if 0 < level < levels - 1:
@@ -207,6 +213,7 @@ class Multigrid:
         P.setPreallocationNNZ(0)
         P.setNearNullSpace(PETSc.NullSpace())
         self._galerkin = Galerkin(
+            self._comm,
             self._bulk.rows(slave_dofs),
             [pc.getMGInterpolation(level) for level in range(levels - 1, 0, -1)],
         )
@@ -245,12 +252,19 @@ def _distance(operator: CondensedOperator, rhs: PETSc.Vec, v: PETSc.Vec) -> floa
     return float(residual.norm())
 
 
-def near_null_space(x: Array) -> Array:
-    """Rigid modes of all nodes, orthonormal, shape (3 or 6, num_nodes * gdim).
+def near_null_space(x: Array, comm: MPI.Comm) -> Array:
+    """Rigid modes of all nodes, orthonormal over all ranks, which must all take part.
 
     Args:
-        x: Positions, shape (num_nodes, gdim).
+        x: Positions of the owned nodes, shape (num_owned, gdim).
+        comm: Communicator.
+
+    Returns:
+        Displacements of the owned nodes, shape (3 or 6, num_owned * gdim).
     """
-    modes = rigid_modes(x - x.mean(axis=0))
-    basis: Array = np.linalg.qr(modes.reshape(x.size, -1))[0].T
+    middle = reduce.total(comm, x.sum(axis=0)) / reduce.total(comm, len(x))
+    modes = rigid_modes(x - middle).reshape(x.size, -1)
+    modes /= np.sqrt(reduce.total(comm, (modes**2).sum(axis=0)))
+    gram = reduce.total(comm, modes.T @ modes)
+    basis: Array = np.linalg.solve(np.linalg.cholesky(gram), modes.T)
     return basis

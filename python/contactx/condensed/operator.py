@@ -12,24 +12,29 @@ import numpy as np
 
 from contactx.bulk import Bulk
 from contactx.condensed.blocks import Array, ContactBlocks, Entries, Index
+from contactx.condensed.chains import is_symmetric
 from contactx.condensed.elimination import Elimination
+from contactx.condensed.numbering import Numbering, index_set
+from contactx.parallel import reduce
 
 
 class CondensedOperator:
     """K_c = (I + left) (K + S) (I + right) + law (I + right), with ones for what is eliminated.
 
     It is applied as it stands: the bulk's matrix is neither copied nor changed, and the others have
-    entries in contact rows alone.
+    entries in contact rows alone. All ranks must take part in making and applying it.
 
     Attributes:
         diagonal: Entries that stand for the eliminated displacements, shape (k,).
         eliminated: The eliminated displacements, shape (k,).
+        slave_dofs: Displacements of all slave nodes, in order.
         is_symmetric: Whether the condensed matrix is symmetric.
     """
 
     def __init__(
         self,
         bulk: Bulk,
+        numbering: Numbering,
         blocks: ContactBlocks,
         elimination: Elimination,
         springs: Array | None,
@@ -38,25 +43,35 @@ class CondensedOperator:
 
         Args:
             bulk: The bulk.
+            numbering: Displacements on this rank.
             blocks: Contact blocks of the Jacobian.
             elimination: How the multipliers are eliminated.
-            springs: What is added to the diagonal, shape (num_dofs,).
+            springs: What is added to the diagonal, shape (num_owned,), on all ranks or on none.
         """
         self._bulk = bulk
+        self._numbering = numbering
         self._K = bulk.matrix()
-        size = self._K.getSize()[0]
-        self.is_symmetric = bulk.is_symmetric and elimination.is_symmetric
-        self._S = _sparse(blocks.stiffness, size)
-        self._right = _sparse(elimination.right, size)
-        # Where left is the transpose of right it is not made
-        self._transposed = self._right if elimination.is_symmetric else None
-        self._left = None if elimination.is_symmetric else _sparse(elimination.left, size)
-        self._law = _sparse(elimination.law, size)
         self._elimination = elimination
         self._springs = springs
         self.slave_dofs = elimination.slave_dofs
         self.eliminated = elimination.eliminated
-        self.diagonal = np.abs(self._K.getDiagonal().array)[self.eliminated]
+        # Rows of the eliminated displacements alone
+        self._right = numbering.matrix(elimination.right, self.eliminated)
+        self._some = self._right.createVecLeft()
+        transposed = is_symmetric(elimination, numbering)
+        self.is_symmetric = bulk.is_symmetric and transposed
+        others = (blocks.stiffness, elimination.left, elimination.law)
+        counts = reduce.largest(numbering.comm, np.array([len(e.rows) for e in others]))
+        self._S, left, self._law = (
+            numbering.matrix(e)
+            if count > 0 and not (transposed and e is elimination.left)
+            else None
+            for e, count in zip(others, counts, strict=True)
+        )
+        # Where left is the transpose of right it is not made
+        self._left = left
+        self._transposed = transposed
+        self.diagonal = np.abs(self._K.getDiagonal().array_r)[self.eliminated]
         self._z, self._w = self._K.createVecs()
         self._work = self._w.duplicate()
 
@@ -70,15 +85,15 @@ class CondensedOperator:
 
     def expand(self, v: PETSc.Vec, z: PETSc.Vec) -> None:
         """Give all displacements, z = (I + right) v."""
-        if self._right is None:
-            v.copy(z)
-        else:
-            self._right.multAdd(v, v, z)
+        self._right.mult(v, self._some)
+        v.copy(z)
+        z.array[self.eliminated] += self._some.array_r
 
     def combine(self, w: PETSc.Vec, y: PETSc.Vec) -> None:
         """Combine rows, y = (I + left) w, zero in the eliminated ones."""
-        if self._transposed is not None:
-            self._transposed.multTransposeAdd(w, w, y)
+        if self._transposed:
+            self._some.array[:] = w.array_r[self.eliminated]
+            self._right.multTransposeAdd(self._some, w, y)
         elif self._left is None:
             w.copy(y)
         else:
@@ -101,19 +116,16 @@ class CondensedOperator:
 
     def change(self) -> Change:
         """What contact changes in the bulk's matrix, without what friction adds."""
-        size = self._K.getSize()[0]
-        order = np.sort(self.eliminated).astype(PETSc.IntType)
-        eliminated = PETSc.IS().createGeneral(order, comm=PETSc.COMM_SELF)
-        places = np.searchsorted(self.slave_dofs, order).astype(PETSc.IntType)
-        chosen = PETSc.IS().createGeneral(places, comm=PETSc.COMM_SELF)
-        whole = PETSc.IS().createStride(size, comm=PETSc.COMM_SELF)
-        block = self._bulk.rows(self.slave_dofs).createSubMatrix(chosen, eliminated)
-        right = (self._right or _empty(size)).createSubMatrix(eliminated, whole)
+        rows = self._bulk.rows(self.slave_dofs)
+        places = np.searchsorted(self.slave_dofs, self.eliminated)
+        block = rows.createSubMatrix(
+            index_set(places, rows), self._numbering.index_set(self.eliminated)
+        )
         springs = None
         if self._springs is not None:
-            held = np.setdiff1d(np.flatnonzero(self._springs), order)
-            springs = Entries(held, held, self._springs[held]).matrix((size, size))
-        return Change(places, right, block, springs, self._bound())
+            held = np.setdiff1d(np.flatnonzero(self._springs), self.eliminated)
+            springs = self._numbering.matrix(Entries(held, held, self._springs[held]))
+        return Change(places, self._right, block, springs, self._bound())
 
     def _bound(self) -> PETSc.Vec:
         """Diagonal D with which the condensed matrix has no larger eigenvalue than the bulk's.
@@ -127,7 +139,8 @@ class CondensedOperator:
         R = R.select(R.rows != R.columns)
         size = np.abs(R.values)
         total = np.bincount(R.rows, size, len(D))
-        D = D + np.bincount(R.columns, (D * total)[R.rows] * size, len(D))
+        more = np.bincount(R.columns, (D * total)[R.rows] * size, self._numbering.num_local)
+        D = D + self._numbering.add_up(more)
         if self._S is not None:
             indptr, _, values = self._S.getValuesCSR()
             rows = np.repeat(np.arange(len(D)), np.diff(indptr))
@@ -144,7 +157,7 @@ class Change:
     """What contact changes in the bulk's matrix K, by the eliminated displacements e in order.
 
     Attributes:
-        places: Their places among the displacements of the slave nodes, shape (k,).
+        places: Their places among the displacements of this rank's slave nodes, shape (k,).
         right: Their rows of ``right``, (k, num_dofs).
         block: Block K_ee, (k, k).
         springs: Springs elsewhere, (num_dofs, num_dofs); None where there are none.
@@ -156,12 +169,3 @@ class Change:
     block: PETSc.Mat
     springs: PETSc.Mat | None
     bound: PETSc.Vec
-
-
-def _sparse(entries: Entries, size: int) -> PETSc.Mat | None:
-    return entries.matrix((size, size)) if len(entries.rows) > 0 else None
-
-
-def _empty(size: int) -> PETSc.Mat:
-    none = np.zeros(0, dtype=np.int64)
-    return Entries(none, none, np.zeros(0)).matrix((size, size))

@@ -34,6 +34,8 @@ class Prescribed:
     goes into the other rows: C - D G C, D - D G D and T - T G D take the place of C, D and T, and
     -T G C is added to the stiffness.
 
+    All of it is of one rank alone: its slave nodes' constraints, in all nodes' displacements.
+
     Attributes:
         blocks: Contact blocks without these multipliers.
         by_multiplier: The law's derivatives D without them, one array (n, k, k) a contact.
@@ -48,7 +50,7 @@ class Prescribed:
         Args:
             interfaces: Discrete sides of the contacts.
             blocks: Contact blocks of the Jacobian.
-            free: 1 at displacements that are not prescribed, else 0, shape (num_dofs,).
+            free: 1 at displacements that are not prescribed, else 0, shape (num_local,).
             gdim: Geometric dimension.
 
         Raises:
@@ -67,8 +69,9 @@ class Prescribed:
             self.own.append(own)
             first += own.size
         self._size = first
+        self._num_local = len(free)
         if self._places:
-            self._take_out(len(free))
+            self._take_out()
 
     def _node_by_node(
         self, interface: Interface, first: int, free: Array, gdim: int
@@ -98,7 +101,7 @@ class Prescribed:
         by[some] = np.where(inside[:, None, :], D - D @ G @ D, 0)
         return by, own
 
-    def _take_out(self, num_dofs: int) -> None:
+    def _take_out(self) -> None:
         self._at = np.concatenate(self._places)
         D, G = np.concatenate(self._D), np.concatenate(self._G)
         size = self._size
@@ -107,8 +110,8 @@ class Prescribed:
         self._inverse = self._nodal(G).matrix(shape)
         rows = self._nodal(-D @ G, one=True).matrix(shape)
         columns = self._nodal(-G @ D, one=True).matrix(shape)
-        C = self.blocks.constraint.matrix((size, num_dofs))
-        T = self.blocks.traction.matrix((num_dofs, size))
+        C = self.blocks.constraint.matrix((size, self._num_local))
+        T = self.blocks.traction.matrix((self._num_local, size))
         stiffness = entries_of(T.matMult(self._inverse).matMult(C))
         self.blocks = ContactBlocks(
             stiffness=joined([self.blocks.stiffness, stiffness.scaled(-1.0)]),
@@ -125,23 +128,26 @@ class Prescribed:
         every = np.arange(self._size if one else 0)
         return joined([part, Entries(every, every, np.ones(len(every)))])
 
-    def right_hand_side(self, b: Array, d: Array) -> tuple[Array, Array]:
-        """Forces and constraints without these multipliers.
+    def right_hand_side(self, d: Array) -> tuple[Array, Array]:
+        """What these multipliers change in the right-hand sides.
 
         Args:
-            b: Right-hand side of the displacements' rows, shape (num_dofs,).
-            d: Of the multipliers' rows, shape (num_multipliers,).
+            d: Right-hand side of the multipliers' rows, shape (num_multipliers,).
+
+        Returns:
+            What is added to that of all nodes' displacements, shape (num_local,), and that of the
+            multipliers' rows without them.
         """
         if not self._places:
-            return b, d
-        return b - multiplied(self._T, multiplied(self._inverse, d)), multiplied(self._L, d)
+            return np.zeros(self._num_local), d
+        return -multiplied(self._T, multiplied(self._inverse, d)), multiplied(self._L, d)
 
     def recover(self, d: Array, u: Array, multipliers: Array) -> None:
         """Add these multipliers.
 
         Args:
             d: Right-hand side of the multipliers' rows, shape (num_multipliers,).
-            u: Displacements, shape (num_dofs,).
+            u: Displacements of all nodes, shape (num_local,).
             multipliers: The others, zero where these are to go, shape (num_multipliers,).
         """
         if self._places:

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from functools import partial
 
 from petsc4py import PETSc
@@ -13,13 +14,18 @@ import numpy as np
 
 from contactx.bulk import Bulk
 from contactx.condensed.blocks import Array, ContactBlocks, NotCondensable, lumped
+from contactx.condensed.chains import check_chains
 from contactx.condensed.elimination import Elimination
 from contactx.condensed.guess import Guess
 from contactx.condensed.multigrid import Multigrid
+from contactx.condensed.numbering import Numbering
 from contactx.condensed.operator import CondensedOperator
 from contactx.condensed.prescribed import Prescribed
+from contactx.condensed.surroundings import Surroundings
 from contactx.factorised import FactorisedSolver
 from contactx.options import ROUNDING
+from contactx.parallel import reduce
+from contactx.parallel.agreement import agreed
 from contactx.report import Report
 from contactx.system import SaddlePointSystem
 
@@ -48,15 +54,15 @@ class CondensedSolver:
         Args:
             bulk: The bulk.
             system: The coupled system.
-            x: Reference positions, shape (num_nodes, gdim).
+            x: Reference positions, those of owned nodes first, shape (num_nodes, gdim).
             prefix: Prefix of the options of the inner solver.
         """
         self._bulk = bulk
         self._system = system
-        self._free = (bulk.markers == 0).astype(np.float64)
+        self._surroundings = Surroundings(bulk, system)
         self._factorised = FactorisedSolver(system, prefix + "direct_")
         self._guess = Guess()
-        self._multigrid = Multigrid(bulk, x, prefix)
+        self._multigrid = Multigrid(bulk, x[: system.num_bulk // system.block], prefix)
         self.target = 0.0
         self.is_last = False
         self._failures = 0
@@ -113,24 +119,43 @@ class CondensedSolver:
             return
         try:
             with self._report.timing("condensation"):
-                A = self._system.contact_entries(b)
-                blocks = ContactBlocks.of(A, self._system.num_bulk)
-                interfaces, where = self._system.interfaces, (self._free, self._system.block)
-                diagonal = lumped(blocks, interfaces, self._system.block)
-                contact = Prescribed(interfaces, diagonal, *where)
-                elimination = Elimination(interfaces, contact, *where)
-                self._bulk.renew()
-                self._bulk.rows(elimination.slave_dofs)
-                self._bulk.keep_half()
-                operator = CondensedOperator(self._bulk, contact.blocks, elimination, self.springs)
+                A, system, is_exact = self._condense(b)
         except NotCondensable as reason:
             self._solve_directly(b, x, str(reason))
             return
-        solve = partial(self._solve, operator, elimination, contact)
-        exact = diagonal is blocks
-        if not (solve(b, x, self.target) if exact else self._correct(solve, A, b, x)):
+        solve = partial(self._solve, system)
+        if not (solve(b, x, self.target) if is_exact else self._correct(solve, A, b, x)):
             self._failures += 1
             self._solve_directly(b, x, _SLOW)
+
+    def _condense(self, b: PETSc.Vec) -> tuple[PETSc.Mat, _Condensed, bool]:
+        """Eliminate the multipliers.
+
+        Returns:
+            This rank's contact entries, the condensed system, and whether it stands for them.
+
+        Raises:
+            NotCondensable: On all ranks, where a multiplier has no equation of its own.
+        """
+        around = self._surroundings
+        around.renew()
+        comm, gdim = around.numbering.comm, self._system.block
+        interfaces = self._system.interfaces
+        with agreed(comm):
+            A = self._system.contact_entries(b)
+            blocks = ContactBlocks.of(A, around.numbering.num_local)
+            diagonal = lumped(blocks, interfaces, around.is_slave, gdim)
+            contact = Prescribed(interfaces, diagonal, around.free, gdim)
+            elimination = Elimination(interfaces, contact, around.free, gdim)
+        check_chains(elimination, around.numbering, gdim)
+        self._bulk.renew()
+        self._bulk.rows(elimination.slave_dofs)
+        self._bulk.keep_half()
+        operator = CondensedOperator(
+            self._bulk, around.numbering, contact.blocks, elimination, self.springs
+        )
+        is_exact = reduce.everywhere(comm, diagonal is blocks)
+        return A, _Condensed(around.numbering, operator, elimination, contact), is_exact
 
     def _correct(
         self,
@@ -143,8 +168,7 @@ class CondensedSolver:
         norm = b.norm()
         part = max(_NEARLY, 0.5 * self.target / norm) if norm > 0 else 1.0
         nearly = _Nearly(solve, partial(self._multiply, contact), part)
-        size = x.getSize()
-        J = PETSc.Mat().createPython((size, size), nearly, comm=x.comm)
+        J = PETSc.Mat().createPython((x.getSizes(), x.getSizes()), nearly, comm=x.comm)
         ksp = PETSc.KSP().create(comm=x.comm)
         ksp.setOperators(J)
         ksp.setType("fgmres")
@@ -168,7 +192,7 @@ class CondensedSolver:
         self._multiply(self._system.contact_entries(), x, y)
 
     def _multiply(self, contact: PETSc.Mat, x: PETSc.Vec, y: PETSc.Vec) -> None:
-        contact.mult(x, y)
+        self._system.multiply_contact(contact, x, y)
         n = self._system.num_bulk
         u, w = self._bulk.matrix().createVecs()
         u.array[:] = x.array_r[:n]
@@ -177,32 +201,28 @@ class CondensedSolver:
         if self.springs is not None:
             y.array[:n] += self.springs * u.array_r
 
-    def _solve(
-        self,
-        operator: CondensedOperator,
-        elimination: Elimination,
-        contact: Prescribed,
-        b: PETSc.Vec,
-        x: PETSc.Vec,
-        target: float,
-    ) -> bool:
-        given, constraints = np.split(b.array_r, [self._system.num_bulk])
-        force, d = contact.right_hand_side(given, constraints)
+    def _solve(self, system: _Condensed, b: PETSc.Vec, x: PETSc.Vec, target: float) -> bool:
+        """Solve with the multipliers eliminated; whether the iterations converged."""
+        numbering, operator = system.numbering, system.operator
+        elimination, contact = system.elimination, system.contact
+        n = numbering.num_owned
+        given, constraints = np.split(b.array_r, [n])
+        forces, d = contact.right_hand_side(constraints)
         known = elimination.open_multipliers(d)
+        T = contact.blocks.traction
+        np.add.at(forces, T.rows, -T.values * known[T.columns])
         h, w = self._bulk.matrix().createVecs()
         rhs, v = w.duplicate(), h.duplicate()
-        w.array[:] = force
-        T = contact.blocks.traction
-        np.add.at(w.array, T.rows, -T.values * known[T.columns])
+        w.array[:] = given + numbering.add_up(forces)
         balance = w.duplicate()
         w.copy(balance)
-        h.array[:] = elimination.shift(d)
+        h.array[:] = elimination.shift(d)[:n]
         work = w.duplicate()
         operator.bulk(h, work)
         w.axpy(-1.0, work)
         operator.combine(w, rhs)
         operator.add_law(h, rhs, -1.0)
-        rhs.array[:] += elimination.extra(d)
+        rhs.array[:] += elimination.extra(d)[:n]
         rhs.array[elimination.eliminated] = 0
         v.set(0.0)
         self._guess.start(operator, rhs, v)
@@ -214,9 +234,9 @@ class CondensedSolver:
         operator.bulk(h, work)
         balance.axpy(-1.0, work)
         elimination.recover(balance.array_r, known)
-        contact.recover(constraints, h.array_r, known)
-        x.array[: self._system.num_bulk] = np.where(self._free == 1, h.array_r, given)
-        x.array[self._system.num_bulk :] = known
+        contact.recover(constraints, numbering.extend(h.array_r), known)
+        x.array[:n] = np.where(self._surroundings.free[:n] == 1, h.array_r, given)
+        x.array[n:] = known
         return True
 
     def _solve_directly(self, b: PETSc.Vec, x: PETSc.Vec, reason: str) -> None:
@@ -224,6 +244,16 @@ class CondensedSolver:
         # With factors one more digit costs nothing
         target = (0.1 if self.is_last else 1.0) * self.target
         self._factorised.solve(b, x, target, self.springs, self._report, last=self.is_last)
+
+
+@dataclass(frozen=True)
+class _Condensed:
+    """The system without multipliers, and the way there and back."""
+
+    numbering: Numbering
+    operator: CondensedOperator
+    elimination: Elimination
+    contact: Prescribed
 
 
 class _Nearly:

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import weakref
 from collections.abc import Callable
 from typing import Any
 
@@ -63,7 +64,7 @@ class Halo:
         self.traffic = Traffic()
         self.exchange = Exchange(self.comm, self.traffic)
         self.version = 0
-        self._followers: list[Callable[[], None]] = []
+        self._followers: list[weakref.WeakMethod[Callable[[], None]]] = []
         self._bulk_original = original_nodes(V)
         self._reference = X
         # Global numbers and owners of the halo, and how many of them stay for good
@@ -201,8 +202,8 @@ class Halo:
             self._renew()
 
     def follow(self, follower: Callable[[], None]) -> None:
-        """Call a function whenever the halo has changed, on all ranks."""
-        self._followers.append(follower)
+        """Call a method whenever the halo has changed, on all ranks, while its object lives."""
+        self._followers.append(weakref.WeakMethod(follower))
 
     def _renew(self) -> None:
         bulk = self._bulk_map
@@ -234,8 +235,10 @@ class Halo:
         self.displacement = self._u.x if self.comm.size == 1 else la.vector(serial, self.gdim)
         self.refresh()
         self.version += 1
-        for follower in self._followers:
-            follower()
+        for reference in self._followers:
+            follower = reference()
+            if follower is not None:
+                follower()
 
     def _vector(self, width: int, dtype: Any) -> la.Vector:
         if (width, dtype) not in self._vectors:

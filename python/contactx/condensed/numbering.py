@@ -1,0 +1,123 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Displacements of all nodes on a rank, and where they are in the bulk's vectors."""
+
+from __future__ import annotations
+
+from petsc4py import PETSc
+
+import numpy as np
+import numpy.typing as npt
+
+from contactx.condensed.blocks import Array, Entries, Index
+from contactx.parallel.halo import Halo
+
+
+class Numbering:
+    """Where the displacements of a rank are in vectors and matrices of the bulk.
+
+    A rank's contact entries are in its local numbers: displacements of its own nodes first, then
+    those of nodes of other ranks. On one rank the local numbers are those of the bulk's matrix.
+
+    Attributes:
+        comm: Communicator.
+        num_owned: Number of displacements that this rank owns.
+        num_local: Number of displacements of all nodes.
+    """
+
+    def __init__(self, halo: Halo):
+        """Take the numbers of a halo as it is now.
+
+        Args:
+            halo: Nodes on this rank.
+        """
+        self._halo = halo
+        self.comm = halo.comm
+        gdim = halo.gdim
+        self.num_owned = halo.num_owned * gdim
+        self.num_local = halo.num_nodes * gdim
+        self._numbers: Index | None = None
+        if self.comm.size > 1:
+            nodes = halo.numbers(np.arange(halo.num_nodes))
+            self._numbers = (nodes[:, None] * gdim + np.arange(gdim)).ravel()
+
+    def extend[T: np.generic](self, values: npt.NDArray[T]) -> npt.NDArray[T]:
+        """Values of all nodes' displacements from those of owned ones; all ranks must take part.
+
+        Args:
+            values: Values, of which the first count, shape (at least num_owned,).
+
+        Returns:
+            Values of the same type, shape (num_local,).
+        """
+        every: npt.NDArray[T] = self._halo.extend(values.reshape(-1, self._halo.gdim)).ravel()
+        return every
+
+    def marks(self, dofs: Index) -> npt.NDArray[np.bool_]:
+        """Mark some displacements wherever they are known; all ranks must take part.
+
+        Args:
+            dofs: Owned displacements.
+
+        Returns:
+            Which of all nodes' displacements their owners have given, shape (num_local,).
+        """
+        mine = np.zeros(self.num_owned, dtype=bool)
+        mine[dofs] = True
+        return self.extend(mine)
+
+    def add_up(self, values: Array) -> Array:
+        """Sums over the ranks; all must take part.
+
+        Args:
+            values: What this rank has for the displacements of all nodes, shape (num_local,).
+
+        Returns:
+            Sums at the owned ones, shape (num_owned,).
+        """
+        return self._halo.add_up(values.reshape(-1, self._halo.gdim)).ravel()
+
+    def numbers(self, dofs: Index) -> Index:
+        """Numbers of displacements in the bulk's matrix, shape (n,)."""
+        return dofs if self._numbers is None else self._numbers[dofs]
+
+    def index_set(self, dofs: Index) -> PETSc.IS:
+        """Owned displacements as an index set of the bulk's matrix."""
+        return PETSc.IS().createGeneral(_integers(self.numbers(dofs)), comm=self.comm)
+
+    def matrix(self, entries: Entries, rows: Index | None = None) -> PETSc.Mat:
+        """Matrix with the bulk's columns; entries of one place are added, over all ranks.
+
+        All ranks must take part.
+
+        Args:
+            entries: Entries in local numbers.
+            rows: Owned displacements that its rows stand for, in ascending order, when no other
+                rows have entries; all displacements of all ranks if None.
+        """
+        size = self.num_owned
+        if rows is None:
+            places = self.numbers(entries.rows)
+        else:
+            size = len(rows)
+            first, _ = PETSc.Vec().createMPI((size, None), comm=self.comm).getOwnershipRange()
+            places = first + np.searchsorted(rows, entries.rows)
+        A = PETSc.Mat().createAIJ(((size, None), (self.num_owned, None)), comm=self.comm)
+        A.setPreallocationCOO(_integers(places), _integers(self.numbers(entries.columns)))
+        A.setValuesCOO(entries.values, PETSc.InsertMode.ADD)
+        return A
+
+
+def index_set(places: Index, A: PETSc.Mat) -> PETSc.IS:
+    """Some of this rank's rows of a matrix, by their places among them."""
+    return PETSc.IS().createGeneral(_integers(A.getOwnershipRange()[0] + places), comm=A.comm)
+
+
+def own_columns(A: PETSc.Mat) -> PETSc.IS:
+    """This rank's columns of a matrix."""
+    first, last = A.getOwnershipRangeColumn()
+    return PETSc.IS().createStride(last - first, first, comm=A.comm)
+
+
+def _integers(numbers: Index) -> npt.NDArray[np.integer]:
+    return numbers.astype(PETSc.IntType)
