@@ -20,6 +20,8 @@ from contactx.system import SaddlePointSystem
 
 # Part of the residual that a solve may leave ten times less of, while few or all nodes change
 _ROUGH = (1e-5, 0.3)
+# And what a solve may leave where nodes with friction change theirs
+_EXACT = 1e-10
 
 
 class LinearSolver(ABC):
@@ -125,6 +127,7 @@ class Condensed(LinearSolver):
         self._bulk = bulk
         self._system = system
         self._solver = CondensedSolver(bulk, system, x, prefix + "condensed_")
+        self._has_path = any(i.history is not None for i in system.interfaces)
         # Residual of the iterate before, and what Newton's method makes of its square
         self._before = self._curvature = 0.0
         size = system.x.getSizes()
@@ -148,7 +151,9 @@ class Condensed(LinearSolver):
         """See ``LinearSolver``; no more than what the next residual will show.
 
         That is the change of the status, or where it has settled what Newton's method leaves: a
-        multiple of the residual's square, as seen in the last iteration.
+        multiple of the residual's square, as seen in the last iteration. Where nodes slip from
+        where they touch first, the answer depends on the iterates: they must not depend on how
+        they are solved for, nor on the number of ranks.
         """
         if changing == 0 and self._before > 0:
             seen = residual / self._before**2
@@ -157,7 +162,9 @@ class Condensed(LinearSolver):
             self._curvature = seen if shown else min(seen, self._curvature)
         self._before = residual if changing == 0 else 0.0
         left = min(self._curvature * residual**2, 0.1 * residual)
-        if changing > 0:
+        if changing > 0 and self._has_path:
+            left = _EXACT * residual
+        elif changing > 0:
             left = max(left, float(np.clip(changing, *_ROUGH)) * residual)
         # At the end far below the tolerance: errors must not decide between stick and slip
         self._solver.target = max(0.1 * left, 0.01 * tolerance)

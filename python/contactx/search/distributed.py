@@ -43,25 +43,20 @@ class DistributedSurface(MasterSurface):
     def find(self, x: Array, points: Array, normals: Array, reach: float) -> Found:
         """See ``MasterSurface``."""
         best = _Best(len(points), reach)
-        ranks = Reach(self._halo, self.own, x)
-        distance = ranks.from_points(points, normals, reach)
-        mine = self._halo.comm.rank
-        asked = np.zeros_like(distance, dtype=bool)
-        here = np.flatnonzero(np.isfinite(distance[:, mine]))
-        best.take(here, self._answer(x, points[here], normals[here], best.bound[here]))
-        asked[:, mine] = True
-        # First the nearest of the others, then all that may still have something nearer
-        for everyone in (False, True):
-            open_ = np.where(asked, np.inf, distance)
-            wanted = open_ <= best.bound[:, None] * _WIDER
-            wanted &= np.isfinite(open_)
-            if not everyone:
-                nearest = open_.argmin(axis=1)
-                only = np.zeros_like(wanted)
-                only[np.arange(len(points)), nearest] = True
-                wanted &= only
-            asked |= wanted
-            self._ask(x, points, normals, wanted, best)
+        every = np.arange(len(points))
+        best.take(every, self._answer(x, points, normals, best.bound))
+        others = Reach(self._halo, self.own, x)
+        ranks, distance = others.from_points(points, normals, best.bound * _WIDER)
+        distance[:, ranks == self._halo.comm.rank] = np.inf
+        # First the nearest rank, then all that may still have something nearer
+        nearest = np.zeros(distance.shape, dtype=bool)
+        if len(ranks) > 0:
+            nearest[every, distance.argmin(axis=1)] = True
+        nearest &= np.isfinite(distance)
+        self._ask(x, points, normals, ranks, nearest, best)
+        left = distance <= best.bound[:, None] * _WIDER
+        left &= np.isfinite(distance) & ~nearest
+        self._ask(x, points, normals, ranks, left, best)
         return self._take(best)
 
     def _ask(
@@ -69,12 +64,15 @@ class DistributedSurface(MasterSurface):
         x: Array,
         points: Array,
         normals: Array,
+        ranks: npt.NDArray[np.int64],
         wanted: npt.NDArray[np.bool_],
         best: _Best,
     ) -> None:
         """Ask ranks for points, shape (num_points, num_ranks) of ``wanted``."""
         exchange = self._halo.exchange
-        which = {int(r): np.flatnonzero(wanted[:, r]) for r in np.flatnonzero(wanted.any(axis=0))}
+        which = {
+            int(ranks[k]): np.flatnonzero(wanted[:, k]) for k in np.flatnonzero(wanted.any(axis=0))
+        }
         questions = exchange(
             "search", {r: (points[w], normals[w], best.bound[w]) for r, w in which.items()}
         )

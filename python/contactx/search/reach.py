@@ -41,26 +41,34 @@ class Reach:
         self._there = np.isfinite(self._low).all(axis=1)
         self._slack = _ROUNDING * np.abs(every[self._there][:, : 2 * g]).max(initial=0.0)
 
-    def from_points(self, points: Array, normals: Array, reach: float) -> Array:
-        """Distances from points to the boxes, infinite where no facet matters.
+    def from_points(
+        self, points: Array, normals: Array, bound: Array
+    ) -> tuple[npt.NDArray[np.int64], Array]:
+        """Distances from points to the boxes of ranks that may matter.
 
         Args:
             points: Points, shape (n, gdim).
             normals: Normals there that facets must oppose, or zero, shape (n, gdim).
-            reach: Largest distance.
+            bound: Largest distance that matters to each point, shape (n,).
 
         Returns:
-            Distances, rounded down, shape (n, num_ranks).
+            Ranks, shape (k,), and distances, rounded down, infinite where no facet of theirs
+            matters, shape (n, k).
         """
-        distance = np.full((len(points), len(self._low)), np.inf)
+        ranks = np.flatnonzero(self._there) if len(points) > 0 else np.zeros(0, dtype=np.int64)
+        if len(ranks) > 0:
+            low, high = points.min(axis=0), points.max(axis=0)
+            off = np.maximum(np.maximum(self._low[ranks] - high, low - self._high[ranks]), 0)
+            ranks = ranks[np.linalg.norm(off, axis=1) - self._slack <= bound.max()]
+        distance = np.full((len(points), len(ranks)), np.inf)
         any_normal = ~normals.any(axis=1)
-        for rank in np.flatnonzero(self._there):
+        for column, rank in enumerate(ranks):
             off = np.maximum(np.maximum(self._low[rank] - points, points - self._high[rank]), 0)
             d = np.maximum(np.linalg.norm(off, axis=1) - self._slack, 0)
             faces = normals @ self._axis[rank] < self._sine[rank]
-            matters = (d <= reach) & (faces | any_normal)
-            distance[matters, rank] = d[matters]
-        return distance
+            matters = (d <= bound) & (faces | any_normal)
+            distance[matters, column] = d[matters]
+        return ranks, distance
 
     def from_facets(
         self, x: Array, slave: FacetList, reach: float, margin: float
