@@ -51,7 +51,7 @@ class Answer:
 def solve(h: float, sliding: str, comm: MPI.Comm) -> tuple[cx.ContactProblem, Answer]:
     """Solve on the ranks of a communicator."""
     problem, contact, F = hertz_sphere.create(h, sliding, comm)
-    if comm.size == MPI.COMM_WORLD.size:
+    if comm == MPI.COMM_WORLD:
         story.solve(problem)
     else:
         problem.solve()
@@ -93,7 +93,7 @@ def shares(problem: cx.ContactProblem) -> None:
         "contact halo": halo.num_nodes - halo.num_bulk,
         "slave nodes": len(contact.slave_nodes),
         "pairs": int(contact.interface.master.paired.sum()),
-        "kB sent for searches": sum(halo.traffic.bytes.values()) / 1024,
+        "kB sent": sum(halo.traffic.bytes.values()) / 1024,
     }
     rows = halo.comm.gather(rank) or []
     table = Table(*rank, title="Who has what")

@@ -115,6 +115,11 @@ class Interface:
         return self._halo.positions()
 
     @property
+    def halo(self) -> Halo:
+        """Nodes of this rank, and what was sent for them."""
+        return self._halo
+
+    @property
     def follows(self) -> bool:
         """Whether pairs, normals and projections follow the deformation."""
         return self.sliding == "finite" and not self.law.is_tied

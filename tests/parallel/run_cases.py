@@ -21,7 +21,7 @@ from partitions import partitioned
 import contactx as cx
 
 # Seconds a case may take on cores that others use, too, with forms to compile
-LIMIT = 25
+LIMIT = 90
 
 
 def run(case: Case) -> dict[str, np.ndarray]:

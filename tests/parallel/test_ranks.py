@@ -38,8 +38,9 @@ TRIED = (
     ("plane", "node"),
     ("plastic", "surface"),
 )
-# On the way out of yield rounding decides which tangent the material has
-ROUNDED = ("plastic",)
+# Iterations may differ: on the way out of yield rounding decides which tangent the material has,
+# and early solves of the condensed solver are as rough as the preconditioner of the ranks' parts
+ROUNDED = ("plastic", "friction_condensed")
 CASES = [
     *((Case(scene, method), n) for n in (2, 3, 4) for scene in SCENES for method in METHODS),
     *(
