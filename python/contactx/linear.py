@@ -15,7 +15,6 @@ from contactx.bulk import Bulk
 from contactx.callback import keeps_its_error, weakly
 from contactx.condensed.blocks import Array
 from contactx.condensed.solver import CondensedSolver
-from contactx.parallel.garbage import collect
 from contactx.report import Report
 from contactx.system import SaddlePointSystem
 
@@ -96,7 +95,6 @@ class SaddlePoint(LinearSolver):
 
     def provide(self, springs: Array | None) -> None:
         """See ``LinearSolver``; the matrix must have the pattern of the current pairs."""
-        collect(self._system.halo.comm)
         self._springs = springs
         if self._A is not None and self._system.fits():
             return
@@ -147,7 +145,6 @@ class Condensed(LinearSolver):
 
     def provide(self, springs: Array | None) -> None:
         """See ``LinearSolver``."""
-        collect(self._system.halo.comm)
         self._solver.springs = springs
 
     def aim(self, residual: float, tolerance: float, changing: float) -> None:
