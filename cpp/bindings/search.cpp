@@ -32,7 +32,8 @@ py::dict find(const Finder& self, std::span<const double> x,
   if (points.size() != n * gdim or normals.size() != n * gdim)
     throw std::invalid_argument("points and normals must be one a reach");
   constexpr double none = std::numeric_limits<double>::infinity();
-  std::vector<double> distance(n, none), gap(n, 0), xi(2 * n), normal(3 * n);
+  std::vector<double> distance(n, none), size(n, 0), gap(n, 0), xi(2 * n),
+      normal(3 * n);
   std::vector<std::int32_t> nearest(n, -1), facet(n, -1), feature(n, 0);
   std::int32_t hint = -1;
   for (std::size_t i = 0; i < n; ++i)
@@ -43,6 +44,7 @@ py::dict find(const Finder& self, std::span<const double> x,
       continue;
     hint = nearest[i] = found.nearest->facet;
     distance[i] = contactx::norm(found.nearest->d);
+    size[i] = found.nearest->size;
     if (!found.selected)
       continue;
     const Projection& q = *found.selected;
@@ -55,9 +57,9 @@ py::dict find(const Finder& self, std::span<const double> x,
   const auto rows = static_cast<py::ssize_t>(n);
   return py::dict(
       py::arg("distance") = array(distance),
-      py::arg("nearest") = array(nearest), py::arg("facet") = array(facet),
-      py::arg("feature") = array(feature), py::arg("gap") = array(gap),
-      py::arg("xi") = array(xi, {rows, 2}),
+      py::arg("nearest") = array(nearest), py::arg("size") = array(size),
+      py::arg("facet") = array(facet), py::arg("feature") = array(feature),
+      py::arg("gap") = array(gap), py::arg("xi") = array(xi, {rows, 2}),
       py::arg("normal") = array(normal, {rows, 3}));
 }
 

@@ -16,9 +16,11 @@ brute_force(const search::Surface& surface, std::span<const double> x,
   for (std::int32_t f = 0; f < surface.facets().size(); ++f)
   {
     const auto q = search::closest(surface, f, x, p);
+    // Of facets that are as near but for rounding the first one counts
     if (q and norm(q->d) <= reach
         and (norm(normal) == 0 or dot(q->normal, normal) < 0)
-        and (!best or dot(q->d, q->d) < dot(best->d, best->d)))
+        and (!best
+             or norm(q->d) < norm(best->d) - 1e-12 * (norm(q->d) + q->size)))
       best = q;
   }
   return best;

@@ -99,6 +99,6 @@ def test_slice():
             print(method, cushion, found[method, cushion])
     reference = found[METHODS[0], True]
     for one in found.values():
-        assert one.stress == pytest.approx(reference.stress, rel=0.03)
+        assert one.stress == pytest.approx(reference.stress, rel=0.04)
         assert one.rotation == pytest.approx(reference.rotation, rel=1e-3)
     assert found[MORTAR, False].stress == pytest.approx(found[MORTAR, True].stress, rel=0.015)

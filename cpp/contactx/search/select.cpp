@@ -10,6 +10,11 @@ using namespace contactx::search;
 
 namespace
 {
+/// Difference of distances, relative to distance and facet, that only rounding
+/// makes: the order of the facets decides, not the units or the place of the
+/// scene
+constexpr double equal = 1e-12;
+
 /// What the facets around a feature are to a point.
 struct Around
 {
@@ -58,21 +63,23 @@ std::optional<Projection> contactx::search::nearest_facet(
     const Vec<3>& p, const Vec<3>& normal, double reach, std::int32_t hint)
 {
   std::optional<Projection> best;
-  double best2 = reach * reach, bound2 = best2;
+  double best_d = reach, bound2 = reach * reach;
   const bool any = dot(normal, normal) == 0;
-  const auto visit
-      = [&best, &best2, &bound2, &surface, &p, &normal, x, any](std::int32_t f)
+  const auto visit = [&best, &best_d, &bound2, &surface, &p, &normal, x, any,
+                      reach](std::int32_t f)
   {
     const auto q = closest_within(surface, f, x, p, bound2);
     if (!q or (!any and dot(q->normal, normal) >= 0))
       return;
-    const double d2 = dot(q->d, q->d);
-    if (d2 < best2 or (d2 == best2 and (!best or f < best->facet)))
+    const double d = norm(q->d), tie = equal * (d + q->size);
+    if (d < best_d - tie
+        or (d <= best_d + tie and (!best or f < best->facet) and d <= reach))
     {
       best = q;
-      best2 = d2;
+      best_d = d;
       // Wider, so that rounding in a box's distance hides no tie
-      bound2 = std::min(bound2, (1 + 1e-6) * d2 + 1e-28 * q->size * q->size);
+      const double wide = (1 + 1e-6) * d + 10 * tie;
+      bound2 = std::min(bound2, wide * wide);
     }
   };
   if (hint >= 0)

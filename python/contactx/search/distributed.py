@@ -16,6 +16,8 @@ from contactx.search.records import FacetRecords, around_facets, around_nodes
 from contactx.search.surface import Array, Found, Index, MasterSurface, _numbered
 from contactx.surface import FacetList
 
+# Difference of distances that only rounding makes, as in the search itself
+_EQUAL = 1e-12
 # So that rounding hides no facet that is as near as another one
 _WIDER = 1 + 1e-9
 
@@ -205,8 +207,9 @@ class _Best:
         """Take what is nearer, and of facets as near the first one."""
         at = which[answer["hit"]]
         distance, before = answer["distance"], self.distance[at]
-        better = distance < before
-        same = np.flatnonzero(distance == before)
+        tie = _EQUAL * (distance + answer["size"])
+        better = distance < before - tie
+        same = np.flatnonzero(~better & (distance <= before + tie))
         for k in same.tolist():
             better[k] = tuple(answer["key"][k]) < tuple(self.values["key"][at[k]])
         at = at[better]

@@ -73,8 +73,7 @@ class MasterSurface:
             reach: Largest distance.
         """
         found = self._finder.find(x, points, normals, np.full(len(points), reach))
-        found.pop("nearest")
-        return Found(**found)
+        return Found(**{name: found[name] for name in Found.__dataclass_fields__})
 
     def pair(
         self,
