@@ -13,8 +13,7 @@ from contactx.checks.options import check_options
 from contactx.fields import Fields
 from contactx.forms import ContactForms
 from contactx.interface import Interface
-from contactx.law.coulomb import Coulomb, Tied
-from contactx.law.law import Frictionless, Law
+from contactx.law.make import make_law
 from contactx.master.make import make_master
 from contactx.nodal import NodalValue
 from contactx.obstacles import Obstacle
@@ -148,15 +147,10 @@ class Contact:
                 f"{self} belongs to a ContactProblem already: create one Contact a problem"
             )
         V = bodies.V
-        facets = in_order(self.slave.facet_nodes(V), halo)
-        slaves = SlaveNodes(halo, slave_facets(halo, facets))
+        slaves = SlaveNodes(halo, slave_facets(halo, in_order(self.slave.facet_nodes(V), halo)))
         with agreed(halo.comm):
             offset = NodalValue(self.offset, "offset", V, slaves.owned)
-            law: Law = Frictionless()
-            if self.tied:
-                law = Tied()
-            elif self.friction != 0:
-                law = Coulomb(NodalValue(self.friction, "friction", V, slaves.owned), halo.comm)
+            law = make_law(self.tied, self.friction, V, slaves.owned)
         master = make_master(
             self.slave,
             slaves,
@@ -232,7 +226,7 @@ class Contact:
 
     @property
     def multiplier(self) -> npt.NDArray[np.float64]:
-        """Multiplier of each slave node of this rank as it was solved for, force/reference area.
+        """Multiplier of each slave node of this rank, force/reference area, as it was solved for.
 
         Without friction its pressure, shape (n,); with friction, or tied, the traction that the
         master exerts on it, shape (n, gdim). Laws and balance hold for it; it scatters more than

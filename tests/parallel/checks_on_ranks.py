@@ -15,6 +15,8 @@ from contactx.checks.over_constrained import check_over_constrained
 from contactx.checks.shape import check_facets
 from contactx.master.facets import FacetMaster
 from contactx.master.obstacle import ObstacleMaster
+from contactx.parallel.slaves import SlaveNodes
+from contactx.search.records import slave_facets
 from contactx.surface import FacetList
 
 
@@ -103,27 +105,20 @@ def over_constrained(scene):
 
 
 class Pairs(FacetMaster):
-    """Stands for pairs that a search has not found; each rank knows of a distance of its own."""
+    """Pairs that a search has not found."""
 
-    reach = 1.0
     paired = np.zeros(1, dtype=bool)
-
-    def __init__(self, scene, facets):
-        self.facets = facets
-        self._distance = 0.5 if scene.halo.comm.rank == 0 else np.inf
-
-    def distance(self, x):
-        return self._distance
 
 
 def facing(scene):
     """The bottom of the lower block against its top, of which each rank sees its part."""
-    height = scene.dim - 1
+    height, halo = scene.dim - 1, scene.halo
     bottom = FacetList(*scene.facets(lambda x: np.isclose(x[height], -1)))
-    pairs = Pairs(scene, FacetList(np.zeros(1, dtype=np.int32), np.zeros(0, dtype=np.int32)))
-    away = said(scene, check_facing, "bottom", "top", bottom, pairs, scene.halo)
-    pairs.paired = np.full(1, scene.halo.comm.rank == scene.halo.comm.size - 1)
-    assert said(scene, check_facing, "bottom", "top", bottom, pairs, scene.halo) is None
+    slaves = SlaveNodes(halo, slave_facets(halo, bottom))
+    pairs = Pairs(halo, slaves, top(scene), 1.1, sliding="small", measures_slip=False)
+    away = said(scene, check_facing, "bottom", slaves, "top", pairs, halo)
+    pairs.paired = np.full(1, halo.comm.rank == halo.comm.size - 1)
+    assert said(scene, check_facing, "bottom", slaves, "top", pairs, halo) is None
     return away
 
 

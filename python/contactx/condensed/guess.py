@@ -49,7 +49,7 @@ class Guess:
         for solution in self._solutions:
             vector, product = solution.copy(), rhs.duplicate()
             vector.array[operator.eliminated] = 0
-            operator.mult(None, vector, product)
+            operator.mult(vector, product)
             size = product.norm()
             for other, of_other in basis:
                 factor = of_other.dot(product)

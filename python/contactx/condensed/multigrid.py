@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+
 from mpi4py import MPI
 from petsc4py import PETSc
 
@@ -11,6 +13,7 @@ import numpy as np
 
 from contactx.bodies.modes import rigid_modes
 from contactx.bulk import Bulk
+from contactx.callback import weakly
 from contactx.condensed.blocks import Array, Index
 from contactx.condensed.galerkin import Galerkin
 from contactx.condensed.operator import Change, CondensedOperator
@@ -65,7 +68,10 @@ class Multigrid:
         self._smoothers: list[PETSc.KSP] = []
         self.iterations = self.hierarchies = 0
         size = (x.size, None)
-        self._A = PETSc.Mat().createPython((size, size), comm=self._comm)
+        self._operator: CondensedOperator | None = None
+        called = SimpleNamespace(mult=weakly(self._multiply))
+        self._A = PETSc.Mat().createPython((size, size), called, comm=self._comm)
+        self._A.setUp()
 
     def solve(
         self,
@@ -87,8 +93,7 @@ class Multigrid:
         Returns:
             Whether the iterations converged.
         """
-        self._A.setPythonContext(operator)
-        self._A.setUp()
+        self._operator = operator
         change = operator.change()
         if self._lost > _COST:
             self.forget()
@@ -152,6 +157,11 @@ class Multigrid:
             if reason not in _INDEFINITE:
                 break
         return False
+
+    def _multiply(self, mat: PETSc.Mat, v: PETSc.Vec, y: PETSc.Vec) -> None:
+        """Multiply by the condensed matrix; PETSc calls this."""
+        assert self._operator is not None
+        self._operator.mult(v, y)
 
     def _build(self, slave_dofs: Index, report: Report) -> None:
         with report.timing("hierarchy"):
@@ -247,7 +257,7 @@ def _distance(operator: CondensedOperator, rhs: PETSc.Vec, v: PETSc.Vec) -> floa
     if v.norm() == 0:
         return float(rhs.norm())
     residual = rhs.duplicate()
-    operator.mult(None, v, residual)
+    operator.mult(v, residual)
     residual.aypx(-1.0, rhs)
     return float(residual.norm())
 

@@ -106,8 +106,8 @@ class CondensedOperator:
             self._law.mult(z, self._work)
             y.axpy(sign, self._work)
 
-    def mult(self, mat: PETSc.Mat, v: PETSc.Vec, y: PETSc.Vec) -> None:
-        """Multiply, y = K_c v; PETSc calls this."""
+    def mult(self, v: PETSc.Vec, y: PETSc.Vec) -> None:
+        """Multiply, y = K_c v."""
         self.expand(v, self._z)
         self.bulk(self._z, self._w)
         self.combine(self._w, y)

@@ -13,6 +13,7 @@ import numpy.typing as npt
 from contactx import cpp as core
 from contactx.forms import Pairs
 from contactx.master.master import Array, Master, RowKind, Weights, touching
+from contactx.master.mobility import free_squares, pair_weights
 from contactx.master.reach import default_reach
 from contactx.parallel.halo import Halo
 from contactx.parallel.slaves import SlaveNodes
@@ -231,11 +232,11 @@ class FacetMaster(Master):
         at = core.pair_layout
         for pairs in self.pairs():
             slaves = pairs.slaves[:, 0]
-            squares = _free_squares(pairs, pairs.data[:, at["xi"] : at["xi"] + 2], free)
+            squares = free_squares(pairs, pairs.data[:, at["xi"] : at["xi"] + 2], free)
             along[slaves] = np.sqrt((pairs.normal[:, :gdim] ** 2 * squares).sum(axis=1))
             if pairs.slip is not None:
                 xi = pairs.slip[:, _AT["xi"] : _AT["xi"] + 2]
-                each[slaves] = np.sqrt(_free_squares(pairs, xi, free))
+                each[slaves] = np.sqrt(free_squares(pairs, xi, free))
         return along, each
 
     def weights(self) -> Weights:
@@ -245,7 +246,7 @@ class FacetMaster(Master):
             (
                 np.repeat(pairs.slaves[:, 0], pairs.nodes.shape[1]),
                 pairs.nodes.ravel(),
-                _weights(pairs, pairs.data[:, at : at + 2]).ravel(),
+                pair_weights(pairs, pairs.data[:, at : at + 2]).ravel(),
             )
             for pairs in self.pairs()
         ]
@@ -295,18 +296,3 @@ class FacetMaster(Master):
         deepest = float(found.gap[found.facet >= 0].min(initial=0.0))
         # Less is rounding
         return deepest if deepest < -1e-10 * self.reach else 0.0
-
-
-def _free_squares(
-    pairs: Pairs, xi: npt.NDArray[np.float64], free: npt.NDArray[np.bool_]
-) -> npt.NDArray[np.float64]:
-    """Sums of the squared weights of what may move, shape (num_pairs, gdim)."""
-    weight = _weights(pairs, xi)
-    squares: npt.NDArray[np.float64] = ((weight[:, :, None] * free[pairs.nodes]) ** 2).sum(axis=1)
-    return squares
-
-
-def _weights(pairs: Pairs, xi: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
-    """1 for the slave node and -N_l at local coordinates, shape (num_pairs, 1 + num_nodes)."""
-    N = core.shape_functions(pairs.num_nodes, np.ascontiguousarray(xi))
-    return np.column_stack([np.ones(len(N)), -N])

@@ -14,6 +14,7 @@ import numpy.typing as npt
 from contactx import cpp as core
 from contactx.forms import Pairs
 from contactx.master.master import Master, RowKind, Weights
+from contactx.master.mobility import held_squares
 from contactx.master.mortar_pairs import Array, Mortar, Sides, unit
 from contactx.master.mortar_slip import MortarSlip
 from contactx.master.reach import default_reach
@@ -132,24 +133,13 @@ class MortarMaster(Master):
     def _integrate(self, x: Array) -> None:
         found = self._search.integrals(self._found, x, self._halo.x)
         if self._small:
-            normal = self._between(found, x)
+            pairs = self._found.slave, self._found.master
+            normal = self._sides.between(x, *pairs, found["weight"], found["normal"])
             found = self._search.integrals(self._found, x, self._halo.x, normal)
         self._at = x
         self._dual, self._normal = found["dual"], found["normal"]
         self._mortar = Mortar(self._found.slave, self._found.master, found["weight"], found["gap"])
         self._area = self._sides.total(found["area"])
-
-    def _between(self, found: Mapping[str, Array], x: Array) -> Array:
-        """Normals midway between those of each slave facet and its master, shape (num_facets, 3).
-
-        Small sliding keeps the normals of the reference, and two surfaces that are pressed
-        together meet midway.
-        """
-        share = found["weight"].sum(axis=(1, 2))
-        normal = self._sides.master_normals(x, self._found.master)
-        mean = np.zeros_like(found["normal"])
-        np.add.at(mean, self._found.slave, share[:, None] * normal)
-        return unit(found["normal"] + unit(mean))
 
     @property
     def paired(self) -> npt.NDArray[np.bool_]:
@@ -283,18 +273,7 @@ class MortarMaster(Master):
         own = free[self._sides.slaves]
         if own.all() and free[self.surface.facets.nodes].all():
             return np.ones(n), np.ones((n, gdim))
-        weights = self.weights()
-        held = np.zeros(n, dtype=bool)
-        held[weights.slaves[~free.all(axis=1)[weights.nodes]]] = True
-        some = held[weights.slaves]
-        weights = Weights(*(a[some] for a in vars(weights).values()))
-        # Parts of several facets with the same node add up
-        key = weights.slaves * np.int64(len(free)) + weights.nodes
-        key, place = np.unique(key, return_inverse=True)
-        slaves, nodes = np.divmod(key, len(free))
-        moves = np.bincount(place, weights.values)[:, None] * free[nodes]
-        squares = np.stack([np.bincount(slaves, m**2, n) for m in moves.T], axis=1)
-        squares[~(self._paired & held)] = 1
+        squares = held_squares(self.weights(), free, self._paired)
         around = np.zeros((len(self._sides.around), gdim), dtype=bool)
         some = free[self._sides.nodes[0]].any(axis=1)
         for corner in self._sides.numbers.T:

@@ -159,7 +159,25 @@ class Sides:
         normal /= np.linalg.norm(normal, axis=1, keepdims=True)
         return np.stack([normal, along, np.cross(normal, along)], axis=2)
 
-    def master_normals(self, x: Array, facets: Index) -> Array:
+    def between(self, x: Array, slave: Index, master: Index, weight: Array, normal: Array) -> Array:
+        """Normals midway between those of each slave facet and its master, shape (num_facets, 3).
+
+        Small sliding keeps the normals of the reference, and two surfaces that are pressed
+        together meet midway.
+
+        Args:
+            x: Positions.
+            slave: Slave facet of each pair, shape (num_pairs,).
+            master: Its master facet, shape (num_pairs,).
+            weight: Integrals of the pairs, shape (num_pairs, 4, 4).
+            normal: Normals of the slave facets, those of the master, shape (num_facets, 3).
+        """
+        share = weight.sum(axis=(1, 2))
+        mean = np.zeros_like(normal)
+        np.add.at(mean, slave, share[:, None] * self._master_normals(x, master))
+        return unit(normal + unit(mean))
+
+    def _master_normals(self, x: Array, facets: Index) -> Array:
         """Unit normals at the middle of some master facets, shape (m, 3)."""
         corners = x[self.nodes[1][facets]]
         first, second = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
