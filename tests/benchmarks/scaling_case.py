@@ -30,7 +30,7 @@ UPPER = {2: (40, 6), 3: (8, 6, 3)}
 LOWER = {2: (52, 6), 3: (10, 7, 3)}
 # Length and width of a rank's part, height
 SIZE = {2: (4.0, 0.6), 3: (1.6, 1.2, 0.6)}
-DOWN, ASIDE, REACH = 0.01, 0.15, 0.2
+DOWN, ASIDE, REACH = 0.02, 0.25, 0.2
 
 
 def strong(path: str, sliding: str) -> dict[str, Any]:
