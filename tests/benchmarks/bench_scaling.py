@@ -5,9 +5,10 @@
 Strong scaling: the common Hertz problem, wall seconds from the read mesh to the converged solution
 on one and two ranks. Weak scaling: a slab dragged along a base, both as long as there are ranks;
 what the rank that sends most sends in a search, and in an iteration besides, with the halo that it
-has. The counts need no cores of their own, so that ranks may share them; times are those of the
-ranks that have one. In the partition "shifted" all ranks have as much to do and the base below a
-rank's part of the slab belongs to two; "default" is that of DOLFINx.
+has. Boxes around the ranks' surfaces are gathered by all, so that they pass through every rank; all
+else goes to neighbours. The counts need no cores of their own, so that ranks may share them; times
+are those of the ranks that have one. In the partition "shifted" all ranks have as much to do and
+the base below a rank's part of the slab belongs to two; "default" is that of DOLFINx.
 
     python tests/benchmarks/bench_scaling.py 0.02 0.01
 """
@@ -54,6 +55,7 @@ WEAK = [
     ("searches", "searches", "d"),
     ("messages\na search", "messages a search", ".1f"),
     ("bytes\na search", "bytes a search", ",.0f"),
+    ("of\nboxes", "of boxes", ",.0f"),
     ("messages\nan iteration", "messages an iteration", ".1f"),
     ("bytes\nan iteration", "bytes an iteration", ",.0f"),
     ("collectives\na search", "collectives a search", ".1f"),

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import math
 import sys
 import time
 from collections import Counter
@@ -29,7 +30,7 @@ UPPER = {2: (40, 6), 3: (8, 6, 3)}
 LOWER = {2: (52, 6), 3: (10, 7, 3)}
 # Length and width of a rank's part, height
 SIZE = {2: (4.0, 0.6), 3: (1.6, 1.2, 0.6)}
-DOWN, ASIDE = 0.01, 0.15
+DOWN, ASIDE, REACH = 0.02, 0.25, 0.2
 
 
 def strong(path: str, sliding: str) -> dict[str, Any]:
@@ -77,7 +78,11 @@ class LongSlab:
         self._moved = [fix(u, tags, i, 0.0, Tag.UPPER_TOP) for i in range(dim)]
         held = [fix(u, tags, i, 0.0, Tag.LOWER_BOTTOM) for i in range(dim)]
         self.contact = cx.Contact(
-            cx.Surface(tags, Tag.UPPER_CONTACT), cx.Surface(tags, Tag.LOWER_CONTACT), method=method
+            cx.Surface(tags, Tag.UPPER_CONTACT),
+            cx.Surface(tags, Tag.LOWER_CONTACT),
+            method=method,
+            # By default it is as long as the surface
+            search_distance=REACH,
         )
         self.problem = cx.ContactProblem(
             elasticity(u, 1.0, 0.3),
@@ -199,13 +204,16 @@ def weak(dim: int, method: str, partition: str) -> dict[str, Any]:
         rest = _sum(outside, kind, comm.size) / max(1, iterations)
         found[f"{kind} a search"] = comm.allreduce(inside, MPI.MAX)
         found[f"{kind} an iteration"] = comm.allreduce(rest, MPI.MAX)
+    boxes = counter.inside["bytes", "boxes"] * (comm.size - 1) / max(1, counter.searches)
+    found["of boxes"] = comm.allreduce(boxes, MPI.MAX)
     return found
 
 
 def _sum(counts: Counter[tuple[str, str]], kind: str, ranks: int) -> float:
-    # What all ranks gather passes through each of them, from one to the next
-    passed = {"boxes": ranks - 1}
-    return float(sum(n * passed.get(p, 1) for (what, p), n in counts.items() if what == kind))
+    # What all ranks gather passes through each of them, in larger and larger packages
+    passed = {"bytes": ranks - 1, "messages": math.ceil(math.log2(ranks))}.get(kind, 1)
+    each = ((n, passed if p == "boxes" else 1) for (what, p), n in counts.items() if what == kind)
+    return float(sum(n * factor for n, factor in each))
 
 
 def _petsc_traffic() -> Counter[str]:

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 import cattaneo_mindlin
 import numpy as np
 from driven_blocks import DrivenBlock
-from scenes import NU
+from scenes import NU, HertzSphere
 from story import displacement, elasticity, fix
 
 import contactx as cx
@@ -36,7 +36,16 @@ def sliding_3d() -> Iterator[cx.ContactProblem]:
 
 
 def friction_condensed() -> Iterator[cx.ContactProblem]:
-    """No node closes amid a step: where it does depends on how well its iterate is solved."""
+    scene = HertzSphere(
+        meshes.hertz_sphere(0.1), "finite", friction=0.3, petsc_options={"pc_type": "condensed"}
+    )
+    for t in (0.5, 1.0):
+        scene.update(t)
+        scene.problem.solve()
+        yield scene.problem
+
+
+def dragged_condensed() -> Iterator[cx.ContactProblem]:
     yield from _dragged(CellType.hexahedron, (4, 3, 2), (16, 4, 2), 2, pc_type="condensed")
 
 

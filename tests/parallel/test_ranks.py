@@ -40,7 +40,7 @@ TRIED = (
 )
 # Iterations may differ: on the way out of yield rounding decides which tangent the material has,
 # and early solves of the condensed solver are as rough as the preconditioner of the ranks' parts
-ROUNDED = ("plastic", "friction_condensed")
+ROUNDED = ("plastic", "dragged_condensed")
 CASES = [
     *((Case(scene, method), n) for n in (2, 3, 4) for scene in SCENES for method in METHODS),
     *(
