@@ -16,6 +16,7 @@ from mpi4py import MPI
 import numpy as np
 import numpy.typing as npt
 import stacked_blocks
+from partitions import partitioned
 from scenes import Blocks, hertz_sphere
 from story import fix
 
@@ -108,9 +109,10 @@ def in_order(comm: MPI.Comm, numbers: npt.NDArray[Any], rows: npt.NDArray[Any]) 
     return rows[np.argsort(every)]
 
 
-def main(path: str, *names: str) -> None:
+def main(path: str, partition: str, *names: str) -> None:
     for name in names or SCENES:
-        problem, contacts = SCENES[name]()
+        with partitioned(partition):
+            problem, contacts = SCENES[name]()
         problem.solve()
         found = answers(problem, contacts)
         if MPI.COMM_WORLD.rank == 0:
