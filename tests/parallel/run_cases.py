@@ -21,7 +21,7 @@ from partitions import partitioned
 import contactx as cx
 
 # Seconds a case may take on cores that others use, too, with forms to compile
-LIMIT = 90
+LIMIT = 20
 
 
 def run(case: Case) -> dict[str, np.ndarray]:

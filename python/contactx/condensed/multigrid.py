@@ -273,7 +273,8 @@ def near_null_space(x: Array, comm: MPI.Comm) -> Array:
         Displacements of the owned nodes, shape (3 or 6, num_owned * gdim).
     """
     middle = reduce.total(comm, x.sum(axis=0)) / reduce.total(comm, len(x))
-    modes = rigid_modes(x - middle).reshape(x.size, -1)
+    modes = rigid_modes(x - middle)
+    modes = modes.reshape(x.size, modes.shape[-1])
     modes /= np.sqrt(reduce.total(comm, (modes**2).sum(axis=0)))
     gram = reduce.total(comm, modes.T @ modes)
     basis: Array = np.linalg.solve(np.linalg.cholesky(gram), modes.T)
