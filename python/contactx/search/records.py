@@ -39,6 +39,7 @@ class FacetRecords:
         m = len(facets.offsets) - 1
         tables = [np.full((m, _MOST), _NONE, dtype=np.int64) for _ in range(3)]
         for which, nodes in facets.groups():
+            values: tuple[npt.NDArray[np.integer], ...]
             values = halo.numbers(nodes), halo.owners(nodes), halo.original[nodes]
             for table, value in zip(tables, values, strict=True):
                 table[which, : nodes.shape[1]] = value
