@@ -274,11 +274,7 @@ def near_null_space(x: Array, comm: MPI.Comm) -> Array:
     """
     middle = reduce.total(comm, x.sum(axis=0)) / reduce.total(comm, len(x))
     modes = rigid_modes(x - middle)
-<<<<<<< HEAD
     modes = modes.reshape(x.size, modes.shape[2])
-=======
-    modes = modes.reshape(x.size, modes.shape[-1])
->>>>>>> par-pd
     modes /= np.sqrt(reduce.total(comm, (modes**2).sum(axis=0)))
     gram = reduce.total(comm, modes.T @ modes)
     basis: Array = np.linalg.solve(np.linalg.cholesky(gram), modes.T)
