@@ -37,13 +37,13 @@ class FacetRecords:
     def of(facets: FacetList, halo: Halo) -> FacetRecords:
         """Records of facets whose nodes are on this rank."""
         m = len(facets.offsets) - 1
-        tables = [np.full((m, _MOST), _NONE, dtype=np.int64) for _ in range(3)]
+        numbers, owners, original = (np.full((m, _MOST), _NONE, dtype=np.int64) for _ in range(3))
         for which, nodes in facets.groups():
-            values: tuple[npt.NDArray[np.integer], ...]
-            values = halo.numbers(nodes), halo.owners(nodes), halo.original[nodes]
-            for table, value in zip(tables, values, strict=True):
-                table[which, : nodes.shape[1]] = value
-        return FacetRecords(*tables)
+            width = nodes.shape[1]
+            numbers[which, :width] = halo.numbers(nodes)
+            owners[which, :width] = halo.owners(nodes)
+            original[which, :width] = halo.original[nodes]
+        return FacetRecords(numbers, owners, original)
 
     @staticmethod
     def joined(parts: list[FacetRecords]) -> FacetRecords:
