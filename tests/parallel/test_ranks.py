@@ -40,7 +40,7 @@ TRIED = (
 )
 # Iterations may differ: on the way out of yield rounding decides which tangent the material has,
 # and early solves of the condensed solver are as rough as the preconditioner of the ranks' parts
-ROUNDED = ("plastic", "dragged_condensed")
+ROUNDED = ("plastic", "dragged_condensed", "hertz_condensed")
 BOTH = list(METHODS)
 CASES = [
     *((Case(scene, method), 2) for scene in SCENES for method in BOTH),
