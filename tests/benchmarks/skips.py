@@ -173,10 +173,10 @@ def _search_anew() -> Iterator[None]:
     """
     init, search = FacetMaster.__init__, FacetMaster.search
 
-    def new_init(self: Any, slave: Any, master: Any, x: Any, *args: Any, **kwargs: Any) -> None:
-        lists = (slave.offsets, slave.nodes, master.offsets, master.nodes)
-        self.surfaces = (*lists, x.shape[1])
-        init(self, slave, master, x, *args, **kwargs)
+    def new_init(self: Any, halo: Any, slave: Any, master: Any, *args: Any, **kwargs: Any) -> None:
+        facets = slave.facets
+        self.surfaces = (facets.offsets, facets.nodes, master.offsets, master.nodes, halo.gdim)
+        init(self, halo, slave, master, *args, **kwargs)
 
     def new_search(self: Any, x: Any, closed: Any) -> tuple[int, bool]:
         core.Pairing(*self.surfaces).update(x, self.reach, closed)
