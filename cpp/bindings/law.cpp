@@ -62,7 +62,7 @@ void contactx_bindings::law(py::module_& m)
       "frictional_status",
       [](const Array<double>& traction, const Array<double>& gap,
          const Array<double>& normal, const Array<double>& slip,
-         const Array<double>& c, const Array<double>& friction,
+         const Array<double>& c, const Array<double>& friction, double reach,
          Array<std::int8_t> status)
       {
         const int gdim = dimension(traction, status.size());
@@ -71,10 +71,11 @@ void contactx_bindings::law(py::module_& m)
         return contactx::law::frictional_status(
             {gdim, view(traction), view(gap), view(normal), view(slip), view(c),
              view(friction)},
-            mutable_view(status));
+            reach, mutable_view(status));
       },
       py::arg("traction"), py::arg("gap"), py::arg("normal"), py::arg("slip"),
-      py::arg("c"), py::arg("friction"), py::arg("status").noconvert(),
+      py::arg("c"), py::arg("friction"), py::arg("reach"),
+      py::arg("status").noconvert(),
       "Set the status of each slave node; returns how many changed");
   m.def(
       "frictional_complementarity",

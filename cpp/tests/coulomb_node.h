@@ -28,6 +28,7 @@ struct CoulombNode
   Vec<D> traction, normal, slip;
   double gap, c, friction;
   double area = 1;
+  double reach = 10; ///< of trial friction, over the bound
   Vec<D> mobile = ones();
 
   static Vec<D> ones()
@@ -45,7 +46,7 @@ struct CoulombNode
   std::int8_t status() const
   {
     std::array<std::int8_t, 1> status{law::open};
-    law::frictional_status(state(), status);
+    law::frictional_status(state(), reach, status);
     return status[0];
   }
 

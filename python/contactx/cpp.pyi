@@ -136,6 +136,7 @@ def frictional_status(
     slip: NDArray[np.float64],
     c: NDArray[np.float64],
     friction: NDArray[np.float64],
+    reach: float,
     status: NDArray[np.int8],
 ) -> int: ...
 def frictional_complementarity(

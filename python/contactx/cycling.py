@@ -47,6 +47,8 @@ class CycleGuard:
         self._seen: dict[int, list[float]] = {}
         self._status = -1
         self._last: PETSc.Vec | None = None
+        for interface in self._interfaces:
+            interface.law.begin_step()
 
     def shorten(self, x: PETSc.Vec) -> bool:
         """Take back a part of the last step, if iterates go round.
@@ -85,6 +87,8 @@ class CycleGuard:
             # Longer each time
             self._short = 1 + self.cycles
             self._seen.clear()
+            for interface in self._interfaces:
+                interface.law.go_round()
 
     def _fingerprint(self) -> int:
         """Number that stands for the status of all nodes of all ranks."""

@@ -103,17 +103,18 @@ class FactorisedSolver:
             # Two factorisations at once would be the largest part of the memory
             self._ksp.destroy()
             self._ksp = None
-        if self._ksp is None:
-            self._ksp = PETSc.KSP().create(comm=A.comm)
-            self._ksp.setOptionsPrefix(self._prefix)
-            with direct_options(self._prefix).in_database():
+        # What the factors read from the database they read when they are made
+        with direct_options(self._prefix).in_database():
+            if self._ksp is None:
+                self._ksp = PETSc.KSP().create(comm=A.comm)
+                self._ksp.setOptionsPrefix(self._prefix)
                 self._ksp.setFromOptions()
-        # A matrix of the same pattern needs no new analysis
-        pc = self._ksp.getPC()
-        pc.setReusePreconditioner(False)
-        self._ksp.setOperators(A)
-        self._ksp.setUp()
-        pc.setReusePreconditioner(True)
+            # A matrix of the same pattern needs no new analysis
+            pc = self._ksp.getPC()
+            pc.setReusePreconditioner(False)
+            self._ksp.setOperators(A)
+            self._ksp.setUp()
+            pc.setReusePreconditioner(True)
         self._factorised = self._pattern
         self._lost = 0
         self.factorisations += 1

@@ -255,7 +255,9 @@ class Interface:
                 self._measure_from_touching(closing & ~self._touched)
         self.law.set_status(nodes)
         if first:
-            nodes.close(np.flatnonzero(closing & ~nodes.closed))
+            # Where nothing presses yet, rounding must not decide between stick and slip either
+            loose = ~nodes.multiplier.reshape(len(closing), -1).any(axis=1)
+            nodes.close(np.flatnonzero(closing & (loose | ~nodes.closed)))
         return int(np.count_nonzero(nodes.status != before))
 
     def _measure_from_touching(self, which: npt.NDArray[np.bool_]) -> None:

@@ -118,7 +118,7 @@ def _direct() -> dict[str, Any]:
         options["pc_factor_mat_ordering_type"] = "natural"
     if solver == "mumps":
         # Room for pivoting on the zero diagonal of the multipliers
-        options["mat_mumps_icntl_14"] = 60
+        options["mat_mumps_icntl_14"] = 200
     return options
 
 

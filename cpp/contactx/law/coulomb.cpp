@@ -80,7 +80,7 @@ struct Node
   {
   }
 
-  Status status() const
+  Status status(double reach) const
   {
     // False for the gap NaN, too
     if (!(p_hat > 0))
@@ -89,10 +89,10 @@ struct Node
     if (bound > 0 and size <= bound)
       return Status::stick;
     // Slip that turns back has passed a point of rest: without this, nodes
-    // that full friction throws too far go to and fro for ever
-    // (not where t is rounding, for want of friction)
+    // that full friction throws too far go to and fro for ever. Friction does
+    // not throw a node by much more than what it deforms itself
     const bool back
-        = bound > 1e-8 * p_hat and dot(t, t_hat) < -0.05 * bound * size;
+        = size < reach * bound and dot(t, t_hat) < -0.05 * bound * size;
     return back ? Status::stick : Status::slip;
   }
 
@@ -239,13 +239,13 @@ void write(const Terms<D>& r, double area, std::size_t i,
 }
 
 template <int D>
-std::int32_t set_status(const FrictionalState& state,
+std::int32_t set_status(const FrictionalState& state, double reach,
                         std::span<std::int8_t> status)
 {
   std::int32_t changed = 0;
   for (std::size_t i = 0; i < status.size(); ++i)
   {
-    const Status now = Node<D>(state, i).status();
+    const Status now = Node<D>(state, i).status(reach);
     changed += now != status[i];
     status[i] = now;
   }
@@ -276,10 +276,11 @@ void evaluate(const FrictionalState& state, std::span<const double> area,
 } // namespace
 
 std::int32_t contactx::law::frictional_status(const FrictionalState& state,
+                                              double reach,
                                               std::span<std::int8_t> status)
 {
-  return state.gdim == 2 ? set_status<2>(state, status)
-                         : set_status<3>(state, status);
+  return state.gdim == 2 ? set_status<2>(state, reach, status)
+                         : set_status<3>(state, reach, status);
 }
 
 void contactx::law::frictional_complementarity(

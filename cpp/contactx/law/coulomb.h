@@ -35,11 +35,13 @@ struct FrictionalLaw
 ///
 /// With p_hat = p - c g and t_hat = t - c ds: open where p_hat <= 0, else stick
 /// where |t_hat| <= mu p_hat > 0, else slip (Alart & Curnier 1991). A node
-/// whose trial friction opposes t sticks first; at a solution both agree.
+/// whose trial friction opposes t sticks first, if t_hat is not too long; at a
+/// solution both agree.
 /// @param[in] state State.
+/// @param[in] reach Length of t_hat, over mu p_hat, up to which it does.
 /// @param[in,out] status Status of each node.
 /// @return Number of nodes that changed.
-std::int32_t frictional_status(const FrictionalState& state,
+std::int32_t frictional_status(const FrictionalState& state, double reach,
                                std::span<std::int8_t> status);
 
 /// @brief Complementarity function of contact with Coulomb friction, times the

@@ -33,6 +33,12 @@ class Law(ABC):
             ValueError: If it is out of its range.
         """
 
+    def begin_step(self) -> None:
+        """Forget what iterates of the last step have shown."""
+
+    def go_round(self) -> None:
+        """Try harder: iterates go round in a circle."""
+
     @abstractmethod
     def set_status(self, nodes: Nodes) -> int:
         """Set each node's status from its multiplier, gap and slip; all ranks must take part.

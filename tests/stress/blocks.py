@@ -1,0 +1,234 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Two blocks, the upper one pressed on the lower one: the scene that most families vary."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import scene_transforms
+from stress.scene import Case
+
+import contactx as cx
+import ufl
+from contactx import meshes
+from contactx.meshes import Tag
+from dolfinx import fem, mesh
+from dolfinx.mesh import CellType
+
+PLANE = (CellType.triangle, CellType.quadrilateral)
+SOLID = (CellType.tetrahedron, CellType.hexahedron)
+# How far a node may lie in the other body where pairs are exact, and where gaps are means
+INTO = {"node-to-surface": 0.01, "surface-to-surface": 0.05}
+
+
+def dimension(cell: CellType) -> int:
+    """Dimension of space of a kind of cells."""
+    return 2 if cell in PLANE else 3
+
+
+def bulk(u: fem.Function, young: Any, nu: Any, material: str) -> ufl.Form:
+    """Residual of a linear or a neo-Hookean material, in plane strain where the mesh is plane."""
+    v, dim = ufl.TestFunction(u.function_space), len(u)
+    mu, lmbda = young / (2 * (1 + nu)), young * nu / ((1 + nu) * (1 - 2 * nu))
+    if material == "linear":
+        strain = ufl.sym(ufl.grad(u))
+        stress = 2 * mu * strain + lmbda * ufl.tr(strain) * ufl.Identity(dim)
+        return ufl.inner(stress, ufl.grad(v)) * ufl.dx
+    F = ufl.Identity(dim) + ufl.grad(u)
+    log_j = ufl.ln(ufl.det(F))
+    energy = mu / 2 * (ufl.tr(F.T * F) - dim - 2 * log_j) + lmbda / 2 * log_j**2
+    return ufl.derivative(energy * ufl.dx, u, v)
+
+
+def of_bodies(data: Any, values: Sequence[float]) -> fem.Function:
+    """A value for the upper body's cells and one for the lower body's."""
+    result = fem.Function(fem.functionspace(data.mesh, ("DG", 0)))
+    for body, value in zip((Tag.UPPER, Tag.LOWER), values, strict=True):
+        result.x.array[data.cell_tags.find(body)] = value
+    return result
+
+
+def _shuffled(data: Any, seed: int) -> SimpleNamespace:
+    """The same mesh with other numbers."""
+    other = scene_transforms.renumbered(scene_transforms.numbered(data), seed)
+    domain, dim = other.domain, other.domain.geometry.dim
+    # The blocks lie on both sides of height zero
+    height = domain.geometry.x[domain.geometry.dofmaps[0], dim - 1].mean(axis=1)
+    bodies = np.where(height > 0, Tag.UPPER, Tag.LOWER).astype(np.int32)
+    cells = np.arange(len(height), dtype=np.int32)
+    return SimpleNamespace(
+        mesh=domain,
+        facet_tags=other.tags,
+        cell_tags=mesh.meshtags(domain, domain.topology.dim, cells, bodies),
+    )
+
+
+@dataclass
+class Blocks:
+    """Two blocks; the lower one's bottom is held, the upper one's top is moved.
+
+    Lengths are relative to ``length``. The last axis is the height before the scene is turned.
+
+    Attributes:
+        cell: Kind of the cells.
+        n_upper: Cells of the upper block, along the surface and in height.
+        n_lower: The same for the lower block.
+        size_upper: Size of the upper block, along the surface and in height.
+        size_lower: The same for the lower block.
+        shift: How far the upper block begins behind the lower one.
+        gap: Initial gap.
+        radius: Radius of the upper block's bottom; flat if None.
+        young: Young's moduli of the upper and of the lower block.
+        nu: Poisson's ratios.
+        friction: Coefficient.
+        method: Method of the contact.
+        sliding: Its kinematics.
+        tied: Whether the blocks are tied.
+        material: "linear" or "neo-hooke".
+        down: How far the top moves down.
+        side: How far it moves along the first axis.
+        swapped: Whether the lower block is the slave.
+        noise: How far inner nodes are moved at random, in cells.
+        length: Unit of length.
+        modulus: Unit of modulus.
+        turn: Seed of a random rotation; not turned if None.
+        away: Distance by which the scene is moved, in a random direction.
+        shuffle: Seed that numbers nodes and cells anew; as gmsh does if None.
+        steps: Load steps.
+        into: How far a node may lie in the other body; the usual bound if None.
+        options: PETSc's options.
+        extra: Further options of the contact.
+    """
+
+    cell: CellType = CellType.quadrilateral
+    n_upper: Sequence[int] = (3, 2)
+    n_lower: Sequence[int] = (5, 2)
+    size_upper: Sequence[float] = (1.0, 1.0)
+    size_lower: Sequence[float] = (1.5, 1.0)
+    shift: float = 0.23
+    gap: float = 0.0
+    radius: float | None = None
+    young: Sequence[float] = (1.0, 1.0)
+    nu: Sequence[float] = (0.3, 0.3)
+    friction: float = 0.0
+    method: str = "node-to-surface"
+    sliding: str = "finite"
+    tied: bool = False
+    material: str = "linear"
+    down: float = 0.05
+    side: float = 0.0
+    swapped: bool = False
+    noise: float = 0.0
+    length: float = 1.0
+    modulus: float = 1.0
+    turn: int | None = None
+    away: float = 0.0
+    shuffle: int | None = None
+    steps: Any = 1
+    into: float | None = None
+    options: dict[str, Any] | None = None
+    extra: dict[str, Any] = field(default_factory=dict)
+
+    def case(self) -> Case:
+        """Make the problem."""
+        data = self.data = self._mesh()
+        domain, tags = data.mesh, data.facet_tags
+        dim = domain.geometry.dim
+        rng = np.random.default_rng(self.turn)
+        Q = np.eye(dim) if self.turn is None else scene_transforms.rotation(rng, dim)
+        direction = rng.standard_normal(dim)
+        where = self.away * direction / np.linalg.norm(direction)
+        self.x0 = domain.geometry.x[:, :dim].copy()
+        domain.geometry.x[:, :dim] = self.length * (self.x0 @ Q.T + where)
+        self.Q = Q
+
+        self.u = u = fem.Function(fem.functionspace(domain, ("Lagrange", 1, (dim,))))
+        E = of_bodies(data, [self.modulus * y for y in self.young])
+        F = bulk(u, E, of_bodies(data, self.nu), self.material)
+        V = u.function_space
+        held, moved = (
+            fem.locate_dofs_topological(V, dim - 1, tags.find(face))
+            for face in (Tag.LOWER_BOTTOM, Tag.UPPER_TOP)
+        )
+        top = fem.Function(V)
+        bcs = [fem.dirichletbc(np.zeros(dim), held, V), fem.dirichletbc(top, moved)]
+        motion = np.zeros(dim)
+        motion[0], motion[-1] = self.side, -self.down
+        motion = self.length * Q @ motion
+
+        def update(t: float) -> None:
+            top.x.array.reshape(-1, dim)[:] = t * motion
+
+        sides = [cx.Surface(tags, t) for t in (Tag.UPPER_CONTACT, Tag.LOWER_CONTACT)]
+        self.contact = cx.Contact(
+            *(sides[::-1] if self.swapped else sides),
+            friction=self.friction,
+            method=self.method,
+            sliding=self.sliding,
+            tied=self.tied,
+            **self.extra,
+        )
+        problem = cx.ContactProblem(
+            F,
+            u,
+            contacts=[self.contact],
+            bcs=bcs,
+            petsc_options_prefix="stress_",
+            petsc_options=self.options,
+        )
+        into = self.into
+        if into is None and self.sliding == "finite" and not self.tied:
+            into = INTO[self.method]
+        return Case(
+            problem,
+            [self.contact],
+            F,
+            bcs,
+            update,
+            size=self.length * min(*self.size_upper, *self.size_lower),
+            modulus=self.modulus * min(self.young),
+            steps=self.steps,
+            into=[into],
+        )
+
+    def _mesh(self) -> Any:
+        dim = dimension(self.cell)
+
+        def spread(pair: Sequence[Any]) -> list[Any]:
+            return [pair[0]] * (dim - 1) + [pair[1]]
+
+        data = meshes.blocks(
+            self.cell,
+            spread(self.n_upper),
+            spread(self.n_lower),
+            size_upper=spread(self.size_upper),
+            size_lower=spread(self.size_lower),
+            shift=[self.shift] * (dim - 1),
+            gap=self.gap,
+            radius=self.radius,
+        )
+        if self.noise > 0:
+            self._shake(data.mesh)
+        if self.shuffle is not None:
+            return _shuffled(data, self.shuffle)
+        return data
+
+    def _shake(self, domain: mesh.Mesh) -> None:
+        """Move the nodes that are not on the boundary at random, and those of faces along them."""
+        rng = np.random.default_rng(0)
+        x, dim = domain.geometry.x, domain.geometry.dim
+        cells = np.concatenate(domain.geometry.dofmaps[0])
+        width = np.ptp(x[cells.reshape(len(domain.geometry.dofmaps[0]), -1)], axis=1).min(axis=0)
+        low_high = []
+        for body in (x[:, dim - 1] >= 0, x[:, dim - 1] < 0):
+            low_high.append((body, x[body].min(axis=0), x[body].max(axis=0)))
+        move = self.noise * width * rng.uniform(-1, 1, x.shape)
+        for body, low, high in low_high:
+            near = 1e-9 * np.ptp(x)
+            on_face = (np.abs(x - low) < near) | (np.abs(x - high) < near)
+            x[body] += np.where(on_face, 0.0, move)[body]

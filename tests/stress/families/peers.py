@@ -1,0 +1,99 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Scenes on which other codes were measured to fail: the common Hertz problem and its like."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+import scenes as common
+from stress.blocks import bulk, of_bodies
+from stress.families.grid import scenes, variants
+from stress.scene import METHODS, SLIDINGS, Case, Check, Scene
+
+import contactx as cx
+from contactx import meshes
+from contactx.meshes import Tag
+from dolfinx import fem
+
+# Displacement, friction, modulus of the lower body, whether the block is the slave
+_SCENES: dict[str, dict[str, Any]] = {
+    "as it is": {},
+    "0.05 in one step": {"down": 0.05},
+    "0.1 in one step": {"down": 0.1},
+    "0.2 in one step": {"down": 0.2},
+    "friction 0.3": {"friction": 0.3},
+    "friction 0.3, 0.2 in one step": {"friction": 0.3, "down": 0.2},
+    "lower body 1e4 stiffer": {"lower": 1e4},
+    "lower body 1e4 softer": {"lower": 1e-4},
+    "lower body 1e4 stiffer, friction": {"lower": 1e4, "friction": 0.3},
+    "lower body 1e4 softer, friction": {"lower": 1e-4, "friction": 0.3},
+    "block is the slave": {"swapped": True},
+    "block is the slave, friction": {"swapped": True, "friction": 0.3},
+}
+
+
+def hertz() -> Iterator[Scene]:
+    """The common Hertz problem; its slave node in the middle lies on two planes of symmetry."""
+    options = list(
+        variants(method=METHODS, sliding=SLIDINGS, solver=("direct", "condensed"), h=(0.04,))
+    )
+    options += list(variants(method=METHODS, sliding=SLIDINGS, solver=("condensed",), h=(0.02,)))
+    yield from scenes("where peers fail", _SCENES, options, _hertz)
+
+
+def _hertz(name, method, sliding, solver, h) -> Case:
+    row = _SCENES[name]
+    down, mu, lower = row.get("down", 0.02), row.get("friction", 0.0), row.get("lower", 1.0)
+    swapped = row.get("swapped", False)
+    data = meshes.hertz_sphere(h)
+    tags = data.facet_tags
+    u = fem.Function(fem.functionspace(data.mesh, ("Lagrange", 1, (3,))))
+    F = bulk(u, of_bodies(data, (1.0, lower)), of_bodies(data, (0.3, 0.3)), "linear")
+    top = common.fix(u, tags, 2, 0.0, Tag.UPPER_TOP)
+    bcs = [
+        common.fix(u, tags, 0, 0.0, Tag.UPPER_X0, Tag.LOWER_X0),
+        common.fix(u, tags, 1, 0.0, Tag.UPPER_Y0, Tag.LOWER_Y0),
+        *(common.fix(u, tags, i, 0.0, Tag.LOWER_BOTTOM) for i in range(3)),
+        top,
+    ]
+    sides = [cx.Surface(tags, side) for side in (Tag.UPPER_CONTACT, Tag.LOWER_CONTACT)]
+    contact = cx.Contact(
+        *(sides[::-1] if swapped else sides), friction=mu, sliding=sliding, method=method
+    )
+    options = {"pc_type": "lu"} if solver == "direct" else {"pc_type": "condensed"}
+    problem = cx.ContactProblem(
+        F, u, contacts=[contact], bcs=bcs, petsc_options_prefix="hertz_", petsc_options=options
+    )
+
+    def update(t):
+        top.g.value[...] = -down * t
+
+    def answers():
+        if down > 0.05 or swapped:
+            # Not Hertz's small contact any more, or pressures of the block's nodes
+            force = abs(float(contact.force[2]))
+            return [Check("force grows as Hertz's", abs(force / _force(down) - 1), 0.15)]
+        young = {Tag.UPPER: 1.0, Tag.LOWER: lower}
+        p = contact.pressure.x.array[_rows(contact, u)]
+        error = common.pressure_error(problem, contact, young, p)
+        return [Check("pressure against Hertz", error, 0.16 if h == 0.04 else 0.08)]
+
+    return Case(
+        problem, [contact], F, bcs, update, size=1.0, modulus=min(1.0, lower), answers=answers
+    )
+
+
+def _rows(contact: cx.Contact, u: fem.Function) -> np.ndarray:
+    """Rows of the slave nodes in the scalar space."""
+    V, Q = u.function_space, contact.pressure.function_space
+    row = np.empty(V.dofmap.index_map.size_local, dtype=np.int64)
+    row[V.dofmap.list.ravel()] = Q.dofmap.list.ravel()
+    return row[contact.slave_nodes]
+
+
+def _force(down: float) -> float:
+    """Force of a quarter by what was measured at 0.02, as Hertz's grows."""
+    return 0.0023736 / 4 * (down / 0.02) ** 1.5

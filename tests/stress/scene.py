@@ -1,0 +1,105 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""What a scene of the stress map is, and what it is made of."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+import contactx as cx
+import ufl
+from dolfinx import fem
+
+METHODS = ("node-to-surface", "surface-to-surface")
+SLIDINGS = ("finite", "small")
+SHORT = {"node-to-surface": "n2s", "surface-to-surface": "s2s"}
+
+
+@dataclass(frozen=True)
+class Check:
+    """A known answer: how far the computed one is from it, and how far it may be."""
+
+    name: str
+    error: float
+    allowed: float
+
+    @property
+    def holds(self) -> bool:
+        """Whether it is met; NaN is not."""
+        return self.error <= self.allowed
+
+
+@dataclass
+class Case:
+    """A problem with its loads and what is known of its answer.
+
+    Attributes:
+        problem: The problem.
+        contacts: Its contacts.
+        F: Residual of the bulk.
+        bcs: Dirichlet conditions.
+        update: Function of t that sets the loads.
+        size: Size of the smaller body.
+        modulus: Young's modulus of the softest body.
+        steps: Load steps.
+        into: How far a slave node may lie in the master's body, for each contact; None where it
+            is not looked for.
+        answers: Known answers at the end.
+        step_answers: Known answers after each accepted step of a given t.
+        max_cuts: How often a step may be halved.
+    """
+
+    problem: cx.ContactProblem
+    contacts: Sequence[cx.Contact]
+    F: ufl.Form
+    bcs: Sequence[fem.DirichletBC]
+    update: Callable[[float], object]
+    size: float = 1.0
+    modulus: float = 1.0
+    steps: Any = 1
+    into: Sequence[float | None] = ()
+    answers: Callable[[], Sequence[Check]] = tuple
+    step_answers: Callable[[float], Sequence[Check]] = field(default=lambda t: ())
+    max_cuts: int = 6
+
+
+@dataclass(frozen=True)
+class Scene:
+    """A scene of the map.
+
+    Attributes:
+        family: The axis that it is on.
+        value: Where on that axis.
+        variant: What else tells it from the others.
+        make: Makes its case.
+    """
+
+    family: str
+    value: str
+    variant: str
+    make: Callable[[], Case]
+
+    @property
+    def name(self) -> str:
+        """Name of the scene."""
+        return f"{self.family}: {self.value}, {self.variant}"
+
+
+def relative(name: str, computed: Any, expected: Any, allowed: float, least: float = 0.0) -> Check:
+    """Compare with a known answer, relative to its largest entry.
+
+    Args:
+        name: What is compared.
+        computed: Computed values.
+        expected: Known values.
+        allowed: Relative error that is allowed.
+        least: Size of the values below which they count as rounding.
+    """
+    computed, expected = np.asarray(computed), np.asarray(expected)
+    scale = max(float(np.abs(expected).max(initial=0.0)), least)
+    error = float(np.abs(computed - expected).max(initial=0.0))
+    return Check(name, error / scale if scale > 0 else error, allowed)
