@@ -205,6 +205,16 @@ class Bulk:
         np.divide(total, count, out=stiffness, where=count > 0)
         return stiffness
 
+    def cell_sizes(self) -> npt.NDArray[np.float64]:
+        """Size of the largest cell of this rank around each owned node, shape (num_owned,)."""
+        V = self.u.function_space
+        cells = V.dofmap.list
+        sizes = V.mesh.h(V.mesh.topology.dim, np.arange(len(cells), dtype=np.int32))
+        result = np.zeros(len(self.markers) // V.dofmap.index_map_bs)
+        np.maximum.at(result, cells, sizes[:, None])
+        owned: npt.NDArray[np.float64] = result[: V.dofmap.index_map.size_local]
+        return owned
+
 
 def _is_symmetric(K: PETSc.Mat) -> bool:
     """Whether x.Ky = y.Kx for two random vectors: any asymmetry shows, but for chance."""

@@ -11,11 +11,13 @@ import numpy.typing as npt
 
 from contactx.bulk import Bulk
 from contactx.interface import Interface
-from contactx.parallel.reduce import largest, norm
+from contactx.parallel.reduce import extent, largest, norm
 from contactx.system import SaddlePointSystem
 
 # Rounding errors of a sum of a few terms
 _EPS = 16 * np.finfo(np.float64).eps
+# Displacement over the size of the scene, or what is prescribed
+_FAR = 1e3
 
 
 class Judge:
@@ -38,6 +40,9 @@ class Judge:
         self._system = system
         self._comm = system.halo.comm
         self._stiffness = np.zeros(0)
+        # Where strains are differences of 1 and the deformation gradient, they have its rounding
+        self._size = 0.0 if bulk.is_linear else bulk.cell_sizes()
+        self._extent: float = extent(self._comm, system.halo.x).max()
         self._least_scale: float | None = None
 
     def begin(self, stiffness: npt.NDArray[np.float64]) -> None:
@@ -72,6 +77,8 @@ class Judge:
         defect = largest(self._comm, float(np.abs(force[prescribed]).max(initial=0.0)))
         force = np.where(prescribed, 0.0, force)
         residual = norm(self._comm, force, *constraints)
+        if self._has_run_away():
+            return residual, 0.0, defect
         scale = self.scale()
         if self._least_scale is None:
             # Unloading ends without forces. What the first change of the Dirichlet values asks
@@ -89,6 +96,20 @@ class Judge:
             if rest > strict:
                 return rest, strict, defect
         return residual, tolerance, defect
+
+    def _has_run_away(self) -> bool:
+        """Whether a body is so far off that its forces are rounding of its distortion.
+
+        Dirichlet values may take it anywhere.
+        """
+        u, prescribed = (np.abs(a).max(initial=0.0) for a in (self._bulk.u.x.array, self._given()))
+        most, given = largest(self._comm, np.array([u, prescribed]))
+        return bool(most > _FAR * max(self._extent, given))
+
+    def _given(self) -> npt.NDArray[np.float64]:
+        """Dirichlet values."""
+        values: npt.NDArray[np.float64] = self._bulk.prescribed()[self._bulk.markers == 1]
+        return values
 
     def scale(self) -> float:
         """Forces of the problem: norm of the bulk's residual."""
@@ -111,4 +132,4 @@ class Judge:
         nodes = [i.nodes for i in self._interfaces]
         weights = [np.where(n.closed, n.area * n.c, 0.0) for n in nodes]
         gaps = norm(self._comm, *(w * (farthest + most) for w in weights))
-        return _EPS * gaps, _EPS * self._stiffness * u
+        return _EPS * gaps, _EPS * self._stiffness * (u + self._size)

@@ -13,6 +13,7 @@ from petsc4py import PETSc
 
 import numpy as np
 
+from contactx.backtrack import Backtrack
 from contactx.bodies.bodies import Bodies
 from contactx.bodies.holder import Holder
 from contactx.bulk import Bulk
@@ -20,11 +21,13 @@ from contactx.callback import keeps_its_error, weakly
 from contactx.convergence import Judge
 from contactx.cycling import CycleGuard
 from contactx.factor import set_factor
+from contactx.frozen import FrozenPairs
 from contactx.interface import Interface
 from contactx.junctions import Junctions
 from contactx.linear import Condensed, LinearSolver, SaddlePoint
 from contactx.options import is_condensed, newton_options
 from contactx.parallel.reduce import largest, total
+from contactx.reasons import HIDDEN, UNBALANCED, reason_of
 from contactx.report import Iteration, Report
 from contactx.skips import skips
 from contactx.system import SaddlePointSystem
@@ -34,16 +37,6 @@ _FEW = 0.2
 
 # Iterates in turn with forces that nothing in the way of a body can balance
 _DRIFTING = 3
-
-_REASONS = {
-    PETSc.SNES.ConvergedReason.CONVERGED_FNORM_ABS: "the residual is below the tolerance",
-    PETSc.SNES.ConvergedReason.DIVERGED_MAX_IT: "no convergence in snes_max_it iterations",
-    PETSc.SNES.ConvergedReason.DIVERGED_LINEAR_SOLVE: "the linear solver failed: is a body free "
-    "to move without touching anything?",
-    PETSc.SNES.ConvergedReason.DIVERGED_FUNCTION_NANORINF: "the residual is not finite: the "
-    "material fails, or a body is free to move without touching anything",
-    PETSc.SNES.ConvergedReason.DIVERGED_LINE_SEARCH: "the line search failed",
-}
 
 
 class NewtonLoop:
@@ -97,10 +90,14 @@ class NewtonLoop:
         self._holder = Holder(bulk, interfaces, bodies)
         self._junctions = Junctions(interfaces, system.halo.comm)
         self._guard = CycleGuard(interfaces, system.halo.comm)
+        self._frozen = FrozenPairs(interfaces, system.halo.comm)
         self._failure = ""
         self.snes = PETSc.SNES().create(system.x.comm)
         self.snes.setOptionsPrefix(prefix)
         self.snes.setConvergenceTest(weakly(self._test))
+        self._backtrack = Backtrack(bulk, system)
+        if self._backtrack.is_needed:
+            self.snes.setLineSearchPreCheck(weakly(self._backtrack.shorten))
 
     def run(self, report: Report) -> None:
         """Run the loop from the state of the displacement and the contacts.
@@ -116,6 +113,7 @@ class NewtonLoop:
         self.snes.setFunction(weakly(self._function), self._system.b)
         self._held = False
         self._failure = ""
+        self._frozen.begin_step()
         self._halo.shrink()
         for interface in self._interfaces:
             interface.begin_step()
@@ -140,11 +138,7 @@ class NewtonLoop:
         self._system.scatter(self._system.x)
         code = self.snes.getConvergedReason()
         report.converged = self._converged
-        report.reason = _REASONS.get(code, f"SNES stopped with reason {code}")
-        if code > 0 and not self._converged:
-            report.reason = f"SNES stopped by itself, with reason {code}, before the end"
-        if self._failure:
-            report.reason = self._failure
+        report.reason = self._failure or reason_of(code, self._converged)
         self._linear.end(report)
         report.cycles = self._guard.cycles
         report.corners = int(total(self._halo.comm, self._junctions.corners))
@@ -161,8 +155,9 @@ class NewtonLoop:
 
     def take_error(self) -> BaseException | None:
         """Error that a callback raised, once."""
-        errors = [keeper.error for keeper in (self, self._linear) if keeper.error is not None]
-        self.error = self._linear.error = None
+        keepers = (self, self._linear, self._backtrack)
+        errors = [keeper.error for keeper in keepers if keeper.error is not None]
+        self.error = self._linear.error = self._backtrack.error = None
         return errors[0] if errors else None
 
     def reset(self) -> None:
@@ -258,8 +253,14 @@ class NewtonLoop:
             self._changes = self._settle()
         row, small = self._judged(snes, number)
         if small and self._stale:
-            # Nodes that touch without force change by rounding, for ever. Held pairs that are not
-            # those of this iterate give no true residual
+            # Held pairs that are not those of this iterate give no true residual. Nodes that touch
+            # without force change by rounding for ever
+            self._changes = self._settle(follow=True)
+            row, small = self._judged(snes, number)
+        if small and self._frozen.hide():
+            if not self._frozen.let_go():
+                self._failure = HIDDEN
+                return reason.DIVERGED_FUNCTION_DOMAIN
             self._changes = self._settle(follow=True)
             row, small = self._judged(snes, number)
         self._report.history.append(row)
@@ -269,14 +270,10 @@ class NewtonLoop:
         self._converged = small
         if small:
             return reason.CONVERGED_FNORM_ABS
-        before = self._report.history[-2:-1]
         # In 3D nodes that all slip may hold a body by turning their friction
-        shrinks = any(row.residual < 0.7 * last.residual for last in before)
+        shrinks = any(row.residual < 0.7 * r.residual for r in self._report.history[-2:-1])
         if self._holder.drifting >= _DRIFTING and not shrinks:
-            self._failure = (
-                "the loads on a body cannot be balanced: nothing holds it and nothing is in its "
-                "way. Support it, or turn the loads so that they press the bodies together"
-            )
+            self._failure = UNBALANCED
             return reason.DIVERGED_FUNCTION_DOMAIN
         self._linear.provide(self._holder.stiffness)
         # A set that has come back is judged by exact solves alone

@@ -186,7 +186,7 @@ class ContactProblem:
                 ]
             ),
         ).tolist()
-        hidden = [least(comm, i.master.deepest_frozen(i.positions())) for i in interfaces]
+        hidden = [least(comm, i.master.deepest_frozen(i.positions())[0]) for i in interfaces]
         report.frozen_gap = min(hidden)
         histories = [i.history for i in interfaces if i.history is not None]
         report.slip, report.dissipation = total(

@@ -23,7 +23,7 @@ from dolfinx.mesh import CellType
 PLANE = (CellType.triangle, CellType.quadrilateral)
 SOLID = (CellType.tetrahedron, CellType.hexahedron)
 # How far a node may lie in the other body where pairs are exact, and where gaps are means
-INTO = {"node-to-surface": 0.01, "surface-to-surface": 0.05}
+INTO = {"node-to-surface": 0.02, "surface-to-surface": 0.05}
 
 
 def dimension(cell: CellType) -> int:

@@ -14,6 +14,8 @@ type Facets = npt.NDArray[np.integer]
 
 # Points that are treated at once
 _CHUNK = 64
+# Parts of each edge that bilinear facets are split into
+_SPLIT = 4
 
 
 def boundary(domain: mesh.Mesh, tags: mesh.MeshTags, connected_to: int) -> Facets:
@@ -25,7 +27,7 @@ def boundary(domain: mesh.Mesh, tags: mesh.MeshTags, connected_to: int) -> Facet
         connected_to: Tag of the face.
 
     Returns:
-        Nodes of the geometry of its segments or triangles, shape (m, gdim).
+        Nodes of the geometry of its segments, triangles or quadrilaterals, shape (m, k).
     """
     tdim = domain.topology.dim
     for pair in ((tdim - 1, tdim), (tdim, tdim - 1), (tdim, 0), (0, tdim)):
@@ -38,24 +40,32 @@ def boundary(domain: mesh.Mesh, tags: mesh.MeshTags, connected_to: int) -> Facet
     nodes = mesh.entities_to_geometry(domain, tdim - 1, facets)
     x = domain.geometry.x
     middle = x[domain.geometry.dofmaps[0][owner]].mean(axis=1)
-    if tdim == 2:
-        parts = nodes
-    elif nodes.shape[1] == 3:
-        parts = nodes
-    else:
-        # dolfinx numbers a quadrilateral's corners line by line
-        parts = np.concatenate([nodes[:, [0, 1, 3]], nodes[:, [0, 3, 2]]])
-        middle = np.concatenate([middle, middle])
-    points = x[parts]
+    points = x[nodes]
     if tdim == 2:
         along = points[:, 1] - points[:, 0]
         normal = np.stack([along[:, 1], -along[:, 0], 0 * along[:, 0]], axis=1)
     else:
         normal = np.cross(points[:, 1] - points[:, 0], points[:, 2] - points[:, 0])
     inwards = np.einsum("ij,ij->i", normal, points.mean(axis=1) - middle) < 0
-    parts = parts.copy()
-    parts[inwards] = parts[inwards][:, [1, 0, *range(2, parts.shape[1])]]
+    parts = nodes.copy()
+    # dolfinx numbers a quadrilateral's corners line by line
+    other = [1, 0, 3, 2] if parts.shape[1] == 4 else [1, 0, *range(2, parts.shape[1])]
+    parts[inwards] = parts[inwards][:, other]
     return parts
+
+
+def _triangles(corners: Array) -> Array:
+    """Triangles that bilinear facets are split into, shape (num_triangles, 3, 3)."""
+    s = np.linspace(0, 1, _SPLIT + 1)
+    grid = (
+        corners[:, None, None, 0] * np.outer(1 - s, 1 - s)[..., None]
+        + corners[:, None, None, 1] * np.outer(1 - s, s)[..., None]
+        + corners[:, None, None, 2] * np.outer(s, 1 - s)[..., None]
+        + corners[:, None, None, 3] * np.outer(s, s)[..., None]
+    )
+    a, b, c, d = grid[:, :-1, :-1], grid[:, :-1, 1:], grid[:, 1:, :-1], grid[:, 1:, 1:]
+    halves = [np.stack(t, axis=3).reshape(-1, 3, 3) for t in ((a, b, d), (a, d, c))]
+    return np.concatenate(halves)
 
 
 def _body(domain: mesh.Mesh, seed: int) -> npt.NDArray[np.bool_]:
@@ -81,10 +91,10 @@ def depth(points: Array, x: Array, parts: Facets) -> Array:
     Args:
         points: Points, shape (n, gdim).
         x: Positions of the mesh's nodes, shape (num_nodes, gdim).
-        parts: Its boundary, oriented outwards, shape (m, gdim).
+        parts: Its boundary, oriented outwards, shape (m, k).
     """
     result = np.zeros(len(points))
-    corners = x[parts]
+    corners = x[parts] if parts.shape[1] < 4 else _triangles(x[parts])
     low, high = corners.min(axis=(0, 1)), corners.max(axis=(0, 1))
     near = np.flatnonzero(((points > low) & (points < high)).all(axis=1))
     turns, distance = (_turns_2d, _distance_2d) if x.shape[1] == 2 else (_turns_3d, _distance_3d)

@@ -19,7 +19,7 @@ from contactx.parallel.reduce import largest
 _EDGE = 1e-10
 _LEFT = 1e-9
 # Trial friction over its bound up to which slip that turns back sticks first, and by how much more
-# where iterates go round: measured, a hundred costs some iterations, all that there is twice as many
+# where iterates go round. Measured: 3 to 100 differ by little, without a limit it is twice the work
 _REACH = 10.0
 _FARTHER = 1e3
 

@@ -284,15 +284,19 @@ class FacetMaster(Master):
         """See ``Master``."""
         self._pairing.begin_step()
 
-    def deepest_frozen(self, x: npt.NDArray[np.float64]) -> float:
-        """See ``Master``: what a search without memory finds for them."""
+    def deepest_frozen(self, x: npt.NDArray[np.float64]) -> tuple[float, float]:
+        """See ``Master``; what a search without memory finds for them."""
         frozen = self._slaves[self.frozen]
         if self._halo.comm.allreduce(len(frozen)) == 0:
-            return 0.0
+            return 0.0, 0.0
         normals = core.nodal_normals(
             self._facets.offsets, self._facets.nodes, x, x.shape[1]
         ).reshape(x.shape)[frozen]
         found = self.surface.find(x, x[frozen], normals, self.reach)
-        deepest = float(found.gap[found.facet >= 0].min(initial=0.0))
+        here = found.facet >= 0
         # Less is rounding
-        return deepest if deepest < -1e-10 * self.reach else 0.0
+        gap = np.where(found.gap[here] < -1e-10 * self.reach, found.gap[here], 0.0)
+        facets = self.surface.facets
+        first, end = (facets.nodes[facets.offsets[found.facet[here] + k] - k] for k in (0, 1))
+        edge = np.linalg.norm(x[end] - x[first], axis=1)
+        return float(gap.min(initial=0.0)), float((gap / edge).min(initial=0.0))

@@ -233,9 +233,16 @@ class Master(ABC):
     def forget_flips(self) -> None:
         """Let frozen pairs move again and count anew how often pairs go back and forth."""
 
-    def deepest_frozen(self, x: npt.NDArray[np.float64]) -> float:
-        """Smallest gap that this rank's frozen pairs hide; collective."""
-        return 0.0
+    def deepest_frozen(self, x: npt.NDArray[np.float64]) -> tuple[float, float]:
+        """Smallest gap that this rank's frozen pairs hide; all ranks must take part.
+
+        Args:
+            x: Positions of all nodes, shape (num_nodes, gdim).
+
+        Returns:
+            The gap, and the smallest one over the length of an edge of its facet.
+        """
+        return 0.0, 0.0
 
 
 def touching(

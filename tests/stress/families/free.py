@@ -9,7 +9,7 @@ from collections.abc import Iterator
 import numpy as np
 from stress.alone import Alone
 from stress.blocks import bulk, dimension
-from stress.families.grid import ALL_CELLS, CELLS, divisions, scenes, variants
+from stress.families.grid import ALL_CELLS, divisions, scenes, variants
 from stress.scene import METHODS, SLIDINGS, Case, Check, Scene, relative
 
 import contactx as cx
@@ -17,7 +17,6 @@ import ufl
 from contactx import meshes
 from contactx.meshes import block_tag
 from dolfinx import fem
-from dolfinx.mesh import CellType
 
 _PRESSURE = 0.01
 

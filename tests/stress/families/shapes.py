@@ -27,7 +27,7 @@ def mesh_ratio() -> Iterator[Scene]:
 
 
 def aspect() -> Iterator[Scene]:
-    """Cells that are up to 10,000 times as long as thick: lying layers, standing columns, plates."""
+    """Cells up to 10,000 times as long as thick: lying layers, standing columns, plates."""
     values = (10.0, 100.0, 1e3, 1e4)
     options = list(
         variants(
