@@ -1,0 +1,48 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Some scenes of each family of the stress map; all of them: make stress."""
+
+import pytest
+from rich.console import Console
+from stress import picture, sheet
+from stress.families import FAMILIES, all_scenes, cycles, peers
+from stress.outcome import Kind, Outcome, run
+
+# A thousand steps take a minute
+_SHORT = [family for family in FAMILIES if family is not cycles.cyclic]
+
+
+def _some(family):
+    scenes = list(family())
+    if family is peers.hertz:
+        scenes = [s for s in scenes if s.variant.endswith("direct, 0.04") and "finite" in s.variant]
+    return [scenes[k * (len(scenes) - 1) // 3] for k in range(4)]
+
+
+@pytest.mark.parametrize(
+    "scene", [s for family in _SHORT for s in _some(family)], ids=lambda scene: scene.name
+)
+def test_scene(scene):
+    outcome = run(scene)
+    assert outcome.kind in (Kind.CONVERGED, Kind.CUT), outcome.reason
+
+
+def test_there_are_enough_scenes_and_none_twice():
+    assert len(all_scenes()) >= 2000
+
+
+def test_tables_and_picture(tmp_path):
+    rows = [
+        Outcome("a", "1", "x", Kind.CONVERGED, steps=1, iterations=3),
+        Outcome("a", "2", "x", Kind.CUT, steps=2, iterations=8, discarded=9),
+        Outcome("b", "1", "", Kind.REFUSED, "too much"),
+        Outcome("b", "2", "", Kind.WRONG, "balance: 1 > 0"),
+    ]
+    sheet.write(rows, tmp_path / "map.csv")
+    assert sheet.read(tmp_path / "map.csv") == rows
+    sheet.show(rows, Console(quiet=True), tmp_path / "map.md")
+    text = (tmp_path / "map.md").read_text()
+    assert "| all | 4 | 1 | 1 | 1 | 1 | 3 | 11 | 4 |" in text
+    assert "refused: b: 1, : too much" in text
+    picture.draw(rows, tmp_path / "map.png")
+    assert (tmp_path / "map.png").stat().st_size > 5000
