@@ -15,6 +15,7 @@ import numpy.typing as npt
 
 import dolfinx.fem.petsc
 import ufl
+from contactx.errors import NotFiniteError
 from contactx.parallel import reduce
 from dolfinx import fem, la
 
@@ -184,6 +185,12 @@ class Bulk:
         self._A.zeroEntries()
         dolfinx.fem.petsc.assemble_matrix(self._A, self.J, bcs=self.bcs)
         self._A.assemble()
+        self._assembled_with = None
+        if not np.isfinite(self._A.norm(PETSc.NormType.FROBENIUS)):
+            raise NotFiniteError(
+                "the Jacobian of F is not finite: its derivative does not exist at this "
+                "displacement, or a coefficient of F, or of J, is NaN or infinite"
+            )
         self._assembled_with = [values.copy() for values in parameters]
         self._symmetric = self._rows = None
         self.assemblies += 1

@@ -19,6 +19,7 @@ from contactx.bulk import Bulk
 from contactx.callback import keeps_its_error, weakly
 from contactx.convergence import Judge
 from contactx.cycling import CycleGuard
+from contactx.errors import NotFiniteError
 from contactx.factor import set_factor
 from contactx.interface import Interface
 from contactx.junctions import Junctions
@@ -120,9 +121,14 @@ class NewtonLoop:
         for interface in self._interfaces:
             interface.begin_step()
         with self._options.in_database():
-            self.snes.setFromOptions()
+            self._options.hand_to(self.snes)
             self._time_linear_solves(report)
             self._linear.begin(self.snes, report)
+            if not np.isfinite(self._judge.scale()):
+                raise NotFiniteError(
+                    "the residual is not finite: the material fails at the start of the step, or a "
+                    "load or coefficient of F is NaN or infinite"
+                )
             with report.timing("bulk stiffness"):
                 stiffness = self._bulk.nodal_stiffness()
             self._judge.begin(stiffness)
@@ -137,6 +143,7 @@ class NewtonLoop:
             self._system.gather()
             self._linear.provide(self._holder.stiffness)
             self.snes.solve(None, self._system.x)
+            report.unread = self._options.unread()
         self._system.scatter(self._system.x)
         code = self.snes.getConvergedReason()
         report.converged = self._converged

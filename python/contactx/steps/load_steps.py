@@ -15,13 +15,14 @@ from mpi4py import MPI
 import numpy as np
 
 from contactx.errors import ConvergenceError
+from contactx.interrupts import Interrupts
 from contactx.parallel.agreement import agreed
 from contactx.problem import ContactProblem
+from contactx.snapshot import Snapshot
 from contactx.steps import archive
 from contactx.steps.checkpoint import Checkpoint
 from contactx.steps.display import Show, progress_bar, show_text
 from contactx.steps.plan import make_plan
-from contactx.steps.snapshot import Snapshot
 from contactx.steps.table import Row, Step, make_row, table
 from dolfinx import fem
 
@@ -178,45 +179,58 @@ class LoadSteps:
 
     def _take_step(self, show: Show) -> Step:
         """Attempt shorter and shorter steps until one is accepted."""
-        before = Snapshot(self._problem, self._history)
+        before = self._snapshot()
         begin = time.perf_counter()
         index, plan, cuts, discarded = len(self._rows) + 1, self._plan, 0, 0
-        while True:
-            text = f"step {index} to t = {plan.next:.6g}" + (f", cut {cuts}x" if cuts else "")
-            updated = False
-            try:
-                with agreed(self._comm):
-                    show(self.t, text)
-                    self._update(plan.next)
-                updated = True
-                self._problem.solve()
-                report = self._problem.report
-                report.discarded = discarded
-                step = Step(index, plan.next, report)
-                row = make_row(step, time.perf_counter() - begin)
-                following = plan.accept(report.iterations)
-                # No call from here on: an interrupt comes before both or after both
-                self._rows, self._plan = [*self._rows, row], following
-            except ConvergenceError as error:
-                before.restore()
-                shorter = plan.cut()
-                if shorter is None:
-                    error.report.discarded = discarded
-                    error.add_note(
-                        f"No step from t = {self.t:.6g} converged; the last attempt, to t = "
-                        f"{plan.next:.6g}, was the shortest that max_cuts = {plan.max_cuts} allows"
-                    )
-                    self._update_again(error)
+        with Interrupts() as interrupts:
+            while True:
+                text = f"step {index} to t = {plan.next:.6g}" + (f", cut {cuts}x" if cuts else "")
+                updated = False
+                accepted = self._rows, self._plan
+                try:
+                    interrupts.allow()
+                    with agreed(self._comm):
+                        show(self.t, text)
+                        self._update(plan.next)
+                    updated = True
+                    self._problem.solve()
+                    interrupts.wait()
+                    report = self._problem.report
+                    report.discarded = discarded
+                    step = Step(index, plan.next, report)
+                    row = make_row(step, time.perf_counter() - begin)
+                    self._rows, self._plan = [*self._rows, row], plan.accept(report.iterations)
+                    interrupts.come()
+                except ConvergenceError as error:
+                    interrupts.wait()
+                    before.restore()
+                    shorter = plan.cut()
+                    if shorter is None:
+                        error.report.discarded = discarded
+                        error.add_note(
+                            f"No step from t = {self.t:.6g} converged; the last attempt, to t = "
+                            f"{plan.next:.6g}, was the shortest that max_cuts = {plan.max_cuts} "
+                            "allows"
+                        )
+                        interrupts.allow()
+                        self._update_again(error)
+                        raise
+                    discarded += error.report.iterations
+                    plan, cuts = shorter, cuts + 1
+                    continue
+                except BaseException as error:
+                    interrupts.wait()
+                    self._rows, self._plan = accepted
+                    before.restore()
+                    interrupts.allow()
+                    if updated:
+                        self._update_again(error)
                     raise
-                discarded += error.report.iterations
-                plan, cuts = shorter, cuts + 1
-                continue
-            except BaseException as error:
-                before.restore()
-                if updated:
-                    self._update_again(error)
-                raise
-            return step
+                return step
+
+    def _snapshot(self) -> Snapshot:
+        problem = self._problem
+        return Snapshot(problem.u, problem.contacts, problem.refresh, self._history)
 
     def _update_again(self, error: BaseException) -> None:
         """Set the loads of the last accepted step, whatever that raises."""
@@ -232,7 +246,7 @@ class LoadSteps:
             saved = archive.read(path) if self._comm.rank == 0 else {}
         steps = {n: saved.pop(n) for n in list(saved) if n.startswith("steps: ")}
         steps = self._comm.bcast(steps)
-        before = Snapshot(self._problem, self._history)
+        before = self._snapshot()
         try:
             plan = self._plan.load(steps["steps: given"], steps["steps: place"])
             self._problem.begin()
