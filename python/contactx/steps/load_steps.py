@@ -14,6 +14,8 @@ from mpi4py import MPI
 
 import numpy as np
 
+from contactx.checks.files import check_path, make_folder
+from contactx.checks.kinds import check_switch
 from contactx.errors import ConvergenceError
 from contactx.interrupts import Interrupts
 from contactx.parallel.agreement import agreed
@@ -99,10 +101,12 @@ class LoadSteps:
         self._comm = comm = problem.u.function_space.mesh.comm
         with agreed(comm):
             _check_functions(update, output, history)
+            check_switch("progress", progress)
             self._plan = make_plan(steps, max_cuts, easy)
-            self._checkpoint = None if checkpoint is None else Path(checkpoint)
+            self._checkpoint = None if checkpoint is None else check_path("checkpoint", checkpoint)
+            restarted = None if restart is None else check_path("restart", restart)
             if self._checkpoint is not None and comm.rank == 0:
-                _make_place(self._checkpoint)
+                make_folder("checkpoint", self._checkpoint)
         _check_same(comm, self._plan, self._checkpoint, restart, len(history), output is None)
         self._problem = problem
         self._update = update
@@ -113,8 +117,8 @@ class LoadSteps:
         self._state: Checkpoint | None = None
         if checkpoint is not None or restart is not None:
             self._state = Checkpoint(problem, self._history)
-        if restart is not None:
-            self._restart(Path(restart))
+        if restarted is not None:
+            self._restart(restarted)
 
     @property
     def t(self) -> float:
@@ -144,7 +148,7 @@ class LoadSteps:
         state = self._state.save()
         with agreed(self._comm):
             if self._comm.rank == 0:
-                _make_place(Path(path))
+                make_folder("path", Path(path))
                 archive.write(Path(path), steps | state)
 
     def __iter__(self) -> Iterator[Step]:
@@ -263,12 +267,6 @@ class LoadSteps:
         self._plan = plan
 
 
-def _make_place(path: Path) -> None:
-    if path.is_dir():
-        raise ValueError(f"checkpoint is the folder {path}: give the name of a file")
-    path.parent.mkdir(parents=True, exist_ok=True)
-
-
 def _check_functions(update: Any, output: Any, history: Any) -> None:
     if not callable(update):
         raise TypeError(f"update must be a function of t, not {update!r}")
@@ -276,6 +274,8 @@ def _check_functions(update: Any, output: Any, history: Any) -> None:
         raise TypeError(f"output must be a function of a step, not {output!r}")
     if isinstance(history, fem.Function):
         raise TypeError("history must be a list of functions: write history=[function]")
+    if not isinstance(history, Sequence):
+        raise TypeError(f"history must be a list of functions, not {type(history).__name__}")
     for function in history:
         if not isinstance(function, fem.Function):
             raise TypeError(f"history holds a {type(function).__name__}: give fem.Functions")
