@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from pathlib import Path
 from types import TracebackType
 
@@ -88,7 +89,9 @@ class VTKOutput:
             self.close()
         else:
             # Other ranks may not come by
-            self._file.close()
+            self._closed = True
+            with suppress(RuntimeError):
+                self._file.close()
 
     def write(self, t: float) -> None:
         """Write the current results.
