@@ -18,6 +18,7 @@ from contactx import compat, validate
 from contactx.bodies.bodies import Bodies
 from contactx.bulk import Bulk
 from contactx.checks.bulk import check_compiler_options, check_conditions, check_forms
+from contactx.checks.cells import check_cells
 from contactx.checks.over_constrained import check_over_constrained
 from contactx.contact import Contact
 from contactx.errors import ConvergenceError, NotFiniteError
@@ -81,9 +82,10 @@ class ContactProblem:
         Raises:
             TypeError: If PETSc or u are not real double precision, or an argument is of another
                 kind.
-            ValueError: If a form, space, surface or option does not fit, facets are degenerate, a
-                slave surface faces away from its master or a body lies wholly inside the other
-                one or the obstacle; the message says what to do.
+            ValueError: If a form, space, surface or option does not fit, cells or facets are
+                degenerate, a slave surface faces away from its master or is folded onto itself, or
+                a body lies wholly inside the other one or the obstacle; the message says what to
+                do.
         """
         compat.require_real_double()
         validate.check_displacement(u)
@@ -111,6 +113,7 @@ class ContactProblem:
         try:
             for contact in self.contacts:
                 self._interfaces.append(contact.attach(self._halo, self._bulk.markers, bodies))
+            check_cells(V.mesh)
             self._system = SaddlePointSystem(self._bulk, self._interfaces, self._halo)
             self._newton = NewtonLoop(
                 self._bulk,

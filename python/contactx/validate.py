@@ -37,6 +37,11 @@ def check_displacement(u: Any) -> None:
         raise TypeError(f"u holds {np.dtype(u.dtype).name} values, but contactx needs float64")
     V = u.function_space
     gdim = V.mesh.geometry.dim
+    if V.mesh.topology.dim != gdim or gdim not in (2, 3):
+        raise ValueError(
+            f"u is on a mesh of cells of dimension {V.mesh.topology.dim} in {gdim} dimensions; "
+            "contact needs plane cells in the plane or solid ones in space"
+        )
     wanted = f'functionspace(mesh, ("Lagrange", 1, ({gdim},)))'
     element = V.ufl_element()
     if len(V._cpp_object.component()) > 0 or isinstance(element, basix.ufl._MixedElement):
