@@ -79,3 +79,28 @@ def state(problem: cx.ContactProblem, *history: fem.Function) -> list[bytes]:
                 arrays.append(value.x.array)
         arrays += [contact.fields.force, contact.fields.imbalance]
     return [np.ascontiguousarray(array).tobytes() for array in arrays]
+
+
+def problem(blocks=None, **changed):
+    """Make a problem of which something is changed, and solve it."""
+    blocks = blocks or scene()
+    given = {
+        "F": blocks.F,
+        "u": blocks.u,
+        "bcs": blocks.bcs,
+        "petsc_options_prefix": "hostile_",
+        **changed,
+    }
+    if "contacts" not in given:
+        given["contacts"] = [blocks.contact()]
+    cx.ContactProblem(given.pop("F"), given.pop("u"), **given).solve()
+
+
+def with_(name, make):
+    """A problem with an argument that is made of the scene."""
+
+    def do():
+        blocks = scene()
+        problem(blocks, **{name: make(blocks)})
+
+    return do

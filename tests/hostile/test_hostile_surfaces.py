@@ -17,17 +17,6 @@ def surface(*tags):
     return cx.Surface(scene().tags, *tags)
 
 
-def contact(slave, master, **options):
-    blocks = scene()
-    return cx.Contact(
-        *(
-            tag if isinstance(tag, cx.Surface) else cx.Surface(blocks.tags, tag)
-            for tag in (slave, master)
-        ),
-        **options,
-    )
-
-
 def tagged(dim, entities, value=5):
     """Tags of entities of new blocks."""
     blocks = scene()
