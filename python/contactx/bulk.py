@@ -182,10 +182,11 @@ class Bulk:
             return False
         if self._A is None or not self._is_whole:
             self._A = dolfinx.fem.petsc.create_matrix(self.J)
+        # Until it is whole, whatever comes in between
+        self._assembled_with = None
         self._A.zeroEntries()
         dolfinx.fem.petsc.assemble_matrix(self._A, self.J, bcs=self.bcs)
         self._A.assemble()
-        self._assembled_with = None
         if not np.isfinite(self._A.norm(PETSc.NormType.FROBENIUS)):
             raise NotFiniteError(
                 "the Jacobian of F is not finite: its derivative does not exist at this "

@@ -177,6 +177,11 @@ class Condensed(LinearSolver):
         report.uncondensed = list(self._solver.direct)
         report.factorisations = self._solver.factorisations
 
+    def forget(self) -> None:
+        """See ``LinearSolver``."""
+        self._solver.forget()
+        self._before = self._curvature = 0.0
+
     def skipped(self) -> dict[str, int]:
         """See ``LinearSolver``."""
         return self._solver.skipped()

@@ -19,7 +19,6 @@ from contactx.bulk import Bulk
 from contactx.callback import keeps_its_error, weakly
 from contactx.convergence import Judge
 from contactx.cycling import CycleGuard
-from contactx.errors import NotFiniteError
 from contactx.factor import set_factor
 from contactx.interface import Interface
 from contactx.junctions import Junctions
@@ -91,7 +90,7 @@ class NewtonLoop:
         )
         self._report = Report()
         self.error: BaseException | None = None
-        self._converged = False
+        self._converged = self._has_begun = False
         self._held = self._stale = False
         self._changes = (0, 0)
         self._judge = Judge(bulk, interfaces, system)
@@ -124,11 +123,7 @@ class NewtonLoop:
             self._options.hand_to(self.snes)
             self._time_linear_solves(report)
             self._linear.begin(self.snes, report)
-            if not np.isfinite(self._judge.scale()):
-                raise NotFiniteError(
-                    "the residual is not finite: the material fails at the start of the step, or a "
-                    "load or coefficient of F is NaN or infinite"
-                )
+            self._judge.check_start()
             with report.timing("bulk stiffness"):
                 stiffness = self._bulk.nodal_stiffness()
             self._judge.begin(stiffness)
@@ -152,6 +147,7 @@ class NewtonLoop:
             report.reason = f"SNES stopped by itself, with reason {code}, before the end"
         if self._failure:
             report.reason = self._failure
+        self._has_begun |= self._converged
         self._linear.end(report)
         report.cycles = self._guard.cycles
         report.corners = int(total(self._halo.comm, self._junctions.corners))
@@ -164,6 +160,7 @@ class NewtonLoop:
 
     def begin(self) -> None:
         """Find what the first run would find at its start."""
+        self._has_begun = True
         self._holder.begin_step()
 
     def take_error(self) -> BaseException | None:
@@ -176,6 +173,8 @@ class NewtonLoop:
         """Forget PETSc's work vectors: an error inside PETSc leaves them locked."""
         self.snes.reset()
         self._linear.forget()
+        if not self._has_begun:
+            self._holder.forget()
 
     def _time_linear_solves(self, report: Report) -> None:
         timer = ExitStack()

@@ -76,6 +76,10 @@ class Holder:
         self._stiffness = None
         self._begins = True
 
+    def forget(self) -> None:
+        """Forget the modes: a step that has failed may have found them of a spoilt stiffness."""
+        self._modes = None
+
     def hold(self, residual: Callable[[], Array], scale: float) -> bool:
         """Find what to add to the Jacobian at an iterate, and close nodes that must hold a body.
 

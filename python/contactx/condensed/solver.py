@@ -65,7 +65,7 @@ class CondensedSolver:
         self._multigrid = Multigrid(bulk, x[: system.num_bulk // system.block], prefix)
         self.target = 0.0
         self.is_last = False
-        self._failures = 0
+        self._failures = self._failures_before = 0
         self.springs: Array | None = None
         self.begin(Report())
 
@@ -76,11 +76,22 @@ class CondensedSolver:
             report: Report whose times are added to.
         """
         self._report = report
+        self._failures_before = self._failures
         self._guess.begin_step()
         self._multigrid.iterations = self._multigrid.hierarchies = 0
         self._factorised.iterations = self._factorised.factorisations = 0
         self.direct: list[str] = []
         self._solves = 0
+
+    def forget(self) -> None:
+        """Forget what earlier solves have left: after a failed step it is of no use, or half done.
+
+        What the failed step found of multigrid does not count either.
+        """
+        self._failures = self._failures_before
+        self._guess.forget()
+        self._multigrid.forget()
+        self._factorised.forget()
 
     @property
     def iterations(self) -> int:
