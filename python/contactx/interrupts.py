@@ -45,6 +45,11 @@ class Interrupts:
             if self._waits and error is None:
                 self._before(*self._waits[-1])
 
+    @property
+    def has_come(self) -> bool:
+        """Whether one waits."""
+        return bool(self._waits)
+
     def wait(self) -> None:
         """Let interrupts wait from here on."""
         self._waiting = True

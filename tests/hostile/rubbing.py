@@ -35,7 +35,7 @@ class Rubbing:
     """
 
     def __init__(self, method: str = "node-to-surface", solver: str = "lu", **kind: Any):
-        blocks = Blocks(CellType.quadrilateral, n_upper=3, n_lower=4)
+        self.blocks = blocks = Blocks(CellType.quadrilateral, n_upper=3, n_lower=4)
         self.u, domain = blocks.u, blocks.u.function_space.mesh
         self.young, self.tangent = fem.Constant(domain, 1.0), fem.Constant(domain, 1.0)
         self.load = fem.Constant(domain, (0.0, 0.0))

@@ -77,7 +77,7 @@ class Holder:
         self._begins = True
 
     def forget(self) -> None:
-        """Forget the modes: a step that has failed may have found them of a spoilt stiffness."""
+        """Forget the modes, which a failed step may have found of a spoilt stiffness."""
         self._modes = None
 
     def hold(self, residual: Callable[[], Array], scale: float) -> bool:

@@ -13,6 +13,7 @@ from petsc4py import PETSc
 import numpy as np
 
 from contactx.bulk import Bulk
+from contactx.callback import Quiet
 from contactx.condensed.blocks import Array, ContactBlocks, NotCondensable, lumped
 from contactx.condensed.chains import check_chains
 from contactx.condensed.elimination import Elimination
@@ -186,7 +187,8 @@ class CondensedSolver:
         ksp.getPC().setType("python")
         ksp.getPC().setPythonContext(nearly)
         ksp.setTolerances(rtol=ROUNDING, atol=self.target, max_it=_CORRECTIONS)
-        ksp.solve(b, x)
+        with nearly.quiet:
+            ksp.solve(b, x)
         converged = ksp.getConvergedReason() > 0 and not nearly.has_failed
         # The matrix refers back to the solver
         ksp.destroy()
@@ -279,13 +281,17 @@ class _Nearly:
         """Take both, and the part of a right-hand side that a solve may leave."""
         self._solve, self._multiply, self._part = solve, multiply, part
         self.has_failed = False
+        self.quiet = Quiet()
 
     def apply(self, pc: PETSc.PC, b: PETSc.Vec, x: PETSc.Vec) -> None:
         """Solve, to a part of the right-hand side."""
+        self.quiet.call(lambda: self._apply(b, x), x)
+
+    def _apply(self, b: PETSc.Vec, x: PETSc.Vec) -> None:
         if self.has_failed or not self._solve(b, x, self._part * b.norm()):
             self.has_failed = True
             x.zeroEntries()
 
     def mult(self, mat: PETSc.Mat, x: PETSc.Vec, y: PETSc.Vec) -> None:
         """Multiply."""
-        self._multiply(x, y)
+        self.quiet.call(lambda: self._multiply(x, y), y)

@@ -45,7 +45,7 @@ class LoadSteps:
     twice as long, but no given t is passed over. The loop sees accepted steps only; its body runs
     between them, so it may update a material's history. A failed attempt leaves u, contacts and
     history as they were, bit for bit. After a break, or an error that was dealt with, another loop
-    goes on behind the last accepted step.
+    goes on behind the last accepted step; one that the body has not seen comes first.
 
     On several ranks all of them run the loop. What ``update``, ``output`` or the solve raises on
     one rank is raised on all of them. Two errors of a single rank leave the others waiting, which
@@ -114,6 +114,8 @@ class LoadSteps:
         self._output = output
         self._progress = progress and comm.rank == 0
         self._rows: list[Row] = []
+        # Accepted, but an interrupt came before the loop's body, which must have each step
+        self._unseen: Step | None = None
         self._state: Checkpoint | None = None
         if checkpoint is not None or restart is not None:
             self._state = Checkpoint(problem, self._history)
@@ -160,7 +162,7 @@ class LoadSteps:
         Raises:
             ConvergenceError: If a step fails although it has been cut to the shortest one.
         """
-        if self._plan.finished:
+        if self._plan.finished and self._unseen is None:
             return
         with ExitStack() as stack:
             show: Show = lambda *_: None  # noqa: E731
@@ -170,12 +172,13 @@ class LoadSteps:
                     stack.callback(lambda: show_text(self.table()))
                     bar = progress_bar(self._problem, self.t, self._plan.given[-1])
                     show = stack.enter_context(bar)
-            while not self._plan.finished:
-                step = self._take_step(show)
+            while self._unseen is not None or not self._plan.finished:
+                step = self._unseen or self._take_step(show)
                 with agreed(self._comm):
                     show(self.t, f"step {step.index}")
                     if self._output is not None:
                         self._output(step)
+                self._unseen = None
                 yield step
                 # The body may have updated the history
                 if self._checkpoint is not None:
@@ -190,7 +193,6 @@ class LoadSteps:
             while True:
                 text = f"step {index} to t = {plan.next:.6g}" + (f", cut {cuts}x" if cuts else "")
                 updated = False
-                accepted = self._rows, self._plan
                 try:
                     interrupts.allow()
                     with agreed(self._comm):
@@ -203,8 +205,8 @@ class LoadSteps:
                     report.discarded = discarded
                     step = Step(index, plan.next, report)
                     row = make_row(step, time.perf_counter() - begin)
-                    self._rows, self._plan = [*self._rows, row], plan.accept(report.iterations)
-                    interrupts.come()
+                    following = plan.accept(report.iterations)
+                    self._rows, self._plan, self._unseen = [*self._rows, row], following, step
                 except ConvergenceError as error:
                     interrupts.wait()
                     before.restore()
@@ -224,7 +226,6 @@ class LoadSteps:
                     continue
                 except BaseException as error:
                     interrupts.wait()
-                    self._rows, self._plan = accepted
                     before.restore()
                     interrupts.allow()
                     if updated:
