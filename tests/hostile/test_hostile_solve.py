@@ -168,7 +168,7 @@ def test_an_update_that_sets_what_is_not_finite(value):
             scene._side.g.value[...] = value
 
     steps = scene.steps(4, update=update)
-    with pytest.raises(ValueError, match="bcs prescribe .* as update of LoadSteps, may be wrong"):
+    with pytest.raises(ValueError, match=r"bcs prescribe .* as update of LoadSteps, may be wrong"):
         for step in steps:
             scene.history.x.array[:] = 2 * scene.history.x.array + step.index
             states.append(scene.state())

@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """Ctrl-C: a real signal, at many moments of a run and inside all that a user or PETSc calls.
 
-It is raised at once, leaves the last accepted step bit for bit, and the run goes on to the same bits
-as one without interrupts: of the condensed solver, whose multigrid is made anew, but for rounding.
+It is raised at once, leaves the last accepted step bit for bit, and the run goes on to the same
+bits as one without interrupts: of the condensed solver, whose multigrid is made anew, but for
+rounding.
 """
 
 import signal
@@ -97,7 +98,7 @@ def test_a_solve_at_many_moments(kind):
         one.problem.solve()
     after = one.state()
     other.update(0.25)
-    for at in np.linspace(1, counter.calls - 1, MOMENTS).astype(int):
+    for at in np.linspace(1, 0.8 * counter.calls, MOMENTS).astype(int):
         with pytest.raises(KeyboardInterrupt), Counter(at):
             other.problem.solve()
         assert other.state() == before
@@ -158,7 +159,7 @@ def test_inside_of_what_a_user_gives(where):
 
 
 def test_a_second_one_waits_until_the_state_is_back():
-    """Both come at once, amid the solve: the second one would come while the first is dealt with."""
+    """The second one comes while the first is dealt with."""
     scene = Rubbing()
     before = scene.state()
     scene.update(0.25)
