@@ -82,11 +82,8 @@ def read(path: Path) -> dict[str, npt.NDArray[Any]]:
     try:
         with np.load(path, allow_pickle=False) as file:
             arrays = {name: file[name] for name in file.files}
-    except OSError as error:
-        text = f"cannot read the checkpoint {path}: {error.strerror or error}"
-        raise OSError(error.errno, text) from error
     except Exception as error:
-        # Damage may look like anything, as encryption say
+        # Damage may look like anything: encryption, or a place before the file's start
         raise ValueError(f"{path} is damaged, or no checkpoint at all: {error}") from error
     version = arrays.pop(_MARK, None)
     if version is None:
