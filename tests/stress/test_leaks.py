@@ -11,7 +11,7 @@ import pytest
 # Steps before the warm-up has ended, and behind it
 WARM, STEPS = 60, 160
 # Growth of memory behind it, MB, and of Python's objects a step: the row of its table
-BOUND, OBJECTS = 0.5, 1.2
+BOUND, OBJECTS = 0.3, 1.2
 
 PROGRAM = """
 import contactx
