@@ -121,8 +121,7 @@ class Contact:
         if name in _OPTIONS and vars(self).get("_interface") is not None:
             raise AttributeError(
                 f"{name} cannot be replaced once the contact belongs to a ContactProblem: give "
-                "friction and offset as a fem.Constant or fem.Function and change its value, or "
-                "create another Contact"
+                "friction and offset as a fem.Constant or fem.Function and change its value"
             )
         super().__setattr__(name, value)
 

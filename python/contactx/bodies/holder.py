@@ -26,7 +26,6 @@ _WEAK = 1e-6
 # Relative difference of what is equal but for rounding
 _TIE = 1e-9
 
-
 # Nodes of a contact that may hold a body, by their numbers there, and the time until they do
 type _Found = tuple[Interface, npt.NDArray[np.integer], Array]
 
@@ -77,7 +76,7 @@ class Holder:
         self._begins = True
 
     def forget(self) -> None:
-        """Forget the modes, which a failed step may have found of a spoilt stiffness."""
+        """Forget the modes: a failed step may have found them of a spoilt stiffness."""
         self._modes = None
 
     def hold(self, residual: Callable[[], Array], scale: float) -> bool:
