@@ -25,7 +25,6 @@ _BALANCED = 1e-6
 _WEAK = 1e-6
 # Relative difference of what is equal but for rounding
 _TIE = 1e-9
-
 # Nodes of a contact that may hold a body, by their numbers there, and the time until they do
 type _Found = tuple[Interface, npt.NDArray[np.integer], Array]
 
