@@ -30,7 +30,7 @@ RUN += VTK_DEFAULT_OPENGL_WINDOW=vtkEGLRenderWindow
 endif
 
 .DELETE_ON_ERROR:
-.PHONY: all demo test test-cpp test-python bench bench-core lint format clean help
+.PHONY: all demo test test-cpp test-python leaks bench bench-core lint format clean help
 
 all: $(INSTALLED)
 
@@ -38,6 +38,7 @@ help:
 	@echo "make          set up .venv, build contactx and install it there"
 	@echo "make demo     solve the Hertz sphere and the face slabs of demos/"
 	@echo "make test     lint, C++ tests, Python tests"
+	@echo "make leaks    memory over 1,000 steps and 1,000 problems"
 	@echo "make bench    all benchmarks, up to a million displacements"
 	@echo "make bench-core  time the kernels and the search"
 	@echo "make lint     check format, style and types"
@@ -80,6 +81,10 @@ test-cpp: $(DEPENDENCIES)
 
 test-python: $(INSTALLED)
 	$(RUN) $(BIN)/python -m pytest
+
+# Memory of a process per run, every fiftieth step; fails where it grows.
+leaks: $(INSTALLED)
+	$(RUN) $(BIN)/python tests/stress/leaks.py
 
 # Kernels and search on one core: tables, and the same as CSV files.
 bench-core: $(DEPENDENCIES)

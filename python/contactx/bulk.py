@@ -15,6 +15,7 @@ import numpy.typing as npt
 
 import dolfinx.fem.petsc
 import ufl
+from contactx.errors import NotFiniteError
 from contactx.parallel import reduce
 from dolfinx import fem, la
 
@@ -181,9 +182,16 @@ class Bulk:
             return False
         if self._A is None or not self._is_whole:
             self._A = dolfinx.fem.petsc.create_matrix(self.J)
+        # Until it is whole, whatever comes in between
+        self._assembled_with = None
         self._A.zeroEntries()
         dolfinx.fem.petsc.assemble_matrix(self._A, self.J, bcs=self.bcs)
         self._A.assemble()
+        if not np.isfinite(self._A.norm(PETSc.NormType.FROBENIUS)):
+            raise NotFiniteError(
+                "the Jacobian of F is not finite: its derivative does not exist at this "
+                "displacement, or a coefficient of F, or of J, is NaN or infinite"
+            )
         self._assembled_with = [values.copy() for values in parameters]
         self._symmetric = self._rows = None
         self.assemblies += 1

@@ -7,7 +7,14 @@ from __future__ import annotations
 import functools
 import weakref
 from collections.abc import Callable
-from typing import Concatenate, Protocol
+from types import TracebackType
+from typing import Concatenate, Protocol, Self
+
+from petsc4py import PETSc
+
+import numpy as np
+
+from contactx.interrupts import Interrupts
 
 
 class Keeper(Protocol):
@@ -62,3 +69,48 @@ def weakly[**P, R](method: Callable[P, R]) -> Callable[P, R]:
         return bound(*args, **kwargs)
 
     return call
+
+
+class Quiet:
+    """A with block for a solver of PETSc that calls Python: what is raised there comes at its end.
+
+    An error that passes through a solver amid its iterations leaves it with pointers to what is no
+    longer there, and destroying it ends the program.
+    """
+
+    def __init__(self) -> None:
+        """Create it."""
+        self._error: BaseException | None = None
+        self._interrupts = Interrupts()
+
+    def __enter__(self) -> Self:
+        """Let interrupts wait."""
+        self._interrupts.__enter__().wait()
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        """Raise what was raised inside, or has waited."""
+        first = error or self._error
+        self._interrupts.__exit__(None if first is None else type(first), first, trace)
+        if error is None and self._error is not None:
+            raise self._error
+
+    def call(self, function: Callable[[], object], result: PETSc.Vec) -> None:
+        """Call a function; after an error the solver gets NaN, with which it soon ends.
+
+        Args:
+            function: Writes into the result.
+            result: Vector that PETSc waits for.
+        """
+        if self._error is None and not self._interrupts.has_come:
+            try:
+                function()
+                return
+            except BaseException as error:
+                self._error = error
+        result.set(np.nan)

@@ -9,6 +9,7 @@ import numpy.typing as npt
 
 from contactx.bodies.bodies import Bodies
 from contactx.checks.facing import check_facing
+from contactx.checks.kinds import check_switch
 from contactx.checks.options import check_options
 from contactx.fields import Fields
 from contactx.forms import ContactForms
@@ -89,7 +90,7 @@ class Contact:
                 number, a ``fem.Constant`` or a ``fem.Function`` of the scalar linear space.
 
         Raises:
-            TypeError: If slave, master, friction or offset is something else.
+            TypeError: If an argument is of another kind.
             ValueError: If the surfaces share facets, or an option is out of its range.
         """
         check_options(
@@ -114,12 +115,13 @@ class Contact:
         self._fields: Fields | None = None
 
     def __setattr__(self, name: str, value: object) -> None:
-        """Refuse what would have no effect: a problem has read the options."""
+        """Refuse what would have no effect: a name misspelt, or an option that has been read."""
+        if "_fields" in vars(self) and not (name in vars(self) or hasattr(type(self), name)):
+            raise AttributeError(f"a Contact has no {name!r}: check the spelling")
         if name in _OPTIONS and vars(self).get("_interface") is not None:
             raise AttributeError(
                 f"{name} cannot be replaced once the contact belongs to a ContactProblem: give "
-                "friction and offset as a fem.Constant or fem.Function and change its value, or "
-                "create another Contact"
+                "friction and offset as a fem.Constant or fem.Function and change its value"
             )
         super().__setattr__(name, value)
 
@@ -193,6 +195,7 @@ class Contact:
 
     @active.setter
     def active(self, active: bool) -> None:
+        check_switch("active", active)
         self.interface.active = bool(active)
 
     @property

@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from contactx.bulk import Bulk
+from contactx.errors import NotFiniteError
 from contactx.interface import Interface
 from contactx.parallel.reduce import extent, largest, norm
 from contactx.system import SaddlePointSystem
@@ -44,6 +45,18 @@ class Judge:
         self._size = 0.0 if bulk.is_linear else bulk.cell_sizes()
         self._extent: float = extent(self._comm, system.halo.x).max()
         self._least_scale: float | None = None
+
+    def check_start(self) -> None:
+        """Check the residual at the start of a step; all ranks must take part.
+
+        Raises:
+            NotFiniteError: If it is NaN or infinite.
+        """
+        if not np.isfinite(self.scale()):
+            raise NotFiniteError(
+                "the residual is not finite: the material fails at the start of the step, or a "
+                "load or coefficient of F is NaN or infinite"
+            )
 
     def begin(self, stiffness: npt.NDArray[np.float64]) -> None:
         """Start a step.

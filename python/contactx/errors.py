@@ -10,6 +10,10 @@ if TYPE_CHECKING:
     from contactx.report import Report
 
 
+class NotFiniteError(ArithmeticError):
+    """Residual or Jacobian of the bodies are not finite: the step does not converge."""
+
+
 class ConvergenceError(RuntimeError):
     """A step did not converge; the displacement and the contacts are as before it.
 

@@ -136,6 +136,7 @@ class Condensed(LinearSolver):
 
     def begin(self, snes: PETSc.SNES, report: Report) -> None:
         """See ``LinearSolver``."""
+        self._snes, self._has_ended = snes, False
         self._solver.begin(report)
         self._before = 0.0
         snes.setJacobian(weakly(self._jacobian), self._A)
@@ -172,10 +173,21 @@ class Condensed(LinearSolver):
 
     def end(self, report: Report) -> None:
         """See ``LinearSolver``."""
+        self._has_ended = True
         report.krylov = self._solver.iterations
         report.hierarchies = self._solver.hierarchies
         report.uncondensed = list(self._solver.direct)
         report.factorisations = self._solver.factorisations
+
+    def forget(self) -> None:
+        """See ``LinearSolver``."""
+        self._solver.forget()
+        if not self._has_ended:
+            # PETSc counts the solves under way, and takes no more than two for ever
+            ksp = PETSc.KSP().create(comm=self._snes.comm)
+            ksp.setOptionsPrefix(self._snes.getOptionsPrefix())
+            self._snes.setKSP(ksp)
+        self._before = self._curvature = 0.0
 
     def skipped(self) -> dict[str, int]:
         """See ``LinearSolver``."""

@@ -83,7 +83,7 @@ class NewtonLoop:
         )
         self._report = Report()
         self.error: BaseException | None = None
-        self._converged = False
+        self._converged = self._has_begun = False
         self._held = self._stale = False
         self._changes = (0, 0)
         self._judge = Judge(bulk, interfaces, system)
@@ -118,9 +118,10 @@ class NewtonLoop:
         for interface in self._interfaces:
             interface.begin_step()
         with self._options.in_database():
-            self.snes.setFromOptions()
+            self._options.hand_to(self.snes)
             self._time_linear_solves(report)
             self._linear.begin(self.snes, report)
+            self._judge.check_start()
             with report.timing("bulk stiffness"):
                 stiffness = self._bulk.nodal_stiffness()
             self._judge.begin(stiffness)
@@ -135,10 +136,12 @@ class NewtonLoop:
             self._system.gather()
             self._linear.provide(self._holder.stiffness)
             self.snes.solve(None, self._system.x)
+            report.unread = self._options.unread()
         self._system.scatter(self._system.x)
         code = self.snes.getConvergedReason()
         report.converged = self._converged
         report.reason = self._failure or reason_of(code, self._converged)
+        self._has_begun |= self._converged
         self._linear.end(report)
         report.cycles = self._guard.cycles
         report.corners = int(total(self._halo.comm, self._junctions.corners))
@@ -151,6 +154,7 @@ class NewtonLoop:
 
     def begin(self) -> None:
         """Find what the first run would find at its start."""
+        self._has_begun = True
         self._holder.begin_step()
 
     def take_error(self) -> BaseException | None:
@@ -164,6 +168,8 @@ class NewtonLoop:
         """Forget PETSc's work vectors: an error inside PETSc leaves them locked."""
         self.snes.reset()
         self._linear.forget()
+        if not self._has_begun:
+            self._holder.forget()
 
     def _time_linear_solves(self, report: Report) -> None:
         timer = ExitStack()

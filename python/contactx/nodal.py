@@ -47,11 +47,17 @@ class NodalValue:
             nodes: Nodes of V that this rank owns, shape (n,).
 
         Raises:
+            TypeError: If its values are not of real double precision.
             ValueError: If the function is not of a scalar linear space on V's mesh, or the constant
                 is no number.
         """
         self._value = value
         self._name = name
+        if isinstance(value, fem.Function | fem.Constant) and value.dtype != np.float64:
+            raise TypeError(
+                f"{name} holds {np.dtype(value.dtype).name} values: give real numbers in double "
+                "precision"
+            )
         if isinstance(value, fem.Function):
             Q = value.function_space
             element = Q.ufl_element()

@@ -19,6 +19,10 @@ ROUNDING = 1e-13
 _MANY = {2: 300_000, 3: 10_000}
 
 
+# PETSc's numbers of errors for a type, and for a package, that it does not have
+_NO_SUCH_KIND = (86, 92)
+
+
 class SolverOptions:
     """Options that a user gives, and defaults for the others."""
 
@@ -48,12 +52,43 @@ class SolverOptions:
                 database[name] = value
         try:
             yield
+        except PETSc.Error as error:
+            if error.ierr in _NO_SUCH_KIND:
+                raise self._refusal(error) from error
+            raise
         finally:
             for name, value in before.items():
                 if value is None:
                     database.delValue(name)
                 else:
                     database[name] = value
+
+    def hand_to(self, snes: PETSc.SNES) -> None:
+        """Set a solver up by the options in the database.
+
+        Args:
+            snes: The solver.
+
+        Raises:
+            ValueError: If PETSc refuses one of them.
+        """
+        try:
+            snes.setFromOptions()
+        except PETSc.Error as error:
+            raise self._refusal(error) from error
+
+    def unread(self) -> list[str]:
+        """Options of the user in the database that nothing has read."""
+        database = PETSc.Options()
+        return sorted(name for name in self._given if not database.used(self._prefix + name))
+
+    def _refusal(self, error: PETSc.Error) -> ValueError:
+        lines = (line.partition("] ")[2] for line in str(error).splitlines()[1:])
+        said = " ".join(line for line in lines if " at /" not in line)
+        return ValueError(
+            f"PETSc refuses an option of the solver: {said}. Correct petsc_options, or what the "
+            f"command line says of {self._prefix!r}"
+        )
 
 
 def multigrid_options(prefix: str) -> SolverOptions:

@@ -5,9 +5,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from pathlib import Path
 from types import TracebackType
 
+import numpy as np
+
+from contactx.checks.files import check_path, make_folder
+from contactx.checks.kinds import described, is_number
+from contactx.checks.output import check_output
 from contactx.contact import Contact
 from contactx.parallel.agreement import agreed
 from dolfinx import fem, io
@@ -43,19 +49,29 @@ class VTKOutput:
             fields: Other functions of linear Lagrange spaces to write, such as stresses.
 
         Raises:
-            OSError: If the folder cannot be made.
-            ValueError: If the suffix is another one.
+            OSError: If the folder cannot be made, or the path is one.
+            TypeError: If an argument is of another kind.
+            ValueError: If the suffix is another one, or a function is of another space.
         """
-        path = Path(path)
+        check_output(u, contacts, fields)
+        path = check_path("path", path)
         if path.suffix != ".pvd":
             raise ValueError(f"path ends in {path.suffix!r}: ParaView's collections end in .pvd")
+        if "." in path.stem:
+            raise ValueError(
+                f"path has the name {path.name!r}: take the dots before .pvd out, or all times "
+                "would be written to the same file"
+            )
         self._comm = comm = u.function_space.mesh.comm
         with agreed(comm):
             if comm.rank == 0:
-                path.parent.mkdir(parents=True, exist_ok=True)
+                make_folder("path", path)
         self._u = u
         self._contacts = list(contacts)
         self._fields = list(fields)
+        self._path = path
+        self._count = 0
+        self._closed = False
         self._file = io.VTKFile(comm, path, "w")
 
     def __enter__(self) -> VTKOutput:
@@ -73,14 +89,28 @@ class VTKOutput:
             self.close()
         else:
             # Other ranks may not come by
-            self._file.close()
+            self._closed = True
+            with suppress(RuntimeError):
+                self._file.close()
 
     def write(self, t: float) -> None:
         """Write the current results.
 
         Args:
             t: Time or load factor.
+
+        Raises:
+            OSError: If a file is not whole after that, on all ranks.
+            RuntimeError: If the output is closed.
+            TypeError: If t is no number.
+            ValueError: If t is not finite.
         """
+        if self._closed:
+            raise RuntimeError(f"the output {self._path} is closed: write before that")
+        if not is_number(t):
+            raise TypeError(f"t is {described(t)}: give a number")
+        if not np.isfinite(t):
+            raise ValueError(f"t is {t}: give a finite number")
         functions = [self._u, *self._fields]
         for k, contact in enumerate(self._contacts):
             # Several contacts have fields of the same names
@@ -89,13 +119,39 @@ class VTKOutput:
                 function = getattr(contact, name)
                 function.name = name + suffix
                 functions.append(function)
-        self._file.write_function(functions, t)
+        self._file.write_function(functions, float(t))
+        stem, rank = self._path.stem, self._comm.rank
+        with agreed(self._comm):
+            self._check_whole(f"{stem}_p{rank}_{self._count:06d}.vtu")
+            if rank == 0:
+                self._check_whole(f"{stem}{self._count:06d}.pvtu")
+        self._count += 1
 
     def close(self) -> None:
         """Close the file.
 
         Raises:
-            RuntimeError: If rank 0 cannot write the collection.
+            OSError: If rank 0 cannot write the collection, on all ranks.
         """
+        if self._closed:
+            return
+        self._closed = True
         with agreed(self._comm):
-            self._file.close()
+            try:
+                self._file.close()
+            except RuntimeError as error:
+                raise OSError(f"cannot write {self._path}: {error}") from error
+            if self._count > 0 and self._comm.rank == 0:
+                self._check_whole(self._path.name)
+
+    def _check_whole(self, name: str) -> None:
+        """Check that a file has its end: DOLFINx does not say if it could not be written."""
+        path = self._path.with_name(name)
+        try:
+            with open(path, "rb") as file:
+                file.seek(max(0, path.stat().st_size - 64))
+                whole = file.read().rstrip().endswith(b"</VTKFile>")
+        except OSError as error:
+            raise OSError(error.errno, f"cannot write {path}: {error.strerror}") from error
+        if not whole:
+            raise OSError(f"cannot write {path} whole: is the disk full?")

@@ -14,18 +14,22 @@ from petsc4py import PETSc
 import numpy as np
 
 import ufl
-from contactx import compat, saving, validate
+from contactx import compat, validate
 from contactx.bodies.bodies import Bodies
 from contactx.bulk import Bulk
+from contactx.checks.bulk import check_compiler_options, check_conditions, check_forms
+from contactx.checks.cells import check_cells
 from contactx.checks.over_constrained import check_over_constrained
 from contactx.contact import Contact
-from contactx.errors import ConvergenceError
+from contactx.errors import ConvergenceError, NotFiniteError
 from contactx.interface import Interface
+from contactx.interrupts import Interrupts
 from contactx.newton import NewtonLoop
 from contactx.nodal import reference_positions
 from contactx.parallel.halo import Halo
 from contactx.parallel.reduce import anywhere, least, total
 from contactx.report import Report
+from contactx.snapshot import Snapshot
 from contactx.system import SaddlePointSystem
 from dolfinx import fem, la
 
@@ -76,13 +80,18 @@ class ContactProblem:
             jit_options: Options of the compilation.
 
         Raises:
-            TypeError: If PETSc or u are not real double precision.
-            ValueError: If a space, surface or option does not fit, facets are degenerate, a slave
-                surface faces away from its master or a body lies wholly inside the other one or
-                the obstacle; the message says what to do.
+            TypeError: If PETSc or u are not real double precision, or an argument is of another
+                kind.
+            ValueError: If a form, space, surface or option does not fit, cells or facets are
+                degenerate, a slave surface faces away from its master or is folded onto itself, or
+                a body lies wholly inside the other one or the obstacle; the message says what to
+                do.
         """
         compat.require_real_double()
         validate.check_displacement(u)
+        check_forms(F, J, u)
+        check_conditions(bcs, u)
+        check_compiler_options(form_compiler_options, jit_options)
         validate.check_options(petsc_options, petsc_options_prefix)
         validate.check_contacts(contacts)
 
@@ -100,9 +109,11 @@ class ContactProblem:
         self._halo = Halo(u, X.array.reshape(-1, gdim))
         bodies = Bodies(V, self._halo)
         self._interfaces = []
+        self._read_options = False
         try:
             for contact in self.contacts:
                 self._interfaces.append(contact.attach(self._halo, self._bulk.markers, bodies))
+            check_cells(V.mesh)
             self._system = SaddlePointSystem(self._bulk, self._interfaces, self._halo)
             self._newton = NewtonLoop(
                 self._bulk,
@@ -142,35 +153,40 @@ class ContactProblem:
         Raises:
             ConvergenceError: If the Newton loop fails. The displacement and the contacts are then
                 as they were before the call.
-            ValueError: If ``u`` is not finite, or Dirichlet conditions hold a slave node inside a
-                rigid obstacle.
+            ValueError: If ``u`` or a Dirichlet value is not finite, friction, offset or an obstacle
+                has become what it must not be, Dirichlet conditions hold a slave node inside a
+                rigid obstacle, or PETSc refuses an option.
         """
         validate.check_finite(self._halo.comm, the_displacement_u_is=self.u.x)
         prescribed = self._bulk.prescribed()
+        validate.check_prescribed(prescribed, self._bulk.markers, self._halo.comm)
         check_over_constrained(self._interfaces, self.contacts, prescribed, self._halo)
-        displacement = self.u.x.array.copy()
+        before = Snapshot(self.u, self.contacts, self._halo.refresh)
         self._halo.refresh()
-        saved = [saving.save(interface) for interface in self._interfaces]
         self.report = report = Report()
-        try:
-            with report.timing("total"):
-                self._newton.run(report)
-            if not report.converged:
-                raise ConvergenceError(report.reason, report)
-            for contact in self.contacts:
-                contact.accept()
-        except BaseException as error:
-            self.u.x.array[:] = displacement
-            self._halo.refresh()
-            for interface, before in zip(self._interfaces, saved, strict=True):
-                saving.load(interface, before)
-            self._newton.reset()
-            # An error of Python inside PETSc comes back as the cause of one of PETSc, or without it
-            cause = self._newton.take_error() or error.__cause__
-            if isinstance(error, PETSc.Error) and cause is not None:
-                raise cause from None
-            raise
-        self._complete(report)
+        with Interrupts() as interrupts:
+            try:
+                with report.timing("total"):
+                    self._newton.run(report)
+                interrupts.wait()
+                if not report.converged:
+                    raise ConvergenceError(report.reason, report)
+                for contact in self.contacts:
+                    contact.accept()
+                self._complete(report)
+                interrupts.come()
+            except BaseException as error:
+                interrupts.wait()
+                before.restore()
+                self._newton.reset()
+                # An error inside PETSc comes back as the cause of one of PETSc, or without it
+                cause = self._newton.take_error() or error.__cause__
+                if isinstance(error, PETSc.Error) and cause is not None:
+                    error = cause
+                if isinstance(error, NotFiniteError):
+                    report.reason = str(error)
+                    error = ConvergenceError(report.reason, report)
+                raise error from error.__cause__
         return self.u
 
     def _complete(self, report: Report) -> None:
@@ -204,6 +220,10 @@ class ContactProblem:
         report.imbalance = np.sum([contact.fields.imbalance for contact in self.contacts], axis=0)
         for k, interface in enumerate(self._interfaces):
             self._warn(k, interface, hidden[k])
+        if report.iterations > 0 and not self._read_options:
+            # Some are read but once
+            self._read_options = True
+            self._say(self._unread(report))
 
     def _warn(self, k: int, interface: Interface, hidden: float) -> None:
         """Warn of what a converged solution may hide in contact number k, such as a gap."""
@@ -227,6 +247,19 @@ class ContactProblem:
                 f"were held; they hide a penetration of {-hidden:.3g}. Refine the master there or "
                 "take smaller steps"
             )
-        if text and comm.rank == 0:
+        self._say(text)
+
+    def _unread(self, report: Report) -> str:
+        names = ", ".join(map(repr, report.unread))
+        return (
+            f"petsc_options has {names}, which nothing has read: check the spelling, leave out the "
+            "prefix"
+            if names
+            else ""
+        )
+
+    def _say(self, text: str) -> None:
+        """Warn, on rank 0."""
+        if text and self._halo.comm.rank == 0:
             # Of the user's line, whether that calls solve or a loop of steps does
             warnings.warn(text, skip_file_prefixes=(str(Path(__file__).parent),))

@@ -74,6 +74,7 @@ class Report:
         skipped: What the scene did not need: what was not done again because it still served
             (assembly of the bulk's Jacobian, hierarchies, factorisations, searches), and how many
             pairs out of reach, tangential unknowns and master sides there are not.
+        unread: PETSc options of the user that nothing has read: misspelt, perhaps.
         times: Wall seconds of each part.
     """
 
@@ -100,6 +101,7 @@ class Report:
     force: list[npt.NDArray[np.float64]] = field(default_factory=list)
     recovery: list[float] = field(default_factory=list)
     skipped: dict[str, int] = field(default_factory=dict)
+    unread: list[str] = field(default_factory=list)
     times: dict[str, float] = field(default_factory=dict)
 
     @property

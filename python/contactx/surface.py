@@ -13,6 +13,7 @@ from mpi4py import MPI
 import numpy as np
 import numpy.typing as npt
 
+from contactx.parallel.agreement import agreed
 from contactx.parallel.reduce import anywhere, total
 from dolfinx import cpp, fem, mesh
 
@@ -56,7 +57,8 @@ class Surface:
 
         Raises:
             TypeError: If the arguments are of another kind.
-            ValueError: If the tags are not of facets, no tag is given, or a tag is not there.
+            ValueError: If the tags are not of facets or of facets that do not exist, no tag is
+                given, or a tag is not there.
         """
         if not isinstance(facet_tags, mesh.MeshTags):
             raise TypeError(
@@ -69,6 +71,18 @@ class Surface:
                 f"facet_tags are tags of entities of dimension {facet_tags.dim}, but the facets "
                 f"of this mesh have dimension {tdim - 1}: pass the facet tags"
             )
+        topology = facet_tags.topology
+        comm: MPI.Comm = topology.comm
+        facets = topology.index_map(tdim - 1)
+        count = facets.size_local + facets.num_ghosts
+        bad = facet_tags.indices[(facet_tags.indices < 0) | (facet_tags.indices >= count)]
+        with agreed(comm):
+            if len(bad) > 0:
+                raise ValueError(
+                    f"facet_tags have the facet {bad[0]}, but the mesh has the facets 0 to "
+                    f"{count - 1} on this rank: take their numbers from "
+                    "mesh.locate_entities_boundary"
+                )
         values: list[int] = []
         for tag in tags:
             for value in tag if isinstance(tag, Iterable) else (tag,):
@@ -79,7 +93,6 @@ class Surface:
                 values.append(int(value))
         if not values:
             raise ValueError("a Surface needs at least one tag: its surface is empty")
-        comm: MPI.Comm = facet_tags.topology.comm
         present = np.unique(facet_tags.values)
         if comm.size > 1:
             present = np.unique(np.concatenate(comm.allgather(present)))

@@ -5,7 +5,6 @@ import pytest
 from scenes import Blocks
 
 import contactx as cx
-from contactx.meshes import Tag
 from dolfinx.mesh import CellType
 
 
@@ -18,49 +17,10 @@ def surface(scene, *tags):
     return cx.Surface(scene.tags, *tags)
 
 
-def test_slave_and_master_with_common_facets(scene):
-    both = surface(scene, Tag.UPPER_CONTACT, Tag.LOWER_CONTACT)
-    with pytest.raises(ValueError, match=r"slave and master overlap: .* facets in common"):
-        cx.Contact(both, surface(scene, Tag.LOWER_CONTACT))
-
-
-def test_slave_and_master_with_common_nodes(scene):
-    contact = cx.Contact(surface(scene, Tag.UPPER_CONTACT), surface(scene, Tag.UPPER_X0))
-    with pytest.raises(ValueError, match=r"slave and master overlap: .* share 3 nodes"):
-        scene.problem(contact)
-
-
-def test_something_else_than_a_surface(scene):
-    with pytest.raises(
-        TypeError, match=r"master must be a contactx.Surface or a rigid obstacle, not int"
-    ):
-        cx.Contact(surface(scene, Tag.UPPER_CONTACT), 21)
-
-
-def test_unknown_sliding(scene):
-    with pytest.raises(ValueError, match='sliding must be "finite" or "small", not \'large\''):
-        cx.Contact(
-            surface(scene, Tag.UPPER_CONTACT), surface(scene, Tag.LOWER_CONTACT), sliding="large"
-        )
-
-
-def test_unknown_method(scene):
-    with pytest.raises(ValueError, match='method must be "node-to-surface" or "surface-to-surf'):
-        scene.contact(method="nonsense")
-
-
 @pytest.mark.parametrize("name", ["pressure", "force", "multiplier", "forms", "gap"])
 def test_results_before_there_are_any(scene, name):
     with pytest.raises(RuntimeError, match="has no results yet: pass it to a ContactProblem first"):
         getattr(scene.contact(), name)
-
-
-def test_one_problem_a_contact():
-    scene = Blocks(CellType.triangle)
-    contact = scene.contact()
-    scene.problem(contact)
-    with pytest.raises(RuntimeError, match="belongs to a ContactProblem already"):
-        scene.problem(contact)
 
 
 @pytest.mark.parametrize("cell", [CellType.triangle, CellType.hexahedron], ids=lambda c: c.name)

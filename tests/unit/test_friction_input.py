@@ -17,19 +17,6 @@ def scene():
     return Blocks(CellType.quadrilateral)
 
 
-@pytest.mark.parametrize("friction", [-0.1, float("nan"), float("inf"), -float("inf")])
-def test_number_out_of_range(scene, friction):
-    with pytest.raises(ValueError, match=r"friction is .*: give a number of at least 0"):
-        scene.contact(friction=friction)
-
-
-@pytest.mark.parametrize("value", [None, "much", [0.1, 0.2]], ids=str)
-@pytest.mark.parametrize("name", ["friction", "offset"])
-def test_something_else_than_a_number(scene, name, value):
-    with pytest.raises(TypeError, match=f"{name} must be a number, a fem.Constant or a fem.Func"):
-        scene.contact(**{name: value})
-
-
 def spaces(domain):
     return [
         fem.functionspace(domain, ("Lagrange", 2)),
@@ -46,14 +33,6 @@ def test_function_of_another_space(scene, which, name):
     function = fem.Function(spaces(scene.u.function_space.mesh)[which])
     contact = scene.contact(**{name: function})
     with pytest.raises(ValueError, match=rf"{name} is a function of .*: interpolate it into"):
-        scene.problem(contact)
-
-
-@pytest.mark.parametrize("name", ["friction", "offset"])
-def test_constant_that_is_a_vector(scene, name):
-    vector = fem.Constant(scene.u.function_space.mesh, (0.1, 0.2))
-    contact = scene.contact(**{name: vector})
-    with pytest.raises(ValueError, match=f"{name} is a constant of shape"):
         scene.problem(contact)
 
 

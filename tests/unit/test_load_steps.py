@@ -12,7 +12,6 @@ from rich.console import Console
 from step_scenes import Sheared
 
 import contactx as cx
-from dolfinx import fem
 
 pytestmark = pytest.mark.usefixtures("method")
 
@@ -247,26 +246,3 @@ def test_silence(capsys):
         pass
     # No terminal: no bar, but the table
     assert capsys.readouterr().out.startswith("┏")
-
-
-@pytest.mark.parametrize(
-    ("options", "error", "message"),
-    [
-        ({"update": 3}, TypeError, "update must be a function of t, not 3"),
-        ({"output": "file"}, TypeError, "output must be a function of a step"),
-        ({"history": [1]}, TypeError, "history holds a int: give fem.Functions"),
-        ({"max_cuts": 1.5}, TypeError, "max_cuts is 1.5: give an integer"),
-    ],
-)
-def test_wrong_arguments(options, error, message):
-    with pytest.raises(error, match=message):
-        Sheared().steps(1, **options)
-
-
-def test_wrong_problem_and_history():
-    scene = Sheared()
-    with pytest.raises(TypeError, match="problem must be a ContactProblem, not Function"):
-        cx.LoadSteps(scene.u, 1, scene.update)
-    history = fem.Function(scene.u.function_space)
-    with pytest.raises(TypeError, match=r"write history=\[function\]"):
-        cx.LoadSteps(scene.problem, 1, scene.update, history=history)

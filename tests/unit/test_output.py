@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 import pyvista
 from scenes import Blocks
-from story import displacement
 
 import contactx as cx
 from contactx.meshes import Tag
@@ -44,9 +43,3 @@ def test_paraview_output(tmp_path: Path, contacts):
     assert data["pressure" + suffix].max() == pytest.approx(all_contacts[0].pressure.x.array.max())
     assert np.nanmin(data["gap" + suffix]) == pytest.approx(0, abs=1e-12)
     assert set(data["status" + suffix]) <= {-1, 0, 2}
-
-
-def test_paraview_output_needs_pvd(tmp_path: Path):
-    scene = Blocks(CellType.triangle)
-    with pytest.raises(ValueError, match=r"ends in '.xdmf'.*\.pvd"):
-        cx.VTKOutput(tmp_path / "a.xdmf", displacement(scene.u.function_space.mesh), [])

@@ -25,8 +25,6 @@ _BALANCED = 1e-6
 _WEAK = 1e-6
 # Relative difference of what is equal but for rounding
 _TIE = 1e-9
-
-
 # Nodes of a contact that may hold a body, by their numbers there, and the time until they do
 type _Found = tuple[Interface, npt.NDArray[np.integer], Array]
 
@@ -75,6 +73,10 @@ class Holder:
         self.unheld = self.closed = self.drifting = 0
         self._stiffness = None
         self._begins = True
+
+    def forget(self) -> None:
+        """Forget the modes: a failed step may have found them of a spoilt stiffness."""
+        self._modes = None
 
     def hold(self, residual: Callable[[], Array], scale: float) -> bool:
         """Find what to add to the Jacobian at an iterate, and close nodes that must hold a body.

@@ -4,10 +4,11 @@
 
 from __future__ import annotations
 
-from typing import Any, SupportsFloat
+from typing import Any
 
 import numpy as np
 
+from contactx.checks.kinds import check_switch, described, is_number
 from contactx.obstacles import Obstacle
 from contactx.surface import Surface
 from dolfinx import fem
@@ -21,16 +22,16 @@ def check_options(
     master: Any,
     *,
     friction: Any,
-    sliding: str,
-    method: str,
-    tied: bool,
-    search_distance: float | None,
+    sliding: Any,
+    method: Any,
+    tied: Any,
+    search_distance: Any,
     offset: Any,
 ) -> None:
     """Check the arguments of a Contact; they are described there.
 
     Raises:
-        TypeError: If slave, master, friction or offset is something else.
+        TypeError: If an argument is of another kind.
         ValueError: If the surfaces share facets, or an option is out of its range.
     """
     if not isinstance(slave, Surface):
@@ -51,22 +52,28 @@ def check_options(
                 f"slave and master overlap: {slave} and {master} have {len(shared)} facets in "
                 "common. Give each surface its own tags"
             )
-    if sliding not in _SLIDING:
+    if not isinstance(sliding, str) or sliding not in _SLIDING:
         raise ValueError(f'sliding must be "finite" or "small", not {sliding!r}')
-    if method not in _METHODS:
+    if not isinstance(method, str) or method not in _METHODS:
         raise ValueError(
             f'method must be "node-to-surface" or "surface-to-surface", not {method!r}'
         )
     for name, value in (("friction", friction), ("offset", offset)):
-        if not isinstance(value, SupportsFloat | fem.Function):
+        if not (is_number(value) or isinstance(value, fem.Constant | fem.Function)):
             raise TypeError(
-                f"{name} must be a number, a fem.Constant or a fem.Function, not "
-                f"{type(value).__name__}"
+                f"{name} must be a number, a fem.Constant or a fem.Function, not {described(value)}"
             )
-    fixed = None if isinstance(friction, fem.Constant | fem.Function) else float(friction)
-    if fixed is not None and not (np.isfinite(fixed) and fixed >= 0):
-        raise ValueError(f"friction is {friction}: give a number of at least 0")
-    if tied and fixed != 0:
+    for name, value in (("friction", friction), ("offset", offset)):
+        if is_number(value) and not (np.isfinite(value) and (name == "offset" or value >= 0)):
+            wanted = "a finite number" if name == "offset" else "a number of at least 0"
+            raise ValueError(f"{name} is {value}: give {wanted}")
+    check_switch("tied", tied)
+    if tied and not (is_number(friction) and friction == 0):
         raise ValueError("tied excludes friction: a tied slave node does not slip")
-    if search_distance is not None and not search_distance > 0:
-        raise ValueError(f"search_distance is {search_distance}: give a positive length")
+    if search_distance is not None:
+        if not is_number(search_distance):
+            raise TypeError(
+                f"search_distance is {described(search_distance)}: give a length, or None"
+            )
+        if not search_distance > 0:
+            raise ValueError(f"search_distance is {search_distance}: give a positive length")

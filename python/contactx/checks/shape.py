@@ -10,9 +10,12 @@ import numpy.typing as npt
 from contactx.checks.place import place
 from contactx.parallel import reduce
 from contactx.parallel.halo import Halo
+from contactx.parallel.slaves import SlaveNodes
 from contactx.surface import FacetList, Surface
 
 _SMALL = 1e-10
+# What is left of the normals of facets that cancel
+_FOLDED = 1e-6
 # Neighbours of each corner along the local axes of a quadrilateral: its Jacobian there
 _AXES = np.array([[[0, 1], [0, 2]], [[0, 1], [1, 3]], [[2, 3], [0, 2]], [[2, 3], [1, 3]]])
 
@@ -33,6 +36,38 @@ def corner_normals(x: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
     t = x[:, axes[:, :, 1]] - x[:, axes[:, :, 0]]
     normals: npt.NDArray[np.float64] = np.cross(t[:, :, 0], t[:, :, 1])
     return normals
+
+
+def check_folds(surface: Surface, slaves: SlaveNodes, halo: Halo) -> None:
+    """Check that a slave surface is not folded onto itself, so that its nodes have a normal.
+
+    Args:
+        surface: Slave surface.
+        slaves: Its nodes.
+        halo: Nodes on this rank.
+
+    Raises:
+        ValueError: If the normals of the facets at a node of any rank cancel, on all ranks.
+    """
+    comm, x = halo.comm, halo.x
+    sums, sizes = np.zeros_like(x), np.zeros(len(x))
+    for _, nodes in slaves.facets.groups():
+        normals = corner_normals(x[nodes]).mean(axis=1)
+        for corner in nodes.T:
+            np.add.at(sums, corner, normals)
+            np.add.at(sizes, corner, np.linalg.norm(normals, axis=1))
+    owned = slaves.owned
+    bad = owned[np.linalg.norm(sums[owned], axis=1) <= _FOLDED * sizes[owned]]
+    count = reduce.total(comm, len(bad))
+    if count > 0:
+        size = float(reduce.extent(comm, x[owned]).max())
+        numbers = halo.original[bad].tolist()
+        number, at = reduce.first(comm, numbers, list(zip(numbers, x[bad], strict=True)))
+        raise ValueError(
+            f"the slave surface {surface} is folded at {count} nodes, where the normals of its "
+            f"facets cancel, first at {place(at, size)}, node {number} of the mesh as it was made: "
+            "take the facets of one side out of the surface"
+        )
 
 
 def check_facets(surface: Surface, role: str, facets: FacetList, halo: Halo) -> None:

@@ -28,6 +28,10 @@ class Guess:
         self._solutions: list[PETSc.Vec] = []
         self._is_first = False
 
+    def forget(self) -> None:
+        """Know nothing again."""
+        self._solutions = []
+
     def begin_step(self) -> None:
         """The next solve is the first of a step."""
         self._is_first = True

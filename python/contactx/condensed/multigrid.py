@@ -13,7 +13,7 @@ import numpy as np
 
 from contactx.bodies.modes import rigid_modes
 from contactx.bulk import Bulk
-from contactx.callback import weakly
+from contactx.callback import Quiet, weakly
 from contactx.condensed.blocks import Array, Index
 from contactx.condensed.galerkin import Galerkin
 from contactx.condensed.operator import Change, CondensedOperator
@@ -69,6 +69,7 @@ class Multigrid:
         self.iterations = self.hierarchies = 0
         size = (x.size, None)
         self._operator: CondensedOperator | None = None
+        self._quiet = Quiet()
         called = SimpleNamespace(mult=weakly(self._multiply))
         self._A = PETSc.Mat().createPython((size, size), called, comm=self._comm)
         self._A.setUp()
@@ -142,7 +143,7 @@ class Multigrid:
             # A start of zero costs no product
             ksp.setInitialGuessNonzero(v.norm() > 0)
             ksp.setTolerances(rtol=ROUNDING, atol=target, max_it=20 + int(_SLOW * reduction))
-            with report.timing("Krylov"):
+            with report.timing("Krylov"), Quiet() as self._quiet:
                 ksp.solve(rhs, v)
             count = ksp.getIterationNumber()
             self.iterations += count
@@ -160,8 +161,9 @@ class Multigrid:
 
     def _multiply(self, mat: PETSc.Mat, v: PETSc.Vec, y: PETSc.Vec) -> None:
         """Multiply by the condensed matrix; PETSc calls this."""
-        assert self._operator is not None
-        self._operator.mult(v, y)
+        operator = self._operator
+        assert operator is not None
+        self._quiet.call(lambda: operator.mult(v, y), y)
 
     def _build(self, slave_dofs: Index, report: Report) -> None:
         with report.timing("hierarchy"):
@@ -194,7 +196,8 @@ class Multigrid:
                     f"option {self._prefix}pc_type: the condensed solver knows gamg alone, not "
                     f"{pc.getType()}; for a direct solver of the whole set pc_type to lu"
                 )
-            ksp.setUp()
+            with Quiet() as self._quiet:
+                ksp.setUp()
         # From here on the finest level needs a diagonal alone
         self._D = PETSc.Mat().createDiagonal(P.getDiagonal())
         ksp.setOperators(self._A, self._D)

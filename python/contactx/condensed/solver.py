@@ -13,6 +13,7 @@ from petsc4py import PETSc
 import numpy as np
 
 from contactx.bulk import Bulk
+from contactx.callback import Quiet
 from contactx.condensed.blocks import Array, ContactBlocks, NotCondensable, lumped
 from contactx.condensed.chains import check_chains
 from contactx.condensed.elimination import Elimination
@@ -65,7 +66,7 @@ class CondensedSolver:
         self._multigrid = Multigrid(bulk, x[: system.num_bulk // system.block], prefix)
         self.target = 0.0
         self.is_last = False
-        self._failures = 0
+        self._failures = self._failures_before = 0
         self.springs: Array | None = None
         self.begin(Report())
 
@@ -76,11 +77,22 @@ class CondensedSolver:
             report: Report whose times are added to.
         """
         self._report = report
+        self._failures_before = self._failures
         self._guess.begin_step()
         self._multigrid.iterations = self._multigrid.hierarchies = 0
         self._factorised.iterations = self._factorised.factorisations = 0
         self.direct: list[str] = []
         self._solves = 0
+
+    def forget(self) -> None:
+        """Forget what earlier solves have left: after a failed step it is of no use, or half done.
+
+        What the failed step found of multigrid does not count either.
+        """
+        self._failures = self._failures_before
+        self._guess.forget()
+        self._multigrid.forget()
+        self._factorised.forget()
 
     @property
     def iterations(self) -> int:
@@ -175,7 +187,8 @@ class CondensedSolver:
         ksp.getPC().setType("python")
         ksp.getPC().setPythonContext(nearly)
         ksp.setTolerances(rtol=ROUNDING, atol=self.target, max_it=_CORRECTIONS)
-        ksp.solve(b, x)
+        with nearly.quiet:
+            ksp.solve(b, x)
         converged = ksp.getConvergedReason() > 0 and not nearly.has_failed
         # The matrix refers back to the solver
         ksp.destroy()
@@ -268,13 +281,17 @@ class _Nearly:
         """Take both, and the part of a right-hand side that a solve may leave."""
         self._solve, self._multiply, self._part = solve, multiply, part
         self.has_failed = False
+        self.quiet = Quiet()
 
     def apply(self, pc: PETSc.PC, b: PETSc.Vec, x: PETSc.Vec) -> None:
         """Solve, to a part of the right-hand side."""
+        self.quiet.call(lambda: self._apply(b, x), x)
+
+    def _apply(self, b: PETSc.Vec, x: PETSc.Vec) -> None:
         if self.has_failed or not self._solve(b, x, self._part * b.norm()):
             self.has_failed = True
             x.zeroEntries()
 
     def mult(self, mat: PETSc.Mat, x: PETSc.Vec, y: PETSc.Vec) -> None:
         """Multiply."""
-        self._multiply(x, y)
+        self.quiet.call(lambda: self._multiply(x, y), y)

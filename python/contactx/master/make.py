@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from contactx.bodies.bodies import Bodies
 from contactx.checks.inside import check_apart, check_outside
-from contactx.checks.shape import check_facets
+from contactx.checks.shape import check_facets, check_folds
 from contactx.law.law import Law
 from contactx.master.facets import FacetMaster
 from contactx.master.master import Master
@@ -79,6 +79,8 @@ def make_master(
     check_facets(master, "master", others, halo)
     check_apart(slave, master, facets, others, bodies)
     others = in_order(others, halo)
+    if method == "node-to-surface":
+        check_folds(slave, slaves, halo)
     deformable: type[FacetMaster | MortarMaster]
     if method == "surface-to-surface":
         deformable = MortarTie if law.is_tied else MortarMaster

@@ -64,10 +64,12 @@ def hertz_cap(
         ValueError: If a number of cells is below one, a length is not positive, or the radius is
             below 2 L, where the cap would rise into the upper half of the body.
     """
+    check_divisions(n=n)
+    check_positive(length=length)
     n_lower = max(n + 1, 3 * n // 2) if n_master is None else n_master
     cap_radius = 8 * length if radius is None else radius
-    check_divisions(n=n, n_master=n_lower)
-    check_positive(length=length, radius=cap_radius)
+    check_divisions(n_master=n_lower)
+    check_positive(radius=cap_radius)
     if cap_radius < 2 * length:
         raise ValueError(
             f"radius is {cap_radius}; give at least twice the length, {2 * length}, "

@@ -69,8 +69,9 @@ def hertz_cylinder(
     Raises:
         ValueError: If a size is not positive.
     """
+    check_positive(h=h)
     h_lower = h / 2 if h_master is None else h_master
-    check_positive(h=h, h_master=h_lower, zone=zone)
+    check_positive(h_master=h_lower, zone=zone)
 
     def recipe(gmsh: ModuleType) -> None:
         upper, lower = _add_quarter_disc(gmsh), _add_rectangle(gmsh)

@@ -14,7 +14,7 @@ from mpi4py import MPI
 import numpy as np
 
 from contactx.meshes.build import build_mesh
-from contactx.meshes.checks import check_divisions, check_positive
+from contactx.meshes.checks import check_divisions, check_numbers, check_positive
 from contactx.meshes.entities import group_body
 from contactx.meshes.grids import Coordinates, add_grid, graded_between
 from contactx.meshes.tags import block_tag
@@ -102,6 +102,7 @@ class FaceSlab:
             raise ValueError(f"growth is {self.growth}; give at least 1: cells grow off the joint.")
         if not (np.isfinite(self.thickening) and self.thickening >= 0):
             raise ValueError(f"thickening is {self.thickening}; give a number of at least 0.")
+        check_numbers("opening", self.opening)
         if len(self.opening) != 2 or not all(0 <= gap < self.width for gap in self.opening):
             raise ValueError(
                 f"opening is {self.opening}; give two lengths, at the top and at the bottom, of at "
@@ -190,6 +191,10 @@ def face_slab(model: FaceSlab, comm: MPI.Comm = MPI.COMM_WORLD) -> MeshData:
         The mesh, in metres, with tags of its bodies in ``cell_tags`` and of faces in
         ``facet_tags``.
     """
+    if not isinstance(model, FaceSlab):
+        raise TypeError(
+            f"model is a {type(model).__name__}; give a FaceSlab, or one of FACE_SLABS."
+        )
     edges, layers = model.edges, np.linspace(0, 1, model.layers + 1)
     scale = model.cushion_scale()
     rows = model.rows if model.matching else model.cushion_rows or model.rows

@@ -65,8 +65,9 @@ def half_spheres(
     Raises:
         ValueError: If a length is not positive, or the zone reaches beyond the radius.
     """
+    check_positive(h=h)
     h_lower = 1.5 * h if h_master is None else h_master
-    check_positive(radius=radius, h=h, h_master=h_lower, zone=zone)
+    check_positive(radius=radius, h_master=h_lower, zone=zone)
     check_zone(zone, radius)
 
     def recipe(gmsh: ModuleType) -> None:

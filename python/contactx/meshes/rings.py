@@ -13,7 +13,7 @@ from mpi4py import MPI
 import numpy as np
 
 from contactx.meshes.build import build_mesh
-from contactx.meshes.checks import check_divisions
+from contactx.meshes.checks import check_divisions, check_numbers
 from contactx.meshes.tags import Tag
 from dolfinx.io.gmsh import MeshData
 
@@ -80,8 +80,10 @@ def rings(
         ValueError: If a number of cells is below one, or the radii are not three positive
             numbers that increase.
     """
+    check_divisions(n=n)
     n_lower = max(n + 1, 3 * n // 2) if n_master is None else n_master
-    check_divisions(n=n, n_master=n_lower)
+    check_divisions(n_master=n_lower)
+    check_numbers("radii", radii)
     if not (len(radii) == 3 and np.all(np.isfinite(radii)) and np.all(np.diff([0, *radii]) > 0)):
         raise ValueError(f"radii is {radii}; give 3 positive numbers, each above the one before.")
 

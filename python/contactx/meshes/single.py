@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+from numbers import Integral
+
 from contactx.meshes.tags import Tag
 from dolfinx import mesh
 from dolfinx.io.gmsh import MeshData
@@ -22,6 +24,10 @@ def single(data: MeshData, body: Tag) -> tuple[mesh.Mesh, mesh.MeshTags]:
     Raises:
         ValueError: If the model has no such body.
     """
+    if not isinstance(data, MeshData):
+        raise TypeError(f"data is a {type(data).__name__}; give what a mesh function has returned.")
+    if not isinstance(body, Integral):
+        raise TypeError(f"body is {body!r}; give a Tag, such as Tag.UPPER.")
     cells = data.cell_tags.find(body)
     if data.mesh.comm.allreduce(len(cells)) == 0:
         raise ValueError(f"body is {body!r}, which the model does not have; give one that it has.")

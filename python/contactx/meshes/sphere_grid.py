@@ -60,8 +60,9 @@ def hertz_grid(
         ValueError: If a size is not positive, or the cells of the upper body are larger than the
             contact zone.
     """
+    check_positive(h=h)
     h_lower = 1.5 * h if h_master is None else h_master
-    check_positive(h=h, h_master=h_lower)
+    check_positive(h_master=h_lower)
     if h > _ZONE:
         raise ValueError(f"h is {h}; give at most the size of the contact zone, {_ZONE}.")
 

@@ -9,6 +9,8 @@ from types import ModuleType
 
 from mpi4py import MPI
 
+import numpy as np
+
 from contactx.meshes.build import build_mesh
 from contactx.meshes.checks import (
     check_cell_type,
@@ -58,6 +60,8 @@ def stack(
             length, a number of cells is below one, or a length is not positive.
     """
     dim = check_cell_type(cell_type)
+    if not np.iterable(divisions):
+        raise TypeError(f"divisions is {divisions!r}; give the numbers of cells of each box.")
     if len(divisions) == 0:
         raise ValueError("divisions is empty; give the numbers of cells of each box.")
     sizes = [(1.0,) * dim] * len(divisions) if sizes is None else sizes

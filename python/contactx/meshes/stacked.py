@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from types import ModuleType
 
@@ -17,6 +16,7 @@ from contactx.meshes.build import build_mesh
 from contactx.meshes.checks import (
     check_cell_type,
     check_divisions,
+    check_finite,
     check_positive,
     check_vector,
 )
@@ -86,8 +86,7 @@ def blocks(
         check_vector(name, size, dim)
         check_positive(**{f"{name}[{i}]": length for i, length in enumerate(size)})
     check_vector("shift", shift, dim - 1)
-    if not math.isfinite(gap):
-        raise ValueError(f"gap is {gap}; give a finite number.")
+    check_finite("gap", gap)
     bottom: Bottom | None = None
     if radius is not None:
         check_positive(radius=radius)

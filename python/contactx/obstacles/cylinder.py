@@ -7,6 +7,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
+from contactx.checks.kinds import check_switch
 from contactx.obstacles.obstacle import (
     Geometry,
     Obstacle,
@@ -40,10 +41,14 @@ class Cylinder(Obstacle):
             axis: Direction of the axis, of any length, shape (3,), numbers or a ``fem.Constant``.
             radius: Radius, a number or a ``fem.Constant``.
             hollow: False: bodies may be outside of the cylinder. True: inside, as in a pipe.
+
+        Raises:
+            TypeError: If hollow is neither True nor False.
         """
         self.point = point
         self.axis = axis
         self.radius = radius
+        check_switch("hollow", hollow)
         self.hollow = hollow
 
     def evaluate(self, x: npt.NDArray[np.float64]) -> Geometry:

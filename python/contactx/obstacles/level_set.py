@@ -44,10 +44,14 @@ class LevelSet(Obstacle):
             gradient: Gradient of a Python function, from (gdim, n) to (gdim, n).
 
         Raises:
-            TypeError: If f is not callable.
+            TypeError: If f or gradient is not callable.
         """
         if not callable(f):
             raise TypeError(f"f of a LevelSet must be a function, not {type(f).__name__}")
+        if gradient is not None and not callable(gradient):
+            raise TypeError(
+                f"gradient of a LevelSet must be a function, not {type(gradient).__name__}"
+            )
         self._f = f
         self._gradient = gradient
         self._compiled: dict[tuple[int, ...], _Compiled] = {}
@@ -95,7 +99,7 @@ class LevelSet(Obstacle):
         if len(x) == 0:
             return np.zeros(0)
         if self._gradient is not None:
-            return np.asarray(self._f(x.T), dtype=np.float64)
+            return self._values(x)[0]
         compiled = self._compiled.get(x.shape) or _Compiled(self._f, *x.shape)
         return compiled(x)[0]
 
@@ -104,8 +108,7 @@ class LevelSet(Obstacle):
     ) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
         """Value and gradient of a Python function, shapes (n,) and (n, gdim)."""
         assert self._gradient is not None
-        f = np.asarray(self._f(x.T), dtype=np.float64)
-        g = np.asarray(self._gradient(x.T), dtype=np.float64)
+        f, g = (_real(np.asarray(function(x.T))) for function in (self._f, self._gradient))
         if f.shape != (len(x),) or g.shape != x.T.shape:
             raise ValueError(
                 f"for points of shape {x.T.shape} the function of a LevelSet gave shape {f.shape} "
@@ -130,6 +133,17 @@ class LevelSet(Obstacle):
         return symmetric
 
 
+def _real(values: npt.NDArray[Any]) -> npt.NDArray[np.float64]:
+    """What a Python function gave, shape as it is."""
+    if values.dtype.kind not in "biuf":
+        raise TypeError(
+            f"the function of a LevelSet or its gradient gave values of type {values.dtype}: they "
+            "must be real numbers"
+        )
+    real: npt.NDArray[np.float64] = values.astype(np.float64)
+    return real
+
+
 class _Compiled:
     """A UFL function of the position with its derivatives, compiled for n points.
 
@@ -147,6 +161,17 @@ class _Compiled:
                 "the function of a LevelSet is not one of UFL: for a function of Python give its "
                 "gradient too, LevelSet(f, gradient)"
             ) from error
+        if value.ufl_shape != ():
+            raise ValueError(
+                f"the function of a LevelSet gave an expression of shape {value.ufl_shape}: it "
+                "must be a scalar"
+            )
+        others = set(ufl.algorithms.extract_coefficients(value)) - {self._position}
+        if others or ufl.algorithms.analysis.extract_type(value, ufl.classes.GeometricQuantity):
+            raise ValueError(
+                "the function of a LevelSet holds a function or the coordinates of a mesh: it may "
+                "hold its argument and fem.Constant alone"
+            )
         gradient = ufl.diff(value, X)
         second = ufl.diff(gradient, X)
         values = ufl.as_vector(

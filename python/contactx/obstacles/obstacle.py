@@ -10,6 +10,8 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+import ufl
+from contactx.checks.kinds import is_number
 from dolfinx import fem
 
 type Parameter = npt.ArrayLike | fem.Constant
@@ -137,9 +139,18 @@ def vector(value: Parameter, gdim: int, name: str) -> npt.NDArray[np.float64]:
         The value, shape (gdim,).
 
     Raises:
+        TypeError: If it does not consist of real numbers.
         ValueError: If it is not finite or of another size.
     """
-    array = np.array(value.value if isinstance(value, fem.Constant) else value, dtype=np.float64)
+    given = value.value if isinstance(value, fem.Constant) else value
+    try:
+        array = np.array([]) if isinstance(given, ufl.core.expr.Expr) else np.array(given, float)
+    except (TypeError, ValueError):
+        array = np.array([])
+    if array.size == 0:
+        raise TypeError(
+            f"{name} is {given!r}: give {gdim} finite numbers, or a fem.Constant of them"
+        )
     if array.shape != (gdim,) or not np.all(np.isfinite(array)):
         raise ValueError(f"{name} is {array}: give {gdim} finite numbers, as the mesh has")
     return array
@@ -160,10 +171,13 @@ def direction(value: Parameter, gdim: int, name: str) -> npt.NDArray[np.float64]
         ValueError: If it is zero, not finite or of another size.
     """
     array = vector(value, gdim, name)
-    length = np.linalg.norm(array)
-    if length == 0:
+    largest = np.abs(array).max()
+    if largest == 0:
         raise ValueError(f"{name} is a zero vector: give a direction")
-    return array / length
+    # Squares of very small and very large components are none
+    array = array / largest if not 1e-100 < largest < 1e100 else array
+    unit: npt.NDArray[np.float64] = array / np.linalg.norm(array)
+    return unit
 
 
 def positive(value: float | fem.Constant, name: str) -> float:
@@ -177,9 +191,13 @@ def positive(value: float | fem.Constant, name: str) -> float:
         The number.
 
     Raises:
+        TypeError: If it is no real number.
         ValueError: If it is not finite and positive.
     """
-    number = float(value)
+    given = value.value if isinstance(value, fem.Constant) else value
+    if not is_number(given):
+        raise TypeError(f"{name} is {given!r}: give a positive number, or a fem.Constant of one")
+    number = float(given)
     if not (np.isfinite(number) and number > 0):
         raise ValueError(f"{name} is {number}: give a positive number")
     return number

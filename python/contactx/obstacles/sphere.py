@@ -7,6 +7,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
+from contactx.checks.kinds import check_switch
 from contactx.obstacles.obstacle import Geometry, Obstacle, Parameter, Placement, positive, vector
 from dolfinx import fem
 
@@ -23,9 +24,13 @@ class Sphere(Obstacle):
             centre: Centre, shape (gdim,), numbers or a ``fem.Constant``.
             radius: Radius, a number or a ``fem.Constant``.
             hollow: False: bodies may be outside of the sphere. True: inside, as in a bowl.
+
+        Raises:
+            TypeError: If hollow is neither True nor False.
         """
         self.centre = centre
         self.radius = radius
+        check_switch("hollow", hollow)
         self.hollow = hollow
 
     def evaluate(self, x: npt.NDArray[np.float64]) -> Geometry:

@@ -14,7 +14,9 @@ from mpi4py import MPI
 import numpy as np
 import numpy.typing as npt
 
+from contactx.checks.files import check_path
 from contactx.parallel.agreement import agreed
+from contactx.plot.checks import check_curves, check_increasing, check_labels, check_numbers
 from contactx.plot.style import COLOURS, DOTS_PER_INCH, INK, import_plotter
 
 Curve = tuple[npt.ArrayLike, npt.ArrayLike]
@@ -51,7 +53,18 @@ def curves(
 
     Raises:
         ImportError: If matplotlib is not installed.
+        TypeError: If an argument is of another kind.
+        ValueError: If a curve has not as many positions as values, or a number is out of its range.
     """
+    path = check_path("path", path)
+    check_labels(labels)
+    with agreed(MPI.COMM_SELF if comm is None else comm):
+        check_curves("computed", computed)
+    check_curves("exact", exact)
+    for name, place in (marks or {}).items():
+        check_numbers(f"marks[{name!r}]", place, 2)
+    if close_up is not None:
+        check_increasing("close_up", close_up)
     options = (path, labels, title, joined, marks or {}, close_up)
     if comm is None:
         _draw_page(computed, exact, *options)

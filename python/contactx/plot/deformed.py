@@ -11,7 +11,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from contactx.checks.files import check_path
 from contactx.parallel.agreement import agreed
+from contactx.plot.checks import check_functions, check_increasing, check_numbers
 from contactx.plot.page import compose
 from contactx.plot.surface import AXES, deformed_surface, mirrored, peak_body, sharp_edges
 from contactx.plot.view import View
@@ -121,15 +123,27 @@ def deformed_bodies(
 
     Raises:
         ImportError: If pyvista or matplotlib is not installed.
-        ValueError: If a mirror plane is not the name of an axis, the scalar is of another kind or
-            the box is empty.
+        TypeError: If an argument is of another kind.
+        ValueError: If a mirror plane is not the name of an axis, a function is of another space,
+            not finite or of another mesh, a number is out of its range or the box is empty.
     """
+    path = check_path("path", path)
+    check_functions(u, scalar)
     for plane in mirror:
-        if plane not in AXES:
+        if plane not in list(AXES)[: u.function_space.mesh.geometry.dim]:
             raise ValueError(f"mirror holds {plane!r}; give names of axes: x, y or z.")
-    element = scalar.function_space.ufl_element()
-    if element.degree != 1 or element.discontinuous or element.block_size != 1:
-        raise ValueError(f"scalar is of {element}; interpolate it into a space of ('P', 1).")
+    check_numbers("scale", scale, 1)
+    check_numbers("stretch", stretch, 3)
+    if not all(factor > 0 for factor in stretch):
+        raise ValueError(f"stretch is {stretch}; give positive factors.")
+    if clim is not None:
+        check_increasing("clim", clim)
+    if camera is not None:
+        check_numbers("camera", camera, 3)
+        if not any(camera):
+            raise ValueError(f"camera is {camera}; give a direction.")
+    if box is not None and (np.ndim(box) != 2 or len(box) != 2):
+        raise ValueError(f"box is {box}; give its lowest and its highest coordinates.")
     surface = deformed_surface(u, scalar, scale, stretch)
     with agreed(u.function_space.mesh.comm):
         if surface is None:

@@ -13,7 +13,9 @@ from mpi4py import MPI
 import numpy as np
 import numpy.typing as npt
 
+from contactx.checks.files import check_path
 from contactx.parallel.agreement import agreed
+from contactx.plot.checks import check_labels
 from contactx.plot.style import DOTS_PER_INCH, INK, colour_map, import_plotter
 
 _KINDS = ("#c7ccd3", "#2b6cb0", "#d1372c", "#5e0d2a")
@@ -50,10 +52,16 @@ def nodal_map(
 
     Raises:
         ImportError: If matplotlib is not installed.
-        ValueError: If there are neither triangles nor kinds.
+        TypeError: If an argument is of another kind.
+        ValueError: If there are neither triangles nor kinds, shapes do not fit, values to be
+            interpolated are not finite, or a triangle has a node that does not exist.
     """
     if kinds is None and triangles is None:
         raise ValueError("triangles and kinds are None; give triangles to interpolate values on.")
+    path = check_path("path", path)
+    check_labels(labels)
+    with agreed(MPI.COMM_SELF if comm is None else comm):
+        _check(places, values, triangles, kinds is None)
     if comm is None:
         _draw(places, values, path, labels, title, label, triangles, kinds)
         return
@@ -65,6 +73,24 @@ def nodal_map(
             if triangles is not None:
                 triangles = np.concatenate([p[2] + n for p, n in zip(parts, first, strict=True)])
             _draw(places, values, path, labels, title, label, triangles, kinds)
+
+
+def _check(
+    places: npt.NDArray[np.float64],
+    values: npt.NDArray[np.float64],
+    triangles: npt.NDArray[np.integer] | None,
+    continuous: bool,
+) -> None:
+    """Check the data of a face, or of a rank's part of it."""
+    if np.ndim(places) != 2 or np.shape(places) != (len(values), 2):
+        raise ValueError(
+            f"places has shape {np.shape(places)} and values {np.shape(values)}; give (n, 2) and "
+            "(n,)."
+        )
+    if continuous and not np.all(np.isfinite(values)):
+        raise ValueError("values are not all finite; leave out the nodes that have none.")
+    if triangles is not None and not np.all((triangles >= 0) & (triangles < len(values))):
+        raise ValueError(f"triangles have nodes that are none of 0 to {len(values) - 1}.")
 
 
 def _draw(

@@ -6,6 +6,8 @@ from __future__ import annotations
 
 import math
 
+from contactx.checks.kinds import described, is_number
+
 
 def check_positive(**values: float) -> None:
     """Check that quantities are positive and finite.
@@ -14,8 +16,11 @@ def check_positive(**values: float) -> None:
         values: Values by the name of their argument.
 
     Raises:
+        TypeError: If a value is no number.
         ValueError: If a value is not a positive finite number.
     """
     for name, value in values.items():
+        if not is_number(value):
+            raise TypeError(f"{name} is {described(value)}; give a positive number.")
         if not (math.isfinite(value) and value > 0):
             raise ValueError(f"{name} is {value}; give a positive number.")

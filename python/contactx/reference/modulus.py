@@ -6,6 +6,8 @@ from __future__ import annotations
 
 import math
 
+from contactx.checks.kinds import described, is_number
+
 
 def contact_modulus(young_1: float, nu_1: float, young_2: float, nu_2: float) -> float:
     """Combine the elastic constants of two bodies.
@@ -23,9 +25,13 @@ def contact_modulus(young_1: float, nu_1: float, young_2: float, nu_2: float) ->
         The contact modulus E*, force/area.
 
     Raises:
+        TypeError: If a value is no number.
         ValueError: If a Young's modulus is not positive, a Poisson's ratio is outside
             (-1, 0.5], or both bodies are rigid.
     """
+    for name, value in (("young_1", young_1), ("nu_1", nu_1), ("young_2", young_2), ("nu_2", nu_2)):
+        if not is_number(value):
+            raise TypeError(f"{name} is {described(value)}; give a number.")
     for name, young in (("young_1", young_1), ("young_2", young_2)):
         if not young > 0:
             raise ValueError(f"{name} is {young}; give a positive modulus.")

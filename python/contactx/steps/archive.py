@@ -7,6 +7,7 @@ from __future__ import annotations
 import os
 import zipfile
 from collections.abc import Mapping
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -35,9 +36,21 @@ def write(path: Path, arrays: Mapping[str, npt.NDArray[Any]]) -> None:
             file.flush()
             os.fsync(file.fileno())
         os.replace(temporary, path)
+    except OSError as error:
+        _remove(temporary)
+        raise OSError(
+            error.errno,
+            f"cannot write the checkpoint {path}: {error.strerror or error}; an older file of this "
+            "name is as it was",
+        ) from error
     except BaseException:
-        temporary.unlink(missing_ok=True)
+        _remove(temporary)
         raise
+
+
+def _remove(temporary: Path) -> None:
+    with suppress(OSError):
+        temporary.unlink(missing_ok=True)
 
 
 def read(path: Path) -> dict[str, npt.NDArray[Any]]:
@@ -51,16 +64,26 @@ def read(path: Path) -> dict[str, npt.NDArray[Any]]:
 
     Raises:
         FileNotFoundError: If there is no such file.
+        OSError: If it cannot be read.
         ValueError: If it is damaged or something else.
     """
+    if path.is_dir():
+        raise ValueError(f"{path} is a folder, not a checkpoint: give the name of a file")
     if not path.is_file():
         raise FileNotFoundError(f"there is no checkpoint {path}")
-    if not zipfile.is_zipfile(path):
+    try:
+        with open(path, "rb") as file:
+            is_archive = zipfile.is_zipfile(file)
+    except OSError as error:
+        text = f"cannot read the checkpoint {path}: {error.strerror}"
+        raise OSError(error.errno, text) from error
+    if not is_archive:
         raise ValueError(f"{path} is truncated, or no checkpoint at all")
     try:
         with np.load(path, allow_pickle=False) as file:
             arrays = {name: file[name] for name in file.files}
-    except (ValueError, EOFError, KeyError, NotImplementedError, zipfile.BadZipFile) as error:
+    except Exception as error:
+        # Damage may look like anything: encryption, or a place before the file's start
         raise ValueError(f"{path} is damaged, or no checkpoint at all: {error}") from error
     version = arrays.pop(_MARK, None)
     if version is None:

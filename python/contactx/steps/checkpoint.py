@@ -19,10 +19,10 @@ from contactx.nodal import reference_positions
 from contactx.parallel.agreement import agreed
 from contactx.parallel.halo import original_nodes
 from contactx.problem import ContactProblem
+from contactx.snapshot import Snapshot
 from contactx.steps.fitting import check_fit
 from contactx.steps.function_rows import FunctionRows, cell_nodes
 from contactx.steps.rows import Rows
-from contactx.steps.snapshot import Snapshot
 from dolfinx import fem
 
 type Arrays = dict[str, npt.NDArray[Any]]
@@ -82,7 +82,8 @@ class Checkpoint:
         with agreed(self._comm):
             if self._comm.rank == 0:
                 check_fit(saved, present)
-        before = Snapshot(self._problem, self._history)
+        problem = self._problem
+        before = Snapshot(problem.u, problem.contacts, problem.refresh, self._history)
         try:
             self._u.scatter(saved.get("u"))
             self._problem.refresh()

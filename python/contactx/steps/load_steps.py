@@ -14,14 +14,17 @@ from mpi4py import MPI
 
 import numpy as np
 
+from contactx.checks.files import check_path, make_folder
+from contactx.checks.kinds import check_switch
 from contactx.errors import ConvergenceError
+from contactx.interrupts import Interrupts
 from contactx.parallel.agreement import agreed
 from contactx.problem import ContactProblem
+from contactx.snapshot import Snapshot
 from contactx.steps import archive
 from contactx.steps.checkpoint import Checkpoint
 from contactx.steps.display import Show, progress_bar, show_text
 from contactx.steps.plan import make_plan
-from contactx.steps.snapshot import Snapshot
 from contactx.steps.table import Row, Step, make_row, table
 from dolfinx import fem
 
@@ -42,7 +45,7 @@ class LoadSteps:
     twice as long, but no given t is passed over. The loop sees accepted steps only; its body runs
     between them, so it may update a material's history. A failed attempt leaves u, contacts and
     history as they were, bit for bit. After a break, or an error that was dealt with, another loop
-    goes on behind the last accepted step.
+    goes on behind the last accepted step; one that the body has not seen comes first.
 
     On several ranks all of them run the loop. What ``update``, ``output`` or the solve raises on
     one rank is raised on all of them. Two errors of a single rank leave the others waiting, which
@@ -98,10 +101,12 @@ class LoadSteps:
         self._comm = comm = problem.u.function_space.mesh.comm
         with agreed(comm):
             _check_functions(update, output, history)
+            check_switch("progress", progress)
             self._plan = make_plan(steps, max_cuts, easy)
-            self._checkpoint = None if checkpoint is None else Path(checkpoint)
+            self._checkpoint = None if checkpoint is None else check_path("checkpoint", checkpoint)
+            restarted = None if restart is None else check_path("restart", restart)
             if self._checkpoint is not None and comm.rank == 0:
-                _make_place(self._checkpoint)
+                make_folder("checkpoint", self._checkpoint)
         _check_same(comm, self._plan, self._checkpoint, restart, len(history), output is None)
         self._problem = problem
         self._update = update
@@ -109,11 +114,13 @@ class LoadSteps:
         self._output = output
         self._progress = progress and comm.rank == 0
         self._rows: list[Row] = []
+        # Accepted, but an interrupt came before the loop's body, which must have each step
+        self._unseen: Step | None = None
         self._state: Checkpoint | None = None
         if checkpoint is not None or restart is not None:
             self._state = Checkpoint(problem, self._history)
-        if restart is not None:
-            self._restart(Path(restart))
+        if restarted is not None:
+            self._restart(restarted)
 
     @property
     def t(self) -> float:
@@ -143,7 +150,7 @@ class LoadSteps:
         state = self._state.save()
         with agreed(self._comm):
             if self._comm.rank == 0:
-                _make_place(Path(path))
+                make_folder("path", Path(path))
                 archive.write(Path(path), steps | state)
 
     def __iter__(self) -> Iterator[Step]:
@@ -155,7 +162,7 @@ class LoadSteps:
         Raises:
             ConvergenceError: If a step fails although it has been cut to the shortest one.
         """
-        if self._plan.finished:
+        if self._plan.finished and self._unseen is None:
             return
         with ExitStack() as stack:
             show: Show = lambda *_: None  # noqa: E731
@@ -165,12 +172,13 @@ class LoadSteps:
                     stack.callback(lambda: show_text(self.table()))
                     bar = progress_bar(self._problem, self.t, self._plan.given[-1])
                     show = stack.enter_context(bar)
-            while not self._plan.finished:
-                step = self._take_step(show)
+            while self._unseen is not None or not self._plan.finished:
+                step = self._unseen or self._take_step(show)
                 with agreed(self._comm):
                     show(self.t, f"step {step.index}")
                     if self._output is not None:
                         self._output(step)
+                self._unseen = None
                 yield step
                 # The body may have updated the history
                 if self._checkpoint is not None:
@@ -178,45 +186,56 @@ class LoadSteps:
 
     def _take_step(self, show: Show) -> Step:
         """Attempt shorter and shorter steps until one is accepted."""
-        before = Snapshot(self._problem, self._history)
+        before = self._snapshot()
         begin = time.perf_counter()
         index, plan, cuts, discarded = len(self._rows) + 1, self._plan, 0, 0
-        while True:
-            text = f"step {index} to t = {plan.next:.6g}" + (f", cut {cuts}x" if cuts else "")
-            updated = False
-            try:
-                with agreed(self._comm):
-                    show(self.t, text)
-                    self._update(plan.next)
-                updated = True
-                self._problem.solve()
-                report = self._problem.report
-                report.discarded = discarded
-                step = Step(index, plan.next, report)
-                row = make_row(step, time.perf_counter() - begin)
-                following = plan.accept(report.iterations)
-                # No call from here on: an interrupt comes before both or after both
-                self._rows, self._plan = [*self._rows, row], following
-            except ConvergenceError as error:
-                before.restore()
-                shorter = plan.cut()
-                if shorter is None:
-                    error.report.discarded = discarded
-                    error.add_note(
-                        f"No step from t = {self.t:.6g} converged; the last attempt, to t = "
-                        f"{plan.next:.6g}, was the shortest that max_cuts = {plan.max_cuts} allows"
-                    )
-                    self._update_again(error)
+        with Interrupts() as interrupts:
+            while True:
+                text = f"step {index} to t = {plan.next:.6g}" + (f", cut {cuts}x" if cuts else "")
+                updated = False
+                try:
+                    interrupts.allow()
+                    with agreed(self._comm):
+                        show(self.t, text)
+                        self._update(plan.next)
+                    updated = True
+                    self._problem.solve()
+                    interrupts.wait()
+                    report = self._problem.report
+                    report.discarded = discarded
+                    step = Step(index, plan.next, report)
+                    row = make_row(step, time.perf_counter() - begin)
+                    following = plan.accept(report.iterations)
+                    self._rows, self._plan, self._unseen = [*self._rows, row], following, step
+                except ConvergenceError as error:
+                    interrupts.wait()
+                    before.restore()
+                    shorter = plan.cut()
+                    if shorter is None:
+                        error.report.discarded = discarded
+                        error.add_note(
+                            f"No step from t = {self.t:.6g} converged; the last attempt, to t = "
+                            f"{plan.next:.6g}, was the shortest that max_cuts = {plan.max_cuts} "
+                            "allows"
+                        )
+                        interrupts.allow()
+                        self._update_again(error)
+                        raise
+                    discarded += error.report.iterations
+                    plan, cuts = shorter, cuts + 1
+                    continue
+                except BaseException as error:
+                    interrupts.wait()
+                    before.restore()
+                    interrupts.allow()
+                    if updated:
+                        self._update_again(error)
                     raise
-                discarded += error.report.iterations
-                plan, cuts = shorter, cuts + 1
-                continue
-            except BaseException as error:
-                before.restore()
-                if updated:
-                    self._update_again(error)
-                raise
-            return step
+                return step
+
+    def _snapshot(self) -> Snapshot:
+        problem = self._problem
+        return Snapshot(problem.u, problem.contacts, problem.refresh, self._history)
 
     def _update_again(self, error: BaseException) -> None:
         """Set the loads of the last accepted step, whatever that raises."""
@@ -232,7 +251,7 @@ class LoadSteps:
             saved = archive.read(path) if self._comm.rank == 0 else {}
         steps = {n: saved.pop(n) for n in list(saved) if n.startswith("steps: ")}
         steps = self._comm.bcast(steps)
-        before = Snapshot(self._problem, self._history)
+        before = self._snapshot()
         try:
             plan = self._plan.load(steps["steps: given"], steps["steps: place"])
             self._problem.begin()
@@ -249,12 +268,6 @@ class LoadSteps:
         self._plan = plan
 
 
-def _make_place(path: Path) -> None:
-    if path.is_dir():
-        raise ValueError(f"checkpoint is the folder {path}: give the name of a file")
-    path.parent.mkdir(parents=True, exist_ok=True)
-
-
 def _check_functions(update: Any, output: Any, history: Any) -> None:
     if not callable(update):
         raise TypeError(f"update must be a function of t, not {update!r}")
@@ -262,6 +275,8 @@ def _check_functions(update: Any, output: Any, history: Any) -> None:
         raise TypeError(f"output must be a function of a step, not {output!r}")
     if isinstance(history, fem.Function):
         raise TypeError("history must be a list of functions: write history=[function]")
+    if not isinstance(history, Sequence):
+        raise TypeError(f"history must be a list of functions, not {type(history).__name__}")
     for function in history:
         if not isinstance(function, fem.Function):
             raise TypeError(f"history holds a {type(function).__name__}: give fem.Functions")

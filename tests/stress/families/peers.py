@@ -11,7 +11,7 @@ import numpy as np
 import scenes as common
 from stress.blocks import bulk, of_bodies
 from stress.families.grid import scenes, variants
-from stress.scene import METHODS, SLIDINGS, Case, Check, Scene
+from stress.scene import METHODS, SLIDINGS, Case, Check, Scene, relative
 
 import contactx as cx
 from contactx import meshes

@@ -157,13 +157,3 @@ def test_constants_move_an_obstacle():
 def test_bad_input(obstacle, message):
     with pytest.raises(ValueError, match=message):
         obstacle.evaluate(np.array([[1.0, 2.0, 3.0]]))
-
-
-def test_a_cylinder_in_the_plane():
-    with pytest.raises(ValueError, match="in the plane take a Sphere"):
-        cx.Cylinder((0, 0), (0, 1), 1.0).evaluate(np.zeros((1, 2)))
-
-
-def test_a_level_set_of_no_function():
-    with pytest.raises(TypeError, match="must be a function, not float"):
-        cx.LevelSet(3.0)

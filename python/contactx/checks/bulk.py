@@ -1,0 +1,138 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Forms and Dirichlet conditions of the bodies.
+
+DOLFINx compiles and assembles forms of wrong spaces without a word, and writes beyond the arrays.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+import ffcx.options
+import ufl
+from dolfinx import fem, jit
+
+
+def check_forms(F: Any, J: Any, u: fem.Function) -> None:
+    """Check that a residual and its Jacobian are forms of the displacement's space.
+
+    Args:
+        F: Residual.
+        J: Jacobian, or None.
+        u: Displacement.
+
+    Raises:
+        TypeError: If one is no UFL form.
+        ValueError: If one has the wrong number of arguments, or arguments of another space, is of
+            another mesh, or F does not depend on u and there is no J.
+    """
+    _check_form(
+        F,
+        "F",
+        1,
+        u,
+        "give the residual, linear in a TestFunction; of an energy ufl.derivative(energy, u)",
+    )
+    if J is not None:
+        _check_form(
+            J, "J", 2, u, "give the derivative of F, ufl.derivative(F, u), or None to have it made"
+        )
+    elif u not in ufl.algorithms.extract_coefficients(F):
+        raise ValueError(
+            "F does not depend on u, so that its derivative is zero: write F with the very "
+            "Function that is passed as u, or give J"
+        )
+
+
+def _check_form(form: Any, name: str, count: int, u: fem.Function, advice: str) -> None:
+    if not isinstance(form, ufl.Form):
+        raise TypeError(f"{name} must be a ufl.Form, not {type(form).__name__}: {advice}")
+    if form.empty():
+        raise ValueError(f"{name} is a form without integrals: {advice}")
+    V = u.function_space
+    arguments = form.arguments()
+    if len(arguments) != count:
+        raise ValueError(f"{name} has {len(arguments)} arguments, but must have {count}: {advice}")
+    for argument in arguments:
+        if argument.ufl_function_space() != V:
+            raise ValueError(
+                f"{name} has an argument in {argument.ufl_function_space().ufl_element()} that is "
+                "not of the function space of u: make test and trial functions with "
+                "u.function_space itself"
+            )
+    domains = {integral.ufl_domain() for integral in form.integrals()}
+    for coefficient in form.coefficients():
+        domains |= {coefficient.ufl_function_space().ufl_domain()}
+    if domains - {V.mesh.ufl_domain()}:
+        raise ValueError(
+            f"{name} has integrals or functions on another mesh than u: contact needs one mesh "
+            "that holds all bodies"
+        )
+
+
+def check_conditions(bcs: Any, u: fem.Function) -> None:
+    """Check that Dirichlet conditions are those of the displacement.
+
+    Args:
+        bcs: Dirichlet conditions, or None.
+        u: Displacement.
+
+    Raises:
+        TypeError: If they are no list, or something else is in it.
+        ValueError: If one is of another function space.
+    """
+    if bcs is None:
+        return
+    if isinstance(bcs, fem.DirichletBC):
+        raise TypeError("bcs must be a list of conditions: write bcs=[bc]")
+    if not isinstance(bcs, Sequence) or isinstance(bcs, str):
+        raise TypeError(f"bcs must be a list of fem.dirichletbc, not {type(bcs).__name__}")
+    for k, bc in enumerate(bcs):
+        if not isinstance(bc, fem.DirichletBC):
+            raise TypeError(f"bcs[{k}] is a {type(bc).__name__}: give a fem.dirichletbc")
+        if not u.function_space.contains(_Wrapped(bc.function_space)):
+            raise ValueError(
+                f"bcs[{k}] is a condition on another function space than that of u: make it with "
+                "u.function_space, or with u.function_space.sub(i)"
+            )
+
+
+class _Wrapped:
+    """What ``FunctionSpace.contains`` takes, of a space that DOLFINx gives without its cover."""
+
+    def __init__(self, space: Any):
+        self._cpp_object = space
+
+
+def check_compiler_options(options: Any, jit_options: Any) -> None:
+    """Check options of the compilation, of which FFCx ignores those that it does not know.
+
+    Args:
+        options: Options of FFCx, or None.
+        jit_options: Options of the compilation, or None.
+
+    Raises:
+        TypeError: If they are no dictionaries.
+        ValueError: If there is no such option, or another scalar than real double is asked for.
+    """
+    for argument, given, known in (
+        ("form_compiler_options", options, ffcx.options.FFCX_DEFAULT_OPTIONS),
+        ("jit_options", jit_options, jit.DOLFINX_DEFAULT_JIT_OPTIONS),
+    ):
+        if given is not None and not isinstance(given, Mapping):
+            raise TypeError(f"{argument} must be a dictionary, not {type(given).__name__}")
+        for name in given or {}:
+            if name not in known:
+                raise ValueError(
+                    f"{argument} holds {name!r}, which is none: give one of {', '.join(known)}"
+                )
+    scalar = (options or {}).get("scalar_type", np.float64)
+    if np.dtype(scalar) != np.float64:
+        raise ValueError(
+            f"form_compiler_options['scalar_type'] is {scalar!r}, but contactx needs real double "
+            "precision: leave it out"
+        )

@@ -1,0 +1,106 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Rows of the tables of bad input: what is done, and what must come of it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import numpy as np
+import pytest
+from scenes import Blocks
+
+import contactx as cx
+from contactx import saving
+from dolfinx import fem
+from dolfinx.mesh import CellType
+
+
+class Row(NamedTuple):
+    """One bad input.
+
+    Attributes:
+        name: What is bad.
+        do: Passes it.
+        error: What must be raised.
+        message: What it must say: which argument, what was wrong, what to do.
+    """
+
+    name: str
+    do: Callable[[], Any]
+    error: type[Exception]
+    message: str
+
+
+def table(rows: list[Row]) -> pytest.MarkDecorator:
+    """Parametrise a test by the rows."""
+    assert len({row.name for row in rows}) == len(rows)
+    return pytest.mark.parametrize("row", rows, ids=[row.name for row in rows])
+
+
+def refused(row: Row) -> None:
+    """Check a row."""
+    with pytest.raises(row.error, match=row.message):
+        row.do()
+
+
+def scene() -> Blocks:
+    """Two small blocks."""
+    return Blocks(CellType.triangle)
+
+
+def solved(blocks: Blocks, contact: cx.Contact, **options: Any) -> None:
+    """Make a problem and solve it."""
+    blocks.problem(contact, **options).solve()
+
+
+def scalar(blocks: Blocks, value: float, **options: Any) -> fem.Function:
+    """A function of the scalar linear space."""
+    function = fem.Function(
+        fem.functionspace(blocks.u.function_space.mesh, ("Lagrange", 1)), **options
+    )
+    function.x.array[:] = value
+    return function
+
+
+def constant(value: Any) -> fem.Constant:
+    """A constant on some mesh."""
+    return fem.Constant(scene().u.function_space.mesh, value)
+
+
+def state(problem: cx.ContactProblem, *history: fem.Function) -> list[bytes]:
+    """Bits of all that a failed step must leave as it was."""
+    arrays = [problem.u.x.array, *(f.x.array for f in history)]
+    for contact in problem.contacts:
+        arrays += saving.save(contact.interface).values()
+        for value in vars(contact.fields).values():
+            if isinstance(value, fem.Function):
+                arrays.append(value.x.array)
+        arrays += [contact.fields.force, contact.fields.imbalance]
+    return [np.ascontiguousarray(array).tobytes() for array in arrays]
+
+
+def problem(blocks=None, **changed):
+    """Make a problem of which something is changed, and solve it."""
+    blocks = blocks or scene()
+    given = {
+        "F": blocks.F,
+        "u": blocks.u,
+        "bcs": blocks.bcs,
+        "petsc_options_prefix": "hostile_",
+        **changed,
+    }
+    if "contacts" not in given:
+        given["contacts"] = [blocks.contact()]
+    cx.ContactProblem(given.pop("F"), given.pop("u"), **given).solve()
+
+
+def with_(name, make):
+    """A problem with an argument that is made of the scene."""
+
+    def do():
+        blocks = scene()
+        problem(blocks, **{name: make(blocks)})
+
+    return do

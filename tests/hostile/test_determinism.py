@@ -1,0 +1,79 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""On one rank and thread the same run has the same bits, in this process and in another one."""
+
+import hashlib
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from rows import state
+from rubbing import KINDS, Rubbing
+from step_scenes import DentedBlock, LooseBlock, SlidingBlocks
+
+import contactx as cx
+from dolfinx.mesh import CellType
+
+SCENES = {
+    **{f"rubbing, {kind}": lambda kind=kind: Rubbing(**KINDS[kind]) for kind in KINDS},
+    "tetrahedra, friction": lambda: SlidingBlocks(CellType.tetrahedron, friction=0.2),
+    "hexahedra, facets": lambda: SlidingBlocks(
+        CellType.hexahedron, friction=0.2, method="surface-to-surface"
+    ),
+    "free block": LooseBlock,
+    "plastic with friction": lambda: DentedBlock(friction=0.3),
+}
+
+
+def run(name):
+    """Digest of all states of a run of which one step is cut, and of its iterations."""
+    scene = SCENES[name]()
+    history = scene.history if isinstance(scene.history, list) else [scene.history]
+    digest, failed = hashlib.sha256(), []
+
+    def update(t):
+        scene.update(t)
+        if t > 0.4 and not failed:
+            failed.append(t)
+            raise cx.ConvergenceError("as if it had not converged", scene.problem.report)
+
+    for step in cx.LoadSteps(scene.problem, 4, update, history=history, progress=False):
+        if hasattr(scene, "commit"):
+            scene.commit()
+        for bits in state(scene.problem, *history):
+            digest.update(bits)
+        rows = [(row.residual, row.closed, row.pair_changes) for row in step.report.history]
+        digest.update(repr((step.t, rows)).encode())
+    assert failed
+    return digest.hexdigest()
+
+
+@pytest.fixture(scope="module")
+def elsewhere():
+    """Digests of another process, whose sets and dictionaries have another order."""
+    here = Path(__file__).parent
+    folders = [here, here.parent, here.parents[1] / "demos", *sys.path]
+    env = {
+        **os.environ,
+        "OMP_NUM_THREADS": "1",
+        "PYTHONHASHSEED": "12345",
+        "PYTHONPATH": os.pathsep.join(map(str, folders)),
+    }
+    program = (
+        "import contactx, json, test_determinism as t\n"
+        "print(json.dumps({name: t.run(name) for name in t.SCENES}))"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", program], env=env, capture_output=True, text=True, check=True
+    )
+    return json.loads(done.stdout)
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_the_same_bits(name, elsewhere):
+    first = run(name)
+    assert run(name) == first
+    assert elsewhere[name] == first

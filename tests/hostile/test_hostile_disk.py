@@ -1,0 +1,189 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Disks that are full, and checkpoints that are damaged, anywhere."""
+
+import os
+import resource
+import signal
+from contextlib import contextmanager
+from pathlib import Path
+
+import numpy as np
+import pytest
+from rubbing import Rubbing
+
+import contactx as cx
+from contactx.steps import archive
+
+
+@contextmanager
+def room_for(size):
+    """A file may not grow beyond a size, as on a disk that is full."""
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    action = signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (size, before[1]))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, before)
+        signal.signal(signal.SIGXFSZ, action)
+
+
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory):
+    """A checkpoint after one step of four, its scene, and the end of the run."""
+    path, scene = tmp_path_factory.mktemp("whole") / "run.npz", Rubbing()
+    steps = scene.steps(4)
+    for step in steps:
+        scene.history.x.array[:] = 2 * scene.history.x.array + step.index
+        if step.index == 1:
+            steps.save(path)
+    return path, scene
+
+
+@pytest.mark.parametrize("part", [0.0, 0.01, 0.3, 0.7, 0.99, 0.9999])
+def test_a_full_disk(tmp_path, whole, part):
+    """The error says so, the last file is whole, and the run goes on."""
+    size = whole[0].stat().st_size
+    path, scene = tmp_path / "run.npz", Rubbing()
+    steps = scene.steps(4, checkpoint=path)
+    for step in steps:
+        scene.history.x.array[:] = 2 * scene.history.x.array + step.index
+        if step.index == 2:
+            break
+    before = path.read_bytes()
+    at_two = scene.state()
+    message = f"cannot write the checkpoint {path}: File too large; an older file of this name is"
+    with pytest.raises(OSError, match=message), room_for(int(part * size)):
+        steps.save(path)
+    assert path.read_bytes() == before
+    assert os.listdir(tmp_path) == [path.name]
+    assert scene.state() == at_two
+    assert steps.t == 0.5
+    other = Rubbing()
+    assert other.steps(4, restart=path).t == 0.25
+    # The disk has room again
+    scene.run(steps)
+    assert scene.state() == whole[1].state()
+    assert other.steps(4, restart=path).t == 1
+
+
+def test_a_disk_that_fills_up_amid_a_loop(tmp_path, whole):
+    path, scene = tmp_path / "run.npz", Rubbing()
+    steps = scene.steps(4, checkpoint=path)
+    with pytest.raises(OSError, match="cannot write the checkpoint"), room_for(100):
+        scene.run(steps)
+    assert steps.t == 0.25
+    assert os.listdir(tmp_path) == []
+    scene.run(steps)
+    assert scene.state() == whole[1].state()
+
+
+def refused(path, error=ValueError):
+    """Check that a restart says which file is bad, and changes nothing."""
+    scene = Rubbing()
+    before = scene.state()
+    with pytest.raises(error) as info:
+        scene.steps(4, restart=path)
+    assert str(path) in str(info.value)
+    assert scene.state() == before
+    return str(info.value)
+
+
+def test_truncated_anywhere(tmp_path, whole):
+    data, path = whole[0].read_bytes(), tmp_path / "part.npz"
+    for length in [*range(0, 60, 7), *np.linspace(60, len(data) - 1, 40).astype(int)]:
+        path.write_bytes(data[:length])
+        with pytest.raises(ValueError, match=rf"{path} is truncated, or no checkpoint at all"):
+            archive.read(path)
+    refused(path)
+
+
+def test_flipped_bits_are_found_or_do_no_harm(tmp_path, whole):
+    data, path = whole[0].read_bytes(), tmp_path / "flipped.npz"
+    good = archive.read(whole[0])
+    rng = np.random.default_rng(1)
+    found = 0
+    for at in rng.integers(0, len(data), 300):
+        flipped = bytearray(data)
+        flipped[at] ^= 1 << int(rng.integers(8))
+        path.write_bytes(flipped)
+        try:
+            arrays = archive.read(path)
+        except ValueError as error:
+            assert str(path) in str(error)
+            found += 1
+        else:
+            # It was when the file was made, say; or an array has another name, as a restart sees
+            assert all(good[n].tobytes() == a.tobytes() for n, a in arrays.items() if n in good)
+    assert found > 200
+
+
+@pytest.mark.parametrize("content", [b"", b"PK", b"\x93NUMPY", os.urandom(1000)], ids=repr)
+def test_files_of_other_kinds(tmp_path, content):
+    path = tmp_path / "other.npz"
+    path.write_bytes(content)
+    assert "truncated, or no checkpoint at all" in refused(path)
+
+
+def test_what_is_no_file(tmp_path):
+    assert "is a folder, not a checkpoint: give the name of a file" in refused(tmp_path)
+    refused(tmp_path / "none.npz", FileNotFoundError)
+    # Not a checkpoint, and no danger
+    np.savez(tmp_path / "pickled.npz", u=np.array([os.system]), allow_pickle=True)
+    assert "Object arrays cannot be loaded" in refused(tmp_path / "pickled.npz")
+
+
+@pytest.mark.parametrize("place", ["a folder", "below a file", "no regular file"])
+def test_places_that_cannot_be_written(tmp_path, place):
+    (tmp_path / "file").write_text("")
+    os.mkfifo(tmp_path / "pipe")
+    path, error, message = {
+        "a folder": (tmp_path, ValueError, "checkpoint is the folder .*: give the name of a file"),
+        "below a file": (
+            tmp_path / "file" / "x.npz",
+            OSError,
+            "cannot make the folder of checkpoint",
+        ),
+        "no regular file": (
+            tmp_path / "pipe",
+            ValueError,
+            "checkpoint .* is no regular file: give",
+        ),
+    }[place]
+    scene = Rubbing()
+    with pytest.raises(error, match=message):
+        scene.steps(4, checkpoint=path)
+    steps = scene.steps(4)
+    with pytest.raises(error):
+        steps.save(path)
+    assert sorted(os.listdir(tmp_path)) == ["file", "pipe"]
+
+
+def paraview(path, scene):
+    with cx.VTKOutput(path, scene.u, [scene.contact]) as output:
+        output.write(0.0)
+        output.write(1.0)
+
+
+@pytest.mark.parametrize("size", [0, 200, 3000])
+def test_results_that_cannot_be_written(tmp_path, size):
+    """DOLFINx says nothing of a file that is not whole."""
+    scene = Rubbing()
+    paraview(tmp_path / "good.pvd", scene)
+    assert (tmp_path / "good_p0_000001.vtu").stat().st_size > 3000
+    with (
+        pytest.raises(OSError, match=r"cannot write .*run.*(whole: is the disk full)?"),
+        room_for(size),
+    ):
+        paraview(tmp_path / "run.pvd", scene)
+
+
+def test_a_collection_that_cannot_be_written(tmp_path):
+    scene = Rubbing()
+    output = cx.VTKOutput(tmp_path / "run.pvd", scene.u, [scene.contact])
+    output.write(0.0)
+    Path(tmp_path / "run.pvd").mkdir()
+    with pytest.raises(OSError, match=r"cannot write .*run.pvd"):
+        output.close()
+    output.close()

@@ -1,0 +1,226 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Displacement, mesh and Dirichlet conditions of a problem."""
+
+from mpi4py import MPI
+from petsc4py import PETSc
+
+import numpy as np
+import pytest
+from rows import Row, problem, refused, scene, table, with_
+from story import displacement, fix
+
+import basix.ufl
+import contactx as cx
+from contactx.meshes import Tag
+from dolfinx import fem, mesh
+
+VECTORS = ("Lagrange", 1, (2,))
+
+
+def space(blocks, *element):
+    return fem.functionspace(blocks.u.function_space.mesh, element)
+
+
+def mixed(blocks):
+    cell = blocks.u.function_space.mesh.basix_cell()
+    parts = [basix.ufl.element("Lagrange", cell, 1, shape=(2,)), basix.ufl.element("DG", cell, 0)]
+    V = fem.functionspace(blocks.u.function_space.mesh, basix.ufl.mixed_element(parts))
+    return fem.Function(V)
+
+
+def single():
+    domain = mesh.create_unit_square(MPI.COMM_WORLD, 1, 1, dtype=np.float32)
+    return fem.Function(fem.functionspace(domain, VECTORS), dtype=np.float32)
+
+
+def shell():
+    x = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]])
+    element = basix.ufl.element("Lagrange", "triangle", 1, shape=(3,))
+    domain = mesh.create_mesh(MPI.COMM_WORLD, np.array([[0, 1, 2]]), element, x)
+    return displacement(domain)
+
+
+def prescribed(value):
+    """A problem with a Dirichlet value."""
+
+    def do():
+        blocks = scene()
+        blocks.bcs[-1].g.value[...] = value
+        problem(blocks)
+
+    return do
+
+
+def start(value):
+    def do():
+        blocks = scene()
+        blocks.u.x.array[4] = value
+        problem(blocks)
+
+    return do
+
+
+def coordinates(value):
+    def do():
+        blocks = scene()
+        contact = blocks.contact()
+        blocks.u.function_space.mesh.geometry.x[3, 1] = value
+        problem(blocks, contacts=[contact])
+
+    return do
+
+
+def inside(blocks):
+    """All nodes held, some of them below the plane."""
+    V = blocks.u.function_space
+    dofs = np.arange(V.dofmap.index_map.size_local, dtype=np.int32)
+    contact = blocks.contact(master=cx.Plane((0.0, 0.1), (0.0, 1.0)))
+    problem(blocks, bcs=[fem.dirichletbc(np.zeros(2), dofs, V)], contacts=[contact])
+
+
+WANTED = r'contact needs.*functionspace\(mesh, \("Lagrange", 1, \(2,\)\)\)'
+BCS = r"bcs\[0\] is a condition on another function space than that of u: make it with"
+FINITE = "bcs prescribe displacements that are not finite, at 3 dofs: give finite numbers"
+ROWS = [
+    Row(
+        "u: an array",
+        lambda: problem(u=np.zeros(3)),
+        TypeError,
+        "u must be a dolfinx.fem.Function, not ndarray",
+    ),
+    Row(
+        "u: scalar",
+        with_("u", lambda b: fem.Function(space(b, "Lagrange", 1))),
+        ValueError,
+        r"u has values of shape \(\), but the displacement of this mesh needs \(2,\)",
+    ),
+    Row(
+        "u: of three components",
+        with_("u", lambda b: fem.Function(space(b, "Lagrange", 1, (3,)))),
+        ValueError,
+        r"u has values of shape \(3,\), but",
+    ),
+    Row(
+        "u: quadratic",
+        with_("u", lambda b: fem.Function(space(b, "Lagrange", 2, (2,)))),
+        ValueError,
+        f"u is of degree 2; {WANTED}",
+    ),
+    Row(
+        "u: discontinuous",
+        with_("u", lambda b: fem.Function(space(b, "DG", 1, (2,)))),
+        ValueError,
+        f"u is not in a continuous Lagrange space; {WANTED}",
+    ),
+    Row("u: mixed", with_("u", mixed), ValueError, "u is in a mixed space or a part of one"),
+    Row(
+        "u: a part of a mixed one",
+        with_("u", lambda b: mixed(b).sub(0)),
+        ValueError,
+        "u is in a mixed space or a part of one",
+    ),
+    Row(
+        "u: single precision",
+        lambda: problem(u=single()),
+        TypeError,
+        "u holds float32 values, but contactx needs float64",
+    ),
+    Row(
+        "u: complex",
+        with_("u", lambda b: fem.Function(b.u.function_space, dtype=np.complex128)),
+        TypeError,
+        "u holds complex128 values, but contactx needs float64",
+    ),
+    Row(
+        "u: on a shell",
+        lambda: problem(u=shell()),
+        ValueError,
+        "u is on a mesh of cells of dimension 2 in 3 dimensions; contact needs",
+    ),
+    Row(
+        "u: NaN",
+        start(np.nan),
+        ValueError,
+        "the displacement u is not finite at 1 dofs, first at node 2: repair",
+    ),
+    Row(
+        "u: infinite",
+        start(np.inf),
+        ValueError,
+        "the displacement u is not finite at 1 dofs, first at node 2: repair",
+    ),
+    Row(
+        "mesh: NaN",
+        coordinates(np.nan),
+        ValueError,
+        r"coordinates of the mesh are not finite at 1 dofs, first at node .*: repair the mesh",
+    ),
+    Row(
+        "mesh: infinite",
+        coordinates(-np.inf),
+        ValueError,
+        "coordinates of the mesh are not finite at 1 dofs",
+    ),
+    Row(
+        "bcs: one alone",
+        with_("bcs", lambda b: b.bcs[0]),
+        TypeError,
+        r"bcs must be a list of conditions: write bcs=\[bc\]",
+    ),
+    Row(
+        "bcs: a text",
+        lambda: problem(bcs="bcs"),
+        TypeError,
+        "bcs must be a list of fem.dirichletbc, not str",
+    ),
+    Row(
+        "bcs: numbers",
+        lambda: problem(bcs=[1.0]),
+        TypeError,
+        r"bcs\[0\] is a float: give a fem.dirichletbc",
+    ),
+    Row("bcs: of another mesh", with_("bcs", lambda b: scene().bcs), ValueError, BCS),
+    Row(
+        "bcs: of an equal space",
+        with_(
+            "bcs",
+            lambda b: [fix(fem.Function(space(b, *VECTORS)), b.tags, 0, 0.0, Tag.LOWER_BOTTOM)],
+        ),
+        ValueError,
+        BCS,
+    ),
+    Row(
+        "bcs: of a quadratic space",
+        with_(
+            "bcs",
+            lambda b: [
+                fix(fem.Function(space(b, "Lagrange", 2, (2,))), b.tags, 0, 0.0, Tag.LOWER_BOTTOM)
+            ],
+        ),
+        ValueError,
+        BCS,
+    ),
+    Row("bcs: NaN", prescribed(np.nan), ValueError, FINITE),
+    Row("bcs: infinite", prescribed(-np.inf), ValueError, FINITE),
+    Row(
+        "bcs: held inside an obstacle",
+        lambda: inside(scene()),
+        ValueError,
+        r"contact 0 .* is over-constrained: .* hold 3 slave nodes inside the rigid obstacle",
+    ),
+]
+
+
+@table(ROWS)
+def test_refused(row):
+    refused(row)
+
+
+@pytest.mark.parametrize("scalar", [np.complex128, np.float32])
+def test_petsc_of_another_scalar(monkeypatch, scalar):
+    monkeypatch.setattr(PETSc, "ScalarType", scalar)
+    with pytest.raises(
+        TypeError, match=f"PETSc was built with {np.dtype(scalar).name} scalars.*real"
+    ):
+        problem()

@@ -1,0 +1,187 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Surfaces and tags."""
+
+import numpy as np
+from rows import Row, refused, scene, solved, table
+from story import displacement
+
+import contactx as cx
+from contactx import meshes
+from contactx.meshes import Tag
+from dolfinx import mesh
+from dolfinx.mesh import CellType
+
+
+def surface(*tags):
+    return cx.Surface(scene().tags, *tags)
+
+
+def tagged(dim, entities, value=5):
+    """Tags of entities of new blocks."""
+    blocks = scene()
+    entities = np.array(entities, dtype=np.int32)
+    tags = mesh.meshtags(
+        blocks.u.function_space.mesh, dim, entities, np.full(len(entities), value, dtype=np.int32)
+    )
+    return blocks, tags
+
+
+def inner(role):
+    """Some facets between cells."""
+    blocks = scene()
+    domain = blocks.u.function_space.mesh
+    domain.topology.create_connectivity(1, 2)
+    outer = mesh.exterior_facet_indices(domain.topology)
+    every = np.arange(domain.topology.index_map(1).size_local, dtype=np.int32)
+    which = np.setdiff1d(every, outer)[:2]
+    inside = cx.Surface(mesh.meshtags(domain, 1, which, np.full(2, 5, dtype=np.int32)), 5)
+    outside = cx.Surface(blocks.tags, Tag.LOWER_CONTACT)
+    sides = (inside, outside) if role == "slave" else (outside, inside)
+    solved(blocks, cx.Contact(*sides))
+
+
+def foreign(role):
+    """A surface of another mesh."""
+    blocks, other = scene(), scene()
+    tags = (other.tags, blocks.tags) if role == "slave" else (blocks.tags, other.tags)
+    solved(
+        blocks,
+        cx.Contact(cx.Surface(tags[0], Tag.UPPER_CONTACT), cx.Surface(tags[1], Tag.LOWER_CONTACT)),
+    )
+
+
+def touching_nodes():
+    blocks = scene()
+    sides = (cx.Surface(blocks.tags, tag) for tag in (Tag.UPPER_CONTACT, Tag.UPPER_X0))
+    solved(blocks, cx.Contact(*sides))
+
+
+def same_facets():
+    blocks = scene()
+    both = cx.Surface(blocks.tags, Tag.UPPER_CONTACT, Tag.LOWER_CONTACT)
+    cx.Contact(both, cx.Surface(blocks.tags, Tag.LOWER_CONTACT))
+
+
+def away():
+    blocks = scene()
+    sides = (cx.Surface(blocks.tags, tag) for tag in (Tag.UPPER_TOP, Tag.LOWER_CONTACT))
+    solved(blocks, cx.Contact(*sides, search_distance=5.0))
+
+
+def cells_as_facets():
+    data = meshes.blocks(CellType.tetrahedron, (1, 1, 1), (1, 1, 1))
+    cx.Surface(data.cell_tags, Tag.UPPER)
+
+
+INSIDE = r"Surface\(tags=\(5,\).* facets inside a body.*must be part of the boundary"
+OTHER = r"facet tags of Surface\(tags=\({},\).* belong to another mesh than the displacement"
+ROWS = [
+    Row("no tags", lambda: surface(), ValueError, "at least one tag: its surface is empty"),
+    Row("an empty list", lambda: surface([]), ValueError, "at least one tag: its surface is empty"),
+    Row(
+        "a tag that is not there",
+        lambda: surface(99),
+        ValueError,
+        "tag 99 is not in the facet tags; there are: 11, 12",
+    ),
+    Row(
+        "one of several",
+        lambda: surface(11, 98),
+        ValueError,
+        "tag 98 is not in the facet tags; there are: 11, 12",
+    ),
+    Row("a huge tag", lambda: surface(2**40), ValueError, "tag 1099511627776 is not in"),
+    Row("a float", lambda: surface(11.0), TypeError, r"a tag is an integer, not 11\.0: Surface"),
+    Row("NaN", lambda: surface(float("nan")), TypeError, "a tag is an integer, not nan"),
+    Row("a text", lambda: surface("11"), TypeError, "a tag is an integer, not '1'"),
+    Row("None", lambda: surface(None), TypeError, "a tag is an integer, not None"),
+    Row("a matrix", lambda: surface(np.array([[11]])), TypeError, "a tag is an integer, not array"),
+    Row(
+        "arguments in the wrong order",
+        lambda: cx.Surface(11, scene().tags),
+        TypeError,
+        r"facet_tags must be dolfinx MeshTags, not int: write Surface\(facet_tags, tag\)",
+    ),
+    Row("no facet tags", lambda: cx.Surface(None, 1), TypeError, "facet_tags must be .*, not None"),
+    Row(
+        "tags of cells",
+        cells_as_facets,
+        ValueError,
+        "facet_tags are tags of entities of dimension 3, but the facets of this mesh .* 2: pass",
+    ),
+    Row(
+        "tags of vertices",
+        lambda: cx.Surface(tagged(0, [0, 1])[1], 5),
+        ValueError,
+        "facet_tags are tags of entities of dimension 0",
+    ),
+    Row(
+        "tags of nothing",
+        lambda: cx.Surface(tagged(1, [])[1], 5),
+        ValueError,
+        "tag 5 is not in the facet tags; there are: none",
+    ),
+    Row(
+        "a facet that does not exist",
+        lambda: cx.Surface(tagged(1, [10**6])[1], 5),
+        ValueError,
+        "facet_tags have the facet 1000000, but the mesh has the facets 0 to 48 .* take their",
+    ),
+    Row(
+        "a negative facet",
+        lambda: cx.Surface(tagged(1, [-3])[1], 5),
+        ValueError,
+        "facet_tags have the facet -3, but the mesh has the facets 0 to 48",
+    ),
+    Row("a slave inside a body", lambda: inner("slave"), ValueError, INSIDE),
+    Row("a master inside a body", lambda: inner("master"), ValueError, INSIDE),
+    Row("a slave of another mesh", lambda: foreign("slave"), ValueError, OTHER.format(11)),
+    Row("a master of another mesh", lambda: foreign("master"), ValueError, OTHER.format(21)),
+    Row("common facets", same_facets, ValueError, "slave and master overlap: .* facets in common"),
+    Row("common nodes", touching_nodes, ValueError, "slave and master overlap: .* share 1 nodes"),
+    Row(
+        "a slave that faces away", away, ValueError, "slave surface .* faces away .* Check the tags"
+    ),
+    Row(
+        "slave as a tag",
+        lambda: cx.Contact(11, surface(21)),
+        TypeError,
+        r"slave must be a contactx.Surface, not int: write Surface\(facet_tags, tag\)",
+    ),
+    Row(
+        "slave as an obstacle",
+        lambda: cx.Contact(cx.Plane((0, 0), (0, 1)), surface(21)),
+        TypeError,
+        "slave must be a contactx.Surface, not Plane",
+    ),
+    Row(
+        "master as a tag",
+        lambda: cx.Contact(surface(11), 21),
+        TypeError,
+        "master must be a contactx.Surface or a rigid obstacle, not int",
+    ),
+    Row(
+        "master as a list",
+        lambda: cx.Contact(surface(11), [surface(21)]),
+        TypeError,
+        "master must be a contactx.Surface or a rigid obstacle, not list",
+    ),
+    Row(
+        "master as a class",
+        lambda: cx.Contact(surface(11), cx.Plane),
+        TypeError,
+        "master must be a contactx.Surface or a rigid obstacle, not ABCMeta.* or Plane",
+    ),
+    Row(
+        "nodes of another space",
+        lambda: surface(11).facet_nodes(displacement(scene().u.function_space.mesh).function_space),
+        ValueError,
+        OTHER.format(11),
+    ),
+]
+
+
+@table(ROWS)
+def test_refused(row):
+    refused(row)

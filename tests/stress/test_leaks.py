@@ -1,0 +1,52 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""The runs of leaks.py, shorter: what each step or problem leaves behind shows soon."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+# Steps before the warm-up has ended, and behind it
+WARM, STEPS = 60, 160
+# Growth of memory behind it, MB, and of Python's objects a step: the row of its table
+BOUND, OBJECTS = 0.3, 1.2
+
+PROGRAM = """
+import contactx
+import sys
+from memory import RUNS, objects, resident
+name, warm, steps = sys.argv[1], int(sys.argv[2]), int(sys.argv[3])
+for step in RUNS[name](steps):
+    if step == warm:
+        first = objects(), resident()
+    last = step
+print(objects() - first[0], resident() - first[1], last)
+"""
+
+
+@pytest.mark.parametrize(
+    "name", ["node to surface", "surface to surface", "condensed", "problems made and dropped"]
+)
+def test_memory_does_not_grow(name):
+    """In a process of its own, whose memory is that of this run alone."""
+    done = subprocess.run(
+        [sys.executable, "-W", "ignore", "-c", PROGRAM, name, str(WARM), str(STEPS)],
+        env=_environment(),
+        capture_output=True,
+        text=True,
+    )
+    assert done.returncode == 0, done.stderr
+    objects, grown, last = map(float, done.stdout.split())
+    assert last >= STEPS
+    assert grown <= BOUND
+    assert objects <= OBJECTS * (last - WARM) + 50
+
+
+def _environment():
+    import os
+
+    tests = Path(__file__).parents[1]
+    folders = [Path(__file__).parent, tests, tests / "hostile", tests.parent / "demos", *sys.path]
+    return {**os.environ, "OMP_NUM_THREADS": "1", "PYTHONPATH": os.pathsep.join(map(str, folders))}

@@ -1,0 +1,37 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Bodies that stay apart."""
+
+import numpy as np
+import pytest
+from scenes import Blocks
+from story import elasticity
+
+from dolfinx import fem
+from dolfinx.mesh import CellType
+
+
+@pytest.fixture
+def scene():
+    return Blocks(CellType.tetrahedron)
+
+
+def test_out_of_reach_warns_with_the_distance():
+    scene = Blocks(CellType.tetrahedron, gap=5.0)
+    problem = scene.problem(scene.contact())
+    with pytest.warns(UserWarning, match=r"no slave node within reach.* 4\.95 away.* 2\.12"):
+        problem.solve()
+    assert problem.report.pairs == 0
+    assert problem.report.iterations == 1
+
+
+def test_elasticity_without_contact_force_is_plain_elasticity():
+    """Bodies that stay apart: contact changes nothing."""
+    scene = Blocks(CellType.tetrahedron, gap=0.2)
+    contact = scene.contact()
+    scene.problem(contact).solve()
+    assert not contact.multiplier.any()
+    assert not contact.force.any()
+    assert np.nanmin(contact.gap.x.array) == pytest.approx(0.15)
+    residual = fem.assemble_vector(fem.form(elasticity(scene.u, 1.0, 0.3))).array
+    assert np.abs(residual).max() <= 1e-15
