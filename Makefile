@@ -4,6 +4,9 @@
 # The Python to make .venv with; found if not given.
 PYTHON ?=
 
+# Processes that share the tests, and the scenes of the stress map.
+JOBS ?= $(shell nproc)
+
 EXTRAS := wheels test demo lint
 VENV := .venv
 BIN := $(VENV)/bin
@@ -80,7 +83,7 @@ test-cpp: $(DEPENDENCIES)
 	$(RUN) ctest --test-dir build/cpp --output-on-failure
 
 test-python: $(INSTALLED)
-	$(RUN) $(BIN)/python -m pytest
+	$(RUN) $(BIN)/python -m pytest -n $(JOBS) --dist loadgroup
 
 # Memory of a process per run, every fiftieth step; fails where it grows.
 leaks: $(INSTALLED)

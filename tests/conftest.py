@@ -2,9 +2,24 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """contactx comes first: it loads the wheels' MPI and PETSc before a test imports petsc4py."""
 
+import os
+from pathlib import Path
+
 import pytest
 
 import contactx as cx
+
+HERE = Path(__file__).parent
+
+# One process may wait for a form that another one compiles
+os.environ["XDG_CONFIG_HOME"] = str(HERE / "settings")
+
+
+def pytest_collection_modifyitems(items):
+    """Scripts on several ranks take all cores: one after the other, if tests run in parallel."""
+    for item in items:
+        if HERE / "parallel" in item.path.parents:
+            item.add_marker(pytest.mark.xdist_group("ranks"))
 
 
 @pytest.fixture(params=["node-to-surface", "surface-to-surface"], ids=["node", "surface"])

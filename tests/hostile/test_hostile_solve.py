@@ -54,9 +54,9 @@ FAILURES = {
         cx.ConvergenceError,
         "contact did not converge",
     ),
-    "logarithm of a negative number": (
-        lambda s: s._down.g.value.fill(-3.0),
-        lambda s: s.update(0.5),
+    "a load that the material cannot carry": (
+        lambda s: s.load.value.fill(-1e6),
+        lambda s: s.load.value.fill(0.0),
         cx.ConvergenceError,
         "contact did not converge",
     ),
@@ -179,8 +179,8 @@ def test_an_update_that_sets_what_is_not_finite(value):
     assert scene.state() == other.state()
 
 
-def test_a_material_that_fails_amid_a_long_step_is_cut():
-    """The logarithm of a negative number, after some iterations."""
+def test_a_material_that_fails_amid_a_long_step():
+    """The logarithm of a negative number: steps of the Newton loop are halved."""
     scene = Rubbing()
 
     def update(t):
@@ -188,6 +188,5 @@ def test_a_material_that_fails_amid_a_long_step_is_cut():
         scene._side.g.value[...] = 0.6 * t
 
     taken = list(scene.steps(1, update=update))
-    assert taken[0].report.discarded > 0
     assert taken[-1].t == 1
     assert scene.contact.force[1] > 0

@@ -88,4 +88,4 @@ def noise() -> Iterator[Scene]:
             n_upper=(4, 4), n_lower=(5, 4), noise=value, side=0.05, radius=3.0, **options
         )
 
-    yield from scenes("nodes moved by a part of a cell", (0.1, 0.2, 0.3, 0.35), options, make)
+    yield from scenes("nodes moved by a part of a cell", (0.1, 0.2, 0.25, 0.3), options, make)
