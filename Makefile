@@ -23,6 +23,13 @@ SOURCES := $(shell find cpp/contactx cpp/bindings python/contactx \
 	-name __pycache__ -prune -o -print)
 CPP_FILES = $(shell find cpp -name '*.h' -o -name '*.cpp')
 PY_FOLDERS := python tests demos tools
+# What `make sanitize` runs in Python: both methods, friction, ties, obstacles,
+# finite and small sliding, the condensed solver.
+SANITIZED := tests/property tests/unit/core tests/verification/test_rigid_obstacles.py \
+	tests/verification/test_finite_strain.py tests/assembly/test_condensed.py
+# Executions of each fuzz target, and the compiler that has libFuzzer
+RUNS ?= 1000000
+CLANG ?= clang++
 BENCHES := hertz methods rates spheres ironing friction scenes parts skips steps growth scaling
 
 # Threads: MPI and the tests' machine decide, not OpenMP. Without a display,
@@ -33,7 +40,8 @@ RUN += VTK_DEFAULT_OPENGL_WINDOW=vtkEGLRenderWindow
 endif
 
 .DELETE_ON_ERROR:
-.PHONY: all demo test test-cpp test-python leaks bench bench-core lint format clean help
+.PHONY: all demo test test-cpp test-python stress leaks fuzz sanitize bench bench-core lint \
+	format clean help
 
 all: $(INSTALLED)
 
@@ -41,9 +49,12 @@ help:
 	@echo "make          set up .venv, build contactx and install it there"
 	@echo "make demo     solve the Hertz sphere and the face slabs of demos/"
 	@echo "make test     lint, C++ tests, Python tests"
+	@echo "make stress   thousands of hard scenes: a map of what comes of them"
 	@echo "make leaks    memory over 1,000 steps and 1,000 problems"
 	@echo "make bench    all benchmarks, up to a million displacements"
 	@echo "make bench-core  time the kernels and the search"
+	@echo "make fuzz     feed the C++ core a million random inputs a target (RUNS=...)"
+	@echo "make sanitize C++ tests and some Python tests with ASan and UBSan"
 	@echo "make lint     check format, style and types"
 	@echo "make format   format C++ and Python"
 	@echo "make clean    remove everything that make made"
@@ -85,6 +96,10 @@ test-cpp: $(DEPENDENCIES)
 test-python: $(INSTALLED)
 	$(RUN) $(BIN)/python -m pytest -n $(JOBS) --dist loadgroup
 
+# Tables and a picture come to build/stress; fails where a scene is wrong.
+stress: $(INSTALLED)
+	$(RUN) $(BIN)/python tests/stress/stress_map.py --workers $(JOBS)
+
 # Memory of a process per run, every fiftieth step; fails where it grows.
 leaks: $(INSTALLED)
 	$(RUN) $(BIN)/python tests/stress/leaks.py
@@ -103,6 +118,37 @@ bench: bench-core $(INSTALLED)
 		$(RUN) $(BIN)/python tests/benchmarks/bench_$$name.py || status=1; \
 	done; \
 	$(RUN) $(BIN)/python tests/benchmarks/bench_face_slab.py paper || status=1; exit $$status
+
+# The same inputs in each run, as long as build/fuzz/corpus is the same: what
+# was new stays there, and what fails comes to build/fuzz.
+fuzz: $(DEPENDENCIES)
+	@command -v $(CLANG) >/dev/null || { echo "contactx: make fuzz needs Clang with libFuzzer, and there is no $(CLANG): install it or name it with 'make fuzz CLANG=...'" >&2; exit 1; }
+	$(RUN) cmake -S . -B build/fuzz -G Ninja -DCONTACTX_FUZZ=ON -DCONTACTX_PYTHON=OFF \
+		-DCMAKE_CXX_COMPILER=$(CLANG)
+	$(RUN) cmake --build build/fuzz
+	status=0; for target in build/fuzz/targets/*; do \
+		name=$${target##*/}; echo "$$name"; mkdir -p build/fuzz/corpus/$$name; \
+		UBSAN_OPTIONS=print_stacktrace=1 $$target -runs=$(RUNS) -seed=1 -max_len=512 \
+			-len_control=0 -timeout=60 -verbosity=0 -print_final_stats=1 \
+			-artifact_prefix=build/fuzz/$$name- build/fuzz/corpus/$$name || status=1; \
+	done; exit $$status
+
+# Python's own allocations are never all given back: leaks are looked for in
+# the C++ tests alone.
+sanitize: $(DEPENDENCIES)
+	$(RUN) cmake -S . -B build/sanitize -G Ninja -DCONTACTX_SANITIZE=ON -DCONTACTX_TESTS=ON \
+		-DPython_EXECUTABLE="$(CURDIR)/$(BIN)/python" \
+		-Dpybind11_DIR="$$($(BIN)/python -m pybind11 --cmakedir)"
+	$(RUN) cmake --build build/sanitize
+	build/sanitize/contactx_tests --gtest_brief=1
+	rm -rf build/sanitize/site
+	mkdir -p build/sanitize/site
+	cp -R python/contactx build/sanitize/site/
+	rm -f build/sanitize/site/contactx/*.so
+	$(RUN) cmake --install build/sanitize --prefix build/sanitize/site
+	$(RUN) LD_PRELOAD="$$($${CXX:-c++} -print-file-name=libasan.so) $$($${CXX:-c++} -print-file-name=libstdc++.so)" \
+		ASAN_OPTIONS=detect_leaks=0 PYTHONPATH="$(CURDIR)/build/sanitize/site" \
+		$(BIN)/python -m pytest -q $(SANITIZED)
 
 lint: $(DEPENDENCIES)
 	$(BIN)/clang-format --dry-run --Werror $(CPP_FILES)

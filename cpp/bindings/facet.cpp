@@ -2,15 +2,24 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "bindings.h"
+#include "check.h"
 #include <algorithm>
 #include <contactx/facet/nodal.h>
 #include <contactx/facet/shape.h>
 
-#include <stdexcept>
-#include <string>
-
 namespace py = pybind11;
 using namespace contactx_bindings;
+
+namespace
+{
+void check_surface(const Array<std::int32_t>& offsets,
+                   const Array<std::int32_t>& nodes, const Array<double>& x,
+                   int gdim)
+{
+  check::facets(view(offsets), view(nodes), gdim);
+  check::positions(x.size(), check::num_nodes(view(nodes)), gdim);
+}
+} // namespace
 
 void contactx_bindings::facet(py::module_& m)
 {
@@ -19,6 +28,7 @@ void contactx_bindings::facet(py::module_& m)
       [](const Array<std::int32_t>& offsets, const Array<std::int32_t>& nodes,
          const Array<double>& x, int gdim)
       {
+        check_surface(offsets, nodes, x, gdim);
         return array(contactx::facet::nodal_areas({view(offsets), view(nodes)},
                                                   view(x), gdim));
       },
@@ -29,6 +39,7 @@ void contactx_bindings::facet(py::module_& m)
       [](const Array<std::int32_t>& offsets, const Array<std::int32_t>& nodes,
          const Array<double>& x, int gdim)
       {
+        check_surface(offsets, nodes, x, gdim);
         const auto n = contactx::facet::nodal_normals(
             {view(offsets), view(nodes)}, view(x), gdim);
         return array(n, {static_cast<py::ssize_t>(n.size()) / gdim, gdim});
@@ -39,10 +50,9 @@ void contactx_bindings::facet(py::module_& m)
       "shape_functions",
       [](int num_nodes, const Array<double>& xi)
       {
-        if (num_nodes < 2 or num_nodes > 4)
-          throw std::invalid_argument("there is no facet of "
-                                      + std::to_string(num_nodes) + " nodes");
+        check::between(num_nodes, 2, 4, "num_nodes");
         const py::ssize_t n = xi.size() / 2;
+        check::rows(xi.size(), n, 2, "xi", "point");
         py::array_t<double> values({n, static_cast<py::ssize_t>(num_nodes)});
         contactx::facet::visit(
             num_nodes,

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "bindings.h"
+#include "check.h"
 #include <algorithm>
 #include <contactx/kernel/registry.h>
 #include <pybind11/stl.h>
@@ -23,6 +24,15 @@ contactx::kernel::Law law_named(const std::string& name)
   if (name == "tied")
     return Law::tied;
   throw std::invalid_argument("there is no contact law " + name);
+}
+
+/// Numbers of nodes that arrays are laid out for: any, but no negative or huge
+/// ones, whose products are no sizes.
+void check_sizes(int num_nodes, int gdim, int num_slaves)
+{
+  check::between(num_nodes, 0, 4, "num_nodes");
+  check::dimension(gdim);
+  check::between(num_slaves, 1, 4, "num_slaves");
 }
 } // namespace
 
@@ -52,6 +62,7 @@ void contactx_bindings::kernel(py::module_& m)
       "mortar_layout",
       [](int num_slaves, int num_nodes)
       {
+        check_sizes(num_nodes, 3, num_slaves);
         const kernel::MortarLayout at(num_slaves, num_nodes);
         return py::dict(py::arg("weight") = at.weight,
                         py::arg("dual") = at.dual, py::arg("gap") = at.gap,
@@ -64,6 +75,7 @@ void contactx_bindings::kernel(py::module_& m)
       "rigid_mortar_layout",
       [](int num_slaves, int gdim)
       {
+        check_sizes(0, gdim, num_slaves);
         const kernel::RigidMortarLayout at(num_slaves, gdim);
         return py::dict(
             py::arg("area") = at.area, py::arg("gap") = at.gap,
@@ -76,6 +88,7 @@ void contactx_bindings::kernel(py::module_& m)
       "coefficients",
       [](const std::string& law, int num_nodes, int gdim, int num_slaves)
       {
+        check_sizes(num_nodes, gdim, num_slaves);
         py::list table;
         for (const kernel::CoefficientInfo& c :
              kernel::coefficients(law_named(law), num_nodes, gdim, num_slaves))

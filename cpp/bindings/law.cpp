@@ -18,9 +18,18 @@ void check_sizes(py::ssize_t n, const A&... arrays)
     throw std::invalid_argument("the arrays of a law differ in size");
 }
 
-int dimension(const Array<double>& vectors, py::ssize_t n)
+/// Dimension of vectors, of which there is one a slave node.
+int dimension(const Array<double>& vectors, const char* name, py::ssize_t n)
 {
-  return n > 0 ? static_cast<int>(vectors.size() / n) : 3;
+  if (n == 0)
+    return 3;
+  const py::ssize_t gdim = vectors.size() / n;
+  if ((gdim != 2 and gdim != 3) or vectors.size() != gdim * n)
+    throw std::invalid_argument(std::string(name)
+                                + " must have two or three values for each of "
+                                + std::to_string(n) + " slave nodes, not "
+                                + std::to_string(vectors.size()) + " in all");
+  return static_cast<int>(gdim);
 }
 } // namespace
 
@@ -65,7 +74,7 @@ void contactx_bindings::law(py::module_& m)
          const Array<double>& c, const Array<double>& friction, double reach,
          Array<std::int8_t> status)
       {
-        const int gdim = dimension(traction, status.size());
+        const int gdim = dimension(traction, "traction", status.size());
         check_sizes(status.size(), gap, c, friction);
         check_sizes(gdim * status.size(), traction, normal, slip);
         return contactx::law::frictional_status(
@@ -87,7 +96,7 @@ void contactx_bindings::law(py::module_& m)
          Array<double> by_traction, Array<double> by_gap, Array<double> by_slip,
          Array<double> by_normal)
       {
-        const int gdim = dimension(traction, status.size());
+        const int gdim = dimension(traction, "traction", status.size());
         check_sizes(status.size(), gap, c, friction, area);
         check_sizes(gdim * status.size(), traction, normal, slip, mobile, value,
                     by_gap);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "bindings.h"
+#include "check.h"
 #include <contactx/mortar/facet_search.h>
 
 namespace py = pybind11;
@@ -26,6 +27,10 @@ void contactx_bindings::mortar(py::module_& m)
                   const Array<std::int32_t>& master_offsets,
                   const Array<std::int32_t>& master_nodes, int gdim)
                {
+                 check::facets(view(slave_offsets), view(slave_nodes), gdim,
+                               "slave_");
+                 check::facets(view(master_offsets), view(master_nodes), gdim,
+                               "master_");
                  return FacetSearch(copy(slave_offsets), copy(slave_nodes),
                                     copy(master_offsets), copy(master_nodes),
                                     gdim);
@@ -36,7 +41,10 @@ void contactx_bindings::mortar(py::module_& m)
           "find",
           [](FacetSearch& self, const Array<double>& x, double reach,
              double margin, bool all_layers)
-          { return self.find(view(x), reach, margin, all_layers); },
+          {
+            check::positions(x.size(), self.num_nodes(), self.gdim());
+            return self.find(view(x), reach, margin, all_layers);
+          },
           py::arg("x"), py::arg("reach"), py::arg("margin"),
           py::arg("all_layers") = false, "Find the pairs")
       .def(
@@ -45,6 +53,15 @@ void contactx_bindings::mortar(py::module_& m)
              const Array<double>& x, const Array<double>& reference,
              const Array<double>& normal)
           {
+            const auto slaves = self.slave().size();
+            check::positions(x.size(), self.num_nodes(), self.gdim());
+            check::positions(reference.size(), self.num_nodes(), self.gdim(),
+                             "reference");
+            check::numbers(pairs.slave, slaves, "pairs.slave", "slave facets");
+            check::numbers(pairs.master, self.master().size(), "pairs.master",
+                           "master facets");
+            if (normal.size() > 0)
+              check::rows(normal.size(), slaves, 3, "normal", "slave facet");
             const auto all = contactx::mortar::integrals(
                 self.slave(), self.master(), pairs, view(x), view(reference),
                 self.gdim(), view(normal));

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "bindings.h"
+#include "check.h"
 #include <contactx/search/foot.h>
 #include <contactx/search/pairing.h>
 #include <limits>
@@ -29,8 +30,8 @@ py::dict find(const Finder& self, std::span<const double> x,
 {
   const int gdim = self.surface().gdim();
   const std::size_t n = reach.size();
-  if (points.size() != n * gdim or normals.size() != n * gdim)
-    throw std::invalid_argument("points and normals must be one a reach");
+  check::rows(std::ssize(points), n, gdim, "points", "reach");
+  check::rows(std::ssize(normals), n, gdim, "normals", "reach");
   constexpr double none = std::numeric_limits<double>::infinity();
   std::vector<double> distance(n, none), size(n, 0), gap(n, 0), xi(2 * n),
       normal(3 * n);
@@ -63,6 +64,38 @@ py::dict find(const Finder& self, std::span<const double> x,
       py::arg("normal") = array(normal, {rows, 3}));
 }
 
+/// Positions, and what they are used with: pairs of a list of facets that was
+/// exchanged for a shorter one must be restored first.
+void check_pairs(const Pairing& self, const Array<double>& x)
+{
+  check::positions(x.size(), self.num_nodes(), self.master().gdim());
+  check::numbers(self.facet(), self.master().facets().size(), "facet",
+                 "master facets", -1);
+}
+
+/// As `check_pairs`, with a flag for each slave node.
+void check_pairs(const Pairing& self, const Array<double>& x,
+                 const Array<std::int8_t>& closed)
+{
+  check_pairs(self, x);
+  check::rows(closed.size(), std::ssize(self.slaves()), 1, "closed",
+              "slave node");
+}
+
+/// Facets and features of theirs, -1 for no facet.
+void check_features(const Pairing& self, std::span<const std::int32_t> facet,
+                    std::span<const std::int32_t> feature)
+{
+  const auto facets = self.master().facets();
+  check::numbers(facet, facets.size(), "facet", "master facets", -1);
+  for (std::size_t k = 0; k < facet.size(); ++k)
+    if (facet[k] >= 0)
+      check::between(feature[k], 0,
+                     (self.master().gdim() - 1)
+                         * static_cast<int>(facets[facet[k]].size()),
+                     "feature");
+}
+
 std::int32_t settle(Pairing& self, std::span<const std::int32_t> which,
                     std::span<const std::int32_t> facet,
                     std::span<const std::int32_t> feature,
@@ -71,9 +104,13 @@ std::int32_t settle(Pairing& self, std::span<const std::int32_t> which,
                     std::span<const std::int8_t> closed)
 {
   const std::size_t n = which.size();
-  if (facet.size() != n or feature.size() != n or xi.size() != 2 * n
-      or normal.size() != 3 * n)
-    throw std::invalid_argument("what was found must be one a slave node");
+  const char* slave = "slave node of which";
+  check::numbers(which, std::ssize(self.slaves()), "which", "slave nodes");
+  check::rows(std::ssize(facet), n, 1, "facet", slave);
+  check::rows(std::ssize(feature), n, 1, "feature", slave);
+  check::rows(std::ssize(xi), n, 2, "xi", slave);
+  check::rows(std::ssize(normal), n, 3, "normal", slave);
+  check_features(self, facet, feature);
   std::int32_t changed = 0;
   for (std::size_t k = 0; k < n; ++k)
   {
@@ -99,15 +136,21 @@ void contactx_bindings::search(py::module_& m)
   py::class_<Finder>(m, "Finder",
                      "Finds the place of a master surface that points are in "
                      "contact with")
-      .def(py::init([](const Array<std::int32_t>& offsets,
-                       const Array<std::int32_t>& nodes, int gdim)
-                    { return Finder(copy(offsets), copy(nodes), gdim); }),
+      .def(py::init(
+               [](const Array<std::int32_t>& offsets,
+                  const Array<std::int32_t>& nodes, int gdim)
+               {
+                 check::facets(view(offsets), view(nodes), gdim);
+                 return Finder(copy(offsets), copy(nodes), gdim);
+               }),
            py::arg("offsets"), py::arg("nodes"), py::arg("gdim"))
       .def(
           "find",
           [](Finder& self, const Array<double>& x, const Array<double>& points,
              const Array<double>& normals, const Array<double>& reach)
           {
+            check::positions(x.size(), self.surface().num_nodes(),
+                             self.surface().gdim());
             self.refit(view(x));
             return find(self, view(x), view(points), view(normals),
                         view(reach));
@@ -125,6 +168,10 @@ void contactx_bindings::search(py::module_& m)
                   const Array<std::int32_t>& master_nodes, int gdim,
                   std::int32_t num_owned)
                {
+                 check::facets(view(slave_offsets), view(slave_nodes), gdim,
+                               "slave_");
+                 check::facets(view(master_offsets), view(master_nodes), gdim,
+                               "master_");
                  return Pairing(copy(slave_offsets), copy(slave_nodes),
                                 copy(master_offsets), copy(master_nodes), gdim,
                                 num_owned);
@@ -149,20 +196,31 @@ void contactx_bindings::search(py::module_& m)
           "update",
           [](Pairing& self, const Array<double>& x, double reach,
              const Array<std::int8_t>& closed)
-          { return self.update(view(x), reach, view(closed)); },
+          {
+            check_pairs(self, x, closed);
+            return self.update(view(x), reach, view(closed));
+          },
           py::arg("x"), py::arg("reach"), py::arg("closed"),
           "Search; returns how many closed nodes changed their facet")
       .def(
           "set_master",
           [](Pairing& self, const Array<std::int32_t>& offsets,
              const Array<std::int32_t>& nodes)
-          { self.set_master(copy(offsets), copy(nodes)); },
+          {
+            check::facets(view(offsets), view(nodes), self.master().gdim());
+            self.set_master(copy(offsets), copy(nodes));
+          },
           py::arg("offsets"), py::arg("nodes"),
           "Take another list of master facets")
       .def(
-          "seek", [](Pairing& self, const Array<double>& x, double reach)
-          { return array(self.seek(view(x), reach)); }, py::arg("x"),
-          py::arg("reach"), "Slave nodes that do not keep their facet")
+          "seek",
+          [](Pairing& self, const Array<double>& x, double reach)
+          {
+            check_pairs(self, x);
+            return array(self.seek(view(x), reach));
+          },
+          py::arg("x"), py::arg("reach"),
+          "Slave nodes that do not keep their facet")
       .def(
           "settle",
           [](Pairing& self, const Array<std::int32_t>& which,
@@ -171,6 +229,7 @@ void contactx_bindings::search(py::module_& m)
              const Array<double>& normal, const Array<double>& x, double reach,
              const Array<std::int8_t>& closed)
           {
+            check_pairs(self, x, closed);
             return settle(self, view(which), view(facet), view(feature),
                           view(xi), view(normal), view(x), reach, view(closed));
           },
@@ -208,8 +267,9 @@ void contactx_bindings::search(py::module_& m)
              const Array<double>& points)
           {
             const auto n = py::ssize_t(self.facet().size());
-            if (points.size() != n * self.master().gdim())
-              throw std::invalid_argument("points must be one a slave node");
+            check_pairs(self, x);
+            check::rows(points.size(), n, self.master().gdim(), "points",
+                        "slave node");
             const auto feet = contactx::search::feet(
                 self.master(), self.facet(), view(x), view(points), self.xi());
             return py::make_tuple(array(feet.xi, {n, 2}), array(feet.gap));
@@ -223,8 +283,8 @@ void contactx_bindings::search(py::module_& m)
              const Array<double>& xi)
           {
             const auto n = py::ssize_t(self.facet().size());
-            if (xi.size() != 2 * n)
-              throw std::invalid_argument("xi must be one a slave node");
+            check_pairs(self, x);
+            check::rows(xi.size(), n, 2, "xi", "slave node");
             const py::ssize_t gdim = self.master().gdim();
             const auto at = contactx::search::places(
                 self.master(), self.facet(), view(x), view(xi));

@@ -8,6 +8,11 @@
 #include <cstddef>
 
 /// @brief Contact from node or surface to surface, free of DOLFINx and PETSc.
+///
+/// Coordinates that are zero or from 1e-50 to 1e50 in magnitude give finite
+/// results or none; beyond, products of them may be infinite or NaN, as may
+/// what follows from a coordinate that is no number. Sizes and numbers of nodes
+/// are taken for granted: the bindings check them.
 namespace contactx
 {
 /// @brief Point or vector with `D` components.

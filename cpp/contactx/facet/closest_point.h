@@ -20,8 +20,8 @@ struct ClosestPoint
 
 /// @brief Components of the projection of `d` on the plane of the tangents.
 ///
-/// The second tangent is made orthogonal to the first: the determinant of the
-/// metric would lose a sliver's digits.
+/// The second tangent is made orthogonal to the first, and so is `d`: the
+/// determinant of the metric would lose a sliver's digits.
 template <std::size_t D, std::size_t N>
 std::array<double, N> tangential(const std::array<std::array<double, D>, N>& t,
                                  const std::array<double, D>& d)
@@ -34,7 +34,7 @@ std::array<double, N> tangential(const std::array<std::array<double, D>, N>& t,
   {
     const double s = dot(t[0], t[1]) / m;
     const std::array<double, D> u = t[1] - s * t[0];
-    const double y = dot(d, u) / dot(u, u);
+    const double y = dot(d - r * t[0], u) / dot(u, u);
     return {r - s * y, y};
   }
 }

@@ -97,17 +97,71 @@ inline Overlap<1> clip(const Overlap<1>& a, const Overlap<1>& b)
   return c;
 }
 
+/// @brief Edges of a convex polygon that cut.
+///
+/// Where rounding turns a corner clockwise, the shorter of its edges would cut
+/// the wrong side away: nodes that coincide but for rounding, or three on a
+/// line.
+class CuttingEdges
+{
+public:
+  explicit CuttingEdges(const Overlap<2>& p) : _size(p.size)
+  {
+    for (int i = 0; i < _size; ++i)
+      _edge[i] = p.corner[(i + 1) % _size] - p.corner[i];
+    for (int i = 0; i < _size; ++i)
+    {
+      const Vec<2>&before = _edge[previous(i)], &after = _edge[i];
+      _turn[i] = before[0] * after[1] - before[1] * after[0];
+      _most = std::max(_most, std::abs(_turn[i]));
+    }
+  }
+
+  const Vec<2>& operator[](int i) const { return _edge[i]; }
+
+  bool cuts(int i) const
+  {
+    const Vec<2>& e = _edge[i];
+    if (e[0] == 0 and e[1] == 0)
+      return false;
+    const int next = (i + 1) % _size;
+    return not(is_rounding(i) and is_shorter(i, previous(i), true))
+           and not(is_rounding(next) and is_shorter(i, next, false));
+  }
+
+private:
+  int previous(int i) const { return (i + _size - 1) % _size; }
+
+  bool is_rounding(int corner) const
+  {
+    constexpr double rounding = 1e-9;
+    return _turn[corner] < 0 and _turn[corner] >= -rounding * _most;
+  }
+
+  bool is_shorter(int i, int j, bool or_equal) const
+  {
+    const double a = dot(_edge[i], _edge[i]), b = dot(_edge[j], _edge[j]);
+    return a < b or (or_equal and a == b);
+  }
+
+  std::array<Vec<2>, Overlap<2>::most + 1> _edge;
+  std::array<double, Overlap<2>::most + 1> _turn; // at the start of each edge
+  double _most = 0;
+  int _size;
+};
+
 /// @brief What two convex polygons share: the one is cut with each edge of the
 /// other. I. E. Sutherland and G. W. Hodgman, Commun. ACM 17, 1974.
 inline Overlap<2> clip(Overlap<2> a, const Overlap<2>& b)
 {
   int edges = 0;
+  const CuttingEdges cutting(b);
   for (int i = 0; i < b.size and a.size > 0; ++i)
   {
-    const Vec<2>& p = b.corner[i];
-    const Vec<2> e = b.corner[(i + 1) % b.size] - p;
-    if (e[0] == 0 and e[1] == 0)
+    if (!cutting.cuts(i))
       continue;
+    const Vec<2>& p = b.corner[i];
+    const Vec<2>& e = cutting[i];
     ++edges;
     // Positive on the left of the edge
     const auto side = [&p, &e](const Vec<2>& q)

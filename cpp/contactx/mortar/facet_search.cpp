@@ -121,10 +121,10 @@ void keep_nearest(std::vector<Found>& found, double area,
                       return true;
                     });
   };
-  const auto border = std::ranges::partition(found, [](const Found& f)
-                                             { return f.area > 0; });
-  std::vector<Found> beside(border.begin(), border.end());
-  found.erase(border.begin(), border.end());
+  const auto border = std::partition(found.begin(), found.end(),
+                                     [](const Found& f) { return f.area > 0; });
+  std::vector<Found> beside(border, found.end());
+  found.erase(border, found.end());
   std::ranges::sort(found, {}, &Found::distance);
   std::vector<Found> kept, left;
   total = 0;
@@ -208,7 +208,7 @@ FacetPairs FacetSearch::find(std::span<const double> x, double reach,
             if (nearest - high > reach or farthest - low < -reach)
               return;
             const Flat<M> r = project<M>(plane, xm);
-            if (!is_convex<M>(r))
+            if (!is_convex<M>(r) or !InverseMap<M>(r).exists())
               return;
             const auto shape = mortar::outline<M>(r);
             if (not(size_of(clip(shape, wide)) > 0))

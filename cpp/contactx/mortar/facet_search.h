@@ -42,6 +42,12 @@ public:
   /// @brief Geometric dimension.
   int gdim() const { return _master.gdim(); }
 
+  /// @brief Number of nodes that positions are needed of.
+  std::int32_t num_nodes() const
+  {
+    return std::max(_slave.num_nodes(), _master.num_nodes());
+  }
+
   /// @brief Slave facets.
   facet::FacetList slave() const { return _slave.facets(); }
 

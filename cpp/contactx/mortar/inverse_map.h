@@ -59,6 +59,20 @@ public:
     }
   }
 
+  /// @brief Whether there is an inverse, none of rounding's: not where the
+  /// facet has no area in the plane, nor where it is so long that its area is
+  /// lost.
+  bool exists() const
+  {
+    double size;
+    if constexpr (F::tdim == 1)
+      size = 0;
+    else
+      size = std::abs(_forward[0][0] * _forward[1][1])
+             + std::abs(_forward[0][1] * _forward[1][0]);
+    return std::abs(_det) > 1e-14 * size and std::isfinite(1 / _det);
+  }
+
   /// @brief Part of a quadrilateral that no affine map gives, in units of its
   /// tangents.
   double distortion() const

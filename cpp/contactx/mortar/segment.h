@@ -79,8 +79,8 @@ int rule_degree(double distortion)
 }
 
 /// @brief Integrate over the part of a slave facet that faces a master facet,
-/// with the slave facet's reference area. A master facet that is folded shares
-/// nothing.
+/// with the slave facet's reference area. A master facet that is folded or
+/// has no area shares nothing.
 /// @param[in] slave Slave facet.
 /// @param[in] master Nodes of the master facet.
 /// @param[in] f Called as f(slave's shape, master's shape, weight).
@@ -95,12 +95,19 @@ void integrate(const SlaveFacet<S>& slave, const facet::Nodes<M>& master,
   if (overlap.size == 0)
     return;
   const InverseMap<M> map(r);
+  if (!map.exists())
+    return;
   const int degree = rule_degree<S, M>(std::max(slave.bend, map.distortion()));
   integrate(overlap, degree,
             [&](const facet::Local<S>& p, double weight)
             {
               const Shape<S> s = slave.map.at(p);
-              f(s, map.at(p), weight * slave.reference_area(s));
+              const Shape<M> m = map.at(p);
+              // On quadrilaterals that are hardly any, rounding may lead to
+              // points that are none of theirs
+              constexpr double rounding = 0.1;
+              if (s.jacobian > 0 and M::excess(m.xi) <= rounding)
+                f(s, m, weight * slave.reference_area(s));
             });
 }
 

@@ -34,6 +34,7 @@ Pairing::Pairing(std::vector<std::int32_t> slave_offsets,
     : _slave_offsets(std::move(slave_offsets)),
       _slave_nodes(std::move(slave_nodes)),
       _slaves(sorted_unique(_slave_nodes)),
+      _num_slave_nodes(_slaves.empty() ? 0 : _slaves.back() + 1),
       _finder(std::move(master_offsets), std::move(master_nodes), gdim)
 {
   _slaves.erase(std::ranges::lower_bound(_slaves, num_owned), _slaves.end());

@@ -34,6 +34,12 @@ public:
   /// @brief Slave nodes in ascending order (shape=(num_slaves)).
   const std::vector<std::int32_t>& slaves() const { return _slaves; }
 
+  /// @brief Number of nodes that positions are needed of.
+  std::int32_t num_nodes() const
+  {
+    return std::max(_num_slave_nodes, master().num_nodes());
+  }
+
   /// @brief Master surface.
   const Surface& master() const { return _finder.surface(); }
 
@@ -107,6 +113,7 @@ private:
            std::span<const double> x);
 
   std::vector<std::int32_t> _slave_offsets, _slave_nodes, _slaves;
+  std::int32_t _num_slave_nodes; // with those that are paired elsewhere
   Finder _finder;
   std::vector<std::int32_t> _facet, _feature;
   std::vector<double> _xi, _cone, _normal;

@@ -50,9 +50,13 @@ Projection beyond_edge(const Around& around, Projection nearest)
   if (!touching and dot(nearest.d, around.mean) <= 0)
     return *around.deepest;
 
-  // On the ridge every normal of the cone is as good: take the middle
-  nearest.normal = touching ? (1 / norm(around.mean)) * around.mean
-                            : (1 / distance) * nearest.d;
+  // On the ridge every normal of the cone is as good: take the middle, or the
+  // facet's own where the surface is folded on itself and has none
+  const double length = norm(around.mean);
+  if (!touching)
+    nearest.normal = (1 / distance) * nearest.d;
+  else if (length > 1e-12)
+    nearest.normal = (1 / length) * around.mean;
   nearest.gap = distance;
   return nearest;
 }

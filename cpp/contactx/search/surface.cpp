@@ -61,7 +61,9 @@ Surface::Surface(std::vector<std::int32_t> offsets,
   }
 
   const std::vector<std::int32_t> vertices = sorted_unique(_nodes);
-  std::vector<std::int32_t> place(vertices.empty() ? 0 : vertices.back() + 1);
+  if (!vertices.empty())
+    _num_nodes = vertices.back() + 1;
+  std::vector<std::int32_t> place(_num_nodes);
   for (std::size_t v = 0; v < vertices.size(); ++v)
     place[vertices[v]] = static_cast<std::int32_t>(v);
   _vertex.resize(_nodes.size());

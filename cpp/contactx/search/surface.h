@@ -25,6 +25,10 @@ public:
   /// @brief Geometric dimension.
   int gdim() const { return _gdim; }
 
+  /// @brief Number of nodes that positions are needed of: one more than the
+  /// largest of the facets' nodes.
+  std::int32_t num_nodes() const { return _num_nodes; }
+
   /// @brief Facets of the surface.
   facet::FacetList facets() const { return {_offsets, _nodes}; }
 
@@ -80,6 +84,7 @@ private:
   std::int32_t count_at(std::int32_t f, const Ends& ends) const;
 
   int _gdim;
+  std::int32_t _num_nodes = 0;
   std::vector<std::int32_t> _offsets, _nodes;
   // Facets at a node, for nodes in the order of their numbers; _vertex is the
   // place in that order, for each of _nodes

@@ -51,7 +51,7 @@ void face(double* w, Law law)
 TEST(Kernels, AllocateNothing)
 {
   Generator random(1);
-  std::vector<double> A(1000), numbers(200);
+  std::vector<double> A(1000), numbers(500);
   for (double& c : numbers)
     c = random(0.1, 1);
   const long before = allocations;
