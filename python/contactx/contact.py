@@ -289,12 +289,9 @@ class Contact:
         return self._measured(self.fields.slip_total)
 
     def _measured(self, field: fem.Function | None) -> fem.Function:
-        if field is None and self.tied:
-            raise RuntimeError(f"{self} is tied: its nodes do not slip")
         if field is None:
-            raise RuntimeError(
-                f"{self} measures no slip: give it friction (a fem.Constant of value 0 will do)"
-            )
+            why = "measures no slip: give it friction (a fem.Constant of value 0 will do)"
+            raise RuntimeError(f"{self} {'is tied: its nodes do not slip' if self.tied else why}")
         return field
 
     @property

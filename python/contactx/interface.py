@@ -96,8 +96,7 @@ class Interface:
         self.nodes = Nodes(self.state, n, gdim, has_means=has_means)
         self.history = SlipHistory(n, gdim) if law.is_vector and not law.is_tied else None
         self._touched = np.zeros(n, dtype=bool)
-        self.active = True
-        self.skipped_searches = 0
+        self.active, self.skipped_searches = True, 0
         self._offset = offset
         self._accept()
         self._search(halo.x)
@@ -255,9 +254,9 @@ class Interface:
                 self._measure_from_touching(closing & ~self._touched)
         self.law.set_status(nodes)
         if first:
-            # Where nothing presses yet, rounding must not decide between stick and slip either
-            loose = ~nodes.multiplier.reshape(len(closing), -1).any(axis=1)
-            nodes.close(np.flatnonzero(closing & (loose | ~nodes.closed)))
+            # Nor does rounding decide between stick and slip where nothing presses yet
+            loose = ~nodes.closed | ~nodes.multiplier.reshape(-1, nodes.size).any(axis=1)
+            nodes.close(np.flatnonzero(closing & loose))
         return int(np.count_nonzero(nodes.status != before))
 
     def _measure_from_touching(self, which: npt.NDArray[np.bool_]) -> None:

@@ -20,7 +20,7 @@ from contactx.bulk import Bulk
 from contactx.callback import keeps_its_error, weakly
 from contactx.convergence import Judge
 from contactx.cycling import CycleGuard
-from contactx.factor import set_factor
+from contactx.factor import set_factors
 from contactx.frozen import FrozenPairs
 from contactx.interface import Interface
 from contactx.junctions import Junctions
@@ -74,17 +74,15 @@ class NewtonLoop:
         self._interfaces = interfaces
         self._system = system
         self._halo = system.halo
-        condensed = is_condensed(
-            options, bulk.u.x.index_map.size_global * system.block, system.block
-        )
+        dofs = bulk.u.x.index_map.size_global * system.block
+        condensed = is_condensed(options, dofs, system.block)
         self._options = newton_options(prefix, options, condensed=condensed)
         self._linear: LinearSolver = (
             Condensed(bulk, system, bodies.x, prefix) if condensed else SaddlePoint(system)
         )
         self._report = Report()
         self.error: BaseException | None = None
-        self._converged = self._has_begun = False
-        self._held = self._stale = False
+        self._converged = self._has_begun = self._held = self._stale = False
         self._changes = (0, 0)
         self._judge = Judge(bulk, interfaces, system)
         self._holder = Holder(bulk, interfaces, bodies)
@@ -125,11 +123,7 @@ class NewtonLoop:
             with report.timing("bulk stiffness"):
                 stiffness = self._bulk.nodal_stiffness()
             self._judge.begin(stiffness)
-            compliance = np.zeros_like(stiffness)
-            np.divide(1, stiffness, out=compliance, where=stiffness > 0)
-            compliance = self._halo.extend(compliance)
-            for interface in self._interfaces:
-                set_factor(interface, compliance, self._halo.comm)
+            set_factors(self._interfaces, stiffness, self._halo)
             self._holder.begin_step()
             self._guard.begin_step()
             self._changes = self._settle(first=True)
@@ -259,8 +253,7 @@ class NewtonLoop:
             self._changes = self._settle()
         row, small = self._judged(snes, number)
         if small and self._stale:
-            # Held pairs that are not those of this iterate give no true residual. Nodes that touch
-            # without force change by rounding for ever
+            # Held pairs give no true residual. Nodes without force change by rounding for ever
             self._changes = self._settle(follow=True)
             row, small = self._judged(snes, number)
         if small and self._frozen.hide():

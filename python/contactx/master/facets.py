@@ -289,14 +289,12 @@ class FacetMaster(Master):
         frozen = self._slaves[self.frozen]
         if self._halo.comm.allreduce(len(frozen)) == 0:
             return 0.0, 0.0
-        normals = core.nodal_normals(
-            self._facets.offsets, self._facets.nodes, x, x.shape[1]
-        ).reshape(x.shape)[frozen]
+        offsets, nodes = self._facets.offsets, self._facets.nodes
+        normals = core.nodal_normals(offsets, nodes, x, x.shape[1]).reshape(x.shape)[frozen]
         found = self.surface.find(x, x[frozen], normals, self.reach)
-        here = found.facet >= 0
         # Less is rounding
-        gap = np.where(found.gap[here] < -1e-10 * self.reach, found.gap[here], 0.0)
-        facets = self.surface.facets
-        first, end = (facets.nodes[facets.offsets[found.facet[here] + k] - k] for k in (0, 1))
-        edge = np.linalg.norm(x[end] - x[first], axis=1)
-        return float(gap.min(initial=0.0)), float((gap / edge).min(initial=0.0))
+        deep = (found.facet >= 0) & (found.gap < -1e-10 * self.reach)
+        gap, facets, x = found.gap[deep], self.surface.facets, self._halo.positions()
+        first, end = (x[facets.nodes[facets.offsets[found.facet[deep] + k] - k]] for k in (0, 1))
+        parts = gap / np.linalg.norm(end - first, axis=1)
+        return float(gap.min(initial=0.0)), float(parts.min(initial=0.0))

@@ -65,8 +65,9 @@ def units() -> Iterator[Scene]:
     """Units of length over 20 decades, of modulus over as many."""
     decades = [10.0**k for k in range(-10, 11, 2)]
     values = [(1.0, 1.0)]
-    values += [(d, m) for d in decades if d != 1 for m in (1.0, 1 / d**0.5)]
-    values += [(1.0, d) for d in decades if d != 1]
+    values += [(d, 1.0) for d in decades if d != 1] + [(1.0, d) for d in decades if d != 1]
+    # Multipliers and displacements are 24 decades apart then
+    values += [(d, 1 / d**0.5) for d in decades[1:-1] if d != 1]
 
     def make(value, **options):
         length, modulus = value

@@ -83,9 +83,17 @@ def noise() -> Iterator[Scene]:
         for friction in (0.0, 0.5)
     ]
 
-    def make(value, **options):
+    def make(value, cell, **options):
+        # Hexahedra fold sooner
+        part = 0.8 if cell == ALL_CELLS[3] else 1.0
         return block_case(
-            n_upper=(4, 4), n_lower=(5, 4), noise=value, side=0.05, radius=3.0, **options
+            cell=cell,
+            n_upper=(4, 4),
+            n_lower=(5, 4),
+            noise=part * value,
+            side=0.05,
+            radius=3.0,
+            **options,
         )
 
     yield from scenes("nodes moved by a part of a cell", (0.1, 0.2, 0.25, 0.3), options, make)
