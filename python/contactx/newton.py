@@ -256,7 +256,7 @@ class NewtonLoop:
             # Held pairs give no true residual. Nodes without force change by rounding for ever
             self._changes = self._settle(follow=True)
             row, small = self._judged(snes, number)
-        if small and self._frozen.hide():
+        while small and self._frozen.hide():
             if not self._frozen.let_go():
                 self._failure = HIDDEN
                 return reason.DIVERGED_FUNCTION_DOMAIN

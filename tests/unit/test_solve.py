@@ -9,6 +9,7 @@ from story import fix
 
 import contactx as cx
 import ufl
+from contactx.frozen import FrozenPairs
 from contactx.master.facets import FacetMaster
 from contactx.meshes import Tag
 from dolfinx import default_scalar_type, fem
@@ -122,19 +123,49 @@ def test_held_pairs_that_hide_a_penetration_warn(monkeypatch, method):
     scene = Blocks(CellType.tetrahedron)
     contact = scene.contact()
     problem = scene.problem(contact)
-    assert contact.interface.master.deepest_frozen(contact.interface.positions()) == 0
+    assert contact.interface.master.deepest_frozen(contact.interface.positions()) == (0, 0)
     searches = []
 
     def deepest_frozen(*_):
         searches.append(1)
-        return -1e-3
+        return -1e-3, -1e-2
 
     monkeypatch.setattr(FacetMaster, "frozen", np.arange(2))
     monkeypatch.setattr(FacetMaster, "deepest_frozen", deepest_frozen)
     with pytest.warns(UserWarning, match=r"2 pairs went back.*hide a penetration of 0\.001"):
         problem.solve()
     assert problem.report.frozen_gap == -1e-3
-    assert len(searches) == 1
+    # Whether to let them go, and for the report
+    assert len(searches) == 2
+
+
+@pytest.mark.parametrize("method", ["node-to-surface"], indirect=True)
+def test_held_pairs_that_hide_much_are_let_go_and_then_refused(monkeypatch, method):
+    scene = Blocks(CellType.tetrahedron)
+    problem = scene.problem(scene.contact())
+    let_go = []
+    monkeypatch.setattr(FacetMaster, "frozen", np.arange(2))
+    monkeypatch.setattr(FacetMaster, "deepest_frozen", lambda *_: (-1e-3, -0.1))
+    forget = FrozenPairs.let_go
+    monkeypatch.setattr(FrozenPairs, "let_go", lambda s: let_go.append(1) or forget(s))
+    with pytest.raises(cx.ConvergenceError, match="hide a penetration: refine the master there"):
+        problem.solve()
+    assert len(let_go) == 3
+    assert not scene.u.x.array.any()
+
+
+def test_a_body_that_has_run_away_is_no_solution(method):
+    """Whatever rounding makes of its forces."""
+    scene = Blocks(CellType.quadrilateral)
+    problem = scene.problem(scene.contact())
+    problem.solve()
+    judge = problem._newton._judge
+    residual, tolerance, _ = judge(1e-11, 0.0)
+    assert residual <= tolerance
+    free = np.flatnonzero(problem._newton._bulk.markers == 0)[0]
+    scene.u.x.array[free] = 1e5
+    residual, tolerance, _ = judge(1e-11, 0.0)
+    assert tolerance == 0
 
 
 def test_slave_and_master_may_change_roles():
