@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from types import SimpleNamespace
 from typing import Any
 
@@ -88,7 +88,6 @@ class Blocks:
         friction: Coefficient.
         method: Method of the contact.
         sliding: Its kinematics.
-        tied: Whether the blocks are tied.
         material: "linear" or "neo-hooke".
         down: How far the top moves down.
         side: How far it moves along the first axis.
@@ -100,9 +99,7 @@ class Blocks:
         away: Distance by which the scene is moved, in a random direction.
         shuffle: Seed that numbers nodes and cells anew; as gmsh does if None.
         steps: Load steps.
-        into: How far a node may lie in the other body; the usual bound if None.
         options: PETSc's options.
-        extra: Further options of the contact.
     """
 
     cell: CellType = CellType.quadrilateral
@@ -118,7 +115,6 @@ class Blocks:
     friction: float = 0.0
     method: str = "node-to-surface"
     sliding: str = "finite"
-    tied: bool = False
     material: str = "linear"
     down: float = 0.05
     side: float = 0.0
@@ -130,9 +126,7 @@ class Blocks:
     away: float = 0.0
     shuffle: int | None = None
     steps: Any = 1
-    into: float | None = None
     options: dict[str, Any] | None = None
-    extra: dict[str, Any] = field(default_factory=dict)
 
     def case(self) -> Case:
         """Make the problem."""
@@ -170,8 +164,6 @@ class Blocks:
             friction=self.friction,
             method=self.method,
             sliding=self.sliding,
-            tied=self.tied,
-            **self.extra,
         )
         problem = cx.ContactProblem(
             F,
@@ -181,9 +173,6 @@ class Blocks:
             petsc_options_prefix="stress_",
             petsc_options=self.options,
         )
-        into = self.into
-        if into is None and self.sliding == "finite" and not self.tied:
-            into = INTO[self.method]
         return Case(
             problem,
             [self.contact],
@@ -193,7 +182,7 @@ class Blocks:
             size=self.length * min(*self.size_upper, *self.size_lower),
             modulus=self.modulus * min(self.young),
             steps=self.steps,
-            into=[into],
+            into=[INTO[self.method] if self.sliding == "finite" else None],
         )
 
     def _mesh(self) -> Any:

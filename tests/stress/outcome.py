@@ -87,9 +87,7 @@ def _solve(scene: Scene, outcome: Outcome) -> None:
     case = scene.make()
     judge = Judge(case)
     violated = []
-    steps = cx.LoadSteps(
-        case.problem, case.steps, update=case.update, max_cuts=case.max_cuts, progress=False
-    )
+    steps = cx.LoadSteps(case.problem, case.steps, update=case.update, progress=False)
     for step in steps:
         outcome.steps += 1
         outcome.iterations += step.iterations

@@ -50,7 +50,6 @@ class Case:
             is not looked for.
         answers: Known answers at the end.
         step_answers: Known answers after each accepted step of a given t.
-        max_cuts: How often a step may be halved.
     """
 
     problem: cx.ContactProblem
@@ -64,7 +63,6 @@ class Case:
     into: Sequence[float | None] = ()
     answers: Callable[[], Sequence[Check]] = tuple
     step_answers: Callable[[float], Sequence[Check]] = field(default=lambda t: ())
-    max_cuts: int = 6
 
 
 @dataclass(frozen=True)

@@ -52,4 +52,5 @@ def _draw(seed):
         length=float(10.0 ** rng.uniform(-3, 3)),
         modulus=float(10.0 ** rng.uniform(-3, 9)),
         steps=int(rng.choice([1, 1, 3])),
+        options={"pc_type": "condensed"} if rng.random() < 0.25 else None,
     )
