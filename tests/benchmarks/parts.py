@@ -43,6 +43,7 @@ OF_CONTACT = (CONTACT, SEARCH, CONDENSATION, STATUS)
 # caller's. The empty name stands for all other functions.
 _RULES: dict[str, dict[str, str | None]] = {
     "assembly": {"": CONTACT},
+    "backtrack": {"": ASSEMBLY},
     "bodies": {"": STATUS},
     "bodies/modes": {"": None},
     "bulk": {"": ASSEMBLY, "Bulk.__init__": FORMS},
@@ -74,6 +75,7 @@ _RULES: dict[str, dict[str, str | None]] = {
     "factorised": {"": DIRECT},
     "fields": {"": CONTACT},
     "forms": {"": CONTACT},
+    "frozen": {"": STATUS},
     "interface": {
         "": CONTACT,
         "Interface._pair": SEARCH,
@@ -81,6 +83,7 @@ _RULES: dict[str, dict[str, str | None]] = {
         "Interface.update_status": STATUS,
         "Interface.closing": STATUS,
     },
+    "interrupts": {"": None},
     "junctions": {"": STATUS},
     "law": {"": STATUS},
     "layout": {"": CONTACT},
@@ -92,12 +95,14 @@ _RULES: dict[str, dict[str, str | None]] = {
     "options": {"": None},
     "parallel": {"": None},
     "problem": {"": REST},
+    "reasons": {"": None},
     "recovery": {"": CONTACT},
     "report": {"": None},
     "saving": {"": CONTACT},
     "search": {"": SEARCH},
     "skips": {"": REST},
     "slip": {"": CONTACT},
+    "snapshot": {"": REST},
     "steps": {"": REST},
     "surface": {"": SEARCH},
     "system": {"": CONTACT, "SaddlePointSystem._lift": ASSEMBLY},
