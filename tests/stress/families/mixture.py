@@ -12,16 +12,17 @@ from stress.scene import METHODS, SLIDINGS, Scene
 
 from dolfinx.mesh import CellType
 
-_SEEDS = 400
+_ROWS, _COLUMNS = 20, 20
 
 
 def mixture() -> Iterator[Scene]:
     """Random scenes: each axis is drawn by itself."""
-    yield from scenes("all at random", range(_SEEDS), [{}], _draw)
+    rows = [{"row": row} for row in range(_ROWS)]
+    yield from scenes("all at random", range(_COLUMNS), rows, _draw)
 
 
-def _draw(seed):
-    rng = np.random.default_rng(1000 + seed)
+def _draw(column, row):
+    rng = np.random.default_rng(1000 + _COLUMNS * row + column)
     cell: CellType = ALL_CELLS[rng.integers(4)]
     most = 12 if cell in (CellType.quadrilateral, CellType.triangle) else 5
 
