@@ -15,8 +15,12 @@ HERE = Path(__file__).parent
 os.environ["XDG_CONFIG_HOME"] = str(HERE / "settings")
 
 
+@pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items):
-    """Scripts on several ranks take all cores: one after the other, if tests run in parallel."""
+    """Scripts on several ranks take all cores: one after the other, if tests run in parallel.
+
+    First of all: xdist reads its groups in the same hook.
+    """
     for item in items:
         if HERE / "parallel" in item.path.parents:
             item.add_marker(pytest.mark.xdist_group("ranks"))
