@@ -101,11 +101,11 @@ class Judge:
         of_gaps, of_forces = self._rounding()
         excused = np.minimum(of_forces, 1e-6 * scale)
         whole = min(norm(self._comm, of_forces), 1e-6 * scale)
-        tolerance = max(rtol * scale, atol, of_gaps + whole)
+        tolerance = float(max(rtol * scale, atol, of_gaps + whole))
         if residual <= tolerance:
             sizes = np.linalg.norm(force.reshape(len(excused), -1), axis=1)
             rest = norm(self._comm, np.maximum(sizes - excused, 0.0), *constraints)
-            strict = max(rtol * scale, atol, of_gaps)
+            strict = float(max(rtol * scale, atol, of_gaps))
             if rest > strict:
                 return rest, strict, defect
         return residual, tolerance, defect

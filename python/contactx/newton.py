@@ -297,4 +297,4 @@ class NewtonLoop:
             dirichlet_defect=defect,
         )
         size = largest(self._halo.comm, np.abs(self._bulk.u.x.array).max(initial=0.0))
-        return row, residual <= tolerance and defect <= 1e-10 * size
+        return row, bool(residual <= tolerance and defect <= 1e-10 * size)
