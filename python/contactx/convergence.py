@@ -103,7 +103,7 @@ class Judge:
         whole = min(norm(self._comm, of_forces), 1e-6 * scale)
         tolerance = float(max(rtol * scale, atol, of_gaps + whole))
         if residual <= tolerance:
-            sizes = np.linalg.norm(force.reshape(len(excused), -1), axis=1)
+            sizes = np.linalg.norm(force.reshape(-1, self._system.block), axis=1)
             rest = norm(self._comm, np.maximum(sizes - excused, 0.0), *constraints)
             strict = float(max(rtol * scale, atol, of_gaps))
             if rest > strict:
