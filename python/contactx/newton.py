@@ -13,7 +13,6 @@ from petsc4py import PETSc
 
 import numpy as np
 
-from contactx.backtrack import Backtrack
 from contactx.bodies.bodies import Bodies
 from contactx.bodies.holder import Holder
 from contactx.bulk import Bulk
@@ -93,9 +92,6 @@ class NewtonLoop:
         self.snes = PETSc.SNES().create(system.x.comm)
         self.snes.setOptionsPrefix(prefix)
         self.snes.setConvergenceTest(weakly(self._test))
-        self._backtrack = Backtrack(bulk, system)
-        if self._backtrack.is_needed:
-            self.snes.setLineSearchPreCheck(weakly(self._backtrack.shorten))
 
     def run(self, report: Report) -> None:
         """Run the loop from the state of the displacement and the contacts.
@@ -153,9 +149,8 @@ class NewtonLoop:
 
     def take_error(self) -> BaseException | None:
         """Error that a callback raised, once."""
-        keepers = (self, self._linear, self._backtrack)
-        errors = [keeper.error for keeper in keepers if keeper.error is not None]
-        self.error = self._linear.error = self._backtrack.error = None
+        errors = [keeper.error for keeper in (self, self._linear) if keeper.error is not None]
+        self.error = self._linear.error = None
         return errors[0] if errors else None
 
     def reset(self) -> None:

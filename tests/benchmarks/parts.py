@@ -43,7 +43,6 @@ OF_CONTACT = (CONTACT, SEARCH, CONDENSATION, STATUS)
 # caller's. The empty name stands for all other functions.
 _RULES: dict[str, dict[str, str | None]] = {
     "assembly": {"": CONTACT},
-    "backtrack": {"": ASSEMBLY},
     "bodies": {"": STATUS},
     "bodies/modes": {"": None},
     "bulk": {"": ASSEMBLY, "Bulk.__init__": FORMS},

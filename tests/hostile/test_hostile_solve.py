@@ -180,7 +180,7 @@ def test_an_update_that_sets_what_is_not_finite(value):
 
 
 def test_a_material_that_fails_amid_a_long_step():
-    """The logarithm of a negative number: steps of the Newton loop are halved."""
+    """The logarithm of a negative number, after some iterations: the step is cut."""
     scene = Rubbing()
 
     def update(t):
