@@ -55,8 +55,9 @@ def _panel(axis, family: str, rows: Sequence[Outcome]) -> None:
         place = variants.index(row.variant), values.index(row.value)
         field[place] = np.nanmax([field[place], order.index(Kind(row.kind))])
     colours = ListedColormap([_COLOURS[kind] for kind in order])
-    lines = min(0.4, 8 / len(variants))
-    axis.pcolormesh(field, cmap=colours, vmin=-0.5, vmax=len(order) - 0.5, ec="white", lw=lines)
+    # Lines between many fields would hide them
+    lines = {"ec": "white", "lw": 0.4} if len(variants) <= 40 else {}
+    axis.pcolormesh(field, cmap=colours, vmin=-0.5, vmax=len(order) - 0.5, **lines)
     axis.invert_yaxis()
     axis.set_title(f"{family} ({len(rows):,})", fontsize=10, color=INK)
     step = max(1, -(-len(values) // 9))
