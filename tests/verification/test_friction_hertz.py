@@ -60,7 +60,7 @@ def test_equal_bodies(friction, sliding, method):
 @pytest.mark.parametrize("friction", [0.5, 1.5])
 def test_one_body_is_much_stiffer(friction, body, sliding, method):
     iterations, contact, count = solve(sliding, method, friction, young={body: 1e6})
-    assert iterations <= (12 if friction < 1 else 25)
+    assert iterations <= (13 if friction < 1 else 25)
     assert count["stick"] > 0
     p, t = parts(contact)
     # The soft surface wants to flow out from under the stiff one, or in
