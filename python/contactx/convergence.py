@@ -90,8 +90,6 @@ class Judge:
         defect = largest(self._comm, float(np.abs(force[prescribed]).max(initial=0.0)))
         force = np.where(prescribed, 0.0, force)
         residual = norm(self._comm, force, *constraints)
-        if self._has_run_away():
-            return residual, 0.0, defect
         scale = self.scale()
         if self._least_scale is None:
             # Unloading ends without forces. What the first change of the Dirichlet values asks
@@ -103,6 +101,8 @@ class Judge:
         whole = min(norm(self._comm, of_forces), 1e-6 * scale)
         tolerance = float(max(rtol * scale, atol, of_gaps + whole))
         if residual <= tolerance:
+            if self._has_run_away():
+                return residual, 0.0, defect
             sizes = np.linalg.norm(force.reshape(-1, self._system.block), axis=1)
             rest = norm(self._comm, np.maximum(sizes - excused, 0.0), *constraints)
             strict = float(max(rtol * scale, atol, of_gaps))
@@ -115,14 +115,10 @@ class Judge:
 
         Dirichlet values may take it anywhere.
         """
-        u, prescribed = (np.abs(a).max(initial=0.0) for a in (self._bulk.u.x.array, self._given()))
-        most, given = largest(self._comm, np.array([u, prescribed]))
-        return bool(most > _FAR * max(self._extent, given))
-
-    def _given(self) -> npt.NDArray[np.float64]:
-        """Dirichlet values."""
-        values: npt.NDArray[np.float64] = self._bulk.prescribed()[self._bulk.markers == 1]
-        return values
+        given = self._bulk.prescribed()[self._bulk.markers == 1]
+        sizes = [np.abs(a).max(initial=0.0) for a in (self._bulk.u.x.array, given)]
+        most, prescribed = largest(self._comm, np.array(sizes))
+        return bool(most > _FAR * max(self._extent, prescribed))
 
     def scale(self) -> float:
         """Forces of the problem: norm of the bulk's residual."""

@@ -47,8 +47,6 @@ class CycleGuard:
         self._seen: dict[int, list[float]] = {}
         self._status = -1
         self._last: PETSc.Vec | None = None
-        for interface in self._interfaces:
-            interface.law.begin_step()
 
     def shorten(self, x: PETSc.Vec) -> bool:
         """Take back a part of the last step, if iterates go round.

@@ -8,6 +8,8 @@ from collections.abc import Sequence
 
 from mpi4py import MPI
 
+import numpy as np
+
 from contactx.interface import Interface
 from contactx.parallel.reduce import least
 
@@ -18,7 +20,11 @@ _TIMES = 2
 
 
 class FrozenPairs:
-    """Lets frozen pairs go where they hide a penetration at what would be the solution."""
+    """Lets frozen pairs go where they hide a penetration at what would be the solution.
+
+    Attributes:
+        gaps: Smallest gap that those of each contact hide, when last looked for.
+    """
 
     def __init__(self, interfaces: Sequence[Interface], comm: MPI.Comm):
         """Take the contacts.
@@ -34,11 +40,14 @@ class FrozenPairs:
     def begin_step(self) -> None:
         """Forget how often pairs have been let go."""
         self._times = 0
+        self.gaps: list[float] = []
 
     def hide(self) -> bool:
         """Whether they hide a penetration that the mesh does not excuse; collective."""
-        part = min(i.master.deepest_frozen(i.positions())[1] for i in self._interfaces)
-        return bool(least(self._comm, part) < -_HIDDEN)
+        found = [i.master.deepest_frozen(i.positions()) for i in self._interfaces]
+        gaps, parts = least(self._comm, np.array(found)).T
+        self.gaps = gaps.tolist()
+        return bool(parts.min() < -_HIDDEN)
 
     def let_go(self) -> bool:
         """Let them go to settle close to the solution, unless that was tried often enough.

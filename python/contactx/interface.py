@@ -129,6 +129,7 @@ class Interface:
         All ranks must take part.
         """
         self.skipped_searches = 0
+        self.law.begin_step()
         self.master.restart()
         self.hold(False)
         self._turn_tractions()

@@ -131,6 +131,7 @@ class NewtonLoop:
         code = self.snes.getConvergedReason()
         report.converged = self._converged
         report.reason = self._failure or reason_of(code, self._converged)
+        report.frozen_gap = min(self._frozen.gaps, default=0.0)
         self._has_begun |= self._converged
         self._linear.end(report)
         report.cycles = self._guard.cycles
@@ -141,6 +142,11 @@ class NewtonLoop:
         report.skipped.update(self._linear.skipped())
         for interface in self._interfaces:
             report.skipped.update(skips(interface, self._halo.gdim, self._halo.comm))
+
+    @property
+    def hidden(self) -> Sequence[float]:
+        """Smallest gap that held pairs of each contact hide, at the solution."""
+        return self._frozen.gaps
 
     def begin(self) -> None:
         """Find what the first run would find at its start."""
@@ -247,12 +253,9 @@ class NewtonLoop:
                 self._system.scatter(self._system.x)
             self._changes = self._settle()
         row, small = self._judged(snes, number)
-        if small and self._stale:
-            # Held pairs give no true residual. Nodes without force change by rounding for ever
-            self._changes = self._settle(follow=True)
-            row, small = self._judged(snes, number)
-        while small and self._frozen.hide():
-            if not self._frozen.let_go():
+        # Held pairs give no true residual. Nodes without force change by rounding for ever
+        while small and (self._stale or self._frozen.hide()):
+            if not (self._stale or self._frozen.let_go()):
                 self._failure = HIDDEN
                 return reason.DIVERGED_FUNCTION_DOMAIN
             self._changes = self._settle(follow=True)

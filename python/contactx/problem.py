@@ -202,8 +202,6 @@ class ContactProblem:
                 ]
             ),
         ).tolist()
-        hidden = [least(comm, i.master.deepest_frozen(i.positions())[0]) for i in interfaces]
-        report.frozen_gap = min(hidden)
         histories = [i.history for i in interfaces if i.history is not None]
         report.slip, report.dissipation = total(
             comm,
@@ -219,7 +217,7 @@ class ContactProblem:
         report.recovery = [contact.fields.recovery_change for contact in self.contacts]
         report.imbalance = np.sum([contact.fields.imbalance for contact in self.contacts], axis=0)
         for k, interface in enumerate(self._interfaces):
-            self._warn(k, interface, hidden[k])
+            self._warn(k, interface, self._newton.hidden[k])
         if report.iterations > 0 and not self._read_options:
             # Some are read but once
             self._read_options = True
