@@ -33,12 +33,15 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-import story
 
 import contactx as cx
-from contactx import meshes, plot, reference
-from contactx.meshes import Tag
 from dolfinx import fem
+
+import meshes
+import plot
+import reference
+import story
+from meshes import Tag
 
 RADIUS, E, NU, FRICTION = 8.0, 200.0, 0.3, 0.2
 NORMAL, TANGENTIAL = 10.0, 0.93616

@@ -26,14 +26,14 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+from rich.table import Table
+
 import slab_figures
 import story
-from rich.table import Table
+from meshes import FACE_SLABS
 from slab_results import Laws, Measured, laws, measure
 from slab_scene import Scene, Setting
 from slab_schemes import Try, guess, scheme_1, scheme_2, try_supports
-
-from contactx.meshes import FACE_SLABS
 
 # Rotation in degrees and pressure in MPa: stress in MPa and concentration factor of Table 1
 TABLE = {

@@ -18,14 +18,16 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 import numpy as np
-import story
 
 import contactx as cx
 import ufl
-from contactx import meshes, plot
-from contactx.meshes import Tag
 from dolfinx import fem
 from dolfinx.mesh import CellType, Mesh, MeshTags
+
+import meshes
+import plot
+import story
+from meshes import Tag
 
 E, NU = 1.0, 0.3
 DEPTH = 0.3

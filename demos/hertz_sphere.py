@@ -21,12 +21,14 @@ from collections.abc import Sequence
 from mpi4py import MPI
 
 import numpy as np
-import story
 
 import contactx as cx
-from contactx import meshes, reference
-from contactx.meshes import Tag
 from dolfinx import fem
+
+import meshes
+import reference
+import story
+from meshes import Tag
 
 E, NU = 1.0, 0.3
 DISPLACEMENT = -0.02

@@ -25,14 +25,16 @@ from pathlib import Path
 
 import numpy as np
 import numpy.typing as npt
-import story
 
 import contactx as cx
 import ufl
-from contactx import meshes, plot
-from contactx.meshes import Tag
 from dolfinx import fem
 from dolfinx.mesh import CellType
+
+import meshes
+import plot
+import story
+from meshes import Tag
 
 STIFF, SOFT, NU = 100.0, 1.0, 0.3
 FRICTIONS = (0.0, 0.3)

@@ -14,10 +14,11 @@ from collections.abc import Sequence
 
 import numpy as np
 import rigid_sphere
-import story
 
 import contactx as cx
-from contactx import reference
+
+import reference
+import story
 
 DEPTH = 0.02
 

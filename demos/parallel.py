@@ -20,13 +20,14 @@ from mpi4py import MPI
 
 import hertz_sphere
 import numpy as np
-import story
 from hertz_sphere import NU, E
 from rich.table import Table
 
 import contactx as cx
-from contactx import reference
 from dolfinx import fem, la
+
+import reference
+import story
 
 
 @dataclass

@@ -13,16 +13,17 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-import story
 
 import basix
 import contactx as cx
 import ufl
-from contactx import meshes
-from contactx.meshes import Tag
 from dolfinx import fem
 from dolfinx.io.gmsh import MeshData
 from dolfinx.mesh import CellType
+
+import meshes
+import story
+from meshes import Tag
 
 NU = 0.3
 STRAIN = 0.01

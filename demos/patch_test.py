@@ -23,14 +23,15 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
-import story
-from patch_scene import Array, Patch, Shape
 from rich.table import Table
 
 import contactx as cx
-from contactx import plot
 from dolfinx import fem
 from dolfinx.mesh import CellType
+
+import plot
+import story
+from patch_scene import Array, Patch, Shape
 
 METHODS = ("node-to-surface", "surface-to-surface")
 CELLS = {

@@ -29,12 +29,14 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
-import story
 
 import contactx as cx
-from contactx import meshes, reference
-from contactx.meshes import Tag
 from dolfinx import fem
+
+import meshes
+import reference
+import story
+from meshes import Tag
 
 RADII = (1.0, 1.5, 2.0)
 E, NU = 1.0, 0.3

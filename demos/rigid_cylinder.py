@@ -13,12 +13,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-import story
 
 import contactx as cx
-from contactx import meshes, reference
-from contactx.meshes import Tag
 from dolfinx.mesh import CellType
+
+import meshes
+import reference
+import story
+from meshes import Tag
 
 E, NU = 1.0, 0.3
 DEPTH = 0.02

@@ -8,12 +8,13 @@ from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
-from slab_results import faces_of_joint, middle_joint, opening
-from slab_scene import CONCRETE, CUSHION, Array, Scene
 
 import contactx as cx
-from contactx import plot
 from dolfinx import fem
+
+import plot
+from slab_results import faces_of_joint, middle_joint, opening
+from slab_scene import CONCRETE, CUSHION, Array, Scene
 
 PEAK = (10.0, 25.0)  # the paper's peak of scheme 2: mm, MPa
 

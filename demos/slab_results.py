@@ -8,12 +8,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from slab_scene import Array, Scene
 
 import contactx as cx
 import ufl
-from contactx.meshes import block_tag
 from dolfinx import fem
+
+from meshes import block_tag
+from slab_scene import Array, Scene
 
 
 @dataclass(frozen=True)

@@ -10,12 +10,13 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 from hexahedra import NodalStress, elasticity, stress
-from story import METHODS, displacement
 
 import contactx as cx
 import ufl
-from contactx.meshes import FaceSlab, block_tag, face_slab
 from dolfinx import fem
+
+from meshes import FaceSlab, block_tag, face_slab
+from story import METHODS, displacement
 
 CONCRETE, CUSHION, NU = 30_000.0, 144.0, 0.2  # MPa
 Array = npt.NDArray[np.float64]

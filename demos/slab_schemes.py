@@ -7,11 +7,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
+import contactx as cx
+
+from meshes import FaceSlab
 from slab_results import rotation
 from slab_scene import Scene, Setting
-
-import contactx as cx
-from contactx.meshes import FaceSlab
 
 # Settlement of the support below the middle for a rotation of one degree, m; a first guess
 _SETTLEMENT = 0.43

@@ -27,13 +27,15 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
-import story
 
 import contactx as cx
-from contactx import meshes, plot
-from contactx.meshes import Tag
 from dolfinx import fem
 from dolfinx.mesh import CellType, Mesh, MeshTags
+
+import meshes
+import plot
+import story
+from meshes import Tag
 
 E, NU, FRICTION = 1.0, 0.3, 0.3
 PRESSURE, AMPLITUDE = 0.01, 0.06

@@ -23,13 +23,15 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import story
 
 import contactx as cx
-from contactx import meshes, plot
-from contactx.meshes import block_tag
 from dolfinx import fem
 from dolfinx.mesh import CellType
+
+import meshes
+import plot
+import story
+from meshes import block_tag
 
 BLOCKS, HEIGHT = 5, 0.2
 E, NU, FRICTION = 1.0, 0.3, 0.3

@@ -20,8 +20,10 @@ from rich.table import Table
 
 import contactx as cx
 import ufl
-from contactx import plot, reference
 from dolfinx import fem, mesh
+
+import plot
+import reference
 
 # One rank speaks for all
 console = Console(quiet=MPI.COMM_WORLD.rank > 0)

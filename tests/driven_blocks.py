@@ -9,13 +9,14 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from story import displacement, elasticity
 
 import contactx as cx
 import ufl
-from contactx import meshes
-from contactx.meshes import Tag
 from dolfinx import fem, mesh
+
+import meshes
+from meshes import Tag
+from story import displacement, elasticity
 
 type Array = npt.NDArray[np.float64]
 

@@ -14,7 +14,8 @@ import numpy as np
 import numpy.typing as npt
 
 import ufl
-from contactx.meshes import Tag
+
+from meshes import Tag
 
 Array = npt.NDArray[np.float64]
 YOUNG, NU = {Tag.UPPER: 1.0, Tag.LOWER: 3.0}, 0.3

@@ -12,9 +12,10 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from contactx.meshes import build
 from dolfinx import graph, mesh
 from dolfinx.io.gmsh import MeshData, extract_geometry, model_to_mesh
+
+from meshes import build
 
 type Points = npt.NDArray[np.float64]
 type Ranks = npt.NDArray[np.int32]

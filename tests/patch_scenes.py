@@ -8,13 +8,14 @@ from itertools import pairwise
 
 import numpy as np
 import numpy.typing as npt
-from patch_scene import Patch
 
 import basix
 import contactx as cx
 import ufl
-from contactx.meshes import Tag
 from dolfinx import fem
+
+from meshes import Tag
+from patch_scene import Patch
 
 Array = npt.NDArray[np.float64]
 # Inverse maps of quadrilaterals are no polynomials

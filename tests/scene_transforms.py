@@ -11,11 +11,12 @@ from mpi4py import MPI
 
 import numpy as np
 import numpy.typing as npt
-from story import displacement, elasticity
 
 import contactx as cx
-from contactx.meshes import Tag
 from dolfinx import fem, mesh
+
+from meshes import Tag
+from story import displacement, elasticity
 
 NU = 0.3
 

@@ -8,14 +8,16 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from story import displacement, elasticity, fix
 
 import contactx as cx
-from contactx import meshes, reference
-from contactx.meshes import Tag
 from contactx.obstacles import Obstacle
 from dolfinx import fem, mesh
 from dolfinx.io.gmsh import MeshData
+
+import meshes
+import reference
+from meshes import Tag
+from story import displacement, elasticity, fix
 
 NU = 0.3
 

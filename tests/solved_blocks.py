@@ -13,13 +13,14 @@ from typing import Any
 import exact
 import numpy as np
 import numpy.typing as npt
-from story import displacement
 
 import contactx as cx
 import ufl
-from contactx import meshes
-from contactx.meshes import Tag
 from dolfinx import fem, mesh
+
+import meshes
+from meshes import Tag
+from story import displacement
 
 Array = npt.NDArray[np.float64]
 # Divisions of the master over those of the slave

@@ -8,15 +8,17 @@ from typing import Any
 
 import numpy as np
 from plastic import Plastic
-from scenes import Blocks
-from story import displacement, fix
 
 import contactx as cx
 import ufl
-from contactx import meshes, saving
-from contactx.meshes import Tag
+from contactx import saving
 from dolfinx import fem
 from dolfinx.mesh import CellType
+
+import meshes
+from meshes import Tag
+from scenes import Blocks
+from story import displacement, fix
 
 
 class Sheared:

@@ -9,14 +9,15 @@ from typing import Any
 from mpi4py import MPI
 
 import numpy as np
-from story import displacement, elasticity
 
 import contactx as cx
 import ufl
-from contactx import meshes
-from contactx.meshes import Tag
 from contactx.obstacles import Obstacle
 from dolfinx import fem, mesh
+
+import meshes
+from meshes import Tag
+from story import displacement, elasticity
 
 CELLS = [
     mesh.CellType.triangle,

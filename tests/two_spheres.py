@@ -16,13 +16,15 @@ from __future__ import annotations
 
 import numpy as np
 import numpy.typing as npt
-from story import displacement, elasticity, fix
 
 import contactx as cx
-from contactx import meshes, reference
-from contactx.meshes import Tag
 from dolfinx import fem
 from dolfinx.io.gmsh import MeshData
+
+import meshes
+import reference
+from meshes import Tag
+from story import displacement, elasticity, fix
 
 Array = npt.NDArray[np.float64]
 RADIUS = 12.2474 / 2

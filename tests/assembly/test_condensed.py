@@ -5,13 +5,14 @@
 import numpy as np
 import pytest
 import stacked_blocks
-from scenes import Blocks, hertz_sphere
-from story import fix
 
 import ufl
 from contactx.condensed.solver import CondensedSolver
-from contactx.meshes import Tag
 from dolfinx.mesh import CellType
+
+from meshes import Tag
+from scenes import Blocks, hertz_sphere
+from story import fix
 
 CELLS = [CellType.triangle, CellType.quadrilateral, CellType.tetrahedron, CellType.hexahedron]
 MORTAR = {"method": "surface-to-surface"}

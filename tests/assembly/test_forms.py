@@ -6,11 +6,12 @@ from petsc4py import PETSc
 
 import numpy as np
 import pytest
-from scenes import Blocks
 
-from contactx.meshes import Tag
 from dolfinx import cpp, fem
 from dolfinx.mesh import CellType
+
+from meshes import Tag
+from scenes import Blocks
 
 CELLS = [CellType.triangle, CellType.quadrilateral, CellType.tetrahedron, CellType.hexahedron]
 

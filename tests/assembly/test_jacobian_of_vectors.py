@@ -4,11 +4,12 @@
 
 import numpy as np
 import pytest
-from scenes import Blocks
 
 import contactx as cx
 from contactx import cpp as core
 from dolfinx.mesh import CellType
+
+from scenes import Blocks
 
 CELLS = [CellType.triangle, CellType.quadrilateral, CellType.tetrahedron, CellType.hexahedron]
 every_cell = pytest.mark.parametrize("cell", CELLS, ids=lambda c: c.name)

@@ -25,11 +25,11 @@ sys.path.insert(0, str(Path(__file__).parents[2] / "demos"))
 import numpy as np
 from rich.console import Console
 from rich.table import Table
+
+from meshes import FACE_SLABS
 from slab_results import laws, measure
 from slab_scene import Scene, Setting
 from slab_schemes import Try, scheme_1, scheme_2, try_supports
-
-from contactx.meshes import FACE_SLABS
 
 SLICE = replace(FACE_SLABS["slice"], layers=10)
 SETTLEMENT, PRESSURE = 0.07339, 0.3

@@ -22,12 +22,13 @@ import bench_face_slab
 import cattaneo_mindlin
 import numpy as np
 import runner
+import sliding_block
+import tables
+
 import slab_results
 import slab_scene
 import slab_schemes
-import sliding_block
 import story
-import tables
 
 FIRST = story.METHODS[0]
 COLUMNS: list[tables.Column] = [

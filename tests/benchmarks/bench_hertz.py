@@ -22,8 +22,9 @@ import hertz_case
 import numpy as np
 import pictures
 import runner
-import scenes
 import tables
+
+import scenes
 
 SIZES = (0.04, 0.02, 0.01, 0.005)
 # MUMPS takes minutes and gigabytes below

@@ -16,9 +16,10 @@ from collections.abc import Sequence
 from typing import Any
 
 import runner
-import story
 import tables
 from ironing import FRICTIONS, Ironing
+
+import story
 
 # Dimension and cell size of the block
 SCENES = ((2, 1 / 12), (2, 1 / 24), (3, 0.13))

@@ -20,11 +20,11 @@ from typing import Any
 import hertz_case
 import pictures
 import runner
-import scenes
-import story
 import tables
 
-from contactx.meshes import Tag
+import scenes
+import story
+from meshes import Tag
 
 SIZES = {"tetrahedra": (0.04, 0.02, 0.01, 0.005), "hexahedra": (0.04, 0.02, 0.01)}
 SLIDINGS = ("finite", "small")

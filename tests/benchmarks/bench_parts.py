@@ -15,8 +15,9 @@ import bench_hertz
 import hertz_case
 import parts
 import runner
-import scenes
 import tables
+
+import scenes
 
 SIZES = (0.02, 0.01, 0.005)
 

@@ -18,8 +18,9 @@ from typing import Any
 import numpy as np
 import runner
 import solved_blocks
-import story
 import tables
+
+import story
 
 # Cells along a unit of length of the slave, multiples of 3
 PLANE, SPACE = (12, 24, 48, 96), (6, 12, 18, 24)

@@ -16,10 +16,11 @@ import bench_hertz
 import hertz_case
 import numpy as np
 import runner
-import scenes
 import skips
 import stacked_blocks
 import tables
+
+import scenes
 
 SIZES = (0.01,)
 FRICTION = 0.3

@@ -17,9 +17,10 @@ from typing import Any
 
 import hertz_case
 import runner
-import story
 import tables
 import two_spheres
+
+import story
 
 SIZES = (0.1, 0.05, 0.03, 0.02)
 CASES = (("soft", "finite"), ("soft", "small"), ("stiff", "small"), ("stiff", "finite"))

@@ -16,16 +16,17 @@ from typing import Any
 
 import hertz_case
 import runner
-import scenes
-import story
 import tables
 
 import contactx as cx
-from contactx import meshes
-from contactx.meshes import Tag
 from dolfinx import fem
 from dolfinx.io.gmsh import MeshData
 from dolfinx.mesh import CellType
+
+import meshes
+import scenes
+import story
+from meshes import Tag
 
 SIZES = (0.01,)
 STEPS = 10

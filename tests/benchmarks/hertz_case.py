@@ -13,14 +13,15 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 import runner
-import scenes
 from matplotlib.tri import LinearTriInterpolator, Triangulation
 
 import contactx as cx
-from contactx import meshes
-from contactx.meshes import Tag
 from dolfinx.io import XDMFFile
 from dolfinx.io.gmsh import MeshData
+
+import meshes
+import scenes
+from meshes import Tag
 
 DOWN = 0.02
 MESHES = {"tetrahedra": meshes.hertz_sphere, "hexahedra": meshes.hertz_grid}

@@ -11,7 +11,7 @@ from typing import Any
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
-from contactx.plot.style import COLOURS, DOTS_PER_INCH, INK
+from plot.style import COLOURS, DOTS_PER_INCH, INK
 
 _MARKERS = "osD^vP*X<>p"
 _OTHERS = ("#5b7f95", "#7f9a3d", "#7d6aa8", "#2f9a8e", "#a8693f", "#7a7f87")

@@ -16,14 +16,15 @@ from mpi4py import MPI
 from petsc4py import PETSc
 
 import hertz_case
-import scenes
 from partitions import partitioned
-from story import displacement, elasticity, fix
 
 import contactx as cx
-from contactx import meshes
-from contactx.meshes import Tag
 from dolfinx.mesh import CellType
+
+import meshes
+import scenes
+from meshes import Tag
+from story import displacement, elasticity, fix
 
 # Cells of a rank along the slab, across it and over its height; those of the base do not match
 UPPER = {2: (40, 6), 3: (8, 6, 3)}

@@ -14,17 +14,19 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import parts
-import scenes
 
 import contactx as cx
 from contactx import cpp as core
-from contactx import linear, meshes
+from contactx import linear
 from contactx.bulk import Bulk
 from contactx.condensed.multigrid import Multigrid
 from contactx.master.facets import FacetMaster
-from contactx.meshes import Tag
 from dolfinx.io.gmsh import MeshData
 from dolfinx.mesh import CellType
+
+import meshes
+import scenes
+from meshes import Tag
 
 # Not the default on the coarse meshes that try these scripts out
 CONDENSED: dict[str, Any] = {"petsc_options": {"pc_type": "condensed"}}

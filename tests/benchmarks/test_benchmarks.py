@@ -20,6 +20,7 @@ import pytest
 import runner
 import tables
 from matplotlib import image
+
 from story import METHODS
 
 ALONE = runner.alone

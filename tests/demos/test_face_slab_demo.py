@@ -14,7 +14,7 @@ PICTURES = ("mesh", "deformed", "joint", "pressure", "stress", "opening", "statu
 @pytest.fixture(autouse=True)
 def small_pictures(monkeypatch):
     """Drawing would take most of the time."""
-    monkeypatch.setattr("contactx.plot.view._PIXELS", 350)
+    monkeypatch.setattr("plot.view._PIXELS", 350)
 
 
 def check(folder, stem, pictures):

@@ -9,12 +9,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import pytest
-from scenes import Blocks
 
 import contactx as cx
 from contactx import saving
 from dolfinx import fem
 from dolfinx.mesh import CellType
+
+from scenes import Blocks
 
 
 class Row(NamedTuple):

@@ -9,14 +9,15 @@ from typing import Any
 import numpy as np
 from driven_blocks import neo_hookean
 from rows import scalar, state
-from scenes import NU, Blocks
-from story import traction
 
 import contactx as cx
 import ufl
-from contactx.meshes import Tag
 from dolfinx import fem
 from dolfinx.mesh import CellType
+
+from meshes import Tag
+from scenes import NU, Blocks
+from story import traction
 
 
 class Rubbing:

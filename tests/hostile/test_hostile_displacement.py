@@ -8,12 +8,13 @@ from petsc4py import PETSc
 import numpy as np
 import pytest
 from rows import Row, problem, refused, scene, table, with_
-from story import displacement, fix
 
 import basix.ufl
 import contactx as cx
-from contactx.meshes import Tag
 from dolfinx import fem, mesh
+
+from meshes import Tag
+from story import displacement, fix
 
 VECTORS = ("Lagrange", 1, (2,))
 

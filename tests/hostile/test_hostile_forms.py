@@ -3,10 +3,11 @@
 """Residual and Jacobian of a problem."""
 
 from rows import Row, problem, refused, scene, table, with_
-from story import elasticity
 
 import ufl
 from dolfinx import fem
+
+from story import elasticity
 
 VECTORS = ("Lagrange", 1, (2,))
 

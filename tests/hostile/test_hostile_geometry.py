@@ -7,13 +7,14 @@ from mpi4py import MPI
 import numpy as np
 import pytest
 from rows import Row, refused, scene, solved, table
-from story import displacement, elasticity
 
 import basix.ufl
 import contactx as cx
 from contactx.checks.cells import jacobians
 from dolfinx import fem, mesh
 from dolfinx.mesh import CellType
+
+from story import displacement, elasticity
 
 # A base, of which the contact takes the top
 BASE = [[-1.0, -1.0], [3, -1], [3, -0.01], [-1, -0.01]]

@@ -5,9 +5,11 @@
 import numpy as np
 from rows import Row, refused, table
 
-from contactx import meshes, reference
-from contactx.meshes import Tag
 from dolfinx.mesh import CellType
+
+import meshes
+import reference
+from meshes import Tag
 
 TRIANGLE = CellType.triangle
 

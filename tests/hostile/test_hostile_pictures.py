@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 from rows import Row, refused, scene, table
 
-from contactx import plot
 from dolfinx import fem
+
+import plot
 
 LABELS = ("x", "y")
 

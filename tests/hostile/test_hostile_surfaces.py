@@ -4,13 +4,14 @@
 
 import numpy as np
 from rows import Row, refused, scene, solved, table
-from story import displacement
 
 import contactx as cx
-from contactx import meshes
-from contactx.meshes import Tag
 from dolfinx import mesh
 from dolfinx.mesh import CellType
+
+import meshes
+from meshes import Tag
+from story import displacement
 
 
 def surface(*tags):

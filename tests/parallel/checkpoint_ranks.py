@@ -17,9 +17,10 @@ from agreeing import some_ranks, wait
 from step_scenes import DentedBlock, SlidingBlocks
 
 import contactx as cx
-from contactx import meshes
 from contactx.steps import archive
 from dolfinx.mesh import CellType
+
+import meshes
 
 WORLD = MPI.COMM_WORLD
 FACETS = {"method": "surface-to-surface"}

@@ -16,9 +16,10 @@ import numpy.typing as npt
 from agreeing import some_ranks, wait
 
 import basix.ufl
-from contactx import meshes
 from dolfinx import mesh
 from dolfinx.mesh import CellType
+
+import meshes
 
 Tagged = tuple[mesh.Mesh, mesh.MeshTags | None, mesh.MeshTags | None]
 

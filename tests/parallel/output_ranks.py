@@ -17,10 +17,11 @@ from agreeing import refused
 from relaxed import MESHES
 
 import contactx as cx
-from contactx import plot
-from contactx.meshes.build import build_mesh
-from contactx.plot.surface import deformed_surface
 from dolfinx import fem, mesh
+
+import plot
+from meshes.build import build_mesh
+from plot.surface import deformed_surface
 
 WORLD = MPI.COMM_WORLD
 ROOT = WORLD.rank == 0

@@ -13,9 +13,10 @@ import numpy as np
 
 import basix.ufl
 import contactx as cx
-from contactx import meshes
 from contactx.report import Iteration, Report
 from dolfinx import fem, mesh
+
+import meshes
 
 
 class Relaxed(cx.ContactProblem):

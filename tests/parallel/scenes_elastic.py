@@ -8,15 +8,16 @@ from collections.abc import Iterator
 
 import hertz_cylinder
 import numpy as np
-from scenes import Blocks, HertzSphere
-from story import fix, traction
 from tower import Tower
 
 import contactx as cx
-from contactx import meshes
-from contactx.meshes import Tag
 from dolfinx import fem
 from dolfinx.mesh import CellType
+
+import meshes
+from meshes import Tag
+from scenes import Blocks, HertzSphere
+from story import fix, traction
 
 
 def hertz_2d() -> Iterator[cx.ContactProblem]:

@@ -11,14 +11,15 @@ from typing import Any
 
 import numpy as np
 from partitions import partitioned
-from scenes import NU, Blocks
 from step_scenes import SlidingBlocks
-from story import elasticity, traction
 
 import contactx as cx
-from contactx.meshes import Tag
 from dolfinx import fem
 from dolfinx.mesh import CellType
+
+from meshes import Tag
+from scenes import NU, Blocks
+from story import elasticity, traction
 
 QUADRILATERAL, HEXAHEDRON = CellType.quadrilateral, CellType.hexahedron
 

@@ -10,12 +10,13 @@ from typing import Any
 import numpy as np
 import rigid_cylinder
 from driven_blocks import DrivenBlock
-from scenes import Blocks
 from step_scenes import DentedBlock
 
 import contactx as cx
 from contactx.obstacles import Obstacle
 from dolfinx.mesh import CellType
+
+from scenes import Blocks
 
 
 def plane() -> Iterator[cx.ContactProblem]:

@@ -9,13 +9,14 @@ from collections.abc import Iterator
 import cattaneo_mindlin
 import numpy as np
 from driven_blocks import DrivenBlock
-from scenes import NU, HertzSphere
-from story import displacement, elasticity, fix
 
 import contactx as cx
-from contactx import meshes
-from contactx.meshes import Tag
 from dolfinx.mesh import CellType
+
+import meshes
+from meshes import Tag
+from scenes import NU, HertzSphere
+from story import displacement, elasticity, fix
 
 
 def sliding_block() -> Iterator[cx.ContactProblem]:

@@ -8,15 +8,16 @@ from collections.abc import Iterator
 
 import numpy as np
 import stacked_blocks
-from scenes import NU, Blocks
 from step_scenes import Sheared
-from story import displacement, elasticity, fix, traction
 
 import contactx as cx
-from contactx import meshes
-from contactx.meshes import Tag, block_tag
 from dolfinx import fem
 from dolfinx.mesh import CellType
+
+import meshes
+from meshes import Tag, block_tag
+from scenes import NU, Blocks
+from story import displacement, elasticity, fix, traction
 
 
 def corner_2d() -> Iterator[cx.ContactProblem]:

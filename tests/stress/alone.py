@@ -13,11 +13,12 @@ from stress.scene import Case
 
 import contactx as cx
 import ufl
-from contactx import meshes
-from contactx.meshes import Tag
 from contactx.obstacles import Obstacle
 from dolfinx import fem
 from dolfinx.mesh import CellType
+
+import meshes
+from meshes import Tag
 
 
 class Alone:

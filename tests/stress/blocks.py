@@ -15,10 +15,11 @@ from stress.scene import Case
 
 import contactx as cx
 import ufl
-from contactx import meshes
-from contactx.meshes import Tag
 from dolfinx import fem, mesh
 from dolfinx.mesh import CellType
+
+import meshes
+from meshes import Tag
 
 PLANE = (CellType.triangle, CellType.quadrilateral)
 SOLID = (CellType.tetrahedron, CellType.hexahedron)

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 from stress.outcome import Kind, Outcome
 
-from contactx.plot.style import DOTS_PER_INCH, INK
+from plot.style import DOTS_PER_INCH, INK
 
 _COLOURS = {
     Kind.CONVERGED: "#3b8f6b",

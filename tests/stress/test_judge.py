@@ -8,9 +8,10 @@ from stress import inside
 from stress.blocks import Blocks
 from stress.judge import Judge
 
-from contactx import meshes
-from contactx.meshes import Tag
 from dolfinx.mesh import CellType
+
+import meshes
+from meshes import Tag
 
 CELLS = [CellType.triangle, CellType.quadrilateral, CellType.tetrahedron, CellType.hexahedron]
 

@@ -4,11 +4,12 @@
 
 import numpy as np
 import pytest
-from scenes import Blocks
-from story import elasticity
 
 from dolfinx import fem
 from dolfinx.mesh import CellType
+
+from scenes import Blocks
+from story import elasticity
 
 
 @pytest.fixture

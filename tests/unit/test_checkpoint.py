@@ -10,7 +10,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from scenes import Blocks
 from step_scenes import DentedBlock, LooseBlock, Sheared, SlidingBlocks
 
 import contactx as cx
@@ -18,6 +17,8 @@ from contactx import saving
 from contactx.steps import archive
 from dolfinx import fem
 from dolfinx.mesh import CellType
+
+from scenes import Blocks
 
 FACETS = {"method": "surface-to-surface"}
 SCENES = {

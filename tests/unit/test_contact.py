@@ -2,10 +2,11 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 import numpy as np
 import pytest
-from scenes import Blocks
 
 import contactx as cx
 from dolfinx.mesh import CellType
+
+from scenes import Blocks
 
 
 @pytest.fixture(scope="module")

@@ -9,13 +9,14 @@ from petsc4py import PETSc
 
 import numpy as np
 import pytest
-from scenes import Blocks
 from step_scenes import Sheared
 
 import contactx as cx
 import ufl
-from contactx.meshes import Tag
 from dolfinx.mesh import CellType
+
+from meshes import Tag
+from scenes import Blocks
 
 pytestmark = pytest.mark.usefixtures("method")
 

@@ -4,12 +4,13 @@
 
 import numpy as np
 import pytest
-from scenes import Blocks
-from story import fix
 
-from contactx.meshes import Tag
 from dolfinx import fem
 from dolfinx.mesh import CellType
+
+from meshes import Tag
+from scenes import Blocks
+from story import fix
 
 
 @pytest.fixture

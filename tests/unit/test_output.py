@@ -7,12 +7,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 import pyvista
-from scenes import Blocks
 
 import contactx as cx
-from contactx.meshes import Tag
 from dolfinx import fem
 from dolfinx.mesh import CellType
+
+from meshes import Tag
+from scenes import Blocks
 
 pytestmark = pytest.mark.usefixtures("method")
 

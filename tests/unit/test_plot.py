@@ -15,13 +15,14 @@ import numpy.typing as npt
 import pytest
 from matplotlib import image
 
-from contactx.meshes import Tag, blocks, hertz_cap, hertz_cylinder, hertz_sphere
-from contactx.plot import STATUS_NAMES, curves, deformed_bodies, nodal_map, pressure_curve
-from contactx.plot.style import COLOURS, INK
-from contactx.plot.surface import deformed_surface, mirrored, peak_body
 from dolfinx import fem
 from dolfinx.io.gmsh import MeshData
 from dolfinx.mesh import CellType
+
+from meshes import Tag, blocks, hertz_cap, hertz_cylinder, hertz_sphere
+from plot import STATUS_NAMES, curves, deformed_bodies, nodal_map, pressure_curve
+from plot.style import COLOURS, INK
+from plot.surface import deformed_surface, mirrored, peak_body
 
 
 def pressed(data: MeshData, degree: int = 1) -> tuple[fem.Function, fem.Function]:

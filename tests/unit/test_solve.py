@@ -4,16 +4,17 @@
 
 import numpy as np
 import pytest
-from scenes import Blocks
-from story import fix
 
 import contactx as cx
 import ufl
 from contactx.frozen import FrozenPairs
 from contactx.master.facets import FacetMaster
-from contactx.meshes import Tag
 from dolfinx import default_scalar_type, fem
 from dolfinx.mesh import CellType
+
+from meshes import Tag
+from scenes import Blocks
+from story import fix
 
 pytestmark = pytest.mark.usefixtures("method")
 

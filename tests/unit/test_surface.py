@@ -3,11 +3,12 @@
 
 import numpy as np
 import pytest
-from scenes import Blocks
 
 import contactx as cx
-from contactx.meshes import Tag
 from dolfinx.mesh import CellType
+
+from meshes import Tag
+from scenes import Blocks
 
 CELLS = [CellType.triangle, CellType.quadrilateral, CellType.tetrahedron, CellType.hexahedron]
 

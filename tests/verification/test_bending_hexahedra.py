@@ -8,12 +8,13 @@ from petsc4py import PETSc
 import numpy as np
 import pytest
 from hexahedra import NodalStress, elasticity, stress
-from story import displacement
-from story import elasticity as plain
 
 import ufl
 from dolfinx import fem, mesh
 from dolfinx.fem.petsc import assemble_matrix
+
+from story import displacement
+from story import elasticity as plain
 
 E, NU = 30_000.0, 0.2
 LENGTH, HEIGHT = 16.0, 0.5

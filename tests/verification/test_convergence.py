@@ -6,13 +6,14 @@ import itertools
 
 import numpy as np
 import pytest
-from story import displacement, elasticity, fix
 
 import contactx as cx
 import ufl
-from contactx import meshes
-from contactx.meshes import Tag
 from dolfinx.mesh import CellType
+
+import meshes
+from meshes import Tag
+from story import displacement, elasticity, fix
 
 pytestmark = pytest.mark.usefixtures("method")
 

@@ -4,14 +4,15 @@
 
 import numpy as np
 import pytest
-from scenes import NU, Blocks
-from story import displacement, elasticity, fix, traction
 
 import contactx as cx
-from contactx import meshes
-from contactx.meshes import Tag, block_tag
 from dolfinx import fem
 from dolfinx.mesh import CellType
+
+import meshes
+from meshes import Tag, block_tag
+from scenes import NU, Blocks
+from story import displacement, elasticity, fix, traction
 
 pytestmark = pytest.mark.usefixtures("method")
 

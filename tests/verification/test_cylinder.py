@@ -6,7 +6,7 @@ import hertz_cylinder
 import numpy as np
 import pytest
 
-from contactx import reference
+import reference
 
 
 def errors(h, sliding):

@@ -7,11 +7,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from face_slab import TABLE
+
+from meshes import FACE_SLABS
 from slab_results import laws, measure
 from slab_scene import Setting
 from slab_schemes import scheme_1, scheme_2, secant, try_supports
-
-from contactx.meshes import FACE_SLABS
 
 SLICE = replace(FACE_SLABS["slice"], layers=10)
 # Settlements that the trial computation finds, m

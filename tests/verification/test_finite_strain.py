@@ -8,14 +8,15 @@ import finite_strain
 import numpy as np
 import pytest
 from plastic import Plastic
-from story import displacement, fix
 
 import contactx as cx
 import ufl
-from contactx import meshes
-from contactx.meshes import Tag
 from dolfinx import fem
 from dolfinx.mesh import CellType
+
+import meshes
+from meshes import Tag
+from story import displacement, fix
 
 pytestmark = pytest.mark.usefixtures("method")
 

@@ -5,16 +5,17 @@
 import numpy as np
 import pytest
 import stacked_blocks
-from scenes import Blocks
-from story import displacement, elasticity
 
 import contactx as cx
 import ufl
-from contactx import meshes
 from contactx.bodies import holder
-from contactx.meshes import Tag
 from dolfinx import fem
 from dolfinx.mesh import CellType
+
+import meshes
+from meshes import Tag
+from scenes import Blocks
+from story import displacement, elasticity
 
 pytestmark = pytest.mark.usefixtures("method")
 

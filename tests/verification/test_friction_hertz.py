@@ -5,9 +5,9 @@
 import numpy as np
 import pytest
 from driven_blocks import check_coulomb, parts
-from scenes import hertz_sphere
 
-from contactx.meshes import Tag
+from meshes import Tag
+from scenes import hertz_sphere
 
 NODES, FACETS = "node-to-surface", "surface-to-surface"
 # By surface-to-surface on a coarser mesh, which is cheaper

@@ -8,9 +8,10 @@ import numpy as np
 import pytest
 from scene_transforms import Frame, Support, differences, numbered, renumbered, rotation, solve
 
-from contactx import meshes
-from contactx.meshes import Tag
 from dolfinx.mesh import CellType
+
+import meshes
+from meshes import Tag
 
 SLIDING = pytest.mark.parametrize("sliding", ["finite", "small"])
 CELLS = pytest.mark.parametrize(

@@ -4,9 +4,9 @@
 
 import numpy as np
 import pytest
-from scenes import hertz_sphere, pressure_error
 
-from contactx.meshes import Tag
+from meshes import Tag
+from scenes import hertz_sphere, pressure_error
 
 # On a coarser mesh by surface-to-surface
 H = {"node-to-surface": 0.02, "surface-to-surface": 0.04}

@@ -4,12 +4,14 @@
 
 import numpy as np
 import pytest
-from story import displacement, elasticity, fix
 
 import contactx as cx
-from contactx import meshes, reference
-from contactx.meshes import Tag
 from dolfinx import fem
+
+import meshes
+import reference
+from meshes import Tag
+from story import displacement, elasticity, fix
 
 
 def solve(n_master, sliding):

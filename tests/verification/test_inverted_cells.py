@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 from scene_transforms import Support, differences, jacobians, numbered, oriented, solve
 
-from contactx import meshes
-from contactx.meshes import Tag
 from dolfinx.mesh import CellType
+
+import meshes
+from meshes import Tag
 
 
 @pytest.mark.parametrize("sliding", ["finite", "small"])

@@ -4,6 +4,7 @@
 
 import pytest
 from ironing import FRICTIONS, WAY, Ironing
+
 from story import METHODS
 
 # Largest deviation from a cubic along the drag over the mean vertical force, by dimension

@@ -7,15 +7,15 @@ from dataclasses import replace
 import cattaneo_mindlin
 import numpy as np
 import pytest
+from sliding_block import BASES, FRICTION, Slider
+
+import meshes
 import scenes
+from meshes import FACE_SLABS, Tag
 from slab_results import laws, measure
 from slab_scene import Setting
 from slab_schemes import scheme_1
-from sliding_block import BASES, FRICTION, Slider
 from story import METHODS
-
-from contactx import meshes
-from contactx.meshes import FACE_SLABS, Tag
 
 MORTAR = METHODS[1]
 

@@ -8,9 +8,10 @@ from mpi4py import MPI
 
 import numpy as np
 import pytest
-from scenes import hertz_sphere
 
 from dolfinx import fem, mesh
+
+from scenes import hertz_sphere
 
 pytestmark = pytest.mark.usefixtures("method")
 

@@ -5,6 +5,7 @@
 import numpy as np
 import pytest
 import solved_blocks
+
 from story import METHODS
 
 MORTAR = "surface-to-surface"

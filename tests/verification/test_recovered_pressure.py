@@ -4,6 +4,7 @@
 
 import numpy as np
 import pytest
+
 from scenes import hertz_of, hertz_sphere, pressure_error
 
 NODES, FACETS = "node-to-surface", "surface-to-surface"

@@ -4,15 +4,17 @@
 
 import numpy as np
 import pytest
-from scenes import Blocks, hertz_sphere
-from story import displacement, elasticity, fix
 
 import contactx as cx
 import ufl
-from contactx import meshes, reference
-from contactx.meshes import Tag
 from dolfinx import default_scalar_type, fem
 from dolfinx.mesh import CellType
+
+import meshes
+import reference
+from meshes import Tag
+from scenes import Blocks, hertz_sphere
+from story import displacement, elasticity, fix
 
 pytestmark = pytest.mark.usefixtures("method")
 

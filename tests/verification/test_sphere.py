@@ -9,6 +9,7 @@ below; those of surface-to-surface are what contactx has found once.
 import hertz_sphere
 import numpy as np
 import pytest
+
 from scenes import pressure_error
 
 NODES, FACETS = "node-to-surface", "surface-to-surface"

@@ -5,14 +5,15 @@
 import numpy as np
 import pytest
 from driven_blocks import DrivenBlock, neo_hookean
-from scenes import Blocks, hertz_sphere
-from story import elasticity
 from tower import CELLS, Tower, lift
 
 import contactx as cx
 from contactx import saving
 from dolfinx import fem
 from dolfinx.mesh import CellType
+
+from scenes import Blocks, hertz_sphere
+from story import elasticity
 
 SURFACE, NODE = "surface-to-surface", "node-to-surface"
 every_cell = pytest.mark.parametrize("cell", CELLS, ids=lambda cell: cell.name)

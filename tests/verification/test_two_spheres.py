@@ -5,6 +5,7 @@
 import numpy as np
 import pytest
 import two_spheres
+
 from story import METHODS
 
 

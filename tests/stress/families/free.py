@@ -14,9 +14,10 @@ from stress.scene import METHODS, SLIDINGS, Case, Check, Scene, relative
 
 import contactx as cx
 import ufl
-from contactx import meshes
-from contactx.meshes import block_tag
 from dolfinx import fem
+
+import meshes
+from meshes import block_tag
 
 _PRESSURE = 0.01
 

@@ -8,15 +8,16 @@ from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
-import scenes as common
 from stress.blocks import bulk, of_bodies
 from stress.families.grid import scenes, variants
 from stress.scene import METHODS, SLIDINGS, Case, Check, Scene, relative
 
 import contactx as cx
-from contactx import meshes
-from contactx.meshes import Tag
 from dolfinx import fem
+
+import meshes
+import scenes as common
+from meshes import Tag
 
 # Total forces at deep indentations, on which both methods, kinematics and meshes agree: of node-to-
 # surface at h = 0.02

@@ -13,10 +13,11 @@ from stress.scene import METHODS, Case, Check, Scene
 
 import contactx as cx
 import ufl
-from contactx import meshes
-from contactx.meshes import Tag
 from dolfinx import fem
 from dolfinx.mesh import CellType
+
+import meshes
+from meshes import Tag
 
 _WEIGHT = 1e-3
 

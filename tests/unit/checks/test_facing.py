@@ -4,13 +4,14 @@
 
 import numpy as np
 import pytest
-from scenes import Blocks
 
 import contactx as cx
 from contactx import cpp as core
-from contactx.meshes import Tag
 from contactx.surface import FacetList
 from dolfinx.mesh import CellType
+
+from meshes import Tag
+from scenes import Blocks
 
 CELLS = pytest.mark.parametrize(
     "cell",

@@ -7,19 +7,20 @@ from mpi4py import MPI
 import numpy as np
 import pytest
 from scene_transforms import rotation
-from scenes import Blocks
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
-from story import displacement, elasticity
 
 import basix.ufl
 import contactx as cx
-from contactx import meshes
 from contactx.bodies.bodies import Bodies
-from contactx.meshes import Tag
 from contactx.parallel.halo import Halo
 from dolfinx import mesh
 from dolfinx.mesh import CellType
+
+import meshes
+from meshes import Tag
+from scenes import Blocks
+from story import displacement, elasticity
 
 CELLS = pytest.mark.parametrize(
     "cell",

@@ -8,12 +8,13 @@ from mpi4py import MPI
 
 import numpy as np
 import pytest
-from scenes import Blocks
 
 from contactx.checks.shape import check_facets, corner_normals
 from contactx.surface import FacetList
 from dolfinx import mesh
 from dolfinx.mesh import CellType
+
+from scenes import Blocks
 
 SQUARE = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]])
 

@@ -11,9 +11,10 @@ from types import ModuleType
 import gmsh
 import pytest
 
-from contactx.meshes import Tag, blocks, hertz_sphere
-from contactx.meshes.gmsh_session import gmsh_session
 from dolfinx.mesh import CellType
+
+from meshes import Tag, blocks, hertz_sphere
+from meshes.gmsh_session import gmsh_session
 
 
 @pytest.fixture

@@ -10,7 +10,7 @@ from mpi4py import MPI
 
 import pytest
 
-from contactx.meshes.build import build_mesh
+from meshes.build import build_mesh
 
 
 def test_error_of_a_recipe_reaches_every_rank() -> None:

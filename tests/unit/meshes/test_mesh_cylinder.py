@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 import pytest
 
-from contactx.meshes import Tag, hertz_cylinder
+from meshes import Tag, hertz_cylinder
 
 
 def lengths_near_origin(edges: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:

@@ -11,8 +11,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from contactx.meshes import FACE_SLABS, FaceSlab, block_tag, face_slab
 from dolfinx.mesh import CellType
+
+from meshes import FACE_SLABS, FaceSlab, block_tag, face_slab
 
 SIDES = ("bottom", "top", "x0", "x1", "y0", "y1")
 SLICE = FACE_SLABS["slice"]

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from contactx.meshes import Tag, half_cylinders
+from meshes import Tag, half_cylinders
 
 RADIUS = 8.0
 CONTACTS = (Tag.UPPER_CONTACT, Tag.LOWER_CONTACT)

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from contactx.meshes import Tag, half_spheres
+from meshes import Tag, half_spheres
 
 RADIUS = 8.0
 CONTACTS = (Tag.UPPER_CONTACT, Tag.LOWER_CONTACT)

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from contactx.meshes import Tag, rings
+from meshes import Tag, rings
 
 FACES = {
     Tag.UPPER_CONTACT: 1.5,

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from contactx.meshes import Tag, hertz_sphere
+from meshes import Tag, hertz_sphere
 
 
 @pytest.mark.parametrize(("h", "nodes"), [(0.04, 907), (0.02, 2441), (0.01, 9567)])

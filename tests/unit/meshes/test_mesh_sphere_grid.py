@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from contactx.meshes import Tag, hertz_grid
+from meshes import Tag, hertz_grid
 
 
 def test_geometry(measures: Any) -> None:

@@ -10,8 +10,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from contactx.meshes import Tag, block_tag, stack
 from dolfinx.mesh import CellType
+
+from meshes import Tag, block_tag, stack
 
 SIDES = {2: ("bottom", "top", "x0", "x1"), 3: ("bottom", "top", "x0", "x1", "y0", "y1")}
 

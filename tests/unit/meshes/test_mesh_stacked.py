@@ -9,8 +9,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from contactx.meshes import Tag, blocks
 from dolfinx.mesh import CellType
+
+from meshes import Tag, blocks
 
 FACES_2D = {11, 12, 13, 15, 21, 22, 23, 25}
 FACES_3D = FACES_2D | {14, 16, 24, 26}

@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 import pytest
 
-from contactx.reference import CattaneoMindlin, HertzCylinder, contact_modulus
+from reference import CattaneoMindlin, HertzCylinder, contact_modulus
 
 # Two cylinders of radius 8, E = 200, nu = 0.3
 PAIR = CattaneoMindlin(

@@ -9,7 +9,7 @@ import math
 import numpy as np
 import pytest
 
-from contactx.reference import HertzCylinder
+from reference import HertzCylinder
 
 HERTZ = HertzCylinder(force=3.0, radius=2.0, modulus=50.0)
 

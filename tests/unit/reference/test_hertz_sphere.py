@@ -9,7 +9,7 @@ import math
 import numpy as np
 import pytest
 
-from contactx.reference import HertzSphere, contact_modulus
+from reference import HertzSphere, contact_modulus
 
 HERTZ = HertzSphere(force=3.0, radius=2.0, modulus=50.0)
 

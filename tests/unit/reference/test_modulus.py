@@ -8,7 +8,7 @@ import math
 
 import pytest
 
-from contactx.reference import contact_modulus
+from reference import contact_modulus
 
 
 def test_equal_bodies_are_half_as_stiff_as_one_on_a_rigid_body() -> None:

@@ -10,7 +10,7 @@ from dataclasses import asdict, replace
 import numpy as np
 import pytest
 
-from contactx.reference import PressFit
+from reference import PressFit
 
 FIT = PressFit(
     interference=0.02,

@@ -1,0 +1,36 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Meshes of contact problems, made with gmsh and returned as dolfinx ``MeshData``."""
+
+from __future__ import annotations
+
+from meshes.cap import hertz_cap
+from meshes.cylinder import hertz_cylinder
+from meshes.face_slab import FACE_SLABS, FaceSlab, face_slab
+from meshes.half_cylinders import half_cylinders
+from meshes.half_spheres import half_spheres
+from meshes.rings import rings
+from meshes.single import single
+from meshes.sphere import hertz_sphere
+from meshes.sphere_grid import hertz_grid
+from meshes.stack import stack
+from meshes.stacked import blocks
+from meshes.tags import Tag, block_tag
+
+__all__ = [
+    "FACE_SLABS",
+    "FaceSlab",
+    "Tag",
+    "block_tag",
+    "blocks",
+    "face_slab",
+    "half_cylinders",
+    "half_spheres",
+    "hertz_cap",
+    "hertz_cylinder",
+    "hertz_grid",
+    "hertz_sphere",
+    "rings",
+    "single",
+    "stack",
+]

@@ -1,0 +1,13 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Closed formulas of contact mechanics, to compare computed solutions with."""
+
+from __future__ import annotations
+
+from reference.cattaneo_mindlin import CattaneoMindlin
+from reference.hertz_cylinder import HertzCylinder
+from reference.hertz_sphere import HertzSphere
+from reference.modulus import contact_modulus
+from reference.press_fit import PressFit
+
+__all__ = ["CattaneoMindlin", "HertzCylinder", "HertzSphere", "PressFit", "contact_modulus"]
