@@ -34,13 +34,15 @@ BENCHES := hertz methods rates spheres ironing friction scenes parts skips steps
 
 # Threads: MPI and the tests' machine decide, not OpenMP. Without a display,
 # VTK need not look for one.
-RUN := OMP_NUM_THREADS=1 PATH="$(CURDIR)/$(BIN):$$PATH"
+RUN := env OMP_NUM_THREADS=1 PATH="$(CURDIR)/$(BIN):$$PATH"
 ifeq ($(DISPLAY),)
 RUN += VTK_DEFAULT_OPENGL_WINDOW=vtkEGLRenderWindow
 endif
+# In place of the shell, so that who ends make ends pytest.
+PYTEST := exec $(RUN) $(BIN)/python -m pytest
 
 .DELETE_ON_ERROR:
-.PHONY: all demo test test-cpp test-python stress leaks fuzz sanitize bench bench-core lint \
+.PHONY: all demo test test-cpp test-fast verify stress leaks fuzz sanitize bench bench-core lint \
 	format clean help
 
 all: $(INSTALLED)
@@ -48,8 +50,9 @@ all: $(INSTALLED)
 help:
 	@echo "make          set up .venv, build contactx and install it there"
 	@echo "make demo     solve the Hertz sphere and the face slabs of demos/"
-	@echo "make test     lint, C++ tests, Python tests"
-	@echo "make stress   thousands of hard scenes: a map of what comes of them"
+	@echo "make test     lint, C++ tests, fast Python tests: less than five minutes"
+	@echo "make verify   all other tests that are not long"
+	@echo "make stress   thousands of hard scenes: a map of what comes of them; 16 ranks"
 	@echo "make leaks    memory over 1,000 steps and 1,000 problems"
 	@echo "make bench    all benchmarks, up to a million displacements"
 	@echo "make bench-core  time the kernels and the search"
@@ -75,10 +78,12 @@ $(DEPENDENCIES): pyproject.toml tools/requirements.py $(CREATED)
 	$(BIN)/python -m pip install --quiet -r $(VENV)/requirements.txt
 	@mv $@.began $@
 
-# Without isolation the build folder stays valid from one build to the next.
+# Without isolation the build folder stays valid from one build to the next; the
+# C++ tests link the core that is built for the package there.
 $(INSTALLED): $(DEPENDENCIES) CMakeLists.txt README.md $(SOURCES)
 	@touch $@.began
-	$(BIN)/python -m pip install --quiet --no-deps --no-build-isolation --force-reinstall .
+	$(BIN)/python -m pip install --quiet --no-deps --no-build-isolation --force-reinstall \
+		--config-settings=cmake.define.CONTACTX_TESTS=ON .
 	@mv $@.began $@
 
 demo: $(INSTALLED)
@@ -86,19 +91,25 @@ demo: $(INSTALLED)
 	$(RUN) $(BIN)/python demos/face_slab.py
 	$(RUN) $(BIN)/python demos/face_slab.py --scheme 2
 
-test: lint test-cpp test-python
+test: lint test-cpp test-fast
 
-test-cpp: $(DEPENDENCIES)
-	$(RUN) cmake -S . -B build/cpp -G Ninja -DCONTACTX_TESTS=ON -DCONTACTX_PYTHON=OFF
-	$(RUN) cmake --build build/cpp
-	$(RUN) ctest --test-dir build/cpp --output-on-failure
+test-cpp: $(INSTALLED)
+	$(RUN) cmake --build build/package --target contactx_tests
+	build/package/contactx_tests --gtest_brief=1
 
-test-python: $(INSTALLED)
-	$(RUN) $(BIN)/python -m pytest -n $(JOBS) --dist loadgroup
+# Scripts on several ranks take all cores: they come by themselves.
+test-fast: $(INSTALLED)
+	$(PYTEST) -n $(JOBS) tests/fast --ignore tests/fast/parallel
+	$(PYTEST) tests/fast/parallel
+
+verify: $(INSTALLED)
+	$(PYTEST) -n $(JOBS) tests/verify --ignore tests/verify/parallel
+	$(PYTEST) tests/verify/parallel
 
 # Tables and a picture come to build/stress; fails where a scene is wrong.
 stress: $(INSTALLED)
 	$(RUN) $(BIN)/python tests/stress/stress_map.py --workers $(JOBS)
+	$(PYTEST) tests/stress
 
 # Memory of a process per run, every fiftieth step; fails where it grows.
 leaks: $(INSTALLED)

@@ -3,27 +3,25 @@
 """contactx comes first: it loads the wheels' MPI and PETSc before a test imports petsc4py."""
 
 import os
+import signal
 from pathlib import Path
 
 import pytest
+from tether import tether
 
 import contactx as cx
 
-HERE = Path(__file__).parent
-
 # One process may wait for a form that another one compiles
-os.environ["XDG_CONFIG_HOME"] = str(HERE / "settings")
+os.environ["XDG_CONFIG_HOME"] = str(Path(__file__).parent / "settings")
 
 
-@pytest.hookimpl(tryfirst=True)
-def pytest_collection_modifyitems(items):
-    """Scripts on several ranks take all cores: one after the other, if tests run in parallel.
-
-    First of all: xdist reads its groups in the same hook.
-    """
-    for item in items:
-        if HERE / "parallel" in item.path.parents:
-            item.add_marker(pytest.mark.xdist_group("ranks"))
+def pytest_configure(config):
+    """However a run is ended, it ends what it has started."""
+    # In the background of a shell Ctrl-C is ignored, and some tests raise it
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    if hasattr(config, "workerinput"):
+        tether()
 
 
 @pytest.fixture(params=["node-to-surface", "surface-to-surface"], ids=["node", "surface"])

@@ -26,7 +26,8 @@ for _folder in ("demos", "tests", "tests/benchmarks"):
     if str(ROOT / _folder) not in sys.path:
         sys.path.insert(0, str(ROOT / _folder))
 
-from launch import Failure, Hang, launch  # noqa: E402
+from ranks.launch import Failure, Hang, launch  # noqa: E402
+from tether import tethered  # noqa: E402
 
 
 def alone(function: str, **job: Any) -> dict[str, Any]:
@@ -40,7 +41,7 @@ def alone(function: str, **job: Any) -> dict[str, Any]:
         The job and what it returns; where it fails, the last line of the error as ``failed``.
     """
     run = subprocess.run(
-        [sys.executable, __file__, function, json.dumps(job)],
+        tethered([sys.executable, __file__, function, json.dumps(job)]),
         env={**os.environ, "OMP_NUM_THREADS": "1"},
         capture_output=True,
         text=True,

@@ -16,7 +16,7 @@ from mpi4py import MPI
 from petsc4py import PETSc
 
 import hertz_case
-from partitions import partitioned
+from ranks.partitions import partitioned
 
 import contactx as cx
 from dolfinx.mesh import CellType

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import parallel
 import pytest
-from launch import launch
+from ranks.launch import launch
 
 
 @pytest.mark.parametrize("ranks", [1, 2])

@@ -3,12 +3,12 @@
 """Errors of one rank are errors of all, and nothing hangs."""
 
 import json
-from pathlib import Path
 
 import pytest
-from together import launch_together
+from ranks.launch import SCRIPTS
+from ranks.together import launch_together
 
-SCRIPT = Path(__file__).with_name("run_errors.py")
+SCRIPT = SCRIPTS / "run_errors.py"
 # What each function of scenes_errors.py must say
 RAISED = {
     "update_throws": "Wrong: in update",

@@ -3,12 +3,11 @@
 """A hang is found, told and ended; so the other tests here can fail."""
 
 import time
-from pathlib import Path
 
 import pytest
-from launch import Failure, Hang, launch
+from ranks.launch import SCRIPTS, Failure, Hang, launch
 
-SCRIPT = Path(__file__).with_name("hanging.py")
+SCRIPT = SCRIPTS / "hanging.py"
 
 
 def test_a_hang_is_told_and_ended():

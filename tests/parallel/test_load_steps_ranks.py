@@ -2,13 +2,13 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """Load steps on several ranks: checkpoints of n ranks read by m, errors of one raised on all."""
 
-from load_steps_ranks import PAIRS
-from relaxed import MESHES
-from run_ranks import run_ranks
+from ranks.launch import SCRIPTS, launch
+from ranks.load_steps_ranks import PAIRS
+from ranks.relaxed import MESHES
 
 
 def test_checkpoints_errors_and_the_table(tmp_path):
-    output = run_ranks("load_steps_ranks.py", 4, tmp_path)
+    output = launch(SCRIPTS / "load_steps_ranks.py", 4, str(tmp_path))
     for name in MESHES:
         for n, m in PAIRS:
             assert f"{name}: {n} ranks, then {m}" in output

@@ -2,15 +2,14 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """Scenes have the same answer on any number of ranks, however the mesh is distributed."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
-from cases import METHODS, SCENES, Case
-from outcome import differences
-from together import launch_together
+from ranks.cases import METHODS, SCENES, Case
+from ranks.launch import SCRIPTS
+from ranks.outcome import differences
+from ranks.together import launch_together
 
-SCRIPT = Path(__file__).with_name("run_cases.py")
+SCRIPT = SCRIPTS / "run_cases.py"
 TOLERANCE = 1e-9
 # Ranks without cells, without a body, without slave nodes or master facets; ghost cells; any
 UNUSUAL = {

@@ -50,6 +50,7 @@ def main() -> int:
         return int(run(sys.argv[2], steps) > BOUND)
     sys.path[:0] = map(str, folders)
     from memory import RUNS
+    from tether import tethered
 
     import contactx  # noqa: F401
 
@@ -57,7 +58,9 @@ def main() -> int:
     failed = [
         name
         for name in RUNS
-        if subprocess.run([sys.executable, __file__, str(steps), name], env=env).returncode
+        if subprocess.run(
+            tethered([sys.executable, __file__, str(steps), name]), env=env
+        ).returncode
     ]
     print(f"memory grows: {', '.join(failed)}" if failed else "memory does not grow")
     return int(bool(failed))

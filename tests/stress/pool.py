@@ -16,6 +16,7 @@ from pathlib import Path
 
 from stress.outcome import Kind, Outcome
 from stress.scene import Scene
+from tether import tethered
 
 # Seconds for a scene
 LIMIT = 600.0
@@ -70,7 +71,7 @@ class Worker:
         """Run a scene; one that ends its process is wrong."""
         if self._process is None:
             self._process = subprocess.Popen(
-                [sys.executable, str(Path(__file__).with_name("worker.py"))],
+                tethered([sys.executable, str(Path(__file__).with_name("worker.py"))]),
                 env={**os.environ, "OMP_NUM_THREADS": "1"},
                 stdin=subprocess.PIPE,
                 stdout=subprocess.PIPE,

@@ -5,7 +5,6 @@
 from types import SimpleNamespace
 
 import numpy as np
-from two_blocks import TwoBlocks
 
 import contactx as cx
 from contactx.checks import inside
@@ -18,6 +17,7 @@ from contactx.master.obstacle import ObstacleMaster
 from contactx.parallel.slaves import SlaveNodes
 from contactx.search.records import slave_facets
 from contactx.surface import FacetList
+from ranks.two_blocks import TwoBlocks
 
 
 def said(scene, check, *arguments):

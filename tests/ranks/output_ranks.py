@@ -5,7 +5,6 @@
 from __future__ import annotations
 
 import sys
-import traceback
 from pathlib import Path
 from typing import Any
 
@@ -13,11 +12,11 @@ from mpi4py import MPI
 
 import numpy as np
 import numpy.typing as npt
-from agreeing import refused
-from relaxed import MESHES
 
 import contactx as cx
 from dolfinx import fem, mesh
+from ranks.agreeing import refused
+from ranks.relaxed import MESHES
 
 import plot
 from meshes.build import build_mesh
@@ -149,12 +148,7 @@ def picture_and_errors(folder: Path) -> None:
 
 
 if __name__ == "__main__":
-    try:
-        place = Path(sys.argv[1])
-        files_and_surfaces(place)
-        parts(place)
-        picture_and_errors(place)
-    except BaseException:
-        traceback.print_exc()
-        sys.stderr.flush()
-        WORLD.Abort(1)
+    place = Path(sys.argv[1])
+    files_and_surfaces(place)
+    parts(place)
+    picture_and_errors(place)

@@ -12,8 +12,7 @@ from pathlib import Path
 
 from mpi4py import MPI
 
-import scenes_errors
-import watch
+from ranks import scenes_errors, watch
 
 LIMIT = 60
 

@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
@@ -13,11 +12,11 @@ from mpi4py import MPI
 
 import numpy as np
 import numpy.typing as npt
-from agreeing import some_ranks, wait
 
 import basix.ufl
 from dolfinx import mesh
 from dolfinx.mesh import CellType
+from ranks.agreeing import some_ranks, wait
 
 import meshes
 
@@ -133,8 +132,4 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    try:
-        main()
-    except BaseException as error:
-        print(repr(error), file=sys.stderr, flush=True)
-        MPI.COMM_WORLD.Abort(1)
+    main()

@@ -8,13 +8,8 @@ import inspect
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
-import partitions
-import scenes_elastic
-import scenes_rigid
-import scenes_rubbing
-import scenes_several
-
 import contactx as cx
+from ranks import partitions, scenes_elastic, scenes_rigid, scenes_rubbing, scenes_several
 
 METHODS = {"node": "node-to-surface", "surface": "surface-to-surface"}
 _MODULES = (scenes_elastic, scenes_rubbing, scenes_rigid, scenes_several)

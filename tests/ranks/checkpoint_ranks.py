@@ -5,7 +5,6 @@
 from __future__ import annotations
 
 import sys
-import traceback
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -13,12 +12,12 @@ from typing import Any
 from mpi4py import MPI
 
 import numpy as np
-from agreeing import some_ranks, wait
 from step_scenes import DentedBlock, SlidingBlocks
 
 import contactx as cx
 from contactx.steps import archive
 from dolfinx.mesh import CellType
+from ranks.agreeing import some_ranks, wait
 
 import meshes
 
@@ -129,9 +128,4 @@ def compare(end: dict[str, Any], straight: dict[str, Any], what: tuple[Any, ...]
 
 
 if __name__ == "__main__":
-    try:
-        main(Path(sys.argv[1]))
-    except BaseException:
-        traceback.print_exc()
-        sys.stderr.flush()
-        WORLD.Abort(1)
+    main(Path(sys.argv[1]))

@@ -7,7 +7,7 @@ import time
 
 from mpi4py import MPI
 
-import watch
+from ranks import watch
 
 what = sys.argv[1]
 comm = MPI.COMM_WORLD

@@ -5,11 +5,11 @@
 from mpi4py import MPI
 
 import numpy as np
-from checks_on_ranks import check_errors, nested
-from held_blocks import HeldBlock
-from two_blocks import PARTITIONS, TwoBlocks, alone
 
 from contactx.bodies.modes import RigidModes
+from ranks.checks_on_ranks import check_errors, nested
+from ranks.held_blocks import HeldBlock
+from ranks.two_blocks import PARTITIONS, TwoBlocks, alone
 
 COMM = MPI.COMM_WORLD
 

@@ -10,12 +10,12 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from partitions import partitioned
 from step_scenes import SlidingBlocks
 
 import contactx as cx
 from dolfinx import fem
 from dolfinx.mesh import CellType
+from ranks.partitions import partitioned
 
 from meshes import Tag
 from scenes import NU, Blocks

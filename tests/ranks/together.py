@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from launch import Failure, Hang, launch
+from ranks.launch import Failure, Hang, launch
 
 # A few that hang are skipped, more are not waited for
 _MOST = 3

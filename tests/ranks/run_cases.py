@@ -13,12 +13,12 @@ from pathlib import Path
 from mpi4py import MPI
 
 import numpy as np
-import watch
-from cases import METHODS, SCENES, Case
-from outcome import Outcome
-from partitions import partitioned
 
 import contactx as cx
+from ranks import watch
+from ranks.cases import METHODS, SCENES, Case
+from ranks.outcome import Outcome
+from ranks.partitions import partitioned
 
 # Seconds a case may take on cores that others use, too, with forms to compile
 LIMIT = 90

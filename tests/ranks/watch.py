@@ -12,6 +12,7 @@ import os
 import runpy
 import signal
 import sys
+import traceback
 from pathlib import Path
 
 import contactx  # noqa: F401  # it loads the wheels' MPI
@@ -50,9 +51,21 @@ def stacks(folder: str | Path) -> str:
     return "\n".join(path.read_text() for path in sorted(Path(folder).glob("rank_*.txt")))
 
 
-if __name__ == "__main__":
-    _, limit, script, *_ = sys.argv
-    sys.argv[:] = sys.argv[2:]
+def run(script: str, limit: float) -> None:
+    """Run a script, watched; an error of one rank ends all, which may be waiting for it."""
     sys.path[0] = str(Path(script).parent)
-    begin(Path(script).name, float(limit))
-    runpy.run_path(script, run_name="__main__")
+    begin(Path(script).name, limit)
+    try:
+        runpy.run_path(script, run_name="__main__")
+    except BaseException as error:
+        if isinstance(error, SystemExit) and not error.code:
+            return
+        traceback.print_exc()
+        sys.stderr.flush()
+        MPI.COMM_WORLD.Abort(1)
+
+
+if __name__ == "__main__":
+    _, seconds, name, *_ = sys.argv
+    sys.argv[:] = sys.argv[2:]
+    run(name, float(seconds))

@@ -4,20 +4,27 @@
 
 from __future__ import annotations
 
+import fcntl
 import os
-import signal
 import subprocess
 import sys
 import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
-import watch
+from tether import tethered
 
-TESTS = Path(__file__).parent
+from ranks import watch
+
+TESTS = Path(__file__).parents[1]
+# Where the scripts are that tests launch
+SCRIPTS = Path(__file__).parent
 # Seconds for a script, or for the last part that it began by ``watch.begin``
 LIMIT = 120.0
 # Seconds after which all is killed in any case
 LONGEST = 1800.0
+_LOCK = Path(tempfile.gettempdir()) / f"contactx-launch-{os.getuid()}.lock"
 
 
 class Hang(AssertionError):
@@ -37,7 +44,7 @@ def mpiexec() -> str:
 def launch(
     script: Path, ranks: int, *arguments: str, limit: float = LIMIT, longest: float = LONGEST
 ) -> str:
-    """Run a script on some ranks, on one thread each.
+    """Run a script on some ranks, on one thread each, after any other launch on this machine.
 
     Args:
         script: The script; helpers of tests and demos can be imported in it.
@@ -54,13 +61,11 @@ def launch(
         Failure: If the script fails otherwise, with what it printed.
     """
     command = [mpiexec(), "-n", str(ranks), sys.executable, watch.__file__, str(limit)]
-    paths = [str(TESTS), str(TESTS.parent / "demos"), *filter(None, [os.getenv("PYTHONPATH")])]
-    with tempfile.TemporaryDirectory() as folder:
-        own = {"OMP_NUM_THREADS": "1", "PYTHONPATH": os.pathsep.join(paths), watch.FOLDER: folder}
-        # A group of its own, so that nothing of it outlives its end
+    with tempfile.TemporaryDirectory() as folder, _alone():
+        # The ranks end with the launcher. Ctrl-C is for this process, which ends the launcher
         process = subprocess.Popen(
-            [*command, str(script), *arguments],
-            env={**os.environ, **own},
+            tethered([*command, str(script), *arguments]),
+            env=environment(ranks) | {watch.FOLDER: folder},
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
             text=True,
@@ -68,11 +73,13 @@ def launch(
         )
         try:
             printed, _ = process.communicate(timeout=longest)
-        except BaseException as error:
-            os.killpg(process.pid, signal.SIGKILL)
+        except subprocess.TimeoutExpired:
+            process.kill()
             printed, _ = process.communicate()
-            if isinstance(error, subprocess.TimeoutExpired):
-                raise Hang(f"hang: {longest:g} s were too few\n{printed}") from None
+            raise Hang(f"hang: {longest:g} s were too few\n{printed}") from None
+        except BaseException:
+            process.kill()
+            process.wait()
             raise
         found = watch.stacks(folder)
         if watch.TIMED_OUT in found:
@@ -80,3 +87,24 @@ def launch(
         if process.returncode != 0:
             raise Failure(f"{script.name} on {ranks} ranks: {process.returncode}\n{printed}")
         return printed
+
+
+def environment(ranks: int) -> dict[str, str]:
+    """Environment of the ranks, with what their MPI needs where they share cores."""
+    folders = [str(TESTS), str(TESTS.parent / "demos"), *filter(None, [os.getenv("PYTHONPATH")])]
+    variables = {
+        **os.environ,
+        "OMP_NUM_THREADS": "1",
+        "PYTHONPATH": os.pathsep.join(folders),
+        # Open MPI refuses more ranks than cores unless it is told
+        "PRTE_MCA_rmaps_default_mapping_policy": ":oversubscribe",
+    }
+    return variables
+
+
+@contextmanager
+def _alone() -> Iterator[None]:
+    """Wait until no other launch is under way: two of them would share the cores."""
+    with _LOCK.open("w") as file:
+        fcntl.flock(file, fcntl.LOCK_EX)
+        yield
