@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 from mpi4py import MPI
 
@@ -13,11 +14,14 @@ import numpy.typing as npt
 
 from contactx import cpp as core
 from contactx.assembly import Assembly
+from contactx.errors import point_text
 from contactx.forms import ContactForms, Pairs, State
 from contactx.law.law import Law
 from contactx.law.nodes import Nodes, touching_gap
 from contactx.master.master import Master
+from contactx.master.obstacle import ObstacleMaster
 from contactx.nodal import NodalValue
+from contactx.parallel import reduce
 from contactx.parallel.agreement import agreed
 from contactx.parallel.halo import Halo
 from contactx.parallel.slaves import SlaveNodes
@@ -160,6 +164,18 @@ class Interface:
         with agreed(self._halo.comm):
             self.master.accept(self.positions())
 
+    def set_factor(self, compliance: npt.NDArray[np.float64]) -> None:
+        """Set the factor c of the complementarity from the compliance of the pairs.
+
+        Slave node and master facet are springs in series: where one is much stiffer than the other,
+        the softer one decides how fast a gap closes. All ranks must take part.
+
+        Args:
+            compliance: Compliance of all nodes, length/force, zero where one cannot move.
+        """
+        of_pairs = compliance[self.slaves] + self.master.compliance(compliance)
+        self.nodes.set_factor(of_pairs, self._halo.comm)
+
     def search(self) -> int:
         """Pair the slave nodes in the current configuration, unless pairs are held.
 
@@ -299,3 +315,54 @@ class Interface:
         """Take over pairs that the master was given, not held."""
         self._held = self.sliding == "small"
         self._make_forms()
+
+
+def check_over_constrained(
+    interfaces: Sequence[Interface],
+    names: Sequence[Any],
+    prescribed: npt.NDArray[np.float64],
+    halo: Halo,
+) -> None:
+    """Check that Dirichlet conditions keep no slave node inside a rigid obstacle.
+
+    Args:
+        interfaces: Discrete sides of the contacts.
+        names: The contacts, for the message.
+        prescribed: Displacement with the Dirichlet values, shape (num_dofs,).
+        halo: Nodes on this rank.
+
+    Raises:
+        ValueError: If they do on any rank, on all ranks.
+    """
+    for k, interface in enumerate(interfaces):
+        bad = _constrained_inside(interface, prescribed, halo)
+        count = reduce.total(halo.comm, len(bad))
+        if count > 0 and interface.active:
+            numbers = halo.original[bad].tolist()
+            size = reduce.extent(halo.comm, halo.x[interface.slaves]).max()
+            first, at = reduce.first(
+                halo.comm, numbers, list(zip(numbers, halo.x[bad], strict=True))
+            )
+            raise ValueError(
+                f"contact {k} ({names[k]}) is over-constrained: Dirichlet conditions constrain "
+                f"{count} slave nodes inside the rigid obstacle, first node {first} of the mesh as "
+                f"it was made, at {point_text(at, size)}. Take them out of the slave surface, "
+                "release them along the obstacle's normal or prescribe values outside of it"
+            )
+
+
+def _constrained_inside(
+    interface: Interface, prescribed: npt.NDArray[np.float64], halo: Halo
+) -> npt.NDArray[np.int32]:
+    """Constrained slave nodes of this rank inside an obstacle, as blocks of the dofmap."""
+    master = interface.master
+    if not isinstance(master, ObstacleMaster) or interface.law.is_tied:
+        return np.array([], dtype=np.int32)
+    x = halo.x[: halo.num_bulk] + prescribed.reshape(-1, halo.gdim)
+    with agreed(halo.comm):
+        gap = master.inside(x) - interface.offset()
+    size = reduce.extent(halo.comm, x[interface.slaves]).max()
+    inside: npt.NDArray[np.int32] = interface.slaves[
+        interface.nodes.immobile & (gap < -1e-9 * size)
+    ]
+    return inside

@@ -12,23 +12,20 @@ from typing import Any
 from petsc4py import PETSc
 
 import numpy as np
+import numpy.typing as npt
 
 from contactx.bodies.bodies import Bodies
 from contactx.bodies.holder import Holder
 from contactx.bulk import Bulk
 from contactx.callback import keeps_its_error, weakly
 from contactx.convergence import Judge
-from contactx.cycling import CycleGuard
-from contactx.factor import set_factors
-from contactx.frozen import FrozenPairs
+from contactx.cycling import CycleGuard, FrozenPairs
 from contactx.interface import Interface
 from contactx.junctions import Junctions
 from contactx.linear import Condensed, LinearSolver, SaddlePoint
 from contactx.options import is_condensed, newton_options
 from contactx.parallel.reduce import largest, total
-from contactx.reasons import HIDDEN, UNBALANCED, reason_of
 from contactx.report import Iteration, Report
-from contactx.skips import skips
 from contactx.system import SaddlePointSystem
 
 # Share of the closed nodes that may change their status or facet before the pairs are held
@@ -36,6 +33,28 @@ _FEW = 0.2
 
 # Iterates in turn with forces that nothing in the way of a body can balance
 _DRIFTING = 3
+
+# Why the loop ended, and what to do about it
+_UNBALANCED = (
+    "the loads on a body cannot be balanced: nothing holds it and nothing is in its way, or "
+    "friction barely could. Support it, or turn the loads so that they press the bodies together"
+)
+_HIDDEN = (
+    "pairs went back and forth between facets and were held, and hide a penetration: refine the "
+    "master there or take smaller load steps"
+)
+_CODE = PETSc.SNES.ConvergedReason
+_REASONS = {
+    _CODE.CONVERGED_FNORM_ABS: "the residual is below the tolerance",
+    _CODE.DIVERGED_MAX_IT: "no convergence in snes_max_it iterations: take smaller load steps; "
+    "where nodes still change their status at the end, refine the mesh in contact, else raise "
+    "snes_max_it",
+    _CODE.DIVERGED_LINEAR_SOLVE: "the linear solver failed: is a body free to move without "
+    "touching anything? Support it; with a Krylov solver of your own try pc_type lu",
+    _CODE.DIVERGED_FUNCTION_NANORINF: "the residual is not finite: the material fails, or a body "
+    "is free to move without touching anything. Take smaller load steps, or support the body",
+    _CODE.DIVERGED_LINE_SEARCH: "the line search failed: take smaller load steps",
+}
 
 
 class NewtonLoop:
@@ -119,7 +138,7 @@ class NewtonLoop:
             with report.timing("bulk stiffness"):
                 stiffness = self._bulk.nodal_stiffness()
             self._judge.begin(stiffness)
-            set_factors(self._interfaces, stiffness, self._halo)
+            self._set_factors(stiffness)
             self._holder.begin_step()
             self._guard.begin_step()
             self._changes = self._settle(first=True)
@@ -130,7 +149,7 @@ class NewtonLoop:
         self._system.scatter(self._system.x)
         code = self.snes.getConvergedReason()
         report.converged = self._converged
-        report.reason = self._failure or reason_of(code, self._converged)
+        report.reason = self._failure or _reason_of(code, self._converged)
         report.frozen_gap = min(self._frozen.gaps, default=0.0)
         self._has_begun |= self._converged
         self._linear.end(report)
@@ -141,7 +160,7 @@ class NewtonLoop:
         report.skipped = Counter({"bulk Jacobian assembly": self._bulk.skipped - skipped})
         report.skipped.update(self._linear.skipped())
         for interface in self._interfaces:
-            report.skipped.update(skips(interface, self._halo.gdim, self._halo.comm))
+            report.skipped.update({"search": interface.skipped_searches})
 
     @property
     def hidden(self) -> Sequence[float]:
@@ -165,6 +184,18 @@ class NewtonLoop:
         self._linear.forget()
         if not self._has_begun:
             self._holder.forget()
+
+    def _set_factors(self, stiffness: npt.NDArray[np.float64]) -> None:
+        """Set the factor c of each contact's complementarity.
+
+        Args:
+            stiffness: Stiffness of each owned node, force/length, NaN where one cannot move.
+        """
+        own = np.zeros_like(stiffness)
+        np.divide(1, stiffness, out=own, where=stiffness > 0)
+        compliance = self._halo.extend(own)
+        for interface in self._interfaces:
+            interface.set_factor(compliance)
 
     def _time_linear_solves(self, report: Report) -> None:
         timer = ExitStack()
@@ -256,7 +287,7 @@ class NewtonLoop:
         # Held pairs give no true residual. Nodes without force change by rounding for ever
         while small and (self._stale or self._frozen.hide()):
             if not (self._stale or self._frozen.let_go()):
-                self._failure = HIDDEN
+                self._failure = _HIDDEN
                 return reason.DIVERGED_FUNCTION_DOMAIN
             self._changes = self._settle(follow=True)
             row, small = self._judged(snes, number)
@@ -270,7 +301,7 @@ class NewtonLoop:
         # In 3D nodes that all slip may hold a body by turning their friction
         shrinks = any(row.residual < 0.7 * r.residual for r in self._report.history[-2:-1])
         if self._holder.drifting >= _DRIFTING and not shrinks:
-            self._failure = UNBALANCED
+            self._failure = _UNBALANCED
             return reason.DIVERGED_FUNCTION_DOMAIN
         self._linear.provide(self._holder.stiffness)
         # A set that has come back is judged by exact solves alone
@@ -296,3 +327,15 @@ class NewtonLoop:
         )
         size = largest(self._halo.comm, np.abs(self._bulk.u.x.array).max(initial=0.0))
         return row, bool(residual <= tolerance and defect <= 1e-10 * size)
+
+
+def _reason_of(code: int, converged: bool) -> str:
+    """Why SNES ended.
+
+    Args:
+        code: Its reason.
+        converged: Whether the contact has converged, too.
+    """
+    if code > 0 and not converged:
+        return f"SNES stopped by itself, with reason {code}, before the end"
+    return _REASONS.get(code, f"SNES stopped with reason {code}")

@@ -14,22 +14,29 @@ from petsc4py import PETSc
 import numpy as np
 
 import ufl
-from contactx import compat, validate
+from contactx import compat
 from contactx.bodies.bodies import Bodies
 from contactx.bulk import Bulk
-from contactx.checks.bulk import check_compiler_options, check_conditions, check_forms
-from contactx.checks.cells import check_cells
-from contactx.checks.over_constrained import check_over_constrained
-from contactx.contact import Contact
+from contactx.bulk_input import (
+    check_compiler_options,
+    check_conditions,
+    check_displacement,
+    check_finite,
+    check_forms,
+    check_prescribed,
+)
+from contactx.contact import Contact, check_contacts
 from contactx.errors import ConvergenceError, NotFiniteError
-from contactx.interface import Interface
+from contactx.geometry.cells import check_cells
+from contactx.interface import Interface, check_over_constrained
 from contactx.interrupts import Interrupts
 from contactx.newton import NewtonLoop
 from contactx.nodal import reference_positions
+from contactx.options import check_petsc_options
 from contactx.parallel.halo import Halo
 from contactx.parallel.reduce import anywhere, least, total
 from contactx.report import Report
-from contactx.snapshot import Snapshot
+from contactx.state import Snapshot
 from contactx.system import SaddlePointSystem
 from dolfinx import fem, la
 
@@ -88,19 +95,19 @@ class ContactProblem:
                 do.
         """
         compat.require_real_double()
-        validate.check_displacement(u)
+        check_displacement(u)
         check_forms(F, J, u)
         check_conditions(bcs, u)
         check_compiler_options(form_compiler_options, jit_options)
-        validate.check_options(petsc_options, petsc_options_prefix)
-        validate.check_contacts(contacts)
+        check_petsc_options(petsc_options, petsc_options_prefix)
+        check_contacts(contacts)
 
         V = u.function_space
         X = la.vector(V.dofmap.index_map, V.dofmap.index_map_bs)
         gdim = V.mesh.geometry.dim
         X.array[:] = reference_positions(V).ravel()
         comm = V.mesh.comm
-        validate.check_finite(comm, coordinates_of_the_mesh_are=X)
+        check_finite(comm, coordinates_of_the_mesh_are=X)
 
         self.u = u
         self.contacts = list(contacts)
@@ -154,12 +161,12 @@ class ContactProblem:
             ConvergenceError: If the Newton loop fails. The displacement and the contacts are then
                 as they were before the call.
             ValueError: If ``u`` or a Dirichlet value is not finite, friction, offset or an obstacle
-                has become what it must not be, Dirichlet conditions hold a slave node inside a
-                rigid obstacle, or PETSc refuses an option.
+                has become what it must not be, Dirichlet conditions constrain a slave node
+                inside a rigid obstacle, or PETSc refuses an option.
         """
-        validate.check_finite(self._halo.comm, the_displacement_u_is=self.u.x)
+        check_finite(self._halo.comm, the_displacement_u_is=self.u.x)
         prescribed = self._bulk.prescribed()
-        validate.check_prescribed(prescribed, self._bulk.markers, self._halo.comm)
+        check_prescribed(prescribed, self._bulk.markers, self._halo.comm)
         check_over_constrained(self._interfaces, self.contacts, prescribed, self._halo)
         before = Snapshot(self.u, self.contacts, self._halo.refresh)
         self._halo.refresh()

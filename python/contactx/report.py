@@ -71,9 +71,8 @@ class Report:
         force: Force on the slave side of each contact, a list of arrays of shape (gdim,).
         recovery: By how much the recovered pressures and tractions of each contact change its
             force, over the sum of its nodes' forces: nothing on plane surfaces, but for rounding.
-        skipped: What the scene did not need: what was not done again because it still served
-            (assembly of the bulk's Jacobian, hierarchies, factorisations, searches), and how many
-            pairs out of reach, tangential unknowns and master sides there are not.
+        skipped: What iterations did not do again because it still served, and how often: assembly
+            of the bulk's Jacobian, hierarchies, factorisations, searches.
         unread: PETSc options of the user that nothing has read: misspelt, perhaps.
         times: Wall seconds of each part.
     """

@@ -7,7 +7,7 @@ import pytest
 
 import contactx as cx
 import ufl
-from contactx.frozen import FrozenPairs
+from contactx.cycling import FrozenPairs
 from contactx.master.facets import FacetMaster
 from dolfinx import default_scalar_type, fem
 from dolfinx.mesh import CellType

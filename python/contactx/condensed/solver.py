@@ -19,10 +19,9 @@ from contactx.condensed.chains import check_chains
 from contactx.condensed.elimination import Elimination
 from contactx.condensed.guess import Guess
 from contactx.condensed.multigrid import Multigrid
-from contactx.condensed.numbering import Numbering
+from contactx.condensed.numbering import Numbering, Surroundings
 from contactx.condensed.operator import CondensedOperator
 from contactx.condensed.prescribed import Prescribed
-from contactx.condensed.surroundings import Surroundings
 from contactx.factorised import FactorisedSolver
 from contactx.options import ROUNDING
 from contactx.parallel import reduce

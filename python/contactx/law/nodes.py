@@ -12,7 +12,7 @@ import numpy.typing as npt
 from contactx import cpp as core
 from contactx.forms import State
 from contactx.law.mean_normal import MeanNormal
-from contactx.parallel.reduce import largest
+from contactx.parallel.reduce import largest, total
 from dolfinx import la
 
 type Array = npt.NDArray[np.float64]
@@ -82,6 +82,23 @@ class Nodes:
 
         self.by_slip = rows_of(state.slip_derivative)
         self.by_normal = rows_of(state.normal_derivative)
+
+    def set_factor(self, compliance: Array, comm: MPI.Comm) -> None:
+        """Set the factor c to the stiffness of a pair over the slave node's area.
+
+        Any c > 0 has the same solution. All ranks must take part.
+
+        Args:
+            compliance: Compliance of each node's pair, length/force, zero where it is unknown;
+                shape (n,).
+            comm: Communicator.
+        """
+        product = compliance * self.area
+        usable = product[product > 0]
+        logs, count = total(comm, np.array([np.log(usable).sum(), len(usable)]))
+        # Where nothing can move: the geometric mean of the others
+        usual = np.exp(logs / count) if count > 0 else 1.0
+        self.c[:] = 1 / np.where(product > 0, product, usual)
 
     @property
     def closed(self) -> npt.NDArray[np.bool_]:

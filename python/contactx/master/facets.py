@@ -14,7 +14,6 @@ from contactx import cpp as core
 from contactx.forms import Pairs
 from contactx.master.master import Array, Master, RowKind, Weights, touching
 from contactx.master.mobility import free_squares, pair_weights
-from contactx.master.reach import default_reach
 from contactx.parallel.halo import Halo
 from contactx.parallel.slaves import SlaveNodes
 from contactx.search.distributed import master_surface
@@ -42,7 +41,7 @@ class FacetMaster(Master):
         halo: Halo,
         slave: SlaveNodes,
         master: FacetList,
-        search_distance: float | None,
+        reach: float,
         *,
         sliding: str,
         measures_slip: bool,
@@ -53,7 +52,7 @@ class FacetMaster(Master):
             halo: Nodes of this rank.
             slave: Slave nodes.
             master: Master facets that this rank has.
-            search_distance: Largest distance of a pair; chosen if None.
+            reach: Largest distance of a pair.
             sliding: "finite" or "small".
             measures_slip: Whether slip is measured.
         """
@@ -67,7 +66,7 @@ class FacetMaster(Master):
         # node's slip starts, as a place in the configuration of the step's start
         self._x0 = self._at = x
         self._start = np.zeros((0, x.shape[1]))
-        self.reach = search_distance or default_reach(halo, slave.facets, master)
+        self.reach = reach
         known = self.surface.facets
         self._pairing = core.Pairing(
             slave.facets.offsets,

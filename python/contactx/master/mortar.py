@@ -17,7 +17,6 @@ from contactx.master.master import Master, RowKind, Weights
 from contactx.master.mobility import held_squares
 from contactx.master.mortar_pairs import Array, Mortar, Sides, unit
 from contactx.master.mortar_slip import MortarSlip
-from contactx.master.reach import default_reach
 from contactx.parallel.halo import Halo
 from contactx.parallel.reduce import anywhere, largest, least
 from contactx.parallel.slaves import SlaveNodes
@@ -50,7 +49,7 @@ class MortarMaster(Master):
         halo: Halo,
         slave: SlaveNodes,
         master: FacetList,
-        search_distance: float | None,
+        reach: float,
         *,
         sliding: str,
         measures_slip: bool,
@@ -61,7 +60,7 @@ class MortarMaster(Master):
             halo: Nodes of this rank.
             slave: Slave nodes.
             master: Master facets that this rank has.
-            search_distance: Largest distance of a pair; chosen if None.
+            reach: Largest distance of a pair.
             sliding: "finite" or "small".
             measures_slip: Whether slip is measured.
         """
@@ -70,7 +69,7 @@ class MortarMaster(Master):
         self.surface = master_surface(halo, master)
         self._gdim = halo.gdim
         self._small = sliding == "small"
-        self.reach = search_distance or default_reach(halo, facets, master)
+        self.reach = reach
         self._nodes = np.union1d(facets.nodes, self.surface.own.nodes)
         self._x0 = self._at = x = halo.x
         self._sides = Sides(slave, x)

@@ -7,7 +7,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from contactx.checks.shape import corner_normals
+from contactx.geometry.facets import corner_normals
 from contactx.parallel.halo import Halo
 from contactx.surface import FacetList
 

@@ -14,13 +14,13 @@ from mpi4py import MPI
 
 import numpy as np
 
-from contactx.checks.files import check_path, make_folder
-from contactx.checks.kinds import check_switch
+from contactx.arguments import check_switch
 from contactx.errors import ConvergenceError
+from contactx.files import check_path, make_folder
 from contactx.interrupts import Interrupts
 from contactx.parallel.agreement import agreed
 from contactx.problem import ContactProblem
-from contactx.snapshot import Snapshot
+from contactx.state import Snapshot
 from contactx.steps import archive
 from contactx.steps.checkpoint import Checkpoint
 from contactx.steps.display import Show, progress_bar, show_text

@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from contactx.bodies.bodies import Bodies
-from contactx.checks.hull import in_hulls
+from contactx.geometry.hull import in_hulls
 from contactx.obstacles import Obstacle
 from contactx.parallel import reduce
 from contactx.parallel.agreement import agreed
