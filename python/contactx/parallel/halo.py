@@ -14,7 +14,6 @@ import numpy as np
 import numpy.typing as npt
 
 from contactx.parallel.exchange import Exchange
-from contactx.parallel.traffic import Traffic
 from dolfinx import cpp, fem, la
 
 type Array = npt.NDArray[np.float64]
@@ -40,7 +39,6 @@ class Halo:
         displacement: Displacement of all nodes, as of the last ``refresh``.
         position: Reference position of all nodes.
         version: Counts how often the halo has changed.
-        traffic: What was sent for contact.
         exchange: Messages to other ranks.
     """
 
@@ -61,8 +59,7 @@ class Halo:
         self.gdim = X.shape[1]
         self.num_owned: int = bulk.size_local
         self.num_bulk: int = bulk.size_local + bulk.num_ghosts
-        self.traffic = Traffic()
-        self.exchange = Exchange(self.comm, self.traffic)
+        self.exchange = Exchange(self.comm)
         self.version = 0
         self._followers: list[weakref.WeakMethod[Callable[[], None]]] = []
         self._bulk_original = original_nodes(V)
@@ -113,7 +110,6 @@ class Halo:
         vector = self._vector(width, dtype)
         vector.array[: self.num_owned * width] = values[: self.num_owned].ravel()
         vector.scatter_forward()
-        self._count_forward(vector)
         everywhere: npt.NDArray[Any] = vector.array.reshape(-1, *values.shape[1:])
         return everywhere.astype(values.dtype)
 
@@ -141,7 +137,6 @@ class Halo:
         vector = self._vector(width, np.float64)
         vector.array[:] = values.ravel()
         vector.scatter_reverse(la.InsertMode.add)
-        self._count_reverse(vector)
         sums: Array = vector.array.reshape(-1, *values.shape[1:])[: self.num_owned].copy()
         return sums
 
@@ -222,10 +217,6 @@ class Halo:
             self._order = np.argsort(self._global).astype(np.int32)
         self._sorted = self._global[self._order]
         self._vectors: dict[tuple[int, Any], la.Vector] = {}
-        self._sent = 0, 0
-        if self.comm.size > 1:
-            ranks = self._map.index_to_dest_ranks(_TAG).array
-            self._sent = len(np.unique(ranks)), len(ranks)
         self.original = self.extend(self._bulk_original)
         # Forms are assembled rank by rank
         serial = cpp.common.IndexMap(MPI.COMM_SELF, self.num_nodes)
@@ -244,15 +235,6 @@ class Halo:
         if (width, dtype) not in self._vectors:
             self._vectors[width, dtype] = la.vector(self._map, width, dtype)
         return self._vectors[width, dtype]
-
-    def _count_forward(self, vector: la.Vector) -> None:
-        messages, count = self._sent
-        self.traffic.add("halo", messages, count * vector.block_size * 8)
-
-    def _count_reverse(self, vector: la.Vector) -> None:
-        owners = self._owner[self.num_owned :]
-        size = len(owners) * vector.block_size * 8
-        self.traffic.add("halo", len(np.unique(owners)), size)
 
 
 def original_nodes(V: fem.FunctionSpace) -> npt.NDArray[np.int64]:

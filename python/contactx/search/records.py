@@ -96,7 +96,7 @@ def around_nodes(halo: Halo, facets: FacetRecords) -> dict[int, FacetRecords]:
     out = {}
     for rank in np.unique(facets.owners[facets.numbers != _NONE]).tolist():
         out[rank] = facets.select((facets.owners == rank).any(axis=1))
-    return dict(halo.exchange("set-up", out))
+    return dict(halo.exchange(out))
 
 
 def around_facets(
@@ -114,7 +114,7 @@ def around_facets(
     for rank, theirs in at_nodes.items():
         nodes = np.unique(theirs.numbers[theirs.owners == halo.comm.rank])
         out[rank] = every.select(np.isin(every.numbers, nodes).any(axis=1))
-    found = halo.exchange("set-up", out)
+    found = halo.exchange(out)
     return FacetRecords.joined([facets, *found.values()])
 
 
