@@ -87,8 +87,8 @@ class Interface:
         self.num_others = len(slaves.around) - len(slaves.owned)
         self.master = master
         self._markers = markers.reshape(-1, gdim)
-        halo.follow(self._follow)
-        self._follow()
+        halo.on_change(self._halo_changed)
+        self._halo_changed()
         n = len(self.slaves)
         # State is this rank's alone
         slave_map = cpp.common.IndexMap(MPI.COMM_SELF, len(slaves.around))
@@ -108,10 +108,10 @@ class Interface:
         self._make_forms()
         self._find_immobile()
 
-    def _follow(self) -> None:
-        """Bring what is kept of all nodes up to a halo that has changed."""
-        self._free = self._halo.extend(self._markers) == 0
-        self.master.follow(self._halo.extend)
+    def _halo_changed(self) -> None:
+        """Make what is kept of all nodes fit a halo that has changed."""
+        self._free = self._halo.scatter_forward(self._markers) == 0
+        self.master.halo_changed(self._halo.scatter_forward)
 
     def positions(self) -> npt.NDArray[np.float64]:
         """Current positions of all nodes, shape (num_nodes, gdim)."""
@@ -134,7 +134,7 @@ class Interface:
         """
         self.skipped_searches = 0
         self.law.begin_step()
-        self.master.restart()
+        self.master.rebuild()
         self.hold(False)
         self._turn_tractions()
         self.master.begin_step()

@@ -107,7 +107,7 @@ class SaddlePoint(LinearSolver):
     def _jacobian(self, snes: PETSc.SNES, x: PETSc.Vec, A: PETSc.Mat, P: PETSc.Mat) -> None:
         if not self._is_current:
             with self._report.timing("Jacobian"):
-                self._system.scatter(x)
+                self._system.unpack(x)
                 self._system.jacobian(A, self._springs)
         self._is_current = False
 
@@ -195,7 +195,7 @@ class Condensed(LinearSolver):
 
     @keeps_its_error
     def _jacobian(self, snes: PETSc.SNES, x: PETSc.Vec, A: PETSc.Mat, P: PETSc.Mat) -> None:
-        self._system.scatter(x)
+        self._system.unpack(x)
         A.assemble()
 
     def _called(self) -> SimpleNamespace:

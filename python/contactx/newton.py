@@ -142,11 +142,11 @@ class NewtonLoop:
             self._holder.begin_step()
             self._guard.begin_step()
             self._changes = self._settle(first=True)
-            self._system.gather()
+            self._system.pack()
             self._linear.provide(self._holder.stiffness)
             self.snes.solve(None, self._system.x)
             report.unread = self._options.unread()
-        self._system.scatter(self._system.x)
+        self._system.unpack(self._system.x)
         code = self.snes.getConvergedReason()
         report.converged = self._converged
         report.reason = self._failure or _reason_of(code, self._converged)
@@ -193,7 +193,7 @@ class NewtonLoop:
         """
         own = np.zeros_like(stiffness)
         np.divide(1, stiffness, out=own, where=stiffness > 0)
-        compliance = self._halo.extend(own)
+        compliance = self._halo.scatter_forward(own)
         for interface in self._interfaces:
             interface.set_factor(compliance)
 
@@ -206,7 +206,7 @@ class NewtonLoop:
     @keeps_its_error
     def _function(self, snes: PETSc.SNES, x: PETSc.Vec, b: PETSc.Vec) -> None:
         with self._report.timing("residual"):
-            self._system.scatter(x)
+            self._system.unpack(x)
             self._system.residual(b)
 
     def _settle(self, first: bool = False, follow: bool = False) -> tuple[int, int]:
@@ -281,7 +281,7 @@ class NewtonLoop:
             return reason.DIVERGED_FUNCTION_NANORINF
         if number > 0:
             if self._guard.shorten(self._system.x):
-                self._system.scatter(self._system.x)
+                self._system.unpack(self._system.x)
             self._changes = self._settle()
         row, small = self._judged(snes, number)
         # Held pairs give no true residual. Nodes without force change by rounding for ever
@@ -311,7 +311,7 @@ class NewtonLoop:
 
     def _judged(self, snes: PETSc.SNES, number: int) -> tuple[Iteration, bool]:
         """Evaluate the accepted iterate, and say whether it is small enough."""
-        self._system.gather()
+        self._system.pack()
         self._function(snes, self._system.x, self._system.b)
         rtol, atol, _, _ = snes.getTolerances()
         residual, tolerance, defect = self._judge(rtol, atol)

@@ -147,9 +147,9 @@ class ContactProblem:
         """
         self._newton.begin()
 
-    def refresh(self) -> None:
-        """Take over a displacement that was set at owned nodes; all ranks must take part."""
-        self._halo.refresh()
+    def update_ghosts(self) -> None:
+        """Give ghosts the owners' displacements, after these were set; all ranks must take part."""
+        self._halo.update_ghosts()
 
     def solve(self) -> fem.Function:
         """Solve for the current loads and Dirichlet values, starting from ``u``.
@@ -168,8 +168,8 @@ class ContactProblem:
         prescribed = self._bulk.prescribed()
         check_prescribed(prescribed, self._bulk.markers, self._halo.comm)
         check_over_constrained(self._interfaces, self.contacts, prescribed, self._halo)
-        before = Snapshot(self.u, self.contacts, self._halo.refresh)
-        self._halo.refresh()
+        before = Snapshot(self.u, self.contacts, self._halo.update_ghosts)
+        self._halo.update_ghosts()
         self.report = report = Report()
         with Interrupts() as interrupts:
             try:

@@ -100,7 +100,7 @@ class Snapshot:
         self,
         u: fem.Function,
         contacts: Sequence[Contact],
-        refresh: Callable[[], None],
+        update_ghosts: Callable[[], None],
         history: Sequence[fem.Function] = (),
     ):
         """Copy the state.
@@ -108,10 +108,10 @@ class Snapshot:
         Args:
             u: Displacement.
             contacts: Contacts of its problem.
-            refresh: Takes over a displacement that was set at owned nodes.
+            update_ghosts: Gives ghosts the owners' displacements.
             history: Functions that belong to the state.
         """
-        self._refresh = refresh
+        self._update_ghosts = update_ghosts
         self._contacts = [(c.interface, save_state(c.interface)) for c in contacts]
         self._fields = [(c.fields, dict(vars(c.fields))) for c in contacts]
         results = [
@@ -126,7 +126,7 @@ class Snapshot:
         """Return to the state, bit for bit; all ranks must take part."""
         for function, values in self._functions:
             function.x.array[:] = values
-        self._refresh()
+        self._update_ghosts()
         for interface, saved in self._contacts:
             load_state(interface, saved)
         for fields, attributes in self._fields:

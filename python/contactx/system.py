@@ -79,18 +79,18 @@ class SaddlePointSystem:
         """Views of the displacement's part of a vector's values and of each contact's."""
         return [array[i:j] for i, j in zip(self._offsets, self._offsets[1:], strict=False)]
 
-    def gather(self) -> None:
-        """Copy the unknowns from the functions into ``x``."""
+    def pack(self) -> None:
+        """Write the unknowns from the functions into ``x``."""
         displacement, *multipliers = self.blocks(self.x.array)
         displacement[:] = self._bulk.u.x.array[: self.num_bulk]
         for part, interface in zip(multipliers, self.interfaces, strict=True):
             part[:] = interface.nodes.multiplier
 
-    def scatter(self, x: PETSc.Vec) -> None:
-        """Copy the unknowns from a vector into the functions; all ranks must take part."""
+    def unpack(self, x: PETSc.Vec) -> None:
+        """Write the unknowns from a vector into the functions; all ranks must take part."""
         displacement, *multipliers = self.blocks(x.array_r)
         self._bulk.u.x.array[: self.num_bulk] = displacement
-        self.halo.refresh()
+        self.halo.update_ghosts()
         for part, interface in zip(multipliers, self.interfaces, strict=True):
             interface.nodes.multiplier[:] = part
 
@@ -132,7 +132,7 @@ class SaddlePointSystem:
 
     def _sums(self, pushed: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
         """Forces on this rank's nodes from what the ranks have for theirs, shape (num_bulk,)."""
-        return self.halo.add_up(pushed.reshape(-1, self.block)).ravel()
+        return self.halo.scatter_reverse(pushed.reshape(-1, self.block)).ravel()
 
     def _lift(
         self,
@@ -156,7 +156,7 @@ class SaddlePointSystem:
 
     def _to_all(self, values: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
         """Values of all nodes from those of this rank's, shape (num_local,)."""
-        return self.halo.extend(values.reshape(-1, self.block)).ravel()
+        return self.halo.scatter_forward(values.reshape(-1, self.block)).ravel()
 
     def fits(self) -> bool:
         """Whether the last Jacobian has the pattern of the current pairs; all ranks take part."""
@@ -244,4 +244,4 @@ class SaddlePointSystem:
     def _markers(self) -> npt.NDArray[np.int8]:
         """1 at prescribed displacements of all nodes, shape (num_local,)."""
         markers = self._bulk.markers.reshape(-1, self.block)
-        return self.halo.extend(markers).ravel().astype(np.int8)
+        return self.halo.scatter_forward(markers).ravel().astype(np.int8)

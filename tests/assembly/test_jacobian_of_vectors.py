@@ -65,12 +65,12 @@ def scene_with(cell, sliding, master, **options):
 def assert_consistent(problem, interface):
     """Every kind of column: free displacements and all multipliers."""
     system = problem._system
-    system.gather()
+    system.pack()
     x0 = system.x.array.copy()
 
     def residual(x):
         system.x.array = x
-        system.scatter(system.x)
+        system.unpack(system.x)
         system.residual(system.b)
         return system.b.array.copy()
 

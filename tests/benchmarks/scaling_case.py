@@ -153,7 +153,7 @@ class Sent:
         self._shared: tuple[Any, int, int] = None, 0, 0
         self._exchange = halo.exchange
         halo.exchange = self._exchanged
-        for name, count in (("extend", self._forward), ("add_up", self._reverse)):
+        for name, count in (("scatter_forward", self._forward), ("scatter_reverse", self._reverse)):
             setattr(halo, name, self._counting(getattr(halo, name), count))
         self._reach = distributed.Reach
         distributed.Reach = self._gathered

@@ -44,7 +44,7 @@ class Relaxed(cx.ContactProblem):
     def begin(self) -> None:
         """Nothing is to be found."""
 
-    def refresh(self) -> None:
+    def update_ghosts(self) -> None:
         """There are no pairs with nodes of other ranks."""
 
     def update(self, t: float) -> None:

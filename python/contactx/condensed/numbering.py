@@ -43,8 +43,8 @@ class Numbering:
             nodes = halo.numbers(np.arange(halo.num_nodes))
             self._numbers = (nodes[:, None] * gdim + np.arange(gdim)).ravel()
 
-    def extend[T: np.generic](self, values: npt.NDArray[T]) -> npt.NDArray[T]:
-        """Values of all nodes' displacements from those of owned ones; all ranks must take part.
+    def scatter_forward[T: np.generic](self, values: npt.NDArray[T]) -> npt.NDArray[T]:
+        """Give all displacements the values that their owners have; all ranks must take part.
 
         Args:
             values: Values, of which the first count, shape (at least num_owned,).
@@ -52,7 +52,9 @@ class Numbering:
         Returns:
             Values of the same type, shape (num_local,).
         """
-        every: npt.NDArray[T] = self._halo.extend(values.reshape(-1, self._halo.gdim)).ravel()
+        every: npt.NDArray[T] = self._halo.scatter_forward(
+            values.reshape(-1, self._halo.gdim)
+        ).ravel()
         return every
 
     def marks(self, dofs: Index) -> npt.NDArray[np.bool_]:
@@ -66,10 +68,10 @@ class Numbering:
         """
         mine = np.zeros(self.num_owned, dtype=bool)
         mine[dofs] = True
-        return self.extend(mine)
+        return self.scatter_forward(mine)
 
-    def add_up(self, values: Array) -> Array:
-        """Sums over the ranks; all must take part.
+    def scatter_reverse(self, values: Array) -> Array:
+        """Add what all ranks have for a displacement on its owner; all ranks must take part.
 
         Args:
             values: What this rank has for the displacements of all nodes, shape (num_local,).
@@ -77,7 +79,7 @@ class Numbering:
         Returns:
             Sums at the owned ones, shape (num_owned,).
         """
-        return self._halo.add_up(values.reshape(-1, self._halo.gdim)).ravel()
+        return self._halo.scatter_reverse(values.reshape(-1, self._halo.gdim)).ravel()
 
     def numbers(self, dofs: Index) -> Index:
         """Numbers of displacements in the bulk's matrix, shape (n,)."""
@@ -141,12 +143,12 @@ class Surroundings:
             return
         self._version = halo.version
         self.numbering = Numbering(halo)
-        self.free = self.numbering.extend((self._bulk.markers == 0).astype(np.float64))
+        self.free = self.numbering.scatter_forward((self._bulk.markers == 0).astype(np.float64))
         interfaces = self._system.interfaces
         is_slave = np.zeros((halo.num_owned, len(interfaces)), dtype=bool)
         for k, interface in enumerate(interfaces):
             is_slave[interface.slaves, k] = True
-        self.is_slave = halo.extend(is_slave)
+        self.is_slave = halo.scatter_forward(is_slave)
 
 
 def index_set(places: Index, A: PETSc.Mat) -> PETSc.IS:

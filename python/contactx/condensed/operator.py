@@ -140,7 +140,7 @@ class CondensedOperator:
         size = np.abs(R.values)
         total = np.bincount(R.rows, size, len(D))
         more = np.bincount(R.columns, (D * total)[R.rows] * size, self._numbering.num_local)
-        D = D + self._numbering.add_up(more)
+        D = D + self._numbering.scatter_reverse(more)
         if self._S is not None:
             indptr, _, values = self._S.getValuesCSR()
             rows = np.repeat(np.arange(len(D)), np.diff(indptr))

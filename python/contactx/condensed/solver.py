@@ -225,7 +225,7 @@ class CondensedSolver:
         np.add.at(forces, T.rows, -T.values * known[T.columns])
         h, w = self._bulk.matrix().createVecs()
         rhs, v = w.duplicate(), h.duplicate()
-        w.array[:] = given + numbering.add_up(forces)
+        w.array[:] = given + numbering.scatter_reverse(forces)
         balance = w.duplicate()
         w.copy(balance)
         h.array[:] = elimination.shift(d)[:n]
@@ -246,7 +246,7 @@ class CondensedSolver:
         operator.bulk(h, work)
         balance.axpy(-1.0, work)
         elimination.recover(balance.array_r, known)
-        contact.recover(constraints, numbering.extend(h.array_r), known)
+        contact.recover(constraints, numbering.scatter_forward(h.array_r), known)
         x.array[:n] = np.where(self._surroundings.free[:n] == 1, h.array_r, given)
         x.array[n:] = known
         return True

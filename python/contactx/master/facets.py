@@ -84,14 +84,14 @@ class FacetMaster(Master):
         """See ``Master``."""
         version = self._halo.version
         changed = self.surface.pair(self._pairing, self._facets, x, self.reach, closed)
-        self._at = self._halo.fit(x, version)
+        self._at = self._halo.updated(x, version)
         self._facet, self._feature = self._pairing.facet, self._pairing.feature
         return changed
 
-    def restart(self) -> None:
+    def rebuild(self) -> None:
         """See ``Master``."""
         if self._halo.comm.size > 1:
-            self._restore(self.surface.restart(self._facet), self._saved_pairs())
+            self._restore(self.surface.keep(self._facet), self._saved_pairs())
 
     def _restore(self, facet: npt.NDArray[np.int32], saved: Mapping[str, npt.NDArray[Any]]) -> None:
         known = self.surface.facets
@@ -102,9 +102,9 @@ class FacetMaster(Master):
     def _saved_pairs(self) -> dict[str, npt.NDArray[Any]]:
         return {name: getattr(self._pairing, name) for name in _SAVED}
 
-    def follow(self, extend: Callable[[Array], Array]) -> None:
+    def halo_changed(self, scatter_forward: Callable[[Array], Array]) -> None:
         """See ``Master``."""
-        self._x0, self._at = extend(self._x0), extend(self._at)
+        self._x0, self._at = scatter_forward(self._x0), scatter_forward(self._at)
 
     @property
     def paired(self) -> npt.NDArray[np.bool_]:
@@ -268,7 +268,9 @@ class FacetMaster(Master):
         self._restore(self.surface.named(saved["facet_nodes"]), saved)
         if self._measures_slip:
             self._start = saved["start"]
-            self._x0, self._at = (self._halo.extend(saved[name]) for name in ("before", "at"))
+            self._x0, self._at = (
+                self._halo.scatter_forward(saved[name]) for name in ("before", "at")
+            )
 
     def distance(self, x: npt.NDArray[np.float64]) -> float:
         """See ``Master``."""

@@ -107,7 +107,7 @@ def _default_reach(halo: Halo, slave: FacetList, master: FacetList) -> float:
         # Each node counts on the rank that owns it
         marked = np.zeros(halo.num_nodes)
         marked[facets.nodes] = 1
-        nodes = halo.x[: halo.num_owned][halo.add_up(marked) > 0]
+        nodes = halo.x[: halo.num_owned][halo.scatter_reverse(marked) > 0]
         sums = total(halo.comm, np.append(nodes.sum(axis=0), len(nodes)))
         arms = np.linalg.norm(nodes - sums[:-1] / sums[-1], axis=1)
         radii.append(largest(halo.comm, arms.max(initial=0.0)))

@@ -67,14 +67,14 @@ class Master(ABC):
     def begin_step(self) -> None:
         """Start a step: slip is measured from its start, and pairs may move again; collective."""
 
-    def restart(self) -> None:
-        """Name again the nodes that pairs need, once the halo has shrunk; collective."""
+    def rebuild(self) -> None:
+        """Add the nodes of the pairs to the halo again, once it has shrunk; collective."""
 
-    def follow(self, extend: Callable[[Array], Array]) -> None:
-        """Bring positions that were kept up to a halo that has changed; collective.
+    def halo_changed(self, scatter_forward: Callable[[Array], Array]) -> None:
+        """Make positions that were kept fit a halo that has changed; collective.
 
         Args:
-            extend: Gives those of all nodes from those of owned nodes.
+            scatter_forward: Gives those of all nodes from those of owned nodes.
         """
 
     @abstractmethod

@@ -98,15 +98,15 @@ class MortarMaster(Master):
     def _pair(self, x: Array) -> None:
         version = self._halo.version
         if self._found is None or (self._moved(x) and self._lacks(x)):
-            x = self._halo.fit(x, version)
+            x = self._halo.updated(x, version)
             version = self._halo.version
             margin = 0.0 if self._small else _MARGIN
             self._look(x, margin)
-            x = self._halo.fit(x, version)
+            x = self._halo.updated(x, version)
             version = self._halo.version
             self._found = self._search.find(x, self.reach, margin)
             self._searched = x[self._nodes]
-        self._integrate(self._halo.fit(x, version))
+        self._integrate(self._halo.updated(x, version))
         enough = np.where(self._paired, _LEAVE, _ENTER)
         self._paired = self._area > enough * self._whole
 
@@ -120,7 +120,7 @@ class MortarMaster(Master):
         """Whether any rank finds a pair that it does not have."""
         version = self._halo.version
         self._look(x, 0.0)
-        found = self._search.find(self._halo.fit(x, version), self.reach, 0.0)
+        found = self._search.find(self._halo.updated(x, version), self.reach, 0.0)
         return anywhere(self._halo.comm, not self._found.contains(found))
 
     def _moved(self, x: Array) -> bool:
@@ -165,20 +165,20 @@ class MortarMaster(Master):
         """See ``Master``; where slip is measured from in small sliding."""
         return self._slip.origin
 
-    def restart(self) -> None:
+    def rebuild(self) -> None:
         """See ``Master``."""
         if self._halo.comm.size == 1 or self._found is None:
             return
         used = np.union1d(self._mortar.master, self._slip.masters)
         numbers = np.zeros(len(self.surface.facets.offsets), dtype=np.int32)
-        numbers[used] = self.surface.restart(used)
+        numbers[used] = self.surface.keep(used)
         self._mortar = replace(self._mortar, master=numbers[self._mortar.master])
         self._slip.rename(numbers)
         self._meet()
 
-    def follow(self, extend: Callable[[Array], Array]) -> None:
+    def halo_changed(self, scatter_forward: Callable[[Array], Array]) -> None:
         """See ``Master``."""
-        self._x0, self._at = extend(self._x0), extend(self._at)
+        self._x0, self._at = scatter_forward(self._x0), scatter_forward(self._at)
 
     def refresh(self, x: Array, held: bool, offset: Array) -> list[Pairs] | None:
         """See ``Master``."""
@@ -291,7 +291,7 @@ class MortarMaster(Master):
 
     def load(self, saved: Mapping[str, npt.NDArray[Any]]) -> None:
         """See ``Master``."""
-        self._paired, self._x0 = saved["paired"], self._halo.extend(saved["before"])
+        self._paired, self._x0 = saved["paired"], self._halo.scatter_forward(saved["before"])
         self.begin_step()
 
     def distance(self, x: Array) -> float:

@@ -197,12 +197,12 @@ class MortarObstacle(ObstacleMaster):
     def load(self, saved: Mapping[str, npt.NDArray[Any]]) -> None:
         """See ``Master``."""
         super().load(saved)
-        self._positions = self._halo.extend(saved["positions"])
+        self._positions = self._halo.scatter_forward(saved["positions"])
         self._values = [self._integrate(facets, self._positions) for facets in self._kinds]
 
-    def follow(self, extend: Callable[[Array], Array]) -> None:
+    def halo_changed(self, scatter_forward: Callable[[Array], Array]) -> None:
         """See ``Master``."""
-        self._positions = extend(self._positions)
+        self._positions = scatter_forward(self._positions)
 
     def _update_slip(self, x: Array, data: Array) -> None:
         """The kernels measure it by themselves."""

@@ -91,7 +91,7 @@ class MortarTie(MortarMaster):
 
     def load(self, saved: Mapping[str, npt.NDArray[Any]]) -> None:
         """See ``Master``; the pairs are those of the reference."""
-        self._x0 = self._halo.extend(saved["before"])
+        self._x0 = self._halo.scatter_forward(saved["before"])
 
 
 class ObstacleTie(ObstacleMaster):

@@ -127,7 +127,7 @@ class DistributedSurface(MasterSurface):
         normals = core.nodal_normals(slave.offsets, slave.nodes, x, x.shape[1])
         found = self.find(x, x[nodes], normals.reshape(-1, x.shape[1])[nodes], reach)
         pairing.set_master(self.facets.offsets, self.facets.nodes)
-        x = self._halo.fit(x, version)
+        x = self._halo.updated(x, version)
         values = found.facet, found.feature, found.xi, found.normal
         return pairing.settle(left, *values, x, reach, closed)
 
@@ -151,7 +151,7 @@ class DistributedSurface(MasterSurface):
         got = exchange(dict(answers))
         self._learn(FacetRecords.joined([FacetRecords.none(), *got.values()]))
 
-    def restart(self, used: Index) -> Index:
+    def keep(self, used: Index) -> Index:
         """See ``MasterSurface``."""
         kept, place = np.unique(used[used >= 0], return_inverse=True)
         self._known = self._known.select(kept)

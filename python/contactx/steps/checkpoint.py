@@ -84,10 +84,10 @@ class Checkpoint:
             if self._comm.rank == 0:
                 _check_fit(saved, present)
         problem = self._problem
-        before = Snapshot(problem.u, problem.contacts, problem.refresh, self._history)
+        before = Snapshot(problem.u, problem.contacts, problem.update_ghosts, self._history)
         try:
             self._u.scatter(saved.get("u"))
-            self._problem.refresh()
+            self._problem.update_ghosts()
             for k, function in enumerate(self._functions):
                 function.scatter(saved.get(f"history {k}"))
             for k, interface in enumerate(self._interfaces):

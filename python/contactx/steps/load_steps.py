@@ -235,7 +235,7 @@ class LoadSteps:
 
     def _snapshot(self) -> Snapshot:
         problem = self._problem
-        return Snapshot(problem.u, problem.contacts, problem.refresh, self._history)
+        return Snapshot(problem.u, problem.contacts, problem.update_ghosts, self._history)
 
     def _update_again(self, error: BaseException) -> None:
         """Set the loads of the last accepted step, whatever that raises."""
