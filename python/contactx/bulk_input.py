@@ -62,11 +62,11 @@ def check_displacement(u: Any) -> None:
 
 
 def check_finite(comm: MPI.Comm, **vectors: la.Vector) -> None:
-    """Check that vectors hold no NaN or infinity.
+    """Check that vectors have no NaN or infinity.
 
     Args:
         comm: Communicator.
-        vectors: Vectors by what they hold.
+        vectors: Vectors by what they are.
 
     Raises:
         ValueError: If one is not finite on any rank, on all ranks.

@@ -24,11 +24,12 @@ _TIMES = 2
 
 
 class CycleGuard:
-    """Shortens steps when the same status comes back without a smaller residual.
+    """Shortens steps when the same active set comes back without a smaller residual.
 
-    Each status is a linear system of its own, so that a status which returns would return for
-    ever. Iterates between two of a circle lie on neither's piece and lead out of it. The solution
-    is where it was: full steps follow, and convergence is judged by the residual.
+    The residual is piecewise smooth, with a piece for each active set: Newton steps that return to
+    an active set would return to it for ever. A shortened step ends between the pieces and leads
+    out of the cycle. The solution stays the same: full steps follow, and the residual alone decides
+    convergence.
 
     Attributes:
         cycles: How often a status has come back.
@@ -46,7 +47,7 @@ class CycleGuard:
         self.begin_step()
 
     def begin_step(self) -> None:
-        """Forget what was seen."""
+        """Nothing has been seen yet."""
         self.cycles = 0
         self._short = 0
         self._seen: dict[int, list[float]] = {}
@@ -91,7 +92,7 @@ class CycleGuard:
             self._short = 1 + self.cycles
             self._seen.clear()
             for interface in self._interfaces:
-                interface.law.go_round()
+                interface.law.allow_larger_friction()
 
     def _fingerprint(self) -> int:
         """Number that stands for the status of all nodes of all ranks."""
@@ -103,7 +104,9 @@ class CycleGuard:
 
 
 class FrozenPairs:
-    """Lets frozen pairs go where they hide a penetration at what would be the solution.
+    """Releases frozen pairs where they hide a penetration at what would be the solution.
+
+    A pair that goes back and forth between facets is frozen until the step's end.
 
     Attributes:
         gaps: Smallest gap that those of each contact hide, when last looked for.
@@ -121,26 +124,26 @@ class FrozenPairs:
         self.begin_step()
 
     def begin_step(self) -> None:
-        """Forget how often pairs have been let go."""
+        """Pairs have not been released yet."""
         self._times = 0
         self.gaps: list[float] = []
 
-    def hide(self) -> bool:
+    def hide_penetration(self) -> bool:
         """Whether they hide a penetration that the mesh does not excuse; collective."""
-        found = [i.master.deepest_frozen(i.positions()) for i in self._interfaces]
+        found = [i.master.deepest_frozen_pair(i.positions()) for i in self._interfaces]
         gaps, parts = least(self._comm, np.array(found)).T
         self.gaps = gaps.tolist()
         return bool(parts.min() < -_HIDDEN)
 
-    def let_go(self) -> bool:
-        """Let them go to settle close to the solution, unless that was tried often enough.
+    def release(self) -> bool:
+        """Release the pairs, to settle close to the solution, unless that was tried often enough.
 
         Returns:
-            Whether they are free.
+            Whether they are released.
         """
         if self._times == _TIMES:
             return False
         self._times += 1
         for interface in self._interfaces:
-            interface.master.forget_flips()
+            interface.master.reset_flips()
         return True

@@ -82,7 +82,7 @@ class Interface:
         self._gdim = gdim = halo.gdim
         self.law = law
         self.sliding = sliding
-        self._held = sliding == "small"
+        self._frozen_kinematics = sliding == "small"
         self.slaves = slaves.owned
         self.num_others = len(slaves.around) - len(slaves.owned)
         self.master = master
@@ -123,19 +123,19 @@ class Interface:
         return self._halo
 
     @property
-    def follows(self) -> bool:
-        """Whether pairs, normals and projections follow the deformation."""
+    def updates_kinematics(self) -> bool:
+        """Whether pairs, normals and projections are those of the current iterate."""
         return self.sliding == "finite" and not self.law.is_tied
 
     def begin_step(self) -> None:
-        """Start a step: pairs are released, and a moved obstacle of small sliding is seen.
+        """Start a step: pairs may change again, and in small sliding an obstacle may have moved.
 
         All ranks must take part.
         """
         self.skipped_searches = 0
         self.law.begin_step()
         self.master.rebuild()
-        self.hold(False)
+        self.freeze_kinematics(False)
         self._turn_tractions()
         self.master.begin_step()
         self._touched = self.nodes.closed
@@ -147,7 +147,7 @@ class Interface:
 
     def _turn_tractions(self) -> None:
         """Turn the tractions with a master that has turned since, as a better start."""
-        if self.history is None or not self.follows:
+        if self.history is None or not self.updates_kinematics:
             return
         turn = self.master.turn(self.positions())
         if turn is not None:
@@ -177,14 +177,14 @@ class Interface:
         self.nodes.set_factor(of_pairs, self._halo.comm)
 
     def search(self) -> int:
-        """Pair the slave nodes in the current configuration, unless pairs are held.
+        """Pair the slave nodes in the current configuration, unless kinematics are frozen.
 
         All ranks must take part.
 
         Returns:
             Number of this rank's nodes in contact whose facet has changed.
         """
-        if self._held or not self.follows:
+        if self._frozen_kinematics or not self.updates_kinematics:
             self.skipped_searches += 1
             return 0
         return self._pair(self.positions())
@@ -210,16 +210,16 @@ class Interface:
             # A projection over an open gap on a tilted facet leaves a symmetry plane by a little
             self.nodes.mobile = np.where(each < _MOBILE, 0.0, 1.0)
 
-    def hold(self, held: bool) -> None:
-        """Hold the pairs of finite sliding with their normals and projections, or release them.
+    def freeze_kinematics(self, frozen: bool) -> None:
+        """Freeze pairs, normals and projections of finite sliding, or update them again.
 
-        Held pairs make the contact conditions linear. Small sliding always holds its pairs.
+        Frozen kinematics make the contact conditions linear. Those of small sliding always are.
 
         Args:
-            held: Whether to hold them.
+            frozen: Whether to freeze them.
         """
-        if self.follows and held != self._held:
-            self._held = held
+        if self.updates_kinematics and frozen != self._frozen_kinematics:
+            self._frozen_kinematics = frozen
             self._make_forms()
 
     def _take(self, groups: Sequence[Pairs]) -> None:
@@ -229,7 +229,8 @@ class Interface:
 
     def _make_forms(self) -> None:
         self.nodes.area[:] = self.master.area(self._whole)
-        self._assembly.renew(self.master.pairs(), "small" if self._held else "finite")
+        sliding = "small" if self._frozen_kinematics else "finite"
+        self._assembly.rebuild(self.master.pairs(), sliding)
 
     @property
     def forms(self) -> list[ContactForms]:
@@ -241,7 +242,7 @@ class Interface:
         with agreed(self._halo.comm):
             self.law.check(self.nodes)
             offset = self.offset()
-            fresh = self.master.refresh(self.positions(), self._held, offset)
+            fresh = self.master.update(self.positions(), self._frozen_kinematics, offset)
         if fresh is not None:
             self._take(fresh)
         self._assembly.kinematics(self.nodes)
@@ -282,15 +283,15 @@ class Interface:
         x, offset = self.positions(), self.offset()
         self.master.touch(which, x, offset)
         self._touched = self._touched | which
-        fresh = self.master.refresh(x, self._held, offset)
+        fresh = self.master.update(x, self._frozen_kinematics, offset)
         self._take(self.master.pairs() if fresh is None else fresh)
         self._assembly.slip(self.nodes, self.master.origin)
 
     def closing(self, first: bool = False) -> npt.NDArray[np.bool_]:
         """Which nodes the complementarity closes; all ranks must take part at a step's start.
 
-        At a step's start also those that touch but for rounding: it must not decide which of them
-        are closed, and bodies at rest on one another are held by all of them.
+        At a step's start also those that touch but for rounding errors: these must not decide which
+        nodes carry a body that rests on another one.
 
         Args:
             first: Whether the iterate is the step's start.
@@ -311,9 +312,9 @@ class Interface:
         """
         self._assembly.add_residual(b)
 
-    def begin_anew(self) -> None:
-        """Take over pairs that the master was given, not held."""
-        self._held = self.sliding == "small"
+    def rebuild(self) -> None:
+        """Make the forms of pairs that were loaded; kinematics are not frozen."""
+        self._frozen_kinematics = self.sliding == "small"
         self._make_forms()
 
 

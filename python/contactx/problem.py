@@ -74,12 +74,12 @@ class ContactProblem:
 
         Args:
             F: Residual of the bulk: any UFL form of the bodies, linear in its test function.
-            u: Displacement, in the linear Lagrange space of vectors on a mesh that holds all
+            u: Displacement, in the linear Lagrange space of vectors on a mesh of all
                 bodies. Its values are the start of the first solve.
             contacts: Contacts of surfaces of the mesh with each other or with rigid obstacles. A
                 node may be slave in several.
             petsc_options_prefix: Prefix of the PETSc options, unique in the program.
-            bcs: Dirichlet conditions; none are needed where contact holds the bodies.
+            bcs: Dirichlet conditions; none are needed where contact supports the bodies.
             J: Jacobian of F; derived if None.
             petsc_options: Options of SNES, its KSP and PC, without the prefix. ``snes_rtol``
                 (default 1e-11) is relative to the forces of the problem.
@@ -140,12 +140,12 @@ class ContactProblem:
         """The SNES solver."""
         return self._newton.snes
 
-    def begin(self) -> None:
-        """Find what the first solve would find at its start; LoadSteps calls this at a restart.
+    def find_rigid_modes(self) -> None:
+        """Find the rigid modes of free bodies; LoadSteps calls this before it loads a checkpoint.
 
-        The rigid modes of bodies that nothing but contact holds are those of bodies without stress.
+        They must be those of bodies without stress, as the first solve finds them.
         """
-        self._newton.begin()
+        self._newton.find_rigid_modes()
 
     def update_ghosts(self) -> None:
         """Give ghosts the owners' displacements, after these were set; all ranks must take part."""
@@ -198,14 +198,14 @@ class ContactProblem:
 
     def _complete(self, report: Report) -> None:
         comm, interfaces = self._halo.comm, self._interfaces
-        report.slaves, report.pairs, report.immobile, report.frozen = total(
+        report.slaves, report.pairs, report.immobile, report.frozen_pairs = total(
             comm,
             np.array(
                 [
                     sum(len(i.slaves) for i in interfaces),
                     sum(i.master.paired.sum() for i in interfaces),
                     sum(i.nodes.immobile.sum() for i in interfaces),
-                    sum(len(i.master.frozen) for i in interfaces),
+                    sum(len(i.master.frozen_pairs) for i in interfaces),
                 ]
             ),
         ).tolist()
@@ -224,7 +224,7 @@ class ContactProblem:
         report.recovery = [contact.fields.recovery_change for contact in self.contacts]
         report.imbalance = np.sum([contact.fields.imbalance for contact in self.contacts], axis=0)
         for k, interface in enumerate(self._interfaces):
-            self._warn(k, interface, self._newton.hidden[k])
+            self._warn(k, interface, self._newton.hidden_gaps[k])
         if report.iterations > 0 and not self._read_options:
             # Some are read but once
             self._read_options = True
@@ -246,11 +246,11 @@ class ContactProblem:
             else:
                 text += f"that faces its master, although the nearest is {distance:.3g} away"
         elif hidden < 0:
-            frozen = total(comm, len(master.frozen))
+            frozen = total(comm, len(master.frozen_pairs))
             text = (
                 f"{name}: {frozen} pairs went back and forth between facets and "
-                f"were held; they hide a penetration of {-hidden:.3g}. Refine the master there or "
-                "take smaller steps"
+                f"were frozen; they hide a penetration of {-hidden:.3g}. Refine the master there "
+                "or take smaller steps"
             )
         self._say(text)
 

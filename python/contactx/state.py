@@ -86,7 +86,7 @@ def load_state(interface: Interface, saved: Mapping[str, npt.NDArray[Any]]) -> N
     if interface.history is not None:
         for name in vars(interface.history):
             setattr(interface.history, name, saved[f"history_{name}"].copy())
-    interface.begin_anew()
+    interface.rebuild()
 
 
 def _nodal(interface: Interface) -> tuple[str, ...]:

@@ -58,7 +58,7 @@ class SaddlePointSystem:
         self.num_bulk = halo.num_owned * halo.gdim
         sizes = [self.num_bulk, *(len(i.nodes.multiplier) for i in self.interfaces)]
         self._offsets = np.cumsum([0, *sizes])
-        self.renew()
+        self._make_vectors()
         self._layout = Layout(halo, self._offsets[-1])
         self._bulk_residual = np.zeros(self.num_bulk)
         self._bulk_at: npt.NDArray[np.float64] | None = None
@@ -70,8 +70,13 @@ class SaddlePointSystem:
         """Number of displacements of all nodes that this rank has."""
         return int(self.halo.num_nodes * self.block)
 
-    def renew(self) -> None:
-        """Make new vectors: an error inside PETSc leaves the old ones locked."""
+    def begin_step(self) -> None:
+        """Start a step: loads, constants and coefficients may have changed."""
+        self._bulk_at = None
+        # An error inside PETSc leaves the old ones locked
+        self._make_vectors()
+
+    def _make_vectors(self) -> None:
         self.x = PETSc.Vec().createMPI((self._offsets[-1], None), comm=self._comm)
         self.b = self.x.duplicate()
 
@@ -102,10 +107,6 @@ class SaddlePointSystem:
             self._bulk_residual = self._bulk.residual()
             self._bulk_at = u.copy()
         return self._bulk_residual
-
-    def forget(self) -> None:
-        """Drop what was assembled: loads, constants and coefficients may have changed."""
-        self._bulk_at = None
 
     def residual(self, b: PETSc.Vec) -> None:
         """Assemble the residual at the functions' state; pairs and status are as they stand.

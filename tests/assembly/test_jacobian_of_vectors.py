@@ -106,10 +106,10 @@ def test_with_friction(cell, sliding, method, master):
 @both_methods
 def test_with_held_pairs(cell, method):
     problem, interface, rng = scene_with(cell, "finite", "facets", friction=0.4, method=method)
-    interface.hold(True)
+    interface.freeze_kinematics(True)
     interface.nodes.status[:] = rng.integers(3, size=len(interface.nodes.status))
     assert_consistent(problem, interface)
-    # Kinematics are held indeed
+    # Kinematics are frozen indeed
     assert all(form.stiffness is None for form in interface.forms)
 
 

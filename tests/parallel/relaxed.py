@@ -41,7 +41,7 @@ class Relaxed(cx.ContactProblem):
         self.t = self.before = 0.0
         self.calls: list[float] = []
 
-    def begin(self) -> None:
+    def find_rigid_modes(self) -> None:
         """Nothing is to be found."""
 
     def update_ghosts(self) -> None:

@@ -126,7 +126,7 @@ class Surroundings:
     is_slave: npt.NDArray[np.bool_]
 
     def __init__(self, bulk: Bulk, system: SaddlePointSystem):
-        """Create it; ``renew`` comes before the first use.
+        """Create it; ``rebuild`` comes before the first use.
 
         Args:
             bulk: The bulk.
@@ -136,8 +136,8 @@ class Surroundings:
         self._system = system
         self._version = -1
 
-    def renew(self) -> None:
-        """Follow the nodes on this rank where they have changed; all ranks must take part."""
+    def rebuild(self) -> None:
+        """Make all anew where the nodes of this rank have changed; all ranks must take part."""
         halo = self._system.halo
         if self._version == halo.version:
             return

@@ -123,8 +123,8 @@ class CondensedOperator:
         )
         springs = None
         if self._springs is not None:
-            held = np.setdiff1d(np.flatnonzero(self._springs), self.eliminated)
-            springs = self._numbering.matrix(Entries(held, held, self._springs[held]))
+            sprung = np.setdiff1d(np.flatnonzero(self._springs), self.eliminated)
+            springs = self._numbering.matrix(Entries(sprung, sprung, self._springs[sprung]))
         return Change(places, self._right, block, springs, self._bound())
 
     def _bound(self) -> PETSc.Vec:

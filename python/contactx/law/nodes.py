@@ -30,8 +30,8 @@ class Nodes:
         normal: Unit normal of the master; empty for scalar multipliers, shape (n, gdim).
         slip: Slip increment of the step; empty for scalar multipliers, shape (n, gdim).
         c: Factor of the gap in the complementarity, traction/length, shape (n,).
-        immobile: Whether Dirichlet conditions leave neither a slave node nor its master anything
-            to yield along the normal; such a node stays open, shape (n,).
+        immobile: Whether Dirichlet conditions keep slave node and master from moving along the
+            normal; such a node stays open, shape (n,).
         mobile: 1 in directions in which slave node or master can move, else 0; empty for scalar
             multipliers, shape (n, gdim).
         ceded: Whether a node leaves this contact to another one that it closes, shape (n,).

@@ -159,7 +159,7 @@ class FacetMaster(Master):
 
     def begin_step(self) -> None:
         """See ``Master``."""
-        self.forget_flips()
+        self.reset_flips()
         self._start = self._x0[self._slaves]
 
     def turn(self, x: npt.NDArray[np.float64]) -> npt.NDArray[np.float64] | None:
@@ -207,8 +207,8 @@ class FacetMaster(Master):
             start = foot + (gap0 + part[:, 0] * (gap1 - gap0))[:, None] * normal
         self._start = np.where(which[:, None], start, self._start)
 
-    def refresh(
-        self, x: npt.NDArray[np.float64], held: bool, offset: npt.NDArray[np.float64]
+    def update(
+        self, x: npt.NDArray[np.float64], frozen_kinematics: bool, offset: npt.NDArray[np.float64]
     ) -> list[Pairs] | None:
         """See ``Master``; the kernels project by themselves."""
         return None
@@ -257,7 +257,7 @@ class FacetMaster(Master):
         return self.surface.identity()
 
     def save(self) -> dict[str, npt.NDArray[Any]]:
-        """See ``Master``; flips are forgotten, as at the start of every step."""
+        """See ``Master``; without flips, which are reset at the start of every step."""
         saved = {"facet_nodes": self.surface.names(self._facet), **self._saved_pairs()}
         if self._measures_slip:
             saved |= {"start": self._start, "before": self._x0, "at": self._at}
@@ -277,17 +277,17 @@ class FacetMaster(Master):
         return self.surface.distance(x, x[self._slaves])
 
     @property
-    def frozen(self) -> npt.NDArray[np.int32]:
+    def frozen_pairs(self) -> npt.NDArray[np.int32]:
         """See ``Master``."""
         return self._pairing.frozen()
 
-    def forget_flips(self) -> None:
+    def reset_flips(self) -> None:
         """See ``Master``."""
         self._pairing.begin_step()
 
-    def deepest_frozen(self, x: npt.NDArray[np.float64]) -> tuple[float, float]:
+    def deepest_frozen_pair(self, x: npt.NDArray[np.float64]) -> tuple[float, float]:
         """See ``Master``; what a search without memory finds for them."""
-        frozen = self._slaves[self.frozen]
+        frozen = self._slaves[self.frozen_pairs]
         if self._halo.comm.allreduce(len(frozen)) == 0:
             return 0.0, 0.0
         offsets, nodes = self._facets.offsets, self._facets.nodes

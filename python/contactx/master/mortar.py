@@ -14,7 +14,7 @@ import numpy.typing as npt
 from contactx import cpp as core
 from contactx.forms import Pairs
 from contactx.master.master import Master, RowKind, Weights
-from contactx.master.mobility import held_squares
+from contactx.master.mobility import constrained_squares
 from contactx.master.mortar_pairs import Array, Mortar, Sides, unit
 from contactx.master.mortar_slip import MortarSlip
 from contactx.parallel.halo import Halo
@@ -180,9 +180,9 @@ class MortarMaster(Master):
         """See ``Master``."""
         self._x0, self._at = scatter_forward(self._x0), scatter_forward(self._at)
 
-    def refresh(self, x: Array, held: bool, offset: Array) -> list[Pairs] | None:
+    def update(self, x: Array, frozen_kinematics: bool, offset: Array) -> list[Pairs] | None:
         """See ``Master``."""
-        if held or self._small or np.array_equal(x, self._at):
+        if frozen_kinematics or self._small or np.array_equal(x, self._at):
             return None
         self._integrate(x)
         return self.pairs()
@@ -230,7 +230,7 @@ class MortarMaster(Master):
             self._found = None
             self._pair(self._x0)
         if self._measures_slip:
-            self._slip.begin(self._normalised(), self._distances(self._x0))
+            self._slip.begin_step(self._normalised(), self._distances(self._x0))
 
     def _normalised(self) -> Mortar:
         """Pairs divided by the slave nodes' areas."""
@@ -272,7 +272,7 @@ class MortarMaster(Master):
         own = free[self._sides.slaves]
         if own.all() and free[self.surface.facets.nodes].all():
             return np.ones(n), np.ones((n, gdim))
-        squares = held_squares(self.weights(), free, self._paired)
+        squares = constrained_squares(self.weights(), free, self._paired)
         around = np.zeros((len(self._sides.around), gdim), dtype=bool)
         some = free[self._sides.nodes[0]].any(axis=1)
         for corner in self._sides.numbers.T:

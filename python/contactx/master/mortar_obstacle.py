@@ -161,9 +161,9 @@ class MortarObstacle(ObstacleMaster):
                 groups.append(Pairs(facets.numbers[near], facets.nodes[near], data[near]))
         return groups
 
-    def refresh(self, x: Array, held: bool, offset: Array) -> list[Pairs] | None:
-        """See ``Master``; held, the gap is linear in the displacement since the search."""
-        if not held:
+    def update(self, x: Array, frozen_kinematics: bool, offset: Array) -> list[Pairs] | None:
+        """See ``Master``; frozen, the gap is linear in the displacement since the search."""
+        if not frozen_kinematics:
             return self._pairs([self._integrate(facets, x) for facets in self._kinds])
         values = []
         for facets, searched in zip(self._kinds, self._values, strict=True):

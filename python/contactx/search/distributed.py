@@ -26,7 +26,7 @@ class DistributedSurface(MasterSurface):
     """Facets of a master surface of which each rank has a part.
 
     A rank asks others by points, and by slave facets, and gets the facets that matter to them. It
-    keeps those until the step's end. Who has facets at a point is judged by the ranks' boxes.
+    keeps those until the step's end. Boxes of the ranks' facets say which to ask.
     """
 
     def __init__(self, halo: Halo, own: FacetList):

@@ -17,7 +17,7 @@ _ROUNDING = 1e-9
 
 
 class Reach:
-    """Boxes of the ranks' facets, and cones that hold their normals; all ranks make it together."""
+    """Boxes of the ranks' facets, and cones around their normals; all ranks make it together."""
 
     def __init__(self, halo: Halo, own: FacetList, x: Array):
         """Exchange the boxes.
@@ -101,7 +101,7 @@ class Reach:
 
 
 def _cone(facets: FacetList, x: Array) -> tuple[Array, float]:
-    """Axis and sine of half the angle of a cone that holds the facets' normals.
+    """Axis and sine of half the angle of a cone around the facets' normals.
 
     Normals within a facet are positive combinations of those at its corners.
     """

@@ -72,12 +72,12 @@ class FacetRecords:
         return FacetRecords(self.numbers[which], self.owners[which], self.original[which])
 
     def add_to(self, halo: Halo, *, for_good: bool = False) -> None:
-        """Make the halo hold the facets' nodes; all ranks must take part."""
+        """Add the facets' nodes to the halo; all ranks must take part."""
         used = self.numbers != _NONE
         halo.grow(self.numbers[used], self.owners[used].astype(np.int32), for_good=for_good)
 
     def here(self, halo: Halo) -> FacetList:
-        """The facets with the numbers of this rank, which must hold their nodes."""
+        """The facets with the numbers of this rank, whose halo must have their nodes."""
         used = self.numbers != _NONE
         offsets = np.concatenate([[0], np.cumsum(used.sum(axis=1))]).astype(np.int32)
         return FacetList(offsets, halo.find(self.numbers[used]))

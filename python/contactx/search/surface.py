@@ -98,7 +98,7 @@ class MasterSurface:
         return pairing.update(x, reach, closed)
 
     def look(self, x: Array, slave: FacetList, reach: float, margin: float) -> None:
-        """Make ``facets`` hold all that are in front of slave facets; all ranks must take part.
+        """Add to ``facets`` all that are in front of slave facets; all ranks must take part.
 
         Args:
             x: Positions of all nodes, shape (num_nodes, gdim).

@@ -78,7 +78,7 @@ class LoadSteps:
                 none; and at a restart with the t of the file.
             history: Functions that belong to the state of a step, such as plastic strains. They are
                 written to checkpoints, read from them, and what ``update`` does to them is undone
-                when its attempt fails. On several ranks a checkpoint holds those of linear
+                when its attempt fails. On several ranks a checkpoint has those of linear
                 Lagrange, quadrature and discontinuous spaces, as the rank has them that owns them.
             output: Called with each accepted step, before the loop's body.
             checkpoint: File to write once the loop's body has ended for an accepted step. The last
@@ -254,7 +254,7 @@ class LoadSteps:
         before = self._snapshot()
         try:
             plan = self._plan.load(steps["steps: given"], steps["steps: place"])
-            self._problem.begin()
+            self._problem.find_rigid_modes()
             self._state.load(saved)
         except (KeyError, ValueError) as error:
             raise ValueError(f"cannot restart from {path}: {error}") from error
