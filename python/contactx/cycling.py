@@ -17,9 +17,10 @@ from contactx.parallel.reduce import least, total
 
 # Part of a step that is taken where iterates go round
 _FACTOR = 0.5
-# Penetration, over the length of an edge, that they may hide: as much as a ridge of 45 degrees does
-# under the margin of a facet
+# Penetration, over the length of an edge, that frozen pairs may hide: as much as a ridge of 45
+# degrees does under the margin of a facet
 _HIDDEN = 0.03
+# How often they are released in a step
 _TIMES = 2
 
 
@@ -109,7 +110,7 @@ class FrozenPairs:
     A pair that goes back and forth between facets is frozen until the step's end.
 
     Attributes:
-        gaps: Smallest gap that those of each contact hide, when last looked for.
+        gaps: Smallest gap that frozen pairs of each contact hide, when last looked for.
     """
 
     def __init__(self, interfaces: Sequence[Interface], comm: MPI.Comm):
@@ -129,7 +130,7 @@ class FrozenPairs:
         self.gaps: list[float] = []
 
     def hide_penetration(self) -> bool:
-        """Whether they hide a penetration that the mesh does not excuse; collective."""
+        """Whether frozen pairs hide more penetration than the mesh explains; collective."""
         found = [i.master.deepest_frozen_pair(i.positions()) for i in self._interfaces]
         gaps, parts = least(self._comm, np.array(found)).T
         self.gaps = gaps.tolist()

@@ -74,8 +74,8 @@ class ContactProblem:
 
         Args:
             F: Residual of the bulk: any UFL form of the bodies, linear in its test function.
-            u: Displacement, in the linear Lagrange space of vectors on a mesh of all
-                bodies. Its values are the start of the first solve.
+            u: Displacement, in the linear Lagrange space of vectors on a mesh of all bodies.
+                Its values are the start of the first solve.
             contacts: Contacts of surfaces of the mesh with each other or with rigid obstacles. A
                 node may be slave in several.
             petsc_options_prefix: Prefix of the PETSc options, unique in the program.
