@@ -111,11 +111,11 @@ def turn(args: argparse.Namespace, setting: Setting, wanted: float, pressure: fl
     return scheme_1(setting, settlement, pressure, steps=args.steps or 10)
 
 
-def show_laws(held: Laws) -> None:
+def show_laws(found: Laws) -> None:
     """Print how well the laws hold."""
     story.console.print(
-        f"balance of each slab {held.balance:.1e} of its water load, penetration "
-        f"{held.penetration:.1e} m, Coulomb's law exceeded by {held.coulomb:.1e} of the pressure",
+        f"balance of each slab {found.balance:.1e} of its water load, penetration "
+        f"{found.penetration:.1e} m, Coulomb's law exceeded by {found.coulomb:.1e} of the pressure",
         highlight=False,
     )
 

@@ -67,7 +67,7 @@ class Ironing:
         problem: The problem.
         steps: Number of steps, down and along.
         iterations: Of each step.
-        held: Number of steps in which a pair was held.
+        frozen_steps: Number of steps with frozen pairs.
         way: Displacements of the die along the block, those of the steps of the drag.
         forces: Forces of the die on the block at each, shape (n, dim); the last component points
             down.
@@ -113,7 +113,7 @@ class Ironing:
         )
         self.steps = PRESS + round(EACH * WAY / h)
         self.iterations: list[int] = []
-        self.held = 0
+        self.frozen_steps = 0
         self.way: list[float] = []
         self._forces: list[npt.NDArray[np.float64]] = []
 
@@ -126,11 +126,11 @@ class Ironing:
     def run(self) -> None:
         """Press and drag."""
         with warnings.catch_warnings():
-            # What pairs that are held do to the forces is what is measured here
+            # What frozen pairs do to the forces is what is measured here
             warnings.filterwarnings("ignore", ".* pairs went back and forth")
             for step in cx.LoadSteps(self.problem, self.steps, update=self._move, progress=False):
                 self.iterations.append(step.iterations)
-                self.held += self.problem.report.frozen > 0
+                self.frozen_steps += self.problem.report.frozen_pairs > 0
                 if step.t * self.steps > PRESS + 1e-9:
                     self.way.append(float(self._top[0].g.value))
                     self._forces.append(self._sign * self.contact.force)
@@ -222,7 +222,7 @@ def main(argv: Sequence[str] | None = None) -> list[story.Result]:
             runs[friction, method] = run
             story.console.print(
                 f"mu = {friction}, {method}: {len(run.iterations)} steps, at most "
-                f"{max(run.iterations)} iterations, {run.held} steps with pairs that were held",
+                f"{max(run.iterations)} iterations, {run.frozen_steps} steps with frozen pairs",
                 highlight=False,
             )
     results = compare(runs)

@@ -84,7 +84,7 @@ def in_order(function: fem.Function) -> np.ndarray:
 
 
 def shares(problem: cx.ContactProblem) -> None:
-    """Print what each rank has and sends."""
+    """Print what each rank has."""
     contact, halo = problem.contacts[0], problem.contacts[0].interface.halo
     rank = {
         "rank": halo.comm.rank,
@@ -94,7 +94,6 @@ def shares(problem: cx.ContactProblem) -> None:
         "contact halo": halo.num_nodes - halo.num_bulk,
         "slave nodes": len(contact.slave_nodes),
         "pairs": int(contact.interface.master.paired.sum()),
-        "kB sent": sum(halo.traffic.bytes.values()) / 1024,
     }
     rows = halo.comm.gather(rank) or []
     table = Table(*rank, title="Who has what")

@@ -156,7 +156,7 @@ def solve(problem: cx.ContactProblem) -> None:
 
         problem.solver.setMonitor(monitor)
         problem.solve()
-        # It holds the problem, and PETSc would hold both for ever
+        # It refers to the problem, and PETSc would keep both for ever
         problem.solver.cancelMonitor()
     console.print(str(problem.report), highlight=False)
 

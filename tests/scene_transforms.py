@@ -224,7 +224,7 @@ def solve(
             bc.g.value[...] = load * value
         problem.solve()
         history += problem.report.history
-        assert problem.report.frozen == 0
+        assert problem.report.frozen_pairs == 0
     # A node of the displacement is a node of the geometry
     geometry = np.empty(len(scene.x), dtype=np.int64)
     geometry[V.dofmap.list.ravel()] = domain.geometry.dofmaps[0].ravel()

@@ -11,7 +11,7 @@ from plastic import Plastic
 
 import contactx as cx
 import ufl
-from contactx import saving
+from contactx.state import save_state
 from dolfinx import fem
 from dolfinx.mesh import CellType
 
@@ -68,7 +68,7 @@ class Sheared:
     def state(self) -> list[bytes]:
         """Bits of what a failed step must leave alone."""
         interface, fields = self.contact.interface, self.contact.fields
-        arrays = [self.u.x.array, self.history.x.array, *saving.save(interface).values()]
+        arrays = [self.u.x.array, self.history.x.array, *save_state(interface).values()]
         arrays += [
             interface.nodes.immobile,
             fields.force,

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from contactx.checks.kinds import described, is_number
+from contactx.arguments import described, is_number
 from contactx.parallel.reduce import total
 from dolfinx import fem
 

@@ -14,7 +14,7 @@ from mpi4py import MPI
 import numpy as np
 import numpy.typing as npt
 
-from contactx.checks.files import check_path
+from contactx.files import check_path
 from contactx.parallel.agreement import agreed
 
 from plot.checks import check_curves, check_increasing, check_labels, check_numbers

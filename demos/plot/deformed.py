@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from contactx.checks.files import check_path
+from contactx.files import check_path
 from contactx.parallel.agreement import agreed
 from dolfinx import fem
 

@@ -37,7 +37,7 @@ class Assembly:
         self._sliding = ""
         self._version = 0
 
-    def renew(self, groups: Sequence[Pairs], sliding: str) -> None:
+    def rebuild(self, groups: Sequence[Pairs], sliding: str) -> None:
         """Make the forms of new pairs.
 
         Args:
@@ -56,7 +56,7 @@ class Assembly:
         if not same or not all(
             form.pairs.same(pairs) for form, pairs in zip(self.forms, groups, strict=True)
         ):
-            self.renew(groups, self._sliding)
+            self.rebuild(groups, self._sliding)
             return
         for form, pairs in zip(self.forms, groups, strict=True):
             form.update(pairs)

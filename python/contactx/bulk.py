@@ -115,7 +115,7 @@ class Bulk:
         displacement: npt.NDArray[np.float64] = self.u.x.array - self.dirichlet_defect()
         return displacement
 
-    def renew(self) -> None:
+    def update(self) -> None:
         """Assemble the Jacobian where a coefficient or a constant of the form has changed.
 
         One that does not depend on the displacement is assembled once.
@@ -125,7 +125,7 @@ class Bulk:
 
     def jacobian(self) -> PETSc.Mat:
         """Jacobian, with unit rows and columns at Dirichlet conditions."""
-        self.renew()
+        self.update()
         return self._A if self._is_whole else self.copy()
 
     def copy(self) -> PETSc.Mat:

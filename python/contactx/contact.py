@@ -4,15 +4,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from typing import Any
+
 import numpy as np
 import numpy.typing as npt
 
+from contactx.arguments import check_switch, described, is_number
 from contactx.bodies.bodies import Bodies
-from contactx.checks.facing import check_facing
-from contactx.checks.kinds import check_switch
-from contactx.checks.options import check_options
 from contactx.fields import Fields
 from contactx.forms import ContactForms
+from contactx.geometry.facing import check_facing
 from contactx.interface import Interface
 from contactx.law.make import make_law
 from contactx.master.make import make_master
@@ -36,6 +38,8 @@ _OPTIONS = (
     "search_distance",
     "offset",
 )
+_SLIDING = ("finite", "small")
+_METHODS = ("node-to-surface", "surface-to-surface")
 
 
 class Contact:
@@ -93,7 +97,7 @@ class Contact:
             TypeError: If an argument is of another kind.
             ValueError: If the surfaces share facets, or an option is out of its range.
         """
-        check_options(
+        _check_options(
             slave,
             master,
             friction=friction,
@@ -298,3 +302,91 @@ class Contact:
     def force(self) -> npt.NDArray[np.float64]:
         """Total force on the slave side of all ranks, shape (gdim,)."""
         return self.fields.force
+
+
+def check_contacts(contacts: Any) -> None:
+    """Check that there are contacts and each is listed once.
+
+    Args:
+        contacts: Contacts of a problem.
+
+    Raises:
+        TypeError: If they are no list, or something else is among them.
+        ValueError: If there is none, or one appears twice.
+    """
+    if isinstance(contacts, Contact):
+        raise TypeError("contacts must be a list: write contacts=[contact]")
+    if not isinstance(contacts, Sequence):
+        kind = "None" if contacts is None else type(contacts).__name__
+        raise TypeError(f"contacts must be a list of contactx.Contact, not {kind}")
+    for contact in contacts:
+        if not isinstance(contact, Contact):
+            raise TypeError(
+                f"contacts holds a {type(contact).__name__}: pass a list of contactx.Contact"
+            )
+    if len(contacts) == 0:
+        raise ValueError("contacts is empty: pass at least one Contact")
+    if len(set(map(id, contacts))) < len(contacts):
+        raise ValueError("contacts lists the same Contact twice")
+
+
+def _check_options(
+    slave: Any,
+    master: Any,
+    *,
+    friction: Any,
+    sliding: Any,
+    method: Any,
+    tied: Any,
+    search_distance: Any,
+    offset: Any,
+) -> None:
+    """Check the arguments of a Contact; they are described there.
+
+    Raises:
+        TypeError: If an argument is of another kind.
+        ValueError: If the surfaces share facets, or an option is out of its range.
+    """
+    if not isinstance(slave, Surface):
+        raise TypeError(
+            f"slave must be a contactx.Surface, not {type(slave).__name__}: "
+            "write Surface(facet_tags, tag)"
+        )
+    if not isinstance(master, Surface | Obstacle):
+        raise TypeError(
+            f"master must be a contactx.Surface or a rigid obstacle, not "
+            f"{type(master).__name__}: write Surface(facet_tags, tag), or Plane, Sphere, "
+            "Cylinder or LevelSet"
+        )
+    if isinstance(master, Surface) and slave.facet_tags.topology is master.facet_tags.topology:
+        shared = np.intersect1d(slave.facets, master.facets)
+        if len(shared) > 0:
+            raise ValueError(
+                f"slave and master overlap: {slave} and {master} have {len(shared)} facets in "
+                "common. Give each surface its own tags"
+            )
+    if not isinstance(sliding, str) or sliding not in _SLIDING:
+        raise ValueError(f'sliding must be "finite" or "small", not {sliding!r}')
+    if not isinstance(method, str) or method not in _METHODS:
+        raise ValueError(
+            f'method must be "node-to-surface" or "surface-to-surface", not {method!r}'
+        )
+    for name, value in (("friction", friction), ("offset", offset)):
+        if not (is_number(value) or isinstance(value, fem.Constant | fem.Function)):
+            raise TypeError(
+                f"{name} must be a number, a fem.Constant or a fem.Function, not {described(value)}"
+            )
+    for name, value in (("friction", friction), ("offset", offset)):
+        if is_number(value) and not (np.isfinite(value) and (name == "offset" or value >= 0)):
+            wanted = "a finite number" if name == "offset" else "a number of at least 0"
+            raise ValueError(f"{name} is {value}: give {wanted}")
+    check_switch("tied", tied)
+    if tied and not (is_number(friction) and friction == 0):
+        raise ValueError("tied excludes friction: a tied slave node does not slip")
+    if search_distance is not None:
+        if not is_number(search_distance):
+            raise TypeError(
+                f"search_distance is {described(search_distance)}: give a length, or None"
+            )
+        if not search_distance > 0:
+            raise ValueError(f"search_distance is {search_distance}: give a positive length")

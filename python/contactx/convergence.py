@@ -21,15 +21,15 @@ _EPS = 16 * np.finfo(np.float64).eps
 _FAR = 1e3
 
 
-class Judge:
-    """Measures the residual against the forces of the problem.
+class ConvergenceCriterion:
+    """Compares the residual with the forces of the problem.
 
-    Displacements enter the Dirichlet rows and are judged apart from the forces, so that the
-    judgement does not depend on the units.
+    Rows of Dirichlet conditions are differences of displacements. They are compared apart from the
+    forces, so that the criterion does not depend on the units.
     """
 
     def __init__(self, bulk: Bulk, interfaces: Sequence[Interface], system: SaddlePointSystem):
-        """Create the judge.
+        """Create the criterion.
 
         Args:
             bulk: The bulk.
@@ -58,7 +58,7 @@ class Judge:
                 "load or coefficient of F is NaN or infinite"
             )
 
-    def begin(self, stiffness: npt.NDArray[np.float64]) -> None:
+    def begin_step(self, stiffness: npt.NDArray[np.float64]) -> None:
         """Start a step.
 
         Args:
@@ -68,14 +68,15 @@ class Judge:
         self._least_scale = None
 
     def __call__(self, rtol: float, atol: float) -> tuple[float, float, float]:
-        """Judge the system's residual.
+        """Evaluate the criterion for the system's residual.
 
-        The forces of the problem are those of the bulk: in equilibrium its residual is what
-        supports and contacts carry. Multipliers are no measure, they may be wild or, where a
-        constraint is redundant, without meaning.
+        The residual is relative to the forces of the bulk: in equilibrium the bulk's residual is
+        what supports and contacts carry. Multipliers are no measure of the forces: far from the
+        solution they may be huge, and where a constraint is redundant they are arbitrary.
 
-        What rounding leaves of the forces of a stiff body excuses nothing elsewhere: once the whole
-        is small, softer bodies are judged without it, and so are the contact conditions.
+        The tolerance is not below the rounding errors of the forces of stiff bodies. These errors
+        must not hide a residual elsewhere: once the whole residual is below the tolerance, what
+        exceeds the rounding error at each node must be below a tolerance without rounding errors.
 
         Args:
             rtol: Tolerance relative to the forces.
@@ -111,9 +112,9 @@ class Judge:
         return residual, tolerance, defect
 
     def _has_run_away(self) -> bool:
-        """Whether a body is so far off that its forces are rounding of its distortion.
+        """Whether a body is so far away that its forces are but rounding errors.
 
-        Dirichlet values may take it anywhere.
+        Dirichlet values may take a body anywhere, so that they count for its distance.
         """
         given = self._bulk.prescribed()[self._bulk.markers == 1]
         sizes = [np.abs(a).max(initial=0.0) for a in (self._bulk.u.x.array, given)]

@@ -1,6 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Iterations that go round in a circle."""
+"""What comes back: a status that returns, and pairs that go back and forth between facets."""
 
 from __future__ import annotations
 
@@ -13,17 +13,24 @@ from petsc4py import PETSc
 import numpy as np
 
 from contactx.interface import Interface
-from contactx.parallel.reduce import total
+from contactx.parallel.reduce import least, total
 
+# Part of a step that is taken where iterates go round
 _FACTOR = 0.5
+# Penetration, over the length of an edge, that frozen pairs may hide: as much as a ridge of 45
+# degrees does under the margin of a facet
+_HIDDEN = 0.03
+# How often they are released in a step
+_TIMES = 2
 
 
 class CycleGuard:
-    """Shortens steps when the same status comes back without a smaller residual.
+    """Shortens steps when the same active set comes back without a smaller residual.
 
-    Each status is a linear system of its own, so that a status which returns would return for
-    ever. Iterates between two of a circle lie on neither's piece and lead out of it. The solution
-    is where it was: full steps follow, and convergence is judged by the residual.
+    The residual is piecewise smooth, with a piece for each active set: Newton steps that return to
+    an active set would return to it for ever. A shortened step ends between the pieces and leads
+    out of the cycle. The solution stays the same: full steps follow, and the residual alone decides
+    convergence.
 
     Attributes:
         cycles: How often a status has come back.
@@ -41,7 +48,7 @@ class CycleGuard:
         self.begin_step()
 
     def begin_step(self) -> None:
-        """Forget what was seen."""
+        """Nothing has been seen yet."""
         self.cycles = 0
         self._short = 0
         self._seen: dict[int, list[float]] = {}
@@ -86,7 +93,7 @@ class CycleGuard:
             self._short = 1 + self.cycles
             self._seen.clear()
             for interface in self._interfaces:
-                interface.law.go_round()
+                interface.law.allow_larger_friction()
 
     def _fingerprint(self) -> int:
         """Number that stands for the status of all nodes of all ranks."""
@@ -95,3 +102,49 @@ class CycleGuard:
             digest.update(interface.nodes.status.tobytes())
         mine = np.frombuffer(digest.digest(), dtype=np.uint64)
         return int(total(self._comm, mine)[0])
+
+
+class FrozenPairs:
+    """Releases frozen pairs where they hide a penetration at what would be the solution.
+
+    A pair that goes back and forth between facets is frozen until the step's end.
+
+    Attributes:
+        gaps: Smallest gap that frozen pairs of each contact hide, when last looked for.
+    """
+
+    def __init__(self, interfaces: Sequence[Interface], comm: MPI.Comm):
+        """Take the contacts.
+
+        Args:
+            interfaces: Discrete sides of the contacts.
+            comm: Communicator.
+        """
+        self._interfaces = interfaces
+        self._comm = comm
+        self.begin_step()
+
+    def begin_step(self) -> None:
+        """Pairs have not been released yet."""
+        self._times = 0
+        self.gaps: list[float] = []
+
+    def hide_penetration(self) -> bool:
+        """Whether frozen pairs hide more penetration than the mesh explains; collective."""
+        found = [i.master.deepest_frozen_pair(i.positions()) for i in self._interfaces]
+        gaps, parts = least(self._comm, np.array(found)).T
+        self.gaps = gaps.tolist()
+        return bool(parts.min() < -_HIDDEN)
+
+    def release(self) -> bool:
+        """Release the pairs, to settle close to the solution, unless that was tried often enough.
+
+        Returns:
+            Whether they are released.
+        """
+        if self._times == _TIMES:
+            return False
+        self._times += 1
+        for interface in self._interfaces:
+            interface.master.reset_flips()
+        return True

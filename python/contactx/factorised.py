@@ -50,8 +50,8 @@ class FactorisedSolver:
         self._lost = 0
         self.factorisations = self.iterations = 0
 
-    def forget(self) -> None:
-        """Forget the factors: an error inside PETSc may have left them half done."""
+    def reset(self) -> None:
+        """Drop the factors: an error inside PETSc may have left them half done."""
         self._ksp = self._A = None
         self._forms = []
         self._lost = 0

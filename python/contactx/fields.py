@@ -93,7 +93,7 @@ class Fields:
         """Forces of the multipliers on the nodes that this rank owns, shape (num_owned, gdim)."""
         forces: Array = np.zeros((self._halo.num_nodes, self._gdim))
         self._interface.add_residual(forces.ravel())
-        return -self._halo.add_up(forces)
+        return -self._halo.scatter_reverse(forces)
 
     def _recover(self, forces: Array) -> None:
         """Set pressure and traction.

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 from mpi4py import MPI
 
@@ -13,11 +14,14 @@ import numpy.typing as npt
 
 from contactx import cpp as core
 from contactx.assembly import Assembly
+from contactx.errors import point_text
 from contactx.forms import ContactForms, Pairs, State
 from contactx.law.law import Law
 from contactx.law.nodes import Nodes, touching_gap
 from contactx.master.master import Master
+from contactx.master.obstacle import ObstacleMaster
 from contactx.nodal import NodalValue
+from contactx.parallel import reduce
 from contactx.parallel.agreement import agreed
 from contactx.parallel.halo import Halo
 from contactx.parallel.slaves import SlaveNodes
@@ -78,13 +82,13 @@ class Interface:
         self._gdim = gdim = halo.gdim
         self.law = law
         self.sliding = sliding
-        self._held = sliding == "small"
+        self._frozen_kinematics = sliding == "small"
         self.slaves = slaves.owned
         self.num_others = len(slaves.around) - len(slaves.owned)
         self.master = master
         self._markers = markers.reshape(-1, gdim)
-        halo.follow(self._follow)
-        self._follow()
+        halo.on_change(self._halo_changed)
+        self._halo_changed()
         n = len(self.slaves)
         # State is this rank's alone
         slave_map = cpp.common.IndexMap(MPI.COMM_SELF, len(slaves.around))
@@ -104,10 +108,10 @@ class Interface:
         self._make_forms()
         self._find_immobile()
 
-    def _follow(self) -> None:
-        """Bring what is kept of all nodes up to a halo that has changed."""
-        self._free = self._halo.extend(self._markers) == 0
-        self.master.follow(self._halo.extend)
+    def _halo_changed(self) -> None:
+        """Make what is kept of all nodes fit a halo that has changed."""
+        self._free = self._halo.scatter_forward(self._markers) == 0
+        self.master.halo_changed(self._halo.scatter_forward)
 
     def positions(self) -> npt.NDArray[np.float64]:
         """Current positions of all nodes, shape (num_nodes, gdim)."""
@@ -119,19 +123,19 @@ class Interface:
         return self._halo
 
     @property
-    def follows(self) -> bool:
-        """Whether pairs, normals and projections follow the deformation."""
+    def updates_kinematics(self) -> bool:
+        """Whether pairs, normals and projections are those of the current iterate."""
         return self.sliding == "finite" and not self.law.is_tied
 
     def begin_step(self) -> None:
-        """Start a step: pairs are released, and a moved obstacle of small sliding is seen.
+        """Start a step: pairs may change again, and in small sliding an obstacle may have moved.
 
         All ranks must take part.
         """
         self.skipped_searches = 0
         self.law.begin_step()
-        self.master.restart()
-        self.hold(False)
+        self.master.rebuild()
+        self.freeze_kinematics(False)
         self._turn_tractions()
         self.master.begin_step()
         self._touched = self.nodes.closed
@@ -143,7 +147,7 @@ class Interface:
 
     def _turn_tractions(self) -> None:
         """Turn the tractions with a master that has turned since, as a better start."""
-        if self.history is None or not self.follows:
+        if self.history is None or not self.updates_kinematics:
             return
         turn = self.master.turn(self.positions())
         if turn is not None:
@@ -160,15 +164,27 @@ class Interface:
         with agreed(self._halo.comm):
             self.master.accept(self.positions())
 
+    def set_factor(self, compliance: npt.NDArray[np.float64]) -> None:
+        """Set the factor c of the complementarity from the compliance of the pairs.
+
+        Slave node and master facet are springs in series: where one is much stiffer than the other,
+        the softer one decides how fast a gap closes. All ranks must take part.
+
+        Args:
+            compliance: Compliance of all nodes, length/force, zero where one cannot move.
+        """
+        of_pairs = compliance[self.slaves] + self.master.compliance(compliance)
+        self.nodes.set_factor(of_pairs, self._halo.comm)
+
     def search(self) -> int:
-        """Pair the slave nodes in the current configuration, unless pairs are held.
+        """Pair the slave nodes in the current configuration, unless kinematics are frozen.
 
         All ranks must take part.
 
         Returns:
             Number of this rank's nodes in contact whose facet has changed.
         """
-        if self._held or not self.follows:
+        if self._frozen_kinematics or not self.updates_kinematics:
             self.skipped_searches += 1
             return 0
         return self._pair(self.positions())
@@ -194,16 +210,16 @@ class Interface:
             # A projection over an open gap on a tilted facet leaves a symmetry plane by a little
             self.nodes.mobile = np.where(each < _MOBILE, 0.0, 1.0)
 
-    def hold(self, held: bool) -> None:
-        """Hold the pairs of finite sliding with their normals and projections, or release them.
+    def freeze_kinematics(self, frozen: bool) -> None:
+        """Freeze pairs, normals and projections of finite sliding, or update them again.
 
-        Held pairs make the contact conditions linear. Small sliding always holds its pairs.
+        Frozen kinematics make the contact conditions linear. Those of small sliding always are.
 
         Args:
-            held: Whether to hold them.
+            frozen: Whether to freeze them.
         """
-        if self.follows and held != self._held:
-            self._held = held
+        if self.updates_kinematics and frozen != self._frozen_kinematics:
+            self._frozen_kinematics = frozen
             self._make_forms()
 
     def _take(self, groups: Sequence[Pairs]) -> None:
@@ -213,7 +229,8 @@ class Interface:
 
     def _make_forms(self) -> None:
         self.nodes.area[:] = self.master.area(self._whole)
-        self._assembly.renew(self.master.pairs(), "small" if self._held else "finite")
+        sliding = "small" if self._frozen_kinematics else "finite"
+        self._assembly.rebuild(self.master.pairs(), sliding)
 
     @property
     def forms(self) -> list[ContactForms]:
@@ -225,7 +242,7 @@ class Interface:
         with agreed(self._halo.comm):
             self.law.check(self.nodes)
             offset = self.offset()
-            fresh = self.master.refresh(self.positions(), self._held, offset)
+            fresh = self.master.update(self.positions(), self._frozen_kinematics, offset)
         if fresh is not None:
             self._take(fresh)
         self._assembly.kinematics(self.nodes)
@@ -266,15 +283,15 @@ class Interface:
         x, offset = self.positions(), self.offset()
         self.master.touch(which, x, offset)
         self._touched = self._touched | which
-        fresh = self.master.refresh(x, self._held, offset)
+        fresh = self.master.update(x, self._frozen_kinematics, offset)
         self._take(self.master.pairs() if fresh is None else fresh)
         self._assembly.slip(self.nodes, self.master.origin)
 
     def closing(self, first: bool = False) -> npt.NDArray[np.bool_]:
         """Which nodes the complementarity closes; all ranks must take part at a step's start.
 
-        At a step's start also those that touch but for rounding: it must not decide which of them
-        are closed, and bodies at rest on one another are held by all of them.
+        At a step's start also those that touch but for rounding errors: these must not decide which
+        nodes carry a body that rests on another one.
 
         Args:
             first: Whether the iterate is the step's start.
@@ -295,7 +312,58 @@ class Interface:
         """
         self._assembly.add_residual(b)
 
-    def begin_anew(self) -> None:
-        """Take over pairs that the master was given, not held."""
-        self._held = self.sliding == "small"
+    def rebuild(self) -> None:
+        """Make the forms of pairs that were loaded; kinematics are not frozen."""
+        self._frozen_kinematics = self.sliding == "small"
         self._make_forms()
+
+
+def check_over_constrained(
+    interfaces: Sequence[Interface],
+    names: Sequence[Any],
+    prescribed: npt.NDArray[np.float64],
+    halo: Halo,
+) -> None:
+    """Check that Dirichlet conditions keep no slave node inside a rigid obstacle.
+
+    Args:
+        interfaces: Discrete sides of the contacts.
+        names: The contacts, for the message.
+        prescribed: Displacement with the Dirichlet values, shape (num_dofs,).
+        halo: Nodes on this rank.
+
+    Raises:
+        ValueError: If they do on any rank, on all ranks.
+    """
+    for k, interface in enumerate(interfaces):
+        bad = _constrained_inside(interface, prescribed, halo)
+        count = reduce.total(halo.comm, len(bad))
+        if count > 0 and interface.active:
+            numbers = halo.original[bad].tolist()
+            size = reduce.extent(halo.comm, halo.x[interface.slaves]).max()
+            first, at = reduce.first(
+                halo.comm, numbers, list(zip(numbers, halo.x[bad], strict=True))
+            )
+            raise ValueError(
+                f"contact {k} ({names[k]}) is over-constrained: Dirichlet conditions constrain "
+                f"{count} slave nodes inside the rigid obstacle, first node {first} of the mesh as "
+                f"it was made, at {point_text(at, size)}. Take them out of the slave surface, "
+                "release them along the obstacle's normal or prescribe values outside of it"
+            )
+
+
+def _constrained_inside(
+    interface: Interface, prescribed: npt.NDArray[np.float64], halo: Halo
+) -> npt.NDArray[np.int32]:
+    """Constrained slave nodes of this rank inside an obstacle, as blocks of the dofmap."""
+    master = interface.master
+    if not isinstance(master, ObstacleMaster) or interface.law.is_tied:
+        return np.array([], dtype=np.int32)
+    x = halo.x[: halo.num_bulk] + prescribed.reshape(-1, halo.gdim)
+    with agreed(halo.comm):
+        gap = master.inside(x) - interface.offset()
+    size = reduce.extent(halo.comm, x[interface.slaves]).max()
+    inside: npt.NDArray[np.int32] = interface.slaves[
+        interface.nodes.immobile & (gap < -1e-9 * size)
+    ]
+    return inside

@@ -27,8 +27,8 @@ class Junctions:
     The rule: of the contacts that a node closes, the deepest comes first, and one whose normal lies
     nearly in the span of the normals before it stays open, unless the node goes to and fro between
     them: it needs both, as in a shallow valley. A node that closes several contacts slides without
-    friction in all of them, so that its constraints are the independent normals alone. A tie holds
-    a node in every direction: the node's other contacts stay open.
+    friction in all of them, so that its constraints are the independent normals alone. A tie
+    constrains a node in every direction: the node's other contacts stay open.
 
     Attributes:
         shared: Nodes of this rank that are slave in several contacts.

@@ -62,7 +62,7 @@ class Layout:
         """Places in a matrix of all ranks; all of them must take part."""
         halo, g = self._halo, self._halo.gdim
         own = self._start + g * np.arange(halo.num_owned, dtype=np.int64)
-        nodes = (halo.extend(own)[:, None] + np.arange(g)).ravel()
+        nodes = (halo.scatter_forward(own)[:, None] + np.arange(g)).ravel()
         return Where(halo.comm, self._size, self._start + g * halo.num_owned, nodes)
 
     def embed(self, K: PETSc.Mat) -> PETSc.Mat:

@@ -18,9 +18,10 @@ from contactx.condensed.solver import CondensedSolver
 from contactx.report import Report
 from contactx.system import SaddlePointSystem
 
-# Part of the residual that a solve may leave ten times less of, while few or all nodes change
+# Part of the residual that the next iterate has while the active set changes, at least and at most:
+# a linear solve leaves a tenth of it
 _ROUGH = (1e-5, 0.3)
-# And what a solve may leave where nodes with friction change theirs
+# The same where a contact has friction
 _EXACT = 1e-10
 
 
@@ -34,7 +35,7 @@ class LinearSolver(ABC):
     error: BaseException | None = None
 
     @abstractmethod
-    def begin(self, snes: PETSc.SNES, report: Report) -> None:
+    def begin_step(self, snes: PETSc.SNES, report: Report) -> None:
         """Start a step.
 
         Args:
@@ -43,15 +44,16 @@ class LinearSolver(ABC):
         """
 
     @abstractmethod
-    def provide(self, springs: Array | None) -> None:
-        """Make ready for the Jacobian at an accepted iterate.
+    def update(self, springs: Array | None) -> None:
+        """Bring the Jacobian up to an accepted iterate.
 
         Args:
-            springs: What is added to the diagonal of the displacements, shape (num_dofs,).
+            springs: Stiffness added to the diagonal of the displacements, shape (num_dofs,); None
+                if none is.
         """
 
-    def aim(self, residual: float, tolerance: float, changing: float) -> None:
-        """Say how accurate the next solve must be.
+    def set_accuracy(self, residual: float, tolerance: float, changing: float) -> None:
+        """Set how accurate the next solve must be.
 
         Args:
             residual: Residual of the iterate.
@@ -59,15 +61,15 @@ class LinearSolver(ABC):
             changing: Part of the nodes in contact whose status or pair has changed.
         """
 
-    def end(self, report: Report) -> None:
-        """Write what was done into the report."""
+    def end_step(self, report: Report) -> None:
+        """End a step: write what was done into the report."""
 
     def skipped(self) -> dict[str, int]:
         """What was not done again in this step, and how often."""
         return {}
 
-    def forget(self) -> None:
-        """Forget the matrix: an error inside PETSc may have left it half done."""
+    def reset(self) -> None:
+        """Drop matrices and factors: an error inside PETSc may have left them half done."""
 
 
 class SaddlePoint(LinearSolver):
@@ -84,16 +86,16 @@ class SaddlePoint(LinearSolver):
         self._is_current = False
         self._springs: Array | None = None
 
-    def begin(self, snes: PETSc.SNES, report: Report) -> None:
+    def begin_step(self, snes: PETSc.SNES, report: Report) -> None:
         """See ``LinearSolver``."""
         self._snes, self._report = snes, report
         self._A = None
 
-    def forget(self) -> None:
+    def reset(self) -> None:
         """See ``LinearSolver``."""
         self._A = None
 
-    def provide(self, springs: Array | None) -> None:
+    def update(self, springs: Array | None) -> None:
         """See ``LinearSolver``; the matrix must have the pattern of the current pairs."""
         self._springs = springs
         if self._A is not None and self._system.fits():
@@ -107,7 +109,7 @@ class SaddlePoint(LinearSolver):
     def _jacobian(self, snes: PETSc.SNES, x: PETSc.Vec, A: PETSc.Mat, P: PETSc.Mat) -> None:
         if not self._is_current:
             with self._report.timing("Jacobian"):
-                self._system.scatter(x)
+                self._system.unpack(x)
                 self._system.jacobian(A, self._springs)
         self._is_current = False
 
@@ -134,27 +136,27 @@ class Condensed(LinearSolver):
         self._A = PETSc.Mat().createPython((size, size), self._called(), comm=system.x.comm)
         self._A.setUp()
 
-    def begin(self, snes: PETSc.SNES, report: Report) -> None:
+    def begin_step(self, snes: PETSc.SNES, report: Report) -> None:
         """See ``LinearSolver``."""
         self._snes, self._has_ended = snes, False
-        self._solver.begin(report)
+        self._solver.begin_step(report)
         self._before = 0.0
         snes.setJacobian(weakly(self._jacobian), self._A)
         pc = snes.getKSP().getPC()
         pc.setType("python")
         pc.setPythonContext(self._called())
 
-    def provide(self, springs: Array | None) -> None:
+    def update(self, springs: Array | None) -> None:
         """See ``LinearSolver``."""
         self._solver.springs = springs
 
-    def aim(self, residual: float, tolerance: float, changing: float) -> None:
-        """See ``LinearSolver``; no more than what the next residual will show.
+    def set_accuracy(self, residual: float, tolerance: float, changing: float) -> None:
+        """See ``LinearSolver``; no more accurate than what the next residual will show.
 
-        That is the change of the status, or where it has settled what Newton's method leaves: a
-        multiple of the residual's square, as seen in the last iteration. Where nodes slip from
-        where they touch first, the answer depends on the iterates: they must not depend on how
-        they are solved for, nor on the number of ranks.
+        While the active set changes, its change dominates the next residual. Once it has settled,
+        Newton's method leaves a multiple of the residual's square, as seen in the last iteration.
+        Where nodes slip from where they touch first, the solution depends on the iterates: these
+        must depend neither on the linear solver nor on the number of ranks.
         """
         if changing == 0 and self._before > 0:
             seen = residual / self._before**2
@@ -171,7 +173,7 @@ class Condensed(LinearSolver):
         self._solver.target = max(0.1 * left, 0.01 * tolerance)
         self._solver.is_last = self._solver.target < 0.1 * tolerance
 
-    def end(self, report: Report) -> None:
+    def end_step(self, report: Report) -> None:
         """See ``LinearSolver``."""
         self._has_ended = True
         report.krylov = self._solver.iterations
@@ -179,9 +181,9 @@ class Condensed(LinearSolver):
         report.uncondensed = list(self._solver.direct)
         report.factorisations = self._solver.factorisations
 
-    def forget(self) -> None:
+    def reset(self) -> None:
         """See ``LinearSolver``."""
-        self._solver.forget()
+        self._solver.reset()
         if not self._has_ended:
             # PETSc counts the solves under way, and takes no more than two for ever
             ksp = PETSc.KSP().create(comm=self._snes.comm)
@@ -195,7 +197,7 @@ class Condensed(LinearSolver):
 
     @keeps_its_error
     def _jacobian(self, snes: PETSc.SNES, x: PETSc.Vec, A: PETSc.Mat, P: PETSc.Mat) -> None:
-        self._system.scatter(x)
+        self._system.unpack(x)
         A.assemble()
 
     def _called(self) -> SimpleNamespace:

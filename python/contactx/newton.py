@@ -1,6 +1,19 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Newton loop of PETSc's SNES on the semismooth system of bulk and contacts."""
+"""Newton loop of PETSc's SNES on the semismooth system of bulk and contacts.
+
+All objects that take part in a solve, from contacts to linear solvers, have the same life cycle:
+
+===================== ==================================================================
+``begin_step``        a load step starts
+``update``            bring what is derived up to the current iterate
+``rebuild``           make objects anew as a structure has changed: pairs, halo, sparsity
+``halo_changed``      called when the set of nodes on this rank has changed
+``accept``            the step has converged
+``reset``             drop what was derived: back to as created
+``save``, ``load``    the state goes out, and comes in
+===================== ==================================================================
+"""
 
 from __future__ import annotations
 
@@ -12,38 +25,58 @@ from typing import Any
 from petsc4py import PETSc
 
 import numpy as np
+import numpy.typing as npt
 
 from contactx.bodies.bodies import Bodies
-from contactx.bodies.holder import Holder
+from contactx.bodies.free_bodies import FreeBodies
 from contactx.bulk import Bulk
 from contactx.callback import keeps_its_error, weakly
-from contactx.convergence import Judge
-from contactx.cycling import CycleGuard
-from contactx.factor import set_factors
-from contactx.frozen import FrozenPairs
+from contactx.convergence import ConvergenceCriterion
+from contactx.cycling import CycleGuard, FrozenPairs
 from contactx.interface import Interface
 from contactx.junctions import Junctions
 from contactx.linear import Condensed, LinearSolver, SaddlePoint
 from contactx.options import is_condensed, newton_options
 from contactx.parallel.reduce import largest, total
-from contactx.reasons import HIDDEN, UNBALANCED, reason_of
 from contactx.report import Iteration, Report
-from contactx.skips import skips
 from contactx.system import SaddlePointSystem
 
-# Share of the closed nodes that may change their status or facet before the pairs are held
+# Share of the closed nodes above which changes of status or facet freeze the kinematics
 _FEW = 0.2
 
-# Iterates in turn with forces that nothing in the way of a body can balance
-_DRIFTING = 3
+# Iterates in turn with unbalanced forces on a free body after which the loop gives up
+_MOST_UNBALANCED = 3
+
+# Why the loop ended, and what to do about it
+_UNBALANCED = (
+    "the loads on a body cannot be balanced: it has no support and nothing is in its way, or "
+    "friction barely could. Support it, or turn the loads so that they press the bodies together"
+)
+_HIDDEN = (
+    "pairs went back and forth between facets and were frozen, and hide a penetration: refine the "
+    "master there or take smaller load steps"
+)
+_CODE = PETSc.SNES.ConvergedReason
+_REASONS = {
+    _CODE.CONVERGED_FNORM_ABS: "the residual is below the tolerance",
+    _CODE.DIVERGED_MAX_IT: "no convergence in snes_max_it iterations: take smaller load steps; "
+    "where nodes still change their status at the end, refine the mesh in contact, else raise "
+    "snes_max_it",
+    _CODE.DIVERGED_LINEAR_SOLVE: "the linear solver failed: is a body free to move without "
+    "touching anything? Support it; with a Krylov solver of your own try pc_type lu",
+    _CODE.DIVERGED_FUNCTION_NANORINF: "the residual is not finite: the material fails, or a body "
+    "is free to move without touching anything. Take smaller load steps, or support the body",
+    _CODE.DIVERGED_LINE_SEARCH: "the line search failed: take smaller load steps",
+}
 
 
 class NewtonLoop:
-    """Semismooth Newton method.
+    """Semismooth Newton method, the primal-dual active set strategy.
 
-    Pairs and status change once an accepted iterate, in SNES's convergence test: never inside a
-    line search, and the residual that is judged is always that of the new pairs and status. So a
-    small residual means equilibrium and complementarity at once.
+    Pairs and the active set (the closed nodes, and which of them stick) change once an accepted
+    iterate, in SNES's convergence test, never inside a line search. The residual that is tested is
+    that of the new pairs and the new active set. So a small residual means equilibrium and
+    complementarity at once.
 
     Attributes:
         snes: The solver.
@@ -81,13 +114,15 @@ class NewtonLoop:
         )
         self._report = Report()
         self.error: BaseException | None = None
-        self._converged = self._has_begun = self._held = self._stale = False
+        self._converged = self._has_modes = False
+        # Whether kinematics are frozen, and whether the residual is that of frozen ones
+        self._frozen_kinematics = self._stale = False
         self._changes = (0, 0)
-        self._judge = Judge(bulk, interfaces, system)
-        self._holder = Holder(bulk, interfaces, bodies)
+        self._criterion = ConvergenceCriterion(bulk, interfaces, system)
+        self._free_bodies = FreeBodies(bulk, interfaces, bodies)
         self._junctions = Junctions(interfaces, system.halo.comm)
         self._guard = CycleGuard(interfaces, system.halo.comm)
-        self._frozen = FrozenPairs(interfaces, system.halo.comm)
+        self._frozen_pairs = FrozenPairs(interfaces, system.halo.comm)
         self._failure = ""
         self.snes = PETSc.SNES().create(system.x.comm)
         self.snes.setOptionsPrefix(prefix)
@@ -102,56 +137,55 @@ class NewtonLoop:
         self._report = report
         self._converged = False
         skipped = self._bulk.skipped
-        self._system.forget()
-        self._system.renew()
+        self._system.begin_step()
         self.snes.setFunction(weakly(self._function), self._system.b)
-        self._held = False
+        self._frozen_kinematics = False
         self._failure = ""
-        self._frozen.begin_step()
+        self._frozen_pairs.begin_step()
         self._halo.shrink()
         for interface in self._interfaces:
             interface.begin_step()
         with self._options.in_database():
             self._options.hand_to(self.snes)
             self._time_linear_solves(report)
-            self._linear.begin(self.snes, report)
-            self._judge.check_start()
+            self._linear.begin_step(self.snes, report)
+            self._criterion.check_start()
             with report.timing("bulk stiffness"):
                 stiffness = self._bulk.nodal_stiffness()
-            self._judge.begin(stiffness)
-            set_factors(self._interfaces, stiffness, self._halo)
-            self._holder.begin_step()
+            self._criterion.begin_step(stiffness)
+            self._set_factors(stiffness)
+            self._free_bodies.begin_step()
             self._guard.begin_step()
             self._changes = self._settle(first=True)
-            self._system.gather()
-            self._linear.provide(self._holder.stiffness)
+            self._system.pack()
+            self._linear.update(self._free_bodies.springs)
             self.snes.solve(None, self._system.x)
             report.unread = self._options.unread()
-        self._system.scatter(self._system.x)
+        self._system.unpack(self._system.x)
         code = self.snes.getConvergedReason()
         report.converged = self._converged
-        report.reason = self._failure or reason_of(code, self._converged)
-        report.frozen_gap = min(self._frozen.gaps, default=0.0)
-        self._has_begun |= self._converged
-        self._linear.end(report)
+        report.reason = self._failure or _reason_of(code, self._converged)
+        report.frozen_gap = min(self._frozen_pairs.gaps, default=0.0)
+        self._has_modes |= self._converged
+        self._linear.end_step(report)
         report.cycles = self._guard.cycles
         report.corners = int(total(self._halo.comm, self._junctions.corners))
-        report.unheld = self._holder.unheld
-        report.closed_to_hold = self._holder.closed
+        report.free_modes = self._free_bodies.free_modes
+        report.closed_for_balance = self._free_bodies.closed_for_balance
         report.skipped = Counter({"bulk Jacobian assembly": self._bulk.skipped - skipped})
         report.skipped.update(self._linear.skipped())
         for interface in self._interfaces:
-            report.skipped.update(skips(interface, self._halo.gdim, self._halo.comm))
+            report.skipped.update({"search": interface.skipped_searches})
 
     @property
-    def hidden(self) -> Sequence[float]:
-        """Smallest gap that held pairs of each contact hide, at the solution."""
-        return self._frozen.gaps
+    def hidden_gaps(self) -> Sequence[float]:
+        """Smallest gap that frozen pairs of each contact hide, at the solution."""
+        return self._frozen_pairs.gaps
 
-    def begin(self) -> None:
-        """Find what the first run would find at its start."""
-        self._has_begun = True
-        self._holder.begin_step()
+    def find_rigid_modes(self) -> None:
+        """Find the free rigid modes of the bodies as they are, as the first run does."""
+        self._has_modes = True
+        self._free_bodies.begin_step()
 
     def take_error(self) -> BaseException | None:
         """Error that a callback raised, once."""
@@ -160,11 +194,23 @@ class NewtonLoop:
         return errors[0] if errors else None
 
     def reset(self) -> None:
-        """Forget PETSc's work vectors: an error inside PETSc leaves them locked."""
+        """Drop PETSc's work vectors and factors: an error inside PETSc leaves them locked."""
         self.snes.reset()
-        self._linear.forget()
-        if not self._has_begun:
-            self._holder.forget()
+        self._linear.reset()
+        if not self._has_modes:
+            self._free_bodies.reset()
+
+    def _set_factors(self, stiffness: npt.NDArray[np.float64]) -> None:
+        """Set the factor c of each contact's complementarity.
+
+        Args:
+            stiffness: Stiffness of each owned node, force/length, NaN where one cannot move.
+        """
+        own = np.zeros_like(stiffness)
+        np.divide(1, stiffness, out=own, where=stiffness > 0)
+        compliance = self._halo.scatter_forward(own)
+        for interface in self._interfaces:
+            interface.set_factor(compliance)
 
     def _time_linear_solves(self, report: Report) -> None:
         timer = ExitStack()
@@ -175,20 +221,21 @@ class NewtonLoop:
     @keeps_its_error
     def _function(self, snes: PETSc.SNES, x: PETSc.Vec, b: PETSc.Vec) -> None:
         with self._report.timing("residual"):
-            self._system.scatter(x)
+            self._system.unpack(x)
             self._system.residual(b)
 
-    def _settle(self, first: bool = False, follow: bool = False) -> tuple[int, int]:
-        """Renew pairs and status at an accepted iterate.
+    def _settle(self, first: bool = False, may_freeze: bool = True) -> tuple[int, int]:
+        """Update pairs and the active set at an accepted iterate.
 
-        While many nodes change, the pressures belong to an active set that is far off, and so
-        does the deformation: pairs found on it, and the stiffness that its normals have, lead
-        astray. So they are held as they are, which makes the contact conditions linear, and the
-        active set finds its way as surely as in small sliding. Once few nodes change they follow.
+        While many nodes change their status, the active set is far off, and so are pressures and
+        deformation: pairs found on it, and the stiffness of its normals, lead astray. So the
+        kinematics (pairs, normals and projections) are frozen, which makes the contact conditions
+        linear, and the active set converges as surely as in small sliding. Once few nodes change
+        the kinematics are updated again.
 
         Args:
             first: Whether the iterate is the step's start.
-            follow: Whether pairs follow however many nodes change.
+            may_freeze: Whether kinematics are frozen where many nodes change.
 
         Returns:
             Number of nodes of all ranks that changed their status, and of those that changed their
@@ -196,26 +243,28 @@ class NewtonLoop:
         """
         # Only all ranks together can free what they have dropped
         PETSc.garbage_cleanup(self._halo.comm)
-        status, pairs = self._renew(first)
-        self._stale = self._held and self._many(status) and not follow
-        if self._held and not self._stale:
-            self._hold(False)
-            more, pairs = self._renew()
+        status, pairs = self._update_active_set(first)
+        self._stale = self._frozen_kinematics and self._many(status) and may_freeze
+        if self._frozen_kinematics and not self._stale:
+            self._freeze_kinematics(False)
+            more, pairs = self._update_active_set()
             status += more
-        self._hold(self._many(status + pairs) and not follow)
+        self._freeze_kinematics(self._many(status + pairs) and may_freeze)
         if self._many(status):
             # What flips on an active set that is far off says nothing of the solution
             for interface in self._interfaces:
-                interface.master.forget_flips()
+                interface.master.reset_flips()
         for interface in self._interfaces:
             interface.nodes.drop_open()
-        if self._holder.hold(self._system.displacement_residual, self._judge.scale()):
-            self._hold(True)
+        scale = self._criterion.scale()
+        if self._free_bodies.stabilise(self._system.displacement_residual, scale):
+            self._freeze_kinematics(True)
         for interface in self._interfaces:
             interface.law.evaluate(interface.nodes)
         return status, pairs
 
-    def _renew(self, first: bool = False) -> tuple[int, int]:
+    def _update_active_set(self, first: bool = False) -> tuple[int, int]:
+        """Update pairs, gaps and status; returns the changes of status and of facets."""
         status = pairs = 0
         with self._report.timing("search"):
             for interface in self._interfaces:
@@ -235,31 +284,32 @@ class NewtonLoop:
         closed = sum(int(i.nodes.closed.sum()) for i in self._interfaces)
         return int(total(self._halo.comm, closed))
 
-    def _hold(self, held: bool) -> None:
-        self._held = held and any(i.follows for i in self._interfaces)
+    def _freeze_kinematics(self, frozen: bool) -> None:
+        self._frozen_kinematics = frozen and any(i.updates_kinematics for i in self._interfaces)
         for interface in self._interfaces:
-            interface.hold(held)
+            interface.freeze_kinematics(frozen)
 
     @keeps_its_error
     def _test(
         self, snes: PETSc.SNES, number: int, norms: tuple[float, float, float]
     ) -> PETSc.SNES.ConvergedReason:
-        """Accept an iterate: renew pairs and status, and judge the residual they give."""
+        """Update pairs and the active set at an iterate, and test the residual that they give."""
         reason = PETSc.SNES.ConvergedReason
         if not np.isfinite(norms[2]):
             return reason.DIVERGED_FUNCTION_NANORINF
         if number > 0:
             if self._guard.shorten(self._system.x):
-                self._system.scatter(self._system.x)
+                self._system.unpack(self._system.x)
             self._changes = self._settle()
-        row, small = self._judged(snes, number)
-        # Held pairs give no true residual. Nodes without force change by rounding for ever
-        while small and (self._stale or self._frozen.hide()):
-            if not (self._stale or self._frozen.let_go()):
-                self._failure = HIDDEN
+        row, small = self._evaluate(snes, number)
+        # With frozen kinematics the residual is not the true one. The active set need not settle:
+        # nodes without force change their status by rounding for ever
+        while small and (self._stale or self._frozen_pairs.hide_penetration()):
+            if not (self._stale or self._frozen_pairs.release()):
+                self._failure = _HIDDEN
                 return reason.DIVERGED_FUNCTION_DOMAIN
-            self._changes = self._settle(follow=True)
-            row, small = self._judged(snes, number)
+            self._changes = self._settle(may_freeze=False)
+            row, small = self._evaluate(snes, number)
         self._report.history.append(row)
         self._guard.note(self._system.x, row.residual)
         if not np.isfinite(row.residual):
@@ -267,23 +317,23 @@ class NewtonLoop:
         self._converged = small
         if small:
             return reason.CONVERGED_FNORM_ABS
-        # In 3D nodes that all slip may hold a body by turning their friction
+        # In 3D nodes that all slip may balance a body by turning their friction
         shrinks = any(row.residual < 0.7 * r.residual for r in self._report.history[-2:-1])
-        if self._holder.drifting >= _DRIFTING and not shrinks:
-            self._failure = UNBALANCED
+        if self._free_bodies.unbalanced >= _MOST_UNBALANCED and not shrinks:
+            self._failure = _UNBALANCED
             return reason.DIVERGED_FUNCTION_DOMAIN
-        self._linear.provide(self._holder.stiffness)
-        # A set that has come back is judged by exact solves alone
+        self._linear.update(self._free_bodies.springs)
+        # Where an active set has come back, only exact solves tell it from its successor
         changing = 0.0 if self._guard.cycles else sum(self._changes) / max(1, row.closed)
-        self._linear.aim(row.residual, row.tolerance, changing)
+        self._linear.set_accuracy(row.residual, row.tolerance, changing)
         return reason.CONVERGED_ITERATING
 
-    def _judged(self, snes: PETSc.SNES, number: int) -> tuple[Iteration, bool]:
-        """Evaluate the accepted iterate, and say whether it is small enough."""
-        self._system.gather()
+    def _evaluate(self, snes: PETSc.SNES, number: int) -> tuple[Iteration, bool]:
+        """Evaluate the residual of an accepted iterate, and whether it is small enough."""
+        self._system.pack()
         self._function(snes, self._system.x, self._system.b)
         rtol, atol, _, _ = snes.getTolerances()
-        residual, tolerance, defect = self._judge(rtol, atol)
+        residual, tolerance, defect = self._criterion(rtol, atol)
         row = Iteration(
             number=number,
             residual=residual,
@@ -291,8 +341,20 @@ class NewtonLoop:
             closed=self._num_closed(),
             status_changes=self._changes[0],
             pair_changes=self._changes[1],
-            held=self._held,
+            frozen_kinematics=self._frozen_kinematics,
             dirichlet_defect=defect,
         )
         size = largest(self._halo.comm, np.abs(self._bulk.u.x.array).max(initial=0.0))
         return row, bool(residual <= tolerance and defect <= 1e-10 * size)
+
+
+def _reason_of(code: int, converged: bool) -> str:
+    """Why SNES ended.
+
+    Args:
+        code: Its reason.
+        converged: Whether the contact has converged, too.
+    """
+    if code > 0 and not converged:
+        return f"SNES stopped by itself, with reason {code}, before the end"
+    return _REASONS.get(code, f"SNES stopped with reason {code}")

@@ -10,6 +10,8 @@ from typing import Any
 
 from petsc4py import PETSc
 
+import numpy as np
+
 from contactx import compat
 
 # Relative residual of a linear solve that rounding allows
@@ -21,6 +23,9 @@ _MANY = {2: 300_000, 3: 10_000}
 
 # PETSc's numbers of errors for a type, and for a package, that it does not have
 _NO_SUCH_KIND = (86, 92)
+
+_TOLERANCES = ("snes_rtol", "snes_atol", "snes_stol", "ksp_rtol", "ksp_atol")
+_COUNTS = ("snes_max_it", "ksp_max_it")
 
 
 class SolverOptions:
@@ -165,3 +170,46 @@ def direct_options(prefix: str) -> SolverOptions:
     """
     krylov = {"ksp_type": "gmres", "ksp_pc_side": "right", "ksp_gmres_restart": 60}
     return SolverOptions(prefix, {}, {**_direct(), **krylov})
+
+
+def check_petsc_options(options: Any, prefix: Any) -> None:
+    """Check the options of a problem.
+
+    Args:
+        options: PETSc options.
+        prefix: Their prefix.
+
+    Raises:
+        TypeError: If the prefix or the name of an option is no string, or the options are no
+            dictionary.
+        ValueError: If the prefix is empty or not one for PETSc, a name begins with a dash, or a
+            tolerance or number of iterations is not a finite non-negative number.
+    """
+    if prefix is not None and not isinstance(prefix, str):
+        raise TypeError(f'petsc_options_prefix is {prefix!r}: give a string, such as "contact_"')
+    if not prefix:
+        raise ValueError('petsc_options_prefix is empty: give a unique one, such as "contact_"')
+    if prefix.startswith("-") or len(prefix.split()) != 1 or prefix != prefix.strip():
+        raise ValueError(
+            f"petsc_options_prefix is {prefix!r}: give one without dash and spaces, such as "
+            '"contact_"'
+        )
+    if options is not None and not isinstance(options, Mapping):
+        raise TypeError(
+            f"petsc_options must be a dictionary, not {type(options).__name__}: write "
+            'petsc_options={"snes_rtol": 1e-9}'
+        )
+    for name in options or {}:
+        if not isinstance(name, str):
+            raise TypeError(f"petsc_options holds the name {name!r}: give strings")
+        if name.startswith("-"):
+            raise ValueError(f"petsc_options holds {name!r}: leave out the dash")
+    for name in (*_TOLERANCES, *_COUNTS):
+        value = (options or {}).get(name, 0)
+        what = "an integer" if name in _COUNTS else "a number"
+        try:
+            valid = 0 <= float(value) < np.inf and (name in _TOLERANCES or int(value) == value)
+        except (TypeError, ValueError):
+            valid = False
+        if not valid:
+            raise ValueError(f"petsc_options[{name!r}] is {value!r}: give {what} of at least 0")

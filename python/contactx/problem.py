@@ -14,22 +14,29 @@ from petsc4py import PETSc
 import numpy as np
 
 import ufl
-from contactx import compat, validate
+from contactx import compat
 from contactx.bodies.bodies import Bodies
 from contactx.bulk import Bulk
-from contactx.checks.bulk import check_compiler_options, check_conditions, check_forms
-from contactx.checks.cells import check_cells
-from contactx.checks.over_constrained import check_over_constrained
-from contactx.contact import Contact
+from contactx.bulk_input import (
+    check_compiler_options,
+    check_conditions,
+    check_displacement,
+    check_finite,
+    check_forms,
+    check_prescribed,
+)
+from contactx.contact import Contact, check_contacts
 from contactx.errors import ConvergenceError, NotFiniteError
-from contactx.interface import Interface
+from contactx.geometry.cells import check_cells
+from contactx.interface import Interface, check_over_constrained
 from contactx.interrupts import Interrupts
 from contactx.newton import NewtonLoop
 from contactx.nodal import reference_positions
+from contactx.options import check_petsc_options
 from contactx.parallel.halo import Halo
 from contactx.parallel.reduce import anywhere, least, total
 from contactx.report import Report
-from contactx.snapshot import Snapshot
+from contactx.state import Snapshot
 from contactx.system import SaddlePointSystem
 from dolfinx import fem, la
 
@@ -67,12 +74,12 @@ class ContactProblem:
 
         Args:
             F: Residual of the bulk: any UFL form of the bodies, linear in its test function.
-            u: Displacement, in the linear Lagrange space of vectors on a mesh that holds all
-                bodies. Its values are the start of the first solve.
+            u: Displacement, in the linear Lagrange space of vectors on a mesh of all bodies.
+                Its values are the start of the first solve.
             contacts: Contacts of surfaces of the mesh with each other or with rigid obstacles. A
                 node may be slave in several.
             petsc_options_prefix: Prefix of the PETSc options, unique in the program.
-            bcs: Dirichlet conditions; none are needed where contact holds the bodies.
+            bcs: Dirichlet conditions; none are needed where contact supports the bodies.
             J: Jacobian of F; derived if None.
             petsc_options: Options of SNES, its KSP and PC, without the prefix. ``snes_rtol``
                 (default 1e-11) is relative to the forces of the problem.
@@ -88,19 +95,19 @@ class ContactProblem:
                 do.
         """
         compat.require_real_double()
-        validate.check_displacement(u)
+        check_displacement(u)
         check_forms(F, J, u)
         check_conditions(bcs, u)
         check_compiler_options(form_compiler_options, jit_options)
-        validate.check_options(petsc_options, petsc_options_prefix)
-        validate.check_contacts(contacts)
+        check_petsc_options(petsc_options, petsc_options_prefix)
+        check_contacts(contacts)
 
         V = u.function_space
         X = la.vector(V.dofmap.index_map, V.dofmap.index_map_bs)
         gdim = V.mesh.geometry.dim
         X.array[:] = reference_positions(V).ravel()
         comm = V.mesh.comm
-        validate.check_finite(comm, coordinates_of_the_mesh_are=X)
+        check_finite(comm, coordinates_of_the_mesh_are=X)
 
         self.u = u
         self.contacts = list(contacts)
@@ -133,16 +140,16 @@ class ContactProblem:
         """The SNES solver."""
         return self._newton.snes
 
-    def begin(self) -> None:
-        """Find what the first solve would find at its start; LoadSteps calls this at a restart.
+    def find_rigid_modes(self) -> None:
+        """Find the rigid modes of free bodies; LoadSteps calls this before it loads a checkpoint.
 
-        The rigid modes of bodies that nothing but contact holds are those of bodies without stress.
+        They must be those of bodies without stress, as the first solve finds them.
         """
-        self._newton.begin()
+        self._newton.find_rigid_modes()
 
-    def refresh(self) -> None:
-        """Take over a displacement that was set at owned nodes; all ranks must take part."""
-        self._halo.refresh()
+    def update_ghosts(self) -> None:
+        """Give ghosts the owners' displacements, after these were set; all ranks must take part."""
+        self._halo.update_ghosts()
 
     def solve(self) -> fem.Function:
         """Solve for the current loads and Dirichlet values, starting from ``u``.
@@ -154,15 +161,15 @@ class ContactProblem:
             ConvergenceError: If the Newton loop fails. The displacement and the contacts are then
                 as they were before the call.
             ValueError: If ``u`` or a Dirichlet value is not finite, friction, offset or an obstacle
-                has become what it must not be, Dirichlet conditions hold a slave node inside a
-                rigid obstacle, or PETSc refuses an option.
+                has become what it must not be, Dirichlet conditions constrain a slave node
+                inside a rigid obstacle, or PETSc refuses an option.
         """
-        validate.check_finite(self._halo.comm, the_displacement_u_is=self.u.x)
+        check_finite(self._halo.comm, the_displacement_u_is=self.u.x)
         prescribed = self._bulk.prescribed()
-        validate.check_prescribed(prescribed, self._bulk.markers, self._halo.comm)
+        check_prescribed(prescribed, self._bulk.markers, self._halo.comm)
         check_over_constrained(self._interfaces, self.contacts, prescribed, self._halo)
-        before = Snapshot(self.u, self.contacts, self._halo.refresh)
-        self._halo.refresh()
+        before = Snapshot(self.u, self.contacts, self._halo.update_ghosts)
+        self._halo.update_ghosts()
         self.report = report = Report()
         with Interrupts() as interrupts:
             try:
@@ -191,14 +198,14 @@ class ContactProblem:
 
     def _complete(self, report: Report) -> None:
         comm, interfaces = self._halo.comm, self._interfaces
-        report.slaves, report.pairs, report.immobile, report.frozen = total(
+        report.slaves, report.pairs, report.immobile, report.frozen_pairs = total(
             comm,
             np.array(
                 [
                     sum(len(i.slaves) for i in interfaces),
                     sum(i.master.paired.sum() for i in interfaces),
                     sum(i.nodes.immobile.sum() for i in interfaces),
-                    sum(len(i.master.frozen) for i in interfaces),
+                    sum(len(i.master.frozen_pairs) for i in interfaces),
                 ]
             ),
         ).tolist()
@@ -217,7 +224,7 @@ class ContactProblem:
         report.recovery = [contact.fields.recovery_change for contact in self.contacts]
         report.imbalance = np.sum([contact.fields.imbalance for contact in self.contacts], axis=0)
         for k, interface in enumerate(self._interfaces):
-            self._warn(k, interface, self._newton.hidden[k])
+            self._warn(k, interface, self._newton.hidden_gaps[k])
         if report.iterations > 0 and not self._read_options:
             # Some are read but once
             self._read_options = True
@@ -239,11 +246,11 @@ class ContactProblem:
             else:
                 text += f"that faces its master, although the nearest is {distance:.3g} away"
         elif hidden < 0:
-            frozen = total(comm, len(master.frozen))
+            frozen = total(comm, len(master.frozen_pairs))
             text = (
                 f"{name}: {frozen} pairs went back and forth between facets and "
-                f"were held; they hide a penetration of {-hidden:.3g}. Refine the master there or "
-                "take smaller steps"
+                f"were frozen; they hide a penetration of {-hidden:.3g}. Refine the master there "
+                "or take smaller steps"
             )
         self._say(text)
 

@@ -58,7 +58,7 @@ class Recovery:
         parts = core.nodal_areas(facets.offsets, corners, x[facets.nodes], x.shape[1])
         area = _sums(nodes, parts, len(slave.around))
         # Of nodes of other ranks not all facets are here
-        self._area = slave.extend(area[: len(slave.owned)])
+        self._area = slave.scatter_forward(area[: len(slave.owned)])
         none = np.zeros(0, dtype=np.int64)
         to, from_, weight = [none], [none], [np.zeros(0)]
         for _, corner in FacetList(facets.offsets, corners).groups():
@@ -83,7 +83,7 @@ class Recovery:
         """
         to, from_, rate = self._flows(area, closed)
         for _ in range(_PASSES):
-            every = self._slave.extend(p)
+            every = self._slave.scatter_forward(p)
             p = p + _sums(to, rate * (every[from_] - p[to]), len(p))
         return p
 
@@ -103,9 +103,9 @@ class Recovery:
             Averages, normal to the normals, shape (n, gdim).
         """
         to, from_, rate = self._flows(area, closed)
-        a, b = self._slave.extend(normal)[from_], normal[to]
+        a, b = self._slave.scatter_forward(normal)[from_], normal[to]
         for _ in range(_PASSES):
-            flow = rate[:, None] * (_turned(self._slave.extend(t)[from_], a, b) - t[to])
+            flow = rate[:, None] * (_turned(self._slave.scatter_forward(t)[from_], a, b) - t[to])
             t = t + np.stack([_sums(to, f, len(t)) for f in flow.T], axis=1)
         return t
 
@@ -113,11 +113,11 @@ class Recovery:
         """Nodes i of this rank and j, both closed, and m_ij/A_i of each flow from j to i."""
         to, from_ = self._to, self._from
         n = len(area)
-        closed = self._slave.extend(closed)
+        closed = self._slave.scatter_forward(closed)
         beside_open = _sums(to, self._weight * ~closed[from_], len(closed))[:n]
-        surroundings = self._slave.extend(1 - beside_open / self._area[:n])
+        surroundings = self._slave.scatter_forward(1 - beside_open / self._area[:n])
         # Less than one where the master covers a node's facets in part
-        covered = self._slave.extend(area / self._area[:n])
+        covered = self._slave.scatter_forward(area / self._area[:n])
         both = closed[to] & closed[from_] & (to < n)
         to, from_ = to[both], from_[both]
         less, more = np.sort([surroundings[to], surroundings[from_]], axis=0)

@@ -28,7 +28,8 @@ class Iteration:
         closed: Slave nodes in contact.
         status_changes: Slave nodes that opened or closed.
         pair_changes: Slave nodes in contact that changed their facet.
-        held: Whether the pairs of finite sliding were held because many nodes had changed.
+        frozen_kinematics: Whether pairs, normals and projections of finite sliding were frozen
+            because many nodes had changed.
         dirichlet_defect: Largest difference from a Dirichlet value.
     """
 
@@ -38,7 +39,7 @@ class Iteration:
     closed: int
     status_changes: int
     pair_changes: int
-    held: bool
+    frozen_kinematics: bool
     dirichlet_defect: float
 
 
@@ -53,7 +54,7 @@ class Report:
         reason: Why the Newton loop ended.
         slaves: Number of slave nodes of all contacts.
         pairs: Number of slave nodes that have a master facet in reach.
-        immobile: Pairs that Dirichlet conditions leave nothing to yield; they stay open.
+        immobile: Pairs that Dirichlet conditions keep from moving along the normal; they stay open.
         corners: Nodes that are slave in several contacts and close more than one of them: they
             slide without friction there, and of parallel contacts only the deepest counts.
         krylov: Iterations of the condensed solver.
@@ -61,19 +62,18 @@ class Report:
         factorisations: Factorisations of what was not condensed.
         uncondensed: Why solves were not condensed, one entry a solve.
         cycles: How often the status of an iterate came back and steps were shortened.
-        unheld: Rigid motions of bodies that nothing held at the end; the forces along them balance.
-        closed_to_hold: Nodes that were closed because a body would have met them first.
+        free_modes: Rigid modes of free bodies, at the end; the forces along them balance.
+        closed_for_balance: Nodes that were closed because a free body would have met them first.
         slip: Sum over the slave nodes of their slip in this step, a length.
         dissipation: Work of friction in all steps so far.
-        frozen: Pairs that went back and forth and were held.
-        frozen_gap: Smallest gap that a held pair hides; a negative one is a penetration.
+        frozen_pairs: Pairs that went back and forth between facets and were frozen.
+        frozen_gap: Smallest gap that a frozen pair hides; a negative one is a penetration.
         imbalance: Sum of all contact forces on both sides, shape (gdim,): zero but for rounding.
         force: Force on the slave side of each contact, a list of arrays of shape (gdim,).
         recovery: By how much the recovered pressures and tractions of each contact change its
             force, over the sum of its nodes' forces: nothing on plane surfaces, but for rounding.
-        skipped: What the scene did not need: what was not done again because it still served
-            (assembly of the bulk's Jacobian, hierarchies, factorisations, searches), and how many
-            pairs out of reach, tangential unknowns and master sides there are not.
+        skipped: What iterations did not do again because it still served, and how often: assembly
+            of the bulk's Jacobian, hierarchies, factorisations, searches.
         unread: PETSc options of the user that nothing has read: misspelt, perhaps.
         times: Wall seconds of each part.
     """
@@ -91,11 +91,11 @@ class Report:
     factorisations: int = 0
     uncondensed: list[str] = field(default_factory=list)
     cycles: int = 0
-    unheld: int = 0
-    closed_to_hold: int = 0
+    free_modes: int = 0
+    closed_for_balance: int = 0
     slip: float = 0.0
     dissipation: float = 0.0
-    frozen: int = 0
+    frozen_pairs: int = 0
     frozen_gap: float = 0.0
     imbalance: npt.NDArray[np.float64] = field(default_factory=lambda: np.zeros(0))
     force: list[npt.NDArray[np.float64]] = field(default_factory=list)
@@ -129,22 +129,22 @@ class Report:
                 f"{row.tolerance:.1e}",
                 str(row.closed),
                 str(row.status_changes),
-                str(row.pair_changes) + (" held" if row.held else ""),
+                str(row.pair_changes) + (" frozen" if row.frozen_kinematics else ""),
                 f"{row.dirichlet_defect:.1e}",
             )
         return render(table)
 
     def __str__(self) -> str:
         """The whole report."""
-        frozen = f", {self.frozen} held (hiding a gap of {self.frozen_gap:.1e})"
+        frozen = f", {self.frozen_pairs} frozen (hiding a gap of {self.frozen_gap:.1e})"
         discarded = f" ({self.discarded} more in attempts that were cut)"
         lines = [
             f"{'converged' if self.converged else 'NOT converged'} after {self.iterations} "
             f"iterations{discarded if self.discarded else ''}: {self.reason}",
             self.table().rstrip(),
             f"{self.pairs} of {self.slaves} slave nodes have a pair"
-            + (f", {self.immobile} nothing to yield" if self.immobile else "")
-            + (frozen if self.frozen else ""),
+            + (f", {self.immobile} immobile" if self.immobile else "")
+            + (frozen if self.frozen_pairs else ""),
         ]
         for k, (force, change) in enumerate(zip(self.force, self.recovery, strict=True)):
             components = ", ".join(f"{f:.6g}" for f in force)
@@ -166,10 +166,10 @@ class Report:
                 f"{self.corners} nodes close several contacts at once: without friction, and only "
                 "the deepest of parallel ones"
             )
-        if self.closed_to_hold or self.unheld:
+        if self.closed_for_balance or self.free_modes:
             lines.append(
-                f"bodies held by contact alone: {self.closed_to_hold} nodes closed at first to "
-                f"hold them, {self.unheld} rigid motions left free"
+                f"free bodies: {self.closed_for_balance} nodes closed at first to balance them, "
+                f"{self.free_modes} rigid modes left free"
             )
         if self.dissipation > 0:
             lines.append(

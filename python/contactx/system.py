@@ -58,7 +58,7 @@ class SaddlePointSystem:
         self.num_bulk = halo.num_owned * halo.gdim
         sizes = [self.num_bulk, *(len(i.nodes.multiplier) for i in self.interfaces)]
         self._offsets = np.cumsum([0, *sizes])
-        self.renew()
+        self._make_vectors()
         self._layout = Layout(halo, self._offsets[-1])
         self._bulk_residual = np.zeros(self.num_bulk)
         self._bulk_at: npt.NDArray[np.float64] | None = None
@@ -70,8 +70,13 @@ class SaddlePointSystem:
         """Number of displacements of all nodes that this rank has."""
         return int(self.halo.num_nodes * self.block)
 
-    def renew(self) -> None:
-        """Make new vectors: an error inside PETSc leaves the old ones locked."""
+    def begin_step(self) -> None:
+        """Start a step: loads, constants and coefficients may have changed."""
+        self._bulk_at = None
+        # An error inside PETSc leaves the old ones locked
+        self._make_vectors()
+
+    def _make_vectors(self) -> None:
         self.x = PETSc.Vec().createMPI((self._offsets[-1], None), comm=self._comm)
         self.b = self.x.duplicate()
 
@@ -79,18 +84,18 @@ class SaddlePointSystem:
         """Views of the displacement's part of a vector's values and of each contact's."""
         return [array[i:j] for i, j in zip(self._offsets, self._offsets[1:], strict=False)]
 
-    def gather(self) -> None:
-        """Copy the unknowns from the functions into ``x``."""
+    def pack(self) -> None:
+        """Write the unknowns from the functions into ``x``."""
         displacement, *multipliers = self.blocks(self.x.array)
         displacement[:] = self._bulk.u.x.array[: self.num_bulk]
         for part, interface in zip(multipliers, self.interfaces, strict=True):
             part[:] = interface.nodes.multiplier
 
-    def scatter(self, x: PETSc.Vec) -> None:
-        """Copy the unknowns from a vector into the functions; all ranks must take part."""
+    def unpack(self, x: PETSc.Vec) -> None:
+        """Write the unknowns from a vector into the functions; all ranks must take part."""
         displacement, *multipliers = self.blocks(x.array_r)
         self._bulk.u.x.array[: self.num_bulk] = displacement
-        self.halo.refresh()
+        self.halo.update_ghosts()
         for part, interface in zip(multipliers, self.interfaces, strict=True):
             interface.nodes.multiplier[:] = part
 
@@ -102,10 +107,6 @@ class SaddlePointSystem:
             self._bulk_residual = self._bulk.residual()
             self._bulk_at = u.copy()
         return self._bulk_residual
-
-    def forget(self) -> None:
-        """Drop what was assembled: loads, constants and coefficients may have changed."""
-        self._bulk_at = None
 
     def residual(self, b: PETSc.Vec) -> None:
         """Assemble the residual at the functions' state; pairs and status are as they stand.
@@ -132,7 +133,7 @@ class SaddlePointSystem:
 
     def _sums(self, pushed: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
         """Forces on this rank's nodes from what the ranks have for theirs, shape (num_bulk,)."""
-        return self.halo.add_up(pushed.reshape(-1, self.block)).ravel()
+        return self.halo.scatter_reverse(pushed.reshape(-1, self.block)).ravel()
 
     def _lift(
         self,
@@ -156,7 +157,7 @@ class SaddlePointSystem:
 
     def _to_all(self, values: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
         """Values of all nodes from those of this rank's, shape (num_local,)."""
-        return self.halo.extend(values.reshape(-1, self.block)).ravel()
+        return self.halo.scatter_forward(values.reshape(-1, self.block)).ravel()
 
     def fits(self) -> bool:
         """Whether the last Jacobian has the pattern of the current pairs; all ranks take part."""
@@ -244,4 +245,4 @@ class SaddlePointSystem:
     def _markers(self) -> npt.NDArray[np.int8]:
         """1 at prescribed displacements of all nodes, shape (num_local,)."""
         markers = self._bulk.markers.reshape(-1, self.block)
-        return self.halo.extend(markers).ravel().astype(np.int8)
+        return self.halo.scatter_forward(markers).ravel().astype(np.int8)

@@ -78,7 +78,7 @@ def test_one_linear_solve_finds_the_solution_of_its_active_set(cell):
     system = problem._system
     scene.u.x.array[:] = 0
     contact.multiplier[:] = 0
-    system.gather()
+    system.pack()
     system.residual(system.b)
     J = system.jacobian().convert("dense").getDenseArray()
     prescribed = np.flatnonzero(problem._bulk.markers)

@@ -150,12 +150,12 @@ def test_system_jacobian_is_the_derivative_of_the_residual(cell):
     contact.multiplier[:] = rng.uniform(0.5, 1, n)
     interface.nodes.status[:] = np.where(np.arange(n) % 3 == 0, 0, 2)
     interface.nodes.c[:] = rng.uniform(1, 2, n)
-    system.gather()
+    system.pack()
     x0 = system.x.array.copy()
 
     def residual(x):
         system.x.array = x
-        system.scatter(system.x)
+        system.unpack(system.x)
         system.residual(system.b)
         return system.b.array.copy()
 

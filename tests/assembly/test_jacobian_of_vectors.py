@@ -65,12 +65,12 @@ def scene_with(cell, sliding, master, **options):
 def assert_consistent(problem, interface):
     """Every kind of column: free displacements and all multipliers."""
     system = problem._system
-    system.gather()
+    system.pack()
     x0 = system.x.array.copy()
 
     def residual(x):
         system.x.array = x
-        system.scatter(system.x)
+        system.unpack(system.x)
         system.residual(system.b)
         return system.b.array.copy()
 
@@ -106,10 +106,10 @@ def test_with_friction(cell, sliding, method, master):
 @both_methods
 def test_with_held_pairs(cell, method):
     problem, interface, rng = scene_with(cell, "finite", "facets", friction=0.4, method=method)
-    interface.hold(True)
+    interface.freeze_kinematics(True)
     interface.nodes.status[:] = rng.integers(3, size=len(interface.nodes.status))
     assert_consistent(problem, interface)
-    # Kinematics are held indeed
+    # Kinematics are frozen indeed
     assert all(form.stiffness is None for form in interface.forms)
 
 

@@ -55,7 +55,7 @@ def measure(dim: int, h: float, slave: str, friction: float, method: str) -> dic
         "steps": len(run.iterations),
         "total": sum(run.iterations),
         "most": max(run.iterations),
-        "held": run.held,
+        "held": run.frozen_steps,
         "down": down,
         "along": along,
         "swing_along": run.swing(0) / down,

@@ -42,12 +42,13 @@ OF_CONTACT = (CONTACT, SEARCH, CONDENSATION, STATUS)
 # Part of each module or folder, and of those functions of it that are of another part; None is the
 # caller's. The empty name stands for all other functions.
 _RULES: dict[str, dict[str, str | None]] = {
+    "arguments": {"": REST},
     "assembly": {"": CONTACT},
     "bodies": {"": STATUS},
     "bodies/modes": {"": None},
     "bulk": {"": ASSEMBLY, "Bulk.__init__": FORMS},
+    "bulk_input": {"": REST},
     "callback": {"": None},
-    "checks": {"": SEARCH},
     "compat": {"": REST},
     "condensed": {"": CONDENSATION},
     "condensed/operator": {
@@ -70,11 +71,11 @@ _RULES: dict[str, dict[str, str | None]] = {
     "convergence": {"": STATUS},
     "cycling": {"": STATUS},
     "errors": {"": None},
-    "factor": {"": STATUS},
     "factorised": {"": DIRECT},
     "fields": {"": CONTACT},
+    "files": {"": REST},
     "forms": {"": CONTACT},
-    "frozen": {"": STATUS},
+    "geometry": {"": SEARCH},
     "interface": {
         "": CONTACT,
         "Interface._pair": SEARCH,
@@ -94,18 +95,14 @@ _RULES: dict[str, dict[str, str | None]] = {
     "options": {"": None},
     "parallel": {"": None},
     "problem": {"": REST},
-    "reasons": {"": None},
     "recovery": {"": CONTACT},
     "report": {"": None},
-    "saving": {"": CONTACT},
     "search": {"": SEARCH},
-    "skips": {"": REST},
     "slip": {"": CONTACT},
-    "snapshot": {"": REST},
+    "state": {"": CONTACT, "Snapshot.__init__": REST, "Snapshot.restore": REST},
     "steps": {"": REST},
     "surface": {"": SEARCH},
     "system": {"": CONTACT, "SaddlePointSystem._lift": ASSEMBLY},
-    "validate": {"": REST},
 }
 # What no measured run enters
 _NOT_WATCHED = ("__init__", "meshes", "output", "plot", "reference")

@@ -5,10 +5,11 @@
 from __future__ import annotations
 
 import math
+import pickle
 import sys
 import time
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from typing import Any
 
@@ -16,9 +17,11 @@ from mpi4py import MPI
 from petsc4py import PETSc
 
 import hertz_case
+import numpy as np
 from ranks.partitions import partitioned
 
 import contactx as cx
+from contactx.search import distributed
 from dolfinx.mesh import CellType
 
 import meshes
@@ -32,6 +35,7 @@ LOWER = {2: (52, 6), 3: (10, 7, 3)}
 # Length and width of a rank's part, height
 SIZE = {2: (4.0, 0.6), 3: (1.6, 1.2, 0.6)}
 DOWN, ASIDE, REACH = 0.02, 0.25, 0.2
+_TAG = 7080
 
 
 def strong(path: str, sliding: str) -> dict[str, Any]:
@@ -134,19 +138,79 @@ class Collectives:
             self.count += function.__name__ in self._NAMES
 
 
+class Sent:
+    """Counts from outside what this rank sends for a contact, by the function that sends it.
+
+    Attributes:
+        counts: Messages and bytes of the exchange, of the halo's scatters and of the boxes.
+    """
+
+    def __init__(self, contact: cx.Contact):
+        """Count from now on."""
+        self.counts: Counter[tuple[str, str]] = Counter()
+        self._halo = halo = contact.interface.halo
+        # Index map of the halo, and with how many ranks it shares how many owned nodes
+        self._shared: tuple[Any, int, int] = None, 0, 0
+        self._exchange = halo.exchange
+        halo.exchange = self._exchanged
+        for name, count in (("scatter_forward", self._forward), ("scatter_reverse", self._reverse)):
+            setattr(halo, name, self._counting(getattr(halo, name), count))
+        self._reach = distributed.Reach
+        distributed.Reach = self._gathered
+
+    def stop(self) -> None:
+        """Count the boxes of other contacts no more."""
+        distributed.Reach = self._reach
+
+    def _add(self, purpose: str, messages: int, size: int) -> None:
+        self.counts["messages", purpose] += messages
+        self.counts["bytes", purpose] += size
+
+    def _exchanged(self, outgoing: Mapping[int, Any]) -> dict[int, Any]:
+        for rank, item in outgoing.items():
+            if rank != self._halo.comm.rank:
+                self._add("exchange", 1, len(pickle.dumps(item, protocol=5)))
+        return self._exchange(outgoing)
+
+    def _gathered(self, halo: Any, own: Any, x: Any) -> Any:
+        # A box, the axis of a cone and its angle
+        self._add("boxes", 1, 8 * (3 * halo.gdim + 1))
+        return self._reach(halo, own, x)
+
+    def _counting(self, scatter: Any, count: Any) -> Any:
+        def counted(values: Any) -> Any:
+            if self._halo.comm.size > 1:
+                count(8 * (1 if values.ndim == 1 else values.shape[1]))
+            return scatter(values)
+
+        return counted
+
+    def _forward(self, size: int) -> None:
+        index_map = self._halo._map
+        if self._shared[0] is not index_map:
+            ranks = index_map.index_to_dest_ranks(_TAG).array
+            self._shared = index_map, len(np.unique(ranks)), len(ranks)
+        _, messages, nodes = self._shared
+        self._add("halo", messages, nodes * size)
+
+    def _reverse(self, size: int) -> None:
+        owners = self._halo._map.owners
+        self._add("halo", len(np.unique(owners)), len(owners) * size)
+
+
 class SearchTraffic:
     """What this rank sends within searches and outside of them.
 
     Attributes:
         searches: Number of searches.
         collectives: Counts collective calls.
+        sent: Counts messages and bytes.
         inside: What was sent within searches, as of ``all``.
     """
 
     def __init__(self, contact: cx.Contact):
         """Count from now on."""
-        self._traffic = contact.interface.halo.traffic
-        self._traffic.clear()
+        self.sent = Sent(contact)
         self.collectives = Collectives()
         self.searches = 0
         self.inside: Counter[tuple[str, str]] = Counter()
@@ -163,8 +227,7 @@ class SearchTraffic:
 
     def all(self) -> Counter[tuple[str, str]]:
         """Messages and bytes by purpose, and collective calls."""
-        kinds = {"messages": self._traffic.messages, "bytes": self._traffic.bytes}
-        counts = Counter({(kind, p): n for kind, by in kinds.items() for p, n in by.items()})
+        counts = self.sent.counts.copy()
         counts["collectives", "all"] = self.collectives.count
         return counts
 
@@ -185,6 +248,7 @@ def weak(dim: int, method: str, partition: str) -> dict[str, Any]:
     counter = SearchTraffic(slab.contact)
     with counter.collectives.counting():
         iterations = slab.move(2 * ASIDE)
+    counter.sent.stop()
     solver = _petsc_traffic() - before
     outside = counter.all() - counter.inside
     found = {

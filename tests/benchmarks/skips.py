@@ -138,7 +138,7 @@ def _hierarchy_each_time() -> AbstractContextManager[None]:
     before = Multigrid.solve
 
     def solve(self: Multigrid, *args: Any) -> bool:
-        self.forget()
+        self.reset()
         return before(self, *args)
 
     return _replaced(Multigrid, solve=solve)
@@ -146,25 +146,25 @@ def _hierarchy_each_time() -> AbstractContextManager[None]:
 
 def _exact() -> AbstractContextManager[None]:
     """Solves as accurate as a status asks for that no longer changes."""
-    before = linear.Condensed.aim
+    before = linear.Condensed.set_accuracy
 
-    def aim(
+    def set_accuracy(
         self: linear.Condensed, residual: float, tolerance: float, changing: float, **more: Any
     ) -> None:
         before(self, residual, tolerance, 0.0, **more)
 
-    return _replaced(linear.Condensed, aim=aim)
+    return _replaced(linear.Condensed, set_accuracy=set_accuracy)
 
 
 def _pattern_each_time() -> AbstractContextManager[None]:
     """A new matrix for each factorisation."""
-    before = linear.SaddlePoint.provide
+    before = linear.SaddlePoint.update
 
-    def provide(self: linear.SaddlePoint, *args: Any, **kwargs: Any) -> None:
-        self.forget()
+    def update(self: linear.SaddlePoint, *args: Any, **kwargs: Any) -> None:
+        self.reset()
         before(self, *args, **kwargs)
 
-    return _replaced(linear.SaddlePoint, provide=provide)
+    return _replaced(linear.SaddlePoint, update=update)
 
 
 @contextmanager

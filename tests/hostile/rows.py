@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import contactx as cx
-from contactx import saving
+from contactx.state import save_state
 from dolfinx import fem
 from dolfinx.mesh import CellType
 
@@ -74,7 +74,7 @@ def state(problem: cx.ContactProblem, *history: fem.Function) -> list[bytes]:
     """Bits of all that a failed step must leave as it was."""
     arrays = [problem.u.x.array, *(f.x.array for f in history)]
     for contact in problem.contacts:
-        arrays += saving.save(contact.interface).values()
+        arrays += save_state(contact.interface).values()
         for value in vars(contact.fields).values():
             if isinstance(value, fem.Function):
                 arrays.append(value.x.array)

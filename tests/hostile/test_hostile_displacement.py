@@ -208,7 +208,7 @@ ROWS = [
         "bcs: held inside an obstacle",
         lambda: inside(scene()),
         ValueError,
-        r"contact 0 .* is over-constrained: .* hold 3 slave nodes inside the rigid obstacle",
+        r"contact 0 .* is over-constrained: .* constrain 3 slave nodes inside the rigid obstacle",
     ),
 ]
 

@@ -10,7 +10,7 @@ from rows import Row, refused, scene, solved, table
 
 import basix.ufl
 import contactx as cx
-from contactx.checks.cells import jacobians
+from contactx.geometry.cells import jacobians
 from dolfinx import fem, mesh
 from dolfinx.mesh import CellType
 

@@ -49,7 +49,7 @@ def points(gdim, seed=0):
 
 def slip_table(master, x, *, held=False, offset=NO_OFFSET):
     """Slip, its derivative, gap and normal that the kernels are given at positions x."""
-    (pairs,) = master.refresh(x, held, offset)
+    (pairs,) = master.update(x, held, offset)
     n, gdim = x.shape
     assert np.array_equal(pairs.slaves[:, 0], SLAVES)
 
@@ -235,12 +235,12 @@ def test_a_half_turn_has_no_shortest_way(gdim):
     master.search(x0, OPEN)
     direction.value[:] = -np.eye(gdim)[0]
     with pytest.raises(ValueError, match="turns by 180 degrees within a step"):
-        master.refresh(x0, False, NO_OFFSET)
+        master.update(x0, False, NO_OFFSET)
 
 
 def test_nothing_tangential_without_friction():
     x0 = points(3)
     master = ObstacleMaster(SLAVES, make("plane", 3), x0, None, measures_slip=False)
     master.search(x0, OPEN)
-    (pairs,) = master.refresh(x0 + 0.1, False, NO_OFFSET)
+    (pairs,) = master.update(x0 + 0.1, False, NO_OFFSET)
     assert pairs.slip is None

@@ -7,11 +7,11 @@ from types import SimpleNamespace
 import numpy as np
 
 import contactx as cx
-from contactx.checks import inside
-from contactx.checks.facing import check_facing
-from contactx.checks.inside import check_apart, check_outside
-from contactx.checks.over_constrained import check_over_constrained
-from contactx.checks.shape import check_facets
+from contactx.geometry import inside
+from contactx.geometry.facets import check_facets
+from contactx.geometry.facing import check_facing
+from contactx.geometry.inside import check_apart, check_outside
+from contactx.interface import check_over_constrained
 from contactx.master.facets import FacetMaster
 from contactx.master.obstacle import ObstacleMaster
 from contactx.parallel.slaves import SlaveNodes

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from contactx import cpp as core
-from contactx.bodies.holder import Holder
+from contactx.bodies.free_bodies import FreeBodies
 from contactx.law.coulomb import Coulomb
 from contactx.law.law import Frictionless
 from contactx.law.nodes import Nodes
@@ -22,7 +22,7 @@ class HeldBlock:
     Attributes:
         scene: The blocks, with all nodes on all ranks.
         nodes: State of the slave nodes, with a gap that grows with x.
-        holder: What holds the upper block.
+        free_bodies: What keeps the upper block's Newton step solvable.
     """
 
     def __init__(self, scene, *, friction=0.0, slope=0.01, gap=0.05):
@@ -71,7 +71,7 @@ class HeldBlock:
         interface = SimpleNamespace(
             positions=halo.positions, nodes=self.nodes, master=master, law=law
         )
-        self.holder = Holder(scene.bulk, [interface], scene.bodies)
+        self.free_bodies = FreeBodies(scene.bulk, [interface], scene.bodies)
 
     def slip(self, p=1.0, aside=0.02):
         """All nodes slip along x, by what grows with x, under a pressure."""
@@ -87,12 +87,13 @@ class HeldBlock:
         halo = self.scene.halo
         force = np.array(load) * (1 + growth * halo.x[: halo.num_owned, :1])
         force[self.scene.bodies.number[: halo.num_owned] == 0] = 0
-        self.holder.begin_step()
-        changed = self.holder.hold(lambda: -force.ravel(), 1.0)
-        stiffness = self.holder.stiffness
+        self.free_bodies.begin_step()
+        changed = self.free_bodies.stabilise(lambda: -force.ravel(), 1.0)
+        stiffness = self.free_bodies.springs
         status = np.full(halo.num_owned, -1)
         status[self.slaves] = self.nodes.status
-        counts = changed, self.holder.unheld, self.holder.closed, self.holder.drifting
+        free = self.free_bodies
+        counts = changed, free.free_modes, free.closed_for_balance, free.unbalanced
         none = np.zeros(halo.num_owned * halo.gdim)
         return (
             counts,

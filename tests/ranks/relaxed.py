@@ -41,10 +41,10 @@ class Relaxed(cx.ContactProblem):
         self.t = self.before = 0.0
         self.calls: list[float] = []
 
-    def begin(self) -> None:
+    def find_rigid_modes(self) -> None:
         """Nothing is to be found."""
 
-    def refresh(self) -> None:
+    def update_ghosts(self) -> None:
         """There are no pairs with nodes of other ranks."""
 
     def update(self, t: float) -> None:

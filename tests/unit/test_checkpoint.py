@@ -13,7 +13,7 @@ import pytest
 from step_scenes import DentedBlock, LooseBlock, Sheared, SlidingBlocks
 
 import contactx as cx
-from contactx import saving
+from contactx.state import save_state
 from contactx.steps import archive
 from dolfinx import fem
 from dolfinx.mesh import CellType
@@ -51,7 +51,7 @@ def run(scene, until=None, **options):
             break
     interface = scene.contact.interface
     arrays = [scene.u.x.array, *(f.x.array for f in scene.history)]
-    arrays += [*saving.save(interface).values(), scene.contact.force]
+    arrays += [*save_state(interface).values(), scene.contact.force]
     return [a.tobytes() for a in arrays], steps
 
 

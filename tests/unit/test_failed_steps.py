@@ -72,7 +72,7 @@ def test_a_body_that_is_pulled_away_says_so():
     assert not scene.u.x.array.any()
 
 
-@pytest.mark.parametrize("part", ["residual", "jacobian", "scatter"])
+@pytest.mark.parametrize("part", ["residual", "jacobian", "unpack"])
 @pytest.mark.parametrize("call", [1, 3])
 def test_an_interrupt_anywhere_leaves_everything_as_it_was(monkeypatch, part, call):
     scene = Blocks(CellType.tetrahedron)

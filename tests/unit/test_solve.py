@@ -7,7 +7,7 @@ import pytest
 
 import contactx as cx
 import ufl
-from contactx.frozen import FrozenPairs
+from contactx.cycling import FrozenPairs
 from contactx.master.facets import FacetMaster
 from dolfinx import default_scalar_type, fem
 from dolfinx.mesh import CellType
@@ -51,7 +51,7 @@ def test_constraints_without_free_displacements_stay_open():
         scene.u.x.array[:] = 0
         problem.solve()
         assert problem.report.immobile == 1
-        assert "1 nothing to yield" in str(problem.report)
+        assert "1 immobile" in str(problem.report)
         assert 0 < contact.force[1] < 0.02
         assert np.abs(contact.multiplier).max() < 1
 
@@ -124,15 +124,15 @@ def test_held_pairs_that_hide_a_penetration_warn(monkeypatch, method):
     scene = Blocks(CellType.tetrahedron)
     contact = scene.contact()
     problem = scene.problem(contact)
-    assert contact.interface.master.deepest_frozen(contact.interface.positions()) == (0, 0)
+    assert contact.interface.master.deepest_frozen_pair(contact.interface.positions()) == (0, 0)
     searches = []
 
     def deepest_frozen(*_):
         searches.append(1)
         return -1e-3, -1e-2
 
-    monkeypatch.setattr(FacetMaster, "frozen", np.arange(2))
-    monkeypatch.setattr(FacetMaster, "deepest_frozen", deepest_frozen)
+    monkeypatch.setattr(FacetMaster, "frozen_pairs", np.arange(2))
+    monkeypatch.setattr(FacetMaster, "deepest_frozen_pair", deepest_frozen)
     with pytest.warns(UserWarning, match=r"2 pairs went back.*hide a penetration of 0\.001"):
         problem.solve()
     assert problem.report.frozen_gap == -1e-3
@@ -144,10 +144,10 @@ def test_held_pairs_that_hide_much_are_let_go_and_then_refused(monkeypatch, meth
     scene = Blocks(CellType.tetrahedron)
     problem = scene.problem(scene.contact())
     let_go = []
-    monkeypatch.setattr(FacetMaster, "frozen", np.arange(2))
-    monkeypatch.setattr(FacetMaster, "deepest_frozen", lambda *_: (-1e-3, -0.1))
-    forget = FrozenPairs.let_go
-    monkeypatch.setattr(FrozenPairs, "let_go", lambda s: let_go.append(1) or forget(s))
+    monkeypatch.setattr(FacetMaster, "frozen_pairs", np.arange(2))
+    monkeypatch.setattr(FacetMaster, "deepest_frozen_pair", lambda *_: (-1e-3, -0.1))
+    forget = FrozenPairs.release
+    monkeypatch.setattr(FrozenPairs, "release", lambda s: let_go.append(1) or forget(s))
     with pytest.raises(cx.ConvergenceError, match="hide a penetration: refine the master there"):
         problem.solve()
     assert len(let_go) == 3
@@ -159,7 +159,7 @@ def test_a_body_that_has_run_away_is_no_solution(method):
     scene = Blocks(CellType.quadrilateral)
     problem = scene.problem(scene.contact())
     problem.solve()
-    judge = problem._newton._judge
+    judge = problem._newton._criterion
     residual, tolerance, _ = judge(1e-11, 0.0)
     assert residual <= tolerance
     free = np.flatnonzero(problem._newton._bulk.markers == 0)[0]

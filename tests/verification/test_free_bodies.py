@@ -8,7 +8,7 @@ import stacked_blocks
 
 import contactx as cx
 import ufl
-from contactx.bodies import holder
+from contactx.bodies import free_bodies
 from dolfinx import fem
 from dolfinx.mesh import CellType
 
@@ -72,7 +72,8 @@ def test_a_block_comes_to_rest_on_another(cell, friction, gap, sliding, method):
         assert_refused(scene)
         return
     report = scene.solve()
-    print(report.iterations, "iterations", report.closed_to_hold, "closed", report.unheld, "free")
+    closed, free = report.closed_for_balance, report.free_modes
+    print(report.iterations, "iterations", closed, "closed", free, "free")
     assert report.iterations <= 6
     assert np.abs(scene.contact.force + scene.load).max() <= 1e-9 * PRESSURE
     assert np.nanmin(scene.contact.interface.nodes.gap) >= -1e-12
@@ -125,7 +126,7 @@ def test_the_springs_do_not_change_the_answer(cell, friction, monkeypatch):
     """Without friction the place along the surface is free: rounding over the spring decides it."""
     answers = []
     for weak in (1e-9, 1e-6, 1e-3):
-        monkeypatch.setattr(holder, "_WEAK", weak)
+        monkeypatch.setattr(free_bodies, "_WEAK", weak)
         scene = FreeBlock(cell, friction=friction, sliding="small")
         scene.solve()
         answers.append((scene.u.x.array.copy(), scene.contact.multiplier.copy()))
@@ -146,7 +147,7 @@ def test_springs_of_the_user_hold_a_body():
     scene.bcs = scene.bcs[:3]
     problem = scene.problem(scene.contact())
     problem.solve()
-    assert problem.report.unheld == 0 and problem.report.closed_to_hold == 0
+    assert problem.report.free_modes == 0 and problem.report.closed_for_balance == 0
     assert scene.u.x.array.reshape(-1, 3)[:, 2].min() == pytest.approx(-0.01, rel=0.01)
 
 

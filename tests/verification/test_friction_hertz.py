@@ -35,7 +35,7 @@ def solve(sliding, method, friction, h=None, **options):
     assert np.all(np.linalg.norm(t[edge], axis=1) <= bound)
     force = 4 * contact.force[2]
     print(f"{report.iterations} iterations, {count}, 4F {force:.7f}, edge gap {worst:.1e}")
-    assert report.frozen == 0
+    assert report.frozen_pairs == 0
     assert np.linalg.norm(report.imbalance) <= 1e-12 * np.linalg.norm(contact.force)
     return report.iterations, contact, count
 

@@ -20,7 +20,7 @@ def test_deep_indentation_in_one_step(depth, sliding, method):
     print(f"{sliding} {depth}: {problem.report.iterations} iterations")
     assert problem.report.iterations <= 12
     assert np.nanmin(contact.interface.nodes.gap) > -1e-12
-    assert problem.report.frozen == 0
+    assert problem.report.frozen_pairs == 0
     assert contact.force[2] > 0
 
 

@@ -20,7 +20,7 @@ def iron(h, dim, friction, method, slave):
         f"{dim}D mu {friction} {method} {slave}: {len(run.iterations)} steps, "
         f"{max(run.iterations)} iterations, down {down:.5f}, along {along:+.5f}, swings {swings}"
     )
-    assert run.held == 0
+    assert run.frozen_steps == 0
     assert max(swings) < BANDS[dim][METHODS.index(method)]
     assert max(run.iterations) <= 12
     assert run.way[-1] == pytest.approx(WAY)

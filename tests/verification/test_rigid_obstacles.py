@@ -229,7 +229,7 @@ def test_a_node_that_is_held_inside_an_obstacle():
     place = ", ".join(f"{value:.6g}" for value in at)
     with pytest.raises(
         ValueError,
-        match=r"over-constrained: Dirichlet conditions hold 9 slave nodes .*"
+        match=r"over-constrained: Dirichlet conditions constrain 9 slave nodes .*"
         rf"first node {first} of the mesh as it was made, at \({place}\)",
     ):
         problem.solve()

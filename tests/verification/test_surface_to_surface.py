@@ -8,7 +8,7 @@ from driven_blocks import DrivenBlock, neo_hookean
 from tower import CELLS, Tower, lift
 
 import contactx as cx
-from contactx import saving
+from contactx.state import save_state
 from dolfinx import fem
 from dolfinx.mesh import CellType
 
@@ -154,12 +154,12 @@ def test_a_failed_step_is_undone_and_its_repetition_is_the_same(sliding):
         problem = scene.problem(contact)
         problem.solve()
         if fails:
-            before = {name: a.copy() for name, a in saving.save(contact.interface).items()}
+            before = {name: a.copy() for name, a in save_state(contact.interface).items()}
             u = scene.u.x.array.copy()
             scene.bcs[-1].g.value[...] = -1e300
             with pytest.raises(cx.ConvergenceError):
                 problem.solve()
-            after = saving.save(contact.interface)
+            after = save_state(contact.interface)
             assert np.array_equal(scene.u.x.array, u)
             for name, array in before.items():
                 np.testing.assert_array_equal(after[name], array, err_msg=name)

@@ -48,8 +48,8 @@ class Bodies:
             self.names, known = self._across_ranks(here)
             self.of_node = known[np.searchsorted(here, self.of_node)]
         self.of_cell = self.of_node[cells[:, 0]]
-        self._extend()
-        halo.follow(self._extend)
+        self._halo_changed()
+        halo.on_change(self._halo_changed)
 
     def _across_ranks(self, here: Index) -> tuple[Index, Index]:
         """Names of all bodies, and of those that the parts of bodies on this rank belong to.
@@ -60,15 +60,15 @@ class Bodies:
         halo = self.halo
         # What a ghost belongs to here and on its owner is one body
         ghosts = slice(halo.num_owned, halo.num_bulk)
-        both = np.column_stack([self.of_node[ghosts], halo.extend(self.of_node)[ghosts]])
+        both = np.column_stack([self.of_node[ghosts], halo.scatter_forward(self.of_node)[ghosts]])
         links = np.concatenate([np.column_stack([here, here]), np.unique(both, axis=0)])
         numbers, ends = np.unique(reduce.gathered(halo.comm, links), return_inverse=True)
         part = _parts(ends.reshape(-1, 2), len(numbers))
         return numbers[np.unique(part)], numbers[part[np.searchsorted(numbers, here)]]
 
-    def _extend(self) -> None:
+    def _halo_changed(self) -> None:
         """Give the nodes of the halo their bodies."""
-        self.of_node = self.halo.extend(self.of_node)
+        self.of_node = self.halo.scatter_forward(self.of_node)
         self.number = np.searchsorted(self.names, self.of_node)
 
     @property

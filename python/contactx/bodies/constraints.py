@@ -1,6 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""What rigid motions of the bodies do to slave nodes and their masters."""
+"""How rigid motions of the bodies move slave nodes relative to their masters."""
 
 from __future__ import annotations
 

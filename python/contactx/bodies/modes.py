@@ -115,25 +115,25 @@ class RigidModes:
         grams, rows = self._prescribed(x)
         self.free, self.weak, self.stiffness = [], [], []
         for b in range(self.count):
-            held = _null_space(grams[b], rows[b])
-            basis = held
+            unconstrained = _null_space(grams[b], rows[b])
+            basis = unconstrained
             if first:
                 sprung.append(False)
-            if held.shape[1] > 0 and not (first or sprung[b]):
+            if unconstrained.shape[1] > 0 and not (first or sprung[b]):
                 # Stresses resist rotations without being a support
-                turns = held[self._gdim :]
-                shifts = held @ _null_space(turns.T @ turns, len(turns))
+                turns = unconstrained[self._gdim :]
+                shifts = unconstrained @ _null_space(turns.T @ turns, len(turns))
                 if shifts.shape[1] > 0:
                     values, _, scale = self._resistance(b, x, shifts)
                     sprung[b] = bool(np.abs(values).max() > _SUPPORTED * scale)
-            weak, stiffness = np.zeros((len(held), 0)), np.zeros(0)
-            if held.shape[1] > 0 and (first or sprung[b]):
-                values, vectors, scale = self._resistance(b, x, held)
+            weak, stiffness = np.zeros((len(unconstrained), 0)), np.zeros(0)
+            if unconstrained.shape[1] > 0 and (first or sprung[b]):
+                values, vectors, scale = self._resistance(b, x, unconstrained)
                 size = np.abs(values)
-                basis = held @ vectors[:, size <= _SUPPORTED * scale]
+                basis = unconstrained @ vectors[:, size <= _SUPPORTED * scale]
                 yields = (size > _SUPPORTED * scale) & (size <= _WEAK * scale)
-                weak, stiffness = held @ vectors[:, yields], size[yields]
-                sprung[b] |= basis.shape[1] < held.shape[1]
+                weak, stiffness = unconstrained @ vectors[:, yields], size[yields]
+                sprung[b] |= basis.shape[1] < unconstrained.shape[1]
             self.free.append(basis)
             self.weak.append(weak)
             self.stiffness.append(stiffness)

@@ -1,6 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Springs that hold what else is free to move."""
+"""Springs at the free modes of bodies, which would make the Jacobian singular."""
 
 from __future__ import annotations
 

@@ -92,8 +92,8 @@ class Elimination:
             self._add_scalar(slaves[closed], multipliers[closed, 0])
             return
         dofs = slaves[:, None] * self._gdim + np.arange(self._gdim)
-        held = closed[:, None] & own
-        self._add_forces(dofs[held], multipliers[held])
+        constrained = closed[:, None] & own
+        self._add_forces(dofs[constrained], multipliers[constrained])
         stick = nodes.status == core.STICK
         slip = nodes.status == core.SLIP
         self._add_stick(dofs[stick], multipliers[stick], own[stick])

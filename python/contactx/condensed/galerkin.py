@@ -43,14 +43,14 @@ class Galerkin:
         for Q in prolongations:
             self._rows.append(self._rows[-1].matMult(Q))
         self._added: list[PETSc.Mat | None] = [None for _ in prolongations]
-        self._followed: Index = np.zeros(0, dtype=np.int64)
+        self._eliminated: Index = np.zeros(0, dtype=np.int64)
 
-    def follows(self, part: Change) -> bool:
+    def nearly_serves(self, part: Change) -> bool:
         """Whether the matrices are those of nearly the same eliminated displacements.
 
         All ranks must take part, and have the same answer.
         """
-        new = np.setxor1d(part.places, self._followed, assume_unique=True)
+        new = np.setxor1d(part.places, self._eliminated, assume_unique=True)
         changed, count = reduce.total(self._comm, np.array([len(new), len(part.places)]))
         return part.springs is None and bool(changed <= _FEW * count)
 
@@ -80,4 +80,4 @@ class Galerkin:
             if before is not None:
                 change.axpy(-1.0, before, _DIFFERENT)
             A.axpy(1.0, change, _DIFFERENT)
-        self._followed = part.places
+        self._eliminated = part.places

@@ -28,8 +28,8 @@ class Guess:
         self._solutions: list[PETSc.Vec] = []
         self._is_first = False
 
-    def forget(self) -> None:
-        """Know nothing again."""
+    def reset(self) -> None:
+        """Drop the solutions."""
         self._solutions = []
 
     def begin_step(self) -> None:

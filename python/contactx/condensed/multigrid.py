@@ -34,7 +34,7 @@ _INDEFINITE = (
 
 
 class Multigrid:
-    """A Krylov solver with a hierarchy of the bulk that follows the contact.
+    """A Krylov solver with a hierarchy of the bulk that is updated with the contact.
 
     Aggregates and prolongations are those of the bulk without contact, made once. What contact
     changes in the condensed matrix is few rows, and its projections are added to the matrices of
@@ -97,27 +97,27 @@ class Multigrid:
         self._operator = operator
         change = operator.change()
         if self._lost > _COST:
-            self.forget()
+            self.reset()
         if self._ksp is None:
             self._build(operator.slave_dofs, report)
-        followed = self._galerkin.follows(change)
-        self._follow(change, report, coarse=not followed)
+        serves = self._galerkin.nearly_serves(change)
+        self._update(change, report, coarse=not serves)
         if self._iterate(operator, rhs, v, target, report):
             return True
-        if followed:
-            self._follow(change, report)
+        if serves:
+            self._update(change, report)
             if self._iterate(operator, rhs, v, target, report):
                 return True
         if self._built_at != self._bulk.assemblies:
             self._build(operator.slave_dofs, report)
-            self._follow(change, report)
+            self._update(change, report)
             if self._iterate(operator, rhs, v, target, report):
                 return True
-        self.forget()
+        self.reset()
         return False
 
-    def forget(self) -> None:
-        """Forget the hierarchy: two at once would be the largest part of the memory."""
+    def reset(self) -> None:
+        """Drop the hierarchy: two at once would be the largest part of the memory."""
         if self._ksp is not None:
             self._ksp.destroy()
         self._ksp = None
@@ -173,7 +173,7 @@ class Multigrid:
         self.hierarchies += 1
 
     def _make(self, slave_dofs: Index) -> None:
-        self.forget()
+        self.reset()
         P = self._bulk.copy()
         P.setBlockSize(self._x.shape[1])
         vectors = []
@@ -222,7 +222,7 @@ class Multigrid:
                 smoother.setType("richardson")
                 smoother.getPC().setType("sor")
         self._smoothers[0].setOperators(self._A, self._D)
-        # PETSc keeps hold of the matrix, but nothing in it is used again
+        # PETSc keeps the matrix, but nothing in it is used again
         P.setPreallocationNNZ(0)
         P.setNearNullSpace(PETSc.NullSpace())
         self._galerkin = Galerkin(
@@ -232,7 +232,7 @@ class Multigrid:
         )
         self._ksp = ksp
 
-    def _follow(self, change: Change, report: Report, *, coarse: bool = True) -> None:
+    def _update(self, change: Change, report: Report, *, coarse: bool = True) -> None:
         """Bring the hierarchy up to what contact makes of the matrix.
 
         Args:

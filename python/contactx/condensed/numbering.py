@@ -1,6 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Displacements of all nodes on a rank, and where they are in the bulk's vectors."""
+"""What elimination needs to know of all nodes on a rank, those of other ranks included."""
 
 from __future__ import annotations
 
@@ -9,8 +9,10 @@ from petsc4py import PETSc
 import numpy as np
 import numpy.typing as npt
 
+from contactx.bulk import Bulk
 from contactx.condensed.blocks import Array, Entries, Index
 from contactx.parallel.halo import Halo
+from contactx.system import SaddlePointSystem
 
 
 class Numbering:
@@ -41,8 +43,8 @@ class Numbering:
             nodes = halo.numbers(np.arange(halo.num_nodes))
             self._numbers = (nodes[:, None] * gdim + np.arange(gdim)).ravel()
 
-    def extend[T: np.generic](self, values: npt.NDArray[T]) -> npt.NDArray[T]:
-        """Values of all nodes' displacements from those of owned ones; all ranks must take part.
+    def scatter_forward[T: np.generic](self, values: npt.NDArray[T]) -> npt.NDArray[T]:
+        """Give all displacements the values that their owners have; all ranks must take part.
 
         Args:
             values: Values, of which the first count, shape (at least num_owned,).
@@ -50,7 +52,9 @@ class Numbering:
         Returns:
             Values of the same type, shape (num_local,).
         """
-        every: npt.NDArray[T] = self._halo.extend(values.reshape(-1, self._halo.gdim)).ravel()
+        every: npt.NDArray[T] = self._halo.scatter_forward(
+            values.reshape(-1, self._halo.gdim)
+        ).ravel()
         return every
 
     def marks(self, dofs: Index) -> npt.NDArray[np.bool_]:
@@ -64,10 +68,10 @@ class Numbering:
         """
         mine = np.zeros(self.num_owned, dtype=bool)
         mine[dofs] = True
-        return self.extend(mine)
+        return self.scatter_forward(mine)
 
-    def add_up(self, values: Array) -> Array:
-        """Sums over the ranks; all must take part.
+    def scatter_reverse(self, values: Array) -> Array:
+        """Add what all ranks have for a displacement on its owner; all ranks must take part.
 
         Args:
             values: What this rank has for the displacements of all nodes, shape (num_local,).
@@ -75,7 +79,7 @@ class Numbering:
         Returns:
             Sums at the owned ones, shape (num_owned,).
         """
-        return self._halo.add_up(values.reshape(-1, self._halo.gdim)).ravel()
+        return self._halo.scatter_reverse(values.reshape(-1, self._halo.gdim)).ravel()
 
     def numbers(self, dofs: Index) -> Index:
         """Numbers of displacements in the bulk's matrix, shape (n,)."""
@@ -106,6 +110,45 @@ class Numbering:
         A.setPreallocationCOO(_integers(places), _integers(self.numbers(entries.columns)))
         A.setValuesCOO(entries.values, PETSc.InsertMode.ADD)
         return A
+
+
+class Surroundings:
+    """What a rank must know of the nodes of others to eliminate its multipliers.
+
+    Attributes:
+        numbering: Where the displacements are in the bulk's matrix.
+        free: 1 at displacements that are not prescribed, else 0, shape (num_local,).
+        is_slave: Whether each node is slave in each contact, shape (num_nodes, num_contacts).
+    """
+
+    numbering: Numbering
+    free: Array
+    is_slave: npt.NDArray[np.bool_]
+
+    def __init__(self, bulk: Bulk, system: SaddlePointSystem):
+        """Create it; ``rebuild`` comes before the first use.
+
+        Args:
+            bulk: The bulk.
+            system: The coupled system.
+        """
+        self._bulk = bulk
+        self._system = system
+        self._version = -1
+
+    def rebuild(self) -> None:
+        """Make all anew where the nodes of this rank have changed; all ranks must take part."""
+        halo = self._system.halo
+        if self._version == halo.version:
+            return
+        self._version = halo.version
+        self.numbering = Numbering(halo)
+        self.free = self.numbering.scatter_forward((self._bulk.markers == 0).astype(np.float64))
+        interfaces = self._system.interfaces
+        is_slave = np.zeros((halo.num_owned, len(interfaces)), dtype=bool)
+        for k, interface in enumerate(interfaces):
+            is_slave[interface.slaves, k] = True
+        self.is_slave = halo.scatter_forward(is_slave)
 
 
 def index_set(places: Index, A: PETSc.Mat) -> PETSc.IS:

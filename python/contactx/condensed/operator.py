@@ -123,8 +123,8 @@ class CondensedOperator:
         )
         springs = None
         if self._springs is not None:
-            held = np.setdiff1d(np.flatnonzero(self._springs), self.eliminated)
-            springs = self._numbering.matrix(Entries(held, held, self._springs[held]))
+            sprung = np.setdiff1d(np.flatnonzero(self._springs), self.eliminated)
+            springs = self._numbering.matrix(Entries(sprung, sprung, self._springs[sprung]))
         return Change(places, self._right, block, springs, self._bound())
 
     def _bound(self) -> PETSc.Vec:
@@ -140,7 +140,7 @@ class CondensedOperator:
         size = np.abs(R.values)
         total = np.bincount(R.rows, size, len(D))
         more = np.bincount(R.columns, (D * total)[R.rows] * size, self._numbering.num_local)
-        D = D + self._numbering.add_up(more)
+        D = D + self._numbering.scatter_reverse(more)
         if self._S is not None:
             indptr, _, values = self._S.getValuesCSR()
             rows = np.repeat(np.arange(len(D)), np.diff(indptr))

@@ -19,10 +19,9 @@ from contactx.condensed.chains import check_chains
 from contactx.condensed.elimination import Elimination
 from contactx.condensed.guess import Guess
 from contactx.condensed.multigrid import Multigrid
-from contactx.condensed.numbering import Numbering
+from contactx.condensed.numbering import Numbering, Surroundings
 from contactx.condensed.operator import CondensedOperator
 from contactx.condensed.prescribed import Prescribed
-from contactx.condensed.surroundings import Surroundings
 from contactx.factorised import FactorisedSolver
 from contactx.options import ROUNDING
 from contactx.parallel import reduce
@@ -40,13 +39,13 @@ class CondensedSolver:
     """Solves the system of the Jacobian.
 
     The multipliers are eliminated and the displacements found by CG, or GMRES where friction slips,
-    with a multigrid hierarchy that follows the contact. What cannot be condensed, and bodies on
-    which multigrid is slow, go to a direct solver whose factors serve several Jacobians.
+    with a multigrid hierarchy that is updated with the contact. What cannot be condensed, and
+    bodies on which multigrid is slow, go to a direct solver whose factors serve several Jacobians.
 
     Attributes:
         target: What the norm of the next solve's residual must fall below, a force.
         is_last: Whether it is to be the last one of the step.
-        direct: Solves that were not condensed since ``begin``, and why.
+        direct: Solves that were not condensed since ``begin_step``, and why.
     """
 
     def __init__(self, bulk: Bulk, system: SaddlePointSystem, x: Array, prefix: str):
@@ -68,9 +67,9 @@ class CondensedSolver:
         self.is_last = False
         self._failures = self._failures_before = 0
         self.springs: Array | None = None
-        self.begin(Report())
+        self.begin_step(Report())
 
-    def begin(self, report: Report) -> None:
+    def begin_step(self, report: Report) -> None:
         """Start a step.
 
         Args:
@@ -84,29 +83,29 @@ class CondensedSolver:
         self.direct: list[str] = []
         self._solves = 0
 
-    def forget(self) -> None:
-        """Forget what earlier solves have left: after a failed step it is of no use, or half done.
+    def reset(self) -> None:
+        """Drop what earlier solves have left: after a failed step it is of no use, or half done.
 
         What the failed step found of multigrid does not count either.
         """
         self._failures = self._failures_before
-        self._guess.forget()
-        self._multigrid.forget()
-        self._factorised.forget()
+        self._guess.reset()
+        self._multigrid.reset()
+        self._factorised.reset()
 
     @property
     def iterations(self) -> int:
-        """Krylov iterations since ``begin``, with a hierarchy or with older factors."""
+        """Krylov iterations since ``begin_step``, with a hierarchy or with older factors."""
         return self._multigrid.iterations + self._factorised.iterations
 
     @property
     def hierarchies(self) -> int:
-        """Hierarchies made since ``begin``."""
+        """Hierarchies made since ``begin_step``."""
         return self._multigrid.hierarchies
 
     @property
     def factorisations(self) -> int:
-        """Factorisations since ``begin``, where it could not be condensed."""
+        """Factorisations since ``begin_step``, where it could not be condensed."""
         return self._factorised.factorisations
 
     def skipped(self) -> dict[str, int]:
@@ -150,7 +149,7 @@ class CondensedSolver:
             NotCondensable: On all ranks, where a multiplier has no equation of its own.
         """
         around = self._surroundings
-        around.renew()
+        around.rebuild()
         comm, gdim = around.numbering.comm, self._system.block
         interfaces = self._system.interfaces
         with agreed(comm):
@@ -160,7 +159,7 @@ class CondensedSolver:
             contact = Prescribed(interfaces, diagonal, around.free, gdim)
             elimination = Elimination(interfaces, contact, around.free, gdim)
         check_chains(elimination, around.numbering, gdim)
-        self._bulk.renew()
+        self._bulk.update()
         self._bulk.rows(elimination.slave_dofs)
         self._bulk.keep_half()
         operator = CondensedOperator(
@@ -226,7 +225,7 @@ class CondensedSolver:
         np.add.at(forces, T.rows, -T.values * known[T.columns])
         h, w = self._bulk.matrix().createVecs()
         rhs, v = w.duplicate(), h.duplicate()
-        w.array[:] = given + numbering.add_up(forces)
+        w.array[:] = given + numbering.scatter_reverse(forces)
         balance = w.duplicate()
         w.copy(balance)
         h.array[:] = elimination.shift(d)[:n]
@@ -247,7 +246,7 @@ class CondensedSolver:
         operator.bulk(h, work)
         balance.axpy(-1.0, work)
         elimination.recover(balance.array_r, known)
-        contact.recover(constraints, numbering.extend(h.array_r), known)
+        contact.recover(constraints, numbering.scatter_forward(h.array_r), known)
         x.array[:n] = np.where(self._surroundings.free[:n] == 1, h.array_r, given)
         x.array[n:] = known
         return True

@@ -45,7 +45,7 @@ class Coulomb(Law):
         """See ``Law``."""
         self._reach = _REACH
 
-    def go_round(self) -> None:
+    def allow_larger_friction(self) -> None:
         """See ``Law``; what friction throws far may be what it deforms after all."""
         self._reach *= _FARTHER
 
@@ -137,7 +137,7 @@ class Tied(Law):
     is_tied = True
 
     def set_status(self, nodes: Nodes) -> int:
-        """See ``Law``; where there is a pair it holds."""
+        """See ``Law``; a node with a pair is tied."""
         now = np.where(np.isnan(nodes.gap) | nodes.ceded, core.OPEN, core.STICK).astype(np.int8)
         changed = int(np.count_nonzero(now != nodes.status))
         nodes.status[:] = now
@@ -150,9 +150,9 @@ class Tied(Law):
         """
         n, gdim = nodes.slip.shape
         area = nodes.area[:, None]
-        held = nodes.closed[:, None] & (nodes.mobile > 0)
-        by_slip = np.where(held, area * nodes.c[:, None], 0.0)
-        by_multiplier = np.where(held, 0.0, area)
+        tied = nodes.closed[:, None] & (nodes.mobile > 0)
+        by_slip = np.where(tied, area * nodes.c[:, None], 0.0)
+        by_multiplier = np.where(tied, 0.0, area)
         traction = nodes.multiplier.reshape(n, gdim)
         nodes.value[:] = (by_slip * nodes.slip + by_multiplier * traction).ravel()
         nodes.by_multiplier[:] = by_multiplier[:, :, None] * np.eye(gdim)

@@ -34,10 +34,10 @@ class Law(ABC):
         """
 
     def begin_step(self) -> None:
-        """Forget what iterates of the last step have shown."""
+        """Start a step: what iterates of the last one have shown does not count."""
 
-    def go_round(self) -> None:
-        """Try harder: iterates go round in a circle."""
+    def allow_larger_friction(self) -> None:
+        """Accept larger trial frictions, where iterates go round in a circle."""
 
     @abstractmethod
     def set_status(self, nodes: Nodes) -> int:

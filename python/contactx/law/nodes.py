@@ -12,7 +12,7 @@ import numpy.typing as npt
 from contactx import cpp as core
 from contactx.forms import State
 from contactx.law.mean_normal import MeanNormal
-from contactx.parallel.reduce import largest
+from contactx.parallel.reduce import largest, total
 from dolfinx import la
 
 type Array = npt.NDArray[np.float64]
@@ -30,8 +30,8 @@ class Nodes:
         normal: Unit normal of the master; empty for scalar multipliers, shape (n, gdim).
         slip: Slip increment of the step; empty for scalar multipliers, shape (n, gdim).
         c: Factor of the gap in the complementarity, traction/length, shape (n,).
-        immobile: Whether Dirichlet conditions leave neither a slave node nor its master anything
-            to yield along the normal; such a node stays open, shape (n,).
+        immobile: Whether Dirichlet conditions keep slave node and master from moving along the
+            normal; such a node stays open, shape (n,).
         mobile: 1 in directions in which slave node or master can move, else 0; empty for scalar
             multipliers, shape (n, gdim).
         ceded: Whether a node leaves this contact to another one that it closes, shape (n,).
@@ -82,6 +82,23 @@ class Nodes:
 
         self.by_slip = rows_of(state.slip_derivative)
         self.by_normal = rows_of(state.normal_derivative)
+
+    def set_factor(self, compliance: Array, comm: MPI.Comm) -> None:
+        """Set the factor c to the stiffness of a pair over the slave node's area.
+
+        Any c > 0 has the same solution. All ranks must take part.
+
+        Args:
+            compliance: Compliance of each node's pair, length/force, zero where it is unknown;
+                shape (n,).
+            comm: Communicator.
+        """
+        product = compliance * self.area
+        usable = product[product > 0]
+        logs, count = total(comm, np.array([np.log(usable).sum(), len(usable)]))
+        # Where nothing can move: the geometric mean of the others
+        usual = np.exp(logs / count) if count > 0 else 1.0
+        self.c[:] = 1 / np.where(product > 0, product, usual)
 
     @property
     def closed(self) -> npt.NDArray[np.bool_]:

@@ -14,7 +14,6 @@ from contactx import cpp as core
 from contactx.forms import Pairs
 from contactx.master.master import Array, Master, RowKind, Weights, touching
 from contactx.master.mobility import free_squares, pair_weights
-from contactx.master.reach import default_reach
 from contactx.parallel.halo import Halo
 from contactx.parallel.slaves import SlaveNodes
 from contactx.search.distributed import master_surface
@@ -42,7 +41,7 @@ class FacetMaster(Master):
         halo: Halo,
         slave: SlaveNodes,
         master: FacetList,
-        search_distance: float | None,
+        reach: float,
         *,
         sliding: str,
         measures_slip: bool,
@@ -53,7 +52,7 @@ class FacetMaster(Master):
             halo: Nodes of this rank.
             slave: Slave nodes.
             master: Master facets that this rank has.
-            search_distance: Largest distance of a pair; chosen if None.
+            reach: Largest distance of a pair.
             sliding: "finite" or "small".
             measures_slip: Whether slip is measured.
         """
@@ -67,7 +66,7 @@ class FacetMaster(Master):
         # node's slip starts, as a place in the configuration of the step's start
         self._x0 = self._at = x
         self._start = np.zeros((0, x.shape[1]))
-        self.reach = search_distance or default_reach(halo, slave.facets, master)
+        self.reach = reach
         known = self.surface.facets
         self._pairing = core.Pairing(
             slave.facets.offsets,
@@ -85,14 +84,14 @@ class FacetMaster(Master):
         """See ``Master``."""
         version = self._halo.version
         changed = self.surface.pair(self._pairing, self._facets, x, self.reach, closed)
-        self._at = self._halo.fit(x, version)
+        self._at = self._halo.updated(x, version)
         self._facet, self._feature = self._pairing.facet, self._pairing.feature
         return changed
 
-    def restart(self) -> None:
+    def rebuild(self) -> None:
         """See ``Master``."""
         if self._halo.comm.size > 1:
-            self._restore(self.surface.restart(self._facet), self._saved_pairs())
+            self._restore(self.surface.keep(self._facet), self._saved_pairs())
 
     def _restore(self, facet: npt.NDArray[np.int32], saved: Mapping[str, npt.NDArray[Any]]) -> None:
         known = self.surface.facets
@@ -103,9 +102,9 @@ class FacetMaster(Master):
     def _saved_pairs(self) -> dict[str, npt.NDArray[Any]]:
         return {name: getattr(self._pairing, name) for name in _SAVED}
 
-    def follow(self, extend: Callable[[Array], Array]) -> None:
+    def halo_changed(self, scatter_forward: Callable[[Array], Array]) -> None:
         """See ``Master``."""
-        self._x0, self._at = extend(self._x0), extend(self._at)
+        self._x0, self._at = scatter_forward(self._x0), scatter_forward(self._at)
 
     @property
     def paired(self) -> npt.NDArray[np.bool_]:
@@ -160,7 +159,7 @@ class FacetMaster(Master):
 
     def begin_step(self) -> None:
         """See ``Master``."""
-        self.forget_flips()
+        self.reset_flips()
         self._start = self._x0[self._slaves]
 
     def turn(self, x: npt.NDArray[np.float64]) -> npt.NDArray[np.float64] | None:
@@ -208,8 +207,8 @@ class FacetMaster(Master):
             start = foot + (gap0 + part[:, 0] * (gap1 - gap0))[:, None] * normal
         self._start = np.where(which[:, None], start, self._start)
 
-    def refresh(
-        self, x: npt.NDArray[np.float64], held: bool, offset: npt.NDArray[np.float64]
+    def update(
+        self, x: npt.NDArray[np.float64], frozen_kinematics: bool, offset: npt.NDArray[np.float64]
     ) -> list[Pairs] | None:
         """See ``Master``; the kernels project by themselves."""
         return None
@@ -258,7 +257,7 @@ class FacetMaster(Master):
         return self.surface.identity()
 
     def save(self) -> dict[str, npt.NDArray[Any]]:
-        """See ``Master``; flips are forgotten, as at the start of every step."""
+        """See ``Master``; without flips, which are reset at the start of every step."""
         saved = {"facet_nodes": self.surface.names(self._facet), **self._saved_pairs()}
         if self._measures_slip:
             saved |= {"start": self._start, "before": self._x0, "at": self._at}
@@ -269,24 +268,26 @@ class FacetMaster(Master):
         self._restore(self.surface.named(saved["facet_nodes"]), saved)
         if self._measures_slip:
             self._start = saved["start"]
-            self._x0, self._at = (self._halo.extend(saved[name]) for name in ("before", "at"))
+            self._x0, self._at = (
+                self._halo.scatter_forward(saved[name]) for name in ("before", "at")
+            )
 
     def distance(self, x: npt.NDArray[np.float64]) -> float:
         """See ``Master``."""
         return self.surface.distance(x, x[self._slaves])
 
     @property
-    def frozen(self) -> npt.NDArray[np.int32]:
+    def frozen_pairs(self) -> npt.NDArray[np.int32]:
         """See ``Master``."""
         return self._pairing.frozen()
 
-    def forget_flips(self) -> None:
+    def reset_flips(self) -> None:
         """See ``Master``."""
         self._pairing.begin_step()
 
-    def deepest_frozen(self, x: npt.NDArray[np.float64]) -> tuple[float, float]:
+    def deepest_frozen_pair(self, x: npt.NDArray[np.float64]) -> tuple[float, float]:
         """See ``Master``; what a search without memory finds for them."""
-        frozen = self._slaves[self.frozen]
+        frozen = self._slaves[self.frozen_pairs]
         if self._halo.comm.allreduce(len(frozen)) == 0:
             return 0.0, 0.0
         offsets, nodes = self._facets.offsets, self._facets.nodes

@@ -1,12 +1,14 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Which kind of pairs a contact has."""
+"""Which kind of pairs a contact has, and how far apart they are looked for."""
 
 from __future__ import annotations
 
+import numpy as np
+
 from contactx.bodies.bodies import Bodies
-from contactx.checks.inside import check_apart, check_outside
-from contactx.checks.shape import check_facets, check_folds
+from contactx.geometry.facets import check_facets, check_folds
+from contactx.geometry.inside import check_apart, check_outside
 from contactx.law.law import Law
 from contactx.master.facets import FacetMaster
 from contactx.master.master import Master
@@ -17,10 +19,10 @@ from contactx.master.ties import FacetTie, MortarTie, ObstacleTie
 from contactx.obstacles import Obstacle, Plane
 from contactx.parallel.agreement import agreed
 from contactx.parallel.halo import Halo
-from contactx.parallel.reduce import extent
+from contactx.parallel.reduce import extent, largest, total
 from contactx.parallel.slaves import SlaveNodes
 from contactx.search.surface import in_order
-from contactx.surface import Surface
+from contactx.surface import FacetList, Surface
 
 
 def make_master(
@@ -86,6 +88,27 @@ def make_master(
         deformable = MortarTie if law.is_tied else MortarMaster
     else:
         deformable = FacetTie if law.is_tied else FacetMaster
-    return deformable(
-        halo, slaves, others, search_distance, sliding=sliding, measures_slip=law.is_vector
-    )
+    reach = search_distance or _default_reach(halo, slaves.facets, others)
+    return deformable(halo, slaves, others, reach, sliding=sliding, measures_slip=law.is_vector)
+
+
+def _default_reach(halo: Halo, slave: FacetList, master: FacetList) -> float:
+    """Diameter of the larger surface: twice the largest distance of its nodes from their mean.
+
+    A body that has moved into another within one iteration must still be found.
+
+    Args:
+        halo: Nodes of this rank.
+        slave: Slave facets on this rank.
+        master: Master facets on this rank.
+    """
+    radii = []
+    for facets in (slave, master):
+        # Each node counts on the rank that owns it
+        marked = np.zeros(halo.num_nodes)
+        marked[facets.nodes] = 1
+        nodes = halo.x[: halo.num_owned][halo.scatter_reverse(marked) > 0]
+        sums = total(halo.comm, np.append(nodes.sum(axis=0), len(nodes)))
+        arms = np.linalg.norm(nodes - sums[:-1] / sums[-1], axis=1)
+        radii.append(largest(halo.comm, arms.max(initial=0.0)))
+    return 2 * float(max(radii))

@@ -67,14 +67,14 @@ class Master(ABC):
     def begin_step(self) -> None:
         """Start a step: slip is measured from its start, and pairs may move again; collective."""
 
-    def restart(self) -> None:
-        """Name again the nodes that pairs need, once the halo has shrunk; collective."""
+    def rebuild(self) -> None:
+        """Add the nodes of the pairs to the halo again, once it has shrunk; collective."""
 
-    def follow(self, extend: Callable[[Array], Array]) -> None:
-        """Bring positions that were kept up to a halo that has changed; collective.
+    def halo_changed(self, scatter_forward: Callable[[Array], Array]) -> None:
+        """Make positions that were kept fit a halo that has changed; collective.
 
         Args:
-            extend: Gives those of all nodes from those of owned nodes.
+            scatter_forward: Gives those of all nodes from those of owned nodes.
         """
 
     @abstractmethod
@@ -128,14 +128,14 @@ class Master(ABC):
         """Pairs by the kind of their facets, with the data of the last search."""
 
     @abstractmethod
-    def refresh(
-        self, x: npt.NDArray[np.float64], held: bool, offset: npt.NDArray[np.float64]
+    def update(
+        self, x: npt.NDArray[np.float64], frozen_kinematics: bool, offset: npt.NDArray[np.float64]
     ) -> list[Pairs] | None:
         """Data of the pairs at an iterate between two searches.
 
         Args:
             x: Positions.
-            held: Whether normals and projections are held.
+            frozen_kinematics: Whether normals and projections stay those of the last search.
             offset: What is taken off the gap, shape (n,).
 
         Returns:
@@ -214,26 +214,26 @@ class Master(ABC):
     def mobility(
         self, free: npt.NDArray[np.bool_]
     ) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
-        """How much of the relative movement is left by Dirichlet conditions.
+        """How much of the relative movement Dirichlet conditions leave free.
 
         Args:
             free: Which displacements are not prescribed, shape (num_nodes, gdim).
 
         Returns:
             Norms of the gradients over the free displacements: of the gap, shape (n,), and of each
-            component of the movement, shape (n, gdim). They are zero where slave node and master
-            have nothing to yield.
+            component of the movement, shape (n, gdim). They are zero where neither slave node nor
+            master can move.
         """
 
     @property
-    def frozen(self) -> npt.NDArray[np.int32]:
+    def frozen_pairs(self) -> npt.NDArray[np.int32]:
         """Slave nodes whose pair went back and forth and was frozen."""
         return np.array([], dtype=np.int32)
 
-    def forget_flips(self) -> None:
+    def reset_flips(self) -> None:
         """Let frozen pairs move again and count anew how often pairs go back and forth."""
 
-    def deepest_frozen(self, x: npt.NDArray[np.float64]) -> tuple[float, float]:
+    def deepest_frozen_pair(self, x: npt.NDArray[np.float64]) -> tuple[float, float]:
         """Smallest gap that this rank's frozen pairs hide; all ranks must take part.
 
         Args:
@@ -248,7 +248,7 @@ class Master(ABC):
 def touching(
     before: npt.NDArray[np.float64], after: npt.NDArray[np.float64]
 ) -> npt.NDArray[np.float64]:
-    """Part of a straight way from gap to gap that is gone when it is zero; 0 if it never was open.
+    """At which part of a straight way the gap becomes zero; 0 where it was not open before.
 
     Args:
         before: Gaps at the start, shape (n,).

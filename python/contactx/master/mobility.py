@@ -25,7 +25,7 @@ def free_squares(pairs: Pairs, xi: Array, free: npt.NDArray[np.bool_]) -> Array:
     return squares
 
 
-def held_squares(
+def constrained_squares(
     weights: Weights, free: npt.NDArray[np.bool_], paired: npt.NDArray[np.bool_]
 ) -> Array:
     """The same for slave nodes whose constraints gather from several facets.
@@ -39,9 +39,9 @@ def held_squares(
         Sums, one where nothing is prescribed, shape (n, gdim).
     """
     n = len(paired)
-    held = np.zeros(n, dtype=bool)
-    held[weights.slaves[~free.all(axis=1)[weights.nodes]]] = True
-    some = held[weights.slaves]
+    constrained = np.zeros(n, dtype=bool)
+    constrained[weights.slaves[~free.all(axis=1)[weights.nodes]]] = True
+    some = constrained[weights.slaves]
     weights = Weights(*(a[some] for a in vars(weights).values()))
     # Parts of several facets with the same node add up
     key = weights.slaves * np.int64(len(free)) + weights.nodes
@@ -49,5 +49,5 @@ def held_squares(
     slaves, nodes = np.divmod(key, len(free))
     moves = np.bincount(place, weights.values)[:, None] * free[nodes]
     squares: Array = np.stack([np.bincount(slaves, m**2, n) for m in moves.T], axis=1)
-    squares[~(paired & held)] = 1
+    squares[~(paired & constrained)] = 1
     return squares

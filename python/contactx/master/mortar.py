@@ -14,10 +14,9 @@ import numpy.typing as npt
 from contactx import cpp as core
 from contactx.forms import Pairs
 from contactx.master.master import Master, RowKind, Weights
-from contactx.master.mobility import held_squares
+from contactx.master.mobility import constrained_squares
 from contactx.master.mortar_pairs import Array, Mortar, Sides, unit
 from contactx.master.mortar_slip import MortarSlip
-from contactx.master.reach import default_reach
 from contactx.parallel.halo import Halo
 from contactx.parallel.reduce import anywhere, largest, least
 from contactx.parallel.slaves import SlaveNodes
@@ -50,7 +49,7 @@ class MortarMaster(Master):
         halo: Halo,
         slave: SlaveNodes,
         master: FacetList,
-        search_distance: float | None,
+        reach: float,
         *,
         sliding: str,
         measures_slip: bool,
@@ -61,7 +60,7 @@ class MortarMaster(Master):
             halo: Nodes of this rank.
             slave: Slave nodes.
             master: Master facets that this rank has.
-            search_distance: Largest distance of a pair; chosen if None.
+            reach: Largest distance of a pair.
             sliding: "finite" or "small".
             measures_slip: Whether slip is measured.
         """
@@ -70,7 +69,7 @@ class MortarMaster(Master):
         self.surface = master_surface(halo, master)
         self._gdim = halo.gdim
         self._small = sliding == "small"
-        self.reach = search_distance or default_reach(halo, facets, master)
+        self.reach = reach
         self._nodes = np.union1d(facets.nodes, self.surface.own.nodes)
         self._x0 = self._at = x = halo.x
         self._sides = Sides(slave, x)
@@ -99,15 +98,15 @@ class MortarMaster(Master):
     def _pair(self, x: Array) -> None:
         version = self._halo.version
         if self._found is None or (self._moved(x) and self._lacks(x)):
-            x = self._halo.fit(x, version)
+            x = self._halo.updated(x, version)
             version = self._halo.version
             margin = 0.0 if self._small else _MARGIN
             self._look(x, margin)
-            x = self._halo.fit(x, version)
+            x = self._halo.updated(x, version)
             version = self._halo.version
             self._found = self._search.find(x, self.reach, margin)
             self._searched = x[self._nodes]
-        self._integrate(self._halo.fit(x, version))
+        self._integrate(self._halo.updated(x, version))
         enough = np.where(self._paired, _LEAVE, _ENTER)
         self._paired = self._area > enough * self._whole
 
@@ -121,7 +120,7 @@ class MortarMaster(Master):
         """Whether any rank finds a pair that it does not have."""
         version = self._halo.version
         self._look(x, 0.0)
-        found = self._search.find(self._halo.fit(x, version), self.reach, 0.0)
+        found = self._search.find(self._halo.updated(x, version), self.reach, 0.0)
         return anywhere(self._halo.comm, not self._found.contains(found))
 
     def _moved(self, x: Array) -> bool:
@@ -166,24 +165,24 @@ class MortarMaster(Master):
         """See ``Master``; where slip is measured from in small sliding."""
         return self._slip.origin
 
-    def restart(self) -> None:
+    def rebuild(self) -> None:
         """See ``Master``."""
         if self._halo.comm.size == 1 or self._found is None:
             return
         used = np.union1d(self._mortar.master, self._slip.masters)
         numbers = np.zeros(len(self.surface.facets.offsets), dtype=np.int32)
-        numbers[used] = self.surface.restart(used)
+        numbers[used] = self.surface.keep(used)
         self._mortar = replace(self._mortar, master=numbers[self._mortar.master])
         self._slip.rename(numbers)
         self._meet()
 
-    def follow(self, extend: Callable[[Array], Array]) -> None:
+    def halo_changed(self, scatter_forward: Callable[[Array], Array]) -> None:
         """See ``Master``."""
-        self._x0, self._at = extend(self._x0), extend(self._at)
+        self._x0, self._at = scatter_forward(self._x0), scatter_forward(self._at)
 
-    def refresh(self, x: Array, held: bool, offset: Array) -> list[Pairs] | None:
+    def update(self, x: Array, frozen_kinematics: bool, offset: Array) -> list[Pairs] | None:
         """See ``Master``."""
-        if held or self._small or np.array_equal(x, self._at):
+        if frozen_kinematics or self._small or np.array_equal(x, self._at):
             return None
         self._integrate(x)
         return self.pairs()
@@ -231,7 +230,7 @@ class MortarMaster(Master):
             self._found = None
             self._pair(self._x0)
         if self._measures_slip:
-            self._slip.begin(self._normalised(), self._distances(self._x0))
+            self._slip.begin_step(self._normalised(), self._distances(self._x0))
 
     def _normalised(self) -> Mortar:
         """Pairs divided by the slave nodes' areas."""
@@ -273,7 +272,7 @@ class MortarMaster(Master):
         own = free[self._sides.slaves]
         if own.all() and free[self.surface.facets.nodes].all():
             return np.ones(n), np.ones((n, gdim))
-        squares = held_squares(self.weights(), free, self._paired)
+        squares = constrained_squares(self.weights(), free, self._paired)
         around = np.zeros((len(self._sides.around), gdim), dtype=bool)
         some = free[self._sides.nodes[0]].any(axis=1)
         for corner in self._sides.numbers.T:
@@ -292,7 +291,7 @@ class MortarMaster(Master):
 
     def load(self, saved: Mapping[str, npt.NDArray[Any]]) -> None:
         """See ``Master``."""
-        self._paired, self._x0 = saved["paired"], self._halo.extend(saved["before"])
+        self._paired, self._x0 = saved["paired"], self._halo.scatter_forward(saved["before"])
         self.begin_step()
 
     def distance(self, x: Array) -> float:

@@ -161,9 +161,9 @@ class MortarObstacle(ObstacleMaster):
                 groups.append(Pairs(facets.numbers[near], facets.nodes[near], data[near]))
         return groups
 
-    def refresh(self, x: Array, held: bool, offset: Array) -> list[Pairs] | None:
-        """See ``Master``; held, the gap is linear in the displacement since the search."""
-        if not held:
+    def update(self, x: Array, frozen_kinematics: bool, offset: Array) -> list[Pairs] | None:
+        """See ``Master``; frozen, the gap is linear in the displacement since the search."""
+        if not frozen_kinematics:
             return self._pairs([self._integrate(facets, x) for facets in self._kinds])
         values = []
         for facets, searched in zip(self._kinds, self._values, strict=True):
@@ -197,12 +197,12 @@ class MortarObstacle(ObstacleMaster):
     def load(self, saved: Mapping[str, npt.NDArray[Any]]) -> None:
         """See ``Master``."""
         super().load(saved)
-        self._positions = self._halo.extend(saved["positions"])
+        self._positions = self._halo.scatter_forward(saved["positions"])
         self._values = [self._integrate(facets, self._positions) for facets in self._kinds]
 
-    def follow(self, extend: Callable[[Array], Array]) -> None:
+    def halo_changed(self, scatter_forward: Callable[[Array], Array]) -> None:
         """See ``Master``."""
-        self._positions = extend(self._positions)
+        self._positions = scatter_forward(self._positions)
 
     def _update_slip(self, x: Array, data: Array) -> None:
         """The kernels measure it by themselves."""

@@ -37,7 +37,7 @@ class MortarSlip:
         self.origin = np.zeros((len(sides.slaves), gdim))
         self._start: Mortar | None = None
 
-    def begin(self, now: Mortar, distances: Array) -> None:
+    def begin_step(self, now: Mortar, distances: Array) -> None:
         """Start a step.
 
         Args:

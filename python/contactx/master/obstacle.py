@@ -81,12 +81,12 @@ class ObstacleMaster(Master):
         """See ``Master``."""
         return self._group(self._data)
 
-    def refresh(
-        self, x: npt.NDArray[np.float64], held: bool, offset: npt.NDArray[np.float64]
+    def update(
+        self, x: npt.NDArray[np.float64], frozen_kinematics: bool, offset: npt.NDArray[np.float64]
     ) -> list[Pairs] | None:
-        """See ``Master``; held, gap and slip are linear in the displacement since the search."""
+        """See ``Master``; frozen, gap and slip are linear in the displacement since the search."""
         now = x[self._slaves]
-        if not held:
+        if not frozen_kinematics:
             data = _kernel_data(self._obstacle.evaluate(now))
         else:
             data = self._data.copy()

@@ -41,8 +41,8 @@ class FacetTie(FacetMaster):
         self._arm = x[self._slaves] - foot
         return found
 
-    def refresh(
-        self, x: npt.NDArray[np.float64], held: bool, offset: npt.NDArray[np.float64]
+    def update(
+        self, x: npt.NDArray[np.float64], frozen_kinematics: bool, offset: npt.NDArray[np.float64]
     ) -> list[Pairs] | None:
         """See ``Master``; the offset is what a tie is longer by."""
         if np.array_equal(offset, self._offset):
@@ -74,8 +74,8 @@ class MortarTie(MortarMaster):
     def begin_step(self) -> None:
         """See ``Master``; nothing changes."""
 
-    def refresh(
-        self, x: npt.NDArray[np.float64], held: bool, offset: npt.NDArray[np.float64]
+    def update(
+        self, x: npt.NDArray[np.float64], frozen_kinematics: bool, offset: npt.NDArray[np.float64]
     ) -> list[Pairs] | None:
         """See ``Master``; the offset is what a tie is longer by."""
         if np.array_equal(offset, self._offset):
@@ -91,7 +91,7 @@ class MortarTie(MortarMaster):
 
     def load(self, saved: Mapping[str, npt.NDArray[Any]]) -> None:
         """See ``Master``; the pairs are those of the reference."""
-        self._x0 = self._halo.extend(saved["before"])
+        self._x0 = self._halo.scatter_forward(saved["before"])
 
 
 class ObstacleTie(ObstacleMaster):
@@ -113,12 +113,12 @@ class ObstacleTie(ObstacleMaster):
         self._normal = self._obstacle.evaluate(self._reference).normal
         return super().search(x, closed)
 
-    def refresh(
-        self, x: npt.NDArray[np.float64], held: bool, offset: npt.NDArray[np.float64]
+    def update(
+        self, x: npt.NDArray[np.float64], frozen_kinematics: bool, offset: npt.NDArray[np.float64]
     ) -> list[Pairs] | None:
         """See ``Master``; the offset is what a tie is longer by."""
         self._offset = offset
-        return super().refresh(x, held, offset)
+        return super().update(x, frozen_kinematics, offset)
 
     def _update_slip(self, x: npt.NDArray[np.float64], data: npt.NDArray[np.float64]) -> None:
         """The whole way from the place that the obstacle has carried the node to."""

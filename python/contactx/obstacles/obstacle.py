@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 import ufl
-from contactx.checks.kinds import is_number
+from contactx.arguments import is_number
 from dolfinx import fem
 
 type Parameter = npt.ArrayLike | fem.Constant

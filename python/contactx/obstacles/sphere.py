@@ -7,7 +7,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from contactx.checks.kinds import check_switch
+from contactx.arguments import check_switch
 from contactx.obstacles.obstacle import Geometry, Obstacle, Parameter, Placement, positive, vector
 from dolfinx import fem
 

@@ -10,8 +10,6 @@ from typing import Any
 
 from mpi4py import MPI
 
-from contactx.parallel.traffic import Traffic
-
 # Tags in turn, so that a message never ends up in the exchange before its own
 _FIRST, _COUNT = 7100, 16
 
@@ -22,22 +20,19 @@ class Exchange:
     What it costs a rank goes with the ranks that it writes to, not with how many there are.
     """
 
-    def __init__(self, comm: MPI.Comm, traffic: Traffic):
+    def __init__(self, comm: MPI.Comm):
         """Create an exchange.
 
         Args:
             comm: Communicator.
-            traffic: Where messages are counted.
         """
         self.comm = comm
-        self._traffic = traffic
         self._turn = 0
 
-    def __call__(self, purpose: str, outgoing: Mapping[int, Any]) -> dict[int, Any]:
+    def __call__(self, outgoing: Mapping[int, Any]) -> dict[int, Any]:
         """Send objects and receive those of others; all ranks must take part.
 
         Args:
-            purpose: What the messages are counted as.
             outgoing: Objects by the rank that they go to, each of which can be pickled.
 
         Returns:
@@ -52,7 +47,6 @@ class Exchange:
                 received[rank] = item
                 continue
             data = pickle.dumps(item, protocol=5)
-            self._traffic.add(purpose, 1, len(data))
             sending.append(comm.Issend([data, MPI.BYTE], dest=rank, tag=tag))
         if comm.size == 1:
             return received

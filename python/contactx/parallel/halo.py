@@ -14,7 +14,6 @@ import numpy as np
 import numpy.typing as npt
 
 from contactx.parallel.exchange import Exchange
-from contactx.parallel.traffic import Traffic
 from dolfinx import cpp, fem, la
 
 type Array = npt.NDArray[np.float64]
@@ -37,10 +36,9 @@ class Halo:
         num_bulk: Number of the bulk's nodes here, ghosts included.
         original: Number of each node in the mesh as it was made: the same on any number of ranks,
             shape (num_nodes,).
-        displacement: Displacement of all nodes, as of the last ``refresh``.
+        displacement: Displacement of all nodes, as of the last ``update_ghosts``.
         position: Reference position of all nodes.
         version: Counts how often the halo has changed.
-        traffic: What was sent for contact.
         exchange: Messages to other ranks.
     """
 
@@ -61,17 +59,16 @@ class Halo:
         self.gdim = X.shape[1]
         self.num_owned: int = bulk.size_local
         self.num_bulk: int = bulk.size_local + bulk.num_ghosts
-        self.traffic = Traffic()
-        self.exchange = Exchange(self.comm, self.traffic)
+        self.exchange = Exchange(self.comm)
         self.version = 0
-        self._followers: list[weakref.WeakMethod[Callable[[], None]]] = []
+        self._observers: list[weakref.WeakMethod[Callable[[], None]]] = []
         self._bulk_original = original_nodes(V)
         self._reference = X
         # Global numbers and owners of the halo, and how many of them stay for good
         self._ghosts = np.zeros(0, dtype=np.int64)
         self._owners = np.zeros(0, dtype=np.int32)
         self._kept = 0
-        self._renew()
+        self._rebuild()
 
     @property
     def num_nodes(self) -> int:
@@ -85,20 +82,20 @@ class Halo:
         return x
 
     def positions(self) -> Array:
-        """Positions of all nodes as of the last ``refresh``, shape (num_nodes, gdim)."""
+        """Positions of all nodes as of the last ``update_ghosts``, shape (num_nodes, gdim)."""
         x: Array = self.position.array + self.displacement.array
         return x.reshape(-1, self.gdim)
 
-    def refresh(self) -> None:
-        """Take over the displacement: ghosts, also those of the bulk, get the owners' values."""
+    def update_ghosts(self) -> None:
+        """Give ghosts the owners' displacements: those of the bulk and of the contact halo."""
         if self.comm.size > 1:
             owned = self._u.x.array.reshape(-1, self.gdim)[: self.num_owned]
-            values = self.extend(owned)
+            values = self.scatter_forward(owned)
             self.displacement.array[:] = values.ravel()
             self._u.x.array[:] = values[: self.num_bulk].ravel()
 
-    def extend(self, values: npt.NDArray[Any]) -> npt.NDArray[Any]:
-        """Values of all nodes from those of owned nodes.
+    def scatter_forward(self, values: npt.NDArray[Any]) -> npt.NDArray[Any]:
+        """Give all nodes the values that their owners have; all ranks must take part.
 
         Args:
             values: Values, of which the rows of the owned nodes count, shape (n,) or (n, k).
@@ -113,21 +110,20 @@ class Halo:
         vector = self._vector(width, dtype)
         vector.array[: self.num_owned * width] = values[: self.num_owned].ravel()
         vector.scatter_forward()
-        self._count_forward(vector)
         everywhere: npt.NDArray[Any] = vector.array.reshape(-1, *values.shape[1:])
         return everywhere.astype(values.dtype)
 
-    def fit(self, values: npt.NDArray[Any], version: int) -> npt.NDArray[Any]:
-        """Values of all nodes as they were at an older version, for those of now.
+    def updated(self, values: npt.NDArray[Any], version: int) -> npt.NDArray[Any]:
+        """Values of all nodes that were made before the halo changed, for its nodes of now.
 
         Args:
             values: Values of all nodes, shape (n, k).
             version: Version at which they were made.
         """
-        return values if version == self.version else self.extend(values[: self.num_owned])
+        return values if version == self.version else self.scatter_forward(values[: self.num_owned])
 
-    def add_up(self, values: Array) -> Array:
-        """Sums over the ranks of what each has for its nodes.
+    def scatter_reverse(self, values: Array) -> Array:
+        """Add what all ranks have for a node on its owner; all ranks must take part.
 
         Args:
             values: Values of all nodes, shape (num_nodes,) or (num_nodes, k).
@@ -141,7 +137,6 @@ class Halo:
         vector = self._vector(width, np.float64)
         vector.array[:] = values.ravel()
         vector.scatter_reverse(la.InsertMode.add)
-        self._count_reverse(vector)
         sums: Array = vector.array.reshape(-1, *values.shape[1:])[: self.num_owned].copy()
         return sums
 
@@ -191,7 +186,7 @@ class Halo:
         if self.comm.allreduce(bool(new.any()), MPI.LOR):
             self._ghosts = np.concatenate([self._ghosts, numbers[new]])
             self._owners = np.concatenate([self._owners, owners[first][new]]).astype(np.int32)
-            self._renew()
+            self._rebuild()
         if for_good:
             self._kept = len(self._ghosts)
 
@@ -199,13 +194,13 @@ class Halo:
         """Drop what was not appended for good; all ranks must take part."""
         if self.comm.size > 1:
             self._ghosts, self._owners = self._ghosts[: self._kept], self._owners[: self._kept]
-            self._renew()
+            self._rebuild()
 
-    def follow(self, follower: Callable[[], None]) -> None:
+    def on_change(self, observer: Callable[[], None]) -> None:
         """Call a method whenever the halo has changed, on all ranks, while its object lives."""
-        self._followers.append(weakref.WeakMethod(follower))
+        self._observers.append(weakref.WeakMethod(observer))
 
-    def _renew(self) -> None:
+    def _rebuild(self) -> None:
         bulk = self._bulk_map
         self._map = bulk
         if self.comm.size > 1:
@@ -222,37 +217,24 @@ class Halo:
             self._order = np.argsort(self._global).astype(np.int32)
         self._sorted = self._global[self._order]
         self._vectors: dict[tuple[int, Any], la.Vector] = {}
-        self._sent = 0, 0
-        if self.comm.size > 1:
-            ranks = self._map.index_to_dest_ranks(_TAG).array
-            self._sent = len(np.unique(ranks)), len(ranks)
-        self.original = self.extend(self._bulk_original)
+        self.original = self.scatter_forward(self._bulk_original)
         # Forms are assembled rank by rank
         serial = cpp.common.IndexMap(MPI.COMM_SELF, self.num_nodes)
         self.index_map = serial
         self.position = la.vector(serial, self.gdim)
-        self.position.array[:] = self.extend(self._reference).ravel()
+        self.position.array[:] = self.scatter_forward(self._reference).ravel()
         self.displacement = self._u.x if self.comm.size == 1 else la.vector(serial, self.gdim)
-        self.refresh()
+        self.update_ghosts()
         self.version += 1
-        for reference in self._followers:
-            follower = reference()
-            if follower is not None:
-                follower()
+        for reference in self._observers:
+            observer = reference()
+            if observer is not None:
+                observer()
 
     def _vector(self, width: int, dtype: Any) -> la.Vector:
         if (width, dtype) not in self._vectors:
             self._vectors[width, dtype] = la.vector(self._map, width, dtype)
         return self._vectors[width, dtype]
-
-    def _count_forward(self, vector: la.Vector) -> None:
-        messages, count = self._sent
-        self.traffic.add("halo", messages, count * vector.block_size * 8)
-
-    def _count_reverse(self, vector: la.Vector) -> None:
-        owners = self._owner[self.num_owned :]
-        size = len(owners) * vector.block_size * 8
-        self.traffic.add("halo", len(np.unique(owners)), size)
 
 
 def original_nodes(V: fem.FunctionSpace) -> npt.NDArray[np.int64]:

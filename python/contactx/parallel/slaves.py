@@ -36,8 +36,8 @@ class SlaveNodes:
         self.around: npt.NDArray[np.int32] = np.unique(facets.nodes)
         self.owned = self.around[self.around < halo.num_owned]
 
-    def extend(self, values: npt.NDArray[Any]) -> npt.NDArray[Any]:
-        """Values at all slave nodes from those at the owned ones; all ranks must take part.
+    def scatter_forward(self, values: npt.NDArray[Any]) -> npt.NDArray[Any]:
+        """Give all slave nodes the values that their owners have; all ranks must take part.
 
         Args:
             values: Values at owned slave nodes, shape (n,) or (n, k).
@@ -49,4 +49,4 @@ class SlaveNodes:
             return values
         everywhere = np.zeros((self._halo.num_owned, *values.shape[1:]), dtype=values.dtype)
         everywhere[self.owned] = values
-        return self._halo.extend(everywhere)[self.around]
+        return self._halo.scatter_forward(everywhere)[self.around]

@@ -26,7 +26,7 @@ class DistributedSurface(MasterSurface):
     """Facets of a master surface of which each rank has a part.
 
     A rank asks others by points, and by slave facets, and gets the facets that matter to them. It
-    keeps those until the step's end. Who has facets at a point is judged by the ranks' boxes.
+    keeps those until the step's end. Boxes of the ranks' facets say which to ask.
     """
 
     def __init__(self, halo: Halo, own: FacetList):
@@ -75,10 +75,8 @@ class DistributedSurface(MasterSurface):
         which = {
             int(ranks[k]): np.flatnonzero(wanted[:, k]) for k in np.flatnonzero(wanted.any(axis=0))
         }
-        questions = exchange(
-            "search", {r: (points[w], normals[w], best.bound[w]) for r, w in which.items()}
-        )
-        answers = exchange("search", {r: self._answer(x, *q) for r, q in questions.items()})
+        questions = exchange({r: (points[w], normals[w], best.bound[w]) for r, w in which.items()})
+        answers = exchange({r: self._answer(x, *q) for r, q in questions.items()})
         for rank, answer in answers.items():
             best.take(which[rank], answer)
 
@@ -129,7 +127,7 @@ class DistributedSurface(MasterSurface):
         normals = core.nodal_normals(slave.offsets, slave.nodes, x, x.shape[1])
         found = self.find(x, x[nodes], normals.reshape(-1, x.shape[1])[nodes], reach)
         pairing.set_master(self.facets.offsets, self.facets.nodes)
-        x = self._halo.fit(x, version)
+        x = self._halo.updated(x, version)
         values = found.facet, found.feature, found.xi, found.normal
         return pairing.settle(left, *values, x, reach, closed)
 
@@ -144,16 +142,16 @@ class DistributedSurface(MasterSurface):
             questions[rank] = sizes[which], x[slave.nodes[np.repeat(which, sizes)]]
         answers = []
         records = FacetRecords.of(self.own, self._halo)
-        for rank, (theirs, corners) in exchange("search", questions).items():
+        for rank, (theirs, corners) in exchange(questions).items():
             offsets = np.concatenate([[0], np.cumsum(theirs)]).astype(np.int32)
             nodes = len(x) + np.arange(len(corners), dtype=np.int32)
             search = core.FacetSearch(offsets, nodes, self.own.offsets, self.own.nodes, gdim)
             found = search.find(np.concatenate([x, corners]), reach, margin, True)
             answers.append((rank, records.select(np.unique(found.master))))
-        got = exchange("search", dict(answers))
+        got = exchange(dict(answers))
         self._learn(FacetRecords.joined([FacetRecords.none(), *got.values()]))
 
-    def restart(self, used: Index) -> Index:
+    def keep(self, used: Index) -> Index:
         """See ``MasterSurface``."""
         kept, place = np.unique(used[used >= 0], return_inverse=True)
         self._known = self._known.select(kept)
@@ -175,7 +173,7 @@ class DistributedSurface(MasterSurface):
             for rank, keys in enumerate(wanted)
             if len(keys) > 0
         }
-        got = self._halo.exchange("set-up", theirs)
+        got = self._halo.exchange(theirs)
         every = FacetRecords.joined([FacetRecords.none(), *got.values()])
         lost = comm.allreduce(len(missing) - len(every))
         if lost > 0:

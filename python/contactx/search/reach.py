@@ -7,7 +7,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from contactx.checks.shape import corner_normals
+from contactx.geometry.facets import corner_normals
 from contactx.parallel.halo import Halo
 from contactx.surface import FacetList
 
@@ -17,7 +17,7 @@ _ROUNDING = 1e-9
 
 
 class Reach:
-    """Boxes of the ranks' facets, and cones that hold their normals; all ranks make it together."""
+    """Boxes of the ranks' facets, and cones around their normals; all ranks make it together."""
 
     def __init__(self, halo: Halo, own: FacetList, x: Array):
         """Exchange the boxes.
@@ -35,7 +35,6 @@ class Reach:
             mine = np.concatenate([points.min(axis=0), points.max(axis=0), axis, [sine]])
         every = np.empty((comm.size, len(mine)))
         comm.Allgather(mine, every)
-        halo.traffic.add("boxes", 1, mine.nbytes)
         self._low, self._high = every[:, :g], every[:, g : 2 * g]
         self._axis, self._sine = every[:, 2 * g : 3 * g], every[:, 3 * g]
         self._there = np.isfinite(self._low).all(axis=1)
@@ -102,7 +101,7 @@ class Reach:
 
 
 def _cone(facets: FacetList, x: Array) -> tuple[Array, float]:
-    """Axis and sine of half the angle of a cone that holds the facets' normals.
+    """Axis and sine of half the angle of a cone around the facets' normals.
 
     Normals within a facet are positive combinations of those at its corners.
     """

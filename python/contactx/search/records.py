@@ -72,12 +72,12 @@ class FacetRecords:
         return FacetRecords(self.numbers[which], self.owners[which], self.original[which])
 
     def add_to(self, halo: Halo, *, for_good: bool = False) -> None:
-        """Make the halo hold the facets' nodes; all ranks must take part."""
+        """Add the facets' nodes to the halo; all ranks must take part."""
         used = self.numbers != _NONE
         halo.grow(self.numbers[used], self.owners[used].astype(np.int32), for_good=for_good)
 
     def here(self, halo: Halo) -> FacetList:
-        """The facets with the numbers of this rank, which must hold their nodes."""
+        """The facets with the numbers of this rank, whose halo must have their nodes."""
         used = self.numbers != _NONE
         offsets = np.concatenate([[0], np.cumsum(used.sum(axis=1))]).astype(np.int32)
         return FacetList(offsets, halo.find(self.numbers[used]))
@@ -96,7 +96,7 @@ def around_nodes(halo: Halo, facets: FacetRecords) -> dict[int, FacetRecords]:
     out = {}
     for rank in np.unique(facets.owners[facets.numbers != _NONE]).tolist():
         out[rank] = facets.select((facets.owners == rank).any(axis=1))
-    return dict(halo.exchange("set-up", out))
+    return dict(halo.exchange(out))
 
 
 def around_facets(
@@ -114,7 +114,7 @@ def around_facets(
     for rank, theirs in at_nodes.items():
         nodes = np.unique(theirs.numbers[theirs.owners == halo.comm.rank])
         out[rank] = every.select(np.isin(every.numbers, nodes).any(axis=1))
-    found = halo.exchange("set-up", out)
+    found = halo.exchange(out)
     return FacetRecords.joined([facets, *found.values()])
 
 

@@ -98,7 +98,7 @@ class MasterSurface:
         return pairing.update(x, reach, closed)
 
     def look(self, x: Array, slave: FacetList, reach: float, margin: float) -> None:
-        """Make ``facets`` hold all that are in front of slave facets; all ranks must take part.
+        """Add to ``facets`` all that are in front of slave facets; all ranks must take part.
 
         Args:
             x: Positions of all nodes, shape (num_nodes, gdim).
@@ -107,11 +107,11 @@ class MasterSurface:
             margin: By which part slave facets are enlarged.
         """
 
-    def restart(self, used: Index) -> Index:
-        """Drop facets once the halo has shrunk; all ranks must take part.
+    def keep(self, used: Index) -> Index:
+        """Keep some facets and drop the others, once the halo has shrunk; all ranks must take part.
 
         Args:
-            used: Facets that stay, -1 for none.
+            used: Facets to keep, -1 for none.
 
         Returns:
             Their new numbers, shape (n,).

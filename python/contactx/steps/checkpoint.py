@@ -12,20 +12,21 @@ from mpi4py import MPI
 import numpy as np
 import numpy.typing as npt
 
-from contactx import saving
 from contactx.interface import Interface
 from contactx.master.master import RowKind
 from contactx.nodal import reference_positions
 from contactx.parallel.agreement import agreed
 from contactx.parallel.halo import original_nodes
 from contactx.problem import ContactProblem
-from contactx.snapshot import Snapshot
-from contactx.steps.fitting import check_fit
+from contactx.state import Snapshot, load_state, save_state, state_rows
 from contactx.steps.function_rows import FunctionRows, cell_nodes
 from contactx.steps.rows import Rows
 from dolfinx import fem
 
 type Arrays = dict[str, npt.NDArray[Any]]
+
+# Starts of the names of arrays that stay the same as long as a problem is the same
+_SAME = ("mesh: ", "surface ")
 
 
 class Checkpoint:
@@ -61,8 +62,8 @@ class Checkpoint:
         """
         arrays = self._identity() | {"u": self._u.gather()}
         for k, interface in enumerate(self._interfaces):
-            kinds = saving.rows(interface)
-            for name, values in saving.save(interface).items():
+            kinds = state_rows(interface)
+            for name, values in save_state(interface).items():
                 arrays[f"contact {k}: {name}"] = self._gather(kinds[name], k, values)
         arrays |= {f"history {k}": f.gather() for k, f in enumerate(self._functions)}
         return {n: a for n, a in arrays.items() if a is not None and self._comm.rank == 0}
@@ -81,21 +82,21 @@ class Checkpoint:
         present = self.save()
         with agreed(self._comm):
             if self._comm.rank == 0:
-                check_fit(saved, present)
+                _check_fit(saved, present)
         problem = self._problem
-        before = Snapshot(problem.u, problem.contacts, problem.refresh, self._history)
+        before = Snapshot(problem.u, problem.contacts, problem.update_ghosts, self._history)
         try:
             self._u.scatter(saved.get("u"))
-            self._problem.refresh()
+            self._problem.update_ghosts()
             for k, function in enumerate(self._functions):
                 function.scatter(saved.get(f"history {k}"))
             for k, interface in enumerate(self._interfaces):
-                kinds = saving.rows(interface)
+                kinds = state_rows(interface)
                 mine = {
                     name: self._scatter(kinds[name], k, saved.get(f"contact {k}: {name}"))
-                    for name in saving.save(interface)
+                    for name in save_state(interface)
                 }
-                saving.load(interface, mine)
+                load_state(interface, mine)
                 self._problem.contacts[k].fields.update()
         except BaseException:
             before.restore()
@@ -131,3 +132,47 @@ class Checkpoint:
             return same
         rows = self._slaves[contact] if kind == "slave" else self._u.rows
         return rows.scatter(values)
+
+
+def _check_fit(saved: Mapping[str, npt.NDArray[Any]], present: Arrays) -> None:
+    """Check that saved arrays are those of a problem.
+
+    Args:
+        saved: Arrays of a file.
+        present: The same of the problem as it is.
+
+    Raises:
+        ValueError: If they are of another problem or not finite.
+    """
+    for kind, what in (("contact", "contacts"), ("history", "functions of history")):
+        there, here = (
+            len({name.split(":")[0] for name in arrays if name.startswith(f"{kind} ")})
+            for arrays in (saved, present)
+        )
+        if there != here:
+            raise ValueError(f"it holds {there} {what}, but there are {here} here")
+    for name in sorted(saved.keys() ^ present.keys()):
+        side = "only in the file" if name in saved else "missing in the file"
+        raise ValueError(f"{name!r} is {side}: were the options of the contacts others?")
+    for name, array in present.items():
+        other = saved[name]
+        if other.shape != array.shape or other.dtype.kind != array.dtype.kind:
+            raise ValueError(
+                f"{name!r} is {other.dtype} of shape {other.shape} in the file, but {array.dtype} "
+                f"of shape {array.shape} here: is it of another mesh or other surfaces?"
+            )
+    for name, array in present.items():
+        if name == "mesh: coordinates":
+            # Another machine may round them in another way
+            same = np.allclose(saved[name], array, rtol=0, atol=1e-12 * np.ptp(array))
+        elif name.startswith(_SAME) or name.endswith(": rows"):
+            same = np.array_equal(saved[name], array)
+        else:
+            continue
+        if not same:
+            raise ValueError(f"{name!r} is another one here: restart the same problem")
+    for name, array in saved.items():
+        if name == "u" or name.endswith(": multiplier"):
+            bad = np.count_nonzero(~np.isfinite(array))
+            if bad:
+                raise ValueError(f"{name!r} is not finite at {bad} dofs")

@@ -14,13 +14,13 @@ from mpi4py import MPI
 
 import numpy as np
 
-from contactx.checks.files import check_path, make_folder
-from contactx.checks.kinds import check_switch
+from contactx.arguments import check_switch
 from contactx.errors import ConvergenceError
+from contactx.files import check_path, make_folder
 from contactx.interrupts import Interrupts
 from contactx.parallel.agreement import agreed
 from contactx.problem import ContactProblem
-from contactx.snapshot import Snapshot
+from contactx.state import Snapshot
 from contactx.steps import archive
 from contactx.steps.checkpoint import Checkpoint
 from contactx.steps.display import Show, progress_bar, show_text
@@ -78,7 +78,7 @@ class LoadSteps:
                 none; and at a restart with the t of the file.
             history: Functions that belong to the state of a step, such as plastic strains. They are
                 written to checkpoints, read from them, and what ``update`` does to them is undone
-                when its attempt fails. On several ranks a checkpoint holds those of linear
+                when its attempt fails. On several ranks a checkpoint has those of linear
                 Lagrange, quadrature and discontinuous spaces, as the rank has them that owns them.
             output: Called with each accepted step, before the loop's body.
             checkpoint: File to write once the loop's body has ended for an accepted step. The last
@@ -235,7 +235,7 @@ class LoadSteps:
 
     def _snapshot(self) -> Snapshot:
         problem = self._problem
-        return Snapshot(problem.u, problem.contacts, problem.refresh, self._history)
+        return Snapshot(problem.u, problem.contacts, problem.update_ghosts, self._history)
 
     def _update_again(self, error: BaseException) -> None:
         """Set the loads of the last accepted step, whatever that raises."""
@@ -254,7 +254,7 @@ class LoadSteps:
         before = self._snapshot()
         try:
             plan = self._plan.load(steps["steps: given"], steps["steps: place"])
-            self._problem.begin()
+            self._problem.find_rigid_modes()
             self._state.load(saved)
         except (KeyError, ValueError) as error:
             raise ValueError(f"cannot restart from {path}: {error}") from error

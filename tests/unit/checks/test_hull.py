@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.spatial import Delaunay
 
-from contactx.checks.hull import in_hulls
+from contactx.geometry.hull import in_hulls
 
 SQUARE = np.array([[i, j] for j in (0.0, 1) for i in (0.0, 1)])
 CUBE = np.array([[i, j, k] for k in (0.0, 1) for j in (0.0, 1) for i in (0.0, 1)])

@@ -9,7 +9,7 @@ from mpi4py import MPI
 import numpy as np
 import pytest
 
-from contactx.checks.shape import check_facets, corner_normals
+from contactx.geometry.facets import check_facets, corner_normals
 from contactx.surface import FacetList
 from dolfinx import mesh
 from dolfinx.mesh import CellType

@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from contactx.bodies.bodies import Bodies
-from contactx.checks.hull import in_hulls
+from contactx.geometry.hull import in_hulls
 from contactx.obstacles import Obstacle
 from contactx.parallel import reduce
 from contactx.parallel.agreement import agreed
@@ -74,7 +74,9 @@ def _num_shared(slave: FacetList, master: FacetList, halo: Halo) -> int:
         return len(np.intersect1d(slave.nodes, master.nodes))
     has = np.zeros((halo.num_nodes, 2))
     has[slave.nodes, 0] = has[master.nodes, 1] = 1
-    return int(reduce.total(halo.comm, np.count_nonzero((halo.add_up(has) > 0).all(axis=1))))
+    return int(
+        reduce.total(halo.comm, np.count_nonzero((halo.scatter_reverse(has) > 0).all(axis=1)))
+    )
 
 
 def _lies_inside(bodies: Bodies, inner: int, outer: int, size: float) -> bool:

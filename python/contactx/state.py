@@ -1,31 +1,36 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""What a contact takes from one step to the next: copied, and put back.
+"""State of a problem: copied, put back, written.
+
+``state_rows``, ``save_state`` and ``load_state`` are about what one contact takes from one step to
+the next; ``Snapshot`` is the state of a whole problem in memory, to return to where a step fails.
 
 Each rank has arrays of its own, and of each it is known what its rows stand for, so that they can
-be brought to other ranks (``rows``): an owned slave node, an owned node of the bulk, or nothing
-where an array is the same on all ranks. Behind those of owned nodes there may be rows of others,
-which do not count. No number in them is a local one.
+be brought to other ranks (``state_rows``): an owned slave node, an owned node of the bulk, or
+nothing where an array is the same on all ranks. Behind those of owned nodes there may be rows of
+others, which do not count. No number in them is a local one.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
+from contactx.contact import Contact
 from contactx.interface import Interface
 from contactx.master.master import RowKind
+from dolfinx import fem
 
 # State of the slave nodes that outlives a step, and what laws of vectors have as well
 _NODAL = ("multiplier", "status", "gap", "immobile")
 _VECTORS = ("normal", "slip", "mobile")
 
 
-def rows(interface: Interface) -> dict[str, RowKind]:
-    """What the rows of arrays stand for that ``save`` may give.
+def state_rows(interface: Interface) -> dict[str, RowKind]:
+    """What the rows of arrays stand for that ``save_state`` may give.
 
     Args:
         interface: Discrete side of the contact.
@@ -39,7 +44,7 @@ def rows(interface: Interface) -> dict[str, RowKind]:
     return kinds | {f"master_{name}": kind for name, kind in interface.master.saved_rows.items()}
 
 
-def save(interface: Interface) -> dict[str, npt.NDArray[Any]]:
+def save_state(interface: Interface) -> dict[str, npt.NDArray[Any]]:
     """Copy of all that the next step depends on.
 
     Args:
@@ -61,8 +66,8 @@ def save(interface: Interface) -> dict[str, npt.NDArray[Any]]:
     }
 
 
-def load(interface: Interface, saved: Mapping[str, npt.NDArray[Any]]) -> None:
-    """Go on from what ``save`` gave for the same contact; all ranks must take part.
+def load_state(interface: Interface, saved: Mapping[str, npt.NDArray[Any]]) -> None:
+    """Go on from what ``save_state`` gave for the same contact; all ranks must take part.
 
     Args:
         interface: Discrete side of the contact.
@@ -81,8 +86,48 @@ def load(interface: Interface, saved: Mapping[str, npt.NDArray[Any]]) -> None:
     if interface.history is not None:
         for name in vars(interface.history):
             setattr(interface.history, name, saved[f"history_{name}"].copy())
-    interface.begin_anew()
+    interface.rebuild()
 
 
 def _nodal(interface: Interface) -> tuple[str, ...]:
     return (*_NODAL, *_VECTORS) if interface.law.is_vector else _NODAL
+
+
+class Snapshot:
+    """Copy of displacement, contacts with their results, and history."""
+
+    def __init__(
+        self,
+        u: fem.Function,
+        contacts: Sequence[Contact],
+        update_ghosts: Callable[[], None],
+        history: Sequence[fem.Function] = (),
+    ):
+        """Copy the state.
+
+        Args:
+            u: Displacement.
+            contacts: Contacts of its problem.
+            update_ghosts: Gives ghosts the owners' displacements.
+            history: Functions that belong to the state.
+        """
+        self._update_ghosts = update_ghosts
+        self._contacts = [(c.interface, save_state(c.interface)) for c in contacts]
+        self._fields = [(c.fields, dict(vars(c.fields))) for c in contacts]
+        results = [
+            value
+            for _, attributes in self._fields
+            for value in attributes.values()
+            if isinstance(value, fem.Function)
+        ]
+        self._functions = [(f, f.x.array.copy()) for f in (u, *history, *results)]
+
+    def restore(self) -> None:
+        """Return to the state, bit for bit; all ranks must take part."""
+        for function, values in self._functions:
+            function.x.array[:] = values
+        self._update_ghosts()
+        for interface, saved in self._contacts:
+            load_state(interface, saved)
+        for fields, attributes in self._fields:
+            vars(fields).update(attributes)

@@ -7,7 +7,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from contactx.checks.place import place
+from contactx.errors import point_text
 from contactx.parallel import reduce
 from contactx.parallel.halo import Halo
 from contactx.parallel.slaves import SlaveNodes
@@ -65,8 +65,8 @@ def check_folds(surface: Surface, slaves: SlaveNodes, halo: Halo) -> None:
         number, at = reduce.first(comm, numbers, list(zip(numbers, x[bad], strict=True)))
         raise ValueError(
             f"the slave surface {surface} is folded at {count} nodes, where the normals of its "
-            f"facets cancel, first at {place(at, size)}, node {number} of the mesh as it was made: "
-            "take the facets of one side out of the surface"
+            f"facets cancel, first at {point_text(at, size)}, node {number} of the mesh as it was "
+            "made: take the facets of one side out of the surface"
         )
 
 
@@ -104,6 +104,6 @@ def check_facets(surface: Surface, role: str, facets: FacetList, halo: Halo) -> 
         raise ValueError(
             f"{count} facets of the {role} surface {surface} are degenerate: they have no area, or "
             "are folded so that their Jacobian changes sign. The first is at "
-            f"{place(at, length)} and has the nodes {', '.join(map(str, named))} of the mesh as it "
-            "was made: repair the mesh there"
+            f"{point_text(at, length)} and has the nodes {', '.join(map(str, named))} of the mesh "
+            "as it was made: repair the mesh there"
         )

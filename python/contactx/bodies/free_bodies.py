@@ -1,6 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Bodies that contact alone holds."""
+"""Free bodies: those that have not enough supports of their own."""
 
 from __future__ import annotations
 
@@ -25,29 +25,29 @@ _BALANCED = 1e-6
 _WEAK = 1e-6
 # Relative difference of what is equal but for rounding
 _TIE = 1e-9
-# Nodes of a contact that may hold a body, by their numbers there, and the time until they do
+# A contact, nodes of it that may balance a body, and the time in which the motion gets there
 type _Found = tuple[Interface, npt.NDArray[np.integer], Array]
 
 
-class Holder:
+class FreeBodies:
     """Keeps the Newton step of bodies without enough supports solvable.
 
-    A rigid mode that neither supports nor closed contacts hold makes the Jacobian singular. Where
-    the forces along such modes balance, as many springs as modes are added to the Jacobian: they
-    are statically determinate, so they carry no force and change no step. Where the forces do not
-    balance, the open nodes that the bodies would meet first on their rigid way are closed, until
-    what is closed holds them; then the slipping nodes stick whose slip that way takes back first.
-    The residual is never touched, so no solution depends on this. All ranks must take part in all
-    of it, and find the same.
+    A rigid mode that neither supports nor closed contacts resist is free and makes the Jacobian
+    singular. Where the forces along free modes balance, as many springs as modes are added to the
+    Jacobian: they are statically determinate, so they carry no force and change no step. Where the
+    forces do not balance, the open nodes that the bodies would meet first in a rigid motion are
+    closed, until the closed nodes can balance them; then those slipping nodes stick whose slip this
+    motion reverses first. The residual is never touched, so no solution depends on this. All ranks
+    must take part in all of it, and find the same.
 
     Attributes:
-        unheld: Number of rigid modes that nothing holds at the last iterate.
-        closed: Nodes that were closed to hold a body in this step.
-        drifting: How many iterates in turn had forces that nothing in the way can balance.
+        free_modes: Number of free rigid modes at the last iterate.
+        closed_for_balance: Nodes that were closed in this step to balance a body.
+        unbalanced: How many iterates in turn had forces that nothing in the way can balance.
     """
 
     def __init__(self, bulk: Bulk, interfaces: Sequence[Interface], bodies: Bodies):
-        """Create the holder.
+        """Take the bodies.
 
         Args:
             bulk: The bulk.
@@ -59,8 +59,8 @@ class Holder:
         self._bodies = bodies
         self._comm = bodies.halo.comm
         self._modes: RigidModes | None = None
-        self.unheld = self.closed = self.drifting = 0
-        self._stiffness: Array | None = None
+        self.free_modes = self.closed_for_balance = self.unbalanced = 0
+        self._springs: Array | None = None
         self._begins = True
 
     def begin_step(self) -> None:
@@ -70,26 +70,26 @@ class Holder:
             self._modes = RigidModes(self._bulk, self._bodies, x)
         else:
             self._modes.update(x)
-        self.unheld = self.closed = self.drifting = 0
-        self._stiffness = None
+        self.free_modes = self.closed_for_balance = self.unbalanced = 0
+        self._springs = None
         self._begins = True
 
-    def forget(self) -> None:
-        """Forget the modes: a failed step may have found them of a spoilt stiffness."""
+    def reset(self) -> None:
+        """Drop the rigid modes: a failed step may have found them of a spoilt stiffness."""
         self._modes = None
 
-    def hold(self, residual: Callable[[], Array], scale: float) -> bool:
-        """Find what to add to the Jacobian at an iterate, and close nodes that must hold a body.
+    def stabilise(self, residual: Callable[[], Array], scale: float) -> bool:
+        """Find the springs to add to the Jacobian at an iterate, and close nodes for balance.
 
         Args:
             residual: Gives the residual of the displacements without Dirichlet rows at owned
-                dofs, shape (num_owned * gdim,); called only where a body might need to be held.
+                dofs, shape (num_owned * gdim,); called only where a body has a free mode.
             scale: Forces of the problem.
 
         Returns:
             Whether nodes have been closed or stick on any rank.
         """
-        self._stiffness, self.unheld = None, 0
+        self._springs, self.free_modes = None, 0
         rigid = self._modes
         if rigid is None or not rigid.any_free:
             return False
@@ -106,46 +106,48 @@ class Holder:
         closed_any = self._begins and self._close_before_springs(x, pull)
         self._begins = False
         while True:
-            N = self._unheld(x, rigid.free)
+            N = self._free_basis(x, rigid.free)
             if N.shape[1] == 0:
-                self.drifting = 0
+                self.unbalanced = 0
                 break
             # In 3D the tangent across the slip resists motions that slip to all sides does not
             lacking = self._lacking(x) if gdim == 2 else 0.0
             f = N.T @ (pull + lacking)
             # A norm that does not depend on which basis of the modes rounding has chosen
             if np.linalg.norm(f) <= _BALANCED * scale:
-                self.drifting = 0
+                self.unbalanced = 0
                 break
-            # The rigid way of bodies whose mass goes with their number of nodes
+            # The rigid motion of bodies whose mass goes with their number of nodes
             weight = np.repeat(rigid.num_nodes, size)
             way = N @ np.linalg.solve(N.T @ (weight[:, None] * N), f)
             closed = self._close_first(x, way.reshape(rigid.count, size))
-            self.closed += closed
+            self.closed_for_balance += closed
             if closed == 0 and not self._stick_first(x, way.ravel()):
-                self.drifting += 1
+                self.unbalanced += 1
                 # A support may have got its stiffness on the way
                 rigid.update(x)
                 break
             closed_any = True
-        self.unheld = N.shape[1]
-        if self.unheld > 0:
+        self.free_modes = N.shape[1]
+        if self.free_modes > 0:
             coefficients = N.reshape(rigid.count, size, -1)[body]
             field = np.einsum("nim,nmk->nik", modes, coefficients)
-            shares = field.reshape(-1, self.unheld)
+            shares = field.reshape(-1, self.free_modes)
             springs = independent_springs(shares, self._bulk, self._bodies.halo)
-            # Weak, so that they do not slow down what a little stiffness does hold; a body that
-            # nothing can hold stays near, where it may still meet something
-            self._stiffness = springs if self.drifting else _WEAK * springs
+            # Weak, so that they do not slow down what a little stiffness does resist; a body that
+            # nothing can balance stays near, where it may still meet something
+            self._springs = springs if self.unbalanced else _WEAK * springs
         return closed_any
 
     @property
-    def stiffness(self) -> Array | None:
-        """What to add to the Jacobian's diagonal at owned dofs, force/length."""
-        return self._stiffness
+    def springs(self) -> Array | None:
+        """Stiffness to add to the Jacobian's diagonal at owned dofs, force/length; None if none."""
+        return self._springs
 
     def _close_before_springs(self, x: Array, pull: Array) -> bool:
-        """Close what bodies on weak springs meet before these stop them: Newton would pass it.
+        """Close the nodes that bodies on weak springs meet before these stop them.
+
+        A Newton step would carry the bodies past what they meet.
 
         Args:
             x: Positions.
@@ -158,21 +160,26 @@ class Holder:
         assert rigid is not None
         Z, stiffness = by_body(rigid.weak), np.concatenate(rigid.stiffness)
         closed_any = False
-        while (N := self._unheld(x, rigid.weak)).shape[1] > 0:
+        while (N := self._free_basis(x, rigid.weak)).shape[1] > 0:
             combine = Z.T @ N
             K = combine.T @ (stiffness[:, None] * combine)
             way = N @ np.linalg.solve(K, N.T @ pull)
             if not way.any():
                 break
             closed = self._close_first(x, way.reshape(rigid.count, -1), within=1.0)
-            self.closed += closed
+            self.closed_for_balance += closed
             if closed == 0:
                 break
             closed_any = True
         return closed_any
 
-    def _unheld(self, x: Array, bases: list[Array]) -> Array:
-        """Orthonormal basis of what of some modes nothing holds, as columns."""
+    def _free_basis(self, x: Array, bases: list[Array]) -> Array:
+        """Orthonormal basis of the motions that no closed node resists, as columns.
+
+        Args:
+            x: Positions.
+            bases: For each body the modes that the motions are combined of, shape (m, k).
+        """
         rigid = self._modes
         assert rigid is not None
         Z = by_body(bases)
@@ -190,12 +197,12 @@ class Holder:
         return null
 
     def _close_first(self, x: Array, way: Array, within: float = np.inf) -> int:
-        """Close the open nodes that bodies on a rigid way meet first.
+        """Close the open nodes that bodies meet first in a rigid motion.
 
         Args:
             x: Positions.
-            way: Coefficients of each body's modes, shape (num_bodies, m).
-            within: Part of the way that they go.
+            way: The motion: coefficients of each body's modes, shape (num_bodies, m).
+            within: Part of the motion that they go.
 
         Returns:
             Number of nodes closed on all ranks.
@@ -230,9 +237,10 @@ class Holder:
         return float(reduce.least(self._comm, float(lowest)))
 
     def _lacking(self, x: Array) -> Array:
-        """Forces that slipping nodes lack to those of Coulomb's law, shape (num_bodies * m,).
+        """Forces of Coulomb's law at slipping nodes minus those of the iterate's tractions.
 
-        Newton steps balance bodies with tractions that are not yet on the cone.
+        Newton steps balance bodies with tractions that are not yet on the cone. Along the modes of
+        the bodies, shape (num_bodies * m,).
         """
         rigid = self._modes
         assert rigid is not None
@@ -249,13 +257,13 @@ class Holder:
         return total
 
     def _stick_first(self, x: Array, way: Array) -> bool:
-        """Stick the slipping nodes whose slip a rigid way takes back first.
+        """Stick the slipping nodes whose slip a rigid motion of the bodies reverses first.
 
-        Slip to both sides may hold a body that slip along its way alone does not.
+        Slip to both sides may balance a body that slip along its motion alone does not.
 
         Args:
             x: Positions.
-            way: Coefficients of each body's modes, shape (num_bodies * m,).
+            way: The motion: coefficients of each body's modes, shape (num_bodies * m,).
 
         Returns:
             Whether any sticks on any rank.

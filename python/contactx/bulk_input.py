@@ -1,6 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Forms and Dirichlet conditions of the bodies.
+"""What a user gives for the bulk: displacement, forms and Dirichlet conditions, checked.
 
 DOLFINx compiles and assembles forms of wrong spaces without a word, and writes beyond the arrays.
 """
@@ -10,11 +10,97 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-import numpy as np
+from mpi4py import MPI
 
+import numpy as np
+import numpy.typing as npt
+
+import basix.ufl
 import ffcx.options
 import ufl
-from dolfinx import fem, jit
+from contactx.parallel.agreement import agreed
+from dolfinx import fem, jit, la
+
+
+def check_displacement(u: Any) -> None:
+    """Check that a displacement is one that contact can act on.
+
+    Args:
+        u: Displacement.
+
+    Raises:
+        TypeError: If it is no function, or not of real double precision.
+        ValueError: If its space is not the linear Lagrange space of vectors on its mesh.
+    """
+    if not isinstance(u, fem.Function):
+        raise TypeError(f"u must be a dolfinx.fem.Function, not {type(u).__name__}")
+    if u.dtype != np.float64:
+        raise TypeError(f"u holds {np.dtype(u.dtype).name} values, but contactx needs float64")
+    V = u.function_space
+    gdim = V.mesh.geometry.dim
+    if V.mesh.topology.dim != gdim or gdim not in (2, 3):
+        raise ValueError(
+            f"u is on a mesh of cells of dimension {V.mesh.topology.dim} in {gdim} dimensions; "
+            "contact needs plane cells in the plane or solid ones in space"
+        )
+    wanted = f'functionspace(mesh, ("Lagrange", 1, ({gdim},)))'
+    element = V.ufl_element()
+    if len(V._cpp_object.component()) > 0 or isinstance(element, basix.ufl._MixedElement):
+        raise ValueError(
+            f"u is in a mixed space or a part of one; contact needs a displacement of its own: "
+            f"{wanted}"
+        )
+    if element.reference_value_shape != (gdim,) or element.block_size != gdim:
+        raise ValueError(
+            f"u has values of shape {element.reference_value_shape}, but the displacement of this "
+            f"mesh needs ({gdim},): {wanted}"
+        )
+    if element.degree != 1:
+        raise ValueError(f"u is of degree {element.degree}; contact needs degree 1: {wanted}")
+    if element.element_family != basix.ElementFamily.P or element.discontinuous:
+        raise ValueError(f"u is not in a continuous Lagrange space; contact needs {wanted}")
+
+
+def check_finite(comm: MPI.Comm, **vectors: la.Vector) -> None:
+    """Check that vectors have no NaN or infinity.
+
+    Args:
+        comm: Communicator.
+        vectors: Vectors by what they are.
+
+    Raises:
+        ValueError: If one is not finite on any rank, on all ranks.
+    """
+    for name, vector in vectors.items():
+        bad = np.flatnonzero(~np.isfinite(vector.array))
+        with agreed(comm):
+            if len(bad) > 0:
+                raise ValueError(
+                    f"{name.replace('_', ' ')} not finite at {len(bad)} dofs, first at node "
+                    f"{bad[0] // vector.block_size}: repair the mesh or the initial guess"
+                )
+
+
+def check_prescribed(
+    u: npt.NDArray[np.float64], markers: npt.NDArray[np.int8], comm: MPI.Comm
+) -> None:
+    """Check that Dirichlet conditions prescribe no NaN or infinity.
+
+    Args:
+        u: Displacement with their values, shape (num_dofs,).
+        markers: 1 at dofs with a Dirichlet condition, shape (num_dofs,).
+        comm: Communicator.
+
+    Raises:
+        ValueError: If they do on any rank, on all ranks.
+    """
+    bad = np.count_nonzero(~np.isfinite(u[markers == 1]))
+    with agreed(comm):
+        if bad > 0:
+            raise ValueError(
+                f"bcs prescribe displacements that are not finite, at {bad} dofs: give finite "
+                "numbers; the function that sets them, as update of LoadSteps, may be wrong"
+            )
 
 
 def check_forms(F: Any, J: Any, u: fem.Function) -> None:
