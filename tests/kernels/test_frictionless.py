@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from kernel_calls import CASES, STATES, assert_close, difference, random_pair, shape
+from kernel_calls.node_pairs import CASES, STATES, assert_close, difference, random_pair, shape
 
 from contactx import cpp as core
 

@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from kernel_calls import assert_close, difference
-from mortar_calls import KINDS, FacetPair, random_facet_pair
+from kernel_calls.facet_pairs import KINDS, FacetPair, random_facet_pair
+from kernel_calls.node_pairs import assert_close, difference
 
 STATES = 25
 LAWS = ["frictionless", "frictional"]

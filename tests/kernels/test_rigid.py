@@ -4,7 +4,7 @@
 
 import numpy as np
 import pytest
-from kernel_calls import call
+from kernel_calls.node_pairs import call
 
 from contactx import cpp as core
 

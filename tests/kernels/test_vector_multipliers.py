@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from kernel_calls import (
+from kernel_calls.node_pairs import (
     CASES,
     STATES,
     assert_close,
