@@ -3,7 +3,7 @@
 """Options of a contact."""
 
 import numpy as np
-from rows import Row, constant, refused, scalar, scene, solved, table
+from rows import Row, constant, refused, scene, solved, table
 
 import contactx as cx
 from dolfinx import fem
@@ -22,7 +22,7 @@ def used(**options):
 
 def function(name, value, **kind):
     blocks = scene()
-    solved(blocks, blocks.contact(**{name: scalar(blocks, value, **kind)}))
+    solved(blocks, blocks.contact(**{name: blocks.scalar(value, **kind)}))
 
 
 def later(name, value):

@@ -10,10 +10,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from rubbing import Rubbing
 
 import contactx as cx
 from contactx.steps import archive
+
+from scenes.steps import Rubbing
 
 
 @contextmanager

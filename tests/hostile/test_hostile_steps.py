@@ -6,11 +6,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from rows import Row, constant, refused, scalar, scene, table
-from step_scenes import Sheared
+from rows import Row, constant, refused, scene, table
 
 import contactx as cx
 from dolfinx import fem
+
+from scenes.steps import Sheared
 
 
 def steps(*args, **options):
@@ -137,7 +138,7 @@ ROWS = [
     ),
     Row(
         "history: a function",
-        lambda: steps(history=scalar(scene(), 0.0))(),
+        lambda: steps(history=scene().scalar(0.0))(),
         TypeError,
         r"write history=\[function\]",
     ),

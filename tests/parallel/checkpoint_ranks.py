@@ -14,13 +14,13 @@ from mpi4py import MPI
 
 import numpy as np
 from agreeing import some_ranks, wait
-from step_scenes import DentedBlock, SlidingBlocks
 
 import contactx as cx
 from contactx.steps import archive
 from dolfinx.mesh import CellType
 
 import meshes
+from scenes.steps import DentedBlock, SlidingBlocks
 
 WORLD = MPI.COMM_WORLD
 FACETS = {"method": "surface-to-surface"}

@@ -11,7 +11,6 @@ from typing import Any
 
 import numpy as np
 from partitions import partitioned
-from step_scenes import SlidingBlocks
 
 import contactx as cx
 from dolfinx import fem
@@ -19,6 +18,7 @@ from dolfinx.mesh import CellType
 
 from meshes import Tag
 from scenes import NU, Blocks
+from scenes.steps import SlidingBlocks
 from story import elasticity, traction
 
 QUADRILATERAL, HEXAHEDRON = CellType.quadrilateral, CellType.hexahedron

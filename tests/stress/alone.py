@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from stress.blocks import bulk, dimension
+from stress.blocks import bulk
 from stress.scene import Case
 
 import contactx as cx
@@ -19,6 +19,7 @@ from dolfinx.mesh import CellType
 
 import meshes
 from meshes import Tag
+from scenes import dimension
 
 
 class Alone:

@@ -10,7 +10,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from step_scenes import DentedBlock, LooseBlock, Sheared, SlidingBlocks
 
 import contactx as cx
 from contactx import saving
@@ -19,6 +18,7 @@ from dolfinx import fem
 from dolfinx.mesh import CellType
 
 from scenes import Blocks
+from scenes.steps import DentedBlock, LooseBlock, Sheared, SlidingBlocks
 
 FACETS = {"method": "surface-to-surface"}
 SCENES = {

@@ -9,7 +9,6 @@ from petsc4py import PETSc
 
 import numpy as np
 import pytest
-from step_scenes import Sheared
 
 import contactx as cx
 import ufl
@@ -17,6 +16,7 @@ from dolfinx.mesh import CellType
 
 from meshes import Tag
 from scenes import Blocks
+from scenes.steps import Sheared
 
 pytestmark = pytest.mark.usefixtures("method")
 

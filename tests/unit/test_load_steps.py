@@ -9,9 +9,10 @@ import numpy as np
 import pytest
 import rich
 from rich.console import Console
-from step_scenes import Sheared
 
 import contactx as cx
+
+from scenes.steps import Sheared
 
 pytestmark = pytest.mark.usefixtures("method")
 

@@ -7,7 +7,6 @@ import itertools
 import finite_strain
 import numpy as np
 import pytest
-from plastic import Plastic
 
 import contactx as cx
 import ufl
@@ -16,6 +15,7 @@ from dolfinx.mesh import CellType
 
 import meshes
 from meshes import Tag
+from scenes.plasticity import Plastic
 from story import displacement, fix
 
 pytestmark = pytest.mark.usefixtures("method")

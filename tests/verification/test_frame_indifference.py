@@ -4,9 +4,11 @@
 
 import numpy as np
 import pytest
-from driven_blocks import DrivenBlock, neo_hookean
 
 from dolfinx.mesh import CellType
+
+from scenes.driven import DrivenBlock
+from scenes.materials import neo_hookean
 
 pytestmark = pytest.mark.usefixtures("method")
 

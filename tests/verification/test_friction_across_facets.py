@@ -4,9 +4,11 @@
 
 import numpy as np
 import pytest
-from driven_blocks import DrivenBlock, parts
 
 from dolfinx.mesh import CellType
+
+from scenes.coulomb import parts
+from scenes.driven import DrivenBlock
 
 MU = 0.3
 CELLS = pytest.mark.parametrize(

@@ -4,12 +4,14 @@
 
 import numpy as np
 import pytest
-from driven_blocks import DrivenBlock, parts
 
 import contactx as cx
 from contactx import cpp as core
 from contactx.master.mortar import MortarMaster
 from dolfinx.mesh import CellType
+
+from scenes.coulomb import parts
+from scenes.driven import DrivenBlock
 
 pytestmark = pytest.mark.usefixtures("method")
 

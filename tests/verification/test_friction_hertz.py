@@ -4,10 +4,10 @@
 
 import numpy as np
 import pytest
-from driven_blocks import check_coulomb, parts
 
 from meshes import Tag
 from scenes import hertz_sphere
+from scenes.coulomb import check_coulomb, parts
 
 NODES, FACETS = "node-to-surface", "surface-to-surface"
 # By surface-to-surface on a coarser mesh, which is cheaper

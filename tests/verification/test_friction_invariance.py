@@ -6,12 +6,12 @@ import functools
 
 import numpy as np
 import pytest
-from scene_transforms import Frame, Support, differences, numbered, renumbered, rotation, solve
 
 from dolfinx.mesh import CellType
 
 import meshes
 from meshes import Tag
+from scenes.transforms import Frame, Support, differences, numbered, renumbered, rotation, solve
 
 SLIDING = pytest.mark.parametrize("sliding", ["finite", "small"])
 CELLS = pytest.mark.parametrize(

@@ -3,10 +3,11 @@
 """Steps that end in partial slip: some nodes stick, others slip on, others slip back."""
 
 import pytest
-from driven_blocks import DrivenBlock
 
 import contactx as cx
 from dolfinx.mesh import CellType
+
+from scenes.driven import DrivenBlock
 
 pytestmark = pytest.mark.usefixtures("method")
 

@@ -4,11 +4,12 @@
 
 import numpy as np
 import pytest
-from driven_blocks import DrivenBlock
 
 import contactx as cx
 from contactx import cpp as core
 from dolfinx.mesh import CellType
+
+from scenes.driven import DrivenBlock
 
 pytestmark = pytest.mark.usefixtures("method")
 

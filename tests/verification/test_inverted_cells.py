@@ -4,12 +4,12 @@
 
 import numpy as np
 import pytest
-from scene_transforms import Support, differences, jacobians, numbered, oriented, solve
 
 from dolfinx.mesh import CellType
 
 import meshes
 from meshes import Tag
+from scenes.transforms import Support, differences, jacobians, numbered, oriented, solve
 
 
 @pytest.mark.parametrize("sliding", ["finite", "small"])

@@ -6,10 +6,12 @@ from mpi4py import MPI
 
 import numpy as np
 import pytest
-from tower import CELLS, Tower, lift
 
 import contactx as cx
 from dolfinx import fem, mesh
+
+from scenes.blocks import CELLS
+from scenes.tower import Tower, lift
 
 pytestmark = pytest.mark.usefixtures("method")
 

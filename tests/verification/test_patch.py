@@ -4,12 +4,12 @@
 
 import numpy as np
 import pytest
-from patch_scenes import WidePatch
-from scene_transforms import rotation
 
 from dolfinx.mesh import CellType
 
 from patch_scene import Patch, Shape
+from scenes.patch import WidePatch
+from scenes.transforms import rotation
 
 SURFACE, NODE = "surface-to-surface", "node-to-surface"
 EXACT = 1e-9

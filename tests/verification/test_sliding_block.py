@@ -6,11 +6,13 @@ from mpi4py import MPI
 
 import numpy as np
 import pytest
-from driven_blocks import DrivenBlock, parts
 
 import contactx as cx
 from dolfinx import fem, mesh
 from dolfinx.mesh import CellType
+
+from scenes.coulomb import parts
+from scenes.driven import DrivenBlock
 
 pytestmark = pytest.mark.usefixtures("method")
 

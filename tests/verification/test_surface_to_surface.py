@@ -4,8 +4,6 @@
 
 import numpy as np
 import pytest
-from driven_blocks import DrivenBlock, neo_hookean
-from tower import CELLS, Tower, lift
 
 import contactx as cx
 from contactx import saving
@@ -13,6 +11,10 @@ from dolfinx import fem
 from dolfinx.mesh import CellType
 
 from scenes import Blocks, hertz_sphere
+from scenes.blocks import CELLS
+from scenes.driven import DrivenBlock
+from scenes.materials import neo_hookean
+from scenes.tower import Tower, lift
 from story import elasticity
 
 SURFACE, NODE = "surface-to-surface", "node-to-surface"

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 
 import numpy as np
 from stress.alone import Alone
-from stress.blocks import bulk, dimension
+from stress.blocks import bulk
 from stress.families.grid import ALL_CELLS, divisions, scenes, variants
 from stress.scene import METHODS, SLIDINGS, Case, Check, Scene, relative
 
@@ -18,6 +18,7 @@ from dolfinx import fem
 
 import meshes
 from meshes import block_tag
+from scenes import dimension
 
 _PRESSURE = 0.01
 

@@ -6,9 +6,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from stress.blocks import dimension
 from stress.families.grid import ALL_CELLS, block_case, scenes, variants
 from stress.scene import METHODS, SLIDINGS, Scene
+
+from scenes import dimension
 
 # Cells of the upper block, of the lower one, and how far it begins aside
 _PLACES = {

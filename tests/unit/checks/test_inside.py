@@ -6,7 +6,6 @@ from mpi4py import MPI
 
 import numpy as np
 import pytest
-from scene_transforms import rotation
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
@@ -20,6 +19,7 @@ from dolfinx.mesh import CellType
 import meshes
 from meshes import Tag
 from scenes import Blocks
+from scenes.transforms import rotation
 from story import displacement, elasticity
 
 CELLS = pytest.mark.parametrize(
