@@ -7,6 +7,7 @@ import pytest
 
 from dolfinx.mesh import CellType
 
+from scenes import METHODS
 from scenes.driven import DrivenBlock
 from scenes.materials import neo_hookean
 
@@ -74,7 +75,11 @@ class Turned:
         return scene.contact.multiplier @ self.Q, slip @ self.Q, x
 
 
-@pytest.mark.parametrize(("cell", "axis", "friction"), CASES)
+@pytest.mark.parametrize(
+    ("cell", "axis", "friction", "method"),
+    [(*case, METHODS[i % 2]) for i, case in enumerate(CASES)],
+    indirect=["method"],
+)
 def test_turning_base(cell, axis, friction):
     gdim = 2 if axis is None else 3
     ways = np.zeros((4, gdim))

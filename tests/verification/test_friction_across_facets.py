@@ -7,13 +7,11 @@ import pytest
 
 from dolfinx.mesh import CellType
 
+from scenes import CELLS, METHODS, covering
 from scenes.coulomb import parts
 from scenes.driven import DrivenBlock
 
 MU = 0.3
-CELLS = pytest.mark.parametrize(
-    "cell", [CellType.triangle, CellType.quadrilateral, CellType.tetrahedron, CellType.hexahedron]
-)
 
 
 def block(cell, n_lower, **options):
@@ -52,10 +50,7 @@ def check_full_slide(scene, exact, method):
     return size
 
 
-@CELLS
-@pytest.mark.parametrize("n_lower", [2, 5, 12])
-@pytest.mark.parametrize("direction", [(1.0, 0.0), (0.6, 0.8)])
-@pytest.mark.parametrize("method", ["node-to-surface"], indirect=True)
+@covering(cell=CELLS, n_lower=(2, 5, 12), direction=[(1.0, 0.0), (0.6, 0.8)], method=METHODS[:1])
 def test_many_facets_in_one_step(direction, n_lower, cell, method):
     """Facets of 1.5, 0.6 and 0.25 under a block whose nodes stand 0.33 apart."""
     scene = block(cell, n_lower)
@@ -78,7 +73,7 @@ def test_many_facets_in_one_step(direction, n_lower, cell, method):
     assert max(scene.iterations) <= 10
 
 
-@CELLS
+@covering(cell=CELLS, method=METHODS)
 def test_over_the_outer_edge(cell, method):
     """Nodes beyond the edge open; the others go on with friction times what they carry."""
     scene = block(cell, 4, width=2.0, shift=0.55)

@@ -10,6 +10,7 @@ from contactx import cpp as core
 from contactx.master.mortar import MortarMaster
 from dolfinx.mesh import CellType
 
+from scenes import CELLS, METHODS, covering
 from scenes.coulomb import parts
 from scenes.driven import DrivenBlock
 
@@ -54,11 +55,7 @@ def relative(scene, du):
     return way
 
 
-@pytest.mark.parametrize("base", ["plane", "elastic"])
-@pytest.mark.parametrize(
-    "cell", [CellType.triangle, CellType.quadrilateral, CellType.tetrahedron, CellType.hexahedron]
-)
-@pytest.mark.parametrize("friction", [0.3, 0.9])
+@covering(cell=CELLS, base=("plane", "elastic"), friction=(0.3, 0.9), method=METHODS)
 def test_balance_of_each_step(friction, cell, base):
     gdim = 2 if cell in (CellType.triangle, CellType.quadrilateral) else 3
     up = np.eye(gdim)[-1]

@@ -9,17 +9,13 @@ import contactx as cx
 from contactx import cpp as core
 from dolfinx.mesh import CellType
 
+from scenes import CELLS, METHODS, SLIDINGS, covering
 from scenes.driven import DrivenBlock
 
 pytestmark = pytest.mark.usefixtures("method")
 
 
-@pytest.mark.parametrize("sliding", ["finite", "small"])
-@pytest.mark.parametrize("base", ["plane", "elastic"])
-@pytest.mark.parametrize(
-    "cell", [CellType.triangle, CellType.quadrilateral, CellType.tetrahedron, CellType.hexahedron]
-)
-@pytest.mark.parametrize("steps", [1, 2])
+@covering(cell=CELLS, base=("plane", "elastic"), sliding=SLIDINGS, steps=(1, 2), method=METHODS)
 def test_sticks_where_it_touches(steps, cell, base, sliding, method):
     """Half way down: of 0.2 the gap takes 0.1; the straight way is half way aside there."""
     gdim = 2 if cell in (CellType.triangle, CellType.quadrilateral) else 3

@@ -10,13 +10,12 @@ import pytest
 import contactx as cx
 from dolfinx import fem, mesh
 
-from scenes.blocks import CELLS
+from scenes import CELLS, METHODS, covering, dimension
 from scenes.tower import Tower, lift
 
 pytestmark = pytest.mark.usefixtures("method")
 
-every_cell = pytest.mark.parametrize("cell", CELLS, ids=lambda c: c.name)
-gaps = pytest.mark.parametrize("gap", [0.0, 0.1, -0.05])
+every_gap = covering(cell=CELLS, gap=(0.0, 0.1, -0.05), method=METHODS)
 
 
 def rotation(gdim, degrees):
@@ -34,8 +33,7 @@ def turned(gdim, degrees):
     return lambda x: x @ Q.T + np.linspace(0.2, -0.1, gdim)
 
 
-@every_cell
-@gaps
+@every_gap
 def test_rotation_of_both_ends_leaves_no_traction(cell, gap):
     tower = Tower(cell, 2, 3, tied=True, nu=0.3, gap=gap, neo=True)
     for degrees in (15, 30):
@@ -47,8 +45,7 @@ def test_rotation_of_both_ends_leaves_no_traction(cell, gap):
     assert np.all(tower.contact.interface.nodes.status == 1)
 
 
-@every_cell
-@gaps
+@every_gap
 def test_turned_tension_is_tension_that_has_turned(cell, gap):
     """First pulled, then turned: the same traction in the turned axes, and quadratic."""
     tower = Tower(cell, 2, 3, tied=True, nu=0.3, gap=gap, neo=True)
@@ -70,10 +67,9 @@ def test_turned_tension_is_tension_that_has_turned(cell, gap):
     assert np.abs(tower.problem.report.imbalance).max() <= 1e-13
 
 
-@every_cell
-@gaps
+@every_gap
 def test_a_plane_that_turns_takes_its_body_along(cell, gap):
-    gdim = 2 if cell in CELLS[:2] else 3
+    gdim = dimension(cell)
     domain = mesh.create_unit_interval(MPI.COMM_SELF, 1)
     start = np.full(gdim, 0.3)
     start[-1] = 0.0
