@@ -9,7 +9,7 @@ import pytest
 from kernel_calls.facet_pairs import KINDS, FacetPair, random_facet_pair
 from kernel_calls.node_pairs import assert_close, difference
 
-STATES = 25
+STATES = 2
 LAWS = ["frictionless", "frictional"]
 every = pytest.mark.parametrize(("slaves", "masters"), KINDS)
 both_laws = pytest.mark.parametrize("law", LAWS)

@@ -23,13 +23,10 @@ from scenes.steps import DentedBlock, LooseBlock, Sheared, SlidingBlocks
 FACETS = {"method": "surface-to-surface"}
 SCENES = {
     "triangles": lambda: SlidingBlocks(CellType.triangle),
-    "quadrilaterals": lambda: SlidingBlocks(CellType.quadrilateral),
-    "tetrahedra": lambda: SlidingBlocks(CellType.tetrahedron),
     "hexahedra": lambda: SlidingBlocks(CellType.hexahedron),
     "small sliding": lambda: SlidingBlocks(CellType.tetrahedron, sliding="small"),
     "friction": lambda: SlidingBlocks(CellType.tetrahedron, friction=0.2),
-    "friction, plane": lambda: SlidingBlocks(CellType.quadrilateral, friction=0.2),
-    "friction, small": lambda: SlidingBlocks(CellType.triangle, friction=0.2, sliding="small"),
+    "friction, small": lambda: SlidingBlocks(CellType.quadrilateral, friction=0.2, sliding="small"),
     "tied": lambda: SlidingBlocks(CellType.tetrahedron, tied=True, offset=0.01),
     "facets, small": lambda: SlidingBlocks(CellType.hexahedron, sliding="small", **FACETS),
     "facets, friction": lambda: SlidingBlocks(CellType.tetrahedron, friction=0.2, **FACETS),
@@ -73,7 +70,9 @@ def test_three_steps_and_three_are_six(name, tmp_path):
     assert np.all(np.diff([float(t) for _, t in lines]) > 0)
 
 
-@pytest.mark.parametrize("name", SCENES)
+@pytest.mark.parametrize(
+    "name", ["triangles", "friction", "tied", "facets, small", "plastic with friction"]
+)
 def test_results_are_there_at_once(name, tmp_path):
     """They are computed anew from the state, which may round in another way."""
     file, scene, other = tmp_path / "run.npz", SCENES[name](), SCENES[name]()
@@ -88,7 +87,7 @@ def test_results_are_there_at_once(name, tmp_path):
     assert other.contact.force == pytest.approx(scene.contact.force, rel=1e-11, abs=1e-13)
 
 
-@pytest.mark.parametrize("name", ["tetrahedra", "facets, friction"])
+@pytest.mark.parametrize("name", ["hexahedra", "facets, friction"])
 def test_a_new_process_goes_on_to_the_same_bits(name, tmp_path):
     straight, _ = run(SCENES[name]())
     run(SCENES[name](), until=4, checkpoint=tmp_path / "run.npz")
