@@ -15,7 +15,7 @@ import ufl
 from dolfinx.mesh import CellType
 
 from meshes import Tag
-from scenes import Blocks
+from scenes import METHODS, Blocks, covering
 from scenes.steps import Sheared
 
 pytestmark = pytest.mark.usefixtures("method")
@@ -72,8 +72,7 @@ def test_a_body_that_is_pulled_away_says_so():
     assert not scene.u.x.array.any()
 
 
-@pytest.mark.parametrize("part", ["residual", "jacobian", "scatter"])
-@pytest.mark.parametrize("call", [1, 3])
+@covering(part=("residual", "jacobian", "scatter"), call=(1, 3), method=METHODS)
 def test_an_interrupt_anywhere_leaves_everything_as_it_was(monkeypatch, part, call):
     scene = Blocks(CellType.tetrahedron)
     contact = scene.contact()

@@ -132,15 +132,6 @@ def test_normal_of_a_loaded_face() -> None:
     assert normal[2] < -0.95
 
 
-def test_bad_input(tmp_path: Path) -> None:
-    """The messages name the argument and what to do."""
-    u, pressure = pressed(blocks(CellType.triangle, (1, 1), (1, 1)))
-    with pytest.raises(ValueError, match="mirror holds 'w'; give names of axes"):
-        deformed_bodies(u, pressure, tmp_path / "x.png", title="", mirror=("w",))
-    with pytest.raises(ValueError, match=r"scalar is of .*; interpolate it"):
-        deformed_bodies(u, u, tmp_path / "x.png", title="")
-
-
 def test_pressure_curve(tmp_path: Path) -> None:
     """The file shows points and a line."""
     r = np.linspace(0, 1, 20)
