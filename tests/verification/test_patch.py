@@ -56,7 +56,7 @@ def test_surface_to_surface(cell, case, slave, sliding):
 
 
 @pytest.mark.parametrize(
-    ("cell", "case"), zip(CELLS, ["friction", "tied", "very_soft", "turned"], strict=True)
+    ("cell", "case"), [*zip(CELLS, ["friction", "tied", "very_soft", "turned"], strict=True)]
 )
 def test_condensed(cell, case):
     patch = make(cell, (4, 3), case, method=SURFACE, petsc_options={"pc_type": "condensed"})
@@ -106,7 +106,7 @@ def test_distorted_quadrilaterals(seed, sliding):
 
 
 @pytest.mark.parametrize(
-    ("cell", "sliding"), zip(CELLS, ["finite", "small", "small", "finite"], strict=True)
+    ("cell", "sliding"), [*zip(CELLS, ["finite", "small", "small", "finite"], strict=True)]
 )
 def test_wider_master(cell, sliding):
     """Master facets that are covered in part, by a slave whose outline they do not follow."""

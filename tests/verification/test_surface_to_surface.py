@@ -115,7 +115,7 @@ def test_contact_is_lost_and_closes_again(cell, sliding, friction):
 
 
 @pytest.mark.parametrize(
-    ("cell", "friction"), zip(CELLS, [0.0, 0.3, 0.3, 0.0], strict=True), ids=str
+    ("cell", "friction"), [*zip(CELLS, [0.0, 0.3, 0.3, 0.0], strict=True)], ids=str
 )
 @pytest.mark.parametrize("method", [SURFACE], indirect=True)
 def test_over_the_outer_edge_and_back(cell, friction, method):
