@@ -8,9 +8,8 @@ import pytest
 import contactx as cx
 from contactx import cpp as core
 from contactx.master.mortar import MortarMaster
-from dolfinx.mesh import CellType
 
-from scenes import CELLS, METHODS, covering
+from scenes import CELLS, METHODS, covering, dimension
 from scenes.coulomb import parts
 from scenes.driven import DrivenBlock
 
@@ -57,7 +56,7 @@ def relative(scene, du):
 
 @covering(cell=CELLS, base=("plane", "elastic"), friction=(0.3, 0.9), method=METHODS)
 def test_balance_of_each_step(friction, cell, base):
-    gdim = 2 if cell in (CellType.triangle, CellType.quadrilateral) else 3
+    gdim = dimension(cell)
     up = np.eye(gdim)[-1]
     scene = DrivenBlock(
         cell,

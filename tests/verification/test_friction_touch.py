@@ -7,9 +7,8 @@ import pytest
 
 import contactx as cx
 from contactx import cpp as core
-from dolfinx.mesh import CellType
 
-from scenes import CELLS, METHODS, SLIDINGS, covering
+from scenes import CELLS, METHODS, SLIDINGS, covering, dimension
 from scenes.driven import DrivenBlock
 
 pytestmark = pytest.mark.usefixtures("method")
@@ -18,7 +17,7 @@ pytestmark = pytest.mark.usefixtures("method")
 @covering(cell=CELLS, base=("plane", "elastic"), sliding=SLIDINGS, steps=(1, 2), method=METHODS)
 def test_sticks_where_it_touches(steps, cell, base, sliding, method):
     """Half way down: of 0.2 the gap takes 0.1; the straight way is half way aside there."""
-    gdim = 2 if cell in (CellType.triangle, CellType.quadrilateral) else 3
+    gdim = dimension(cell)
     scene = DrivenBlock(
         cell,
         plane=cx.Plane((0.0,) * gdim, np.eye(gdim)[-1]) if base == "plane" else None,
