@@ -11,7 +11,8 @@ from contactx.condensed.solver import CondensedSolver
 from dolfinx.mesh import CellType
 
 from meshes import Tag
-from scenes import CELLS, SLIDINGS, Blocks, covering, hertz_sphere
+from scenes import CELLS, Blocks, hertz_sphere
+from scenes.covering import SLIDINGS, covering
 from story import fix
 
 MORTAR = {"method": "surface-to-surface"}

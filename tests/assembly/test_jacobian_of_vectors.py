@@ -7,7 +7,8 @@ import numpy as np
 import contactx as cx
 from contactx import cpp as core
 
-from scenes import CELLS, METHODS, SLIDINGS, Blocks, covering
+from scenes import CELLS, Blocks
+from scenes.covering import METHODS, SLIDINGS, covering
 
 OBSTACLES = ["facets", "plane", "sphere", "level set"]
 

@@ -25,21 +25,17 @@ What they are made of:
 - ``plasticity``: a material with a history.
 - ``supports``: faces that are held or driven.
 - ``coulomb``: the check of Coulomb's law at slave nodes.
-- ``covering``: which combinations of parameters a test runs.
+- ``covering``: which combinations of parameters a test runs (needs pytest, as nothing else here).
 """
 
 from scenes.blocks import CELLS, NU, Blocks, dimension
-from scenes.covering import METHODS, SLIDINGS, covering
 from scenes.hertz import HertzSphere, hertz_of, hertz_sphere, pressure_error
 
 __all__ = [
     "CELLS",
-    "METHODS",
     "NU",
-    "SLIDINGS",
     "Blocks",
     "HertzSphere",
-    "covering",
     "dimension",
     "hertz_of",
     "hertz_sphere",

@@ -15,7 +15,8 @@ import ufl
 from dolfinx.mesh import CellType
 
 from meshes import Tag
-from scenes import METHODS, Blocks, covering
+from scenes import Blocks
+from scenes.covering import METHODS, covering
 from scenes.steps import Sheared
 
 pytestmark = pytest.mark.usefixtures("method")

@@ -11,7 +11,8 @@ from dolfinx.mesh import CellType
 
 import meshes
 from meshes import Tag, block_tag
-from scenes import METHODS, NU, SLIDINGS, Blocks, covering
+from scenes import NU, Blocks
+from scenes.covering import METHODS, SLIDINGS, covering
 from story import displacement, elasticity, fix, traction
 
 pytestmark = pytest.mark.usefixtures("method")

@@ -7,7 +7,7 @@ import pytest
 
 from dolfinx.mesh import CellType
 
-from scenes import METHODS
+from scenes.covering import METHODS
 from scenes.driven import DrivenBlock
 from scenes.materials import neo_hookean
 

@@ -14,7 +14,8 @@ from dolfinx.mesh import CellType
 
 import meshes
 from meshes import Tag
-from scenes import CELLS, METHODS, SLIDINGS, Blocks, covering, dimension
+from scenes import CELLS, Blocks, dimension
+from scenes.covering import METHODS, SLIDINGS, covering
 from story import displacement, elasticity
 
 pytestmark = pytest.mark.usefixtures("method")

@@ -7,8 +7,9 @@ import pytest
 
 from dolfinx.mesh import CellType
 
-from scenes import CELLS, METHODS, covering
+from scenes import CELLS
 from scenes.coulomb import parts
+from scenes.covering import METHODS, covering
 from scenes.driven import DrivenBlock
 
 MU = 0.3

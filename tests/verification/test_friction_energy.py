@@ -9,8 +9,9 @@ import contactx as cx
 from contactx import cpp as core
 from contactx.master.mortar import MortarMaster
 
-from scenes import CELLS, METHODS, covering, dimension
+from scenes import CELLS, dimension
 from scenes.coulomb import parts
+from scenes.covering import METHODS, covering
 from scenes.driven import DrivenBlock
 
 pytestmark = pytest.mark.usefixtures("method")

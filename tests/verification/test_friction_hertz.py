@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 from meshes import Tag
-from scenes import METHODS, SLIDINGS, covering, hertz_sphere
+from scenes import hertz_sphere
 from scenes.coulomb import check_coulomb, parts
+from scenes.covering import METHODS, SLIDINGS, covering
 
 NODES, FACETS = "node-to-surface", "surface-to-surface"
 # By surface-to-surface on a coarser mesh, which is cheaper

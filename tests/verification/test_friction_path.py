@@ -7,7 +7,7 @@ import pytest
 import contactx as cx
 from dolfinx.mesh import CellType
 
-from scenes import METHODS, SLIDINGS, covering
+from scenes.covering import METHODS, SLIDINGS, covering
 from scenes.driven import DrivenBlock
 
 pytestmark = pytest.mark.usefixtures("method")

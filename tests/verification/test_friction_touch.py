@@ -8,7 +8,8 @@ import pytest
 import contactx as cx
 from contactx import cpp as core
 
-from scenes import CELLS, METHODS, SLIDINGS, covering, dimension
+from scenes import CELLS, dimension
+from scenes.covering import METHODS, SLIDINGS, covering
 from scenes.driven import DrivenBlock
 
 pytestmark = pytest.mark.usefixtures("method")

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from meshes import Tag
-from scenes import METHODS, SLIDINGS, covering, hertz_sphere, pressure_error
+from scenes import hertz_sphere, pressure_error
+from scenes.covering import METHODS, SLIDINGS, covering
 
 # On a coarser mesh by surface-to-surface
 H = {"node-to-surface": 0.02, "surface-to-surface": 0.04}

@@ -12,7 +12,8 @@ from dolfinx.mesh import CellType
 
 import meshes
 from meshes import Tag
-from scenes import CELLS, covering, dimension
+from scenes import CELLS, dimension
+from scenes.covering import covering
 from scenes.transforms import Frame, Support, differences, numbered, renumbered, rotation, solve
 
 TRIANGLE, QUADRILATERAL, TETRAHEDRON, HEXAHEDRON = CELLS

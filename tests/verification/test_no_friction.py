@@ -11,7 +11,8 @@ import pytest
 
 from dolfinx import fem, mesh
 
-from scenes import METHODS, SLIDINGS, covering, hertz_sphere
+from scenes import hertz_sphere
+from scenes.covering import METHODS, SLIDINGS, covering
 
 pytestmark = pytest.mark.usefixtures("method")
 

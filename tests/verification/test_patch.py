@@ -8,7 +8,8 @@ import pytest
 from dolfinx.mesh import CellType
 
 from patch_scene import Patch, Shape
-from scenes import CELLS, SLIDINGS, covering, dimension
+from scenes import CELLS, dimension
+from scenes.covering import SLIDINGS, covering
 from scenes.patch import WidePatch
 from scenes.transforms import rotation
 

@@ -11,8 +11,9 @@ import contactx as cx
 from dolfinx import fem, mesh
 from dolfinx.mesh import CellType
 
-from scenes import CELLS, METHODS, SLIDINGS, covering, dimension
+from scenes import CELLS, dimension
 from scenes.coulomb import parts
+from scenes.covering import METHODS, SLIDINGS, covering
 from scenes.driven import DrivenBlock
 
 pytestmark = pytest.mark.usefixtures("method")

@@ -9,7 +9,8 @@ import contactx as cx
 from contactx import saving
 from dolfinx.mesh import CellType
 
-from scenes import CELLS, SLIDINGS, Blocks, covering, hertz_sphere
+from scenes import CELLS, Blocks, hertz_sphere
+from scenes.covering import SLIDINGS, covering
 from scenes.driven import DrivenBlock
 from scenes.materials import neo_hookean
 from scenes.tower import Tower, lift

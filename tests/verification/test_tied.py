@@ -10,7 +10,8 @@ import pytest
 import contactx as cx
 from dolfinx import fem, mesh
 
-from scenes import CELLS, METHODS, SLIDINGS, covering, dimension
+from scenes import CELLS, dimension
+from scenes.covering import METHODS, SLIDINGS, covering
 from scenes.tower import Tower, lift, one_body
 
 pytestmark = pytest.mark.usefixtures("method")

@@ -10,7 +10,8 @@ import pytest
 import contactx as cx
 from dolfinx import fem, mesh
 
-from scenes import CELLS, METHODS, covering, dimension
+from scenes import CELLS, dimension
+from scenes.covering import METHODS, covering
 from scenes.tower import Tower, lift
 
 pytestmark = pytest.mark.usefixtures("method")
