@@ -8,7 +8,7 @@ import contactx as cx
 from contactx import cpp as core
 
 from scenes import CELLS, Blocks
-from scenes.covering import METHODS, SLIDINGS, covering
+from scenes.covering import BOTH, METHODS, covering
 
 OBSTACLES = ["facets", "plane", "sphere", "level set"]
 
@@ -84,7 +84,7 @@ def assert_consistent(problem, interface):
         assert error <= 1e-7 * np.abs(J).max()
 
 
-@covering(cell=CELLS, sliding=SLIDINGS, method=METHODS, master=OBSTACLES)
+@covering(cell=CELLS, master=OBSTACLES, **{"sliding,method": BOTH})
 def test_with_friction(cell, sliding, method, master):
     problem, interface, rng = scene_with(cell, sliding, master, friction=0.4, method=method)
     nodes = interface.nodes
@@ -113,7 +113,7 @@ def test_after_the_nodes_have_touched(cell, method, master):
     assert_consistent(problem, interface)
 
 
-@covering(cell=CELLS, sliding=SLIDINGS, method=METHODS, master=OBSTACLES)
+@covering(cell=CELLS, master=OBSTACLES, **{"sliding,method": BOTH})
 def test_with_ties(cell, sliding, method, master):
     problem, interface, _ = scene_with(cell, sliding, master, tied=True, method=method)
     nodes = interface.nodes

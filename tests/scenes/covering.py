@@ -13,6 +13,8 @@ import pytest
 from story import METHODS
 
 SLIDINGS = ("finite", "small")
+# An axis "sliding,method", for what has code of its own for each
+BOTH = list(product(SLIDINGS, METHODS))
 
 
 def covering(**axes: Iterable[Any]) -> pytest.MarkDecorator:
@@ -56,4 +58,4 @@ def _id(value: Any) -> str:
     return str(getattr(value, "name", value))
 
 
-__all__ = ["METHODS", "SLIDINGS", "covering"]
+__all__ = ["BOTH", "METHODS", "SLIDINGS", "covering"]

@@ -15,7 +15,7 @@ from dolfinx.mesh import CellType
 import meshes
 from meshes import Tag
 from scenes import CELLS, Blocks, dimension
-from scenes.covering import METHODS, SLIDINGS, covering
+from scenes.covering import BOTH, METHODS, SLIDINGS, covering
 from story import displacement, elasticity
 
 pytestmark = pytest.mark.usefixtures("method")
@@ -65,7 +65,7 @@ def assert_refused(scene):
     assert not scene.u.x.array.any()
 
 
-@covering(cell=CELLS, friction=(0.0, 0.5), gap=(0.0, 0.1), sliding=SLIDINGS, method=METHODS)
+@covering(cell=CELLS, friction=(0.0, 0.5), gap=(0.0, 0.1), **{"sliding,method": BOTH})
 def test_a_block_comes_to_rest_on_another(cell, friction, gap, sliding, method):
     scene = FreeBlock(cell, friction=friction, gap=gap, sliding=sliding)
     if rolls(cell, friction, sliding, method):

@@ -7,7 +7,7 @@ import pytest
 import contactx as cx
 from dolfinx.mesh import CellType
 
-from scenes.covering import METHODS, SLIDINGS, covering
+from scenes.covering import BOTH, covering
 from scenes.driven import DrivenBlock
 
 pytestmark = pytest.mark.usefixtures("method")
@@ -16,9 +16,8 @@ pytestmark = pytest.mark.usefixtures("method")
 @covering(
     cell=(CellType.quadrilateral, CellType.hexahedron),
     base=("plane", "elastic"),
-    sliding=SLIDINGS,
     friction=(0.3, 1.0),
-    method=METHODS,
+    **{"sliding,method": BOTH},
 )
 def test_every_reversal_converges(friction, cell, base, sliding):
     """Between a full slide on and a full slide back there are all mixtures of them."""

@@ -9,13 +9,13 @@ import contactx as cx
 from contactx import cpp as core
 
 from scenes import CELLS, dimension
-from scenes.covering import METHODS, SLIDINGS, covering
+from scenes.covering import BOTH, covering
 from scenes.driven import DrivenBlock
 
 pytestmark = pytest.mark.usefixtures("method")
 
 
-@covering(cell=CELLS, base=("plane", "elastic"), sliding=SLIDINGS, steps=(1, 2), method=METHODS)
+@covering(cell=CELLS, base=("plane", "elastic"), steps=(1, 2), **{"sliding,method": BOTH})
 def test_sticks_where_it_touches(steps, cell, base, sliding, method):
     """Half way down: of 0.2 the gap takes 0.1; the straight way is half way aside there."""
     gdim = dimension(cell)

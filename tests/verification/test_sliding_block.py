@@ -13,7 +13,7 @@ from dolfinx.mesh import CellType
 
 from scenes import CELLS, dimension
 from scenes.coulomb import parts
-from scenes.covering import METHODS, SLIDINGS, covering
+from scenes.covering import BOTH, METHODS, SLIDINGS, covering
 from scenes.driven import DrivenBlock
 
 pytestmark = pytest.mark.usefixtures("method")
@@ -51,7 +51,7 @@ def resistance(scene):
     return scene.tangential[0] / (MU * scene.normal)
 
 
-@covering(cell=CELLS, base=BASES, sliding=SLIDINGS, method=METHODS)
+@covering(cell=CELLS, base=BASES, **{"sliding,method": BOTH})
 def test_stays_slides_and_slides_back(cell, base, sliding):
     scene = block(cell, base, sliding)
     along(scene, 0.0)

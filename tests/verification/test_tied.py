@@ -11,7 +11,7 @@ import contactx as cx
 from dolfinx import fem, mesh
 
 from scenes import CELLS, dimension
-from scenes.covering import METHODS, SLIDINGS, covering
+from scenes.covering import BOTH, METHODS, SLIDINGS, covering
 from scenes.tower import Tower, lift, one_body
 
 pytestmark = pytest.mark.usefixtures("method")
@@ -118,7 +118,7 @@ def test_much_friction_under_pressure_is_a_tie(cell, sliding, method):
     assert np.abs(rough.u.x.array - tied.u.x.array).max() <= least * 0.1
 
 
-@covering(cell=(QUADRILATERAL, HEXAHEDRON), rigid=(False, True), sliding=SLIDINGS, method=METHODS)
+@covering(cell=(QUADRILATERAL, HEXAHEDRON), rigid=(False, True), **{"sliding,method": BOTH})
 def test_offset_makes_a_tie_longer(cell, sliding, rigid):
     """Between ends that stand still: pressure E offset / L, and tension where it is negative."""
     gdim = 2 if cell == QUADRILATERAL else 3
