@@ -7,9 +7,10 @@ import signal
 from pathlib import Path
 
 import pytest
-from tether import tether
 
 import contactx as cx
+
+from tether import tether
 
 # One process may wait for a form that another one compiles
 os.environ["XDG_CONFIG_HOME"] = str(Path(__file__).parent / "settings")

@@ -8,12 +8,9 @@ import numpy as np
 import pytest
 
 from dolfinx import cpp, fem
-from dolfinx.mesh import CellType
 
 from meshes import Tag
-from scenes import Blocks
-
-CELLS = [CellType.triangle, CellType.quadrilateral, CellType.tetrahedron, CellType.hexahedron]
+from scenes import CELLS, Blocks
 
 
 class ByHand:

@@ -3,20 +3,14 @@
 """Jacobian of the whole system with friction and with ties against central differences."""
 
 import numpy as np
-import pytest
 
 import contactx as cx
 from contactx import cpp as core
-from dolfinx.mesh import CellType
 
-from scenes import Blocks
+from scenes import CELLS, Blocks
+from scenes.covering import BOTH, METHODS, covering
 
-CELLS = [CellType.triangle, CellType.quadrilateral, CellType.tetrahedron, CellType.hexahedron]
-every_cell = pytest.mark.parametrize("cell", CELLS, ids=lambda c: c.name)
-both_slidings = pytest.mark.parametrize("sliding", ["finite", "small"])
 OBSTACLES = ["facets", "plane", "sphere", "level set"]
-METHODS = ["node-to-surface", "surface-to-surface"]
-both_methods = pytest.mark.parametrize("method", METHODS)
 
 
 def obstacle(kind, gdim):
@@ -90,10 +84,7 @@ def assert_consistent(problem, interface):
         assert error <= 1e-7 * np.abs(J).max()
 
 
-@every_cell
-@both_slidings
-@both_methods
-@pytest.mark.parametrize("master", OBSTACLES)
+@covering(cell=CELLS, master=OBSTACLES, **{"sliding,method": BOTH})
 def test_with_friction(cell, sliding, method, master):
     problem, interface, rng = scene_with(cell, sliding, master, friction=0.4, method=method)
     nodes = interface.nodes
@@ -102,8 +93,7 @@ def test_with_friction(cell, sliding, method, master):
     assert_consistent(problem, interface)
 
 
-@every_cell
-@both_methods
+@covering(cell=CELLS, method=METHODS)
 def test_with_held_pairs(cell, method):
     problem, interface, rng = scene_with(cell, "finite", "facets", friction=0.4, method=method)
     interface.freeze_kinematics(True)
@@ -113,9 +103,7 @@ def test_with_held_pairs(cell, method):
     assert all(form.stiffness is None for form in interface.forms)
 
 
-@every_cell
-@both_methods
-@pytest.mark.parametrize("master", ["facets", "sphere"])
+@covering(cell=CELLS, method=METHODS, master=("facets", "sphere"))
 def test_after_the_nodes_have_touched(cell, method, master):
     problem, interface, rng = scene_with(cell, "finite", master, friction=0.4, method=method)
     before = interface.nodes.slip.copy()
@@ -125,10 +113,7 @@ def test_after_the_nodes_have_touched(cell, method, master):
     assert_consistent(problem, interface)
 
 
-@every_cell
-@both_slidings
-@both_methods
-@pytest.mark.parametrize("master", OBSTACLES)
+@covering(cell=CELLS, master=OBSTACLES, **{"sliding,method": BOTH})
 def test_with_ties(cell, sliding, method, master):
     problem, interface, _ = scene_with(cell, sliding, master, tied=True, method=method)
     nodes = interface.nodes

@@ -17,10 +17,10 @@ from typing import Any
 
 import numpy as np
 import runner
-import solved_blocks
 import tables
 
 import story
+from scenes import exact_blocks
 
 # Cells along a unit of length of the slave, multiples of 3
 PLANE, SPACE = (12, 24, 48, 96), (6, 12, 18, 24)
@@ -62,7 +62,7 @@ COLUMNS: list[tables.Column] = [
 
 def measure(solution: str, cells: str, method: str, n: int) -> dict[str, Any]:
     """Solve in this process and return the errors."""
-    solve = {"smooth": solved_blocks.smooth, "hertz": solved_blocks.hertz}[solution]
+    solve = {"smooth": exact_blocks.smooth, "hertz": exact_blocks.hertz}[solution]
     return solve(cells, n, method)
 
 

@@ -4,7 +4,8 @@
 
 A quarter of two half spheres, whose flat faces stay plane and whose displacement is found by
 secants. Either sphere is the slave; with the stiff one in finite sliding Hertz's linear theory does
-not hold, see ``two_spheres``. The soft sphere's cells are 1.5 times smaller than the stiff one's.
+not hold, see ``scenes.two_spheres``. The soft sphere's cells are 1.5 times smaller than those of
+the stiff one.
 
     python tests/benchmarks/bench_spheres.py 0.1 0.05
 """
@@ -18,9 +19,9 @@ from typing import Any
 import hertz_case
 import runner
 import tables
-import two_spheres
 
 import story
+from scenes import two_spheres
 
 SIZES = (0.1, 0.05, 0.03, 0.02)
 CASES = (("soft", "finite"), ("soft", "small"), ("stiff", "small"), ("stiff", "finite"))

@@ -18,7 +18,6 @@ from petsc4py import PETSc
 
 import hertz_case
 import numpy as np
-from ranks.partitions import partitioned
 
 import contactx as cx
 from contactx.search import distributed
@@ -27,6 +26,7 @@ from dolfinx.mesh import CellType
 import meshes
 import scenes
 from meshes import Tag
+from ranks.partitions import partitioned
 from story import displacement, elasticity, fix
 
 # Cells of a rank along the slab, across it and over its height; those of the base do not match

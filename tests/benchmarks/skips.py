@@ -26,6 +26,7 @@ from dolfinx.mesh import CellType
 
 import meshes
 import scenes
+import story
 from meshes import Tag
 
 # Not the default on the coarse meshes that try these scripts out
@@ -41,16 +42,16 @@ def hertz(data: MeshData, n: int, **options: Any) -> cx.ContactProblem:
 def on_plane(data: MeshData, n: int, sliding: str, **options: Any) -> cx.ContactProblem:
     """Its upper body alone, on a rigid plane."""
     mesh, tags = meshes.single(data, Tag.UPPER)
-    u = scenes.displacement(mesh)
+    u = story.displacement(mesh)
     bcs = [
-        scenes.fix(u, tags, 0, 0.0, Tag.UPPER_X0),
-        scenes.fix(u, tags, 1, 0.0, Tag.UPPER_Y0),
-        scenes.fix(u, tags, 2, -0.02, Tag.UPPER_TOP),
+        story.fix(u, tags, 0, 0.0, Tag.UPPER_X0),
+        story.fix(u, tags, 1, 0.0, Tag.UPPER_Y0),
+        story.fix(u, tags, 2, -0.02, Tag.UPPER_TOP),
     ]
     plane = cx.Plane((0.0, 0.0, 0.0), (0.0, 0.0, 1.0))
     contact = cx.Contact(cx.Surface(tags, Tag.UPPER_CONTACT), plane, sliding=sliding)
     return cx.ContactProblem(
-        scenes.elasticity(u, 1.0, scenes.NU),
+        story.elasticity(u, 1.0, scenes.NU),
         u,
         contacts=[contact],
         bcs=bcs,

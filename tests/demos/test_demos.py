@@ -18,20 +18,19 @@ from matplotlib import image
 
 
 @pytest.mark.parametrize(
-    ("demo", "h", "tolerances"),
+    ("demo", "sliding", "h", "tolerances"),
     [
-        (hertz_sphere, "0.04", (1e-10, 0.05, 0.03, 0.2)),
-        (hertz_cylinder, "0.01", (2e-3, 0.05, 0.03)),
-        (press_fit, "0.05", (0.01, 0.01, 0.01)),
-        (rigid_plane, "0.04", (0.01, 0.05, 0.1)),
-        (rigid_sphere, "0.04", (0.01, 0.05, 0.1)),
-        (rigid_cylinder, "0.02", (0.01, 0.07, 0.03)),
-        (level_set, "0.04", (0.01, 0.05, 0.1)),
+        (hertz_sphere, "finite", "0.04", (1e-10, 0.05, 0.03, 0.2)),
+        (hertz_cylinder, "small", "0.01", (2e-3, 0.05, 0.03)),
+        (press_fit, "finite", "0.05", (0.01, 0.01, 0.01)),
+        (rigid_plane, "small", "0.04", (0.01, 0.05, 0.1)),
+        (rigid_sphere, "finite", "0.04", (0.01, 0.05, 0.1)),
+        (rigid_cylinder, "small", "0.02", (0.01, 0.07, 0.03)),
+        (level_set, "finite", "0.04", (0.01, 0.05, 0.1)),
     ],
     ids=lambda value: getattr(value, "__name__", ""),
 )
-@pytest.mark.parametrize("sliding", ["finite", "small"])
-def test_demo(demo, h, tolerances, sliding, tmp_path, capsys):
+def test_demo(demo, sliding, h, tolerances, tmp_path, capsys):
     results = demo.main(["--h", h, "--sliding", sliding, "--output", str(tmp_path)])
     for result, tolerance in zip(results, tolerances, strict=True):
         assert abs(result.error) <= tolerance, result

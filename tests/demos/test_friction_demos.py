@@ -41,10 +41,13 @@ def test_cattaneo_mindlin(sliding, tolerances, tmp_path, capsys):
 
 # Force held before it slides, when the last node slips, in 3D askew, and while it slides
 @pytest.mark.parametrize(
-    ("dim", "h", "held", "last", "slides"),
-    [("2", "0.2", 0.07, 1e-7, 1e-7), ("3", "0.5", 0.35, 0.05, 1e-7)],
+    ("dim", "h", "held", "last", "slides", "sliding", "ploughing"),
+    [
+        ("2", "0.2", 0.07, 1e-7, 1e-7, "finite", 0.01),
+        ("2", "0.2", 0.07, 1e-7, 1e-7, "small", 0),
+        ("3", "0.5", 0.35, 0.05, 1e-7, "finite", 0.01),
+    ],
 )
-@pytest.mark.parametrize(("sliding", "ploughing"), [("finite", 0.01), ("small", 0)])
 def test_sliding_block(sliding, ploughing, dim, h, held, last, slides, tmp_path, capsys):
     plane = (1e-7, held, last, slides, slides)
     base = (1e-7, held, last + ploughing, slides + ploughing, slides + ploughing)
@@ -53,8 +56,7 @@ def test_sliding_block(sliding, ploughing, dim, h, held, last, slides, tmp_path,
     check(sliding_block, arguments, (*plane, *base), pictures, tmp_path, capsys)
 
 
-@pytest.mark.parametrize(("dim", "h"), [("2", "0.1"), ("3", "0.25")])
-@pytest.mark.parametrize("sliding", ["finite", "small"])
+@pytest.mark.parametrize(("dim", "h", "sliding"), [("2", "0.1", "finite"), ("3", "0.25", "small")])
 def test_stacked_blocks(sliding, dim, h, tmp_path, capsys):
     arguments = ("--h", h, "--dim", dim, "--sliding", sliding)
     check(stacked_blocks, arguments, [1e-7] * 10, ("stacked_blocks.png",), tmp_path, capsys)

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import parallel
 import pytest
+
 from ranks.launch import launch
 
 

@@ -67,7 +67,7 @@ _TOKENS = (
 
 
 def code_lines(file: Path) -> Iterator[tuple[int, str]]:
-    """Lines that say what is done, with their numbers: no comments, texts, imports, declarations."""
+    """Lines that do something, with their numbers: no comments, texts, imports, heads."""
     lines = file.read_text().splitlines()
     if file.suffix == ".py":
         skipped: set[int] = set()

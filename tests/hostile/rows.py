@@ -7,11 +7,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
-import numpy as np
 import pytest
 
 import contactx as cx
-from contactx.state import save_state
 from dolfinx import fem
 from dolfinx.mesh import CellType
 
@@ -56,30 +54,9 @@ def solved(blocks: Blocks, contact: cx.Contact, **options: Any) -> None:
     blocks.problem(contact, **options).solve()
 
 
-def scalar(blocks: Blocks, value: float, **options: Any) -> fem.Function:
-    """A function of the scalar linear space."""
-    function = fem.Function(
-        fem.functionspace(blocks.u.function_space.mesh, ("Lagrange", 1)), **options
-    )
-    function.x.array[:] = value
-    return function
-
-
 def constant(value: Any) -> fem.Constant:
     """A constant on some mesh."""
     return fem.Constant(scene().u.function_space.mesh, value)
-
-
-def state(problem: cx.ContactProblem, *history: fem.Function) -> list[bytes]:
-    """Bits of all that a failed step must leave as it was."""
-    arrays = [problem.u.x.array, *(f.x.array for f in history)]
-    for contact in problem.contacts:
-        arrays += save_state(contact.interface).values()
-        for value in vars(contact.fields).values():
-            if isinstance(value, fem.Function):
-                arrays.append(value.x.array)
-        arrays += [contact.fields.force, contact.fields.imbalance]
-    return [np.ascontiguousarray(array).tobytes() for array in arrays]
 
 
 def problem(blocks=None, **changed):

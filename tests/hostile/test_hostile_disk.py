@@ -10,10 +10,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from rubbing import Rubbing
 
 import contactx as cx
 from contactx.steps import archive
+
+from scenes.steps import Rubbing
 
 
 @contextmanager
@@ -132,10 +133,12 @@ def test_files_of_other_kinds(tmp_path, content):
 
 def test_what_is_no_file(tmp_path):
     assert "is a folder, not a checkpoint: give the name of a file" in refused(tmp_path)
-    refused(tmp_path / "none.npz", FileNotFoundError)
+    assert "there is no checkpoint" in refused(tmp_path / "none.npz", FileNotFoundError)
     # Not a checkpoint, and no danger
     np.savez(tmp_path / "pickled.npz", u=np.array([os.system]), allow_pickle=True)
-    assert "Object arrays cannot be loaded" in refused(tmp_path / "pickled.npz")
+    assert "is damaged, or no checkpoint at all: Object arrays cannot be loaded" in refused(
+        tmp_path / "pickled.npz"
+    )
 
 
 @pytest.mark.parametrize("place", ["a folder", "below a file", "no regular file"])

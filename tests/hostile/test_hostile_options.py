@@ -121,8 +121,13 @@ ROWS = [
             ValueError,
             rf"petsc_options\['{name}'\] is .*: give a number of at least 0",
         )
-        for name in ("snes_rtol", "snes_atol")
-        for value in (-1e-8, "abc", float("nan"), float("inf"), None)
+        for name, value in (
+            ("snes_rtol", -1e-8),
+            ("snes_atol", "abc"),
+            ("snes_rtol", float("nan")),
+            ("snes_atol", float("inf")),
+            ("snes_rtol", None),
+        )
     ),
     Row(
         "options: iterations",

@@ -7,9 +7,10 @@ The next solve with good input has the answer of a problem that never saw the fa
 
 import numpy as np
 import pytest
-from rubbing import KINDS, Rubbing
 
 import contactx as cx
+
+from scenes.steps import KINDS, Rubbing
 
 
 def nan_at_a_slave(scene, function, value):

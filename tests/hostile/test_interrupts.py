@@ -13,10 +13,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from rubbing import KINDS, Rubbing
 
 import contactx as cx
 from contactx.interrupts import Interrupts
+
+from scenes.steps import KINDS, Rubbing
 
 PACKAGE = str(Path(cx.__file__).parent)
 STEPS = 3

@@ -4,14 +4,15 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from kernel_calls import CASES, STATES, assert_close, difference, random_pair, shape
 
 from contactx import cpp as core
+
+from kernel_calls.node_pairs import CASES, assert_close, difference, random_pair, shape, states
 
 
 def pairs(num_nodes: int, kind: str):
     rng = np.random.default_rng(1000 * num_nodes + len(kind))
-    return [random_pair(num_nodes, kind, rng) for _ in range(STATES)]
+    return [random_pair(num_nodes, kind, rng, which) for which in states(num_nodes, kind)]
 
 
 @pytest.mark.parametrize(("num_nodes", "kind"), CASES)

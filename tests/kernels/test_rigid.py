@@ -4,9 +4,10 @@
 
 import numpy as np
 import pytest
-from kernel_calls import call
 
 from contactx import cpp as core
+
+from kernel_calls.node_pairs import call
 
 LAWS = ("frictional", "tied")
 

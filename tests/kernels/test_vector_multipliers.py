@@ -6,13 +6,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from kernel_calls import (
+
+from kernel_calls.node_pairs import (
     CASES,
-    STATES,
     assert_close,
     difference,
     random_vector_pair,
     shape,
+    states,
 )
 
 LAWS = ["frictional", "tied"]
@@ -23,7 +24,9 @@ both_slidings = pytest.mark.parametrize("sliding", ["finite", "small"])
 
 def pairs(law: str, num_nodes: int, kind: str):
     rng = np.random.default_rng(1000 * num_nodes + len(kind) + 17 * len(law))
-    return [random_vector_pair(law, num_nodes, kind, rng) for _ in range(STATES)]
+    return [
+        random_vector_pair(law, num_nodes, kind, rng, which) for which in states(num_nodes, kind)
+    ]
 
 
 @every

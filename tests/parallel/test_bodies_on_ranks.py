@@ -3,6 +3,7 @@
 """Bodies, what holds them and checks of them are those of one rank on any number of ranks."""
 
 import pytest
+
 from ranks.launch import SCRIPTS, launch
 
 

@@ -5,6 +5,7 @@
 import json
 
 import pytest
+
 from ranks.launch import SCRIPTS
 from ranks.together import launch_together
 

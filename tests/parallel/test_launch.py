@@ -5,6 +5,7 @@
 import time
 
 import pytest
+
 from ranks.launch import SCRIPTS, Failure, Hang, launch
 
 SCRIPT = SCRIPTS / "hanging.py"

@@ -4,6 +4,7 @@
 
 import numpy as np
 import pytest
+
 from ranks.cases import METHODS, SCENES, Case
 from ranks.launch import SCRIPTS
 from ranks.outcome import differences

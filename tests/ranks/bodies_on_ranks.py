@@ -7,6 +7,7 @@ from mpi4py import MPI
 import numpy as np
 
 from contactx.bodies.modes import RigidModes
+
 from ranks.checks_on_ranks import check_errors, nested
 from ranks.held_blocks import HeldBlock
 from ranks.two_blocks import PARTITIONS, TwoBlocks, alone

@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import contactx as cx
+
 from ranks import partitions, scenes_elastic, scenes_rigid, scenes_rubbing, scenes_several
 
 METHODS = {"node": "node-to-surface", "surface": "surface-to-surface"}

@@ -12,14 +12,14 @@ from typing import Any
 from mpi4py import MPI
 
 import numpy as np
-from step_scenes import DentedBlock, SlidingBlocks
 
 import contactx as cx
 from contactx.steps import archive
 from dolfinx.mesh import CellType
-from ranks.agreeing import some_ranks, wait
 
 import meshes
+from ranks.agreeing import some_ranks, wait
+from scenes.steps import DentedBlock, SlidingBlocks
 
 WORLD = MPI.COMM_WORLD
 FACETS = {"method": "surface-to-surface"}

@@ -17,6 +17,7 @@ from contactx.master.obstacle import ObstacleMaster
 from contactx.parallel.slaves import SlaveNodes
 from contactx.search.records import slave_facets
 from contactx.surface import FacetList
+
 from ranks.two_blocks import TwoBlocks
 
 

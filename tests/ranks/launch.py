@@ -13,9 +13,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from tether import tethered
-
 from ranks import watch
+from tether import tethered
 
 TESTS = Path(__file__).parents[1]
 # Where the scripts are that tests launch

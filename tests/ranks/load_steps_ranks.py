@@ -16,6 +16,7 @@ import numpy as np
 import contactx as cx
 from contactx.steps import archive
 from dolfinx import fem, mesh
+
 from ranks.agreeing import refused, some_ranks, wait
 from ranks.relaxed import MESHES, Relaxed
 

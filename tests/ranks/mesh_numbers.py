@@ -16,9 +16,9 @@ import numpy.typing as npt
 import basix.ufl
 from dolfinx import mesh
 from dolfinx.mesh import CellType
-from ranks.agreeing import some_ranks, wait
 
 import meshes
+from ranks.agreeing import some_ranks, wait
 
 Tagged = tuple[mesh.Mesh, mesh.MeshTags | None, mesh.MeshTags | None]
 

@@ -15,12 +15,12 @@ import numpy.typing as npt
 
 import contactx as cx
 from dolfinx import fem, mesh
-from ranks.agreeing import refused
-from ranks.relaxed import MESHES
 
 import plot
 from meshes.build import build_mesh
 from plot.surface import deformed_surface
+from ranks.agreeing import refused
+from ranks.relaxed import MESHES
 
 WORLD = MPI.COMM_WORLD
 ROOT = WORLD.rank == 0

@@ -15,6 +15,7 @@ from mpi4py import MPI
 import numpy as np
 
 import contactx as cx
+
 from ranks import watch
 from ranks.cases import METHODS, SCENES, Case
 from ranks.outcome import Outcome

@@ -8,7 +8,6 @@ from collections.abc import Iterator
 
 import hertz_cylinder
 import numpy as np
-from tower import Tower
 
 import contactx as cx
 from dolfinx import fem
@@ -17,6 +16,7 @@ from dolfinx.mesh import CellType
 import meshes
 from meshes import Tag
 from scenes import Blocks, HertzSphere
+from scenes.tower import Tower
 from story import fix, traction
 
 

@@ -10,15 +10,15 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from step_scenes import SlidingBlocks
 
 import contactx as cx
 from dolfinx import fem
 from dolfinx.mesh import CellType
-from ranks.partitions import partitioned
 
 from meshes import Tag
+from ranks.partitions import partitioned
 from scenes import NU, Blocks
+from scenes.steps import SlidingBlocks
 from story import elasticity, traction
 
 QUADRILATERAL, HEXAHEDRON = CellType.quadrilateral, CellType.hexahedron

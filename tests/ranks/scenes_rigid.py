@@ -9,14 +9,14 @@ from typing import Any
 
 import numpy as np
 import rigid_cylinder
-from driven_blocks import DrivenBlock
-from step_scenes import DentedBlock
 
 import contactx as cx
 from contactx.obstacles import Obstacle
 from dolfinx.mesh import CellType
 
 from scenes import Blocks
+from scenes.driven import DrivenBlock
+from scenes.steps import DentedBlock
 
 
 def plane() -> Iterator[cx.ContactProblem]:

@@ -8,7 +8,6 @@ from collections.abc import Iterator
 
 import cattaneo_mindlin
 import numpy as np
-from driven_blocks import DrivenBlock
 
 import contactx as cx
 from dolfinx.mesh import CellType
@@ -16,6 +15,7 @@ from dolfinx.mesh import CellType
 import meshes
 from meshes import Tag
 from scenes import NU, HertzSphere
+from scenes.driven import DrivenBlock
 from story import displacement, elasticity, fix
 
 

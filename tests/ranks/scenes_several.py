@@ -8,7 +8,6 @@ from collections.abc import Iterator
 
 import numpy as np
 import stacked_blocks
-from step_scenes import Sheared
 
 import contactx as cx
 from dolfinx import fem
@@ -17,6 +16,7 @@ from dolfinx.mesh import CellType
 import meshes
 from meshes import Tag, block_tag
 from scenes import NU, Blocks
+from scenes.steps import Sheared
 from story import displacement, elasticity, fix, traction
 
 

@@ -8,8 +8,6 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from stress.blocks import bulk, dimension
-from stress.scene import Case
 
 import contactx as cx
 import ufl
@@ -19,6 +17,9 @@ from dolfinx.mesh import CellType
 
 import meshes
 from meshes import Tag
+from scenes import dimension
+from stress.blocks import bulk
+from stress.scene import Case
 
 
 class Alone:

@@ -10,8 +10,6 @@ from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
-import scene_transforms
-from stress.scene import Case
 
 import contactx as cx
 import ufl
@@ -20,43 +18,24 @@ from dolfinx.mesh import CellType
 
 import meshes
 from meshes import Tag
+from scenes import dimension, transforms
+from scenes.materials import neo_hookean, of_bodies
+from scenes.supports import DrivenFaces
+from story import elasticity
+from stress.scene import Case
 
-PLANE = (CellType.triangle, CellType.quadrilateral)
-SOLID = (CellType.tetrahedron, CellType.hexahedron)
 # How far a node may lie in the other body where pairs are exact, and where gaps are means
 INTO = {"node-to-surface": 0.02, "surface-to-surface": 0.05}
 
 
-def dimension(cell: CellType) -> int:
-    """Dimension of space of a kind of cells."""
-    return 2 if cell in PLANE else 3
-
-
 def bulk(u: fem.Function, young: Any, nu: Any, material: str) -> ufl.Form:
-    """Residual of a linear or a neo-Hookean material, in plane strain where the mesh is plane."""
-    v, dim = ufl.TestFunction(u.function_space), len(u)
-    mu, lmbda = young / (2 * (1 + nu)), young * nu / ((1 + nu) * (1 - 2 * nu))
-    if material == "linear":
-        strain = ufl.sym(ufl.grad(u))
-        stress = 2 * mu * strain + lmbda * ufl.tr(strain) * ufl.Identity(dim)
-        return ufl.inner(stress, ufl.grad(v)) * ufl.dx
-    F = ufl.Identity(dim) + ufl.grad(u)
-    log_j = ufl.ln(ufl.det(F))
-    energy = mu / 2 * (ufl.tr(F.T * F) - dim - 2 * log_j) + lmbda / 2 * log_j**2
-    return ufl.derivative(energy * ufl.dx, u, v)
-
-
-def of_bodies(data: Any, values: Sequence[float]) -> fem.Function:
-    """A value for the upper body's cells and one for the lower body's."""
-    result = fem.Function(fem.functionspace(data.mesh, ("DG", 0)))
-    for body, value in zip((Tag.UPPER, Tag.LOWER), values, strict=True):
-        result.x.array[data.cell_tags.find(body)] = value
-    return result
+    """Residual of a "linear" or a "neo-hooke" material, in plane strain where the mesh is plane."""
+    return {"linear": elasticity, "neo-hooke": neo_hookean}[material](u, young, nu)
 
 
 def _shuffled(data: Any, seed: int) -> SimpleNamespace:
     """The same mesh with other numbers."""
-    other = scene_transforms.renumbered(scene_transforms.numbered(data), seed)
+    other = transforms.renumbered(transforms.numbered(data), seed)
     domain, dim = other.domain, other.domain.geometry.dim
     # The blocks lie on both sides of height zero
     height = domain.geometry.x[domain.geometry.dofmaps[0], dim - 1].mean(axis=1)
@@ -135,7 +114,7 @@ class Blocks:
         domain, tags = data.mesh, data.facet_tags
         dim = domain.geometry.dim
         rng = np.random.default_rng(self.turn)
-        Q = np.eye(dim) if self.turn is None else scene_transforms.rotation(rng, dim)
+        Q = np.eye(dim) if self.turn is None else transforms.rotation(rng, dim)
         direction = rng.standard_normal(dim)
         where = self.away * direction / np.linalg.norm(direction)
         self.x0 = domain.geometry.x[:, :dim].copy()
@@ -143,21 +122,16 @@ class Blocks:
         self.Q = Q
 
         self.u = u = fem.Function(fem.functionspace(domain, ("Lagrange", 1, (dim,))))
-        E = of_bodies(data, [self.modulus * y for y in self.young])
-        F = bulk(u, E, of_bodies(data, self.nu), self.material)
-        V = u.function_space
-        held, moved = (
-            fem.locate_dofs_topological(V, dim - 1, tags.find(face))
-            for face in (Tag.LOWER_BOTTOM, Tag.UPPER_TOP)
-        )
-        top = fem.Function(V)
-        bcs = [fem.dirichletbc(np.zeros(dim), held, V), fem.dirichletbc(top, moved)]
+        E = of_bodies(data, *(self.modulus * y for y in self.young))
+        F = bulk(u, E, of_bodies(data, *self.nu), self.material)
+        bottom, top = (DrivenFaces(u, tags, face) for face in (Tag.LOWER_BOTTOM, Tag.UPPER_TOP))
+        bcs = [bottom.bc, top.bc]
         motion = np.zeros(dim)
         motion[0], motion[-1] = self.side, -self.down
         motion = self.length * Q @ motion
 
         def update(t: float) -> None:
-            top.x.array.reshape(-1, dim)[:] = t * motion
+            top.move(t * motion)
 
         sides = [cx.Surface(tags, t) for t in (Tag.UPPER_CONTACT, Tag.LOWER_CONTACT)]
         self.contact = cx.Contact(

@@ -12,12 +12,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
-from stress import inside
-from stress.scene import Case, Check
 
 import contactx as cx
 import ufl
 from dolfinx import fem
+
+from stress import inside
+from stress.scene import Case, Check
 
 _EPS = np.finfo(np.float64).eps
 _ALLOWED = 1e-8

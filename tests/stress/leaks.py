@@ -50,9 +50,10 @@ def main() -> int:
         return int(run(sys.argv[2], steps) > BOUND)
     sys.path[:0] = map(str, folders)
     from memory import RUNS
-    from tether import tethered
 
     import contactx  # noqa: F401
+
+    from tether import tethered
 
     env = {**os.environ, "OMP_NUM_THREADS": "1"}
     failed = [

@@ -11,7 +11,8 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import numpy as np
-from rubbing import KINDS, Rubbing
+
+from scenes.steps import KINDS, Rubbing
 
 _EVERY = 40
 

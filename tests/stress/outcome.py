@@ -11,10 +11,10 @@ from dataclasses import asdict, dataclass
 from enum import StrEnum
 from typing import Any
 
+import contactx as cx
+
 from stress.judge import Judge
 from stress.scene import Scene
-
-import contactx as cx
 
 
 class Kind(StrEnum):

@@ -11,9 +11,9 @@ import numpy as np
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
-from stress.outcome import Kind, Outcome
 
 from plot.style import DOTS_PER_INCH, INK
+from stress.outcome import Kind, Outcome
 
 _COLOURS = {
     Kind.CONVERGED: "#3b8f6b",

@@ -11,6 +11,7 @@ from pathlib import Path
 
 from rich.console import Console
 from rich.table import Table
+
 from stress.outcome import Kind, Outcome
 
 HEADINGS = ("family", "scenes", *Kind, "steps", "iterations", "most in a step")

@@ -25,6 +25,7 @@ import contactx  # noqa: E402, F401  # it comes first
 # isort: split
 from rich.console import Console  # noqa: E402
 from rich.progress import Progress  # noqa: E402
+
 from stress import picture, pool, sheet  # noqa: E402
 from stress.families import all_scenes  # noqa: E402
 from stress.outcome import Kind, Outcome  # noqa: E402

@@ -4,14 +4,14 @@
 
 import numpy as np
 import pytest
-from stress import inside
-from stress.blocks import Blocks
-from stress.judge import Judge
 
 from dolfinx.mesh import CellType
 
 import meshes
 from meshes import Tag
+from stress import inside
+from stress.blocks import Blocks
+from stress.judge import Judge
 
 CELLS = [CellType.triangle, CellType.quadrilateral, CellType.tetrahedron, CellType.hexahedron]
 

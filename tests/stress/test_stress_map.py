@@ -4,6 +4,7 @@
 
 import pytest
 from rich.console import Console
+
 from stress import picture, sheet
 from stress.families import FAMILIES, all_scenes, cycles, peers
 from stress.outcome import Kind, Outcome, run

@@ -10,7 +10,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from step_scenes import DentedBlock, LooseBlock, Sheared, SlidingBlocks
 
 import contactx as cx
 from contactx.state import save_state
@@ -19,17 +18,15 @@ from dolfinx import fem
 from dolfinx.mesh import CellType
 
 from scenes import Blocks
+from scenes.steps import DentedBlock, LooseBlock, Sheared, SlidingBlocks
 
 FACETS = {"method": "surface-to-surface"}
 SCENES = {
     "triangles": lambda: SlidingBlocks(CellType.triangle),
-    "quadrilaterals": lambda: SlidingBlocks(CellType.quadrilateral),
-    "tetrahedra": lambda: SlidingBlocks(CellType.tetrahedron),
     "hexahedra": lambda: SlidingBlocks(CellType.hexahedron),
     "small sliding": lambda: SlidingBlocks(CellType.tetrahedron, sliding="small"),
     "friction": lambda: SlidingBlocks(CellType.tetrahedron, friction=0.2),
-    "friction, plane": lambda: SlidingBlocks(CellType.quadrilateral, friction=0.2),
-    "friction, small": lambda: SlidingBlocks(CellType.triangle, friction=0.2, sliding="small"),
+    "friction, small": lambda: SlidingBlocks(CellType.quadrilateral, friction=0.2, sliding="small"),
     "tied": lambda: SlidingBlocks(CellType.tetrahedron, tied=True, offset=0.01),
     "facets, small": lambda: SlidingBlocks(CellType.hexahedron, sliding="small", **FACETS),
     "facets, friction": lambda: SlidingBlocks(CellType.tetrahedron, friction=0.2, **FACETS),
@@ -73,7 +70,9 @@ def test_three_steps_and_three_are_six(name, tmp_path):
     assert np.all(np.diff([float(t) for _, t in lines]) > 0)
 
 
-@pytest.mark.parametrize("name", SCENES)
+@pytest.mark.parametrize(
+    "name", ["triangles", "friction", "tied", "facets, small", "plastic with friction"]
+)
 def test_results_are_there_at_once(name, tmp_path):
     """They are computed anew from the state, which may round in another way."""
     file, scene, other = tmp_path / "run.npz", SCENES[name](), SCENES[name]()
@@ -88,7 +87,7 @@ def test_results_are_there_at_once(name, tmp_path):
     assert other.contact.force == pytest.approx(scene.contact.force, rel=1e-11, abs=1e-13)
 
 
-@pytest.mark.parametrize("name", ["tetrahedra", "facets, friction"])
+@pytest.mark.parametrize("name", ["hexahedra", "facets, friction"])
 def test_a_new_process_goes_on_to_the_same_bits(name, tmp_path):
     straight, _ = run(SCENES[name]())
     run(SCENES[name](), until=4, checkpoint=tmp_path / "run.npz")
@@ -209,29 +208,20 @@ def refused(file, message, scene=None, **options):
     assert scene.calls == []
 
 
-def test_files_that_are_not_whole(file, tmp_path):
+def test_files_that_are_damaged(file, tmp_path):
     data, part = file.read_bytes(), tmp_path / "part.npz"
-    for length in (0, 10, len(data) // 2, len(data) - 1):
-        part.write_bytes(data[:length])
-        refused(part, "is truncated, or no checkpoint at all")
     with np.load(file) as arrays:
         at = data.index(arrays["u"].tobytes())
     part.write_bytes(data[:at] + b"x" + data[at + 1 :])
     refused(part, "is damaged, or no checkpoint at all: Bad CRC-32")
-    with pytest.raises(FileNotFoundError, match=r"there is no checkpoint .*none\.npz"):
-        Sheared().steps(2, restart=tmp_path / "none.npz")
 
 
 def test_files_of_other_kinds(file, tmp_path):
     other = tmp_path / "other.npz"
     np.savez(other, u=np.zeros(3))
     refused(other, "holds arrays, but is no checkpoint of contactx")
-    np.savez(other, u=np.array([{}]), allow_pickle=True)
-    refused(other, "is damaged, or no checkpoint at all: Object arrays cannot be loaded")
     np.savez(other, contactx_checkpoint=np.array(1))
     refused(other, "has format 1, but this contactx reads 2")
-    other.write_text("step,t\n1,0.5\n")
-    refused(other, "is truncated, or no checkpoint at all")
 
 
 def test_files_of_other_problems(file, tmp_path):
@@ -280,13 +270,11 @@ def test_pairs_that_cannot_be(tmp_path):
     assert not scene.u.x.array.any()
 
 
-def test_a_file_beyond_the_last_step_and_a_folder(file, tmp_path):
+def test_a_file_beyond_the_last_step(file):
     scene = Sheared(far=0.1)
     with pytest.raises(ValueError, match=r"at t = 0\.5, beyond the last given t = 0\.4"):
         scene.steps([0.4], restart=file)
     assert not scene.u.x.array.any()
-    with pytest.raises(ValueError, match="checkpoint is the folder"):
-        scene.steps(2, checkpoint=tmp_path)
 
 
 def test_loads_that_cannot_be_set_undo_a_restart(file):

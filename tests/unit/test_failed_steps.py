@@ -9,7 +9,6 @@ from petsc4py import PETSc
 
 import numpy as np
 import pytest
-from step_scenes import Sheared
 
 import contactx as cx
 import ufl
@@ -17,6 +16,8 @@ from dolfinx.mesh import CellType
 
 from meshes import Tag
 from scenes import Blocks
+from scenes.covering import METHODS, covering
+from scenes.steps import Sheared
 
 pytestmark = pytest.mark.usefixtures("method")
 
@@ -72,8 +73,7 @@ def test_a_body_that_is_pulled_away_says_so():
     assert not scene.u.x.array.any()
 
 
-@pytest.mark.parametrize("part", ["residual", "jacobian", "unpack"])
-@pytest.mark.parametrize("call", [1, 3])
+@covering(part=("residual", "jacobian", "unpack"), call=(1, 3), method=METHODS)
 def test_an_interrupt_anywhere_leaves_everything_as_it_was(monkeypatch, part, call):
     scene = Blocks(CellType.tetrahedron)
     contact = scene.contact()

@@ -9,9 +9,10 @@ import numpy as np
 import pytest
 import rich
 from rich.console import Console
-from step_scenes import Sheared
 
 import contactx as cx
+
+from scenes.steps import Sheared
 
 pytestmark = pytest.mark.usefixtures("method")
 
@@ -133,8 +134,7 @@ def raise_at(call, error):
     return wrap
 
 
-@pytest.mark.parametrize("error", [Wrong, KeyboardInterrupt])
-@pytest.mark.parametrize("call", [16, 20, 25])
+@pytest.mark.parametrize(("error", "call"), [(Wrong, 16), (KeyboardInterrupt, 20), (Wrong, 25)])
 def test_another_error_of_the_solve_is_not_cut(monkeypatch, error, call):
     """The loads are those of the last accepted step again."""
     scene = Sheared(far=0.1)

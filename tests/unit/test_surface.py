@@ -8,9 +8,7 @@ import contactx as cx
 from dolfinx.mesh import CellType
 
 from meshes import Tag
-from scenes import Blocks
-
-CELLS = [CellType.triangle, CellType.quadrilateral, CellType.tetrahedron, CellType.hexahedron]
+from scenes import CELLS, Blocks
 
 
 @pytest.fixture(scope="module")

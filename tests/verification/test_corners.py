@@ -12,6 +12,7 @@ from dolfinx.mesh import CellType
 import meshes
 from meshes import Tag, block_tag
 from scenes import NU, Blocks
+from scenes.covering import METHODS, SLIDINGS, covering
 from story import displacement, elasticity, fix, traction
 
 pytestmark = pytest.mark.usefixtures("method")
@@ -46,9 +47,7 @@ class Corner:
         return np.sum([contact.force for contact in self.contacts], axis=0)
 
 
-@pytest.mark.parametrize("twice", [False, True])
-@pytest.mark.parametrize("friction", [0.0, 0.3])
-@pytest.mark.parametrize("cell", CELLS, ids=lambda c: c.name)
+@covering(cell=CELLS, friction=(0.0, 0.3), twice=(False, True), method=METHODS)
 def test_a_block_in_a_corner(cell, friction, twice):
     scene = Corner(cell, friction=friction, twice=twice)
     scene.problem.solve()
@@ -90,9 +89,12 @@ def test_a_tied_node_keeps_its_tie_alone(cell):
     assert (floor.interface.nodes.status == 1).all()
 
 
-@pytest.mark.parametrize("sliding", ["finite", "small"])
-@pytest.mark.parametrize("friction", [0.0, 0.3])
-@pytest.mark.parametrize("cell", [CellType.quadrilateral, CellType.hexahedron])
+@covering(
+    cell=(CellType.quadrilateral, CellType.hexahedron),
+    friction=(0.0, 0.3),
+    sliding=SLIDINGS,
+    method=METHODS,
+)
 def test_a_surface_is_slave_here_and_master_there(cell, friction, sliding):
     """The middle one of three blocks: its edge nodes are slave of one and master of another."""
     gdim = 2 if cell == CellType.quadrilateral else 3
@@ -125,8 +127,7 @@ def test_a_surface_is_slave_here_and_master_there(cell, friction, sliding):
     assert below[-1] > 0.01
 
 
-@pytest.mark.parametrize("slope", [0.005, 0.03, 0.045, 0.06, 0.2])
-@pytest.mark.parametrize("friction", [0.0, 0.3])
+@covering(slope=(0.005, 0.03, 0.045, 0.06, 0.2), friction=(0.0, 0.3), method=METHODS)
 def test_a_valley_of_two_planes_however_shallow(friction, slope):
     """The node at its bottom may need both, although their normals are nearly the same."""
     data = meshes.blocks(CellType.quadrilateral, (3, 3), (1, 1))

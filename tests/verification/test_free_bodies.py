@@ -14,12 +14,12 @@ from dolfinx.mesh import CellType
 
 import meshes
 from meshes import Tag
-from scenes import Blocks
+from scenes import CELLS, Blocks, dimension
+from scenes.covering import BOTH, METHODS, SLIDINGS, covering
 from story import displacement, elasticity
 
 pytestmark = pytest.mark.usefixtures("method")
 
-CELLS = [CellType.triangle, CellType.quadrilateral, CellType.tetrahedron, CellType.hexahedron]
 PRESSURE = 0.01
 
 
@@ -29,8 +29,11 @@ def rolls(cell, friction, sliding, method):
     In the plane the forces of two nodes meet in a point, the common centre of curvature, and a
     rotation about it changes no gap: only the geometric stiffness holds a block.
     """
-    flat = cell in (CellType.triangle, CellType.quadrilateral)
-    return flat and friction == 0 and (sliding, method) == ("finite", "surface-to-surface")
+    return (
+        dimension(cell) == 2
+        and friction == 0
+        and (sliding, method) == ("finite", "surface-to-surface")
+    )
 
 
 class FreeBlock:
@@ -62,10 +65,7 @@ def assert_refused(scene):
     assert not scene.u.x.array.any()
 
 
-@pytest.mark.parametrize("sliding", ["finite", "small"])
-@pytest.mark.parametrize("gap", [0.0, 0.1])
-@pytest.mark.parametrize("friction", [0.0, 0.5])
-@pytest.mark.parametrize("cell", CELLS, ids=lambda c: c.name)
+@covering(cell=CELLS, friction=(0.0, 0.5), gap=(0.0, 0.1), **{"sliding,method": BOTH})
 def test_a_block_comes_to_rest_on_another(cell, friction, gap, sliding, method):
     scene = FreeBlock(cell, friction=friction, gap=gap, sliding=sliding)
     if rolls(cell, friction, sliding, method):
@@ -83,8 +83,13 @@ def test_a_block_comes_to_rest_on_another(cell, friction, gap, sliding, method):
     assert np.abs(u[:, :-1]).max() <= 0.05
 
 
-@pytest.mark.parametrize("gap", [0.0, 0.1])
-@pytest.mark.parametrize("cell", [CellType.triangle, CellType.hexahedron], ids=lambda c: c.name)
+@covering(method=METHODS[1:], cell=CELLS[:2])
+def test_mean_normals_leave_a_plane_block_free(cell, method):
+    assert rolls(cell, 0.0, "finite", method)
+    assert_refused(FreeBlock(cell))
+
+
+@covering(cell=(CellType.triangle, CellType.hexahedron), gap=(0.0, 0.1), method=METHODS)
 def test_friction_holds_it_against_a_push(cell, gap):
     scene = FreeBlock(cell, friction=0.5, gap=gap, aside=0.003)
     scene.solve()
@@ -92,10 +97,11 @@ def test_friction_holds_it_against_a_push(cell, gap):
     assert (scene.contact.interface.nodes.status == 1).any()
 
 
-@pytest.mark.parametrize(
-    ("load", "aside", "friction"), [(PRESSURE, 0.0, 0.0), (-PRESSURE, 0.02, 0.5)]
+@covering(
+    **{"load,aside,friction": [(PRESSURE, 0.0, 0.0), (-PRESSURE, 0.02, 0.5)]},
+    cell=(CellType.triangle, CellType.hexahedron),
+    method=METHODS,
 )
-@pytest.mark.parametrize("cell", [CellType.triangle, CellType.hexahedron], ids=lambda c: c.name)
 def test_loads_that_nothing_balances_are_named(cell, load, aside, friction):
     scene = FreeBlock(cell, load=load, aside=aside, friction=friction, gap=0.01)
     with pytest.raises(cx.ConvergenceError, match="cannot be balanced") as info:
@@ -104,8 +110,7 @@ def test_loads_that_nothing_balances_are_named(cell, load, aside, friction):
     assert not scene.u.x.array.any()
 
 
-@pytest.mark.parametrize("friction", [0.0, 0.5])
-@pytest.mark.parametrize("cell", CELLS, ids=lambda c: c.name)
+@covering(cell=CELLS, friction=(0.0, 0.5), method=METHODS)
 def test_touching_without_force_is_no_trouble(cell, friction, method):
     scene = FreeBlock(cell, load=0.0, friction=friction)
     report = scene.solve()
@@ -120,8 +125,7 @@ def test_touching_without_force_is_no_trouble(cell, friction, method):
     assert np.abs(with_load.contact.force[-1] - PRESSURE) <= 1e-9 * PRESSURE
 
 
-@pytest.mark.parametrize("cell", [CellType.triangle, CellType.hexahedron], ids=lambda c: c.name)
-@pytest.mark.parametrize("friction", [0.0, 0.5])
+@covering(cell=(CellType.triangle, CellType.hexahedron), friction=(0.0, 0.5), method=METHODS)
 def test_the_springs_do_not_change_the_answer(cell, friction, monkeypatch):
     """Without friction the place along the surface is free: rounding over the spring decides it."""
     answers = []
@@ -151,15 +155,18 @@ def test_springs_of_the_user_hold_a_body():
     assert scene.u.x.array.reshape(-1, 3)[:, 2].min() == pytest.approx(-0.01, rel=0.01)
 
 
-@pytest.mark.parametrize("sliding", ["finite", "small"])
-@pytest.mark.parametrize(
-    ("friction", "offset", "shear"),
-    [(0.3, 0.0, 0.001), (0.3, 0.0, 0.0), (0.0, 0.0, 0.0), (0.3, -0.01, 0.0), (0.3, 1e-8, 0.001)],
-)
-@pytest.mark.parametrize(
-    ("method", "dim"),
-    [("node-to-surface", 2), ("node-to-surface", 3), ("surface-to-surface", 2)],
-    indirect=["method"],
+@covering(
+    **{
+        "friction,offset,shear": [
+            (0.3, 0.0, 0.001),
+            (0.3, 0.0, 0.0),
+            (0.0, 0.0, 0.0),
+            (0.3, -0.01, 0.0),
+            (0.3, 1e-8, 0.001),
+        ],
+        "method,dim": [(METHODS[0], 2), (METHODS[0], 3), (METHODS[1], 2)],
+    },
+    sliding=SLIDINGS,
 )
 def test_five_free_blocks(dim, friction, offset, shear, sliding, method, monkeypatch):
     monkeypatch.setattr(stacked_blocks, "FRICTION", friction)
@@ -175,8 +182,7 @@ def test_five_free_blocks(dim, friction, offset, shear, sliding, method, monkeyp
     assert np.abs(problem.u.x.array).max() <= 0.1
 
 
-@pytest.mark.parametrize("n", [2, 3, 5, 6])
-@pytest.mark.parametrize("cell", [CellType.triangle, CellType.quadrilateral], ids=lambda c: c.name)
+@covering(cell=CELLS[:2], n=(2, 3, 5, 6), method=METHODS)
 def test_friction_holds_a_block_on_a_slope(cell, n):
     """Nodes that slip to both sides hold it; Newton steps on the way have all of them slip."""
     data = meshes.blocks(cell, (n, n), (1, 1))
@@ -202,10 +208,11 @@ def test_friction_holds_a_block_on_a_slope(cell, n):
         problem.solve()
 
 
-@pytest.mark.parametrize("k", [1e-3, 1e-6, 1e-9, 1e-12])
-@pytest.mark.parametrize("friction", [0.0, 0.3])
-@pytest.mark.parametrize(
-    "cell", [CellType.quadrilateral, CellType.hexahedron], ids=lambda c: c.name
+@covering(
+    cell=(CellType.quadrilateral, CellType.hexahedron),
+    friction=(0.0, 0.3),
+    k=(1e-3, 1e-6, 1e-9, 1e-12),
+    method=METHODS,
 )
 def test_a_body_on_weak_springs_does_not_pass_through_another(cell, friction, k):
     """The springs alone would let the load move it by ten times the size of the other one."""

@@ -4,14 +4,15 @@
 
 import numpy as np
 import pytest
-from driven_blocks import DrivenBlock, parts
 
 from dolfinx.mesh import CellType
 
+from scenes import CELLS
+from scenes.coulomb import parts
+from scenes.covering import METHODS, covering
+from scenes.driven import DrivenBlock
+
 MU = 0.3
-CELLS = pytest.mark.parametrize(
-    "cell", [CellType.triangle, CellType.quadrilateral, CellType.tetrahedron, CellType.hexahedron]
-)
 
 
 def block(cell, n_lower, **options):
@@ -50,10 +51,7 @@ def check_full_slide(scene, exact, method):
     return size
 
 
-@CELLS
-@pytest.mark.parametrize("n_lower", [2, 5, 12])
-@pytest.mark.parametrize("direction", [(1.0, 0.0), (0.6, 0.8)])
-@pytest.mark.parametrize("method", ["node-to-surface"], indirect=True)
+@covering(cell=CELLS, n_lower=(2, 5, 12), direction=[(1.0, 0.0), (0.6, 0.8)], method=METHODS[:1])
 def test_many_facets_in_one_step(direction, n_lower, cell, method):
     """Facets of 1.5, 0.6 and 0.25 under a block whose nodes stand 0.33 apart."""
     scene = block(cell, n_lower)
@@ -76,7 +74,7 @@ def test_many_facets_in_one_step(direction, n_lower, cell, method):
     assert max(scene.iterations) <= 10
 
 
-@CELLS
+@covering(cell=CELLS, method=METHODS)
 def test_over_the_outer_edge(cell, method):
     """Nodes beyond the edge open; the others go on with friction times what they carry."""
     scene = block(cell, 4, width=2.0, shift=0.55)

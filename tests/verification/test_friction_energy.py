@@ -4,12 +4,15 @@
 
 import numpy as np
 import pytest
-from driven_blocks import DrivenBlock, parts
 
 import contactx as cx
 from contactx import cpp as core
 from contactx.master.mortar import MortarMaster
-from dolfinx.mesh import CellType
+
+from scenes import CELLS, dimension
+from scenes.coulomb import parts
+from scenes.covering import METHODS, covering
+from scenes.driven import DrivenBlock
 
 pytestmark = pytest.mark.usefixtures("method")
 
@@ -52,13 +55,9 @@ def relative(scene, du):
     return way
 
 
-@pytest.mark.parametrize("base", ["plane", "elastic"])
-@pytest.mark.parametrize(
-    "cell", [CellType.triangle, CellType.quadrilateral, CellType.tetrahedron, CellType.hexahedron]
-)
-@pytest.mark.parametrize("friction", [0.3, 0.9])
+@covering(cell=CELLS, base=("plane", "elastic"), friction=(0.3, 0.9), method=METHODS)
 def test_balance_of_each_step(friction, cell, base):
-    gdim = 2 if cell in (CellType.triangle, CellType.quadrilateral) else 3
+    gdim = dimension(cell)
     up = np.eye(gdim)[-1]
     scene = DrivenBlock(
         cell,

@@ -4,15 +4,15 @@
 
 import numpy as np
 import pytest
-from driven_blocks import check_coulomb, parts
 
 from meshes import Tag
 from scenes import hertz_sphere
+from scenes.coulomb import check_coulomb, parts
+from scenes.covering import METHODS, SLIDINGS, covering
 
 NODES, FACETS = "node-to-surface", "surface-to-surface"
 # By surface-to-surface on a coarser mesh, which is cheaper
 H = {NODES: 0.02, FACETS: 0.04}
-SLIDING = pytest.mark.parametrize("sliding", ["finite", "small"])
 
 
 def solve(sliding, method, friction, h=None, **options):
@@ -40,10 +40,17 @@ def solve(sliding, method, friction, h=None, **options):
     return report.iterations, contact, count
 
 
-@SLIDING
 @pytest.mark.parametrize(
-    ("method", "friction"),
-    [*((NODES, mu) for mu in (0.01, 0.3, 1.5, 10.0)), (FACETS, 0.3), (FACETS, 10.0)],
+    ("method", "friction", "sliding"),
+    [
+        (NODES, 0.01, "finite"),
+        (NODES, 0.3, "finite"),
+        (NODES, 0.3, "small"),
+        (NODES, 1.5, "small"),
+        (NODES, 10.0, "finite"),
+        (FACETS, 0.3, "small"),
+        (FACETS, 10.0, "finite"),
+    ],
     indirect=["method"],
 )
 def test_equal_bodies(friction, sliding, method):
@@ -55,9 +62,7 @@ def test_equal_bodies(friction, sliding, method):
     assert 4 * contact.force[2] == pytest.approx(force, rel=0.02)
 
 
-@SLIDING
-@pytest.mark.parametrize("body", [Tag.UPPER, Tag.LOWER])
-@pytest.mark.parametrize("friction", [0.5, 1.5])
+@covering(friction=(0.5, 1.5), body=(Tag.UPPER, Tag.LOWER), sliding=SLIDINGS, method=METHODS)
 def test_one_body_is_much_stiffer(friction, body, sliding, method):
     iterations, contact, count = solve(sliding, method, friction, young={body: 1e6})
     assert iterations <= (13 if friction < 1 else 25)

@@ -3,18 +3,22 @@
 """Steps that end in partial slip: some nodes stick, others slip on, others slip back."""
 
 import pytest
-from driven_blocks import DrivenBlock
 
 import contactx as cx
 from dolfinx.mesh import CellType
 
+from scenes.covering import BOTH, covering
+from scenes.driven import DrivenBlock
+
 pytestmark = pytest.mark.usefixtures("method")
 
 
-@pytest.mark.parametrize("sliding", ["finite", "small"])
-@pytest.mark.parametrize("base", ["plane", "elastic"])
-@pytest.mark.parametrize("cell", [CellType.quadrilateral, CellType.hexahedron])
-@pytest.mark.parametrize("friction", [0.3, 1.0])
+@covering(
+    cell=(CellType.quadrilateral, CellType.hexahedron),
+    base=("plane", "elastic"),
+    friction=(0.3, 1.0),
+    **{"sliding,method": BOTH},
+)
 def test_every_reversal_converges(friction, cell, base, sliding):
     """Between a full slide on and a full slide back there are all mixtures of them."""
     gdim, n = (2, 8) if cell == CellType.quadrilateral else (3, 3)

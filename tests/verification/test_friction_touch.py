@@ -4,24 +4,21 @@
 
 import numpy as np
 import pytest
-from driven_blocks import DrivenBlock
 
 import contactx as cx
 from contactx import cpp as core
-from dolfinx.mesh import CellType
+
+from scenes import CELLS, dimension
+from scenes.covering import BOTH, covering
+from scenes.driven import DrivenBlock
 
 pytestmark = pytest.mark.usefixtures("method")
 
 
-@pytest.mark.parametrize("sliding", ["finite", "small"])
-@pytest.mark.parametrize("base", ["plane", "elastic"])
-@pytest.mark.parametrize(
-    "cell", [CellType.triangle, CellType.quadrilateral, CellType.tetrahedron, CellType.hexahedron]
-)
-@pytest.mark.parametrize("steps", [1, 2])
+@covering(cell=CELLS, base=("plane", "elastic"), steps=(1, 2), **{"sliding,method": BOTH})
 def test_sticks_where_it_touches(steps, cell, base, sliding, method):
     """Half way down: of 0.2 the gap takes 0.1; the straight way is half way aside there."""
-    gdim = 2 if cell in (CellType.triangle, CellType.quadrilateral) else 3
+    gdim = dimension(cell)
     scene = DrivenBlock(
         cell,
         plane=cx.Plane((0.0,) * gdim, np.eye(gdim)[-1]) if base == "plane" else None,

@@ -7,13 +7,13 @@ import pytest
 
 from meshes import Tag
 from scenes import hertz_sphere, pressure_error
+from scenes.covering import METHODS, SLIDINGS, covering
 
 # On a coarser mesh by surface-to-surface
 H = {"node-to-surface": 0.02, "surface-to-surface": 0.04}
 
 
-@pytest.mark.parametrize("sliding", ["finite", "small"])
-@pytest.mark.parametrize("depth", [0.05, 0.1, 0.2])
+@covering(depth=(0.05, 0.1, 0.2), sliding=SLIDINGS, method=METHODS)
 def test_deep_indentation_in_one_step(depth, sliding, method):
     problem, contact = hertz_sphere(H[method], sliding, down=depth)
     problem.solve()
@@ -24,9 +24,7 @@ def test_deep_indentation_in_one_step(depth, sliding, method):
     assert contact.force[2] > 0
 
 
-@pytest.mark.parametrize("sliding", ["finite", "small"])
-@pytest.mark.parametrize("body", [Tag.UPPER, Tag.LOWER])
-@pytest.mark.parametrize("ratio", [1e4, 1e6])
+@covering(ratio=(1e4, 1e6), body=(Tag.UPPER, Tag.LOWER), sliding=SLIDINGS, method=METHODS)
 def test_one_body_is_much_stiffer(ratio, body, sliding, method):
     young = {body: ratio}
     problem, contact = hertz_sphere(H[method], sliding, young=young)

@@ -7,17 +7,125 @@ import warnings
 
 import numpy as np
 import pytest
-from scene_transforms import Frame, Support, differences, numbered, renumbered, rotation, solve
 
 from dolfinx.mesh import CellType
 
 import meshes
 from meshes import Tag
+from scenes import CELLS, dimension
+from scenes.covering import covering
+from scenes.transforms import Frame, Support, differences, numbered, renumbered, rotation, solve
 
-SLIDING = pytest.mark.parametrize("sliding", ["finite", "small"])
-CELLS = pytest.mark.parametrize(
-    "cell", [CellType.triangle, CellType.quadrilateral, CellType.tetrahedron, CellType.hexahedron]
-)
+TRIANGLE, QUADRILATERAL, TETRAHEDRON, HEXAHEDRON = CELLS
+NODES, FACETS = "node-to-surface", "surface-to-surface"
+FRICTION = 0.3
+# All three of these with one another, and each cell with each value of them
+CASES = [
+    (TRIANGLE, 0.0, NODES, "finite"),
+    (TRIANGLE, FRICTION, FACETS, "small"),
+    (QUADRILATERAL, FRICTION, NODES, "finite"),
+    (QUADRILATERAL, 0.0, FACETS, "small"),
+    (TETRAHEDRON, FRICTION, NODES, "small"),
+    (TETRAHEDRON, 0.0, FACETS, "finite"),
+    (HEXAHEDRON, 0.0, NODES, "small"),
+    (HEXAHEDRON, FRICTION, FACETS, "finite"),
+]
+
+
+def every(cases):
+    """Run a test of the cap on each case."""
+    ids = [
+        f"{cell.name}-{friction}-{method}-{sliding}" for cell, friction, method, sliding in cases
+    ]
+    names = ("cell", "friction", "method", "sliding")
+    return pytest.mark.parametrize(names, cases, ids=ids, indirect=["method"])
+
+
+@functools.cache
+def cap(cell):
+    """An upper block with a curved lower face above a wider block; they do not match.
+
+    The cap is no symmetric one and stands where no node of it is on an edge of the lower block.
+    """
+    gdim = dimension(cell)
+    data = meshes.blocks(
+        cell,
+        ((12,) if gdim == 2 else (5, 5)) + (3,),
+        ((11,) if gdim == 2 else (6, 6)) + (3,),
+        size_lower=(1.6,) * (gdim - 1) + (1.0,),
+        shift=(0.263, 0.219)[: gdim - 1],
+        gap=0.01,
+    )
+    x = data.mesh.geometry.x
+    upper = x[:, gdim - 1] > 0.005
+    for axis, (middle, bend) in enumerate(zip((0.76, 0.73), (0.2, 0.25), strict=True)):
+        if axis < gdim - 1:
+            rise = bend * (x[upper, axis] - middle) ** 2
+            x[upper, gdim - 1] += (1.01 - x[upper, gdim - 1]) * rise
+    return numbered(data)
+
+
+def run(scene, friction, sliding, frame=None):
+    """Press the upper block down and aside; with friction a part of the way back, too."""
+    gdim = scene.domain.geometry.dim
+    moved = (0.09, -0.08) if gdim == 2 else (0.07, 0.05, -0.08)
+    axes = tuple(range(gdim))
+    supports = (
+        Support((Tag.LOWER_BOTTOM,), axes, (0.0,) * gdim),
+        Support((Tag.UPPER_TOP,), axes, moved),
+    )
+    loads = (0.5, 1.0, 0.96) if friction else (1.0,)
+    return solve(scene, supports, frame, sliding=sliding, friction=friction, loads=loads)
+
+
+@functools.cache
+def first_answer(cell, friction, method, sliding):
+    answer = run(cap(cell), friction, sliding)
+    assert set(answer.status) == ({-1, 0, 1, 2} if friction else {-1, 0, 2})
+    return answer
+
+
+def check(answer, first, tolerance=1e-9):
+    """The same way to the same answer; returns the largest difference."""
+    assert answer.iterations == first.iterations
+    assert answer.closed == first.closed
+    return check_answer(answer, first, tolerance)
+
+
+def check_answer(answer, first, tolerance=1e-9):
+    """The same answer, and the same statuses."""
+    np.testing.assert_array_equal(answer.status, first.status)
+    off = differences(answer, first)
+    assert max(off.values()) <= tolerance, off
+    return max(off.values())
+
+
+@every(CASES[4:])
+def test_units(cell, friction, method, sliding):
+    first = first_answer(cell, friction, method, sliding)
+    for length, modulus in ((1e-3, 1e6), (1e3, 1e-6)):
+        frame = Frame(np.eye(3), np.zeros(3), length, modulus)
+        off = check(run(cap(cell), friction, sliding, frame), first)
+        print(f"{first.iterations} iterations, off by {off:.1e}")
+
+
+@every(CASES)
+def test_rotated_translated_and_reflected(cell, friction, method, sliding):
+    first, gdim = first_answer(cell, friction, method, sliding), dimension(cell)
+    rng = np.random.default_rng(7)
+    frames = [Frame(rotation(rng, gdim), rng.uniform(-10, 10, gdim)) for _ in range(2)]
+    mirror = np.diag([-1.0, *np.ones(gdim - 1)])
+    frames.append(Frame(mirror @ rotation(rng, gdim), np.zeros(gdim)))
+    off = [check(run(cap(cell), friction, sliding, frame), first) for frame in frames]
+    print(f"{first.iterations} iterations, {first.closed}, off by {max(off):.1e}")
+
+
+@every(CASES)
+def test_renumbered(cell, friction, method, sliding):
+    first = first_answer(cell, friction, method, sliding)
+    off = check(run(renumbered(cap(cell), 0), friction, sliding), first)
+    print(f"{first.iterations} iterations, off by {off:.1e}")
+
 
 HERTZ = (
     Support((Tag.UPPER_X0, Tag.LOWER_X0), (0,), (0.0,)),
@@ -37,126 +145,18 @@ def hertz_answer(sliding, method):
     return solve(hertz(), HERTZ, sliding=sliding)
 
 
-@functools.cache
-def cap(cell):
-    """An upper block with a curved lower face above a wider block; they do not match.
-
-    The cap is no symmetric one and stands where no node of it is on an edge of the lower block.
-    """
-    gdim = 2 if cell in (CellType.triangle, CellType.quadrilateral) else 3
-    data = meshes.blocks(
-        cell,
-        ((16,) if gdim == 2 else (6, 6)) + (4,),
-        ((13,) if gdim == 2 else (7, 7)) + (4,),
-        size_lower=(1.6,) * (gdim - 1) + (1.0,),
-        shift=(0.263, 0.219)[: gdim - 1],
-        gap=0.01,
-    )
-    x = data.mesh.geometry.x
-    upper = x[:, gdim - 1] > 0.005
-    for axis, (middle, bend) in enumerate(zip((0.76, 0.73), (0.2, 0.25), strict=True)):
-        if axis < gdim - 1:
-            rise = bend * (x[upper, axis] - middle) ** 2
-            x[upper, gdim - 1] += (1.01 - x[upper, gdim - 1]) * rise
-    return numbered(data)
-
-
-def cap_supports(gdim):
-    """The lower block stands; the upper one is pressed down and aside."""
-    moved = (0.03, -0.08) if gdim == 2 else (0.03, 0.02, -0.08)
-    axes = tuple(range(gdim))
-    return (
-        Support((Tag.LOWER_BOTTOM,), axes, (0.0,) * gdim),
-        Support((Tag.UPPER_TOP,), axes, moved),
-    )
-
-
-@functools.cache
-def cap_answer(cell, sliding, method):
-    scene = cap(cell)
-    return solve(scene, cap_supports(scene.domain.geometry.dim), sliding=sliding)
-
-
-def check(answer, first, tolerance=1e-9):
-    """The same way to the same answer; returns the largest difference."""
-    assert answer.iterations == first.iterations
-    assert answer.closed == first.closed
-    return check_answer(answer, first, tolerance)
-
-
-def check_answer(answer, first, tolerance=1e-9):
-    """The same answer, and the same statuses."""
-    np.testing.assert_array_equal(answer.status, first.status)
-    off = differences(answer, first)
-    assert max(off.values()) <= tolerance, off
-    return max(off.values())
-
-
-@SLIDING
-@pytest.mark.parametrize(
-    ("method", "length", "modulus"),
-    [
-        *(("node-to-surface", length, E) for length in (1e-3, 1e3) for E in (1e-6, 1e6)),
-        ("surface-to-surface", 1e-3, 1e6),
-    ],
-    indirect=["method"],
-)
-def test_units(length, modulus, sliding, method):
-    first = hertz_answer(sliding, method)
-    frame = Frame(np.eye(3), np.zeros(3), length, modulus)
-    off = check(solve(hertz(), HERTZ, frame, sliding=sliding), first)
-    print(f"{first.iterations} iterations, off by {off:.1e}")
-
-
-@SLIDING
+@covering(method=(NODES, FACETS), sliding=("finite", "small"))
 def test_axes_permuted(sliding, method):
+    """Slave nodes lie on planes of symmetry, which hold one axis each."""
     first = hertz_answer(sliding, method)
-    to_yzx = Frame(np.eye(3)[[1, 2, 0]], np.zeros(3))
+    to_yzx = Frame(np.eye(3)[[1, 2, 0]], np.zeros(3), 1e-3, 1e6)
     off = check(solve(hertz(), HERTZ, to_yzx, sliding=sliding), first)
     print(f"{first.iterations} iterations, off by {off:.1e}")
 
 
-@SLIDING
-@CELLS
-def test_rotated_and_translated(cell, sliding, method):
-    scene, first = cap(cell), cap_answer(cell, sliding, method)
-    gdim = scene.domain.geometry.dim
-    rng = np.random.default_rng(7)
-    off = []
-    for _ in range(10 if method == "node-to-surface" else 1):
-        frame = Frame(rotation(rng, gdim), rng.uniform(-10, 10, gdim))
-        off.append(check(solve(scene, cap_supports(gdim), frame, sliding=sliding), first))
-    print(f"{first.iterations} iterations, {first.closed}, off by {max(off):.1e}")
-
-
-@SLIDING
-@CELLS
-def test_reflected(cell, sliding, method):
-    scene, first = cap(cell), cap_answer(cell, sliding, method)
-    gdim = scene.domain.geometry.dim
-    mirror = np.eye(gdim)
-    mirror[0, 0] = -1
-    frame = Frame(mirror @ rotation(np.random.default_rng(8), gdim), np.zeros(gdim))
-    off = check(solve(scene, cap_supports(gdim), frame, sliding=sliding), first)
-    print(f"off by {off:.1e}")
-
-
-@SLIDING
-@CELLS
-def test_renumbered(cell, sliding, method):
-    scene, first = cap(cell), cap_answer(cell, sliding, method)
-    gdim = scene.domain.geometry.dim
-    off = []
-    for seed in range(3 if method == "node-to-surface" else 1):
-        other = renumbered(scene, seed)
-        off.append(check(solve(other, cap_supports(gdim), sliding=sliding), first))
-    print(f"off by {max(off):.1e}")
-
-
-@SLIDING
 @pytest.mark.parametrize(
-    ("method", "seed"),
-    [*(("node-to-surface", seed) for seed in (1, 2, 3, 4)), ("surface-to-surface", 1)],
+    ("method", "sliding", "seed"),
+    [(NODES, "finite", 1), (NODES, "small", 2), (FACETS, "finite", 1)],
     indirect=["method"],
 )
 def test_renumbered_hertz(seed, sliding, method):
@@ -186,7 +186,7 @@ def test_renumbered_hertz(seed, sliding, method):
 
 def touching(cell, n_lower, size, shift):
     """Flat blocks that touch: the sign of every first gap is left to rounding."""
-    gdim = 2 if cell in (CellType.triangle, CellType.quadrilateral) else 3
+    gdim = dimension(cell)
     return numbered(
         meshes.blocks(
             cell,
@@ -208,15 +208,14 @@ def answers_of_ties(scene, sliding):
     )
     first = solve(scene, supports, sliding=sliding)
     rng = np.random.default_rng(3)
-    frames = [Frame(rotation(rng, gdim), rng.uniform(-10, 10, gdim)) for _ in range(3)]
-    others = [solve(scene, supports, frame, sliding=sliding) for frame in frames]
-    return first, others + [
-        solve(renumbered(scene, seed), supports, sliding=sliding) for seed in range(3)
+    turned = Frame(rotation(rng, gdim), rng.uniform(-10, 10, gdim))
+    return first, [
+        solve(scene, supports, turned, sliding=sliding),
+        solve(renumbered(scene, 0), supports, sliding=sliding),
     ]
 
 
-@SLIDING
-@CELLS
+@covering(cell=CELLS, method=(NODES, FACETS), sliding=("finite", "small"))
 def test_first_gaps_are_ties(cell, sliding, method):
     """All nodes that touch but for rounding start closed."""
     first, others = answers_of_ties(touching(cell, 5, 1.5, 0.23), sliding)
@@ -227,8 +226,7 @@ def test_first_gaps_are_ties(cell, sliding, method):
     assert len(starts) == len(iterations) == 1
 
 
-@SLIDING
-@CELLS
+@covering(cell=CELLS, method=(NODES, FACETS), sliding=("finite", "small"))
 def test_nodes_on_nodes(cell, sliding, method):
     """Pairs are ties: a slave node on a master's node may have any of the facets there.
 

@@ -4,23 +4,22 @@
 
 import numpy as np
 import pytest
-from scene_transforms import Support, differences, jacobians, numbered, oriented, solve
-
-from dolfinx.mesh import CellType
 
 import meshes
 from meshes import Tag
+from scenes import CELLS, dimension
+from scenes.transforms import Support, differences, jacobians, numbered, oriented, solve
 
 
 @pytest.mark.parametrize("sliding", ["finite", "small"])
 @pytest.mark.parametrize(
     "cell",
-    [CellType.triangle, CellType.quadrilateral, CellType.tetrahedron, CellType.hexahedron],
+    CELLS,
     ids=lambda c: c.name,
 )
 def test_inverted_cells_have_the_same_contact(cell, sliding):
     """Facets point outward by where their cells are, whatever the order of nodes."""
-    gdim = 2 if cell in (CellType.triangle, CellType.quadrilateral) else 3
+    gdim = dimension(cell)
     first = numbered(
         meshes.blocks(
             cell,

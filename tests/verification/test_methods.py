@@ -37,19 +37,16 @@ def hertz(data, sliding, method, young=None):
 
 
 @pytest.mark.parametrize("sliding", ["finite", "small"])
-@pytest.mark.parametrize(
-    ("make", "better", "most"), [(meshes.hertz_sphere, 0.8, 0.065), (meshes.hertz_grid, 0.5, 0.07)]
-)
-def test_hertz(make, better, most, sliding):
-    """The same force; raw pressures that scatter less, on hexahedra less by half.
+def test_hertz_on_hexahedra(sliding):
+    """The same force; raw pressures that scatter less by half.
 
-    There they are smooth already, and recovery, which flattens the edge, makes them worse.
+    They are smooth already, and recovery, which flattens the edge, makes them worse.
     """
-    data = make(0.02)
+    data = meshes.hertz_grid(0.02)
     nodes, facets = (hertz(data, sliding, method) for method in METHODS)
     assert facets[0] == pytest.approx(nodes[0], rel=3e-3)
-    assert facets[1] < better * nodes[1]
-    assert max(nodes[2], facets[2]) < most
+    assert facets[1] < 0.5 * nodes[1]
+    assert max(nodes[2], facets[2]) < 0.07
 
 
 @pytest.mark.parametrize("body", [Tag.UPPER, Tag.LOWER])

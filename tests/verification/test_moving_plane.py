@@ -6,22 +6,22 @@ from mpi4py import MPI
 
 import numpy as np
 import pytest
-from tower import CELLS, Tower, lift
 
 import contactx as cx
 from dolfinx import fem, mesh
 
-pytestmark = pytest.mark.usefixtures("method")
+from scenes import CELLS, dimension
+from scenes.covering import METHODS, SLIDINGS, covering
+from scenes.tower import Tower, lift
 
-both_slidings = pytest.mark.parametrize("sliding", ["finite", "small"])
-every_cell = pytest.mark.parametrize("cell", CELLS, ids=lambda c: c.name)
+pytestmark = pytest.mark.usefixtures("method")
 
 
 class Pressed(Tower):
     """A block pressed on a plane by a tenth of its height."""
 
     def __init__(self, cell, sliding, friction, n):
-        gdim = 2 if cell in CELLS[:2] else 3
+        gdim = dimension(cell)
         domain = mesh.create_unit_interval(MPI.COMM_SELF, 1)
         self.point = fem.Constant(domain, np.zeros(gdim))
         plane = cx.Plane(self.point, lift(gdim, 1))
@@ -33,8 +33,7 @@ class Pressed(Tower):
         self.solve(*lift(self.gdim, -0.1, top))
 
 
-@every_cell
-@both_slidings
+@covering(cell=CELLS, sliding=SLIDINGS, method=METHODS)
 def test_only_relative_movement_counts(cell, sliding):
     """The plane goes one way or the block's top the other."""
     plane, top = (Pressed(cell, sliding, 0.3, 3) for _ in range(2))
@@ -51,9 +50,12 @@ def test_only_relative_movement_counts(cell, sliding):
     assert a.force[0] < -0.01
 
 
-@both_slidings
-@pytest.mark.parametrize("friction", [0.03, 0.2, 0.3, 0.5])
-@pytest.mark.parametrize(("cell", "n"), [(CELLS[0], 6), (CELLS[1], 9), (CELLS[3], 4)], ids=str)
+@covering(
+    **{"cell,n": [(CELLS[0], 6), (CELLS[1], 9), (CELLS[3], 4)]},
+    sliding=SLIDINGS,
+    friction=(0.03, 0.2, 0.3, 0.5),
+    method=METHODS,
+)
 def test_slip_that_turns_back_does_not_cycle(cell, n, sliding, friction):
     """All nodes start to slip where most of them stick in the end, and the plane returns."""
     scene = Pressed(cell, sliding, friction, n)

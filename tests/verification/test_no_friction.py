@@ -12,6 +12,7 @@ import pytest
 from dolfinx import fem, mesh
 
 from scenes import hertz_sphere
+from scenes.covering import METHODS, SLIDINGS, covering
 
 pytestmark = pytest.mark.usefixtures("method")
 
@@ -30,8 +31,7 @@ def solved(sliding, method):
 both_slidings = pytest.mark.parametrize("sliding", ["finite", "small"])
 
 
-@both_slidings
-@pytest.mark.parametrize("friction", [0, 0.0, constant(0.0), 1e-12], ids=str)
+@covering(friction=(0, 0.0, constant(0.0), 1e-12), sliding=SLIDINGS, method=METHODS)
 def test_hertz_is_the_same(sliding, friction, method):
     first, plain = solved(sliding, method)
     problem, contact = hertz_sphere(0.04, sliding, friction=friction)

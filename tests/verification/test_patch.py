@@ -4,16 +4,17 @@
 
 import numpy as np
 import pytest
-from patch_scenes import WidePatch
-from scene_transforms import rotation
 
 from dolfinx.mesh import CellType
 
 from patch_scene import Patch, Shape
+from scenes import CELLS, dimension
+from scenes.covering import SLIDINGS, covering
+from scenes.patch import WidePatch
+from scenes.transforms import rotation
 
 SURFACE, NODE = "surface-to-surface", "node-to-surface"
 EXACT = 1e-9
-CELLS = (CellType.triangle, CellType.quadrilateral, CellType.tetrahedron, CellType.hexahedron)
 
 # Seed of the rotation (none: upright), options of the shape, options of the patch
 CASES = {
@@ -28,15 +29,7 @@ CASES = {
     "tied": (7, {}, {"tied": True}),
 }
 
-every_cell = pytest.mark.parametrize("cell", CELLS, ids=lambda cell: cell.name)
-every_case = pytest.mark.parametrize("case", CASES)
-both_slaves = pytest.mark.parametrize("slave", ["upper", "lower"])
-both_slidings = pytest.mark.parametrize("sliding", ["finite", "small"])
-both_methods = pytest.mark.parametrize("method", [NODE, SURFACE])
-
-
-def dimension(cell):
-    return Shape(cell).dim
+SLAVES = ("upper", "lower")
 
 
 def make(cell, n, case, **options):
@@ -57,24 +50,24 @@ def worst(patch):
     return np.array(errors)
 
 
-@every_cell
-@every_case
-@both_slaves
-@both_slidings
+@covering(cell=CELLS, case=CASES, slave=SLAVES, sliding=SLIDINGS)
 def test_surface_to_surface(cell, case, slave, sliding):
     patch = make(cell, (4, 3), case, slave=slave, sliding=sliding, method=SURFACE)
     assert np.all(worst(patch) <= EXACT)
 
 
-@every_cell
-@pytest.mark.parametrize("case", ["turned", "very_soft", "friction", "tied"])
+@pytest.mark.parametrize(
+    ("cell", "case"), [*zip(CELLS, ["friction", "tied", "very_soft", "turned"], strict=True)]
+)
 def test_condensed(cell, case):
     patch = make(cell, (4, 3), case, method=SURFACE, petsc_options={"pc_type": "condensed"})
     assert np.all(worst(patch) <= EXACT)
 
 
-@every_cell
-@every_case
+@pytest.mark.parametrize(
+    ("cell", "case"),
+    [*((CELLS[i % 4], case) for i, case in enumerate(CASES)), *((c, "turned") for c in CELLS[:2])],
+)
 def test_node_to_surface_needs_meshes_that_match(cell, case):
     """Exact where nodes meet; else off, by a tenth of the pressure and more."""
     assert np.all(worst(make(cell, (3, 3), case, method=NODE)) <= EXACT)
@@ -88,9 +81,7 @@ def test_node_to_surface_is_no_better_on_finer_meshes(cell):
     assert np.all(worst(make(cell, (16, 12), "upright", method=SURFACE)) <= EXACT)
 
 
-@every_cell
-@both_slaves
-@pytest.mark.parametrize("seed", range(4))
+@covering(cell=CELLS, slave=SLAVES, seed=range(2))
 def test_random_scenes(cell, slave, seed):
     rng = np.random.default_rng(seed)
     shape = Shape(
@@ -106,16 +97,18 @@ def test_random_scenes(cell, slave, seed):
     )
 
 
-@both_slidings
-@pytest.mark.parametrize("seed", [0, 4, 5, 7])
+@pytest.mark.parametrize(
+    ("seed", "sliding"), [(0, "finite"), (4, "small"), (5, "finite"), (7, "small")]
+)
 def test_distorted_quadrilaterals(seed, sliding):
     """Nodes move by up to a quarter of a cell; inverse maps of such facets are no polynomials."""
     shape = Shape(CellType.hexahedron, distortion=0.25, seed=seed)
     assert np.all(worst(Patch(shape, sliding=sliding, method=SURFACE)) <= EXACT)
 
 
-@every_cell
-@both_slidings
+@pytest.mark.parametrize(
+    ("cell", "sliding"), [*zip(CELLS, ["finite", "small", "small", "finite"], strict=True)]
+)
 def test_wider_master(cell, sliding):
     """Master facets that are covered in part, by a slave whose outline they do not follow."""
     turn = rotation(np.random.default_rng(8), dimension(cell))
@@ -126,10 +119,7 @@ def test_wider_master(cell, sliding):
     assert np.all(worst(WidePatch(shape, sliding=sliding, method=NODE)) > 1e-3)
 
 
-@every_cell
-@both_methods
-@both_slaves
-@both_slidings
+@covering(cell=CELLS, method=(NODE, SURFACE), slave=SLAVES, sliding=SLIDINGS)
 def test_slave_beyond_the_edge(cell, method, slave, sliding):
     """Of the outermost slave facets a fifth, little or next to nothing is covered.
 

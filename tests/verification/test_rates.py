@@ -4,8 +4,8 @@
 
 import numpy as np
 import pytest
-import solved_blocks
 
+from scenes import exact_blocks
 from story import METHODS
 
 MORTAR = "surface-to-surface"
@@ -23,7 +23,7 @@ def rates(solve, cells, method):
 @pytest.mark.parametrize("method", METHODS)
 def test_smooth_solution(method, cells):
     """Linear elements; a pressure by dual multipliers converges at least as h."""
-    fine, rate = rates(solved_blocks.smooth, cells, method)
+    fine, rate = rates(exact_blocks.smooth, cells, method)
     assert rate["H1"] > 0.97 and rate["L2"] > 1.9
     if method == MORTAR:
         assert rate["raw"] > 1 and rate["best"] > 1
@@ -38,7 +38,7 @@ def test_smooth_solution(method, cells):
 @pytest.mark.parametrize("method", METHODS)
 def test_hertz(method, cells):
     """The end of the contact takes up to half a power of the displacement's error in L2."""
-    fine, rate = rates(solved_blocks.hertz, cells, method)
+    fine, rate = rates(exact_blocks.hertz, cells, method)
     assert rate["H1"] > 0.95 and rate["L2"] > 1.5
     if method == MORTAR:
         assert rate["raw"] > 0.85 and rate["best"] > 0.85
@@ -47,7 +47,7 @@ def test_hertz(method, cells):
 
 def test_in_space():
     """On hexahedra, which do not match along both directions."""
-    coarse, fine = (solved_blocks.smooth("hexahedron", n, MORTAR) for n in (6, 12))
+    coarse, fine = (exact_blocks.smooth("hexahedron", n, MORTAR) for n in (6, 12))
     rate = {key: np.log2(coarse[key] / fine[key]) for key in ("H1", "L2", "raw")}
     print(rate)
     assert rate["H1"] > 1 and rate["L2"] > 1.9 and rate["raw"] > 1.3

@@ -6,26 +6,27 @@ from mpi4py import MPI
 
 import numpy as np
 import pytest
-from driven_blocks import DrivenBlock, parts
 
 import contactx as cx
 from dolfinx import fem, mesh
 from dolfinx.mesh import CellType
 
+from scenes import CELLS, dimension
+from scenes.coulomb import parts
+from scenes.covering import BOTH, METHODS, SLIDINGS, covering
+from scenes.driven import DrivenBlock
+
 pytestmark = pytest.mark.usefixtures("method")
 
 MU = 0.3
 DOWN = -0.02
-SLIDING = pytest.mark.parametrize("sliding", ["finite", "small"])
-BASE = pytest.mark.parametrize("base", ["plane", "elastic"])
-CELLS = pytest.mark.parametrize(
-    "cell", [CellType.triangle, CellType.quadrilateral, CellType.tetrahedron, CellType.hexahedron]
-)
+BASES = ("plane", "elastic")
+BOXES = (CellType.quadrilateral, CellType.hexahedron)
 
 
 def block(cell, base, sliding, **options):
     """A block above a plane or a base whose divisions do not match."""
-    gdim = 2 if cell in (CellType.triangle, CellType.quadrilateral) else 3
+    gdim = dimension(cell)
     up = (0.0,) * (gdim - 1) + (1.0,)
     plane = cx.Plane((0.0,) * gdim, up) if base == "plane" else None
     return DrivenBlock(cell, plane=plane, sliding=sliding, friction=MU, **options)
@@ -38,7 +39,7 @@ def along(scene, x, down=DOWN):
 
 def on_moving_plane(cell, sliding):
     """A block on a plane whose point is a constant that may be changed."""
-    gdim = 2 if cell == CellType.quadrilateral else 3
+    gdim = dimension(cell)
     domain = mesh.create_unit_square(MPI.COMM_SELF, 1, 1)
     point = fem.Constant(domain, np.zeros(gdim))
     plane = cx.Plane(point, (0.0,) * (gdim - 1) + (1.0,))
@@ -50,9 +51,7 @@ def resistance(scene):
     return scene.tangential[0] / (MU * scene.normal)
 
 
-@SLIDING
-@BASE
-@CELLS
+@covering(cell=CELLS, base=BASES, **{"sliding,method": BOTH})
 def test_stays_slides_and_slides_back(cell, base, sliding):
     scene = block(cell, base, sliding)
     along(scene, 0.0)
@@ -82,8 +81,7 @@ def test_stays_slides_and_slides_back(cell, base, sliding):
     assert max(scene.iterations) <= 10
 
 
-@SLIDING
-@BASE
+@covering(base=BASES, sliding=SLIDINGS, method=METHODS)
 def test_circular_path(base, sliding):
     """Friction opposes the velocity in every step once all slide."""
     scene = block(CellType.hexahedron, base, sliding, n_upper=2, n_lower=3)
@@ -109,10 +107,9 @@ def test_circular_path(base, sliding):
     assert max(off) < 5
 
 
-@SLIDING
-@pytest.mark.parametrize("cell", [CellType.quadrilateral, CellType.hexahedron])
+@covering(cell=BOXES, sliding=SLIDINGS, method=METHODS)
 def test_a_plane_that_moves_drags_a_held_block(cell, sliding):
-    gdim = 2 if cell == CellType.quadrilateral else 3
+    gdim = dimension(cell)
     scene, point = on_moving_plane(cell, sliding)
     along(scene, 0.0)
     point.value[0] += 0.2
@@ -128,12 +125,10 @@ def test_a_plane_that_moves_drags_a_held_block(cell, sliding):
     assert np.abs(scene.contact.interface.history.slip).max() < 1e-12
 
 
-@SLIDING
-@pytest.mark.parametrize("cell", [CellType.quadrilateral, CellType.hexahedron])
-@pytest.mark.parametrize("guess", [True, False])
+@covering(guess=(True, False), cell=BOXES, sliding=SLIDINGS, method=METHODS)
 def test_a_plane_that_moves_with_the_block_feels_nothing(guess, cell, sliding):
     """Neither a block that has only been pressed nor one that has slid."""
-    gdim = 2 if cell == CellType.quadrilateral else 3
+    gdim = dimension(cell)
     for first in (0.0, 0.1):
         scene, point = on_moving_plane(cell, sliding)
         along(scene, first)

@@ -4,16 +4,16 @@
 
 import numpy as np
 import pytest
-from driven_blocks import DrivenBlock, neo_hookean
-from tower import CELLS, Tower, lift
 
 import contactx as cx
 from contactx.state import save_state
-from dolfinx import fem
 from dolfinx.mesh import CellType
 
-from scenes import Blocks, hertz_sphere
-from story import elasticity
+from scenes import CELLS, Blocks, hertz_sphere
+from scenes.covering import SLIDINGS, covering
+from scenes.driven import DrivenBlock
+from scenes.materials import neo_hookean
+from scenes.tower import Tower, lift
 
 SURFACE, NODE = "surface-to-surface", "node-to-surface"
 every_cell = pytest.mark.parametrize("cell", CELLS, ids=lambda cell: cell.name)
@@ -68,10 +68,7 @@ def test_forces_and_moments_balance(cell, sliding):
     assert off <= 1e-12
 
 
-@every_cell
-@both_slidings
-@pytest.mark.parametrize("n", [(4, 3), (3, 5)])
-@pytest.mark.parametrize("aside", [0.0, 0.05])
+@covering(cell=CELLS, sliding=SLIDINGS, n=[(4, 3), (3, 5)], aside=(0.0, 0.05))
 def test_a_tie_passes_a_linear_field(cell, sliding, n, aside):
     """Tension, and shear, of blocks that do not match; their sides carry the field's stress."""
     tower = Tower(cell, *n, tied=True, nu=0.3, sliding=sliding, method=SURFACE, sides=True)
@@ -91,9 +88,7 @@ def hooke(gradient):
     return mu * (gradient + gradient.T) + lmbda * np.trace(gradient) * np.eye(len(gradient))
 
 
-@every_cell
-@both_slidings
-@pytest.mark.parametrize("n", [(2, 9), (9, 2)], ids=["coarse slave", "fine slave"])
+@covering(cell=CELLS, sliding=SLIDINGS, n=[(2, 9), (9, 2)])
 def test_very_different_meshes(cell, sliding, n):
     scene = Blocks(cell, n_upper=n[0], n_lower=n[1])
     contact = scene.contact(sliding, method=SURFACE)
@@ -105,9 +100,7 @@ def test_very_different_meshes(cell, sliding, n):
     assert contact.force[-1] > 0.02
 
 
-@every_cell
-@both_slidings
-@pytest.mark.parametrize("friction", [0.0, 0.3])
+@covering(cell=CELLS, sliding=SLIDINGS, friction=(0.0, 0.3))
 def test_contact_is_lost_and_closes_again(cell, sliding, friction):
     scene = Blocks(cell)
     contact = scene.contact(sliding, friction=friction, method=SURFACE)
@@ -122,9 +115,10 @@ def test_contact_is_lost_and_closes_again(cell, sliding, friction):
     assert forces[2] == pytest.approx(forces[0], rel=1e-2 if friction else 1e-9, abs=1e-12)
 
 
-@every_cell
+@pytest.mark.parametrize(
+    ("cell", "friction"), [*zip(CELLS, [0.0, 0.3, 0.3, 0.0], strict=True)], ids=str
+)
 @pytest.mark.parametrize("method", [SURFACE], indirect=True)
-@pytest.mark.parametrize("friction", [0.0, 0.3])
 def test_over_the_outer_edge_and_back(cell, friction, method):
     """Nodes lose their pairs beyond the edge of a base, and get them again."""
     scene = DrivenBlock(cell, friction=friction, width=2.0, shift=0.55)
@@ -179,28 +173,6 @@ def test_one_facet_on_one_facet(method):
         scene.step(0.0, 0.0, down)
     assert scene.normal > 0.05
     assert max(scene.iterations) <= 10
-
-
-@pytest.mark.parametrize(
-    ("kind", "message"),
-    [
-        (("Lagrange", 2), "u is of degree 2; contact needs degree 1: functionspace"),
-        (("DG", 1), "u is not in a continuous Lagrange space"),
-    ],
-    ids=["P2", "DG1"],
-)
-def test_other_elements_are_refused(kind, message):
-    scene = Blocks(CellType.triangle)
-    u = fem.Function(fem.functionspace(scene.u.function_space.mesh, (*kind, (2,))))
-    contact = scene.contact(method=SURFACE)
-    with pytest.raises(ValueError, match=message):
-        cx.ContactProblem(
-            elasticity(u, 1.0, 0.3),
-            u,
-            contacts=[contact],
-            bcs=[],
-            petsc_options_prefix="refused_",
-        )
 
 
 def test_a_tower_ties_over_a_gap():

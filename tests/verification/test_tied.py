@@ -6,15 +6,17 @@ from mpi4py import MPI
 
 import numpy as np
 import pytest
-from tower import CELLS, Tower, lift, one_body
 
 import contactx as cx
 from dolfinx import fem, mesh
 
+from scenes import CELLS, dimension
+from scenes.covering import BOTH, METHODS, SLIDINGS, covering
+from scenes.tower import Tower, lift, one_body
+
 pytestmark = pytest.mark.usefixtures("method")
 
 every_cell = pytest.mark.parametrize("cell", CELLS, ids=lambda c: c.name)
-both_slidings = pytest.mark.parametrize("sliding", ["finite", "small"])
 HEXAHEDRON = mesh.CellType.hexahedron
 QUADRILATERAL = mesh.CellType.quadrilateral
 
@@ -24,9 +26,7 @@ def constant(value):
     return fem.Constant(mesh.create_unit_interval(MPI.COMM_SELF, 1), value)
 
 
-@every_cell
-@both_slidings
-@pytest.mark.parametrize("height", [0.1, -0.1])
+@covering(cell=CELLS, sliding=SLIDINGS, height=(0.1, -0.1), method=METHODS)
 def test_uniaxial_tension_and_compression(cell, sliding, height):
     """Exact where the slave's nodes refine the master's: force E A d / L."""
     tower = Tower(cell, 4, 2, tied=True, sliding=sliding)
@@ -47,8 +47,9 @@ def test_uniaxial_tension_and_compression(cell, sliding, height):
     assert contact.pressure.x.array[on_slave] == pytest.approx(-height / 2, abs=1e-11)
 
 
-@every_cell
-@pytest.mark.parametrize(("n", "tolerance"), [((2, 3), 0.035), ((3, 2), 5e-3), ((4, 3), 2e-3)])
+@covering(
+    cell=CELLS, **{"n,tolerance": [((2, 3), 0.035), ((3, 2), 5e-3), ((4, 3), 2e-3)]}, method=METHODS
+)
 def test_uniaxial_tension_where_no_nodes_meet(cell, n, tolerance):
     """Nodal forces are not those of a uniform traction; better where the slave is the finer."""
     tower = Tower(cell, *n, tied=True)
@@ -57,8 +58,7 @@ def test_uniaxial_tension_where_no_nodes_meet(cell, n, tolerance):
     assert tower.contact.force[-1] == pytest.approx(-0.05, rel=tolerance)
 
 
-@every_cell
-@both_slidings
+@covering(cell=CELLS, sliding=SLIDINGS, method=METHODS)
 def test_matching_boxes_are_one_body(cell, sliding):
     tower = Tower(cell, 3, 3, tied=True, nu=0.3, sliding=sliding)
     top = lift(tower.gdim, 0.07, 0.05)
@@ -68,8 +68,7 @@ def test_matching_boxes_are_one_body(cell, sliding):
     assert tower.contact.force == pytest.approx(-force, abs=1e-13)
 
 
-@every_cell
-@pytest.mark.parametrize("n", [(4, 6), (6, 4), (3, 4)])
+@covering(cell=CELLS, n=[(4, 6), (6, 4), (3, 4)], method=METHODS)
 def test_boxes_that_do_not_match_are_nearly_one_body(cell, n):
     tower = Tower(cell, *n, tied=True, nu=0.3)
     top = lift(tower.gdim, 0.07, 0.05)
@@ -80,8 +79,7 @@ def test_boxes_that_do_not_match_are_nearly_one_body(cell, n):
     assert error <= 0.02
 
 
-@every_cell
-@both_slidings
+@covering(cell=CELLS, sliding=SLIDINGS, method=METHODS)
 def test_untied_boxes_part(cell, sliding):
     tower = Tower(cell, 2, 3, sliding=sliding)
     tower.solve(*lift(tower.gdim, 0.1))
@@ -90,12 +88,11 @@ def test_untied_boxes_part(cell, sliding):
     assert np.nanmin(tower.contact.interface.nodes.gap) == pytest.approx(0.1, rel=1e-9)
 
 
-@every_cell
-@both_slidings
+@covering(cell=CELLS, sliding=SLIDINGS, method=METHODS)
 def test_tension_is_compression_with_the_other_sign(cell, sliding):
     up, down = (
         Tower(cell, 2, 3, tied=True, nu=0.3, sliding=sliding).solve(*s * lift(3, 0.05, 0.02)[-g:])
-        for g in [2 if cell in CELLS[:2] else 3]
+        for g in [dimension(cell)]
         for s in (1, -1)
     )
     size = np.abs(up.contact.multiplier).max()
@@ -104,8 +101,7 @@ def test_tension_is_compression_with_the_other_sign(cell, sliding):
     assert np.abs(up.u.x.array + down.u.x.array).max() <= 1e-12
 
 
-@every_cell
-@both_slidings
+@covering(cell=CELLS, sliding=SLIDINGS, method=METHODS)
 def test_much_friction_under_pressure_is_a_tie(cell, sliding, method):
     tied = Tower(cell, 4, 3, tied=True, nu=0.3, sliding=sliding)
     rough = Tower(cell, 4, 3, friction=1e6, nu=0.3, sliding=sliding)
@@ -122,9 +118,7 @@ def test_much_friction_under_pressure_is_a_tie(cell, sliding, method):
     assert np.abs(rough.u.x.array - tied.u.x.array).max() <= least * 0.1
 
 
-@both_slidings
-@pytest.mark.parametrize("rigid", [False, True])
-@pytest.mark.parametrize("cell", [QUADRILATERAL, HEXAHEDRON], ids=lambda c: c.name)
+@covering(cell=(QUADRILATERAL, HEXAHEDRON), rigid=(False, True), **{"sliding,method": BOTH})
 def test_offset_makes_a_tie_longer(cell, sliding, rigid):
     """Between ends that stand still: pressure E offset / L, and tension where it is negative."""
     gdim = 2 if cell == QUADRILATERAL else 3
@@ -140,11 +134,10 @@ def test_offset_makes_a_tie_longer(cell, sliding, rigid):
         assert tower.problem.report.iterations <= 1
 
 
-@every_cell
-@both_slidings
+@covering(cell=CELLS, sliding=SLIDINGS, method=METHODS)
 def test_ties_to_a_plane_follow_it(cell, sliding):
     """A body that nothing else holds moves with the plane; linear, so in one iteration."""
-    gdim = 2 if cell in CELLS[:2] else 3
+    gdim = dimension(cell)
     point = constant(np.zeros(gdim))
     plane = cx.Plane(point, lift(gdim, 1))
     tower = Tower(cell, 2, 2, master=plane, tied=True, sliding=sliding, nu=0.3, free_top=True)
@@ -176,15 +169,3 @@ def test_slave_nodes_beyond_the_outer_edge_are_not_tied(cell, method):
     assert not contact.multiplier[beyond].any()
     assert contact.force[-1] < -1e-3
     assert np.abs(tower.problem.report.imbalance).max() <= 1e-13
-
-
-@pytest.mark.parametrize("friction", [0.3, 1e-12, constant(0.0)])
-def test_a_tie_has_no_friction(friction):
-    with pytest.raises(ValueError, match="tied excludes friction"):
-        Tower(QUADRILATERAL, 2, 2, tied=True, friction=friction)
-
-
-def test_a_tie_measures_no_slip():
-    tower = Tower(QUADRILATERAL, 2, 2, tied=True)
-    with pytest.raises(RuntimeError, match="tied: its nodes do not slip"):
-        _ = tower.contact.slip

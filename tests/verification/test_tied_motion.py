@@ -6,15 +6,17 @@ from mpi4py import MPI
 
 import numpy as np
 import pytest
-from tower import CELLS, Tower, lift
 
 import contactx as cx
 from dolfinx import fem, mesh
 
+from scenes import CELLS, dimension
+from scenes.covering import METHODS, covering
+from scenes.tower import Tower, lift
+
 pytestmark = pytest.mark.usefixtures("method")
 
-every_cell = pytest.mark.parametrize("cell", CELLS, ids=lambda c: c.name)
-gaps = pytest.mark.parametrize("gap", [0.0, 0.1, -0.05])
+every_gap = covering(cell=CELLS, gap=(0.0, 0.1, -0.05), method=METHODS)
 
 
 def rotation(gdim, degrees):
@@ -32,8 +34,7 @@ def turned(gdim, degrees):
     return lambda x: x @ Q.T + np.linspace(0.2, -0.1, gdim)
 
 
-@every_cell
-@gaps
+@every_gap
 def test_rotation_of_both_ends_leaves_no_traction(cell, gap):
     tower = Tower(cell, 2, 3, tied=True, nu=0.3, gap=gap, neo=True)
     for degrees in (15, 30):
@@ -45,8 +46,7 @@ def test_rotation_of_both_ends_leaves_no_traction(cell, gap):
     assert np.all(tower.contact.interface.nodes.status == 1)
 
 
-@every_cell
-@gaps
+@every_gap
 def test_turned_tension_is_tension_that_has_turned(cell, gap):
     """First pulled, then turned: the same traction in the turned axes, and quadratic."""
     tower = Tower(cell, 2, 3, tied=True, nu=0.3, gap=gap, neo=True)
@@ -68,10 +68,9 @@ def test_turned_tension_is_tension_that_has_turned(cell, gap):
     assert np.abs(tower.problem.report.imbalance).max() <= 1e-13
 
 
-@every_cell
-@gaps
+@every_gap
 def test_a_plane_that_turns_takes_its_body_along(cell, gap):
-    gdim = 2 if cell in CELLS[:2] else 3
+    gdim = dimension(cell)
     domain = mesh.create_unit_interval(MPI.COMM_SELF, 1)
     start = np.full(gdim, 0.3)
     start[-1] = 0.0

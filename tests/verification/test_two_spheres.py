@@ -4,8 +4,8 @@
 
 import numpy as np
 import pytest
-import two_spheres
 
+from scenes import two_spheres
 from story import METHODS
 
 

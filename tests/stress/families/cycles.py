@@ -7,13 +7,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
+
+import contactx as cx
+from dolfinx.mesh import CellType
+
 from stress.alone import Alone
 from stress.blocks import Blocks
 from stress.families.grid import scenes, variants
 from stress.scene import METHODS, SLIDINGS, Case, Check, Scene, relative
-
-import contactx as cx
-from dolfinx.mesh import CellType
 
 _STEPS, _PERIOD = 1000, 40
 

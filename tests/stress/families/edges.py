@@ -7,11 +7,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
-from stress.blocks import Blocks, dimension
-from stress.families.grid import ALL_CELLS, CELLS, divisions, scenes, variants
-from stress.scene import METHODS, Case, Check, Scene
 
 from dolfinx.mesh import CellType
+
+from scenes import dimension
+from stress.blocks import Blocks
+from stress.families.grid import ALL_CELLS, CELLS, divisions, scenes, variants
+from stress.scene import METHODS, Case, Check, Scene
 
 
 def off_an_edge() -> Iterator[Scene]:

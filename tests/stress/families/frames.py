@@ -9,6 +9,7 @@ from functools import cache
 from typing import Any
 
 import numpy as np
+
 from stress.blocks import Blocks
 from stress.families.grid import ALL_CELLS, CELLS, scenes, usual, variants
 from stress.scene import METHODS, SLIDINGS, Case, Check, Scene, relative

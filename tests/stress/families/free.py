@@ -7,10 +7,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
-from stress.alone import Alone
-from stress.blocks import bulk, dimension
-from stress.families.grid import ALL_CELLS, divisions, scenes, variants
-from stress.scene import METHODS, SLIDINGS, Case, Check, Scene, relative
 
 import contactx as cx
 import ufl
@@ -18,6 +14,11 @@ from dolfinx import fem
 
 import meshes
 from meshes import block_tag
+from scenes import dimension
+from stress.alone import Alone
+from stress.blocks import bulk
+from stress.families.grid import ALL_CELLS, divisions, scenes, variants
+from stress.scene import METHODS, SLIDINGS, Case, Check, Scene, relative
 
 _PRESSURE = 0.01
 

@@ -8,10 +8,10 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from itertools import product
 from typing import Any
 
+from dolfinx.mesh import CellType
+
 from stress.blocks import Blocks
 from stress.scene import METHODS, SHORT, SLIDINGS, Case, Scene
-
-from dolfinx.mesh import CellType
 
 CELLS = (CellType.quadrilateral, CellType.tetrahedron)
 ALL_CELLS = (*CELLS, CellType.triangle, CellType.hexahedron)

@@ -7,10 +7,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
-from stress.families.grid import ALL_CELLS, block_case, scenes
-from stress.scene import METHODS, SLIDINGS, Scene
 
 from dolfinx.mesh import CellType
+
+from stress.families.grid import ALL_CELLS, block_case, scenes
+from stress.scene import METHODS, SLIDINGS, Scene
 
 _ROWS, _COLUMNS = 20, 20
 

@@ -7,13 +7,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
-from stress.alone import Alone
-from stress.blocks import dimension
-from stress.families.grid import CELLS, block_case, divisions, scenes, variants
-from stress.scene import METHODS, SLIDINGS, Scene
 
 import contactx as cx
 from dolfinx.mesh import CellType
+
+from scenes import dimension
+from stress.alone import Alone
+from stress.families.grid import CELLS, block_case, divisions, scenes, variants
+from stress.scene import METHODS, SLIDINGS, Scene
 
 
 def friction() -> Iterator[Scene]:

@@ -8,16 +8,15 @@ from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
-from stress.blocks import bulk, of_bodies
-from stress.families.grid import scenes, variants
-from stress.scene import METHODS, SLIDINGS, Case, Check, Scene, relative
 
 import contactx as cx
 from dolfinx import fem
 
 import meshes
-import scenes as common
 from meshes import Tag
+from scenes import HertzSphere, pressure_error
+from stress.families.grid import scenes, variants
+from stress.scene import METHODS, SLIDINGS, Case, Check, Scene, relative
 
 # Total forces at deep indentations, on which both methods, kinematics and meshes agree: of node-to-
 # surface at h = 0.02
@@ -52,44 +51,40 @@ def _hertz(name, method, sliding, solver, h) -> Case:
     row = _SCENES[name]
     down, mu, lower = row.get("down", 0.02), row.get("friction", 0.0), row.get("lower", 1.0)
     swapped = row.get("swapped", False)
-    data = meshes.hertz_sphere(h)
-    tags = data.facet_tags
-    u = fem.Function(fem.functionspace(data.mesh, ("Lagrange", 1, (3,))))
-    F = bulk(u, of_bodies(data, (1.0, lower)), of_bodies(data, (0.3, 0.3)), "linear")
-    top = common.fix(u, tags, 2, 0.0, Tag.UPPER_TOP)
-    bcs = [
-        common.fix(u, tags, 0, 0.0, Tag.UPPER_X0, Tag.LOWER_X0),
-        common.fix(u, tags, 1, 0.0, Tag.UPPER_Y0, Tag.LOWER_Y0),
-        *(common.fix(u, tags, i, 0.0, Tag.LOWER_BOTTOM) for i in range(3)),
-        top,
-    ]
-    sides = [cx.Surface(tags, side) for side in (Tag.UPPER_CONTACT, Tag.LOWER_CONTACT)]
-    contact = cx.Contact(
-        *(sides[::-1] if swapped else sides), friction=mu, sliding=sliding, method=method
+    young = {Tag.UPPER: 1.0, Tag.LOWER: lower}
+    scene = HertzSphere(
+        meshes.hertz_sphere(h),
+        sliding,
+        down=down,
+        young=young,
+        friction=mu,
+        swapped=swapped,
+        method=method,
+        petsc_options={"pc_type": "lu" if solver == "direct" else "condensed"},
     )
-    options = {"pc_type": "lu"} if solver == "direct" else {"pc_type": "condensed"}
-    problem = cx.ContactProblem(
-        F, u, contacts=[contact], bcs=bcs, petsc_options_prefix="hertz_", petsc_options=options
-    )
-
-    def update(t):
-        top.g.value[...] = -down * t
+    problem, contact, u = scene.problem, scene.contact, scene.problem.u
 
     def answers():
         if down > 0.05 or swapped:
             # Not Hertz's small contact any more, or pressures of the block's nodes
             force = 4 * abs(float(contact.force[2]))
             return [relative("force of the others", force, _FORCES[down], 0.03)]
-        young = {Tag.UPPER: 1.0, Tag.LOWER: lower}
         p = contact.pressure.x.array[_rows(contact, u)]
-        error = common.pressure_error(problem, contact, young, p)
+        error = pressure_error(problem, contact, young, p)
         # On a soft master nodal pressures scatter
         rough = 2.0 if lower < 1 and method == "node-to-surface" else 1.0
         allowed = 0.35 if lower < 1 else 0.12
         return [Check("pressure against Hertz", error, rough * allowed * (h / 0.04) ** 0.5)]
 
     return Case(
-        problem, [contact], F, bcs, update, size=1.0, modulus=min(1.0, lower), answers=answers
+        problem,
+        [contact],
+        scene.F,
+        scene.bcs,
+        scene.update,
+        size=1.0,
+        modulus=min(1.0, lower),
+        answers=answers,
     )
 
 

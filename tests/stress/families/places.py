@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from stress.blocks import dimension
+from scenes import dimension
 from stress.families.grid import ALL_CELLS, block_case, scenes, variants
 from stress.scene import METHODS, SLIDINGS, Scene
 

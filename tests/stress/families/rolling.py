@@ -7,9 +7,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
-from stress.blocks import bulk
-from stress.families.grid import scenes, variants
-from stress.scene import METHODS, Case, Check, Scene
 
 import contactx as cx
 import ufl
@@ -18,6 +15,9 @@ from dolfinx.mesh import CellType
 
 import meshes
 from meshes import Tag
+from stress.blocks import bulk
+from stress.families.grid import scenes, variants
+from stress.scene import METHODS, Case, Check, Scene
 
 _WEIGHT = 1e-3
 

@@ -7,6 +7,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
+
 from stress.blocks import Blocks
 from stress.families.grid import ALL_CELLS, CELLS, block_case, divisions, scenes, usual, variants
 from stress.scene import METHODS, SLIDINGS, Scene

@@ -6,7 +6,6 @@ from mpi4py import MPI
 
 import numpy as np
 import pytest
-from scene_transforms import rotation
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
@@ -19,19 +18,16 @@ from dolfinx.mesh import CellType
 
 import meshes
 from meshes import Tag
-from scenes import Blocks
+from scenes import CELLS, Blocks, dimension
+from scenes.transforms import rotation
 from story import displacement, elasticity
 
-CELLS = pytest.mark.parametrize(
-    "cell",
-    [CellType.triangle, CellType.quadrilateral, CellType.tetrahedron, CellType.hexahedron],
-    ids=lambda c: c.name,
-)
+every_cell = pytest.mark.parametrize("cell", CELLS, ids=lambda c: c.name)
 
 
 def small_in_large(cell, gap):
     """A block of size 0.4 whose bottom is at the height gap, in a large block below zero."""
-    dim = 2 if cell in (CellType.triangle, CellType.quadrilateral) else 3
+    dim = dimension(cell)
     return meshes.blocks(
         cell,
         (3,) * dim,
@@ -50,9 +46,9 @@ def problem(data, slave=Tag.UPPER_CONTACT, master=Tag.LOWER_CONTACT, others=()):
     return cx.ContactProblem(F, u, contacts=[*others, contact], petsc_options_prefix="inside_")
 
 
-@CELLS
+@every_cell
 def test_slave_body_inside(cell):
-    n = 16 if cell in (CellType.triangle, CellType.quadrilateral) else 64
+    n = 4 ** dimension(cell)
     with pytest.raises(
         ValueError,
         match=rf"body of the slave surface Surface\(tags=\(11,\).* lies wholly inside the body of "
@@ -61,20 +57,20 @@ def test_slave_body_inside(cell):
         problem(small_in_large(cell, -0.7))
 
 
-@CELLS
+@every_cell
 def test_master_body_inside(cell):
     with pytest.raises(ValueError, match=r"body of the master surface .*\(11,\).* wholly inside"):
         problem(small_in_large(cell, -0.7), Tag.LOWER_CONTACT, Tag.UPPER_CONTACT)
 
 
-@CELLS
+@every_cell
 @pytest.mark.parametrize("gap", [-0.05, -0.3, -0.4 + 1e-4])
 def test_overlap_in_part_is_legal(cell, gap):
     problem(small_in_large(cell, gap))
 
 
 @pytest.mark.parametrize("length", [1e-8, 1e6])
-@CELLS
+@every_cell
 def test_any_unit_and_place(cell, length):
     for gap, refused in ((-0.4 + 1e-4, False), (-0.7, True)):
         data = small_in_large(cell, gap)
@@ -89,10 +85,10 @@ def test_any_unit_and_place(cell, length):
 
 
 @pytest.mark.parametrize("turns", [False, True])
-@CELLS
+@every_cell
 def test_a_finer_body_in_the_same_place(cell, turns):
     """Its outer nodes are on the surface of the other, but for rounding."""
-    dim = 2 if cell in (CellType.triangle, CellType.quadrilateral) else 3
+    dim = dimension(cell)
     data = meshes.blocks(cell, (5,) * dim, (3,) * dim, gap=-1.0)
     if turns:
         x = data.mesh.geometry.x
@@ -134,7 +130,7 @@ def test_a_refused_problem_frees_its_contacts():
     assert len(floor.multiplier) == 5
 
 
-@CELLS
+@every_cell
 def test_bodies_are_the_connected_parts(cell):
     """Against SciPy, with nodes and cells in any order; named as the mesh was made."""
     scene = Blocks(cell, n_upper=4, n_lower=5)

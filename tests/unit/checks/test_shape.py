@@ -38,7 +38,7 @@ def test_corner_normals_of_a_warped_facet():
         np.testing.assert_allclose(normal, np.cross(t1, t2), atol=1e-15)
 
 
-@pytest.mark.parametrize("length", [1e-9, 1.0, 1e9])
+@pytest.mark.parametrize("length", [1e-9, 1e9])
 @pytest.mark.parametrize(
     "facet",
     [
@@ -55,7 +55,7 @@ def test_facets_that_are_sound(facet, length):
     check(length * facet, length * (facet + 1))
 
 
-@pytest.mark.parametrize("length", [1e-9, 1.0, 1e9])
+@pytest.mark.parametrize("length", [1e-9, 1e9])
 @pytest.mark.parametrize(
     "facet",
     [
@@ -83,8 +83,14 @@ def test_facets_that_are_degenerate(facet, length):
         check(length * (sound + 1), length * facet)
 
 
-@pytest.mark.parametrize("cell", [CellType.triangle, CellType.tetrahedron, CellType.hexahedron])
-@pytest.mark.parametrize(("role", "tag"), [("slave", 11), ("master", 21)])
+@pytest.mark.parametrize(
+    ("cell", "role", "tag"),
+    [
+        (CellType.triangle, "slave", 11),
+        (CellType.tetrahedron, "master", 21),
+        (CellType.hexahedron, "slave", 11),
+    ],
+)
 def test_a_problem_refuses_them(cell, role, tag):
     """A corner of the surface is moved onto the node across its facet, or near to it."""
     scene = Blocks(cell)

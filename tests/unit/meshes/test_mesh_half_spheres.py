@@ -56,8 +56,9 @@ def test_each_body_has_its_own_size(measures: Any, h_master: float | None, expec
         assert 1.0 < lengths.max() < 2.0
 
 
-@pytest.mark.parametrize("name", ["radius", "h", "h_master", "zone"])
-@pytest.mark.parametrize("value", [0.0, -0.5, math.nan])
+@pytest.mark.parametrize(
+    ("name", "value"), [("radius", 0.0), ("h", -0.5), ("h_master", math.nan), ("zone", 0.0)]
+)
 def test_bad_size(name: str, value: float) -> None:
     """The message names the argument and its value."""
     arguments = {"radius": 1.0, "h": 0.1, "zone": 0.2, name: value}

@@ -79,8 +79,7 @@ def test_radii_scale_the_mesh(measures: Any) -> None:
     assert np.allclose(1000 * a, b)
 
 
-@pytest.mark.parametrize("name", ["n", "n_master"])
-@pytest.mark.parametrize("value", [0, -2, 2.5])
+@pytest.mark.parametrize(("name", "value"), [("n", 0), ("n_master", -2), ("n", 2.5)])
 def test_bad_divisions(name: str, value: float) -> None:
     """The message names the argument and its value."""
     arguments: dict[str, Any] = {"n": 4, "n_master": 6, name: value}

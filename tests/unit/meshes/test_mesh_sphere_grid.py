@@ -52,8 +52,7 @@ def test_sizes(measures: Any, h_master: float | None, expected: float) -> None:
     assert 0.5 * expected < depth[1] <= expected + 1e-9
 
 
-@pytest.mark.parametrize("name", ["h", "h_master"])
-@pytest.mark.parametrize("value", [0.0, -0.1, np.nan])
+@pytest.mark.parametrize(("name", "value"), [("h", 0.0), ("h_master", -0.1), ("h", np.nan)])
 def test_bad_size(name: str, value: float) -> None:
     """The message names the argument and its value."""
     with pytest.raises(ValueError, match=f"{name} is {value}; give a positive number"):

@@ -96,8 +96,10 @@ def test_units() -> None:
     assert mm.shear(0.02) == pytest.approx(1e-6 * si.shear(2e-5))
 
 
-@pytest.mark.parametrize("name", ["force", "radius", "modulus", "friction"])
-@pytest.mark.parametrize("value", [0.0, -1.0, math.nan, math.inf])
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [("force", 0.0), ("radius", -1.0), ("modulus", math.nan), ("friction", math.inf)],
+)
 def test_bad_input(name: str, value: float) -> None:
     """The message names the argument and its value."""
     with pytest.raises(ValueError, match=f"{name} is {value}; give a positive number"):

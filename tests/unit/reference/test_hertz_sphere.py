@@ -65,8 +65,10 @@ def test_units() -> None:
     assert mm.peak_pressure == pytest.approx(1e-6 * si.peak_pressure)
 
 
-@pytest.mark.parametrize("name", ["force", "radius", "modulus"])
-@pytest.mark.parametrize("value", [0.0, -1.0, math.nan, math.inf])
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [("force", 0.0), ("radius", -1.0), ("modulus", math.nan), ("force", math.inf)],
+)
 def test_bad_input(name: str, value: float) -> None:
     """The message names the argument and its value."""
     arguments = {"force": 1.0, "radius": 1.0, "modulus": 1.0, name: value}

@@ -108,17 +108,25 @@ def test_units() -> None:
 
 
 @pytest.mark.parametrize(
-    "name", ["interference", "bore", "radius", "rim", "young_inner", "young_outer"]
+    ("name", "value"),
+    [
+        ("interference", 0.0),
+        ("bore", -1.0),
+        ("radius", math.nan),
+        ("rim", math.inf),
+        ("young_inner", 0.0),
+        ("young_outer", -1.0),
+    ],
 )
-@pytest.mark.parametrize("value", [0.0, -1.0, math.nan, math.inf])
 def test_bad_input(name: str, value: float) -> None:
     """The message names the argument and its value."""
     with pytest.raises(ValueError, match=f"{name} is {value}; give a positive number"):
         PressFit(**{**asdict(FIT), name: value})
 
 
-@pytest.mark.parametrize("name", ["nu_inner", "nu_outer"])
-@pytest.mark.parametrize("value", [-1.0, 0.6, math.nan])
+@pytest.mark.parametrize(
+    ("name", "value"), [("nu_inner", -1.0), ("nu_outer", 0.6), ("nu_inner", math.nan)]
+)
 def test_bad_ratio(name: str, value: float) -> None:
     """The message names the argument and its value."""
     with pytest.raises(ValueError, match=rf"{name} is {value}; give a Poisson's ratio"):

@@ -18,12 +18,12 @@ import numpy as np
 import numpy.typing as npt
 
 import contactx as cx
-from dolfinx import fem
 from dolfinx.io.gmsh import MeshData
 
 import meshes
 import reference
 from meshes import Tag
+from scenes.materials import of_bodies
 from story import displacement, elasticity, fix
 
 Array = npt.NDArray[np.float64]
@@ -74,10 +74,7 @@ class TwoSpheres:
             method: Method of the contact.
         """
         tags, u = data.facet_tags, displacement(data.mesh)
-        E = fem.Function(fem.functionspace(data.mesh, ("DG", 0)))
-        upper, lower = (SOFT, STIFF) if slave == "soft" else (STIFF, SOFT)
-        E.x.array[data.cell_tags.find(Tag.UPPER)] = upper
-        E.x.array[data.cell_tags.find(Tag.LOWER)] = lower
+        E = of_bodies(data, *((SOFT, STIFF) if slave == "soft" else (STIFF, SOFT)))
         self._top = fix(u, tags, 2, 0.0, Tag.UPPER_TOP)
         bcs = [
             fix(u, tags, 0, 0.0, Tag.UPPER_X0, Tag.LOWER_X0),

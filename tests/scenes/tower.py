@@ -17,24 +17,10 @@ from dolfinx import fem, mesh
 
 import meshes
 from meshes import Tag
+from scenes.blocks import dimension
+from scenes.materials import neo_hookean
+from scenes.supports import DrivenFaces
 from story import displacement, elasticity
-
-CELLS = [
-    mesh.CellType.triangle,
-    mesh.CellType.quadrilateral,
-    mesh.CellType.tetrahedron,
-    mesh.CellType.hexahedron,
-]
-
-
-def neo_hookean(u: fem.Function, young: float, nu: float) -> ufl.Form:
-    """Residual of a compressible neo-Hookean material."""
-    mu, lmbda = young / (2 * (1 + nu)), young * nu / ((1 + nu) * (1 - 2 * nu))
-    F = ufl.variable(ufl.Identity(len(u)) + ufl.grad(u))
-    J = ufl.det(F)
-    trace = ufl.tr(F.T * F) - len(u)
-    energy = mu / 2 * (trace - 2 * ufl.ln(J)) + lmbda / 2 * ufl.ln(J) ** 2
-    return ufl.inner(ufl.diff(energy, F), ufl.grad(ufl.TestFunction(u.function_space))) * ufl.dx
 
 
 class Tower:
@@ -45,8 +31,8 @@ class Tower:
         tags: Facet tags.
         X: Reference positions of the nodes, shape (num_nodes, gdim).
         upper: Nodes of the upper box.
-        top: Displacement of the upper box's top.
-        bottom: Displacement of the lower box's bottom.
+        top: The upper box's top.
+        bottom: The lower box's bottom.
         stress: What loads the side faces, if they are asked for.
         contact: The contact.
         problem: The problem.
@@ -67,7 +53,7 @@ class Tower:
         sides: bool = False,
         **options: Any,
     ):
-        gdim = 2 if cell in CELLS[:2] else 3
+        gdim = dimension(cell)
         data = meshes.blocks(
             cell, (n_upper,) * gdim, (n_lower,) * gdim, gap=gap, shift=(shift,) * (gdim - 1)
         )
@@ -76,9 +62,8 @@ class Tower:
         V = self.u.function_space
         self.X = V.tabulate_dof_coordinates()[:, :gdim]
         self.upper = np.unique(V.dofmap.list[data.cell_tags.find(Tag.UPPER)])
-        self.top, self.bottom = fem.Function(V), fem.Function(V)
-        bcs = [] if free_top else [self._held(self.top, Tag.UPPER_TOP)]
-        bcs.append(self._held(self.bottom, Tag.LOWER_BOTTOM))
+        self.top = DrivenFaces(self.u, self.tags, Tag.UPPER_TOP)
+        self.bottom = DrivenFaces(self.u, self.tags, Tag.LOWER_BOTTOM)
         self.contact = cx.Contact(
             cx.Surface(self.tags, Tag.UPPER_CONTACT),
             master or cx.Surface(self.tags, Tag.LOWER_CONTACT),
@@ -92,7 +77,7 @@ class Tower:
             F,
             self.u,
             contacts=[self.contact],
-            bcs=bcs,
+            bcs=[end.bc for end in ([self.bottom] if free_top else [self.top, self.bottom])],
             petsc_options_prefix="tower_",
         )
 
@@ -104,21 +89,16 @@ class Tower:
         v = ufl.TestFunction(self.u.function_space)
         return ufl.inner(self.stress * ufl.FacetNormal(self.mesh), v) * ds
 
-    def _held(self, value: fem.Function, face: int) -> fem.DirichletBC:
-        V = self.u.function_space
-        dofs = fem.locate_dofs_topological(V, self.tags.dim, self.tags.find(face))
-        return fem.dirichletbc(value, dofs)
-
     def solve(self, *top: float) -> Tower:
         """Move the top by a vector."""
-        self.top.x.array[:] = np.tile(top, len(self.X))
+        self.top.move(top)
         self.problem.solve()
         return self
 
     def move(self, motion: Any) -> None:
         """Move both ends as a motion of points does, and solve."""
         for end in (self.top, self.bottom):
-            end.x.array[:] = (motion(self.X) - self.X).ravel()
+            end.move(motion(end.x) - end.x)
         self.problem.solve()
 
     @property

@@ -25,8 +25,7 @@ VERTICES = {
 EDGES = {2: [], 3: [(0, 1), (1, 2), (2, 0)], 4: [(0, 1), (1, 3), (3, 2), (2, 0)]}
 
 
-# Random states of each kind of pair, and the kinds: nodes of the facet, feature
-STATES = 100
+# Kinds of pairs: nodes of the facet, feature
 CASES = [
     (2, "interior"),
     (2, "vertex"),
@@ -116,8 +115,20 @@ def assert_close(computed: np.ndarray, reference: np.ndarray, relative: float) -
     assert np.abs(computed - reference).max() <= relative * np.abs(reference).max()
 
 
-def random_pair(num_nodes: int, kind: str, rng: np.random.Generator) -> Pair:
-    """A warped, rotated and stretched facet with a slave node near a feature of it."""
+def states(num_nodes: int, kind: str) -> range:
+    """Numbers of all edges or vertices of a facet; two for its interior."""
+    return range({"interior": 2, "edge": len(EDGES[num_nodes]), "vertex": num_nodes}[kind])
+
+
+def random_pair(num_nodes: int, kind: str, rng: np.random.Generator, which: int = 0) -> Pair:
+    """A warped, rotated and stretched facet with a slave node near a feature of it.
+
+    Args:
+        num_nodes: Nodes of the facet.
+        kind: "interior", "edge" or "vertex".
+        rng: Random numbers.
+        which: Number of the edge or vertex.
+    """
     vertices = VERTICES[num_nodes]
     gdim = vertices.shape[1] + 1
     flat = np.column_stack([vertices, np.zeros(num_nodes)])
@@ -130,15 +141,13 @@ def random_pair(num_nodes: int, kind: str, rng: np.random.Generator) -> Pair:
     if num_nodes == 3:
         xi *= 0.6
     if kind == "edge":
-        edge = int(rng.integers(len(EDGES[num_nodes])))
-        feature, along = 1 + edge, rng.uniform(0.1, 0.9)
-        i, j = EDGES[num_nodes][edge]
+        feature, along = 1 + which, rng.uniform(0.1, 0.9)
+        i, j = EDGES[num_nodes][which]
         xi = (1 - along) * vertices[i] + along * vertices[j]
         cone = np.array([0.0, *_unit(rng, 2)])
     elif kind == "vertex":
-        vertex = int(rng.integers(num_nodes))
-        feature = 1 + len(EDGES[num_nodes]) + vertex
-        xi = vertices[vertex]
+        feature = 1 + len(EDGES[num_nodes]) + which
+        xi = vertices[which]
         cone = _unit(rng, 3) if gdim == 3 else np.insert(_unit(rng, 2), 1, 0.0)
     centre = x.mean(axis=0)
     slave = centre + 0.2 * rng.standard_normal(gdim)
@@ -151,9 +160,11 @@ def random_pair(num_nodes: int, kind: str, rng: np.random.Generator) -> Pair:
     return Pair(displacement, current - displacement, data)
 
 
-def random_vector_pair(law: str, num_nodes: int, kind: str, rng: np.random.Generator) -> Pair:
+def random_vector_pair(
+    law: str, num_nodes: int, kind: str, rng: np.random.Generator, which: int = 0
+) -> Pair:
     """As ``random_pair``, with a traction, slip from a random point and random derivatives."""
-    pair = random_pair(num_nodes, kind, rng)
+    pair = random_pair(num_nodes, kind, rng, which)
     gdim = pair.gdim
     xi = [*rng.uniform(-0.1, 0.7, gdim - 1), *np.zeros(3 - gdim)]
     origin = [*rng.standard_normal(gdim), *np.zeros(3 - gdim)]

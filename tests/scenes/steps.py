@@ -7,7 +7,6 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from plastic import Plastic
 
 import contactx as cx
 import ufl
@@ -17,8 +16,23 @@ from dolfinx.mesh import CellType
 
 import meshes
 from meshes import Tag
-from scenes import Blocks
-from story import displacement, fix
+from scenes.blocks import NU, Blocks
+from scenes.materials import neo_hookean
+from scenes.plasticity import Plastic
+from story import displacement, fix, traction
+
+
+def state(problem: cx.ContactProblem, *history: fem.Function) -> list[bytes]:
+    """Bits of all that a failed step must leave as it was."""
+    arrays = [problem.u.x.array, *(f.x.array for f in history)]
+    for contact in problem.contacts:
+        arrays += save_state(contact.interface).values()
+        for value in vars(contact.fields).values():
+            if isinstance(value, fem.Function):
+                arrays.append(value.x.array)
+        arrays += [contact.interface.nodes.immobile]
+        arrays += [contact.fields.force, contact.fields.imbalance]
+    return [np.ascontiguousarray(array).tobytes() for array in arrays]
 
 
 class Sheared:
@@ -37,9 +51,6 @@ class Sheared:
         data = meshes.blocks(CellType.triangle, (3, 3), (1, 1))
         mesh, tags = meshes.single(data, Tag.UPPER)
         self.u = u = displacement(mesh)
-        F = ufl.Identity(2) + ufl.grad(u)
-        J = ufl.det(F)
-        energy = (0.5 * (ufl.tr(F.T * F) - 2 - 2 * ufl.ln(J)) + 0.75 * ufl.ln(J) ** 2) * ufl.dx
         self.far, self.deep = far, deep
         self.bcs = [
             fix(u, tags, 0, 0.0, Tag.UPPER_CONTACT),
@@ -50,7 +61,7 @@ class Sheared:
             cx.Surface(tags, Tag.UPPER_CONTACT), cx.Plane((0.0, 0.0), self.normal)
         )
         self.problem = cx.ContactProblem(
-            ufl.derivative(energy, u),
+            neo_hookean(u, 2.6, 0.3),
             u,
             contacts=[self.contact],
             bcs=self.bcs,
@@ -67,15 +78,7 @@ class Sheared:
 
     def state(self) -> list[bytes]:
         """Bits of what a failed step must leave alone."""
-        interface, fields = self.contact.interface, self.contact.fields
-        arrays = [self.u.x.array, self.history.x.array, *save_state(interface).values()]
-        arrays += [
-            interface.nodes.immobile,
-            fields.force,
-            fields.traction.x.array,
-            fields.gap.x.array,
-        ]
-        return [array.tobytes() for array in arrays]
+        return state(self.problem, self.history)
 
     def steps(self, steps: Any, **options: Any) -> cx.LoadSteps:
         options = {"history": [self.history], "progress": False, **options}
@@ -154,3 +157,67 @@ class DentedBlock:
     def commit(self) -> None:
         """Take over the plastic strains."""
         self.material.commit()
+
+
+class Rubbing:
+    """Two blocks that rub, with a switch for each thing that may become bad.
+
+    Attributes:
+        u: Displacement.
+        contact: Contact.
+        problem: The problem.
+        history: A function that belongs to the state.
+        young: Young's modulus in the residual.
+        tangent: Factor of the Jacobian.
+        load: Traction on the top block's side.
+        friction: Coefficient.
+        offset: Offset.
+    """
+
+    def __init__(self, method: str = "node-to-surface", solver: str = "lu", **kind: Any):
+        self.blocks = blocks = Blocks(CellType.quadrilateral, n_upper=3, n_lower=4)
+        self.u, domain = blocks.u, blocks.u.function_space.mesh
+        self.young, self.tangent = fem.Constant(domain, 1.0), fem.Constant(domain, 1.0)
+        self.load = fem.Constant(domain, (0.0, 0.0))
+        blocks.F = neo_hookean(self.u, self.young, NU, degree=3) + traction(
+            self.u, blocks.tags, Tag.UPPER_X0, self.load
+        )
+        self.friction, self.offset = blocks.scalar(0.2), blocks.scalar(0.0)
+        kind = {"friction": self.friction, **kind}
+        self.contact = blocks.contact(method=method, offset=self.offset, **kind)
+        self.problem = blocks.problem(
+            self.contact,
+            J=self.tangent * ufl.derivative(blocks.F, self.u),
+            petsc_options={"pc_type": solver},
+        )
+        self._down, self._side = blocks.bcs[-1], blocks.bcs[-2]
+        self.history = fem.Function(fem.functionspace(domain, ("DG", 0)))
+
+    def update(self, t: float) -> None:
+        """Press, and push to and fro."""
+        self._down.g.value[...] = -0.08 * min(2 * t, 1)
+        self._side.g.value[...] = 0.3 * np.sin(2 * np.pi * t)
+
+    def state(self) -> list[bytes]:
+        """Bits of the state."""
+        return state(self.problem, self.history)
+
+    def steps(self, steps: Any, **options: Any) -> cx.LoadSteps:
+        """Load steps without a display."""
+        options = {"history": [self.history], "progress": False, **options}
+        return cx.LoadSteps(self.problem, steps, options.pop("update", self.update), **options)
+
+    def run(self, steps: cx.LoadSteps) -> None:
+        """Take the steps that are left; a material would remember each of them."""
+        for step in steps:
+            self.history.x.array[:] = 2 * self.history.x.array + step.index
+
+
+KINDS: dict[str, dict[str, Any]] = {
+    "nodes": {},
+    "facets": {"method": "surface-to-surface"},
+    "condensed": {"solver": "condensed"},
+    "small": {"sliding": "small"},
+    "tied": {"tied": True, "friction": 0.0},
+    "frictionless": {"friction": 0.0},
+}

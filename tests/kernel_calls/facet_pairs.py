@@ -7,9 +7,10 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 
 import numpy as np
-from kernel_calls import VERTICES, call
 
 from contactx import cpp as core
+
+from kernel_calls.node_pairs import VERTICES, call
 
 # Nodes of the slave and of the master facet
 KINDS = [(2, 2), (3, 3), (3, 4), (4, 3), (4, 4)]

@@ -1,6 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Scenes that several tests use."""
+"""The common Hertz problem: an elastic sphere on an elastic block, in three dimensions."""
 
 from __future__ import annotations
 
@@ -10,22 +10,22 @@ import numpy as np
 import numpy.typing as npt
 
 import contactx as cx
-from contactx.obstacles import Obstacle
-from dolfinx import fem, mesh
 from dolfinx.io.gmsh import MeshData
 
 import meshes
 import reference
 from meshes import Tag
+from scenes.blocks import NU
+from scenes.materials import of_bodies
 from story import displacement, elasticity, fix
-
-NU = 0.3
 
 
 class HertzSphere:
     """The common Hertz problem with any displacement and a modulus for each body.
 
     Attributes:
+        F: Residual of the bodies.
+        bcs: Supports; the last one moves the top.
         problem: The problem.
         contact: Its contact.
     """
@@ -57,13 +57,10 @@ class HertzSphere:
             options: Those of the problem.
         """
         tags, u = data.facet_tags, displacement(data.mesh)
-        E = fem.Function(fem.functionspace(data.mesh, ("DG", 0)))
-        E.x.array[:] = 1
-        for body, value in (young or {}).items():
-            E.x.array[data.cell_tags.find(body)] = value
+        E = of_bodies(data, *_moduli(young))
         self._down = down
         self._top = fix(u, tags, 2, -down, Tag.UPPER_TOP)
-        bcs = [
+        self.bcs = [
             fix(u, tags, 0, 0.0, Tag.UPPER_X0, Tag.LOWER_X0),
             fix(u, tags, 1, 0.0, Tag.UPPER_Y0, Tag.LOWER_Y0),
             *(fix(u, tags, i, 0.0, Tag.LOWER_BOTTOM) for i in range(3)),
@@ -77,11 +74,12 @@ class HertzSphere:
             search_distance=search_distance,
             **({} if method is None else {"method": method}),
         )
+        self.F = elasticity(u, E, NU)
         self.problem = cx.ContactProblem(
-            elasticity(u, E, NU),
+            self.F,
             u,
             contacts=[self.contact],
-            bcs=bcs,
+            bcs=self.bcs,
             petsc_options_prefix="sphere_",
             **options,
         )
@@ -99,11 +97,11 @@ def hertz_sphere(h: float, sliding: str, **options: Any) -> tuple[cx.ContactProb
 
 def hertz_of(contact: cx.Contact, young: dict[Tag, float] | None = None) -> reference.HertzSphere:
     """Closed formula for the computed force of a quarter of the common Hertz problem."""
-    E = {Tag.UPPER: 1.0, Tag.LOWER: 1.0, **(young or {})}
+    upper, lower = _moduli(young)
     return reference.HertzSphere(
         force=4 * float(contact.force[2]),
         radius=1.0,
-        modulus=reference.contact_modulus(E[Tag.UPPER], NU, E[Tag.LOWER], NU),
+        modulus=reference.contact_modulus(upper, NU, lower, NU),
     )
 
 
@@ -132,60 +130,7 @@ def pressure_error(
     return float(np.sqrt(w @ (p[near] - exact) ** 2 / (w @ exact**2)))
 
 
-class Blocks:
-    """An upper block pressed on a wider lower one that it does not match.
-
-    Attributes:
-        u: Displacement.
-        F: Residual.
-        bcs: The lower block's bottom is fixed, the upper one's top moves down and not sideways.
-        tags: Facet tags.
-    """
-
-    def __init__(
-        self,
-        cell_type: mesh.CellType,
-        *,
-        down: float = 0.05,
-        gap: float = 0.0,
-        n_upper: int = 2,
-        n_lower: int = 3,
-    ):
-        plane = cell_type in (mesh.CellType.triangle, mesh.CellType.quadrilateral)
-        gdim = 2 if plane else 3
-        data = meshes.blocks(
-            cell_type,
-            (n_upper,) * gdim,
-            (n_lower,) * gdim,
-            size_lower=(1.5,) * (gdim - 1) + (1.0,),
-            shift=(0.23,) * (gdim - 1),
-            gap=gap,
-        )
-        self.tags = data.facet_tags
-        self.u = displacement(data.mesh)
-        self.F = elasticity(self.u, 1.0, NU)
-        self.bcs = [
-            *(fix(self.u, self.tags, i, 0.0, Tag.LOWER_BOTTOM) for i in range(gdim)),
-            *(fix(self.u, self.tags, i, 0.0, Tag.UPPER_TOP) for i in range(gdim - 1)),
-            fix(self.u, self.tags, gdim - 1, -down, Tag.UPPER_TOP),
-        ]
-
-    def contact(
-        self, sliding: str = "finite", *, master: Obstacle | None = None, **options: Any
-    ) -> cx.Contact:
-        return cx.Contact(
-            cx.Surface(self.tags, Tag.UPPER_CONTACT),
-            master or cx.Surface(self.tags, Tag.LOWER_CONTACT),
-            sliding=sliding,
-            **options,
-        )
-
-    def problem(self, *contacts: cx.Contact, **options: Any) -> cx.ContactProblem:
-        return cx.ContactProblem(
-            self.F,
-            self.u,
-            contacts=contacts,
-            bcs=self.bcs,
-            petsc_options_prefix="blocks_",
-            **options,
-        )
+def _moduli(young: dict[Tag, float] | None) -> tuple[float, float]:
+    """Young's moduli of the upper and of the lower body."""
+    given = young or {}
+    return given.get(Tag.UPPER, 1.0), given.get(Tag.LOWER, 1.0)

@@ -16,9 +16,8 @@ import contactx as cx
 from dolfinx import fem, mesh
 
 from meshes import Tag
+from scenes.blocks import NU
 from story import displacement, elasticity
-
-NU = 0.3
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,6 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Any
 
-import exact
 import numpy as np
 import numpy.typing as npt
 
@@ -20,6 +19,9 @@ from dolfinx import fem, mesh
 
 import meshes
 from meshes import Tag
+from scenes import exact
+from scenes.blocks import dimension
+from scenes.supports import hold
 from story import displacement
 
 Array = npt.NDArray[np.float64]
@@ -52,7 +54,7 @@ class Case:
             length: Length of the blocks along the first axis; the other ones are 1.
             method: Method of the contact.
         """
-        gdim = 2 if cell in ("triangle", "quadrilateral") else 3
+        gdim = dimension(mesh.CellType[cell])
         size = (length, *(1.0,) * (gdim - 1))
         fine, coarse = ([round(count * side) for side in size] for count in (n, round(COARSER * n)))
         data = meshes.blocks(mesh.CellType[cell], fine, coarse, size_upper=size, size_lower=size)
@@ -75,12 +77,6 @@ class Case:
         """Residual of the stress of a displacement in each body."""
         v = ufl.TestFunction(self.u.function_space)
         return self.integral(lambda body: ufl.inner(exact.stress(u[body], body), ufl.grad(v)))
-
-    def fix(self, values: fem.Function, *faces: int) -> fem.DirichletBC:
-        """Prescribe all displacements of faces."""
-        facets = np.concatenate([self.tags.find(face) for face in faces])
-        dofs = fem.locate_dofs_topological(self.u.function_space, self.tags.dim, facets)
-        return fem.dirichletbc(values, dofs)
 
     def solve(self, F: ufl.Form, bc: fem.DirichletBC, offset: Any = 0.0) -> None:
         """Solve the problem of a residual without contact."""
@@ -137,7 +133,7 @@ def smooth(cell: str, n: int, method: str) -> dict[str, Any]:
     faces = (ds(int(face), metadata=degree) for face in (Tag.UPPER_CONTACT, Tag.LOWER_CONTACT))
     pushed = sum(sign * p * v * face for sign, face in zip((1, -1), faces, strict=True))
     zero = {body: case.u - u[body] for body in case.cells}
-    case.solve(case.internal(zero) + pushed, case.fix(held, Tag.UPPER_TOP, Tag.LOWER_BOTTOM))
+    case.solve(case.internal(zero) + pushed, hold(held, case.tags, Tag.UPPER_TOP, Tag.LOWER_BOTTOM))
     found = case.errors(u, lambda points: exact.smooth_pressure(points.T[: len(x)], np.cos))
     return {"h": 1 / n, "dofs": len(case.u.x.array), **found}
 
@@ -154,7 +150,7 @@ def hertz(cell: str, n: int, method: str) -> dict[str, Any]:
     offset = fem.Function(fem.functionspace(case.domain, ("Lagrange", 1)))
     offset.interpolate(lambda x: -exact.hertz_gap(x[0]))
     sides = (Tag.UPPER_X0, Tag.UPPER_X1, Tag.LOWER_X0, Tag.LOWER_X1)
-    bc = case.fix(held, Tag.UPPER_TOP, Tag.LOWER_BOTTOM, *sides)
+    bc = hold(held, case.tags, Tag.UPPER_TOP, Tag.LOWER_BOTTOM, *sides)
     case.solve(case.internal(dict.fromkeys(case.cells, case.u)), bc, offset)
     u = dict.fromkeys(case.cells, high)
     found = case.errors(u, lambda points: exact.hertz_pressure(points[:, 0]))
