@@ -3,10 +3,11 @@
 """Options of a contact."""
 
 import numpy as np
-from rows import Row, constant, refused, scene, solved, table
 
 import contactx as cx
 from dolfinx import fem
+
+from inputs.rows import Row, constant, refused, scene, solved, table
 
 NOT_A_NUMBER = "{} must be a number, a fem.Constant or a fem.Function, not {}"
 

@@ -7,12 +7,12 @@ from petsc4py import PETSc
 
 import numpy as np
 import pytest
-from rows import Row, problem, refused, scene, table, with_
 
 import basix.ufl
 import contactx as cx
 from dolfinx import fem, mesh
 
+from inputs.rows import Row, problem, refused, scene, table, with_
 from meshes import Tag
 from story import displacement, fix
 

@@ -2,11 +2,10 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """Residual and Jacobian of a problem."""
 
-from rows import Row, problem, refused, scene, table, with_
-
 import ufl
 from dolfinx import fem
 
+from inputs.rows import Row, problem, refused, scene, table, with_
 from story import elasticity
 
 VECTORS = ("Lagrange", 1, (2,))

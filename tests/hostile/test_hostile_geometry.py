@@ -6,7 +6,6 @@ from mpi4py import MPI
 
 import numpy as np
 import pytest
-from rows import Row, refused, scene, solved, table
 
 import basix.ufl
 import contactx as cx
@@ -14,6 +13,7 @@ from contactx.geometry.cells import jacobians
 from dolfinx import fem, mesh
 from dolfinx.mesh import CellType
 
+from inputs.rows import Row, refused, scene, solved, table
 from story import displacement, elasticity
 
 # A base, of which the contact takes the top

@@ -3,12 +3,12 @@
 """Meshes and closed formulas."""
 
 import numpy as np
-from rows import Row, refused, table
 
 from dolfinx.mesh import CellType
 
 import meshes
 import reference
+from inputs.rows import Row, refused, table
 from meshes import Tag
 
 TRIANGLE = CellType.triangle

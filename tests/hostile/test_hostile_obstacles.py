@@ -4,11 +4,12 @@
 
 import numpy as np
 import pytest
-from rows import Row, constant, refused, scene, solved, table
 
 import contactx as cx
 import ufl
 from dolfinx import fem
+
+from inputs.rows import Row, constant, refused, scene, solved, table
 
 UP = (0.0, 1.0)
 

@@ -6,9 +6,10 @@ import warnings
 
 import numpy as np
 import pytest
-from rows import Row, problem, refused, scene, table, with_
 
 import contactx as cx
+
+from inputs.rows import Row, problem, refused, scene, table, with_
 
 
 def options(**given):

@@ -4,11 +4,11 @@
 
 import numpy as np
 import pytest
-from rows import Row, refused, scene, table
 
 from dolfinx import fem
 
 import plot
+from inputs.rows import Row, refused, scene, table
 
 LABELS = ("x", "y")
 

@@ -6,11 +6,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from rows import Row, constant, refused, scene, table
 
 import contactx as cx
 from dolfinx import fem
 
+from inputs.rows import Row, constant, refused, scene, table
 from scenes.steps import Sheared
 
 

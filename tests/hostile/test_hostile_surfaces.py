@@ -3,13 +3,13 @@
 """Surfaces and tags."""
 
 import numpy as np
-from rows import Row, refused, scene, solved, table
 
 import contactx as cx
 from dolfinx import mesh
 from dolfinx.mesh import CellType
 
 import meshes
+from inputs.rows import Row, refused, scene, solved, table
 from meshes import Tag
 from story import displacement
 

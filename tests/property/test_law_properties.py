@@ -3,11 +3,12 @@
 """Contact laws of single nodes."""
 
 import numpy as np
-from core_inputs import fractions, powers, rotations
 from hypothesis import given
 from hypothesis import strategies as st
 
 from contactx import cpp as core
+
+from inputs.core import fractions, powers, rotations
 
 _MATRICES = ("by_traction", "by_slip", "by_normal")
 

@@ -3,11 +3,12 @@
 """Pairs of facets and the integrals over what they share."""
 
 import numpy as np
-from core_inputs import fractions, powers, rotations, sheets, shuffles, wild_surfaces
 from hypothesis import given
 from hypothesis import strategies as st
 
 from contactx import cpp as core
+
+from inputs.core import fractions, powers, rotations, sheets, shuffles, wild_surfaces
 
 
 def _integrals(s, reach=np.inf):

@@ -3,11 +3,12 @@
 """Pairs of slave nodes and master facets."""
 
 import numpy as np
-from core_inputs import fractions, powers, sheets, wild_surfaces
 from hypothesis import given
 from hypothesis import strategies as st
 
 from contactx import cpp as core
+
+from inputs.core import fractions, powers, sheets, wild_surfaces
 
 _NAMES = ("facet", "feature", "xi", "cone", "normal")
 

@@ -3,11 +3,12 @@
 """Closest points of a surface and the projections that contact is measured with."""
 
 import numpy as np
-from core_inputs import fractions, powers, rotations, sheets, shuffles, wild_surfaces
 from hypothesis import given
 from hypothesis import strategies as st
 
 from contactx import cpp as core
+
+from inputs.core import fractions, powers, rotations, sheets, shuffles, wild_surfaces
 
 
 def _find(s, points, normals=None, reach=np.inf):
