@@ -30,7 +30,7 @@ SANITIZED := tests/property tests/unit/core tests/verification/test_rigid_obstac
 # Executions of each fuzz target, and the compiler that has libFuzzer
 RUNS ?= 1000000
 CLANG ?= clang++
-BENCHES := hertz methods rates spheres ironing friction scenes parts skips steps growth scaling
+BENCHES := hertz methods rates spheres ironing friction scenes skips steps growth scaling
 
 # Threads: MPI and the tests' machine decide, not OpenMP. Without a display,
 # VTK need not look for one.

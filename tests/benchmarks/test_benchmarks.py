@@ -7,7 +7,6 @@ import bench_growth
 import bench_hertz
 import bench_ironing
 import bench_methods
-import bench_parts
 import bench_rates
 import bench_scaling
 import bench_scenes
@@ -15,7 +14,6 @@ import bench_skips
 import bench_spheres
 import bench_steps
 import numpy as np
-import parts
 import pytest
 import runner
 import tables
@@ -74,16 +72,6 @@ def test_growth_of_a_power():
     assert [row["dofs"] for row in curve] == [30_000, 90_000]
     assert curve[0]["cpu"] == pytest.approx(3 * 30_000**1.5)
     assert np.isnan(tables.power_law([1.0], [1.0])).all()
-
-
-def test_parts():
-    assert parts.outdated() == []
-    rows = bench_parts.main(["0.2"])
-    assert [row["sliding"] for row in rows] == ["small", "finite"]
-    for row in rows:
-        assert sum(row[part] for part in parts.PARTS) == pytest.approx(row["cpu"], rel=0.1)
-        assert 0 < row["share"] < 100
-        assert row[parts.CONTACT] > 0 and row[parts.DIRECT] > 0
 
 
 def test_scenes():
@@ -167,23 +155,3 @@ def test_strong_scaling(monkeypatch):
     assert one["iterations"] == two["iterations"]
     assert two["force"] == pytest.approx(one["force"], rel=1e-9)
     assert one["ratio"] == 1 and two["ratio"] > 0
-
-
-@pytest.mark.parametrize("method", METHODS)
-def test_what_a_rank_sends_does_not_grow_with_their_number(method):
-    """Between 4 and 16 ranks, with as much to do for each."""
-    rows = bench_scaling.weak((1, 4, 16), dims=(3,), methods=(method,), partitions=("shifted",))
-    tables.show(method, bench_scaling.WEAK, rows, runner.OUTPUT / "weak.csv")
-    assert not tables.failures(rows)
-    one, few, many = rows
-    assert one["bytes a search"] == one["halo"] == 0
-    assert few["iterations"] == many["iterations"] and few["searches"] == many["searches"]
-    assert many["halo"] <= 1.1 * few["halo"]
-    assert 0 < few["bytes an iteration"] and 0 < few["bytes a search"]
-    assert many["bytes an iteration"] <= 1.1 * few["bytes an iteration"]
-    # In the middle of four there is no rank yet with as many neighbours as any has
-    assert many["messages an iteration"] <= 1.25 * few["messages an iteration"]
-    # But for the boxes, of which each rank has one
-    searched = [row["bytes a search"] - row["of boxes"] for row in (few, many)]
-    assert searched[1] <= 1.1 * searched[0]
-    assert many["of boxes"] <= 16 * 200
