@@ -1,6 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Run under mpiexec by test_launch.py: rank 0 waits for another one that never comes, or fails."""
+"""Run under mpiexec: rank 0 waits for another one that never comes, one fails, or all sleep."""
 
 import sys
 import time
@@ -11,7 +11,9 @@ from ranks import watch
 
 what = sys.argv[1]
 comm = MPI.COMM_WORLD
-watch.begin("a barrier", 2)
+watch.begin("a barrier", 600 if what == "sleep" else 2)
+if what == "sleep":
+    time.sleep(600)
 if what == "hang" and comm.rank > 0:
     time.sleep(600)
 comm.Barrier()
