@@ -12,7 +12,9 @@ import os
 import signal
 import sys
 from collections.abc import Sequence
+from pathlib import Path
 
+TESTS = Path(__file__).parent
 # From linux/prctl.h
 _PR_SET_PDEATHSIG = 1
 
@@ -24,6 +26,13 @@ def tether() -> None:
     """
     if sys.platform.startswith("linux"):
         ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
+
+
+def environment(*folders: Path) -> dict[str, str]:
+    """Environment of a process on one thread that imports what tests import, and more folders."""
+    found = [*map(str, folders), str(TESTS), str(TESTS.parent / "demos")]
+    found += filter(None, [os.getenv("PYTHONPATH")])
+    return {**os.environ, "OMP_NUM_THREADS": "1", "PYTHONPATH": os.pathsep.join(found)}
 
 
 def tethered(command: Sequence[str]) -> list[str]:

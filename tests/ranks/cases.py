@@ -22,6 +22,17 @@ SCENES: dict[str, Callable[[], Iterator[cx.ContactProblem]]] = {
     for name, function in vars(module).items()
     if inspect.isgeneratorfunction(function) and not name.startswith("_")
 }
+# What tests/fast runs on two ranks: friction, free bodies, ties, nodes in several
+# contacts, dragging over the parts of ranks, an obstacle, both solvers
+QUICK = (
+    ("friction_condensed", "node"),
+    ("floating_3d", "surface"),
+    ("tied", "node"),
+    ("chain", "surface"),
+    ("dragged_2d", "surface"),
+    ("dragged_3d", "node"),
+    ("plane", "node"),
+)
 
 
 @dataclass(frozen=True)

@@ -14,9 +14,8 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from ranks import watch
-from tether import tethered
+from tether import environment, tethered
 
-TESTS = Path(__file__).parents[1]
 # Where the scripts are that tests launch
 SCRIPTS = Path(__file__).parent
 # Seconds for a script, or for the last part that it began by ``watch.begin``
@@ -64,7 +63,7 @@ def launch(
         # The ranks end with the launcher. Ctrl-C is for this process, which ends the launcher
         process = subprocess.Popen(
             tethered([*command, str(script), *arguments]),
-            env=environment(ranks) | {watch.FOLDER: folder},
+            env=environment() | _variables(ranks) | {watch.FOLDER: folder},
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
             text=True,
@@ -88,16 +87,10 @@ def launch(
         return printed
 
 
-def environment(ranks: int) -> dict[str, str]:
+def _variables(ranks: int) -> dict[str, str]:
     """Environment of the ranks, with what their MPI needs where they share cores."""
-    folders = [str(TESTS), str(TESTS.parent / "demos"), *filter(None, [os.getenv("PYTHONPATH")])]
-    variables = {
-        **os.environ,
-        "OMP_NUM_THREADS": "1",
-        "PYTHONPATH": os.pathsep.join(folders),
-        # Open MPI refuses more ranks than cores unless it is told
-        "PRTE_MCA_rmaps_default_mapping_policy": ":oversubscribe",
-    }
+    # Open MPI refuses more ranks than cores unless it is told
+    variables = {"PRTE_MCA_rmaps_default_mapping_policy": ":oversubscribe"}
     if ranks > (os.cpu_count() or 1):
         # MPICH's ranks spin while they wait; this halves the time of four on two cores
         variables["MPIR_CVAR_ENABLE_HEAVY_YIELD"] = "1"

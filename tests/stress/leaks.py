@@ -9,10 +9,17 @@ Of the last four fifths it may grow by no more than a bound; the script fails if
 
 from __future__ import annotations
 
-import os
 import subprocess
 import sys
 from pathlib import Path
+
+sys.path[:0] = [str(Path(__file__).parents[2] / folder) for folder in ("tests", "demos")]
+
+import contactx  # noqa: E402, F401  # it loads the wheels' MPI
+
+# isort: split
+from stress.memory import RUNS, objects, open_files, resident  # noqa: E402
+from tether import environment, tethered  # noqa: E402
 
 STEPS = 1000
 # Growth behind the first fifth, MB
@@ -21,8 +28,6 @@ BOUND = 2.0
 
 def run(name: str, steps: int) -> float:
     """Take a run, print memory on the way, and return its growth behind the warm-up, MB."""
-    from memory import RUNS, objects, open_files, resident
-
     every = max(1, steps // 20)
     print(f"{name}\n{'step':>6} {'MB':>8} {'objects':>8} {'files':>6}", flush=True)
     warm = 0.0
@@ -41,28 +46,13 @@ def run(name: str, steps: int) -> float:
 def main() -> int:
     """Run one, or each in a process."""
     steps = int(sys.argv[1]) if len(sys.argv) > 1 else STEPS
-    here = Path(__file__).parent
-    folders = [here, here.parent, here.parent / "hostile", here.parents[1] / "demos"]
     if len(sys.argv) > 2:
-        sys.path[:0] = map(str, folders)
-        import contactx  # it loads the wheels' MPI
-
         return int(run(sys.argv[2], steps) > BOUND)
-    sys.path[:0] = map(str, folders)
-    from memory import RUNS
-
-    import contactx  # noqa: F401
-
-    from tether import tethered
-
-    env = {**os.environ, "OMP_NUM_THREADS": "1"}
-    failed = [
-        name
-        for name in RUNS
-        if subprocess.run(
-            tethered([sys.executable, __file__, str(steps), name]), env=env
-        ).returncode
-    ]
+    failed = []
+    for name in RUNS:
+        command = tethered([sys.executable, __file__, str(steps), name])
+        if subprocess.run(command, env=environment()).returncode:
+            failed.append(name)
     print(f"memory grows: {', '.join(failed)}" if failed else "memory does not grow")
     return int(bool(failed))
 

@@ -12,7 +12,8 @@ from pathlib import Path
 
 import pytest
 
-from ranks.launch import SCRIPTS, TESTS
+from ranks.launch import SCRIPTS
+from tether import TESTS
 
 
 def processes(mark):

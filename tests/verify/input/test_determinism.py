@@ -4,7 +4,6 @@
 
 import hashlib
 import json
-import os
 import subprocess
 import sys
 from pathlib import Path
@@ -15,6 +14,7 @@ import contactx as cx
 from dolfinx.mesh import CellType
 
 from scenes.steps import KINDS, DentedBlock, LooseBlock, Rubbing, SlidingBlocks, state
+from tether import environment, tethered
 
 SCENES = {
     **{f"rubbing, {kind}": lambda kind=kind: Rubbing(**KINDS[kind]) for kind in KINDS},
@@ -53,20 +53,17 @@ def run(name):
 @pytest.fixture(scope="module")
 def elsewhere():
     """Digests of another process, whose sets and dictionaries have another order."""
-    here = Path(__file__).parent
-    folders = [here, here.parent, here.parents[1] / "demos", *sys.path]
-    env = {
-        **os.environ,
-        "OMP_NUM_THREADS": "1",
-        "PYTHONHASHSEED": "12345",
-        "PYTHONPATH": os.pathsep.join(map(str, folders)),
-    }
+    env = environment(Path(__file__).parent) | {"PYTHONHASHSEED": "12345"}
     program = (
         "import contactx, json, test_determinism as t\n"
         "print(json.dumps({name: t.run(name) for name in t.SCENES}))"
     )
     done = subprocess.run(
-        [sys.executable, "-c", program], env=env, capture_output=True, text=True, check=True
+        tethered([sys.executable, "-c", program]),
+        env=env,
+        capture_output=True,
+        text=True,
+        check=True,
     )
     return json.loads(done.stdout)
 

@@ -4,9 +4,10 @@
 
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
+
+from tether import environment, tethered
 
 # Steps before the warm-up has ended, and behind it
 WARM, STEPS = 60, 160
@@ -16,7 +17,7 @@ BOUND, OBJECTS = 0.3, 1.2
 PROGRAM = """
 import contactx
 import sys
-from memory import RUNS, objects, resident
+from stress.memory import RUNS, objects, resident
 name, warm, steps = sys.argv[1], int(sys.argv[2]), int(sys.argv[3])
 for step in RUNS[name](steps):
     if step == warm:
@@ -32,8 +33,8 @@ print(objects() - first[0], resident() - first[1], last)
 def test_memory_does_not_grow(name):
     """In a process of its own, whose memory is that of this run alone."""
     done = subprocess.run(
-        [sys.executable, "-W", "ignore", "-c", PROGRAM, name, str(WARM), str(STEPS)],
-        env=_environment(),
+        tethered([sys.executable, "-W", "ignore", "-c", PROGRAM, name, str(WARM), str(STEPS)]),
+        env=environment(),
         capture_output=True,
         text=True,
     )
@@ -42,11 +43,3 @@ def test_memory_does_not_grow(name):
     assert last >= STEPS
     assert grown <= BOUND
     assert objects <= OBJECTS * (last - WARM) + 50
-
-
-def _environment():
-    import os
-
-    tests = Path(__file__).parents[1]
-    folders = [Path(__file__).parent, tests, tests / "hostile", tests.parent / "demos", *sys.path]
-    return {**os.environ, "OMP_NUM_THREADS": "1", "PYTHONPATH": os.pathsep.join(map(str, folders))}

@@ -4,70 +4,24 @@
 
 import errno
 import os
-import subprocess
-import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 import contactx as cx
-from contactx.state import save_state
 from contactx.steps import archive
 from dolfinx import fem
 from dolfinx.mesh import CellType
 
 from scenes import Blocks
-from scenes.steps import DentedBlock, LooseBlock, Sheared, SlidingBlocks
-
-FACETS = {"method": "surface-to-surface"}
-SCENES = {
-    "triangles": lambda: SlidingBlocks(CellType.triangle),
-    "hexahedra": lambda: SlidingBlocks(CellType.hexahedron),
-    "small sliding": lambda: SlidingBlocks(CellType.tetrahedron, sliding="small"),
-    "friction": lambda: SlidingBlocks(CellType.tetrahedron, friction=0.2),
-    "friction, small": lambda: SlidingBlocks(CellType.quadrilateral, friction=0.2, sliding="small"),
-    "tied": lambda: SlidingBlocks(CellType.tetrahedron, tied=True, offset=0.01),
-    "facets, small": lambda: SlidingBlocks(CellType.hexahedron, sliding="small", **FACETS),
-    "facets, friction": lambda: SlidingBlocks(CellType.tetrahedron, friction=0.2, **FACETS),
-    "held by contact alone": LooseBlock,
-    "plastic under a ball": DentedBlock,
-    "plastic with friction": lambda: DentedBlock(friction=0.3),
-    "plastic, tied to a ball": lambda: DentedBlock(0.01, tied=True, search_distance=0.03),
-}
+from scenes.restarts import QUICK, SCENES, check_restart, run
+from scenes.steps import Sheared, SlidingBlocks
 
 
-def run(scene, until=None, **options):
-    """Take steps, six in all if none is cut, and return the bits of their results."""
-    steps = cx.LoadSteps(
-        scene.problem, 6, scene.update, history=scene.history, progress=False, **options
-    )
-    for step in steps:
-        scene.commit()
-        if step.index == until:
-            break
-    interface = scene.contact.interface
-    arrays = [scene.u.x.array, *(f.x.array for f in scene.history)]
-    arrays += [*save_state(interface).values(), scene.contact.force]
-    return [a.tobytes() for a in arrays], steps
-
-
-@pytest.mark.parametrize("name", SCENES)
+# The others are in tests/verify
+@pytest.mark.parametrize("name", QUICK)
 def test_three_steps_and_three_are_six(name, tmp_path):
-    file = tmp_path / "run.npz"
-    first = SCENES[name]()
-    straight, _ = run(first)
-    assert first.contact.multiplier.any()
-    assert all(f.x.array.any() for f in first.history)
-    middle, _ = run(SCENES[name](), until=4, checkpoint=file)
-    assert middle != straight
-    scene = SCENES[name]()
-    restarted, steps = run(scene, restart=file)
-    assert restarted == straight
-    assert steps.t == 1
-    lines = [line.split("│")[1:3] for line in steps.table().splitlines() if "│" in line]
-    assert [int(index) for index, _ in lines] == list(range(1, len(lines) + 1))
-    assert np.all(np.diff([float(t) for _, t in lines]) > 0)
+    check_restart(name, tmp_path / "run.npz")
 
 
 @pytest.mark.parametrize(
@@ -85,24 +39,6 @@ def test_results_are_there_at_once(name, tmp_path):
             array = getattr(other.contact.fields, field).x.array
             assert array == pytest.approx(values.x.array, rel=1e-11, abs=1e-13, nan_ok=True), field
     assert other.contact.force == pytest.approx(scene.contact.force, rel=1e-11, abs=1e-13)
-
-
-@pytest.mark.parametrize("name", ["hexahedra", "facets, friction"])
-def test_a_new_process_goes_on_to_the_same_bits(name, tmp_path):
-    straight, _ = run(SCENES[name]())
-    run(SCENES[name](), until=4, checkpoint=tmp_path / "run.npz")
-    program = (
-        "import contactx, sys, test_checkpoint as t\n"
-        f"bits, _ = t.run(t.SCENES[{name!r}](), restart='run.npz')\n"
-        "sys.stdout.buffer.write(b''.join(bits))"
-    )
-    here = Path(__file__).parent
-    folders = [here, here.parent, here.parent.parent / "demos", *sys.path]
-    env = {**os.environ, "PYTHONPATH": os.pathsep.join(map(str, folders))}
-    done = subprocess.run(
-        [sys.executable, "-c", program], cwd=tmp_path, env=env, capture_output=True, check=True
-    )
-    assert done.stdout == b"".join(straight)
 
 
 def test_cut_steps_are_gone_on_from_as_they_were(tmp_path):

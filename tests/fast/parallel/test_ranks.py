@@ -1,0 +1,18 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Scenes have the same answer on two ranks; on more, and otherwise distributed: tests/verify."""
+
+import pytest
+
+from ranks.cases import QUICK, Case
+from ranks.runs import Runs
+
+
+@pytest.fixture(scope="module")
+def runs(request, tmp_path_factory):
+    return Runs.selected(request, tmp_path_factory.mktemp("ranks"))
+
+
+@pytest.mark.parametrize(("case", "ranks"), [(Case(*names), 2) for names in QUICK], ids=str)
+def test_ranks_do_not_matter(runs, case, ranks):
+    runs.check(case, ranks)
