@@ -26,7 +26,9 @@ SCENES = {
     "hexahedra": lambda: SlidingBlocks(CellType.hexahedron),
     "small sliding": lambda: SlidingBlocks(CellType.tetrahedron, sliding="small"),
     "friction": lambda: SlidingBlocks(CellType.tetrahedron, friction=0.2),
-    "friction, small": lambda: SlidingBlocks(CellType.quadrilateral, friction=0.2, sliding="small"),
+    # One pair goes back and forth and is held
+    "friction, plane": lambda: SlidingBlocks(CellType.quadrilateral, friction=0.2),
+    "friction, small": lambda: SlidingBlocks(CellType.triangle, friction=0.2, sliding="small"),
     "tied": lambda: SlidingBlocks(CellType.tetrahedron, tied=True, offset=0.01),
     "facets, small": lambda: SlidingBlocks(CellType.hexahedron, sliding="small", **FACETS),
     "facets, friction": lambda: SlidingBlocks(CellType.tetrahedron, friction=0.2, **FACETS),
