@@ -100,6 +100,22 @@ def test_blocks_pushed_aside(cell, law, gap):
     assert not condensed[2].uncondensed
 
 
+def test_a_status_that_comes_back_is_reported():
+    """And the direct solver's answer is found nevertheless."""
+
+    def create(solver):
+        scene = Blocks(CellType.tetrahedron, gap=0.02, n_upper=4, n_lower=3)
+        scene.bcs[-2].g.value[...] = 0.02
+        contact = scene.contact(friction=0.3)
+        return scene.problem(contact, petsc_options={"pc_type": solver}), [contact]
+
+    direct, condensed = both(create)
+    assert_same(direct, condensed)
+    for *_, report in (direct, condensed):
+        assert report.cycles == 1
+        assert "the status came back 1 times" in str(report)
+
+
 @pytest.mark.parametrize("sliding", ["finite", "small"])
 def test_sphere(sliding):
     """Slave nodes on planes of symmetry keep an equation for their pressure."""

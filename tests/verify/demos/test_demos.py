@@ -28,7 +28,7 @@ from matplotlib import image
         (rigid_cylinder, "small", "0.02", (0.01, 0.07, 0.03)),
         (level_set, "finite", "0.04", (0.01, 0.05, 0.1)),
     ],
-    ids=lambda value: getattr(value, "__name__", ""),
+    ids=lambda value: getattr(value, "__name__", None),
 )
 def test_demo(demo, sliding, h, tolerances, tmp_path, capsys):
     results = demo.main(["--h", h, "--sliding", sliding, "--output", str(tmp_path)])
