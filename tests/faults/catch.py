@@ -20,27 +20,28 @@ from pathlib import Path
 from typing import Any
 
 ROOT = Path(__file__).parents[2]
-# What each tier runs, the cheap first; seconds after which a fault has made it hang
+# What each tier runs, what most likely catches a fault first; seconds after which it hangs
 TIERS = {
     "fast": (
         ("build", "make all", 600),
+        ("fast", "{pytest} -n 2 {cheap} tests/fast --ignore tests/fast/parallel", 600),
         ("C++ tests", "make test-cpp", 600),
-        ("fast", "{pytest} -n 2 tests/fast --ignore tests/fast/parallel", 600),
         ("fast", "{pytest} tests/fast/parallel", 300),
     ),
     "verify": (
         ("build", "make all", 600),
-        ("verify", "{pytest} -n 2 tests/verify --ignore tests/verify/parallel", 1500),
         ("verify", "{pytest} tests/verify/parallel", 900),
+        ("verify", "{pytest} -n 2 tests/verify --ignore tests/verify/parallel", 1500),
     ),
 }
+_CHEAP = "tests/fast/kernels tests/fast/assembly tests/fast/unit tests/fast/verification"
 _PYTEST = "env OMP_NUM_THREADS=1 .venv/bin/python -m pytest -x -q -p no:cacheprovider"
 
 
 def run(command: str, seconds: float) -> tuple[bool, str]:
     """Whether a command succeeds, and the end of what it prints; a hang fails."""
     process = subprocess.Popen(
-        command.format(pytest=_PYTEST),
+        command.format(pytest=_PYTEST, cheap=_CHEAP),
         shell=True,
         cwd=ROOT,
         stdout=subprocess.PIPE,

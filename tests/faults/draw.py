@@ -95,7 +95,10 @@ def changes(line: str, language: str) -> Iterator[str]:
             yield line[: match.start()] + put + line[match.end() :]
     indent = line[: len(line) - len(line.lstrip())]
     if language == ".py":
-        if re.fullmatch(r"\s+[\w.\[\], :]+ [-+*/]?= .+[^\\,(\[{]|\s+[\w.]+\(.*\)", line):
+        # A name that is not there is too easy to find
+        if re.fullmatch(
+            r"\s+(\w[\w.]*(\[.*\]|\.\w+) [-+*/]?=|\w+ [-+*/]=) .+[^\\,(\[{]|\s+[\w.]+\(.*\)", line
+        ):
             yield indent + "pass"
     elif re.fullmatch(r"\s+[\w.\[\]()*, >-]+ [-+*/]?= [^;]+;|\s+[\w.:]+\([^;]*\);", line):
         if not re.match(r"\s+(const|auto|double|int|std::\S+|return)\b", line):

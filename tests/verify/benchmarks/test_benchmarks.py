@@ -8,7 +8,6 @@ import bench_hertz
 import bench_ironing
 import bench_methods
 import bench_rates
-import bench_scaling
 import bench_scenes
 import bench_skips
 import bench_spheres
@@ -145,13 +144,3 @@ def test_friction():
     assert {row["scene"] for row in rows} >= {"slice, 5 layers, slave slabs"}
     apart = [row for row in rows if "difference" in row]
     assert len(apart) > 8 and all(np.isfinite(row["difference"]) for row in apart)
-
-
-def test_strong_scaling(monkeypatch):
-    monkeypatch.setattr(bench_scaling, "RUNS", 1)
-    rows = bench_scaling.strong([0.07], ["finite"])
-    assert [row["ranks"] for row in rows] == [1, 2]
-    one, two = rows
-    assert one["iterations"] == two["iterations"]
-    assert two["force"] == pytest.approx(one["force"], rel=1e-9)
-    assert one["ratio"] == 1 and two["ratio"] > 0

@@ -1,0 +1,36 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""The benchmark of ranks runs on coarse meshes; on up to 16 ranks: tests/stress."""
+
+import bench_scaling
+import pytest
+import runner
+
+from story import METHODS
+
+
+@pytest.fixture(autouse=True)
+def folder(tmp_path, monkeypatch):
+    monkeypatch.setattr(runner, "OUTPUT", tmp_path)
+
+
+def test_strong_scaling(monkeypatch):
+    monkeypatch.setattr(bench_scaling, "RUNS", 1)
+    rows = bench_scaling.strong([0.07], ["finite"])
+    assert [row["ranks"] for row in rows] == [1, 2]
+    one, two = rows
+    assert one["iterations"] == two["iterations"]
+    assert two["force"] == pytest.approx(one["force"], rel=1e-9)
+    assert one["ratio"] == 1 and two["ratio"] > 0
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_what_a_rank_sends(method):
+    one, two = bench_scaling.weak((1, 2), dims=(2,), methods=(method,), partitions=("shifted",))
+    assert one["bytes a search"] == one["halo"] == 0
+    assert two["iterations"] == one["iterations"]
+    assert two["force"] == pytest.approx(one["force"], rel=0.05)
+    # A box has two corners, an axis and a sine
+    assert two["of boxes"] == 7 * 8
+    assert two["of boxes"] < two["bytes a search"] <= 20_000
+    assert 0 < two["halo"] <= 200 and two["bytes an iteration"] <= 200_000
