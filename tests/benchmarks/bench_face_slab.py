@@ -47,7 +47,7 @@ def solve(name: str, setting: Setting, steps: int = 1, settlement: float = SETTL
         each=lambda scene: counts.append(scene.problem.report.iterations),
     )
     seconds = time.process_time() - begin
-    m, held = measure(scene), laws(scene)
+    m, errors = measure(scene), laws(scene)
     memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
     return [
         name,
@@ -58,8 +58,8 @@ def solve(name: str, setting: Setting, steps: int = 1, settlement: float = SETTL
         f"{m.stress:.3f}",
         f"{m.lower:.3f}",
         f"{1000 * m.opening:.4f}",
-        f"{held.balance:.0e}",
-        f"{held.coulomb:.0e}",
+        f"{errors.balance:.0e}",
+        f"{errors.coulomb:.0e}",
         f"{seconds:.1f}",
         f"{memory:.0f}",
     ]

@@ -81,7 +81,7 @@ class LongSlab:
             data = meshes.blocks(cell, upper, lower, size_upper=size, size_lower=size)
         tags, u = data.facet_tags, displacement(data.mesh)
         self._moved = [fix(u, tags, i, 0.0, Tag.UPPER_TOP) for i in range(dim)]
-        held = [fix(u, tags, i, 0.0, Tag.LOWER_BOTTOM) for i in range(dim)]
+        fixed = [fix(u, tags, i, 0.0, Tag.LOWER_BOTTOM) for i in range(dim)]
         self.contact = cx.Contact(
             cx.Surface(tags, Tag.UPPER_CONTACT),
             cx.Surface(tags, Tag.LOWER_CONTACT),
@@ -93,7 +93,7 @@ class LongSlab:
             elasticity(u, 1.0, 0.3),
             u,
             contacts=[self.contact],
-            bcs=[*self._moved, *held],
+            bcs=[*self._moved, *fixed],
             petsc_options_prefix="slab_",
             # Of any size by the solver that large problems have
             petsc_options={"pc_type": "condensed"},

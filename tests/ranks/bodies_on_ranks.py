@@ -1,6 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Run by test_bodies_on_ranks.py under mpiexec: bodies, what holds them, checks; as on one rank."""
+"""Run by test_bodies_on_ranks.py under mpiexec: bodies, free ones, checks; as on one rank."""
 
 from mpi4py import MPI
 
@@ -9,8 +9,8 @@ import numpy as np
 from contactx.bodies.modes import RigidModes
 
 from ranks.checks_on_ranks import check_errors, nested
-from ranks.held_blocks import HeldBlock
-from ranks.two_blocks import PARTITIONS, TwoBlocks, alone
+from scenes.free_block import FreeBlock
+from scenes.numbered_blocks import PARTITIONS, TwoBlocks, alone
 
 COMM = MPI.COMM_WORLD
 
@@ -70,38 +70,38 @@ def check_modes(one, scene):
 
 def same(one, scene, run, **options):
     """Whether what holds a block is the same as on one rank; what that is."""
-    counts, status, stiffness = run(HeldBlock(one, **options))
-    ours = run(HeldBlock(scene, **options))
+    counts, status, stiffness = run(FreeBlock(one, **options))
+    ours = run(FreeBlock(scene, **options))
     assert ours[0] == counts
     np.testing.assert_array_equal(ours[1], status)
     assert np.abs(ours[2] - stiffness).max() <= 1e-12 * max(stiffness.max(), 1e-300)
     return counts, status, stiffness
 
 
-def check_holder(one, scene):
+def check_free_bodies(one, scene):
     dim, both = scene.dim, (one, scene)
     scene.see_all()
     m = 3 if dim == 2 else 6
     along = (0.0,) * (dim - 2)
     # No load: springs alone, as many as modes, and weak
-    counts, _, springs = same(*both, lambda b: b.hold(0.0, *along, 0.0))
+    counts, _, springs = same(*both, lambda b: b.stabilise(0.0, *along, 0.0))
     assert counts == (False, m, 0, 0)
     assert np.count_nonzero(springs) == m and springs.max() < 1e-4
-    # Pressed down: nodes close until they hold it against the load, the first at small x
-    counts, status, springs = same(*both, lambda b: b.hold(0.0, *along, -1.0))
+    # Pressed down: nodes close until they balance the load, the first at small x
+    counts, status, springs = same(*both, lambda b: b.stabilise(0.0, *along, -1.0))
     assert counts[0] and counts[2] == np.count_nonzero(status == 2) >= dim
     assert counts[1] == np.count_nonzero(springs) == m - (1 + len(along)) - 1
-    # All nodes are as near: more close than hold it
-    counts, *_ = same(*both, lambda b: b.hold(0.0, *along, -1.0, growth=0.0), slope=0.0)
+    # All nodes are as near: more close than are needed
+    counts, *_ = same(*both, lambda b: b.stabilise(0.0, *along, -1.0, growth=0.0), slope=0.0)
     assert counts[2] == 4 ** (dim - 1)
     # Pulled up: nothing is in the way, and the springs are as stiff as the bulk
-    counts, _, springs = same(*both, lambda b: b.hold(0.0, *along, 1.0))
+    counts, _, springs = same(*both, lambda b: b.stabilise(0.0, *along, 1.0))
     assert counts == (False, m, 0, 1) and springs.max() > 1e-4
 
-    # Slipping nodes stick until they hold it against a push back
+    # Slipping nodes stick until they balance a push back
     def pushed(block):
         block.slip()
-        return block.hold(-0.01, *along, 0.0)
+        return block.stabilise(-0.01, *along, 0.0)
 
     counts, status, _ = same(*both, pushed, friction=0.3)
     sticking = np.count_nonzero(status == 1)
@@ -110,7 +110,7 @@ def check_holder(one, scene):
     # What they lack to the cone balances this push on the 16 nodes of the block: a spring is enough
     def balanced(block):
         block.slip(aside=0.02)
-        return block.hold(4 * 0.1 * (0.3 - 0.02) / 16, 0.0, growth=0.0)
+        return block.stabilise(4 * 0.1 * (0.3 - 0.02) / 16, 0.0, growth=0.0)
 
     if dim == 2:
         counts, *_ = same(*both, balanced, friction=0.3)
@@ -125,7 +125,7 @@ def check_all():
     for dim, partitions in ((2, some), (3, ["slabs"])):
         for partition in partitions:
             scene = TwoBlocks(COMM, dim, partition)
-            for check in (check_bodies, check_modes, check_holder, check_errors):
+            for check in (check_bodies, check_modes, check_free_bodies, check_errors):
                 check(alone(dim), scene)
     COMM.Barrier()
     if COMM.rank == 0:

@@ -18,7 +18,7 @@ from contactx.parallel.slaves import SlaveNodes
 from contactx.search.records import slave_facets
 from contactx.surface import FacetList
 
-from ranks.two_blocks import TwoBlocks
+from scenes.numbered_blocks import TwoBlocks
 
 
 def said(scene, check, *arguments):
@@ -85,7 +85,7 @@ def outside(scene):
 
 
 def over_constrained(scene):
-    """Some nodes of the lower block's bottom are held in an obstacle, on a rank or another."""
+    """Some nodes of the lower block's bottom are constrained in an obstacle, on any rank."""
     height = scene.dim - 1
     halo = scene.halo
     nodes = np.unique(scene.facets(lambda x: np.isclose(x[height], -1))[1])

@@ -35,7 +35,7 @@ class Outcome:
                 "iterations": report.iterations,
                 "discarded": report.discarded,
                 "counts": counts,
-                "held": report.frozen_pairs,
+                "frozen pairs": report.frozen_pairs,
                 "corners": report.corners,
                 "force": [contact.force for contact in problem.contacts],
                 "slip": report.slip,

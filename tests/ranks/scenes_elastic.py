@@ -1,6 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Deformable bodies without friction: pressed, tied, held by contact alone."""
+"""Deformable bodies without friction: pressed, tied, free bodies."""
 
 from __future__ import annotations
 

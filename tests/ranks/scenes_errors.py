@@ -142,8 +142,8 @@ def surfaces_share_nodes(folder: Path) -> dict[str, Any]:
     return {"errors": _raised(comm, lambda: scene.problem(cx.Contact(foot, side)))}
 
 
-def node_is_held_inside(folder: Path) -> dict[str, Any]:
-    """The whole block is held where the plane would push it."""
+def node_is_constrained_inside(folder: Path) -> dict[str, Any]:
+    """The whole block is constrained where the plane would push it."""
     scene = Blocks(QUADRILATERAL)
     comm = scene.u.function_space.mesh.comm
     foot = scene.tags.find(Tag.UPPER_CONTACT)

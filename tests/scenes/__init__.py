@@ -4,12 +4,14 @@
 
 Two blocks, the upper one on the lower one:
 
-- ``blocks``: ``Blocks``, both elastic, held and pressed; for whatever needs some contact.
+- ``blocks``: ``Blocks``, both elastic, supported and pressed; for whatever needs some contact.
 - ``driven``: ``DrivenBlock``, whose top goes any way, on a plane or on a base that goes any way;
   each step is checked against Coulomb's law.
 - ``tower``: ``Tower``, boxes of one width, tied or not, to which known fields are given.
 - ``exact_blocks``: blocks whose solution is known, by the formulas in ``exact``.
 - ``patch``: ``WidePatch``, of a uniform pressure.
+- ``numbered_blocks``: ``TwoBlocks`` without a contact, numbered the same on any number of ranks;
+  ``free_block``: such a block that only its contact supports, without a search.
 - ``transforms``: any two bodies, solved in other units, axes and numbers.
 
 Others:
@@ -23,7 +25,7 @@ What they are made of:
 - ``materials``: neo-Hookean bodies, and values that differ between bodies; the linear material is
   that of the demos' ``story``.
 - ``plasticity``: a material with a history.
-- ``supports``: faces that are held or driven.
+- ``supports``: faces that are fixed or driven.
 - ``coulomb``: the check of Coulomb's law at slave nodes.
 - ``covering``: which combinations of parameters a test runs (needs pytest, as nothing else here).
 """

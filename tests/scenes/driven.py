@@ -78,7 +78,7 @@ class DrivenBlock:
         self.top = DrivenFaces(self.u, tags, Tag.UPPER_TOP)
         self.bottom: DrivenFaces | None = None
         if plane is None:
-            # One layer of cells is held by both of its faces
+            # One layer of cells is fixed by both of its faces
             faces = (Tag.LOWER_BOTTOM, Tag.LOWER_CONTACT) if rigid_base else (Tag.LOWER_BOTTOM,)
             self.bottom = DrivenFaces(self.u, tags, *faces)
         self.contact = cx.Contact(

@@ -21,7 +21,7 @@ import meshes
 from meshes import Tag
 from scenes import exact
 from scenes.blocks import dimension
-from scenes.supports import hold
+from scenes.supports import prescribe
 from story import displacement
 
 Array = npt.NDArray[np.float64]
@@ -122,9 +122,9 @@ def smooth(cell: str, n: int, method: str) -> dict[str, Any]:
     V = case.u.function_space
     x = ufl.SpatialCoordinate(case.domain)
     u = {body: exact.smooth(x, body) for body in case.cells}
-    held = fem.Function(V)
+    values = fem.Function(V)
     for body, cells in case.cells.items():
-        held.interpolate(fem.Expression(u[body], V.element.interpolation_points), cells)
+        values.interpolate(fem.Expression(u[body], V.element.interpolation_points), cells)
     # Loads and tractions of the sides, by Green: work of the exact stress less that of the pressure
     ds = ufl.Measure("ds", case.domain, subdomain_data=case.tags)
     degree = {"quadrature_degree": _DEGREE}
@@ -133,7 +133,9 @@ def smooth(cell: str, n: int, method: str) -> dict[str, Any]:
     faces = (ds(int(face), metadata=degree) for face in (Tag.UPPER_CONTACT, Tag.LOWER_CONTACT))
     pushed = sum(sign * p * v * face for sign, face in zip((1, -1), faces, strict=True))
     zero = {body: case.u - u[body] for body in case.cells}
-    case.solve(case.internal(zero) + pushed, hold(held, case.tags, Tag.UPPER_TOP, Tag.LOWER_BOTTOM))
+    case.solve(
+        case.internal(zero) + pushed, prescribe(values, case.tags, Tag.UPPER_TOP, Tag.LOWER_BOTTOM)
+    )
     found = case.errors(u, lambda points: exact.smooth_pressure(points.T[: len(x)], np.cos))
     return {"h": 1 / n, "dofs": len(case.u.x.array), **found}
 
@@ -143,14 +145,14 @@ def hertz(cell: str, n: int, method: str) -> dict[str, Any]:
     case = Case(cell, n, exact.LENGTH, method)
     V = case.u.function_space
     high = fem.Function(fem.functionspace(case.domain, ("Lagrange", _HIGH, (2,))))
-    held = fem.Function(V)
+    values = fem.Function(V)
     for body, cells in case.cells.items():
-        for function in (high, held):
+        for function in (high, values):
             function.interpolate(lambda x, body=body: exact.hertz(x, body), cells)
     offset = fem.Function(fem.functionspace(case.domain, ("Lagrange", 1)))
     offset.interpolate(lambda x: -exact.hertz_gap(x[0]))
     sides = (Tag.UPPER_X0, Tag.UPPER_X1, Tag.LOWER_X0, Tag.LOWER_X1)
-    bc = hold(held, case.tags, Tag.UPPER_TOP, Tag.LOWER_BOTTOM, *sides)
+    bc = prescribe(values, case.tags, Tag.UPPER_TOP, Tag.LOWER_BOTTOM, *sides)
     case.solve(case.internal(dict.fromkeys(case.cells, case.u)), bc, offset)
     u = dict.fromkeys(case.cells, high)
     found = case.errors(u, lambda points: exact.hertz_pressure(points[:, 0]))

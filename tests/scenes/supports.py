@@ -1,6 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Supports that hold all displacements of faces; those of one component are ``story.fix``."""
+"""Supports that prescribe all displacements of faces; those of one component: ``story.fix``."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ type Array = npt.NDArray[np.float64]
 type Nodes = npt.NDArray[np.int32]
 
 
-def hold(value: fem.Function, tags: mesh.MeshTags, *faces: int) -> fem.DirichletBC:
+def prescribe(value: fem.Function, tags: mesh.MeshTags, *faces: int) -> fem.DirichletBC:
     """Prescribe the displacements of tagged faces by a function's values there."""
     return fem.dirichletbc(value, _nodes(value.function_space, tags, faces))
 

@@ -167,8 +167,8 @@ def test_one_solve_with_prescribed_slave_nodes():
 
 
 @pytest.fixture
-def report_of_held_slaves():
-    """Report of a scene whose slave nodes are held where they press on the master."""
+def report_of_constrained_slaves():
+    """Report of a scene whose slave nodes are constrained where they press on the master."""
     scene = Blocks(CellType.tetrahedron, gap=1e-9)
     contact = scene.contact(friction=0.3)
     scene.bcs += [fix(scene.u, scene.tags, i, -0.01 * i, Tag.UPPER_CONTACT) for i in range(3)]
@@ -177,12 +177,12 @@ def report_of_held_slaves():
     return problem.report
 
 
-def test_slave_nodes_that_are_held_are_solved_directly(report_of_held_slaves):
+def test_constrained_slave_nodes_are_solved_directly(report_of_constrained_slaves):
     """The report says what was not condensed, and why."""
-    reasons = report_of_held_slaves.uncondensed
+    reasons = report_of_constrained_slaves.uncondensed
     assert len(reasons) > 0
     assert set(reasons) == {"a slave node with a prescribed displacement moves its master"}
-    assert f"solved directly {len(reasons)} times" in str(report_of_held_slaves)
+    assert f"solved directly {len(reasons)} times" in str(report_of_constrained_slaves)
 
 
 @pytest.mark.parametrize(("dim", "shear"), [(2, 0.0025), (3, 0.001)])
@@ -246,9 +246,9 @@ def test_what_a_scene_does_not_need_is_reported(sliding):
     assert problem.report.hierarchies == 0
 
 
-def test_factors_serve_several_solves(report_of_held_slaves):
+def test_factors_serve_several_solves(report_of_constrained_slaves):
     """Where nothing can be condensed, few rows change from one Jacobian to the next."""
-    report = report_of_held_slaves
+    report = report_of_constrained_slaves
     assert 0 < report.factorisations < len(report.uncondensed)
     again = len(report.uncondensed) - report.factorisations
     assert report.skipped["factorisation"] == again

@@ -94,7 +94,7 @@ def test_with_friction(cell, sliding, method, master):
 
 
 @covering(cell=CELLS, method=METHODS)
-def test_with_held_pairs(cell, method):
+def test_with_frozen_kinematics(cell, method):
     problem, interface, rng = scene_with(cell, "finite", "facets", friction=0.4, method=method)
     interface.freeze_kinematics(True)
     interface.nodes.status[:] = rng.integers(3, size=len(interface.nodes.status))

@@ -73,7 +73,7 @@ def coordinates(value):
 
 
 def inside(blocks):
-    """All nodes held, some of them below the plane."""
+    """All nodes constrained, some of them below the plane."""
     V = blocks.u.function_space
     dofs = np.arange(V.dofmap.index_map.size_local, dtype=np.int32)
     contact = blocks.contact(master=cx.Plane((0.0, 0.1), (0.0, 1.0)))
@@ -205,7 +205,7 @@ ROWS = [
     Row("bcs: NaN", prescribed(np.nan), ValueError, FINITE),
     Row("bcs: infinite", prescribed(-np.inf), ValueError, FINITE),
     Row(
-        "bcs: held inside an obstacle",
+        "bcs: constrained inside an obstacle",
         lambda: inside(scene()),
         ValueError,
         r"contact 0 .* is over-constrained: .* constrain 3 slave nodes inside the rigid obstacle",

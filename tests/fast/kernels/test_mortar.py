@@ -23,8 +23,8 @@ def pairs(law: str, slaves: int, masters: int, *, inside: bool = True) -> list[F
     return [random_facet_pair(law, slaves, masters, rng, inside=inside) for _ in range(STATES)]
 
 
-def held(pair: FacetPair) -> FacetPair:
-    """The pair with its integrals held."""
+def frozen(pair: FacetPair) -> FacetPair:
+    """The pair with its integrals frozen."""
     return replace(pair, integrated=pair.current)
 
 
@@ -41,7 +41,7 @@ def test_stiffness_is_the_derivative_of_the_residual(law, slaves, masters):
 @both_slidings
 def test_constraint_is_the_derivative_through_gap_and_normal(law, slaves, masters, sliding):
     for pair in pairs(law, slaves, masters):
-        pair = held(pair) if sliding == "small" else pair
+        pair = frozen(pair) if sliding == "small" else pair
         dg = difference(pair, sliding, "gap")
         if sliding == "finite":
             # The forces are along the normal: it is the whole facet's gap that is consistent
@@ -70,7 +70,7 @@ def _turned(pair: FacetPair) -> np.ndarray:
 @both_slidings
 def test_traction_is_the_derivative_by_the_multiplier(law, slaves, masters, sliding):
     for pair in pairs(law, slaves, masters):
-        pair = held(pair)
+        pair = frozen(pair)
         columns = []
         for i in range(pair.multiplier.size):
             step = np.zeros(pair.multiplier.size)
@@ -86,7 +86,7 @@ def test_traction_is_the_derivative_by_the_multiplier(law, slaves, masters, slid
 @both_slidings
 def test_a_tie_is_linearised(slaves, masters, sliding):
     for pair in pairs("tied", slaves, masters):
-        pair = held(pair)
+        pair = frozen(pair)
         dw = difference(pair, sliding, "slip").reshape(slaves, pair.gdim, -1)
         expected = np.einsum("sij,sjk->sik", pair.slip_derivative, dw)
         computed = pair.tabulate(sliding, "constraint")
@@ -126,7 +126,7 @@ def test_a_slave_facet_that_lies_in_one_pair_has_no_moment(slaves, masters, insi
 @every
 def test_a_tie_has_no_moment_over_an_open_gap(slaves, masters):
     for pair in pairs("tied", slaves, masters):
-        pair = held(pair)
+        pair = frozen(pair)
         assert np.abs(pair.tabulate("finite", "slip")).max() <= 1e-9
         forces = pair.tabulate("finite", "residual").reshape(-1, pair.gdim)
         total, size = moment(pair.current, forces)

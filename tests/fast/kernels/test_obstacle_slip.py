@@ -47,9 +47,9 @@ def points(gdim, seed=0):
     return 1.5 * rng.standard_normal((N, gdim)) + 0.5
 
 
-def slip_table(master, x, *, held=False, offset=NO_OFFSET):
+def slip_table(master, x, *, frozen=False, offset=NO_OFFSET):
     """Slip, its derivative, gap and normal that the kernels are given at positions x."""
-    (pairs,) = master.update(x, held, offset)
+    (pairs,) = master.update(x, frozen, offset)
     n, gdim = x.shape
     assert np.array_equal(pairs.slaves[:, 0], SLAVES)
 
@@ -72,17 +72,17 @@ def started(kind, gdim, x):
 
 
 @pytest.mark.parametrize(("kind", "gdim"), KINDS)
-@pytest.mark.parametrize("held", [False, True])
-def test_derivative_is_that_of_the_slip(kind, gdim, held):
+@pytest.mark.parametrize("frozen", [False, True])
+def test_derivative_is_that_of_the_slip(kind, gdim, frozen):
     x0 = points(gdim)
     master = started(kind, gdim, x0)
     x = x0 + 0.3 * np.random.default_rng(1).standard_normal(x0.shape)
-    derivative = slip_table(master, x, held=held)[1]
+    derivative = slip_table(master, x, frozen=frozen)[1]
     h = 1e-6
     for k in range(gdim):
         dx = np.zeros(gdim)
         dx[k] = h
-        plus, minus = (slip_table(master, x + s * dx, held=held)[0] for s in (1, -1))
+        plus, minus = (slip_table(master, x + s * dx, frozen=frozen)[0] for s in (1, -1))
         assert np.abs((plus - minus) / (2 * h) - derivative[:, :, k]).max() <= 1e-8
 
 

@@ -118,7 +118,7 @@ def test_a_failed_step_brings_the_pairs_back():
 
 
 def test_a_failed_step_brings_back_which_nodes_can_yield():
-    """On a plane that has turned upright none can: they are held sideways."""
+    """On a plane that has turned upright none can: they are fixed sideways."""
     scene = Sheared()
     scene.update(0.1)
     scene.problem.solve()

@@ -120,7 +120,7 @@ def test_touching_without_force():
 
 
 @pytest.mark.parametrize("method", ["node-to-surface"], indirect=True)
-def test_held_pairs_that_hide_a_penetration_warn(monkeypatch, method):
+def test_frozen_pairs_that_hide_a_penetration_warn(monkeypatch, method):
     scene = Blocks(CellType.tetrahedron)
     contact = scene.contact()
     problem = scene.problem(contact)
@@ -140,7 +140,7 @@ def test_held_pairs_that_hide_a_penetration_warn(monkeypatch, method):
 
 
 @pytest.mark.parametrize("method", ["node-to-surface"], indirect=True)
-def test_held_pairs_that_hide_much_are_let_go_and_then_refused(monkeypatch, method):
+def test_frozen_pairs_that_hide_much_are_released_and_then_refused(monkeypatch, method):
     scene = Blocks(CellType.tetrahedron)
     problem = scene.problem(scene.contact())
     let_go = []

@@ -37,7 +37,7 @@ def rolls(cell, friction, sliding, method):
 
 
 class FreeBlock:
-    """The upper block has no supports; a load acts on its top, the lower block's bottom is held."""
+    """The upper block has no supports and a load on its top; the lower block's bottom is fixed."""
 
     def __init__(self, cell, *, gap=0.0, load=-PRESSURE, aside=0.0, friction=0.0, sliding="finite"):
         scene = Blocks(cell, gap=gap)
@@ -184,7 +184,7 @@ def test_five_free_blocks(dim, friction, offset, shear, sliding, method, monkeyp
 
 @covering(cell=CELLS[:2], n=(2, 3, 5, 6), method=METHODS)
 def test_friction_holds_a_block_on_a_slope(cell, n):
-    """Nodes that slip to both sides hold it; Newton steps on the way have all of them slip."""
+    """Nodes that slip to both sides balance it; Newton steps on the way have all of them slip."""
     data = meshes.blocks(cell, (n, n), (1, 1))
     domain, tags = meshes.single(data, Tag.UPPER)
     u = displacement(domain)

@@ -16,7 +16,7 @@ MU = 0.3
 
 
 def block(cell, n_lower, **options):
-    """A block on a flat base that is held everywhere; nu = 0 keeps it from moving across."""
+    """A block on a flat base that is fixed everywhere; nu = 0 keeps it from moving across."""
     return DrivenBlock(
         cell, n_upper=3, n_lower=n_lower, nu=0.0, friction=MU, rigid_base=True, **options
     )

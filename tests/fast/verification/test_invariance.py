@@ -147,7 +147,7 @@ def hertz_answer(sliding, method):
 
 @covering(method=(NODES, FACETS), sliding=("finite", "small"))
 def test_axes_permuted(sliding, method):
-    """Slave nodes lie on planes of symmetry, which hold one axis each."""
+    """Slave nodes lie on planes of symmetry, which constrain one axis each."""
     first = hertz_answer(sliding, method)
     to_yzx = Frame(np.eye(3)[[1, 2, 0]], np.zeros(3), 1e-3, 1e6)
     off = check(solve(hertz(), HERTZ, to_yzx, sliding=sliding), first)

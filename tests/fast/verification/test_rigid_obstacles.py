@@ -216,7 +216,7 @@ def test_search_distance_leaves_far_nodes_out():
     assert np.isnan(gaps).sum() == problem.report.slaves - problem.report.pairs
 
 
-def test_a_node_that_is_held_inside_an_obstacle():
+def test_a_node_that_is_constrained_inside_an_obstacle():
     scene = Blocks(CellType.tetrahedron, down=0.05)
     contact = cx.Contact(
         cx.Surface(scene.tags, Tag.UPPER_CONTACT, Tag.UPPER_X0, Tag.UPPER_TOP),

@@ -108,7 +108,7 @@ def test_circular_path(base, sliding):
 
 
 @covering(cell=BOXES, sliding=SLIDINGS, method=METHODS)
-def test_a_plane_that_moves_drags_a_held_block(cell, sliding):
+def test_a_plane_that_moves_drags_a_fixed_block(cell, sliding):
     gdim = dimension(cell)
     scene, point = on_moving_plane(cell, sliding)
     along(scene, 0.0)

@@ -1,6 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Bodies, what holds them and checks of them are those of one rank on any number of ranks."""
+"""Bodies, what supports them and checks of them are those of one rank on any number of ranks."""
 
 import pytest
 

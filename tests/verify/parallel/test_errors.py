@@ -20,7 +20,7 @@ RAISED = {
     "tag_is_missing": "ValueError: tag 99 is not in the facet tags; there are: 11, 12, 13, 14, 15, "
     "16, 21, 22, 23, 24, 25, 26",
     "surfaces_share_nodes": "ValueError: slave and master overlap",
-    "node_is_held_inside": "constrain 3 slave nodes inside the rigid obstacle",
+    "node_is_constrained_inside": "constrain 3 slave nodes inside the rigid obstacle",
     "load_is_not_balanced": "ConvergenceError: contact did not converge: the loads on a body",
     "checkpoint_is_damaged": "is truncated, or no checkpoint at all",
     "checkpoint_cannot_be_written": "Error: ",

@@ -29,7 +29,8 @@ def test_what_a_rank_sends(method):
     one, two = bench_scaling.weak((1, 2), dims=(2,), methods=(method,), partitions=("shifted",))
     assert one["bytes a search"] == one["halo"] == 0
     assert two["iterations"] == one["iterations"]
-    assert two["force"] == pytest.approx(one["force"], rel=0.05)
+    # But for the ends of the slab, of which two ranks have one each
+    assert two["force"] == pytest.approx(one["force"], rel=0.1)
     # A box has two corners, an axis and a sine
     assert two["of boxes"] == 7 * 8
     assert two["of boxes"] < two["bytes a search"] <= 20_000

@@ -31,10 +31,10 @@ def turned(setting=None, settlement=ROW_2[0], pressure=ROW_2[1], steps=1, **mode
 
 
 def check_laws(scene):
-    held = laws(scene)
-    assert held.balance < 1e-8
-    assert held.penetration < 1e-9
-    assert held.coulomb < 1e-8
+    errors = laws(scene)
+    assert errors.balance < 1e-8
+    assert errors.penetration < 1e-9
+    assert errors.coulomb < 1e-8
 
 
 @pytest.fixture(scope="module")

@@ -90,8 +90,8 @@ def test_slice():
         for cushion in (True, False):
             setting = Setting(model, method=method, cushion_is_slave=cushion)
             scene = scheme_1(setting, 0.07339, 0.3, steps=1, progress=False)
-            held = laws(scene)
-            assert max(held.balance, held.penetration, held.coulomb) < 1e-8
+            errors = laws(scene)
+            assert max(errors.balance, errors.penetration, errors.coulomb) < 1e-8
             found[method, cushion] = measure(scene)
             print(method, cushion, found[method, cushion])
     reference = found[METHODS[0], True]

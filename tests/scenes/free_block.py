@@ -1,6 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""An upper block that only its contact with the lower one holds, without an interface's search."""
+"""An upper block that only its contact with the lower one supports, without a search."""
 
 from types import SimpleNamespace
 from typing import Any
@@ -16,7 +16,7 @@ from contactx.master.master import Weights
 from contactx.nodal import NodalValue
 
 
-class HeldBlock:
+class FreeBlock:
     """Each node of the upper block's bottom is paired with the nearest one of the lower's top.
 
     Attributes:
@@ -82,8 +82,8 @@ class HeldBlock:
         traction[:, -1], traction[:, 0] = p, -aside
         nodes.slip[:, 0] = 0.01 + 0.01 * x[:, 0]
 
-    def hold(self, *load, growth=1.0):
-        """Begin a step and hold the block under a load on its nodes that grows with x."""
+    def stabilise(self, *load, growth=1.0):
+        """Begin a step and stabilise the block under a load on its nodes that grows with x."""
         halo = self.scene.halo
         force = np.array(load) * (1 + growth * halo.x[: halo.num_owned, :1])
         force[self.scene.bodies.number[: halo.num_owned] == 0] = 0

@@ -37,7 +37,7 @@ def grid(counts, origin, size):
 
 
 class TwoBlocks:
-    """An upper block on a lower one that is held at its bottom, with nodes in any order.
+    """An upper block on a lower one that is fixed at its bottom, with nodes in any order.
 
     Attributes:
         u, halo, bodies, bulk: Displacement and what belongs to it.
