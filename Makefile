@@ -25,8 +25,8 @@ CPP_FILES = $(shell find cpp -name '*.h' -o -name '*.cpp')
 PY_FOLDERS := python tests demos tools
 # What `make sanitize` runs in Python: both methods, friction, ties, obstacles,
 # finite and small sliding, the condensed solver.
-SANITIZED := tests/property tests/unit/core tests/verification/test_rigid_obstacles.py \
-	tests/verification/test_finite_strain.py tests/assembly/test_condensed.py
+SANITIZED := tests/fast/property tests/fast/unit/core tests/fast/assembly/test_condensed.py \
+	tests/fast/verification/test_rigid_obstacles.py tests/fast/verification/test_finite_strain.py
 # Executions of each fuzz target, and the compiler that has libFuzzer
 RUNS ?= 1000000
 CLANG ?= clang++
@@ -150,7 +150,7 @@ sanitize: $(DEPENDENCIES)
 	$(RUN) cmake -S . -B build/sanitize -G Ninja -DCONTACTX_SANITIZE=ON -DCONTACTX_TESTS=ON \
 		-DPython_EXECUTABLE="$(CURDIR)/$(BIN)/python" \
 		-Dpybind11_DIR="$$($(BIN)/python -m pybind11 --cmakedir)"
-	$(RUN) cmake --build build/sanitize
+	$(RUN) cmake --build build/sanitize --target all contactx_tests
 	build/sanitize/contactx_tests --gtest_brief=1
 	rm -rf build/sanitize/site
 	mkdir -p build/sanitize/site
