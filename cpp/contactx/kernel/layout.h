@@ -68,7 +68,7 @@ inline constexpr int pair_size = 9;
 
 /// Values of slip a pair with a facet: local coordinates and gap of the point
 /// that slip is measured from, and its place relative to those local
-/// coordinates while the pair is held
+/// coordinates while kinematics are frozen
 inline constexpr int slip_xi = 0;
 inline constexpr int slip_gap = 2;
 inline constexpr int slip_origin = 3;

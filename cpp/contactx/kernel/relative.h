@@ -38,7 +38,7 @@ facet_normal_derivative(const facet::Frame<F>& frame, const facet::Local<F>& xi)
 /// facet, with the facet's frame turning: zero for every rigid motion.
 ///
 /// The point has constant local coordinates xi_0 and a constant gap g_0 over
-/// them: w = x_s - sum_l N_l(xi_0) x_l - g_0 n(xi_0). Held kinematics do not
+/// them: w = x_s - sum_l N_l(xi_0) x_l - g_0 n(xi_0). Frozen kinematics do not
 /// turn: the point keeps its place `origin` relative to sum_l N_l(xi_0) x_l.
 template <class Kinematics>
 struct Relative

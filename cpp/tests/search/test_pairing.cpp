@@ -101,7 +101,7 @@ TEST(Pairing, FreezesANodeThatReturnsTwice)
   EXPECT_EQ(s.search_at({1.5, 0}, true), 1);
   EXPECT_EQ(s.search_at({0.5, 0}, true), 1);
   EXPECT_TRUE(s.pairing.frozen().empty());
-  EXPECT_EQ(s.search_at({1.5, 0}, true), 0); // held back
+  EXPECT_EQ(s.search_at({1.5, 0}, true), 0); // frozen
   EXPECT_EQ(s.pairing.frozen(), std::vector<std::int32_t>{0});
   EXPECT_EQ(s.facet(), 0);
   EXPECT_NEAR(s.pairing.xi()[0], -0.5, 1e-15); // on the extended facet
