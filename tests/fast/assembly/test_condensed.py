@@ -7,6 +7,7 @@ import pytest
 import stacked_blocks
 
 import ufl
+from contactx.condensed.galerkin import Galerkin
 from contactx.condensed.solver import CondensedSolver
 from dolfinx.mesh import CellType
 
@@ -263,3 +264,21 @@ def test_another_preconditioner_is_refused():
     for _ in range(2):
         with pytest.raises(ValueError, match=r"condensed_pc_type.*set pc_type to lu"):
             problem.solve()
+
+
+def test_coarse_levels_are_kept_while_contact_hardly_changes(monkeypatch):
+    updates, update = [], Galerkin.update
+
+    def counted(self, *arguments):
+        updates.append(1)
+        update(self, *arguments)
+
+    monkeypatch.setattr(Galerkin, "update", counted)
+    scene = Blocks(CellType.tetrahedron, n_upper=4, n_lower=3)
+    problem = scene.problem(scene.contact(), petsc_options={"pc_type": "condensed"})
+    for down, wanted in ((0.03, 1), (0.04, 0)):
+        scene.bcs[-1].g.value[...] = -down
+        updates.clear()
+        problem.solve()
+        assert problem.report.iterations >= 3
+        assert len(updates) == wanted
