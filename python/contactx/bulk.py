@@ -17,6 +17,7 @@ import dolfinx.fem.petsc
 import ufl
 from contactx.errors import NotFiniteError
 from contactx.parallel import reduce
+from contactx.quadrature import by_rule
 from dolfinx import fem, la
 
 
@@ -25,9 +26,12 @@ class Bulk:
 
     Attributes:
         u: Displacement.
+        residual_form: Residual as the user gave it.
+        form_options: Options of the compilation of forms.
         bcs: Dirichlet conditions.
-        F: Residual form.
-        J: Jacobian form.
+        F: Residual form, in parts that sum up to it.
+        J: Jacobian form, in parts that sum up to it.
+        has_own_jacobian: Whether the user gave the Jacobian.
         is_linear: Whether the Jacobian does not depend on u.
         comm: Communicator; what assembles or asks for the matrix needs all ranks.
         num_dofs: Number of dofs of this rank.
@@ -56,8 +60,10 @@ class Bulk:
             jit_options: Options of the compilation.
         """
         self.u = u
+        self.residual_form = F
         self.bcs = list(bcs)
         V = u.function_space
+        self.has_own_jacobian = J is not None
         if J is None:
             # Loads drop out, so that a constant of theirs that changes does not count as one of J
             internal = [
@@ -65,10 +71,11 @@ class Bulk:
             ]
             J = ufl.derivative(ufl.Form(internal or list(F.integrals())), u, ufl.TrialFunction(V))
         options = {"form_compiler_options": form_compiler_options, "jit_options": jit_options}
-        self.F = fem.form(F, **options)
-        self.J = fem.form(J, **options)
+        self.form_options: dict[str, Any] = options
+        self.F = [fem.form(part, **options) for part in by_rule(F)]
+        self.J = [fem.form(part, **options) for part in by_rule(J)]
         # Those that are left once UFL has differentiated: none is u where the bulk is linear
-        self._coefficients = list(self.J._cpp_object.coefficients)
+        self._coefficients = [c for part in self.J for c in part._cpp_object.coefficients]
         self.is_linear = all(c is not u._cpp_object for c in self._coefficients)
         self.comm: MPI.Comm = V.mesh.comm
         self.num_dofs = V.dofmap.index_map.size_local * V.dofmap.index_map_bs
@@ -86,8 +93,42 @@ class Bulk:
     def residual(self) -> npt.NDArray[np.float64]:
         """Residual on this rank's dofs, without Dirichlet conditions; all ranks must take part."""
         self._b.array[:] = 0
-        fem.assemble_vector(self._b.array, self.F)
+        for part in self.F:
+            fem.assemble_vector(self._b.array, part)
         return self._sums()
+
+    def jacobian_error(self, way: npt.NDArray[np.float64], size: float) -> float:
+        """How far the Jacobian is from a difference quotient of the residual.
+
+        All ranks must take part.
+
+        Args:
+            way: Direction, ghosts included, shape (num_dofs + num_ghosts,).
+            size: Displacement up to which the residual is as good as linear.
+
+        Returns:
+            Norm of the difference of both products with the direction over the larger of their
+            norms, in free dofs; 0 where there is none, or it is not finite.
+        """
+        way = np.where(self.markers == 1, 0.0, way)
+        most = reduce.largest(self.comm, float(np.abs(way).max(initial=0.0)))
+        if not (np.isfinite(most) and most > 0):
+            return 0.0
+        u, quotient = self.u.x.array.copy(), np.zeros(self.num_dofs)
+        A = self.matrix()
+        x, y = A.createVecs()
+        x.array[:] = way[: self.num_dofs]
+        A.mult(x, y)
+        step = size / most
+        for sign in (1, -1):
+            self.u.x.array[:] = u + sign * step * way
+            quotient += sign * self.residual() / (2 * step)
+        self.u.x.array[:] = u
+        free = self.markers[: self.num_dofs] == 0
+        product, quotient = y.array[free], quotient[free]
+        sizes = [reduce.norm(self.comm, a) for a in (product - quotient, product, quotient)]
+        largest = max(sizes[1:])
+        return float(sizes[0] / largest) if np.isfinite(sizes).all() and largest > 0 else 0.0
 
     def lifted(self) -> npt.NDArray[np.float64]:
         """What Dirichlet values that the displacement does not have yet do to other rows.
@@ -95,7 +136,8 @@ class Bulk:
         All ranks must take part.
         """
         self._b.array[:] = 0
-        fem.apply_lifting(self._b.array, [self.J], [self.bcs], [self.u.x.array], alpha=-1.0)
+        for part in self.J:
+            fem.apply_lifting(self._b.array, [part], [self.bcs], [self.u.x.array], alpha=-1.0)
         return self._sums()
 
     def _sums(self) -> npt.NDArray[np.float64]:
@@ -174,18 +216,23 @@ class Bulk:
             whole.destroy()
 
     def _assemble(self) -> bool:
-        parameters = [fem.pack_constants(self.J), *(c.x.array for c in self._coefficients)]
+        constants = (fem.pack_constants(part) for part in self.J)
+        parameters = [*constants, *(c.x.array for c in self._coefficients)]
         same = self._assembled_with is not None and all(
             map(np.array_equal, parameters, self._assembled_with)
         )
         if reduce.everywhere(self.comm, same):
             return False
         if self._A is None or not self._is_whole:
-            self._A = dolfinx.fem.petsc.create_matrix(self.J)
+            # The first part has an integral wherever another one has
+            self._A = dolfinx.fem.petsc.create_matrix(self.J[0])
         # Until it is whole, whatever comes in between
         self._assembled_with = None
         self._A.zeroEntries()
-        dolfinx.fem.petsc.assemble_matrix(self._A, self.J, bcs=self.bcs)
+        for part in self.J:
+            # Each part sets the unit diagonal of the Dirichlet conditions, and none adds to it
+            self._A.assemble(PETSc.Mat.AssemblyType.FLUSH)
+            dolfinx.fem.petsc.assemble_matrix(self._A, part, bcs=self.bcs)
         self._A.assemble()
         if not np.isfinite(self._A.norm(PETSc.NormType.FROBENIUS)):
             raise NotFiniteError(

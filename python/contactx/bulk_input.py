@@ -50,6 +50,9 @@ def check_displacement(u: Any) -> None:
             f"u is in a mixed space or a part of one; contact needs a displacement of its own: "
             f"{wanted}"
         )
+    # Values of Nedelec's and Raviart's elements have the right shape, but no dofs at nodes
+    if element.element_family != basix.ElementFamily.P or element.discontinuous:
+        raise ValueError(f"u is not in a continuous Lagrange space; contact needs {wanted}")
     if element.reference_value_shape != (gdim,) or element.block_size != gdim:
         raise ValueError(
             f"u has values of shape {element.reference_value_shape}, but the displacement of this "
@@ -57,8 +60,6 @@ def check_displacement(u: Any) -> None:
         )
     if element.degree != 1:
         raise ValueError(f"u is of degree {element.degree}; contact needs degree 1: {wanted}")
-    if element.element_family != basix.ElementFamily.P or element.discontinuous:
-        raise ValueError(f"u is not in a continuous Lagrange space; contact needs {wanted}")
 
 
 def check_finite(comm: MPI.Comm, **vectors: la.Vector) -> None:
@@ -184,6 +185,28 @@ def check_conditions(bcs: Any, u: fem.Function) -> None:
             raise ValueError(
                 f"bcs[{k}] is a condition on another function space than that of u: make it with "
                 "u.function_space, or with u.function_space.sub(i)"
+            )
+
+
+def check_same_conditions(
+    given: Sequence[fem.DirichletBC], taken: Sequence[fem.DirichletBC], comm: MPI.Comm
+) -> None:
+    """Check that the user's list of Dirichlet conditions is as it was when a problem was made.
+
+    Args:
+        given: The list, as it is now.
+        taken: The conditions of the problem.
+        comm: Communicator.
+
+    Raises:
+        ValueError: If a condition has come, gone or been replaced on any rank, on all ranks.
+    """
+    with agreed(comm):
+        if [id(bc) for bc in given] != [id(bc) for bc in taken]:
+            raise ValueError(
+                f"bcs has changed since the ContactProblem was made, from {len(taken)} conditions "
+                f"to {len(given)}: a problem keeps those that it was made with. Make another "
+                "ContactProblem, or change the values of conditions that are there"
             )
 
 

@@ -15,11 +15,13 @@ from contactx.bodies.bodies import Bodies
 from contactx.fields import Fields
 from contactx.forms import ContactForms
 from contactx.geometry.facing import check_facing
+from contactx.geometry.inside import shared_nodes
 from contactx.interface import Interface
 from contactx.law.make import make_law
 from contactx.master.make import make_master
 from contactx.nodal import NodalValue
 from contactx.obstacles import Obstacle
+from contactx.parallel import reduce
 from contactx.parallel.agreement import agreed
 from contactx.parallel.halo import Halo
 from contactx.parallel.slaves import SlaveNodes
@@ -168,6 +170,9 @@ class Contact:
             sliding=self.sliding,
             search_distance=self.search_distance,
         )
+        shared = None
+        if isinstance(self.master, Surface):
+            shared = shared_nodes(self.slave.facet_nodes(V), self.master.facet_nodes(V), halo)
         interface = Interface(
             slaves,
             master,
@@ -177,6 +182,7 @@ class Contact:
             has_means=self.method == "surface-to-surface",
             offset=offset,
             markers=markers,
+            shared=shared,
         )
         check_facing(self.slave, slaves, self.master, master, halo)
         self._fields = Fields(interface, V, slaves, halo)
@@ -359,11 +365,14 @@ def _check_options(
             "Cylinder or LevelSet"
         )
     if isinstance(master, Surface) and slave.facet_tags.topology is master.facet_tags.topology:
+        topology = slave.facet_tags.topology
         shared = np.intersect1d(slave.facets, master.facets)
-        if len(shared) > 0:
+        owned = shared < topology.index_map(slave.facet_tags.dim).size_local
+        count = reduce.total(topology.comm, np.count_nonzero(owned))
+        if count > 0:
             raise ValueError(
-                f"slave and master overlap: {slave} and {master} have {len(shared)} facets in "
-                "common. Give each surface its own tags"
+                f"slave and master overlap: {slave} and {master} have {count} facets in common. "
+                "Give each surface its own tags"
             )
     if not isinstance(sliding, str) or sliding not in _SLIDING:
         raise ValueError(f'sliding must be "finite" or "small", not {sliding!r}')

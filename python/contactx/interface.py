@@ -62,6 +62,7 @@ class Interface:
         has_means: bool,
         offset: NodalValue,
         markers: npt.NDArray[np.int8],
+        shared: npt.NDArray[np.bool_] | None = None,
     ):
         """Pair the slave nodes in the reference configuration; all ranks must take part.
 
@@ -74,6 +75,8 @@ class Interface:
             has_means: Whether normals are means over facets.
             offset: What is taken off the gap.
             markers: 1 at dofs of the bulk with a Dirichlet condition, shape (num_dofs,).
+            shared: Which owned nodes the master surface has, too, shape (num_owned,); None if it
+                has none.
 
         Raises:
             ValueError: If an obstacle's parameters do not fit.
@@ -102,6 +105,8 @@ class Interface:
         self._touched = np.zeros(n, dtype=bool)
         self.active, self.skipped_searches = True, 0
         self._offset = offset
+        # A crack's tip: nodes of both sides have no gap
+        self._shared = np.zeros(n, dtype=bool) if shared is None else shared[self.slaves]
         self._accept()
         self._search(halo.x)
         self.master.begin_step()
@@ -248,7 +253,7 @@ class Interface:
         self._assembly.kinematics(self.nodes)
         self._assembly.slip(self.nodes, self.master.origin)
         self.nodes.gap -= offset
-        self.nodes.gap[~(self.master.paired & self.active)] = np.nan
+        self.nodes.gap[~(self.master.paired & self.active) | self._shared] = np.nan
 
     def offset(self) -> npt.NDArray[np.float64]:
         """What is taken off the gap now, shape (n,)."""
@@ -349,6 +354,35 @@ def check_over_constrained(
                 f"{count} slave nodes inside the rigid obstacle, first node {first} of the mesh as "
                 f"it was made, at {point_text(at, size)}. Take them out of the slave surface, "
                 "release them along the obstacle's normal or prescribe values outside of it"
+            )
+
+
+def check_drag(interfaces: Sequence[Interface], names: Sequence[Any], halo: Halo) -> None:
+    """Check that no obstacle moves along with what touches it, unless it tells how.
+
+    Args:
+        interfaces: Discrete sides of the contacts.
+        names: The contacts, for the message.
+        halo: Nodes on this rank.
+
+    Raises:
+        ValueError: If one does on any rank, on all ranks.
+    """
+    for k, interface in enumerate(interfaces):
+        master = interface.master
+        if not isinstance(master, ObstacleMaster) or not interface.active:
+            continue
+        size = reduce.extent(halo.comm, halo.x[interface.slaves]).max()
+        with agreed(halo.comm):
+            moves = master.moves_untold(1e-12 * size)
+        touched = reduce.anywhere(halo.comm, interface.nodes.closed.any())
+        if touched and reduce.anywhere(halo.comm, moves):
+            raise ValueError(
+                f"contact {k} ({names[k]}): the LevelSet moves while it is touched, and its "
+                "function does not tell how its material moves along its surface, which slip and "
+                "ties are measured from. Take a Sphere, Plane or Cylinder, which drag what touches "
+                "them, or friction=0; or let it come from where nothing touches it to where it "
+                "stays"
             )
 
 

@@ -56,6 +56,23 @@ _HIDDEN = (
     "pairs went back and forth between facets and were frozen, and hide a penetration: refine the "
     "master there or take smaller load steps"
 )
+# Difference of a Jacobian from a difference quotient that is no rounding
+_WRONG = 1e-3
+# Iterates in turn with about the same residual that the bulk alone leaves
+_STAGNANT = 4
+_WRONG_JACOBIAN = (
+    "the Jacobian is not the derivative of F: along the last step it differs by {:.2g} % from a "
+    "difference quotient of F. "
+)
+_ADVICE = {
+    True: "Correct J, or leave it out to have it derived",
+    False: "F has what ufl.derivative cannot see, such as a coefficient that depends on u: give J",
+}
+_STAGNATES = (
+    "the residual stagnates at {:.3g} while no node changes its status, and the tolerance is "
+    "{:.3g}: forces that cancel may leave that much by rounding. Raise snes_rtol, or set snes_atol "
+    "to a force that may be neglected"
+)
 _CODE = PETSc.SNES.ConvergedReason
 _REASONS = {
     _CODE.CONVERGED_FNORM_ABS: "the residual is below the tolerance",
@@ -164,9 +181,13 @@ class NewtonLoop:
         self._system.unpack(self._system.x)
         code = self.snes.getConvergedReason()
         report.converged = self._converged
+        if not self._converged:
+            self._failure = self._failure or self._why_slow(code)
         report.reason = self._failure or _reason_of(code, self._converged)
         report.frozen_gap = min(self._frozen_pairs.gaps, default=0.0)
         self._has_modes |= self._converged
+        if self._converged:
+            self._criterion.accept()
         self._linear.end_step(report)
         report.cycles = self._guard.cycles
         report.corners = int(total(self._halo.comm, self._junctions.corners))
@@ -176,6 +197,30 @@ class NewtonLoop:
         report.skipped.update(self._linear.skipped())
         for interface in self._interfaces:
             report.skipped.update({"search": interface.skipped_searches})
+
+    def _why_slow(self, code: int) -> str:
+        """Reason why iterations came to nothing, if it is not one of the contacts; else empty.
+
+        All ranks must take part.
+
+        Args:
+            code: SNES's reason.
+        """
+        if code not in (_CODE.DIVERGED_MAX_IT, _CODE.DIVERGED_LINE_SEARCH):
+            return ""
+        update = self.snes.getSolutionUpdate()
+        way = self._system.blocks(update.array_r)[0].reshape(-1, self._system.block)
+        way = self._halo.scatter_forward(way).ravel()[: len(self._bulk.u.x.array)]
+        error = self._bulk.jacobian_error(way, 1e-6 * self._criterion.extent)
+        if error > _WRONG:
+            return _WRONG_JACOBIAN.format(100 * error) + _ADVICE[self._bulk.has_own_jacobian]
+        last = self._report.history[-_STAGNANT:]
+        residuals = [row.residual for row in last]
+        changes = sum(row.status_changes + row.pair_changes for row in last)
+        stagnant = len(last) == _STAGNANT and max(residuals) <= 4 * min(residuals)
+        if stagnant and changes == 0 and self._criterion.may_be_rounding(min(residuals)):
+            return _STAGNATES.format(min(residuals), last[-1].tolerance)
+        return ""
 
     @property
     def hidden_gaps(self) -> Sequence[float]:
@@ -256,7 +301,7 @@ class NewtonLoop:
                 interface.master.reset_flips()
         for interface in self._interfaces:
             interface.nodes.drop_open()
-        scale = self._criterion.scale()
+        scale = self._criterion.scale_of_balance
         if self._free_bodies.stabilise(self._system.displacement_residual, scale):
             self._freeze_kinematics(True)
         for interface in self._interfaces:

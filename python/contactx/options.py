@@ -150,6 +150,8 @@ def _newton() -> dict[str, Any]:
 def _direct() -> dict[str, Any]:
     """Options of a direct solver of the saddle point."""
     options: dict[str, Any] = {"ksp_type": "preonly", "pc_type": "lu"}
+    # Where SuperLU_DIST is taken: it moves no pivots while it factorises, and stops at zero ones
+    options["mat_superlu_dist_replacetinypivot"] = True
     solver = compat.direct_solver()
     if solver is not None:
         options["pc_factor_mat_solver_type"] = solver

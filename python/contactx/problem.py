@@ -24,11 +24,12 @@ from contactx.bulk_input import (
     check_finite,
     check_forms,
     check_prescribed,
+    check_same_conditions,
 )
 from contactx.contact import Contact, check_contacts
 from contactx.errors import ConvergenceError, NotFiniteError
 from contactx.geometry.cells import check_cells
-from contactx.interface import Interface, check_over_constrained
+from contactx.interface import Interface, check_drag, check_over_constrained
 from contactx.interrupts import Interrupts
 from contactx.newton import NewtonLoop
 from contactx.nodal import reference_positions
@@ -112,6 +113,7 @@ class ContactProblem:
         self.u = u
         self.contacts = list(contacts)
         self.report = Report()
+        self._bcs: Sequence[fem.DirichletBC] = [] if bcs is None else bcs
         self._bulk = Bulk(F, u, bcs or [], J, form_compiler_options, jit_options)
         self._halo = Halo(u, X.array.reshape(-1, gdim))
         bodies = Bodies(V, self._halo)
@@ -160,14 +162,18 @@ class ContactProblem:
         Raises:
             ConvergenceError: If the Newton loop fails. The displacement and the contacts are then
                 as they were before the call.
-            ValueError: If ``u`` or a Dirichlet value is not finite, friction, offset or an obstacle
-                has become what it must not be, Dirichlet conditions constrain a slave node
-                inside a rigid obstacle, or PETSc refuses an option.
+            ValueError: If the list ``bcs`` has changed since the problem was made, ``u`` or a
+                Dirichlet value is not finite, friction, offset or an obstacle has become what it
+                must not be, a LevelSet with friction moves while it is touched, Dirichlet
+                conditions constrain a slave node inside a rigid obstacle, or PETSc refuses an
+                option.
         """
+        check_same_conditions(self._bcs, self._bulk.bcs, self._halo.comm)
         check_finite(self._halo.comm, the_displacement_u_is=self.u.x)
         prescribed = self._bulk.prescribed()
         check_prescribed(prescribed, self._bulk.markers, self._halo.comm)
         check_over_constrained(self._interfaces, self.contacts, prescribed, self._halo)
+        check_drag(self._interfaces, self.contacts, self._halo)
         before = Snapshot(self.u, self.contacts, self._halo.update_ghosts)
         self._halo.update_ghosts()
         self.report = report = Report()
@@ -178,6 +184,7 @@ class ContactProblem:
                 interrupts.wait()
                 if not report.converged:
                     raise ConvergenceError(report.reason, report)
+                check_drag(self._interfaces, self.contacts, self._halo)
                 for contact in self.contacts:
                     contact.accept()
                 self._complete(report)
@@ -233,18 +240,27 @@ class ContactProblem:
     def _warn(self, k: int, interface: Interface, hidden: float) -> None:
         """Warn of what a converged solution may hide in contact number k, such as a gap."""
         name = f"contact {k} ({self.contacts[k]})"
-        comm, master, x = self._halo.comm, interface.master, interface.positions()
+        comm, master = self._halo.comm, interface.master
         text = ""
         if interface.active and not anywhere(comm, master.paired.any()):
+            # Where its nodes were paired, or should have been
+            small = interface.sliding == "small"
+            x = self._halo.x if small else interface.positions()
             distance = least(comm, master.distance(x))
             text = f"{name} transmits no force: it has no slave node "
             if distance > master.reach:
                 text += (
-                    f"within reach of its master; the nearest is {distance:.3g} away, and the "
+                    f"within reach of its master; the nearest is {distance:.3g} away"
+                    f"{' in the reference configuration' if small else ''}, and the "
                     f"search reaches {master.reach:.3g}"
                 )
             else:
                 text += f"that faces its master, although the nearest is {distance:.3g} away"
+            if small and not master.is_rigid:
+                text += (
+                    '. sliding="small" pairs nodes in the reference configuration, once: give a '
+                    'larger search_distance, or take sliding="finite"'
+                )
         elif hidden < 0:
             frozen = total(comm, len(master.frozen_pairs))
             text = (

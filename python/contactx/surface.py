@@ -145,7 +145,8 @@ class Surface:
         if anywhere(topology.comm, bool(inner.any())):
             raise ValueError(
                 f"{self} has facets inside a body, with a cell on either side: "
-                "a contact surface must be part of the boundary"
+                "a contact surface must be part of the boundary. Two bodies that share the nodes "
+                "of their common face are one: in gmsh do not fragment the bodies"
             )
         cells = facet_cells.array[facet_cells.offsets[self.facets]]
         mine = cells < topology.index_map(tdim).size_local

@@ -57,8 +57,8 @@ def shape(scene):
 
 
 def shared(scene):
-    """The left and the right half of a surface share nodes, whose facets other ranks may have."""
-    left, right = top(scene, lambda x: x[0] < 0.751), top(scene, lambda x: x[0] > 0.749)
+    """Two parts of a surface share facets, which other ranks may have."""
+    left, right = top(scene, lambda x: x[0] < 0.751), top(scene, lambda x: x[0] > 0.374)
     return said(scene, check_apart, "left", "right", left, right, scene.bodies)
 
 

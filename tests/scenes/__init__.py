@@ -16,6 +16,7 @@ Two blocks, the upper one on the lower one:
 
 Others:
 
+- ``cracked``: a block with a closed crack, whose faces share the nodes of its tip.
 - ``hertz``: ``HertzSphere``, the common Hertz problem, and its error against Hertz.
 - ``two_spheres``: ``TwoSpheres``, a soft one and a stiff one, pressed by a force.
 - ``steps``: scenes of several load steps, with all that may fail, and the state that they leave.

@@ -88,7 +88,7 @@ class FreeBlock:
         force = np.array(load) * (1 + growth * halo.x[: halo.num_owned, :1])
         force[self.scene.bodies.number[: halo.num_owned] == 0] = 0
         self.free_bodies.begin_step()
-        changed = self.free_bodies.stabilise(lambda: -force.ravel(), 1.0)
+        changed = self.free_bodies.stabilise(lambda: -force.ravel(), lambda: 1.0)
         stiffness = self.free_bodies.springs
         status = np.full(halo.num_owned, -1)
         status[self.slaves] = self.nodes.status

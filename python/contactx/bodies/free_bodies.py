@@ -78,13 +78,13 @@ class FreeBodies:
         """Drop the rigid modes: a failed step may have found them of a spoilt stiffness."""
         self._modes = None
 
-    def stabilise(self, residual: Callable[[], Array], scale: float) -> bool:
+    def stabilise(self, residual: Callable[[], Array], scale: Callable[[], float]) -> bool:
         """Find the springs to add to the Jacobian at an iterate, and close nodes for balance.
 
         Args:
             residual: Gives the residual of the displacements without Dirichlet rows at owned
                 dofs, shape (num_owned * gdim,); called only where a body has a free mode.
-            scale: Forces of the problem.
+            scale: Gives the forces of the problem; called likewise.
 
         Returns:
             Whether nodes have been closed or stick on any rank.
@@ -100,6 +100,7 @@ class FreeBodies:
         modes = rigid.at(nodes, x)
         size = modes.shape[2]
         per_node = np.einsum("nim,ni->nm", modes, -residual().reshape(-1, gdim))
+        balanced = _BALANCED * scale()
         pull = np.zeros((rigid.count, size))
         np.add.at(pull, body, per_node)
         pull = reduce.total(self._comm, pull).ravel()
@@ -114,7 +115,7 @@ class FreeBodies:
             lacking = self._lacking(x) if gdim == 2 else 0.0
             f = N.T @ (pull + lacking)
             # A norm that does not depend on which basis of the modes rounding has chosen
-            if np.linalg.norm(f) <= _BALANCED * scale:
+            if np.linalg.norm(f) <= balanced:
                 self.unbalanced = 0
                 break
             # The rigid motion of bodies whose mass goes with their number of nodes

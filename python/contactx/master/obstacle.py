@@ -22,7 +22,7 @@ _SLIP = core.rigid_slip_layout
 # What is saved of pairs, and of slip
 _PAIRS = ("paired", "data", "at")
 _SLIPS = ("slip_data", "start", "x0", "gap0")
-_PLACED = ("point", "direction")
+_PLACED = ("point", "direction", "parameters")
 
 
 class ObstacleMaster(Master):
@@ -129,6 +129,22 @@ class ObstacleMaster(Master):
         self._x0 = x[self._slaves]
         self._placed = self._obstacle.placement(x.shape[1])
         self._gap0 = self._obstacle.evaluate(self._x0).gap
+        self._parameters = self._obstacle.parameters()
+
+    def moves_untold(self, tolerance: float) -> bool:
+        """Whether the obstacle has moved since the step's start and nothing tells how.
+
+        Then slip cannot be measured on this rank.
+
+        Args:
+            tolerance: Gap that counts as none.
+        """
+        if not self._measures_slip or self._obstacle.tells_movement:
+            return False
+        gap = self._obstacle.evaluate(self._x0).gap
+        now = self._obstacle.parameters()
+        moved = bool((np.abs(gap - self._gap0) > tolerance).any())
+        return moved or (len(now) == len(self._parameters) and (now != self._parameters).any())
 
     def begin_step(self) -> None:
         """See ``Master``."""
@@ -193,6 +209,8 @@ class ObstacleMaster(Master):
             saved["point"] = self._placed.point
             if self._placed.direction is not None:
                 saved["direction"] = self._placed.direction
+            if len(self._parameters) > 0:
+                saved["parameters"] = self._parameters
         return saved
 
     def load(self, saved: Mapping[str, npt.NDArray[Any]]) -> None:
@@ -201,6 +219,7 @@ class ObstacleMaster(Master):
             setattr(self, f"_{name}", saved[name])
         if self._measures_slip:
             self._placed = Placement(saved["point"], saved.get("direction"))
+            self._parameters = saved.get("parameters", np.zeros(0))
 
     @property
     def _saved(self) -> tuple[str, ...]:

@@ -22,12 +22,14 @@ class LevelSet(Obstacle):
 
     The function need not be a distance: its zero is the surface, and g = f / |grad f| is the
     distance to first order. A function that changes tells of no movement along its surface: for
-    friction its material is at rest. Plane, Sphere and Cylinder drag what touches them.
+    friction its material is at rest, and a step in which it changes while it is touched is refused.
+    Plane, Sphere and Cylinder drag what touches them.
     """
 
     usual_mistake = (
         "Perhaps the sign of its function is wrong: it must be positive where bodies may be"
     )
+    tells_movement = False
 
     def __init__(
         self,
@@ -93,6 +95,11 @@ class LevelSet(Obstacle):
     def placement(self, gdim: int) -> Placement:
         """See ``Obstacle``; a function tells of no movement, so its material counts as at rest."""
         return Placement(np.zeros(gdim))
+
+    def parameters(self) -> npt.NDArray[np.float64]:
+        """See ``Obstacle``; the constants of a UFL function that has been evaluated."""
+        values = [np.zeros(0), *(c.constants() for c in self._compiled.values())]
+        return np.concatenate(values)
 
     def level(self, x: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
         """See ``Obstacle``; the function itself."""
@@ -187,6 +194,11 @@ class _Compiled:
         self._expression = fem.Expression(values, np.array([[0.5]]), comm=MPI.COMM_SELF)
         self._mesh = chain
         self._cells = np.arange(n, dtype=np.int32)
+
+    def constants(self) -> npt.NDArray[np.float64]:
+        """Current values of the user's constants, one after the other."""
+        values = [np.zeros(0), *(np.ravel(theirs.value) for theirs, _ in self._constants)]
+        return np.concatenate(values)
 
     def __call__(
         self, x: npt.NDArray[np.float64]

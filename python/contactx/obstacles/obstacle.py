@@ -89,11 +89,13 @@ class Obstacle(ABC):
 
     Attributes:
         usual_mistake: What is probably wrong where a whole body is inside: a sentence.
+        tells_movement: Whether ``placement`` says how its material moves.
         extent: Size of the largest surface that is measured against it, the same on all ranks;
             zero if none is known.
     """
 
     usual_mistake = "It is probably in the wrong place"
+    tells_movement = True
     extent = 0.0
 
     @abstractmethod
@@ -114,6 +116,10 @@ class Obstacle(ABC):
         Args:
             gdim: Geometric dimension.
         """
+
+    def parameters(self) -> npt.NDArray[np.float64]:
+        """Current values of what moves it although ``placement`` does not tell, shape (n,)."""
+        return np.zeros(0)
 
     def level(self, x: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
         """Function of the sign of the gap, of any scale, also where there is no normal.

@@ -5,6 +5,7 @@
 import subprocess
 import sys
 
+import hertz_cylinder
 import patch_test
 import pytest
 
@@ -24,3 +25,11 @@ def test_patch_test(tmp_path):
 def test_an_argument_that_is_not_there():
     with pytest.raises(SystemExit):
         patch_test.main(["--no-such-argument"])
+
+
+def test_results_come_before_pictures(tmp_path, monkeypatch, capsys):
+    """Without the package that draws them they are not lost."""
+    monkeypatch.setitem(sys.modules, "pyvista", None)
+    with pytest.raises(ImportError, match="pyvista"):
+        hertz_cylinder.main(["--h", "0.1", "--output", str(tmp_path)])
+    assert "peak pressure" in capsys.readouterr().out

@@ -109,6 +109,12 @@ ROWS = [
         f"u is of degree 2; {WANTED}",
     ),
     Row(
+        "u: of edges, with values of the right shape",
+        with_("u", lambda b: fem.Function(space(b, "N1curl", 1))),
+        ValueError,
+        f"u is not in a continuous Lagrange space; {WANTED}",
+    ),
+    Row(
         "u: discontinuous",
         with_("u", lambda b: fem.Function(space(b, "DG", 1, (2,)))),
         ValueError,

@@ -11,6 +11,8 @@ from dolfinx.mesh import CellType
 import meshes
 from inputs.rows import Row, refused, scene, solved, table
 from meshes import Tag
+from scenes import Blocks
+from scenes.cracked import Cracked
 from story import displacement
 
 
@@ -58,6 +60,18 @@ def touching_nodes():
     solved(blocks, cx.Contact(*sides))
 
 
+def stitched(gdim):
+    """A crack whose faces have a node in common beside its tip."""
+    body = Cracked(gdim, stitch=True)
+    body.problem([body.contact()])
+
+
+def nodes_of_a_facet():
+    blocks = Blocks(CellType.quadrilateral, n_upper=1)
+    master = cx.Surface(blocks.tags, Tag.UPPER_X0, Tag.UPPER_X1)
+    solved(blocks, cx.Contact(cx.Surface(blocks.tags, Tag.UPPER_CONTACT), master))
+
+
 def same_facets():
     blocks = scene()
     both = cx.Surface(blocks.tags, Tag.UPPER_CONTACT, Tag.LOWER_CONTACT)
@@ -75,7 +89,10 @@ def cells_as_facets():
     cx.Surface(data.cell_tags, Tag.UPPER)
 
 
-INSIDE = r"Surface\(tags=\(5,\).* facets inside a body.*must be part of the boundary"
+INSIDE = (
+    r"Surface\(tags=\(5,\).* facets inside a body.*must be part of the boundary. "
+    "Two bodies that share .* in gmsh do not fragment the bodies"
+)
 OTHER = r"facet tags of Surface\(tags=\({},\).* belong to another mesh than the displacement"
 ROWS = [
     Row("no tags", lambda: surface(), ValueError, "at least one tag: its surface is empty"),
@@ -140,7 +157,26 @@ ROWS = [
     Row("a slave of another mesh", lambda: foreign("slave"), ValueError, OTHER.format(11)),
     Row("a master of another mesh", lambda: foreign("master"), ValueError, OTHER.format(21)),
     Row("common facets", same_facets, ValueError, "slave and master overlap: .* facets in common"),
-    Row("common nodes", touching_nodes, ValueError, "slave and master overlap: .* share 1 nodes"),
+    Row("a common corner", touching_nodes, ValueError, "slave surface .* faces away .* Check the"),
+    Row(
+        "all nodes of a facet",
+        nodes_of_a_facet,
+        ValueError,
+        "slave and master overlap: .* share 2 nodes. .* do not fragment the bodies. Faces "
+        "of a crack may share",
+    ),
+    Row(
+        "bodies that are one at a node",
+        lambda: stitched(2),
+        ValueError,
+        "slave and master overlap: .* share 3 nodes",
+    ),
+    Row(
+        "solid bodies that are one at a node",
+        lambda: stitched(3),
+        ValueError,
+        "slave and master overlap: .* share 17 nodes",
+    ),
     Row(
         "a slave that faces away", away, ValueError, "slave surface .* faces away .* Check the tags"
     ),

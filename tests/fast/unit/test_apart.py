@@ -26,6 +26,18 @@ def test_out_of_reach_warns_with_the_distance():
     assert problem.report.iterations == 1
 
 
+def test_small_sliding_out_of_reach_says_where_it_pairs():
+    """The bodies are pressed into each other, and nothing resists."""
+    scene = Blocks(CellType.triangle, gap=0.2, down=0.3)
+    problem = scene.problem(scene.contact("small", search_distance=0.1))
+    said = (
+        r"no slave node within reach.* 0\.2 away in the reference configuration.* reaches 0\.1\. "
+        r'sliding="small" pairs nodes .* larger search_distance, or take sliding="finite"'
+    )
+    with pytest.warns(UserWarning, match=said):
+        problem.solve()
+
+
 def test_elasticity_without_contact_force_is_plain_elasticity():
     """Bodies that stay apart: contact changes nothing."""
     scene = Blocks(CellType.tetrahedron, gap=0.2)

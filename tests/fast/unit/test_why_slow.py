@@ -1,0 +1,64 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""What is said of iterations that come to nothing, though no contact is to blame."""
+
+import pytest
+
+import contactx as cx
+import ufl
+from dolfinx import fem
+from dolfinx.mesh import CellType
+
+from scenes import NU, Blocks
+from scenes.materials import neo_hookean
+
+QUOTIENT = "the Jacobian is not the derivative of F: along the last step it differs by"
+
+
+def failure(scene, **options):
+    problem = scene.problem(scene.contact(), **options)
+    with pytest.raises(cx.ConvergenceError) as caught:
+        problem.solve()
+    assert not scene.u.x.array.any()
+    return str(caught.value)
+
+
+@pytest.mark.parametrize("pc", ["lu", "condensed"])
+def test_a_wrong_jacobian_is_named(pc):
+    """One of a material twice as soft, with which Newton's method goes to and fro."""
+    scene = Blocks(CellType.triangle)
+    scene.F = neo_hookean(scene.u, 1.0, NU, degree=2)
+    J = ufl.derivative(neo_hookean(scene.u, 0.4, NU, degree=2), scene.u)
+    options = {"snes_max_it": 12, "pc_type": pc}
+    said = failure(scene, J=J, petsc_options=options)
+    assert QUOTIENT in said
+    assert "Correct J, or leave it out to have it derived" in said
+
+
+def test_a_coefficient_that_the_derivative_does_not_see():
+    scene = Blocks(CellType.triangle)
+    V = scene.u.function_space
+    same = fem.Function(V, x=scene.u.x)
+    scene.F += 40 * ufl.inner(same, ufl.TestFunction(V)) * ufl.dx
+    said = failure(scene, petsc_options={"snes_max_it": 12})
+    assert QUOTIENT in said
+    assert "a coefficient that depends on u: give J" in said
+
+
+def test_a_right_jacobian_is_not_blamed():
+    scene = Blocks(CellType.triangle, down=0.3)
+    scene.F = neo_hookean(scene.u, 1.0, NU, degree=2)
+    said = failure(scene, petsc_options={"snes_max_it": 1})
+    assert "no convergence in snes_max_it iterations" in said
+    assert "Jacobian" not in said
+
+
+def test_a_tolerance_below_rounding_is_named(monkeypatch):
+    """Where no estimate of the rounding errors helps."""
+    scene = Blocks(CellType.triangle)
+    errors = "contactx.convergence.ConvergenceCriterion._rounding_of_cancelling"
+    monkeypatch.setattr(errors, lambda *_: None)
+    monkeypatch.setattr("contactx.convergence._EPS", 0.0)
+    said = failure(scene, petsc_options={"snes_rtol": 1e-30})
+    assert "the residual stagnates at" in said
+    assert "Raise snes_rtol, or set snes_atol" in said

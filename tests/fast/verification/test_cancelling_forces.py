@@ -1,0 +1,188 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Forces that cancel leave nothing but rounding errors to measure a residual by."""
+
+import numpy as np
+import pytest
+
+import contactx as cx
+import ufl
+from contactx.cell_forces import CellForces
+from dolfinx import fem
+from dolfinx.mesh import CellType
+
+from meshes import Tag
+from scenes import Blocks
+from story import elasticity, traction
+
+pytestmark = pytest.mark.usefixtures("method")
+# Size of the scene and Young's modulus: without units, and of steel in millimetres
+UNITS = [(1.0, 1.0), (1e-3, 2e11)]
+NU = 0.3
+
+
+class Apart:
+    """Two blocks, free and apart, or one pressed on the other, in any units."""
+
+    def __init__(self, length, young, *, gap=0.01):
+        self.scene = Blocks(CellType.quadrilateral, gap=gap)
+        self.u = self.scene.u
+        self.domain = self.u.function_space.mesh
+        self.domain.geometry.x[:] *= length
+        for bc in self.scene.bcs:
+            bc.g.value[...] *= length
+        self.length, self.young = length, young
+        self.v = ufl.TestFunction(self.u.function_space)
+
+    def stress(self, strain):
+        mu, lmbda = self.young / (2 * (1 + NU)), self.young * NU / ((1 + NU) * (1 - 2 * NU))
+        return 2 * mu * strain + lmbda * ufl.tr(strain) * ufl.Identity(2)
+
+    def problem(self, F, bcs=()):
+        return cx.ContactProblem(
+            F,
+            self.u,
+            contacts=[self.scene.contact()],
+            bcs=list(bcs),
+            petsc_options_prefix="cancelling_",
+        )
+
+
+def thermal(scene):
+    """Free bodies that grow without a stress."""
+    strain = ufl.sym(ufl.grad(scene.u)) - fem.Constant(scene.domain, 1e-3) * ufl.Identity(2)
+    return ufl.inner(scene.stress(strain), ufl.grad(scene.v)) * ufl.dx
+
+
+def flight(scene):
+    """A step of time in free flight, from where the predictor has taken the bodies."""
+    predictor = fem.Function(scene.u.function_space)
+    predictor.x.array[0::2], predictor.x.array[1::2] = 3e-3 * scene.length, 1.7e-3 * scene.length
+    scene.u.x.array[:] = predictor.x.array
+    inertia = scene.young / scene.length**2 * ufl.inner(scene.u - predictor, scene.v) * ufl.dx
+    return elasticity(scene.u, scene.young, NU) + inertia
+
+
+def prestress(scene, size=1.0):
+    """A uniform stress that tractions balance: nothing moves."""
+    stress = fem.Constant(scene.domain, size * scene.young) * ufl.as_matrix(
+        [[2.0, 1.0], [1.0, 3.0]]
+    )
+    load = ufl.inner(stress * ufl.FacetNormal(scene.domain), scene.v) * ufl.ds
+    return (
+        elasticity(scene.u, scene.young, NU)
+        + ufl.inner(stress, ufl.grad(scene.v)) * ufl.dx
+        - load
+    )  # fmt: skip
+
+
+SCENES = {"thermal strain": thermal, "free flight": flight, "prestress": prestress}
+
+
+@pytest.mark.parametrize("units", UNITS)
+@pytest.mark.parametrize("name", SCENES)
+def test_bodies_without_forces(name, units):
+    scene = Apart(*units)
+    problem = scene.problem(SCENES[name](scene))
+    problem.solve()
+    assert problem.report.iterations <= 2
+    u = scene.u.x.array
+    if name == "thermal strain":
+        strain = ufl.sym(ufl.grad(scene.u)) - 1e-3 * ufl.Identity(2)
+        left = fem.assemble_scalar(fem.form(ufl.inner(strain, strain) * ufl.dx))
+        assert np.sqrt(left) <= 1e-14 * scene.length
+    elif name == "free flight":
+        assert np.abs(u[0::2] - 3e-3 * scene.length).max() <= 1e-15 * scene.length
+    else:
+        assert np.abs(u).max() <= 1e-13 * scene.length
+    before = u.copy()
+    for _ in range(2):
+        problem.solve()
+        assert problem.report.iterations == 0
+        assert (u == before).all()
+    # Another problem does not know what the first has done
+    again = scene.problem(SCENES[name](scene))
+    again.solve()
+    assert again.report.iterations <= 1
+
+
+@pytest.mark.parametrize("units", UNITS)
+@pytest.mark.parametrize("size", [0.0, 1e-6, 1e-3, 1.0, 1e3, 1e6])
+def test_a_repeated_solve_has_nothing_to_do(size, units):
+    """Blocks pressed together, with loads of any size that cancel."""
+    scene = Apart(*units, gap=0.0)
+    contact_force = []
+    problem = scene.problem(prestress(scene, size), scene.scene.bcs)
+    for count in range(3):
+        problem.solve()
+        contact_force.append(problem.contacts[0].force[1])
+        assert count == 0 or problem.report.iterations == 0
+    reference = Apart(*units, gap=0.0)
+    plain = reference.problem(elasticity(reference.u, reference.young, NU), reference.scene.bcs)
+    plain.solve()
+    # Rounding errors of the loads are all that may be left
+    scale = size * scene.young * scene.length
+    error = abs(contact_force[0] - plain.contacts[0].force[1])
+    assert error <= 1e-9 * plain.contacts[0].force[1] + 1e-13 * scale
+    assert contact_force == contact_force[:1] * 3
+
+
+@pytest.mark.parametrize("units", UNITS)
+def test_pulling_at_both_ends(units):
+    scene = Apart(*units, gap=0.0)
+    pull = fem.Constant(scene.domain, np.array([scene.young, 0.0]))
+    back = fem.Constant(scene.domain, np.array([-scene.young, 0.0]))
+    F = elasticity(scene.u, scene.young, NU)
+    F += traction(scene.u, scene.scene.tags, Tag.UPPER_X0, back)
+    F += traction(scene.u, scene.scene.tags, Tag.UPPER_X1, pull)
+    problem = scene.problem(F, scene.scene.bcs)
+    problem.solve()
+    problem.solve()
+    assert problem.report.iterations == 0
+
+
+def test_a_load_of_the_size_of_rounding_errors_elsewhere_is_not_lost():
+    """What cancels in one body excuses nothing in the other."""
+    scene = Apart(1.0, 1.0, gap=0.0)
+    V = fem.functionspace(scene.domain, ("DG", 0))
+    lower = fem.Function(V)
+    lower.interpolate(lambda x: 1.0 * (x[1] < 0))
+    stress = 1e3 * lower * ufl.as_matrix([[2.0, 1.0], [1.0, 3.0]])
+    F = elasticity(scene.u, 1.0, NU) + ufl.inner(stress, ufl.grad(scene.v)) * ufl.dx
+    F -= ufl.inner(stress * ufl.FacetNormal(scene.domain), scene.v) * ufl.ds
+    load = fem.Constant(scene.domain, np.array([0.0, -1e-9]))
+    F += traction(scene.u, scene.scene.tags, Tag.UPPER_TOP, load)
+    bcs = [*scene.scene.bcs[:2], scene.scene.bcs[2]]
+    problem = scene.problem(F, bcs)
+    problem.solve()
+    assert problem.contacts[0].force[1] == pytest.approx(1e-9, rel=1e-3)
+
+
+def test_cell_forces_are_assembled_only_where_they_matter(monkeypatch):
+    calls = []
+    magnitudes = CellForces.magnitudes
+    monkeypatch.setattr(CellForces, "magnitudes", lambda s: calls.append(1) or magnitudes(s))
+    scene = Apart(1.0, 1.0, gap=0.0)
+    scene.problem(elasticity(scene.u, 1.0, NU), scene.scene.bcs).solve()
+    assert not calls
+    scene = Apart(1.0, 1.0)
+    scene.problem(prestress(scene)).solve()
+    assert len(calls) <= 1
+
+
+def test_cell_forces_of_one_cell_are_those_of_its_node():
+    """Of a uniform stress, by hand: half the force on each side of a square."""
+    scene = Apart(1.0, 1.0)
+    problem = scene.problem(prestress(scene))
+    halo = problem._halo
+    forces = CellForces(
+        ufl.inner(ufl.as_matrix([[2.0, 0.0], [0.0, 0.0]]), ufl.grad(scene.v)) * ufl.dx,
+        scene.u,
+        halo,
+        {},
+    ).magnitudes()
+    # In blocks of 2 by 2 squares of side 1/2 each corner of a cell has the force 2 * 1/2 / 2
+    upper = np.flatnonzero(halo.x[:, 1] > 0)
+    middle = upper[np.isclose(halo.x[upper], [0.23 + 0.5, 0.51]).all(axis=1)]
+    assert len(middle) == 1
+    assert forces[middle[0]] == pytest.approx(4 * 0.5)
