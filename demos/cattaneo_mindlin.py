@@ -210,8 +210,8 @@ def main(argv: Sequence[str] | None = None) -> list[story.Result]:
     story.console.print(str(problem.report), highlight=False)
     exact, tractions = formula(contact), Tractions(scene)
     results = tractions.compare(exact)
-    files = draw(args.output, scene, tractions, exact)
-    story.show("Cattaneo and Mindlin: partial slip, forces per length", results, files)
+    story.show("Cattaneo and Mindlin: partial slip, forces per length", results)
+    story.see(draw(args.output, scene, tractions, exact))
     return results
 
 

@@ -123,7 +123,7 @@ def main(argv: Sequence[str] | None = None) -> list[story.Result]:
         "A soft block pressed through 30 % of its height", 0.2, "in heights", argv
     )
     n = int(np.ceil(1 / args.h))
-    results, files = [], []
+    results, presses = [], {}
     for name, make in (("ball", on_ball), ("block", on_block)):
         with story.progress("meshing"):
             press = make(n, args.sliding)
@@ -135,6 +135,9 @@ def main(argv: Sequence[str] | None = None) -> list[story.Result]:
             story.Result(f"{name}: energy stored against work done", work, stored),
             story.Result(f"{name}: contact force against reaction", press.reaction(), force),
         ]
+        presses[name] = press
+    story.show("Finite strain", results)
+    for name, press in presses.items():
         stem = args.output / f"finite_strain_{name}"
         with cx.VTKOutput(stem.with_suffix(".pvd"), press.u, [press.contact]) as output:
             output.write(DEPTH)
@@ -146,8 +149,7 @@ def main(argv: Sequence[str] | None = None) -> list[story.Result]:
                 title=f"Neo-Hookean block, pressed on a {name} through 30 % of its height",
                 label="contact pressure / E",
             )
-        files += [stem.with_suffix(".png"), stem.with_suffix(".pvd")]
-    story.show("Finite strain", results, files)
+        story.see([stem.with_suffix(".png"), stem.with_suffix(".pvd")])
     return results
 
 

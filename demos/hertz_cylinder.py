@@ -77,10 +77,11 @@ def main(argv: Sequence[str] | None = None) -> list[story.Result]:
     ]
 
     title = "Elastic cylinder on an elastic block"
+    story.show("Hertz: cylinder on block, plane strain", results)
     files = story.draw(
         "hertz_cylinder", title, args.output, problem, contact, x, hertz, mirror=("x",)
     )
-    story.show("Hertz: cylinder on block, plane strain", results, files)
+    story.see(files)
     return results
 
 

@@ -85,10 +85,11 @@ def main(argv: Sequence[str] | None = None) -> list[story.Result]:
     ]
 
     title = "Elastic sphere on an elastic block"
+    story.show("Hertz: sphere on block", results)
     files = story.draw(
         "hertz_sphere", title, args.output, problem, contact, r, hertz, mirror=("x", "y")
     )
-    story.show("Hertz: sphere on block", results, files)
+    story.see(files)
     return results
 
 

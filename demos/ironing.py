@@ -226,7 +226,8 @@ def main(argv: Sequence[str] | None = None) -> list[story.Result]:
                 highlight=False,
             )
     results = compare(runs)
-    story.show("Ironing", results, draw(args.output, runs))
+    story.show("Ironing", results)
+    story.see(draw(args.output, runs))
     return results
 
 

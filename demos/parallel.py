@@ -123,7 +123,7 @@ def main(argv: Sequence[str] | None = None) -> list[story.Result]:
             story.Result("contact radius, Hertz", hertz.contact_radius, many.radius),
             story.Result("peak pressure, Hertz", hertz.peak_pressure, many.pressure.max()),
         ]
-        story.show(f"Hertz's sphere, ranks: {comm.size}", results, [])
+        story.show(f"Hertz's sphere, ranks: {comm.size}", results)
         off = np.abs(many.pressure - one.pressure).max() / one.pressure.max()
         story.console.print(f"nodal pressures are those of one rank within {off:.1e} of the peak")
     return results

@@ -132,11 +132,10 @@ def main(argv: Sequence[str] | None = None) -> list[story.Deviation]:
             story.solve(patch.problem)
             results[method] += compare(cell.name, patch)
             patches[method] = patch
+    show(results)
     with story.progress("drawing"):
         files = draw(args.output, patches)
-    show(results)
-    for file in files:
-        story.console.print(f"see {file}", soft_wrap=True, highlight=False)
+    story.see(files)
     return [result for rows in results.values() for result in rows]
 
 

@@ -72,10 +72,11 @@ def main(argv: Sequence[str] | None = None) -> list[story.Result]:
         story.Result("peak pressure", hertz.peak_pressure, pressure.max()),
     ]
     title = "Rigid cylinder in an elastic block"
+    story.show(title, results)
     files = story.draw(
         "rigid_cylinder", title, args.output, problem, contact, slave[:, 0], hertz, mirror=("x",)
     )
-    story.show(title, results, files)
+    story.see(files)
     return results
 
 

@@ -174,8 +174,8 @@ def main(argv: Sequence[str] | None = None) -> list[story.Result]:
         slider.run()
         results += slider.compare(base)
         sliders[base] = slider
-    files = draw(args.output, sliders)
-    story.show("Coulomb: a block that sticks and slides", results, files)
+    story.show("Coulomb: a block that sticks and slides", results)
+    story.see(draw(args.output, sliders))
     return results
 
 

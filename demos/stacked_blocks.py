@@ -119,8 +119,8 @@ def main(argv: Sequence[str] | None = None) -> list[story.Result]:
     for _ in cx.LoadSteps(problem, STEPS, update=update):
         story.console.print(str(problem.report), highlight=False)
     results = compare(contacts)
-    files = draw(args.output, problem, contacts)
-    story.show("Equilibrium of five free blocks", results, files)
+    story.show("Equilibrium of five free blocks", results)
+    story.see(draw(args.output, problem, contacts))
     return results
 
 

@@ -167,12 +167,16 @@ def nodal_pressure(contact: cx.Contact) -> npt.NDArray[np.float64]:
     return pressure
 
 
-def show(title: str, results: Sequence[Result], files: Sequence[Path]) -> None:
-    """Print the results against the formula, and where the pictures are."""
+def show(title: str, results: Sequence[Result]) -> None:
+    """Print the results against the formula: before pictures, which need packages of their own."""
     table = Table("", "expected", "computed", "error", title=title)
     for r in results:
         table.add_row(r.name, f"{r.expected:.6g}", f"{r.computed:.6g}", f"{100 * r.error:+.2f} %")
     console.print(table)
+
+
+def see(files: Sequence[Path]) -> None:
+    """Print where the pictures are."""
     for file in files:
         console.print(f"see {file}", soft_wrap=True, highlight=False)
 
@@ -279,6 +283,6 @@ def hertz(
         Result("contact radius", exact.contact_radius, radius),
         Result("peak pressure", exact.peak_pressure, p.max()),
     ]
-    files = draw(name, title, folder, problem, contact, r, exact, mirror=("x", "y"))
-    show(title, results, files)
+    show(title, results)
+    see(draw(name, title, folder, problem, contact, r, exact, mirror=("x", "y")))
     return results
