@@ -54,4 +54,6 @@ void search(py::module_& m);
 void law(py::module_& m);
 void kernel(py::module_& m);
 void mortar(py::module_& m);
+void contact(py::module_& m);
+void penetration(py::module_& m);
 } // namespace contactx_bindings

@@ -11,4 +11,6 @@ PYBIND11_MODULE(cpp, m)
   contactx_bindings::law(m);
   contactx_bindings::mortar(m);
   contactx_bindings::kernel(m);
+  contactx_bindings::contact(m);
+  contactx_bindings::penetration(m);
 }

@@ -21,6 +21,61 @@ def nodal_areas(
 def nodal_normals(
     offsets: NDArray[np.int32], nodes: NDArray[np.int32], x: NDArray[np.float64], gdim: int
 ) -> NDArray[np.float64]: ...
+def facing_nodes(
+    offsets: NDArray[np.int32],
+    nodes: NDArray[np.int32],
+    x: NDArray[np.float64],
+    normal: NDArray[np.float64],
+    gdim: int,
+) -> NDArray[np.int8]: ...
+def facing_areas(
+    offsets: NDArray[np.int32],
+    nodes: NDArray[np.int32],
+    reference: NDArray[np.float64],
+    x: NDArray[np.float64],
+    normal: NDArray[np.float64],
+    gdim: int,
+) -> NDArray[np.float64]: ...
+def nodal_curvatures(
+    offsets: NDArray[np.int32], nodes: NDArray[np.int32], x: NDArray[np.float64], gdim: int
+) -> NDArray[np.float64]: ...
+def facet_turns(
+    offsets: NDArray[np.int32],
+    nodes: NDArray[np.int32],
+    x: NDArray[np.float64],
+    normal: NDArray[np.float64],
+    gdim: int,
+) -> NDArray[np.float64]: ...
+def facet_sizes(
+    offsets: NDArray[np.int32], nodes: NDArray[np.int32], x: NDArray[np.float64], gdim: int
+) -> NDArray[np.float64]: ...
+def explained_depths(
+    size: NDArray[np.float64], curvature: NDArray[np.float64], closed: NDArray[np.int8]
+) -> NDArray[np.float64]: ...
+def far_side(
+    own_before: NDArray[np.float64],
+    own_after: NDArray[np.float64],
+    before: NDArray[np.float64],
+    after: NDArray[np.float64],
+    gdim: int,
+) -> NDArray[np.int8]: ...
+
+class FacetSampling:
+    def __init__(
+        self,
+        offsets: NDArray[np.int32],
+        nodes: NDArray[np.int32],
+        x: NDArray[np.float64],
+        gdim: int,
+        allowed: NDArray[np.float64],
+        levels: int,
+    ) -> None: ...
+    @property
+    def points(self) -> NDArray[np.float64]: ...
+    def take(self, gap: NDArray[np.float64]) -> None: ...
+    @property
+    def gaps(self) -> NDArray[np.float64]: ...
+
 def shape_functions(num_nodes: int, xi: NDArray[np.float64]) -> NDArray[np.float64]: ...
 
 class Finder:

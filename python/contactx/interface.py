@@ -12,7 +12,6 @@ from mpi4py import MPI
 import numpy as np
 import numpy.typing as npt
 
-from contactx import cpp as core
 from contactx.assembly import Assembly
 from contactx.errors import point_text
 from contactx.forms import ContactForms, Pairs, State
@@ -42,6 +41,9 @@ class Interface:
         law: Contact law.
         slaves: Slave nodes that this rank owns, numbered as the blocks of the displacement's
             dofmap, shape (n,).
+        slave_nodes: The same with their facets.
+        is_shared: Which slave nodes the master surface has, too, shape (n,).
+        shared_nodes: Nodes of this rank that both surfaces have.
         num_others: Number of slave nodes of other ranks that share facets with these.
         state: Vectors that the forms read.
         nodes: State of the slave nodes.
@@ -97,18 +99,18 @@ class Interface:
         slave_map = cpp.common.IndexMap(MPI.COMM_SELF, len(slaves.around))
         self.state = State.of(gdim, slave_map, is_vector=law.is_vector)
         self._assembly = Assembly(law.name, self.state, halo)
-        facets = slaves.facets
-        area = core.nodal_areas(facets.offsets, facets.nodes, halo.x, gdim)
-        self._whole: npt.NDArray[np.float64] = area[self.slaves]
+        self.slave_nodes = slaves
         self.nodes = Nodes(self.state, n, gdim, has_means=has_means)
         self.history = SlipHistory(n, gdim) if law.is_vector and not law.is_tied else None
         self._touched = np.zeros(n, dtype=bool)
         self.active, self.skipped_searches = True, 0
         self._offset = offset
         # A crack's tip: nodes of both sides have no gap
-        self._shared = np.zeros(n, dtype=bool) if shared is None else shared[self.slaves]
+        self.is_shared = np.zeros(n, dtype=bool) if shared is None else shared[self.slaves]
+        self.shared_nodes = np.flatnonzero([] if shared is None else shared)
         self._accept()
         self._search(halo.x)
+        self._find_front()
         self.master.begin_step()
         self._make_forms()
         self._find_immobile()
@@ -162,12 +164,29 @@ class Interface:
     def accept(self) -> None:
         """Take the converged state as the start of the next step; all ranks must take part."""
         self._accept()
+        front, area = self._front, self.nodes.area.copy()
+        self._find_front()
+        if reduce.anywhere(self._halo.comm, (self._front != front).any()):
+            self._take(self.master.pairs())
+            # Forces stay
+            tractions = self.nodes.multiplier.reshape(len(area), -1)
+            tractions *= (area / self.nodes.area)[:, None]
         if self.history is not None:
             self.history.add(self.nodes)
 
     def _accept(self) -> None:
         with agreed(self._halo.comm):
             self.master.accept(self.positions())
+
+    def _find_front(self) -> None:
+        """Find which part of the slave nodes' area is in front of the master."""
+        reference = self._halo.x
+        x = reference if self.sliding == "small" else self.positions()
+        normals = self.master.normals()[:, : self._gdim]
+        corners = self.slave_nodes.facing_areas(reference, x, normals)
+        self._front: npt.NDArray[np.float64] = self.slave_nodes.sums(corners)
+        with agreed(self._halo.comm):
+            self.master.take_front(corners > 0)
 
     def set_factor(self, compliance: npt.NDArray[np.float64]) -> None:
         """Set the factor c of the complementarity from the compliance of the pairs.
@@ -229,11 +248,11 @@ class Interface:
 
     def _take(self, groups: Sequence[Pairs]) -> None:
         """Take over new data of pairs."""
-        self.nodes.area[:] = self.master.area(self._whole)
+        self.nodes.area[:] = self.master.area(self._front)
         self._assembly.update(groups)
 
     def _make_forms(self) -> None:
-        self.nodes.area[:] = self.master.area(self._whole)
+        self.nodes.area[:] = self.master.area(self._front)
         sliding = "small" if self._frozen_kinematics else "finite"
         self._assembly.rebuild(self.master.pairs(), sliding)
 
@@ -253,7 +272,7 @@ class Interface:
         self._assembly.kinematics(self.nodes)
         self._assembly.slip(self.nodes, self.master.origin)
         self.nodes.gap -= offset
-        self.nodes.gap[~(self.master.paired & self.active) | self._shared] = np.nan
+        self.nodes.gap[~(self.master.paired & self.active) | self.is_shared] = np.nan
 
     def offset(self) -> npt.NDArray[np.float64]:
         """What is taken off the gap now, shape (n,)."""
@@ -320,6 +339,7 @@ class Interface:
     def rebuild(self) -> None:
         """Make the forms of pairs that were loaded; kinematics are not frozen."""
         self._frozen_kinematics = self.sliding == "small"
+        self._find_front()
         self._make_forms()
 
 

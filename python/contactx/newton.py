@@ -27,6 +27,7 @@ from petsc4py import PETSc
 import numpy as np
 import numpy.typing as npt
 
+from contactx.audit.audit import Audit
 from contactx.bodies.bodies import Bodies
 from contactx.bodies.free_bodies import FreeBodies
 from contactx.bulk import Bulk
@@ -140,6 +141,8 @@ class NewtonLoop:
         self._junctions = Junctions(interfaces, system.halo.comm)
         self._guard = CycleGuard(interfaces, system.halo.comm)
         self._frozen_pairs = FrozenPairs(interfaces, system.halo.comm)
+        self._audit = Audit(interfaces, system.halo)
+        self._names = [f"contact {k}" for k in range(len(interfaces))]
         self._failure = ""
         self.snes = PETSc.SNES().create(system.x.comm)
         self.snes.setOptionsPrefix(prefix)
@@ -172,6 +175,7 @@ class NewtonLoop:
             self._criterion.begin_step(stiffness)
             self._set_factors(stiffness)
             self._free_bodies.begin_step()
+            self._audit.begin_step()
             self._guard.begin_step()
             self._changes = self._settle(first=True)
             self._system.pack()
@@ -226,6 +230,10 @@ class NewtonLoop:
     def hidden_gaps(self) -> Sequence[float]:
         """Smallest gap that frozen pairs of each contact hide, at the solution."""
         return self._frozen_pairs.gaps
+
+    def accept(self) -> None:
+        """Take the converged state as the start of the next step; all ranks must take part."""
+        self._audit.accept()
 
     def find_rigid_modes(self) -> None:
         """Find the free rigid modes of the bodies as they are, as the first run does."""
@@ -359,6 +367,12 @@ class NewtonLoop:
         self._guard.note(self._system.x, row.residual)
         if not np.isfinite(row.residual):
             return reason.DIVERGED_FUNCTION_NANORINF
+        if small:
+            with self._report.timing("audit"):
+                self._report.audit = findings = self._audit(self._names)
+            if findings.faults:
+                self._failure = "; ".join(findings.faults)
+                return reason.DIVERGED_FUNCTION_DOMAIN
         self._converged = small
         if small:
             return reason.CONVERGED_FNORM_ABS

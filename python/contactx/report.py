@@ -16,6 +16,8 @@ import numpy.typing as npt
 from rich.console import Console
 from rich.table import Table
 
+from contactx.audit.findings import Findings
+
 
 @dataclass(frozen=True)
 class Iteration:
@@ -74,6 +76,7 @@ class Report:
             force, over the sum of its nodes' forces: nothing on plane surfaces, but for rounding.
         skipped: What iterations did not do again because it still served, and how often: assembly
             of the bulk's Jacobian, hierarchies, factorisations, searches.
+        audit: What the audit of the converged iterate found.
         unread: PETSc options of the user that nothing has read: misspelt, perhaps.
         times: Wall seconds of each part.
     """
@@ -101,6 +104,7 @@ class Report:
     force: list[npt.NDArray[np.float64]] = field(default_factory=list)
     recovery: list[float] = field(default_factory=list)
     skipped: dict[str, int] = field(default_factory=dict)
+    audit: Findings = field(default_factory=Findings)
     unread: list[str] = field(default_factory=list)
     times: dict[str, float] = field(default_factory=dict)
 
@@ -180,6 +184,7 @@ class Report:
         skips = ", ".join(f"{name} {count}x" for name, count in self.skipped.items() if count)
         if skips:
             lines.append(f"skipped: {skips}")
+        lines.append(str(self.audit))
         times = ", ".join(f"{part} {seconds:.2f} s" for part, seconds in self.times.items())
         lines.append(f"time: {times}")
         wrapped = (line if "│" in line else textwrap.fill(line, 80) for line in lines)

@@ -92,7 +92,8 @@ def over_constrained(scene):
     nodes = nodes[nodes < halo.num_owned]
     up = np.eye(scene.dim)[height] + 0.2 * np.eye(scene.dim)[0]
     x0 = np.eye(scene.dim)[0] - np.eye(scene.dim)[height]
-    master = ObstacleMaster(nodes, cx.Plane(x0, up), halo.x, None, measures_slip=False)
+    every = SimpleNamespace(owned=nodes, facing=lambda x, normal: np.ones(len(nodes), dtype=bool))
+    master = ObstacleMaster(every, cx.Plane(x0, up), halo.x, None, measures_slip=False)
     interface = SimpleNamespace(
         master=master,
         law=SimpleNamespace(is_tied=False),

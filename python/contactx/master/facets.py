@@ -112,6 +112,10 @@ class FacetMaster(Master):
         paired: npt.NDArray[np.bool_] = self._facet >= 0
         return paired
 
+    def normals(self) -> npt.NDArray[np.float64]:
+        """See ``Master``."""
+        return np.where(self.paired[:, None], self._pairing.normal.reshape(-1, 3), 0.0)
+
     def pairs(self) -> list[Pairs]:
         """See ``Master``; grouped by the number of nodes of the facets."""
         found = self._pairing

@@ -66,14 +66,14 @@ def make_master(
         obstacle: ObstacleMaster
         with agreed(halo.comm):
             if law.is_tied:
-                obstacle = ObstacleTie(slaves.owned, *options, measures_slip=True)
+                obstacle = ObstacleTie(slaves, *options, measures_slip=True)
             elif method == "surface-to-surface" and not isinstance(master, Plane):
                 obstacle = MortarObstacle(
                     slaves, master, halo, search_distance, measures_slip=law.is_vector
                 )
             else:
                 # Dual functions weigh what is linear on a facet, as a plane's gap, at its nodes
-                obstacle = ObstacleMaster(slaves.owned, *options, measures_slip=law.is_vector)
+                obstacle = ObstacleMaster(slaves, *options, measures_slip=law.is_vector)
             gap = obstacle.inside(halo.x)
         check_outside(slave, slaves.owned, gap, master, bodies)
         return obstacle

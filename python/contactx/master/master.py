@@ -157,12 +157,18 @@ class Master(ABC):
         """Area that each slave node's multiplier acts on.
 
         Args:
-            whole: Its part of the slave surface, shape (n,).
+            whole: Its part of the slave surface in front of the master, shape (n,).
 
         Returns:
             Areas, shape (n,).
         """
         return whole
+
+    def take_front(self, faces: npt.NDArray[np.bool_]) -> None:
+        """Take which corners of the slave facets face the master, in the order of their nodes.
+
+        Only what integrates over facets on its own needs to know.
+        """
 
     @property
     def origin(self) -> npt.NDArray[np.float64]:

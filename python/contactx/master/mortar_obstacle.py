@@ -40,19 +40,27 @@ class _Facets:
         numbers: Their slave nodes by their place among all around, shape (m, k).
         N: Shape functions at the points of the rule, shape (q, k).
         weight: Weights of the dual functions at the points, by reference area, shape (m, k, q).
+        corners: Places of its corners in the list of all slave facets, shape (m, k).
     """
 
     nodes: npt.NDArray[np.int32]
     numbers: npt.NDArray[np.int32]
     N: Array
     weight: Array
+    corners: npt.NDArray[np.int64]
 
     @staticmethod
-    def of(nodes: npt.NDArray[np.int32], around: npt.NDArray[np.int32], x: Array) -> _Facets:
+    def of(
+        nodes: npt.NDArray[np.int32],
+        corners: npt.NDArray[np.int64],
+        around: npt.NDArray[np.int32],
+        x: Array,
+    ) -> _Facets:
         """Prepare the rule and the dual functions.
 
         Args:
             nodes: Nodes of the facets, shape (m, k).
+            corners: Places of their corners in the list of all slave facets, shape (m, k).
             around: All slave nodes in order, those of other ranks last.
             x: Reference positions.
         """
@@ -70,7 +78,7 @@ class _Facets:
         dual = (area @ N)[:, :, None] * np.linalg.inv(mass)
         weight = (dual @ N.T) * area[:, None, :]
         numbers = np.searchsorted(around, nodes).astype(np.int32)
-        return _Facets(nodes, numbers, N, weight)
+        return _Facets(nodes, numbers, N, weight, corners)
 
     def points(self, x: Array) -> Array:
         """Points of the rule, shape (m * q, gdim)."""
@@ -107,8 +115,13 @@ class MortarObstacle(ObstacleMaster):
             measures_slip: Whether slip is measured.
         """
         self._halo, x = halo, halo.x
-        super().__init__(slave.owned, obstacle, x, search_distance, measures_slip=measures_slip)
-        self._kinds = [_Facets.of(nodes, slave.around, x) for _, nodes in slave.facets.groups()]
+        super().__init__(slave, obstacle, x, search_distance, measures_slip=measures_slip)
+        offsets = slave.facets.offsets
+        self._kinds = [
+            _Facets.of(nodes, offsets[which][:, None] + np.arange(nodes.shape[1]), slave.around, x)
+            for which, nodes in slave.facets.groups()
+        ]
+        self._faces = np.ones(len(slave.facets.nodes), dtype=bool)
         self._others = np.zeros(len(slave.around) - len(slave.owned), dtype=bool)
         self._values: list[Array] = []
         self._positions = x
@@ -120,9 +133,16 @@ class MortarObstacle(ObstacleMaster):
         self._positions = x
         return found
 
+    def take_front(self, faces: npt.NDArray[np.bool_]) -> None:
+        """See ``Master``; the others are not integrated."""
+        if not np.array_equal(faces, self._faces):
+            self._faces = faces
+            self._values = [self._integrate(facets, self._positions) for facets in self._kinds]
+
     def _integrate(self, facets: _Facets, x: Array) -> Array:
         """What the kernels read of facets, shape (m, size)."""
         m, k, q = facets.weight.shape
+        dual = facets.weight * self._faces[facets.corners][:, :, None]
         gdim = x.shape[1]
         at = core.rigid_mortar_layout(k, gdim)
         there = self._obstacle.evaluate(facets.points(x))
@@ -130,7 +150,7 @@ class MortarObstacle(ObstacleMaster):
         def integral(values: Array, *, by_nodes: bool = False) -> Array:
             """Integral with the dual functions, and with the shape functions where asked for."""
             values = values.reshape(m, q, -1)
-            weight = facets.weight
+            weight = dual
             if by_nodes:
                 weight = (weight[:, :, None, :] * facets.N.T).reshape(m, k * k, q)
             total: Array = weight @ values
@@ -138,7 +158,7 @@ class MortarObstacle(ObstacleMaster):
 
         data = np.empty((m, at["size"]))
         parts = {
-            "area": facets.weight.sum(axis=2),
+            "area": dual.sum(axis=2),
             "gap": integral(there.gap),
             "gradient": integral(there.gradient, by_nodes=True),
             "normal": integral(there.normal),
@@ -156,7 +176,7 @@ class MortarObstacle(ObstacleMaster):
         groups = []
         paired = np.concatenate([self._paired, self._others])
         for facets, data in zip(self._kinds, values, strict=True):
-            near = paired[facets.numbers].any(axis=1)
+            near = (paired[facets.numbers] & self._faces[facets.corners]).any(axis=1)
             if near.any():
                 groups.append(Pairs(facets.numbers[near], facets.nodes[near], data[near]))
         return groups

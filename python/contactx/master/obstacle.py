@@ -15,6 +15,7 @@ from contactx.forms import Pairs
 from contactx.master.master import Master, RowKind, Weights, touching
 from contactx.obstacles import Geometry, Obstacle
 from contactx.obstacles.obstacle import Placement
+from contactx.parallel.slaves import SlaveNodes
 
 _AT = core.rigid_layout
 _SLIP = core.rigid_slip_layout
@@ -36,7 +37,7 @@ class ObstacleMaster(Master):
 
     def __init__(
         self,
-        slaves: npt.NDArray[np.int32],
+        slave: SlaveNodes,
         obstacle: Obstacle,
         x: npt.NDArray[np.float64],
         search_distance: float | None,
@@ -46,13 +47,14 @@ class ObstacleMaster(Master):
         """Create the pairs, none yet.
 
         Args:
-            slaves: Slave nodes, shape (n,).
+            slave: Slave nodes.
             obstacle: The obstacle.
             x: Reference positions.
             search_distance: Largest distance of a pair; unlimited if None.
             measures_slip: Whether slip is measured.
         """
         self._measures_slip = measures_slip
+        self._slave, slaves = slave, slave.owned
         self._slaves = slaves
         self._obstacle = obstacle
         self.reach = np.inf if search_distance is None else search_distance
@@ -69,8 +71,15 @@ class ObstacleMaster(Master):
         geometry = self._obstacle.evaluate(self._at)
         self._data = _kernel_data(geometry)
         self._update_slip(self._at, self._data)
-        self._paired = np.abs(geometry.gap) <= self.reach
+        # The far side of an obstacle, too, has a closest point for a node
+        self._paired = self._slave.facing(x, geometry.normal)
+        self._paired &= np.abs(geometry.gap) <= self.reach
         return 0
+
+    @property
+    def obstacle(self) -> Obstacle:
+        """The obstacle."""
+        return self._obstacle
 
     @property
     def paired(self) -> npt.NDArray[np.bool_]:

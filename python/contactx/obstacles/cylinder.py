@@ -72,7 +72,7 @@ class Cylinder(Obstacle):
             direction(self.axis, gdim, "axis of a Cylinder"),
         )
 
-    def level(self, x: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+    def distance(self, x: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
         """See ``Obstacle``."""
         return radial_gap(self._from_point(x) @ self._across(), self._radius(), self.hollow)
 

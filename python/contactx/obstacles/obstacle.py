@@ -121,6 +121,17 @@ class Obstacle(ABC):
         """Current values of what moves it although ``placement`` does not tell, shape (n,)."""
         return np.zeros(0)
 
+    def distance(self, x: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+        """Gap alone, infinite where there is none.
+
+        Args:
+            x: Points, shape (n, gdim).
+
+        Returns:
+            Gaps, shape (n,).
+        """
+        return self.evaluate(x).gap
+
     def level(self, x: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
         """Function of the sign of the gap, of any scale, also where there is no normal.
 
@@ -130,7 +141,7 @@ class Obstacle(ABC):
         Returns:
             Its values, shape (n,).
         """
-        return self.evaluate(x).gap
+        return self.distance(x)
 
 
 def vector(value: Parameter, gdim: int, name: str) -> npt.NDArray[np.float64]:

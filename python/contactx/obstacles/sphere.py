@@ -37,7 +37,7 @@ class Sphere(Obstacle):
         """See ``Obstacle``; g = |x - centre| - radius, or its opposite for a hollow sphere."""
         return radial(self._from_centre(x), self._radius(), self.hollow)
 
-    def level(self, x: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+    def distance(self, x: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
         """See ``Obstacle``."""
         return radial_gap(self._from_centre(x), self._radius(), self.hollow)
 
@@ -68,20 +68,15 @@ def radial(d: npt.NDArray[np.float64], radius: float, hollow: bool) -> Geometry:
 
     Returns:
         The geometry; its derivatives are those within the span of all such ``d``.
-
-    Raises:
-        ValueError: If a vector is zero, where the surface has no normal.
+        Where a vector is zero there is no normal, and it is zero, too: nothing faces it.
     """
     distance = np.linalg.norm(d, axis=1)
-    if np.any(distance == 0):
-        raise ValueError(
-            "a slave node is in the centre of an obstacle, where it has no normal: "
-            "move the obstacle or the body"
-        )
+    away = distance > 0
     sign = -1.0 if hollow else 1.0
-    unit = d / distance[:, None]
+    inverse = np.divide(1, distance, out=np.zeros_like(distance), where=away)
+    unit = d * inverse[:, None]
     projector = np.eye(d.shape[1]) - unit[:, :, None] * unit[:, None, :]
     normal = sign * unit
     return Geometry(
-        radial_gap(d, radius, hollow), normal, normal, sign * projector / distance[:, None, None]
+        radial_gap(d, radius, hollow), normal, normal, sign * projector * inverse[:, None, None]
     )

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from contactx import cpp as core
 from contactx.parallel.halo import Halo
 from contactx.surface import FacetList
 
@@ -35,6 +36,8 @@ class SlaveNodes:
         self.facets = facets
         self.around: npt.NDArray[np.int32] = np.unique(facets.nodes)
         self.owned = self.around[self.around < halo.num_owned]
+        # The facets by the places of their nodes among those
+        self._corners = np.searchsorted(self.around, facets.nodes).astype(np.int32)
 
     def scatter_forward(self, values: npt.NDArray[Any]) -> npt.NDArray[Any]:
         """Give all slave nodes the values that their owners have; all ranks must take part.
@@ -50,3 +53,53 @@ class SlaveNodes:
         everywhere = np.zeros((self._halo.num_owned, *values.shape[1:]), dtype=values.dtype)
         everywhere[self.owned] = values
         return self._halo.scatter_forward(everywhere)[self.around]
+
+    def facing(
+        self, x: npt.NDArray[np.float64], normal: npt.NDArray[np.float64]
+    ) -> npt.NDArray[np.bool_]:
+        """Which owned slave nodes face a master.
+
+        Args:
+            x: Positions of all nodes, shape (num_nodes, gdim).
+            normal: Unit normals of the master at the owned slave nodes, shape (n, gdim).
+
+        Returns:
+            Which ones, shape (n,).
+        """
+        offsets, gdim = self.facets.offsets, x.shape[1]
+        every = self._padded(normal, gdim)
+        faces = core.facing_nodes(offsets, self._corners, x[self.around], every, gdim)
+        which: npt.NDArray[np.bool_] = faces[: len(self.owned)] > 0
+        return which
+
+    def facing_areas(
+        self,
+        reference: npt.NDArray[np.float64],
+        x: npt.NDArray[np.float64],
+        normal: npt.NDArray[np.float64],
+    ) -> npt.NDArray[np.float64]:
+        """Reference areas of the corners of the facets that face a master, else zero.
+
+        Those of nodes of other ranks count as if all faced it.
+
+        Args:
+            reference: Reference positions of all nodes, shape (num_nodes, gdim).
+            x: Positions of all nodes, shape (num_nodes, gdim).
+            normal: Unit normals of the master at the owned slave nodes, or zero, shape (n, gdim).
+
+        Returns:
+            Areas, in the order of the facets' nodes.
+        """
+        offsets, around, gdim = self.facets.offsets, self.around, x.shape[1]
+        every = self._padded(normal, gdim)
+        return core.facing_areas(offsets, self._corners, reference[around], x[around], every, gdim)
+
+    def sums(self, corners: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+        """Sums at the owned slave nodes of what is given at the corners of the facets, (n,)."""
+        sums = np.bincount(self._corners, corners, len(self.around))[: len(self.owned)]
+        return sums.astype(np.float64)
+
+    def _padded(self, normal: npt.NDArray[np.float64], gdim: int) -> npt.NDArray[np.float64]:
+        every = np.zeros((len(self.around), gdim))
+        every[: len(self.owned)] = normal
+        return every

@@ -35,10 +35,10 @@ class DistributedSurface(MasterSurface):
         records = FacetRecords.of(own, halo)
         around = around_facets(halo, records, around_nodes(halo, records))
         around.add_to(halo, for_good=True)
-        self._around, self._key = around, around.key
+        self._records, self._key = around, around.key
         self.own = around.select(_among(around, records)).here(halo)
-        there = around.here(halo)
-        self._finder = core.Finder(there.offsets, there.nodes, halo.gdim)
+        self.around = around.here(halo)
+        self._finder = core.Finder(self.around.offsets, self.around.nodes, halo.gdim)
         self._known = FacetRecords.none()
         self.facets = self._known.here(halo)
 
@@ -89,7 +89,7 @@ class DistributedSurface(MasterSurface):
         answer["hit"] = hit
         answer["key"] = self._key[answer.pop("nearest")]
         answer["has"] = selected >= 0
-        facets = self._around.select(selected)
+        facets = self._records.select(selected)
         return answer | vars(facets)
 
     def _take(self, best: _Best) -> Found:

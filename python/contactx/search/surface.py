@@ -48,6 +48,7 @@ class MasterSurface:
     Attributes:
         facets: Facets that pairs are with.
         own: Facets of this rank.
+        around: Those and all that share a node with them.
     """
 
     def __init__(self, halo: Halo, own: FacetList):
@@ -58,7 +59,7 @@ class MasterSurface:
             own: Facets of the surface that this rank has.
         """
         self._halo = halo
-        self.own = self.facets = own
+        self.own = self.facets = self.around = own
         self._finder = core.Finder(own.offsets, own.nodes, halo.gdim)
 
     def find(self, x: Array, points: Array, normals: Array, reach: float) -> Found:

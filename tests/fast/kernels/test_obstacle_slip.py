@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """Slip over rigid obstacles: its derivative, its measure, moving obstacles."""
 
+from types import SimpleNamespace
+
 from mpi4py import MPI
 
 import numpy as np
@@ -15,6 +17,8 @@ from dolfinx import fem, mesh
 
 N = 12
 SLAVES = np.arange(N, dtype=np.int32)
+# Slave nodes without a surface
+ALL_FACE = SimpleNamespace(owned=SLAVES, facing=lambda x, normal: np.ones(N, dtype=bool))
 OPEN = np.zeros(N, dtype=np.int8)
 NO_OFFSET = np.zeros(N)
 GDIMS = pytest.mark.parametrize("gdim", [2, 3])
@@ -66,7 +70,7 @@ def slip_table(master, x, *, frozen=False, offset=NO_OFFSET):
 
 
 def started(kind, gdim, x):
-    master = ObstacleMaster(SLAVES, make(kind, gdim), x, None, measures_slip=True)
+    master = ObstacleMaster(ALL_FACE, make(kind, gdim), x, None, measures_slip=True)
     master.search(x, OPEN)
     return master
 
@@ -149,7 +153,7 @@ def moving(kind, gdim):
 def test_an_obstacle_that_carries_a_node_does_not_slip_under_it(kind, gdim):
     obstacle, move, carried = moving(kind, gdim)
     x0 = points(gdim)
-    master = ObstacleMaster(SLAVES, obstacle, x0, None, measures_slip=True)
+    master = ObstacleMaster(ALL_FACE, obstacle, x0, None, measures_slip=True)
     master.search(x0, OPEN)
     gap0 = slip_table(master, x0)[2]
     move()
@@ -173,7 +177,7 @@ def test_an_obstacle_that_carries_a_node_does_not_slip_under_it(kind, gdim):
 def test_a_tie_moves_with_its_obstacle_over_steps(gdim):
     obstacle, move, carried = moving("plane", gdim)
     x0 = points(gdim)
-    tie = ObstacleTie(SLAVES, obstacle, x0, None, measures_slip=True)
+    tie = ObstacleTie(ALL_FACE, obstacle, x0, None, measures_slip=True)
     tie.search(x0, OPEN)
     assert np.abs(slip_table(tie, x0)[0]).max() <= 1e-15
     move()
@@ -192,7 +196,7 @@ def test_a_tie_moves_with_its_obstacle_over_steps(gdim):
 def test_offset_makes_a_tie_longer_along_the_normal_that_turns(gdim):
     obstacle, move, carried = moving("plane", gdim)
     x0 = points(gdim)
-    tie = ObstacleTie(SLAVES, obstacle, x0, None, measures_slip=True)
+    tie = ObstacleTie(ALL_FACE, obstacle, x0, None, measures_slip=True)
     tie.search(x0, OPEN)
     offset = np.linspace(-0.2, 0.3, N)
     move()
@@ -209,7 +213,7 @@ def test_first_touch_is_where_the_way_meets_the_plane(gdim):
     point = constant(np.zeros(gdim))
     x0 = points(gdim)
     x0[:, -1] = np.linspace(0.1, 0.6, N)
-    master = ObstacleMaster(SLAVES, cx.Plane(point, up), x0, None, measures_slip=True)
+    master = ObstacleMaster(ALL_FACE, cx.Plane(point, up), x0, None, measures_slip=True)
     master.search(x0, OPEN)
     point.value[:] = 0.25 * up + 0.1 * np.eye(gdim)[0]
     x = x0.copy()
@@ -231,7 +235,7 @@ def test_a_half_turn_has_no_shortest_way(gdim):
     direction = constant(np.eye(gdim)[0])
     x0 = points(gdim)
     plane = cx.Plane(np.zeros(gdim), direction)
-    master = ObstacleMaster(SLAVES, plane, x0, None, measures_slip=True)
+    master = ObstacleMaster(ALL_FACE, plane, x0, None, measures_slip=True)
     master.search(x0, OPEN)
     direction.value[:] = -np.eye(gdim)[0]
     with pytest.raises(ValueError, match="turns by 180 degrees within a step"):
@@ -240,7 +244,7 @@ def test_a_half_turn_has_no_shortest_way(gdim):
 
 def test_nothing_tangential_without_friction():
     x0 = points(3)
-    master = ObstacleMaster(SLAVES, make("plane", 3), x0, None, measures_slip=False)
+    master = ObstacleMaster(ALL_FACE, make("plane", 3), x0, None, measures_slip=False)
     master.search(x0, OPEN)
     (pairs,) = master.update(x0 + 0.1, False, NO_OFFSET)
     assert pairs.slip is None

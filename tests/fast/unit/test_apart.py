@@ -5,6 +5,7 @@
 import numpy as np
 import pytest
 
+import contactx as cx
 from dolfinx import fem
 from dolfinx.mesh import CellType
 
@@ -27,14 +28,25 @@ def test_out_of_reach_warns_with_the_distance():
 
 
 def test_small_sliding_out_of_reach_says_where_it_pairs():
-    """The bodies are pressed into each other, and nothing resists."""
-    scene = Blocks(CellType.triangle, gap=0.2, down=0.3)
+    scene = Blocks(CellType.triangle, gap=0.2, down=0.1)
     problem = scene.problem(scene.contact("small", search_distance=0.1))
     said = (
         r"no slave node within reach.* 0\.2 away in the reference configuration.* reaches 0\.1\. "
         r'sliding="small" pairs nodes .* larger search_distance, or take sliding="finite"'
     )
     with pytest.warns(UserWarning, match=said):
+        problem.solve()
+
+
+def test_small_sliding_out_of_reach_must_not_pass_through():
+    """The bodies are pressed into each other, and nothing resists."""
+    scene = Blocks(CellType.triangle, gap=0.2, down=0.3)
+    problem = scene.problem(scene.contact("small", search_distance=0.1))
+    said = (
+        r"slave nodes are inside the master, and have no pair with it, .*: "
+        r'sliding="small" pairs nodes .* larger search_distance, or take sliding="finite"'
+    )
+    with pytest.raises(cx.ConvergenceError, match=said):
         problem.solve()
 
 

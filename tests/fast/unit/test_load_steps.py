@@ -212,11 +212,13 @@ def test_an_error_of_the_body_leaves_the_step_accepted():
 def test_warnings_point_to_the_loop(monkeypatch):
     scene = Sheared(far=0.1)
 
+    master = type(scene.contact.interface.master)
+
     def warned(report):
+        monkeypatch.setattr(master, "paired", np.zeros(4, dtype=bool))
         scene.problem._warn(0, scene.contact.interface, 0.0)
 
     monkeypatch.setattr(scene.problem, "_complete", warned)
-    monkeypatch.setattr(type(scene.contact.interface.master), "paired", np.zeros(4, dtype=bool))
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         next(iter(scene.steps(1)))

@@ -1,0 +1,104 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include "penetration.h"
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+using namespace contactx;
+using namespace contactx::audit;
+
+namespace
+{
+/// Turn over a facet up to which it resolves a curvature: 29 degrees
+constexpr double resolved = 0.5;
+/// Depth of a chord of a circle, by curvature and squared length, and how often
+/// that is allowed
+constexpr double chord = 1. / 8, chords = 2;
+/// Depths by the size of a facet
+constexpr double in_contact = 1. / 8, negligible = 1. / 256;
+
+double distance(std::span<const double> x, std::int32_t a, std::int32_t b,
+                int gdim)
+{
+  double square = 0;
+  for (int k = 0; k < gdim; ++k)
+  {
+    const double d = x[static_cast<std::size_t>(a) * gdim + k]
+                     - x[static_cast<std::size_t>(b) * gdim + k];
+    square += d * d;
+  }
+  return std::sqrt(square);
+}
+} // namespace
+
+std::vector<double> contactx::audit::facet_turns(const facet::FacetList& facets,
+                                                 std::span<const double> x,
+                                                 std::span<const double> normal,
+                                                 int gdim)
+{
+  if (x.size() != normal.size())
+    throw std::invalid_argument("normals of another number of nodes");
+  std::vector<double> turn(facets.size(), 0);
+  for (std::int32_t f = 0; f < facets.size(); ++f)
+  {
+    const auto nodes = facets[f];
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j)
+      {
+        const double way = distance(x, nodes[i], nodes[j], gdim);
+        if (way > 0)
+          turn[f] = std::max(turn[f],
+                             distance(normal, nodes[i], nodes[j], gdim) / way);
+      }
+  }
+  return turn;
+}
+
+std::vector<double>
+contactx::audit::nodal_curvatures(const facet::FacetList& facets,
+                                  std::span<const double> x, int gdim)
+{
+  const std::vector<double> turn
+      = facet_turns(facets, x, facet::nodal_normals(facets, x, gdim), gdim);
+  std::vector<double> curvature(x.size() / gdim, 0);
+  for (std::int32_t f = 0; f < facets.size(); ++f)
+    for (const std::int32_t node : facets[f])
+      curvature[node] = std::max(curvature[node], turn[f]);
+  return curvature;
+}
+
+std::vector<double> contactx::audit::facet_sizes(const facet::FacetList& facets,
+                                                 std::span<const double> x,
+                                                 int gdim)
+{
+  std::vector<double> size(facets.size(), 0);
+  for (std::int32_t f = 0; f < facets.size(); ++f)
+  {
+    const auto nodes = facets[f];
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j)
+        size[f] = std::max(size[f], distance(x, nodes[i], nodes[j], gdim));
+  }
+  return size;
+}
+
+std::vector<double>
+contactx::audit::explained_depths(std::span<const double> size,
+                                  std::span<const double> curvature,
+                                  std::span<const std::int8_t> closed)
+{
+  if (size.size() != curvature.size() or size.size() != closed.size())
+    throw std::invalid_argument(
+        "sizes, curvatures and flags of different numbers of facets");
+  std::vector<double> depth(size.size());
+  for (std::size_t i = 0; i < depth.size(); ++i)
+  {
+    const double h = size[i], turn = curvature[i] * h;
+    depth[i] = h * (closed[i] ? in_contact : negligible);
+    if (turn <= resolved)
+      depth[i] = std::max(depth[i], chords * chord * turn * h);
+  }
+  return depth;
+}

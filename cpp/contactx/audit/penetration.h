@@ -1,0 +1,57 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#pragma once
+
+#include "../facet/nodal.h"
+
+namespace contactx::audit
+{
+/// @brief Curvature of a surface at its nodes: how much the nodal normal turns
+/// on the way to a neighbour, by the length of the way; the largest.
+/// @param[in] facets Facets of the surface.
+/// @param[in] x Positions (shape=(num_nodes, gdim)), row-major.
+/// @param[in] gdim Geometric dimension, 2 or 3.
+/// @return Curvatures, 1/length, zero off the surface (shape=(num_nodes)).
+std::vector<double> nodal_curvatures(const facet::FacetList& facets,
+                                     std::span<const double> x, int gdim);
+
+/// @brief How much a field of normals turns along each facet, by the length of
+/// the way from node to node; the largest.
+/// @param[in] facets Facets.
+/// @param[in] x Positions (shape=(num_nodes, gdim)), row-major.
+/// @param[in] normal Unit normals (shape=(num_nodes, gdim)).
+/// @param[in] gdim Geometric dimension, 2 or 3.
+/// @return Curvatures, 1/length (shape=(num_facets)).
+/// @throws std::invalid_argument If the sizes do not fit.
+std::vector<double> facet_turns(const facet::FacetList& facets,
+                                std::span<const double> x,
+                                std::span<const double> normal, int gdim);
+
+/// @brief Longest distance between two nodes of each facet.
+/// @param[in] facets Facets.
+/// @param[in] x Positions (shape=(num_nodes, gdim)), row-major.
+/// @param[in] gdim Geometric dimension, 2 or 3.
+std::vector<double> facet_sizes(const facet::FacetList& facets,
+                                std::span<const double> x, int gdim);
+
+/// @brief How deep a master may be below a slave facet of size h between its
+/// nodes: what the mesh explains.
+///
+/// Contact holds at slave nodes, or in the mean over their facets. In between
+/// - a surface of curvature k is k h^2 / 8 beside its chord; twice that is
+///   allowed, as both surfaces are curved. That is so where the mesh resolves
+///   the curvature, k h <= 1/2; the edge of a punch, or a ball smaller than a
+///   facet, is no curvature that the facet sees;
+/// - a facet of which a node is in contact bends around what it touches;
+///   beyond h / 8 the facet is too coarse for that;
+/// - h / 256 is no matter.
+/// @param[in] size Sizes of the facets.
+/// @param[in] curvature Curvatures of the master in front of them.
+/// @param[in] closed Whether a node of the facet is in contact.
+/// @return Depths.
+/// @throws std::invalid_argument If the arrays are of different sizes.
+std::vector<double> explained_depths(std::span<const double> size,
+                                     std::span<const double> curvature,
+                                     std::span<const std::int8_t> closed);
+} // namespace contactx::audit

@@ -1,0 +1,88 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include "facing.h"
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+
+using namespace contactx;
+using namespace contactx::contact;
+
+namespace
+{
+/// Cosine to the master's normal, as a part of a node's largest one, from which
+/// on a facet is in front of the master: a face of a box at a right angle to
+/// the one in contact is not, however the box tilts up to 26 degrees, and both
+/// facets of a round body's polygon are
+constexpr double in_front = 0.5;
+
+double product(std::span<const double> a, std::span<const double> b,
+               std::size_t row, std::size_t of, int gdim)
+{
+  double sum = 0;
+  for (int k = 0; k < gdim; ++k)
+    sum += a[row * gdim + k] * b[of * gdim + k];
+  return sum;
+}
+
+/// Positions of the corners of all facets, each on its own.
+std::vector<double> at_corners(const facet::FacetList& facets,
+                               std::span<const double> x, int gdim)
+{
+  std::vector<double> corners(facets.nodes.size() * gdim);
+  for (std::size_t c = 0; c < facets.nodes.size(); ++c)
+    std::copy_n(x.begin() + static_cast<std::size_t>(facets.nodes[c]) * gdim,
+                gdim, corners.begin() + c * gdim);
+  return corners;
+}
+
+void check(std::span<const double> x, std::span<const double> normal)
+{
+  if (x.size() != normal.size())
+    throw std::invalid_argument("normals of another number of nodes");
+}
+} // namespace
+
+std::vector<std::int8_t>
+contactx::contact::facing_nodes(const facet::FacetList& facets,
+                                std::span<const double> x,
+                                std::span<const double> normal, int gdim)
+{
+  check(x, normal);
+  const std::vector<double> own = facet::nodal_normals(facets, x, gdim);
+  std::vector<std::int8_t> faces(x.size() / gdim);
+  for (std::size_t i = 0; i < faces.size(); ++i)
+    faces[i] = product(own, normal, i, i, gdim) < 0;
+  return faces;
+}
+
+std::vector<double> contactx::contact::facing_areas(
+    const facet::FacetList& facets, std::span<const double> reference,
+    std::span<const double> x, std::span<const double> normal, int gdim)
+{
+  check(x, normal);
+  check(x, reference);
+  const std::size_t n = facets.nodes.size();
+  std::vector<std::int32_t> own(n);
+  std::iota(own.begin(), own.end(), 0);
+  // Each corner of each facet as a node of its own
+  const facet::FacetList corners{facets.offsets, own};
+  const std::vector<double> turned
+      = facet::nodal_normals(corners, at_corners(facets, x, gdim), gdim);
+  std::vector<double> area
+      = facet::nodal_areas(corners, at_corners(facets, reference, gdim), gdim);
+
+  std::vector<double> cosine(n), most(x.size() / gdim, 0);
+  for (std::size_t c = 0; c < n; ++c)
+  {
+    const auto node = static_cast<std::size_t>(facets.nodes[c]);
+    cosine[c] = -product(turned, normal, c, node, gdim);
+    most[node] = std::max(most[node], cosine[c]);
+  }
+  for (std::size_t c = 0; c < n; ++c)
+    if (cosine[c] < in_front * most[facets.nodes[c]])
+      area[c] = 0;
+  return area;
+}

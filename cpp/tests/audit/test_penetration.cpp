@@ -1,0 +1,124 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include "scene.h"
+#include <contactx/audit/penetration.h>
+#include <gtest/gtest.h>
+#include <numbers>
+
+using namespace contactx;
+using namespace contactx::audit;
+using namespace contactx::tests;
+
+namespace
+{
+Scene circle(int n, double radius)
+{
+  Scene scene(2);
+  for (int i = 0; i < n; ++i)
+  {
+    const double t = 2 * std::numbers::pi * i / n;
+    scene.node({radius * std::cos(t), radius * std::sin(t)});
+  }
+  for (int i = 0; i < n; ++i)
+    scene.facet({i, (i + 1) % n});
+  return scene;
+}
+
+double explained(double size, double curvature, bool closed)
+{
+  const std::int8_t flag = closed;
+  return explained_depths(std::span(&size, 1), std::span(&curvature, 1),
+                          std::span(&flag, 1))[0];
+}
+
+TEST(NodalCurvatures, OfACircle)
+{
+  for (double radius : {0.01, 1., 300.})
+  {
+    const Scene scene = circle(48, radius);
+    for (double k : nodal_curvatures(scene.facets(), scene.x, 2))
+      EXPECT_NEAR(k * radius, 1, 1e-12);
+  }
+}
+
+TEST(NodalCurvatures, OfAPlaneAreNone)
+{
+  const Scene scene = flat_grid(4, Cells::mixed);
+  for (double k : nodal_curvatures(scene.facets(), scene.x, 3))
+    EXPECT_NEAR(k, 0, 1e-12);
+}
+
+TEST(NodalCurvatures, OfAnEdgeGrowWithTheMesh)
+{
+  // The foot of a punch: its corner is no curvature that a mesh resolves
+  double before = 0;
+  for (int n : {2, 4, 8})
+  {
+    Scene scene(2);
+    for (int i = 0; i <= n; ++i)
+      scene.node({double(i) / n, 0});
+    for (int i = 1; i <= n; ++i)
+      scene.node({1, double(i) / n});
+    for (int i = 0; i < 2 * n; ++i)
+      scene.facet({i, i + 1});
+    const double k = nodal_curvatures(scene.facets(), scene.x, 2)[n];
+    EXPECT_NEAR(k, 2 * std::sin(std::numbers::pi / 8) * n, 1e-12);
+    EXPECT_GT(k, 1.9 * before);
+    before = k;
+  }
+}
+
+TEST(FacetSizes, AreTheLongestDistances)
+{
+  Scene scene(3);
+  for (const Vec<3>& p : {Vec<3>{0, 0, 0}, {3, 0, 0}, {0, 4, 0}, {3, 4, 0}})
+    scene.node(p);
+  scene.facet({0, 1, 2, 3});
+  scene.facet({0, 1, 2});
+  EXPECT_EQ(facet_sizes(scene.facets(), scene.x, 3),
+            (std::vector<double>{5, 5}));
+}
+
+TEST(ExplainedDepths, CoverTheChordOfACircle)
+{
+  for (double h : {0.01, 0.1, 0.49})
+  {
+    const double chord = 1 - std::sqrt(1 - h * h / 4);
+    EXPECT_GT(explained(h, 1, false), chord);
+    EXPECT_LT(explained(h, 1, false), 3 * chord + 4e-3 * h);
+  }
+}
+
+TEST(ExplainedDepths, DoNotCoverWhatTheFacetDoesNotResolve)
+{
+  EXPECT_EQ(explained(1, 0.51, false), 1. / 256);
+  EXPECT_EQ(explained(1, 100, false), 1. / 256);
+  EXPECT_EQ(explained(1, 0, false), 1. / 256);
+}
+
+TEST(ExplainedDepths, AreLargerInContactAndScaleWithTheUnits)
+{
+  for (double unit : {1e-6, 1., 1e6})
+  {
+    EXPECT_NEAR(explained(2 * unit, 1 / unit, true), 0.25 * unit, 1e-12 * unit);
+    EXPECT_NEAR(explained(0.5 * unit, 1 / unit, false), unit / 16,
+                1e-12 * unit);
+  }
+}
+
+TEST(ExplainedDepths, RefuseArraysOfDifferentSizes)
+{
+  const std::vector<double> two(2), one(1);
+  const std::vector<std::int8_t> flags(2);
+  EXPECT_THROW(explained_depths(two, one, flags), std::invalid_argument);
+  EXPECT_THROW(explained_depths(one, one, flags), std::invalid_argument);
+}
+
+TEST(FacetTurns, RefuseNormalsOfOtherNodes)
+{
+  const Scene scene = flat_grid(1, Cells::triangles);
+  EXPECT_THROW(facet_turns(scene.facets(), scene.x, std::vector<double>(3), 3),
+               std::invalid_argument);
+}
+} // namespace

@@ -1,0 +1,211 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Contact with a rigid obstacle, looked at between the slave nodes and along their way."""
+
+from __future__ import annotations
+
+from operator import itemgetter
+
+import numpy as np
+import numpy.typing as npt
+
+from contactx import cpp as core
+from contactx.audit.findings import Findings
+from contactx.audit.surfaces import FAR, report_far_side
+from contactx.errors import point_text
+from contactx.interface import Interface
+from contactx.master.obstacle import ObstacleMaster
+from contactx.obstacles import Plane
+from contactx.parallel import reduce
+from contactx.parallel.agreement import agreed
+from contactx.parallel.halo import Halo
+
+type Array = npt.NDArray[np.float64]
+
+# An obstacle as narrow as this part of a slave facet is still seen: 2^-7
+_LEVELS = 7
+# Points on the way of a node that may have gone through
+_WAY = 64
+# Rounding and what is no matter, by the size of a facet
+_NEGLIGIBLE = 1e-3
+
+
+class ObstacleAudit:
+    """Looks at an obstacle from all of the slave facets, and whether nodes came to its far side."""
+
+    def __init__(self, interface: Interface, master: ObstacleMaster, halo: Halo):
+        """Prepare the looks.
+
+        Args:
+            interface: Discrete side of the contact.
+            master: Its master side.
+            halo: Nodes of this rank.
+        """
+        self._interface, self._master, self._halo = interface, master, halo
+        self._slave = interface.slave_nodes
+        facets = self._slave.facets
+        self._corners = np.searchsorted(self._slave.around, facets.nodes).astype(np.int32)
+        self._before: tuple[Array, Array, Array] | None = None
+
+    def accept(self) -> None:
+        """Remember how slave nodes and facets lie before the next step; collective."""
+        points, own = self._look_out()
+        with agreed(self._halo.comm):
+            self._placed = self._master.obstacle.placement(points.shape[1])
+            self._before = points, own, self._master.obstacle.evaluate(points).normal
+
+    def _look_out(self) -> tuple[Array, Array]:
+        """Slave nodes and middles of facets, and unit normals there."""
+        x, facets = self._halo.positions(), self._slave.facets
+        gdim, around = x.shape[1], self._slave.around
+        offsets, corners = facets.offsets, self._corners
+        nodal = core.nodal_normals(offsets, corners, x[around], gdim).reshape(-1, gdim)
+        owned = slice(len(self._slave.owned))
+        middles, normals = [x[around][owned]], [nodal[owned]]
+        if len(corners) > 0:
+            number = np.diff(offsets)[:, None]
+            every = np.arange(len(corners), dtype=np.int32)
+            of_facets = core.nodal_normals(offsets, every, x[facets.nodes], gdim)
+            for list_, values in (
+                (middles, x[facets.nodes]),
+                (normals, of_facets.reshape(-1, gdim)),
+            ):
+                list_.append(np.add.reduceat(values, offsets[:-1]) / number)
+        return np.concatenate(middles), np.concatenate(normals)
+
+    def __call__(self, name: str, findings: Findings) -> None:
+        """Look at the state of now; all ranks must take part.
+
+        Args:
+            name: Name of the contact, for messages.
+            findings: What was found is added to it.
+        """
+        interface, nodes, comm = self._interface, self._interface.nodes, self._halo.comm
+        size = self._size()
+        held = self._slave.scatter_forward(nodes.closed | nodes.immobile | nodes.ceded)
+        offset = self._slave.scatter_forward(np.minimum(interface.offset(), 0))
+        small = _NEGLIGIBLE * size
+        # A user's function may fail on one rank
+        with agreed(comm):
+            inside = self._look_inside(small)
+            deepest = self._look_between(held, offset)
+            passed = self._look_back(small)
+        kind = f"rigid {type(self._master.obstacle).__name__}"
+        what = f"{kind}, which they face away from"
+        report_far_side(name, inside, what, FAR, self._halo, findings)
+        self._report_depth(name, kind, deepest, findings)
+        passed = int(reduce.total(comm, passed))
+        if passed > 0:
+            findings.passed += passed
+            findings.faults.append(
+                f"{name}: {passed} slave nodes and facets went through the {kind} within the step "
+                "and are on its far side. Take smaller load steps"
+            )
+
+    def _look_inside(self, small: float) -> npt.NDArray[np.int32]:
+        """Slave nodes that face away from the obstacle and are inside it."""
+        interface, nodes = self._interface, self._interface.nodes
+        which = ~self._master.paired & ~nodes.immobile & ~nodes.ceded
+        slaves = interface.slaves[which]
+        gap = self._gaps(self._halo.positions()[slaves])
+        inside: npt.NDArray[np.int32] = slaves[
+            gap < np.minimum(interface.offset()[which], 0) - small
+        ]
+        return inside
+
+    def _size(self) -> float:
+        """Size of the largest slave facet."""
+        return float(reduce.largest(self._halo.comm, self._sizes().max(initial=0.0)))
+
+    def _sizes(self) -> Array:
+        x, facets = self._halo.positions(), self._slave.facets
+        return core.facet_sizes(facets.offsets, self._corners, x[self._slave.around], x.shape[1])
+
+    def _gaps(self, points: Array) -> Array:
+        """Gaps of points; as many at a time as there are slave nodes, which is compiled already."""
+        n, at_a_time = len(points), max(1, len(self._slave.owned))
+        gaps = [np.zeros(0)]
+        for first in range(0, n, at_a_time):
+            part = points[first : first + at_a_time]
+            rows = np.resize(np.arange(len(part)), at_a_time)
+            gaps.append(self._master.obstacle.distance(part[rows])[: len(part)])
+        return np.concatenate(gaps)
+
+    def _look_between(
+        self, held: npt.NDArray[np.bool_], offset: Array
+    ) -> tuple[float, float, float, bool, Array] | None:
+        """Where the obstacle reaches deepest through a slave facet, by what the mesh explains.
+
+        Args:
+            held: Which slave nodes are in contact, or cannot be, shape (m,).
+            offset: What their gap may fall to, shape (m,).
+
+        Returns:
+            Ratio to what the mesh explains, depth, size of the facet, whether it is in contact, and
+            its middle; None where nothing is looked at.
+        """
+        if isinstance(self._master.obstacle, Plane) or len(self._corners) == 0:
+            # A plane is deepest at a node
+            return None
+        x, offsets = self._halo.positions()[self._slave.around], self._slave.facets.offsets
+        is_held = np.maximum.reduceat(held[self._corners].astype(np.int8), offsets[:-1])
+        size = self._sizes()
+        explained = core.explained_depths(size, self._curvatures(x), is_held)
+        sampling = core.FacetSampling(offsets, self._corners, x, x.shape[1], explained, _LEVELS)
+        while len(sampling.points) > 0:
+            sampling.take(self._gaps(sampling.points))
+        depth = np.minimum.reduceat(offset[self._corners], offsets[:-1]) - sampling.gaps
+        worst = int((depth / explained).argmax())
+        middle = x[self._corners[offsets[worst] : offsets[worst + 1]]].mean(axis=0)
+        ratio = float(depth[worst] / explained[worst])
+        return ratio, float(depth[worst]), float(size[worst]), bool(is_held[worst]), middle
+
+    def _report_depth(
+        self,
+        name: str,
+        kind: str,
+        deepest: tuple[float, float, float, bool, Array] | None,
+        findings: Findings,
+    ) -> None:
+        found = [row for row in self._halo.comm.allgather(deepest) if row is not None]
+        if not found:
+            return
+        excess, depth, h, is_held, at = max(found, key=itemgetter(0))
+        if excess > findings.excess:
+            findings.excess, findings.depth = excess, max(depth, 0.0)
+        if excess > 1:
+            findings.faults.append(
+                f"{name}: the {kind} reaches {depth:.3g} deep through a slave facet of size "
+                f"{h:.3g} around {point_text(at, h)}, between its nodes"
+                + ("" if is_held else ", which are open")
+                + ": the slave surface is too coarse to see it. Refine it"
+            )
+
+    def _curvatures(self, x: Array) -> Array:
+        """Curvature of the obstacle before each slave facet, shape (num_facets,)."""
+        geometry = self._master.obstacle.evaluate(x)
+        offsets, gdim = self._slave.facets.offsets, x.shape[1]
+        at_nodes = np.abs(geometry.curvature).sum(axis=2).max(axis=1)
+        normal = np.ascontiguousarray(geometry.normal)
+        turn = core.facet_turns(offsets, self._corners, x, normal, gdim)
+        return np.maximum(turn, np.maximum.reduceat(at_nodes[self._corners], offsets[:-1]))
+
+    def _look_back(self, small: float) -> int:
+        """Number of nodes and facets of this rank that have gone through the obstacle."""
+        if self._before is None:
+            return 0
+        points, own = self._look_out()
+        obstacle, gdim = self._master.obstacle, points.shape[1]
+        start, own_before, before = self._before
+        now = obstacle.placement(gdim)
+        before = before @ self._placed.turn(now).T
+        after = np.ascontiguousarray(obstacle.evaluate(points).normal)
+        before = np.ascontiguousarray(before)
+        passed = np.flatnonzero(core.far_side(own_before, own, before, after, gdim))
+        if obstacle.tells_movement and len(passed) > 0:
+            way = self._placed.carry(start[passed], now)
+            t = np.linspace(0, 1, _WAY)[:, None, None]
+            along = (way + t * (points[passed] - way)).reshape(-1, gdim)
+            inside = self._gaps(along).reshape(_WAY, -1) < -small
+            passed = passed[inside.any(axis=0)]
+        return len(passed)

@@ -1,0 +1,213 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Contact of two deformable surfaces, looked at from the side that the constraints do not see."""
+
+from __future__ import annotations
+
+from operator import itemgetter
+
+import numpy as np
+import numpy.typing as npt
+
+from contactx import cpp as core
+from contactx.audit.findings import Findings
+from contactx.audit.onlooker import Onlooker
+from contactx.errors import point_text
+from contactx.interface import Interface
+from contactx.master.facets import FacetMaster
+from contactx.master.mortar import MortarMaster
+from contactx.parallel import reduce
+from contactx.parallel.halo import Halo
+
+type Array = npt.NDArray[np.float64]
+
+FAR = (
+    "the body has come to its far side, or is too thin for the overlap. Take smaller load steps, "
+    "or start without the overlap"
+)
+
+
+class SurfacesAudit:
+    """Looks at slave facets from master nodes, and at the master from slave nodes without a pair.
+
+    In small sliding all is seen in the reference configuration, with gaps linear in displacements.
+    """
+
+    def __init__(self, interface: Interface, master: FacetMaster | MortarMaster, halo: Halo):
+        """Prepare the looks.
+
+        Args:
+            interface: Discrete side of the contact.
+            master: Its master side.
+            halo: Nodes of this rank.
+        """
+        self._interface, self._halo = interface, halo
+        self._slave = interface.slave_nodes
+        self._known = master.surface
+        self._at_slave = Onlooker(halo, self._slave.facets)
+        self._at_master = Onlooker(halo, master.surface.own)
+        self._points = np.setdiff1d(master.surface.own.nodes, interface.shared_nodes)
+        self._behind = np.zeros(len(interface.slaves), dtype=bool)
+
+    def __call__(self, name: str, findings: Findings) -> None:
+        """Look at the state of now; all ranks must take part.
+
+        Args:
+            name: Name of the contact, for messages.
+            findings: What was found is added to it.
+        """
+        before = findings.far_side
+        self._look_from_slave(name, findings)
+        # Where nodes are inside the master their facets are, too
+        self._look_from_master(name, findings, is_fault=findings.far_side == before)
+
+    def _configuration(self) -> tuple[Array, Array | None]:
+        """Positions to look in, and displacements since in small sliding."""
+        if self._interface.sliding == "small":
+            return self._halo.x, self._halo.positions() - self._halo.x
+        return self._halo.positions(), None
+
+    def _look_from_master(self, name: str, findings: Findings, *, is_fault: bool) -> None:
+        comm, gdim, facets = self._halo.comm, self._halo.gdim, self._slave.facets
+        x, ways = self._configuration()
+        size = core.facet_sizes(facets.offsets, facets.nodes, x, gdim)
+        reach = reduce.largest(comm, size.max(initial=0.0))
+        around = self._known.around
+        curvature = core.nodal_curvatures(around.offsets, around.nodes, x, gdim)
+        normals = core.nodal_normals(around.offsets, around.nodes, x, gdim).reshape(-1, gdim)
+        nodes = self._points
+        values = np.column_stack([size, self._held(), self._offsets()])
+        seen = self._at_slave.look(
+            x,
+            x[nodes],
+            normals[nodes],
+            reach,
+            values,
+            None if ways is None else (ways, ways[nodes]),
+        )
+        there = np.flatnonzero(np.isfinite(seen.distance) & ~np.isnan(seen.gap))
+        size, held, offset = seen.values[there].T
+        depth = offset - seen.gap[there]
+        explained = core.explained_depths(
+            np.ascontiguousarray(size), curvature[nodes[there]], (held > 0).astype(np.int8)
+        )
+        excess = depth / explained
+        worst = int(excess.argmax()) if len(excess) > 0 else -1
+        row = None
+        if worst >= 0:
+            at = self._halo.positions()[nodes[there[worst]]]
+            row = float(excess[worst]), float(depth[worst]), float(size[worst]), held[worst] > 0, at
+        found = [r for r in comm.allgather(row) if r is not None]
+        if not found:
+            return
+        largest, deep, h, is_held, at = max(found, key=itemgetter(0))
+        if largest > findings.excess:
+            findings.excess, findings.depth = largest, max(deep, 0.0)
+        if largest > 1 and is_fault:
+            findings.faults.append(
+                f"{name}: the master reaches {deep:.3g} deep through a slave facet of size "
+                f"{h:.3g} at {point_text(at, h)}, between its nodes"
+                + (", which are open" if not is_held else "")
+                + ": the slave surface is too coarse to see it. Swap slave and master, or refine "
+                "the slave surface"
+            )
+
+    def _held(self) -> npt.NDArray[np.float64]:
+        """Whether a node of each slave facet is in contact, or cannot be, shape (num_facets,)."""
+        nodes = self._interface.nodes
+        held = nodes.closed | nodes.immobile | nodes.ceded
+        return self._of_facets(held.astype(np.float64), np.maximum)
+
+    def _offsets(self) -> npt.NDArray[np.float64]:
+        """Smallest offset of the nodes of each slave facet, shape (num_facets,)."""
+        return self._of_facets(self._interface.offset(), np.minimum)
+
+    def _of_facets(self, values: Array, function: np.ufunc) -> Array:
+        every = self._slave.scatter_forward(np.array(values))
+        facets = self._slave.facets
+        corners = every[np.searchsorted(self._slave.around, facets.nodes)]
+        return (
+            np.asarray(function.reduceat(corners, facets.offsets[:-1])) if len(corners) else corners
+        )
+
+    def accept(self) -> None:
+        """Remember which slave nodes lie behind the master before the next step; collective.
+
+        They may do so for good: behind a thin plate, or beside a surface that only part of the body
+        is tagged with.
+        """
+        self._behind = self._find_behind()
+
+    def _find_behind(self) -> npt.NDArray[np.bool_]:
+        """Which slave nodes without a pair lie behind the nearest facet, of any normal."""
+        comm, gdim = self._halo.comm, self._halo.gdim
+        interface, own = self._interface, self._known.own
+        which = ~interface.master.paired & ~interface.nodes.immobile & ~interface.is_shared
+        behind = np.zeros(len(which), dtype=bool)
+        if not reduce.anywhere(comm, which.any()):
+            return behind
+        x, ways = self._configuration()
+        size = core.facet_sizes(own.offsets, own.nodes, x, gdim)
+        nodes = interface.slaves[which]
+        seen = self._at_master.look(
+            x,
+            x[nodes],
+            np.zeros((len(nodes), gdim)),
+            reduce.largest(comm, size.max(initial=0.0)),
+            size[:, None],
+            None if ways is None else (ways, ways[nodes]),
+        )
+        h = seen.values[:, 0]
+        in_contact = np.ones(len(h), dtype=np.int8)
+        allowed = core.explained_depths(h.copy(), np.zeros(len(h)), in_contact)
+        offset = np.minimum(interface.offset()[which], 0)
+        behind[which] = seen.inside & (seen.gap < offset - allowed)
+        return behind
+
+    def _look_from_slave(self, name: str, findings: Findings) -> None:
+        """Slave nodes must not come behind the master without a pair."""
+        interface = self._interface
+        bad = interface.slaves[self._find_behind() & ~self._behind]
+        advice = (
+            'sliding="small" pairs nodes in the reference configuration, once: give a larger '
+            'search_distance, or take sliding="finite"'
+        )
+        report_far_side(
+            name,
+            bad,
+            "master, and have no pair with it",
+            advice if interface.sliding == "small" else FAR,
+            self._halo,
+            findings,
+        )
+
+
+def report_far_side(
+    name: str,
+    bad: npt.NDArray[np.int32],
+    what: str,
+    advice: str,
+    halo: Halo,
+    findings: Findings,
+) -> None:
+    """Add slave nodes inside their master; all ranks must take part.
+
+    Args:
+        name: Name of the contact.
+        bad: The nodes on this rank.
+        what: What they are inside of.
+        advice: Why, and what to do.
+        halo: Nodes of this rank.
+        findings: What they are added to.
+    """
+    count = int(reduce.total(halo.comm, len(bad)))
+    if count == 0:
+        return
+    numbers, x = halo.original[bad].tolist(), halo.positions()[bad]
+    first, at = reduce.first(halo.comm, numbers, list(zip(numbers, x, strict=True)))
+    size = float(reduce.extent(halo.comm, halo.x[: halo.num_owned]).max())
+    findings.far_side += count
+    findings.faults.append(
+        f"{name}: {count} slave nodes are inside the {what}, first node {first} of the mesh as it "
+        f"was made, at {point_text(at, size)}: {advice}"
+    )
