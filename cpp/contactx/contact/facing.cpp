@@ -82,7 +82,8 @@ std::vector<double> contactx::contact::facing_areas(
     most[node] = std::max(most[node], cosine[c]);
   }
   for (std::size_t c = 0; c < n; ++c)
-    if (cosine[c] < in_front * most[facets.nodes[c]])
+    if (const double best = most[facets.nodes[c]];
+        best > 0 and cosine[c] < in_front * best)
       area[c] = 0;
   return area;
 }
