@@ -109,6 +109,9 @@ class NewtonLoop:
         system: SaddlePointSystem,
         prefix: str,
         options: Mapping[str, Any],
+        *,
+        names: Sequence[str],
+        refuses: bool,
     ):
         """Create the solver.
 
@@ -119,6 +122,8 @@ class NewtonLoop:
             system: The coupled system.
             prefix: Prefix of the PETSc options.
             options: Options of the user.
+            names: Names of the contacts, for messages.
+            refuses: Whether what the audit finds fails the step; else it is a warning.
         """
         self._bulk = bulk
         self._interfaces = interfaces
@@ -142,7 +147,7 @@ class NewtonLoop:
         self._guard = CycleGuard(interfaces, system.halo.comm)
         self._frozen_pairs = FrozenPairs(interfaces, system.halo.comm)
         self._audit = Audit(interfaces, system.halo)
-        self._names = [f"contact {k}" for k in range(len(interfaces))]
+        self._names, self._refuses = names, refuses
         self._failure = ""
         self.snes = PETSc.SNES().create(system.x.comm)
         self.snes.setOptionsPrefix(prefix)
@@ -370,7 +375,9 @@ class NewtonLoop:
         if small:
             with self._report.timing("audit"):
                 self._report.audit = findings = self._audit(self._names)
-            if findings.faults:
+            if not self._refuses:
+                findings.warnings += findings.faults
+            elif findings.faults:
                 self._failure = "; ".join(findings.faults)
                 return reason.DIVERGED_FUNCTION_DOMAIN
         self._converged = small

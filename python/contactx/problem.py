@@ -68,6 +68,7 @@ class ContactProblem:
         bcs: Sequence[fem.DirichletBC] | None = None,
         J: ufl.Form | None = None,
         petsc_options: Mapping[str, Any] | None = None,
+        audit: str = "refuse",
         form_compiler_options: dict[str, Any] | None = None,
         jit_options: dict[str, Any] | None = None,
     ):
@@ -84,6 +85,10 @@ class ContactProblem:
             J: Jacobian of F; derived if None.
             petsc_options: Options of SNES, its KSP and PC, without the prefix. ``snes_rtol``
                 (default 1e-11) is relative to the forces of the problem.
+            audit: What becomes of a converged iterate that geometry shows to be wrong: nodes that
+                went through the other side, a master that reaches through slave facets between
+                their nodes, cells turned inside out. "refuse" raises a ConvergenceError, "warn"
+                accepts it with a warning; ``report.audit`` has the figures.
             form_compiler_options: Options of FFCx.
             jit_options: Options of the compilation.
 
@@ -102,6 +107,8 @@ class ContactProblem:
         check_compiler_options(form_compiler_options, jit_options)
         check_petsc_options(petsc_options, petsc_options_prefix)
         check_contacts(contacts)
+        if audit not in ("refuse", "warn"):
+            raise ValueError(f'audit must be "refuse" or "warn", not {audit!r}')
 
         V = u.function_space
         X = la.vector(V.dofmap.index_map, V.dofmap.index_map_bs)
@@ -131,6 +138,8 @@ class ContactProblem:
                 self._system,
                 petsc_options_prefix,
                 petsc_options or {},
+                names=[f"contact {k} ({contact})" for k, contact in enumerate(self.contacts)],
+                refuses=audit == "refuse",
             )
         except BaseException:
             for contact in self.contacts[: len(self._interfaces)]:
@@ -233,6 +242,8 @@ class ContactProblem:
         report.imbalance = np.sum([contact.fields.imbalance for contact in self.contacts], axis=0)
         for k, interface in enumerate(self._interfaces):
             self._warn(k, interface, self._newton.hidden_gaps[k])
+        for text in report.audit.warnings:
+            self._say(text)
         if report.iterations > 0 and not self._read_options:
             # Some are read but once
             self._read_options = True

@@ -1,0 +1,119 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""A block under a rigid ball or a narrow punch, of which the mesh may be much finer."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from mpi4py import MPI
+
+import numpy as np
+
+import basix.ufl
+import contactx as cx
+from dolfinx import fem, mesh
+
+from story import displacement, elasticity
+
+TOP, FOOT, BOTTOM, HEAD = 1, 2, 3, 4
+
+
+class PunchedBlock:
+    """The block is from -1 to 1, its top at height 0, its bottom fixed.
+
+    Attributes:
+        contact: Contact of its top with what presses it.
+    """
+
+    def __init__(
+        self,
+        gdim: int,
+        *,
+        n: int,
+        ball: float | None = None,
+        punch: int = 0,
+        width: float = 0.2,
+        x0: float = 0.0,
+        down: float = 0.02,
+        swapped: bool = False,
+        unit: float = 1.0,
+        audit: str = "refuse",
+        **options: Any,
+    ):
+        """Create the block.
+
+        Args:
+            gdim: Dimension of space.
+            n: Cells along the block.
+            ball: Radius of a rigid ball, or
+            punch: cells along a deformable punch, in the plane.
+            width: Width of the punch.
+            x0: Place of the ball or the middle of the punch along the top.
+            down: How far they are pushed down.
+            swapped: Whether the punch is the slave.
+            unit: What all lengths are multiplied by.
+            audit: What becomes of wrong iterates.
+            options: Options of the contact.
+        """
+        parts = [_grid([-1] * gdim, [1] * (gdim - 1) + [0], [n] * (gdim - 1) + [max(2, n // 2)])]
+        if punch:
+            foot = [x0 - width / 2, 0]
+            parts.append(_grid(foot, [foot[0] + width, width], [punch, punch]))
+        first = np.cumsum([0, *(len(x) for x, _ in parts)])
+        x = unit * np.concatenate([x for x, _ in parts])
+        cells = np.concatenate([c + first[k] for k, (_, c) in enumerate(parts)])
+        kind = ["", "", "quadrilateral", "hexahedron"][gdim]
+        element = basix.ufl.element("Lagrange", kind, 1, shape=(gdim,))
+        domain = mesh.create_mesh(MPI.COMM_SELF, cells, element, x)
+        self.u = u = displacement(domain)
+        V, tags = u.function_space, _tagged(domain, unit * width)
+
+        def fixed(tag: int, value: np.ndarray) -> fem.DirichletBC:
+            return fem.dirichletbc(
+                value, fem.locate_dofs_topological(V, gdim - 1, tags.find(tag)), V
+            )
+
+        bcs, top = [fixed(BOTTOM, np.zeros(gdim))], cx.Surface(tags, TOP)
+        if ball is None:
+            bcs.append(fixed(HEAD, -unit * down * np.eye(gdim)[-1]))
+            foot_of_punch = cx.Surface(tags, FOOT)
+            sides = (foot_of_punch, top) if swapped else (top, foot_of_punch)
+            self.contact = cx.Contact(*sides, **options)
+        else:
+            centre = np.full(gdim, unit * x0)
+            centre[-1] = unit * (ball - down)
+            self.contact = cx.Contact(top, cx.Sphere(centre, unit * ball), **options)
+        self.problem = cx.ContactProblem(
+            elasticity(u, 1.0, 0.3), u, contacts=[self.contact], bcs=bcs,
+            petsc_options_prefix="punched_", audit=audit,
+        )  # fmt: skip
+
+
+def _grid(low: list[float], high: list[float], n: list[int]) -> tuple[np.ndarray, np.ndarray]:
+    """Nodes and cells of a box."""
+    gdim = len(n)
+    axes = [np.linspace(a, b, k + 1) for a, b, k in zip(low, high, n, strict=True)]
+    x = np.stack([a.ravel() for a in np.meshgrid(*axes, indexing="ij")], axis=1)
+    number = np.arange(len(x)).reshape([k + 1 for k in n])
+    corners = np.stack(np.meshgrid(*[[0, 1]] * gdim, indexing="ij"), -1).reshape(-1, gdim)[:, ::-1]
+    origins = np.stack([a.ravel() for a in np.meshgrid(*map(range, n), indexing="ij")], 1)
+    return x, number[tuple((origins[:, None] + corners[None]).transpose(2, 0, 1))]
+
+
+def _tagged(domain: mesh.Mesh, height: float) -> mesh.MeshTags:
+    """Tags of top, foot, bottom and head, in that order."""
+    tdim = domain.topology.dim
+    domain.topology.create_connectivity(tdim - 1, tdim)
+    facets = mesh.exterior_facet_indices(domain.topology)
+    at = mesh.compute_midpoints(domain, tdim - 1, facets)[:, tdim - 1]
+    cells = domain.topology.connectivity(tdim - 1, tdim)
+    of_facet = np.array([cells.links(f)[0] for f in facets], dtype=np.int32)
+    above = mesh.compute_midpoints(domain, tdim, of_facet)[:, tdim - 1] > 0
+    size = np.abs(domain.geometry.x).max()
+    values = np.zeros(len(facets), dtype=np.int32)
+    values[(np.abs(at) < 1e-9 * size) & ~above] = TOP
+    values[(np.abs(at) < 1e-9 * size) & above] = FOOT
+    values[np.abs(at - at.min()) < 1e-9 * size] = BOTTOM
+    values[(np.abs(at - height) < 1e-9 * size) & above] = HEAD
+    return mesh.meshtags(domain, tdim - 1, facets, values)
