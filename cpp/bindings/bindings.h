@@ -53,6 +53,7 @@ void facet(py::module_& m);
 void search(py::module_& m);
 void law(py::module_& m);
 void kernel(py::module_& m);
+void audit(py::module_& m);
 void mortar(py::module_& m);
 void contact(py::module_& m);
 void penetration(py::module_& m);

@@ -13,4 +13,5 @@ PYBIND11_MODULE(cpp, m)
   contactx_bindings::kernel(m);
   contactx_bindings::contact(m);
   contactx_bindings::penetration(m);
+  contactx_bindings::audit(m);
 }

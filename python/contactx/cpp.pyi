@@ -219,3 +219,6 @@ def terms(law: str, sliding: str, num_nodes: int, gdim: int, num_slaves: int = 1
 def kernel(
     law: str, sliding: str, term: str, num_nodes: int, gdim: int, num_slaves: int = 1
 ) -> tuple[int, NDArray[np.int8]]: ...
+def deformed_cells(
+    cells: NDArray[np.int32], X: NDArray[np.float64], u: NDArray[np.float64], gdim: int
+) -> tuple[float, int, int]: ...

@@ -1,0 +1,69 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Cells that a displacement turns inside out."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from contactx import cpp as core
+from contactx.nodal import reference_positions
+from contactx.parallel import reduce
+from dolfinx import fem
+
+
+class Squeezed(NamedTuple):
+    """How far a displacement squeezes the cells of all ranks.
+
+    Attributes:
+        smallest: Smallest det F, at the points that ``deformed_cells.h`` names.
+        inverted: Number of cells with det F <= 0 somewhere.
+        at: Midpoint of the cell with the smallest det F in the reference configuration, shape
+            (gdim,).
+    """
+
+    smallest: float
+    inverted: int
+    at: npt.NDArray[np.float64]
+
+
+class DeformedCells:
+    """The cells of a mesh, looked at under any displacement of a linear space.
+
+    Cells of a curved geometry are taken as those with straight edges between their vertices.
+    """
+
+    def __init__(self, V: fem.FunctionSpace):
+        """Take the cells that this rank owns, each looked at once.
+
+        Args:
+            V: Space of the displacement.
+        """
+        domain = V.mesh
+        self._comm = domain.comm
+        owned = domain.topology.index_map(domain.topology.dim).size_local
+        self._cells = V.dofmap.list[:owned]
+        self._X = reference_positions(V)
+        self._number = domain.topology.original_cell_index
+
+    def look(self, u: npt.NDArray[np.float64]) -> Squeezed:
+        """Look at all cells; all ranks must take part.
+
+        Args:
+            u: Displacements of this rank's nodes, ghosts included, shape (num_nodes * gdim,) or
+                longer.
+
+        Returns:
+            What the cells of all ranks are like, on every rank the same. Of several cells with the
+            smallest det F it is the one that came first when the mesh was made.
+        """
+        smallest, cell, inverted = core.deformed_cells(self._cells, self._X, u, self._X.shape[1])
+        mine = []
+        if cell >= 0:
+            at = self._X[self._cells[cell]].mean(axis=0)
+            mine.append((smallest, int(self._number[cell]), at))
+        smallest, _, at = reduce.first(self._comm, [found[:2] for found in mine], mine)
+        return Squeezed(smallest, reduce.total(self._comm, inverted), at)
