@@ -57,4 +57,5 @@ void audit(py::module_& m);
 void mortar(py::module_& m);
 void contact(py::module_& m);
 void penetration(py::module_& m);
+void passage(py::module_& m);
 } // namespace contactx_bindings

@@ -14,4 +14,5 @@ PYBIND11_MODULE(cpp, m)
   contactx_bindings::contact(m);
   contactx_bindings::penetration(m);
   contactx_bindings::audit(m);
+  contactx_bindings::passage(m);
 }

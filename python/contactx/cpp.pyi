@@ -76,6 +76,12 @@ class FacetSampling:
     @property
     def gaps(self) -> NDArray[np.float64]: ...
 
+def nodal_area_vectors(
+    offsets: NDArray[np.int32], nodes: NDArray[np.int32], x: NDArray[np.float64], gdim: int
+) -> NDArray[np.float64]: ...
+def unit_normals(
+    vector: NDArray[np.float64], area: NDArray[np.float64], gdim: int
+) -> NDArray[np.float64]: ...
 def shape_functions(num_nodes: int, xi: NDArray[np.float64]) -> NDArray[np.float64]: ...
 
 class Finder:
@@ -222,3 +228,29 @@ def kernel(
 def deformed_cells(
     cells: NDArray[np.int32], X: NDArray[np.float64], u: NDArray[np.float64], gdim: int
 ) -> tuple[float, int, int]: ...
+def moments(
+    offsets: NDArray[np.int32],
+    nodes: NDArray[np.int32],
+    x0: NDArray[np.float64],
+    x1: NDArray[np.float64],
+    gdim: int,
+    origin0: NDArray[np.float64],
+    origin1: NDArray[np.float64],
+) -> NDArray[np.float64]: ...
+def crossings(
+    offsets: NDArray[np.int32],
+    nodes: NDArray[np.int32],
+    x0: NDArray[np.float64],
+    x1: NDArray[np.float64],
+    gdim: int,
+    moments: NDArray[np.float64],
+    origin0: NDArray[np.float64],
+    origin1: NDArray[np.float64],
+    points0: NDArray[np.float64],
+    points1: NDArray[np.float64],
+    normals0: NDArray[np.float64],
+    normals1: NDArray[np.float64],
+    tolerance: NDArray[np.float64],
+    node: NDArray[np.int32],
+) -> NDArray[Any]: ...
+def passed(crossings: NDArray[Any], tolerance: NDArray[np.float64]) -> NDArray[np.int32]: ...

@@ -1,6 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Run by test_bodies_on_ranks.py under mpiexec: bodies, free ones, checks; as on one rank."""
+"""Run by test_bodies_on_ranks.py under mpiexec: bodies, free ones, checks, passages."""
 
 from mpi4py import MPI
 
@@ -8,7 +8,7 @@ import numpy as np
 
 from contactx.bodies.modes import RigidModes
 
-from ranks.checks_on_ranks import check_errors, nested
+from ranks.checks_on_ranks import check_errors, check_passages, nested
 from scenes.free_block import FreeBlock
 from scenes.numbered_blocks import PARTITIONS, TwoBlocks, alone
 
@@ -125,7 +125,13 @@ def check_all():
     for dim, partitions in ((2, some), (3, ["slabs"])):
         for partition in partitions:
             scene = TwoBlocks(COMM, dim, partition)
-            for check in (check_bodies, check_modes, check_free_bodies, check_errors):
+            for check in (
+                check_bodies,
+                check_modes,
+                check_free_bodies,
+                check_errors,
+                check_passages,
+            ):
                 check(alone(dim), scene)
     COMM.Barrier()
     if COMM.rank == 0:

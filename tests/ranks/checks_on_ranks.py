@@ -7,6 +7,7 @@ from types import SimpleNamespace
 import numpy as np
 
 import contactx as cx
+from contactx.audit.passage import NONE, passages
 from contactx.geometry import inside
 from contactx.geometry.facets import check_facets
 from contactx.geometry.facing import check_facing
@@ -17,6 +18,7 @@ from contactx.master.obstacle import ObstacleMaster
 from contactx.parallel.slaves import SlaveNodes
 from contactx.search.records import slave_facets
 from contactx.surface import FacetList
+from dolfinx import mesh
 
 from scenes.numbered_blocks import TwoBlocks
 
@@ -148,3 +150,52 @@ def check_errors(one, scene):
         assert "None" not in str(expected) or check is outside
     plane, part, fails = outside(scene)
     assert "all its" in plane and part is None and fails == "too high"
+
+
+def outward(scene, at):
+    """Facets whose cells this rank owns, on the boundary where a function of the position holds."""
+    tdim = scene.dim
+    scene.domain.topology.create_connectivity(tdim - 1, tdim)
+    found = mesh.locate_entities_boundary(scene.domain, tdim - 1, at)
+    tags = mesh.meshtags(scene.domain, tdim - 1, found, np.ones_like(found))
+    return cx.Surface(tags, 1).facet_nodes(scene.u.function_space)
+
+
+def passed(scene, x1, one_way):
+    """What passes: nodes of the upper block's bottom, or those of the lower block's top."""
+    height, halo = scene.dim - 1, scene.halo
+    low = outward(scene, lambda x: np.isclose(x[height], 0))
+    high = outward(scene, lambda x: np.isclose(x[height], 0.1))
+    own, facets = (high, low) if one_way else (low, high)
+    nodes = slave_facets(halo, own).nodes
+    nodes = np.unique(nodes[nodes < halo.num_owned])
+    found = passages(halo, own, facets, halo.x, x1(halo.x), nodes, np.full(len(nodes), 0.02))
+    assert len(set(halo.comm.allgather((found.count, found.node)))) == 1
+    return found
+
+
+def check_passages(one, scene):
+    """Part of the upper block is pushed into the lower one, and all is turned."""
+    dim, height = scene.dim, scene.dim - 1
+    turn = np.eye(dim)
+    turn[np.ix_([0, height], [0, height])] = [[0.0, -1.0], [1.0, 0.0]]
+
+    def moved(down):
+        def x1(x):
+            upper = (x[:, height] > 0.05)[:, None]
+            return (x - np.where(upper, down(x[:, :1]), 0) * np.eye(dim)[height]) @ turn.T + 5
+
+        return x1
+
+    for down, count in ((lambda x: 0.4 * (x > 0.6), 2), (lambda x: 0.4 + 0 * x, 4)):
+        found = passed(scene, moved(down), True)
+        expected = passed(one, moved(down), True)
+        assert found.count == expected.count == count * 4 ** (dim - 2)
+        assert found.node == expected.node
+        assert np.abs(found.position - expected.position).max() <= 1e-14
+    # At 0.375 and 0.75 it is under the upper block
+    found, expected = (passed(s, moved(lambda x: 0.4 + 0 * x), False) for s in (scene, one))
+    assert found.count == expected.count == 2 ** (dim - 1)
+    assert found.node == expected.node
+    for down in (0.0, 0.1, -3.0):
+        assert passed(scene, moved(lambda x, down=down: down + 0 * x), True) == NONE

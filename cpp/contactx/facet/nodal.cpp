@@ -63,20 +63,26 @@ std::vector<double> contactx::facet::nodal_areas(const FacetList& facets,
   return area;
 }
 
-std::vector<double> contactx::facet::nodal_normals(const FacetList& facets,
-                                                   std::span<const double> x,
-                                                   int gdim)
+std::vector<double>
+contactx::facet::nodal_area_vectors(const FacetList& facets,
+                                    std::span<const double> x, int gdim)
 {
-  std::vector<double> normal(x.size(), 0);
-  std::vector<double> area(x.size() / gdim, 0);
-  for_each_part(
-      facets, x,
-      [&normal, &area, gdim](std::int32_t node, double w, const auto& n)
-      {
-        area[node] += w;
-        for (int k = 0; k < gdim; ++k)
-          normal[node * gdim + k] += w * n[k];
-      });
+  std::vector<double> vector(x.size(), 0);
+  for_each_part(facets, x,
+                [&vector, gdim](std::int32_t node, double w, const auto& n)
+                {
+                  for (int k = 0; k < gdim; ++k)
+                    vector[static_cast<std::size_t>(node) * gdim + k]
+                        += w * n[k];
+                });
+  return vector;
+}
+
+std::vector<double>
+contactx::facet::unit_normals(std::span<const double> vector,
+                              std::span<const double> area, int gdim)
+{
+  std::vector<double> normal(vector.begin(), vector.end());
   for (std::size_t i = 0; i < area.size(); ++i)
   {
     const std::span n(normal.data() + i * gdim, gdim);
@@ -89,4 +95,12 @@ std::vector<double> contactx::facet::nodal_normals(const FacetList& facets,
       c = length > 1e-12 * area[i] ? c / length : 0;
   }
   return normal;
+}
+
+std::vector<double> contactx::facet::nodal_normals(const FacetList& facets,
+                                                   std::span<const double> x,
+                                                   int gdim)
+{
+  return unit_normals(nodal_area_vectors(facets, x, gdim),
+                      nodal_areas(facets, x, gdim), gdim);
 }

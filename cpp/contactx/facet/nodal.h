@@ -37,6 +37,23 @@ struct FacetList
 std::vector<double> nodal_areas(const FacetList& facets,
                                 std::span<const double> x, int gdim);
 
+/// @brief Area times outward normal of each node; those of parts of a surface
+/// add up to those of the whole, as areas do.
+/// @param[in] facets Facets of the surface.
+/// @param[in] x Node coordinates (shape=(num_nodes, gdim)), row-major.
+/// @param[in] gdim Geometric dimension, 2 or 3.
+/// @return Vectors (shape=(num_nodes, gdim)), zero off the surface.
+std::vector<double> nodal_area_vectors(const FacetList& facets,
+                                       std::span<const double> x, int gdim);
+
+/// @brief Unit normals of nodes.
+/// @param[in] vector Their area vectors (shape=(n, gdim)), row-major.
+/// @param[in] area Their areas (shape=(n)).
+/// @param[in] gdim Geometric dimension, 2 or 3.
+/// @return Normals (shape=(n, gdim)), zero where the area vector vanishes.
+std::vector<double> unit_normals(std::span<const double> vector,
+                                 std::span<const double> area, int gdim);
+
 /// @brief Outward unit normal of each node, averaged over its facets by area.
 /// @param[in] facets Facets of the surface.
 /// @param[in] x Node coordinates (shape=(num_nodes, gdim)), row-major.

@@ -174,4 +174,37 @@ TEST(NodalNormals, ThatCancelAreZero)
   EXPECT_EQ(normal(scene, 0), Vec<3>{});
   EXPECT_EQ(normal(scene, 3), Vec<3>{});
 }
+TEST(NodalAreaVectors, OfPartsAddUpToThoseOfTheWhole)
+{
+  const Scene scene = sphere_patch(4, Cells::mixed);
+  const auto facets = scene.facets();
+  const std::int32_t half = facets.size() / 2, cut = facets.offsets[half];
+  std::vector<std::int32_t> offsets(facets.offsets.begin() + half,
+                                    facets.offsets.end());
+  for (auto& offset : offsets)
+    offset -= cut;
+  const FacetList low{facets.offsets.first(half + 1), facets.nodes.first(cut)};
+  const FacetList high{offsets, facets.nodes.subspan(cut)};
+  auto vector = nodal_area_vectors(low, scene.x, 3);
+  auto area = nodal_areas(low, scene.x, 3);
+  const auto more = nodal_area_vectors(high, scene.x, 3);
+  const auto larger = nodal_areas(high, scene.x, 3);
+  for (std::size_t i = 0; i < vector.size(); ++i)
+    vector[i] += more[i];
+  for (std::size_t i = 0; i < area.size(); ++i)
+    area[i] += larger[i];
+  const auto expected = nodal_normals(facets, scene.x, 3);
+  const auto found = unit_normals(vector, area, 3);
+  for (std::size_t i = 0; i < found.size(); ++i)
+    EXPECT_NEAR(found[i], expected[i], 1e-14);
+  // Of a flat square all vectors are along one axis, and as long as the areas
+  const Scene square = flat_grid(2, Cells::mixed);
+  const auto flat = nodal_area_vectors(square.facets(), square.x, 3);
+  const auto sizes = areas(square);
+  for (std::size_t i = 0; i < sizes.size(); ++i)
+  {
+    EXPECT_EQ(flat[3 * i], 0);
+    EXPECT_NEAR(flat[3 * i + 2], sizes[i], 1e-15);
+  }
+}
 } // namespace
