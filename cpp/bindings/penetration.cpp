@@ -60,12 +60,12 @@ void contactx_bindings::penetration(py::module_& m)
   m.def(
       "explained_depths",
       [](const Array<double>& size, const Array<double>& curvature,
-         const Array<std::int8_t>& closed)
+         const Array<std::int8_t>& contact)
       {
         return array(contactx::audit::explained_depths(
-            view(size), view(curvature), view(closed)));
+            view(size), view(curvature), view(contact)));
       },
-      py::arg("size"), py::arg("curvature"), py::arg("closed"),
+      py::arg("size"), py::arg("curvature"), py::arg("contact"),
       "How deep a master may be below slave facets between their nodes");
   m.def(
       "far_side",

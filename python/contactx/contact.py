@@ -25,7 +25,6 @@ from contactx.parallel import reduce
 from contactx.parallel.agreement import agreed
 from contactx.parallel.halo import Halo
 from contactx.parallel.slaves import SlaveNodes
-from contactx.search.records import slave_facets
 from contactx.search.surface import in_order
 from contactx.surface import Surface
 from dolfinx import fem
@@ -155,7 +154,7 @@ class Contact:
                 f"{self} belongs to a ContactProblem already: create one Contact a problem"
             )
         V = bodies.V
-        slaves = SlaveNodes(halo, slave_facets(halo, in_order(self.slave.facet_nodes(V), halo)))
+        slaves = SlaveNodes(halo, in_order(self.slave.facet_nodes(V), halo))
         with agreed(halo.comm):
             offset = NodalValue(self.offset, "offset", V, slaves.owned)
             law = make_law(self.tied, self.friction, V, slaves.owned)

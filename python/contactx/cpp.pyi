@@ -50,7 +50,7 @@ def facet_sizes(
     offsets: NDArray[np.int32], nodes: NDArray[np.int32], x: NDArray[np.float64], gdim: int
 ) -> NDArray[np.float64]: ...
 def explained_depths(
-    size: NDArray[np.float64], curvature: NDArray[np.float64], closed: NDArray[np.int8]
+    size: NDArray[np.float64], curvature: NDArray[np.float64], contact: NDArray[np.int8]
 ) -> NDArray[np.float64]: ...
 def far_side(
     own_before: NDArray[np.float64],
@@ -93,6 +93,9 @@ class Finder:
         normals: NDArray[np.float64],
         reach: NDArray[np.float64],
     ) -> dict[str, NDArray[Any]]: ...
+    def outer_margins(
+        self, facet: NDArray[np.int32], xi: NDArray[np.float64]
+    ) -> NDArray[np.float64]: ...
 
 class Pairing:
     def __init__(

@@ -146,7 +146,7 @@ class NewtonLoop:
         self._junctions = Junctions(interfaces, system.halo.comm)
         self._guard = CycleGuard(interfaces, system.halo.comm)
         self._frozen_pairs = FrozenPairs(interfaces, system.halo.comm)
-        self._audit = Audit(interfaces, system.halo)
+        self._audit = Audit(bulk, interfaces, system.halo)
         self._names, self._refuses = names, refuses
         self._failure = ""
         self.snes = PETSc.SNES().create(system.x.comm)

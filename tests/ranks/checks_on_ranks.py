@@ -118,7 +118,7 @@ def facing(scene):
     """The bottom of the lower block against its top, of which each rank sees its part."""
     height, halo = scene.dim - 1, scene.halo
     bottom = FacetList(*scene.facets(lambda x: np.isclose(x[height], -1)))
-    slaves = SlaveNodes(halo, slave_facets(halo, bottom))
+    slaves = SlaveNodes(halo, bottom)
     pairs = Pairs(halo, slaves, top(scene), 1.1, sliding="small", measures_slip=False)
     away = said(scene, check_facing, "bottom", slaves, "top", pairs, halo)
     pairs.paired = np.full(1, halo.comm.rank == halo.comm.size - 1)

@@ -3,6 +3,7 @@
 
 #include "penetration.h"
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 
@@ -16,8 +17,8 @@ constexpr double resolved = 0.5;
 /// Depth of a chord of a circle, by curvature and squared length, and how often
 /// that is allowed
 constexpr double chord = 1. / 8, chords = 2;
-/// Depths by the size of a facet
-constexpr double in_contact = 1. / 8, negligible = 1. / 256;
+/// Depths by the size of a facet: away from contact, beside it and in it
+constexpr std::array by_contact{1. / 256, 1. / 32, 1. / 8};
 
 double distance(std::span<const double> x, std::int32_t a, std::int32_t b,
                 int gdim)
@@ -87,16 +88,16 @@ std::vector<double> contactx::audit::facet_sizes(const facet::FacetList& facets,
 std::vector<double>
 contactx::audit::explained_depths(std::span<const double> size,
                                   std::span<const double> curvature,
-                                  std::span<const std::int8_t> closed)
+                                  std::span<const std::int8_t> contact)
 {
-  if (size.size() != curvature.size() or size.size() != closed.size())
+  if (size.size() != curvature.size() or size.size() != contact.size())
     throw std::invalid_argument(
-        "sizes, curvatures and flags of different numbers of facets");
+        "sizes, curvatures and contact of different numbers of facets");
   std::vector<double> depth(size.size());
   for (std::size_t i = 0; i < depth.size(); ++i)
   {
     const double h = size[i], turn = curvature[i] * h;
-    depth[i] = h * (closed[i] ? in_contact : negligible);
+    depth[i] = h * by_contact.at(contact[i]);
     if (turn <= resolved)
       depth[i] = std::max(depth[i], chords * chord * turn * h);
   }

@@ -45,13 +45,16 @@ std::vector<double> facet_sizes(const facet::FacetList& facets,
 ///   facet, is no curvature that the facet sees;
 /// - a facet of which a node is in contact bends around what it touches;
 ///   beyond h / 8 the facet is too coarse for that;
+/// - so does the master beside it, where a neighbour is in contact: h / 32;
 /// - h / 256 is no matter.
 /// @param[in] size Sizes of the facets.
 /// @param[in] curvature Curvatures of the master in front of them.
-/// @param[in] closed Whether a node of the facet is in contact.
+/// @param[in] contact 2 where a node of the facet is in contact, 1 where one of
+/// a neighbour is, else 0.
 /// @return Depths.
 /// @throws std::invalid_argument If the arrays are of different sizes.
+/// @throws std::out_of_range If contact is something else.
 std::vector<double> explained_depths(std::span<const double> size,
                                      std::span<const double> curvature,
-                                     std::span<const std::int8_t> closed);
+                                     std::span<const std::int8_t> contact);
 } // namespace contactx::audit

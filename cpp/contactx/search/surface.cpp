@@ -230,3 +230,28 @@ SurfacePoint contactx::search::point_at(const Surface& surface, std::int32_t f,
                         return SurfacePoint{pad(at), pad(n)};
                       });
 }
+
+double contactx::search::outer_margin(const Surface& surface, std::int32_t f,
+                                      const Vec<2>& xi)
+{
+  return facet::visit(
+      surface.facets()[f].size(),
+      [&surface, f, &xi]<class F>(F)
+      {
+        facet::Local<F> at;
+        std::copy_n(xi.begin(), F::tdim, at.begin());
+        const auto N = F::shape(at);
+        double margin = 1;
+        // The functions of an edge's nodes add up to one on it
+        if constexpr (F::gdim == 2)
+          for (int v = 0; v < F::nodes; ++v)
+            margin = surface.on_boundary(f, 1 + v) ? std::min(margin, 1 - N[v])
+                                                   : margin;
+        else
+          for (int e = 0; e < F::num_edges; ++e)
+            if (surface.on_boundary(f, 1 + e))
+              margin = std::min(margin, 1 - N[F::edges[e].first]
+                                            - N[F::edges[e].second]);
+        return margin;
+      });
+}

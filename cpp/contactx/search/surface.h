@@ -108,6 +108,13 @@ struct Projection
   double size;   ///< diameter of the facet
 };
 
+/// @brief Distance of a place on a facet from the surface's outer edge, in the
+/// facet's local coordinates; one where the facet is not at the outer edge.
+/// @param[in] surface Surface.
+/// @param[in] f Facet.
+/// @param[in] xi Local coordinates.
+double outer_margin(const Surface& surface, std::int32_t f, const Vec<2>& xi);
+
 /// @brief Closest point of a facet.
 /// @param[in] surface Surface.
 /// @param[in] f Facet.

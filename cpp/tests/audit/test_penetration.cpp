@@ -25,9 +25,9 @@ Scene circle(int n, double radius)
   return scene;
 }
 
-double explained(double size, double curvature, bool closed)
+double explained(double size, double curvature, int contact)
 {
-  const std::int8_t flag = closed;
+  const std::int8_t flag = contact;
   return explained_depths(std::span(&size, 1), std::span(&curvature, 1),
                           std::span(&flag, 1))[0];
 }
@@ -85,26 +85,31 @@ TEST(ExplainedDepths, CoverTheChordOfACircle)
   for (double h : {0.01, 0.1, 0.49})
   {
     const double chord = 1 - std::sqrt(1 - h * h / 4);
-    EXPECT_GT(explained(h, 1, false), chord);
-    EXPECT_LT(explained(h, 1, false), 3 * chord + 4e-3 * h);
+    EXPECT_GT(explained(h, 1, 0), chord);
+    EXPECT_LT(explained(h, 1, 0), 3 * chord + 4e-3 * h);
   }
 }
 
 TEST(ExplainedDepths, DoNotCoverWhatTheFacetDoesNotResolve)
 {
-  EXPECT_EQ(explained(1, 0.51, false), 1. / 256);
-  EXPECT_EQ(explained(1, 100, false), 1. / 256);
-  EXPECT_EQ(explained(1, 0, false), 1. / 256);
+  EXPECT_EQ(explained(1, 0.51, 0), 1. / 256);
+  EXPECT_EQ(explained(1, 100, 0), 1. / 256);
+  EXPECT_EQ(explained(1, 0, 0), 1. / 256);
 }
 
 TEST(ExplainedDepths, AreLargerInContactAndScaleWithTheUnits)
 {
   for (double unit : {1e-6, 1., 1e6})
   {
-    EXPECT_NEAR(explained(2 * unit, 1 / unit, true), 0.25 * unit, 1e-12 * unit);
-    EXPECT_NEAR(explained(0.5 * unit, 1 / unit, false), unit / 16,
-                1e-12 * unit);
+    EXPECT_NEAR(explained(2 * unit, 1 / unit, 2), 0.25 * unit, 1e-12 * unit);
+    EXPECT_NEAR(explained(0.5 * unit, 1 / unit, 0), unit / 16, 1e-12 * unit);
   }
+}
+
+TEST(ExplainedDepths, BesideContactAreBetweenThoseOfItAndThoseAway)
+{
+  EXPECT_EQ(explained(1, 0, 1), 1. / 32);
+  EXPECT_THROW(explained(1, 0, 3), std::out_of_range);
 }
 
 TEST(ExplainedDepths, RefuseArraysOfDifferentSizes)

@@ -9,15 +9,18 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 
+from contactx.audit.deformed_cells import DeformedCells
 from contactx.audit.findings import Findings
 from contactx.audit.obstacles import ObstacleAudit
 from contactx.audit.surfaces import SurfacesAudit
+from contactx.bulk import Bulk
+from contactx.errors import point_text
 from contactx.interface import Interface
 from contactx.master.facets import FacetMaster
 from contactx.master.mortar import MortarMaster
 from contactx.master.obstacle import ObstacleMaster
 from contactx.parallel.halo import Halo
-from contactx.parallel.reduce import anywhere
+from contactx.parallel.reduce import anywhere, extent
 
 
 class Audit:
@@ -28,25 +31,27 @@ class Audit:
     way from the last accepted configuration, and in the deformed cells.
     """
 
-    def __init__(self, interfaces: Sequence[Interface], halo: Halo):
+    def __init__(self, bulk: Bulk, interfaces: Sequence[Interface], halo: Halo):
         """Prepare the looks at each contact, and remember the reference configuration.
 
         Args:
+            bulk: The bulk.
             interfaces: Discrete sides of the contacts.
             halo: Nodes of this rank.
         """
-        self._interfaces, self._halo = interfaces, halo
+        self._bulk, self._interfaces, self._halo = bulk, interfaces, halo
+        self._cells = DeformedCells(bulk.u.function_space)
         self._looks: list[SurfacesAudit | ObstacleAudit | None] = []
         for interface in interfaces:
             master = interface.master
             look: SurfacesAudit | ObstacleAudit | None = None
             if interface.law.is_tied:
                 pass
-            elif isinstance(master, ObstacleMaster):
-                # Normals of small sliding are those of the reference, and so is their facing
-                look = ObstacleAudit(interface, master, halo) if _is_finite(interface) else None
             elif isinstance(master, FacetMaster | MortarMaster):
                 look = SurfacesAudit(interface, master, halo)
+            elif isinstance(master, ObstacleMaster) and interface.sliding == "finite":
+                # In small sliding the obstacle of each node is a plane
+                look = ObstacleAudit(interface, master, halo)
             self._looks.append(look)
         self.accept()
 
@@ -72,11 +77,38 @@ class Audit:
             names: Names of the contacts, for messages.
         """
         findings = Findings()
+        start = self._halo.scatter_forward(self._start)
         for name, interface, look in zip(names, self._interfaces, self._looks, strict=True):
-            if look is not None and interface.active:
+            if not interface.active:
+                continue
+            if isinstance(look, SurfacesAudit):
+                look(name, start, findings)
+            elif look is not None:
                 look(name, findings)
+        self._look_at_cells(findings)
         return findings
 
+    def _look_at_cells(self, findings: Findings) -> None:
+        """Cells must not be turned inside out.
 
-def _is_finite(interface: Interface) -> bool:
-    return interface.sliding == "finite"
+        A linear material does not notice, and in small sliding nor does the contact.
+        """
+        if self._bulk.is_linear and all(i.sliding == "small" for i in self._interfaces):
+            return
+        found = self._cells.look(self._bulk.u.x.array)
+        findings.smallest_det, findings.inverted = found.smallest, found.inverted
+        if found.inverted == 0:
+            return
+        size = float(extent(self._halo.comm, self._halo.x[: self._halo.num_owned]).max())
+        text = (
+            f"{found.inverted} cells are turned inside out, the worst with det F = "
+            f"{found.smallest:.3g} at {point_text(found.at, size)} in the reference configuration. "
+        )
+        if self._bulk.is_linear:
+            findings.warnings.append(
+                text + "A linear material does not resist that: take one for large strains"
+            )
+        else:
+            findings.faults.append(
+                text + "Take smaller load steps, or a line search (snes_linesearch_type bt)"
+            )

@@ -43,8 +43,7 @@ class ObstacleAudit:
         """
         self._interface, self._master, self._halo = interface, master, halo
         self._slave = interface.slave_nodes
-        facets = self._slave.facets
-        self._corners = np.searchsorted(self._slave.around, facets.nodes).astype(np.int32)
+        self._corners = self._slave.corners
         self._before: tuple[Array, Array, Array] | None = None
 
     def accept(self) -> None:
@@ -82,13 +81,13 @@ class ObstacleAudit:
         """
         interface, nodes, comm = self._interface, self._interface.nodes, self._halo.comm
         size = self._size()
-        held = self._slave.scatter_forward(nodes.closed | nodes.immobile | nodes.ceded)
+        near = self._slave.near(nodes.held)
         offset = self._slave.scatter_forward(np.minimum(interface.offset(), 0))
         small = _NEGLIGIBLE * size
         # A user's function may fail on one rank
         with agreed(comm):
             inside = self._look_inside(small)
-            deepest = self._look_between(held, offset)
+            deepest = self._look_between(near, offset)
             passed = self._look_back(small)
         kind = f"rigid {type(self._master.obstacle).__name__}"
         what = f"{kind}, which they face away from"
@@ -132,12 +131,12 @@ class ObstacleAudit:
         return np.concatenate(gaps)
 
     def _look_between(
-        self, held: npt.NDArray[np.bool_], offset: Array
+        self, near: npt.NDArray[np.int8], offset: Array
     ) -> tuple[float, float, float, bool, Array] | None:
         """Where the obstacle reaches deepest through a slave facet, by what the mesh explains.
 
         Args:
-            held: Which slave nodes are in contact, or cannot be, shape (m,).
+            near: How near each facet is to contact, shape (num_facets,).
             offset: What their gap may fall to, shape (m,).
 
         Returns:
@@ -148,17 +147,16 @@ class ObstacleAudit:
             # A plane is deepest at a node
             return None
         x, offsets = self._halo.positions()[self._slave.around], self._slave.facets.offsets
-        is_held = np.maximum.reduceat(held[self._corners].astype(np.int8), offsets[:-1])
         size = self._sizes()
-        explained = core.explained_depths(size, self._curvatures(x), is_held)
+        explained = core.explained_depths(size, self._curvatures(x), near)
         sampling = core.FacetSampling(offsets, self._corners, x, x.shape[1], explained, _LEVELS)
         while len(sampling.points) > 0:
             sampling.take(self._gaps(sampling.points))
-        depth = np.minimum.reduceat(offset[self._corners], offsets[:-1]) - sampling.gaps
+        depth = self._slave.of_facets(offset, np.minimum) - sampling.gaps
         worst = int((depth / explained).argmax())
         middle = x[self._corners[offsets[worst] : offsets[worst + 1]]].mean(axis=0)
         ratio = float(depth[worst] / explained[worst])
-        return ratio, float(depth[worst]), float(size[worst]), bool(is_held[worst]), middle
+        return ratio, float(depth[worst]), float(size[worst]), bool(near[worst] > 1), middle
 
     def _report_depth(
         self,
@@ -188,7 +186,8 @@ class ObstacleAudit:
         at_nodes = np.abs(geometry.curvature).sum(axis=2).max(axis=1)
         normal = np.ascontiguousarray(geometry.normal)
         turn = core.facet_turns(offsets, self._corners, x, normal, gdim)
-        return np.maximum(turn, np.maximum.reduceat(at_nodes[self._corners], offsets[:-1]))
+        curvature: Array = np.maximum(turn, self._slave.of_facets(at_nodes))
+        return curvature
 
     def _look_back(self, small: float) -> int:
         """Number of nodes and facets of this rank that have gone through the obstacle."""

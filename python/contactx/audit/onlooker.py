@@ -26,12 +26,14 @@ class Seen:
         distance: Distance to the nearest facet, infinite without one.
         gap: Height over it, NaN where the point is beside the surface.
         inside: Whether the point is above or below the facet, not beside its edges.
+        margin: How far the point is from the surface's outer edge, as a part of the facet.
         values: Values of the facet, shape (n, k).
     """
 
     distance: Array
     gap: Array
     inside: npt.NDArray[np.bool_]
+    margin: Array
     values: Array
 
 
@@ -77,6 +79,7 @@ class Onlooker:
             np.full(n, np.inf),
             np.full(n, np.nan),
             np.zeros(n, dtype=bool),
+            np.ones(n),
             np.zeros((n, values.shape[1])),
         )
         ranks, distance = Reach(self._halo, self._facets, x).from_points(
@@ -117,7 +120,9 @@ class Onlooker:
             gap = gap + self._moved(found, own, nodal)
         rows = np.zeros((len(points), values.shape[1]))
         rows[has] = values[facet[has]]
-        return Seen(found["distance"], gap, has & (found["feature"] == 0), rows)
+        inside = has & (found["feature"] == 0)
+        margin = self._finder.outer_margins(facet, found["xi"])
+        return Seen(found["distance"], gap, inside, margin, rows)
 
     def _moved(self, found: dict[str, npt.NDArray[Any]], own: Array, nodal: Array) -> Array:
         """By how much gaps change with the ways of points and facets, shape (n,)."""

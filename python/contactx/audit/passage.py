@@ -81,8 +81,10 @@ def passages(
     origins = start[0], end[0]
     moved = facets.offsets, facets.nodes, x0, x1, halo.gdim
     moments = reduce.total(comm, core.moments(*moved, *origins))
-    points = start, end, normal0, normal1, tolerance, _here(halo, facets, original)
-    crossings = core.crossings(*moved, moments, *origins, *points)
+    here = _here(halo, facets, original)
+    crossings = core.crossings(
+        *moved, moments, *origins, start, end, normal0, normal1, tolerance, here
+    )
     passed = np.flatnonzero(core.passed(_joined(halo, crossings), tolerance) >= 0)
     if len(passed) == 0:
         return NONE

@@ -12,14 +12,22 @@ import numpy.typing as npt
 from contactx import cpp as core
 from contactx.audit.findings import Findings
 from contactx.audit.onlooker import Onlooker
+from contactx.audit.passage import passages
 from contactx.errors import point_text
 from contactx.interface import Interface
 from contactx.master.facets import FacetMaster
 from contactx.master.mortar import MortarMaster
 from contactx.parallel import reduce
 from contactx.parallel.halo import Halo
+from contactx.surface import FacetList
 
 type Array = npt.NDArray[np.float64]
+
+# Part of a facet by which a surface must overlap the other's outer edge: of surface-to-surface the
+# larger one of its two bounds
+_OVERLAP = 1 / 16
+# Part of a facet's size that a node may be behind it and still be in contact
+_IN_CONTACT = 1 / 8
 
 FAR = (
     "the body has come to its far side, or is too thin for the overlap. Take smaller load steps, "
@@ -46,20 +54,65 @@ class SurfacesAudit:
         self._known = master.surface
         self._at_slave = Onlooker(halo, self._slave.facets)
         self._at_master = Onlooker(halo, master.surface.own)
+        self._own_slave = interface.slave_nodes.own
+        marks = np.zeros(halo.num_nodes)
+        marks[master.surface.own.nodes] = 1
+        marks[interface.shared_nodes] = 0
+        self._owned_master = np.flatnonzero(halo.scatter_reverse(marks) > 0).astype(np.int32)
         self._points = np.setdiff1d(master.surface.own.nodes, interface.shared_nodes)
         self._behind = np.zeros(len(interface.slaves), dtype=bool)
 
-    def __call__(self, name: str, findings: Findings) -> None:
+    def __call__(self, name: str, start: Array, findings: Findings) -> None:
         """Look at the state of now; all ranks must take part.
 
         Args:
             name: Name of the contact, for messages.
+            start: Positions of all nodes when the step started.
             findings: What was found is added to it.
         """
-        before = findings.far_side
-        self._look_from_slave(name, findings)
+        before = len(findings.faults)
+        self._look_back(name, start, findings)
+        if len(findings.faults) == before:
+            self._look_from_slave(name, findings)
         # Where nodes are inside the master their facets are, too
-        self._look_from_master(name, findings, is_fault=findings.far_side == before)
+        self._look_from_master(name, findings, is_fault=len(findings.faults) == before)
+
+    def _look_back(self, name: str, start: Array, findings: Findings) -> None:
+        """Nodes that are out of contact must not have gone through the other surface."""
+        interface, halo = self._interface, self._halo
+        if interface.sliding == "small":
+            return
+        x, slave, master = halo.positions(), self._own_slave, self._known.own
+        # What has a pair faces what it is paired with. A master node has none, and what the other
+        # looks see of it is within a facet's size
+        loose = interface.slaves[~interface.master.paired & ~interface.is_shared]
+        sides = [(slave, master, loose)]
+        way = reduce.largest(
+            halo.comm,
+            [
+                np.linalg.norm((x - start)[facets.nodes], axis=1).max(initial=0.0)
+                for facets in (slave, master)
+            ],
+        )
+        size = self._facet_size(slave, x)
+        if sum(way) > size:
+            sides.append((master, slave, self._owned_master))
+        count, at = 0, None
+        for own, other, nodes in sides:
+            tolerance = np.full(len(nodes), _IN_CONTACT * self._facet_size(other, x))
+            found = passages(halo, own, other, start, x, nodes, tolerance)
+            count, at = count + found.count, found.position if at is None else at
+        if count > 0 and at is not None:
+            findings.passed += count
+            findings.faults.append(
+                f"{name}: {count} nodes went through the other surface within the step, the first "
+                f"is at {point_text(at, size)}. Take smaller load steps"
+            )
+
+    def _facet_size(self, facets: FacetList, x: Array) -> float:
+        """Size of the largest facet on any rank."""
+        size = core.facet_sizes(facets.offsets, facets.nodes, x, self._halo.gdim)
+        return float(reduce.largest(self._halo.comm, size.max(initial=0.0)))
 
     def _configuration(self) -> tuple[Array, Array | None]:
         """Positions to look in, and displacements since in small sliding."""
@@ -76,7 +129,11 @@ class SurfacesAudit:
         curvature = core.nodal_curvatures(around.offsets, around.nodes, x, gdim)
         normals = core.nodal_normals(around.offsets, around.nodes, x, gdim).reshape(-1, gdim)
         nodes = self._points
-        values = np.column_stack([size, self._held(), self._offsets()])
+        held = self._interface.nodes.held
+        offset = self._slave.scatter_forward(np.array(self._interface.offset()))
+        values = np.column_stack(
+            [size, self._slave.near(held), self._slave.of_facets(offset, np.minimum)]
+        )
         seen = self._at_slave.look(
             x,
             x[nodes],
@@ -85,18 +142,19 @@ class SurfacesAudit:
             values,
             None if ways is None else (ways, ways[nodes]),
         )
-        there = np.flatnonzero(np.isfinite(seen.distance) & ~np.isnan(seen.gap))
-        size, held, offset = seen.values[there].T
+        # What overlaps the outer edge by less is not in contact
+        there = np.flatnonzero(~np.isnan(seen.gap) & (seen.margin > _OVERLAP))
+        size, near, offset = seen.values[there].T
         depth = offset - seen.gap[there]
         explained = core.explained_depths(
-            np.ascontiguousarray(size), curvature[nodes[there]], (held > 0).astype(np.int8)
+            np.ascontiguousarray(size), curvature[nodes[there]], near.astype(np.int8)
         )
         excess = depth / explained
         worst = int(excess.argmax()) if len(excess) > 0 else -1
         row = None
         if worst >= 0:
             at = self._halo.positions()[nodes[there[worst]]]
-            row = float(excess[worst]), float(depth[worst]), float(size[worst]), held[worst] > 0, at
+            row = float(excess[worst]), float(depth[worst]), float(size[worst]), near[worst] > 1, at
         found = [r for r in comm.allgather(row) if r is not None]
         if not found:
             return
@@ -111,24 +169,6 @@ class SurfacesAudit:
                 + ": the slave surface is too coarse to see it. Swap slave and master, or refine "
                 "the slave surface"
             )
-
-    def _held(self) -> npt.NDArray[np.float64]:
-        """Whether a node of each slave facet is in contact, or cannot be, shape (num_facets,)."""
-        nodes = self._interface.nodes
-        held = nodes.closed | nodes.immobile | nodes.ceded
-        return self._of_facets(held.astype(np.float64), np.maximum)
-
-    def _offsets(self) -> npt.NDArray[np.float64]:
-        """Smallest offset of the nodes of each slave facet, shape (num_facets,)."""
-        return self._of_facets(self._interface.offset(), np.minimum)
-
-    def _of_facets(self, values: Array, function: np.ufunc) -> Array:
-        every = self._slave.scatter_forward(np.array(values))
-        facets = self._slave.facets
-        corners = every[np.searchsorted(self._slave.around, facets.nodes)]
-        return (
-            np.asarray(function.reduceat(corners, facets.offsets[:-1])) if len(corners) else corners
-        )
 
     def accept(self) -> None:
         """Remember which slave nodes lie behind the master before the next step; collective.
@@ -158,7 +198,7 @@ class SurfacesAudit:
             None if ways is None else (ways, ways[nodes]),
         )
         h = seen.values[:, 0]
-        in_contact = np.ones(len(h), dtype=np.int8)
+        in_contact = np.full(len(h), 2, dtype=np.int8)
         allowed = core.explained_depths(h.copy(), np.zeros(len(h)), in_contact)
         offset = np.minimum(interface.offset()[which], 0)
         behind[which] = seen.inside & (seen.gap < offset - allowed)

@@ -107,6 +107,12 @@ class Nodes:
         return closed
 
     @property
+    def held(self) -> npt.NDArray[np.bool_]:
+        """Whether each node is in contact, or would be if another condition let it, shape (n,)."""
+        held: npt.NDArray[np.bool_] = self.closed | self.immobile | self.ceded
+        return held
+
+    @property
     def closable_gap(self) -> Array:
         """Gap, NaN where a node cannot close, shape (n,)."""
         return np.where(self.immobile | self.ceded, np.nan, self.gap)
