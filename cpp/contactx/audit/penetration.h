@@ -43,8 +43,8 @@ std::vector<double> facet_sizes(const facet::FacetList& facets,
 ///   allowed, as both surfaces are curved. That is so where the mesh resolves
 ///   the curvature, k h <= 1/2; the edge of a punch, or a ball smaller than a
 ///   facet, is no curvature that the facet sees;
-/// - a facet of which a node is in contact bends around what it touches;
-///   beyond h / 8 the facet is too coarse for that;
+/// - a facet of which a node is in contact spans what its other nodes do not
+///   touch, as over the edge of a punch; beyond h / 4 it is too coarse for that;
 /// - so does the master beside it, where a neighbour is in contact: h / 32;
 /// - h / 256 is no matter.
 /// @param[in] size Sizes of the facets.

@@ -47,7 +47,6 @@ class DeformedCells:
         owned = domain.topology.index_map(domain.topology.dim).size_local
         self._cells = V.dofmap.list[:owned]
         self._X = reference_positions(V)
-        self._number = domain.topology.original_cell_index
 
     def look(self, u: npt.NDArray[np.float64]) -> Squeezed:
         """Look at all cells; all ranks must take part.
@@ -57,13 +56,13 @@ class DeformedCells:
                 longer.
 
         Returns:
-            What the cells of all ranks are like, on every rank the same. Of several cells with the
-            smallest det F it is the one that came first when the mesh was made.
+            What the cells of all ranks are like, on every rank the same.
         """
         smallest, cell, inverted = core.deformed_cells(self._cells, self._X, u, self._X.shape[1])
         mine = []
         if cell >= 0:
             at = self._X[self._cells[cell]].mean(axis=0)
-            mine.append((smallest, int(self._number[cell]), at))
-        smallest, _, at = reduce.first(self._comm, [found[:2] for found in mine], mine)
+            mine.append((smallest, at))
+        keys = [(value, tuple(place)) for value, place in mine]
+        smallest, at = reduce.first(self._comm, keys, mine)
         return Squeezed(smallest, reduce.total(self._comm, inverted), at)

@@ -27,6 +27,7 @@ class Seen:
         gap: Height over it, NaN where the point is beside the surface.
         inside: Whether the point is above or below the facet, not beside its edges.
         margin: How far the point is from the surface's outer edge, as a part of the facet.
+        way: How far the point has moved relatively to the facet since, where that is given.
         values: Values of the facet, shape (n, k).
     """
 
@@ -34,6 +35,7 @@ class Seen:
     gap: Array
     inside: npt.NDArray[np.bool_]
     margin: Array
+    way: Array
     values: Array
 
 
@@ -80,6 +82,7 @@ class Onlooker:
             np.full(n, np.nan),
             np.zeros(n, dtype=bool),
             np.ones(n),
+            np.zeros(n),
             np.zeros((n, values.shape[1])),
         )
         ranks, distance = Reach(self._halo, self._facets, x).from_points(
@@ -116,16 +119,20 @@ class Onlooker:
         facet = found["facet"]
         has = facet >= 0
         gap = np.where(has, found["gap"], np.nan)
+        way = np.zeros_like(points)
         if len(nodal) > 0:
-            gap = gap + self._moved(found, own, nodal)
+            way = self._ways(found, own, nodal)
+            normal = found["normal"][:, : points.shape[1]]
+            gap = gap + np.einsum("ij,ij->i", normal, way)
         rows = np.zeros((len(points), values.shape[1]))
         rows[has] = values[facet[has]]
         inside = has & (found["feature"] == 0)
         margin = self._finder.outer_margins(facet, found["xi"])
-        return Seen(found["distance"], gap, inside, margin, rows)
+        length = np.linalg.norm(way, axis=1)
+        return Seen(found["distance"], gap, inside, margin, length, rows)
 
-    def _moved(self, found: dict[str, npt.NDArray[Any]], own: Array, nodal: Array) -> Array:
-        """By how much gaps change with the ways of points and facets, shape (n,)."""
+    def _ways(self, found: dict[str, npt.NDArray[Any]], own: Array, nodal: Array) -> Array:
+        """How far points move relatively to their facets, shape (n, gdim)."""
         way = own.copy()
         facets, facet = self._facets, found["facet"]
         sizes = np.zeros(len(facet), dtype=np.int32)
@@ -136,5 +143,4 @@ class Onlooker:
             nodes = facets.nodes[facets.offsets[facet[which]][:, None] + np.arange(size)]
             N = core.shape_functions(int(size), found["xi"][which])
             way[which] -= np.einsum("ij,ijk->ik", N, nodal[nodes])
-        normal = found["normal"][:, : own.shape[1]]
-        return np.asarray(np.einsum("ij,ij->i", normal, way))
+        return way

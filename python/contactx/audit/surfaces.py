@@ -131,8 +131,14 @@ class SurfacesAudit:
         nodes = self._points
         held = self._interface.nodes.held
         offset = self._slave.scatter_forward(np.array(self._interface.offset()))
+        bent = core.nodal_curvatures(facets.offsets, facets.nodes, x, gdim)[self._slave.around]
         values = np.column_stack(
-            [size, self._slave.near(held), self._slave.of_facets(offset, np.minimum)]
+            [
+                size,
+                self._slave.near(held),
+                self._slave.of_facets(offset, np.minimum),
+                self._slave.of_facets(bent),
+            ]
         )
         seen = self._at_slave.look(
             x,
@@ -144,11 +150,13 @@ class SurfacesAudit:
         )
         # What overlaps the outer edge by less is not in contact
         there = np.flatnonzero(~np.isnan(seen.gap) & (seen.margin > _OVERLAP))
-        size, near, offset = seen.values[there].T
+        size, near, offset, bent = seen.values[there].T
         depth = offset - seen.gap[there]
         explained = core.explained_depths(
             np.ascontiguousarray(size), curvature[nodes[there]], near.astype(np.int8)
         )
+        # Linear kinematics see a curved surface as flat along the way
+        explained += (curvature[nodes[there]] + bent) * seen.way[there] ** 2
         excess = depth / explained
         worst = int(excess.argmax()) if len(excess) > 0 else -1
         row = None

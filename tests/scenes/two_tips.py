@@ -1,0 +1,76 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Two thin cantilevers, one with its tip above the other's."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from mpi4py import MPI
+
+import numpy as np
+
+import basix.ufl
+import contactx as cx
+from dolfinx import fem, mesh
+
+from story import displacement, elasticity
+
+THICKNESS = 0.02
+LOWER, UPPER = 1, 2
+
+
+class TwoTips:
+    """The lower one is fixed at its left end, the right end of the upper one is moved down.
+
+    Attributes:
+        contact: Contact of the lower one's top with the upper one's bottom, or of all of both.
+    """
+
+    def __init__(self, *, overlap: float = 0.05, n: int = 20, whole: bool = False, **options: Any):
+        """Create the cantilevers.
+
+        Args:
+            overlap: Length by which they are above each other.
+            n: Cells along each.
+            whole: Whether the surfaces are the whole boundaries.
+            options: Options of the contact.
+        """
+        x, cells = [], []
+        for k in range(2):
+            right, up = k * (1 - overlap), k * 1.5 * THICKNESS
+            axes = right + np.linspace(0, 1, n + 1), up + np.linspace(0, THICKNESS, 3)
+            x.append(np.stack([a.ravel() for a in np.meshgrid(*axes, indexing="ij")], axis=1))
+            first = np.arange((n + 1) * 3).reshape(n + 1, 3)[:-1, :-1].ravel() + k * 3 * (n + 1)
+            cells.append(np.stack([first, first + 3, first + 1, first + 4], axis=1))
+        element = basix.ufl.element("Lagrange", "quadrilateral", 1, shape=(2,))
+        domain = mesh.create_mesh(MPI.COMM_SELF, np.concatenate(cells), element, np.concatenate(x))
+        domain.topology.create_connectivity(1, 2)
+        facets = mesh.exterior_facet_indices(domain.topology)
+        middles = mesh.compute_midpoints(domain, 1, facets)
+        values = np.zeros(len(facets), dtype=np.int32)
+        of_lower = middles[:, 1] < 1.25 * THICKNESS
+        at = middles[:, 1]
+        values[of_lower & (whole | np.isclose(at, THICKNESS))] = LOWER
+        values[~of_lower & (whole | np.isclose(at, 1.5 * THICKNESS))] = UPPER
+        tags = mesh.meshtags(domain, 1, facets, values)
+        self.u = u = displacement(domain)
+        V = u.function_space
+        self.moved = fem.Constant(domain, np.zeros(2))
+        right = 2 - overlap
+        bcs = [
+            fem.dirichletbc(value, fem.locate_dofs_geometrical(V, where), V)
+            for value, where in (
+                (np.zeros(2), lambda x: np.isclose(x[0], 0)),
+                (self.moved, lambda x: np.isclose(x[0], right)),
+            )
+        ]
+        self.contact = cx.Contact(cx.Surface(tags, LOWER), cx.Surface(tags, UPPER), **options)
+        self.problem = cx.ContactProblem(
+            elasticity(u, 1.0, 0.3), u, contacts=[self.contact], bcs=bcs,
+            petsc_options_prefix="tips_",
+        )  # fmt: skip
+
+    def push(self, down: float) -> None:
+        """Move the upper one down by as many thicknesses."""
+        self.moved.value[1] = -down * THICKNESS
