@@ -4,17 +4,21 @@
 
 from __future__ import annotations
 
+import re
 import time
 import traceback
 import warnings
+from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 from enum import StrEnum
 from typing import Any
 
+import numpy as np
+
 import contactx as cx
 
 from stress.judge import Judge
-from stress.scene import Scene
+from stress.scene import Case, Scene
 
 
 class Kind(StrEnum):
@@ -22,6 +26,7 @@ class Kind(StrEnum):
 
     CONVERGED = "converged"
     CUT = "after cut-back"
+    RIGHTLY = "rightly refused"
     REFUSED = "refused"
     WRONG = "WRONG"
 
@@ -40,6 +45,7 @@ class Outcome:
         iterations: Linear solves of all accepted steps.
         discarded: Those of steps that were cut.
         seconds: CPU time.
+        note: What is worth knowing, though it is not wrong.
     """
 
     family: str
@@ -51,6 +57,7 @@ class Outcome:
     iterations: int = 0
     discarded: int = 0
     seconds: float = 0.0
+    note: str = ""
 
     def row(self) -> dict[str, Any]:
         """Values by their names."""
@@ -72,10 +79,10 @@ def run(scene: Scene) -> Outcome:
     except (cx.ConvergenceError, ValueError) as error:
         # A refusal after a wrong state was accepted is no excuse
         if not outcome.reason:
-            outcome.kind = Kind.REFUSED
             # Without the table of iterations
             text = getattr(error, "reason", "") or str(error)
             outcome.reason = f"{type(error).__name__}: {text}"
+            outcome.kind = _refused(scene, text)
     except Exception as error:
         outcome.kind = Kind.WRONG
         outcome.reason = f"{type(error).__name__}: {error}\n{traceback.format_exc()}"
@@ -83,16 +90,63 @@ def run(scene: Scene) -> Outcome:
     return outcome
 
 
+def rightly(case: Case) -> bool:
+    """Whether a case is solved, and nothing is wrong with it."""
+    scene = Scene("", "", "", lambda: case)
+    return run(scene).kind in (Kind.CONVERGED, Kind.CUT)
+
+
+def taken(case: Case) -> Iterator[tuple[float, bool]]:
+    """Take the steps of a case as far as they go.
+
+    Yields:
+        Each t that was reached, and whether something is wrong there.
+    """
+    judge = Judge(case)
+    try:
+        for t in _steps(case, Outcome("", "", "")):
+            yield t, bool(judge() or [c for c in case.step_answers(t) if not c.holds])
+    except (cx.ConvergenceError, ValueError):
+        return
+
+
+def _refused(scene: Scene, text: str) -> Kind:
+    """What a refusal is worth.
+
+    It is right if what it asks for helps, or if no other way leads to a solution.
+    """
+    for words, helps in scene.advice.items():
+        if re.search(words, text) and helps():
+            return Kind.RIGHTLY
+    if scene.solvable is None or scene.solvable():
+        return Kind.REFUSED
+    return Kind.RIGHTLY
+
+
+def _steps(case: Case, outcome: Outcome) -> Iterator[float]:
+    """Take the steps, and count what they cost; yields each t."""
+    if case.cut:
+        steps = cx.LoadSteps(case.problem, case.steps, update=case.update, progress=False)
+        for step in steps:
+            outcome.steps += 1
+            outcome.iterations += step.iterations
+            outcome.discarded += step.report.discarded
+            yield step.t
+        return
+    for t in (np.arange(case.steps) + 1) / case.steps:
+        case.update(float(t))
+        case.problem.solve()
+        outcome.steps += 1
+        outcome.iterations += case.problem.report.iterations
+        yield float(t)
+
+
 def _solve(scene: Scene, outcome: Outcome) -> None:
     case = scene.make()
     judge = Judge(case)
     violated = []
-    steps = cx.LoadSteps(case.problem, case.steps, update=case.update, progress=False)
-    for step in steps:
-        outcome.steps += 1
-        outcome.iterations += step.iterations
-        outcome.discarded += step.report.discarded
-        violated += [*judge(), *(c for c in case.step_answers(step.t) if not c.holds)]
+    for t in _steps(case, outcome):
+        violated += [*judge(), *(c for c in case.step_answers(t) if not c.holds)]
         if violated:
             break
     else:
@@ -103,3 +157,4 @@ def _solve(scene: Scene, outcome: Outcome) -> None:
         given = case.steps if isinstance(case.steps, int) else len(case.steps)
         cut = outcome.steps > given or outcome.discarded > 0
         outcome.kind = Kind.CUT if cut else Kind.CONVERGED
+        outcome.note = "; ".join(c.name for c in case.notes() if not c.holds)

@@ -18,6 +18,7 @@ from stress.outcome import Kind, Outcome
 _COLOURS = {
     Kind.CONVERGED: "#3b8f6b",
     Kind.CUT: "#9cc98f",
+    Kind.RIGHTLY: "#6f9fc8",
     Kind.REFUSED: "#e0a93b",
     Kind.WRONG: "#c0392b",
 }

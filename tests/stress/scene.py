@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -50,6 +50,8 @@ class Case:
             is not looked for.
         answers: Known answers at the end.
         step_answers: Known answers after each accepted step of a given t.
+        notes: What is worth knowing, though it is not wrong, at the end.
+        cut: Whether steps that fail are cut.
     """
 
     problem: cx.ContactProblem
@@ -63,6 +65,8 @@ class Case:
     into: Sequence[float | None] = ()
     answers: Callable[[], Sequence[Check]] = tuple
     step_answers: Callable[[float], Sequence[Check]] = field(default=lambda t: ())
+    notes: Callable[[], Sequence[Check]] = tuple
+    cut: bool = True
 
 
 @dataclass(frozen=True)
@@ -74,12 +78,18 @@ class Scene:
         value: Where on that axis.
         variant: What else tells it from the others.
         make: Makes its case.
+        solvable: Whether the scene can be solved rightly in another way, such as many small steps;
+            not looked for if None.
+        advice: Whether the scene is solved rightly once it is changed as a refusal says, by a
+            regular expression for the words of that.
     """
 
     family: str
     value: str
     variant: str
     make: Callable[[], Case]
+    solvable: Callable[[], bool] | None = None
+    advice: Mapping[str, Callable[[], bool]] = field(default_factory=dict)
 
     @property
     def name(self) -> str:

@@ -8,6 +8,7 @@ from collections import Counter
 from collections.abc import Sequence
 
 from stress.families import (
+    coarse,
     cycles,
     edges,
     frames,
@@ -19,6 +20,7 @@ from stress.families import (
     places,
     rolling,
     shapes,
+    tools,
     touching,
 )
 from stress.scene import Scene
@@ -48,6 +50,9 @@ FAMILIES = (
     cycles.cyclic,
     peers.hertz,
     mixture.mixture,
+    tools.tools,
+    coarse.rigid,
+    coarse.soft,
 )
 
 

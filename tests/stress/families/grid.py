@@ -8,6 +8,8 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from itertools import product
 from typing import Any
 
+import numpy as np
+
 from dolfinx.mesh import CellType
 
 from stress.blocks import Blocks
@@ -79,3 +81,20 @@ def divisions(cell: CellType, flat: Any, solid: Any) -> Any:
 def block_case(**options: Any) -> Case:
     """Case of two blocks."""
     return Blocks(**options).case()
+
+
+def drawn(number: int, seed: int, **options: Sequence[Any]) -> list[dict[str, Any]]:
+    """Some combinations of options, each value about as often as the others of its option.
+
+    Args:
+        number: How many; fewer if some come twice.
+        seed: Seed.
+        options: Values of each option.
+    """
+    rng = np.random.default_rng(seed)
+    columns = {}
+    for name, values in options.items():
+        order = np.resize(np.arange(len(values)), number)
+        columns[name] = [values[i] for i in rng.permutation(order)]
+    rows = [dict(zip(columns, row, strict=True)) for row in zip(*columns.values(), strict=True)]
+    return [row for i, row in enumerate(rows) if row not in rows[:i]]
