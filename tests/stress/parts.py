@@ -37,8 +37,11 @@ class Parts:
         u: Displacement.
         F: Residual of the bodies.
         bcs: Conditions so far.
-        held: Numbers of the nodes that are held or driven.
-        h: Length of the longest facet of each body's faces.
+        cells: Nodes of all cells.
+        x: Nodes before deformation.
+        nu: Poisson's ratio.
+        nonlinear: Whether strains may be large.
+        held: Numbers of the nodes of faces that are held or driven.
     """
 
     def __init__(
@@ -84,6 +87,7 @@ class Parts:
         self._dof = np.empty_like(dof)
         self._dof[self._given] = dof
         self.F = _residual(self.u, self._moduli(young, owner, len(bodies)), nu, material)
+        self.nu = nu
         self.nonlinear = material != "linear"
         self.bcs: list[fem.DirichletBC] = []
         self.held = np.zeros(0, dtype=np.int64)
@@ -133,12 +137,13 @@ class Parts:
         self.held = np.union1d(self.held, np.concatenate(own))
         return faces
 
-    def fix(self, node: int, component: int) -> None:
-        """Hold one component of the displacement of a node."""
+    def fix(self, node: int, component: int, value: fem.Constant | None = None) -> None:
+        """Prescribe one component of the displacement of a node, to be 0 if no value is given."""
         V = self.u.function_space
         dof = V.dofmap.index_map_bs * self._dof[node] + component
         at = np.array([dof], dtype=np.int32)
-        self.bcs.append(fem.dirichletbc(np.float64(0.0), at, V.sub(component)))
+        given = np.float64(0.0) if value is None else value
+        self.bcs.append(fem.dirichletbc(given, at, V.sub(component)))
 
     def problem(self, *contacts: cx.Contact, **options: Any) -> cx.ContactProblem:
         """The problem with its contacts."""

@@ -12,10 +12,10 @@ What is allowed, and why:
   where it is small, although both of its ends are right. Gaps that are means allow as much at the
   nodes, and at the edge of contact a little more.
 - What is pressed by less than a tenth of a facet is resolved as well as its mesh can. Deeper than
-  ``DEEP`` facets nothing is: a mesh that sees so little of what it touches gives wrong forces. It is
-  a little more than a tenth, so that no verdict hangs on how a depth is measured.
-- What is smaller than a facet is not to be missed by half of its own size either, nor is a thin
-  body by a quarter of its thickness: depths inside it end at half of that.
+  ``DEEP`` facets nothing is: a mesh that sees so little of what it touches gives wrong forces. It
+  is half again as much, so that no verdict hangs on how a depth is measured.
+- What is smaller than a facet is not to be missed by half of its own size either, nor a thin body
+  by its thickness: depths inside it end at half of that, of which they may reach most.
 - Before the first node touches there is no force, although a chord lies inside. What is deeper by
   ``SEEN`` of a facet, and touched by nothing, is missed.
 - Bodies that are both soft change their curvature where they touch: twice the chord.
@@ -33,7 +33,7 @@ from stress.parts import Parts
 from stress.scene import Check
 from stress.tools import Tool
 
-DEEP = 0.125
+DEEP = 0.15
 SEEN = 0.02
 # Of nodes whose gaps are not means, relative to the size of what they touch
 _EXACT = 1e-6
@@ -228,7 +228,7 @@ def apart(
         h = parts.lengths(own, x).max()
         least = min(h, float(np.median(parts.lengths(other, x))))
         most = 2 * float(between(np.array([h]), radius, size, method)[0])
-        most = max(min(most, DEEP * h, 0.2 * size), DEEP * least)
+        most = max(min(most, DEEP * h, 0.4 * size), DEEP * least)
         first = max(float(unseen(np.array([h]), radius, size / 2)[0]), DEEP * least)
         deepest = 0.0
         for (_, facets), body, name in (

@@ -8,16 +8,21 @@ from collections import Counter
 from collections.abc import Sequence
 
 from stress.families import (
+    again,
+    arches,
     coarse,
     cycles,
     edges,
+    folding,
     frames,
     free,
     materials,
     mixture,
     moving,
+    passing,
     peers,
     places,
+    rings,
     rolling,
     shapes,
     tools,
@@ -53,6 +58,14 @@ FAMILIES = (
     tools.tools,
     coarse.rigid,
     coarse.soft,
+    arches.arches,
+    arches.belts,
+    folding.folding,
+    passing.passing,
+    again.repeated,
+    again.released,
+    again.heated,
+    rings.rings,
 )
 
 

@@ -150,7 +150,8 @@ def _case(depth: float, begin: float, steps: int, cut: bool, **options: Any) -> 
 
 def _solvable(depth: float, begin: float, **options: Any) -> bool:
     # From where the centre lies behind the surface nobody can tell the sides
-    return depth * begin < 1 and depth in _path(**options)
+    others = [options, *({**options, "tagged": "face", "method": method} for method in METHODS)]
+    return depth * begin < 1 and any(depth in _path(**own) for own in others)
 
 
 def tools() -> Iterator[Scene]:
