@@ -16,9 +16,11 @@ import numpy as np
 import contactx as cx
 import ufl
 from dolfinx import fem
+from dolfinx.mesh import entities_to_geometry
 
 from stress import inside
 from stress.scene import Case, Check
+from stress.sides import DEEP
 
 _EPS = np.finfo(np.float64).eps
 _ALLOWED = 1e-8
@@ -51,6 +53,10 @@ class Judge:
                 parts = inside.boundary(V.mesh, master.facet_tags, master.tags[0])
                 parts = self._node_of[parts]
             self._bodies.append(parts)
+        self._slaves = [
+            None if parts is None else self._of_slave(contact)
+            for contact, parts in zip(case.contacts, self._bodies, strict=False)
+        ]
         self._initially = [self._depths(k) for k in range(len(self._bodies))]
 
     def __call__(self) -> list[Check]:
@@ -192,6 +198,18 @@ class Judge:
         x = self._positions()
         return inside.depth(x[contact.slave_nodes], x, parts)
 
+    def _of_slave(self, contact: cx.Contact) -> tuple[np.ndarray, float]:
+        """Boundary of the slave's body, and the length of its longest facet in contact."""
+        mesh = self._case.problem.u.function_space.mesh
+        slave = contact.slave
+        parts = inside.boundary(mesh, slave.facet_tags, slave.tags[0])
+        facets = entities_to_geometry(
+            mesh,
+            mesh.topology.dim - 1,
+            np.concatenate([slave.facet_tags.find(t) for t in slave.tags]),
+        )
+        return self._node_of[parts], float(np.ptp(mesh.geometry.x[facets], axis=1).max())
+
     def _penetration(self) -> Iterator[Check]:
         for k, into in enumerate(self._case.into):
             if into is None or not self._case.contacts[k].active:
@@ -200,3 +218,12 @@ class Judge:
             deep = self._depths(k)[~nodes.immobile & ~nodes.ceded]
             error = deep.max(initial=0.0) / self._case.size
             yield Check("no node is inside the other body", error, into)
+            slave = self._slaves[k]
+            assert slave is not None
+            x = self._positions()
+            masters = self._master_nodes(self._case.contacts[k])
+            masters = masters[~self._fixed[masters].any(axis=1)]
+            deep = inside.depth(x[masters], x, slave[0]).max(initial=0.0)
+            # The slave sees nothing between its nodes
+            allowed = max(into * self._case.size, DEEP * slave[1])
+            yield Check("no node of the master is inside the slave", deep / allowed, 1.0)

@@ -71,22 +71,21 @@ def run(scene: Scene) -> Outcome:
         scene: The scene.
     """
     outcome = Outcome(scene.family, scene.value, scene.variant)
-    begin = time.process_time()
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        begin = time.process_time()
+        refusal = ""
+        try:
             _solve(scene, outcome)
-    except (cx.ConvergenceError, ValueError) as error:
-        # A refusal after a wrong state was accepted is no excuse
-        if not outcome.reason:
+        except (cx.ConvergenceError, ValueError) as error:
             # Without the table of iterations
-            text = getattr(error, "reason", "") or str(error)
-            outcome.reason = f"{type(error).__name__}: {text}"
-            outcome.kind = _refused(scene, text)
-    except Exception as error:
-        outcome.kind = Kind.WRONG
-        outcome.reason = f"{type(error).__name__}: {error}\n{traceback.format_exc()}"
-    outcome.seconds = time.process_time() - begin
+            refusal = getattr(error, "reason", "") or str(error)
+            outcome.reason = f"{type(error).__name__}: {refusal}"
+        except Exception as error:
+            outcome.reason = f"{type(error).__name__}: {error}\n{traceback.format_exc()}"
+        outcome.seconds = time.process_time() - begin
+        if refusal:
+            outcome.kind = _refused(scene, refusal)
     return outcome
 
 

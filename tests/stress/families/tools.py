@@ -57,7 +57,7 @@ class _Scene:
             tagged: Whether the "face" or the "whole" boundary is the slave.
             method: Method of the contact.
             friction: Coefficient.
-            begin: Part of the depth that is there from the start.
+            begin: Part of the depth that is there from the start, an overlap in radii.
             halved: Whether cells are triangles.
             steps: Load steps.
             cut: Whether they are cut.
@@ -113,9 +113,9 @@ class _Scene:
         )
 
     def _place(self, t: float) -> np.ndarray:
-        part = self._begin + t * (1 - self._begin)
+        begin = min(self._begin, self._depth)
         at = self._at.copy()
-        at[-1] = self._height - self._depth * part
+        at[-1] = self._height - begin - t * (self._depth - begin)
         return at
 
     def force(self) -> float:
@@ -149,9 +149,9 @@ def _case(depth: float, begin: float, steps: int, cut: bool, **options: Any) -> 
 
 
 def _solvable(depth: float, begin: float, **options: Any) -> bool:
-    # From where the centre lies behind the surface nobody can tell the sides
+    # Where the centre begins behind the surface nobody can tell the sides
     others = [options, *({**options, "tagged": "face", "method": method} for method in METHODS)]
-    return depth * begin < 1 and any(depth in _path(**own) for own in others)
+    return begin < 1 and any(depth in _path(**own) for own in others)
 
 
 def tools() -> Iterator[Scene]:
@@ -183,7 +183,10 @@ def tools() -> Iterator[Scene]:
             for steps in _STEPS:
                 if options["tool"] == "ball" and steps not in (1, 4):
                     continue
-                cut, begin = number % 3 > 0, (0.0, 0.0, 0.0, 0.4, 1.0)[number // 5 % 5]
+                cut, begin = number % 3 > 0, (0.0, 0.0, 0.0, 0.4, 0.9, 1.05)[number // 5 % 6]
+                if options["thick"] < 2:
+                    # A thin sheet could as well be in front of such a tool
+                    begin = min(begin, 0.9)
                 number += 1
                 own = {**options, "begin": begin, "steps": steps, "cut": cut}
                 yield Scene(
