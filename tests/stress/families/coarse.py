@@ -23,8 +23,9 @@ from stress.tools import Ball, Punch
 _RATIOS = (2, 5, 10, 20, 50)
 # Where the middle of what presses lies, in facets from a node
 _PLACES = {"node": 0.0, "beside": 0.1, "quarter": 0.25, "middle": 0.5}
-_ADVICE_SWAP = r"(?i)swap|exchang|other way round|(take|make) .*the slave"
-_ADVICE_REFINE = r"(?i)refine|finer"
+# What a message must name for its advice to count
+_ADVICE_SWAP = r"(?i)(swap|exchange)|the other way round|(take|make) [^.;:]* (as )?the slave"
+_ADVICE_REFINE = r"(?i)(refine|finer)[^.;:]* slave|slave[^.;:]* (refine|finer)"
 
 
 def _lines(length: float, near: tuple[float, float] | None, h: float) -> np.ndarray:
