@@ -40,6 +40,7 @@ class Parts:
         cells: Nodes of all cells.
         x: Nodes before deformation.
         nu: Poisson's ratio.
+        modulus: Largest of Young's moduli.
         nonlinear: Whether strains may be large.
         held: Numbers of the nodes of faces that are held or driven.
     """
@@ -87,7 +88,7 @@ class Parts:
         self._dof = np.empty_like(dof)
         self._dof[self._given] = dof
         self.F = _residual(self.u, self._moduli(young, owner, len(bodies)), nu, material)
-        self.nu = nu
+        self.nu, self.modulus = nu, 1.0 if young is None else max(young)
         self.nonlinear = material != "linear"
         self.bcs: list[fem.DirichletBC] = []
         self.held = np.zeros(0, dtype=np.int64)

@@ -124,11 +124,11 @@ def pressed(parts: Parts, facets: Numbers, tool: Tool, radius: float | None, met
 
 
 def _force(parts: Parts) -> float:
-    """What the supports must hold, 0 if it is nothing but rounding."""
-    forces = parts.forces()
-    total = np.abs(forces).max()
-    moved = np.abs(parts.displacements()).max()
-    return float(total) if moved > 1e-12 * np.ptp(parts.x) else 0.0
+    """Largest force, 0 if it is nothing but the rounding of what moves without strain."""
+    largest = float(np.abs(parts.forces()).max())
+    stiffness = parts.modulus * np.ptp(parts.x) ** (parts.x.shape[1] - 2)
+    moved = float(np.abs(parts.displacements()).max())
+    return largest if largest > 1e-10 * stiffness * moved else 0.0
 
 
 def pushes(parts: Parts, along: Sequence[float], nodes: Numbers | None = None) -> View:
@@ -217,7 +217,7 @@ def apart(
         master: The same for the master.
         radius: Radius of the rounder one where they touch; unknown if None.
         method: Method of the contact.
-        size: Thickness of the thinner body.
+        size: Size that nothing may be missed by: the thickness of a plate, the radius of a disc.
     """
     bodies = [parts.bodies[k].boundary for k, _ in (slave, master)]
     own, other = slave[1], master[1]
@@ -229,7 +229,7 @@ def apart(
         least = min(h, float(np.median(parts.lengths(other, x))))
         most = 2 * float(between(np.array([h]), radius, size, method)[0])
         most = max(min(most, DEEP * h, 0.4 * size), DEEP * least)
-        first = max(float(unseen(np.array([h]), radius, size / 2)[0]), DEEP * least)
+        first = max(float(unseen(np.array([h]), radius, size)[0]), DEEP * least)
         deepest = 0.0
         for (_, facets), body, name in (
             (slave, bodies[1], "slave"),

@@ -112,12 +112,13 @@ def _soft(
     sides = ["y0", "x0", "x1"] if shape == "disc" else ["y0"]
     surfaces = [parts.surface(0, "y1"), parts.surface(1, *sides)]
     contact = cx.Contact(*(surfaces[::-1] if swapped else surfaces), method=method)
-    depth = 0.5 * size
+    # Apart from what is allowed at each of the ratios
+    depth = 0.55 * size
     faces = [(0, parts.facets(0, "y1")), (1, parts.facets(1, *sides))]
     slave, master = faces[::-1] if swapped else faces
     near = parts.bodies[1].faces["y0"][n // 2, 0]
     views = [
-        apart(parts, slave, master, radius=radius, method=method, size=2 * size),
+        apart(parts, slave, master, radius=radius, method=method, size=size),
         pushes(parts, (0.0, -1.0), parts.bodies[0].faces["y0"].ravel()),
         stays(parts, lambda: parts.positions()[near] + [0, 0.5 * size], faces[0][1], (0.0, 20.0)),
     ]

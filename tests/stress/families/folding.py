@@ -59,7 +59,7 @@ class _Roller:
                 parts.surface(1, *sides), parts.surface(0, "y1"), method=method, friction=friction
             )
             slave, master = (1, parts.facets(1, *sides)), (0, face)
-            views.append(apart(parts, slave, master, radius=1.0, method=method, size=2.0))
+            views.append(apart(parts, slave, master, radius=1.0, method=method, size=1.0))
 
             def update(t: float) -> None:
                 top.move((0.0, -t * depth))
