@@ -17,7 +17,7 @@ from stress.families.grid import label, variants
 from stress.grids import Array, Body, even, grid
 from stress.parts import Parts
 from stress.scene import METHODS, SLIDINGS, Case, Check, Scene
-from stress.sides import apart, unfolded, watch
+from stress.sides import View, apart, unfolded, watch
 
 _RADII = (0.5, 1.0, 1.5)
 
@@ -77,8 +77,9 @@ def _case(
             Check("pressure against Lame", error, 0.1 + interference + chords / interference),
         ]
 
-    views = [unfolded(parts)] if parts.nonlinear else []
-    if meshed:
+    views: list[View] = [unfolded(parts)] if parts.nonlinear else []
+    views.append(lambda: _inside(parts))
+    if meshed and sliding == "finite":
         views.append(apart(parts, *faces, radius=b, method=method, size=c - b))
     return Case(
         parts.problem(contact),
@@ -88,15 +89,22 @@ def _case(
         update,
         size=c - b,
         steps=steps,
-        step_answers=watch(*views) if sliding == "finite" else lambda t: [],
+        step_answers=watch(*views),
         answers=answers,
     )
+
+
+def _inside(parts: Parts) -> Iterator[Check]:
+    """The inner ring has not left the outer one."""
+    farthest = np.linalg.norm(parts.positions()[parts.bodies[0].cells], axis=2).max()
+    yield Check("the ring is inside the rim of the other one", float(farthest / _RADII[2]), 1.0)
 
 
 def _pressure(parts: Parts, forces: Array) -> float:
     """Mean pressure between the rings, by the stresses of the inner one."""
     nodes = np.unique(parts.bodies[0].faces["x1"])
-    x = parts.x[nodes]
+    # It may have turned, which nothing prevents
+    x = parts.positions()[nodes]
     inwards = -x / np.linalg.norm(x, axis=1, keepdims=True)
     return float((forces[nodes] * inwards).sum() / (2 * np.pi * _RADII[1]))
 
