@@ -55,9 +55,8 @@ def _rigid(
         height = -_lines(3, (0.0, 3 * size), size / 6)[::-1] if fine else even(-2, 2, 4)
         body = grid(lines, height[height <= 0])
     else:
-        deep = _lines(2, (0.0, 3 * size), size / 6) if fine else even(-2, 2, 4)
-        # Along the third axis on an edge where the place is a node, or it lies within a face
-        body = grid(lines, lines, deep[deep <= 0])
+        # At a node, or within a face
+        body = grid(lines, lines, even(-2, 0, 2))
     top, bottom = ("y1", "y0") if dim == 2 else ("z1", "z0")
     parts = Parts(body)
     parts.hold(0, bottom)
@@ -138,7 +137,8 @@ def _soft(
 
 @cache
 def _refined(**options: Any) -> bool:
-    return rightly(_rigid(steps=4, cut=True, fine=True, **options))
+    # A solid so fine would take minutes: what helps in the plane helps there
+    return rightly(_rigid(steps=4, cut=True, fine=True, **{**options, "dim": 2}))
 
 
 @cache
