@@ -7,7 +7,7 @@ from types import SimpleNamespace
 import numpy as np
 
 import contactx as cx
-from contactx.audit.passage import NONE, passages
+from contactx.audit.passage import NONE, _normals, passages
 from contactx.geometry import inside
 from contactx.geometry.facets import check_facets
 from contactx.geometry.facing import check_facing
@@ -199,3 +199,26 @@ def check_passages(one, scene):
     assert found.node == expected.node
     for down in (0.0, 0.1, -3.0):
         assert passed(scene, moved(lambda x, down=down: down + 0 * x), True) == NONE
+    # Bodies that bend, turn and slide: how the surface moves as a whole matters, and all of it
+    rng = np.random.default_rng(1)
+    for _ in range(6):
+        wave, phase = rng.uniform(-0.6, 0.6, dim), rng.uniform(0, 6)
+        way, angle = rng.uniform(-0.8, 0.8, dim), rng.uniform(1, 3)
+
+        def waved(x, wave=wave, phase=phase, way=way, angle=angle):
+            upper = (x[:, height] > 0.05)[:, None]
+            x = x + np.sin(5 * x[:, :1] + phase) * wave + upper * way
+            turn = np.eye(dim)
+            c, s = np.cos(angle), np.sin(angle)
+            turn[np.ix_([0, height], [0, height])] = [[c, -s], [s, c]]
+            return x @ turn.T
+
+        for one_way in (True, False):
+            found, expected = (passed(s, waved, one_way) for s in (scene, one))
+            assert (found.count, found.node) == (expected.count, expected.node)
+        normals = []
+        for s in (scene, one):
+            own = outward(s, lambda x: np.isclose(x[height], 0) | np.isclose(x[0], 0))
+            x = waved(s.halo.x)
+            normals.append(s.everywhere(_normals(s.halo, own, s.halo.x, x)[1]))
+        assert np.abs(normals[0] - normals[1]).max() <= 1e-13

@@ -199,12 +199,31 @@ void add(Box& box, const std::array<double, D>& p)
   box.add(padded);
 }
 
-bool meet(const Box& a, const Box& b)
+/// Whether a path goes through a box: a long one aslant goes through few of
+/// those that its own box meets. Of a box that holds another one it says no
+/// less than of that, rounding included.
+template <int D>
+bool meet(const Box& box, const Path<D>& path)
 {
-  for (int k = 0; k < 3; ++k)
-    if (!(a.lower[k] <= b.upper[k] and b.lower[k] <= a.upper[k]))
-      return false;
-  return true;
+  double first = 0, last = 1;
+  for (int k = 0; k < D; ++k)
+  {
+    const double way = path.to[k] - path.from[k];
+    if (way == 0)
+    {
+      if (!(box.lower[k] <= path.from[k] and path.from[k] <= box.upper[k]))
+        return false;
+      continue;
+    }
+    double in = (box.lower[k] - path.from[k]) / way;
+    double out = (box.upper[k] - path.from[k]) / way;
+    if (in > out)
+      std::swap(in, out);
+    first = std::max(first, in);
+    last = std::min(last, out);
+  }
+  // So that rounding loses none
+  return first <= last + 1e-9;
 }
 
 /// A point on its way.
@@ -213,7 +232,6 @@ struct Moved
 {
   std::int32_t point;
   Path<D> path;
-  Box box;
 };
 
 template <int D>
@@ -245,13 +263,13 @@ public:
     }
     std::vector<Moved<D>> moved;
     for (std::size_t i = 0; i < _points.tolerance.size(); ++i)
-      if (const auto p = moved_point(i); meet(p.box, whole))
+      if (const auto p = moved_point(i); meet<D>(whole, p.path))
         moved.push_back(p);
     if (moved.empty())
       return {};
     const search::BoxTree tree(boxes);
     for (const Moved<D>& p : moved)
-      tree.for_each([&p](const Box& box) { return meet(box, p.box); },
+      tree.for_each([&p](const Box& box) { return meet<D>(box, p.path); },
                     [this, &p](std::int32_t f) { cross(p, f); });
     return std::move(_found);
   }
@@ -270,14 +288,10 @@ private:
     std::copy_n(aside.begin(), D, shift.begin());
     const auto back = [&shift, tolerance](const Vec<D>& p, const Vec<D>& normal)
     { return p + tolerance * (shift - normal); };
-    Moved<D> moved{static_cast<std::int32_t>(i),
-                   {back(row<D>(_points.x0, i), row<D>(_points.normal0, i)),
-                    back(_motion.moved_back<D>(row<D>(_points.x1, i)),
-                         _motion.turned_back<D>(row<D>(_points.normal1, i)))},
-                   Box::empty()};
-    add(moved.box, moved.path.from);
-    add(moved.box, moved.path.to);
-    return moved;
+    return {static_cast<std::int32_t>(i),
+            {back(row<D>(_points.x0, i), row<D>(_points.normal0, i)),
+             back(_motion.moved_back<D>(row<D>(_points.x1, i)),
+                  _motion.turned_back<D>(row<D>(_points.normal1, i)))}};
   }
 
   void cross(const Moved<D>& p, std::int32_t f)

@@ -18,7 +18,7 @@ constexpr double resolved = 0.5;
 /// that is allowed
 constexpr double chord = 1. / 8, chords = 2;
 /// Depths by the size of a facet: away from contact, beside it and in it
-constexpr std::array by_contact{1. / 256, 1. / 32, 1. / 4};
+constexpr std::array by_contact{1. / 256, 1. / 32, 0.15};
 
 double distance(std::span<const double> x, std::int32_t a, std::int32_t b,
                 int gdim)

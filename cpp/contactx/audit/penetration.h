@@ -44,8 +44,10 @@ std::vector<double> facet_sizes(const facet::FacetList& facets,
 ///   the curvature, k h <= 1/2; the edge of a punch, or a ball smaller than a
 ///   facet, is no curvature that the facet sees;
 /// - a facet of which a node is in contact spans what its other nodes do not
-///   touch, as over the edge of a punch; beyond h / 4 it is too coarse for that;
-/// - so does the master beside it, where a neighbour is in contact: h / 32;
+///   touch, as over the edge of a punch; beyond 0.15 h it is too coarse for
+///   that;
+/// - beside that, where a neighbour of the facet is in contact, pressure bends
+///   the master's surface: h / 32;
 /// - h / 256 is no matter.
 /// @param[in] size Sizes of the facets.
 /// @param[in] curvature Curvatures of the master in front of them.

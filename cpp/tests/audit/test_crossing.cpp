@@ -100,6 +100,28 @@ INSTANTIATE_TEST_SUITE_P(All, Crossings,
                          ::testing::Values(Made::segments, Made::triangles,
                                            Made::quadrilaterals));
 
+TEST(Crossing, OfAWarpedFacetHasTheHeightsOfItsNodes)
+{
+  MovingScene s(3);
+  for (const Vec<3>& p :
+       {Vec<3>{0, 0, 0.1}, {1, 0, -0.1}, {0, 1, -0.1}, {1, 1, 0.1}})
+    s.node(p, p);
+  s.facets.facet({0, 1, 2, 3});
+  // Through its middle, through a corner's height and half-way between them
+  for (const auto& [at, height] :
+       {std::pair{0.5, 0.}, {0.999, 0.1}, {0.75, 0.05}})
+  {
+    s.points0.clear(), s.points1.clear(), s.normals0.clear();
+    s.normals1.clear(), s.tolerance.clear(), s.nodes.clear();
+    s.point({at, at, 1}, {at, at, -1}, {0, 0, -1}, {0, 0, -1}, tiny);
+    const auto found = s.crossings();
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_NEAR(found[0].time, 0.5 * (1 - height), 1e-3);
+    EXPECT_NEAR(found[0].before, 0.9, 1e-15);
+    EXPECT_NEAR(found[0].after, -0.9, 1e-15);
+  }
+}
+
 /// A solid that is star-shaped at all times: nodes move away from its middle or
 /// towards it.
 template <int D>

@@ -330,6 +330,15 @@ TEST(Judgement, OfAnEdgeDependsOnTheStart)
   EXPECT_EQ(judged({crossing(0.2, true, -1), crossing(0.4, false, 1),
                     crossing(0.6, true, 0)}),
             0);
+  EXPECT_EQ(judged({crossing(0.2, true, -1), crossing(0.4, false, 1),
+                    crossing(0.6, true, 0), crossing(0.8, false, -1)}),
+            0);
+}
+
+TEST(Judgement, OfARidgeThatIsOnlyTouchedIsNone)
+{
+  // Both at once, whichever is named first
+  EXPECT_EQ(judged({crossing(0.2, false, -1), crossing(0.2, true, -1)}), -1);
 }
 
 TEST(Judgement, IsThatOfEachPoint)

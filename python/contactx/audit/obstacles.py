@@ -90,9 +90,7 @@ class ObstacleAudit:
             deepest = self._look_between(near, offset)
             passed = self._look_back(small)
         kind = f"rigid {type(self._master.obstacle).__name__}"
-        what = f"{kind}, which they face away from"
-        report_far_side(name, inside, what, FAR, self._halo, findings)
-        self._report_depth(name, kind, deepest, findings)
+        before = len(findings.faults)
         passed = int(reduce.total(comm, passed))
         if passed > 0:
             findings.passed += passed
@@ -100,6 +98,12 @@ class ObstacleAudit:
                 f"{name}: {passed} slave nodes and facets went through the {kind} within the step "
                 "and are on its far side. Take smaller load steps"
             )
+        else:
+            what = f"{kind}, which they face away from"
+            report_far_side(name, inside, what, FAR, self._halo, findings)
+        # Where nodes are inside the obstacle their facets are, too
+        is_fault = len(findings.faults) == before
+        self._report_depth(name, kind, deepest, findings, is_fault=is_fault)
 
     def _look_inside(self, small: float) -> npt.NDArray[np.int32]:
         """Slave nodes that face away from the obstacle and are inside it."""
@@ -164,6 +168,8 @@ class ObstacleAudit:
         kind: str,
         deepest: tuple[float, float, float, bool, Array] | None,
         findings: Findings,
+        *,
+        is_fault: bool,
     ) -> None:
         found = [row for row in self._halo.comm.allgather(deepest) if row is not None]
         if not found:
@@ -171,7 +177,7 @@ class ObstacleAudit:
         excess, depth, h, is_held, at = max(found, key=itemgetter(0))
         if excess > findings.excess:
             findings.excess, findings.depth = excess, max(depth, 0.0)
-        if excess > 1:
+        if excess > 1 and is_fault:
             findings.faults.append(
                 f"{name}: the {kind} reaches {depth:.3g} deep through a slave facet of size "
                 f"{h:.3g} around {point_text(at, h)}, between its nodes"

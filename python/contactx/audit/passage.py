@@ -78,13 +78,11 @@ def passages(
     tolerance = reduce.gathered(comm, tolerance)[order]
     table = reduce.gathered(comm, table)[order]
     start, end, normal0, normal1 = (np.ascontiguousarray(t) for t in np.split(table, 4, axis=1))
-    origins = start[0], end[0]
     moved = facets.offsets, facets.nodes, x0, x1, halo.gdim
-    moments = reduce.total(comm, core.moments(*moved, *origins))
+    moments = reduce.total(comm, core.moments(*moved, start[0], end[0]))
+    frame = moments, start[0], end[0]
     here = _here(halo, facets, original)
-    crossings = core.crossings(
-        *moved, moments, *origins, start, end, normal0, normal1, tolerance, here
-    )
+    crossings = core.crossings(*moved, *frame, start, end, normal0, normal1, tolerance, here)
     passed = np.flatnonzero(core.passed(_joined(halo, crossings), tolerance) >= 0)
     if len(passed) == 0:
         return NONE

@@ -97,9 +97,10 @@ class SurfacesAudit:
         size = self._facet_size(slave, x)
         if sum(way) > size:
             sides.append((master, slave, self._owned_master))
+        overlap = reduce.largest(halo.comm, (-interface.offset()).max(initial=0.0))
         count, at = 0, None
         for own, other, nodes in sides:
-            tolerance = np.full(len(nodes), _IN_CONTACT * self._facet_size(other, x))
+            tolerance = np.full(len(nodes), _IN_CONTACT * self._facet_size(other, x) + overlap)
             found = passages(halo, own, other, start, x, nodes, tolerance)
             count, at = count + found.count, found.position if at is None else at
         if count > 0 and at is not None:
@@ -206,8 +207,8 @@ class SurfacesAudit:
             None if ways is None else (ways, ways[nodes]),
         )
         h = seen.values[:, 0]
-        in_contact = np.full(len(h), 2, dtype=np.int8)
-        allowed = core.explained_depths(h.copy(), np.zeros(len(h)), in_contact)
+        beside_contact = np.ones(len(h), dtype=np.int8)
+        allowed = core.explained_depths(h.copy(), np.zeros(len(h)), beside_contact)
         offset = np.minimum(interface.offset()[which], 0)
         behind[which] = seen.inside & (seen.gap < offset - allowed)
         return behind
