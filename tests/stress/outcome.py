@@ -9,7 +9,7 @@ import time
 import traceback
 import warnings
 from collections.abc import Iterator
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from enum import StrEnum
 from typing import Any
 
@@ -117,6 +117,9 @@ def _refused(scene: Scene, text: str) -> Kind:
     for words, helps in scene.advice.items():
         if re.search(words, text) and helps():
             return Kind.RIGHTLY
+    case = scene.make()
+    if not case.cut and "smaller load steps" in text and rightly(replace(case, cut=True)):
+        return Kind.RIGHTLY
     if scene.solvable is None or scene.solvable():
         return Kind.REFUSED
     return Kind.RIGHTLY

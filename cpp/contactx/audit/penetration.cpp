@@ -12,8 +12,9 @@ using namespace contactx::audit;
 
 namespace
 {
-/// Turn over a facet up to which it resolves a curvature: 29 degrees
-constexpr double resolved = 0.5;
+/// Turn over a facet up to which it resolves a curvature, away from contact,
+/// beside it and in it: 29 and 57 degrees
+constexpr std::array resolved{0.5, 1., 1.};
 /// Depth of a chord of a circle, by curvature and squared length, and how often
 /// that is allowed
 constexpr double chord = 1. / 8, chords = 2;
@@ -98,7 +99,7 @@ contactx::audit::explained_depths(std::span<const double> size,
   {
     const double h = size[i], turn = curvature[i] * h;
     depth[i] = h * by_contact.at(contact[i]);
-    if (turn <= resolved)
+    if (turn <= resolved[contact[i]])
       depth[i] = std::max(depth[i], chords * chord * turn * h);
   }
   return depth;

@@ -41,8 +41,8 @@ std::vector<double> facet_sizes(const facet::FacetList& facets,
 /// Contact holds at slave nodes, or in the mean over their facets. In between
 /// - a surface of curvature k is k h^2 / 8 beside its chord; twice that is
 ///   allowed, as both surfaces are curved. That is so where the mesh resolves
-///   the curvature, k h <= 1/2; the edge of a punch, or a ball smaller than a
-///   facet, is no curvature that the facet sees;
+///   the curvature, k h <= 1/2, and in and beside contact k h <= 1; the edge of
+///   a punch, or a ball smaller than a facet, is no curvature that it sees;
 /// - a facet of which a node is in contact spans what its other nodes do not
 ///   touch, as over the edge of a punch; beyond 0.15 h it is too coarse for
 ///   that;
