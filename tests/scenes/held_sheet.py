@@ -15,7 +15,6 @@ import contactx as cx
 import ufl
 from dolfinx import fem, mesh
 
-from scenes.materials import neo_hookean
 from story import displacement, elasticity
 
 RADIUS = 0.3
@@ -51,7 +50,7 @@ class HeldSheet:
         whole: bool = False,
         on_ground: bool = False,
         deep: float = 0.0,
-        large: bool = False,
+        material: Callable[[fem.Function, float, float], ufl.Form] = elasticity,
         audit: str = "refuse",
         **options: Any,
     ):
@@ -65,7 +64,7 @@ class HeldSheet:
             whole: Whether the slave surface is the whole boundary, not the top alone.
             on_ground: Whether the bottom is fixed, not the ends.
             deep: How deep the tool is at first, by its radius.
-            large: Whether strains are large.
+            material: Residual by displacement, Young's modulus and Poisson's ratio.
             audit: What becomes of wrong iterates.
             options: Options of the contact.
         """
@@ -102,7 +101,7 @@ class HeldSheet:
         self.push(deep)
         self.contact = cx.Contact(cx.Surface(tags, 1), tool(self.place), **options)
         self.problem = cx.ContactProblem(
-            neo_hookean(u, 1.0, 0.3) if large else elasticity(u, 1.0, 0.3),
+            material(u, 1.0, 0.3),
             u,
             contacts=[self.contact],
             bcs=[bc],

@@ -42,3 +42,18 @@ def of_bodies(data: Any, upper: float, lower: float) -> fem.Function:
     for body, value in ((Tag.UPPER, upper), (Tag.LOWER, lower)):
         result.x.array[data.cell_tags.find(body)] = value
     return result
+
+
+def st_venant_kirchhoff(u: fem.Function, young: Any, nu: Any) -> ufl.Form:
+    """Residual of bodies that hardly resist being squeezed to nothing, or turned inside out.
+
+    Args:
+        u: Displacement.
+        young: Young's modulus at small strains.
+        nu: Poisson's ratio at small strains.
+    """
+    mu, lmbda = young / (2 * (1 + nu)), young * nu / ((1 + nu) * (1 - 2 * nu))
+    F = ufl.Identity(len(u)) + ufl.grad(u)
+    E = (F.T * F - ufl.Identity(len(u))) / 2
+    density = mu * ufl.inner(E, E) + lmbda / 2 * ufl.tr(E) ** 2
+    return ufl.derivative(density * ufl.dx, u)
