@@ -55,7 +55,8 @@ _UNBALANCED = (
 )
 _HIDDEN = (
     "pairs went back and forth between facets and were frozen, and hide a penetration: refine the "
-    "master there or take smaller load steps"
+    "coarser surface there, swap slave and master where that is the slave, or take smaller load "
+    "steps"
 )
 # Difference of a Jacobian from a difference quotient that is no rounding
 _WRONG = 1e-3

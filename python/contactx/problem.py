@@ -277,8 +277,8 @@ class ContactProblem:
             frozen = total(comm, len(master.frozen_pairs))
             text = (
                 f"{name}: {frozen} pairs went back and forth between facets and "
-                f"were frozen; they hide a penetration of {-hidden:.3g}. Refine the master there "
-                "or take smaller steps"
+                f"were frozen; they hide a penetration of {-hidden:.3g}. Refine the coarser "
+                "surface there or take smaller steps"
             )
         self._say(text)
 

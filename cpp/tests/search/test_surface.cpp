@@ -142,4 +142,32 @@ TEST(Surface, ProjectionKnowsItsGapAndExcess)
   EXPECT_DOUBLE_EQ(e->excess, 0.25);
   EXPECT_DOUBLE_EQ(e->xi[0], 1.25);
 }
+TEST(OuterMargin, IsTheDistanceFromTheOuterEdgeInLocalCoordinates)
+{
+  for (Cells cells : {Cells::triangles, Cells::quadrilaterals})
+  {
+    const Scene scene = flat_grid(3, cells);
+    const Surface surface = scene.surface();
+    for (std::int32_t f = 0; f < surface.facets().size(); ++f)
+    {
+      const Vec<2> xi{0.3, 0.1};
+      const Vec<3> at = point_at(surface, f, scene.x, xi).x;
+      const double d = std::min({at[0], at[1], 1 - at[0], 1 - at[1]});
+      const double margin = outer_margin(surface, f, xi);
+      // Cells are a third wide; those within have no outer edge
+      if (cells == Cells::quadrilaterals)
+        EXPECT_NEAR(margin, d < 1. / 3 ? 3 * d : 1, 1e-14);
+      else
+        EXPECT_TRUE(margin == 1 or margin >= 0.1 - 1e-14);
+    }
+  }
+  Scene line(2);
+  for (int i = 0; i < 3; ++i)
+    line.node({double(i), 0});
+  line.facet({0, 1});
+  line.facet({1, 2});
+  EXPECT_NEAR(outer_margin(line.surface(), 0, {0.2, 0}), 0.2, 1e-14);
+  EXPECT_NEAR(outer_margin(line.surface(), 1, {0.2, 0}), 0.8, 1e-14);
+  EXPECT_NEAR(outer_margin(line.surface(), 0, {-0.1, 0}), -0.1, 1e-14);
+}
 } // namespace

@@ -13,6 +13,7 @@ from contactx import cpp as core
 from contactx.audit.findings import Findings
 from contactx.audit.surfaces import FAR, report_far_side
 from contactx.errors import point_text
+from contactx.geometry.facets import facet_middles
 from contactx.interface import Interface
 from contactx.master.obstacle import ObstacleMaster
 from contactx.obstacles import Plane
@@ -55,22 +56,12 @@ class ObstacleAudit:
 
     def _look_out(self) -> tuple[Array, Array]:
         """Slave nodes and middles of facets, and unit normals there."""
-        x, facets = self._halo.positions(), self._slave.facets
-        gdim, around = x.shape[1], self._slave.around
-        offsets, corners = facets.offsets, self._corners
-        nodal = core.nodal_normals(offsets, corners, x[around], gdim).reshape(-1, gdim)
-        owned = slice(len(self._slave.owned))
-        middles, normals = [x[around][owned]], [nodal[owned]]
-        if len(corners) > 0:
-            number = np.diff(offsets)[:, None]
-            every = np.arange(len(corners), dtype=np.int32)
-            of_facets = core.nodal_normals(offsets, every, x[facets.nodes], gdim)
-            for list_, values in (
-                (middles, x[facets.nodes]),
-                (normals, of_facets.reshape(-1, gdim)),
-            ):
-                list_.append(np.add.reduceat(values, offsets[:-1]) / number)
-        return np.concatenate(middles), np.concatenate(normals)
+        x, facets, around = self._halo.positions(), self._slave.facets, self._slave.around
+        owned, gdim = len(self._slave.owned), x.shape[1]
+        nodal = core.nodal_normals(facets.offsets, self._corners, x[around], gdim)
+        middles, normals = facet_middles(facets, x)
+        points = np.concatenate([x[around][:owned], middles])
+        return points, np.concatenate([nodal.reshape(-1, gdim)[:owned], normals])
 
     def __call__(self, name: str, findings: Findings) -> None:
         """Look at the state of now; all ranks must take part.
@@ -182,7 +173,7 @@ class ObstacleAudit:
                 f"{name}: the {kind} reaches {depth:.3g} deep through a slave facet of size "
                 f"{h:.3g} around {point_text(at, h)}, between its nodes"
                 + ("" if is_held else ", which are open")
-                + ": the slave surface is too coarse to see it. Refine it"
+                + ": the slave surface is too coarse to see it. Refine the slave surface"
             )
 
     def _curvatures(self, x: Array) -> Array:

@@ -11,7 +11,6 @@ import numpy.typing as npt
 
 from contactx import cpp as core
 from contactx.audit.findings import Findings
-from contactx.audit.onlooker import Onlooker
 from contactx.audit.passage import passages
 from contactx.errors import point_text
 from contactx.interface import Interface
@@ -19,6 +18,8 @@ from contactx.master.facets import FacetMaster
 from contactx.master.mortar import MortarMaster
 from contactx.parallel import reduce
 from contactx.parallel.halo import Halo
+from contactx.search.onlooker import Onlooker
+from contactx.search.outside import Outside
 from contactx.surface import FacetList
 
 type Array = npt.NDArray[np.float64]
@@ -53,6 +54,7 @@ class SurfacesAudit:
         self._slave = interface.slave_nodes
         self._known = master.surface
         self._at_slave = Onlooker(halo, self._slave.facets)
+        self._outside_slave = Outside(halo, self._slave.own)
         self._at_master = Onlooker(halo, master.surface.own)
         self._own_slave = interface.slave_nodes.own
         marks = np.zeros(halo.num_nodes)
@@ -149,8 +151,10 @@ class SurfacesAudit:
             values,
             None if ways is None else (ways, ways[nodes]),
         )
+        height = np.nan_to_num(seen.height)
+        outside = self._outside_slave.find(x, x[nodes], -height)
         # What overlaps the outer edge by less is not in contact
-        there = np.flatnonzero(~np.isnan(seen.gap) & (seen.margin > _OVERLAP))
+        there = np.flatnonzero(~np.isnan(seen.gap) & (seen.margin > _OVERLAP) & ~outside)
         size, near, offset, bent = seen.values[there].T
         depth = offset - seen.gap[there]
         explained = core.explained_depths(

@@ -17,6 +17,7 @@ from contactx.master.mobility import free_squares, pair_weights
 from contactx.parallel.halo import Halo
 from contactx.parallel.slaves import SlaveNodes
 from contactx.search.distributed import master_surface
+from contactx.search.outside import Outside
 from contactx.surface import FacetList
 
 _SAVED = ("feature", "xi", "cone", "normal")
@@ -59,6 +60,7 @@ class FacetMaster(Master):
         self._halo = halo
         self._facets = slave.facets
         self.surface = master_surface(halo, master)
+        self._outside = Outside(halo, master)
         x = halo.x
         self._small = sliding == "small"
         self._measures_slip = measures_slip
@@ -84,9 +86,23 @@ class FacetMaster(Master):
         """See ``Master``."""
         version = self._halo.version
         changed = self.surface.pair(self._pairing, self._facets, x, self.reach, closed)
-        self._at = self._halo.updated(x, version)
+        self._at = x = self._halo.updated(x, version)
+        changed += self._drop_outside(x, closed)
         self._facet, self._feature = self._pairing.facet, self._pairing.feature
         return changed
+
+    def _drop_outside(self, x: Array, closed: npt.NDArray[np.int8]) -> int:
+        """Drop pairs with facets behind all of the master's body; returns the changes."""
+        pairing, points = self._pairing, x[self._slaves]
+        foot, normal = pairing.places(x, pairing.xi)
+        depth = np.einsum("ij,ij->i", normal, foot - points)
+        depth[pairing.facet < 0] = 0
+        which = np.flatnonzero(self._outside.find(x, points, depth)).astype(np.int32)
+        n = len(which)
+        none = np.full(n, -1, dtype=np.int32), np.zeros(n, dtype=np.int32)
+        return pairing.settle(
+            which, *none, np.zeros((n, 2)), np.zeros((n, 3)), x, self.reach, closed
+        )
 
     def rebuild(self) -> None:
         """See ``Master``."""

@@ -13,6 +13,7 @@ import numpy.typing as npt
 
 from contactx import cpp as core
 from contactx.forms import Pairs
+from contactx.geometry.facets import facet_middles
 from contactx.master.master import Master, RowKind, Weights
 from contactx.master.mobility import constrained_squares
 from contactx.master.mortar_pairs import Array, Mortar, Sides, unit
@@ -21,6 +22,7 @@ from contactx.parallel.halo import Halo
 from contactx.parallel.reduce import anywhere, largest, least
 from contactx.parallel.slaves import SlaveNodes
 from contactx.search.distributed import master_surface
+from contactx.search.outside import Outside
 from contactx.surface import FacetList
 
 # How far beyond a slave facet's edges pairs are found in advance, as a part of its size
@@ -67,6 +69,7 @@ class MortarMaster(Master):
         self._halo = halo
         self._facets = facets = slave.facets
         self.surface = master_surface(halo, master)
+        self._outside = Outside(halo, master)
         self._gdim = halo.gdim
         self._small = sliding == "small"
         self.reach = reach
@@ -104,7 +107,7 @@ class MortarMaster(Master):
             self._look(x, margin)
             x = self._halo.updated(x, version)
             version = self._halo.version
-            self._found = self._search.find(x, self.reach, margin)
+            self._found = self._without_outside(x, self._search.find(x, self.reach, margin))
             self._searched = x[self._nodes]
         self._integrate(self._halo.updated(x, version))
         enough = np.where(self._paired, _LEAVE, _ENTER)
@@ -120,8 +123,19 @@ class MortarMaster(Master):
         """Whether any rank finds a pair that it does not have."""
         version = self._halo.version
         self._look(x, 0.0)
-        found = self._search.find(self._halo.updated(x, version), self.reach, 0.0)
+        x = self._halo.updated(x, version)
+        found = self._without_outside(x, self._search.find(x, self.reach, 0.0))
         return anywhere(self._halo.comm, not self._found.contains(found))
+
+    def _without_outside(self, x: Array, found: core.FacetPairs) -> core.FacetPairs:
+        """Pairs but for those with facets behind all of the master's body."""
+        middles, normals = facet_middles(self._facets, x)
+        others, _ = facet_middles(self.surface.facets, x)
+        slave = found.slave
+        way = middles[slave] - others[found.master]
+        depth = np.einsum("ij,ij->i", normals[slave], way)
+        outside = self._outside.find(x, middles[slave], depth, within_depth=True)
+        return found.without(outside.astype(np.int8)) if outside.any() else found
 
     def _moved(self, x: Array) -> bool:
         """Whether anything has moved so far since the search that pairs may lack."""

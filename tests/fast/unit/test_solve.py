@@ -148,7 +148,9 @@ def test_frozen_pairs_that_hide_much_are_released_and_then_refused(monkeypatch, 
     monkeypatch.setattr(FacetMaster, "deepest_frozen_pair", lambda *_: (-1e-3, -0.1))
     forget = FrozenPairs.release
     monkeypatch.setattr(FrozenPairs, "release", lambda s: let_go.append(1) or forget(s))
-    with pytest.raises(cx.ConvergenceError, match="hide a penetration: refine the master there"):
+    with pytest.raises(
+        cx.ConvergenceError, match="hide a penetration: refine the coarser surface there"
+    ):
         problem.solve()
     assert len(let_go) == 3
     assert not scene.u.x.array.any()

@@ -18,7 +18,7 @@ COARSE = r"reaches .* deep through a slave facet .*: the slave surface is too co
 def test_a_ball_between_nodes_is_refused(gdim, method):
     """No node touches it, and the force was zero."""
     block = PunchedBlock(gdim, n=4, method=method, ball=0.1, x0=0.25)
-    with pytest.raises(cx.ConvergenceError, match=COARSE + ". Refine it"):
+    with pytest.raises(cx.ConvergenceError, match=COARSE + ". Refine the slave"):
         block.problem.solve()
 
 

@@ -25,6 +25,7 @@ class Seen:
     Attributes:
         distance: Distance to the nearest facet, infinite without one.
         gap: Height over it, NaN where the point is beside the surface.
+        height: The same before points and facets moved, where that is given.
         inside: Whether the point is above or below the facet, not beside its edges.
         margin: How far the point is from the surface's outer edge, as a part of the facet.
         way: How far the point has moved relatively to the facet since, where that is given.
@@ -33,6 +34,7 @@ class Seen:
 
     distance: Array
     gap: Array
+    height: Array
     inside: npt.NDArray[np.bool_]
     margin: Array
     way: Array
@@ -44,6 +46,9 @@ class Onlooker:
 
     A search for pairs adds what it finds to the halo; this does not, so that it may come after a
     solve.
+
+    Attributes:
+        num_facets: Number of facets of this rank.
     """
 
     def __init__(self, halo: Halo, facets: FacetList):
@@ -54,6 +59,7 @@ class Onlooker:
             facets: Facets of the surface that this rank has; several may have the same one.
         """
         self._halo, self._facets = halo, facets
+        self.num_facets = len(facets.offsets) - 1
         self._finder = core.Finder(facets.offsets, facets.nodes, halo.gdim)
 
     def look(
@@ -79,6 +85,7 @@ class Onlooker:
         n, gdim = points.shape
         best = Seen(
             np.full(n, np.inf),
+            np.full(n, np.nan),
             np.full(n, np.nan),
             np.zeros(n, dtype=bool),
             np.ones(n),
@@ -118,7 +125,7 @@ class Onlooker:
         found = self._finder.find(x, points, normals, np.full(len(points), reach))
         facet = found["facet"]
         has = facet >= 0
-        gap = np.where(has, found["gap"], np.nan)
+        gap = height = np.where(has, found["gap"], np.nan)
         way = np.zeros_like(points)
         if len(nodal) > 0:
             way = self._ways(found, own, nodal)
@@ -129,7 +136,7 @@ class Onlooker:
         inside = has & (found["feature"] == 0)
         margin = self._finder.outer_margins(facet, found["xi"])
         length = np.linalg.norm(way, axis=1)
-        return Seen(found["distance"], gap, inside, margin, length, rows)
+        return Seen(found["distance"], gap, height, inside, margin, length, rows)
 
     def _ways(self, found: dict[str, npt.NDArray[Any]], own: Array, nodal: Array) -> Array:
         """How far points move relatively to their facets, shape (n, gdim)."""
