@@ -29,6 +29,7 @@ from contactx.bulk_input import (
 from contactx.contact import Contact, check_contacts
 from contactx.errors import ConvergenceError, NotFiniteError
 from contactx.geometry.cells import check_cells
+from contactx.geometry.curved import check_straight
 from contactx.interface import Interface, check_drag, check_over_constrained
 from contactx.interrupts import Interrupts
 from contactx.newton import NewtonLoop
@@ -96,9 +97,9 @@ class ContactProblem:
             TypeError: If PETSc or u are not real double precision, or an argument is of another
                 kind.
             ValueError: If a form, space, surface or option does not fit, cells or facets are
-                degenerate, a slave surface faces away from its master or is folded onto itself, or
-                a body lies wholly inside the other one or the obstacle; the message says what to
-                do.
+                degenerate, a contact surface is curved or faces away from its master, a slave
+                surface is folded onto itself, or a body lies wholly inside the other one or the
+                obstacle; the message says what to do.
         """
         compat.require_real_double()
         check_displacement(u)
@@ -109,6 +110,7 @@ class ContactProblem:
         check_contacts(contacts)
         if audit not in ("refuse", "warn"):
             raise ValueError(f'audit must be "refuse" or "warn", not {audit!r}')
+        check_straight(contacts, u.function_space.mesh)
 
         V = u.function_space
         X = la.vector(V.dofmap.index_map, V.dofmap.index_map_bs)
