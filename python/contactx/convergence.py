@@ -226,14 +226,18 @@ class ConvergenceCriterion:
         return scale if everywhere(self._comm, same) else 0.0
 
     def _has_run_away(self) -> bool:
-        """Whether a body is so far away that its forces are but rounding errors.
+        """Whether a body is so far away that its forces are but rounding errors."""
+        most = largest(self._comm, np.abs(self._bulk.u.x.array).max(initial=0.0))
+        return bool(most > _FAR * self.farthest())
 
-        Dirichlet values may take a body anywhere, so that they count for its distance.
+    def farthest(self) -> float:
+        """How far bodies may have to move; all ranks must take part.
+
+        The size of the scene, or the largest Dirichlet value, which may take a body anywhere.
         """
         given = self._bulk.prescribed()[self._bulk.markers == 1]
-        sizes = [np.abs(a).max(initial=0.0) for a in (self._bulk.u.x.array, given)]
-        most, prescribed = largest(self._comm, np.array(sizes))
-        return bool(most > _FAR * max(self.extent, prescribed))
+        prescribed = largest(self._comm, float(np.abs(given).max(initial=0.0)))
+        return float(max(self.extent, prescribed))
 
     def scale(self) -> float:
         """Forces of the problem: norm of the bulk's residual."""

@@ -38,7 +38,7 @@ from contactx.interface import Interface
 from contactx.junctions import Junctions
 from contactx.linear import Condensed, LinearSolver, SaddlePoint
 from contactx.options import is_condensed, newton_options
-from contactx.parallel.reduce import largest, total
+from contactx.parallel.reduce import anywhere, largest, total
 from contactx.report import Iteration, Report
 from contactx.system import SaddlePointSystem
 
@@ -52,6 +52,11 @@ _MOST_UNBALANCED = 3
 _UNBALANCED = (
     "the loads on a body cannot be balanced: it has no support and nothing is in its way, or "
     "friction barely could. Support it, or turn the loads so that they press the bodies together"
+)
+_RAN_AWAY = (
+    "a body that nothing holds has moved by {:.3g}, more than the size of the scene: no place was "
+    "found where the forces of contact balance. Support it. Where a ring can turn in another one, "
+    'take method="surface-to-surface", or numbers of facets that are no multiples of each other'
 )
 _HIDDEN = (
     "pairs went back and forth between facets and were frozen, and hide a penetration: refine the "
@@ -142,6 +147,8 @@ class NewtonLoop:
         # Whether kinematics are frozen, and whether the residual is that of frozen ones
         self._frozen_kinematics = self._stale = False
         self._changes = (0, 0)
+        # Displacements at the step's start
+        self._start = np.zeros(0)
         self._criterion = ConvergenceCriterion(bulk, interfaces, system)
         self._free_bodies = FreeBodies(bulk, interfaces, bodies)
         self._junctions = Junctions(interfaces, system.halo.comm)
@@ -162,6 +169,7 @@ class NewtonLoop:
         """
         self._report = report
         self._converged = False
+        self._start = self._bulk.u.x.array.copy()
         skipped = self._bulk.skipped
         self._system.begin_step()
         self.snes.setFunction(weakly(self._function), self._system.b)
@@ -310,13 +318,17 @@ class NewtonLoop:
             status += more
         self._freeze_kinematics(self._many(status + pairs) and may_freeze)
         if self._many(status):
-            # What flips on an active set that is far off says nothing of the solution
+            # What flips on an active set that is far off says nothing of the solution, and no more
+            # does the residual of the pairs that were frozen for it
+            frozen = any(len(i.master.frozen_pairs) > 0 for i in self._interfaces)
+            self._stale |= may_freeze and anywhere(self._halo.comm, frozen)
             for interface in self._interfaces:
                 interface.master.reset_flips()
         for interface in self._interfaces:
             interface.nodes.drop_open()
         scale = self._criterion.scale_of_balance
-        if self._free_bodies.stabilise(self._system.displacement_residual, scale):
+        system = self._system
+        if self._free_bodies.stabilise(system.displacement_residual, system.bulk_residual, scale):
             self._freeze_kinematics(True)
         for interface in self._interfaces:
             interface.law.evaluate(interface.nodes)
@@ -359,6 +371,7 @@ class NewtonLoop:
         if number > 0:
             if self._guard.shorten(self._system.x):
                 self._system.unpack(self._system.x)
+            self._take_off_drift()
             self._changes = self._settle()
         row, small = self._evaluate(snes, number)
         # With frozen kinematics the residual is not the true one. The active set need not settle:
@@ -383,6 +396,10 @@ class NewtonLoop:
                 return reason.DIVERGED_FUNCTION_DOMAIN
         self._converged = small
         if small:
+            way = self._way()
+            if self._free_bodies.free_modes > 0 and way > self._criterion.farthest():
+                self._converged, self._failure = False, _RAN_AWAY.format(way)
+                return reason.DIVERGED_FUNCTION_DOMAIN
             return reason.CONVERGED_FNORM_ABS
         # In 3D nodes that all slip may balance a body by turning their friction
         shrinks = any(row.residual < 0.7 * r.residual for r in self._report.history[-2:-1])
@@ -394,6 +411,25 @@ class NewtonLoop:
         changing = 0.0 if self._guard.cycles else sum(self._changes) / max(1, row.closed)
         self._linear.set_accuracy(row.residual, row.tolerance, changing)
         return reason.CONVERGED_ITERATING
+
+    def _way(self) -> float:
+        """Largest component of what any node has moved by in this step."""
+        step = np.abs(self._bulk.u.x.array - self._start)
+        return float(largest(self._halo.comm, step.max(initial=0.0)))
+
+    def _take_off_drift(self) -> None:
+        """Take off what free bodies have drifted in a step of linear contact conditions.
+
+        With current kinematics pressures resist such motions by a little, and steps seek the place
+        where they balance.
+        """
+        updated = any(i.updates_kinematics for i in self._interfaces)
+        if updated and not self._frozen_kinematics:
+            return
+        drift = self._free_bodies.drift()
+        if drift is not None:
+            self._system.blocks(self._system.x.array)[0][:] -= drift
+            self._system.unpack(self._system.x)
 
     def _evaluate(self, snes: PETSc.SNES, number: int) -> tuple[Iteration, bool]:
         """Evaluate the residual of an accepted iterate, and whether it is small enough."""

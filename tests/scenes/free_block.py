@@ -69,7 +69,7 @@ class FreeBlock:
             paired=np.ones(n, dtype=bool), weights=lambda: weights, normals=lambda: up
         )
         interface = SimpleNamespace(
-            positions=halo.positions, nodes=self.nodes, master=master, law=law
+            positions=halo.positions, nodes=self.nodes, master=master, law=law, sliding="finite"
         )
         self.free_bodies = FreeBodies(scene.bulk, [interface], scene.bodies)
 
@@ -88,7 +88,9 @@ class FreeBlock:
         force = np.array(load) * (1 + growth * halo.x[: halo.num_owned, :1])
         force[self.scene.bodies.number[: halo.num_owned] == 0] = 0
         self.free_bodies.begin_step()
-        changed = self.free_bodies.stabilise(lambda: -force.ravel(), lambda: 1.0)
+        changed = self.free_bodies.stabilise(
+            lambda: -force.ravel(), lambda: -force.ravel(), lambda: 1.0
+        )
         stiffness = self.free_bodies.springs
         status = np.full(halo.num_owned, -1)
         status[self.slaves] = self.nodes.status

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "finder.h"
+#include "bisector.h"
 
 using namespace contactx;
 using namespace contactx::search;
@@ -27,5 +28,8 @@ Found Finder::find(std::span<const double> x, const Vec<3>& p,
   found.nearest = nearest_facet(_surface, *_tree, x, p, normal, reach, hint);
   if (found.nearest)
     found.selected = select(_surface, x, p, *found.nearest);
+  if (found.selected and found.selected->feature == facet::interior)
+    if (const auto half_way = bisector(_surface, x, p, *found.selected))
+      found.selected = half_way;
   return found;
 }

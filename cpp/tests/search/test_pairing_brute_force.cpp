@@ -3,6 +3,7 @@
 
 #include "brute_force.h"
 #include "random_scenes.h"
+#include <contactx/search/bisector.h>
 #include <contactx/search/pairing.h>
 #include <contactx/search/select.h>
 #include <gtest/gtest.h>
@@ -59,6 +60,9 @@ TEST_P(PairingBruteForce, FirstPairsAreThoseOfALoop)
       auto expected = brute_force(surface, scene.x, p, normal, reach);
       if (expected)
         expected = select(surface, scene.x, p, *expected);
+      if (expected and expected->feature == facet::interior)
+        if (const auto q = bisector(surface, scene.x, p, *expected))
+          expected = q;
       ASSERT_EQ(pairing.facet()[i], expected ? expected->facet : -1);
       if (!expected)
         continue;

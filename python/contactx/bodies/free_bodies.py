@@ -21,6 +21,8 @@ from contactx.parallel import reduce
 
 # Force along a free mode, relative to the problem's, that counts as out of balance
 _BALANCED = 1e-6
+# Force along free modes, relative to the residual, above which it asks for a motion
+_IDLE = 1e-3
 # Stiffness of springs that carry no force, relative to the bulk's
 _WEAK = 1e-6
 # Relative difference of what is equal but for rounding
@@ -61,49 +63,60 @@ class FreeBodies:
         self._modes: RigidModes | None = None
         self.free_modes = self.closed_for_balance = self.unbalanced = 0
         self._springs: Array | None = None
+        # Free motions at owned dofs, and the displacements at which they were found
+        self._loose: tuple[Array, Array] | None = None
         self._begins = True
+        # Forces of the loads along the modes in the reference configuration, and what is balanced
+        self._loads: tuple[Array, float] = np.zeros(0), 0.0
 
     def begin_step(self) -> None:
         """Find the free modes of the bodies."""
-        x = self._interfaces[0].positions()
+        x = self._places()
         if self._modes is None:
             self._modes = RigidModes(self._bulk, self._bodies, x)
         else:
             self._modes.update(x)
         self.free_modes = self.closed_for_balance = self.unbalanced = 0
-        self._springs = None
+        self._springs = self._loose = None
         self._begins = True
 
     def reset(self) -> None:
         """Drop the rigid modes: a failed step may have found them of a spoilt stiffness."""
         self._modes = None
 
-    def stabilise(self, residual: Callable[[], Array], scale: Callable[[], float]) -> bool:
+    def stabilise(
+        self,
+        residual: Callable[[], Array],
+        of_bulk: Callable[[], Array],
+        scale: Callable[[], float],
+    ) -> bool:
         """Find the springs to add to the Jacobian at an iterate, and close nodes for balance.
 
         Args:
             residual: Gives the residual of the displacements without Dirichlet rows at owned
                 dofs, shape (num_owned * gdim,); called only where a body has a free mode.
+            of_bulk: Gives the bulk's part of it, likewise.
             scale: Gives the forces of the problem; called likewise.
 
         Returns:
             Whether nodes have been closed or stick on any rank.
         """
-        self._springs, self.free_modes = None, 0
+        self._springs = self._loose = None
+        self.free_modes = 0
         rigid = self._modes
         if rigid is None or not rigid.any_free:
             return False
-        x = self._interfaces[0].positions()
+        x = self._places()
         gdim = x.shape[1]
         nodes = np.arange(self._bodies.halo.num_owned, dtype=np.int32)
         body = rigid.body[nodes]
         modes = rigid.at(nodes, x)
         size = modes.shape[2]
-        per_node = np.einsum("nim,ni->nm", modes, -residual().reshape(-1, gdim))
+        forces = residual()
         balanced = _BALANCED * scale()
-        pull = np.zeros((rigid.count, size))
-        np.add.at(pull, body, per_node)
-        pull = reduce.total(self._comm, pull).ravel()
+        pull = self._along(modes, -forces)
+        if self._begins:
+            self._loads = self._along(rigid.at(nodes, self._bodies.x), -of_bulk()), balanced
         closed_any = self._begins and self._close_before_springs(x, pull)
         self._begins = False
         while True:
@@ -115,7 +128,7 @@ class FreeBodies:
             lacking = self._lacking(x) if gdim == 2 else 0.0
             f = N.T @ (pull + lacking)
             # A norm that does not depend on which basis of the modes rounding has chosen
-            if np.linalg.norm(f) <= balanced:
+            if np.linalg.norm(f) <= balanced or self._loads_balance(N):
                 self.unbalanced = 0
                 break
             # The rigid motion of bodies whose mass goes with their number of nodes
@@ -135,10 +148,79 @@ class FreeBodies:
             field = np.einsum("nim,nmk->nik", modes, coefficients)
             shares = field.reshape(-1, self.free_modes)
             springs = independent_springs(shares, self._bulk, self._bodies.halo)
+            if np.linalg.norm(N.T @ pull) <= _IDLE * reduce.norm(self._comm, forces):
+                free = self._bulk.markers[: len(shares)] == 0
+                self._loose = shares * free[:, None], self._displacements()
             # Weak, so that they do not slow down what a little stiffness does resist; a body that
             # nothing can balance stays near, where it may still meet something
             self._springs = springs if self.unbalanced else _WEAK * springs
         return closed_any
+
+    def _loads_balance(self, N: Array) -> bool:
+        """Whether the loads of the step balance along free modes, as linear strains see them.
+
+        Stresses of linear strains balance in the reference configuration alone. In the current one
+        they have a moment, without any load, that grows with the displacements. Contacts without
+        friction have no force along free modes.
+
+        Args:
+            N: The modes, as columns.
+        """
+        if not self._bulk.is_linear or any(True for _ in self._rubbing()):
+            return False
+        loads, balanced = self._loads
+        return bool(np.linalg.norm(N.T @ loads) <= balanced)
+
+    def _along(self, modes: Array, forces: Array) -> Array:
+        """Forces on all ranks along the modes of the bodies, shape (num_bodies * m,).
+
+        Args:
+            modes: Modes at owned nodes, shape (num_owned, gdim, m).
+            forces: Forces at owned dofs, shape (num_owned * gdim,).
+        """
+        rigid = self._modes
+        assert rigid is not None
+        n, gdim, m = modes.shape
+        sums = np.zeros((rigid.count, m))
+        np.add.at(sums, rigid.body[:n], np.einsum("nim,ni->nm", modes, forces.reshape(n, gdim)))
+        total: Array = reduce.total(self._comm, sums).ravel()
+        return total
+
+    def _places(self) -> Array:
+        """Positions of all nodes that rigid motions are about, shape (num_nodes, gdim).
+
+        Where all is linear these are the reference positions: a rotation about the current ones
+        changes gaps and strains by what the bodies have moved.
+        """
+        interfaces = self._interfaces
+        if self._bulk.is_linear and all(i.sliding == "small" for i in interfaces):
+            return self._bodies.x
+        return interfaces[0].positions()
+
+    def _displacements(self) -> Array:
+        """Displacements at owned dofs, shape (num_owned * gdim,)."""
+        owned = slice(self._bodies.halo.num_owned * self._bodies.halo.gdim)
+        u: Array = self._bulk.u.x.array[owned].copy()
+        return u
+
+    def drift(self) -> Array | None:
+        """What the bodies have moved along their free modes since the last call of ``stabilise``.
+
+        Where the forces balance and kinematics are frozen nothing asks for such a motion: it comes
+        of the places of the springs, which bodies turn about as they deform, and takes nodes past
+        each other. All ranks must take part.
+
+        Returns:
+            Displacements at owned dofs, shape (num_owned * gdim,); None if no mode was free, or
+            forces asked for a motion.
+        """
+        if self._loose is None:
+            return None
+        motions, before = self._loose
+        step = self._displacements() - before
+        sums = reduce.total(self._comm, motions.T @ np.column_stack([motions, step]))
+        drift: Array = motions @ np.linalg.solve(sums[:, :-1], sums[:, -1])
+        return drift
 
     @property
     def springs(self) -> Array | None:

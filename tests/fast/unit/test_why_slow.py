@@ -6,11 +6,13 @@ import pytest
 
 import contactx as cx
 import ufl
+from contactx.bulk import Bulk
 from dolfinx import fem
 from dolfinx.mesh import CellType
 
 from scenes import NU, Blocks
 from scenes.materials import neo_hookean
+from story import elasticity
 
 QUOTIENT = "the Jacobian is not the derivative of F: along the last step it differs by"
 
@@ -51,6 +53,23 @@ def test_a_right_jacobian_is_not_blamed():
     said = failure(scene, petsc_options={"snes_max_it": 1})
     assert "no convergence in snes_max_it iterations" in said
     assert "Jacobian" not in said
+
+
+@pytest.mark.parametrize("wrong", [False, True])
+def test_rounding_of_rigid_motions_is_not_blamed(wrong):
+    """Bodies without supports may end in steps that turn them: no force, but its rounding."""
+    scene = Blocks(CellType.quadrilateral)
+    u, v = scene.u, ufl.TestFunction(scene.u.function_space)
+    F = elasticity(u, 1.0, NU)
+    J = ufl.derivative(F, u)
+    if wrong:
+        J += 1e-3 * ufl.inner(ufl.TrialFunction(u.function_space), v) * ufl.dx
+    u.interpolate(lambda x: 0.01 * x[:2] ** 2)
+    bulk = Bulk(F, u, [], J, None, None)
+    turned = fem.Function(u.function_space)
+    turned.interpolate(lambda x: (-x[1], x[0]))
+    error = bulk.jacobian_error(turned.x.array, 1e-6)
+    assert error > 0.5 if wrong else error < 1e-3
 
 
 def test_a_tolerance_below_rounding_is_named(monkeypatch):

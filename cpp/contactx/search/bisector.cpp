@@ -1,0 +1,63 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include "bisector.h"
+#include "select.h"
+#include <cmath>
+
+using namespace contactx;
+using namespace contactx::search;
+using facet::Segment;
+
+namespace
+{
+/// Difference of heights, relative to the facet, that the rounding of a
+/// solution leaves
+constexpr double level = 1e-8;
+
+/// Difference of unit normals below which facets are in line
+constexpr double in_line = 1e-6;
+
+/// Cosine of the largest angle between facets of a curve
+constexpr double least_cosine = 0.7;
+} // namespace
+
+std::optional<Projection> contactx::search::bisector(const Surface& surface,
+                                                     std::span<const double> x,
+                                                     const Vec<3>& p,
+                                                     const Projection& q)
+{
+  if (surface.gdim() != 2)
+    return std::nullopt;
+  const int end = q.xi[0] > 0.5 ? 1 : 0;
+  if (!(std::abs(q.xi[0] - end) <= margin))
+    return std::nullopt;
+
+  std::int32_t first = -1;
+  int count = 0;
+  Vec<3> sum{};
+  surface.for_each_around(
+      q.facet, 1 + Segment::num_edges + end,
+      [&](std::int32_t f)
+      {
+        const auto r = extended(surface, f, x, p);
+        if (!r or !(std::abs(r->gap - q.gap) <= level * q.size))
+          return;
+        first = first < 0 ? f : first;
+        ++count;
+        sum = sum + r->normal;
+      });
+  if (count != 2 or !(dot(sum, sum) > 2 + 2 * least_cosine))
+    return std::nullopt;
+  const Vec<3> n = (1 / norm(sum)) * sum;
+  if (norm(n - q.normal) <= in_line)
+    return std::nullopt;
+
+  // Of the first facet, whichever of them rounding has led to
+  const std::int32_t node = surface.facets()[q.facet][end];
+  const int vertex = surface.facets()[first][0] == node ? 0 : 1;
+  const Vec<2> xi{static_cast<double>(vertex), 0};
+  const Vec<3> d = p - point_at(surface, first, x, xi).x;
+  return Projection{
+      first, 1 + Segment::num_edges + vertex, xi, d, n, dot(n, d), 0, q.size};
+}

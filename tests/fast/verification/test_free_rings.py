@@ -1,0 +1,151 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Whole rings that contact alone keeps in each other, without any load."""
+
+from itertools import product
+
+import numpy as np
+import pytest
+
+import contactx as cx
+
+from scenes.covering import BOTH, METHODS, SLIDINGS, covering
+from scenes.free_rings import RADII, FreeRings
+from scenes.materials import neo_hookean
+from story import elasticity
+
+A, B, C = RADII
+NU = 0.3
+MORTAR = "surface-to-surface"
+
+
+def lame(interference, fixed):
+    """Pressure between the rings, the outer one fixed at its rim or free."""
+    inner = B * (1 - NU**2) * ((B**2 + A**2) / (B**2 - A**2) - NU / (1 - NU))
+    if fixed:
+        ratio = 1 + (1 - 2 * NU) * C**2 / B**2
+        outer = (1 + NU) * (1 - 2 * NU) * (C**2 - B**2) / (B * ratio)
+    else:
+        outer = B * (1 - NU**2) * ((C**2 + B**2) / (C**2 - B**2) + NU / (1 - NU))
+    return interference / (inner + outer)
+
+
+def moved(rings):
+    """What the rings have moved by, no more than they ask for."""
+    return np.abs(rings.u.x.array).max()
+
+
+@covering(
+    **{
+        "given,swapped": [("offset", False), ("larger", False), ("larger", True)],
+        "sliding,method": BOTH,
+    },
+    fixed=(True, False),
+    n=(31, 63),
+    friction=(0.0, 0.3),
+)
+def test_rings_that_match(given, swapped, sliding, method, fixed, n, friction):
+    """The pressure is the same at all nodes."""
+    rings = FreeRings(
+        n, n, fixed=fixed, swapped=swapped, sliding=sliding, friction=friction, **{given: 0.01}
+    )
+    rings.problem.solve()
+    nodes = rings.contact.interface.nodes
+    # Slip over a ridge is measured along a facet, and friction holds what that turns
+    spread = 0.06 if friction > 0 and swapped else 1e-6
+    assert rings.problem.report.iterations <= (3 if spread < 0.01 else 6)
+    assert nodes.closed.all()
+    assert np.ptp(nodes.pressure) <= spread * rings.mean_pressure
+    # The polygons have less area
+    assert rings.mean_pressure == pytest.approx(lame(0.01, fixed), rel=0.035)
+    assert moved(rings) <= 0.011
+
+
+@covering(
+    **{"sliding,method": BOTH},
+    fixed=(True, False),
+    shift=((0.0, 0.0), (0.01, 0.0), (0.003, 0.01)),
+    material=(elasticity, neo_hookean),
+)
+def test_rings_that_do_not_match(sliding, method, fixed, shift, material):
+    """Also where they start off the middle; how far a ring turns, the corners decide."""
+    rings = FreeRings(
+        61,
+        95,
+        fixed=fixed,
+        shift=shift,
+        material=material,
+        larger=0.02,
+        layers=4,
+        sliding=sliding,
+    )
+    rings.problem.solve()
+    print(rings.problem.report.iterations, rings.mean_pressure / lame(0.02, fixed))
+    assert rings.problem.report.iterations <= 9
+    assert rings.mean_pressure == pytest.approx(lame(0.02, fixed), rel=0.06)
+    assert moved(rings) <= 0.3
+
+
+@covering(
+    **{
+        "counts,given,shift": product(
+            ((63, 63), (63, 95)), ("offset", "larger"), ((0.0, 0.0), (0.01, 0.0))
+        )
+    },
+    method=METHODS,
+)
+def test_what_is_linear_takes_steps_of_the_active_set_alone(counts, given, shift, method):
+    """Both rings may turn together for nothing, and no step must be lost on it."""
+    rings = FreeRings(*counts, fixed=False, shift=shift, layers=4, sliding="small", **{given: 0.01})
+    rings.problem.solve()
+    assert rings.problem.report.iterations <= 4
+    assert rings.mean_pressure == pytest.approx(lame(0.01, False), rel=0.08)
+
+
+@covering(**{"sliding,method": BOTH}, fixed=(True, False), counts=((31, 31), (31, 47)))
+def test_clearance(sliding, method, fixed, counts):
+    rings = FreeRings(*counts, fixed=fixed, larger=-0.03, shift=(0.01, 0.002), sliding=sliding)
+    rings.problem.solve()
+    assert rings.problem.report.iterations == 0
+    assert not rings.u.x.array.any() and not rings.contact.force.any()
+
+
+@covering(**{"sliding,method": BOTH}, fixed=(True, False), counts=((63, 63), (63, 95)))
+def test_an_overlap_on_one_side_is_pushed_out(sliding, method, fixed, counts):
+    """Neither ring is bent for good where there is room on the other side."""
+    rings = FreeRings(*counts, fixed=fixed, shift=(0.01, 0.0), sliding=sliding)
+    rings.problem.solve()
+    print(rings.problem.report.iterations)
+    # What the corners of one polygon stand out by over the sides of the other one
+    assert rings.mean_pressure <= 0.1 * lame(0.01, fixed)
+    assert moved(rings) <= 0.02
+
+
+@covering(sliding=SLIDINGS, fixed=(True, False), counts=((24, 24), (24, 36)))
+def test_tubes(sliding, fixed, counts):
+    rings = FreeRings(
+        *counts, fixed=fixed, height=1, layers=2, larger=0.05, sliding=sliding, method=MORTAR
+    )
+    rings.problem.solve()
+    print(rings.problem.report.iterations, rings.mean_pressure)
+    nodes = rings.contact.interface.nodes
+    assert rings.problem.report.iterations <= 6
+    assert nodes.closed.all() and nodes.pressure.min() > 0.5 * nodes.pressure.max()
+    assert moved(rings) <= 0.06
+
+
+@pytest.mark.parametrize("turned", [1e-3, 0.01, 0.1])
+def test_pairs_far_beyond_their_facets_are_no_solution(turned):
+    """A facet for each node, turned by a part of a facet: no place balances their moment."""
+    rings = FreeRings(63, 63, fixed=True, offset=0.01, turned=turned)
+    with pytest.raises(cx.ConvergenceError, match="no convergence"):
+        rings.problem.solve()
+    assert not rings.u.x.array.any()
+
+
+@pytest.mark.parametrize("turned", [1e-3, 0.01])
+def test_a_ring_that_has_run_away_is_no_solution(turned):
+    rings = FreeRings(31, 31, fixed=False, offset=0.04, turned=turned, layers=4)
+    with pytest.raises(cx.ConvergenceError, match=r"nothing holds has moved by .* than the size"):
+        rings.problem.solve()
+    assert not rings.u.x.array.any()

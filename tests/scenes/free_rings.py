@@ -1,0 +1,129 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""A whole ring, or tube, in another one: nothing but contact holds the inner one."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from mpi4py import MPI
+
+import numpy as np
+import numpy.typing as npt
+
+import basix.ufl
+import contactx as cx
+import ufl
+from dolfinx import fem, mesh
+
+from story import displacement, elasticity
+
+RADII = (1.0, 1.5, 2.0)
+INNER, OUTER, RIM = 1, 2, 3
+
+
+def _ring(
+    inner: float, outer: float, n: int, layers: int, height: int, turned: float = 0.0
+) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.int64]]:
+    """Nodes and cells; layers from the inside out, then around, then up."""
+    angle = 2 * np.pi * (np.arange(n) + turned) / n
+    radius = np.linspace(inner, outer, layers + 1)
+    circle = np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    x = (radius[:, None, None] * circle).reshape(-1, 2)
+    i, j = (k.ravel() for k in np.meshgrid(np.arange(layers), np.arange(n), indexing="ij"))
+    after = (j + 1) % n
+    cells = np.stack([i * n + j, (i + 1) * n + j, i * n + after, (i + 1) * n + after], axis=1)
+    if height == 0:
+        return x, cells
+    floors = np.repeat(np.linspace(0, 0.2 * height, height + 1), len(x))
+    above = np.concatenate([cells + k * len(x) for k in range(height)])
+    x = np.column_stack([np.tile(x, (height + 1, 1)), floors])
+    return x, np.concatenate([above, above + len(circle) * (layers + 1)], axis=1)
+
+
+class FreeRings:
+    """The inner ring in the outer one, which is fixed at its rim or as free as the inner one.
+
+    Attributes:
+        u: Displacement.
+        contact: The inner ring is the slave, or the master if it is swapped.
+        problem: The problem.
+    """
+
+    def __init__(
+        self,
+        n: int,
+        n_outer: int,
+        *,
+        fixed: bool,
+        larger: float = 0.0,
+        shift: Sequence[float] = (0.0, 0.0),
+        turned: float = 0.0,
+        height: int = 0,
+        layers: int = 3,
+        swapped: bool = False,
+        material: Callable[[fem.Function, float, float], ufl.Form] = elasticity,
+        **options: Any,
+    ):
+        """Create them.
+
+        Args:
+            n: Number of cells of the inner ring around.
+            n_outer: The same of the outer ring.
+            fixed: Whether the outer ring's rim is fixed.
+            larger: By how much the inner ring is larger than the hole.
+            shift: By how much the inner ring is off the middle.
+            turned: By how many of its facets the inner ring is turned.
+            height: Number of cells along the axis; no axis if 0.
+            layers: Number of cells across each ring.
+            swapped: Whether the outer ring is the slave.
+            material: Residual of the bulk of E = 1, nu = 0.3.
+            options: Options of the contact.
+        """
+        gdim = 2 if height == 0 else 3
+        a, b, c = RADII
+        x, cells = _ring(a, b + larger, n, layers, height, turned)
+        x[:, :2] += shift
+        y, others = _ring(b, c, n_outer, layers, height)
+        kind = "quadrilateral" if gdim == 2 else "hexahedron"
+        element = basix.ufl.element("Lagrange", kind, 1, shape=(gdim,))
+        both = np.concatenate([cells, others + len(x)])
+        domain = mesh.create_mesh(MPI.COMM_WORLD, both, element, np.concatenate([x, y]))
+        self.u = displacement(domain)
+        F = material(self.u, 1.0, 0.3)
+        tags = self._tags(domain, len(x), n, n_outer, layers)
+        bcs = []
+        if fixed:
+            V = self.u.function_space
+            dofs = fem.locate_dofs_topological(V, gdim - 1, tags.find(RIM))
+            bcs = [fem.dirichletbc(np.zeros(gdim), dofs, V)]
+        surfaces = [cx.Surface(tags, tag) for tag in (INNER, OUTER)]
+        slave, master = surfaces[::-1] if swapped else surfaces
+        self.contact = cx.Contact(slave, master, **options)
+        self.problem = cx.ContactProblem(
+            F, self.u, contacts=[self.contact], bcs=bcs, petsc_options_prefix="rings_"
+        )
+
+    @staticmethod
+    def _tags(domain: mesh.Mesh, first: int, n: int, m: int, layers: int) -> mesh.MeshTags:
+        """Tag the faces by the numbers that their nodes were made with."""
+        tdim = domain.topology.dim
+        domain.topology.create_connectivity(tdim - 1, tdim)
+        facets = mesh.exterior_facet_indices(domain.topology)
+        nodes = mesh.entities_to_geometry(domain, tdim - 1, facets)
+        number = domain.geometry.input_global_indices[nodes]
+        of_inner = number < first
+        layer = np.where(of_inner, number // n % (layers + 1), (number - first) // m % (layers + 1))
+        values = np.zeros(len(facets), dtype=np.int32)
+        values[(of_inner & (layer == layers)).all(axis=1)] = INNER
+        values[(~of_inner & (layer == 0)).all(axis=1)] = OUTER
+        values[(~of_inner & (layer == layers)).all(axis=1)] = RIM
+        order = np.argsort(facets)
+        return mesh.meshtags(domain, tdim - 1, facets[order], values[order])
+
+    @property
+    def mean_pressure(self) -> float:
+        """Of all slave nodes, by their areas."""
+        nodes = self.contact.interface.nodes
+        return float(np.average(nodes.pressure, weights=nodes.area))
