@@ -148,7 +148,9 @@ class FreeBodies:
             field = np.einsum("nim,nmk->nik", modes, coefficients)
             shares = field.reshape(-1, self.free_modes)
             springs = independent_springs(shares, self._bulk, self._bodies.halo)
-            if np.linalg.norm(N.T @ pull) <= _IDLE * reduce.norm(self._comm, forces):
+            idle = np.linalg.norm(N.T @ pull) <= _IDLE * reduce.norm(self._comm, forces)
+            # Friction resists motions across the slip
+            if idle and not self._has_friction():
                 free = self._bulk.markers[: len(shares)] == 0
                 self._loose = shares * free[:, None], self._displacements()
             # Weak, so that they do not slow down what a little stiffness does resist; a body that
@@ -166,7 +168,7 @@ class FreeBodies:
         Args:
             N: The modes, as columns.
         """
-        if not self._bulk.is_linear or any(True for _ in self._rubbing()):
+        if not self._bulk.is_linear or self._has_friction():
             return False
         loads, balanced = self._loads
         return bool(np.linalg.norm(N.T @ loads) <= balanced)
@@ -189,13 +191,13 @@ class FreeBodies:
     def _places(self) -> Array:
         """Positions of all nodes that rigid motions are about, shape (num_nodes, gdim).
 
-        Where all is linear these are the reference positions: a rotation about the current ones
-        changes gaps and strains by what the bodies have moved.
+        Where all but the active set is linear these are the reference positions: a rotation about
+        the current ones changes gaps and strains by what the bodies have moved.
         """
-        interfaces = self._interfaces
-        if self._bulk.is_linear and all(i.sliding == "small" for i in interfaces):
+        linear = self._bulk.is_linear and not self._has_friction()
+        if linear and all(interface.sliding == "small" for interface in self._interfaces):
             return self._bodies.x
-        return interfaces[0].positions()
+        return self._interfaces[0].positions()
 
     def _displacements(self) -> Array:
         """Displacements at owned dofs, shape (num_owned * gdim,)."""
@@ -206,13 +208,13 @@ class FreeBodies:
     def drift(self) -> Array | None:
         """What the bodies have moved along their free modes since the last call of ``stabilise``.
 
-        Where the forces balance and kinematics are frozen nothing asks for such a motion: it comes
-        of the places of the springs, which bodies turn about as they deform, and takes nodes past
-        each other. All ranks must take part.
+        Without friction, where the forces balance and kinematics are frozen, nothing asks for such
+        a motion: it comes of the places of the springs, which bodies turn about as they deform, and
+        takes nodes past each other. All ranks must take part.
 
         Returns:
             Displacements at owned dofs, shape (num_owned * gdim,); None if no mode was free, or
-            forces asked for a motion.
+            something asked for a motion.
         """
         if self._loose is None:
             return None
@@ -374,6 +376,9 @@ class FreeBodies:
             nodes.multiplier.reshape(nodes.slip.shape)[first] = _on_cone(interface)[first]
             nodes.close(first)
         return True
+
+    def _has_friction(self) -> bool:
+        return any(isinstance(interface.law, Coulomb) for interface in self._interfaces)
 
     def _rubbing(self) -> Iterator[tuple[Interface, Coulomb]]:
         """Contacts with friction."""
