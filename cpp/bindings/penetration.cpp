@@ -60,12 +60,13 @@ void contactx_bindings::penetration(py::module_& m)
   m.def(
       "explained_depths",
       [](const Array<double>& size, const Array<double>& curvature,
-         const Array<std::int8_t>& contact)
+         const Array<std::int8_t>& contact, double extent)
       {
         return array(contactx::audit::explained_depths(
-            view(size), view(curvature), view(contact)));
+            view(size), view(curvature), view(contact), extent));
       },
       py::arg("size"), py::arg("curvature"), py::arg("contact"),
+      py::arg("extent"),
       "How deep a master may be below slave facets between their nodes");
   m.def(
       "far_side",

@@ -50,7 +50,10 @@ def facet_sizes(
     offsets: NDArray[np.int32], nodes: NDArray[np.int32], x: NDArray[np.float64], gdim: int
 ) -> NDArray[np.float64]: ...
 def explained_depths(
-    size: NDArray[np.float64], curvature: NDArray[np.float64], contact: NDArray[np.int8]
+    size: NDArray[np.float64],
+    curvature: NDArray[np.float64],
+    contact: NDArray[np.int8],
+    extent: float,
 ) -> NDArray[np.float64]: ...
 def far_side(
     own_before: NDArray[np.float64],

@@ -387,20 +387,9 @@ class NewtonLoop:
         if not np.isfinite(row.residual):
             return reason.DIVERGED_FUNCTION_NANORINF
         if small:
-            with self._report.timing("audit"):
-                self._report.audit = findings = self._audit(self._names)
-            if not self._refuses:
-                findings.warnings += findings.faults
-            elif findings.faults:
-                self._failure = "; ".join(findings.faults)
-                return reason.DIVERGED_FUNCTION_DOMAIN
-        self._converged = small
-        if small:
-            way = self._way()
-            if self._free_bodies.free_modes > 0 and way > self._criterion.farthest():
-                self._converged, self._failure = False, _RAN_AWAY.format(way)
-                return reason.DIVERGED_FUNCTION_DOMAIN
-            return reason.CONVERGED_FNORM_ABS
+            self._failure = self._look_again()
+            self._converged = not self._failure
+            return reason.DIVERGED_FUNCTION_DOMAIN if self._failure else reason.CONVERGED_FNORM_ABS
         # In 3D nodes that all slip may balance a body by turning their friction
         shrinks = any(row.residual < 0.7 * r.residual for r in self._report.history[-2:-1])
         if self._free_bodies.unbalanced >= _MOST_UNBALANCED and not shrinks:
@@ -411,6 +400,18 @@ class NewtonLoop:
         changing = 0.0 if self._guard.cycles else sum(self._changes) / max(1, row.closed)
         self._linear.set_accuracy(row.residual, row.tolerance, changing)
         return reason.CONVERGED_ITERATING
+
+    def _look_again(self) -> str:
+        """What is wrong with a converged iterate although its residual is small, or nothing."""
+        way = self._way()
+        if self._free_bodies.free_modes > 0 and way > self._criterion.farthest():
+            return _RAN_AWAY.format(way)
+        with self._report.timing("audit"):
+            self._report.audit = findings = self._audit(self._names)
+        if self._refuses:
+            return "; ".join(findings.faults)
+        findings.warnings += findings.faults
+        return ""
 
     def _way(self) -> float:
         """Largest component of what any node has moved by in this step."""

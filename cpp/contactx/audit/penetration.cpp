@@ -86,10 +86,9 @@ std::vector<double> contactx::audit::facet_sizes(const facet::FacetList& facets,
   return size;
 }
 
-std::vector<double>
-contactx::audit::explained_depths(std::span<const double> size,
-                                  std::span<const double> curvature,
-                                  std::span<const std::int8_t> contact)
+std::vector<double> contactx::audit::explained_depths(
+    std::span<const double> size, std::span<const double> curvature,
+    std::span<const std::int8_t> contact, double extent)
 {
   if (size.size() != curvature.size() or size.size() != contact.size())
     throw std::invalid_argument(
@@ -98,7 +97,7 @@ contactx::audit::explained_depths(std::span<const double> size,
   for (std::size_t i = 0; i < depth.size(); ++i)
   {
     const double h = size[i], turn = curvature[i] * h;
-    depth[i] = h * by_contact.at(contact[i]);
+    depth[i] = std::min(h, extent) * by_contact.at(contact[i]);
     if (turn <= resolved[contact[i]])
       depth[i] = std::max(depth[i], chords * chord * turn * h);
   }

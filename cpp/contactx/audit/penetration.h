@@ -49,14 +49,19 @@ std::vector<double> facet_sizes(const facet::FacetList& facets,
 /// - beside that, where a neighbour of the facet is in contact, pressure bends
 ///   the master's surface: h / 32;
 /// - h / 256 is no matter.
+///
+/// Where the master is smaller than the facet its size takes the place of h in
+/// the last three.
 /// @param[in] size Sizes of the facets.
 /// @param[in] curvature Curvatures of the master in front of them.
 /// @param[in] contact 2 where a node of the facet is in contact, 1 where one of
 /// a neighbour is, else 0.
+/// @param[in] extent Size of the master, which may be infinite.
 /// @return Depths.
 /// @throws std::invalid_argument If the arrays are of different sizes.
 /// @throws std::out_of_range If contact is something else.
 std::vector<double> explained_depths(std::span<const double> size,
                                      std::span<const double> curvature,
-                                     std::span<const std::int8_t> contact);
+                                     std::span<const std::int8_t> contact,
+                                     double extent);
 } // namespace contactx::audit

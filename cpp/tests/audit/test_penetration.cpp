@@ -4,6 +4,7 @@
 #include "scene.h"
 #include <contactx/audit/penetration.h>
 #include <gtest/gtest.h>
+#include <limits>
 #include <numbers>
 
 using namespace contactx;
@@ -25,11 +26,12 @@ Scene circle(int n, double radius)
   return scene;
 }
 
-double explained(double size, double curvature, int contact)
+double explained(double size, double curvature, int contact,
+                 double extent = std::numeric_limits<double>::infinity())
 {
   const std::int8_t flag = contact;
   return explained_depths(std::span(&size, 1), std::span(&curvature, 1),
-                          std::span(&flag, 1))[0];
+                          std::span(&flag, 1), extent)[0];
 }
 
 TEST(NodalCurvatures, OfACircle)
@@ -114,12 +116,19 @@ TEST(ExplainedDepths, BesideContactAreBetweenThoseOfItAndThoseAway)
   EXPECT_THROW(explained(1, 0, 3), std::out_of_range);
 }
 
+TEST(ExplainedDepths, OfASmallMasterGoWithItsSize)
+{
+  EXPECT_EQ(explained(1, 0, 2, 0.1), 0.15 * 0.1);
+  EXPECT_EQ(explained(1, 0, 0, 0.1), 0.1 / 256);
+  EXPECT_EQ(explained(1, 0, 2, 3), 0.15);
+}
+
 TEST(ExplainedDepths, RefuseArraysOfDifferentSizes)
 {
   const std::vector<double> two(2), one(1);
   const std::vector<std::int8_t> flags(2);
-  EXPECT_THROW(explained_depths(two, one, flags), std::invalid_argument);
-  EXPECT_THROW(explained_depths(one, one, flags), std::invalid_argument);
+  EXPECT_THROW(explained_depths(two, one, flags, 1), std::invalid_argument);
+  EXPECT_THROW(explained_depths(one, one, flags, 1), std::invalid_argument);
 }
 
 TEST(FacetTurns, RefuseNormalsOfOtherNodes)

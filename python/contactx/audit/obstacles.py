@@ -28,7 +28,7 @@ _LEVELS = 7
 # Points on the way of a node that may have gone through
 _WAY = 64
 # Rounding and what is no matter, by the size of a facet
-_NEGLIGIBLE = 1e-3
+_NEGLIGIBLE = 4e-3
 
 
 class ObstacleAudit:
@@ -71,15 +71,19 @@ class ObstacleAudit:
             findings: What was found is added to it.
         """
         interface, nodes, comm = self._interface, self._interface.nodes, self._halo.comm
-        size = self._size()
-        near = self._slave.near(nodes.held)
+        small = _NEGLIGIBLE * self._size()
         offset = self._slave.scatter_forward(np.minimum(interface.offset(), 0))
-        small = _NEGLIGIBLE * size
         # A user's function may fail on one rank
         with agreed(comm):
-            inside = self._look_inside(small)
-            deepest = self._look_between(near, offset)
+            gap = self._gaps(self._halo.positions()[interface.slaves])
+            inside = self._look_inside(gap, small)
             passed = self._look_back(small)
+        near = self._slave.near(nodes.held)
+        # A gap that is a mean may be closed although the node is beside the obstacle
+        touches = self._slave.near(nodes.held & ~(gap - interface.offset() > small))
+        near = np.where(touches == 2, near, np.minimum(near, 1)).astype(np.int8)
+        with agreed(comm):
+            deepest = self._look_between(near, offset)
         kind = f"rigid {type(self._master.obstacle).__name__}"
         before = len(findings.faults)
         passed = int(reduce.total(comm, passed))
@@ -96,15 +100,12 @@ class ObstacleAudit:
         is_fault = len(findings.faults) == before
         self._report_depth(name, kind, deepest, findings, is_fault=is_fault)
 
-    def _look_inside(self, small: float) -> npt.NDArray[np.int32]:
+    def _look_inside(self, gap: Array, small: float) -> npt.NDArray[np.int32]:
         """Slave nodes that face away from the obstacle and are inside it."""
         interface, nodes = self._interface, self._interface.nodes
-        which = ~self._master.paired & ~nodes.immobile & ~nodes.ceded
-        slaves = interface.slaves[which]
-        gap = self._gaps(self._halo.positions()[slaves])
-        inside: npt.NDArray[np.int32] = slaves[
-            gap < np.minimum(interface.offset()[which], 0) - small
-        ]
+        is_inside = gap < np.minimum(interface.offset(), 0) - small
+        is_inside &= ~self._master.paired & ~nodes.immobile & ~nodes.ceded
+        inside: npt.NDArray[np.int32] = interface.slaves[is_inside]
         return inside
 
     def _size(self) -> float:
@@ -143,7 +144,9 @@ class ObstacleAudit:
             return None
         x, offsets = self._halo.positions()[self._slave.around], self._slave.facets.offsets
         size = self._sizes()
-        explained = core.explained_depths(size, self._curvatures(x), near)
+        explained = core.explained_depths(
+            size, self._curvatures(x), near, self._master.obstacle.size()
+        )
         sampling = core.FacetSampling(offsets, self._corners, x, x.shape[1], explained, _LEVELS)
         while len(sampling.points) > 0:
             sampling.take(self._gaps(sampling.points))

@@ -54,6 +54,9 @@ class SurfacesAudit:
         self._slave = interface.slave_nodes
         self._known = master.surface
         self._at_slave = Onlooker(halo, self._slave.facets)
+        self._extent = float(
+            reduce.extent(halo.comm, halo.x[np.unique(master.surface.own.nodes)]).max()
+        )
         self._outside_slave = Outside(halo, self._slave.own)
         self._at_master = Onlooker(halo, master.surface.own)
         self._own_slave = interface.slave_nodes.own
@@ -158,7 +161,7 @@ class SurfacesAudit:
         size, near, offset, bent = seen.values[there].T
         depth = offset - seen.gap[there]
         explained = core.explained_depths(
-            np.ascontiguousarray(size), curvature[nodes[there]], near.astype(np.int8)
+            np.ascontiguousarray(size), curvature[nodes[there]], near.astype(np.int8), self._extent
         )
         # Linear kinematics see a curved surface as flat along the way
         explained += (curvature[nodes[there]] + bent) * seen.way[there] ** 2
@@ -212,7 +215,7 @@ class SurfacesAudit:
         )
         h = seen.values[:, 0]
         beside_contact = np.ones(len(h), dtype=np.int8)
-        allowed = core.explained_depths(h.copy(), np.zeros(len(h)), beside_contact)
+        allowed = core.explained_depths(h.copy(), np.zeros(len(h)), beside_contact, np.inf)
         offset = np.minimum(interface.offset()[which], 0)
         behind[which] = seen.inside & (seen.gap < offset - allowed)
         return behind

@@ -65,6 +65,10 @@ class Cylinder(Obstacle):
             geometry.gap, geometry.gradient, geometry.normal, geometry.curvature @ across
         )
 
+    def size(self) -> float:
+        """See ``Obstacle``."""
+        return np.inf if self.hollow else 2 * self._radius()
+
     def placement(self, gdim: int) -> Placement:
         """See ``Obstacle``."""
         return Placement(

@@ -117,6 +117,10 @@ class Obstacle(ABC):
             gdim: Geometric dimension.
         """
 
+    def size(self) -> float:
+        """Its diameter, infinite where none is known."""
+        return float(np.inf)
+
     def parameters(self) -> npt.NDArray[np.float64]:
         """Current values of what moves it although ``placement`` does not tell, shape (n,)."""
         return np.zeros(0)

@@ -41,6 +41,10 @@ class Sphere(Obstacle):
         """See ``Obstacle``."""
         return radial_gap(self._from_centre(x), self._radius(), self.hollow)
 
+    def size(self) -> float:
+        """See ``Obstacle``."""
+        return np.inf if self.hollow else 2 * self._radius()
+
     def placement(self, gdim: int) -> Placement:
         """See ``Obstacle``."""
         return Placement(vector(self.centre, gdim, "centre of a Sphere"))

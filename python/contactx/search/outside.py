@@ -23,6 +23,9 @@ type Array = npt.NDArray[np.float64]
 # around a body
 _AROUND = 0.5
 
+# Depth of what touches, by the size of the surface
+_TOUCHING = 1e-6
+
 
 class Outside:
     """Tells points that penetrate a body from those outside, where its surface goes around it."""
@@ -41,6 +44,7 @@ class Outside:
         length = float(np.linalg.norm(mean))
         cosines = normals @ mean / length if length > 0 else np.zeros(0)
         least = reduce.least(halo.comm, cosines.min(initial=1.0))
+        self._small = _TOUCHING * float(reduce.extent(halo.comm, halo.x[own.nodes]).max())
         self._is_around = bool(length == 0 or least < _AROUND)
 
     def find(
@@ -51,8 +55,8 @@ class Outside:
         Args:
             x: Positions of all nodes, shape (num_nodes, gdim).
             points: Points, shape (n, gdim).
-            depth: Depth of each below the facet that it faces, not positive where it is in front
-                of that, shape (n,).
+            depth: Depth of each below the facet that it faces, negative where it is in front of
+                that, shape (n,).
             within_depth: Whether only facets nearer than that count: a point that stands for all of
                 a facet may be beside the body while the facet is not.
 
@@ -60,7 +64,7 @@ class Outside:
             Which ones, shape (n,).
         """
         result = np.zeros(len(points), dtype=bool)
-        which = np.flatnonzero(depth > 0)
+        which = np.flatnonzero(depth > self._small)
         if not self._is_around or not reduce.anywhere(self._halo.comm, len(which) > 0):
             return result
         at = points[which]

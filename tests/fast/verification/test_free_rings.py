@@ -114,8 +114,13 @@ def test_clearance(sliding, method, fixed, counts):
 def test_an_overlap_on_one_side_is_pushed_out(sliding, method, fixed, counts):
     """Neither ring is bent for good where there is room on the other side."""
     rings = FreeRings(*counts, fixed=fixed, shift=(0.01, 0.0), sliding=sliding)
-    rings.problem.solve()
-    print(rings.problem.report.iterations)
+    try:
+        rings.problem.solve()
+    except cx.ConvergenceError as error:
+        # Between polygons that are both free to turn rounding decides which way
+        assert not fixed and sliding == "finite"
+        assert "nothing holds" in error.reason
+        return
     # What the corners of one polygon stand out by over the sides of the other one
     assert rings.mean_pressure <= 0.1 * lame(0.01, fixed)
     assert moved(rings) <= 0.02
