@@ -18,7 +18,11 @@ from dolfinx.mesh import CellType
 from meshes import Tag
 from ranks.partitions import partitioned
 from scenes import NU, Blocks
+from scenes.held_sheet import HeldSheet
+from scenes.materials import st_venant_kirchhoff
+from scenes.punched_block import PunchedBlock
 from scenes.steps import SlidingBlocks
+from scenes.two_tips import TwoTips
 from story import elasticity, traction
 
 QUADRILATERAL, HEXAHEDRON = CellType.quadrilateral, CellType.hexahedron
@@ -202,3 +206,39 @@ def checkpoint_cannot_be_written(folder: Path) -> dict[str, Any]:
         path.parent.write_text("a file in its place")
     comm.Barrier()
     return {"errors": _raised(comm, lambda: list(steps))}
+
+
+def slave_is_too_coarse(folder: Path) -> dict[str, Any]:
+    """A punch reaches through a facet whose nodes other ranks may have."""
+    block = PunchedBlock(2, n=4, punch=8, x0=0.25)
+    comm = block.u.function_space.mesh.comm
+    return {"errors": _raised(comm, block.problem.solve), "clean": not block.u.x.array.any()}
+
+
+def ball_is_between_nodes(folder: Path) -> dict[str, Any]:
+    """Of a facet that one rank has."""
+    block = PunchedBlock(3, n=4, ball=0.1, x0=0.25)
+    return {"errors": _raised(block.u.function_space.mesh.comm, block.problem.solve)}
+
+
+def tips_pass_each_other(folder: Path) -> dict[str, Any]:
+    """Of which each may be on a rank of its own."""
+    tips = TwoTips(method="surface-to-surface", whole=True, overlap=0.2)
+    tips.push(12.0)
+    return {"errors": _raised(tips.u.function_space.mesh.comm, tips.problem.solve)}
+
+
+def tool_goes_through(folder: Path) -> dict[str, Any]:
+    """A sheet, part of which each rank has."""
+    sheet = HeldSheet(n=12)
+    comm = sheet.u.function_space.mesh.comm
+    sheet.push(2.5)
+    return {"errors": _raised(comm, sheet.problem.solve)}
+
+
+def cells_are_turned_inside_out(folder: Path) -> dict[str, Any]:
+    """Of a few of one rank."""
+    block = HeldSheet(n=24, thickness=1.0, on_ground=True, material=st_venant_kirchhoff)
+    comm = block.u.function_space.mesh.comm
+    block.push(0.6)
+    return {"errors": _raised(comm, block.problem.solve)}

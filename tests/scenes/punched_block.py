@@ -65,7 +65,9 @@ class PunchedBlock:
         cells = np.concatenate([c + first[k] for k, (_, c) in enumerate(parts)])
         kind = ["", "", "quadrilateral", "hexahedron"][gdim]
         element = basix.ufl.element("Lagrange", kind, 1, shape=(gdim,))
-        domain = mesh.create_mesh(MPI.COMM_SELF, cells, element, x)
+        comm = MPI.COMM_WORLD
+        mine = slice(None if comm.rank == 0 else 0)
+        domain = mesh.create_mesh(comm, cells[mine], element, x[mine])
         self.u = u = displacement(domain)
         V, tags = u.function_space, _tagged(domain, unit * width)
 
@@ -110,10 +112,11 @@ def _tagged(domain: mesh.Mesh, height: float) -> mesh.MeshTags:
     cells = domain.topology.connectivity(tdim - 1, tdim)
     of_facet = np.array([cells.links(f)[0] for f in facets], dtype=np.int32)
     above = mesh.compute_midpoints(domain, tdim, of_facet)[:, tdim - 1] > 0
-    size = np.abs(domain.geometry.x).max()
+    size = domain.comm.allreduce(np.abs(domain.geometry.x).max(initial=0.0), MPI.MAX)
+    bottom = domain.comm.allreduce(at.min(initial=np.inf), MPI.MIN)
     values = np.zeros(len(facets), dtype=np.int32)
     values[(np.abs(at) < 1e-9 * size) & ~above] = TOP
     values[(np.abs(at) < 1e-9 * size) & above] = FOOT
-    values[np.abs(at - at.min()) < 1e-9 * size] = BOTTOM
+    values[np.abs(at - bottom) < 1e-9 * size] = BOTTOM
     values[(np.abs(at - height) < 1e-9 * size) & above] = HEAD
     return mesh.meshtags(domain, tdim - 1, facets, values)

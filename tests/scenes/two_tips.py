@@ -44,7 +44,10 @@ class TwoTips:
             first = np.arange((n + 1) * 3).reshape(n + 1, 3)[:-1, :-1].ravel() + k * 3 * (n + 1)
             cells.append(np.stack([first, first + 3, first + 1, first + 4], axis=1))
         element = basix.ufl.element("Lagrange", "quadrilateral", 1, shape=(2,))
-        domain = mesh.create_mesh(MPI.COMM_SELF, np.concatenate(cells), element, np.concatenate(x))
+        comm = MPI.COMM_WORLD
+        mine = slice(None if comm.rank == 0 else 0)
+        nodes, every = np.concatenate(x), np.concatenate(cells)
+        domain = mesh.create_mesh(comm, every[mine], element, nodes[mine])
         domain.topology.create_connectivity(1, 2)
         facets = mesh.exterior_facet_indices(domain.topology)
         middles = mesh.compute_midpoints(domain, 1, facets)

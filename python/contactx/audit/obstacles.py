@@ -59,7 +59,8 @@ class ObstacleAudit:
         x, facets, around = self._halo.positions(), self._slave.facets, self._slave.around
         owned, gdim = len(self._slave.owned), x.shape[1]
         nodal = core.nodal_normals(facets.offsets, self._corners, x[around], gdim)
-        middles, normals = facet_middles(facets, x)
+        # Each facet on one rank
+        middles, normals = facet_middles(self._slave.own, x)
         points = np.concatenate([x[around][:owned], middles])
         return points, np.concatenate([nodal.reshape(-1, gdim)[:owned], normals])
 

@@ -22,6 +22,11 @@ RAISED = {
     "surfaces_share_nodes": "ValueError: slave and master overlap",
     "node_is_constrained_inside": "constrain 3 slave nodes inside the rigid obstacle",
     "load_is_not_balanced": "ConvergenceError: contact did not converge: the loads on a body",
+    "slave_is_too_coarse": "the master reaches 0.02 deep through a slave facet of size 0.5",
+    "ball_is_between_nodes": "the rigid Sphere reaches 0.02 deep through a slave facet of size",
+    "tips_pass_each_other": "nodes went through the other surface within the step",
+    "tool_goes_through": "7 slave nodes and facets went through the rigid Sphere within the step",
+    "cells_are_turned_inside_out": "8 cells are turned inside out, the worst with det F = -1.1",
     "checkpoint_is_damaged": "is truncated, or no checkpoint at all",
     "checkpoint_cannot_be_written": "Error: ",
 }
