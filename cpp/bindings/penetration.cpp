@@ -106,6 +106,14 @@ void contactx_bindings::penetration(py::module_& m)
       .def(
           "take", [](FacetSampling& self, const Array<double>& gap)
           { self.take(view(gap)); }, py::arg("gap"))
+      .def_property_readonly(
+          "deepest",
+          [](const FacetSampling& self)
+          {
+            const auto& p = self.deepest();
+            return array(p, {static_cast<py::ssize_t>(p.size()) / self.gdim(),
+                             self.gdim()});
+          })
       .def_property_readonly("gaps", [](const FacetSampling& self)
                              { return array(self.gaps()); });
 }

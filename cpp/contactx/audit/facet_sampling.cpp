@@ -16,7 +16,9 @@ FacetSampling::FacetSampling(const facet::FacetList& facets,
                              std::span<const double> x, int gdim,
                              std::vector<double> allowed, int levels)
     : _gdim(gdim), _levels(levels), _allowed(std::move(allowed)),
-      _gap(facets.size(), std::numeric_limits<double>::infinity())
+      _gap(facets.size(), std::numeric_limits<double>::infinity()),
+      _deepest(facets.size() * static_cast<std::size_t>(gdim),
+               std::numeric_limits<double>::quiet_NaN())
 {
   if (_allowed.size() != _gap.size())
     throw std::invalid_argument("depths of another number of facets");
@@ -110,10 +112,14 @@ void FacetSampling::take(std::span<const double> gap)
   const auto first = std::exchange(_first, {});
   const auto corners = std::exchange(_corners, {});
   const auto radius = std::exchange(_radius, {});
-  _points.clear();
+  const auto points = std::exchange(_points, {});
   for (std::size_t i = 0; i < facet.size(); ++i)
-    if (gap[i] < _gap[facet[i]])
-      _gap[facet[i]] = gap[i];
+    if (const std::int32_t f = facet[i]; gap[i] < _gap[f])
+    {
+      _gap[f] = gap[i];
+      std::copy_n(points.begin() + i * _gdim, _gdim,
+                  _deepest.begin() + static_cast<std::size_t>(f) * _gdim);
+    }
   if (_levels-- <= 0)
     return;
   for (std::size_t i = 0; i < facet.size(); ++i)

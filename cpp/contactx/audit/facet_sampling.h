@@ -48,12 +48,16 @@ public:
   /// (shape=(num_facets)).
   const std::vector<double>& gaps() const { return _gap; }
 
+  /// @brief Where that was, not a number if none (shape=(num_facets, gdim)),
+  /// row-major.
+  const std::vector<double>& deepest() const { return _deepest; }
+
 private:
   void add(std::int32_t facet, std::span<const double> corners);
   void halve(std::int32_t facet, std::span<const double> corners);
 
   int _gdim, _levels;
-  std::vector<double> _allowed, _gap;
+  std::vector<double> _allowed, _gap, _deepest;
   // Pieces of one size: their facet, first corner and corners
   std::vector<std::int32_t> _facet;
   std::vector<std::size_t> _first;

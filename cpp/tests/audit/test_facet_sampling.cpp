@@ -83,6 +83,24 @@ TEST(FacetSampling, SeesASmallBallAnywhereInAFacet)
   }
 }
 
+TEST(FacetSampling, RemembersTheDeepestPlace)
+{
+  const Scene scene = triangle();
+  FacetSampling sampling(scene.facets(), scene.x, 3, {1e-3}, 7);
+  EXPECT_TRUE(std::isnan(sampling.deepest()[0]));
+  const auto gap = ball({0.3, 0.4, 0}, 0.01);
+  while (!sampling.points().empty())
+  {
+    std::vector<double> gaps;
+    const auto points = sampling.points();
+    for (std::size_t i = 0; i < points.size(); i += 3)
+      gaps.push_back(gap({points[i], points[i + 1], points[i + 2]}));
+    sampling.take(gaps);
+  }
+  const auto& p = sampling.deepest();
+  EXPECT_EQ(gap({p[0], p[1], p[2]}), sampling.gaps()[0]);
+}
+
 TEST(FacetSampling, AsksOnceWhereTheObstacleIsFar)
 {
   const auto [gaps, asked]

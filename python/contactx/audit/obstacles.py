@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from operator import itemgetter
 
 import numpy as np
@@ -118,14 +119,23 @@ class ObstacleAudit:
         return core.facet_sizes(facets.offsets, self._corners, x[self._slave.around], x.shape[1])
 
     def _gaps(self, points: Array) -> Array:
-        """Gaps of points; as many at a time as there are slave nodes, which is compiled already."""
+        """Gaps of points."""
+        return self._seen(points, self._master.obstacle.distance)
+
+    def _seen(self, points: Array, function: Callable[[Array], Array]) -> Array:
+        """Values of a function of the obstacle at points.
+
+        As many at a time as there are slave nodes: for so many a function of UFL is compiled.
+        """
         n, at_a_time = len(points), max(1, len(self._slave.owned))
-        gaps = [np.zeros(0)]
+        if n == 0:
+            return function(points)
+        parts = []
         for first in range(0, n, at_a_time):
             part = points[first : first + at_a_time]
             rows = np.resize(np.arange(len(part)), at_a_time)
-            gaps.append(self._master.obstacle.distance(part[rows])[: len(part)])
-        return np.concatenate(gaps)
+            parts.append(function(part[rows])[: len(part)])
+        return np.concatenate(parts)
 
     def _look_between(
         self, near: npt.NDArray[np.int8], offset: Array
@@ -152,6 +162,11 @@ class ObstacleAudit:
         while len(sampling.points) > 0:
             sampling.take(self._gaps(sampling.points))
         depth = self._slave.of_facets(offset, np.minimum) - sampling.gaps
+        # Between nodes whose normals tell nothing of it may be a punch
+        deep = np.flatnonzero(depth > 0)
+        curvature = self._curvatures(x)
+        curvature[deep] = np.maximum(curvature[deep], self._turns(deep, sampling.deepest[deep], x))
+        explained = core.explained_depths(size, curvature, near, self._master.obstacle.size())
         worst = int((depth / explained).argmax())
         middle = x[self._corners[offsets[worst] : offsets[worst + 1]]].mean(axis=0)
         ratio = float(depth[worst] / explained[worst])
@@ -189,6 +204,29 @@ class ObstacleAudit:
         turn = core.facet_turns(offsets, self._corners, x, normal, gdim)
         curvature: Array = np.maximum(turn, self._slave.of_facets(at_nodes))
         return curvature
+
+    def _turns(self, which: npt.NDArray[np.integer], at: Array, x: Array) -> Array:
+        """How much the obstacle's normal turns on the way from nodes of facets to points in them.
+
+        Args:
+            which: Facets, shape (n,).
+            at: A point of each, shape (n, gdim).
+            x: Positions of the slave nodes around, shape (m, gdim).
+        """
+        turn = np.zeros(len(which))
+        if len(which) == 0:
+            return turn
+        normal, there = (self._seen(p, self._master.obstacle.normals) for p in (x, at))
+        offsets = self._slave.facets.offsets
+        sizes = np.diff(offsets)[which]
+        for k in range(int(sizes.max())):
+            has = np.flatnonzero(sizes > k)
+            node = self._corners[offsets[which[has]] + k]
+            way = np.linalg.norm(at[has] - x[node], axis=1)
+            angle = np.linalg.norm(there[has] - normal[node], axis=1)
+            steep = np.divide(angle, way, out=np.zeros(len(has)), where=way > 0)
+            turn[has] = np.maximum(turn[has], steep)
+        return turn
 
     def _look_back(self, small: float) -> int:
         """Number of nodes and facets of this rank that have gone through the obstacle."""

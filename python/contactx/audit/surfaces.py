@@ -155,7 +155,7 @@ class SurfacesAudit:
             None if ways is None else (ways, ways[nodes]),
         )
         height = np.nan_to_num(seen.height)
-        outside = self._outside_slave.find(x, x[nodes], -height)
+        outside = self._outside_slave.find(x, x[nodes], -height, seen.values[:, 0])
         # What overlaps the outer edge by less is not in contact
         there = np.flatnonzero(~np.isnan(seen.gap) & (seen.margin > _OVERLAP) & ~outside)
         size, near, offset, bent = seen.values[there].T
@@ -217,7 +217,7 @@ class SurfacesAudit:
         beside_contact = np.ones(len(h), dtype=np.int8)
         allowed = core.explained_depths(h.copy(), np.zeros(len(h)), beside_contact, np.inf)
         offset = np.minimum(interface.offset()[which], 0)
-        behind[which] = seen.inside & (seen.gap < offset - allowed)
+        behind[which] = seen.inside & (seen.margin > _OVERLAP) & (seen.gap < offset - allowed)
         return behind
 
     def _look_from_slave(self, name: str, findings: Findings) -> None:

@@ -93,11 +93,16 @@ class FacetMaster(Master):
 
     def _drop_outside(self, x: Array, closed: npt.NDArray[np.int8]) -> int:
         """Drop pairs with facets behind all of the master's body; returns the changes."""
+        if not self._outside.is_around:
+            return 0
         pairing, points = self._pairing, x[self._slaves]
         foot, normal = pairing.places(x, pairing.xi)
         depth = np.einsum("ij,ij->i", normal, foot - points)
-        depth[pairing.facet < 0] = 0
-        which = np.flatnonzero(self._outside.find(x, points, depth)).astype(np.int32)
+        facets = self.surface.facets
+        # None for what has no facet
+        size = np.append(core.facet_sizes(facets.offsets, facets.nodes, x, x.shape[1]), np.inf)
+        outside = self._outside.find(x, points, depth, size[pairing.facet])
+        which = np.flatnonzero(outside).astype(np.int32)
         n = len(which)
         none = np.full(n, -1, dtype=np.int32), np.zeros(n, dtype=np.int32)
         return pairing.settle(

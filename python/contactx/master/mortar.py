@@ -129,12 +129,17 @@ class MortarMaster(Master):
 
     def _without_outside(self, x: Array, found: core.FacetPairs) -> core.FacetPairs:
         """Pairs but for those with facets behind all of the master's body."""
+        if not self._outside.is_around:
+            return found
         middles, normals = facet_middles(self._facets, x)
         others, _ = facet_middles(self.surface.facets, x)
         slave = found.slave
         way = middles[slave] - others[found.master]
         depth = np.einsum("ij,ij->i", normals[slave], way)
-        outside = self._outside.find(x, middles[slave], depth, within_depth=True)
+        lists = (self._facets, self.surface.facets)
+        sizes = [core.facet_sizes(f.offsets, f.nodes, x, self._gdim) for f in lists]
+        size = np.maximum(sizes[0][slave], sizes[1][found.master])
+        outside = self._outside.find(x, middles[slave], depth, size, within_depth=True)
         return found.without(outside.astype(np.int8)) if outside.any() else found
 
     def _moved(self, x: Array) -> bool:

@@ -95,14 +95,24 @@ class LevelSet(Obstacle):
 
     def distance(self, x: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
         """See ``Obstacle``; points between slave nodes may be where the function means nothing."""
-        if len(x) == 0:
-            return np.zeros(0)
-        f, g = self._values(x) if self._gradient is not None else self._compiled_for(x)(x)[:2]
-        size = np.linalg.norm(g, axis=1)
+        f, _, size = self._first_order(x)
         gap = np.copysign(np.inf, f)
         np.divide(f, size, out=gap, where=size > 0)
         gap[~np.isfinite(f) | ~np.isfinite(size)] = np.inf
         return gap
+
+    def normals(self, x: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+        """See ``Obstacle``."""
+        _, g, size = self._first_order(x)
+        usable = np.isfinite(size) & (size > 0)
+        return np.divide(g, size[:, None], out=np.zeros_like(g), where=usable[:, None])
+
+    def _first_order(self, x: npt.NDArray[np.float64]) -> tuple[npt.NDArray[np.float64], ...]:
+        """Function, its gradient and the size of that."""
+        if len(x) == 0:
+            return np.zeros(0), np.zeros(x.shape), np.zeros(0)
+        f, g = self._values(x) if self._gradient is not None else self._compiled_for(x)(x)[:2]
+        return f, g, np.linalg.norm(g, axis=1)
 
     def _compiled_for(self, x: npt.NDArray[np.float64]) -> _Compiled:
         if x.shape not in self._compiled:

@@ -136,6 +136,17 @@ class Obstacle(ABC):
         """
         return self.evaluate(x).gap
 
+    def normals(self, x: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+        """Outward unit normals alone, zero where there is none.
+
+        Args:
+            x: Points, shape (n, gdim).
+
+        Returns:
+            Normals, shape (n, gdim).
+        """
+        return self.evaluate(x).normal
+
     def level(self, x: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
         """Function of the sign of the gap, of any scale, also where there is no normal.
 

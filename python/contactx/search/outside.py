@@ -23,12 +23,17 @@ type Array = npt.NDArray[np.float64]
 # around a body
 _AROUND = 0.5
 
-# Depth of what touches, by the size of the surface
-_TOUCHING = 1e-6
+# Depth below a facet, by its size, up to which a point counts as on it: pairs may stay with a facet
+# beyond its edges, and a point may stand for all of a facet
+_ON_IT = 0.2
 
 
 class Outside:
-    """Tells points that penetrate a body from those outside, where its surface goes around it."""
+    """Tells points that penetrate a body from those outside, where its surface goes around it.
+
+    Attributes:
+        is_around: Whether it does; else no point is outside.
+    """
 
     def __init__(self, halo: Halo, own: FacetList):
         """Find out whether the surface goes around its body; all ranks must take part.
@@ -44,11 +49,10 @@ class Outside:
         length = float(np.linalg.norm(mean))
         cosines = normals @ mean / length if length > 0 else np.zeros(0)
         least = reduce.least(halo.comm, cosines.min(initial=1.0))
-        self._small = _TOUCHING * float(reduce.extent(halo.comm, halo.x[own.nodes]).max())
-        self._is_around = bool(length == 0 or least < _AROUND)
+        self.is_around = bool(length == 0 or least < _AROUND)
 
     def find(
-        self, x: Array, points: Array, depth: Array, *, within_depth: bool = False
+        self, x: Array, points: Array, depth: Array, size: Array, *, within_depth: bool = False
     ) -> npt.NDArray[np.bool_]:
         """Find which points are outside; all ranks must take part.
 
@@ -57,6 +61,7 @@ class Outside:
             points: Points, shape (n, gdim).
             depth: Depth of each below the facet that it faces, negative where it is in front of
                 that, shape (n,).
+            size: Size of that facet, shape (n,).
             within_depth: Whether only facets nearer than that count: a point that stands for all of
                 a facet may be beside the body while the facet is not.
 
@@ -64,8 +69,8 @@ class Outside:
             Which ones, shape (n,).
         """
         result = np.zeros(len(points), dtype=bool)
-        which = np.flatnonzero(depth > self._small)
-        if not self._is_around or not reduce.anywhere(self._halo.comm, len(which) > 0):
+        which = np.flatnonzero(depth > _ON_IT * size)
+        if not self.is_around or not reduce.anywhere(self._halo.comm, len(which) > 0):
             return result
         at = points[which]
         nothing = np.zeros((self._onlooker.num_facets, 0))
