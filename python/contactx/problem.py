@@ -198,7 +198,8 @@ class ContactProblem:
                 check_drag(self._interfaces, self.contacts, self._halo)
                 for contact in self.contacts:
                     contact.accept()
-                self._newton.accept()
+                with report.timing("audit"):
+                    self._newton.accept()
                 self._complete(report)
                 interrupts.come()
             except BaseException as error:

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """The benchmarks run on coarse meshes, so that they cannot rot; what they measure is not judged."""
 
+import bench_audit
 import bench_friction
 import bench_growth
 import bench_hertz
@@ -128,6 +129,13 @@ def test_spheres():
     rows = bench_spheres.main(["0.2"])
     assert len(rows) == len(bench_spheres.CASES) * len(METHODS)
     assert all(abs(row["a_best"]) < 0.2 for row in rows)
+
+
+def test_audit():
+    rows = bench_audit.main(["0.1"])
+    assert len(rows) == 2 * len(METHODS)
+    assert all(0 < row["audit"] < row["total"] for row in rows)
+    assert all(0 <= row["excess"] < 1 for row in rows)
 
 
 def test_ironing():
