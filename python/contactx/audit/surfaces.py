@@ -205,11 +205,14 @@ class SurfacesAudit:
         x, ways = self._configuration()
         size = core.facet_sizes(own.offsets, own.nodes, x, gdim)
         nodes = interface.slaves[which]
+        # What the search may reach, but in small sliding nodes may have gone farther since
+        reach = reduce.largest(comm, size.max(initial=0.0))
+        reach = reach if ways is not None else min(reach, interface.master.reach)
         seen = self._at_master.look(
             x,
             x[nodes],
             np.zeros((len(nodes), gdim)),
-            reduce.largest(comm, size.max(initial=0.0)),
+            reach,
             size[:, None],
             None if ways is None else (ways, ways[nodes]),
         )
