@@ -19,7 +19,7 @@ constexpr std::array resolved{0.5, 1., 1.};
 /// that is allowed
 constexpr double chord = 1. / 8, chords = 2;
 /// Depths by the size of a facet: away from contact, beside it and in it
-constexpr std::array by_contact{1. / 256, 1. / 32, 0.15};
+constexpr std::array by_contact{1. / 256, 1. / 64, 0.15};
 
 double distance(std::span<const double> x, std::int32_t a, std::int32_t b,
                 int gdim)

@@ -47,7 +47,7 @@ std::vector<double> facet_sizes(const facet::FacetList& facets,
 ///   touch, as over the edge of a punch; beyond 0.15 h it is too coarse for
 ///   that;
 /// - beside that, where a neighbour of the facet is in contact, pressure bends
-///   the master's surface: h / 32;
+///   the master's surface: h / 64;
 /// - h / 256 is no matter.
 ///
 /// Where the master is smaller than the facet its size takes the place of h in

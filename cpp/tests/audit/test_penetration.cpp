@@ -110,9 +110,9 @@ TEST(ExplainedDepths, AreLargerInContactAndScaleWithTheUnits)
 
 TEST(ExplainedDepths, BesideContactAreBetweenThoseOfItAndThoseAway)
 {
-  EXPECT_EQ(explained(1, 0, 1), 1. / 32);
+  EXPECT_EQ(explained(1, 0, 1), 1. / 64);
   EXPECT_EQ(explained(1, 0.9, 1), 0.225);
-  EXPECT_EQ(explained(1, 1.1, 1), 1. / 32);
+  EXPECT_EQ(explained(1, 1.1, 1), 1. / 64);
   EXPECT_THROW(explained(1, 0, 3), std::out_of_range);
 }
 
