@@ -208,7 +208,10 @@ class Judge:
             mesh.topology.dim - 1,
             np.concatenate([slave.facet_tags.find(t) for t in slave.tags]),
         )
-        return self._node_of[parts], float(np.ptp(mesh.geometry.x[facets], axis=1).max())
+        x = mesh.geometry.x[facets]
+        # The longest distance of two nodes: the same however the scene is turned
+        ways = np.linalg.norm(x[:, :, None] - x[:, None], axis=3)
+        return self._node_of[parts], float(ways.max())
 
     def _penetration(self) -> Iterator[Check]:
         for k, into in enumerate(self._case.into):
