@@ -11,6 +11,7 @@ import numpy.typing as npt
 
 import basix.ufl
 import ufl
+from contactx.compat import forget_derivatives
 from contactx.parallel.halo import Halo
 from dolfinx import fem, la
 
@@ -69,4 +70,5 @@ class CellForces:
         w = ufl.TestFunction(fem.functionspace(domain, element))
         (v,) = self._F.arguments()
         broken = ufl.replace(ufl.algorithms.expand_derivatives(self._F), {v: w})
+        forget_derivatives()
         return [fem.form(ufl.Form([i]), **self._options) for i in broken.integrals()]

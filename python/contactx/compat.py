@@ -21,6 +21,7 @@ import numpy as np
 
 import dolfinx
 import dolfinx.fem.petsc  # registers the PETSc type casters
+from ufl.corealg.dag_traverser import DAGTraverser
 
 if tuple(map(int, dolfinx.__version__.split(".")[:2])) < (0, 11):
     raise ImportError(
@@ -52,3 +53,19 @@ def direct_solver() -> str | None:
         if PETSc.Sys.hasExternalPackage(name):
             return name
     return None
+
+
+def forget_derivatives() -> None:
+    """Let go of forms whose derivatives UFL has expanded, and with them of their meshes.
+
+    Methods of its traversers are dispatched by functools.singledispatchmethod, which in Python 3.12
+    and 3.13 keeps each object that it has served for ever.
+    """
+    kinds = [DAGTraverser]
+    while kinds:
+        kind = kinds.pop()
+        kinds += kind.__subclasses__()
+        for method in vars(kind).values():
+            served = getattr(method, "_method_cache", None)
+            if served is not None:
+                served.clear()
