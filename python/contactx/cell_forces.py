@@ -70,5 +70,6 @@ class CellForces:
         w = ufl.TestFunction(fem.functionspace(domain, element))
         (v,) = self._F.arguments()
         broken = ufl.replace(ufl.algorithms.expand_derivatives(self._F), {v: w})
+        terms = [fem.form(ufl.Form([i]), **self._options) for i in broken.integrals()]
         forget_derivatives()
-        return [fem.form(ufl.Form([i]), **self._options) for i in broken.integrals()]
+        return terms
