@@ -60,10 +60,10 @@ void contactx_bindings::penetration(py::module_& m)
   m.def(
       "explained_depths",
       [](const Array<double>& size, const Array<double>& curvature,
-         const Array<std::int8_t>& contact, double extent)
+         const Array<std::int8_t>& contact, const Array<double>& extent)
       {
         return array(contactx::audit::explained_depths(
-            view(size), view(curvature), view(contact), extent));
+            view(size), view(curvature), view(contact), view(extent)));
       },
       py::arg("size"), py::arg("curvature"), py::arg("contact"),
       py::arg("extent"),

@@ -53,7 +53,7 @@ def explained_depths(
     size: NDArray[np.float64],
     curvature: NDArray[np.float64],
     contact: NDArray[np.int8],
-    extent: float,
+    extent: NDArray[np.float64],
 ) -> NDArray[np.float64]: ...
 def far_side(
     own_before: NDArray[np.float64],

@@ -55,7 +55,7 @@ def _rows(sizes: list[int]) -> list[tuple[int, ...]]:
 def _id(value: Any) -> str:
     if isinstance(value, dict):
         return "-".join(value) or "none"
-    return str(getattr(value, "name", value))
+    return str(getattr(value, "name", getattr(value, "__name__", value)))
 
 
 __all__ = ["BOTH", "METHODS", "SLIDINGS", "covering"]

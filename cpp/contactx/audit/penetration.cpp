@@ -19,7 +19,7 @@ constexpr std::array resolved{0.5, 1., 1.};
 /// that is allowed
 constexpr double chord = 1. / 8, chords = 2;
 /// Depths by the size of a facet: away from contact, beside it and in it
-constexpr std::array by_contact{1. / 256, 1. / 64, 0.15};
+constexpr std::array by_contact{1. / 256, 0.075, 0.15};
 
 double distance(std::span<const double> x, std::int32_t a, std::int32_t b,
                 int gdim)
@@ -88,16 +88,17 @@ std::vector<double> contactx::audit::facet_sizes(const facet::FacetList& facets,
 
 std::vector<double> contactx::audit::explained_depths(
     std::span<const double> size, std::span<const double> curvature,
-    std::span<const std::int8_t> contact, double extent)
+    std::span<const std::int8_t> contact, std::span<const double> extent)
 {
-  if (size.size() != curvature.size() or size.size() != contact.size())
+  if (size.size() != curvature.size() or size.size() != contact.size()
+      or size.size() != extent.size())
     throw std::invalid_argument(
         "sizes, curvatures and contact of different numbers of facets");
   std::vector<double> depth(size.size());
   for (std::size_t i = 0; i < depth.size(); ++i)
   {
     const double h = size[i], turn = curvature[i] * h;
-    depth[i] = std::min(h, extent) * by_contact.at(contact[i]);
+    depth[i] = std::min(h, extent[i]) * by_contact.at(contact[i]);
     if (turn <= resolved[contact[i]])
       depth[i] = std::max(depth[i], chords * chord * turn * h);
   }

@@ -47,7 +47,7 @@ std::vector<double> facet_sizes(const facet::FacetList& facets,
 ///   touch, as over the edge of a punch; beyond 0.15 h it is too coarse for
 ///   that;
 /// - beside that, where a neighbour of the facet is in contact, pressure bends
-///   the master's surface: h / 64;
+///   the master's surface: half of that;
 /// - h / 256 is no matter.
 ///
 /// Where the master is smaller than the facet its size takes the place of h in
@@ -56,12 +56,12 @@ std::vector<double> facet_sizes(const facet::FacetList& facets,
 /// @param[in] curvature Curvatures of the master in front of them.
 /// @param[in] contact 2 where a node of the facet is in contact, 1 where one of
 /// a neighbour is, else 0.
-/// @param[in] extent Size of the master, which may be infinite.
+/// @param[in] extent Sizes of the master there, which may be infinite.
 /// @return Depths.
 /// @throws std::invalid_argument If the arrays are of different sizes.
 /// @throws std::out_of_range If contact is something else.
 std::vector<double> explained_depths(std::span<const double> size,
                                      std::span<const double> curvature,
                                      std::span<const std::int8_t> contact,
-                                     double extent);
+                                     std::span<const double> extent);
 } // namespace contactx::audit

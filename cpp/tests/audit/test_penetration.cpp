@@ -31,7 +31,7 @@ double explained(double size, double curvature, int contact,
 {
   const std::int8_t flag = contact;
   return explained_depths(std::span(&size, 1), std::span(&curvature, 1),
-                          std::span(&flag, 1), extent)[0];
+                          std::span(&flag, 1), std::span(&extent, 1))[0];
 }
 
 TEST(NodalCurvatures, OfACircle)
@@ -110,9 +110,9 @@ TEST(ExplainedDepths, AreLargerInContactAndScaleWithTheUnits)
 
 TEST(ExplainedDepths, BesideContactAreBetweenThoseOfItAndThoseAway)
 {
-  EXPECT_EQ(explained(1, 0, 1), 1. / 64);
+  EXPECT_EQ(explained(1, 0, 1), 0.075);
   EXPECT_EQ(explained(1, 0.9, 1), 0.225);
-  EXPECT_EQ(explained(1, 1.1, 1), 1. / 64);
+  EXPECT_EQ(explained(1, 1.1, 1), 0.075);
   EXPECT_THROW(explained(1, 0, 3), std::out_of_range);
 }
 
@@ -127,8 +127,8 @@ TEST(ExplainedDepths, RefuseArraysOfDifferentSizes)
 {
   const std::vector<double> two(2), one(1);
   const std::vector<std::int8_t> flags(2);
-  EXPECT_THROW(explained_depths(two, one, flags, 1), std::invalid_argument);
-  EXPECT_THROW(explained_depths(one, one, flags, 1), std::invalid_argument);
+  EXPECT_THROW(explained_depths(two, one, flags, two), std::invalid_argument);
+  EXPECT_THROW(explained_depths(one, one, flags, one), std::invalid_argument);
 }
 
 TEST(FacetTurns, RefuseNormalsOfOtherNodes)

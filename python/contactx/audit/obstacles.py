@@ -155,9 +155,8 @@ class ObstacleAudit:
             return None
         x, offsets = self._halo.positions()[self._slave.around], self._slave.facets.offsets
         size = self._sizes()
-        explained = core.explained_depths(
-            size, self._curvatures(x), near, self._master.obstacle.size()
-        )
+        extent = np.full(len(size), self._master.obstacle.size())
+        explained = core.explained_depths(size, self._curvatures(x), near, extent)
         sampling = core.FacetSampling(offsets, self._corners, x, x.shape[1], explained, _LEVELS)
         while len(sampling.points) > 0:
             sampling.take(self._gaps(sampling.points))
@@ -166,7 +165,10 @@ class ObstacleAudit:
         deep = np.flatnonzero(depth > 0)
         curvature = self._curvatures(x)
         curvature[deep] = np.maximum(curvature[deep], self._turns(deep, sampling.deepest[deep], x))
-        explained = core.explained_depths(size, curvature, near, self._master.obstacle.size())
+        # What is not in contact sees no more of the obstacle than that place
+        steep = np.flatnonzero((near < 2) & (curvature * size > 1))
+        extent[steep] = np.minimum(extent[steep], 2 / curvature[steep])
+        explained = core.explained_depths(size, curvature, near, extent)
         worst = int((depth / explained).argmax())
         middle = x[self._corners[offsets[worst] : offsets[worst + 1]]].mean(axis=0)
         ratio = float(depth[worst] / explained[worst])

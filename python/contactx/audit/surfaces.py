@@ -27,6 +27,8 @@ type Array = npt.NDArray[np.float64]
 # Part of a facet by which a surface must overlap the other's outer edge: of surface-to-surface the
 # larger one of its two bounds
 _OVERLAP = 1 / 16
+# Part of a facet's size that a node without a pair may be behind it
+_BEHIND = 1 / 32
 # Part of a facet's size that a node may be behind it and still be in contact
 _IN_CONTACT = 1 / 8
 
@@ -161,7 +163,10 @@ class SurfacesAudit:
         size, near, offset, bent = seen.values[there].T
         depth = offset - seen.gap[there]
         explained = core.explained_depths(
-            np.ascontiguousarray(size), curvature[nodes[there]], near.astype(np.int8), self._extent
+            np.ascontiguousarray(size),
+            curvature[nodes[there]],
+            near.astype(np.int8),
+            np.full(len(there), self._extent),
         )
         # Linear kinematics see a curved surface as flat along the way
         explained += (curvature[nodes[there]] + bent) * seen.way[there] ** 2
@@ -217,8 +222,7 @@ class SurfacesAudit:
             None if ways is None else (ways, ways[nodes]),
         )
         h = seen.values[:, 0]
-        beside_contact = np.ones(len(h), dtype=np.int8)
-        allowed = core.explained_depths(h.copy(), np.zeros(len(h)), beside_contact, np.inf)
+        allowed = _BEHIND * h
         offset = np.minimum(interface.offset()[which], 0)
         behind[which] = seen.inside & (seen.margin > _OVERLAP) & (seen.gap < offset - allowed)
         return behind
