@@ -65,6 +65,14 @@ void check::positions(std::ptrdiff_t size, std::int32_t num_nodes, int gdim,
          + " values");
 }
 
+void check::surface(std::span<const std::int32_t> offsets,
+                    std::span<const std::int32_t> nodes, std::ptrdiff_t size,
+                    int gdim)
+{
+  facets(offsets, nodes, gdim);
+  positions(size, num_nodes(nodes), gdim);
+}
+
 void check::rows(std::ptrdiff_t size, std::ptrdiff_t rows, int width,
                  const std::string& name, const std::string& of)
 {

@@ -32,6 +32,12 @@ std::int32_t num_nodes(std::span<const std::int32_t> nodes);
 void positions(std::ptrdiff_t size, std::int32_t num_nodes, int gdim,
                const std::string& name = "x");
 
+/// @brief Facets as offsets and nodes, and the positions `x` of their nodes.
+/// @param[in] size Number of values of the positions.
+void surface(std::span<const std::int32_t> offsets,
+             std::span<const std::int32_t> nodes, std::ptrdiff_t size,
+             int gdim);
+
 /// @brief Number of values of an array.
 /// @param[in] name Name of the argument.
 /// @param[in] rows Number of rows that it must have.

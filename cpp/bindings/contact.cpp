@@ -8,17 +8,6 @@
 namespace py = pybind11;
 using namespace contactx_bindings;
 
-namespace
-{
-void check_surface(const Array<std::int32_t>& offsets,
-                   const Array<std::int32_t>& nodes, const Array<double>& x,
-                   int gdim)
-{
-  check::facets(view(offsets), view(nodes), gdim);
-  check::positions(x.size(), check::num_nodes(view(nodes)), gdim);
-}
-} // namespace
-
 void contactx_bindings::contact(py::module_& m)
 {
   m.def(
@@ -26,7 +15,7 @@ void contactx_bindings::contact(py::module_& m)
       [](const Array<std::int32_t>& offsets, const Array<std::int32_t>& nodes,
          const Array<double>& x, const Array<double>& normal, int gdim)
       {
-        check_surface(offsets, nodes, x, gdim);
+        check::surface(view(offsets), view(nodes), x.size(), gdim);
         return array(contactx::contact::facing_nodes(
             {view(offsets), view(nodes)}, view(x), view(normal), gdim));
       },
@@ -38,7 +27,7 @@ void contactx_bindings::contact(py::module_& m)
          const Array<double>& reference, const Array<double>& x,
          const Array<double>& normal, int gdim)
       {
-        check_surface(offsets, nodes, x, gdim);
+        check::surface(view(offsets), view(nodes), x.size(), gdim);
         return array(contactx::contact::facing_areas(
             {view(offsets), view(nodes)}, view(reference), view(x),
             view(normal), gdim));

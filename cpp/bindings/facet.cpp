@@ -10,17 +10,6 @@
 namespace py = pybind11;
 using namespace contactx_bindings;
 
-namespace
-{
-void check_surface(const Array<std::int32_t>& offsets,
-                   const Array<std::int32_t>& nodes, const Array<double>& x,
-                   int gdim)
-{
-  check::facets(view(offsets), view(nodes), gdim);
-  check::positions(x.size(), check::num_nodes(view(nodes)), gdim);
-}
-} // namespace
-
 void contactx_bindings::facet(py::module_& m)
 {
   m.def(
@@ -28,7 +17,7 @@ void contactx_bindings::facet(py::module_& m)
       [](const Array<std::int32_t>& offsets, const Array<std::int32_t>& nodes,
          const Array<double>& x, int gdim)
       {
-        check_surface(offsets, nodes, x, gdim);
+        check::surface(view(offsets), view(nodes), x.size(), gdim);
         return array(contactx::facet::nodal_areas({view(offsets), view(nodes)},
                                                   view(x), gdim));
       },
@@ -39,7 +28,7 @@ void contactx_bindings::facet(py::module_& m)
       [](const Array<std::int32_t>& offsets, const Array<std::int32_t>& nodes,
          const Array<double>& x, int gdim)
       {
-        check_surface(offsets, nodes, x, gdim);
+        check::surface(view(offsets), view(nodes), x.size(), gdim);
         const auto n = contactx::facet::nodal_normals(
             {view(offsets), view(nodes)}, view(x), gdim);
         return array(n, {static_cast<py::ssize_t>(n.size()) / gdim, gdim});
@@ -51,7 +40,7 @@ void contactx_bindings::facet(py::module_& m)
       [](const Array<std::int32_t>& offsets, const Array<std::int32_t>& nodes,
          const Array<double>& x, int gdim)
       {
-        check_surface(offsets, nodes, x, gdim);
+        check::surface(view(offsets), view(nodes), x.size(), gdim);
         const auto v = contactx::facet::nodal_area_vectors(
             {view(offsets), view(nodes)}, view(x), gdim);
         return array(v, {static_cast<py::ssize_t>(v.size()) / gdim, gdim});

@@ -11,36 +11,25 @@ namespace py = pybind11;
 using namespace contactx_bindings;
 using contactx::audit::FacetSampling;
 
-namespace
-{
-void check_surface(const Array<std::int32_t>& offsets,
-                   const Array<std::int32_t>& nodes, const Array<double>& x,
-                   int gdim)
-{
-  check::facets(view(offsets), view(nodes), gdim);
-  check::positions(x.size(), check::num_nodes(view(nodes)), gdim);
-}
-} // namespace
-
 void contactx_bindings::penetration(py::module_& m)
 {
   m.def(
       "nodal_curvatures",
       [](const Array<std::int32_t>& offsets, const Array<std::int32_t>& nodes,
-         const Array<double>& x, int gdim)
+         const Array<double>& x, const Array<double>& normal, int gdim)
       {
-        check_surface(offsets, nodes, x, gdim);
+        check::surface(view(offsets), view(nodes), x.size(), gdim);
         return array(contactx::audit::nodal_curvatures(
-            {view(offsets), view(nodes)}, view(x), gdim));
+            {view(offsets), view(nodes)}, view(x), view(normal), gdim));
       },
-      py::arg("offsets"), py::arg("nodes"), py::arg("x"), py::arg("gdim"),
-      "How much nodal normals turn on the way to a neighbour");
+      py::arg("offsets"), py::arg("nodes"), py::arg("x"), py::arg("normal"),
+      py::arg("gdim"), "How much nodal normals turn on the way to a neighbour");
   m.def(
       "facet_turns",
       [](const Array<std::int32_t>& offsets, const Array<std::int32_t>& nodes,
          const Array<double>& x, const Array<double>& normal, int gdim)
       {
-        check_surface(offsets, nodes, x, gdim);
+        check::surface(view(offsets), view(nodes), x.size(), gdim);
         return array(contactx::audit::facet_turns({view(offsets), view(nodes)},
                                                   view(x), view(normal), gdim));
       },
@@ -51,7 +40,7 @@ void contactx_bindings::penetration(py::module_& m)
       [](const Array<std::int32_t>& offsets, const Array<std::int32_t>& nodes,
          const Array<double>& x, int gdim)
       {
-        check_surface(offsets, nodes, x, gdim);
+        check::surface(view(offsets), view(nodes), x.size(), gdim);
         return array(contactx::audit::facet_sizes({view(offsets), view(nodes)},
                                                   view(x), gdim));
       },
@@ -88,7 +77,7 @@ void contactx_bindings::penetration(py::module_& m)
                   const Array<std::int32_t>& nodes, const Array<double>& x,
                   int gdim, const Array<double>& allowed, int levels)
                {
-                 check_surface(offsets, nodes, x, gdim);
+                 check::surface(view(offsets), view(nodes), x.size(), gdim);
                  return FacetSampling({view(offsets), view(nodes)}, view(x),
                                       gdim, copy(allowed), levels);
                }),

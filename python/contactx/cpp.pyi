@@ -37,7 +37,11 @@ def facing_areas(
     gdim: int,
 ) -> NDArray[np.float64]: ...
 def nodal_curvatures(
-    offsets: NDArray[np.int32], nodes: NDArray[np.int32], x: NDArray[np.float64], gdim: int
+    offsets: NDArray[np.int32],
+    nodes: NDArray[np.int32],
+    x: NDArray[np.float64],
+    normal: NDArray[np.float64],
+    gdim: int,
 ) -> NDArray[np.float64]: ...
 def facet_turns(
     offsets: NDArray[np.int32],

@@ -22,7 +22,7 @@ from contactx.master.obstacle import ObstacleMaster
 from contactx.nodal import NodalValue
 from contactx.parallel import reduce
 from contactx.parallel.agreement import agreed
-from contactx.parallel.halo import Halo
+from contactx.parallel.halo import Halo, first_node
 from contactx.parallel.slaves import SlaveNodes
 from contactx.slip import SlipHistory
 from dolfinx import cpp
@@ -364,11 +364,8 @@ def check_over_constrained(
         bad = _constrained_inside(interface, prescribed, halo)
         count = reduce.total(halo.comm, len(bad))
         if count > 0 and interface.active:
-            numbers = halo.original[bad].tolist()
             size = reduce.extent(halo.comm, halo.x[interface.slaves]).max()
-            first, at = reduce.first(
-                halo.comm, numbers, list(zip(numbers, halo.x[bad], strict=True))
-            )
+            first, at = first_node(halo, bad, halo.x)
             raise ValueError(
                 f"contact {k} ({names[k]}) is over-constrained: Dirichlet conditions constrain "
                 f"{count} slave nodes inside the rigid obstacle, first node {first} of the mesh as "

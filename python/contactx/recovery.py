@@ -52,13 +52,12 @@ class Recovery:
             x: Reference positions of all nodes, shape (num_nodes, gdim).
         """
         self._slave, facets = slave, slave.facets
-        nodes = np.searchsorted(slave.around, facets.nodes)
+        nodes = slave.corners.astype(np.int64)
         # Each corner of each facet as a node of its own
         corners = np.arange(len(nodes), dtype=np.int32)
         parts = core.nodal_areas(facets.offsets, corners, x[facets.nodes], x.shape[1])
-        area = _sums(nodes, parts, len(slave.around))
         # Of nodes of other ranks not all facets are here
-        self._area = slave.scatter_forward(area[: len(slave.owned)])
+        self._area = slave.scatter_forward(slave.sums(parts))
         none = np.zeros(0, dtype=np.int64)
         to, from_, weight = [none], [none], [np.zeros(0)]
         for _, corner in FacetList(facets.offsets, corners).groups():

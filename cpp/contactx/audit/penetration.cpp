@@ -60,10 +60,10 @@ std::vector<double> contactx::audit::facet_turns(const facet::FacetList& facets,
 
 std::vector<double>
 contactx::audit::nodal_curvatures(const facet::FacetList& facets,
-                                  std::span<const double> x, int gdim)
+                                  std::span<const double> x,
+                                  std::span<const double> normal, int gdim)
 {
-  const std::vector<double> turn
-      = facet_turns(facets, x, facet::nodal_normals(facets, x, gdim), gdim);
+  const std::vector<double> turn = facet_turns(facets, x, normal, gdim);
   std::vector<double> curvature(x.size() / gdim, 0);
   for (std::int32_t f = 0; f < facets.size(); ++f)
     for (const std::int32_t node : facets[f])

@@ -11,10 +11,13 @@ namespace contactx::audit
 /// on the way to a neighbour, by the length of the way; the largest.
 /// @param[in] facets Facets of the surface.
 /// @param[in] x Positions (shape=(num_nodes, gdim)), row-major.
+/// @param[in] normal Nodal normals (shape=(num_nodes, gdim)).
 /// @param[in] gdim Geometric dimension, 2 or 3.
 /// @return Curvatures, 1/length, zero off the surface (shape=(num_nodes)).
+/// @throws std::invalid_argument If the sizes do not fit.
 std::vector<double> nodal_curvatures(const facet::FacetList& facets,
-                                     std::span<const double> x, int gdim);
+                                     std::span<const double> x,
+                                     std::span<const double> normal, int gdim);
 
 /// @brief How much a field of normals turns along each facet, by the length of
 /// the way from node to node; the largest.

@@ -5,15 +5,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from operator import itemgetter
 
 import numpy as np
 import numpy.typing as npt
 
 from contactx import cpp as core
-from contactx.audit.findings import Findings
-from contactx.audit.surfaces import FAR, report_far_side
-from contactx.errors import point_text
+from contactx.audit.findings import Depth, Findings
 from contactx.geometry.facets import facet_middles
 from contactx.interface import Interface
 from contactx.master.obstacle import ObstacleMaster
@@ -97,10 +94,11 @@ class ObstacleAudit:
             )
         else:
             what = f"{kind}, which they face away from"
-            report_far_side(name, inside, what, FAR, self._halo, findings)
+            findings.add_far_side(name, inside, what, self._halo)
         # Where nodes are inside the obstacle their facets are, too
         is_fault = len(findings.faults) == before
-        self._report_depth(name, kind, deepest, findings, is_fault=is_fault)
+        advice = "Refine the slave surface"
+        findings.add_depth(name, kind, deepest, advice, comm, is_fault=is_fault, place="around")
 
     def _look_inside(self, gap: Array, small: float) -> npt.NDArray[np.int32]:
         """Slave nodes that face away from the obstacle and are inside it."""
@@ -137,9 +135,7 @@ class ObstacleAudit:
             parts.append(function(part[rows])[: len(part)])
         return np.concatenate(parts)
 
-    def _look_between(
-        self, near: npt.NDArray[np.int8], offset: Array
-    ) -> tuple[float, float, float, bool, Array] | None:
+    def _look_between(self, near: npt.NDArray[np.int8], offset: Array) -> Depth | None:
         """Where the obstacle reaches deepest through a slave facet, by what the mesh explains.
 
         Args:
@@ -147,8 +143,7 @@ class ObstacleAudit:
             offset: What their gap may fall to, shape (m,).
 
         Returns:
-            Ratio to what the mesh explains, depth, size of the facet, whether it is in contact, and
-            its middle; None where nothing is looked at.
+            It, with the middle of the facet as its place; None where nothing is looked at.
         """
         if isinstance(self._master.obstacle, Plane) or len(self._corners) == 0:
             # A plane is deepest at a node
@@ -156,15 +151,16 @@ class ObstacleAudit:
         x, offsets = self._halo.positions()[self._slave.around], self._slave.facets.offsets
         size = self._sizes()
         extent = np.full(len(size), self._master.obstacle.size())
-        explained = core.explained_depths(size, self._curvatures(x), near, extent)
+        curvature, normal = self._curvatures(x)
+        explained = core.explained_depths(size, curvature, near, extent)
         sampling = core.FacetSampling(offsets, self._corners, x, x.shape[1], explained, _LEVELS)
         while len(sampling.points) > 0:
             sampling.take(self._gaps(sampling.points))
         depth = self._slave.of_facets(offset, np.minimum) - sampling.gaps
         # Between nodes whose normals tell nothing of it may be a punch
         deep = np.flatnonzero(depth > 0)
-        curvature = self._curvatures(x)
-        curvature[deep] = np.maximum(curvature[deep], self._turns(deep, sampling.deepest[deep], x))
+        turn = self._turns(deep, sampling.deepest[deep], x, normal)
+        curvature[deep] = np.maximum(curvature[deep], turn)
         # What is not in contact sees no more of the obstacle than that place
         steep = np.flatnonzero((near < 2) & (curvature * size > 1))
         extent[steep] = np.minimum(extent[steep], 2 / curvature[steep])
@@ -172,53 +168,30 @@ class ObstacleAudit:
         worst = int((depth / explained).argmax())
         middle = x[self._corners[offsets[worst] : offsets[worst + 1]]].mean(axis=0)
         ratio = float(depth[worst] / explained[worst])
-        return ratio, float(depth[worst]), float(size[worst]), bool(near[worst] > 1), middle
+        return Depth(ratio, float(depth[worst]), float(size[worst]), bool(near[worst] > 1), middle)
 
-    def _report_depth(
-        self,
-        name: str,
-        kind: str,
-        deepest: tuple[float, float, float, bool, Array] | None,
-        findings: Findings,
-        *,
-        is_fault: bool,
-    ) -> None:
-        found = [row for row in self._halo.comm.allgather(deepest) if row is not None]
-        if not found:
-            return
-        excess, depth, h, is_held, at = max(found, key=itemgetter(0))
-        if excess > findings.excess:
-            findings.excess, findings.depth = excess, max(depth, 0.0)
-        if excess > 1 and is_fault:
-            findings.faults.append(
-                f"{name}: the {kind} reaches {depth:.3g} deep through a slave facet of size "
-                f"{h:.3g} around {point_text(at, h)}, between its nodes"
-                + ("" if is_held else ", which are open")
-                + ": the slave surface is too coarse to see it. Refine the slave surface"
-            )
-
-    def _curvatures(self, x: Array) -> Array:
-        """Curvature of the obstacle before each slave facet, shape (num_facets,)."""
+    def _curvatures(self, x: Array) -> tuple[Array, Array]:
+        """Curvature of the obstacle before each slave facet, and its normals at the slave nodes."""
         geometry = self._master.obstacle.evaluate(x)
         offsets, gdim = self._slave.facets.offsets, x.shape[1]
         at_nodes = np.abs(geometry.curvature).sum(axis=2).max(axis=1)
         normal = np.ascontiguousarray(geometry.normal)
         turn = core.facet_turns(offsets, self._corners, x, normal, gdim)
-        curvature: Array = np.maximum(turn, self._slave.of_facets(at_nodes))
-        return curvature
+        return np.maximum(turn, self._slave.of_facets(at_nodes)), normal
 
-    def _turns(self, which: npt.NDArray[np.integer], at: Array, x: Array) -> Array:
+    def _turns(self, which: npt.NDArray[np.integer], at: Array, x: Array, normal: Array) -> Array:
         """How much the obstacle's normal turns on the way from nodes of facets to points in them.
 
         Args:
             which: Facets, shape (n,).
             at: A point of each, shape (n, gdim).
             x: Positions of the slave nodes around, shape (m, gdim).
+            normal: The obstacle's normals there, shape (m, gdim).
         """
         turn = np.zeros(len(which))
         if len(which) == 0:
             return turn
-        normal, there = (self._seen(p, self._master.obstacle.normals) for p in (x, at))
+        there = self._seen(at, self._master.obstacle.normals)
         offsets = self._slave.facets.offsets
         sizes = np.diff(offsets)[which]
         for k in range(int(sizes.max())):

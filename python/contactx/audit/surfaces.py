@@ -4,13 +4,11 @@
 
 from __future__ import annotations
 
-from operator import itemgetter
-
 import numpy as np
 import numpy.typing as npt
 
 from contactx import cpp as core
-from contactx.audit.findings import Findings
+from contactx.audit.findings import Depth, Findings
 from contactx.audit.passage import passages
 from contactx.errors import point_text
 from contactx.interface import Interface
@@ -32,11 +30,6 @@ _BEHIND = 1 / 32
 # Part of a facet's size that a node may be behind it and still be in contact
 _IN_CONTACT = 1 / 8
 
-FAR = (
-    "the body has come to its far side, or is too thin for the overlap. Take smaller load steps, "
-    "or start without the overlap"
-)
-
 
 class SurfacesAudit:
     """Looks at slave facets from master nodes, and at the master from slave nodes without a pair.
@@ -56,12 +49,9 @@ class SurfacesAudit:
         self._slave = interface.slave_nodes
         self._known = master.surface
         self._at_slave = Onlooker(halo, self._slave.facets)
-        self._extent = float(
-            reduce.extent(halo.comm, halo.x[np.unique(master.surface.own.nodes)]).max()
-        )
+        self._extent = float(reduce.extent(halo.comm, halo.x[master.surface.own.nodes]).max())
         self._outside_slave = Outside(halo, self._slave.own)
-        self._at_master = Onlooker(halo, master.surface.own)
-        self._own_slave = interface.slave_nodes.own
+        self._at_master = master.outside.onlooker
         marks = np.zeros(halo.num_nodes)
         marks[master.surface.own.nodes] = 1
         marks[interface.shared_nodes] = 0
@@ -89,7 +79,7 @@ class SurfacesAudit:
         interface, halo = self._interface, self._halo
         if interface.sliding == "small":
             return
-        x, slave, master = halo.positions(), self._own_slave, self._known.own
+        x, slave, master = halo.positions(), self._slave.own, self._known.own
         # What has a pair faces what it is paired with. A master node has none, and what the other
         # looks see of it is within a facet's size
         loose = interface.slaves[~interface.master.paired & ~interface.is_shared]
@@ -134,20 +124,13 @@ class SurfacesAudit:
         size = core.facet_sizes(facets.offsets, facets.nodes, x, gdim)
         reach = reduce.largest(comm, size.max(initial=0.0))
         around = self._known.around
-        curvature = core.nodal_curvatures(around.offsets, around.nodes, x, gdim)
         normals = core.nodal_normals(around.offsets, around.nodes, x, gdim).reshape(-1, gdim)
+        curvature = core.nodal_curvatures(around.offsets, around.nodes, x, normals, gdim)
         nodes = self._points
         held = self._interface.nodes.held
         offset = self._slave.scatter_forward(np.array(self._interface.offset()))
-        bent = core.nodal_curvatures(facets.offsets, facets.nodes, x, gdim)[self._slave.around]
-        values = np.column_stack(
-            [
-                size,
-                self._slave.near(held),
-                self._slave.of_facets(offset, np.minimum),
-                self._slave.of_facets(bent),
-            ]
-        )
+        near, offset = self._slave.near(held), self._slave.of_facets(offset, np.minimum)
+        values = np.column_stack([size, near, offset, self._bent(x, ways)])
         seen = self._at_slave.look(
             x,
             x[nodes],
@@ -172,24 +155,23 @@ class SurfacesAudit:
         explained += (curvature[nodes[there]] + bent) * seen.way[there] ** 2
         excess = depth / explained
         worst = int(excess.argmax()) if len(excess) > 0 else -1
-        row = None
+        deepest = None
         if worst >= 0:
             at = self._halo.positions()[nodes[there[worst]]]
-            row = float(excess[worst]), float(depth[worst]), float(size[worst]), near[worst] > 1, at
-        found = [r for r in comm.allgather(row) if r is not None]
-        if not found:
-            return
-        largest, deep, h, is_held, at = max(found, key=itemgetter(0))
-        if largest > findings.excess:
-            findings.excess, findings.depth = largest, max(deep, 0.0)
-        if largest > 1 and is_fault:
-            findings.faults.append(
-                f"{name}: the master reaches {deep:.3g} deep through a slave facet of size "
-                f"{h:.3g} at {point_text(at, h)}, between its nodes"
-                + (", which are open" if not is_held else "")
-                + ": the slave surface is too coarse to see it. Swap slave and master, or refine "
-                "the slave surface"
+            deepest = Depth(
+                float(excess[worst]), float(depth[worst]), float(size[worst]), near[worst] > 1, at
             )
+        advice = "Swap slave and master, or refine the slave surface"
+        findings.add_depth(name, "master", deepest, advice, comm, is_fault=is_fault)
+
+    def _bent(self, x: Array, ways: Array | None) -> Array:
+        """Curvature of each slave facet, which matters to linear kinematics alone."""
+        slave, gdim = self._slave, x.shape[1]
+        offsets, corners, at = slave.facets.offsets, slave.corners, x[slave.around]
+        if ways is None:
+            return np.zeros(len(offsets) - 1)
+        normals = core.nodal_normals(offsets, corners, at, gdim).reshape(-1, gdim)
+        return slave.of_facets(core.nodal_curvatures(offsets, corners, at, normals, gdim))
 
     def accept(self) -> None:
         """Remember which slave nodes lie behind the master before the next step; collective.
@@ -235,42 +217,7 @@ class SurfacesAudit:
             'sliding="small" pairs nodes in the reference configuration, once: give a larger '
             'search_distance, or take sliding="finite"'
         )
-        report_far_side(
-            name,
-            bad,
-            "master, and have no pair with it",
-            advice if interface.sliding == "small" else FAR,
-            self._halo,
-            findings,
+        what = "master, and have no pair with it"
+        findings.add_far_side(
+            name, bad, what, self._halo, advice if interface.sliding == "small" else ""
         )
-
-
-def report_far_side(
-    name: str,
-    bad: npt.NDArray[np.int32],
-    what: str,
-    advice: str,
-    halo: Halo,
-    findings: Findings,
-) -> None:
-    """Add slave nodes inside their master; all ranks must take part.
-
-    Args:
-        name: Name of the contact.
-        bad: The nodes on this rank.
-        what: What they are inside of.
-        advice: Why, and what to do.
-        halo: Nodes of this rank.
-        findings: What they are added to.
-    """
-    count = int(reduce.total(halo.comm, len(bad)))
-    if count == 0:
-        return
-    numbers, x = halo.original[bad].tolist(), halo.positions()[bad]
-    first, at = reduce.first(halo.comm, numbers, list(zip(numbers, x, strict=True)))
-    size = float(reduce.extent(halo.comm, halo.x[: halo.num_owned]).max())
-    findings.far_side += count
-    findings.faults.append(
-        f"{name}: {count} slave nodes are inside the {what}, first node {first} of the mesh as it "
-        f"was made, at {point_text(at, size)}: {advice}"
-    )

@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from contactx.errors import point_text
 from contactx.parallel import reduce
-from contactx.parallel.halo import Halo
+from contactx.parallel.halo import Halo, first_node
 from contactx.parallel.slaves import SlaveNodes
 from contactx.surface import FacetList, Surface
 
@@ -82,8 +82,7 @@ def check_folds(surface: Surface, slaves: SlaveNodes, halo: Halo) -> None:
     count = reduce.total(comm, len(bad))
     if count > 0:
         size = float(reduce.extent(comm, x[owned]).max())
-        numbers = halo.original[bad].tolist()
-        number, at = reduce.first(comm, numbers, list(zip(numbers, x[bad], strict=True)))
+        number, at = first_node(halo, bad, x)
         raise ValueError(
             f"the slave surface {surface} is folded at {count} nodes, where the normals of its "
             f"facets cancel, first at {point_text(at, size)}, node {number} of the mesh as it was "

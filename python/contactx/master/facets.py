@@ -29,6 +29,7 @@ class FacetMaster(Master):
 
     Attributes:
         surface: The facets.
+        outside: Tells what is outside of their body.
     """
 
     saved_rows: Mapping[str, RowKind] = {
@@ -60,7 +61,7 @@ class FacetMaster(Master):
         self._halo = halo
         self._facets = slave.facets
         self.surface = master_surface(halo, master)
-        self._outside = Outside(halo, master)
+        self.outside = Outside(halo, master)
         x = halo.x
         self._small = sliding == "small"
         self._measures_slip = measures_slip
@@ -93,7 +94,7 @@ class FacetMaster(Master):
 
     def _drop_outside(self, x: Array, closed: npt.NDArray[np.int8]) -> int:
         """Drop pairs with facets behind all of the master's body; returns the changes."""
-        if not self._outside.is_around:
+        if not self.outside.is_around:
             return 0
         pairing, points = self._pairing, x[self._slaves]
         foot, normal = pairing.places(x, pairing.xi)
@@ -101,7 +102,7 @@ class FacetMaster(Master):
         facets = self.surface.facets
         # None for what has no facet
         size = np.append(core.facet_sizes(facets.offsets, facets.nodes, x, x.shape[1]), np.inf)
-        outside = self._outside.find(x, points, depth, size[pairing.facet])
+        outside = self.outside.find(x, points, depth, size[pairing.facet])
         which = np.flatnonzero(outside).astype(np.int32)
         n = len(which)
         none = np.full(n, -1, dtype=np.int32), np.zeros(n, dtype=np.int32)

@@ -42,6 +42,7 @@ class MortarMaster(Master):
 
     Attributes:
         surface: The master's facets.
+        outside: Tells what is outside of their body.
     """
 
     saved_rows: Mapping[str, RowKind] = {"paired": "slave", "before": "node"}
@@ -69,7 +70,7 @@ class MortarMaster(Master):
         self._halo = halo
         self._facets = facets = slave.facets
         self.surface = master_surface(halo, master)
-        self._outside = Outside(halo, master)
+        self.outside = Outside(halo, master)
         self._gdim = halo.gdim
         self._small = sliding == "small"
         self.reach = reach
@@ -129,7 +130,7 @@ class MortarMaster(Master):
 
     def _without_outside(self, x: Array, found: core.FacetPairs) -> core.FacetPairs:
         """Pairs but for those with facets behind all of the master's body."""
-        if not self._outside.is_around:
+        if not self.outside.is_around:
             return found
         middles, normals = facet_middles(self._facets, x)
         others, _ = facet_middles(self.surface.facets, x)
@@ -139,7 +140,7 @@ class MortarMaster(Master):
         lists = (self._facets, self.surface.facets)
         sizes = [core.facet_sizes(f.offsets, f.nodes, x, self._gdim) for f in lists]
         size = np.maximum(sizes[0][slave], sizes[1][found.master])
-        outside = self._outside.find(x, middles[slave], depth, size, within_depth=True)
+        outside = self.outside.find(x, middles[slave], depth, size, within_depth=True)
         return found.without(outside.astype(np.int8)) if outside.any() else found
 
     def _moved(self, x: Array) -> bool:

@@ -52,16 +52,16 @@ class _Facets:
     @staticmethod
     def of(
         nodes: npt.NDArray[np.int32],
+        numbers: npt.NDArray[np.int32],
         corners: npt.NDArray[np.int64],
-        around: npt.NDArray[np.int32],
         x: Array,
     ) -> _Facets:
         """Prepare the rule and the dual functions.
 
         Args:
             nodes: Nodes of the facets, shape (m, k).
+            numbers: The same by their places among all slave nodes around, shape (m, k).
             corners: Places of their corners in the list of all slave facets, shape (m, k).
-            around: All slave nodes in order, those of other ranks last.
             x: Reference positions.
         """
         cell = _CELLS[nodes.shape[1]]
@@ -77,7 +77,6 @@ class _Facets:
         mass = N.T @ (area[:, :, None] * N)
         dual = (area @ N)[:, :, None] * np.linalg.inv(mass)
         weight = (dual @ N.T) * area[:, None, :]
-        numbers = np.searchsorted(around, nodes).astype(np.int32)
         return _Facets(nodes, numbers, N, weight, corners)
 
     def points(self, x: Array) -> Array:
@@ -116,11 +115,10 @@ class MortarObstacle(ObstacleMaster):
         """
         self._halo, x = halo, halo.x
         super().__init__(slave, obstacle, x, search_distance, measures_slip=measures_slip)
-        offsets = slave.facets.offsets
-        self._kinds = [
-            _Facets.of(nodes, offsets[which][:, None] + np.arange(nodes.shape[1]), slave.around, x)
-            for which, nodes in slave.facets.groups()
-        ]
+        offsets, self._kinds = slave.facets.offsets, []
+        for which, nodes in slave.facets.groups():
+            corners = offsets[which][:, None] + np.arange(nodes.shape[1])
+            self._kinds.append(_Facets.of(nodes, slave.corners[corners], corners, x))
         self._faces = np.ones(len(slave.facets.nodes), dtype=bool)
         self._others = np.zeros(len(slave.around) - len(slave.owned), dtype=bool)
         self._values: list[Array] = []

@@ -13,6 +13,7 @@ from mpi4py import MPI
 import numpy as np
 import numpy.typing as npt
 
+from contactx.parallel import reduce
 from contactx.parallel.exchange import Exchange
 from dolfinx import cpp, fem, la
 
@@ -235,6 +236,26 @@ class Halo:
         if (width, dtype) not in self._vectors:
             self._vectors[width, dtype] = la.vector(self._map, width, dtype)
         return self._vectors[width, dtype]
+
+
+def first_node(
+    halo: Halo, nodes: npt.NDArray[np.integer], x: Array
+) -> tuple[int, npt.NDArray[np.float64]]:
+    """The first of some nodes of any rank in the mesh as it was made; all ranks must take part.
+
+    Args:
+        halo: Nodes of this rank.
+        nodes: Nodes on this rank; some rank has one.
+        x: Positions of all nodes, shape (num_nodes, gdim).
+
+    Returns:
+        Its number there, and its position, shape (gdim,).
+    """
+    numbers = halo.original[nodes].tolist()
+    first: tuple[int, npt.NDArray[np.float64]] = reduce.first(
+        halo.comm, numbers, list(zip(numbers, x[nodes], strict=True))
+    )
+    return first
 
 
 def original_nodes(V: fem.FunctionSpace) -> npt.NDArray[np.int64]:

@@ -33,6 +33,7 @@ class Outside:
 
     Attributes:
         is_around: Whether it does; else no point is outside.
+        onlooker: Looks at the surface.
     """
 
     def __init__(self, halo: Halo, own: FacetList):
@@ -43,7 +44,7 @@ class Outside:
             own: Facets of the surface that this rank has.
         """
         self._halo = halo
-        self._onlooker = Onlooker(halo, own)
+        self.onlooker = Onlooker(halo, own)
         _, normals = facet_middles(own, halo.x)
         mean = reduce.total(halo.comm, normals.sum(axis=0))
         length = float(np.linalg.norm(mean))
@@ -73,8 +74,8 @@ class Outside:
         if not self.is_around or not reduce.anywhere(self._halo.comm, len(which) > 0):
             return result
         at = points[which]
-        nothing = np.zeros((self._onlooker.num_facets, 0))
+        nothing = np.zeros((self.onlooker.num_facets, 0))
         # Of any normal: what is in front of the nearest facet is outside
-        seen = self._onlooker.look(x, at, np.zeros_like(at), np.inf, nothing)
+        seen = self.onlooker.look(x, at, np.zeros_like(at), np.inf, nothing)
         result[which] = (seen.gap > 0) & ~(within_depth & (seen.distance >= depth[which]))
         return result
