@@ -26,8 +26,7 @@ def neo_hookean(u: fem.Function, young: Any, nu: Any, degree: int | None = None)
     F = ufl.Identity(gdim) + ufl.grad(u)
     log_j = ufl.ln(ufl.det(F))
     density = mu / 2 * (ufl.tr(F.T * F) - gdim - 2 * log_j) + lmbda / 2 * log_j**2
-    dx = ufl.dx if degree is None else ufl.dx(metadata={"quadrature_degree": degree})
-    return ufl.derivative(density * dx, u)
+    return ufl.derivative(density * _measure(degree), u)
 
 
 def of_bodies(data: Any, upper: float, lower: float) -> fem.Function:
@@ -44,16 +43,23 @@ def of_bodies(data: Any, upper: float, lower: float) -> fem.Function:
     return result
 
 
-def st_venant_kirchhoff(u: fem.Function, young: Any, nu: Any) -> ufl.Form:
+def st_venant_kirchhoff(
+    u: fem.Function, young: Any, nu: Any, degree: int | None = None
+) -> ufl.Form:
     """Residual of bodies that hardly resist being squeezed to nothing, or turned inside out.
 
     Args:
         u: Displacement.
         young: Young's modulus at small strains.
         nu: Poisson's ratio at small strains.
+        degree: Degree of the quadrature; UFL's estimate if None.
     """
     mu, lmbda = young / (2 * (1 + nu)), young * nu / ((1 + nu) * (1 - 2 * nu))
     F = ufl.Identity(len(u)) + ufl.grad(u)
     E = (F.T * F - ufl.Identity(len(u))) / 2
     density = mu * ufl.inner(E, E) + lmbda / 2 * ufl.tr(E) ** 2
-    return ufl.derivative(density * ufl.dx, u)
+    return ufl.derivative(density * _measure(degree), u)
+
+
+def _measure(degree: int | None) -> ufl.Measure:
+    return ufl.dx if degree is None else ufl.dx(metadata={"quadrature_degree": degree})

@@ -95,16 +95,14 @@ def rightly(case: Case) -> bool:
     return run(scene).kind in (Kind.CONVERGED, Kind.CUT)
 
 
-def taken(case: Case) -> Iterator[tuple[float, bool]]:
-    """Take the steps of a case as far as they go.
-
-    Yields:
-        Each t that was reached, and whether something is wrong there.
-    """
+def taken(case: Case) -> Iterator[float]:
+    """Take the steps of a case as far as they go rightly; yields each t that was reached."""
     judge = Judge(case)
     try:
         for t in _steps(case, Outcome("", "", "")):
-            yield t, bool(judge() or [c for c in case.step_answers(t) if not c.holds])
+            if judge() or [c for c in case.step_answers(t) if not c.holds]:
+                return
+            yield t
     except (cx.ConvergenceError, ValueError):
         return
 

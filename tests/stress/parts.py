@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 from mpi4py import MPI
@@ -16,10 +16,11 @@ import contactx as cx
 import ufl
 from dolfinx import fem, mesh
 
-from scenes.materials import neo_hookean
+from scenes.materials import neo_hookean, st_venant_kirchhoff
 from scenes.supports import DrivenFaces
 from story import elasticity
 from stress.grids import Array, Body, Numbers
+from stress.scene import Case
 
 _SIDES = ("x0", "x1", "y0", "y1", "z0", "z1")
 
@@ -157,6 +158,10 @@ class Parts:
             **options,
         )
 
+    def case(self, contact: cx.Contact, update: Callable[[float], object], **known: Any) -> Case:
+        """A case of one contact of these bodies; the rest is described in ``Case``."""
+        return Case(self.problem(contact), [contact], self.F, self.bcs, update, **known)
+
     def displacements(self) -> Array:
         """Displacements of the nodes, shape (n, dim)."""
         values: Array = self.u.x.array.reshape(-1, self.x.shape[1])[self._dof]
@@ -189,17 +194,7 @@ def _length(x: Array, facets: Numbers, a: int, b: int) -> Array:
 def _residual(u: fem.Function, young: Any, nu: float, material: str) -> ufl.Form:
     ratio = fem.Constant(u.function_space.mesh, nu)
     if material == "svk":
-        return _st_venant_kirchhoff(u, young, ratio)
+        return st_venant_kirchhoff(u, young, ratio, degree=3)
     if material == "neo-hooke":
         return neo_hookean(u, young, ratio, degree=3)
     return elasticity(u, young, ratio)
-
-
-def _st_venant_kirchhoff(u: fem.Function, young: Any, nu: Any) -> ufl.Form:
-    mu, lmbda = young / (2 * (1 + nu)), young * nu / ((1 + nu) * (1 - 2 * nu))
-    one = ufl.Identity(len(u))
-    F = one + ufl.grad(u)
-    E = (F.T * F - one) / 2
-    S = 2 * mu * E + lmbda * ufl.tr(E) * one
-    v = ufl.TestFunction(u.function_space)
-    return ufl.inner(F * S, ufl.grad(v)) * ufl.dx(metadata={"quadrature_degree": 3})

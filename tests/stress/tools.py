@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Sequence
 
 import numpy as np
@@ -14,7 +15,7 @@ from dolfinx import fem, mesh
 from stress.grids import Array
 
 
-class Tool:
+class Tool(ABC):
     """A rigid body that moves without turning.
 
     Attributes:
@@ -39,9 +40,9 @@ class Tool:
         """Move its centre."""
         self._at.value[...] = to
 
+    @abstractmethod
     def distance(self, x: Array) -> Array:
         """Signed distance of points from its surface, negative inside, shape (n,)."""
-        raise NotImplementedError
 
 
 class Ball(Tool):

@@ -106,11 +106,8 @@ def _released(units: tuple[float, float], depth, material, method, steps, cut) -
         ]
 
     look = watch(pressed(parts, parts.facets(0, "y1"), tool, length, method))
-    return Case(
-        parts.problem(contact),
-        [contact],
-        parts.F,
-        parts.bcs,
+    return parts.case(
+        contact,
         update,
         size=length,
         modulus=modulus,
@@ -181,11 +178,8 @@ def _heated(units: tuple[float, float], blocks, heat, method, friction) -> Case:
             Check("no force", force / (modulus * heat * length), 1e-8),
         ]
 
-    return Case(
-        parts.problem(contact),
-        [contact],
-        parts.F,
-        parts.bcs,
+    return parts.case(
+        contact,
         update,
         size=length,
         modulus=modulus,

@@ -76,11 +76,8 @@ def _arch(
 
     if parts.nonlinear:
         views.append(unfolded(parts))
-    return Case(
-        parts.problem(contact),
-        [contact],
-        parts.F,
-        parts.bcs,
+    return parts.case(
+        contact,
         update,
         size=thick,
         steps=steps,
@@ -94,12 +91,7 @@ def _arch(
 def _reached(**options: Any) -> float:
     """How deep small steps go rightly."""
     case = _arch(max(_DEPTHS), steps=_PATH, **options)
-    deepest = 0.0
-    for t, wrong in taken(case):
-        if wrong:
-            break
-        deepest = t * max(_DEPTHS)
-    return deepest
+    return max(taken(case), default=0.0) * max(_DEPTHS)
 
 
 def _solvable(depth: float, **options: Any) -> bool:
@@ -145,11 +137,8 @@ def _belt(thick: float, wound: float, friction: float, method: str, steps: int, 
         stays(parts, lambda: tool.at, face, (0.0, -20.0)),
         unfolded(parts),
     ]
-    return Case(
-        parts.problem(contact),
-        [contact],
-        parts.F,
-        parts.bcs,
+    return parts.case(
+        contact,
         lambda t: ends.move((0.0, -t * wound)),
         size=thick,
         steps=steps,
@@ -179,6 +168,4 @@ def belts() -> Iterator[Scene]:
 
 @cache
 def _small_steps(thick: float, **options: Any) -> bool:
-    case = _belt(thick, **options)
-    found = list(taken(case))
-    return len(found) > 0 and abs(found[-1][0] - 1) < 1e-9 and not any(w for _, w in found)
+    return abs(max(taken(_belt(thick, **options)), default=0.0) - 1) < 1e-9

@@ -77,11 +77,8 @@ def _rigid(
         pushes(parts, down),
         stays(parts, lambda: tool.at, facets, -20 * down),
     ]
-    return Case(
-        parts.problem(contact),
-        [contact],
-        parts.F,
-        parts.bcs,
+    return parts.case(
+        contact,
         lambda t: tool.move(where + t * depth * down),
         size=min(size, 1.0),
         steps=steps,
@@ -121,11 +118,8 @@ def _soft(
         pushes(parts, (0.0, -1.0), parts.bodies[0].faces["y0"].ravel()),
         stays(parts, lambda: parts.positions()[near] + [0, 0.5 * size], faces[0][1], (0.0, 20.0)),
     ]
-    return Case(
-        parts.problem(contact),
-        [contact],
-        parts.F,
-        parts.bcs,
+    return parts.case(
+        contact,
         lambda t: top.move((0.0, -t * depth)),
         size=min(2 * size, 1.0),
         steps=steps,

@@ -74,11 +74,8 @@ class _Roller:
             def update(t: float) -> None:
                 tool.move((0.02, 1.0 - t * depth))
 
-        self.case = Case(
-            parts.problem(contact),
-            [contact],
-            parts.F,
-            parts.bcs,
+        self.case = parts.case(
+            contact,
             update,
             steps=steps,
             cut=cut,
@@ -94,12 +91,7 @@ class _Roller:
 def _path(**options: Any) -> dict[float, float]:
     """Forces at the depths that small steps reach rightly."""
     scene = _Roller(max(_DEPTHS), steps=_PATH, **options)
-    found = {}
-    for t, wrong in taken(scene.case):
-        if wrong:
-            break
-        found[round(t * max(_DEPTHS), 9)] = scene.force()
-    return found
+    return {round(t * max(_DEPTHS), 9): scene.force() for t in taken(scene.case)}
 
 
 def _case(depth: float, steps: int, cut: bool, **options: Any) -> Case:

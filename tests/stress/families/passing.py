@@ -92,11 +92,8 @@ def _case(
             (-20.0, 0.0),
         ),
     ]
-    return Case(
-        parts.problem(contact),
-        [contact],
-        parts.F,
-        parts.bcs,
+    return parts.case(
+        contact,
         lambda t: top.move((t * way, 0.0)),
         size=size,
         steps=steps,
@@ -109,12 +106,7 @@ def _case(
 @cache
 def _reached(**options: Any) -> float:
     """How far small steps go rightly."""
-    farthest = 0.0
-    for t, wrong in taken(_case(1.0, steps=64, **options)):
-        if wrong:
-            break
-        farthest = t
-    return farthest
+    return max(taken(_case(1.0, steps=64, **options)), default=0.0)
 
 
 def _solvable(way: float, **options: Any) -> bool:

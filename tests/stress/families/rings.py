@@ -81,11 +81,8 @@ def _case(
     views.append(lambda: _inside(parts))
     if meshed and sliding == "finite":
         views.append(apart(parts, *faces, radius=b, method=method, size=c - b))
-    return Case(
-        parts.problem(contact),
-        [contact],
-        parts.F,
-        parts.bcs,
+    return parts.case(
+        contact,
         update,
         size=c - b,
         steps=steps,

@@ -99,11 +99,8 @@ class _Scene:
         if tool != "plane":
             face = parts.facets(0, top)
             views.append(stays(parts, lambda: self.tool.at, face, -20 * self._down))
-        self.case = Case(
-            parts.problem(contact),
-            [contact],
-            parts.F,
-            parts.bcs,
+        self.case = parts.case(
+            contact,
             lambda t: self.tool.move(self._place(t)),
             size=min(thick, 1.0),
             steps=steps,
@@ -127,12 +124,7 @@ class _Scene:
 def _path(**options: Any) -> dict[float, float]:
     """Forces at the depths that small steps reach rightly."""
     scene = _Scene(max(_DEPTHS), steps=_PATH, **options)
-    found = {}
-    for t, wrong in taken(scene.case):
-        if wrong:
-            break
-        found[round(t * max(_DEPTHS), 9)] = scene.force()
-    return found
+    return {round(t * max(_DEPTHS), 9): scene.force() for t in taken(scene.case)}
 
 
 def _case(depth: float, begin: float, steps: int, cut: bool, **options: Any) -> Case:
