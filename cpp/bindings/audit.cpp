@@ -25,4 +25,19 @@ void contactx_bindings::audit(py::module_& m)
       py::arg("cells"), py::arg("X"), py::arg("u"), py::arg("gdim"),
       "Smallest det F, the cell that has it, and the number of inverted cells "
       "(cells: shape=(num_cells, nodes_per_cell))");
+  m.def(
+      "longest_way",
+      [](const Array<std::int32_t>& cells, const Array<double>& X,
+         const Array<double>& u, const Array<double>& du, int gdim, double part)
+      {
+        if (cells.ndim() != 2)
+          throw std::invalid_argument("cells must have a row for each cell");
+        return contactx::audit::longest_way(
+            view(cells), static_cast<int>(cells.shape(1)), view(X), view(u),
+            view(du), gdim, part);
+      },
+      py::arg("cells"), py::arg("X"), py::arg("u"), py::arg("du"),
+      py::arg("gdim"), py::arg("part"),
+      "Largest t <= 1 up to which u + t du leaves every cell a part of min(det "
+      "F, 1)");
 }

@@ -55,17 +55,21 @@ void contactx_bindings::law(py::module_& m)
       [](const Array<double>& pressure, const Array<double>& gap,
          const Array<double>& c, const Array<double>& area,
          const Array<std::int8_t>& status, Array<double> value,
-         Array<double> d_pressure, Array<double> d_gap)
+         Array<double> d_pressure, Array<double> d_gap, double softness)
       {
         check_sizes(status.size(), pressure, gap, c, area, value, d_pressure,
                     d_gap);
+        if (!(softness >= 0))
+          throw std::invalid_argument("softness must not be negative");
         contactx::law::normal_complementarity(
-            {view(pressure), view(gap), view(c)}, view(area), view(status),
-            mutable_view(value), mutable_view(d_pressure), mutable_view(d_gap));
+            {view(pressure), view(gap), view(c), softness}, view(area),
+            view(status), mutable_view(value), mutable_view(d_pressure),
+            mutable_view(d_gap));
       },
       py::arg("pressure"), py::arg("gap"), py::arg("c"), py::arg("area"),
       py::arg("status"), py::arg("value").noconvert(),
       py::arg("d_pressure").noconvert(), py::arg("d_gap").noconvert(),
+      py::arg("softness") = 0.0,
       "Complementarity function of each slave node and its derivatives");
   m.def(
       "frictional_status",

@@ -43,9 +43,9 @@ struct CoulombNode
     return {D, traction, {&gap, 1}, normal, slip, {&c, 1}, {&friction, 1}};
   }
 
-  std::int8_t status() const
+  std::int8_t status(std::int8_t before = law::open) const
   {
-    std::array<std::int8_t, 1> status{law::open};
+    std::array<std::int8_t, 1> status{before};
     law::frictional_status(state(), reach, status);
     return status[0];
   }
@@ -62,9 +62,10 @@ struct CoulombNode
             matrix(by_normal)};
   }
 
-  /// @brief Pressure, its trial value and the trial friction.
+  /// @brief Pressure, its trial value where the node is closed, and the trial
+  /// friction.
   double pressure() const { return dot(normal, traction); }
-  double trial_pressure() const { return pressure() - c * gap; }
+  double trial_pressure() const { return pressure() - c * std::min(gap, 0.0); }
   Vec<D> tangential() const { return traction - pressure() * normal; }
   Vec<D> trial() const { return tangential() - c * slip; }
 

@@ -202,6 +202,7 @@ def normal_complementarity(
     value: NDArray[np.float64],
     d_pressure: NDArray[np.float64],
     d_gap: NDArray[np.float64],
+    softness: float = ...,
 ) -> None: ...
 def frictional_status(
     traction: NDArray[np.float64],
@@ -238,9 +239,34 @@ def terms(law: str, sliding: str, num_nodes: int, gdim: int, num_slaves: int = 1
 def kernel(
     law: str, sliding: str, term: str, num_nodes: int, gdim: int, num_slaves: int = 1
 ) -> tuple[int, NDArray[np.int8]]: ...
+def look_at_step(
+    pressure: NDArray[np.float64],
+    gap: NDArray[np.float64],
+    c: NDArray[np.float64],
+    area: NDArray[np.float64],
+    status: NDArray[np.int8],
+    change: NDArray[np.float64],
+) -> tuple[float, float, float, float]: ...
+
+class SoftPath:
+    def begin_step(self) -> None: ...
+    def begins(self, work: float, local: float, closed: float, opening: float) -> bool: ...
+    def advance(self, changes: int, closed: int, is_full: bool) -> None: ...
+    def harden(self) -> None: ...
+    @property
+    def softness(self) -> float: ...
+
 def deformed_cells(
     cells: NDArray[np.int32], X: NDArray[np.float64], u: NDArray[np.float64], gdim: int
 ) -> tuple[float, int, int]: ...
+def longest_way(
+    cells: NDArray[np.int32],
+    X: NDArray[np.float64],
+    u: NDArray[np.float64],
+    du: NDArray[np.float64],
+    gdim: int,
+    part: float,
+) -> float: ...
 def moments(
     offsets: NDArray[np.int32],
     nodes: NDArray[np.int32],

@@ -40,13 +40,19 @@ from contactx.linear import Condensed, LinearSolver, SaddlePoint
 from contactx.options import is_condensed, newton_options
 from contactx.parallel.reduce import anywhere, largest, total
 from contactx.report import Iteration, Report
+from contactx.soft_path import SoftPath
+from contactx.step_length import StepLength
 from contactx.system import SaddlePointSystem
 
 # Share of the closed nodes above which changes of status or facet freeze the kinematics
 _FEW = 0.2
 
-# Iterates in turn with unbalanced forces on a free body after which the loop gives up
-_MOST_UNBALANCED = 3
+# The least accurate that linear solves are once contact has been soft, in shares of changed nodes:
+# rough ones lose the path. Measured
+_ON_THE_PATH = 0.03
+
+# Iterates with unbalanced forces on a free body and settled status after which the loop gives up
+_MOST_UNBALANCED = 10
 
 # Why the loop ended, and what to do about it
 _UNBALANCED = (
@@ -90,7 +96,8 @@ _REASONS = {
     "touching anything? Support it; with a Krylov solver of your own try pc_type lu",
     _CODE.DIVERGED_FUNCTION_NANORINF: "the residual is not finite: the material fails, or a body "
     "is free to move without touching anything. Take smaller load steps, or support the body",
-    _CODE.DIVERGED_LINE_SEARCH: "the line search failed: take smaller load steps",
+    _CODE.DIVERGED_LINE_SEARCH: "no step is short enough to lead on: cells would turn inside out, "
+    "or the residual does not fall. Take smaller load steps",
 }
 
 
@@ -143,10 +150,12 @@ class NewtonLoop:
         )
         self._report = Report()
         self.error: BaseException | None = None
-        self._converged = self._has_modes = False
+        self._converged = self._has_modes = self._has_full_steps = False
         # Whether kinematics are frozen, and whether the residual is that of frozen ones
         self._frozen_kinematics = self._stale = False
         self._changes = (0, 0)
+        # Iterates with unbalanced forces on a free body
+        self._unbalanced = 0
         # Displacements at the step's start
         self._start = np.zeros(0)
         self._criterion = ConvergenceCriterion(bulk, interfaces, system)
@@ -155,11 +164,15 @@ class NewtonLoop:
         self._guard = CycleGuard(interfaces, system.halo.comm)
         self._frozen_pairs = FrozenPairs(interfaces, system.halo.comm)
         self._audit = Audit(bulk, interfaces, system.halo)
+        self._path = SoftPath(interfaces, system.halo.comm)
+        self._length = StepLength(bulk, system, self._audit.cells)
         self._names, self._refuses = names, refuses
-        self._failure = ""
+        # Why the step has failed, and whether no other way may lead to a solution
+        self._failure, self._is_final = "", False
         self.snes = PETSc.SNES().create(system.x.comm)
         self.snes.setOptionsPrefix(prefix)
         self.snes.setConvergenceTest(weakly(self._test))
+        self.snes.setLineSearchPreCheck(weakly(self._shorten))
 
     def run(self, report: Report) -> None:
         """Run the loop from the state of the displacement and the contacts.
@@ -174,13 +187,17 @@ class NewtonLoop:
         self._system.begin_step()
         self.snes.setFunction(weakly(self._function), self._system.b)
         self._frozen_kinematics = False
-        self._failure = ""
+        self._failure, self._is_final = "", False
+        self._unbalanced = 0
         self._frozen_pairs.begin_step()
         self._halo.shrink()
         for interface in self._interfaces:
             interface.begin_step()
+        self._path.begin_step()
+        self._length.begin_step(damped=report.damped)
         with self._options.in_database():
             self._options.hand_to(self.snes)
+            self._has_full_steps = self.snes.getLineSearch().getType() == "basic"
             self._time_linear_solves(report)
             self._linear.begin_step(self.snes, report)
             self._criterion.check_start()
@@ -199,14 +216,17 @@ class NewtonLoop:
         self._system.unpack(self._system.x)
         code = self.snes.getConvergedReason()
         report.converged = self._converged
-        if not self._converged:
-            self._failure = self._failure or self._why_slow(code)
+        if not self._converged and not self._failure:
+            self._failure = self._why_slow(code)
+            self._is_final = bool(self._failure)
         report.reason = self._failure or _reason_of(code, self._converged)
         report.frozen_gap = min(self._frozen_pairs.gaps, default=0.0)
         self._has_modes |= self._converged
         if self._converged:
             self._criterion.accept()
         self._linear.end_step(report)
+        report.soft = self._path.iterations
+        report.limited, report.shortened = self._length.limited, self._length.damped
         report.cycles = self._guard.cycles
         report.corners = int(total(self._halo.comm, self._junctions.corners))
         report.free_modes = self._free_bodies.free_modes
@@ -229,7 +249,9 @@ class NewtonLoop:
         update = self.snes.getSolutionUpdate()
         way = self._system.blocks(update.array_r)[0].reshape(-1, self._system.block)
         way = self._halo.scatter_forward(way).ravel()[: len(self._bulk.u.x.array)]
-        error = self._bulk.jacobian_error(way, 1e-6 * self._criterion.extent)
+        # One size may be too large where the material is about to fail, or too small for rounding
+        sizes = [part * self._criterion.extent for part in (1e-4, 1e-6, 1e-8)]
+        error = min(self._bulk.jacobian_error(way, size) for size in sizes)
         if error > _WRONG:
             return _WRONG_JACOBIAN.format(100 * error) + _ADVICE[self._bulk.has_own_jacobian]
         last = self._report.history[-_STAGNANT:]
@@ -239,6 +261,15 @@ class NewtonLoop:
         if stagnant and changes == 0 and self._criterion.may_be_rounding(min(residuals)):
             return _STAGNATES.format(min(residuals), last[-1].tolerance)
         return ""
+
+    @property
+    def damping_may_help(self) -> bool:
+        """Whether damped steps may converge where the last run has failed.
+
+        Not where steps solve what they solve exactly, nor on a user's own line search.
+        """
+        is_curved = not self._bulk.is_linear or any(i.updates_kinematics for i in self._interfaces)
+        return is_curved and not self._is_final and self._has_full_steps
 
     @property
     def hidden_gaps(self) -> Sequence[float]:
@@ -372,39 +403,71 @@ class NewtonLoop:
             if self._guard.shorten(self._system.x):
                 self._system.unpack(self._system.x)
             self._take_off_drift()
-            self._changes = self._settle()
+            # On the soft path nothing leads far astray
+            self._changes = self._settle(may_freeze=not self._path.is_soft)
+            is_full = self._length.part == 1
+            self._path.advance(self._changes[0], self._num_closed(), is_full=is_full)
         row, small = self._evaluate(snes, number)
+        if small and self._path.is_soft:
+            self._path.harden()
+            row, small = self._evaluate(snes, number)
         # With frozen kinematics the residual is not the true one. The active set need not settle:
         # nodes without force change their status by rounding for ever
         while small and (self._stale or self._frozen_pairs.hide_penetration()):
             if not (self._stale or self._frozen_pairs.release()):
-                self._failure = _HIDDEN
+                self._failure, self._is_final = _HIDDEN, True
                 return reason.DIVERGED_FUNCTION_DOMAIN
             self._changes = self._settle(may_freeze=False)
             row, small = self._evaluate(snes, number)
         self._report.history.append(row)
-        self._guard.note(self._system.x, row.residual)
+        if not self._path.is_soft:
+            self._guard.note(self._system.x, row.residual)
         if not np.isfinite(row.residual):
             return reason.DIVERGED_FUNCTION_NANORINF
         if small:
             self._failure = self._look_again()
             self._converged = not self._failure
             return reason.DIVERGED_FUNCTION_DOMAIN if self._failure else reason.CONVERGED_FNORM_ABS
+        if self._length.is_stuck:
+            return reason.DIVERGED_LINE_SEARCH
         # In 3D nodes that all slip may balance a body by turning their friction
         shrinks = any(row.residual < 0.7 * r.residual for r in self._report.history[-2:-1])
-        if self._free_bodies.unbalanced >= _MOST_UNBALANCED and not shrinks:
-            self._failure = _UNBALANCED
+        if self._is_unbalanced() and not shrinks:
+            self._failure, self._is_final = _UNBALANCED, True
             return reason.DIVERGED_FUNCTION_DOMAIN
         self._linear.update(self._free_bodies.springs)
         # Where an active set has come back, only exact solves tell it from its successor
         changing = 0.0 if self._guard.cycles else sum(self._changes) / max(1, row.closed)
+        if self._path.iterations:
+            changing = min(changing, _ON_THE_PATH)
         self._linear.set_accuracy(row.residual, row.tolerance, changing)
         return reason.CONVERGED_ITERATING
+
+    def _is_unbalanced(self) -> bool:
+        """Whether nothing balances a body, now that the active set has settled."""
+        if not self._free_bodies.is_unbalanced:
+            self._unbalanced = 0
+        elif self._changes[0] == 0:
+            self._unbalanced += 1
+        return self._unbalanced >= _MOST_UNBALANCED
+
+    @keeps_its_error
+    def _shorten(self, x: PETSc.Vec, step: PETSc.Vec) -> bool:
+        """Shorten a Newton step before the line search; returns whether it may have changed."""
+        parts = self._system.blocks(step.array_r)[1:]
+        # A line search of the user's would have nowhere to go
+        is_able = self.snes.getIterationNumber() > 0 and self._has_full_steps
+        if is_able and self._path.begins(parts):
+            step.zeroEntries()
+        else:
+            self._length.shorten(self.snes, x, step, self._function)
+        return True
 
     def _look_again(self) -> str:
         """What is wrong with a converged iterate although its residual is small, or nothing."""
         way = self._way()
         if self._free_bodies.free_modes > 0 and way > self._criterion.farthest():
+            self._is_final = True
             return _RAN_AWAY.format(way)
         with self._report.timing("audit"):
             self._report.audit = findings = self._audit(self._names)

@@ -193,6 +193,13 @@ class ContactProblem:
                 with report.timing("total"):
                     self._newton.run(report)
                 interrupts.wait()
+                if not report.converged and self._newton.damping_may_help:
+                    before.restore()
+                    self._newton.reset()
+                    self.report = report = Report(discarded=report.iterations, damped=True)
+                    with report.timing("total"):
+                        self._newton.run(report)
+                    interrupts.wait()
                 if not report.converged:
                     raise ConvergenceError(report.reason, report)
                 check_drag(self._interfaces, self.contacts, self._halo)

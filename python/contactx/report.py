@@ -51,7 +51,9 @@ class Report:
 
     Attributes:
         history: One row an iteration, the start first.
-        discarded: Linear solves of the attempts at this step that LoadSteps cut.
+        discarded: Linear solves of the attempts at this step that failed: that without damping, and
+            those that LoadSteps cut.
+        damped: Whether Newton steps were damped, as others did not converge.
         converged: Whether the step converged.
         reason: Why the Newton loop ended.
         slaves: Number of slave nodes of all contacts.
@@ -63,6 +65,9 @@ class Report:
         hierarchies: Multigrid hierarchies made for it.
         factorisations: Factorisations of what was not condensed.
         uncondensed: Why solves were not condensed, one entry a solve.
+        soft: Linear solves on the path from soft to hard contact.
+        limited: Newton steps that were shortened so as not to turn a cell inside out.
+        shortened: Newton steps that were damped.
         cycles: How often the status of an iterate came back and steps were shortened.
         free_modes: Rigid modes of free bodies, at the end; the forces along them balance.
         closed_for_balance: Nodes that were closed because a free body would have met them first.
@@ -83,6 +88,7 @@ class Report:
 
     history: list[Iteration] = field(default_factory=list)
     discarded: int = 0
+    damped: bool = False
     converged: bool = False
     reason: str = ""
     slaves: int = 0
@@ -93,6 +99,9 @@ class Report:
     hierarchies: int = 0
     factorisations: int = 0
     uncondensed: list[str] = field(default_factory=list)
+    soft: int = 0
+    limited: int = 0
+    shortened: int = 0
     cycles: int = 0
     free_modes: int = 0
     closed_for_balance: int = 0
@@ -141,7 +150,7 @@ class Report:
     def __str__(self) -> str:
         """The whole report."""
         frozen = f", {self.frozen_pairs} frozen (hiding a gap of {self.frozen_gap:.1e})"
-        discarded = f" ({self.discarded} more in attempts that were cut)"
+        discarded = f" ({self.discarded} more in attempts that failed)"
         lines = [
             f"{'converged' if self.converged else 'NOT converged'} after {self.iterations} "
             f"iterations{discarded if self.discarded else ''}: {self.reason}",
@@ -163,6 +172,15 @@ class Report:
             )
         for reason in sorted(set(self.uncondensed)):
             lines.append(f"solved directly {self.uncondensed.count(reason)} times: {reason}")
+        acted = [
+            f"{self.soft} solves with soft contact" if self.soft else "",
+            f"{self.limited} steps shortened to keep cells from turning inside out"
+            if self.limited
+            else "",
+            f"{self.shortened} steps damped, as others did not converge" if self.damped else "",
+        ]
+        if any(acted):
+            lines.append(", ".join(text for text in acted if text))
         if self.cycles:
             lines.append(f"the status came back {self.cycles} times; steps were shortened")
         if self.corners:

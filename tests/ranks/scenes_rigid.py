@@ -14,9 +14,9 @@ import contactx as cx
 from contactx.obstacles import Obstacle
 from dolfinx.mesh import CellType
 
-from scenes import Blocks
+from scenes import Blocks, slender
 from scenes.driven import DrivenBlock
-from scenes.steps import DentedBlock
+from scenes.steps import DentedBlock, Sheared
 
 
 def plane() -> Iterator[cx.ContactProblem]:
@@ -34,6 +34,31 @@ def cylinder() -> Iterator[cx.ContactProblem]:
     problem, _ = rigid_cylinder.create(0.04, "finite")
     problem.solve()
     yield problem
+
+
+def beam() -> Iterator[cx.ContactProblem]:
+    """Through soft contact."""
+    yield from _beam("lu")
+
+
+def beam_condensed() -> Iterator[cx.ContactProblem]:
+    """The same, by the condensed solver."""
+    yield from _beam("condensed")
+
+
+def _beam(solver: str) -> Iterator[cx.ContactProblem]:
+    strip = slender.beam(120, "thin", petsc_options={"pc_type": solver})
+    assert slender.press(strip, "thin").soft > 0
+    yield strip.problem
+
+
+def squeezed() -> Iterator[cx.ContactProblem]:
+    """Steps are shortened so as to turn no cell inside out."""
+    scene = Sheared(far=12.0, snes_max_it=50)
+    scene.update(1.0)
+    scene.problem.solve()
+    assert scene.problem.report.limited > 0
+    yield scene.problem
 
 
 def level_set() -> Iterator[cx.ContactProblem]:

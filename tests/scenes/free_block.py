@@ -95,7 +95,7 @@ class FreeBlock:
         status = np.full(halo.num_owned, -1)
         status[self.slaves] = self.nodes.status
         free = self.free_bodies
-        counts = changed, free.free_modes, free.closed_for_balance, free.unbalanced
+        counts = changed, free.free_modes, free.closed_for_balance, free.is_unbalanced
         none = np.zeros(halo.num_owned * halo.gdim)
         return (
             counts,

@@ -43,7 +43,7 @@ class Outcome:
         reason: Why it was refused or is wrong.
         steps: Accepted steps.
         iterations: Linear solves of all accepted steps.
-        discarded: Those of steps that were cut.
+        discarded: Those of attempts that failed, and were damped or cut then.
         seconds: CPU time.
         note: What is worth knowing, though it is not wrong.
     """
@@ -138,6 +138,7 @@ def _steps(case: Case, outcome: Outcome) -> Iterator[float]:
         case.problem.solve()
         outcome.steps += 1
         outcome.iterations += case.problem.report.iterations
+        outcome.discarded += case.problem.report.discarded
         yield float(t)
 
 
@@ -155,6 +156,5 @@ def _solve(scene: Scene, outcome: Outcome) -> None:
         outcome.reason = "; ".join(f"{c.name}: {c.error:.3g} > {c.allowed:.3g}" for c in violated)
     else:
         given = case.steps if isinstance(case.steps, int) else len(case.steps)
-        cut = outcome.steps > given or outcome.discarded > 0
-        outcome.kind = Kind.CUT if cut else Kind.CONVERGED
+        outcome.kind = Kind.CUT if outcome.steps > given else Kind.CONVERGED
         outcome.note = "; ".join(c.name for c in case.notes() if not c.holds)

@@ -5,6 +5,7 @@
 #include "../vec.h"
 #include "triquadratic.h"
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -256,6 +257,117 @@ DeformedCells find(std::span<const std::int32_t> cells,
   return found;
 }
 
+/// Coefficients of det(dx/dxi) at one point along the way, by powers of t.
+/// @param[in] a,b,c,d The determinants at t = 0, t = 1, t = -1 and of du alone.
+template <int D>
+std::array<double, D + 1> powers(double a, double b, double c, double d)
+{
+  if constexpr (D == 2)
+    return {a, b - a - d, d};
+  else
+    return {a, (b - c) / 2 - d, (b + c) / 2 - a, d};
+}
+
+/// Coefficients by the Bernstein polynomials of [0, end], from those by powers.
+template <std::size_t N>
+std::array<double, N> bernstein(std::array<double, N> p, double end)
+{
+  // C(i, k) / C(n, k), and powers of the end
+  std::array<double, N> b;
+  for (std::size_t i = 0; i < N; ++i)
+  {
+    double weight = 1;
+    b[i] = 0;
+    for (std::size_t k = 0; k <= i; ++k)
+    {
+      b[i] += weight * p[k];
+      weight *= end * (i - k) / static_cast<double>(N - 1 - k);
+    }
+  }
+  return b;
+}
+
+/// Largest t of [begin, begin + width] up to which a polynomial that begins
+/// with a positive value is proven to stay positive; too small by 1/1024 of it.
+/// @param[in] b Its coefficients by the Bernstein polynomials of the interval.
+template <std::size_t N>
+double first_root(const std::array<double, N>& b, double begin, double width)
+{
+  if (std::ranges::all_of(b, [](double c) { return c > 0; }))
+    return begin + width;
+  if (1024 * width <= begin or !(width > std::numeric_limits<double>::min()))
+    return begin;
+  // De Casteljau's halves
+  auto left = b, right = b;
+  for (std::size_t k = 1; k < N; ++k)
+  {
+    for (std::size_t i = 0; i + k < N; ++i)
+      right[i] = (right[i] + right[i + 1]) / 2;
+    left[k] = right[0];
+  }
+  const double half = width / 2, middle = begin + half;
+  const double t = first_root(left, begin, half);
+  return t < middle or !(right[0] > 0) ? t : first_root(right, middle, half);
+}
+
+template <class C>
+double shortest(std::span<const std::int32_t> cells, std::span<const double> X,
+                std::span<const double> u, std::span<const double> du,
+                double part)
+{
+  constexpr int gdim = C::gdim;
+  double t = 1;
+  const std::ptrdiff_t count = std::ssize(cells) / C::nodes;
+  for (std::ptrdiff_t c = 0; c < count; ++c)
+  {
+    std::array<Vec<gdim>, C::nodes> Xc, uc, dc;
+    for (int i = 0; i < C::nodes; ++i)
+      for (int k = 0; k < gdim; ++k)
+      {
+        const std::size_t at = std::size_t(cells[c * C::nodes + i]) * gdim + k;
+        Xc[i][k] = X[at];
+        uc[i][k] = u[at];
+        dc[i][k] = du[at];
+      }
+    const auto now = [&](int i, int j) -> Vec<gdim>
+    { return (Xc[j] - Xc[i]) + (uc[j] - uc[i]); };
+    // By which part of the way the cell changes by about its own size: from
+    // farther places differences would be rounding
+    double size = 0, by = 0;
+    for (int i = 1; i < C::nodes; ++i)
+    {
+      size = std::max(size, norm(now(0, i)));
+      by = std::max(by, norm(dc[i] - dc[0]));
+    }
+    const double unit = by > size ? size / by : 1;
+    const auto at = [&](double s)
+    {
+      return C::determinants([&, s](int i, int j)
+                             { return now(i, j) + s * (dc[j] - dc[i]); });
+    };
+    const auto reference
+        = C::determinants([&Xc](int i, int j) { return Xc[j] - Xc[i]; });
+    const auto begin = at(0), end = at(unit), back = at(-unit);
+    const auto alone
+        = C::determinants([&](int i, int j) { return unit * (dc[j] - dc[i]); });
+    for (int p = 0; p < C::points; ++p)
+    {
+      const double sign = std::copysign(1, reference[p]);
+      auto way = powers<gdim>(sign * begin[p], sign * end[p], sign * back[p],
+                              sign * alone[p]);
+      // NaN of an overflow is left to the audit
+      if (!(way[0] > 0))
+        continue;
+      way[0] -= part * std::min(way[0], sign * reference[p]);
+      const double whole = t / unit;
+      const double found = first_root(bernstein(way, whole), 0, whole);
+      if (found < whole)
+        t = unit * found;
+    }
+  }
+  return t;
+}
+
 [[noreturn]] void fail(const std::string& message)
 {
   throw std::invalid_argument(message);
@@ -302,4 +414,24 @@ contactx::audit::deformed_cells(std::span<const std::int32_t> cells,
                                : find<Quadrilateral>(cells, X, u);
   return nodes_per_cell == 4 ? find<Tetrahedron>(cells, X, u)
                              : find<Hexahedron>(cells, X, u);
+}
+
+double contactx::audit::longest_way(std::span<const std::int32_t> cells,
+                                    int nodes_per_cell,
+                                    std::span<const double> X,
+                                    std::span<const double> u,
+                                    std::span<const double> du, int gdim,
+                                    double part)
+{
+  check(cells, nodes_per_cell, X, u, gdim);
+  if (du.size() < u.size())
+    fail("du must be as long as u: it has " + std::to_string(du.size())
+         + " values for " + std::to_string(u.size()));
+  if (!(part >= 0 and part < 1))
+    fail("part must be in [0, 1), not " + std::to_string(part));
+  if (gdim == 2)
+    return nodes_per_cell == 3 ? shortest<Triangle>(cells, X, u, du, part)
+                               : shortest<Quadrilateral>(cells, X, u, du, part);
+  return nodes_per_cell == 4 ? shortest<Tetrahedron>(cells, X, u, du, part)
+                             : shortest<Hexahedron>(cells, X, u, du, part);
 }

@@ -72,11 +72,12 @@ Vec<D> vector_at(std::span<const double> values, std::size_t i)
 template <int D>
 struct Node
 {
-  Node(const FrictionalState& s, std::size_t i)
+  Node(const FrictionalState& s, std::size_t i, bool is_closed)
       : lambda(vector_at<D>(s.traction, i)), n(vector_at<D>(s.normal, i)),
         slip(vector_at<D>(s.slip, i)), gap(s.gap[i]), c(s.c[i]),
-        p(dot(n, lambda)), p_hat(p - c * gap), t(lambda - p * n),
-        t_hat(t - c * slip), size(norm(t_hat)), bound(s.friction[i] * p_hat)
+        p(dot(n, lambda)), p_hat(pressure_hat(p, c, gap, is_closed)),
+        t(lambda - p * n), t_hat(t - c * slip), size(norm(t_hat)),
+        bound(s.friction[i] * p_hat)
   {
   }
 
@@ -168,7 +169,8 @@ Terms<D> slip_terms(const Node<D>& a, double friction)
   const Mat<D> t_by_n = traction_by_normal<D>(a);
   Terms<D> r;
   r.value = a.t - a.bound * s;
-  r.by_gap = (a.c * friction) * s;
+  // See `pressure_hat`
+  r.by_gap = a.gap > 0 ? Vec<D>{} : (a.c * friction) * s;
   r.by_slip = scaled<D>(a.c, turn);
   const Mat<D> tangential = across<D>(a.n);
   r.by_traction
@@ -245,7 +247,7 @@ std::int32_t set_status(const FrictionalState& state, double reach,
   std::int32_t changed = 0;
   for (std::size_t i = 0; i < status.size(); ++i)
   {
-    const Status now = Node<D>(state, i).status(reach);
+    const Status now = Node<D>(state, i, status[i] != open).status(reach);
     changed += now != status[i];
     status[i] = now;
   }
@@ -259,7 +261,7 @@ void evaluate(const FrictionalState& state, std::span<const double> area,
 {
   for (std::size_t i = 0; i < status.size(); ++i)
   {
-    const Node<D> node(state, i);
+    const Node<D> node(state, i, status[i] != open);
     if (status[i] == Status::open)
     {
       write<D>(open_terms<D>(node.lambda), area[i], i, law);

@@ -33,8 +33,9 @@ struct FrictionalLaw
 
 /// @brief Status that Coulomb's law asks for.
 ///
-/// With p_hat = p - c g and t_hat = t - c ds: open where p_hat <= 0, else stick
-/// where |t_hat| <= mu p_hat > 0, else slip (Alart & Curnier 1991). A node
+/// With p_hat of the normal law and t_hat = t - c ds: open where p_hat <= 0,
+/// else stick where |t_hat| <= mu p_hat > 0, else slip (Alart & Curnier 1991;
+/// there p_hat = p - c g, see `pressure_hat`). A node
 /// whose trial friction opposes t sticks first, if t_hat is not too long; at a
 /// solution both agree.
 /// @param[in] state State.

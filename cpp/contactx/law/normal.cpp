@@ -13,7 +13,9 @@ std::int32_t contactx::law::normal_status(const NormalState& state,
   for (std::size_t i = 0; i < status.size(); ++i)
   {
     // False for the gap NaN, too
-    const bool closed = state.pressure[i] - state.c[i] * state.gap[i] > 0;
+    const bool closed = pressure_hat(state.pressure[i], state.c[i],
+                                     state.gap[i], status[i] != open)
+                        > 0;
     const std::int8_t now = closed ? slip : open;
     changed += now != status[i];
     status[i] = now;
@@ -31,8 +33,10 @@ void contactx::law::normal_complementarity(const NormalState& state,
   for (std::size_t i = 0; i < status.size(); ++i)
   {
     const bool closed = status[i] != open;
-    d_pressure[i] = closed ? 0 : area[i];
+    d_pressure[i] = closed ? area[i] * state.softness : area[i];
     d_gap[i] = closed ? area[i] * state.c[i] : 0;
-    value[i] = closed ? d_gap[i] * state.gap[i] : area[i] * state.pressure[i];
+    value[i] = d_pressure[i] * state.pressure[i];
+    if (closed)
+      value[i] += d_gap[i] * state.gap[i];
   }
 }

@@ -23,10 +23,24 @@ struct NormalState
   std::span<const double> pressure;
   std::span<const double> gap; ///< NaN where a node has no pair
   std::span<const double> c;   ///< complementarity factor, traction/length
+  /// Compliance of a layer between the surfaces, over 1 / c
+  double softness = 0;
 };
 
+/// @brief Pressure by which a node is closed, where it is positive.
+///
+/// Where a node is open it is p - c g (Hueeber & Wohlmuth 2005). Where it is
+/// closed a step of Newton's method ends with g = 0 but for what is not linear
+/// in g: that opens no node, however large c is against p / g. Slender bodies
+/// slide far under small pressures.
+inline double pressure_hat(double p, double c, double gap, bool is_closed)
+{
+  // NaN stays NaN
+  return p - c * (is_closed and gap > 0 ? 0 : gap);
+}
+
 /// @brief Status that the complementarity asks for: closed where
-/// p - c g > 0, else open (Hueeber & Wohlmuth 2005).
+/// p_hat > 0, else open.
 /// @param[in] state Pressures and gaps.
 /// @param[in,out] status Status of each node.
 /// @return Number of nodes that changed.
@@ -35,7 +49,7 @@ std::int32_t normal_status(const NormalState& state,
 
 /// @brief Complementarity function of the normal direction, times the area:
 /// A c g on closed nodes and A p on open ones (Alart & Curnier 1991), both
-/// forces.
+/// forces. A soft layer adds softness p to c g.
 /// @param[in] state Pressures and gaps.
 /// @param[in] area Area of each node.
 /// @param[in] status Status of each node.

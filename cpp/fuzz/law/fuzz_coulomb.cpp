@@ -71,7 +71,9 @@ void check_slip(const Nodes<D>& a, std::size_t i)
   const auto t = lambda - p * n;
   const auto found = (1 / a.area[i]) * a.at(a.value, i) - pulled * n;
   const double size = norm(lambda) + std::abs(pulled);
-  require(norm(t - found) <= a.friction[i] * (p - pulled) + 1e-9 * size,
+  const double bound
+      = a.friction[i] * law::pressure_hat(p, a.c[i], a.gap[i], true);
+  require(norm(t - found) <= bound + 1e-9 * size,
           "friction is no more than Coulomb's");
 }
 
@@ -85,6 +87,8 @@ void check(Input& in)
   // Any status is evaluated, not that of the state alone
   law::frictional_complementarity(state, a.area, before, a.mobile, a.law());
   const double reach = in.positive();
+  law::frictional_status(state, reach, a.status);
+  // The bound of a node that has just closed is that of its pressure from now
   law::frictional_status(state, reach, a.status);
   require(law::frictional_status(state, reach, a.status) == 0,
           "the status is settled");

@@ -24,7 +24,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
     area[i] = in.positive();
     status[i] = static_cast<std::int8_t>(in.below(3));
   }
-  const law::NormalState state{pressure, gap, c};
+  const double softness = in.flag() ? in.positive() : 0;
+  const law::NormalState state{pressure, gap, c, softness};
   law::normal_status(state, status);
   require(law::normal_status(state, status) == 0, "the status is settled");
 

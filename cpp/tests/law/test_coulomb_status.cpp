@@ -34,6 +34,22 @@ TYPED_TEST(CoulombStatus, IsOpenWhereTheTrialPressureIsNotPositive)
   EXPECT_EQ((upright<D>(-2, 5, -0.125, 0, 0.5).status()), open);
 }
 
+TYPED_TEST(CoulombStatus, AClosedNodeOpensOnlyWithoutPressure)
+{
+  constexpr int D = TypeParam::value;
+  for (std::int8_t closed : {stick, slip})
+  {
+    // mu p_hat = 1, however wide the gap is
+    EXPECT_EQ((upright<D>(2, 0.5, 1e3, 0, 0.5).status(closed)), stick);
+    EXPECT_EQ((upright<D>(2, 1.5, 1e3, 0, 0.5).status(closed)), slip);
+    EXPECT_EQ((upright<D>(0, 0, 0.25, 0, 0.5).status(closed)), open);
+    EXPECT_EQ((upright<D>(-1, 0, 0.25, 0, 0.5).status(closed)), open);
+    EXPECT_EQ((upright<D>(-1, 0, -0.25, 0, 0.5).status(closed)), stick);
+    EXPECT_EQ((upright<D>(-3, 0, -0.25, 0, 0.5).status(closed)), open);
+    EXPECT_EQ((upright<D>(1, 0, nan, 0, 0.5).status(closed)), open);
+  }
+}
+
 TYPED_TEST(CoulombStatus, IsOpenWithoutAPair)
 {
   constexpr int D = TypeParam::value;

@@ -11,22 +11,24 @@ using namespace contactx::law;
 namespace
 {
 /// Status of one node.
-std::int8_t status_of(double pressure, double gap, double c)
+std::int8_t status_of(double pressure, double gap, double c,
+                      std::int8_t before = open)
 {
   const std::array p{pressure}, g{gap}, cs{c};
-  std::array<std::int8_t, 1> status{open};
+  std::array<std::int8_t, 1> status{before};
   normal_status({p, g, cs}, status);
   return status[0];
 }
 
 /// Complementarity function of one node: value and its two derivatives.
 std::array<double, 3> function_of(double pressure, double gap, double c,
-                                  double area, std::int8_t status)
+                                  double area, std::int8_t status,
+                                  double softness = 0)
 {
   const std::array p{pressure}, g{gap}, cs{c}, a{area};
   const std::array s{status};
   std::array<double, 1> value, d_pressure, d_gap;
-  normal_complementarity({p, g, cs}, a, s, value, d_pressure, d_gap);
+  normal_complementarity({p, g, cs, softness}, a, s, value, d_pressure, d_gap);
   return {value[0], d_pressure[0], d_gap[0]};
 }
 
@@ -40,6 +42,19 @@ TEST(NormalStatus, IsClosedWhereThePressureExceedsTheGap)
   EXPECT_EQ(status_of(0, 0.1, 10), open);
   EXPECT_EQ(status_of(0.5, 0.1, 10), open);
   EXPECT_EQ(status_of(-2, -0.1, 10), open);
+}
+
+TEST(NormalStatus, AClosedNodeOpensOnlyWithoutPressure)
+{
+  for (std::int8_t closed : {stick, slip})
+  {
+    EXPECT_EQ(status_of(1e-9, 1e3, 10, closed), slip);
+    EXPECT_EQ(status_of(0, 0.1, 10, closed), open);
+    EXPECT_EQ(status_of(-1, 0.1, 10, closed), open);
+    EXPECT_EQ(status_of(-0.5, -0.1, 10, closed), slip);
+    EXPECT_EQ(status_of(-2, -0.1, 10, closed), open);
+    EXPECT_EQ(status_of(1, std::nan(""), 10, closed), open);
+  }
 }
 
 TEST(NormalStatus, IsOpenOnTheBoundary)
@@ -100,17 +115,27 @@ TEST(NormalComplementarity, DoesNotReadTheGapOfANodeWithoutAPair)
 TEST(NormalComplementarity, HasItsDifferenceQuotientsAsDerivatives)
 {
   const double h = 1. / 1024; // linear on each branch: any step is exact
-  for (std::int8_t status : {open, stick, slip})
-    for (double p : {-1.0, 0.0, 2.0})
-      for (double g : {-0.5, 0.0, 0.25})
-      {
-        const auto at = [status](double pressure, double gap)
-        { return function_of(pressure, gap, 8, 3, status); };
-        EXPECT_DOUBLE_EQ(at(p, g)[1],
-                         (at(p + h, g)[0] - at(p - h, g)[0]) / (2 * h));
-        EXPECT_DOUBLE_EQ(at(p, g)[2],
-                         (at(p, g + h)[0] - at(p, g - h)[0]) / (2 * h));
-      }
+  for (double softness : {0.0, 0.25, 64.0})
+    for (std::int8_t status : {open, stick, slip})
+      for (double p : {-1.0, 0.0, 2.0})
+        for (double g : {-0.5, 0.0, 0.25})
+        {
+          const auto at = [status, softness](double pressure, double gap)
+          { return function_of(pressure, gap, 8, 3, status, softness); };
+          EXPECT_DOUBLE_EQ(at(p, g)[1],
+                           (at(p + h, g)[0] - at(p - h, g)[0]) / (2 * h));
+          EXPECT_DOUBLE_EQ(at(p, g)[2],
+                           (at(p, g + h)[0] - at(p, g - h)[0]) / (2 * h));
+        }
+}
+
+TEST(NormalComplementarity, ASoftLayerIsAsThinAsThePressureMakesIt)
+{
+  // c g + softness p = 0
+  EXPECT_EQ(function_of(2, -0.75, 8, 3, slip, 3)[0], 0);
+  EXPECT_EQ(function_of(2, -0.75, 8, 3, slip, 0)[0], -18);
+  // Open nodes have none
+  EXPECT_EQ(function_of(2, 0.75, 8, 3, open, 3)[0], 6);
 }
 
 TEST(NormalComplementarity, TreatsEachNodeOnItsOwn)

@@ -29,6 +29,9 @@ class Audit:
     The residual says that the constraints hold which contact has set up. Whether they were the
     right ones is seen from geometry alone: from the master's side, between slave nodes, along the
     way from the last accepted configuration, and in the deformed cells.
+
+    Attributes:
+        cells: The cells of the mesh.
     """
 
     def __init__(self, bulk: Bulk, interfaces: Sequence[Interface], halo: Halo):
@@ -40,7 +43,7 @@ class Audit:
             halo: Nodes of this rank.
         """
         self._bulk, self._interfaces, self._halo = bulk, interfaces, halo
-        self._cells = DeformedCells(bulk.u.function_space)
+        self.cells = DeformedCells(bulk.u.function_space)
         self._looks: list[SurfacesAudit | ObstacleAudit | None] = []
         for interface in interfaces:
             master = interface.master
@@ -95,7 +98,7 @@ class Audit:
         """
         if self._bulk.is_linear and all(i.sliding == "small" for i in self._interfaces):
             return
-        found = self._cells.look(self._bulk.u.x.array)
+        found = self.cells.look(self._bulk.u.x.array)
         findings.smallest_det, findings.inverted = found.smallest, found.inverted
         if found.inverted == 0:
             return

@@ -23,8 +23,9 @@ from contactx.parallel import reduce
 _BALANCED = 1e-6
 # Force along free modes, relative to the residual, above which it asks for a motion
 _IDLE = 1e-3
-# Stiffness of springs that carry no force, relative to the bulk's
+# Stiffness of springs, relative to the bulk's: of those that carry no force, and of others
 _WEAK = 1e-6
+_NEAR = 1e-3
 # Relative difference of what is equal but for rounding
 _TIE = 1e-9
 # A contact, nodes of it that may balance a body, and the time in which the motion gets there
@@ -45,7 +46,7 @@ class FreeBodies:
     Attributes:
         free_modes: Number of free rigid modes at the last iterate.
         closed_for_balance: Nodes that were closed in this step to balance a body.
-        unbalanced: How many iterates in turn had forces that nothing in the way can balance.
+        is_unbalanced: Whether the last iterate had forces that nothing in the way can balance.
     """
 
     def __init__(self, bulk: Bulk, interfaces: Sequence[Interface], bodies: Bodies):
@@ -61,7 +62,8 @@ class FreeBodies:
         self._bodies = bodies
         self._comm = bodies.halo.comm
         self._modes: RigidModes | None = None
-        self.free_modes = self.closed_for_balance = self.unbalanced = 0
+        self.free_modes = self.closed_for_balance = 0
+        self.is_unbalanced = False
         self._springs: Array | None = None
         # Free motions at owned dofs, and the displacements at which they were found
         self._loose: tuple[Array, Array] | None = None
@@ -76,7 +78,8 @@ class FreeBodies:
             self._modes = RigidModes(self._bulk, self._bodies, x)
         else:
             self._modes.update(x)
-        self.free_modes = self.closed_for_balance = self.unbalanced = 0
+        self.free_modes = self.closed_for_balance = 0
+        self.is_unbalanced = False
         self._springs = self._loose = None
         self._begins = True
 
@@ -122,14 +125,14 @@ class FreeBodies:
         while True:
             N = self._free_basis(x, rigid.free)
             if N.shape[1] == 0:
-                self.unbalanced = 0
+                self.is_unbalanced = False
                 break
             # In 3D the tangent across the slip resists motions that slip to all sides does not
             lacking = self._lacking(x) if gdim == 2 else 0.0
             f = N.T @ (pull + lacking)
             # A norm that does not depend on which basis of the modes rounding has chosen
             if np.linalg.norm(f) <= balanced or self._loads_balance(N):
-                self.unbalanced = 0
+                self.is_unbalanced = False
                 break
             # The rigid motion of bodies whose mass goes with their number of nodes
             weight = np.repeat(rigid.num_nodes, size)
@@ -137,7 +140,7 @@ class FreeBodies:
             closed = self._close_first(x, way.reshape(rigid.count, size))
             self.closed_for_balance += closed
             if closed == 0 and not self._stick_first(x, way.ravel()):
-                self.unbalanced += 1
+                self.is_unbalanced = True
                 # A support may have got its stiffness on the way
                 rigid.update(x)
                 break
@@ -153,9 +156,9 @@ class FreeBodies:
             if idle and not self._has_friction():
                 free = self._bulk.markers[: len(shares)] == 0
                 self._loose = shares * free[:, None], self._displacements()
-            # Weak, so that they do not slow down what a little stiffness does resist; a body that
-            # nothing can balance stays near, where it may still meet something
-            self._springs = springs if self.unbalanced else _WEAK * springs
+            # Weak, so that they do not slow down what a little stiffness does resist, such as
+            # friction that turns; a body that nothing balances yet stays near what it may meet
+            self._springs = (_NEAR if self.is_unbalanced else _WEAK) * springs
         return closed_any
 
     def _loads_balance(self, N: Array) -> bool:

@@ -89,6 +89,7 @@ class Elimination:
         self._open.append((multipliers[~closed].ravel(), diagonal.ravel()))
         slaves = interface.slaves
         if nodes.size == 1:
+            closed = closed & own[:, 0]
             self._add_scalar(slaves[closed], multipliers[closed, 0])
             return
         dofs = slaves[:, None] * self._gdim + np.arange(self._gdim)

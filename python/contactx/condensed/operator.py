@@ -11,7 +11,7 @@ from petsc4py import PETSc
 import numpy as np
 
 from contactx.bulk import Bulk
-from contactx.condensed.blocks import Array, ContactBlocks, Entries, Index
+from contactx.condensed.blocks import Array, ContactBlocks, Entries, Index, joined
 from contactx.condensed.chains import is_symmetric
 from contactx.condensed.elimination import Elimination
 from contactx.condensed.numbering import Numbering, index_set
@@ -38,6 +38,7 @@ class CondensedOperator:
         blocks: ContactBlocks,
         elimination: Elimination,
         springs: Array | None,
+        soft: Entries | None = None,
     ):
         """Create the operator.
 
@@ -47,12 +48,14 @@ class CondensedOperator:
             blocks: Contact blocks of the Jacobian.
             elimination: How the multipliers are eliminated.
             springs: What is added to the diagonal, shape (num_owned,), on all ranks or on none.
+            soft: What soft contact has added to the stiffness of ``blocks``, on all ranks or none.
         """
         self._bulk = bulk
         self._numbering = numbering
         self._K = bulk.matrix()
         self._elimination = elimination
         self._springs = springs
+        self._soft = soft
         self.slave_dofs = elimination.slave_dofs
         self.eliminated = elimination.eliminated
         # Rows of the eliminated displacements alone
@@ -121,11 +124,20 @@ class CondensedOperator:
         block = rows.createSubMatrix(
             index_set(places, rows), self._numbering.index_set(self.eliminated)
         )
-        springs = None
-        if self._springs is not None:
-            sprung = np.setdiff1d(np.flatnonzero(self._springs), self.eliminated)
-            springs = self._numbering.matrix(Entries(sprung, sprung, self._springs[sprung]))
+        springs = self._elastic()
         return Change(places, self._right, block, springs, self._bound())
+
+    def _elastic(self) -> PETSc.Mat | None:
+        """Springs and soft contact as a matrix, without rows of eliminated displacements."""
+        if self._springs is None and self._soft is None:
+            return None
+        parts = [] if self._soft is None else [self._soft]
+        if self._springs is not None:
+            sprung = np.flatnonzero(self._springs)
+            parts.append(Entries(sprung, sprung, self._springs[sprung]))
+        every = joined(parts)
+        taken = self._numbering.marks(self.eliminated)
+        return self._numbering.matrix(every.select(~(taken[every.rows] | taken[every.columns])))
 
     def _bound(self) -> PETSc.Vec:
         """Diagonal D with which the condensed matrix has no larger eigenvalue than the bulk's.

@@ -1,6 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Multipliers along prescribed displacements of slave nodes."""
+"""Multipliers that follow from their own rows of the law."""
 
 from __future__ import annotations
 
@@ -23,10 +23,11 @@ from contactx.interface import Interface
 
 
 class Prescribed:
-    """Takes the multipliers p along prescribed displacements out of the contact blocks.
+    """Takes multipliers p that follow from their own rows of the law out of the contact blocks.
 
-    The bulk has no row that gives them; they follow from their rows of the law, as where a plane of
-    symmetry holds a slave node and there is no friction across it. With the law's derivatives D by
+    The bulk has no row that gives those along prescribed displacements, as where a plane of
+    symmetry holds a slave node and there is no friction across it; those of soft contact are the
+    forces of springs. With the law's derivatives D by
     the multipliers of a node, C by the displacements and the traction block T, and G = D_pp^-1,
 
         l_p = G (d - C u - D_pf l_f)
@@ -40,6 +41,7 @@ class Prescribed:
         blocks: Contact blocks without these multipliers.
         by_multiplier: The law's derivatives D without them, one array (n, k, k) a contact.
         own: Whether each multiplier follows from a row of the bulk, one array (n, k) a contact.
+        springs: What these multipliers add to the stiffness, entries (dof, dof).
     """
 
     def __init__(
@@ -70,6 +72,7 @@ class Prescribed:
             first += own.size
         self._size = first
         self._num_local = len(free)
+        self.springs = Entries(np.zeros(0, int), np.zeros(0, int), np.zeros(0))
         if self._places:
             self._take_out()
 
@@ -79,10 +82,11 @@ class Prescribed:
         nodes = interface.nodes
         n, size = len(nodes.area), nodes.size
         by, own = nodes.by_multiplier, np.ones((n, size), dtype=bool)
-        if size < gdim:
-            return by, own
-        dofs = interface.slaves[:, None] * gdim + np.arange(gdim)
-        own = (free[dofs] == 1) | ~nodes.closed[:, None]
+        if size == gdim:
+            dofs = interface.slaves[:, None] * gdim + np.arange(gdim)
+            own = (free[dofs] == 1) | ~nodes.closed[:, None]
+        elif nodes.softness > 0:
+            own = ~nodes.closed[:, None]
         some = np.flatnonzero(~own.all(axis=1))
         if len(some) == 0:
             return by, own
@@ -113,8 +117,9 @@ class Prescribed:
         C = self.blocks.constraint.matrix((size, self._num_local))
         T = self.blocks.traction.matrix((self._num_local, size))
         stiffness = entries_of(T.matMult(self._inverse).matMult(C))
+        self.springs = stiffness.scaled(-1.0)
         self.blocks = ContactBlocks(
-            stiffness=joined([self.blocks.stiffness, stiffness.scaled(-1.0)]),
+            stiffness=joined([self.blocks.stiffness, self.springs]),
             traction=entries_of(T.matMult(columns)),
             constraint=entries_of(rows.matMult(C)),
         )

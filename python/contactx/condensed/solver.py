@@ -162,8 +162,15 @@ class CondensedSolver:
         self._bulk.update()
         self._bulk.rows(elimination.slave_dofs)
         self._bulk.keep_half()
+        # The same on all ranks
+        is_soft = any(interface.nodes.softness > 0 for interface in interfaces)
         operator = CondensedOperator(
-            self._bulk, around.numbering, contact.blocks, elimination, self.springs
+            self._bulk,
+            around.numbering,
+            contact.blocks,
+            elimination,
+            self.springs,
+            contact.springs if is_soft else None,
         )
         is_exact = reduce.everywhere(comm, diagonal is blocks)
         return A, _Condensed(around.numbering, operator, elimination, contact), is_exact

@@ -79,4 +79,5 @@ class Frictionless(Law):
             nodes.value,
             nodes.by_multiplier.reshape(-1),
             nodes.by_gap,
+            nodes.softness,
         )

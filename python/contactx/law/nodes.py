@@ -35,6 +35,7 @@ class Nodes:
         mobile: 1 in directions in which slave node or master can move, else 0; empty for scalar
             multipliers, shape (n, gdim).
         ceded: Whether a node leaves this contact to another one that it closes, shape (n,).
+        softness: Compliance of a layer between the surfaces, over 1 / c; zero but on a soft path.
         smooth: Whether friction is left out because a node closes several contacts, shape (n,).
         turns: How often slip has turned back in this step, shape (n,).
         closings: How often nodes have closed with slip in this step, shape (n,).
@@ -74,6 +75,7 @@ class Nodes:
         self.smooth = np.zeros(n, dtype=bool)
         self.turns = np.zeros(n, dtype=np.int32)
         self.closings = np.zeros(n, dtype=np.int32)
+        self.softness = 0.0
         self.value = np.zeros(n * self.size)
         self.by_multiplier = np.zeros((n, self.size, self.size))
 
@@ -126,7 +128,9 @@ class Nodes:
         return pressure
 
     def closing(self, tie: float = -1.0) -> npt.NDArray[np.bool_]:
-        """Which nodes the complementarity closes: p - c g > 0, or a gap of at most a tie.
+        """Which nodes the complementarity closes, or a gap of at most a tie.
+
+        As ``pressure_hat`` of the core has it: a closed node only opens without pressure.
 
         Args:
             tie: Gap, of either sign, up to which nodes touch; none if negative.
@@ -136,7 +140,8 @@ class Nodes:
         """
         gap = self.closable_gap
         # False for the gap NaN, too
-        closing: npt.NDArray[np.bool_] = self.pressure - self.c * gap > 0
+        above = np.where(self.closed, np.minimum(gap, 0), gap)
+        closing: npt.NDArray[np.bool_] = self.pressure - self.c * above > 0
         return closing | (np.abs(gap) <= tie)
 
     def close(self, which: npt.NDArray[np.integer]) -> None:

@@ -202,7 +202,7 @@ class LoadSteps:
                     self._problem.solve()
                     interrupts.wait()
                     report = self._problem.report
-                    report.discarded = discarded
+                    report.discarded += discarded
                     step = Step(index, plan.next, report)
                     row = make_row(step, time.perf_counter() - begin)
                     following = plan.accept(report.iterations)
@@ -212,7 +212,7 @@ class LoadSteps:
                     before.restore()
                     shorter = plan.cut()
                     if shorter is None:
-                        error.report.discarded = discarded
+                        error.report.discarded += discarded
                         error.add_note(
                             f"No step from t = {self.t:.6g} converged; the last attempt, to t = "
                             f"{plan.next:.6g}, was the shortest that max_cuts = {plan.max_cuts} "
@@ -221,7 +221,7 @@ class LoadSteps:
                         interrupts.allow()
                         self._update_again(error)
                         raise
-                    discarded += error.report.iterations
+                    discarded += error.report.iterations + error.report.discarded
                     plan, cuts = shorter, cuts + 1
                     continue
                 except BaseException as error:

@@ -38,7 +38,7 @@ def test_a_step_that_fails_is_cut_and_reaches_the_same_end():
     assert [(step.index, step.t) for step in taken] == [(1, 0.5), (2, 1.0)]
     first, second = (step.report for step in taken)
     assert first.discarded > 0 and second.discarded == 0
-    assert f"({first.discarded} more in attempts that were cut)" in str(first)
+    assert f"({first.discarded} more in attempts that failed)" in str(first)
     assert "cut" not in str(second)
     assert steps.t == 1
     # The attempt that failed has left no trace
@@ -51,7 +51,7 @@ def test_a_step_that_fails_is_cut_and_reaches_the_same_end():
 def test_growth_after_easy_steps():
     scene = Sheared(far=12.0)
     t = [step.t for step in scene.steps(1)]
-    assert t == [0.125, 0.25, 0.5, 1.0]
+    assert t == [0.125, 0.25, 0.5, 0.75, 1.0]
     hard = Sheared(far=12.0)
     assert [step.t for step in hard.steps(1, easy=0)] == [k / 8 for k in range(1, 9)]
 
@@ -89,7 +89,7 @@ def test_a_failure_of_the_first_step_sets_the_loads_of_zero():
     scene = Sheared()
     fresh = scene.state()
     steps = scene.steps(1, max_cuts=0)
-    with pytest.raises(cx.ConvergenceError, match="the residual is not finite"):
+    with pytest.raises(cx.ConvergenceError, match="no convergence in snes_max_it"):
         next(iter(steps))
     assert scene.calls == [1.0, 0.0]
     assert scene.state() == fresh

@@ -1,0 +1,187 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Newton's method from far away: active sets that creep, cells that must not turn inside out."""
+
+import numpy as np
+import pytest
+
+import contactx as cx
+from contactx.newton import NewtonLoop
+from contactx.soft_path import SoftPath
+from contactx.step_length import StepLength
+from dolfinx.mesh import CellType
+
+from scenes import Blocks, slender
+from scenes.materials import st_venant_kirchhoff
+from scenes.roller import Roller
+from story import METHODS, elasticity
+
+
+def answer(strip):
+    contact = strip.contact
+    return strip.u.x.array.copy(), contact.force.copy(), contact.pressure.x.array.copy()
+
+
+def without_soft_path(monkeypatch):
+    monkeypatch.setattr(SoftPath, "begins", lambda self, step: False)
+
+
+@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("shape", slender.SHAPES)
+def test_iterations_on_a_slender_beam_do_not_grow_with_its_cells(shape, method):
+    counts = []
+    for n in (100, 400):
+        strip = slender.beam(n, shape, method=method)
+        report = slender.press(strip, shape)
+        assert report.soft > 0
+        assert "solves with soft contact" in str(report)
+        counts.append(report.iterations)
+    print(counts)
+    assert max(counts) <= 20
+    assert counts[1] <= 1.25 * counts[0]
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_nor_where_strains_are_large(method):
+    for n in (50, 400):
+        strip = slender.beam(n, "deep", material=st_venant_kirchhoff, method=method)
+        report = slender.press(strip, "deep")
+        assert report.iterations <= 20
+        assert report.discarded == 0
+
+
+def test_the_active_set_creeps_without_the_soft_path(monkeypatch):
+    without_soft_path(monkeypatch)
+    strip = slender.beam(400, "deep", petsc_options={"snes_max_it": 100})
+    report = slender.press(strip, "deep")
+    assert report.soft == 0
+    assert report.iterations > 40
+
+
+@pytest.mark.parametrize("material", [elasticity, st_venant_kirchhoff])
+def test_the_way_does_not_change_the_answer(material, monkeypatch):
+    soft = slender.beam(60, "thin", material=material)
+    assert slender.press(soft, "thin").soft > 0
+    without_soft_path(monkeypatch)
+    hard = slender.beam(60, "thin", material=material, petsc_options={"snes_max_it": 100})
+    assert slender.press(hard, "thin").soft == 0
+    for a, b in zip(answer(soft), answer(hard), strict=True):
+        np.testing.assert_allclose(a, b, rtol=0, atol=1e-9 * np.abs(b).max())
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_soft_rows_are_condensed(method):
+    """Springs take the place of constraints in the condensed matrix and on all its levels."""
+    answers = []
+    for pc in ("lu", "condensed"):
+        strip = slender.beam(200, "thin", method=method, petsc_options={"pc_type": pc})
+        report = slender.press(strip, "thin")
+        assert report.soft > 0
+        assert report.uncondensed == []
+        assert report.iterations <= 20
+        if pc == "condensed":
+            # As many as hard contact takes
+            assert report.krylov <= 15 * report.iterations
+        answers.append(answer(strip))
+    for a, b in zip(*answers, strict=True):
+        np.testing.assert_allclose(a, b, rtol=0, atol=1e-8 * np.abs(b).max())
+
+
+def test_stiff_bodies_take_no_soft_path():
+    scene = Blocks(CellType.quadrilateral, n_upper=8, n_lower=11)
+    problem = scene.problem(scene.contact())
+    problem.solve()
+    report = problem.report
+    assert report.soft == 0
+    assert "soft" not in str(report)
+
+
+@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("pull", slender.PULLS)
+def test_belts_slide_around_a_drum(pull, method):
+    """Pressures are small and ways long: a gap over the way squared must not open a node."""
+    right, left = slender.PULLS[pull]
+    strip = slender.belt(100, method=method)
+    reports = slender.run_belt(strip, right, left)
+    assert len(reports) == 5
+    print([r.iterations for r in reports])
+    assert sum(r.iterations for r in reports) <= 60
+    assert sum(r.discarded for r in reports) == 0
+    # All but its ends lies on the drum
+    assert strip.contact.interface.nodes.closed.sum() >= 90
+
+
+def test_the_tension_of_a_belt_falls_as_euler_says():
+    """Per unit of length the drum's pressure is the tension: from end to end exp(-mu pi)."""
+    strip = slender.belt(200, friction=0.3)
+    slender.run_belt(strip, *slender.PULLS["one end"])
+    x = strip.u.function_space.tabulate_dof_coordinates()
+    pressure = strip.contact.pressure.x.array
+    inner = np.isclose(np.hypot(x[:, 0], x[:, 1]), 1.0, atol=1e-4)
+    angle = np.arctan2(x[inner, 0], x[inner, 1])
+    p = pressure[inner]
+    middle = np.abs(angle) < 1.2
+    slope = np.polyfit(angle[middle], np.log(p[middle]), 1)[0]
+    # Towards the end that is pulled
+    assert slope == pytest.approx(0.3, rel=0.02)
+
+
+@pytest.mark.parametrize("friction", [0.0, 0.1])
+@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("material", ["svk", "neo-hooke"])
+def test_a_roller_turns_no_cell_inside_out(material, method, friction):
+    report = Roller(material, method, friction, n=10).press()
+    print(report.iterations, report.audit.smallest_det)
+    assert report.iterations <= 14
+    assert report.discarded == 0
+    assert report.audit.inverted == 0
+
+
+def test_steps_that_squeeze_cells_are_shortened():
+    roller = ("svk", "surface-to-surface", 0.0)
+    report = Roller(*roller, n=10).press(0.6)
+    assert report.limited > 0
+    assert report.audit.inverted == 0
+    assert "steps shortened to keep cells from turning inside out" in str(report)
+
+
+def test_damped_steps_take_over(monkeypatch):
+    """Where steps go too far for other reasons than cells."""
+    roller = ("svk", "surface-to-surface", 0.1)
+    monkeypatch.setattr(StepLength, "_within_cells", lambda self, step: 1.0)
+    report = Roller(*roller, n=10).press(0.5)
+    assert report.damped
+    assert report.shortened > 0
+    assert report.discarded == 50
+    assert "steps damped, as others did not converge" in str(report)
+    monkeypatch.setattr(NewtonLoop, "damping_may_help", False)
+    with pytest.raises(cx.ConvergenceError, match="no convergence"):
+        Roller(*roller, n=10).press(0.5)
+
+
+def test_a_line_search_of_ones_own_is_not_replaced():
+    options = {"snes_linesearch_type": "bt", "snes_max_it": 3}
+    strip = slender.beam(100, "deep", material=st_venant_kirchhoff, petsc_options=options)
+    with pytest.raises(cx.ConvergenceError):
+        slender.press(strip, "deep")
+    report = strip.problem.report
+    assert (report.damped, report.discarded, report.soft) == (False, 0, 0)
+
+
+def test_a_line_search_starts_from_the_residual_of_now(tmp_path):
+    """Pairs and status change after each step, and with them the residual."""
+    file = tmp_path / "search"
+    options = {
+        "snes_linesearch_type": "bt",
+        "snes_linesearch_monitor": f"ascii:{file}",
+        "snes_max_it": 100,
+    }
+    strip = slender.beam(50, "thick", petsc_options=options)
+    report = slender.press(strip, "thick")
+    words = [line.split() for line in file.read_text().splitlines()]
+    starts = np.array([float(w[w.index("fnorm") + 1]) for w in words if "fnorm" in w])
+    # The first has differences from the Dirichlet values as well
+    seen = [row.residual for row in report.history[1:-1]]
+    assert len(seen) > 5
+    for residual in seen:
+        assert np.abs(starts / residual - 1).min() < 1e-9
