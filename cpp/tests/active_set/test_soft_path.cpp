@@ -30,10 +30,13 @@ TEST(LookAtStep, SumsOverClosedNodes)
 
 TEST(SoftPath, BeginsWhereManyNodesOfSoftBodiesAreAboutToOpen)
 {
-  EXPECT_TRUE(SoftPath().begins(opening(0.29)));
-  EXPECT_FALSE(SoftPath().begins(opening(0.31)));
-  EXPECT_FALSE(SoftPath().begins({1e-3, 1, 100, 20}));
-  EXPECT_TRUE(SoftPath().begins({1e-3, 1, 100, 21}));
+  EXPECT_TRUE(SoftPath().begins(opening(0.029)));
+  EXPECT_FALSE(SoftPath().begins(opening(0.031)));
+  EXPECT_FALSE(SoftPath().begins({0.025, 1, 100, 20}));
+  EXPECT_TRUE(SoftPath().begins({0.025, 1, 100, 21}));
+  // Fewer are enough where they are very soft
+  EXPECT_FALSE(SoftPath().begins({1e-3, 1, 1000, 10}));
+  EXPECT_TRUE(SoftPath().begins({1e-3, 1, 1000, 11}));
   // Few nodes are found one by one
   EXPECT_FALSE(SoftPath().begins({1e-3, 1, 5, 5}));
   EXPECT_TRUE(SoftPath().begins({1e-3, 1, 6, 6}));
@@ -53,7 +56,7 @@ TEST(SoftPath, IsAsSoftAsTheSoftestThatItHasSeen)
   SoftPath path;
   EXPECT_FALSE(path.begins({-1e-4, 1, 100, 0}));
   EXPECT_EQ(path.softness(), 0);
-  EXPECT_TRUE(path.begins(opening(0.1)));
+  EXPECT_TRUE(path.begins(opening(0.01)));
   EXPECT_DOUBLE_EQ(path.softness(), 1e4);
 }
 
@@ -66,8 +69,8 @@ TEST(SoftPath, BeginsOnceAStep)
   EXPECT_EQ(path.softness(), 0);
   EXPECT_FALSE(path.begins(opening(0.01)));
   path.begin_step();
-  EXPECT_TRUE(path.begins(opening(0.1)));
-  EXPECT_DOUBLE_EQ(path.softness(), 10);
+  EXPECT_TRUE(path.begins(opening(0.02)));
+  EXPECT_DOUBLE_EQ(path.softness(), 50);
 }
 
 TEST(SoftPath, StaysAtALevelForThreeIterations)
