@@ -20,7 +20,7 @@ from contactx.system import SaddlePointSystem
 
 # Part of the residual that the next iterate has while the active set changes, at least and at most:
 # a linear solve leaves a tenth of it
-_ROUGH = (1e-5, 0.3)
+_ROUGH = (1e-5, 0.1)
 # The same where a contact has friction
 _EXACT = 1e-10
 

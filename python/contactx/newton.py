@@ -47,10 +47,6 @@ from contactx.system import SaddlePointSystem
 # Share of the closed nodes above which changes of status or facet freeze the kinematics
 _FEW = 0.2
 
-# The least accurate that linear solves are once contact has been soft, in shares of changed nodes:
-# rough ones lose the path. Measured
-_ON_THE_PATH = 0.03
-
 # Iterates with unbalanced forces on a free body and settled status after which the loop gives up
 _MOST_UNBALANCED = 10
 
@@ -426,6 +422,8 @@ class NewtonLoop:
             return reason.DIVERGED_FUNCTION_NANORINF
         if small:
             self._failure = self._look_again()
+            # What geometry refuses, another way to the same place does not mend
+            self._is_final = bool(self._failure)
             self._converged = not self._failure
             return reason.DIVERGED_FUNCTION_DOMAIN if self._failure else reason.CONVERGED_FNORM_ABS
         if self._length.is_stuck:
@@ -438,8 +436,6 @@ class NewtonLoop:
         self._linear.update(self._free_bodies.springs)
         # Where an active set has come back, only exact solves tell it from its successor
         changing = 0.0 if self._guard.cycles else sum(self._changes) / max(1, row.closed)
-        if self._path.iterations:
-            changing = min(changing, _ON_THE_PATH)
         self._linear.set_accuracy(row.residual, row.tolerance, changing)
         return reason.CONVERGED_ITERATING
 
@@ -467,7 +463,6 @@ class NewtonLoop:
         """What is wrong with a converged iterate although its residual is small, or nothing."""
         way = self._way()
         if self._free_bodies.free_modes > 0 and way > self._criterion.farthest():
-            self._is_final = True
             return _RAN_AWAY.format(way)
         with self._report.timing("audit"):
             self._report.audit = findings = self._audit(self._names)

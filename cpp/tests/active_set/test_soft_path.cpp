@@ -30,10 +30,10 @@ TEST(LookAtStep, SumsOverClosedNodes)
 
 TEST(SoftPath, BeginsWhereManyNodesOfSoftBodiesAreAboutToOpen)
 {
-  EXPECT_TRUE(SoftPath().begins(opening(0.029)));
-  EXPECT_FALSE(SoftPath().begins(opening(0.031)));
-  EXPECT_FALSE(SoftPath().begins({0.025, 1, 100, 20}));
-  EXPECT_TRUE(SoftPath().begins({0.025, 1, 100, 21}));
+  EXPECT_TRUE(SoftPath().begins(opening(0.0049)));
+  EXPECT_FALSE(SoftPath().begins(opening(0.0051)));
+  EXPECT_FALSE(SoftPath().begins({0.004, 1, 1000, 40}));
+  EXPECT_TRUE(SoftPath().begins({0.004, 1, 1000, 41}));
   // Fewer are enough where they are very soft
   EXPECT_FALSE(SoftPath().begins({1e-3, 1, 1000, 10}));
   EXPECT_TRUE(SoftPath().begins({1e-3, 1, 1000, 11}));
@@ -56,21 +56,21 @@ TEST(SoftPath, IsAsSoftAsTheSoftestThatItHasSeen)
   SoftPath path;
   EXPECT_FALSE(path.begins({-1e-4, 1, 100, 0}));
   EXPECT_EQ(path.softness(), 0);
-  EXPECT_TRUE(path.begins(opening(0.01)));
+  EXPECT_TRUE(path.begins(opening(0.001)));
   EXPECT_DOUBLE_EQ(path.softness(), 1e4);
 }
 
 TEST(SoftPath, BeginsOnceAStep)
 {
   SoftPath path;
-  EXPECT_TRUE(path.begins(opening(0.01)));
-  EXPECT_FALSE(path.begins(opening(0.01)));
+  EXPECT_TRUE(path.begins(opening(0.001)));
+  EXPECT_FALSE(path.begins(opening(0.001)));
   path.harden();
   EXPECT_EQ(path.softness(), 0);
-  EXPECT_FALSE(path.begins(opening(0.01)));
+  EXPECT_FALSE(path.begins(opening(0.001)));
   path.begin_step();
-  EXPECT_TRUE(path.begins(opening(0.02)));
-  EXPECT_DOUBLE_EQ(path.softness(), 50);
+  EXPECT_TRUE(path.begins(opening(0.002)));
+  EXPECT_DOUBLE_EQ(path.softness(), 500);
 }
 
 TEST(SoftPath, StaysAtALevelForThreeIterations)
