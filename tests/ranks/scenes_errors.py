@@ -8,10 +8,12 @@ import warnings
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
+from unittest import mock
 
 import numpy as np
 
 import contactx as cx
+from contactx.step_length import StepLength
 from dolfinx import fem
 from dolfinx.mesh import CellType
 
@@ -240,5 +242,7 @@ def cells_are_turned_inside_out(folder: Path) -> dict[str, Any]:
     """Of a few of one rank."""
     block = HeldSheet(n=24, thickness=1.0, on_ground=True, material=st_venant_kirchhoff)
     comm = block.u.function_space.mesh.comm
-    block.push(0.6)
-    return {"errors": _raised(comm, block.problem.solve)}
+    block.push(0.55)
+    # As a loop would go whose steps nothing shortens
+    with mock.patch.object(StepLength, "_within_cells", lambda self, step: 1.0):
+        return {"errors": _raised(comm, block.problem.solve)}

@@ -28,8 +28,8 @@ def test_strong_scaling(monkeypatch):
 def test_what_a_rank_sends(method):
     one, two = bench_scaling.weak((1, 2), dims=(2,), methods=(method,), partitions=("shifted",))
     assert one["bytes a search"] == one["halo"] == 0
-    assert two["iterations"] == one["iterations"]
     # But for the ends of the slab, of which two ranks have one each
+    assert two["iterations"] == pytest.approx(one["iterations"], abs=1)
     assert two["force"] == pytest.approx(one["force"], rel=0.1)
     # A box has two corners, an axis and a sine
     assert two["of boxes"] == 7 * 8
