@@ -59,4 +59,5 @@ void mortar(py::module_& m);
 void contact(py::module_& m);
 void penetration(py::module_& m);
 void passage(py::module_& m);
+void parallel(py::module_& m);
 } // namespace contactx_bindings

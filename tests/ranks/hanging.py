@@ -17,6 +17,9 @@ if what == "sleep":
 if what == "hang" and comm.rank > 0:
     time.sleep(600)
 comm.Barrier()
-if what == "fail" and comm.rank > 0:
-    raise SystemExit("it has failed")
+if what == "fail":
+    # The launcher may lose what a rank says while it ends
+    print(f"rank {comm.rank}: it has failed", flush=True)
+    comm.Barrier()
+    raise SystemExit(comm.rank)
 print("came to the end")

@@ -13,7 +13,9 @@ from mpi4py import MPI
 import numpy as np
 import numpy.typing as npt
 
+from contactx import cpp as core
 from contactx.parallel import reduce
+from contactx.parallel.adapter import Adapter
 from contactx.parallel.exchange import Exchange
 from dolfinx import cpp, fem, la
 
@@ -41,6 +43,7 @@ class Halo:
         position: Reference position of all nodes.
         version: Counts how often the halo has changed.
         exchange: Messages to other ranks.
+        nodes: The nodes as the core sees them.
     """
 
     displacement: la.Vector
@@ -69,6 +72,7 @@ class Halo:
         self._ghosts = np.zeros(0, dtype=np.int64)
         self._owners = np.zeros(0, dtype=np.int32)
         self._kept = 0
+        self.nodes = core.PythonNodes(Adapter(self))
         self._rebuild()
 
     @property

@@ -1,0 +1,61 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include "ranks.h"
+#include <exception>
+#include <stdexcept>
+#include <string>
+
+using namespace contactx::parallel;
+
+void Ranks::agree(const std::function<void()>& work)
+{
+  if (size() == 1)
+  {
+    work();
+    return;
+  }
+  std::exception_ptr error;
+  std::string text;
+  bool is_argument = false;
+  try
+  {
+    work();
+  }
+  catch (const std::invalid_argument& e)
+  {
+    error = std::current_exception();
+    text = e.what();
+    is_argument = true;
+  }
+  catch (const std::exception& e)
+  {
+    error = std::current_exception();
+    text = e.what();
+  }
+  catch (...)
+  {
+    error = std::current_exception();
+    text = "an error without a message";
+  }
+  const int first = least(*this, error ? rank() : size());
+  if (first == size())
+    return;
+  Messages out;
+  if (rank() == first)
+  {
+    const std::string message = (is_argument ? "1" : "0") + text;
+    for (int r = 0; r < size(); ++r)
+      if (r != first)
+        pack(out[r], std::span<const char>(message));
+  }
+  const Messages in = exchange(out);
+  if (rank() == first)
+    std::rethrow_exception(error);
+  std::span<const std::byte> bytes = in.at(first);
+  const auto letters = unpack<char>(bytes, bytes.size());
+  const std::string theirs(letters.begin() + 1, letters.end());
+  if (letters[0] == '1')
+    throw std::invalid_argument(theirs);
+  throw std::runtime_error(theirs);
+}
