@@ -60,4 +60,5 @@ void contact(py::module_& m);
 void penetration(py::module_& m);
 void passage(py::module_& m);
 void parallel(py::module_& m);
+void master(py::module_& m);
 } // namespace contactx_bindings

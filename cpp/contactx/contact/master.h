@@ -40,6 +40,9 @@ class Master
 public:
   virtual ~Master() = default;
 
+  /// @brief Geometric dimension.
+  virtual int gdim() const = 0;
+
   /// @brief Largest distance of a pair.
   virtual double reach() const = 0;
 

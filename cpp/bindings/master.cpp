@@ -1,0 +1,249 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include "master.h"
+#include <contactx/kernel/layout.h>
+#include <stdexcept>
+
+namespace py = pybind11;
+using namespace contactx_bindings;
+using namespace contactx::contact;
+
+namespace
+{
+const char* name_of(RowKind kind)
+{
+  return kind == RowKind::slave  ? "slave"
+         : kind == RowKind::node ? "node"
+                                 : "global";
+}
+
+template <class T>
+std::vector<T> values_of(const py::array& a)
+{
+  const auto values = py::array_t<T, py::array::c_style>::ensure(a);
+  return {values.data(), values.data() + values.size()};
+}
+
+py::array_t<double> rows(const std::vector<double>& values, py::ssize_t width)
+{
+  return array(values,
+               {static_cast<py::ssize_t>(values.size()) / width, width});
+}
+} // namespace
+
+py::dict contactx_bindings::to_dict(const std::vector<Saved>& saved)
+{
+  py::dict result;
+  for (const Saved& s : saved)
+    result[py::str(s.name)] = std::visit(
+        [&s](const auto& values) -> py::object
+        {
+          if (s.width == 0)
+            return array(values);
+          return array(
+              values,
+              {static_cast<py::ssize_t>(values.size()) / s.width, s.width});
+        },
+        s.values);
+  return result;
+}
+
+std::vector<Saved> contactx_bindings::from_dict(const py::dict& saved)
+{
+  std::vector<Saved> result;
+  for (const auto& [name, value] : saved)
+  {
+    const auto a = py::cast<py::array>(value);
+    Saved s{py::cast<std::string>(name),
+            RowKind::global,
+            a.ndim() < 2 ? 0 : static_cast<int>(a.shape(1)),
+            {}};
+    const std::string type = py::cast<std::string>(a.dtype().attr("name"));
+    if (type == "float64")
+      s.values = values_of<double>(a);
+    else if (type == "int8" or type == "bool")
+      s.values = values_of<std::int8_t>(a);
+    else if (type == "int32")
+      s.values = values_of<std::int32_t>(a);
+    else if (type == "int64")
+      s.values = values_of<std::int64_t>(a);
+    else
+      throw std::invalid_argument("the saved array " + s.name
+                                  + " has values of type " + type);
+    result.push_back(std::move(s));
+  }
+  return result;
+}
+
+py::list contactx_bindings::to_list(std::vector<Pairs> pairs)
+{
+  py::list result;
+  for (Pairs& p : pairs)
+    result.append(std::make_shared<Pairs>(std::move(p)));
+  return result;
+}
+
+std::vector<std::int8_t> contactx_bindings::truths(const Array<bool>& values)
+{
+  return {values.data(), values.data() + values.size()};
+}
+
+py::array_t<bool>
+contactx_bindings::to_bool(const std::vector<std::int8_t>& values)
+{
+  py::array_t<bool> result(static_cast<py::ssize_t>(values.size()));
+  std::ranges::copy(values, result.mutable_data());
+  return result;
+}
+
+void contactx_bindings::master(py::module_& m)
+{
+  py::class_<Pairs, std::shared_ptr<Pairs>>(
+      m, "Pairs", "Pairs with master facets of one kind")
+      .def_property_readonly(
+          "slaves",
+          [](py::object self)
+          {
+            const auto& p = self.cast<const Pairs&>();
+            return looking(p.slaves,
+                           {static_cast<py::ssize_t>(p.size()), p.num_slaves},
+                           self);
+          })
+      .def_property_readonly("nodes",
+                             [](py::object self)
+                             {
+                               const auto& p = self.cast<const Pairs&>();
+                               return looking(
+                                   p.nodes,
+                                   {static_cast<py::ssize_t>(p.size()),
+                                    p.num_slaves + p.num_nodes},
+                                   self);
+                             })
+      .def_property_readonly(
+          "data",
+          [](py::object self)
+          {
+            const auto& p = self.cast<const Pairs&>();
+            return looking(p.data,
+                           {static_cast<py::ssize_t>(p.size()), p.data_size},
+                           self);
+          })
+      .def_property_readonly(
+          "slip",
+          [](py::object self) -> py::object
+          {
+            const auto& p = self.cast<const Pairs&>();
+            if (p.slip_size == 0)
+              return py::none();
+            return looking(p.slip,
+                           {static_cast<py::ssize_t>(p.size()), p.slip_size},
+                           self);
+          })
+      .def_property_readonly(
+          "normal",
+          [](py::object self)
+          {
+            const int at = self.cast<const Pairs&>().num_nodes == 0
+                               ? contactx::kernel::rigid_normal
+                               : contactx::kernel::pair_normal;
+            return py::object(self.attr("data"))[py::make_tuple(
+                py::ellipsis(), py::slice(at, at + 3, 1))];
+          })
+      .def_readonly("num_nodes", &Pairs::num_nodes)
+      .def_readonly("is_movement", &Pairs::is_movement)
+      .def("same", &Pairs::same, py::arg("other"));
+  py::class_<Weights>(m, "Weights", "Relative movement of slave nodes")
+      .def_property_readonly("slaves",
+                             [](const Weights& w) { return array(w.slaves); })
+      .def_property_readonly("nodes",
+                             [](const Weights& w) { return array(w.nodes); })
+      .def_property_readonly("values",
+                             [](const Weights& w) { return array(w.values); });
+  py::class_<Master, std::shared_ptr<Master>>(
+      m, "Master", "Pairs of the slave nodes of a contact with its master")
+      .def_property_readonly("reach", &Master::reach)
+      .def_property_readonly("is_rigid", &Master::is_rigid)
+      .def_property_readonly("saved_rows",
+                             [](const Master& self)
+                             {
+                               py::dict kinds;
+                               for (const Saved& s : self.save())
+                                 kinds[py::str(s.name)] = name_of(s.rows);
+                               return kinds;
+                             })
+      .def("accept",
+           [](Master& self, const Array<double>& x) { self.accept(view(x)); })
+      .def("begin_step", &Master::begin_step)
+      .def("rebuild", &Master::rebuild)
+      .def("nodes_changed", &Master::nodes_changed)
+      .def("turn",
+           [](const Master& self, const Array<double>& x) -> py::object
+           {
+             const auto turn = self.turn(view(x));
+             if (not turn)
+               return py::none();
+             const py::ssize_t g = self.gdim();
+             return array(
+                 *turn,
+                 {static_cast<py::ssize_t>(turn->size()) / (g * g), g, g});
+           })
+      .def("touch", [](Master& self, const Array<bool>& which,
+                       const Array<double>& x, const Array<double>& offset)
+           { self.touch(truths(which), view(x), view(offset)); })
+      .def("search", [](Master& self, const Array<double>& x,
+                        const Array<std::int8_t>& closed)
+           { return self.search(view(x), view(closed)); })
+      .def_property_readonly("paired", [](const Master& self)
+                             { return to_bool(self.paired()); })
+      .def("pairs", [](const Master& self) { return to_list(self.pairs()); })
+      .def("update",
+           [](Master& self, const Array<double>& x, bool frozen,
+              const Array<double>& offset) -> py::object
+           {
+             auto fresh = self.update(view(x), frozen, view(offset));
+             if (not fresh)
+               return py::none();
+             return to_list(std::move(*fresh));
+           })
+      .def("normals",
+           [](const Master& self) { return rows(self.normals(), 3); })
+      .def("weights", &Master::weights)
+      .def("area", [](const Master& self, const Array<double>& whole)
+           { return array(self.area(view(whole))); })
+      .def("take_front", [](Master& self, const Array<bool>& faces)
+           { self.take_front(truths(faces)); })
+      .def_property_readonly("origin",
+                             [](const Master& self) -> py::array_t<double>
+                             {
+                               const auto origin = self.origin();
+                               if (origin.empty())
+                                 return array(std::vector<double>{0.0});
+                               return rows(origin, self.gdim());
+                             })
+      .def("compliance", [](const Master& self, const Array<double>& nodal)
+           { return array(self.compliance(view(nodal))); })
+      .def("mobility",
+           [](const Master& self, const Array<bool>& free)
+           {
+             const Mobility found = self.mobility(truths(free));
+             return py::make_tuple(array(found.normal),
+                                   rows(found.each, self.gdim()));
+           })
+      .def("identity",
+           [](const Master& self) { return to_dict(self.identity()); })
+      .def("save", [](const Master& self) { return to_dict(self.save()); })
+      .def("load", [](Master& self, const py::dict& saved)
+           { self.load(from_dict(saved)); })
+      .def("distance", [](const Master& self, const Array<double>& x)
+           { return self.distance(view(x)); })
+      .def_property_readonly("frozen_pairs", [](const Master& self)
+                             { return array(self.frozen_pairs()); })
+      .def("reset_flips", &Master::reset_flips)
+      .def("deepest_frozen_pair",
+           [](const Master& self, const Array<double>& x)
+           {
+             const HiddenGap found = self.deepest_frozen_pair(view(x));
+             return py::make_tuple(found.gap, found.part);
+           });
+}

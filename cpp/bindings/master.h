@@ -1,0 +1,34 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#pragma once
+
+#include "bindings.h"
+#include <contactx/contact/master.h>
+#include <memory>
+
+namespace contactx_bindings
+{
+/// @brief Array that looks at values which an object of Python keeps alive.
+template <class T>
+py::array_t<T> looking(const std::vector<T>& values,
+                       std::vector<py::ssize_t> shape, py::handle owner)
+{
+  py::array_t<T> a(std::move(shape), values.data(), owner);
+  a.attr("flags").attr("writeable") = false;
+  return a;
+}
+
+/// @brief Saved arrays by their names, and back.
+py::dict to_dict(const std::vector<contactx::contact::Saved>& saved);
+std::vector<contactx::contact::Saved> from_dict(const py::dict& saved);
+
+/// @brief Pairs as a list of Python.
+py::list to_list(std::vector<contactx::contact::Pairs> pairs);
+
+/// @brief Truth values as the core has them.
+std::vector<std::int8_t> truths(const Array<bool>& values);
+
+/// @brief Truth values as NumPy has them.
+py::array_t<bool> to_bool(const std::vector<std::int8_t>& values);
+} // namespace contactx_bindings
