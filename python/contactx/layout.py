@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 from mpi4py import MPI
 from petsc4py import PETSc
@@ -67,13 +68,24 @@ class Layout:
 
     def embed(self, K: PETSc.Mat) -> PETSc.Mat:
         """The bulk's matrix with empty rows and columns for the multipliers."""
+        size = (self._size, None)
+        return PETSc.Mat().createAIJ((size, size), csr=self._rows(K), comm=self._halo.comm)
+
+    def add(self, K: PETSc.Mat, A: PETSc.Mat) -> None:
+        """Add the bulk's matrix to one that has its entries; entries of others may follow.
+
+        Args:
+            K: The bulk's matrix.
+            A: Matrix of all unknowns.
+        """
+        A.setValuesIJV(*self._rows(K), addv=PETSc.InsertMode.ADD)
+
+    def _rows(self, K: PETSc.Mat) -> tuple[npt.NDArray[Any], npt.NDArray[Any], npt.NDArray[Any]]:
+        """Entries of the bulk's matrix in compressed rows of all unknowns."""
         indptr, indices, values = K.getValuesCSR()
         multipliers = self._size - self._halo.num_owned * self._halo.gdim
         indptr = np.concatenate([indptr, np.full(multipliers, indptr[-1], dtype=indptr.dtype)])
         if len(self._all) > 1:
             rank = np.searchsorted(self._bulk, indices, side="right") - 1
             indices = (indices + (self._all - self._bulk)[rank]).astype(PETSc.IntType)
-        size = (self._size, None)
-        return PETSc.Mat().createAIJ(
-            (size, size), csr=(indptr, indices, values), comm=self._halo.comm
-        )
+        return indptr, indices, values

@@ -62,7 +62,6 @@ class SaddlePointSystem:
         self._layout = Layout(halo, self._offsets[-1])
         self._bulk_residual = np.zeros(self.num_bulk)
         self._bulk_at: npt.NDArray[np.float64] | None = None
-        self._contact: PETSc.Mat | None = None
         self._contact_pairs: list[list[ContactForms]] | None = None
 
     @property
@@ -183,15 +182,18 @@ class SaddlePointSystem:
         Returns:
             The Jacobian.
         """
-        contact = self.assemble_contact()
-        bulk = self._layout.embed(self._bulk.jacobian())
         if A is None:
-            bulk.axpy(1.0, contact, PETSc.Mat.Structure.DIFFERENT_NONZERO_PATTERN)
-            A = bulk
+            contact = self._new_contact()
+            A = self._layout.embed(self._bulk.jacobian())
+            A.axpy(1.0, contact, PETSc.Mat.Structure.DIFFERENT_NONZERO_PATTERN)
+            # Those of the contacts are added by this rank's own numbers
+            A.setLGMap(*contact.getLGMap())
+            contact.destroy()
         else:
             A.zeroEntries()
-            for part in (bulk, contact):
-                A.axpy(1.0, part, PETSc.Mat.Structure.SUBSET_NONZERO_PATTERN)
+            self._layout.add(self._bulk.jacobian(), A)
+            A.assemble(PETSc.Mat.AssemblyType.FLUSH)
+            add_contacts(A, self.interfaces, self.halo, None, self._markers())
         if springs is not None:
             diagonal = self.x.duplicate()
             self.blocks(diagonal.array)[0][:] = springs
@@ -233,14 +235,12 @@ class SaddlePointSystem:
         y.array[:n] = self._sums(w.array[: self.num_local])
         y.array[n:] = w.array[self.num_local :]
 
-    def assemble_contact(self) -> PETSc.Mat:
+    def _new_contact(self) -> PETSc.Mat:
         """Assemble the contacts' part of the Jacobian, in all unknowns."""
-        if self._contact is None or not self.fits():
-            self._contact = new_matrix(self._layout.among_ranks(), self.interfaces)
-            self._contact_pairs = [list(interface.forms) for interface in self.interfaces]
-        self._contact.zeroEntries()
-        add_contacts(self._contact, self.interfaces, self.halo, None, self._markers())
-        return self._contact
+        A = new_matrix(self._layout.among_ranks(), self.interfaces)
+        self._contact_pairs = [list(interface.forms) for interface in self.interfaces]
+        add_contacts(A, self.interfaces, self.halo, None, self._markers())
+        return A
 
     def _markers(self) -> npt.NDArray[np.int8]:
         """1 at prescribed displacements of all nodes, shape (num_local,)."""
