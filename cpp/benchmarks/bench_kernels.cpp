@@ -46,7 +46,7 @@ void fill_pair(double* w, Law law, int feature, std::mt19937& random)
   facet::Local<F> xi;
   for (double& c : xi)
     c = 0.1 + 0.4 * unit(random);
-  Vec<3> cone{};
+  Vector<3> cone{};
   if (feature > F::num_edges)
     xi = F::vertices[feature - 1 - F::num_edges];
   else if (feature > 0)

@@ -25,11 +25,11 @@ void check_moved(const Array<std::int32_t>& offsets,
   check::positions(x1.size(), n, gdim, "x1");
 }
 
-contactx::Vec<3> origin(const Array<double>& values, int gdim,
-                        const std::string& name)
+contactx::Vector<3> origin(const Array<double>& values, int gdim,
+                           const std::string& name)
 {
   check::rows(values.size(), 1, gdim, name, "origin");
-  contactx::Vec<3> v{};
+  contactx::Vector<3> v{};
   std::ranges::copy(view(values), v.begin());
   return v;
 }

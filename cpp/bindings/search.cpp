@@ -17,9 +17,10 @@ using contactx::search::Projection;
 
 namespace
 {
-contactx::Vec<3> row(std::span<const double> values, std::size_t i, int width)
+contactx::Vector<3> row(std::span<const double> values, std::size_t i,
+                        int width)
 {
-  contactx::Vec<3> v{};
+  contactx::Vector<3> v{};
   std::copy_n(values.begin() + i * width, width, v.begin());
   return v;
 }

@@ -17,7 +17,7 @@ namespace contactx
 {
 /// @brief Point or vector with `D` components.
 template <int D>
-using Vec = std::array<double, D>;
+using Vector = std::array<double, D>;
 
 template <std::size_t D>
 constexpr std::array<double, D> operator+(std::array<double, D> a,
@@ -61,7 +61,7 @@ double norm(const std::array<double, D>& a)
   return std::sqrt(dot(a, a));
 }
 
-constexpr Vec<3> cross(const Vec<3>& a, const Vec<3>& b)
+constexpr Vector<3> cross(const Vector<3>& a, const Vector<3>& b)
 {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
           a[0] * b[1] - a[1] * b[0]};

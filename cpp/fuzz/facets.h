@@ -148,9 +148,9 @@ struct Scene
       x[in.below(static_cast<int>(x.size()))] += 0.25 * in.number();
   }
 
-  Vec<3> point(Input& in) const
+  Vector<3> point(Input& in) const
   {
-    Vec<3> p{};
+    Vector<3> p{};
     for (int k = 0; k < gdim; ++k)
       p[k] = in.number();
     return p;

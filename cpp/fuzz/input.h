@@ -93,9 +93,9 @@ public:
   double positive() { return std::abs(number()); }
 
   template <int D>
-  Vec<D> vector()
+  Vector<D> vector()
   {
-    Vec<D> v;
+    Vector<D> v;
     for (double& c : v)
       c = number();
     return v;
@@ -103,9 +103,9 @@ public:
 
   /// @brief A vector of length one.
   template <int D>
-  Vec<D> unit()
+  Vector<D> unit()
   {
-    Vec<D> v;
+    Vector<D> v;
     for (double& c : v)
       c = below(17) - 8;
     const double length = norm(v);

@@ -10,7 +10,7 @@ namespace contactx::tests
 /// @brief The search without a tree: the first of the closest facets.
 inline std::optional<search::Projection>
 brute_force(const search::Surface& surface, std::span<const double> x,
-            const Vec<3>& p, const Vec<3>& normal, double reach)
+            const Vector<3>& p, const Vector<3>& normal, double reach)
 {
   std::optional<search::Projection> best;
   for (std::int32_t f = 0; f < surface.facets().size(); ++f)

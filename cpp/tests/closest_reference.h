@@ -12,7 +12,7 @@ namespace contactx::tests
 /// of the best samples of the last one. No better than 1e-9 in xi, so that
 /// the distance has about nine digits near the facet.
 template <class F>
-double sampled_distance(const facet::Nodes<F>& x, const Vec<F::gdim>& p)
+double sampled_distance(const facet::Nodes<F>& x, const Vector<F::gdim>& p)
 {
   constexpr int n = 24;
   double best = std::numeric_limits<double>::infinity();
@@ -48,7 +48,7 @@ double sampled_distance(const facet::Nodes<F>& x, const Vec<F::gdim>& p)
 
 /// @brief Distance from a triangle in extended precision, for slivers.
 inline double long_distance(const facet::Nodes<facet::Triangle>& x,
-                            const Vec<3>& p)
+                            const Vector<3>& p)
 {
   using Real = long double;
   using Long = std::array<Real, 3>;

@@ -11,13 +11,13 @@
 namespace contactx::tests
 {
 template <int D>
-using Matrix = std::array<Vec<D>, D>;
+using Matrix = std::array<Vector<D>, D>;
 
 /// @brief What Coulomb's law says of one slave node.
 template <int D>
 struct CoulombTerms
 {
-  Vec<D> value, by_gap;
+  Vector<D> value, by_gap;
   Matrix<D> by_traction, by_slip, by_normal;
 };
 
@@ -25,15 +25,15 @@ struct CoulombTerms
 template <int D>
 struct CoulombNode
 {
-  Vec<D> traction, normal, slip;
+  Vector<D> traction, normal, slip;
   double gap, c, friction;
   double area = 1;
   double reach = 10; ///< of trial friction, over the bound
-  Vec<D> mobile = ones();
+  Vector<D> mobile = ones();
 
-  static Vec<D> ones()
+  static Vector<D> ones()
   {
-    Vec<D> v;
+    Vector<D> v;
     v.fill(1);
     return v;
   }
@@ -52,7 +52,7 @@ struct CoulombNode
 
   CoulombTerms<D> terms(std::int8_t status) const
   {
-    Vec<D> value, by_gap;
+    Vector<D> value, by_gap;
     std::array<double, D * D> by_traction, by_slip, by_normal;
     const std::array s{status};
     law::frictional_complementarity(
@@ -66,8 +66,8 @@ struct CoulombNode
   /// friction.
   double pressure() const { return dot(normal, traction); }
   double trial_pressure() const { return pressure() - c * std::min(gap, 0.0); }
-  Vec<D> tangential() const { return traction - pressure() * normal; }
-  Vec<D> trial() const { return tangential() - c * slip; }
+  Vector<D> tangential() const { return traction - pressure() * normal; }
+  Vector<D> trial() const { return tangential() - c * slip; }
 
 private:
   static Matrix<D> matrix(const std::array<double, D * D>& a)

@@ -14,12 +14,12 @@ namespace contactx::tests
 {
 /// @brief A square matrix by rows.
 template <int D>
-using Matrix = std::array<Vec<D>, D>;
+using Matrix = std::array<Vector<D>, D>;
 
 template <int D>
-Vec<D> times(const Matrix<D>& a, const Vec<D>& v)
+Vector<D> times(const Matrix<D>& a, const Vector<D>& v)
 {
-  Vec<D> y;
+  Vector<D> y;
   for (int k = 0; k < D; ++k)
     y[k] = dot(a[k], v);
   return y;
@@ -38,23 +38,23 @@ struct Simplex
 {
   static constexpr int gdim = D, nodes = D + 1;
 
-  static Vec<D> vertex(int i)
+  static Vector<D> vertex(int i)
   {
-    Vec<D> v{};
+    Vector<D> v{};
     if (i > 0)
       v[i - 1] = 1;
     return v;
   }
 
-  static Vec<D> gradient(int i, const Vec<D>&)
+  static Vector<D> gradient(int i, const Vector<D>&)
   {
-    Vec<D> g = vertex(i);
+    Vector<D> g = vertex(i);
     if (i == 0)
       g.fill(-1);
     return g;
   }
 
-  static bool holds(const Vec<D>& xi)
+  static bool holds(const Vector<D>& xi)
   {
     double sum = 0;
     for (const double c : xi)
@@ -69,18 +69,18 @@ struct Cube
 {
   static constexpr int gdim = D, nodes = 1 << D;
 
-  static Vec<D> vertex(int i)
+  static Vector<D> vertex(int i)
   {
-    Vec<D> v;
+    Vector<D> v;
     for (int k = 0; k < D; ++k)
       v[k] = i >> k & 1;
     return v;
   }
 
-  static Vec<D> gradient(int i, const Vec<D>& xi)
+  static Vector<D> gradient(int i, const Vector<D>& xi)
   {
-    const Vec<D> v = vertex(i);
-    Vec<D> g;
+    const Vector<D> v = vertex(i);
+    Vector<D> g;
     for (int k = 0; k < D; ++k)
     {
       g[k] = 1;
@@ -93,7 +93,7 @@ struct Cube
     return g;
   }
 
-  static bool holds(const Vec<D>&) { return true; }
+  static bool holds(const Vector<D>&) { return true; }
 };
 
 /// @brief Cells, each with nodes of its own, and their displacements.
@@ -110,8 +110,8 @@ struct Cells
   {
     for (int i = 0; i < C::nodes; ++i)
     {
-      const Vec<C::gdim> at = position(C::vertex(i));
-      const Vec<C::gdim> by = displacement(at, i);
+      const Vector<C::gdim> at = position(C::vertex(i));
+      const Vector<C::gdim> by = displacement(at, i);
       X.insert(X.end(), at.begin(), at.end());
       u.insert(u.end(), by.begin(), by.end());
     }
@@ -126,7 +126,7 @@ struct Cells
   }
 
   /// @brief det F of a cell at a point, det(dx/dxi) / det(dX/dxi).
-  double det_F(int cell, const Vec<C::gdim>& xi) const
+  double det_F(int cell, const Vector<C::gdim>& xi) const
   {
     Matrix<C::gdim> before{}, after{};
     for (int i = 0; i < C::nodes; ++i)
@@ -153,7 +153,7 @@ struct Cells
         {
           const double all[]{double(i) / (n - 1), double(j) / (n - 1),
                              double(k) / (n - 1)};
-          Vec<C::gdim> xi;
+          Vector<C::gdim> xi;
           std::copy_n(all, C::gdim, xi.begin());
           if (C::holds(xi))
             least = std::min(least, det_F(cell, xi));

@@ -30,7 +30,7 @@ facet::Nodes<F> flat_facet(Generator& random)
     const double width = random(0.5, 2);
     for (auto& p : x)
     {
-      p = p + Vec<3>{random(-0.2, 0.2), random(-0.2, 0.2), 0};
+      p = p + Vector<3>{random(-0.2, 0.2), random(-0.2, 0.2), 0};
       p[0] *= width;
     }
     return x;
@@ -39,7 +39,7 @@ facet::Nodes<F> flat_facet(Generator& random)
 
 /// @brief Outward normal of the facets that flat_facet() makes.
 template <class F>
-Vec<F::gdim> flat_normal()
+Vector<F::gdim> flat_normal()
 {
   if constexpr (F::gdim == 2)
     return {0, -1};
@@ -70,7 +70,7 @@ facet::Nodes<F> random_facet(Generator& random, double warp = 0.2)
 
 /// @brief Point of a facet.
 template <class F>
-Vec<F::gdim> position(const facet::Nodes<F>& x, const facet::Local<F>& xi)
+Vector<F::gdim> position(const facet::Nodes<F>& x, const facet::Local<F>& xi)
 {
   return facet::combine<F>(F::shape(xi), x);
 }

@@ -54,7 +54,7 @@ Scene sheet(int gdim, int n, Cells cells, bool up, double low, double high,
 inline auto level(int gdim, double z)
 {
   return [gdim, z](double s, double t)
-  { return gdim == 2 ? Vec<3>{s, z, 0} : Vec<3>{s, t, z}; };
+  { return gdim == 2 ? Vector<3>{s, z, 0} : Vector<3>{s, t, z}; };
 }
 
 /// @brief A surface of one facet.
@@ -65,7 +65,7 @@ Scene single(const facet::Nodes<F>& x)
   std::vector<std::int32_t> nodes;
   for (const auto& p : x)
   {
-    Vec<3> q{};
+    Vector<3> q{};
     std::copy(p.begin(), p.end(), q.begin());
     nodes.push_back(scene.node(q));
   }
@@ -95,7 +95,7 @@ struct Facing
   {
     for (std::size_t i = 0; i < x.size(); i += gdim)
     {
-      Vec<3> p{};
+      Vector<3> p{};
       std::copy_n(x.begin() + i, gdim, p.begin());
       p = map(p);
       std::copy_n(p.begin(), gdim, x.begin() + i);
@@ -138,9 +138,9 @@ struct Facing
     return integrals(pairs, x);
   }
 
-  Vec<3> point(std::int32_t node) const
+  Vector<3> point(std::int32_t node) const
   {
-    Vec<3> p{};
+    Vector<3> p{};
     std::copy_n(x.begin() + node * gdim, gdim, p.begin());
     return p;
   }

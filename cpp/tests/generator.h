@@ -23,9 +23,9 @@ public:
 
   /// @brief A vector with components between `a` and `b`.
   template <int D>
-  Vec<D> vector(double a, double b)
+  Vector<D> vector(double a, double b)
   {
-    Vec<D> v;
+    Vector<D> v;
     for (double& c : v)
       c = (*this)(a, b);
     return v;
@@ -33,9 +33,9 @@ public:
 
   /// @brief A vector of length one.
   template <int D>
-  Vec<D> unit()
+  Vector<D> unit()
   {
-    Vec<D> v = vector<D>(-1, 1);
+    Vector<D> v = vector<D>(-1, 1);
     while (norm(v) < 0.1)
       v = vector<D>(-1, 1);
     return (1 / norm(v)) * v;
@@ -49,8 +49,8 @@ private:
 template <int D>
 struct Motion
 {
-  std::array<Vec<D>, D> rows; ///< of the rotation
-  Vec<D> shift;
+  std::array<Vector<D>, D> rows; ///< of the rotation
+  Vector<D> shift;
 
   /// @brief A random motion, translated by at most `distance` an axis.
   Motion(Generator& random, double distance)
@@ -61,7 +61,7 @@ struct Motion
       rows[1] = {-rows[0][1], rows[0][0]};
     else
     {
-      Vec<3> b = random.unit<3>();
+      Vector<3> b = random.unit<3>();
       while (norm(cross(rows[0], b)) < 0.1)
         b = random.unit<3>();
       rows[1] = (1 / norm(cross(rows[0], b))) * cross(rows[0], b);
@@ -69,18 +69,18 @@ struct Motion
     }
   }
 
-  Vec<D> rotate(const Vec<D>& v) const
+  Vector<D> rotate(const Vector<D>& v) const
   {
-    Vec<D> y;
+    Vector<D> y;
     for (int k = 0; k < D; ++k)
       y[k] = dot(rows[k], v);
     return y;
   }
 
-  Vec<D> operator()(const Vec<D>& p) const { return shift + rotate(p); }
+  Vector<D> operator()(const Vector<D>& p) const { return shift + rotate(p); }
 
   template <std::size_t N>
-  std::array<Vec<D>, N> operator()(std::array<Vec<D>, N> x) const
+  std::array<Vector<D>, N> operator()(std::array<Vector<D>, N> x) const
   {
     for (auto& p : x)
       p = (*this)(p);

@@ -11,16 +11,16 @@ namespace contactx::tests
 template <int D>
 struct Across
 {
-  Vec<D> n;                    ///< the direction, a unit vector
-  std::array<Vec<D>, D - 1> e; ///< orthonormal
+  Vector<D> n;                    ///< the direction, a unit vector
+  std::array<Vector<D>, D - 1> e; ///< orthonormal
 
-  explicit Across(const Vec<D>& direction) : n(direction)
+  explicit Across(const Vector<D>& direction) : n(direction)
   {
     if constexpr (D == 2)
       e[0] = {-n[1], n[0]};
     else
     {
-      Vec<3> a{};
+      Vector<3> a{};
       a[std::abs(n[0]) > 0.6] = 1;
       e[0] = cross(n, a);
       e[0] = (1 / norm(e[0])) * e[0];
@@ -28,9 +28,9 @@ struct Across
     }
   }
 
-  Vec<D - 1> operator()(const Vec<D>& x) const
+  Vector<D - 1> operator()(const Vector<D>& x) const
   {
-    Vec<D - 1> p;
+    Vector<D - 1> p;
     for (int a = 0; a < D - 1; ++a)
       p[a] = dot(e[a], x);
     return p;
@@ -55,7 +55,7 @@ template <class F>
 struct Foot
 {
   facet::Local<F> xi;
-  Vec<F::nodes> N;
+  Vector<F::nodes> N;
   double height;   ///< along the direction
   double jacobian; ///< area across the direction by that of local coordinates
 };
@@ -82,8 +82,8 @@ Foot<F> foot(const facet::Nodes<F>& x, const Across<F::gdim>& across,
       const auto a = across(t[0]), b = across(t[1]);
       det = a[0] * b[1] - a[1] * b[0];
       xi = xi
-           + Vec<2>{(r[0] * b[1] - r[1] * b[0]) / det,
-                    (a[0] * r[1] - a[1] * r[0]) / det};
+           + Vector<2>{(r[0] * b[1] - r[1] * b[0]) / det,
+                       (a[0] * r[1] - a[1] * r[0]) / det};
     }
   }
   return {xi, F::shape(xi), dot(across.n, position<F>(x, xi)), std::abs(det)};
@@ -94,10 +94,10 @@ Foot<F> foot(const facet::Nodes<F>& x, const Across<F::gdim>& across,
 template <class S, class M>
 struct PairMoments
 {
-  std::array<Vec<S::nodes>, S::nodes> mass{};  ///< int N_s N_t
-  std::array<Vec<M::nodes>, S::nodes> mixed{}; ///< int N_s N_l
-  Vec<S::nodes> area{}, gap{};                 ///< int N_s, int N_s gap
-  double total = 0;                            ///< area
+  std::array<Vector<S::nodes>, S::nodes> mass{};  ///< int N_s N_t
+  std::array<Vector<M::nodes>, S::nodes> mixed{}; ///< int N_s N_l
+  Vector<S::nodes> area{}, gap{};                 ///< int N_s, int N_s gap
+  double total = 0;                               ///< area
 
   /// @brief Integrate.
   /// @param[in] xs Nodes of the slave facet.
@@ -105,7 +105,7 @@ struct PairMoments
   /// @param[in] xm Nodes of the master facet.
   /// @param[in] direction Unit vector that is projected along.
   PairMoments(const facet::Nodes<S>& xs, const facet::Nodes<S>& reference,
-              const facet::Nodes<M>& xm, const Vec<S::gdim>& direction)
+              const facet::Nodes<M>& xm, const Vector<S::gdim>& direction)
   {
     const Across<S::gdim> across(direction);
     const auto part = shared(across.template outline<S>(xs),

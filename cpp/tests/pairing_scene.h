@@ -15,23 +15,23 @@ struct SlidingSegment
   std::vector<double> x; ///< left and right slave node, then the master
   search::Pairing pairing;
 
-  explicit SlidingSegment(const std::vector<Vec<2>>& line)
+  explicit SlidingSegment(const std::vector<Vector<2>>& line)
       : x(4, 0), pairing({0, 2}, {0, 1}, offsets(line), nodes(line), 2)
   {
-    for (const Vec<2>& p : line)
+    for (const Vector<2>& p : line)
       x.insert(x.end(), p.begin(), p.end());
   }
 
   /// @brief Move the left node and search.
   /// @return Number of changed nodes in contact.
-  std::int32_t search_at(const Vec<2>& p, bool closed, double reach = 10)
+  std::int32_t search_at(const Vector<2>& p, bool closed, double reach = 10)
   {
     move_to(p);
     return pairing.update(x, reach,
                           std::vector<std::int8_t>{std::int8_t(closed), 0});
   }
 
-  void move_to(const Vec<2>& p)
+  void move_to(const Vector<2>& p)
   {
     x[0] = p[0];
     x[1] = p[1];
@@ -43,7 +43,7 @@ struct SlidingSegment
   std::int32_t feature() const { return pairing.feature()[0]; }
 
 private:
-  static std::vector<std::int32_t> offsets(const std::vector<Vec<2>>& line)
+  static std::vector<std::int32_t> offsets(const std::vector<Vector<2>>& line)
   {
     std::vector<std::int32_t> o;
     for (std::size_t i = 0; i < line.size(); ++i)
@@ -51,7 +51,7 @@ private:
     return o;
   }
 
-  static std::vector<std::int32_t> nodes(const std::vector<Vec<2>>& line)
+  static std::vector<std::int32_t> nodes(const std::vector<Vector<2>>& line)
   {
     std::vector<std::int32_t> n;
     for (std::int32_t i = 1; i < std::ssize(line); ++i)

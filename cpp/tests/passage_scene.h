@@ -21,16 +21,17 @@ struct MovingScene
 
   int gdim() const { return facets.gdim; }
 
-  std::int32_t node(const Vec<3>& from, const Vec<3>& to)
+  std::int32_t node(const Vector<3>& from, const Vector<3>& to)
   {
     x1.insert(x1.end(), to.begin(), to.begin() + gdim());
     return facets.node(from);
   }
 
-  void point(const Vec<3>& from, const Vec<3>& to, const Vec<3>& normal0,
-             const Vec<3>& normal1, double tol, std::int32_t number = -1)
+  void point(const Vector<3>& from, const Vector<3>& to,
+             const Vector<3>& normal0, const Vector<3>& normal1, double tol,
+             std::int32_t number = -1)
   {
-    const auto add = [this](std::vector<double>& values, const Vec<3>& v)
+    const auto add = [this](std::vector<double>& values, const Vector<3>& v)
     { values.insert(values.end(), v.begin(), v.begin() + gdim()); };
     add(points0, from);
     add(points1, to);
@@ -74,7 +75,7 @@ struct MovingScene
         each<D>(*x, motion);
     for (auto* n : {&normals0, &normals1})
       if (!end_alone or n == &normals1)
-        each<D>(*n, [&motion](const Vec<D>& v) { return motion.rotate(v); });
+        each<D>(*n, [&motion](const Vector<D>& v) { return motion.rotate(v); });
   }
 
 private:
@@ -83,7 +84,7 @@ private:
   {
     for (std::size_t i = 0; i < values.size(); i += D)
     {
-      Vec<D> v;
+      Vector<D> v;
       std::copy_n(values.begin() + i, D, v.begin());
       v = f(v);
       std::ranges::copy(v, values.begin() + i);
@@ -102,10 +103,10 @@ Motion<D> turn(Generator& random, double degrees, double distance)
     motion.rows = {{{c, -s}, {s, c}}};
   else
   {
-    const Vec<3> k = random.unit<3>();
+    const Vector<3> k = random.unit<3>();
     for (int i = 0; i < 3; ++i)
     {
-      Vec<3> e{};
+      Vector<3> e{};
       e[i] = 1;
       // Row i of the rotation is what the inverse makes of e_i
       motion.rows[i] = c * e + -s * cross(k, e) + (1 - c) * dot(k, e) * k;
@@ -115,10 +116,10 @@ Motion<D> turn(Generator& random, double degrees, double distance)
 }
 
 /// @brief Points of a plane scene.
-using Outline = std::vector<Vec<2>>;
+using Outline = std::vector<Vector<2>>;
 
 /// @brief Corners of a rectangle, n segments a side, the body inside.
-inline Outline rectangle(const Vec<2>& low, const Vec<2>& high, int n)
+inline Outline rectangle(const Vector<2>& low, const Vector<2>& high, int n)
 {
   const Outline corners{low, {high[0], low[1]}, high, {low[0], high[1]}};
   Outline outline;

@@ -11,10 +11,10 @@ namespace contactx::tests
 {
 /// @brief Corners of a convex polygon, or both ends of an interval.
 template <int D>
-using Polygon = std::vector<Vec<D>>;
+using Polygon = std::vector<Vector<D>>;
 
 /// @brief Twice the area of the triangle a, b, c; positive if counterclockwise.
-inline double turn(const Vec<2>& a, const Vec<2>& b, const Vec<2>& c)
+inline double turn(const Vector<2>& a, const Vector<2>& b, const Vector<2>& c)
 {
   return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
@@ -58,11 +58,11 @@ inline Polygon<2> hull(Polygon<2> points)
 
 /// @brief Whether a convex polygon, counterclockwise, holds a point, but for
 /// `slack`.
-inline bool holds(const Polygon<2>& a, const Vec<2>& p, double slack)
+inline bool holds(const Polygon<2>& a, const Vector<2>& p, double slack)
 {
   for (std::size_t i = 0; i < a.size(); ++i)
   {
-    const Vec<2>&from = a[i], &to = a[(i + 1) % a.size()];
+    const Vector<2>&from = a[i], &to = a[(i + 1) % a.size()];
     if (turn(from, to, p) < -slack * norm(to - from))
       return false;
   }
@@ -84,10 +84,10 @@ inline Polygon<2> shared(const Polygon<2>& a, const Polygon<2>& b)
   for (std::size_t i = 0; i < a.size(); ++i)
     for (std::size_t j = 0; j < b.size(); ++j)
     {
-      const Vec<2>&p = a[i], e = a[(i + 1) % a.size()] - p;
-      const Vec<2>&q = b[j], f = b[(j + 1) % b.size()] - q;
+      const Vector<2>&p = a[i], e = a[(i + 1) % a.size()] - p;
+      const Vector<2>&q = b[j], f = b[(j + 1) % b.size()] - q;
       const double det = e[0] * f[1] - e[1] * f[0];
-      const Vec<2> d = q - p;
+      const Vector<2> d = q - p;
       const double s = (d[0] * f[1] - d[1] * f[0]) / det;
       const double t = (d[0] * e[1] - d[1] * e[0]) / det;
       if (s >= 0 and s <= 1 and t >= 0 and t <= 1)
@@ -113,7 +113,7 @@ void sample(const Polygon<2>& polygon, Function&& f)
 {
   for (std::size_t i = 2; i < polygon.size(); ++i)
   {
-    const Vec<2>&a = polygon[0], &b = polygon[i - 1], &c = polygon[i];
+    const Vector<2>&a = polygon[0], &b = polygon[i - 1], &c = polygon[i];
     for (const auto& [s, ws] : mortar::gauss(mortar::max_points))
       for (const auto& [t, wt] : mortar::gauss(mortar::max_points))
         f(a + s * ((1 - t) * (b - a) + t * (c - a)),

@@ -36,9 +36,9 @@ inline std::vector<Kind> all_kinds()
 inline void add_random_facet(Scene& scene, Generator& random, int num_nodes,
                              double size, double thickness)
 {
-  const Vec<3> centre = random.vector<3>(-1, 1);
-  const Vec<3> a = size * random.unit<3>();
-  const Vec<3> b = thickness * random.unit<3>();
+  const Vector<3> centre = random.vector<3>(-1, 1);
+  const Vector<3> a = size * random.unit<3>();
+  const Vector<3> b = thickness * random.unit<3>();
   std::vector<std::int32_t> n{scene.node(centre), scene.node(centre + a)};
   if (num_nodes > 2)
     n.push_back(scene.node(centre + random(0, 1) * a + b));
@@ -57,8 +57,8 @@ inline Scene random_scene(Kind kind, Generator& random)
     return grid(static_cast<int>(random(1, 8)), Cells::mixed,
                 [wave](double s, double t)
                 {
-                  return Vec<3>{2 * s - 1, 2 * t - 1,
-                                wave * std::sin(5 * s) * std::cos(4 * t)};
+                  return Vector<3>{2 * s - 1, 2 * t - 1,
+                                   wave * std::sin(5 * s) * std::cos(4 * t)};
                 });
   }
   Scene scene(kind == Kind::segments or kind == Kind::polygon ? 2 : 3);
@@ -78,12 +78,12 @@ inline Scene random_scene(Kind kind, Generator& random)
       break;
     case Kind::coplanar:
     {
-      const Vec<3> corner{std::round(random(-4, 4)) / 4,
-                          std::round(random(-4, 4)) / 4, 0.5};
+      const Vector<3> corner{std::round(random(-4, 4)) / 4,
+                             std::round(random(-4, 4)) / 4, 0.5};
       const std::int32_t a = scene.node(corner);
-      scene.node(corner + Vec<3>{0.25, 0, 0});
-      scene.node(corner + Vec<3>{0, 0.25, 0});
-      scene.node(corner + Vec<3>{0.25, 0.25, 0});
+      scene.node(corner + Vector<3>{0.25, 0, 0});
+      scene.node(corner + Vector<3>{0, 0.25, 0});
+      scene.node(corner + Vector<3>{0.25, 0.25, 0});
       scene.patch({a, a + 1, a + 2, a + 3}, i % 2);
       break;
     }
@@ -106,16 +106,16 @@ inline Scene random_scene(Kind kind, Generator& random)
 }
 
 /// @brief A point to search from: anywhere, near, or on a node or an edge.
-inline Vec<3> random_query(const Scene& scene, Generator& random, int i)
+inline Vector<3> random_query(const Scene& scene, Generator& random, int i)
 {
-  Vec<3> p = random.vector<3>(-1.5, 1.5);
+  Vector<3> p = random.vector<3>(-1.5, 1.5);
   if (scene.gdim == 2)
     p[2] = 0;
   const auto facets = scene.facets();
   if (facets.size() == 0 or i % 4 == 0)
     return p;
   const auto f = facets[static_cast<int>(random(0, facets.size()))];
-  const Vec<3> a = scene.point(f[0]), b = scene.point(f[1]);
+  const Vector<3> a = scene.point(f[0]), b = scene.point(f[1]);
   if (i % 4 == 1)
     return a;
   if (i % 4 == 2)

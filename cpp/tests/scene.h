@@ -19,7 +19,7 @@ struct Scene
   explicit Scene(int dimension) : gdim(dimension) {}
 
   /// @brief Add a node; in 2D the third coordinate is dropped.
-  std::int32_t node(const Vec<3>& p)
+  std::int32_t node(const Vector<3>& p)
   {
     x.insert(x.end(), p.begin(), p.begin() + gdim);
     return static_cast<std::int32_t>(x.size()) / gdim - 1;
@@ -43,9 +43,9 @@ struct Scene
       facet({n.begin(), n.end()});
   }
 
-  Vec<3> point(std::int32_t i) const
+  Vector<3> point(std::int32_t i) const
   {
-    Vec<3> p{};
+    Vector<3> p{};
     std::copy_n(x.begin() + i * gdim, gdim, p.begin());
     return p;
   }
@@ -86,6 +86,6 @@ Scene grid(int n, Cells cells, Position position)
 /// @brief Flat grid with the normal (0, 0, 1).
 inline Scene flat_grid(int n, Cells cells)
 {
-  return grid(n, cells, [](double s, double t) { return Vec<3>{s, t, 0}; });
+  return grid(n, cells, [](double s, double t) { return Vector<3>{s, t, 0}; });
 }
 } // namespace contactx::tests

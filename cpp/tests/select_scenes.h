@@ -10,7 +10,7 @@ namespace contactx::tests
 {
 /// @brief The projection that a search finds for a point of any normal.
 inline std::optional<search::Projection>
-paired(const Scene& scene, const Vec<3>& p, const Vec<3>& normal = {})
+paired(const Scene& scene, const Vector<3>& p, const Vector<3>& normal = {})
 {
   const search::Surface surface = scene.surface();
   const search::BoxTree tree(surface.boxes(scene.x));
@@ -26,12 +26,12 @@ inline Scene fold(double down, bool split)
 {
   Scene scene(3);
   const double c = std::cos(down), s = std::sin(down);
-  for (Vec<3> p : {Vec<3>{-1, 0, 0},
-                   {0, 0, 0},
-                   {-1, 1, 0},
-                   {0, 1, 0},
-                   {c, 0, -s},
-                   {c, 1, -s}})
+  for (Vector<3> p : {Vector<3>{-1, 0, 0},
+                      {0, 0, 0},
+                      {-1, 1, 0},
+                      {0, 1, 0},
+                      {c, 0, -s},
+                      {c, 1, -s}})
     scene.node(p);
   scene.patch({0, 1, 2, 3}, split);
   scene.patch({1, 4, 3, 5}, split);
@@ -42,7 +42,8 @@ inline Scene fold(double down, bool split)
 inline Scene fold_2d(double down)
 {
   Scene scene(2);
-  for (Vec<3> p : {Vec<3>{-1, 0}, {0, 0}, {std::cos(down), -std::sin(down)}})
+  for (Vector<3> p :
+       {Vector<3>{-1, 0}, {0, 0}, {std::cos(down), -std::sin(down)}})
     scene.node(p);
   scene.facet({1, 0});
   scene.facet({2, 1});
@@ -54,13 +55,13 @@ inline Scene fold_2d(double down)
 inline Scene corner(bool split)
 {
   Scene scene(3);
-  for (Vec<3> p : {Vec<3>{0, 0, 0},
-                   {-1, 0, 0},
-                   {0, -1, 0},
-                   {-1, -1, 0},
-                   {0, 0, -1},
-                   {-1, 0, -1},
-                   {0, -1, -1}})
+  for (Vector<3> p : {Vector<3>{0, 0, 0},
+                      {-1, 0, 0},
+                      {0, -1, 0},
+                      {-1, -1, 0},
+                      {0, 0, -1},
+                      {-1, 0, -1},
+                      {0, -1, -1}})
     scene.node(p);
   scene.patch({3, 2, 1, 0}, split); // z = 0
   scene.patch({5, 1, 4, 0}, split); // y = 0

@@ -17,15 +17,15 @@ namespace
 /// How far points are taken aside, in tolerances: by no round number, so that
 /// those of regular meshes do not go right through edges and nodes, where
 /// rounding would say which facets they meet
-constexpr Vec<3> aside{5.671e-3, -3.218e-3, 7.583e-3};
+constexpr Vector<3> aside{5.671e-3, -3.218e-3, 7.583e-3};
 
 /// What moves on a straight line.
 template <int D>
 struct Path
 {
-  Vec<D> from, to;
+  Vector<D> from, to;
 
-  Vec<D> at(double t) const { return (1 - t) * from + t * to; }
+  Vector<D> at(double t) const { return (1 - t) * from + t * to; }
 };
 
 /// Path as seen from what moves on another one.
@@ -41,12 +41,12 @@ template <int D>
 using Simplex = std::array<Path<D>, D>;
 
 /// Area or volume that point and simplex span, negative in front.
-double spanned(const std::array<Vec<2>, 2>& r)
+double spanned(const std::array<Vector<2>, 2>& r)
 {
   return r[0][0] * r[1][1] - r[0][1] * r[1][0];
 }
 
-double spanned(const std::array<Vec<3>, 3>& r)
+double spanned(const std::array<Vector<3>, 3>& r)
 {
   return dot(r[0], cross(r[1], r[2]));
 }
@@ -61,7 +61,7 @@ Cubic spanned_over_time(const Simplex<D>& s)
   std::array<double, D + 1> b{};
   for (unsigned ends = 0; ends < 1 << D; ++ends)
   {
-    std::array<Vec<D>, D> r;
+    std::array<Vector<D>, D> r;
     for (int k = 0; k < D; ++k)
       r[k] = ends >> k & 1 ? s[k].to : s[k].from;
     b[std::popcount(ends)] += spanned(r);
@@ -124,15 +124,15 @@ void for_each_change(Cubic c, Visitor&& visit)
 
 /// Whether a point that is in the line of a segment, or in the plane of a
 /// triangle, is inside.
-bool holds(const std::array<Vec<2>, 2>& r)
+bool holds(const std::array<Vector<2>, 2>& r)
 {
   const double s = -dot(r[0], r[1]), length2 = dot(r[1], r[1]);
   return length2 > 0 and s >= 0 and s <= length2;
 }
 
-bool holds(const std::array<Vec<3>, 3>& r)
+bool holds(const std::array<Vector<3>, 3>& r)
 {
-  const Vec<3> p = -1. * r[0], n = cross(r[1], r[2]);
+  const Vector<3> p = -1. * r[0], n = cross(r[1], r[2]);
   const double n2 = dot(n, n), s = dot(cross(p, r[2]), n),
                t = dot(cross(r[1], p), n);
   return n2 > 0 and s >= 0 and t >= 0 and s + t <= n2;
@@ -163,12 +163,12 @@ void for_each_simplex(const std::array<Path<F::gdim>, F::nodes>& x,
 template <int D>
 struct Height
 {
-  Vec<D> normal;
+  Vector<D> normal;
   double least, most;
 };
 
 template <class F>
-Height<F::gdim> height(const facet::Nodes<F>& x, const Vec<F::gdim>& p)
+Height<F::gdim> height(const facet::Nodes<F>& x, const Vector<F::gdim>& p)
 {
   facet::Local<F> middle{};
   for (const auto& v : F::vertices)
@@ -186,7 +186,7 @@ Height<F::gdim> height(const facet::Nodes<F>& x, const Vec<F::gdim>& p)
 }
 
 template <int D>
-Vec<D> row(std::span<const double> values, std::size_t i)
+Vector<D> row(std::span<const double> values, std::size_t i)
 {
   return facet::point<D>(static_cast<std::int32_t>(i), values);
 }
@@ -194,7 +194,7 @@ Vec<D> row(std::span<const double> values, std::size_t i)
 template <std::size_t D>
 void add(Box& box, const std::array<double, D>& p)
 {
-  Vec<3> padded{};
+  Vector<3> padded{};
   std::copy(p.begin(), p.end(), padded.begin());
   box.add(padded);
 }
@@ -284,9 +284,10 @@ private:
   Moved<D> moved_point(std::size_t i) const
   {
     const double tolerance = _points.tolerance[i];
-    Vec<D> shift;
+    Vector<D> shift;
     std::copy_n(aside.begin(), D, shift.begin());
-    const auto back = [&shift, tolerance](const Vec<D>& p, const Vec<D>& normal)
+    const auto back
+        = [&shift, tolerance](const Vector<D>& p, const Vector<D>& normal)
     { return p + tolerance * (shift - normal); };
     return {static_cast<std::int32_t>(i),
             {back(row<D>(_points.x0, i), row<D>(_points.normal0, i)),
@@ -324,7 +325,7 @@ private:
     for_each_change(spanned_over_time<D>(simplex),
                     [this, &p, f, &simplex](double t, bool entering)
                     {
-                      std::array<Vec<D>, D> r;
+                      std::array<Vector<D>, D> r;
                       for (int k = 0; k < D; ++k)
                         r[k] = simplex[k].at(t);
                       if (holds(r))

@@ -20,12 +20,12 @@ constexpr int most_halvings = 8;
 constexpr std::size_t most_parts = 512;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-double determinant(const Vec<2>& a, const Vec<2>& b)
+double determinant(const Vector<2>& a, const Vector<2>& b)
 {
   return a[0] * b[1] - a[1] * b[0];
 }
 
-double determinant(const Vec<3>& a, const Vec<3>& b, const Vec<3>& c)
+double determinant(const Vector<3>& a, const Vector<3>& b, const Vector<3>& c)
 {
   return dot(a, cross(b, c));
 }
@@ -38,7 +38,7 @@ struct Triangle
   static constexpr int gdim = 2, nodes = 3, points = 1;
 
   template <class Edge>
-  static Vec<points> determinants(Edge&& edge)
+  static Vector<points> determinants(Edge&& edge)
   {
     return {determinant(edge(0, 1), edge(0, 2))};
   }
@@ -49,7 +49,7 @@ struct Quadrilateral
   static constexpr int gdim = 2, nodes = 4, points = 4;
 
   template <class Edge>
-  static Vec<points> determinants(Edge&& edge)
+  static Vector<points> determinants(Edge&& edge)
   {
     const auto bottom = edge(0, 1), top = edge(2, 3);
     const auto left = edge(0, 2), right = edge(1, 3);
@@ -63,7 +63,7 @@ struct Tetrahedron
   static constexpr int gdim = 3, nodes = 4, points = 1;
 
   template <class Edge>
-  static Vec<points> determinants(Edge&& edge)
+  static Vector<points> determinants(Edge&& edge)
   {
     return {determinant(edge(0, 1), edge(0, 2), edge(0, 3))};
   }
@@ -76,11 +76,11 @@ struct Hexahedron
   /// Derivative along an axis at [i + 3 * j], the 9 places of the two other
   /// axes in their order.
   template <class Edge>
-  static std::array<Vec<3>, 9> derivative(int axis, Edge&& edge)
+  static std::array<Vector<3>, 9> derivative(int axis, Edge&& edge)
   {
     const int along = 1 << axis;
     const int first = axis == 0 ? 2 : 1, second = axis == 2 ? 2 : 4;
-    std::array<Vec<3>, 9> t;
+    std::array<Vector<3>, 9> t;
     for (const int j : {0, 1})
     {
       const int node = j * second;
@@ -203,8 +203,8 @@ double smallest_between(const Triquadratic& current,
 
 /// Smallest det F of a cell; none if it is positive and at least a bound.
 template <class C>
-std::optional<double> look(double bound, const Vec<C::points>& current,
-                           const Vec<C::points>& reference)
+std::optional<double> look(double bound, const Vector<C::points>& current,
+                           const Vector<C::points>& reference)
 {
   if constexpr (C::points == 27)
   {
@@ -231,7 +231,7 @@ DeformedCells find(std::span<const std::int32_t> cells,
   const std::ptrdiff_t count = std::ssize(cells) / C::nodes;
   for (std::ptrdiff_t c = 0; c < count; ++c)
   {
-    std::array<Vec<gdim>, C::nodes> Xc, uc;
+    std::array<Vector<gdim>, C::nodes> Xc, uc;
     for (int i = 0; i < C::nodes; ++i)
       for (int k = 0; k < gdim; ++k)
       {
@@ -320,7 +320,7 @@ double shortest(std::span<const std::int32_t> cells, std::span<const double> X,
   const std::ptrdiff_t count = std::ssize(cells) / C::nodes;
   for (std::ptrdiff_t c = 0; c < count; ++c)
   {
-    std::array<Vec<gdim>, C::nodes> Xc, uc, dc;
+    std::array<Vector<gdim>, C::nodes> Xc, uc, dc;
     for (int i = 0; i < C::nodes; ++i)
       for (int k = 0; k < gdim; ++k)
       {
@@ -329,7 +329,7 @@ double shortest(std::span<const std::int32_t> cells, std::span<const double> X,
         uc[i][k] = u[at];
         dc[i][k] = du[at];
       }
-    const auto now = [&](int i, int j) -> Vec<gdim>
+    const auto now = [&](int i, int j) -> Vector<gdim>
     { return (Xc[j] - Xc[i]) + (uc[j] - uc[i]); };
     // By which part of the way the cell changes by about its own size: from
     // farther places differences would be rounding

@@ -106,7 +106,7 @@ Passages contactx::audit::passages(const facet::FacetList& facets,
   Passages result{std::vector<std::int32_t>(n, -1), std::vector<double>(n, 0)};
   if (n == 0 or facets.size() == 0)
     return result;
-  Vec<3> origin0{}, origin1{};
+  Vector<3> origin0{}, origin1{};
   const std::size_t first = static_cast<std::size_t>(facets.nodes[0]) * gdim;
   std::copy_n(x0.begin() + first, gdim, origin0.begin());
   std::copy_n(x1.begin() + first, gdim, origin1.begin());

@@ -8,7 +8,7 @@ using namespace contactx::audit;
 
 namespace
 {
-using Matrix = std::array<Vec<3>, 3>;
+using Matrix = std::array<Vector<3>, 3>;
 
 constexpr Matrix identity{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 
@@ -125,12 +125,13 @@ Matrix space_rotation(Matrix h, double scale)
 Moments contactx::audit::moments(const facet::FacetList& facets,
                                  std::span<const double> x0,
                                  std::span<const double> x1, int gdim,
-                                 const Vec<3>& origin0, const Vec<3>& origin1)
+                                 const Vector<3>& origin0,
+                                 const Vector<3>& origin1)
 {
   Moments m{};
   for (const std::int32_t node : facets.nodes)
   {
-    Vec<3> p{}, q{};
+    Vector<3> p{}, q{};
     for (int k = 0; k < gdim; ++k)
     {
       p[k] = x0[static_cast<std::size_t>(node) * gdim + k] - origin0[k];
@@ -151,13 +152,13 @@ Moments contactx::audit::moments(const facet::FacetList& facets,
 }
 
 RigidMotion contactx::audit::rigid_motion(const Moments& m, int gdim,
-                                          const Vec<3>& origin0,
-                                          const Vec<3>& origin1)
+                                          const Vector<3>& origin0,
+                                          const Vector<3>& origin1)
 {
   if (!(m[0] > 0))
     return {identity, origin0, origin1};
-  const Vec<3> p{m[1] / m[0], m[2] / m[0], m[3] / m[0]};
-  const Vec<3> q{m[4] / m[0], m[5] / m[0], m[6] / m[0]};
+  const Vector<3> p{m[1] / m[0], m[2] / m[0], m[3] / m[0]};
+  const Vector<3> q{m[4] / m[0], m[5] / m[0], m[6] / m[0]};
   Matrix h;
   for (int i = 0; i < 3; ++i)
     for (int k = 0; k < 3; ++k)

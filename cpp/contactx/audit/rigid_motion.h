@@ -12,14 +12,14 @@ namespace contactx::audit
 /// @brief Rotation and translation: x becomes after + rotation (x - before).
 struct RigidMotion
 {
-  std::array<Vec<3>, 3> rotation; ///< rows
-  Vec<3> before, after;
+  std::array<Vector<3>, 3> rotation; ///< rows
+  Vector<3> before, after;
 
   /// @brief Turn a vector back.
   template <int D>
-  Vec<D> turned_back(const Vec<D>& v) const
+  Vector<D> turned_back(const Vector<D>& v) const
   {
-    Vec<D> y{};
+    Vector<D> y{};
     for (int i = 0; i < D; ++i)
       for (int k = 0; k < D; ++k)
         y[k] += rotation[i][k] * v[i];
@@ -28,7 +28,7 @@ struct RigidMotion
 
   /// @brief Move a point back.
   template <int D>
-  Vec<D> moved_back(Vec<D> p) const
+  Vector<D> moved_back(Vector<D> p) const
   {
     for (int k = 0; k < D; ++k)
       p[k] -= after[k];
@@ -54,14 +54,14 @@ using Moments = std::array<double, 18>;
 /// @param[in] origin0, origin1 Points that positions are taken from: near
 /// the surface, so that no digits go to the distance from the origin.
 Moments moments(const facet::FacetList& facets, std::span<const double> x0,
-                std::span<const double> x1, int gdim, const Vec<3>& origin0,
-                const Vec<3>& origin1);
+                std::span<const double> x1, int gdim, const Vector<3>& origin0,
+                const Vector<3>& origin1);
 
 /// @brief The rigid motion that is nearest to that of a surface; a translation
 /// where the surface has not moved like a rigid body.
 /// @param[in] m Sums of the whole surface.
 /// @param[in] gdim Geometric dimension, 2 or 3.
 /// @param[in] origin0, origin1 As for `moments`.
-RigidMotion rigid_motion(const Moments& m, int gdim, const Vec<3>& origin0,
-                         const Vec<3>& origin1);
+RigidMotion rigid_motion(const Moments& m, int gdim, const Vector<3>& origin0,
+                         const Vector<3>& origin1);
 } // namespace contactx::audit

@@ -12,10 +12,10 @@ namespace contactx::facet
 template <class F>
 struct ClosestPoint
 {
-  Local<F> xi;      ///< local coordinates
-  int feature;      ///< interior, an edge or a vertex
-  double distance2; ///< squared distance
-  Vec<F::gdim> d;   ///< vector from the closest point to the given one
+  Local<F> xi;       ///< local coordinates
+  int feature;       ///< interior, an edge or a vertex
+  double distance2;  ///< squared distance
+  Vector<F::gdim> d; ///< vector from the closest point to the given one
 };
 
 /// @brief Components of the projection of `d` on the plane of the tangents.
@@ -47,20 +47,20 @@ std::array<double, N> tangential(const std::array<std::array<double, D>, N>& t,
 /// @param[in,out] xi Start of the iteration; the projection on return.
 /// @return False where the iteration found no projection.
 template <class F>
-bool project(const Nodes<F>& x, const Vec<F::gdim>& p, Local<F>& xi)
+bool project(const Nodes<F>& x, const Vector<F::gdim>& p, Local<F>& xi)
 {
   // Relative to a node, so that no digits go to the distance from the origin
   Nodes<F> y;
   for (int l = 0; l < F::nodes; ++l)
     y[l] = x[l] - x[0];
-  const Vec<F::gdim> q = p - x[0];
+  const Vector<F::gdim> q = p - x[0];
 
   constexpr int max_iterations = F::flat ? 1 : 30;
   double last = 0;
   for (int it = 0; it < max_iterations; ++it)
   {
     const auto t = tangents<F>(y, xi);
-    const Vec<F::gdim> d = q - combine<F>(F::shape(xi), y);
+    const Vector<F::gdim> d = q - combine<F>(F::shape(xi), y);
     Local<F> step;
     if constexpr (F::flat)
       step = tangential(t, d);
@@ -68,7 +68,7 @@ bool project(const Nodes<F>& x, const Vec<F::gdim>& p, Local<F>& xi)
     {
       // Far from the facet the Hessian of the squared distance is not
       // positive; the metric alone still gives a descent direction
-      Vec<3> H = metric(t);
+      Vector<3> H = metric(t);
       const double h = H[1] - dot(d, combine<F>(F::mixed_derivative, y));
       if (H[0] * H[2] - h * h > 0.1 * (H[0] * H[2] - H[1] * H[1]))
         H[1] = h;
@@ -109,7 +109,7 @@ double project_on_edge(const std::array<double, D>& a,
 /// @brief Start for the projection: the nearest of a coarse grid of points,
 /// which keeps Newton's method on the right branch of a warped facet.
 template <class F>
-Local<F> projection_start(const Nodes<F>& x, const Vec<F::gdim>& p)
+Local<F> projection_start(const Nodes<F>& x, const Vector<F::gdim>& p)
 {
   Local<F> start{};
   if constexpr (!F::flat)
@@ -133,7 +133,7 @@ Local<F> projection_start(const Nodes<F>& x, const Vec<F::gdim>& p)
 /// @param[in] x Node coordinates.
 /// @param[in] p Point.
 template <class F>
-ClosestPoint<F> closest_point(const Nodes<F>& x, const Vec<F::gdim>& p)
+ClosestPoint<F> closest_point(const Nodes<F>& x, const Vector<F::gdim>& p)
 {
   constexpr double inf = std::numeric_limits<double>::infinity();
   ClosestPoint<F> c{{}, interior, inf, {}};

@@ -11,20 +11,20 @@ namespace contactx::facet
 template <class F>
 struct Frame
 {
-  std::array<Vec<F::gdim>, F::tdim> t; ///< tangents, t_a = dx / dxi_a
-  Vec<F::gdim> n;                      ///< outward unit normal
-  double jacobian;                     ///< area of the cell spanned by t
+  std::array<Vector<F::gdim>, F::tdim> t; ///< tangents, t_a = dx / dxi_a
+  Vector<F::gdim> n;                      ///< outward unit normal
+  double jacobian;                        ///< area of the cell spanned by t
 };
 
 /// @brief Tangents of a facet.
 /// @param[in] x Node coordinates.
 /// @param[in] xi Local coordinates.
 template <class F>
-std::array<Vec<F::gdim>, F::tdim> tangents(const Nodes<F>& x,
-                                           const Local<F>& xi)
+std::array<Vector<F::gdim>, F::tdim> tangents(const Nodes<F>& x,
+                                              const Local<F>& xi)
 {
   const auto dN = F::derivative(xi);
-  std::array<Vec<F::gdim>, F::tdim> t;
+  std::array<Vector<F::gdim>, F::tdim> t;
   for (int a = 0; a < F::tdim; ++a)
     t[a] = combine<F>(dN[a], x);
   return t;
@@ -52,7 +52,7 @@ Frame<F> frame(const Nodes<F>& x, const Local<F>& xi)
 /// @param[in] H Matrix as (H_11, H_12, H_22); only H_11 is read in 1D.
 /// @param[in] r Right-hand side.
 template <std::size_t N>
-constexpr std::array<double, N> solve(const Vec<3>& H,
+constexpr std::array<double, N> solve(const Vector<3>& H,
                                       const std::array<double, N>& r)
 {
   if constexpr (N == 1)
@@ -67,7 +67,7 @@ constexpr std::array<double, N> solve(const Vec<3>& H,
 
 /// @brief Metric m_ab = t_a . t_b as (m_11, m_12, m_22).
 template <std::size_t D, std::size_t N>
-constexpr Vec<3> metric(const std::array<std::array<double, D>, N>& t)
+constexpr Vector<3> metric(const std::array<std::array<double, D>, N>& t)
 {
   if constexpr (N == 1)
     return {dot(t[0], t[0]), 0, 0};

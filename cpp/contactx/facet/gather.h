@@ -13,9 +13,9 @@ namespace contactx::facet
 /// @param[in] node Node.
 /// @param[in] x Node coordinates (shape=(num_nodes, D)), row-major.
 template <int D>
-Vec<D> point(std::int32_t node, std::span<const double> x)
+Vector<D> point(std::int32_t node, std::span<const double> x)
 {
-  Vec<D> p;
+  Vector<D> p;
   for (int k = 0; k < D; ++k)
     p[k] = x[static_cast<std::size_t>(node) * D + k];
   return p;

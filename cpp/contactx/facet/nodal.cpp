@@ -18,11 +18,11 @@ constexpr auto quadrature()
 {
   constexpr double a = 0.21132486540518713, b = 1 - a;
   if constexpr (F::nodes == 2)
-    return std::array<Vec<1>, 2>{{{a}, {b}}};
+    return std::array<Vector<1>, 2>{{{a}, {b}}};
   else if constexpr (F::nodes == 3)
-    return std::array<Vec<2>, 1>{{{1. / 3, 1. / 3}}};
+    return std::array<Vector<2>, 1>{{{1. / 3, 1. / 3}}};
   else
-    return std::array<Vec<2>, 4>{{{a, a}, {b, a}, {a, b}, {b, b}}};
+    return std::array<Vector<2>, 4>{{{a, a}, {b, a}, {a, b}, {b, b}}};
 }
 
 /// Call f(node, area vector of the node's part of the facet) for each node of

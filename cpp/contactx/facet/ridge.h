@@ -30,13 +30,13 @@ constexpr std::pair<int, int> feature_edge(int feature)
 /// @param[in] feature An edge or a vertex.
 /// @param[in] xi Local coordinates of the point on the feature.
 template <class F>
-std::array<Vec<F::gdim>, F::gdim> ridge_axes(const Nodes<F>& x, int feature,
-                                             const Local<F>& xi)
+std::array<Vector<F::gdim>, F::gdim> ridge_axes(const Nodes<F>& x, int feature,
+                                                const Local<F>& xi)
 {
   const auto [i, j] = feature_edge<F>(feature);
-  const Vec<F::gdim> edge = x[j] - x[i];
-  const Vec<F::gdim> e = (1 / norm(edge)) * edge;
-  const Vec<F::gdim> n = frame<F>(x, xi).n;
+  const Vector<F::gdim> edge = x[j] - x[i];
+  const Vector<F::gdim> e = (1 / norm(edge)) * edge;
+  const Vector<F::gdim> n = frame<F>(x, xi).n;
   if constexpr (F::gdim == 2)
     return {e, n};
   else

@@ -25,20 +25,23 @@ struct Segment
   static constexpr int nodes = 2;
   static constexpr int num_edges = 0;
   static constexpr bool flat = true;
-  static constexpr std::array<Vec<1>, 2> vertices{{{0}, {1}}};
+  static constexpr std::array<Vector<1>, 2> vertices{{{0}, {1}}};
   static constexpr std::array<std::pair<int, int>, 2> edges{{{0, 1}, {1, 0}}};
 
   /// @brief Shape functions N_l at `xi`.
-  static constexpr Vec<2> shape(const Vec<1>& xi) { return {1 - xi[0], xi[0]}; }
+  static constexpr Vector<2> shape(const Vector<1>& xi)
+  {
+    return {1 - xi[0], xi[0]};
+  }
 
   /// @brief First derivatives of the shape functions, [tdim][nodes].
-  static constexpr std::array<Vec<2>, 1> derivative(const Vec<1>&)
+  static constexpr std::array<Vector<2>, 1> derivative(const Vector<1>&)
   {
     return {{{-1, 1}}};
   }
 
   /// @brief How far `xi` lies outside the facet; not positive inside.
-  static constexpr double excess(const Vec<1>& xi)
+  static constexpr double excess(const Vector<1>& xi)
   {
     return std::max(-xi[0], xi[0] - 1);
   }
@@ -52,24 +55,24 @@ struct Triangle
   static constexpr int nodes = 3;
   static constexpr int num_edges = 3;
   static constexpr bool flat = true;
-  static constexpr std::array<Vec<2>, 3> vertices{{{0, 0}, {1, 0}, {0, 1}}};
+  static constexpr std::array<Vector<2>, 3> vertices{{{0, 0}, {1, 0}, {0, 1}}};
   static constexpr std::array<std::pair<int, int>, 3> edges{
       {{0, 1}, {1, 2}, {2, 0}}};
 
   /// @copydoc Segment::shape
-  static constexpr Vec<3> shape(const Vec<2>& xi)
+  static constexpr Vector<3> shape(const Vector<2>& xi)
   {
     return {1 - xi[0] - xi[1], xi[0], xi[1]};
   }
 
   /// @copydoc Segment::derivative
-  static constexpr std::array<Vec<3>, 2> derivative(const Vec<2>&)
+  static constexpr std::array<Vector<3>, 2> derivative(const Vector<2>&)
   {
     return {{{-1, 1, 0}, {-1, 0, 1}}};
   }
 
   /// @copydoc Segment::excess
-  static constexpr double excess(const Vec<2>& xi)
+  static constexpr double excess(const Vector<2>& xi)
   {
     return std::max({-xi[0], -xi[1], xi[0] + xi[1] - 1});
   }
@@ -86,29 +89,29 @@ struct Quadrilateral
   static constexpr int nodes = 4;
   static constexpr int num_edges = 4;
   static constexpr bool flat = false;
-  static constexpr std::array<Vec<2>, 4> vertices{
+  static constexpr std::array<Vector<2>, 4> vertices{
       {{0, 0}, {1, 0}, {0, 1}, {1, 1}}};
   static constexpr std::array<std::pair<int, int>, 4> edges{
       {{0, 1}, {1, 3}, {3, 2}, {2, 0}}};
   /// The only second derivative that does not vanish, d^2 N / dxi_1 dxi_2.
-  static constexpr Vec<4> mixed_derivative{1, -1, -1, 1};
+  static constexpr Vector<4> mixed_derivative{1, -1, -1, 1};
 
   /// @copydoc Segment::shape
-  static constexpr Vec<4> shape(const Vec<2>& xi)
+  static constexpr Vector<4> shape(const Vector<2>& xi)
   {
     const double s = xi[0], t = xi[1];
     return {(1 - s) * (1 - t), s * (1 - t), (1 - s) * t, s * t};
   }
 
   /// @copydoc Segment::derivative
-  static constexpr std::array<Vec<4>, 2> derivative(const Vec<2>& xi)
+  static constexpr std::array<Vector<4>, 2> derivative(const Vector<2>& xi)
   {
     const double s = xi[0], t = xi[1];
     return {{{t - 1, 1 - t, -t, t}, {s - 1, -s, 1 - s, s}}};
   }
 
   /// @copydoc Segment::excess
-  static constexpr double excess(const Vec<2>& xi)
+  static constexpr double excess(const Vector<2>& xi)
   {
     return std::max({-xi[0], xi[0] - 1, -xi[1], xi[1] - 1});
   }
@@ -116,17 +119,17 @@ struct Quadrilateral
 
 /// @brief Node coordinates of a facet.
 template <class F>
-using Nodes = std::array<Vec<F::gdim>, F::nodes>;
+using Nodes = std::array<Vector<F::gdim>, F::nodes>;
 
 /// @brief Local coordinates on a facet.
 template <class F>
-using Local = Vec<F::tdim>;
+using Local = Vector<F::tdim>;
 
 /// @brief Weighted sum of node coordinates, sum_l w_l x_l.
 template <class F>
-constexpr Vec<F::gdim> combine(const Vec<F::nodes>& w, const Nodes<F>& x)
+constexpr Vector<F::gdim> combine(const Vector<F::nodes>& w, const Nodes<F>& x)
 {
-  Vec<F::gdim> y{};
+  Vector<F::gdim> y{};
   for (int l = 0; l < F::nodes; ++l)
     for (int k = 0; k < F::gdim; ++k)
       y[k] += w[l] * x[l][k];

@@ -87,7 +87,7 @@ void stiffness(double* A, const double* w, const double*, const double*,
   const auto dN = F::derivative(kinematics.point.xi);
   for (int l = 0; l < F::nodes; ++l)
   {
-    Vec<n> dweight{};
+    Vector<n> dweight{};
     for (int b = 0; b < F::tdim; ++b)
       dweight = dweight - dN[b][l] * d.xi[b];
     for (int k = 0; k < F::gdim; ++k)
@@ -116,22 +116,22 @@ void constraint(double* A, const double* w, const double*, const double*,
                       [](double d) { return d == 0; }))
     return;
   const Kinematics kinematics(w);
-  const Vec<gdim>& normal = kinematics.point.normal;
+  const Vector<gdim>& normal = kinematics.point.normal;
   const Relative movement(kinematics, w);
   const auto dw = movement.derivative();
 
   // Of the slip: (I - n n^T) dw, and what the turning normal adds
-  std::array<Vec<n>, gdim> ds = dw;
-  Vec<n> along{};
+  std::array<Vector<n>, gdim> ds = dw;
+  Vector<n> along{};
   for (int k = 0; k < gdim; ++k)
     along = along + normal[k] * dw[k];
   const auto add
-      = [A, &node](const Vec<n>& dg, const std::array<Vec<n>, gdim>& slip,
-                   const std::array<Vec<n>, gdim>* turn)
+      = [A, &node](const Vector<n>& dg, const std::array<Vector<n>, gdim>& slip,
+                   const std::array<Vector<n>, gdim>* turn)
   {
     for (int i = 0; i < gdim; ++i)
     {
-      Vec<n> row = node.gap_derivative[i] * dg;
+      Vector<n> row = node.gap_derivative[i] * dg;
       for (int j = 0; j < gdim; ++j)
       {
         row = row + node.slip_derivative[gdim * i + j] * slip[j];

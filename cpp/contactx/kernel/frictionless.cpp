@@ -82,7 +82,7 @@ void stiffness(double* A, const double* w, const double*, const double*,
   const auto dN = F::derivative(c.xi);
   for (int a = 0; a <= F::nodes; ++a)
   {
-    Vec<n> dweight{};
+    Vector<n> dweight{};
     if (a > 0)
       for (int b = 0; b < F::tdim; ++b)
         dweight = dweight - dN[b][a - 1] * d.xi[b];

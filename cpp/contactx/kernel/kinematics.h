@@ -12,9 +12,9 @@ namespace contactx::kernel
 /// @brief Derivative of the gap over a point that is the projection on a
 /// surface of normal n: n for the slave node, -N_l n for the facet's.
 template <class F>
-Vec<Pair<F>::num_dofs> interior_gap_derivative(const ContactPoint<F>& c)
+Vector<Pair<F>::num_dofs> interior_gap_derivative(const ContactPoint<F>& c)
 {
-  Vec<Pair<F>::num_dofs> dg;
+  Vector<Pair<F>::num_dofs> dg;
   for (int a = 0; a <= F::nodes; ++a)
     for (int k = 0; k < F::gdim; ++k)
       dg[F::gdim * a + k] = c.normal[k] * c.weight[a];
@@ -33,7 +33,7 @@ struct Finite
 
   Variation<F> variation() const { return Variation<F>(pair, point); }
 
-  Vec<Pair<F>::num_dofs> gap_derivative() const
+  Vector<Pair<F>::num_dofs> gap_derivative() const
   {
     // The projection's movement along the surface does not change the gap
     if (pair.feature == facet::interior)
@@ -59,7 +59,7 @@ struct Small
   {
   }
 
-  Vec<Pair<F>::num_dofs> gap_derivative() const
+  Vector<Pair<F>::num_dofs> gap_derivative() const
   {
     return interior_gap_derivative(point);
   }

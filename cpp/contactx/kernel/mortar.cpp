@@ -35,17 +35,17 @@ struct Mortar
   }
 
   /// Direction of a component of the multiplier.
-  Vec<gdim> direction(int i) const
+  Vector<gdim> direction(int i) const
   {
     if constexpr (L == Law::frictionless)
       return normal;
-    Vec<gdim> e{};
+    Vector<gdim> e{};
     e[i] = 1;
     return e;
   }
 
   MortarPair<S, M> pair;
-  Vec<gdim> normal;
+  Vector<gdim> normal;
   const double *multiplier, *area, *gap_derivative;
 };
 
@@ -113,7 +113,7 @@ void stiffness(double* A, const double* w, const double*, const double*,
                   [](double t) { return t == 0; }))
     return;
   const MortarVariation<S, M> d(k.pair);
-  std::array<Vec<S::nodes>, K::size> q;
+  std::array<Vector<S::nodes>, K::size> q;
   for (int i = 0; i < K::size; ++i)
     for (int s = 0; s < S::nodes; ++s)
       q[i][s] = k.multiplier[K::size * s + i];
@@ -123,7 +123,7 @@ void stiffness(double* A, const double* w, const double*, const double*,
     const auto direction = k.direction(i);
     for (int l = 0; l < M::nodes; ++l)
     {
-      Vec<n> row{};
+      Vector<n> row{};
       d.add(weights[i][l], row.data());
       for (int c = 0; c < K::gdim; ++c)
         if (direction[c] != 0)
@@ -164,14 +164,14 @@ void constraint(double* A, const double* w, const double*, const double*,
       and (!by_normal
            or std::all_of(by_normal, by_normal + gdim * K::width, zero)))
     return;
-  std::array<Vec<n>, S::nodes> dg{};
+  std::array<Vector<n>, S::nodes> dg{};
   for_each_weight(k.pair,
                   [&](int a, int s, double weight)
                   {
                     for (int q = 0; q < gdim; ++q)
                       dg[s][gdim * a + q] += weight * k.normal[q];
                   });
-  std::array<Vec<n>, gdim> dn{};
+  std::array<Vector<n>, gdim> dn{};
   if constexpr (Turning)
   {
     const MortarVariation<S, M> d(k.pair);

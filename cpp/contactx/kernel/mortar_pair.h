@@ -78,9 +78,9 @@ struct MortarPair
   /// @brief Unit normal of the master, against the slave facet's: now, or that
   /// the search found.
   template <bool Turning>
-  Vec<gdim> normal() const
+  Vector<gdim> normal() const
   {
-    Vec<gdim> n;
+    Vector<gdim> n;
     if constexpr (Turning)
       n = -1. * facet::frame<S>(slave, mortar::plane_origin<S>()).n;
     else
@@ -89,9 +89,9 @@ struct MortarPair
   }
 
   /// @brief int Phi_s (x_slave - x_master).
-  Vec<gdim> distance(int s) const
+  Vector<gdim> distance(int s) const
   {
-    Vec<gdim> d = area(s) * slave[s];
+    Vector<gdim> d = area(s) * slave[s];
     for (int l = 0; l < M::nodes; ++l)
       d = d - weight(s, l) * master[l];
     return d;

@@ -56,7 +56,7 @@ struct Tie
       for (int t = 0; t < slaves; ++t)
         for (int k = 0; k < gdim; ++k)
         {
-          Vec<gdim> dn{}; // of the normal
+          Vector<gdim> dn{}; // of the normal
           for (int a = 0; a < S::tdim; ++a)
             dn = dn + (slope[a][t] * plane.n[k]) * plane.dual[a];
           for (int s = 0; s < slaves; ++s)
@@ -68,7 +68,7 @@ struct Tie
   }
 
   MortarPair<S, M> pair;
-  Vec<gdim> normal;
+  Vector<gdim> normal;
   const double *multiplier, *area;
 };
 
@@ -129,7 +129,7 @@ void stiffness(double* A, const double* w, const double*, const double*,
 {
   using S = typename K::Slave;
   const K k(w);
-  Vec<K::gdim> sum{};
+  Vector<K::gdim> sum{};
   for (int s = 0; s < K::slaves; ++s)
     for (int i = 0; i < K::gdim; ++i)
       sum[i] += k.pair.gap(s) * k.multiplier[K::gdim * s + i];

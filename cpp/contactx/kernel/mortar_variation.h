@@ -24,7 +24,7 @@ public:
   static constexpr int gdim = S::gdim;
   static constexpr int tdim = S::tdim;
   static constexpr int num_dofs = MortarPair<S, M>::num_dofs;
-  using Row = Vec<num_dofs>;
+  using Row = Vector<num_dofs>;
   using Local = facet::Local<S>;
 
   /// @brief What multiplies the variations of r_j and c.
@@ -49,7 +49,7 @@ public:
         _metric[a][b] = dot(plane.dual[a], plane.dual[b]);
     if constexpr (!S::flat)
     {
-      Vec<gdim> w{};
+      Vector<gdim> w{};
       for (int t = 0; t < S::nodes; ++t)
         w = w + S::mixed_derivative[t] * pair.slave[t];
       for (int a = 0; a < tdim; ++a)
@@ -77,7 +77,7 @@ public:
   {
     std::array<Factors, S::nodes> all{};
     moments(
-        [&](const Vec<S::nodes>& weight, const Local& slope_of,
+        [&](const Vector<S::nodes>& weight, const Local& slope_of,
             int j) // of one node of the master
         {
           for (int s = 0; s < S::nodes; ++s)
@@ -98,11 +98,11 @@ public:
   /// @param[in] q Factors of the slave nodes.
   template <std::size_t K>
   std::array<std::array<Factors, M::nodes>, K>
-  weights(const std::array<Vec<S::nodes>, K>& q) const
+  weights(const std::array<Vector<S::nodes>, K>& q) const
   {
     std::array<std::array<Factors, M::nodes>, K> all{};
     moments(
-        [&](const Vec<S::nodes>& weight, const auto& slope, int j)
+        [&](const Vector<S::nodes>& weight, const auto& slope, int j)
         {
           for (std::size_t i = 0; i < K; ++i)
           {
@@ -124,8 +124,8 @@ public:
     const auto& plane = _slave.plane;
     constexpr Local o = mortar::plane_origin<S>();
     const auto N = S::shape(o);
-    Vec<S::nodes> along{}; // of the height over a turning plane, by slope
-    std::array<Vec<S::nodes>, tdim> across{};
+    Vector<S::nodes> along{}; // of the height over a turning plane, by slope
+    std::array<Vector<S::nodes>, tdim> across{};
     Local turn{};
     for (int j = 0; j < M::nodes; ++j)
       for (int a = 0; a < tdim; ++a)
@@ -133,7 +133,7 @@ public:
         const double q = f.r[j][a];
         for (int k = 0; k < gdim; ++k)
           row[gdim * (S::nodes + j) + k] += q * plane.dual[a][k];
-        Vec<S::nodes> affine = N;
+        Vector<S::nodes> affine = N;
         for (int b = 0; b < tdim; ++b)
         {
           affine = affine + _r[j][b] * _slope[b];
@@ -144,7 +144,7 @@ public:
     if constexpr (!S::flat)
       for (int a = 0; a < tdim; ++a)
       {
-        Vec<S::nodes> d = S::mixed_derivative;
+        Vector<S::nodes> d = S::mixed_derivative;
         for (int b = 0; b < tdim; ++b)
         {
           d = d - _twist[b] * _slope[b];
@@ -179,7 +179,7 @@ private:
       const auto slope = reduce(mortar::InverseMap<M>(_r).at({}).slope);
       for (int j = 0; j < M::nodes; ++j)
       {
-        Vec<S::nodes> weight;
+        Vector<S::nodes> weight;
         for (int s = 0; s < S::nodes; ++s)
           weight[s] = _pair.weight(s, j);
         add(weight, slope, j);
@@ -190,7 +190,7 @@ private:
           _slave, _pair.master,
           [&](const mortar::Shape<S>& s, const mortar::Shape<M>& m, double w)
           {
-            Vec<S::nodes> phi{};
+            Vector<S::nodes> phi{};
             for (int i = 0; i < S::nodes; ++i)
               for (int t = 0; t < S::nodes; ++t)
                 phi[i] += w * _pair.dual(i, t) * s.N[t];
@@ -208,8 +208,8 @@ private:
   const MortarPair<S, M>& _pair;
   mortar::SlaveFacet<S> _slave;
   mortar::Flat<M> _r;
-  Vec<M::nodes> _height;
-  std::array<Vec<S::nodes>, tdim> _slope; // of the slave facet's centre
+  Vector<M::nodes> _height;
+  std::array<Vector<S::nodes>, tdim> _slope; // of the slave facet's centre
   std::array<Local, tdim> _metric{};
   Local _twist{};
   double _warp = 0;

@@ -18,7 +18,7 @@ struct AreaVector
     for (int l = 0; l < F::nodes; ++l)
       for (int k = 0; k < F::gdim; ++k)
       {
-        Vec<F::gdim> e{};
+        Vector<F::gdim> e{};
         e[k] = 1;
         if constexpr (F::gdim == 2)
           first[F::gdim * l + k] = {dN[0][l] * e[1], -dN[0][l] * e[0]};
@@ -29,21 +29,21 @@ struct AreaVector
   }
 
   /// Second derivative by components `k` of node `l` and `q` of node `m`.
-  Vec<F::gdim> second(int l, int k, int m, int q) const
+  Vector<F::gdim> second(int l, int k, int m, int q) const
   {
     if constexpr (F::gdim == 2)
       return {};
     else
     {
-      Vec<3> a{}, b{};
+      Vector<3> a{}, b{};
       a[k] = 1;
       b[q] = 1;
       return (dN[0][l] * dN[1][m] - dN[0][m] * dN[1][l]) * cross(a, b);
     }
   }
 
-  std::array<Vec<F::nodes>, F::tdim> dN;
-  std::array<Vec<F::gdim>, F::gdim * F::nodes> first;
+  std::array<Vector<F::nodes>, F::tdim> dN;
+  std::array<Vector<F::gdim>, F::gdim * F::nodes> first;
 };
 
 /// @brief Second derivative of lambda . n by the positions of a facet's nodes,
@@ -56,18 +56,18 @@ struct AreaVector
 template <class F, class Add>
 void for_each_normal_hessian(const facet::Frame<F>& frame,
                              const facet::Local<F>& xi,
-                             const Vec<F::gdim>& lambda, Add&& add)
+                             const Vector<F::gdim>& lambda, Add&& add)
 {
   constexpr int gdim = F::gdim;
   const AreaVector<F> a(frame, xi);
   const double p = dot(lambda, frame.n);
   const double size = frame.jacobian;
-  const Vec<gdim> across = lambda - p * frame.n;
+  const Vector<gdim> across = lambda - p * frame.n;
   for (int i = 0; i < gdim * F::nodes; ++i)
     for (int j = 0; j < gdim * F::nodes; ++j)
     {
-      const Vec<gdim>& di = a.first[i];
-      const Vec<gdim>& dj = a.first[j];
+      const Vector<gdim>& di = a.first[i];
+      const Vector<gdim>& dj = a.first[j];
       const double ni = dot(frame.n, di), nj = dot(frame.n, dj);
       const double curvature = -(ni * dot(across, dj) + dot(across, di) * nj
                                  + p * (dot(di, dj) - ni * nj))

@@ -15,12 +15,12 @@ struct Pair
 {
   static constexpr int num_dofs = F::gdim * (F::nodes + 1);
 
-  Vec<F::gdim> slave;     ///< position of the slave node
+  Vector<F::gdim> slave;  ///< position of the slave node
   facet::Nodes<F> master; ///< positions of the facet's nodes
   int feature;            ///< interior, edge or vertex
   facet::Local<F> xi;     ///< local coordinates that the search found
-  Vec<3> cone;            ///< components of a ridge's normal
-  Vec<F::gdim> normal;    ///< unit normal that the search found
+  Vector<3> cone;         ///< components of a ridge's normal
+  Vector<F::gdim> normal; ///< unit normal that the search found
 
   /// @brief Read a pair from the coefficients.
   /// @param[in] w Coefficients.
@@ -51,16 +51,16 @@ struct Pair
 template <class F>
 struct ContactPoint
 {
-  facet::Local<F> xi;       ///< local coordinates
-  Vec<F::nodes + 1> weight; ///< 1 and -N_l(xi): x_s - x_m = weight x
-  Vec<F::gdim> normal;      ///< unit normal
-  Vec<F::gdim> d;           ///< x_s - x_m(xi)
-  double gap;               ///< normal . d
+  facet::Local<F> xi;          ///< local coordinates
+  Vector<F::nodes + 1> weight; ///< 1 and -N_l(xi): x_s - x_m = weight x
+  Vector<F::gdim> normal;      ///< unit normal
+  Vector<F::gdim> d;           ///< x_s - x_m(xi)
+  double gap;                  ///< normal . d
 };
 
 /// @brief Unit normal of a pair at a point of its facet, now.
 template <class F>
-Vec<F::gdim> current_normal(const Pair<F>& pair, const facet::Local<F>& xi)
+Vector<F::gdim> current_normal(const Pair<F>& pair, const facet::Local<F>& xi)
 {
   if (pair.feature == facet::interior)
     return facet::frame<F>(pair.master, xi).n;
@@ -75,7 +75,7 @@ Vec<F::gdim> current_normal(const Pair<F>& pair, const facet::Local<F>& xi)
 /// @brief The contact point for given local coordinates and normal.
 template <class F>
 ContactPoint<F> contact_point(const Pair<F>& pair, const facet::Local<F>& xi,
-                              const Vec<F::gdim>& normal)
+                              const Vector<F::gdim>& normal)
 {
   ContactPoint<F> c;
   c.xi = xi;

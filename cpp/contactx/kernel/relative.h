@@ -11,19 +11,19 @@ namespace contactx::kernel
 /// @param[in] frame Frame of the facet there.
 /// @param[in] xi Local coordinates.
 template <class F>
-std::array<Vec<Pair<F>::num_dofs>, F::gdim>
+std::array<Vector<Pair<F>::num_dofs>, F::gdim>
 facet_normal_derivative(const facet::Frame<F>& frame, const facet::Local<F>& xi)
 {
   const auto m = facet::metric(frame.t);
   const auto dN = F::derivative(xi);
-  std::array<Vec<Pair<F>::num_dofs>, F::gdim> dn{};
+  std::array<Vector<Pair<F>::num_dofs>, F::gdim> dn{};
   for (int l = 0; l < F::nodes; ++l)
   {
     facet::Local<F> dt;
     for (int b = 0; b < F::tdim; ++b)
       dt[b] = dN[b][l];
     const facet::Local<F> y = facet::solve(m, dt);
-    Vec<F::gdim> gradient{}; // of the node's shape function
+    Vector<F::gdim> gradient{}; // of the node's shape function
     for (int b = 0; b < F::tdim; ++b)
       gradient = gradient + y[b] * frame.t[b];
     // n . t_b = 0
@@ -72,9 +72,9 @@ struct Relative
   }
 
   /// @brief Derivative of the movement, [gdim][num_dofs].
-  std::array<Vec<num_dofs>, F::gdim> derivative() const
+  std::array<Vector<num_dofs>, F::gdim> derivative() const
   {
-    std::array<Vec<num_dofs>, F::gdim> dw{};
+    std::array<Vector<num_dofs>, F::gdim> dw{};
     if constexpr (Kinematics::turning)
       if (gap != 0)
       {
@@ -88,10 +88,10 @@ struct Relative
     return dw;
   }
 
-  facet::Local<F> xi;       ///< local coordinates of the point
-  double gap;               ///< its gap
-  Vec<F::nodes + 1> weight; ///< 1 and -N_l(xi_0)
-  facet::Frame<F> frame;    ///< frame of the facet there, where it turns
-  Vec<F::gdim> value;       ///< the movement
+  facet::Local<F> xi;          ///< local coordinates of the point
+  double gap;                  ///< its gap
+  Vector<F::nodes + 1> weight; ///< 1 and -N_l(xi_0)
+  facet::Frame<F> frame;       ///< frame of the facet there, where it turns
+  Vector<F::gdim> value;       ///< the movement
 };
 } // namespace contactx::kernel

@@ -25,7 +25,7 @@ struct Tie
 };
 
 template <class K>
-Vec<K::F::gdim> normal_of(const K& tie, const Relative<K>& movement)
+Vector<K::F::gdim> normal_of(const K& tie, const Relative<K>& movement)
 {
   if constexpr (K::turning)
     return movement.frame.n;
@@ -119,7 +119,7 @@ void stiffness(double* A, const double* w, const double*, const double*,
   if (movement.gap == 0)
     return;
   const NodeState<F> node(w);
-  Vec<gdim> lambda;
+  Vector<gdim> lambda;
   std::copy_n(node.multiplier, gdim, lambda.begin());
   const double factor = node.area * movement.gap;
   for_each_normal_hessian<F>(

@@ -17,9 +17,9 @@ struct Variation
 {
   static constexpr int num_dofs = Pair<F>::num_dofs;
 
-  std::array<Vec<num_dofs>, F::tdim> xi;     ///< local coordinates
-  std::array<Vec<num_dofs>, F::gdim> normal; ///< unit normal
-  Vec<num_dofs> gap;                         ///< gap
+  std::array<Vector<num_dofs>, F::tdim> xi;     ///< local coordinates
+  std::array<Vector<num_dofs>, F::gdim> normal; ///< unit normal
+  Vector<num_dofs> gap;                         ///< gap
 
   /// @brief Compute the variation.
   /// @param[in] pair Pair.
@@ -29,7 +29,7 @@ struct Variation
     const auto frame = facet::frame<F>(pair.master, c.xi);
     const auto m = facet::metric(frame.t);
     const auto dN = F::derivative(c.xi);
-    Vec<F::gdim> twist{}; // d^2 x / dxi_1 dxi_2
+    Vector<F::gdim> twist{}; // d^2 x / dxi_1 dxi_2
     if constexpr (!F::flat)
       twist = facet::combine<F>(F::mixed_derivative, pair.master);
     const double curvature = dot(frame.n, twist);
@@ -42,11 +42,11 @@ struct Variation
     const double length = norm(edge);
     const auto e = (1 / length) * edge;
 
-    Vec<3> H = m; // m_ab - g k_ab
+    Vector<3> H = m; // m_ab - g k_ab
     H[1] -= c.gap * curvature;
 
     // Tangents solved with m and with H; the same where the facet is flat
-    std::array<Vec<F::gdim>, F::tdim> dual, along;
+    std::array<Vector<F::gdim>, F::tdim> dual, along;
     for (int k = 0; k < F::gdim; ++k)
     {
       facet::Local<F> r;
@@ -69,7 +69,7 @@ struct Variation
         for (int b = 0; b < F::tdim; ++b)
           dt[b] = dN[b][a - 1];
       const facet::Local<F> slope = facet::solve(H, dt);
-      Vec<F::gdim> gradient{}; // of the node's shape function
+      Vector<F::gdim> gradient{}; // of the node's shape function
       for (int b = 0; b < F::tdim; ++b)
         gradient = gradient + dt[b] * dual[b];
       const double dedge = (a == j + 1) - (a == i + 1);
@@ -89,14 +89,14 @@ struct Variation
         }
 
         // n . t_a = 0 gives the variation of the facet's normal
-        Vec<F::gdim> dn = -frame.n[k] * gradient;
+        Vector<F::gdim> dn = -frame.n[k] * gradient;
         if constexpr (!F::flat)
           dn = dn - (curvature * dxi[1]) * dual[0]
                - (curvature * dxi[0]) * dual[1];
 
         if (!interior)
         {
-          Vec<F::gdim> de = (-dedge * e[k] / length) * e;
+          Vector<F::gdim> de = (-dedge * e[k] / length) * e;
           de[k] += dedge / length;
           if constexpr (F::gdim == 2)
             dn = pair.cone[0] * de + pair.cone[2] * dn;

@@ -12,10 +12,10 @@ using namespace contactx::law;
 namespace
 {
 template <int D>
-using Mat = std::array<Vec<D>, D>;
+using Mat = std::array<Vector<D>, D>;
 
 template <int D>
-Mat<D> outer(const Vec<D>& a, const Vec<D>& b)
+Mat<D> outer(const Vector<D>& a, const Vector<D>& b)
 {
   Mat<D> m;
   for (int i = 0; i < D; ++i)
@@ -25,7 +25,7 @@ Mat<D> outer(const Vec<D>& a, const Vec<D>& b)
 
 /// I - a a^T
 template <int D>
-Mat<D> across(const Vec<D>& a)
+Mat<D> across(const Vector<D>& a)
 {
   Mat<D> m = outer<D>(-1 * a, a);
   for (int i = 0; i < D; ++i)
@@ -60,9 +60,9 @@ Mat<D> sum(Mat<D> a, const Mat<D>& b)
 }
 
 template <int D>
-Vec<D> vector_at(std::span<const double> values, std::size_t i)
+Vector<D> vector_at(std::span<const double> values, std::size_t i)
 {
-  Vec<D> v;
+  Vector<D> v;
   for (int k = 0; k < D; ++k)
     v[k] = values[D * i + k];
   return v;
@@ -97,9 +97,9 @@ struct Node
     return back ? Status::stick : Status::slip;
   }
 
-  Vec<D> lambda, n, slip;
+  Vector<D> lambda, n, slip;
   double gap, c, p, p_hat;
-  Vec<D> t, t_hat;
+  Vector<D> t, t_hat;
   double size, bound;
 };
 
@@ -107,7 +107,7 @@ struct Node
 template <int D>
 struct Terms
 {
-  Vec<D> value{}, by_gap{};
+  Vector<D> value{}, by_gap{};
   Mat<D> by_traction{}, by_slip{}, by_normal{};
 };
 
@@ -121,7 +121,7 @@ Mat<D> identity(double s)
 }
 
 template <int D>
-Terms<D> open_terms(const Vec<D>& lambda)
+Terms<D> open_terms(const Vector<D>& lambda)
 {
   Terms<D> r;
   r.value = lambda;
@@ -163,14 +163,14 @@ Terms<D> slip_terms(const Node<D>& a, double friction)
 {
   // Without a direction there is nothing to slip along: any will do
   const bool directed = a.size > 0;
-  const Vec<D> s = directed ? (1 / a.size) * a.t_hat : Vec<D>{};
+  const Vector<D> s = directed ? (1 / a.size) * a.t_hat : Vector<D>{};
   const Mat<D> turn
       = directed ? scaled<D>(a.bound / a.size, across<D>(s)) : Mat<D>{};
   const Mat<D> t_by_n = traction_by_normal<D>(a);
   Terms<D> r;
   r.value = a.t - a.bound * s;
   // See `pressure_hat`
-  r.by_gap = a.gap > 0 ? Vec<D>{} : (a.c * friction) * s;
+  r.by_gap = a.gap > 0 ? Vector<D>{} : (a.c * friction) * s;
   r.by_slip = scaled<D>(a.c, turn);
   const Mat<D> tangential = across<D>(a.n);
   r.by_traction

@@ -13,10 +13,10 @@ template <int D>
 struct Overlap
 {
   static constexpr int most = D == 1 ? 2 : 8; ///< corners of two quadrilaterals
-  std::array<Vec<D>, most + 1> corner;
+  std::array<Vector<D>, most + 1> corner;
   int size = 0; ///< number of corners, 0 where nothing is shared
 
-  void push(const Vec<D>& p)
+  void push(const Vector<D>& p)
   {
     if (size <= most)
       corner[size++] = p;
@@ -111,17 +111,17 @@ public:
       _edge[i] = p.corner[(i + 1) % _size] - p.corner[i];
     for (int i = 0; i < _size; ++i)
     {
-      const Vec<2>&before = _edge[previous(i)], &after = _edge[i];
+      const Vector<2>&before = _edge[previous(i)], &after = _edge[i];
       _turn[i] = before[0] * after[1] - before[1] * after[0];
       _most = std::max(_most, std::abs(_turn[i]));
     }
   }
 
-  const Vec<2>& operator[](int i) const { return _edge[i]; }
+  const Vector<2>& operator[](int i) const { return _edge[i]; }
 
   bool cuts(int i) const
   {
-    const Vec<2>& e = _edge[i];
+    const Vector<2>& e = _edge[i];
     if (e[0] == 0 and e[1] == 0)
       return false;
     const int next = (i + 1) % _size;
@@ -144,7 +144,7 @@ private:
     return a < b or (or_equal and a == b);
   }
 
-  std::array<Vec<2>, Overlap<2>::most + 1> _edge;
+  std::array<Vector<2>, Overlap<2>::most + 1> _edge;
   std::array<double, Overlap<2>::most + 1> _turn; // at the start of each edge
   double _most = 0;
   int _size;
@@ -160,18 +160,18 @@ inline Overlap<2> clip(Overlap<2> a, const Overlap<2>& b)
   {
     if (!cutting.cuts(i))
       continue;
-    const Vec<2>& p = b.corner[i];
-    const Vec<2>& e = cutting[i];
+    const Vector<2>& p = b.corner[i];
+    const Vector<2>& e = cutting[i];
     ++edges;
     // Positive on the left of the edge
-    const auto side = [&p, &e](const Vec<2>& q)
+    const auto side = [&p, &e](const Vector<2>& q)
     { return e[0] * (q[1] - p[1]) - e[1] * (q[0] - p[0]); };
     Overlap<2> cut;
     double before = side(a.corner[a.size - 1]);
     for (int j = 0; j < a.size; ++j)
     {
-      const Vec<2>& from = a.corner[(j + a.size - 1) % a.size];
-      const Vec<2>& to = a.corner[j];
+      const Vector<2>& from = a.corner[(j + a.size - 1) % a.size];
+      const Vector<2>& to = a.corner[j];
       const double now = side(to);
       if ((before > 0 and now < 0) or (before < 0 and now > 0))
         cut.push(from + (before / (before - now)) * (to - from));

@@ -52,7 +52,7 @@ public:
 
   bool meets(const search::Box& box) const
   {
-    Vec<S::gdim> centre, half;
+    Vector<S::gdim> centre, half;
     for (int k = 0; k < S::gdim; ++k)
     {
       if (not(box.lower[k] <= box.upper[k]))
@@ -60,7 +60,7 @@ public:
       centre[k] = 0.5 * (box.lower[k] + box.upper[k]) - _plane.origin[k];
       half[k] = 0.5 * (box.upper[k] - box.lower[k]);
     }
-    const auto apart = [&](const Vec<S::gdim>& axis, double from, double to)
+    const auto apart = [&](const Vector<S::gdim>& axis, double from, double to)
     {
       double reach = 0;
       for (int k = 0; k < S::gdim; ++k)
@@ -83,7 +83,7 @@ private:
 /// Distance of a facet, in the middle of what it shares.
 template <class M>
 double distance_at(const Overlap<M::tdim>& part, const Flat<M>& r,
-                   const Vec<M::nodes>& height)
+                   const Vector<M::nodes>& height)
 {
   facet::Local<M> middle{};
   for (int i = 0; i < part.size; ++i)
@@ -201,7 +201,7 @@ FacetPairs FacetSearch::find(std::span<const double> x, double reach,
             if (not(dot(facet::frame<M>(xm, plane_origin<M>()).n, plane.n)
                     < -least_cosine))
               return;
-            Vec<M::nodes> height;
+            Vector<M::nodes> height;
             for (int l = 0; l < M::nodes; ++l)
               height[l] = plane.height(xm[l]);
             const auto [nearest, farthest] = std::ranges::minmax(height);

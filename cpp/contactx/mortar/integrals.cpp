@@ -11,7 +11,7 @@ using namespace contactx::mortar;
 namespace
 {
 template <int N>
-using Square = std::array<Vec<N>, N>;
+using Square = std::array<Vector<N>, N>;
 
 /// Inverse of a symmetric positive matrix, by Cholesky's factors; false where
 /// it is not positive.
@@ -36,7 +36,7 @@ bool invert(const Square<N>& m, Square<N>& inverse)
     }
   for (int c = 0; c < N; ++c)
   {
-    Vec<N> y{};
+    Vector<N> y{};
     y[c] = 1;
     for (int i = 0; i < N; ++i)
     {
@@ -60,7 +60,7 @@ template <class S>
 struct Cover
 {
   Square<S::nodes> mass{}; ///< int N_s N_t
-  Vec<S::nodes> area{};    ///< int N_s
+  Vector<S::nodes> area{}; ///< int N_s
   double total = 0;        ///< area
 };
 
@@ -70,8 +70,8 @@ void add_pair(const SlaveFacet<S>& slave, const facet::Nodes<S>& xs,
               const facet::Nodes<M>& xm, Cover<S>& cover, double* weight,
               double* gap)
 {
-  Vec<S::nodes> low;
-  Vec<M::nodes> high;
+  Vector<S::nodes> low;
+  Vector<M::nodes> high;
   for (int t = 0; t < S::nodes; ++t)
     low[t] = slave.plane.height(xs[t]);
   for (int l = 0; l < M::nodes; ++l)
@@ -108,7 +108,7 @@ Plane<S> plane_of(const facet::Nodes<S>& x, std::int32_t f,
 {
   if (normal.empty())
     return Plane<S>(x);
-  Vec<S::gdim> n;
+  Vector<S::gdim> n;
   for (int k = 0; k < S::gdim; ++k)
     n[k] = -normal[3 * f + k];
   return {x, n};
@@ -120,7 +120,7 @@ void combine_rows(const Square<S::nodes>& dual, double* rows, int width)
 {
   for (int l = 0; l < width; ++l)
   {
-    Vec<S::nodes> column{};
+    Vector<S::nodes> column{};
     for (int s = 0; s < S::nodes; ++s)
       for (int t = 0; t < S::nodes; ++t)
         column[s] += dual[s][t] * rows[width * t + l];

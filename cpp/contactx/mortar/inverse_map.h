@@ -12,8 +12,8 @@ namespace contactx::mortar
 template <class F>
 struct Shape
 {
-  Vec<F::nodes> N;                          ///< shape functions
-  std::array<Vec<F::nodes>, F::tdim> slope; ///< by the plane's coordinates
+  Vector<F::nodes> N;                          ///< shape functions
+  std::array<Vector<F::nodes>, F::tdim> slope; ///< by the plane's coordinates
   double jacobian;    ///< of the plane's coordinates by the local ones
   facet::Local<F> xi; ///< local coordinates
 };
@@ -96,8 +96,8 @@ public:
       y = untwist(y);
       const auto [c, d] = _twist;
       // d(affine) / dxi of the twisted map
-      const Vec<2> row0{1 + y[1] * c, y[0] * c};
-      const Vec<2> row1{y[1] * d, 1 + y[0] * d};
+      const Vector<2> row0{1 + y[1] * c, y[0] * c};
+      const Vector<2> row1{y[1] * d, 1 + y[0] * d};
       const double det = row0[0] * row1[1] - row0[1] * row1[0];
       for (int i = 0; i < 2; ++i)
       {

@@ -27,11 +27,11 @@ constexpr facet::Local<S> plane_origin()
 template <class S>
 struct Plane
 {
-  Vec<S::gdim> origin;
-  std::array<Vec<S::gdim>, S::tdim> t;    ///< tangents
-  std::array<Vec<S::gdim>, S::tdim> dual; ///< t_a . dual_b = delta_ab
-  Vec<S::gdim> n;        ///< unit vector that is projected along, outward
-  Vec<S::gdim> conormal; ///< across the tangents, conormal . n = 1
+  Vector<S::gdim> origin;
+  std::array<Vector<S::gdim>, S::tdim> t;    ///< tangents
+  std::array<Vector<S::gdim>, S::tdim> dual; ///< t_a . dual_b = delta_ab
+  Vector<S::gdim> n;        ///< unit vector that is projected along, outward
+  Vector<S::gdim> conormal; ///< across the tangents, conormal . n = 1
 
   /// @brief Create the plane and project along its normal.
   /// @param[in] x Nodes of the slave facet.
@@ -42,7 +42,7 @@ struct Plane
     origin = facet::combine<S>(S::shape(xi), x);
     t = frame.t;
     n = conormal = frame.n;
-    const Vec<3> m = facet::metric(t);
+    const Vector<3> m = facet::metric(t);
     for (int k = 0; k < S::gdim; ++k)
     {
       facet::Local<S> r;
@@ -57,7 +57,7 @@ struct Plane
   /// @brief Create the plane and project along another direction.
   /// @param[in] x Nodes of the slave facet.
   /// @param[in] direction Unit vector on the outer side of the facet.
-  Plane(const facet::Nodes<S>& x, const Vec<S::gdim>& direction) : Plane(x)
+  Plane(const facet::Nodes<S>& x, const Vector<S::gdim>& direction) : Plane(x)
   {
     const double cosine = dot(conormal, direction);
     for (auto& d : dual)
@@ -67,7 +67,7 @@ struct Plane
   }
 
   /// @brief Coordinates r of a point's projection.
-  facet::Local<S> project(const Vec<S::gdim>& x) const
+  facet::Local<S> project(const Vector<S::gdim>& x) const
   {
     facet::Local<S> r;
     for (int a = 0; a < S::tdim; ++a)
@@ -76,7 +76,7 @@ struct Plane
   }
 
   /// @brief Height of a point over the plane, along n.
-  double height(const Vec<S::gdim>& x) const
+  double height(const Vector<S::gdim>& x) const
   {
     return dot(conormal, x - origin);
   }

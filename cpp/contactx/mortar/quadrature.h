@@ -33,7 +33,7 @@ void integrate(const Overlap<1>& o, int degree, Function&& f)
     return;
   const double from = o.corner[0][0], length = o.corner[1][0] - from;
   for (const auto& [x, weight] : gauss(std::min(degree / 2 + 1, max_points)))
-    f(Vec<1>{from + x * length}, weight * length);
+    f(Vector<1>{from + x * length}, weight * length);
 }
 
 /// @copydoc integrate
@@ -42,8 +42,8 @@ void integrate(const Overlap<2>& o, int degree, Function&& f)
 {
   for (int i = 2; i < o.size; ++i)
   {
-    const Vec<2>& p = o.corner[0];
-    const Vec<2> a = o.corner[i - 1] - p, b = o.corner[i] - p;
+    const Vector<2>& p = o.corner[0];
+    const Vector<2> a = o.corner[i - 1] - p, b = o.corner[i] - p;
     const double twice = a[0] * b[1] - a[1] * b[0];
     if (not(twice > 0))
       continue;

@@ -36,7 +36,7 @@ struct SlaveFacet
       // How much the reference area varies over the facet
       const Plane<S> before(reference);
       const InverseMap<S> flat(project<S>(before, reference));
-      Vec<S::gdim> w{};
+      Vector<S::gdim> w{};
       for (int t = 0; t < S::nodes; ++t)
         w = w + S::mixed_derivative[t] * reference[t];
       const double height = dot(w, before.n);

@@ -24,7 +24,7 @@ constexpr double least_cosine = 0.7;
 
 std::optional<Projection> contactx::search::bisector(const Surface& surface,
                                                      std::span<const double> x,
-                                                     const Vec<3>& p,
+                                                     const Vector<3>& p,
                                                      const Projection& q)
 {
   if (surface.gdim() != 2)
@@ -35,7 +35,7 @@ std::optional<Projection> contactx::search::bisector(const Surface& surface,
 
   std::int32_t first = -1;
   int count = 0;
-  Vec<3> sum{};
+  Vector<3> sum{};
   surface.for_each_around(
       q.facet, 1 + Segment::num_edges + end,
       [&](std::int32_t f)
@@ -49,15 +49,15 @@ std::optional<Projection> contactx::search::bisector(const Surface& surface,
       });
   if (count != 2 or !(dot(sum, sum) > 2 + 2 * least_cosine))
     return std::nullopt;
-  const Vec<3> n = (1 / norm(sum)) * sum;
+  const Vector<3> n = (1 / norm(sum)) * sum;
   if (norm(n - q.normal) <= in_line)
     return std::nullopt;
 
   // Of the first facet, whichever of them rounding has led to
   const std::int32_t node = surface.facets()[q.facet][end];
   const int vertex = surface.facets()[first][0] == node ? 0 : 1;
-  const Vec<2> xi{static_cast<double>(vertex), 0};
-  const Vec<3> d = p - point_at(surface, first, x, xi).x;
+  const Vector<2> xi{static_cast<double>(vertex), 0};
+  const Vector<3> d = p - point_at(surface, first, x, xi).x;
   return Projection{
       first, 1 + Segment::num_edges + vertex, xi, d, n, dot(n, d), 0, q.size};
 }

@@ -22,6 +22,6 @@ namespace contactx::search
 /// @return Nothing where `p` is higher over one facet than over the other, or
 /// where they are in line.
 std::optional<Projection> bisector(const Surface& surface,
-                                   std::span<const double> x, const Vec<3>& p,
-                                   const Projection& q);
+                                   std::span<const double> x,
+                                   const Vector<3>& p, const Projection& q);
 } // namespace contactx::search

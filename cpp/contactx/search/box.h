@@ -14,8 +14,8 @@ namespace contactx::search
 /// third extent at zero.
 struct Box
 {
-  Vec<3> lower;
-  Vec<3> upper;
+  Vector<3> lower;
+  Vector<3> upper;
 
   /// @brief A box that holds nothing.
   static constexpr Box empty()
@@ -25,7 +25,7 @@ struct Box
   }
 
   /// @brief Grow the box so that it holds `p`.
-  constexpr void add(const Vec<3>& p)
+  constexpr void add(const Vector<3>& p)
   {
     for (int k = 0; k < 3; ++k)
     {
@@ -45,7 +45,7 @@ struct Box
   }
 
   /// @brief Squared distance from `p`, zero inside.
-  constexpr double distance2(const Vec<3>& p) const
+  constexpr double distance2(const Vector<3>& p) const
   {
     double d2 = 0;
     for (int k = 0; k < 3; ++k)

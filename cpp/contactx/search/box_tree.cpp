@@ -38,7 +38,7 @@ void BoxTree::build(std::span<const Box> boxes, std::int32_t begin,
     return;
   }
 
-  const Vec<3> extent = centres.upper - centres.lower;
+  const Vector<3> extent = centres.upper - centres.lower;
   const int axis
       = std::max_element(extent.begin(), extent.end()) - extent.begin();
   const std::int32_t middle = begin + (end - begin) / 2;

@@ -58,7 +58,7 @@ public:
   /// @param[in,out] bound2 Squared bound. `visit` may lower it.
   /// @param[in] visit Called as visit(item).
   template <class Visitor>
-  void nearest(const Vec<3>& p, double& bound2, Visitor&& visit) const
+  void nearest(const Vector<3>& p, double& bound2, Visitor&& visit) const
   {
     struct Entry
     {

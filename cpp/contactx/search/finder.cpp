@@ -21,8 +21,9 @@ void Finder::refit(std::span<const double> x)
     _tree.emplace(_surface.boxes(x));
 }
 
-Found Finder::find(std::span<const double> x, const Vec<3>& p,
-                   const Vec<3>& normal, double reach, std::int32_t hint) const
+Found Finder::find(std::span<const double> x, const Vector<3>& p,
+                   const Vector<3>& normal, double reach,
+                   std::int32_t hint) const
 {
   Found found;
   found.nearest = nearest_facet(_surface, *_tree, x, p, normal, reach, hint);

@@ -40,8 +40,9 @@ public:
   /// facet.
   /// @param[in] reach Largest distance.
   /// @param[in] hint A facet that may be near, -1 for none.
-  Found find(std::span<const double> x, const Vec<3>& p, const Vec<3>& normal,
-             double reach, std::int32_t hint = -1) const;
+  Found find(std::span<const double> x, const Vector<3>& p,
+             const Vector<3>& normal, double reach,
+             std::int32_t hint = -1) const;
 
 private:
   Surface _surface;

@@ -18,7 +18,7 @@ Feet contactx::search::feet(const Surface& surface,
   {
     if (facet[i] < 0)
       continue;
-    Vec<3> p{};
+    Vector<3> p{};
     std::copy_n(points.begin() + gdim * i, gdim, p.begin());
     if (const auto q = extended(surface, facet[i], x, p))
     {

@@ -30,14 +30,14 @@ contactx::search::spatial_order(std::span<const std::int32_t> nodes,
   Box box = Box::empty();
   const auto point = [x, gdim](std::int32_t node)
   {
-    Vec<3> p{};
+    Vector<3> p{};
     for (int k = 0; k < gdim; ++k)
       p[k] = x[static_cast<std::size_t>(node) * gdim + k];
     return p;
   };
   for (std::int32_t node : nodes)
     box.add(point(node));
-  const Vec<3> extent = box.upper - box.lower;
+  const Vector<3> extent = box.upper - box.lower;
   // One scale for all axes: cells are cubes
   const double size = std::max({extent[0], extent[1], extent[2]});
   const double scale = size > 0 ? ((1 << bits) - 1) / size : 0;
@@ -45,7 +45,7 @@ contactx::search::spatial_order(std::span<const std::int32_t> nodes,
   std::vector<std::pair<std::uint64_t, std::int32_t>> keys(nodes.size());
   for (std::size_t i = 0; i < nodes.size(); ++i)
   {
-    const Vec<3> p = scale * (point(nodes[i]) - box.lower);
+    const Vector<3> p = scale * (point(nodes[i]) - box.lower);
     std::uint64_t key = 0;
     for (int k = 0; k < 3; ++k)
       // A coordinate that is no number has no place; any will do

@@ -17,9 +17,9 @@ constexpr std::int8_t max_returns = 2;
 /// Marks a slave node that has not changed its facet in this step
 constexpr std::int32_t never = -2;
 
-Vec<3> padded(std::span<const double> x, std::int32_t node, int gdim)
+Vector<3> padded(std::span<const double> x, std::int32_t node, int gdim)
 {
-  Vec<3> p{};
+  Vector<3> p{};
   for (int k = 0; k < gdim; ++k)
     p[k] = x[static_cast<std::size_t>(node) * gdim + k];
   return p;
@@ -113,7 +113,7 @@ void Pairing::set(std::size_t i, const std::optional<Projection>& q,
     return;
   std::copy(q->xi.begin(), q->xi.end(), _xi.begin() + 2 * i);
   std::copy(q->normal.begin(), q->normal.end(), _normal.begin() + 3 * i);
-  Vec<3> c{};
+  Vector<3> c{};
   if (q->feature != facet::interior)
     c = cone_components(master(), x, *q);
   std::copy(c.begin(), c.end(), _cone.begin() + 3 * i);

@@ -20,7 +20,7 @@ struct Around
 {
   bool any = false;
   bool penetrated = true; ///< behind all of them
-  Vec<3> mean{};          ///< sum of their normals
+  Vector<3> mean{};       ///< sum of their normals
   std::optional<Projection> deepest;
   /// Of those whose margin holds the projection: the deepest and the one that
   /// holds it best
@@ -62,9 +62,11 @@ Projection beyond_edge(const Around& around, Projection nearest)
 }
 } // namespace
 
-std::optional<Projection> contactx::search::nearest_facet(
-    const Surface& surface, const BoxTree& tree, std::span<const double> x,
-    const Vec<3>& p, const Vec<3>& normal, double reach, std::int32_t hint)
+std::optional<Projection>
+contactx::search::nearest_facet(const Surface& surface, const BoxTree& tree,
+                                std::span<const double> x, const Vector<3>& p,
+                                const Vector<3>& normal, double reach,
+                                std::int32_t hint)
 {
   std::optional<Projection> best;
   double best_d = reach, bound2 = reach * reach;
@@ -94,7 +96,7 @@ std::optional<Projection> contactx::search::nearest_facet(
 
 std::optional<Projection> contactx::search::select(const Surface& surface,
                                                    std::span<const double> x,
-                                                   const Vec<3>& p,
+                                                   const Vector<3>& p,
                                                    const Projection& nearest)
 {
   if (nearest.feature == facet::interior)
@@ -114,9 +116,9 @@ std::optional<Projection> contactx::search::select(const Surface& surface,
   return beyond_edge(around, nearest);
 }
 
-Vec<3> contactx::search::cone_components(const Surface& surface,
-                                         std::span<const double> x,
-                                         const Projection& projection)
+Vector<3> contactx::search::cone_components(const Surface& surface,
+                                            std::span<const double> x,
+                                            const Projection& projection)
 {
   const auto nodes = surface.facets()[projection.facet];
   return facet::visit(nodes.size(),
@@ -126,7 +128,7 @@ Vec<3> contactx::search::cone_components(const Surface& surface,
                         std::copy_n(projection.xi.begin(), F::tdim, xi.begin());
                         const auto axes = facet::ridge_axes<F>(
                             facet::gather<F>(nodes, x), projection.feature, xi);
-                        Vec<3> c{};
+                        Vector<3> c{};
                         for (int i = 0; i < F::gdim; ++i)
                           for (int k = 0; k < F::gdim; ++k)
                             c[F::gdim == 2 and i == 1 ? 2 : i]

@@ -23,11 +23,10 @@ inline constexpr double margin = 0.05;
 /// @param[in] hint A facet that may be near, -1 for none: the search is faster,
 /// its result the same.
 /// @return The closest point of that facet, nothing where none is in reach.
-std::optional<Projection> nearest_facet(const Surface& surface,
-                                        const BoxTree& tree,
-                                        std::span<const double> x,
-                                        const Vec<3>& p, const Vec<3>& normal,
-                                        double reach, std::int32_t hint = -1);
+std::optional<Projection>
+nearest_facet(const Surface& surface, const BoxTree& tree,
+              std::span<const double> x, const Vector<3>& p,
+              const Vector<3>& normal, double reach, std::int32_t hint = -1);
 
 /// @brief The projection that contact is measured with.
 ///
@@ -45,7 +44,7 @@ std::optional<Projection> nearest_facet(const Surface& surface,
 /// @param[in] p Point.
 /// @param[in] nearest Closest point of the surface to `p`.
 std::optional<Projection> select(const Surface& surface,
-                                 std::span<const double> x, const Vec<3>& p,
+                                 std::span<const double> x, const Vector<3>& p,
                                  const Projection& nearest);
 
 /// @brief Components of a ridge's normal in the frame of its facet.
@@ -57,6 +56,6 @@ std::optional<Projection> select(const Surface& surface,
 /// @param[in] surface Master surface.
 /// @param[in] x Node coordinates (shape=(num_nodes, gdim)), row-major.
 /// @param[in] projection Projection whose feature is an edge or a vertex.
-Vec<3> cone_components(const Surface& surface, std::span<const double> x,
-                       const Projection& projection);
+Vector<3> cone_components(const Surface& surface, std::span<const double> x,
+                          const Projection& projection);
 } // namespace contactx::search

@@ -15,24 +15,24 @@ namespace
 constexpr double degenerate = 1e-14;
 
 template <std::size_t D>
-Vec<3> pad(const std::array<double, D>& a)
+Vector<3> pad(const std::array<double, D>& a)
 {
-  Vec<3> b{};
+  Vector<3> b{};
   std::copy(a.begin(), a.end(), b.begin());
   return b;
 }
 
 template <class F>
-Vec<F::gdim> unpad(const Vec<3>& a)
+Vector<F::gdim> unpad(const Vector<3>& a)
 {
-  Vec<F::gdim> b;
+  Vector<F::gdim> b;
   std::copy_n(a.begin(), F::gdim, b.begin());
   return b;
 }
 
 template <class F>
 std::optional<Projection> make(std::int32_t f, const facet::Nodes<F>& x,
-                               const Vec<F::gdim>& d, int feature,
+                               const Vector<F::gdim>& d, int feature,
                                const facet::Local<F>& xi)
 {
   const auto fr = facet::frame<F>(x, xi);
@@ -171,7 +171,7 @@ contactx::search::sorted_unique(std::span<const std::int32_t> nodes)
 std::optional<Projection> contactx::search::closest(const Surface& surface,
                                                     std::int32_t f,
                                                     std::span<const double> x,
-                                                    const Vec<3>& p)
+                                                    const Vector<3>& p)
 {
   return closest_within(surface, f, x, p,
                         std::numeric_limits<double>::infinity());
@@ -179,7 +179,7 @@ std::optional<Projection> contactx::search::closest(const Surface& surface,
 
 std::optional<Projection>
 contactx::search::closest_within(const Surface& surface, std::int32_t f,
-                                 std::span<const double> x, const Vec<3>& p,
+                                 std::span<const double> x, const Vector<3>& p,
                                  double bound2)
 {
   const auto nodes = surface.facets()[f];
@@ -198,7 +198,7 @@ contactx::search::closest_within(const Surface& surface, std::int32_t f,
 std::optional<Projection> contactx::search::extended(const Surface& surface,
                                                      std::int32_t f,
                                                      std::span<const double> x,
-                                                     const Vec<3>& p)
+                                                     const Vector<3>& p)
 {
   const auto nodes = surface.facets()[f];
   return facet::visit(nodes.size(),
@@ -216,7 +216,7 @@ std::optional<Projection> contactx::search::extended(const Surface& surface,
 
 SurfacePoint contactx::search::point_at(const Surface& surface, std::int32_t f,
                                         std::span<const double> x,
-                                        const Vec<2>& xi)
+                                        const Vector<2>& xi)
 {
   const auto nodes = surface.facets()[f];
   return facet::visit(nodes.size(),
@@ -232,7 +232,7 @@ SurfacePoint contactx::search::point_at(const Surface& surface, std::int32_t f,
 }
 
 double contactx::search::outer_margin(const Surface& surface, std::int32_t f,
-                                      const Vec<2>& xi)
+                                      const Vector<2>& xi)
 {
   return facet::visit(
       surface.facets()[f].size(),

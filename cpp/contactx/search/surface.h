@@ -100,12 +100,12 @@ struct Projection
 {
   std::int32_t facet;
   int feature;
-  Vec<2> xi;     ///< local coordinates; in 2D only the first is used
-  Vec<3> d;      ///< vector from the projection to the point
-  Vec<3> normal; ///< outward unit normal of the facet there
-  double gap;    ///< normal . d
-  double excess; ///< how far xi lies outside the facet
-  double size;   ///< diameter of the facet
+  Vector<2> xi;     ///< local coordinates; in 2D only the first is used
+  Vector<3> d;      ///< vector from the projection to the point
+  Vector<3> normal; ///< outward unit normal of the facet there
+  double gap;       ///< normal . d
+  double excess;    ///< how far xi lies outside the facet
+  double size;      ///< diameter of the facet
 };
 
 /// @brief Distance of a place on a facet from the surface's outer edge, in the
@@ -113,7 +113,8 @@ struct Projection
 /// @param[in] surface Surface.
 /// @param[in] f Facet.
 /// @param[in] xi Local coordinates.
-double outer_margin(const Surface& surface, std::int32_t f, const Vec<2>& xi);
+double outer_margin(const Surface& surface, std::int32_t f,
+                    const Vector<2>& xi);
 
 /// @brief Closest point of a facet.
 /// @param[in] surface Surface.
@@ -122,7 +123,8 @@ double outer_margin(const Surface& surface, std::int32_t f, const Vec<2>& xi);
 /// @param[in] p Point.
 /// @return Nothing where the facet has no area.
 std::optional<Projection> closest(const Surface& surface, std::int32_t f,
-                                  std::span<const double> x, const Vec<3>& p);
+                                  std::span<const double> x,
+                                  const Vector<3>& p);
 
 /// @brief Closest point of a facet that may be near enough to matter.
 /// @param[in] surface Surface.
@@ -133,7 +135,7 @@ std::optional<Projection> closest(const Surface& surface, std::int32_t f,
 /// @return As `closest`, or nothing where the facet is farther away.
 std::optional<Projection> closest_within(const Surface& surface, std::int32_t f,
                                          std::span<const double> x,
-                                         const Vec<3>& p, double bound2);
+                                         const Vector<3>& p, double bound2);
 
 /// @brief Projection on the facet's extended surface, beyond its edges.
 /// @param[in] surface Surface.
@@ -142,13 +144,14 @@ std::optional<Projection> closest_within(const Surface& surface, std::int32_t f,
 /// @param[in] p Point.
 /// @return Nothing where there is no projection.
 std::optional<Projection> extended(const Surface& surface, std::int32_t f,
-                                   std::span<const double> x, const Vec<3>& p);
+                                   std::span<const double> x,
+                                   const Vector<3>& p);
 
 /// @brief Point of a facet's surface and the unit normal there.
 struct SurfacePoint
 {
-  Vec<3> x;
-  Vec<3> normal;
+  Vector<3> x;
+  Vector<3> normal;
 };
 
 /// @brief Point of a facet at local coordinates, inside of it or not.
@@ -157,5 +160,5 @@ struct SurfacePoint
 /// @param[in] x Node coordinates (shape=(num_nodes, gdim)), row-major.
 /// @param[in] xi Local coordinates.
 SurfacePoint point_at(const Surface& surface, std::int32_t f,
-                      std::span<const double> x, const Vec<2>& xi);
+                      std::span<const double> x, const Vector<2>& xi);
 } // namespace contactx::search

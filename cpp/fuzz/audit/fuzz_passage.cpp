@@ -21,7 +21,7 @@ struct Points
   {
     for (int left = 1 + in.below(6); left > 0; --left)
     {
-      const Vec<3> p = scene.point(in);
+      const Vector<3> p = scene.point(in);
       add(x0, p, scene.gdim);
       add(x1, in.flag() ? scene.point(in) : p, scene.gdim);
       for (auto* normal : {&normal0, &normal1})
@@ -31,14 +31,14 @@ struct Points
     }
   }
 
-  static void add(std::vector<double>& values, const Vec<3>& v, int gdim)
+  static void add(std::vector<double>& values, const Vector<3>& v, int gdim)
   {
     values.insert(values.end(), v.begin(), v.begin() + gdim);
   }
 
-  static Vec<3> unit(Input& in, int gdim)
+  static Vector<3> unit(Input& in, int gdim)
   {
-    Vec<3> n{};
+    Vector<3> n{};
     if (in.below(8) == 0)
       return n;
     if (gdim == 3)
@@ -115,7 +115,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
   const std::vector<double> x1 = std::exchange(scene.x, x0);
   const Points points(in, scene);
   const auto facets = scene.master.facets();
-  const Vec<3> origin0 = scene.point(in), origin1 = scene.point(in);
+  const Vector<3> origin0 = scene.point(in), origin1 = scene.point(in);
   const auto motion = audit::rigid_motion(
       audit::moments(facets, x0, x1, scene.gdim, origin0, origin1), scene.gdim,
       origin0, origin1);

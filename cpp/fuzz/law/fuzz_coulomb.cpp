@@ -50,9 +50,9 @@ struct Nodes
     return {value, by_traction, by_gap, by_slip, by_normal};
   }
 
-  Vec<D> at(const std::vector<double>& v, std::size_t i) const
+  Vector<D> at(const std::vector<double>& v, std::size_t i) const
   {
-    Vec<D> a;
+    Vector<D> a;
     std::copy_n(v.begin() + D * i, D, a.begin());
     return a;
   }

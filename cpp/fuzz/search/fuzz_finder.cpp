@@ -14,8 +14,8 @@ namespace
 {
 void check(const Finder& finder, const Scene& scene, Input& in)
 {
-  const Vec<3> p = scene.point(in);
-  Vec<3> normal{};
+  const Vector<3> p = scene.point(in);
+  Vector<3> normal{};
   if (in.flag())
   {
     const auto n = in.unit<3>();
@@ -51,7 +51,8 @@ void check(const Finder& finder, const Scene& scene, Input& in)
           "the normal has length one");
   if (q.feature != facet::interior)
   {
-    const Vec<3> cone = search::cone_components(finder.surface(), scene.x, q);
+    const Vector<3> cone
+        = search::cone_components(finder.surface(), scene.x, q);
     require(all_finite(cone), "a ridge's normal has finite components");
   }
 }

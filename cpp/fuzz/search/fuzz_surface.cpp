@@ -42,14 +42,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
   const Scene scene(in);
   const Surface surface(scene.master.offsets, scene.master.nodes, scene.gdim);
   const auto boxes = surface.boxes(scene.x);
-  const Vec<3> p = scene.point(in);
+  const Vector<3> p = scene.point(in);
   if (const int n = surface.facets().size(); n > 0)
     check_topology(surface, in.below(n));
   for (std::int32_t f = 0; f < surface.facets().size(); ++f)
   {
     const auto near = search::closest(surface, f, scene.x, p);
     const auto over = search::extended(surface, f, scene.x, p);
-    const Vec<2> xi{0.125 * in.below(17) - 0.5, 0.125 * in.below(17) - 0.5};
+    const Vector<2> xi{0.125 * in.below(17) - 0.5, 0.125 * in.below(17) - 0.5};
     const auto at = search::point_at(surface, f, scene.x, xi);
     if (!in.finite())
       continue;

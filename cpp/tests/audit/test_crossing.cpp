@@ -103,8 +103,8 @@ INSTANTIATE_TEST_SUITE_P(All, Crossings,
 TEST(Crossing, OfAWarpedFacetHasTheHeightsOfItsNodes)
 {
   MovingScene s(3);
-  for (const Vec<3>& p :
-       {Vec<3>{0, 0, 0.1}, {1, 0, -0.1}, {0, 1, -0.1}, {1, 1, 0.1}})
+  for (const Vector<3>& p :
+       {Vector<3>{0, 0, 0.1}, {1, 0, -0.1}, {0, 1, -0.1}, {1, 1, 0.1}})
     s.node(p, p);
   s.facets.facet({0, 1, 2, 3});
   // Through its middle, through a corner's height and half-way between them
@@ -128,14 +128,14 @@ template <int D>
 struct Star
 {
   MovingScene scene{D};
-  Vec<D> from, to; ///< its middle
+  Vector<D> from, to; ///< its middle
 
   Star(Generator& random, int n)
       : from(random.vector<D>(-1, 1)), to(random.vector<D>(-1, 1))
   {
-    const auto node = [this, &random](const Vec<D>& direction)
+    const auto node = [this, &random](const Vector<D>& direction)
     {
-      Vec<3> a{}, b{};
+      Vector<3> a{}, b{};
       std::ranges::copy(from + random(0.3, 1.5) * direction, a.begin());
       std::ranges::copy(to + random(0.3, 1.5) * direction, b.begin());
       scene.node(a, b);
@@ -161,16 +161,16 @@ struct Star
     }
   }
 
-  Vec<D> at(double t, int node) const
+  Vector<D> at(double t, int node) const
   {
-    Vec<D> a, b;
+    Vector<D> a, b;
     std::copy_n(scene.facets.x.begin() + D * node, D, a.begin());
     std::copy_n(scene.x1.begin() + D * node, D, b.begin());
     return (1 - t) * (a - from) + t * (b - to);
   }
 
   /// Whether the cone over the corners holds p, and p is below its base.
-  static bool below(const std::array<Vec<D>, D>& c, const Vec<D>& p)
+  static bool below(const std::array<Vector<D>, D>& c, const Vector<D>& p)
   {
     std::array<double, D> w;
     double det;
@@ -195,10 +195,10 @@ struct Star
     return sum < 1;
   }
 
-  bool inside(double t, const Vec<D>& p) const
+  bool inside(double t, const Vector<D>& p) const
   {
     const auto facets = scene.facets.facets();
-    const Vec<D> q = p - ((1 - t) * from + t * to);
+    const Vector<D> q = p - ((1 - t) * from + t * to);
     for (std::int32_t f = 0; f < facets.size(); ++f)
     {
       const auto n = facets[f];
@@ -214,7 +214,7 @@ struct Star
       }
       else
       {
-        const Vec<3> middle
+        const Vector<3> middle
             = 0.25 * (at(t, n[0]) + at(t, n[1]) + at(t, n[2]) + at(t, n[3]));
         for (const auto& [i, j] : facet::Quadrilateral::edges)
           if (below({at(t, n[i]), at(t, n[j]), middle}, q))
@@ -237,9 +237,9 @@ void follows_small_steps(unsigned seed, int scenes)
   {
     Star<D> star(random, 3 + i % 6);
     const double reach = i % 2 == 0 ? 2.5 : 1.2;
-    Vec<3> a{}, b{};
-    const Vec<D> p = random.vector<D>(-reach, reach),
-                 q = random.vector<D>(-reach, reach);
+    Vector<3> a{}, b{};
+    const Vector<D> p = random.vector<D>(-reach, reach),
+                    q = random.vector<D>(-reach, reach);
     std::ranges::copy(p, a.begin());
     std::ranges::copy(q, b.begin());
     star.scene.point(a, b, {}, {}, tiny);

@@ -38,7 +38,7 @@ Cells<C> scattered(Generator& random, int count, Displacement displacement)
     const Motion<C::gdim> motion(random, 3);
     const double side = c % 2 ? 1 : -1;
     cells.add(
-        [&](Vec<C::gdim> v)
+        [&](Vector<C::gdim> v)
         {
           v[0] *= side;
           return motion(v + random.vector<C::gdim>(-0.1, 0.1));
@@ -62,7 +62,7 @@ TYPED_TEST(DeformedCellsOf, NoDisplacement)
   using C = TypeParam;
   Generator random(1);
   const auto found = look(scattered<C>(random, 20, [](const auto&, int)
-                                       { return Vec<C::gdim>{}; }));
+                                       { return Vector<C::gdim>{}; }));
   EXPECT_EQ(found.smallest, 1);
   EXPECT_EQ(found.cell, 0);
   EXPECT_EQ(found.inverted, 0);
@@ -112,7 +112,7 @@ TYPED_TEST(DeformedCellsOf, MirrorsAndWhatIsFlat)
       const auto found = look(scattered<C>(random, 10,
                                            [axis, left](const auto& X, int)
                                            {
-                                             Vec<C::gdim> u{};
+                                             Vector<C::gdim> u{};
                                              u[axis] = (left - 1) * X[axis];
                                              return u;
                                            }));
@@ -191,7 +191,7 @@ TYPED_TEST(DeformedCellsOf, TheWorstOfSeveral)
     cells.add([](const auto& v) { return v; },
               [s](const auto& X, int)
               {
-                Vec<C::gdim> u{};
+                Vector<C::gdim> u{};
                 u[0] = (s - 1) * X[0];
                 return u;
               });
@@ -264,7 +264,7 @@ TYPED_TEST(DeformedCellsOf, NoNumbers)
       Cells<C> cells;
       for (int c = 0; c < 3; ++c)
         cells.add([](const auto& v) { return v; },
-                  [](const auto&, int) { return Vec<C::gdim>{}; });
+                  [](const auto&, int) { return Vector<C::gdim>{}; });
       cells.u[C::nodes * C::gdim + at] = bad;
       const auto found = look(cells);
       EXPECT_EQ(found.inverted, 1);
@@ -321,8 +321,8 @@ Cells<Cube<3>> cube(const std::array<int, 24>& eighths)
   cells.add([](const auto& v) { return v; },
             [&eighths](const auto&, int i)
             {
-              return Vec<3>{eighths[3 * i] / 8., eighths[3 * i + 1] / 8.,
-                            eighths[3 * i + 2] / 8.};
+              return Vector<3>{eighths[3 * i] / 8., eighths[3 * i + 1] / 8.,
+                               eighths[3 * i + 2] / 8.};
             });
   return cells;
 }

@@ -28,7 +28,7 @@ std::pair<std::vector<double>, std::size_t> sample(const Scene& scene, Gap gap,
     const auto points = sampling.points();
     for (std::size_t i = 0; i < points.size(); i += scene.gdim)
     {
-      Vec<3> p{};
+      Vector<3> p{};
       std::copy_n(points.begin() + i, scene.gdim, p.begin());
       gaps.push_back(gap(p));
     }
@@ -38,16 +38,16 @@ std::pair<std::vector<double>, std::size_t> sample(const Scene& scene, Gap gap,
   return {sampling.gaps(), asked};
 }
 
-auto ball(const Vec<3>& centre, double radius)
+auto ball(const Vector<3>& centre, double radius)
 {
-  return [centre, radius](const Vec<3>& p)
+  return [centre, radius](const Vector<3>& p)
   { return norm(p - centre) - radius; };
 }
 
 Scene triangle()
 {
   Scene scene(3);
-  for (const Vec<3>& p : {Vec<3>{0, 0, 0}, {1, 0, 0}, {0, 1, 0}})
+  for (const Vector<3>& p : {Vector<3>{0, 0, 0}, {1, 0, 0}, {0, 1, 0}})
     scene.node(p);
   scene.facet({0, 1, 2});
   return scene;
@@ -121,7 +121,7 @@ TEST(FacetSampling, WhatIsNotANumberIsFar)
 {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const auto [gaps, asked]
-      = sample(segment(), [nan](const Vec<3>&) { return nan; }, 1e-3, 7);
+      = sample(segment(), [nan](const Vector<3>&) { return nan; }, 1e-3, 7);
   EXPECT_EQ(asked, 1u);
   EXPECT_TRUE(std::isinf(gaps[0]));
 }

@@ -26,7 +26,7 @@ Cells<C> some_cell(Generator& random, double strain, double side)
 {
   Cells<C> cells;
   cells.add(
-      [&](Vec<C::gdim> v)
+      [&](Vector<C::gdim> v)
       {
         v[0] *= side;
         return v + random.vector<C::gdim>(-0.1, 0.1);
@@ -38,17 +38,17 @@ Cells<C> some_cell(Generator& random, double strain, double side)
 
 /// Points at which det F is looked at.
 template <class C>
-std::vector<Vec<C::gdim>> points()
+std::vector<Vector<C::gdim>> points()
 {
   constexpr int D = C::gdim;
   if (C::nodes == D + 1)
-    return {Vec<D>{}};
+    return {Vector<D>{}};
   // Corners in the plane, in space also the middles
   const int n = D == 2 ? 2 : 3;
-  std::vector<Vec<D>> all;
+  std::vector<Vector<D>> all;
   for (int i = 0; i < std::pow(n, D); ++i)
   {
-    Vec<D> xi;
+    Vector<D> xi;
     for (int k = 0, j = i; k < D; ++k, j /= n)
       xi[k] = (j % n) / double(n - 1);
     all.push_back(xi);

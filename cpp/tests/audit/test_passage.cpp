@@ -11,24 +11,24 @@ using namespace contactx::tests;
 namespace
 {
 constexpr double tol = 0.05;
-constexpr Vec<2> down{0, -1}, up{0, 1}, left{-1, 0}, right{1, 0};
+constexpr Vector<2> down{0, -1}, up{0, 1}, left{-1, 0}, right{1, 0};
 const Outline table = rectangle({0, -1}, {4, 0}, 7);
 const Outline plate = rectangle({0, -0.1}, {4, 0}, 7);
 
-Outline shifted(Outline outline, const Vec<2>& by)
+Outline shifted(Outline outline, const Vector<2>& by)
 {
   for (auto& p : outline)
     p = p + by;
   return outline;
 }
 
-Vec<2> at_angle(double radius, double degrees)
+Vector<2> at_angle(double radius, double degrees)
 {
   const double angle = degrees * std::numbers::pi / 180;
   return {radius * std::cos(angle), radius * std::sin(angle)};
 }
 
-Vec<3> padded(const Vec<2>& v, double z) { return {v[0], v[1], z}; }
+Vector<3> padded(const Vector<2>& v, double z) { return {v[0], v[1], z}; }
 
 template <int D>
 void same_for_all_observers(MovingScene scene, bool passes, unsigned seed)
@@ -54,7 +54,7 @@ class Passage : public ::testing::TestWithParam<Made>
 protected:
   struct Step
   {
-    Vec<2> from, to, normal0, normal1;
+    Vector<2> from, to, normal0, normal1;
   };
 
   Passages run(const Outline& from, const Outline& to, const Step& p,
@@ -113,7 +113,7 @@ TEST_P(Passage, IsDeeperThanTheTolerance)
     EXPECT_FALSE(passes(table, {{2.1, start}, {2.3, -0.045}, down, down}));
     EXPECT_TRUE(passes(table, {{2.1, start}, {2.3, -0.06}, down, down}));
     // Seen at an angle, too
-    const Vec<2> tilted{0.6, -0.8};
+    const Vector<2> tilted{0.6, -0.8};
     EXPECT_FALSE(passes(table, {{2.1, start}, {2.3, -0.045}, tilted, tilted}));
     EXPECT_TRUE(passes(table, {{2.1, start}, {2.3, -0.06}, tilted, tilted}));
   }
@@ -137,7 +137,7 @@ TEST_P(Passage, ThroughAThinBody)
   const auto n = static_cast<std::int32_t>(one.x1.size()) / one.gdim();
   for (std::int32_t k = 0; k < n; ++k)
   {
-    const Vec<3> p = one.facets.point(k) - Vec<3>{0, 2, 0};
+    const Vector<3> p = one.facets.point(k) - Vector<3>{0, 2, 0};
     two.node(p, p);
   }
   for (std::int32_t f = 0; f < facets.size(); ++f)
@@ -161,8 +161,8 @@ TEST_P(Passage, ThroughAThinBody)
 
 TEST_P(Passage, IsOfPointsThatFaceTheSurface)
 {
-  for (const Vec<2>& normal :
-       {up, left, right, Vec<2>{0, 0}, Vec<2>{0.98, -0.199}})
+  for (const Vector<2>& normal :
+       {up, left, right, Vector<2>{0, 0}, Vector<2>{0.98, -0.199}})
   {
     EXPECT_FALSE(passes(table, {{2.1, 0.5}, {2.1, -0.5}, normal, normal}));
     EXPECT_FALSE(passes(plate, {{2.1, 0.5}, {2.1, -1.1}, normal, normal}));
@@ -179,7 +179,7 @@ TEST_P(Passage, IsNotWhatSlides)
 
 TEST_P(Passage, IsNotWhatSlidesAroundARidge)
 {
-  const Vec<2> diagonal{-std::sqrt(0.5), -std::sqrt(0.5)};
+  const Vector<2> diagonal{-std::sqrt(0.5), -std::sqrt(0.5)};
   EXPECT_FALSE(passes(table, {{3.5, 0}, {4, -0.5}, down, left}));
   EXPECT_FALSE(passes(table, {{3.5, 0}, {4.2, -0.6}, down, diagonal}));
   // Off the edge as it is, not turned
@@ -195,10 +195,10 @@ TEST_P(Passage, IsNotWhatSlidesAlongARoundSurface)
   const Outline shaft = circle(1, 48), hole = circle(1, 48, true);
   for (double to = 100; to < 240; to += 10)
   {
-    const Vec<2> p0 = at_angle(1, 90), p1 = at_angle(1, to);
+    const Vector<2> p0 = at_angle(1, 90), p1 = at_angle(1, to);
     // Its chord goes through the shaft
     EXPECT_FALSE(passes(shaft, {p0, p1, -1. * p0, -1. * p1})) << to;
-    const Vec<2> off = at_angle(1.3, to);
+    const Vector<2> off = at_angle(1.3, to);
     EXPECT_FALSE(passes(shaft, {p0, off, -1. * p0, -1. * p1})) << to;
     EXPECT_FALSE(passes(hole, {p0, p1, p0, p1})) << to;
   }
@@ -216,9 +216,9 @@ TEST_P(Passage, OfAShaftThatTurnsInItsBearing)
     Outline end;
     for (int i = 0; i < 48; ++i)
       end.push_back(at_angle(0.99, 360. * i / 48 + turned));
-    const Vec<2> p0 = at_angle(0.99, 80), p1 = at_angle(0.99, 80 + turned);
+    const Vector<2> p0 = at_angle(0.99, 80), p1 = at_angle(0.99, 80 + turned);
     EXPECT_FALSE(passes(hole, {p0, p1, p0, p1})) << turned;
-    const Vec<2> p = at_angle(1, 80);
+    const Vector<2> p = at_angle(1, 80);
     EXPECT_LT(run(shaft, end, {p, p, -1. * p, -1. * p}).facet[0], 0) << turned;
   }
 }
@@ -362,7 +362,7 @@ void common_motion_finds_nothing(unsigned seed)
     for (int i = 0; i < 40; ++i)
     {
       const double height = i < 10 ? 0 : std::pow(10, random(-6, 3));
-      const Vec<3> p{random(-1, 5), height, random(-2, 2)};
+      const Vector<3> p{random(-1, 5), height, random(-2, 2)};
       s.point(p, p, {0, -1, 0}, {0, -1, 0}, 1e-4);
     }
     s.move(turn<D>(random, random(0, 360), 3), false);

@@ -81,7 +81,8 @@ TEST(NodalCurvatures, OfAnEdgeGrowWithTheMesh)
 TEST(FacetSizes, AreTheLongestDistances)
 {
   Scene scene(3);
-  for (const Vec<3>& p : {Vec<3>{0, 0, 0}, {3, 0, 0}, {0, 4, 0}, {3, 4, 0}})
+  for (const Vector<3>& p :
+       {Vector<3>{0, 0, 0}, {3, 0, 0}, {0, 4, 0}, {3, 4, 0}})
     scene.node(p);
   scene.facet({0, 1, 2, 3});
   scene.facet({0, 1, 2});

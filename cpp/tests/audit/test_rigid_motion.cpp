@@ -10,16 +10,16 @@ using namespace contactx::tests;
 
 namespace
 {
-Vec<3> first(const std::vector<double>& x, int gdim)
+Vector<3> first(const std::vector<double>& x, int gdim)
 {
-  Vec<3> p{};
+  Vector<3> p{};
   std::copy_n(x.begin(), gdim, p.begin());
   return p;
 }
 
 RigidMotion fitted(const MovingScene& s)
 {
-  const Vec<3> a = first(s.facets.x, s.gdim()), b = first(s.x1, s.gdim());
+  const Vector<3> a = first(s.facets.x, s.gdim()), b = first(s.x1, s.gdim());
   return rigid_motion(
       moments(s.facets.facets(), s.facets.x, s.x1, s.gdim(), a, b), s.gdim(), a,
       b);
@@ -31,7 +31,7 @@ double error(const RigidMotion& motion, const MovingScene& s)
   double most = 0;
   for (std::size_t i = 0; i < s.x1.size(); i += D)
   {
-    Vec<D> from, to;
+    Vector<D> from, to;
     std::copy_n(s.facets.x.begin() + i, D, from.begin());
     std::copy_n(s.x1.begin() + i, D, to.begin());
     most = std::max(most, norm(motion.moved_back<D>(to) - from));
@@ -40,12 +40,12 @@ double error(const RigidMotion& motion, const MovingScene& s)
 }
 
 template <int D>
-MovingScene random_nodes(Generator& random, const Vec<3>& size)
+MovingScene random_nodes(Generator& random, const Vector<3>& size)
 {
   MovingScene s(D);
   for (int i = 0; i < 12; ++i)
   {
-    Vec<3> p = random.vector<3>(-1, 1);
+    Vector<3> p = random.vector<3>(-1, 1);
     for (int k = 0; k < 3; ++k)
       p[k] *= size[k];
     s.node(p, p);
@@ -57,7 +57,7 @@ MovingScene random_nodes(Generator& random, const Vec<3>& size)
 }
 
 template <int D>
-void finds_every_turn(const Vec<3>& size)
+void finds_every_turn(const Vector<3>& size)
 {
   Generator random(1);
   for (int degrees = 0; degrees <= 180; degrees += 15)
@@ -106,7 +106,7 @@ TEST(RigidMotion, OfPartsIsThatOfTheSum)
   Generator random(3);
   MovingScene s = random_nodes<3>(random, {1, 1, 1});
   s.move(turn<3>(random, 120, 10), true);
-  const Vec<3> a = random.vector<3>(-1, 1), b = random.vector<3>(5, 9);
+  const Vector<3> a = random.vector<3>(-1, 1), b = random.vector<3>(5, 9);
   const auto f = s.facets.facets();
   const std::vector<std::int32_t> low(f.offsets.begin(), f.offsets.begin() + 4);
   std::vector<std::int32_t> high(f.offsets.begin() + 3, f.offsets.end());
@@ -125,7 +125,8 @@ TEST(RigidMotion, IsNearestToThatOfADeformedSurface)
 {
   // Stretched along its axes, then turned by a quarter
   MovingScene s(2);
-  for (const Vec<3>& p : {Vec<3>{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}})
+  for (const Vector<3>& p :
+       {Vector<3>{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}})
     s.node(p, {-0.5 * p[1], 2 * p[0], 0});
   for (int i = 0; i < 4; ++i)
     s.facets.facet({i, (i + 1) % 4});
@@ -157,6 +158,6 @@ TEST(RigidMotion, IsATranslationWherePartsTurnAgainstEachOther)
 TEST(RigidMotion, OfNothingIsNone)
 {
   const RigidMotion motion = rigid_motion({}, 3, {1, 2, 3}, {1, 2, 3});
-  EXPECT_EQ(motion.moved_back<3>({4, 5, 6}), (Vec<3>{4, 5, 6}));
+  EXPECT_EQ(motion.moved_back<3>({4, 5, 6}), (Vector<3>{4, 5, 6}));
 }
 } // namespace

@@ -12,7 +12,7 @@ using namespace contactx::tests;
 namespace
 {
 /// A polynomial by its coefficients of powers.
-double value(const Triquadratic& a, const Vec<3>& x)
+double value(const Triquadratic& a, const Vector<3>& x)
 {
   double sum = 0;
   for (int p = 0; p < 27; ++p)
@@ -22,9 +22,9 @@ double value(const Triquadratic& a, const Vec<3>& x)
 }
 
 /// A polynomial by its coefficients in Bernstein's basis.
-double bernstein(const Triquadratic& b, const Vec<3>& x)
+double bernstein(const Triquadratic& b, const Vector<3>& x)
 {
-  const auto basis = [](double s) -> Vec<3>
+  const auto basis = [](double s) -> Vector<3>
   { return {(1 - s) * (1 - s), 2 * s * (1 - s), s * s}; };
   double sum = 0;
   for (int p = 0; p < 27; ++p)

@@ -13,7 +13,7 @@ using namespace contactx::tests;
 namespace
 {
 /// Normals at all nodes that are the same.
-std::vector<double> everywhere(const Scene& scene, const Vec<3>& n)
+std::vector<double> everywhere(const Scene& scene, const Vector<3>& n)
 {
   std::vector<double> normal;
   for (std::size_t i = 0; i < scene.x.size() / scene.gdim; ++i)
@@ -38,7 +38,7 @@ Scene square(double angle = 0)
   return scene;
 }
 
-std::vector<double> areas(const Scene& scene, const Vec<3>& normal)
+std::vector<double> areas(const Scene& scene, const Vector<3>& normal)
 {
   const auto corners = facing_areas(scene.facets(), scene.x, scene.x,
                                     everywhere(scene, normal), scene.gdim);
@@ -73,8 +73,8 @@ TEST(FacingNodes, ASheetPushedBeyondTheMiddleOfABallDoesNotFaceIt)
     std::vector<double> normal;
     for (int i = 0; i < 9; ++i)
     {
-      const Vec<3> d = scene.point(i) - Vec<3>{0.5, 0.5, z};
-      const Vec<3> n = (1 / norm(d)) * d;
+      const Vector<3> d = scene.point(i) - Vector<3>{0.5, 0.5, z};
+      const Vector<3> n = (1 / norm(d)) * d;
       normal.insert(normal.end(), n.begin(), n.end());
     }
     return facing_nodes(scene.facets(), scene.x, normal, 3);

@@ -23,7 +23,7 @@ constexpr int num_features = 1 + F::num_edges + F::nodes;
 
 /// Direction in the plane of a flat facet in which its edge faces.
 template <class F>
-Vec<F::gdim> edge_normal(const Nodes<F>& x, std::pair<int, int> edge)
+Vector<F::gdim> edge_normal(const Nodes<F>& x, std::pair<int, int> edge)
 {
   const auto e = x[edge.second] - x[edge.first];
   if constexpr (F::gdim == 2)
@@ -35,8 +35,8 @@ Vec<F::gdim> edge_normal(const Nodes<F>& x, std::pair<int, int> edge)
 /// A point of a feature and a direction in the plane of the facet in which
 /// the feature stays the closest one.
 template <class F>
-std::pair<Vec<F::gdim>, Vec<F::gdim>> away(const Nodes<F>& x, int feature,
-                                           Generator& random)
+std::pair<Vector<F::gdim>, Vector<F::gdim>> away(const Nodes<F>& x, int feature,
+                                                 Generator& random)
 {
   if (feature == interior)
     return {position<F>(x, inner_point<F>(random)), {}};
@@ -47,7 +47,7 @@ std::pair<Vec<F::gdim>, Vec<F::gdim>> away(const Nodes<F>& x, int feature,
     return {(1 - s) * x[i] + s * x[j], edge_normal<F>(x, {i, j})};
   }
   const int vertex = feature - 1 - F::num_edges;
-  Vec<F::gdim> direction{};
+  Vector<F::gdim> direction{};
   for (const auto& edge : F::edges)
     if (edge.first == vertex or (F::gdim == 3 and edge.second == vertex))
       direction = direction + random(0.2, 1) * edge_normal<F>(x, edge);
@@ -127,7 +127,7 @@ TYPED_TEST(ClosestPointOn, AScaledFacetIsTheScaledOne)
 /// Rounding must not decide between the facets at an edge: their distances
 /// are equal to the last bit.
 template <class F>
-void expect_tie(const Nodes<F>& x, const Nodes<Triangle>& y, const Vec<3>& p)
+void expect_tie(const Nodes<F>& x, const Nodes<Triangle>& y, const Vector<3>& p)
 {
   EXPECT_EQ(closest_point<F>(x, p).distance2,
             closest_point<Triangle>(y, p).distance2);
@@ -140,10 +140,11 @@ TEST(ClosestPoint, OnASharedEdgeIsTheSameForBothFacets)
   {
     // A roof with its ridge from a to b
     const Motion<3> motion(random, 3);
-    const Vec<3> a = motion({0, 0, 0}), b = motion({0, random(0.5, 2), 0});
-    const Vec<3> left = motion({-1, 0, -1}), right = motion({1, 0, -1});
-    const Vec<3> back = motion({-1, 0.5, -1});
-    const Vec<3> p = motion({random(-0.1, 0.1), random(-1, 2), random(0.2, 2)});
+    const Vector<3> a = motion({0, 0, 0}), b = motion({0, random(0.5, 2), 0});
+    const Vector<3> left = motion({-1, 0, -1}), right = motion({1, 0, -1});
+    const Vector<3> back = motion({-1, 0.5, -1});
+    const Vector<3> p
+        = motion({random(-0.1, 0.1), random(-1, 2), random(0.2, 2)});
     expect_tie<Triangle>({a, left, b}, {right, a, b}, p);
     expect_tie<Triangle>({b, a, left}, {a, b, right}, p);
     expect_tie<Quadrilateral>({a, b, left, back}, {b, right, a}, p);

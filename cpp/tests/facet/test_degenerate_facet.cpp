@@ -80,7 +80,7 @@ void compare_slivers(double aspect, unsigned seed)
     const auto xm = motion(x);
     const double height = std::pow(10, random(-9, 1));
     const auto p = motion(position<Triangle>(x, random.vector<2>(-0.5, 1))
-                          + Vec<3>{0, 0, height});
+                          + Vector<3>{0, 0, height});
     const auto c = closest_point<Triangle>(xm, p);
     const double distance = long_distance(xm, p);
     EXPECT_NEAR(std::sqrt(c.distance2), distance, tolerance);
@@ -108,7 +108,7 @@ TEST(Sliver, QuadrilateralIsTwoTriangles)
       const double height = std::pow(10, random(-9, 1));
       const auto p
           = motion(position<Quadrilateral>(flat, random.vector<2>(-0.5, 1.5))
-                   + Vec<3>{0, 0, height});
+                   + Vector<3>{0, 0, height});
       const double distance = std::min(long_distance({x[0], x[1], x[2]}, p),
                                        long_distance({x[1], x[3], x[2]}, p));
       const auto c = closest_point<Quadrilateral>(x, p);
@@ -122,7 +122,7 @@ TYPED_TEST(Degenerate, PointThatIsNotANumberHasNoDistance)
   Generator random(8);
   for (int k = 0; k < F::gdim; ++k)
   {
-    Vec<F::gdim> p{};
+    Vector<F::gdim> p{};
     p[k] = std::nan("");
     const auto c = closest_point<F>(random_facet<F>(random), p);
     EXPECT_TRUE(std::isinf(c.distance2));

@@ -58,7 +58,7 @@ TYPED_TEST(FrameOf, JacobianIsTheAreaThatTheMetricGives)
   {
     const auto x = random_facet<F>(random);
     const auto f = frame<F>(x, inner_point<F>(random));
-    const Vec<3> m = metric(f.t);
+    const Vector<3> m = metric(f.t);
     const double area2 = F::tdim == 1 ? m[0] : m[0] * m[2] - m[1] * m[1];
     EXPECT_NEAR(f.jacobian, std::sqrt(area2), 1e-13);
   }
@@ -117,12 +117,12 @@ TEST(Solve, GivesTheSolution)
   Generator random(6);
   for (int i = 0; i < 100; ++i)
   {
-    const Vec<3> H{random(1, 2), random(-0.9, 0.9), random(1, 2)};
-    const Vec<2> r = random.vector<2>(-1, 1);
-    const Vec<2> y = solve(H, r);
+    const Vector<3> H{random(1, 2), random(-0.9, 0.9), random(1, 2)};
+    const Vector<2> r = random.vector<2>(-1, 1);
+    const Vector<2> y = solve(H, r);
     EXPECT_NEAR(H[0] * y[0] + H[1] * y[1], r[0], 1e-13);
     EXPECT_NEAR(H[1] * y[0] + H[2] * y[1], r[1], 1e-13);
-    EXPECT_DOUBLE_EQ(H[0] * solve(H, Vec<1>{r[0]})[0], r[0]);
+    EXPECT_DOUBLE_EQ(H[0] * solve(H, Vector<1>{r[0]})[0], r[0]);
   }
 }
 } // namespace

@@ -21,10 +21,10 @@ std::vector<double> areas(const Scene& scene)
   return nodal_areas(scene.facets(), scene.x, scene.gdim);
 }
 
-Vec<3> normal(const Scene& scene, std::int32_t node)
+Vector<3> normal(const Scene& scene, std::int32_t node)
 {
   const auto n = nodal_normals(scene.facets(), scene.x, scene.gdim);
-  Vec<3> p{};
+  Vector<3> p{};
   std::copy_n(n.begin() + node * scene.gdim, scene.gdim, p.begin());
   return p;
 }
@@ -35,7 +35,7 @@ Scene sphere_patch(int n, Cells cells)
   return grid(n, cells,
               [](double s, double t)
               {
-                const Vec<3> p{s, t, 1};
+                const Vector<3> p{s, t, 1};
                 return (1 / norm(p)) * p;
               });
 }
@@ -67,7 +67,7 @@ TEST(NodalAreas, AreTheIntegralsOfTheShapeFunctions)
 TEST(NodalAreas, OfSegmentsAreLengths)
 {
   Scene scene(2);
-  for (Vec<3> p : {Vec<3>{0, 0}, {3, 4}, {3, 5}, {9, 9}})
+  for (Vector<3> p : {Vector<3>{0, 0}, {3, 4}, {3, 5}, {9, 9}})
     scene.node(p);
   scene.facet({0, 1});
   scene.facet({1, 2});
@@ -105,14 +105,14 @@ TEST(NodalAreas, OfFacetsWithoutAreaAreZero)
   scene.facet({0, 1, 2});
   scene.facet({0, 1, 2, 3});
   EXPECT_EQ(areas(scene), std::vector<double>(4, 0));
-  EXPECT_EQ(normal(scene, 1), Vec<3>{});
+  EXPECT_EQ(normal(scene, 1), Vector<3>{});
 }
 
 TEST(NodalNormals, OfAFlatSurfaceAreItsNormal)
 {
   const Scene scene = flat_grid(3, Cells::mixed);
   for (int i = 0; i < 16; ++i)
-    EXPECT_LT(norm(normal(scene, i) - Vec<3>{0, 0, 1}), 1e-15);
+    EXPECT_LT(norm(normal(scene, i) - Vector<3>{0, 0, 1}), 1e-15);
 }
 
 TEST(NodalNormals, PointOutOfASphere)
@@ -138,8 +138,8 @@ TEST(NodalNormals, AreWeightedByArea)
   scene.node({7, 7});
   scene.facet({0, 1});
   scene.facet({1, 2});
-  EXPECT_LT(norm(normal(scene, 1) - Vec<3>{0.8, -0.6}), 1e-15);
-  EXPECT_EQ(normal(scene, 3), Vec<3>{}); // not on it
+  EXPECT_LT(norm(normal(scene, 1) - Vector<3>{0.8, -0.6}), 1e-15);
+  EXPECT_EQ(normal(scene, 3), Vector<3>{}); // not on it
 }
 
 TEST(NodalNormals, PassOverFacetsWithoutArea)
@@ -148,7 +148,7 @@ TEST(NodalNormals, PassOverFacetsWithoutArea)
   scene.facet({0, 1, 1});
   scene.facet({0, 2, 0, 2});
   for (int i = 0; i < 4; ++i)
-    EXPECT_LT(norm(normal(scene, i) - Vec<3>{0, 0, 1}), 1e-15);
+    EXPECT_LT(norm(normal(scene, i) - Vector<3>{0, 0, 1}), 1e-15);
 }
 
 TEST(NodalNormals, OfATinySurfaceAreUnitVectors)
@@ -165,14 +165,14 @@ TEST(NodalNormals, ThatCancelAreZero)
   Scene scene(3); // both sides of a sheet that is turned somehow
   Generator random(1);
   const Motion<3> motion(random, 1);
-  for (Vec<3> p : {Vec<3>{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}})
+  for (Vector<3> p : {Vector<3>{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}})
     scene.node(motion(p));
   scene.facet({0, 1, 2});
   scene.facet({1, 3, 2});
   scene.facet({2, 1, 0});
   scene.facet({3, 1, 2});
-  EXPECT_EQ(normal(scene, 0), Vec<3>{});
-  EXPECT_EQ(normal(scene, 3), Vec<3>{});
+  EXPECT_EQ(normal(scene, 0), Vector<3>{});
+  EXPECT_EQ(normal(scene, 3), Vector<3>{});
 }
 TEST(NodalAreaVectors, OfPartsAddUpToThoseOfTheWhole)
 {

@@ -19,7 +19,8 @@ TYPED_TEST_SUITE(Project, FacetTypes);
 /// Largest cosine between the tangents and the way to the point, measured
 /// with the way from the facet's first node.
 template <class F>
-double obliqueness(const Nodes<F>& x, const Vec<F::gdim>& p, const Local<F>& xi)
+double obliqueness(const Nodes<F>& x, const Vector<F::gdim>& p,
+                   const Local<F>& xi)
 {
   const auto d = p - position<F>(x, xi);
   double largest = 0;
@@ -95,7 +96,7 @@ TYPED_TEST(Project, KeepsItsDigitsFarFromTheOrigin)
         c = std::round(64 * c) / 64;
       Local<F> near = projection_start<F>(x, p);
       ASSERT_TRUE(project<F>(x, p, near));
-      Vec<F::gdim> shift;
+      Vector<F::gdim> shift;
       shift.fill(distance);
       for (auto& node : x)
         node = node + shift;
@@ -114,7 +115,7 @@ TYPED_TEST(Project, TellsThatThereIsNone)
   Local<F> xi{};
   EXPECT_FALSE(project<F>(x, {}, xi));
   Generator random(5);
-  Vec<F::gdim> p{};
+  Vector<F::gdim> p{};
   p[0] = std::nan("");
   xi = {};
   EXPECT_FALSE(project<F>(flat_facet<F>(random), p, xi));

@@ -62,7 +62,7 @@ TEST(ShapeOfQuadrilateral, HasItsMixedDerivative)
 {
   using F = Quadrilateral;
   const double h = 0.25;
-  const Vec<2> xi{0.3, 0.6}, s{h, 0}, t{0, h};
+  const Vector<2> xi{0.3, 0.6}, s{h, 0}, t{0, h};
   const auto difference = F::shape(xi + s + t) - F::shape(xi + s - t)
                           - F::shape(xi - s + t) + F::shape(xi - s - t);
   EXPECT_LT(norm((1 / (4 * h * h)) * difference - F::mixed_derivative), 1e-14);
@@ -75,7 +75,7 @@ TYPED_TEST(Shape, ExcessIsNegativeInside)
   for (int i = 0; i < 100; ++i)
   {
     // Convex combinations of the vertices are all of the inside
-    Vec<F::nodes> w = random.vector<F::nodes>(0.01, 1);
+    Vector<F::nodes> w = random.vector<F::nodes>(0.01, 1);
     const double sum = std::accumulate(w.begin(), w.end(), 0.0);
     Local<F> xi{};
     for (int l = 0; l < F::nodes; ++l)

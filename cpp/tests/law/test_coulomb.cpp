@@ -28,11 +28,11 @@ TYPED_TEST(Coulomb, HasTheValuesOfItsStatus)
   for (int i = 0; i < 200; ++i)
   {
     const auto node = random_node<D>(random);
-    const Vec<D> bound
+    const Vector<D> bound
         = (node.friction * node.trial_pressure() / norm(node.trial()))
           * node.trial();
-    const Vec<D> normal_part = (node.c * node.gap) * node.normal;
-    const std::array<Vec<D>, 3> expected{
+    const Vector<D> normal_part = (node.c * node.gap) * node.normal;
+    const std::array<Vector<D>, 3> expected{
         node.traction, normal_part + node.c * node.slip,
         normal_part + node.tangential() - bound};
     for (std::int8_t status : {open, stick, slip})
@@ -49,10 +49,10 @@ TYPED_TEST(Coulomb, VanishesWhereTheConditionsHold)
        {upright<D>(0, 0, 0.5, 0.3, 0.5), upright<D>(2, 0.5, 0, 0, 0.5),
         upright<D>(2, 1, 0, -0.25, 0.5), upright<D>(2, -1, 0, 0.25, 0.5),
         upright<D>(2, 0, 0, 0.25, 0)})
-    EXPECT_EQ(node.terms(node.status()).value, Vec<D>{});
+    EXPECT_EQ(node.terms(node.status()).value, Vector<D>{});
   // Friction along the slip
   const auto wrong = upright<D>(2, 1, 0, 0.25, 0.5);
-  EXPECT_NE(wrong.terms(wrong.status()).value, Vec<D>{});
+  EXPECT_NE(wrong.terms(wrong.status()).value, Vector<D>{});
 }
 
 /// Central differences of the value by what `change` moves.
@@ -66,7 +66,7 @@ void expect_derivative(const CoulombNode<D>& node, std::int8_t status,
     auto plus = node, minus = node;
     change(plus, j, h);
     change(minus, j, -h);
-    const Vec<D> difference
+    const Vector<D> difference
         = (0.5 / h) * (plus.terms(status).value - minus.terms(status).value);
     for (int i = 0; i < D; ++i)
       EXPECT_NEAR(derivative[i][j], difference[i], 1e-7 * size)
@@ -131,7 +131,7 @@ TYPED_TEST(Coulomb, SlipsWithoutADirection)
 {
   constexpr int D = TypeParam::value;
   const auto r = upright<D>(2, 0, 0.125, 0, 0.5).terms(slip);
-  Vec<D> expected{};
+  Vector<D> expected{};
   expected[D - 1] = 1;
   EXPECT_EQ(r.value, expected);
   for (const auto* m : {&r.by_traction, &r.by_slip, &r.by_normal})
@@ -146,7 +146,7 @@ TYPED_TEST(Coulomb, DoesNotReadTheGapOfAnOpenNode)
   constexpr int D = TypeParam::value;
   const auto r = upright<D>(1, 2, nan, 0.5, 0.5).terms(open);
   EXPECT_EQ(r.value, (upright<D>(1, 2, 0, 0, 0).traction));
-  EXPECT_EQ(r.by_gap, Vec<D>{});
+  EXPECT_EQ(r.by_gap, Vector<D>{});
   for (int i = 0; i < D; ++i)
     for (int j = 0; j < D; ++j)
     {
@@ -166,7 +166,7 @@ TYPED_TEST(Coulomb, CarriesNoFrictionAlongImmobileDirections)
       {
         auto node = random_node<D>(random);
         node.mobile[fixed] = 0;
-        const Vec<D> value = node.terms(status).value;
+        const Vector<D> value = node.terms(status).value;
         // The normal part is the gap, whatever moves
         EXPECT_NEAR(dot(node.normal, value), node.area * node.c * node.gap,
                     1e-13);
@@ -176,8 +176,8 @@ TYPED_TEST(Coulomb, CarriesNoFrictionAlongImmobileDirections)
               - (node.friction * node.trial_pressure() / norm(node.trial()))
                     * node.trial();
         q[fixed] = node.tangential()[fixed];
-        const Vec<D> along = q - dot(node.normal, q) * node.normal;
-        const Vec<D> expected
+        const Vector<D> along = q - dot(node.normal, q) * node.normal;
+        const Vector<D> expected
             = node.area * (along + (node.c * node.gap) * node.normal);
         EXPECT_LT(largest(value - expected), 1e-13 * (1 + largest(expected)));
       }
@@ -191,7 +191,7 @@ TYPED_TEST(Coulomb, IsFrictionlessWhereNothingMovesAlongTheSurface)
   {
     auto node = random_node<D>(random);
     node.mobile = {};
-    const Vec<D> expected
+    const Vector<D> expected
         = node.area * ((node.c * node.gap) * node.normal + node.tangential());
     EXPECT_LT(largest(node.terms(status).value - expected), 1e-14 * 20);
     // An open one has no traction at all
@@ -220,13 +220,13 @@ TYPED_TEST(Coulomb, TurnsWithTheAxes)
       // B Q = Q A
       for (int j = 0; j < D; ++j)
       {
-        Vec<D> e{};
+        Vector<D> e{};
         e[j] = 1;
-        const Vec<D> qe = turn.rotate(e);
+        const Vector<D> qe = turn.rotate(e);
         for (auto m : {&CoulombTerms<D>::by_traction, &CoulombTerms<D>::by_slip,
                        &CoulombTerms<D>::by_normal})
         {
-          Vec<D> before, after;
+          Vector<D> before, after;
           for (int k = 0; k < D; ++k)
           {
             before[k] = (a.*m)[k][j];

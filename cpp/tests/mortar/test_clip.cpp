@@ -64,7 +64,7 @@ Overlap<2> random_polygon(Generator& random, int n)
   for (const double angle : angles)
   {
     const double phi = 2 * std::numbers::pi * angle / (at - angles[0]);
-    p.push_back(centre + size * Vec<2>{std::cos(phi), std::sin(phi)});
+    p.push_back(centre + size * Vector<2>{std::cos(phi), std::sin(phi)});
   }
   return overlap(p);
 }

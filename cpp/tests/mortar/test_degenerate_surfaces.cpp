@@ -53,7 +53,7 @@ double seconds(auto&& f)
 
 /// What is wrong with a facet: gives the position of node `k` that ought to be
 /// at `p`.
-using Spoil = Vec<3> (*)(const Vec<3>& p, int k);
+using Spoil = Vector<3> (*)(const Vector<3>& p, int k);
 
 class Spoiled : public ::testing::TestWithParam<Spoil>
 {
@@ -69,7 +69,7 @@ protected:
     std::vector<std::int32_t> nodes;
     for (int k = 0; k < num_nodes; ++k)
     {
-      Vec<3> p{0.4 + 0.2 * (k % 2), gdim == 2 ? 0 : 0.4 + 0.2 * (k / 2), 0};
+      Vector<3> p{0.4 + 0.2 * (k % 2), gdim == 2 ? 0 : 0.4 + 0.2 * (k / 2), 0};
       // Looks up, like a master facet, or down
       if (of_slave)
         p[0] = 1 - p[0];
@@ -114,15 +114,16 @@ INSTANTIATE_TEST_SUITE_P(
     Facets, Spoiled,
     ::testing::Values(
         // A point, nowhere, partly nowhere, infinite, a line
-        +[](const Vec<3>&, int) { return Vec<3>{0.5, 0.05, 0}; },
-        +[](const Vec<3>&, int) { return Vec<3>{nan, nan, nan}; },
-        +[](const Vec<3>& p, int k)
-        { return k == 0 ? Vec<3>{nan, nan, nan} : p; },
-        +[](const Vec<3>& p, int k)
-        { return k == 1 ? Vec<3>{p[0], nan, p[2]} : p; },
-        +[](const Vec<3>& p, int k)
-        { return k == 0 ? Vec<3>{INFINITY, p[1], p[2]} : p; },
-        +[](const Vec<3>& p, int) { return Vec<3>{0.5, p[0] + p[1], 0}; }));
+        +[](const Vector<3>&, int) { return Vector<3>{0.5, 0.05, 0}; },
+        +[](const Vector<3>&, int) { return Vector<3>{nan, nan, nan}; },
+        +[](const Vector<3>& p, int k)
+        { return k == 0 ? Vector<3>{nan, nan, nan} : p; },
+        +[](const Vector<3>& p, int k)
+        { return k == 1 ? Vector<3>{p[0], nan, p[2]} : p; },
+        +[](const Vector<3>& p, int k)
+        { return k == 0 ? Vector<3>{INFINITY, p[1], p[2]} : p; },
+        +[](const Vector<3>& p, int)
+        { return Vector<3>{0.5, p[0] + p[1], 0}; }));
 
 TEST(DegenerateSurfaces, WithFacetsThatAreLines)
 {
@@ -165,7 +166,7 @@ TEST(DegenerateSurfaces, QuadrilateralsThatAreTriangles)
       ASSERT_EQ(pairs.size(), 1u);
       const auto found = scene.integrals(pairs);
       double area = 0, gap = 0;
-      Vec<3> moment{};
+      Vector<3> moment{};
       for (int s = 0; s < most_nodes; ++s)
       {
         area += found.area[s];
@@ -195,7 +196,7 @@ TEST(DegenerateSurfaces, QuadrilateralsOfAnyShapeGiveNumbers)
   {
     Facing wild = scene;
     const double size = i % 4 * 0.3;
-    wild.move([&](const Vec<3>& p)
+    wild.move([&](const Vector<3>& p)
               { return p + random.vector<3>(-size, size); });
     const auto found = wild.integrals(wild.all_pairs());
     EXPECT_TRUE(all_finite(found));

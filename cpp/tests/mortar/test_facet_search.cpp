@@ -62,8 +62,8 @@ Facing waves(int gdim, Cells cells, double turn, double wave)
     {
       const double c = std::cos(phi), d = std::sin(phi);
       const double z = height + wave * std::sin(3 * s) * std::cos(4 * t);
-      return gdim == 2 ? Vec<3>{s, z, 0}
-                       : Vec<3>{c * s - d * t, d * s + c * t, z};
+      return gdim == 2 ? Vector<3>{s, z, 0}
+                       : Vector<3>{c * s - d * t, d * s + c * t, z};
     };
   };
   return {sheet(gdim, 6, cells, false, -0.9, 1.1, at(0.1, turn)),
@@ -139,7 +139,7 @@ TEST(FacetSearch, FindsFacetsThatFaceEachOther)
         sheet(3, 1, Cells::quadrilaterals, false, -1, 1, level(3, 0)),
         sheet(3, 1, Cells::quadrilaterals, true, -1, 1,
               [phi](double s, double t)
-              { return Vec<3>{std::cos(phi) * s, t, std::sin(phi) * s}; }));
+              { return Vector<3>{std::cos(phi) * s, t, std::sin(phi) * s}; }));
     return scene.find().size() > 0;
   };
   EXPECT_TRUE(found(0));
@@ -160,7 +160,9 @@ TEST(FacetSearch, LooksBeyondAFacetsEdges)
         sheet(gdim, 1, Cells::quadrilaterals, false, 0, 1, level(gdim, 0)),
         sheet(gdim, 1, Cells::quadrilaterals, true, 1.1, 2,
               [gdim](double s, double t)
-              { return gdim == 2 ? Vec<3>{s, 0, 0} : Vec<3>{s, t - 1, 0}; }));
+              {
+                return gdim == 2 ? Vector<3>{s, 0, 0} : Vector<3>{s, t - 1, 0};
+              }));
     EXPECT_EQ(scene.find(1, 0.19).size(), 0u);
     EXPECT_EQ(scene.find(1, 0.21).size(), 1u);
   }

@@ -55,8 +55,8 @@ bool expect_integrals(const mortar::Integrals& found,
   for (int s = 0; s < S::nodes; ++s)
   {
     EXPECT_NEAR(found.area[s], expected.area[s], 1e-10);
-    Vec<S::nodes> product{};
-    Vec<M::nodes> row{};
+    Vector<S::nodes> product{};
+    Vector<M::nodes> row{};
     double gap = 0;
     for (int t = 0; t < S::nodes; ++t)
     {
@@ -118,7 +118,7 @@ TYPED_TEST(IntegralsOf, ProjectAlongTheNormalThatIsGiven)
     auto n = frame<S>(p.slave, mortar::plane_origin<S>()).n;
     n = n + 0.45 * random.unit<S::gdim>();
     n = (1 / norm(n)) * n;
-    Vec<3> given{};
+    Vector<3> given{};
     for (int k = 0; k < S::gdim; ++k)
       given[k] = -n[k];
     const auto found = scene.integrals(scene.all_pairs(), X, given);
@@ -201,7 +201,7 @@ TEST(Integrals, HaveTheGapOfParallelSurfaces)
       // Upright, and along a direction with the cosine 0.8
       for (const double cosine : {1., 0.8})
       {
-        Vec<3> n{0, 0, 0};
+        Vector<3> n{0, 0, 0};
         n[gdim - 1] = cosine;
         n[0] = std::sqrt(1 - cosine * cosine);
         std::vector<double> normal;

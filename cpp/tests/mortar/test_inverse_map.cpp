@@ -24,12 +24,12 @@ Flat<F> random_flat(Generator& random)
     if constexpr (F::tdim == 1)
       r[l] = {y[l][0] + motion.shift[0]};
     else
-      r[l] = motion(Vec<2>{y[l][0], y[l][1]});
+      r[l] = motion(Vector<2>{y[l][0], y[l][1]});
   return r;
 }
 
 template <class F>
-Local<F> combined(const Vec<F::nodes>& w, const Flat<F>& r)
+Local<F> combined(const Vector<F::nodes>& w, const Flat<F>& r)
 {
   Local<F> p{};
   for (int l = 0; l < F::nodes; ++l)
@@ -209,7 +209,7 @@ TEST(DistortedQuadrilateral, IsInvertedEverywhere)
       for (int i = 0; i <= 20; ++i)
         for (int j = 0; j <= 20; ++j)
         {
-          const Vec<2> xi{i / 20., j / 20.};
+          const Vector<2> xi{i / 20., j / 20.};
           const auto p = combined<Quadrilateral>(Quadrilateral::shape(xi), r);
           const auto s = map.at(p);
           EXPECT_LT(norm(s.xi - xi), 1e-11) << c << " " << d;
@@ -225,7 +225,7 @@ TEST(DistortedQuadrilateral, ThatIsATriangleIsInvertedOffItsTip)
   for (int i = 0; i <= 20; ++i)
     for (int j = 0; j < 20; ++j)
     {
-      const Vec<2> xi{i / 20., j / 20.};
+      const Vector<2> xi{i / 20., j / 20.};
       const auto p = combined<Quadrilateral>(Quadrilateral::shape(xi), r);
       EXPECT_LT(norm(map.at(p).xi - xi), 1e-12);
     }

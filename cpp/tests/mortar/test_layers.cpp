@@ -64,8 +64,8 @@ Scene layer(int gdim, int n, double low, double high, auto height)
                [=](double s, double t)
                {
                  const double x = low + s * (high - low);
-                 return gdim == 2 ? Vec<3>{x, height(x), 0}
-                                  : Vec<3>{x, t, height(x)};
+                 return gdim == 2 ? Vector<3>{x, height(x), 0}
+                                  : Vector<3>{x, t, height(x)};
                });
 }
 
@@ -156,7 +156,8 @@ TEST_P(LayersOf, AMarginDoesNotJoinLayers)
   Scene fan(gdim);
   const auto row = [&](double x, double z)
   {
-    const auto first = fan.node(gdim == 2 ? Vec<3>{x, z, 0} : Vec<3>{x, 0, z});
+    const auto first
+        = fan.node(gdim == 2 ? Vector<3>{x, z, 0} : Vector<3>{x, 0, z});
     if (gdim == 3)
       fan.node({x, 1, z});
     return first;

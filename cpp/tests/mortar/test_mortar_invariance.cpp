@@ -17,7 +17,7 @@ Facing wavy(int gdim)
     return [gdim, height](double s, double t)
     {
       const double z = height + 0.05 * std::sin(4 * s) * std::cos(3 * t);
-      return gdim == 2 ? Vec<3>{s, z, 0} : Vec<3>{s, t, z};
+      return gdim == 2 ? Vector<3>{s, z, 0} : Vector<3>{s, t, z};
     };
   };
   return {sheet(gdim, 3, Cells::mixed, false, 0, 1, at(0.1)),
@@ -48,15 +48,15 @@ TEST_P(MortarInvariance, RigidMotionsChangeNothing)
     Facing moved = scene;
     const Motion<3> motion(random, 5);
     const Motion<2> in_plane(random, 5);
-    const auto rotate = [&](const Vec<3>& v)
+    const auto rotate = [&](const Vector<3>& v)
     {
       if (gdim == 3)
         return motion.rotate(v);
       const auto w = in_plane.rotate({v[0], v[1]});
-      return Vec<3>{w[0], w[1], 0};
+      return Vector<3>{w[0], w[1], 0};
     };
-    const Vec<3> shift = motion.shift;
-    moved.move([&](const Vec<3>& p) { return shift + rotate(p); });
+    const Vector<3> shift = motion.shift;
+    moved.move([&](const Vector<3>& p) { return shift + rotate(p); });
     EXPECT_EQ(moved.find(), pairs);
     const auto other = moved.integrals(pairs);
     expect_near(other.area, found.area, 1, 1e-13);
@@ -65,8 +65,10 @@ TEST_P(MortarInvariance, RigidMotionsChangeNothing)
     expect_near(other.gap, found.gap, 1, 1e-11);
     for (std::size_t f = 0; f < found.normal.size(); f += 3)
     {
-      const Vec<3> n{found.normal[f], found.normal[f + 1], found.normal[f + 2]};
-      const Vec<3> m{other.normal[f], other.normal[f + 1], other.normal[f + 2]};
+      const Vector<3> n{found.normal[f], found.normal[f + 1],
+                        found.normal[f + 2]};
+      const Vector<3> m{other.normal[f], other.normal[f + 1],
+                        other.normal[f + 2]};
       EXPECT_LT(norm(m - rotate(n)), 1e-13);
     }
   }
@@ -81,7 +83,7 @@ TEST_P(MortarInvariance, LengthsScaleEverything)
   for (const double length : {1e-6, 1e-3, 1e3, 1e6})
   {
     Facing scaled = scene;
-    scaled.move([length](const Vec<3>& p) { return length * p; });
+    scaled.move([length](const Vector<3>& p) { return length * p; });
     EXPECT_EQ(scaled.find(0.5 * length, 0.1), pairs);
     const auto other = scaled.integrals(pairs);
     const double area = std::pow(length, gdim - 1);
@@ -98,7 +100,7 @@ TEST_P(MortarInvariance, FacetsFarFromTheOriginKeepTheirDigits)
   const int gdim = GetParam();
   const Facing scene = wavy(gdim);
   Facing far = scene;
-  far.move([](const Vec<3>& p) { return p + Vec<3>{1e4, -1e4, 1e4}; });
+  far.move([](const Vector<3>& p) { return p + Vector<3>{1e4, -1e4, 1e4}; });
   const auto pairs = scene.find();
   EXPECT_EQ(far.find(), pairs);
   const auto found = scene.integrals(pairs), other = far.integrals(pairs);
@@ -121,8 +123,8 @@ TEST_P(MortarInvariance, AFacetCoveredBelowTheLeastPartHasZeros)
                                [gdim, width](double s, double t)
                                {
                                  const double x = s > 0 ? width : s;
-                                 return gdim == 2 ? Vec<3>{x, 0, 0}
-                                                  : Vec<3>{x, 2 * t, 0};
+                                 return gdim == 2 ? Vector<3>{x, 0, 0}
+                                                  : Vector<3>{x, 2 * t, 0};
                                }));
       const auto pairs = scene.find();
       ASSERT_GT(pairs.size(), 0u);

@@ -20,7 +20,7 @@ protected:
   Cells master_cells() const { return std::get<2>(GetParam()); }
 
   /// A map of the plane that bends straight lines and leaves the edge.
-  static Vec<3> bent(double s, double t)
+  static Vector<3> bent(double s, double t)
   {
     const double c = 0.02 * std::sin(7 * s) * std::sin(5 * t);
     return {s + c, t - 2 * c, 0};
@@ -33,7 +33,7 @@ protected:
     {
       return [this, height](double s, double t)
       {
-        Vec<3> p = bent(s, gdim() == 2 ? 0.3 : t);
+        Vector<3> p = bent(s, gdim() == 2 ? 0.3 : t);
         p[gdim() - 1] = height;
         return p;
       };
@@ -47,7 +47,7 @@ protected:
   {
     Facing scene = flat(low, high);
     scene.move(
-        [this](Vec<3> p)
+        [this](Vector<3> p)
         {
           p[gdim() - 1] += 0.05 * std::sin(4 * p[0]);
           return p;
@@ -82,8 +82,8 @@ protected:
     int covered = 0;
     for (int k = 0; k < gdim(); ++k)
     {
-      const auto sums
-          = applied(scene, pairs, found, [k](const Vec<3>& p) { return p[k]; });
+      const auto sums = applied(scene, pairs, found,
+                                [k](const Vector<3>& p) { return p[k]; });
       for (std::int32_t f = 0; f < scene.slave.facets().size(); ++f)
       {
         const auto nodes = scene.slave.facets()[f];
@@ -123,7 +123,7 @@ TEST_P(MortarSurfaces, ShareTheirArea)
     const auto found = scene.integrals(pairs);
     // Sums of weights are the nodes' areas
     const auto sums
-        = applied(scene, pairs, found, [](const Vec<3>&) { return 1; });
+        = applied(scene, pairs, found, [](const Vector<3>&) { return 1; });
     for (std::size_t i = 0; i < sums.size(); ++i)
       EXPECT_NEAR(sums[i], found.area[i], 1e-13);
     // As it is covered, they are those of the whole surface
@@ -143,7 +143,7 @@ TEST_P(MortarSurfaces, TakeTheAreaOfTheReference)
 {
   const Facing scene = flat(-0.1, 1.2);
   Facing wide = scene;
-  wide.move([](Vec<3> p) { return Vec<3>{3 * p[0], p[1], p[2]}; });
+  wide.move([](Vector<3> p) { return Vector<3>{3 * p[0], p[1], p[2]}; });
   const auto pairs = scene.find();
   const auto found = scene.integrals(pairs);
   const auto more = scene.integrals(pairs, wide.x);

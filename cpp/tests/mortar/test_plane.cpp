@@ -13,7 +13,7 @@ namespace
 {
 /// A unit vector on the outer side of a facet, up to 70 degrees off its normal.
 template <class F>
-Vec<F::gdim> oblique(const Nodes<F>& x, Generator& random)
+Vector<F::gdim> oblique(const Nodes<F>& x, Generator& random)
 {
   const auto n = frame<F>(x, plane_origin<F>()).n;
   auto v = random.unit<F::gdim>();
@@ -24,7 +24,8 @@ Vec<F::gdim> oblique(const Nodes<F>& x, Generator& random)
 
 /// Point of a plane's coordinates and height.
 template <class F>
-Vec<F::gdim> point_of(const Plane<F>& plane, const Local<F>& r, double height)
+Vector<F::gdim> point_of(const Plane<F>& plane, const Local<F>& r,
+                         double height)
 {
   auto p = plane.origin + height * plane.n;
   for (int a = 0; a < F::tdim; ++a)

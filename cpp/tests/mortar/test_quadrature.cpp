@@ -20,7 +20,7 @@ template <int D>
 double integral(const Overlap<D>& o, int degree, auto&& f)
 {
   double sum = 0;
-  integrate(o, degree, [&](const Vec<D>& p, double w) { sum += w * f(p); });
+  integrate(o, degree, [&](const Vector<D>& p, double w) { sum += w * f(p); });
   return sum;
 }
 
@@ -90,8 +90,8 @@ TEST(Integrate, IsExactOverAnInterval)
     for (int k = 0; k <= degree; ++k)
     {
       const double expected = (1 - std::pow(-0.5, k + 1)) / (k + 1);
-      EXPECT_NEAR(integral(o, degree,
-                           [k](const Vec<1>& p) { return std::pow(p[0], k); }),
+      EXPECT_NEAR(integral(o, degree, [k](const Vector<1>& p)
+                           { return std::pow(p[0], k); }),
                   expected, 1e-14);
     }
 }
@@ -103,7 +103,7 @@ TEST(Integrate, IsExactOverATriangle)
     for (int a = 0; a <= degree; ++a)
       for (int b = 0; a + b <= degree; ++b)
       {
-        const auto f = [a, b](const Vec<2>& p)
+        const auto f = [a, b](const Vector<2>& p)
         { return std::pow(p[0], a) * std::pow(p[1], b); };
         EXPECT_NEAR(integral(o, degree, f), monomial(a, b), 1e-15);
       }
@@ -127,16 +127,16 @@ TEST(Integrate, IsExactOverPolygons)
       double expected = 0;
       for (std::size_t j = 0; j < points.size(); ++j)
       {
-        const Vec<2>& from = points[j];
-        const Vec<2> e = points[(j + 1) % points.size()] - from;
+        const Vector<2>& from = points[j];
+        const Vector<2> e = points[(j + 1) % points.size()] - from;
         for (const auto& [s, w] : gauss(8))
         {
-          const Vec<2> p = from + s * e;
+          const Vector<2> p = from + s * e;
           expected
               += w * e[1] * std::pow(p[0], a + 1) * std::pow(p[1], b) / (a + 1);
         }
       }
-      const auto f = [a, b](const Vec<2>& p)
+      const auto f = [a, b](const Vector<2>& p)
       { return std::pow(p[0], a) * std::pow(p[1], b); };
       EXPECT_NEAR(integral(overlap(points), degree, f), expected, 1e-14);
     }
@@ -148,7 +148,7 @@ TEST(Integrate, HasPointsInsideAndPositiveWeights)
   const Polygon<2> p{{0, 0}, {2, 0}, {3, 1}, {1, 2}};
   for (int degree = 0; degree <= 40; ++degree)
     integrate(overlap(p), degree,
-              [&p](const Vec<2>& q, double w)
+              [&p](const Vector<2>& q, double w)
               {
                 EXPECT_GT(w, 0);
                 EXPECT_TRUE(holds(p, q, 1e-15));
@@ -158,13 +158,13 @@ TEST(Integrate, HasPointsInsideAndPositiveWeights)
 TEST(Integrate, TakesTheLargestRuleForAHighDegree)
 {
   const auto o = overlap({{0, 0}, {1, 0}, {0, 1}});
-  const auto f = [](const Vec<2>& p) { return std::exp(p[0] + p[1]); };
+  const auto f = [](const Vector<2>& p) { return std::exp(p[0] + p[1]); };
   EXPECT_NEAR(integral(o, 1000, f), 1, 1e-15); // int s e^s ds
   Overlap<1> line;
   line.push({0});
   line.push({1});
   EXPECT_NEAR(
-      integral(line, 1000, [](const Vec<1>& p) { return std::exp(p[0]); }),
+      integral(line, 1000, [](const Vector<1>& p) { return std::exp(p[0]); }),
       std::exp(1.) - 1, 1e-15);
 }
 

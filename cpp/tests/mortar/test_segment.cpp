@@ -16,8 +16,8 @@ namespace
 template <class S, class M>
 struct Sums
 {
-  std::array<Vec<M::nodes>, S::nodes> mixed{};
-  std::array<Vec<S::nodes>, S::nodes> mass{};
+  std::array<Vector<M::nodes>, S::nodes> mixed{};
+  std::array<Vector<S::nodes>, S::nodes> mass{};
   double total = 0;
 
   Sums(const SlaveFacet<S>& slave, const Nodes<M>& xm)
@@ -168,7 +168,7 @@ TEST(FoldedQuadrilateral, SharesNothing)
 {
   const Nodes<Quadrilateral> x{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}};
   const SlaveFacet<Quadrilateral> slave(x, x);
-  const auto area = [&slave](const Vec<3>& corner)
+  const auto area = [&slave](const Vector<3>& corner)
   {
     const Nodes<Quadrilateral> master{
         {{0, 0, 1}, {0, 1, 1}, {1, 0, 1}, corner}};

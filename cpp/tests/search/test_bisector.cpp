@@ -13,7 +13,7 @@ namespace
 {
 /// What a finder selects on the fold of two segments; its facets in either
 /// order.
-std::optional<Projection> selected(double down, const Vec<3>& p,
+std::optional<Projection> selected(double down, const Vector<3>& p,
                                    bool turned = false)
 {
   const Scene scene = fold_2d(down);
@@ -26,7 +26,7 @@ std::optional<Projection> selected(double down, const Vec<3>& p,
 }
 
 /// Point at a height over the fold's vertex, half way between its facets.
-Vec<3> over(double down, double height)
+Vector<3> over(double down, double height)
 {
   return {height * std::sin(down / 2), height * std::cos(down / 2), 0};
 }
@@ -52,7 +52,7 @@ TEST(Bisector, RoundingDoesNotChooseTheFacet)
   const auto q = selected(down, over(down, 1e-3));
   for (const double off : {-1e-10, -1e-14, 1e-14, 1e-10})
   {
-    const auto r = selected(down, over(down, 1e-3) + Vec<3>{off, 0, 0});
+    const auto r = selected(down, over(down, 1e-3) + Vector<3>{off, 0, 0});
     EXPECT_EQ(r->facet, q->facet);
     EXPECT_EQ(r->feature, q->feature);
   }
@@ -63,7 +63,7 @@ TEST(Bisector, IsNothingBesideTheMiddle)
   for (const double down : {0.1, -0.1})
     for (const double off : {-1e-3, -1e-6, 1e-6, 1e-3})
     {
-      const auto q = selected(down, over(down, -1e-3) + Vec<3>{off, 0, 0});
+      const auto q = selected(down, over(down, -1e-3) + Vector<3>{off, 0, 0});
       ASSERT_TRUE(q);
       EXPECT_EQ(q->feature, facet::interior);
     }

@@ -19,8 +19,8 @@ TEST(Box, EmptyOneIsInfinitelyFar)
 TEST(Box, DistanceFromEachSide)
 {
   Box b = Box::empty();
-  b.add(Vec<3>{0, 0, 0});
-  b.add(Vec<3>{1, 2, 3});
+  b.add(Vector<3>{0, 0, 0});
+  b.add(Vector<3>{1, 2, 3});
   EXPECT_EQ(b.distance2({0.5, 1, 1}), 0);
   EXPECT_EQ(b.distance2({1, 2, 3}), 0);
   EXPECT_EQ(b.distance2({-2, 1, 1}), 4);
@@ -35,11 +35,11 @@ TEST(Box, IsNoFartherThanWhatItHolds)
   for (int i = 0; i < 200; ++i)
   {
     Box a = Box::empty(), b = Box::empty();
-    const Vec<3> p = random.vector<3>(-1, 1), q = random.vector<3>(-1, 1);
+    const Vector<3> p = random.vector<3>(-1, 1), q = random.vector<3>(-1, 1);
     a.add(p);
     b.add(q);
     b.add(a);
-    const Vec<3> point = random.vector<3>(-2, 2);
+    const Vector<3> point = random.vector<3>(-2, 2);
     EXPECT_LE(b.distance2(point), dot(p - point, p - point));
     EXPECT_LE(b.distance2(point), dot(q - point, q - point));
   }
@@ -48,8 +48,8 @@ TEST(Box, IsNoFartherThanWhatItHolds)
 TEST(Box, PassesOverPointsThatAreNotNumbers)
 {
   Box b = Box::empty();
-  b.add(Vec<3>{0, 0, 0});
-  b.add(Vec<3>{std::nan(""), 1, 0});
+  b.add(Vector<3>{0, 0, 0});
+  b.add(Vector<3>{std::nan(""), 1, 0});
   EXPECT_EQ(b.distance2({0, 2, 0}), 1);
 }
 } // namespace

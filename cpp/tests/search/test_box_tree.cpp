@@ -17,7 +17,7 @@ std::vector<Box> random_boxes(Generator& random, int n)
   std::vector<Box> boxes(n, Box::empty());
   for (Box& b : boxes)
   {
-    const Vec<3> p = random.vector<3>(-1, 1);
+    const Vector<3> p = random.vector<3>(-1, 1);
     b.add(p);
     b.add(p + random.vector<3>(-0.1, 0.1));
   }
@@ -25,7 +25,7 @@ std::vector<Box> random_boxes(Generator& random, int n)
 }
 
 /// The items that the tree visits for a bound that stays.
-std::multiset<std::int32_t> visited(const BoxTree& tree, const Vec<3>& p,
+std::multiset<std::int32_t> visited(const BoxTree& tree, const Vector<3>& p,
                                     double bound2)
 {
   std::multiset<std::int32_t> items;
@@ -34,7 +34,7 @@ std::multiset<std::int32_t> visited(const BoxTree& tree, const Vec<3>& p,
 }
 
 void expect_all_below(const BoxTree& tree, std::span<const Box> boxes,
-                      const Vec<3>& p, double bound2)
+                      const Vector<3>& p, double bound2)
 {
   const auto items = visited(tree, p, bound2);
   for (std::size_t i = 0; i < boxes.size(); ++i)
@@ -54,7 +54,7 @@ TEST(BoxTree, VisitsEachBoxBelowTheBoundOnce)
     for (int i = 0; i < 20; ++i)
     {
       const auto boxes = random_boxes(random, n);
-      const Vec<3> p = random.vector<3>(-2, 2);
+      const Vector<3> p = random.vector<3>(-2, 2);
       expect_all_below(BoxTree(boxes), boxes, p, random(0, 2));
     }
 }
@@ -82,7 +82,7 @@ TEST(BoxTree, LooksAtFewBoxesForTheNearest)
   Generator random(3);
   const auto boxes = random_boxes(random, 10000);
   const BoxTree tree(boxes);
-  const Vec<3> p{5, 0.1, 0.2};
+  const Vector<3> p{5, 0.1, 0.2};
   double bound2 = 1e9;
   int looked_at = 0;
   tree.nearest(p, bound2,
@@ -177,7 +177,7 @@ TEST(BoxTree, ForEachVisitsEachBoxThatMattersOnce)
         tree.refit(boxes);
       }
       Box box = Box::empty();
-      const Vec<3> p = random.vector<3>(-1, 1);
+      const Vector<3> p = random.vector<3>(-1, 1);
       box.add(p);
       box.add(p + random.vector<3>(-1, 1));
       std::multiset<std::int32_t> expected;

@@ -37,7 +37,7 @@ TEST(Finder, HasNoMemory)
   s.search_at({0.9, 0.1}, true);
   s.move_to({1.04, 0.01});
   const Finder finder = finder_of(s.pairing, s.x);
-  const Vec<3> p{1.04, 0.01, 0}, down{0, -1, 0};
+  const Vector<3> p{1.04, 0.01, 0}, down{0, -1, 0};
   const Found found = finder.find(s.x, p, down, 10);
   EXPECT_NEAR(found.selected->gap, -0.03 / std::sqrt(2), 1e-15);
   EXPECT_EQ(finder.find(s.x, p, down, 10, 0).selected->gap,
@@ -48,7 +48,7 @@ TEST(Finder, FindsNothingOutOfReach)
 {
   SlidingSegment s({{0, 0}, {1, 0}});
   const Finder finder = finder_of(s.pairing, s.x);
-  const Vec<3> p{0.5, 0.3, 0}, down{0, -1, 0};
+  const Vector<3> p{0.5, 0.3, 0}, down{0, -1, 0};
   EXPECT_FALSE(finder.find(s.x, p, down, 0.2).nearest);
   EXPECT_NEAR(finder.find(s.x, p, down, 0.4).selected->gap, 0.3, 1e-15);
   EXPECT_FALSE(finder.find(s.x, p, {0, 1, 0}, 0.4).nearest);
@@ -86,7 +86,7 @@ TEST(PairingInHalves, IsPairing)
 {
   // What seek leaves and settle takes is what update does by itself
   const Scene scene = grid(6, Cells::mixed, [](double s, double t)
-                           { return Vec<3>{s, t, 0.1 * std::sin(4 * s)}; });
+                           { return Vector<3>{s, t, 0.1 * std::sin(4 * s)}; });
   Generator random(3);
   std::vector<double> x = scene.x;
   std::vector<std::int32_t> offsets{0}, nodes;
@@ -110,7 +110,7 @@ TEST(PairingInHalves, IsPairing)
     std::int32_t changed = 0;
     for (const std::int32_t i : halves.seek(x, 1))
     {
-      Vec<3> p, n;
+      Vector<3> p, n;
       const auto slave = halves.slaves()[i];
       std::copy_n(x.begin() + 3 * slave, 3, p.begin());
       std::copy_n(normals.begin() + 3 * slave, 3, n.begin());
@@ -156,17 +156,17 @@ TEST(Pairing, GoesOnWithALongerListOfFacets)
 /// Random slaves above a grid of triangles and quadrilaterals.
 struct OverAGrid
 {
-  Scene scene
-      = grid(6, Cells::mixed, [](double s, double t)
-             { return Vec<3>{s, t, 0.1 * std::sin(4 * s) * std::cos(3 * t)}; });
+  Scene scene = grid(
+      6, Cells::mixed, [](double s, double t)
+      { return Vector<3>{s, t, 0.1 * std::sin(4 * s) * std::cos(3 * t)}; });
   std::vector<std::int32_t> offsets{0}, nodes;
 
   explicit OverAGrid(Generator& random)
   {
     for (int i = 0; i < 30; ++i)
     {
-      const Vec<3> p{random(0.1, 0.9), random(0.1, 0.9), random(-0.1, 0.3)};
-      for (Vec<3> d : {Vec<3>{0, 0, 0}, {0, 0.01, 0}, {0.01, 0, 0}})
+      const Vector<3> p{random(0.1, 0.9), random(0.1, 0.9), random(-0.1, 0.3)};
+      for (Vector<3> d : {Vector<3>{0, 0, 0}, {0, 0.01, 0}, {0.01, 0, 0}})
         nodes.push_back(scene.node(p + d));
       offsets.push_back(nodes.size());
     }
@@ -188,7 +188,7 @@ TEST(Finder, DistanceIsThatOfALoop)
     const Finder finder = finder_of(s.pairing(), s.scene.x);
     for (std::int32_t node : s.nodes)
     {
-      const Vec<3> p = s.scene.point(node);
+      const Vector<3> p = s.scene.point(node);
       double expected = 1e9;
       for (std::int32_t f = 0; f < surface.facets().size(); ++f)
         expected
@@ -229,7 +229,7 @@ TEST(PairingOnMixedFacets, ProjectsOnTheFacetThatItNames)
       // Behind a valley a pair may be farther out
       EXPECT_TRUE(q->excess <= margin or q->gap < 0);
       const std::int32_t slave = pairing.slaves()[k];
-      Vec<3> n;
+      Vector<3> n;
       std::copy_n(normals.begin() + 3 * slave, 3, n.begin());
       const Found found = finder.find(s.scene.x, s.scene.point(slave), n, 1);
       EXPECT_NEAR(q->gap, found.selected->gap, 1e-15);

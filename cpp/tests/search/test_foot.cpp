@@ -26,7 +26,7 @@ protected:
       std::vector<std::int32_t> nodes;
       for (const auto& p : facets.back())
       {
-        Vec<3> q{};
+        Vector<3> q{};
         std::copy(p.begin(), p.end(), q.begin());
         nodes.push_back(scene.node(q));
       }
@@ -47,9 +47,9 @@ protected:
     }
   }
 
-  Vec<D> point(std::span<const double> x, int i) const
+  Vector<D> point(std::span<const double> x, int i) const
   {
-    Vec<D> p;
+    Vector<D> p;
     std::copy_n(x.begin() + D * i, D, p.begin());
     return p;
   }

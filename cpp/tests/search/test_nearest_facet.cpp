@@ -39,8 +39,8 @@ TEST_P(NearestFacet, IsTheOneThatALoopFinds)
     const BoxTree tree(surface.boxes(scene.x));
     for (int i = 0; i < 24; ++i)
     {
-      const Vec<3> p = random_query(scene, random, i);
-      const Vec<3> n = i % 3 ? Vec<3>{} : random.unit<3>();
+      const Vector<3> p = random_query(scene, random, i);
+      const Vector<3> n = i % 3 ? Vector<3>{} : random.unit<3>();
       const double reach = i % 5 ? 10 : 0.3;
       const auto q = nearest_facet(surface, tree, scene.x, p, n, reach);
       expect_same(q, brute_force(surface, scene.x, p, n, reach));
@@ -65,7 +65,7 @@ TEST_P(NearestFacet, IsTheSameAfterARefit)
     const BoxTree fresh(boxes);
     for (int i = 0; i < 24; ++i)
     {
-      const Vec<3> p = random_query(scene, random, i);
+      const Vector<3> p = random_query(scene, random, i);
       expect_same(nearest_facet(surface, tree, scene.x, p, {}, 10),
                   nearest_facet(surface, fresh, scene.x, p, {}, 10));
     }
@@ -102,7 +102,7 @@ TEST(NearestFacetOf, APointThatIsNotANumberIsNone)
     const BoxTree tree(scene.surface().boxes(scene.x));
     for (int k = 0; k < scene.gdim; ++k)
     {
-      Vec<3> p{};
+      Vector<3> p{};
       p[k] = std::nan("");
       EXPECT_FALSE(nearest_facet(scene.surface(), tree, scene.x, p, {}, 10));
     }
@@ -118,7 +118,7 @@ TEST(NearestFacetOf, ASurfaceWithSomeNodesThatAreNotNumbers)
     scene.x[static_cast<int>(random(0, scene.x.size()))] = std::nan("");
     const Surface surface = scene.surface();
     const BoxTree tree(surface.boxes(scene.x));
-    const Vec<3> p = random.vector<3>(-1, 1);
+    const Vector<3> p = random.vector<3>(-1, 1);
     const auto q = nearest_facet(surface, tree, scene.x, p, {}, 10);
     expect_same(q, brute_force(surface, scene.x, p, {}, 10));
   }
@@ -132,7 +132,7 @@ TEST(NearestFacetOf, AScaledSurfaceIsTheScaledOne)
     {
       Scene scene = random_scene(Kind::mixed, random);
       const Surface surface = scene.surface();
-      const Vec<3> p = random.vector<3>(-1, 1);
+      const Vector<3> p = random.vector<3>(-1, 1);
       const auto q = nearest_facet(surface, BoxTree(surface.boxes(scene.x)),
                                    scene.x, p, {}, 10);
       for (double& c : scene.x)

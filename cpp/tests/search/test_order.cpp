@@ -49,7 +49,7 @@ TEST(SpatialOrder, ShortensTheWay)
     double sum = 0;
     for (std::size_t i = 1; i < order.size(); ++i)
     {
-      Vec<3> d;
+      Vector<3> d;
       for (int k = 0; k < 3; ++k)
         d[k] = x[3 * order[i] + k] - x[3 * order[i - 1] + k];
       sum += norm(d);
@@ -77,7 +77,7 @@ TEST(NearestFacet, IsTheSameFromEveryHint)
     for (int i = 0; i < 20; ++i)
     {
       // Half of them over a node, where facets tie
-      Vec<3> p = random.vector<3>(-0.2, 1.2);
+      Vector<3> p = random.vector<3>(-0.2, 1.2);
       if (i % 2 == 0)
         p = {0.25 * (i % 5), 0.5, 0.125};
       const auto expected

@@ -11,7 +11,7 @@ using namespace contactx::tests;
 
 namespace
 {
-const std::vector<Vec<2>> flat{{0, 0}, {1, 0}, {2, 0}};
+const std::vector<Vector<2>> flat{{0, 0}, {1, 0}, {2, 0}};
 
 TEST(Pairing, StartsWithoutPairs)
 {
@@ -149,7 +149,7 @@ TEST(Pairing, OpenNodesAreNeverFrozen)
 
 TEST(Pairing, SlidingOnIsNoReturn)
 {
-  std::vector<Vec<2>> line;
+  std::vector<Vector<2>> line;
   for (int i = 0; i <= 10; ++i)
     line.push_back({double(i), 0});
   SlidingSegment s(line);

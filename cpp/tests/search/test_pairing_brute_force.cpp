@@ -53,10 +53,10 @@ TEST_P(PairingBruteForce, FirstPairsAreThoseOfALoop)
     for (std::size_t i = 0; i < open.size(); ++i)
     {
       const std::int32_t node = pairing.slaves()[i];
-      Vec<3> normal{};
+      Vector<3> normal{};
       std::copy_n(normals.begin() + node * scene.gdim, scene.gdim,
                   normal.begin());
-      const Vec<3> p = scene.point(node);
+      const Vector<3> p = scene.point(node);
       auto expected = brute_force(surface, scene.x, p, normal, reach);
       if (expected)
         expected = select(surface, scene.x, p, *expected);

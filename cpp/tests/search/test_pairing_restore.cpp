@@ -11,8 +11,8 @@ using namespace contactx::tests;
 
 namespace
 {
-const std::vector<Vec<2>> flat{{0, 0}, {1, 0}, {2, 0}};
-const std::vector<Vec<2>> ridge{{0, 0}, {1, 1}, {2, 0}};
+const std::vector<Vector<2>> flat{{0, 0}, {1, 0}, {2, 0}};
+const std::vector<Vector<2>> ridge{{0, 0}, {1, 1}, {2, 0}};
 
 using Ints = std::vector<std::int32_t>;
 
@@ -26,8 +26,8 @@ TEST(PairingRestore, GoesOnAsTheOther)
 {
   // Inside the margin memory decides, on a ridge the normal that was found
   for (const auto& [line, first, then] :
-       {std::tuple{flat, Vec<2>{1.5, 0}, Vec<2>{1 - 0.5 * margin, 0}},
-        std::tuple{ridge, Vec<2>{1.01, 1.2}, Vec<2>{0.99, 1.2}}})
+       {std::tuple{flat, Vector<2>{1.5, 0}, Vector<2>{1 - 0.5 * margin, 0}},
+        std::tuple{ridge, Vector<2>{1.01, 1.2}, Vector<2>{0.99, 1.2}}})
   {
     SlidingSegment a(line), b(line);
     a.search_at(first, true);

@@ -12,11 +12,11 @@ using namespace contactx::tests;
 namespace
 {
 /// A roof with its ridge at the origin.
-const std::vector<Vec<2>> roof{{-1, -1}, {0, 0}, {1, -1}};
+const std::vector<Vector<2>> roof{{-1, -1}, {0, 0}, {1, -1}};
 
-Vec<3> cone(const SlidingSegment& s)
+Vector<3> cone(const SlidingSegment& s)
 {
-  Vec<3> c;
+  Vector<3> c;
   std::copy_n(s.pairing.cone().begin(), 3, c.begin());
   return c;
 }
@@ -28,7 +28,7 @@ TEST(PairingOnRidge, HasAUnitNormal)
   EXPECT_NE(s.feature(), facet::interior);
   EXPECT_NEAR(norm(cone(s)), 1, 1e-15);
   // The left facet's normal is (-1, 1) / sqrt(2)
-  const Vec<2> n = (1 / std::hypot(0.1, 0.5)) * Vec<2>{0.1, 0.5};
+  const Vector<2> n = (1 / std::hypot(0.1, 0.5)) * Vector<2>{0.1, 0.5};
   EXPECT_NEAR(cone(s)[2], (n[1] - n[0]) / std::sqrt(2), 1e-15);
 }
 
@@ -36,7 +36,7 @@ TEST(PairingOnRidge, KeepsItsNormalWhileInContact)
 {
   SlidingSegment s(roof);
   s.search_at({0.1, 0.5}, false);
-  const Vec<3> first = cone(s);
+  const Vector<3> first = cone(s);
   EXPECT_EQ(s.search_at({-0.05, 0.4}, true), 0);
   EXPECT_EQ(cone(s), first);
   EXPECT_EQ(s.search_at({0.2, 0.4}, true), 0);
@@ -52,7 +52,7 @@ TEST(PairingOnRidge, LeavesItForAFacet)
   EXPECT_EQ(s.search_at({0.5, -0.4}, true), 1);
   EXPECT_EQ(s.facet(), 1);
   EXPECT_EQ(s.feature(), facet::interior);
-  EXPECT_EQ(cone(s), Vec<3>{});
+  EXPECT_EQ(cone(s), Vector<3>{});
 }
 
 TEST(PairingOnRidge, DoesNotFlipBetweenItsFacets)
@@ -64,22 +64,22 @@ TEST(PairingOnRidge, DoesNotFlipBetweenItsFacets)
   {
     const Motion<3> motion(random, 3);
     Scene scene(3);
-    for (Vec<3> p : {Vec<3>{0, 0, 0},
-                     {0, 1, 0},
-                     {-1, 0.5, -1},
-                     {1, 0.5, -1},
-                     {0, 0, 0},
-                     {0, 0.01, 0},
-                     {0.01, 0, 0}})
+    for (Vector<3> p : {Vector<3>{0, 0, 0},
+                        {0, 1, 0},
+                        {-1, 0.5, -1},
+                        {1, 0.5, -1},
+                        {0, 0, 0},
+                        {0, 0.01, 0},
+                        {0.01, 0, 0}})
       scene.node(motion(p));
     Pairing pairing({0, 3}, {4, 5, 6}, {0, 3, 6}, {0, 1, 2, 1, 0, 3}, 3);
     const std::vector<std::int8_t> closed{1, 0, 0};
     for (int i = 0; i < 50; ++i)
     {
-      const Vec<3> p{random(-0.05, 0.05), random(0.1, 0.9), 0.5};
+      const Vector<3> p{random(-0.05, 0.05), random(0.1, 0.9), 0.5};
       for (int k : {0, 1, 2})
       {
-        Vec<3> q = p;
+        Vector<3> q = p;
         if (k > 0)
           q[2 - k] += 0.01;
         // Facing down: (0, 1, 0) x (1, 0, 0)

@@ -17,7 +17,7 @@ class Select : public ::testing::TestWithParam<bool>
 };
 INSTANTIATE_TEST_SUITE_P(Split, Select, ::testing::Bool());
 
-constexpr Vec<3> up{0, 0, 1};
+constexpr Vector<3> up{0, 0, 1};
 
 TEST_P(Select, FlatNeighboursGiveTheirNormalEverywhere)
 {
@@ -60,7 +60,7 @@ TEST_P(Select, RidgeGivesTheDirectionFromItsEdge)
   const auto q = paired(scene, {0.3, 0.4, 0.4});
   ASSERT_TRUE(q);
   EXPECT_NE(q->feature, facet::interior);
-  EXPECT_LT(norm(q->normal - Vec<3>{0.6, 0, 0.8}), 1e-15);
+  EXPECT_LT(norm(q->normal - Vector<3>{0.6, 0, 0.8}), 1e-15);
   EXPECT_NEAR(q->gap, 0.5, 1e-15);
   // Within the margin it is a facet
   const auto flat = paired(scene, {0.9 * margin, 0.4, 0.4});
@@ -79,9 +79,9 @@ TEST_P(Select, RidgeNormalIsInTheConeOfTheFacets)
     const double down = random(0.2, 2.5);
     const Scene scene = fold(down, GetParam());
     const double turn = random(0, down);
-    const Vec<3> n{std::sin(turn), 0, std::cos(turn)};
+    const Vector<3> n{std::sin(turn), 0, std::cos(turn)};
     const double height = random(0.1, 2), y = random(0.1, 0.9);
-    const auto q = paired(scene, Vec<3>{0, y, 0} + height * n);
+    const auto q = paired(scene, Vector<3>{0, y, 0} + height * n);
     ASSERT_TRUE(q);
     const bool within = height * std::sin(std::min(turn, down - turn)) < margin;
     if (within)
@@ -106,7 +106,7 @@ TEST_P(Select, RidgeHasOneFacetWhateverTheRounding)
     const Motion<3> motion(random, 3);
     for (int l = 0; l < 6; ++l)
     {
-      const Vec<3> p = motion(scene.point(l));
+      const Vector<3> p = motion(scene.point(l));
       std::copy(p.begin(), p.end(), scene.x.begin() + 3 * l);
     }
     const double turn = random(0.4, 0.8);
@@ -120,7 +120,7 @@ TEST_P(Select, RidgeHasOneFacetWhateverTheRounding)
 TEST_P(Select, CornerGivesTheDirectionFromItsVertex)
 {
   const Scene scene = corner(GetParam());
-  const Vec<3> p{0.2, 0.3, 0.6};
+  const Vector<3> p{0.2, 0.3, 0.6};
   const auto q = paired(scene, p);
   ASSERT_TRUE(q);
   EXPECT_EQ(scene.nodes[scene.offsets[q->facet]
@@ -131,7 +131,7 @@ TEST_P(Select, CornerGivesTheDirectionFromItsVertex)
   // Over an edge, over a face
   const auto edge = paired(scene, {-0.5, 0.3, 0.4});
   ASSERT_TRUE(edge);
-  EXPECT_LT(norm(edge->normal - Vec<3>{0, 0.6, 0.8}), 1e-15);
+  EXPECT_LT(norm(edge->normal - Vector<3>{0, 0.6, 0.8}), 1e-15);
   const auto face = paired(scene, {-0.4, -0.5, 0.4});
   ASSERT_TRUE(face);
   EXPECT_LT(norm(face->normal - up), 1e-15);
@@ -143,17 +143,17 @@ TEST_P(Select, PenetratedRidgeGivesTheNearestFace)
   ASSERT_TRUE(q);
   EXPECT_EQ(q->feature, facet::interior);
   EXPECT_NEAR(q->gap, -0.1, 1e-15);
-  EXPECT_LT(norm(q->normal - Vec<3>{1, 0, 0}), 1e-15);
+  EXPECT_LT(norm(q->normal - Vector<3>{1, 0, 0}), 1e-15);
 }
 
 TEST_P(Select, ConeComponentsGiveTheNormalBack)
 {
   const Scene scene = corner(GetParam());
-  for (Vec<3> p : {Vec<3>{0.2, 0.3, 0.6}, {-0.5, 0.3, 0.4}})
+  for (Vector<3> p : {Vector<3>{0.2, 0.3, 0.6}, {-0.5, 0.3, 0.4}})
   {
     const auto q = paired(scene, p);
     ASSERT_TRUE(q);
-    const Vec<3> c = cone_components(scene.surface(), scene.x, *q);
+    const Vector<3> c = cone_components(scene.surface(), scene.x, *q);
     EXPECT_NEAR(norm(c), 1, 1e-15);
     // The last axis is the facet's normal
     const auto e = extended(scene.surface(), q->facet, scene.x, p);

@@ -22,7 +22,7 @@ TEST(Select2D, FlatNeighboursGiveTheirNormalEverywhere)
       const auto q = paired(scene, {x, height});
       ASSERT_TRUE(q);
       EXPECT_EQ(q->feature, facet::interior);
-      EXPECT_EQ(q->normal, (Vec<3>{0, 1, 0}));
+      EXPECT_EQ(q->normal, (Vector<3>{0, 1, 0}));
       EXPECT_NEAR(q->gap, height, 1e-15);
     }
 }
@@ -47,7 +47,7 @@ TEST(Select2D, RidgeGivesTheDirectionFromItsVertex)
   const auto q = paired(scene, {0.3, 0.4});
   ASSERT_TRUE(q);
   EXPECT_NE(q->feature, facet::interior);
-  EXPECT_LT(norm(q->normal - Vec<3>{0.6, 0.8}), 1e-15);
+  EXPECT_LT(norm(q->normal - Vector<3>{0.6, 0.8}), 1e-15);
   EXPECT_NEAR(q->gap, 0.5, 1e-15);
   const auto flat = paired(scene, {0.9 * margin, 0.4});
   ASSERT_TRUE(flat);
@@ -60,7 +60,7 @@ TEST(Select2D, ConeComponentsGiveTheNormalBack)
   const Scene scene = fold_2d(right_angle);
   const auto q = paired(scene, {0.3, 0.4});
   ASSERT_TRUE(q);
-  const Vec<3> c = cone_components(scene.surface(), scene.x, *q);
+  const Vector<3> c = cone_components(scene.surface(), scene.x, *q);
   EXPECT_EQ(c[1], 0);
   EXPECT_NEAR(std::abs(c[0]), 0.6, 1e-15);
   EXPECT_NEAR(c[2], 0.8, 1e-15);
@@ -69,7 +69,7 @@ TEST(Select2D, ConeComponentsGiveTheNormalBack)
 TEST(Select2D, BehindAValleyTheDeepestFacetCounts)
 {
   const Scene scene = fold_2d(-right_angle);
-  for (Vec<3> p : {Vec<3>{0.3, -0.1}, {0.1, -0.3}})
+  for (Vector<3> p : {Vector<3>{0.3, -0.1}, {0.1, -0.3}})
   {
     const auto q = paired(scene, p);
     ASSERT_TRUE(q);
@@ -87,7 +87,7 @@ TEST(Facing, PassesOverFacetsThatDoNotOpposeTheNormal)
   Scene scene = fold_2d(0);
   const std::int32_t a = scene.node({-1, -0.1}), b = scene.node({1, -0.1});
   scene.facet({a, b});
-  const Vec<3> p{0.5, 0.02};
+  const Vector<3> p{0.5, 0.02};
   const auto upper = paired(scene, p, {0, -1});
   ASSERT_TRUE(upper);
   EXPECT_EQ(upper->facet, 1);

@@ -21,7 +21,7 @@ TEST_P(Valley, BehindItsEdgeTheDeepestFacetCounts)
 {
   // A floor and the wall x = 0 that rises from it
   const Scene scene = fold(-std::acos(0.0), GetParam());
-  for (Vec<3> p : {Vec<3>{0.3, 0.5, -0.1}, {0.1, 0.5, -0.3}})
+  for (Vector<3> p : {Vector<3>{0.3, 0.5, -0.1}, {0.1, 0.5, -0.3}})
   {
     const auto q = paired(scene, p);
     ASSERT_TRUE(q);
@@ -60,7 +60,7 @@ TEST_P(Valley, GapIsThatOfTheDeepestFacetInTheMargin)
     const double up = random(0.3, 2);
     const Scene scene = fold(-up, GetParam());
     const double x = random(-0.3, 0.3);
-    const Vec<3> p{x, random(0.2, 0.8), random(-0.3, -0.01)};
+    const Vector<3> p{x, random(0.2, 0.8), random(-0.3, -0.01)};
     const double floor = p[2];
     const double wall = -std::sin(up) * p[0] + std::cos(up) * p[2];
     const double beyond = -(std::cos(up) * p[0] + std::sin(up) * p[2]);
@@ -99,6 +99,6 @@ TEST(ValleyOfThree, CornerOfARoomFromBehind)
   const auto q = paired(scene, {-0.1, -0.2, -0.3});
   ASSERT_TRUE(q);
   EXPECT_NEAR(q->gap, -0.3, 1e-15);
-  EXPECT_LT(norm(q->normal - Vec<3>{0, 0, 1}), 1e-15);
+  EXPECT_LT(norm(q->normal - Vector<3>{0, 0, 1}), 1e-15);
 }
 } // namespace

@@ -62,7 +62,7 @@ TEST(Surface, KnowsItsOuterEdge)
       EXPECT_FALSE(s.on_boundary(f, facet::interior));
       for (int l = 0; l < n; ++l)
       {
-        const Vec<3> p = scene.point(nodes[l]);
+        const Vector<3> p = scene.point(nodes[l]);
         const bool outer = p[0] == 0 or p[0] == 1 or p[1] == 0 or p[1] == 1;
         EXPECT_EQ(s.on_boundary(f, vertex(n, l)), outer);
       }
@@ -99,7 +99,7 @@ TEST(Surface, RefusesWhatIsNoSurface)
 TEST(Surface, BoxesHoldTheFacets)
 {
   const Scene scene = grid(4, Cells::mixed, [](double s, double t)
-                           { return Vec<3>{s, t - 2, s * t - 3}; });
+                           { return Vector<3>{s, t - 2, s * t - 3}; });
   const auto boxes = scene.surface().boxes(scene.x);
   ASSERT_EQ(boxes.size(), scene.offsets.size() - 1);
   for (std::size_t f = 0; f < boxes.size(); ++f)
@@ -132,8 +132,8 @@ TEST(Surface, ProjectionKnowsItsGapAndExcess)
   const auto c = closest(scene.surface(), 0, scene.x, {1.25, 0.5, -0.5});
   ASSERT_TRUE(c);
   EXPECT_EQ(c->feature, 2);
-  EXPECT_EQ(c->d, (Vec<3>{0.25, 0, -0.5}));
-  EXPECT_EQ(c->normal, (Vec<3>{0, 0, 1}));
+  EXPECT_EQ(c->d, (Vector<3>{0.25, 0, -0.5}));
+  EXPECT_EQ(c->normal, (Vector<3>{0, 0, 1}));
   EXPECT_DOUBLE_EQ(c->gap, -0.5);
   EXPECT_DOUBLE_EQ(c->size, std::sqrt(2));
   const auto e = extended(scene.surface(), 0, scene.x, {1.25, 0.5, -0.5});
@@ -150,8 +150,8 @@ TEST(OuterMargin, IsTheDistanceFromTheOuterEdgeInLocalCoordinates)
     const Surface surface = scene.surface();
     for (std::int32_t f = 0; f < surface.facets().size(); ++f)
     {
-      const Vec<2> xi{0.3, 0.1};
-      const Vec<3> at = point_at(surface, f, scene.x, xi).x;
+      const Vector<2> xi{0.3, 0.1};
+      const Vector<3> at = point_at(surface, f, scene.x, xi).x;
       const double d = std::min({at[0], at[1], 1 - at[0], 1 - at[1]});
       const double margin = outer_margin(surface, f, xi);
       // Cells are a third wide; those within have no outer edge
