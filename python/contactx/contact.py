@@ -252,7 +252,7 @@ class Contact:
         """Contact pressure, force/area, zero off the slave surface and on open nodes.
 
         For either method, tied or not, it is recovered from the multipliers: nodes in contact
-        exchange force with their neighbours, which keeps its sum; see ``contactx.recovery``.
+        exchange force with their neighbours, which keeps its sum; see ``contact/recovery.h``.
         """
         return self.fields.pressure
 

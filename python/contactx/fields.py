@@ -2,21 +2,24 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """Results of a contact as functions of the bulk.
 
-Pressure and traction are recovered from the multipliers, for every kind of contact as ``recovery``
-describes; all else is as it was solved for.
+Pressure and traction are recovered from the multipliers, for every kind of contact as
+``contact/recovery.h`` describes; all else is as it was solved for.
 """
 
 from __future__ import annotations
 
 import numpy as np
+import numpy.typing as npt
 
+from contactx import cpp as core
 from contactx.interface import Interface
 from contactx.nodal import matching_nodes
 from contactx.parallel.halo import Halo
 from contactx.parallel.reduce import total
 from contactx.parallel.slaves import SlaveNodes
-from contactx.recovery import Array, Recovery
 from dolfinx import fem
+
+type Array = npt.NDArray[np.float64]
 
 
 class Fields:
@@ -47,7 +50,7 @@ class Fields:
         self._interface = interface
         self._halo = halo
         self._gdim = halo.gdim
-        self._recovery = Recovery(slaves, halo.x)
+        self._recovery = core.Recovery(slaves, halo.x)
         Q = fem.functionspace(V.mesh, ("Lagrange", 1))
         # Both spaces number the vertices; where they differ the results must follow the bulk
         self._nodes = matching_nodes(V, Q)[interface.slaves]
@@ -102,21 +105,17 @@ class Fields:
             forces: Forces of the multipliers on the slave nodes, shape (n, gdim).
         """
         nodes, slaves = self._interface.nodes, self._interface.slaves
-        area, closed, n = nodes.area, nodes.closed, nodes.normal
-        p = self._recovery.pressure(nodes.pressure, area, closed)
+        area, closed = nodes.area, nodes.closed
         if nodes.size == 1:
+            p = self._recovery.pressure(nodes.pressure, area, closed)
             raw = nodes.multiplier.copy()
             nodes.multiplier[:] = p
             recovered = self._forces()[slaves]
             nodes.multiplier[:] = raw
             traction = recovered / area[:, None]
         else:
-            t = nodes.multiplier.reshape(-1, self._gdim) - nodes.pressure[:, None] * n
-            traction = p[:, None] * n + self._recovery.shear(t, n, area, closed)
+            p, traction = self._recovery.tractions(nodes.multiplier, nodes.normal, area, closed)
             recovered = area[:, None] * traction
         self.pressure.x.array[self._nodes] = p
         self.traction.x.array.reshape(-1, self._gdim)[slaves] = traction
-        comm = self._halo.comm
-        size = total(comm, np.linalg.norm(forces, axis=1).sum())
-        change = np.linalg.norm(total(comm, (recovered - forces).sum(axis=0)))
-        self.recovery_change = float(change / size) if size > 0 else 0.0
+        self.recovery_change = core.recovery_change(self._halo.nodes, forces, recovered)

@@ -156,7 +156,7 @@ class ObstacleAudit:
         sampling = core.FacetSampling(offsets, self._corners, x, x.shape[1], explained, _LEVELS)
         while len(sampling.points) > 0:
             sampling.take(self._gaps(sampling.points))
-        depth = self._slave.of_facets(offset, np.minimum) - sampling.gaps
+        depth = self._slave.smallest(offset) - sampling.gaps
         # Between nodes whose normals tell nothing of it may be a punch
         deep = np.flatnonzero(depth > 0)
         turn = self._turns(deep, sampling.deepest[deep], x, normal)
@@ -177,7 +177,7 @@ class ObstacleAudit:
         at_nodes = np.abs(geometry.curvature).sum(axis=2).max(axis=1)
         normal = np.ascontiguousarray(geometry.normal)
         turn = core.facet_turns(offsets, self._corners, x, normal, gdim)
-        return np.maximum(turn, self._slave.of_facets(at_nodes)), normal
+        return np.maximum(turn, self._slave.largest(at_nodes)), normal
 
     def _turns(self, which: npt.NDArray[np.integer], at: Array, x: Array, normal: Array) -> Array:
         """How much the obstacle's normal turns on the way from nodes of facets to points in them.

@@ -129,7 +129,7 @@ class SurfacesAudit:
         nodes = self._points
         held = self._interface.nodes.held
         offset = self._slave.scatter_forward(np.array(self._interface.offset()))
-        near, offset = self._slave.near(held), self._slave.of_facets(offset, np.minimum)
+        near, offset = self._slave.near(held), self._slave.smallest(offset)
         values = np.column_stack([size, near, offset, self._bent(x, ways)])
         seen = self._at_slave.look(
             x,
@@ -171,7 +171,7 @@ class SurfacesAudit:
         if ways is None:
             return np.zeros(len(offsets) - 1)
         normals = core.nodal_normals(offsets, corners, at, gdim).reshape(-1, gdim)
-        return slave.of_facets(core.nodal_curvatures(offsets, corners, at, normals, gdim))
+        return slave.largest(core.nodal_curvatures(offsets, corners, at, normals, gdim))
 
     def accept(self) -> None:
         """Remember which slave nodes lie behind the master before the next step; collective.

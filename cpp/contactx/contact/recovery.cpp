@@ -1,0 +1,198 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include "recovery.h"
+#include "../check_size.h"
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+using namespace contactx;
+using namespace contactx::contact;
+
+namespace
+{
+constexpr int passes = 2;
+
+double product(const double* a, const double* b, int gdim)
+{
+  return std::inner_product(a, a + gdim, b, 0.0);
+}
+
+/// Areas of the corners of facets, each of which is a node of its own.
+std::vector<double> corner_areas(const facet::FacetList& facets,
+                                 std::span<const double> x, int gdim)
+{
+  std::vector<std::int32_t> own(facets.nodes.size());
+  std::iota(own.begin(), own.end(), 0);
+  std::vector<double> corners(own.size() * gdim);
+  for (std::size_t c = 0; c < own.size(); ++c)
+    std::copy_n(x.begin() + static_cast<std::size_t>(facets.nodes[c]) * gdim,
+                gdim, corners.begin() + c * gdim);
+  return facet::nodal_areas({facets.offsets, own}, corners, gdim);
+}
+} // namespace
+
+Recovery::Recovery(std::shared_ptr<const SlaveNodes> slaves,
+                   std::span<const double> x, int gdim)
+    : _slaves(std::move(slaves)), _gdim(gdim)
+{
+  if (not _slaves)
+    throw std::invalid_argument("slaves must not be empty");
+  if (gdim != 2 and gdim != 3)
+    throw std::invalid_argument("gdim must be 2 or 3, not "
+                                + std::to_string(gdim));
+  const facet::FacetList facets = _slaves->local();
+  const std::vector<double> parts
+      = corner_areas(facets, _slaves->here(x, gdim, "x"), gdim);
+  _area = _slaves->sums(parts);
+  const auto n = static_cast<std::int32_t>(_area.size());
+  for (std::int32_t f = 0; f < facets.size(); ++f)
+  {
+    const auto nodes = facets[f];
+    const std::span part(parts.data() + facets.offsets[f], nodes.size());
+    const double whole = std::accumulate(part.begin(), part.end(), 0.0);
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      for (std::size_t j = 0; j < nodes.size(); ++j)
+        if (i != j and nodes[i] < n)
+          _flows.push_back({nodes[i], nodes[j], part[i] * part[j] / whole});
+  }
+}
+
+std::vector<Recovery::Flow>
+Recovery::flows(std::span<const double> area,
+                std::span<const std::int8_t> closed) const
+{
+  const std::size_t n = _area.size();
+  check_size(area.size(), n, 1, "area");
+  check_size(closed.size(), n, 1, "closed");
+  const std::vector<std::int8_t> is_closed = _slaves->scatter_forward(closed);
+  std::vector<double> inside(n, 0), covered(n);
+  for (const Flow& flow : _flows)
+    if (not is_closed[flow.from])
+      inside[flow.to] += flow.rate;
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    inside[i] = 1 - inside[i] / _area[i];
+    // Less than one where the master covers a node's facets in part
+    covered[i] = area[i] / _area[i];
+  }
+  inside = _slaves->scatter_forward(inside);
+  covered = _slaves->scatter_forward(covered);
+
+  std::vector<Flow> flows;
+  flows.reserve(_flows.size());
+  for (const auto& [to, from, weight] : _flows)
+  {
+    if (not is_closed[to] or not is_closed[from])
+      continue;
+    const auto [less, more] = std::minmax(inside[to], inside[from]);
+    const double r = less / more;
+    flows.push_back(
+        {to, from,
+         weight * std::min(covered[to], covered[from]) * (r * r) / area[to]});
+  }
+  return flows;
+}
+
+std::vector<double>
+Recovery::pressure(std::span<const double> p, std::span<const double> area,
+                   std::span<const std::int8_t> closed) const
+{
+  check_size(p.size(), _area.size(), 1, "p");
+  const std::vector<Flow> flows = this->flows(area, closed);
+  std::vector<double> result(p.begin(), p.end()), sum(p.size());
+  for (int pass = 0; pass < passes; ++pass)
+  {
+    const std::vector<double> every = _slaves->scatter_forward(result);
+    std::ranges::fill(sum, 0);
+    for (const auto& [to, from, rate] : flows)
+      sum[to] += rate * (every[from] - every[to]);
+    std::ranges::transform(result, sum, result.begin(), std::plus());
+  }
+  return result;
+}
+
+std::vector<double> Recovery::shear(std::span<const double> t,
+                                    std::span<const double> normal,
+                                    std::span<const double> area,
+                                    std::span<const std::int8_t> closed) const
+{
+  check_size(t.size(), _area.size(), _gdim, "t");
+  check_size(normal.size(), _area.size(), _gdim, "normal");
+  const std::vector<Flow> flows = this->flows(area, closed);
+  const std::vector<double> normals = _slaves->scatter_forward(normal, _gdim);
+  std::vector<double> result(t.begin(), t.end()), sum(t.size());
+  for (int pass = 0; pass < passes; ++pass)
+  {
+    const std::vector<double> every = _slaves->scatter_forward(result, _gdim);
+    std::ranges::fill(sum, 0);
+    for (const auto& [to, from, rate] : flows)
+    {
+      const std::size_t i = static_cast<std::size_t>(to) * _gdim;
+      const std::size_t j = static_cast<std::size_t>(from) * _gdim;
+      const double *a = &normals[j], *b = &normals[i];
+      // Turned on the shortest way from a to b. Opposite vectors have none; t
+      // is normal to both of them
+      const double cosine = product(a, b, _gdim);
+      const double factor
+          = 1 + cosine > 0 ? product(b, &every[j], _gdim) / (1 + cosine) : 0;
+      for (int k = 0; k < _gdim; ++k)
+        sum[i + k]
+            += rate * (every[j + k] - factor * (a[k] + b[k]) - every[i + k]);
+    }
+    std::ranges::transform(result, sum, result.begin(), std::plus());
+  }
+  return result;
+}
+
+Recovered Recovery::tractions(std::span<const double> multiplier,
+                              std::span<const double> normal,
+                              std::span<const double> area,
+                              std::span<const std::int8_t> closed) const
+{
+  const std::size_t n = _area.size();
+  check_size(multiplier.size(), n, _gdim, "multiplier");
+  check_size(normal.size(), n, _gdim, "normal");
+  std::vector<double> p(n), t(multiplier.begin(), multiplier.end());
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    const double* at = &normal[i * _gdim];
+    p[i] = product(at, &t[i * _gdim], _gdim);
+    for (int k = 0; k < _gdim; ++k)
+      t[i * _gdim + k] -= p[i] * at[k];
+  }
+  Recovered result{pressure(p, area, closed), shear(t, normal, area, closed)};
+  for (std::size_t i = 0; i < n; ++i)
+    for (int k = 0; k < _gdim; ++k)
+      result.traction[i * _gdim + k]
+          += result.pressure[i] * normal[i * _gdim + k];
+  return result;
+}
+
+double contactx::contact::recovery_change(parallel::Ranks& ranks,
+                                          std::span<const double> forces,
+                                          std::span<const double> recovered,
+                                          int gdim)
+{
+  if (gdim < 1 or forces.size() % gdim != 0)
+    throw std::invalid_argument("forces must have gdim values a node");
+  check_size(recovered.size(), forces.size(), 1, "recovered");
+  // The size of the forces comes last
+  std::vector<double> sums(gdim + 1, 0);
+  for (std::size_t i = 0; i < forces.size(); i += gdim)
+  {
+    for (int k = 0; k < gdim; ++k)
+      sums[k] += recovered[i + k] - forces[i + k];
+    sums.back() += std::sqrt(product(&forces[i], &forces[i], gdim));
+  }
+  if (ranks.size() > 1)
+    ranks.reduce(std::span(sums), parallel::Reduction::sum);
+  const double size = sums.back();
+  return size > 0 ? std::sqrt(product(sums.data(), sums.data(), gdim)) / size
+                  : 0;
+}

@@ -1,0 +1,91 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#pragma once
+
+#include "scene.h"
+#include <contactx/contact/slave_nodes.h>
+#include <memory>
+#include <optional>
+
+namespace contactx::tests
+{
+/// @brief What a sheet is made of; nothing for segments in the plane.
+using Facets = std::optional<Cells>;
+
+inline const std::vector<Facets> all_facets{
+    std::nullopt, Cells::triangles, Cells::quadrilaterals, Cells::mixed};
+
+/// @brief A slave surface of cells of uneven size, a paraboloid or flat, over
+/// (about) the unit square or interval.
+/// @param[in] n Number of cells an axis.
+inline Scene slave_sheet(Facets facets, int n, Generator& random,
+                         bool curved = true, double uneven = 0.25)
+{
+  const auto at = [&](double s, double t, int dim)
+  {
+    Vec<3> p{s, t, 0};
+    for (int k = 0; k < dim; ++k)
+    {
+      p[k] += uneven / n * random(-1, 1);
+      p[dim] += curved ? p[k] * p[k] : 0;
+    }
+    return p;
+  };
+  if (facets)
+    return grid(n, *facets, [&at](double s, double t) { return at(s, t, 2); });
+  Scene scene(2);
+  for (int i = 0; i <= n; ++i)
+    scene.node(at(double(i) / n, 0, 1));
+  for (int i = 0; i < n; ++i)
+    scene.facet({i, i + 1});
+  return scene;
+}
+
+/// @brief Unit normals of the paraboloid, or of a plane, downward.
+inline std::vector<double> sheet_normals(const Scene& scene, bool curved = true)
+{
+  std::vector<double> normal;
+  const int last = scene.gdim - 1;
+  for (std::size_t i = 0; i < scene.x.size() / scene.gdim; ++i)
+  {
+    Vec<3> n{};
+    for (int k = 0; k < last; ++k)
+      n[k] = curved ? 2 * scene.point(i)[k] : 0;
+    n[last] = -1;
+    n = (1 / norm(n)) * n;
+    normal.insert(normal.end(), n.begin(), n.begin() + scene.gdim);
+  }
+  return normal;
+}
+
+/// @brief The surface among other nodes of a bulk, and the place of its nodes
+/// there; they keep their order.
+inline std::pair<Scene, std::vector<std::int32_t>> in_bulk(const Scene& scene,
+                                                           Generator& random)
+{
+  Scene bulk(scene.gdim);
+  std::vector<std::int32_t> place;
+  for (std::size_t i = 0; i < scene.x.size() / scene.gdim; ++i)
+  {
+    for (double others = random(0, 3); others > 1; --others)
+      bulk.node(random.vector<3>(-1, 1));
+    place.push_back(bulk.node(scene.point(i)));
+  }
+  bulk.node(random.vector<3>(-1, 1));
+  bulk.offsets = scene.offsets;
+  for (std::int32_t node : scene.nodes)
+    bulk.nodes.push_back(place[node]);
+  return {bulk, place};
+}
+
+/// @brief Slave nodes of a surface on one rank.
+inline std::shared_ptr<const contact::SlaveNodes>
+slave_nodes(const Scene& scene)
+{
+  const auto nodes = std::make_shared<parallel::SerialNodes>(
+      static_cast<std::int32_t>(scene.x.size()) / scene.gdim);
+  return std::make_shared<contact::SlaveNodes>(nodes, scene.facets(),
+                                               scene.facets());
+}
+} // namespace contactx::tests
