@@ -24,7 +24,7 @@ inline Scene slave_sheet(Facets facets, int n, Generator& random,
 {
   const auto at = [&](double s, double t, int dim)
   {
-    Vec<3> p{s, t, 0};
+    Vector<3> p{s, t, 0};
     for (int k = 0; k < dim; ++k)
     {
       p[k] += uneven / n * random(-1, 1);
@@ -49,7 +49,7 @@ inline std::vector<double> sheet_normals(const Scene& scene, bool curved = true)
   const int last = scene.gdim - 1;
   for (std::size_t i = 0; i < scene.x.size() / scene.gdim; ++i)
   {
-    Vec<3> n{};
+    Vector<3> n{};
     for (int k = 0; k < last; ++k)
       n[k] = curved ? 2 * scene.point(i)[k] : 0;
     n[last] = -1;

@@ -28,18 +28,18 @@ class Span
 {
 public:
   /// @brief Part of a vector outside of it.
-  Vec<3> rest(const Vec<3>& v) const
+  Vector<3> rest(const Vector<3>& v) const
   {
     if (_is_whole)
       return {0, 0, 0};
-    Vec<3> r = v;
+    Vector<3> r = v;
     for (int k = 0; k < _size; ++k)
       r = r - dot(_basis[k], v) * _basis[k];
     return r;
   }
 
   /// @brief Add a direction outside of it.
-  void add(const Vec<3>& unit)
+  void add(const Vector<3>& unit)
   {
     _basis[_size++] = unit;
     _is_whole = _size == 3;
@@ -48,7 +48,7 @@ public:
   void add_all() { _is_whole = true; }
 
 private:
-  std::array<Vec<3>, 3> _basis;
+  std::array<Vector<3>, 3> _basis;
   int _size = 0;
   bool _is_whole = false;
 };
@@ -137,9 +137,9 @@ void Junctions::decide(std::size_t s, const std::vector<Closing>& contacts,
   for (const Place& place : closed)
   {
     const Closing& c = contacts[place.contact];
-    Vec<3> normal;
+    Vector<3> normal;
     std::copy_n(c.normal.begin() + 3 * place.node, 3, normal.begin());
-    const Vec<3> rest = span.rest(normal);
+    const Vector<3> rest = span.rest(normal);
     const double size = norm(rest);
     if (not(size >= independent))
     {

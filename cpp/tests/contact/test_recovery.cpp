@@ -61,8 +61,8 @@ struct State
     Values t;
     for (std::size_t i = 0; i < size(); ++i)
     {
-      const Vec<3> n = vector(normal, i);
-      Vec<3> v;
+      const Vector<3> n = vector(normal, i);
+      Vector<3> v;
       do
       {
         v = random.vector<3>(-1, 1);
@@ -76,9 +76,9 @@ struct State
     return t;
   }
 
-  Vec<3> vector(const Values& values, std::size_t i) const
+  Vector<3> vector(const Values& values, std::size_t i) const
   {
-    Vec<3> v{};
+    Vector<3> v{};
     std::copy_n(values.begin() + i * gdim(), gdim(), v.begin());
     return v;
   }
@@ -170,7 +170,7 @@ TEST(Recovery, AUniformTractionStays)
   for (Facets kind : all_facets)
   {
     const State s(kind, random, 8, false);
-    const Vec<3> traction = random.vector<3>(-1, 1);
+    const Vector<3> traction = random.vector<3>(-1, 1);
     Values lambda;
     for (std::int8_t c : s.closed)
       for (int k = 0; k < s.gdim(); ++k)
@@ -221,7 +221,7 @@ TEST(Recovery, TheFrictionConeIsKept)
     const Values u = recovery.shear(t, s.normal, s.area, s.closed);
     for (std::size_t i = 0; i < s.size(); ++i)
     {
-      const Vec<3> v = s.vector(u, i);
+      const Vector<3> v = s.vector(u, i);
       EXPECT_LE(norm(v), mu * q[i] * (1 + 1e-13));
       EXPECT_NEAR(dot(v, s.vector(s.normal, i)), 0, 1e-15);
       if (not s.closed[i])
@@ -244,7 +244,7 @@ TEST(Recovery, ShearKeepsItsSizeWhereTheSurfaceIsCurved)
     Values along(s.normal.size(), 0), sizes, t(s.normal.size());
     for (std::size_t i = 0; i < s.size(); ++i)
     {
-      Vec<3> n = s.vector(s.normal, i);
+      Vector<3> n = s.vector(s.normal, i);
       if (s.gdim() == 3)
         n[1] = 0;
       n = (1 / norm(n)) * n;
@@ -278,7 +278,7 @@ void expect_no_change_by_a_motion(Facets kind, Generator& random)
     Values result;
     for (std::size_t i = 0; i < values.size(); i += D)
     {
-      Vec<D> v;
+      Vector<D> v;
       std::copy_n(values.begin() + i, D, v.begin());
       v = is_place ? motion(v) : motion.rotate(v);
       result.insert(result.end(), v.begin(), v.end());
@@ -320,7 +320,7 @@ TEST(Recovery, AlternatingScatterGoesAndALinearPressureStays)
     std::vector<bool> inside;
     for (std::size_t i = 0; i < s.size(); ++i)
     {
-      Vec<3> x = n * s.scene.point(static_cast<std::int32_t>(i));
+      Vector<3> x = n * s.scene.point(static_cast<std::int32_t>(i));
       const int sum = static_cast<int>(std::lround(x[0] + x[1]));
       linear.push_back(3 + 0.2 * x[0] - 0.1 * x[1]);
       p.push_back(linear.back() + (sum % 2 ? 1 : -1));

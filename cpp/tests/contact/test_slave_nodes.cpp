@@ -149,8 +149,8 @@ TEST(SlaveNodes, FaceAMasterAsTheirFacetsDo)
     std::vector<double> normal, every(bulk.x.size(), 0);
     for (std::int32_t node : place)
     {
-      const Vec<3> n = gdim == 2 ? Vec<3>{random(-1, 1), random(-1, 1), 0}
-                                 : random.unit<3>();
+      const Vector<3> n = gdim == 2 ? Vector<3>{random(-1, 1), random(-1, 1), 0}
+                                    : random.unit<3>();
       normal.insert(normal.end(), n.begin(), n.begin() + gdim);
       std::copy_n(n.begin(), gdim, every.begin() + node * gdim);
     }
