@@ -1,0 +1,49 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include "bindings.h"
+#include "check.h"
+#include <contactx/contact/surface_to_surface.h>
+
+namespace py = pybind11;
+using namespace contactx_bindings;
+using namespace contactx;
+using namespace contactx::contact;
+
+namespace
+{
+template <class T>
+void bind(py::module_& m, const char* name, const char* text)
+{
+  py::class_<T, Master, std::shared_ptr<T>>(m, name, text)
+      .def(py::init(
+               [](std::shared_ptr<parallel::Halo> halo,
+                  const Array<std::int32_t>& offsets,
+                  const Array<std::int32_t>& nodes,
+                  std::shared_ptr<search::MasterSurface> surface,
+                  std::shared_ptr<search::Outside> outside, double reach,
+                  bool is_small, bool measures_slip)
+               {
+                 check::facets(view(offsets), view(nodes), halo->gdim());
+                 return std::make_shared<T>(
+                     halo, facet::Facets{copy(offsets), copy(nodes)}, surface,
+                     outside, PairingOptions{reach, is_small, measures_slip});
+               }),
+           py::arg("halo"), py::arg("offsets"), py::arg("nodes"),
+           py::arg("surface"), py::arg("outside"), py::arg("reach"),
+           py::arg("is_small"), py::arg("measures_slip"))
+      .def_property_readonly("surface", &T::surface)
+      .def_property_readonly("outside", &T::outside);
+}
+} // namespace
+
+void contactx_bindings::deformable(py::module_& m)
+{
+  bind<NodeToSurface>(m, "NodeToSurface",
+                      "Pairs of slave nodes with facets of a deformable body");
+  bind<NodeTie>(m, "NodeTie", "Slave nodes tied to facets");
+  bind<SurfaceToSurface>(m, "SurfaceToSurface",
+                         "Pairs of slave facets with facets of a deformable "
+                         "body, with dual multipliers");
+  bind<SurfaceTie>(m, "SurfaceTie", "Slave facets tied to facets");
+}

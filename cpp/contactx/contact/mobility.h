@@ -1,0 +1,28 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#pragma once
+
+#include "master.h"
+
+namespace contactx::contact
+{
+/// @brief Weights of a pair's nodes in the relative movement of its slave node:
+/// 1, then -N_l of the facet's nodes.
+/// @param[in] num_nodes Nodes of the facet: 2, 3 or 4.
+/// @param[in] xi Local coordinates, two of them.
+/// @param[out] weight The weights (shape=(1 + num_nodes)).
+void pair_weights(int num_nodes, const double* xi, double* weight);
+
+/// @brief Sums of squared weights of what may move, where slave nodes gather
+/// from several facets: parts with the same node add up first.
+/// @param[in] weights Relative movement of the slave nodes.
+/// @param[in] free 1 at displacements of all nodes that are not prescribed
+/// (shape=(num_nodes, gdim)).
+/// @param[in] paired 1 at slave nodes with a pair (shape=(n)).
+/// @param[in] gdim Geometric dimension.
+/// @return Sums, one where nothing is prescribed (shape=(n, gdim)).
+std::vector<double> free_squares(const Weights& weights,
+                                 std::span<const std::int8_t> free,
+                                 std::span<const std::int8_t> paired, int gdim);
+} // namespace contactx::contact

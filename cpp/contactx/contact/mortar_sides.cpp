@@ -1,0 +1,260 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include "mortar_sides.h"
+#include "../kernel/layout.h"
+#include "../search/surface.h"
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+using namespace contactx;
+using namespace contactx::contact;
+
+namespace
+{
+/// Rows of four nodes of facets, and the numbers of their nodes.
+std::pair<std::vector<std::int32_t>, std::vector<int>>
+padded(const facet::FacetList& facets)
+{
+  std::vector<std::int32_t> rows(4 * std::size_t(facets.size()));
+  std::vector<int> sizes(facets.size());
+  for (std::int32_t f = 0; f < facets.size(); ++f)
+  {
+    const auto nodes = facets[f];
+    sizes[f] = static_cast<int>(nodes.size());
+    for (int k = 0; k < 4; ++k)
+      rows[4 * std::size_t(f) + k] = nodes[std::min(k, sizes[f] - 1)];
+  }
+  return {std::move(rows), std::move(sizes)};
+}
+
+Vector<3> position(std::span<const double> x, std::int32_t node, int gdim)
+{
+  Vector<3> p{};
+  std::copy_n(x.begin() + std::size_t(node) * gdim, gdim, p.begin());
+  return p;
+}
+} // namespace
+
+void contactx::contact::normalise(std::span<double> vectors)
+{
+  for (std::size_t i = 0; i < vectors.size(); i += 3)
+  {
+    const double size
+        = std::sqrt(vectors[i] * vectors[i] + vectors[i + 1] * vectors[i + 1]
+                    + vectors[i + 2] * vectors[i + 2]);
+    for (int k = 0; k < 3; ++k)
+      vectors[i + k] = size > 0 ? vectors[i + k] / size : 0.0;
+  }
+}
+
+bool Mortar::has_weight(std::size_t p) const
+{
+  const auto row = std::span(weight).subspan(16 * p, 16);
+  return std::ranges::any_of(row, [](double w) { return w != 0; });
+}
+
+Mortar Mortar::scaled(std::span<const double> factor) const
+{
+  Mortar result = *this;
+  for (std::size_t c = 0; c < 4 * size(); ++c)
+  {
+    result.gap[c] *= factor[c];
+    for (int l = 0; l < 4; ++l)
+      result.weight[4 * c + l] *= factor[c];
+  }
+  return result;
+}
+
+Mortar Mortar::joined(const Mortar& other) const
+{
+  Mortar result;
+  for (const Mortar* part : {this, &other})
+    for (std::size_t p = 0; p < part->size(); ++p)
+    {
+      if (not part->has_weight(p))
+        continue;
+      result.slave.push_back(part->slave[p]);
+      result.master.push_back(part->master[p]);
+      const auto weights = part->weight.begin() + 16 * p;
+      result.weight.insert(result.weight.end(), weights, weights + 16);
+      const auto gaps = part->gap.begin() + 4 * p;
+      result.gap.insert(result.gap.end(), gaps, gaps + 4);
+    }
+  return result;
+}
+
+MortarSides::MortarSides(const facet::FacetList& slave, std::int32_t num_owned,
+                         std::span<const double> reference, int gdim)
+    : _gdim(gdim), _around(search::sorted_unique(slave.nodes)),
+      _inradius(std::numeric_limits<double>::infinity())
+{
+  _num_owned = std::ranges::lower_bound(_around, num_owned) - _around.begin();
+  std::tie(_slave, _slave_sizes) = padded(slave);
+  _numbers.resize(_slave.size());
+  std::ranges::transform(_slave, _numbers.begin(),
+                         [this](std::int32_t node)
+                         {
+                           return static_cast<std::int32_t>(
+                               std::ranges::lower_bound(_around, node)
+                               - _around.begin());
+                         });
+  for (std::int32_t f = 0; f < slave.size(); ++f)
+  {
+    std::array<Vector<3>, 4> p;
+    for (int k = 0; k < 4; ++k)
+      p[k] = position(reference, slave_nodes(f)[k], gdim);
+    double longest = 0;
+    for (int k = 0; k < 4; ++k)
+      longest = std::max(longest, norm(p[k] - p[(k + 3) % 4]));
+    // Twice the area over the perimeter is no less than a third of it over the
+    // longest edge
+    const double area
+        = gdim == 2 ? longest * longest : norm(cross(p[1] - p[0], p[2] - p[0]));
+    _inradius = std::min(_inradius, area / longest / 3);
+  }
+}
+
+void MortarSides::meet(const facet::FacetList& master)
+{
+  std::tie(_master, _master_sizes) = padded(master);
+}
+
+std::vector<double>
+MortarSides::at_corners(std::span<const double> values,
+                        std::span<const std::int32_t> facets) const
+{
+  std::vector<double> corners(4 * facets.size());
+  for (std::size_t p = 0; p < facets.size(); ++p)
+    for (int s = 0; s < 4; ++s)
+      corners[4 * p + s] = at(values, numbers(facets[p])[s]);
+  return corners;
+}
+
+std::vector<double>
+MortarSides::total(std::span<const double> values,
+                   std::span<const std::int32_t> facets) const
+{
+  std::vector<double> sums(_num_owned, 0);
+  for (std::size_t p = 0; p < facets.size(); ++p)
+    for (int s = 0; s < 4; ++s)
+      if (const std::int32_t i = numbers(facets[p])[s];
+          i < std::int32_t(_num_owned))
+        sums[i] += values[4 * p + s];
+  return sums;
+}
+
+std::vector<Pairs> MortarSides::pairs(const Mortar& mortar,
+                                      std::span<const double> dual,
+                                      std::span<const double> normal,
+                                      bool is_movement) const
+{
+  std::vector<Pairs> groups;
+  for (int n = 2; n <= 4; ++n)
+    for (int m = 2; m <= 4; ++m)
+    {
+      const kernel::MortarLayout at(n, m);
+      Pairs group;
+      group.num_slaves = n;
+      group.num_nodes = m;
+      group.data_size = at.size;
+      group.is_movement = is_movement;
+      for (std::size_t p = 0; p < mortar.size(); ++p)
+      {
+        const std::int32_t e = mortar.slave[p], f = mortar.master[p];
+        if (_slave_sizes[e] != n or _master_sizes[f] != m)
+          continue;
+        const auto slaves = numbers(e).first(n);
+        group.slaves.insert(group.slaves.end(), slaves.begin(), slaves.end());
+        const auto own = slave_nodes(e).first(n);
+        group.nodes.insert(group.nodes.end(), own.begin(), own.end());
+        const auto theirs = master_nodes(f).first(m);
+        group.nodes.insert(group.nodes.end(), theirs.begin(), theirs.end());
+        const std::size_t first = group.data.size();
+        group.data.resize(first + at.size);
+        double* data = group.data.data() + first;
+        for (int s = 0; s < n; ++s)
+        {
+          for (int l = 0; l < m; ++l)
+            data[at.weight + m * s + l] = mortar.weight[16 * p + 4 * s + l];
+          for (int t = 0; t < n; ++t)
+            data[at.dual + n * s + t] = dual[16 * std::size_t(e) + 4 * s + t];
+          data[at.gap + s] = mortar.gap[4 * p + s];
+        }
+        for (int k = 0; k < 3; ++k)
+          data[at.normal + k] = normal[3 * std::size_t(e) + k];
+      }
+      if (not group.slaves.empty())
+        groups.push_back(std::move(group));
+    }
+  return groups;
+}
+
+std::vector<double> MortarSides::frames(std::span<const double> x) const
+{
+  const int g = _gdim;
+  std::vector<std::int32_t> facet(_around.size(), 0);
+  for (std::size_t c = 0; c < _numbers.size(); ++c)
+    facet[_numbers[c]] = static_cast<std::int32_t>(c / 4);
+  std::vector<double> frames(_num_owned * g * g);
+  for (std::size_t i = 0; i < _num_owned; ++i)
+  {
+    std::array<Vector<3>, 3> p;
+    for (int k = 0; k < 3; ++k)
+      p[k] = position(x, slave_nodes(facet[i])[k], g);
+    Vector<3> along = p[1] - p[0];
+    along = (1 / norm(along)) * along;
+    Vector<3> n{along[1], -along[0], 0};
+    if (g == 3)
+    {
+      n = cross(along, p[2] - p[0]);
+      n = (1 / norm(n)) * n;
+    }
+    const std::array columns{n, along, cross(n, along)};
+    for (int r = 0; r < g; ++r)
+      for (int c = 0; c < g; ++c)
+        frames[g * (g * i + r) + c] = columns[c][r];
+  }
+  return frames;
+}
+
+std::vector<double> MortarSides::between(std::span<const double> x,
+                                         const mortar::FacetPairs& pairs,
+                                         std::span<const double> weight,
+                                         std::span<const double> normal) const
+{
+  std::vector<double> mean(normal.size(), 0);
+  for (std::size_t p = 0; p < pairs.size(); ++p)
+  {
+    double share = 0;
+    for (int k = 0; k < 16; ++k)
+      share += weight[16 * p + k];
+    const auto theirs = master_normal(x, pairs.master[p]);
+    for (int k = 0; k < 3; ++k)
+      mean[3 * std::size_t(pairs.slave[p]) + k] += share * theirs[k];
+  }
+  normalise(mean);
+  for (std::size_t k = 0; k < mean.size(); ++k)
+    mean[k] += normal[k];
+  normalise(mean);
+  return mean;
+}
+
+/// Unit normal at the middle of a master facet.
+std::array<double, 3> MortarSides::master_normal(std::span<const double> x,
+                                                 std::int32_t facet) const
+{
+  std::array<Vector<3>, 4> p;
+  for (int k = 0; k < 4; ++k)
+    p[k] = position(x, master_nodes(facet)[k], _gdim);
+  const Vector<3> first = p[1] - p[0];
+  Vector<3> n{first[1], -first[0], 0};
+  if (_gdim == 3)
+    // The diagonals of a quadrilateral, whose last node is opposite to its
+    // first
+    n = _master_sizes[facet] == 4 ? cross(p[3] - p[0], p[2] - p[1])
+                                  : cross(first, p[2] - p[0]);
+  normalise(n);
+  return n;
+}

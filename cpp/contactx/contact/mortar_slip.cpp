@@ -1,0 +1,102 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include "mortar_slip.h"
+#include "touching.h"
+#include <stdexcept>
+
+using namespace contactx::contact;
+
+MortarSlip::MortarSlip(const MortarSides& sides, int gdim, bool is_small)
+    : _sides(&sides), _gdim(gdim), _is_small(is_small),
+      _origin(sides.size() * gdim, 0)
+{
+}
+
+void MortarSlip::begin_step(Mortar now, std::vector<double> distances)
+{
+  if (_is_small)
+  {
+    _origin = std::move(distances);
+    return;
+  }
+  _gap = _sides->total(now.gap, now.slave);
+  _start = std::move(now);
+}
+
+void MortarSlip::touch(std::span<const std::int8_t> which, const Mortar& now,
+                       std::span<const double> distances,
+                       std::span<const double> normals,
+                       std::span<const double> offset)
+{
+  const std::size_t n = _sides->size();
+  if (_is_small)
+  {
+    for (std::size_t i = 0; i < n; ++i)
+    {
+      if (not which[i])
+        continue;
+      double before = 0, after = 0;
+      for (int k = 0; k < _gdim; ++k)
+      {
+        before += normals[3 * i + k] * _origin[_gdim * i + k];
+        after += normals[3 * i + k] * distances[_gdim * i + k];
+      }
+      const double part = touching(before - offset[i], after - offset[i]);
+      for (int k = 0; k < _gdim; ++k)
+      {
+        double& origin = _origin[_gdim * i + k];
+        origin += part * (distances[_gdim * i + k] - origin);
+      }
+    }
+    return;
+  }
+  if (not _start)
+    throw std::logic_error("slip is measured before a step has begun");
+  const std::vector<double> gaps = _sides->total(now.gap, now.slave);
+  std::vector<std::int8_t> known(_sides->around().size(), 0);
+  for (std::size_t p = 0; p < _start->size(); ++p)
+    for (int s = 0; s < 4; ++s)
+    {
+      const auto row = std::span(_start->weight).subspan(16 * p + 4 * s, 4);
+      if (std::ranges::any_of(row, [](double w) { return w != 0; }))
+        known[_sides->numbers(_start->slave[p])[s]] = 1;
+    }
+  std::vector<double> part(n, 0), rest(n);
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    // What had no master at the start is measured from here
+    if (which[i])
+      part[i]
+          = known[i] ? touching(_gap[i] - offset[i], gaps[i] - offset[i]) : 1.0;
+    rest[i] = 1 - part[i];
+  }
+  _start = _start->scaled(_sides->at_corners(rest, _start->slave))
+               .joined(now.scaled(_sides->at_corners(part, now.slave)));
+}
+
+Mortar MortarSlip::pairs(const Mortar& now, std::span<const double> area) const
+{
+  if (_is_small)
+  {
+    Mortar result = now;
+    std::ranges::fill(result.gap, 0.0);
+    return result;
+  }
+  if (not _start)
+    throw std::logic_error("slip is measured before a step has begun");
+  return _start->scaled(_sides->at_corners(area, _start->slave));
+}
+
+std::span<const std::int32_t> MortarSlip::masters() const
+{
+  return _start ? std::span<const std::int32_t>(_start->master)
+                : std::span<const std::int32_t>();
+}
+
+void MortarSlip::rename(std::span<const std::int32_t> numbers)
+{
+  if (_start)
+    for (std::int32_t& f : _start->master)
+      f = numbers[f];
+}

@@ -1,0 +1,64 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#pragma once
+
+#include "mortar_sides.h"
+#include <optional>
+
+namespace contactx::contact
+{
+/// @brief Weights with which slave nodes are measured against points of the
+/// master.
+///
+/// They are those of the step's start: what was in front of a slave node then
+/// stays what its movement is relative to. A node that touches first within a
+/// step gets weights in proportion to the way, between those at both of its
+/// ends.
+class MortarSlip
+{
+public:
+  /// @brief Create it for slave nodes that have not moved.
+  /// @param[in] sides Both surfaces, which outlive this.
+  /// @param[in] gdim Geometric dimension.
+  /// @param[in] is_small Whether weights never change.
+  MortarSlip(const MortarSides& sides, int gdim, bool is_small);
+
+  /// @brief Start a step.
+  /// @param[in] now Pairs at its start, divided by the slave nodes' areas.
+  /// @param[in] distances Means of x_slave - x_master there (shape=(n, gdim)).
+  void begin_step(Mortar now, std::vector<double> distances);
+
+  /// @brief Measure from where nodes touch.
+  /// @param[in] which 1 at those slave nodes (shape=(n)).
+  /// @param[in] now Pairs at the iterate that closes them, divided by the
+  /// areas.
+  /// @param[in] distances Means of x_slave - x_master there (shape=(n, gdim)).
+  /// @param[in] normals Unit normals (shape=(n, 3)).
+  /// @param[in] offset What is taken off the gap (shape=(n)).
+  void touch(std::span<const std::int8_t> which, const Mortar& now,
+             std::span<const double> distances, std::span<const double> normals,
+             std::span<const double> offset);
+
+  /// @brief Pairs that the movement is measured with.
+  /// @param[in] now Current pairs.
+  /// @param[in] area Areas of the slave nodes (shape=(n)).
+  Mortar pairs(const Mortar& now, std::span<const double> area) const;
+
+  /// @brief What is taken off the movement in small sliding (shape=(n, gdim)).
+  const std::vector<double>& origin() const { return _origin; }
+
+  /// @brief Master facets that slip is measured with.
+  std::span<const std::int32_t> masters() const;
+
+  /// @brief Take other numbers of the master facets.
+  void rename(std::span<const std::int32_t> numbers);
+
+private:
+  const MortarSides* _sides;
+  int _gdim;
+  bool _is_small;
+  std::vector<double> _origin, _gap;
+  std::optional<Mortar> _start;
+};
+} // namespace contactx::contact

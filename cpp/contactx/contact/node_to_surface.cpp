@@ -1,0 +1,569 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include "node_to_surface.h"
+#include "../audit/penetration.h"
+#include "../kernel/layout.h"
+#include "../parallel/spread.h"
+#include "mobility.h"
+#include "touching.h"
+#include <cmath>
+#include <limits>
+
+using namespace contactx;
+using namespace contactx::contact;
+using parallel::spread;
+
+namespace
+{
+std::vector<std::int32_t> copy(std::span<const std::int32_t> values)
+{
+  return {values.begin(), values.end()};
+}
+
+double product(const double* a, const double* b, int gdim)
+{
+  double s = 0;
+  for (int k = 0; k < gdim; ++k)
+    s += a[k] * b[k];
+  return s;
+}
+} // namespace
+
+NodeToSurface::NodeToSurface(std::shared_ptr<parallel::Halo> halo,
+                             facet::Facets slave,
+                             std::shared_ptr<search::MasterSurface> surface,
+                             std::shared_ptr<search::Outside> outside,
+                             const PairingOptions& options)
+    : _halo(std::move(halo)), _slave(std::move(slave)),
+      _surface(std::move(surface)), _outside(std::move(outside)),
+      _options(options),
+      _pairing(_slave.offsets, _slave.nodes, copy(_surface->facets().offsets),
+               copy(_surface->facets().nodes), _halo->gdim(),
+               _halo->num_owned())
+{
+  if (not(options.reach > 0))
+    throw std::invalid_argument("the reach of pairs must be larger than zero");
+  const auto x = _halo->reference();
+  _x0.assign(x.begin(), x.end());
+  _at = _x0;
+}
+
+std::vector<double> NodeToSurface::at_slaves(std::span<const double> x) const
+{
+  const int g = gdim();
+  const auto& slaves = _pairing.slaves();
+  std::vector<double> rows(slaves.size() * g);
+  for (std::size_t i = 0; i < slaves.size(); ++i)
+    std::copy_n(x.begin() + std::size_t(slaves[i]) * g, g,
+                rows.begin() + g * i);
+  return rows;
+}
+
+search::Feet NodeToSurface::feet(std::span<const double> x,
+                                 std::span<const double> points) const
+{
+  return search::feet(_pairing.master(), _pairing.facet(), x, points,
+                      _pairing.xi());
+}
+
+search::Places NodeToSurface::places(std::span<const double> x,
+                                     std::span<const double> xi) const
+{
+  return search::places(_pairing.master(), _pairing.facet(), x, xi);
+}
+
+std::int32_t NodeToSurface::search(std::span<const double> x,
+                                   std::span<const std::int8_t> closed)
+{
+  const int version = _halo->version();
+  std::vector<double> at(x.begin(), x.end());
+  std::int32_t changed
+      = _surface->pair(_pairing, _slave.list(), at, _options.reach, closed);
+  _at = _halo->updated(std::move(at), gdim(), version);
+  return changed + drop_outside(_at, closed);
+}
+
+/// Drops pairs with facets behind all of the master's body.
+std::int32_t NodeToSurface::drop_outside(std::span<const double> x,
+                                         std::span<const std::int8_t> closed)
+{
+  if (not _outside->is_around())
+    return 0;
+  const int g = gdim();
+  const std::size_t n = size();
+  const std::vector<double> points = at_slaves(x);
+  const auto [foot, normal] = places(x, _pairing.xi());
+  const facet::FacetList facets = _surface->facets();
+  const std::vector<double> sizes = audit::facet_sizes(facets, x, g);
+  std::vector<double> depth(n), size(n);
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    for (int k = 0; k < g; ++k)
+      depth[i] += normal[g * i + k] * (foot[g * i + k] - points[g * i + k]);
+    const std::int32_t f = _pairing.facet()[i];
+    size[i] = f < 0 ? std::numeric_limits<double>::infinity() : sizes[f];
+  }
+  const auto is_outside = _outside->find(x, points, depth, size);
+  std::int32_t changed = 0;
+  for (std::size_t i = 0; i < n; ++i)
+    if (is_outside[i])
+      changed += _pairing.settle(static_cast<std::int32_t>(i), std::nullopt, x,
+                                 _options.reach, closed[i] != 0);
+  return changed;
+}
+
+void NodeToSurface::accept(std::span<const double> x)
+{
+  _x0.assign(x.begin(), x.end());
+}
+
+void NodeToSurface::begin_step()
+{
+  reset_flips();
+  _start = at_slaves(_x0);
+}
+
+void NodeToSurface::rebuild()
+{
+  if (_halo->ranks().size() == 1)
+    return;
+  const std::vector<std::int32_t> facet = _surface->keep(_pairing.facet());
+  restore(facet, saved_pairs());
+}
+
+void NodeToSurface::restore(std::span<const std::int32_t> facet,
+                            const std::vector<Saved>& saved)
+{
+  _pairing.set_master(copy(_surface->facets().offsets),
+                      copy(_surface->facets().nodes));
+  _pairing.restore(facet, values_of<std::int32_t>(saved, "feature"),
+                   values_of<double>(saved, "xi"),
+                   values_of<double>(saved, "cone"),
+                   values_of<double>(saved, "normal"));
+}
+
+std::vector<Saved> NodeToSurface::saved_pairs() const
+{
+  return {{"feature", RowKind::slave, 0, _pairing.feature()},
+          {"xi", RowKind::slave, 2, _pairing.xi()},
+          {"cone", RowKind::slave, 3, _pairing.cone()},
+          {"normal", RowKind::slave, 3, _pairing.normal()}};
+}
+
+void NodeToSurface::nodes_changed()
+{
+  _x0 = spread(*_halo, _x0, gdim());
+  _at = spread(*_halo, _at, gdim());
+}
+
+std::vector<std::int8_t> NodeToSurface::paired() const
+{
+  std::vector<std::int8_t> paired(size());
+  std::ranges::transform(_pairing.facet(), paired.begin(),
+                         [](std::int32_t f) { return f >= 0; });
+  return paired;
+}
+
+std::vector<double> NodeToSurface::normals() const
+{
+  std::vector<double> normals = _pairing.normal();
+  for (std::size_t i = 0; i < size(); ++i)
+    if (_pairing.facet()[i] < 0)
+      std::fill_n(normals.begin() + 3 * i, 3, 0.0);
+  return normals;
+}
+
+std::vector<Pairs> NodeToSurface::pairs() const
+{
+  using namespace kernel;
+  const facet::FacetList facets = _surface->facets();
+  const std::vector<double> slips
+      = _options.measures_slip ? slip() : std::vector<double>();
+  std::vector<Pairs> groups;
+  for (int nodes = 2; nodes <= 4; ++nodes)
+  {
+    Pairs group;
+    group.num_nodes = nodes;
+    group.data_size = pair_size;
+    group.slip_size = _options.measures_slip ? slip_size : 0;
+    for (std::size_t i = 0; i < size(); ++i)
+    {
+      const std::int32_t f = _pairing.facet()[i];
+      if (f < 0 or std::ssize(facets[f]) != nodes)
+        continue;
+      group.slaves.push_back(static_cast<std::int32_t>(i));
+      group.nodes.push_back(_pairing.slaves()[i]);
+      group.nodes.insert(group.nodes.end(), facets[f].begin(), facets[f].end());
+      const std::size_t at = group.data.size();
+      group.data.resize(at + pair_size);
+      double* data = group.data.data() + at;
+      data[pair_feature] = _pairing.feature()[i];
+      std::copy_n(_pairing.xi().begin() + 2 * i, 2, data + pair_xi);
+      std::copy_n(_pairing.cone().begin() + 3 * i, 3, data + pair_cone);
+      std::copy_n(_pairing.normal().begin() + 3 * i, 3, data + pair_normal);
+      if (_options.measures_slip)
+        group.slip.insert(group.slip.end(), slips.begin() + slip_size * i,
+                          slips.begin() + slip_size * (i + 1));
+    }
+    if (not group.slaves.empty())
+      groups.push_back(std::move(group));
+  }
+  return groups;
+}
+
+std::vector<double> NodeToSurface::slip() const
+{
+  using namespace kernel;
+  const int g = gdim();
+  const facet::FacetList facets = _surface->facets();
+  std::vector<double> data(size() * slip_size, 0);
+  const auto put_xi = [&](std::span<const double> xi)
+  {
+    for (std::size_t i = 0; i < size(); ++i)
+      std::copy_n(xi.begin() + 2 * i, 2,
+                  data.begin() + slip_size * i + slip_xi);
+  };
+  if (_options.is_small)
+  {
+    const auto foot = places(_x0, _pairing.xi()).x;
+    for (std::size_t i = 0; i < size(); ++i)
+      for (int k = 0; k < g; ++k)
+        data[slip_size * i + slip_origin + k]
+            = _start[g * i + k] - foot[g * i + k];
+    put_xi(_pairing.xi());
+    return data;
+  }
+  auto [xi, gap] = feet(_x0, _start);
+  const auto normal = places(_at, xi).normal;
+  for (std::size_t i = 0; i < size(); ++i)
+  {
+    const std::int32_t f = _pairing.facet()[i];
+    const std::size_t nodes = f < 0 ? 0 : facets[f].size();
+    // It has no part across the normal of a flat facet
+    if (_pairing.feature()[i] == facet::interior and nodes < 4)
+      gap[i] = 0;
+    data[slip_size * i + slip_gap] = gap[i];
+    for (int k = 0; k < g; ++k)
+      data[slip_size * i + slip_origin + k] = gap[i] * normal[g * i + k];
+  }
+  put_xi(xi);
+  return data;
+}
+
+std::optional<std::vector<double>>
+NodeToSurface::turn(std::span<const double> x) const
+{
+  if (std::ranges::equal(x, _x0))
+    return std::nullopt;
+  const int g = gdim();
+  const std::vector<double> before = frames(_x0), now = frames(x);
+  std::vector<double> turn(size() * g * g, 0);
+  for (std::size_t i = 0; i < size(); ++i)
+    for (int r = 0; r < g; ++r)
+      for (int c = 0; c < g; ++c)
+      {
+        double& value = turn[g * (g * i + r) + c];
+        if (_pairing.facet()[i] < 0)
+          value = r == c;
+        else
+          value = product(now.data() + g * (g * i + r),
+                          before.data() + g * (g * i + c), g);
+      }
+  return turn;
+}
+
+/// Unit normal and directions along each slave node's facet, in columns.
+std::vector<double> NodeToSurface::frames(std::span<const double> x) const
+{
+  const int g = gdim();
+  const auto [foot, normal] = places(x, _pairing.xi());
+  std::vector<double> beside = _pairing.xi();
+  for (std::size_t i = 0; i < size(); ++i)
+    beside[2 * i] += 1;
+  const auto ahead = places(x, beside).x;
+  std::vector<double> frames(size() * g * g);
+  for (std::size_t i = 0; i < size(); ++i)
+  {
+    Vector<3> n{}, along{};
+    for (int k = 0; k < g; ++k)
+    {
+      n[k] = normal[g * i + k];
+      along[k] = ahead[g * i + k] - foot[g * i + k];
+    }
+    along = along - dot(n, along) * n;
+    const double length = norm(along);
+    if (length > 0)
+      for (double& a : along)
+        a /= length;
+    const std::array columns{n, along, cross(n, along)};
+    for (int r = 0; r < g; ++r)
+      for (int c = 0; c < g; ++c)
+        frames[g * (g * i + r) + c] = columns[c][r];
+  }
+  return frames;
+}
+
+void NodeToSurface::touch(std::span<const std::int8_t> which,
+                          std::span<const double> x,
+                          std::span<const double> offset)
+{
+  const int g = gdim();
+  const std::vector<double> points = at_slaves(x);
+  if (_options.is_small)
+  {
+    const auto [foot0, normal] = places(_x0, _pairing.xi());
+    const auto foot = places(x, _pairing.xi()).x;
+    for (std::size_t i = 0; i < size(); ++i)
+    {
+      if (not which[i])
+        continue;
+      Vector<3> before{}, after{};
+      for (int k = 0; k < g; ++k)
+      {
+        before[k] = _start[g * i + k] - foot0[g * i + k];
+        after[k] = points[g * i + k] - foot[g * i + k];
+      }
+      const double* n = normal.data() + g * i;
+      const double part = touching(product(n, before.data(), g) - offset[i],
+                                   product(n, after.data(), g) - offset[i]);
+      for (int k = 0; k < g; ++k)
+        _start[g * i + k]
+            = foot0[g * i + k] + before[k] + part * (after[k] - before[k]);
+    }
+    return;
+  }
+  auto [xi0, gap0] = feet(_x0, _start);
+  const auto [xi1, gap1] = feet(x, points);
+  std::vector<double> part(size());
+  for (std::size_t i = 0; i < size(); ++i)
+  {
+    part[i] = touching(gap0[i] - offset[i], gap1[i] - offset[i]);
+    for (int a = 0; a < 2; ++a)
+      xi0[2 * i + a] += part[i] * (xi1[2 * i + a] - xi0[2 * i + a]);
+  }
+  const auto [foot, normal] = places(_x0, xi0);
+  for (std::size_t i = 0; i < size(); ++i)
+    if (which[i])
+    {
+      const double height = gap0[i] + part[i] * (gap1[i] - gap0[i]);
+      for (int k = 0; k < g; ++k)
+        _start[g * i + k] = foot[g * i + k] + height * normal[g * i + k];
+    }
+}
+
+std::optional<std::vector<Pairs>>
+NodeToSurface::update(std::span<const double>, bool, std::span<const double>)
+{
+  // The kernels project by themselves
+  return std::nullopt;
+}
+
+std::vector<double>
+NodeToSurface::compliance(std::span<const double> nodal) const
+{
+  const facet::FacetList facets = _surface->facets();
+  std::vector<double> result(size(), _surface->mean(nodal));
+  for (std::size_t i = 0; i < size(); ++i)
+    if (const std::int32_t f = _pairing.facet()[i]; f >= 0)
+    {
+      double sum = 0;
+      for (const std::int32_t node : facets[f])
+        sum += nodal[node];
+      result[i] = sum / static_cast<double>(facets[f].size());
+    }
+  return result;
+}
+
+Mobility NodeToSurface::mobility(std::span<const std::int8_t> free) const
+{
+  using namespace kernel;
+  const int g = gdim();
+  Mobility found{std::vector<double>(size(), 1),
+                 std::vector<double>(size() * g, 1)};
+  for (const Pairs& group : pairs())
+  {
+    const int width = 1 + group.num_nodes;
+    std::vector<double> weight(width);
+    for (std::size_t p = 0; p < group.size(); ++p)
+    {
+      const std::size_t i = group.slaves[p];
+      const std::int32_t* nodes = group.nodes.data() + width * p;
+      const auto squares = [&](const double* xi)
+      {
+        pair_weights(group.num_nodes, xi, weight.data());
+        Vector<3> sum{};
+        for (int l = 0; l < width; ++l)
+          for (int k = 0; k < g; ++k)
+            if (free[std::size_t(nodes[l]) * g + k])
+              sum[k] += weight[l] * weight[l];
+        return sum;
+      };
+      const double* data = group.data.data() + pair_size * p;
+      const Vector<3> square = squares(data + pair_xi);
+      double sum = 0;
+      for (int k = 0; k < g; ++k)
+        sum += data[pair_normal + k] * data[pair_normal + k] * square[k];
+      // Exactly one where all is free, whatever the weights
+      bool all = true;
+      for (int l = 0; l < width; ++l)
+        for (int k = 0; k < g; ++k)
+          all = all and free[std::size_t(nodes[l]) * g + k];
+      if (all)
+        continue;
+      found.normal[i] = std::sqrt(sum);
+      if (group.slip_size == 0)
+        continue;
+      const Vector<3> each = squares(group.slip.data() + slip_size * p + slip_xi);
+      for (int k = 0; k < g; ++k)
+        found.each[g * i + k] = std::sqrt(each[k]);
+    }
+  }
+  return found;
+}
+
+Weights NodeToSurface::weights() const
+{
+  using namespace kernel;
+  Weights weights;
+  for (const Pairs& group : pairs())
+  {
+    const int width = 1 + group.num_nodes;
+    for (std::size_t p = 0; p < group.size(); ++p)
+    {
+      weights.slaves.insert(weights.slaves.end(), width, group.slaves[p]);
+      const std::size_t at = weights.values.size();
+      weights.values.resize(at + width);
+      pair_weights(group.num_nodes, group.data.data() + pair_size * p + pair_xi,
+                   weights.values.data() + at);
+    }
+    weights.nodes.insert(weights.nodes.end(), group.nodes.begin(),
+                         group.nodes.end());
+  }
+  return weights;
+}
+
+std::vector<Saved> NodeToSurface::identity() const
+{
+  return {{"facets", RowKind::global, 4, _surface->identity()}};
+}
+
+std::vector<Saved> NodeToSurface::save() const
+{
+  std::vector<Saved> saved{
+      {"facet_nodes", RowKind::slave, 4, _surface->names(_pairing.facet())}};
+  for (Saved& s : saved_pairs())
+    saved.push_back(std::move(s));
+  if (_options.measures_slip)
+  {
+    saved.push_back({"start", RowKind::slave, gdim(), _start});
+    saved.push_back({"before", RowKind::node, gdim(), _x0});
+    saved.push_back({"at", RowKind::node, gdim(), _at});
+  }
+  return saved;
+}
+
+void NodeToSurface::load(const std::vector<Saved>& saved)
+{
+  restore(_surface->named(values_of<std::int64_t>(saved, "facet_nodes")),
+          saved);
+  if (_options.measures_slip)
+  {
+    _start = values_of<double>(saved, "start");
+    _x0 = spread(*_halo, values_of<double>(saved, "before"), gdim());
+    _at = spread(*_halo, values_of<double>(saved, "at"), gdim());
+  }
+}
+
+double NodeToSurface::distance(std::span<const double> x) const
+{
+  return _surface->distance(x, at_slaves(x));
+}
+
+std::vector<std::int32_t> NodeToSurface::frozen_pairs() const
+{
+  return _pairing.frozen();
+}
+
+HiddenGap NodeToSurface::deepest_frozen_pair(std::span<const double> x) const
+{
+  const int g = gdim();
+  const std::vector<std::int32_t> frozen = _pairing.frozen();
+  HiddenGap deepest;
+  if (parallel::total(_halo->ranks(), std::int64_t(frozen.size())) == 0)
+    return deepest;
+  const std::vector<double> nodal = facet::nodal_normals(_slave.list(), x, g);
+  std::vector<double> points, normals;
+  for (const std::int32_t i : frozen)
+  {
+    const std::size_t at = std::size_t(_pairing.slaves()[i]) * g;
+    points.insert(points.end(), x.begin() + at, x.begin() + at + g);
+    normals.insert(normals.end(), nodal.begin() + at, nodal.begin() + at + g);
+  }
+  // What a search without memory finds for them
+  const auto found = _surface->find(x, points, normals, _options.reach);
+  const std::vector<double> now = _halo->positions();
+  const facet::FacetList facets = _surface->facets();
+  for (std::size_t i = 0; i < frozen.size(); ++i)
+  {
+    // Less is rounding
+    if (found.facet[i] < 0 or not(found.gap[i] < -1e-10 * _options.reach))
+      continue;
+    const auto nodes = facets[found.facet[i]];
+    double square = 0;
+    for (int k = 0; k < g; ++k)
+    {
+      const double d = now[std::size_t(nodes.back()) * g + k]
+                       - now[std::size_t(nodes.front()) * g + k];
+      square += d * d;
+    }
+    deepest.gap = std::min(deepest.gap, found.gap[i]);
+    deepest.part = std::min(deepest.part, found.gap[i] / std::sqrt(square));
+  }
+  return deepest;
+}
+
+std::int32_t NodeTie::search(std::span<const double> x,
+                             std::span<const std::int8_t> closed)
+{
+  if (_found)
+    return 0;
+  _found = true;
+  const std::int32_t changed = NodeToSurface::search(x, closed);
+  const auto at = parallel::spread(*halo(), x, gdim());
+  const std::vector<double> points = at_slaves(at);
+  auto [xi, gap] = feet(at, points);
+  auto [foot, normal] = places(at, xi);
+  _arm.resize(points.size());
+  std::ranges::transform(points, foot, _arm.begin(), std::minus());
+  _xi = std::move(xi);
+  _gap = std::move(gap);
+  _normal = std::move(normal);
+  _offset.assign(size(), 0);
+  return changed;
+}
+
+std::optional<std::vector<Pairs>>
+NodeTie::update(std::span<const double>, bool, std::span<const double> offset)
+{
+  if (std::ranges::equal(offset, _offset))
+    return std::nullopt;
+  _offset.assign(offset.begin(), offset.end());
+  return pairs();
+}
+
+std::vector<double> NodeTie::slip() const
+{
+  using namespace kernel;
+  const int g = gdim();
+  std::vector<double> data(size() * slip_size, 0);
+  for (std::size_t i = 0; i < size(); ++i)
+  {
+    double* row = data.data() + slip_size * i;
+    std::copy_n(_xi.begin() + 2 * i, 2, row + slip_xi);
+    row[slip_gap] = _gap[i] + _offset[i];
+    for (int k = 0; k < g; ++k)
+      row[slip_origin + k] = _arm[g * i + k] + _offset[i] * _normal[g * i + k];
+  }
+  return data;
+}

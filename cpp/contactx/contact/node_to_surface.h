@@ -1,0 +1,145 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#pragma once
+
+#include "../facet/facets.h"
+#include "../parallel/halo.h"
+#include "../search/foot.h"
+#include "../search/master_surface.h"
+#include "../search/outside.h"
+#include "../search/pairing.h"
+#include "master.h"
+#include <memory>
+
+namespace contactx::contact
+{
+/// @brief How a contact pairs its slave nodes.
+struct PairingOptions
+{
+  double reach;       ///< largest distance of a pair
+  bool is_small;      ///< whether sliding is small: pairs never change
+  bool measures_slip; ///< whether slip is measured
+};
+
+/// @brief Pairs of slave nodes with the facets of a deformable body, each with
+/// the one that it projects on.
+class NodeToSurface : public Master
+{
+public:
+  /// @brief Create it with no node paired.
+  /// @param[in] halo Nodes of this rank.
+  /// @param[in] slave Slave facets around the owned slave nodes.
+  /// @param[in] surface Master surface.
+  /// @param[in] outside Tells what is outside of its body.
+  /// @param[in] options How nodes are paired.
+  NodeToSurface(std::shared_ptr<parallel::Halo> halo, facet::Facets slave,
+                std::shared_ptr<search::MasterSurface> surface,
+                std::shared_ptr<search::Outside> outside,
+                const PairingOptions& options);
+
+  int gdim() const override { return _halo->gdim(); }
+  double reach() const override { return _options.reach; }
+  void accept(std::span<const double> x) override;
+  void begin_step() override;
+  void rebuild() override;
+  void nodes_changed() override;
+  std::optional<std::vector<double>>
+  turn(std::span<const double> x) const override;
+  void touch(std::span<const std::int8_t> which, std::span<const double> x,
+             std::span<const double> offset) override;
+  std::int32_t search(std::span<const double> x,
+                      std::span<const std::int8_t> closed) override;
+  std::vector<std::int8_t> paired() const override;
+  std::vector<Pairs> pairs() const override;
+  std::optional<std::vector<Pairs>>
+  update(std::span<const double> x, bool frozen,
+         std::span<const double> offset) override;
+  std::vector<double> normals() const override;
+  Weights weights() const override;
+  std::vector<double> compliance(std::span<const double> nodal) const override;
+  Mobility mobility(std::span<const std::int8_t> free) const override;
+  std::vector<Saved> identity() const override;
+  std::vector<Saved> save() const override;
+  void load(const std::vector<Saved>& saved) override;
+  double distance(std::span<const double> x) const override;
+  std::vector<std::int32_t> frozen_pairs() const override;
+  void reset_flips() override { _pairing.begin_step(); }
+  HiddenGap deepest_frozen_pair(std::span<const double> x) const override;
+
+  /// @brief Master surface.
+  std::shared_ptr<search::MasterSurface> surface() const { return _surface; }
+
+  /// @brief Tells what is outside of the master's body.
+  std::shared_ptr<search::Outside> outside() const { return _outside; }
+
+protected:
+  /// @brief What the kernels read of slip (shape=(n, kernel::slip_size)).
+  virtual std::vector<double> slip() const;
+
+  /// @brief Number of owned slave nodes.
+  std::size_t size() const { return _pairing.slaves().size(); }
+
+  /// @brief Rows of the owned slave nodes (shape=(n, gdim)).
+  /// @param[in] x Values of all nodes (shape=(num_nodes, gdim)).
+  std::vector<double> at_slaves(std::span<const double> x) const;
+
+  /// @brief Projections of points, one a slave node, on the slave nodes'
+  /// facets.
+  search::Feet feet(std::span<const double> x,
+                    std::span<const double> points) const;
+
+  /// @brief Points at local coordinates of the slave nodes' facets.
+  search::Places places(std::span<const double> x,
+                        std::span<const double> xi) const;
+
+  /// @brief Nodes of this rank.
+  const std::shared_ptr<parallel::Halo>& halo() const { return _halo; }
+
+  /// @brief Pairs of the last search.
+  const search::Pairing& pairing() const { return _pairing; }
+
+private:
+  std::int32_t drop_outside(std::span<const double> x,
+                            std::span<const std::int8_t> closed);
+  void restore(std::span<const std::int32_t> facet,
+               const std::vector<Saved>& saved);
+  std::vector<Saved> saved_pairs() const;
+  std::vector<double> frames(std::span<const double> x) const;
+
+  std::shared_ptr<parallel::Halo> _halo;
+  facet::Facets _slave;
+  std::shared_ptr<search::MasterSurface> _surface;
+  std::shared_ptr<search::Outside> _outside;
+  PairingOptions _options;
+  search::Pairing _pairing;
+  // Positions of all nodes at the step's start and at the last search, and
+  // where the slip of each slave node starts, as a place in the configuration
+  // of the step's start
+  std::vector<double> _x0, _at, _start;
+};
+
+/// @brief Slave nodes tied to the facets that they project on in the reference
+/// configuration.
+class NodeTie final : public NodeToSurface
+{
+public:
+  using NodeToSurface::NodeToSurface;
+
+  /// @brief Only the first search counts.
+  std::int32_t search(std::span<const double> x,
+                      std::span<const std::int8_t> closed) override;
+
+  /// @brief The offset is what a tie is longer by.
+  std::optional<std::vector<Pairs>>
+  update(std::span<const double> x, bool frozen,
+         std::span<const double> offset) override;
+
+protected:
+  std::vector<double> slip() const override;
+
+private:
+  bool _found = false;
+  std::vector<double> _offset, _xi, _gap, _arm, _normal;
+};
+} // namespace contactx::contact

@@ -1,0 +1,497 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include "surface_to_surface.h"
+#include "../audit/penetration.h"
+#include "../facet/middle.h"
+#include "../parallel/spread.h"
+#include "mobility.h"
+#include <cmath>
+#include <limits>
+
+using namespace contactx;
+using namespace contactx::contact;
+using parallel::spread;
+
+namespace
+{
+// How far beyond a slave facet's edges pairs are found in advance, as a part of
+// its size
+constexpr double margin_ahead = 0.1;
+// Part of a slave node's area that must be covered for it to be paired, and to
+// stay so
+constexpr double enter = 0.06;
+constexpr double leave = 0.04;
+
+std::vector<std::int32_t> nodes_of_both(const facet::FacetList& slave,
+                                        const facet::FacetList& master)
+{
+  std::vector<std::int32_t> nodes(slave.nodes.begin(), slave.nodes.end());
+  nodes.insert(nodes.end(), master.nodes.begin(), master.nodes.end());
+  return search::sorted_unique(nodes);
+}
+} // namespace
+
+SurfaceToSurface::SurfaceToSurface(
+    std::shared_ptr<parallel::Halo> halo, facet::Facets slave,
+    std::shared_ptr<search::MasterSurface> surface,
+    std::shared_ptr<search::Outside> outside, const PairingOptions& options)
+    : _halo(std::move(halo)), _slave(std::move(slave)),
+      _surface(std::move(surface)), _outside(std::move(outside)),
+      _options(options), _sides(_slave.list(), _halo->num_owned(),
+                                _halo->reference(), _halo->gdim()),
+      _slip(_sides, _halo->gdim(), options.is_small),
+      _nodes(nodes_of_both(_slave.list(), _surface->own())),
+      _area(_sides.size(), 0), _paired(_sides.size(), 0)
+{
+  if (not(options.reach > 0))
+    throw std::invalid_argument("the reach of pairs must be larger than zero");
+  _inradius = parallel::least(_halo->ranks(), _sides.inradius());
+  const auto x = _halo->reference();
+  _x0.assign(x.begin(), x.end());
+  _at = _x0;
+  meet();
+  const std::vector<double> area = facet::nodal_areas(_slave.list(), x, gdim());
+  for (const std::int32_t node : _sides.slaves())
+    _whole.push_back(area[node]);
+}
+
+/// Takes the master facets that are known now; those before keep their numbers.
+void SurfaceToSurface::meet()
+{
+  const facet::FacetList known = _surface->facets();
+  _search.emplace(
+      _slave.offsets, _slave.nodes,
+      std::vector<std::int32_t>(known.offsets.begin(), known.offsets.end()),
+      std::vector<std::int32_t>(known.nodes.begin(), known.nodes.end()),
+      gdim());
+  _sides.meet(known);
+}
+
+std::int32_t SurfaceToSurface::search(std::span<const double> x,
+                                      std::span<const std::int8_t>)
+{
+  pair(x);
+  return 0;
+}
+
+void SurfaceToSurface::pair(std::span<const double> x)
+{
+  const int g = gdim();
+  int version = _halo->version();
+  std::vector<double> now(x.begin(), x.end());
+  const auto update = [&]
+  {
+    now = _halo->updated(std::move(now), g, version);
+    version = _halo->version();
+  };
+  if (not _found or (has_moved(now) and lacks(now)))
+  {
+    update();
+    const double margin = _options.is_small ? 0.0 : margin_ahead;
+    look(now, margin);
+    update();
+    _found = without_outside(now, _search->find(now, _options.reach, margin));
+    _searched.clear();
+    for (const std::int32_t node : _nodes)
+      _searched.insert(_searched.end(), now.begin() + std::size_t(node) * g,
+                       now.begin() + std::size_t(node + 1) * g);
+  }
+  update();
+  integrate(now);
+  for (std::size_t i = 0; i < _paired.size(); ++i)
+    _paired[i] = _area[i] > (_paired[i] ? leave : enter) * _whole[i];
+}
+
+void SurfaceToSurface::look(std::span<const double> x, double margin)
+{
+  const std::int32_t known = _surface->facets().size();
+  _surface->look(x, _slave.list(), _options.reach, margin);
+  if (_surface->facets().size() != known)
+    meet();
+}
+
+/// Whether any rank finds a pair that it does not have.
+bool SurfaceToSurface::lacks(std::span<const double> x)
+{
+  const int version = _halo->version();
+  look(x, 0.0);
+  const std::vector<double> now
+      = _halo->updated({x.begin(), x.end()}, gdim(), version);
+  const mortar::FacetPairs found
+      = without_outside(now, _search->find(now, _options.reach, 0.0));
+  return parallel::anywhere(_halo->ranks(),
+                            not mortar::contains(*_found, found));
+}
+
+/// Whether anything has moved so far since the search that pairs may lack.
+bool SurfaceToSurface::has_moved(std::span<const double> x) const
+{
+  const int g = gdim();
+  double way = 0;
+  for (std::size_t i = 0; i < _nodes.size(); ++i)
+    for (int k = 0; k < g; ++k)
+    {
+      const double d
+          = std::abs(x[std::size_t(_nodes[i]) * g + k] - _searched[g * i + k]);
+      // Not a number is far
+      way = std::isnan(d) ? std::numeric_limits<double>::infinity()
+                          : std::max(way, d);
+    }
+  // Both sides may have moved
+  return parallel::largest(_halo->ranks(), way)
+         > 0.25 * margin_ahead * _inradius;
+}
+
+/// Pairs but for those with facets behind all of the master's body.
+mortar::FacetPairs
+SurfaceToSurface::without_outside(std::span<const double> x,
+                                  mortar::FacetPairs found) const
+{
+  if (not _outside->is_around())
+    return found;
+  const int g = gdim();
+  const facet::FacetList theirs = _surface->facets();
+  const facet::Middles ours = facet::middles(_slave.list(), x, g);
+  const std::vector<double> others = facet::middles(theirs, x, g).points;
+  const std::vector<double> own_sizes = audit::facet_sizes(_slave.list(), x, g);
+  const std::vector<double> their_sizes = audit::facet_sizes(theirs, x, g);
+  std::vector<double> points, depth, size;
+  for (std::size_t p = 0; p < found.size(); ++p)
+  {
+    const std::size_t e = found.slave[p], f = found.master[p];
+    double d = 0;
+    for (int k = 0; k < g; ++k)
+    {
+      points.push_back(ours.points[g * e + k]);
+      d += ours.normals[g * e + k]
+           * (ours.points[g * e + k] - others[g * f + k]);
+    }
+    depth.push_back(d);
+    size.push_back(std::max(own_sizes[e], their_sizes[f]));
+  }
+  const auto is_outside = _outside->find(x, points, depth, size, true);
+  mortar::FacetPairs kept;
+  for (std::size_t p = 0; p < found.size(); ++p)
+    if (not is_outside[p])
+    {
+      kept.slave.push_back(found.slave[p]);
+      kept.master.push_back(found.master[p]);
+    }
+  return kept;
+}
+
+void SurfaceToSurface::integrate(std::span<const double> x)
+{
+  const auto reference = _halo->reference();
+  const auto integrate = [&](std::span<const double> normal)
+  {
+    return mortar::integrals(_slave.list(), _surface->facets(), *_found, x,
+                             reference, gdim(), normal);
+  };
+  mortar::Integrals all = integrate({});
+  if (_options.is_small)
+    all = integrate(_sides.between(x, *_found, all.weight, all.normal));
+  _at.assign(x.begin(), x.end());
+  std::vector<std::int32_t> facets(_sides.num_slave_facets());
+  std::ranges::generate(facets, [f = 0]() mutable { return f++; });
+  _area = _sides.total(all.area, facets);
+  _dual = std::move(all.dual);
+  _normal = std::move(all.normal);
+  _mortar = {_found->slave, _found->master, std::move(all.weight),
+             std::move(all.gap)};
+}
+
+std::vector<double> SurfaceToSurface::area(std::span<const double> whole) const
+{
+  std::vector<double> area(whole.begin(), whole.end());
+  for (std::size_t i = 0; i < area.size(); ++i)
+    if (_paired[i])
+      area[i] = std::max(_area[i], 0.1 * leave * whole[i]);
+  return area;
+}
+
+std::vector<Pairs> SurfaceToSurface::pairs() const
+{
+  std::vector<Pairs> result = groups(_mortar);
+  if (_options.measures_slip)
+    for (Pairs& p : groups(_slip.pairs(_mortar, area(_whole)), true))
+      result.push_back(std::move(p));
+  return result;
+}
+
+void SurfaceToSurface::rebuild()
+{
+  if (_halo->ranks().size() == 1 or not _found)
+    return;
+  std::vector<std::int32_t> used(_mortar.master);
+  const auto of_slip = _slip.masters();
+  used.insert(used.end(), of_slip.begin(), of_slip.end());
+  used = search::sorted_unique(used);
+  std::vector<std::int32_t> numbers(_surface->facets().size() + 1, 0);
+  const std::vector<std::int32_t> kept = _surface->keep(used);
+  for (std::size_t k = 0; k < used.size(); ++k)
+    numbers[used[k]] = kept[k];
+  for (std::int32_t& f : _mortar.master)
+    f = numbers[f];
+  _slip.rename(numbers);
+  meet();
+}
+
+void SurfaceToSurface::nodes_changed()
+{
+  _x0 = spread(*_halo, _x0, gdim());
+  _at = spread(*_halo, _at, gdim());
+}
+
+std::optional<std::vector<Pairs>>
+SurfaceToSurface::update(std::span<const double> x, bool frozen,
+                         std::span<const double>)
+{
+  if (frozen or _options.is_small or std::ranges::equal(x, _at))
+    return std::nullopt;
+  integrate(x);
+  return pairs();
+}
+
+std::vector<double> SurfaceToSurface::normals() const
+{
+  std::vector<double> normals(3 * _sides.size(), 0);
+  for (std::size_t p = 0; p < _mortar.size(); ++p)
+    for (int s = 0; s < 4; ++s)
+    {
+      const std::size_t i = _sides.numbers(_mortar.slave[p])[s];
+      if (i >= _sides.size() or not _paired[i])
+        continue;
+      double share = 0;
+      for (int l = 0; l < 4; ++l)
+        share += _mortar.weight[16 * p + 4 * s + l];
+      for (int k = 0; k < 3; ++k)
+        normals[3 * i + k]
+            += share * _normal[3 * std::size_t(_mortar.slave[p]) + k];
+    }
+  normalise(normals);
+  return normals;
+}
+
+Weights SurfaceToSurface::weights() const
+{
+  const Mortar mortar = normalised();
+  Weights weights;
+  for (std::size_t i = 0; i < _sides.size(); ++i)
+    if (_paired[i])
+    {
+      weights.slaves.push_back(static_cast<std::int32_t>(i));
+      weights.nodes.push_back(_sides.slaves()[i]);
+      weights.values.push_back(1);
+    }
+  for (std::size_t p = 0; p < mortar.size(); ++p)
+    for (int s = 0; s < 4; ++s)
+      for (int l = 0; l < 4; ++l)
+      {
+        // Zero for slave nodes of other ranks, too
+        const double w = mortar.weight[16 * p + 4 * s + l];
+        if (w == 0)
+          continue;
+        weights.slaves.push_back(_sides.numbers(mortar.slave[p])[s]);
+        weights.nodes.push_back(_sides.master_nodes(mortar.master[p])[l]);
+        weights.values.push_back(-w);
+      }
+  return weights;
+}
+
+/// Mean of x_slave - x_master before each slave node.
+std::vector<double> SurfaceToSurface::distances(std::span<const double> x) const
+{
+  const int g = gdim();
+  const Weights w = weights();
+  std::vector<double> distances(_sides.size() * g, 0);
+  for (std::size_t e = 0; e < w.values.size(); ++e)
+    for (int k = 0; k < g; ++k)
+      distances[std::size_t(w.slaves[e]) * g + k]
+          += w.values[e] * x[std::size_t(w.nodes[e]) * g + k];
+  return distances;
+}
+
+void SurfaceToSurface::accept(std::span<const double> x)
+{
+  _x0.assign(x.begin(), x.end());
+}
+
+void SurfaceToSurface::begin_step()
+{
+  if (not _found)
+    return;
+  if (not _options.is_small)
+  {
+    _found.reset();
+    pair(std::vector<double>(_x0));
+  }
+  if (_options.measures_slip)
+    _slip.begin_step(normalised(), distances(_x0));
+}
+
+/// Pairs divided by the slave nodes' areas.
+Mortar SurfaceToSurface::normalised() const
+{
+  std::vector<double> inverse = area(_whole);
+  for (std::size_t i = 0; i < inverse.size(); ++i)
+    inverse[i] = _paired[i] ? 1 / inverse[i] : 0.0;
+  return _mortar.scaled(_sides.at_corners(inverse, _mortar.slave));
+}
+
+void SurfaceToSurface::touch(std::span<const std::int8_t> which,
+                             std::span<const double> x,
+                             std::span<const double> offset)
+{
+  _slip.touch(which, normalised(), distances(x), normals(), offset);
+}
+
+std::optional<std::vector<double>>
+SurfaceToSurface::turn(std::span<const double> x) const
+{
+  if (std::ranges::equal(x, _x0))
+    return std::nullopt;
+  const int g = gdim();
+  const std::vector<double> before = _sides.frames(_x0), now = _sides.frames(x);
+  std::vector<double> turn(before.size(), 0);
+  for (std::size_t i = 0; i < _sides.size(); ++i)
+    for (int r = 0; r < g; ++r)
+      for (int c = 0; c < g; ++c)
+        for (int k = 0; k < g; ++k)
+          turn[g * (g * i + r) + c]
+              += now[g * (g * i + r) + k] * before[g * (g * i + c) + k];
+  return turn;
+}
+
+std::vector<double>
+SurfaceToSurface::compliance(std::span<const double> nodal) const
+{
+  const Weights w = weights();
+  std::vector<double> total(_sides.size(), 0), mean(_sides.size(), 0);
+  for (std::size_t e = std::ranges::count(_paired, 1); e < w.values.size(); ++e)
+    if (w.values[e] <= 0)
+    {
+      const double size = std::abs(w.values[e]);
+      total[w.slaves[e]] += size;
+      mean[w.slaves[e]] += size * nodal[w.nodes[e]];
+    }
+  std::vector<double> result(_sides.size(), _surface->mean(nodal));
+  for (std::size_t i = 0; i < result.size(); ++i)
+    if (total[i] > 0)
+      result[i] = mean[i] / total[i];
+  return result;
+}
+
+Mobility SurfaceToSurface::mobility(std::span<const std::int8_t> free) const
+{
+  const int g = gdim();
+  const std::size_t n = _sides.size();
+  std::vector<double> squares = free_squares(weights(), free, _paired, g);
+  std::vector<std::int8_t> around(_sides.around().size() * g, 0);
+  for (std::int32_t f = 0; f < _sides.num_slave_facets(); ++f)
+    for (int k = 0; k < g; ++k)
+    {
+      bool some = false;
+      for (const std::int32_t node : _sides.slave_nodes(f))
+        some = some or free[std::size_t(node) * g + k];
+      if (some)
+        for (const std::int32_t i : _sides.numbers(f))
+          around[std::size_t(i) * g + k] = 1;
+    }
+  const std::vector<double> normal = normals();
+  Mobility found{std::vector<double>(n), std::vector<double>(n * g)};
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    double sum = 0;
+    for (int k = 0; k < g; ++k)
+    {
+      double& square = squares[g * i + k];
+      if (not free[std::size_t(_sides.slaves()[i]) * g + k]
+          and around[g * i + k])
+        square = 0;
+      sum += normal[3 * i + k] * normal[3 * i + k] * square;
+      found.each[g * i + k] = std::sqrt(square);
+    }
+    found.normal[i] = _paired[i] ? std::sqrt(sum) : 1.0;
+  }
+  return found;
+}
+
+std::vector<Saved> SurfaceToSurface::identity() const
+{
+  return {{"facets", RowKind::global, 4, _surface->identity()}};
+}
+
+std::vector<Saved> SurfaceToSurface::save() const
+{
+  // Pairs follow from the positions
+  return {{"paired", RowKind::slave, 0, _paired},
+          {"before", RowKind::node, gdim(), _x0}};
+}
+
+void SurfaceToSurface::load(const std::vector<Saved>& saved)
+{
+  _paired = values_of<std::int8_t>(saved, "paired");
+  load_start(saved);
+  begin_step();
+}
+
+void SurfaceToSurface::load_start(const std::vector<Saved>& saved)
+{
+  _x0 = spread(*_halo, values_of<double>(saved, "before"), gdim());
+}
+
+double SurfaceToSurface::distance(std::span<const double> x) const
+{
+  const int g = gdim();
+  std::vector<double> points;
+  for (const std::int32_t node : _sides.slaves())
+    points.insert(points.end(), x.begin() + std::size_t(node) * g,
+                  x.begin() + std::size_t(node + 1) * g);
+  return _surface->distance(x, points);
+}
+
+SurfaceTie::SurfaceTie(std::shared_ptr<parallel::Halo> halo,
+                       facet::Facets slave,
+                       std::shared_ptr<search::MasterSurface> surface,
+                       std::shared_ptr<search::Outside> outside,
+                       PairingOptions options)
+    : SurfaceToSurface(std::move(halo), std::move(slave), std::move(surface),
+                       std::move(outside),
+                       {options.reach, options.is_small, false}),
+      _offset(sides().size(), 0)
+{
+}
+
+std::int32_t SurfaceTie::search(std::span<const double> x,
+                                std::span<const std::int8_t> closed)
+{
+  return is_found() ? 0 : SurfaceToSurface::search(x, closed);
+}
+
+std::vector<Pairs> SurfaceTie::pairs() const
+{
+  Mortar longer = mortar();
+  const std::vector<double> offset = sides().at_corners(_offset, longer.slave);
+  for (std::size_t c = 0; c < offset.size(); ++c)
+  {
+    double share = 0;
+    for (int l = 0; l < 4; ++l)
+      share += longer.weight[4 * c + l];
+    longer.gap[c] += share * offset[c];
+  }
+  return groups(longer);
+}
+
+std::optional<std::vector<Pairs>>
+SurfaceTie::update(std::span<const double>, bool,
+                   std::span<const double> offset)
+{
+  if (std::ranges::equal(offset, _offset))
+    return std::nullopt;
+  _offset.assign(offset.begin(), offset.end());
+  return pairs();
+}
+
+void SurfaceTie::load(const std::vector<Saved>& saved) { load_start(saved); }

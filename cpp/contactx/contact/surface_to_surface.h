@@ -1,0 +1,153 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#pragma once
+
+#include "../mortar/facet_search.h"
+#include "mortar_slip.h"
+#include "node_to_surface.h"
+
+namespace contactx::contact
+{
+/// @brief Pairs of slave facets with the facets of a deformable body, with
+/// dual multipliers.
+///
+/// A slave node's constraint gathers from all pairs of its facets. A node of
+/// which little is in front of the master is not paired. Facets of which slave
+/// nodes belong to other ranks are integrated by all of these.
+class SurfaceToSurface : public Master
+{
+public:
+  /// @brief Create it with no pair; all ranks must take part.
+  /// @param[in] halo Nodes of this rank.
+  /// @param[in] slave Slave facets around the owned slave nodes.
+  /// @param[in] surface Master surface.
+  /// @param[in] outside Tells what is outside of its body.
+  /// @param[in] options How facets are paired.
+  SurfaceToSurface(std::shared_ptr<parallel::Halo> halo, facet::Facets slave,
+                   std::shared_ptr<search::MasterSurface> surface,
+                   std::shared_ptr<search::Outside> outside,
+                   const PairingOptions& options);
+  SurfaceToSurface(const SurfaceToSurface&) = delete;
+  SurfaceToSurface& operator=(const SurfaceToSurface&) = delete;
+
+  int gdim() const override { return _halo->gdim(); }
+  double reach() const override { return _options.reach; }
+  void accept(std::span<const double> x) override;
+
+  /// @brief Pairs are then those of the start alone, whatever has been before.
+  void begin_step() override;
+  void rebuild() override;
+  void nodes_changed() override;
+  std::optional<std::vector<double>>
+  turn(std::span<const double> x) const override;
+  void touch(std::span<const std::int8_t> which, std::span<const double> x,
+             std::span<const double> offset) override;
+
+  /// @brief As integrals change continuously no node changes its facet.
+  std::int32_t search(std::span<const double> x,
+                      std::span<const std::int8_t> closed) override;
+  std::vector<std::int8_t> paired() const override { return _paired; }
+  std::vector<Pairs> pairs() const override;
+  std::optional<std::vector<Pairs>>
+  update(std::span<const double> x, bool frozen,
+         std::span<const double> offset) override;
+  std::vector<double> normals() const override;
+  Weights weights() const override;
+
+  /// @brief What is in front of the master. A node that is pushed off within
+  /// an iteration keeps some until the next search.
+  std::vector<double> area(std::span<const double> whole) const override;
+  std::vector<double> origin() const override { return _slip.origin(); }
+  std::vector<double> compliance(std::span<const double> nodal) const override;
+
+  /// @brief On a plane of symmetry nothing moves across it: only half of what
+  /// is around its slave nodes is integrated, where the master seems to.
+  Mobility mobility(std::span<const std::int8_t> free) const override;
+  std::vector<Saved> identity() const override;
+  std::vector<Saved> save() const override;
+  void load(const std::vector<Saved>& saved) override;
+  double distance(std::span<const double> x) const override;
+
+  /// @brief Master surface.
+  std::shared_ptr<search::MasterSurface> surface() const { return _surface; }
+
+  /// @brief Tells what is outside of the master's body.
+  std::shared_ptr<search::Outside> outside() const { return _outside; }
+
+protected:
+  /// @brief Whether there was a search.
+  bool is_found() const { return _found.has_value(); }
+
+  /// @brief Both surfaces.
+  const MortarSides& sides() const { return _sides; }
+
+  /// @brief Pairs with their integrals.
+  const Mortar& mortar() const { return _mortar; }
+
+  /// @brief Pairs of facets as the kernels read them.
+  std::vector<Pairs> groups(const Mortar& mortar,
+                            bool is_movement = false) const
+  {
+    return _sides.pairs(mortar, _dual, _normal, is_movement);
+  }
+
+  /// @brief Take positions at the step's start; all ranks must take part.
+  void load_start(const std::vector<Saved>& saved);
+
+private:
+  void meet();
+  void pair(std::span<const double> x);
+  void look(std::span<const double> x, double margin);
+  bool lacks(std::span<const double> x);
+  bool has_moved(std::span<const double> x) const;
+  mortar::FacetPairs without_outside(std::span<const double> x,
+                                     mortar::FacetPairs found) const;
+  void integrate(std::span<const double> x);
+  Mortar normalised() const;
+  std::vector<double> distances(std::span<const double> x) const;
+
+  std::shared_ptr<parallel::Halo> _halo;
+  facet::Facets _slave;
+  std::shared_ptr<search::MasterSurface> _surface;
+  std::shared_ptr<search::Outside> _outside;
+  PairingOptions _options;
+  MortarSides _sides;
+  MortarSlip _slip;
+  std::optional<mortar::FacetSearch> _search;
+  double _inradius;
+  std::vector<std::int32_t> _nodes;        // of both surfaces here
+  std::vector<double> _x0, _at, _searched; // positions; those of _nodes
+  std::vector<double> _whole, _area;       // of the slave nodes
+  std::vector<std::int8_t> _paired;
+  std::optional<mortar::FacetPairs> _found;
+  std::vector<double> _dual, _normal;
+  Mortar _mortar;
+};
+
+/// @brief Slave facets tied to the facets that are in front of them in the
+/// reference configuration.
+class SurfaceTie final : public SurfaceToSurface
+{
+public:
+  /// @copydoc SurfaceToSurface::SurfaceToSurface
+  SurfaceTie(std::shared_ptr<parallel::Halo> halo, facet::Facets slave,
+             std::shared_ptr<search::MasterSurface> surface,
+             std::shared_ptr<search::Outside> outside, PairingOptions options);
+
+  /// @brief Only the first search counts.
+  std::int32_t search(std::span<const double> x,
+                      std::span<const std::int8_t> closed) override;
+  void begin_step() override {}
+  std::vector<Pairs> pairs() const override;
+
+  /// @brief The offset is what a tie is longer by.
+  std::optional<std::vector<Pairs>>
+  update(std::span<const double> x, bool frozen,
+         std::span<const double> offset) override;
+  void load(const std::vector<Saved>& saved) override;
+
+private:
+  std::vector<double> _offset;
+};
+} // namespace contactx::contact
