@@ -65,6 +65,8 @@ class Pairs:
 class State:
     """Vectors of the slave nodes that the kernels read, those of other ranks last.
 
+    They are copies: the core owns what the slave nodes have (``take``).
+
     Attributes:
         multiplier: Multiplier of the slave nodes, force/area: pressure or traction.
         area: Reference area of the slave nodes.
@@ -81,7 +83,7 @@ class State:
 
     @staticmethod
     def of(gdim: int, slave_map: Any, *, is_vector: bool) -> State:
-        """Make the vectors, zero.
+        """Make the vectors, zero but for areas of one.
 
         Args:
             gdim: Geometric dimension.
@@ -92,13 +94,32 @@ class State:
         def vector(block: int) -> la.Vector:
             return la.vector(slave_map, block)
 
+        area = vector(1)
+        # What is divided by it goes nowhere for slave nodes of other ranks
+        area.array[:] = 1
         return State(
             multiplier=vector(gdim if is_vector else 1),
-            area=vector(1),
+            area=area,
             gap_derivative=vector(gdim if is_vector else 1),
             slip_derivative=vector(gdim * gdim) if is_vector else None,
             normal_derivative=vector(gdim * gdim) if is_vector else None,
         )
+
+    def take(self, nodes: core.NodeState) -> None:
+        """Copy the state of this rank's slave nodes as it is now.
+
+        Args:
+            nodes: The state.
+        """
+        for vector, values in (
+            (self.multiplier, nodes.multiplier),
+            (self.area, nodes.area),
+            (self.gap_derivative, nodes.by_gap),
+            (self.slip_derivative, nodes.by_slip),
+            (self.normal_derivative, nodes.by_normal),
+        ):
+            if vector is not None:
+                vector.array[: len(values)] = values
 
 
 class ContactForms:

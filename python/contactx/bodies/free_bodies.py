@@ -16,7 +16,6 @@ from contactx.bodies.modes import Array, RigidModes, by_body
 from contactx.bodies.springs import independent_springs
 from contactx.bulk import Bulk
 from contactx.interface import Interface
-from contactx.law.coulomb import Coulomb
 from contactx.parallel import reduce
 
 # Force along a free mode, relative to the problem's, that counts as out of balance
@@ -381,12 +380,12 @@ class FreeBodies:
         return True
 
     def _has_friction(self) -> bool:
-        return any(isinstance(interface.law, Coulomb) for interface in self._interfaces)
+        return any(isinstance(interface.law, core.Coulomb) for interface in self._interfaces)
 
-    def _rubbing(self) -> Iterator[tuple[Interface, Coulomb]]:
+    def _rubbing(self) -> Iterator[tuple[Interface, core.Coulomb]]:
         """Contacts with friction."""
         for interface in self._interfaces:
-            if isinstance(interface.law, Coulomb):
+            if isinstance(interface.law, core.Coulomb):
                 yield interface, interface.law
 
 

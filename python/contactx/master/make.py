@@ -6,10 +6,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from contactx import cpp as core
 from contactx.bodies.bodies import Bodies
 from contactx.geometry.facets import check_facets, check_folds
 from contactx.geometry.inside import check_apart, check_outside
-from contactx.law.law import Law
 from contactx.master.facets import FacetMaster
 from contactx.master.master import Master
 from contactx.master.mortar import MortarMaster
@@ -31,7 +31,7 @@ def make_master(
     master: Surface | Obstacle,
     bodies: Bodies,
     halo: Halo,
-    law: Law,
+    law: core.Law,
     *,
     method: str,
     sliding: str,
