@@ -1,6 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""All forms of one contact."""
+"""Kinematics of one contact, assembled by the core, and its forms."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 
+from contactx import cpp as core
 from contactx.forms import ContactForms, Pairs, State
 from contactx.law.nodes import Nodes
 from contactx.parallel.halo import Halo
@@ -81,12 +82,17 @@ class Assembly:
             nodes.mean.project(nodes.normal, nodes.slip, nodes.mobile)
 
     def _assemble(self, values: npt.NDArray[np.float64], term: str) -> None:
-        """Set values of this rank's slave nodes; what is assembled for those of others is part."""
-        every = np.zeros((len(self._state.area.array), *values.shape[1:]))
+        """Set values of this rank's slave nodes; those of other ranks are left out."""
+        values[:] = 0
+        arrays = core.NodalArrays(
+            displacement=self._halo.displacement.array,
+            position=self._halo.position.array,
+            **{name: v.array for name, v in vars(self._state).items() if v is not None},
+        )
         for form in self.forms:
-            if getattr(form, term) is not None:
-                fem.assemble_vector(every.reshape(-1), getattr(form, term))
-        values[:] = every[: len(values)]
+            core.add_vector(
+                self._law, self._sliding, term, form.pairs, arrays, self._halo.gdim, values
+            )
 
     def add_residual(self, b: npt.NDArray[np.float64]) -> None:
         """Add this rank's contact forces to those of all nodes, shape (num_nodes * gdim,)."""
