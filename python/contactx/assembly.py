@@ -1,6 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""All forms of one contact."""
+"""Kinematics of one contact, assembled by the core, and its forms."""
 
 from __future__ import annotations
 
@@ -85,12 +85,17 @@ class Assembly:
             self._nodes.project(np.broadcast_to(origin, self._nodes.slip.shape))
 
     def _assemble(self, values: npt.NDArray[np.float64], term: str) -> None:
-        """Set values of this rank's slave nodes; what is assembled for those of others is part."""
-        every = np.zeros((len(self._state.area.array), *values.shape[1:]))
+        """Set values of this rank's slave nodes; those of other ranks are left out."""
+        values[:] = 0
+        arrays = core.NodalArrays(
+            displacement=self._halo.displacement.array,
+            position=self._halo.position.array,
+            **{name: v.array for name, v in vars(self._state).items() if v is not None},
+        )
         for form in self.forms:
-            if getattr(form, term) is not None:
-                fem.assemble_vector(every.reshape(-1), getattr(form, term))
-        values[:] = every[: len(values)]
+            core.add_vector(
+                self._law, self._sliding, term, form.pairs, arrays, self._halo.gdim, values
+            )
 
     def add_residual(self, b: npt.NDArray[np.float64]) -> None:
         """Add this rank's contact forces to those of all nodes, shape (num_nodes * gdim,)."""

@@ -283,6 +283,29 @@ def terms(law: str, sliding: str, num_nodes: int, gdim: int, num_slaves: int = 1
 def kernel(
     law: str, sliding: str, term: str, num_nodes: int, gdim: int, num_slaves: int = 1
 ) -> tuple[int, NDArray[np.int8]]: ...
+
+class NodalArrays:
+    def __init__(
+        self,
+        *,
+        displacement: NDArray[np.float64],
+        position: NDArray[np.float64],
+        multiplier: NDArray[np.float64],
+        area: NDArray[np.float64],
+        gap_derivative: NDArray[np.float64],
+        slip_derivative: NDArray[np.float64] | None = None,
+        normal_derivative: NDArray[np.float64] | None = None,
+    ) -> None: ...
+
+def add_vector(
+    law: str,
+    sliding: str,
+    term: str,
+    pairs: Pairs,
+    arrays: NodalArrays,
+    gdim: int,
+    b: NDArray[np.float64],
+) -> None: ...
 def look_at_step(
     pressure: NDArray[np.float64],
     gap: NDArray[np.float64],
@@ -344,6 +367,15 @@ class PythonNodes(NodeMap):
     def __init__(self, adapter: Any) -> None: ...
 
 class Pairs:
+    def __init__(
+        self,
+        slaves: NDArray[np.int32],
+        nodes: NDArray[np.int32],
+        data: NDArray[np.float64],
+        slip: NDArray[np.float64] | None = None,
+        *,
+        is_movement: bool = False,
+    ) -> None: ...
     @property
     def slaves(self) -> NDArray[np.int32]: ...
     @property
