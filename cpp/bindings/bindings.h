@@ -57,6 +57,7 @@ void active_set(py::module_& m);
 void kernel(py::module_& m);
 void audit(py::module_& m);
 void mortar(py::module_& m);
+void condense(py::module_& m);
 void contact(py::module_& m);
 void penetration(py::module_& m);
 void passage(py::module_& m);

@@ -4,6 +4,8 @@
 from collections.abc import Sequence
 from typing import Any, ClassVar, TypeVar
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -365,6 +367,75 @@ class NodeMap: ...
 
 class PythonNodes(NodeMap):
     def __init__(self, adapter: Any) -> None: ...
+
+class NotCondensable(Exception): ...
+
+class Triplets:
+    @property
+    def rows(self) -> NDArray[np.int32]: ...
+    @property
+    def columns(self) -> NDArray[np.int32]: ...
+    @property
+    def values(self) -> NDArray[np.float64]: ...
+    def __len__(self) -> int: ...
+
+class ContactNodes:
+    def __init__(
+        self,
+        slaves: NDArray[np.int32],
+        size: int,
+        status: NDArray[np.int8],
+        area: NDArray[np.float64],
+        normal: NDArray[np.float64],
+        by_multiplier: NDArray[np.float64],
+        softness: float,
+    ) -> None: ...
+
+def slave_marks(nodes: NodeMap, contacts: Sequence[ContactNodes]) -> NDArray[np.int8]: ...
+
+class Condensation:
+    def __init__(
+        self,
+        offsets: NDArray[np.int32],
+        columns: NDArray[np.int32],
+        values: NDArray[np.float64],
+        contacts: Sequence[ContactNodes],
+        is_slave: NDArray[np.int8],
+        free: NDArray[np.int8],
+        gdim: int,
+    ) -> None: ...
+    @property
+    def is_exact(self) -> bool: ...
+    @property
+    def is_soft(self) -> bool: ...
+    @property
+    def stiffness(self) -> Triplets: ...
+    @property
+    def left(self) -> Triplets: ...
+    @property
+    def right(self) -> Triplets: ...
+    @property
+    def law(self) -> Triplets: ...
+    @property
+    def eliminated(self) -> NDArray[np.int32]: ...
+    @property
+    def slave_dofs(self) -> NDArray[np.int32]: ...
+    def right_hand_side(
+        self, d: NDArray[np.float64]
+    ) -> tuple[
+        NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]
+    ]: ...
+    def recover(
+        self,
+        d: NDArray[np.float64],
+        defect: NDArray[np.float64],
+        u: NDArray[np.float64],
+        multipliers: NDArray[np.float64],
+    ) -> None: ...
+    def check_chains(self, nodes: NodeMap) -> None: ...
+    def is_symmetric(self, nodes: NodeMap) -> bool: ...
+    def bound(self, nodes: NodeMap, diagonal: NDArray[np.float64]) -> NDArray[np.float64]: ...
+    def elastic(self, nodes: NodeMap, diagonal: NDArray[np.float64] | None) -> Triplets: ...
 
 class Pairs:
     def __init__(

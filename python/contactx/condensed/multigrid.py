@@ -14,8 +14,8 @@ import numpy as np
 from contactx.bodies.modes import rigid_modes
 from contactx.bulk import Bulk
 from contactx.callback import Quiet, weakly
-from contactx.condensed.blocks import Array, Index
 from contactx.condensed.galerkin import Galerkin
+from contactx.condensed.numbering import Array, Index
 from contactx.condensed.operator import Change, CondensedOperator
 from contactx.options import ROUNDING, multigrid_options
 from contactx.parallel import reduce
