@@ -63,4 +63,5 @@ void penetration(py::module_& m);
 void passage(py::module_& m);
 void parallel(py::module_& m);
 void master(py::module_& m);
+void bodies(py::module_& m);
 } // namespace contactx_bindings

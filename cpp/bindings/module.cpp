@@ -13,6 +13,7 @@ PYBIND11_MODULE(cpp, m)
   contactx_bindings::node_state(m);
   contactx_bindings::law(m);
   contactx_bindings::active_set(m);
+  contactx_bindings::bodies(m);
   contactx_bindings::mortar(m);
   contactx_bindings::kernel(m);
   contactx_bindings::condense(m);
