@@ -53,7 +53,7 @@ void MeanNormal::normalise(std::span<double> normal,
     double* n = normal.data() + _gdim * i;
     const double* m = mobile.data() + _gdim * i;
     double* kept = _kept.data() + _gdim * i;
-    Vec<3> part{};
+    Vector<3> part{};
     for (int k = 0; k < _gdim; ++k)
       part[k] = n[k] * m[k];
     // What has all of its normal in such directions has nothing that moves
@@ -97,7 +97,7 @@ void MeanNormal::chain(std::span<const double> normal,
     double* S = by_slip.data() + g * g * i;
     double* N = by_normal.data() + g * g * i;
     const double height = product(n, w, g);
-    Vec<3> along;
+    Vector<3> along;
     for (int r = 0; r < g; ++r)
     {
       for (int k = 0; k < g; ++k)

@@ -118,5 +118,5 @@ class ContactSide:
     def set_tractions(self, which: npt.NDArray[np.int32], tractions: Array) -> None:
         """Set multipliers of slave nodes."""
         nodes = self._interface.nodes
-        rows = nodes.multiplier.reshape(nodes.slip.shape)
-        rows[which] = tractions.reshape(-1, rows.shape[1])
+        rows = nodes.multiplier.reshape(-1, nodes.size)
+        rows[which] = tractions.reshape(-1, nodes.size)
