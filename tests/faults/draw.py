@@ -28,7 +28,7 @@ PARTS = {
     "law": ("cpp/contactx/law", "cpp/contactx/contact"),
     "pairing": ("cpp/contactx/search", "cpp/contactx/facet", "python/contactx/search"),
     "mortar": ("cpp/contactx/mortar", "python/contactx/master"),
-    "condensation": ("python/contactx/condensed",),
+    "condensation": ("cpp/contactx/condense", "python/contactx/condensed"),
     "steps": ("python/contactx/steps",),
     "parallel": ("python/contactx/parallel",),
 }
