@@ -174,6 +174,10 @@ std::vector<FreeBodies::Rows> FreeBodies::rows(std::span<const double> x) const
           if (weights.nodes.size() != weights.slaves.size()
               or weights.values.size() != weights.slaves.size())
             throw std::invalid_argument("the arrays of weights differ in size");
+          if (contact->status().size() != n
+              or contact->closable_gap().size() != n)
+            throw std::invalid_argument("status and gap must have a value for "
+                                        "each slave node");
           Rows& rows
               = all.emplace_back(Rows{contact.get(), g, m, {}, {}, {}, {}, {}});
           // Weights of each slave node, in their order
