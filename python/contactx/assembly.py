@@ -33,7 +33,8 @@ class Assembly:
         self._halo = halo
         self._forms: list[ContactForms] = []
         self._sliding = ""
-        self._version = 0
+        self._version = halo.version
+        self._arrays = self._look()
 
     @property
     def forms(self) -> list[ContactForms]:
@@ -52,10 +53,24 @@ class Assembly:
             sliding: Kinematics, "finite" or "small".
         """
         self._sliding = sliding
-        self._version = self._halo.version
+        if self._version != self._halo.version:
+            self._version = self._halo.version
+            self._arrays = self._look()
         self._forms = [
             ContactForms(self._law, sliding, pairs, self._state, self._halo) for pairs in groups
         ]
+
+    def _look(self) -> core.NodalArrays:
+        """Views of what the forms read, for the core."""
+        return core.NodalArrays(
+            displacement=self._halo.displacement.array,
+            position=self._halo.position.array,
+            **{
+                name: vector.array
+                for name, vector in vars(self._state).items()
+                if vector is not None
+            },
+        )
 
     def update(self, groups: Sequence[Pairs]) -> None:
         """Take over new data, with new forms where the pairs or the halo are others."""
@@ -87,14 +102,9 @@ class Assembly:
     def _assemble(self, values: npt.NDArray[np.float64], term: str) -> None:
         """Set values of this rank's slave nodes; those of other ranks are left out."""
         values[:] = 0
-        arrays = core.NodalArrays(
-            displacement=self._halo.displacement.array,
-            position=self._halo.position.array,
-            **{name: v.array for name, v in vars(self._state).items() if v is not None},
-        )
         for form in self.forms:
             core.add_vector(
-                self._law, self._sliding, term, form.pairs, arrays, self._halo.gdim, values
+                self._law, self._sliding, term, form.pairs, self._arrays, self._halo.gdim, values
             )
 
     def add_residual(self, b: npt.NDArray[np.float64]) -> None:
