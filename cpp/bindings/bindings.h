@@ -61,4 +61,5 @@ void penetration(py::module_& m);
 void passage(py::module_& m);
 void parallel(py::module_& m);
 void master(py::module_& m);
+void obstacle(py::module_& m);
 } // namespace contactx_bindings

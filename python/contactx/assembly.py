@@ -9,7 +9,7 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 
-from contactx.forms import ContactForms, Pairs, State
+from contactx.forms import AnyPairs, ContactForms, State
 from contactx.law.nodes import Nodes
 from contactx.parallel.halo import Halo
 from dolfinx import fem
@@ -37,7 +37,7 @@ class Assembly:
         self._sliding = ""
         self._version = 0
 
-    def rebuild(self, groups: Sequence[Pairs], sliding: str) -> None:
+    def rebuild(self, groups: Sequence[AnyPairs], sliding: str) -> None:
         """Make the forms of new pairs.
 
         Args:
@@ -50,7 +50,7 @@ class Assembly:
             ContactForms(self._law, sliding, pairs, self._state, self._halo) for pairs in groups
         ]
 
-    def update(self, groups: Sequence[Pairs]) -> None:
+    def update(self, groups: Sequence[AnyPairs]) -> None:
         """Take over new data, with new forms where the pairs or the halo are others."""
         same = self._version == self._halo.version and len(groups) == len(self.forms)
         if not same or not all(

@@ -46,7 +46,7 @@ class Pairs:
         """Nodes of the master facet, 0 for a rigid obstacle."""
         return int(self.nodes.shape[1] - self.slaves.shape[1])
 
-    def same(self, other: Pairs) -> bool:
+    def same(self, other: Any) -> bool:
         """Whether others have the same nodes, so that forms of these serve them, too."""
         return (
             self.is_movement == other.is_movement
@@ -59,6 +59,10 @@ class Pairs:
         """Unit normals that the search found for single slave nodes, shape (num_pairs, 3)."""
         at = core.rigid_layout if self.num_nodes == 0 else core.pair_layout
         return self.data[:, at["normal"] : at["normal"] + 3]
+
+
+# Of masters in Python, or of those in the core
+type AnyPairs = Pairs | core.Pairs
 
 
 @dataclass(frozen=True)
@@ -129,7 +133,7 @@ class ContactForms:
     traction: fem.Form | None
     constraint: fem.Form | None
 
-    def __init__(self, law: str, sliding: str, pairs: Pairs, state: State, halo: Halo):
+    def __init__(self, law: str, sliding: str, pairs: AnyPairs, state: State, halo: Halo):
         """Create the forms of this rank's pairs; they know nothing of other ranks.
 
         Args:
@@ -217,7 +221,7 @@ class ContactForms:
         cells = np.flatnonzero(chosen).astype(np.int32)
         return [self._form(term, cells) for term in ("stiffness", "traction", "constraint")]
 
-    def update(self, pairs: Pairs) -> None:
+    def update(self, pairs: AnyPairs) -> None:
         """Take over new data of the same pairs."""
         self.pairs = pairs
         self._pair_data.array[:] = pairs.data.ravel()

@@ -12,13 +12,13 @@ from mpi4py import MPI
 import numpy as np
 import numpy.typing as npt
 
+from contactx import cpp as core
 from contactx.assembly import Assembly
 from contactx.errors import point_text
-from contactx.forms import ContactForms, Pairs, State
+from contactx.forms import AnyPairs, ContactForms, State
 from contactx.law.law import Law
 from contactx.law.nodes import Nodes, touching_gap
 from contactx.master.master import Master
-from contactx.master.obstacle import ObstacleMaster
 from contactx.nodal import NodalValue
 from contactx.parallel import reduce
 from contactx.parallel.agreement import agreed
@@ -56,7 +56,7 @@ class Interface:
     def __init__(
         self,
         slaves: SlaveNodes,
-        master: Master,
+        master: Master | core.Master,
         halo: Halo,
         *,
         law: Law,
@@ -118,7 +118,10 @@ class Interface:
     def _halo_changed(self) -> None:
         """Make what is kept of all nodes fit a halo that has changed."""
         self._free = self._halo.scatter_forward(self._markers) == 0
-        self.master.halo_changed(self._halo.scatter_forward)
+        if isinstance(self.master, core.Master):
+            self.master.nodes_changed()
+        else:
+            self.master.halo_changed(self._halo.scatter_forward)
 
     def positions(self) -> npt.NDArray[np.float64]:
         """Current positions of all nodes, shape (num_nodes, gdim)."""
@@ -246,7 +249,7 @@ class Interface:
             self._frozen_kinematics = frozen
             self._make_forms()
 
-    def _take(self, groups: Sequence[Pairs]) -> None:
+    def _take(self, groups: Sequence[AnyPairs]) -> None:
         """Take over new data of pairs."""
         self.nodes.area[:] = self.master.area(self._front)
         self._assembly.update(groups)
@@ -387,7 +390,7 @@ def check_drag(interfaces: Sequence[Interface], names: Sequence[Any], halo: Halo
     """
     for k, interface in enumerate(interfaces):
         master = interface.master
-        if not isinstance(master, ObstacleMaster) or not interface.active:
+        if not isinstance(master, core.ObstacleMaster) or not interface.active:
             continue
         size = reduce.extent(halo.comm, halo.x[interface.slaves]).max()
         with agreed(halo.comm):
@@ -408,7 +411,7 @@ def _constrained_inside(
 ) -> npt.NDArray[np.int32]:
     """Constrained slave nodes of this rank inside an obstacle, as blocks of the dofmap."""
     master = interface.master
-    if not isinstance(master, ObstacleMaster) or interface.law.is_tied:
+    if not isinstance(master, core.ObstacleMaster) or interface.law.is_tied:
         return np.array([], dtype=np.int32)
     x = halo.x[: halo.num_bulk] + prescribed.reshape(-1, halo.gdim)
     with agreed(halo.comm):

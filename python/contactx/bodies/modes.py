@@ -91,7 +91,7 @@ class RigidModes:
         """Whether any body has a free mode, or one that little resists."""
         return any(basis.shape[1] > 0 for basis in (*self.free, *self.weak))
 
-    def at(self, nodes: npt.NDArray[np.int32], x: Array) -> Array:
+    def at(self, nodes: npt.NDArray[np.integer], x: Array) -> Array:
         """All rigid modes of the bodies of some nodes, at these nodes.
 
         Args:
