@@ -64,4 +64,5 @@ void passage(py::module_& m);
 void parallel(py::module_& m);
 void master(py::module_& m);
 void bodies(py::module_& m);
+void obstacle(py::module_& m);
 } // namespace contactx_bindings

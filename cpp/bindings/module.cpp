@@ -8,6 +8,7 @@ PYBIND11_MODULE(cpp, m)
   m.doc() = "C++ core of contactx, free of DOLFINx and PETSc";
   contactx_bindings::parallel(m);
   contactx_bindings::master(m);
+  contactx_bindings::obstacle(m);
   contactx_bindings::facet(m);
   contactx_bindings::search(m);
   contactx_bindings::node_state(m);

@@ -17,7 +17,6 @@ from contactx.assembly import Assembly
 from contactx.errors import point_text
 from contactx.forms import ContactForms, Pairs, State
 from contactx.master.master import Master
-from contactx.master.obstacle import ObstacleMaster
 from contactx.nodal import NodalValue
 from contactx.parallel import reduce
 from contactx.parallel.agreement import agreed
@@ -54,7 +53,7 @@ class Interface:
     def __init__(
         self,
         slaves: SlaveNodes,
-        master: Master,
+        master: Master | core.Master,
         halo: Halo,
         *,
         law: core.Law,
@@ -119,7 +118,10 @@ class Interface:
     def _halo_changed(self) -> None:
         """Make what is kept of all nodes fit a halo that has changed."""
         self._free = self._halo.scatter_forward(self._markers) == 0
-        self.master.halo_changed(self._halo.scatter_forward)
+        if isinstance(self.master, core.Master):
+            self.master.nodes_changed()
+        else:
+            self.master.halo_changed(self._halo.scatter_forward)
 
     def positions(self) -> npt.NDArray[np.float64]:
         """Current positions of all nodes, shape (num_nodes, gdim)."""
@@ -402,7 +404,7 @@ def check_drag(interfaces: Sequence[Interface], names: Sequence[Any], halo: Halo
     """
     for k, interface in enumerate(interfaces):
         master = interface.master
-        if not isinstance(master, ObstacleMaster) or not interface.active:
+        if not isinstance(master, core.ObstacleMaster) or not interface.active:
             continue
         size = reduce.extent(halo.comm, halo.x[interface.slaves]).max()
         with agreed(halo.comm):
@@ -423,7 +425,7 @@ def _constrained_inside(
 ) -> npt.NDArray[np.int32]:
     """Constrained slave nodes of this rank inside an obstacle, as blocks of the dofmap."""
     master = interface.master
-    if not isinstance(master, ObstacleMaster) or interface.law.is_tied:
+    if not isinstance(master, core.ObstacleMaster) or interface.law.is_tied:
         return np.array([], dtype=np.int32)
     x = halo.x[: halo.num_bulk] + prescribed.reshape(-1, halo.gdim)
     with agreed(halo.comm):

@@ -19,7 +19,7 @@ using Flags = std::vector<std::int8_t>;
 /// A contact of one node that it shares with others.
 struct Side
 {
-  Vec<3> normal;
+  Vector<3> normal;
   double gap = -1;
   bool is_tied = false;
   std::int8_t closes = 1;
@@ -56,10 +56,10 @@ struct Node
 };
 
 /// Unit normal in the plane at an angle from the vertical.
-Vec<3> tilted(double angle) { return {std::sin(angle), std::cos(angle), 0}; }
+Vector<3> tilted(double angle) { return {std::sin(angle), std::cos(angle), 0}; }
 
 /// Square of the volume that vectors span.
-double gram(const std::vector<Vec<3>>& v)
+double gram(const std::vector<Vector<3>>& v)
 {
   const std::size_t n = v.size();
   std::vector<std::vector<double>> g(n, std::vector<double>(n));
@@ -206,7 +206,7 @@ TEST(Junctions, KeepIndependentNormalsOfAnyNumber)
     std::vector<Side> sides;
     for (std::size_t k = 0; k < n; ++k)
     {
-      Vec<3> normal = random.unit<3>();
+      Vector<3> normal = random.unit<3>();
       // Some are nearly in a plane
       if (random(0, 1) < 0.5)
         normal[2] *= 0.1;
@@ -219,7 +219,7 @@ TEST(Junctions, KeepIndependentNormalsOfAnyNumber)
     std::vector<std::size_t> order(n);
     std::iota(order.begin(), order.end(), 0);
     std::ranges::sort(order, {}, [&](std::size_t k) { return sides[k].gap; });
-    std::vector<Vec<3>> kept;
+    std::vector<Vector<3>> kept;
     Flags ceded(n, 0), smooth(n, 0);
     for (std::size_t k : order)
     {

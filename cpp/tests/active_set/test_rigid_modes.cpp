@@ -75,9 +75,9 @@ TEST(RigidModes, TranslationsThenRotations)
   rigid_modes(d.data(), modes.data(), 3);
   for (int k = 0; k < 3; ++k)
   {
-    Vec<3> axis{};
+    Vector<3> axis{};
     axis[k] = 1;
-    const Vec<3> turned = cross(axis, d);
+    const Vector<3> turned = cross(axis, d);
     for (int c = 0; c < 3; ++c)
     {
       EXPECT_EQ(modes[6 * c + k], c == k);

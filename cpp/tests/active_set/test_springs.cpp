@@ -23,7 +23,7 @@ struct Points
     field = dense::Matrix(count * gdim, m);
     for (int i = 0; i < count; ++i)
     {
-      const Vec<3> at = random.vector<3>(-1, 1);
+      const Vector<3> at = random.vector<3>(-1, 1);
       active_set::rigid_modes(at.data(), &field(i * gdim, 0), gdim);
       original.push_back((i * 7 + 3) % count);
     }
