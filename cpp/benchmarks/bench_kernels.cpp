@@ -93,10 +93,7 @@ Coefficients fill(Law law, int num_nodes, int gdim, int num_slaves,
   std::uniform_real_distribution<double> unit(0, 1);
   const auto at = [=](Coefficient c)
   { return offset(law, c, num_nodes, gdim, num_slaves); };
-  const int stride
-      = at(Coefficient::normal_derivative)
-        + num_slaves
-              * coefficients(law, num_nodes, gdim, num_slaves).back().size;
+  const int stride = coefficient_values(law, num_nodes, gdim, num_slaves);
   Coefficients c{std::vector<double>(std::size_t(stride) * num_pairs), stride};
   for (int i = 0; i < num_pairs; ++i)
   {
@@ -112,25 +109,12 @@ Coefficients fill(Law law, int num_nodes, int gdim, int num_slaves,
 double time(Law law, std::string_view sliding, std::string_view term,
             int num_nodes, int gdim, int num_slaves, const Coefficients& c)
 {
-  const auto entry = std::ranges::find_if(
-      registry(),
-      [&](const Entry& e)
-      {
-        return e.law == law and e.sliding == sliding and e.term == term
-               and e.num_nodes == num_nodes and e.gdim == gdim
-               and e.num_slaves == num_slaves;
-      });
-  if (entry == registry().end())
+  const Entry* entry
+      = find_if_any(law, sliding, term, num_nodes, gdim, num_slaves);
+  if (!entry)
     return 0;
-  // Rows and columns of the local tensor
-  const int dofs = gdim * (num_nodes + num_slaves);
-  const int dim = num_slaves * (law == Law::frictionless ? 1 : gdim);
-  const int size = term == "gap"                        ? num_slaves
-                   : term == "normal" or term == "slip" ? num_slaves * gdim
-                   : term == "residual"                 ? dofs
-                   : term == "stiffness"                ? dofs * dofs
-                                                        : dofs * dim;
-  std::vector<double> A(size);
+  const Shape size = shape(*entry);
+  std::vector<double> A(size.rows * size.columns);
   double sum = 0;
   const double t = best_seconds(
       7,

@@ -51,14 +51,18 @@ py::array_t<T> array(const std::vector<T>& v,
 
 void facet(py::module_& m);
 void search(py::module_& m);
+void node_state(py::module_& m);
 void law(py::module_& m);
 void active_set(py::module_& m);
 void kernel(py::module_& m);
 void audit(py::module_& m);
 void mortar(py::module_& m);
+void condense(py::module_& m);
 void contact(py::module_& m);
 void penetration(py::module_& m);
 void passage(py::module_& m);
 void parallel(py::module_& m);
 void master(py::module_& m);
+void bodies(py::module_& m);
+void obstacle(py::module_& m);
 } // namespace contactx_bindings

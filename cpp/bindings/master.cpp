@@ -3,6 +3,7 @@
 
 #include "master.h"
 #include <contactx/kernel/layout.h>
+#include <pybind11/stl.h>
 #include <stdexcept>
 
 namespace py = pybind11;
@@ -23,6 +24,41 @@ std::vector<T> values_of(const py::array& a)
 {
   const auto values = py::array_t<T, py::array::c_style>::ensure(a);
   return {values.data(), values.data() + values.size()};
+}
+
+/// Pairs with copies of the arrays, which say by their shapes what they are.
+Pairs pairs_of(const Array<std::int32_t>& slaves,
+               const Array<std::int32_t>& nodes, const Array<double>& data,
+               const std::optional<Array<double>>& slip, bool is_movement)
+{
+  const auto check = [&slaves](const py::array& a, const char* name)
+  {
+    if (a.ndim() != 2 or a.shape(0) != slaves.shape(0))
+      throw std::invalid_argument(std::string(name)
+                                  + " must have a row for each pair");
+  };
+  if (slaves.ndim() != 2 or slaves.shape(1) < 1)
+    throw std::invalid_argument("slaves must have a row for each pair");
+  check(nodes, "nodes");
+  check(data, "data");
+  if (slip)
+    check(*slip, "slip");
+  if (nodes.shape(1) < slaves.shape(1))
+    throw std::invalid_argument("nodes must begin with the slave nodes");
+  Pairs p;
+  p.num_slaves = static_cast<int>(slaves.shape(1));
+  p.num_nodes = static_cast<int>(nodes.shape(1) - slaves.shape(1));
+  p.data_size = static_cast<int>(data.shape(1));
+  p.is_movement = is_movement;
+  p.slaves = copy(slaves);
+  p.nodes = copy(nodes);
+  p.data = copy(data);
+  if (slip)
+  {
+    p.slip_size = static_cast<int>(slip->shape(1));
+    p.slip = copy(*slip);
+  }
+  return p;
 }
 
 py::array_t<double> rows(const std::vector<double>& values, py::ssize_t width)
@@ -101,6 +137,9 @@ void contactx_bindings::master(py::module_& m)
 {
   py::class_<Pairs, std::shared_ptr<Pairs>>(
       m, "Pairs", "Pairs with master facets of one kind")
+      .def(py::init(&pairs_of), py::arg("slaves"), py::arg("nodes"),
+           py::arg("data"), py::arg("slip") = py::none(), py::kw_only(),
+           py::arg("is_movement") = false)
       .def_property_readonly(
           "slaves",
           [](py::object self)
@@ -140,16 +179,17 @@ void contactx_bindings::master(py::module_& m)
                            {static_cast<py::ssize_t>(p.size()), p.slip_size},
                            self);
           })
-      .def_property_readonly(
-          "normal",
-          [](py::object self)
-          {
-            const int at = self.cast<const Pairs&>().num_nodes == 0
-                               ? contactx::kernel::rigid_normal
-                               : contactx::kernel::pair_normal;
-            return py::object(self.attr("data"))[py::make_tuple(
-                py::ellipsis(), py::slice(at, at + 3, 1))];
-          })
+      .def_property_readonly("normal",
+                             [](py::object self) -> py::object
+                             {
+                               const int at
+                                   = self.cast<const Pairs&>().num_nodes == 0
+                                         ? contactx::kernel::rigid_normal
+                                         : contactx::kernel::pair_normal;
+                               const py::object data = self.attr("data");
+                               return data[py::make_tuple(
+                                   py::ellipsis(), py::slice(at, at + 3, 1))];
+                             })
       .def_readonly("num_nodes", &Pairs::num_nodes)
       .def_readonly("is_movement", &Pairs::is_movement)
       .def("same", &Pairs::same, py::arg("other"));

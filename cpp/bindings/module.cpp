@@ -8,12 +8,16 @@ PYBIND11_MODULE(cpp, m)
   m.doc() = "C++ core of contactx, free of DOLFINx and PETSc";
   contactx_bindings::parallel(m);
   contactx_bindings::master(m);
+  contactx_bindings::obstacle(m);
   contactx_bindings::facet(m);
   contactx_bindings::search(m);
+  contactx_bindings::node_state(m);
   contactx_bindings::law(m);
   contactx_bindings::active_set(m);
+  contactx_bindings::bodies(m);
   contactx_bindings::mortar(m);
   contactx_bindings::kernel(m);
+  contactx_bindings::condense(m);
   contactx_bindings::contact(m);
   contactx_bindings::penetration(m);
   contactx_bindings::audit(m);

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from contactx import cpp as core
 from contactx.arguments import check_switch, described, is_number
 from contactx.bodies.bodies import Bodies
 from contactx.fields import Fields
@@ -17,7 +18,6 @@ from contactx.forms import ContactForms
 from contactx.geometry.facing import check_facing
 from contactx.geometry.inside import shared_nodes
 from contactx.interface import Interface
-from contactx.law.make import make_law
 from contactx.master.make import make_master
 from contactx.nodal import NodalValue
 from contactx.obstacles import Obstacle
@@ -157,7 +157,7 @@ class Contact:
         slaves = SlaveNodes(halo, in_order(self.slave.facet_nodes(V), halo))
         with agreed(halo.comm):
             offset = NodalValue(self.offset, "offset", V, slaves.owned)
-            law = make_law(self.tied, self.friction, V, slaves.owned)
+            law, friction = self._law(V, slaves.owned)
         master = make_master(
             self.slave,
             slaves,
@@ -177,6 +177,7 @@ class Contact:
             master,
             halo,
             law=law,
+            friction=friction,
             sliding=self.sliding,
             has_means=self.method == "surface-to-surface",
             offset=offset,
@@ -187,6 +188,25 @@ class Contact:
         self._fields = Fields(interface, V, slaves, halo)
         self._interface = interface
         return interface
+
+    def _law(
+        self, V: fem.FunctionSpace, slaves: npt.NDArray[np.int32]
+    ) -> tuple[core.Law, NodalValue | None]:
+        """Law of the contact, and the coefficient of friction that it is handed.
+
+        Args:
+            V: Space of the displacement.
+            slaves: Slave nodes of this rank, shape (n,).
+
+        Raises:
+            ValueError: If friction is a function of another space, or a constant that is no number.
+        """
+        if self.tied:
+            return core.Tied(), None
+        # A constant of the value 0 may become another one
+        if self.friction != 0:
+            return core.Coulomb(), NodalValue(self.friction, "friction", V, slaves)
+        return core.Frictionless(), None
 
     def detach(self) -> None:
         """Free the contact for another problem; ContactProblem calls this if it is refused."""
@@ -223,7 +243,10 @@ class Contact:
 
     @property
     def forms(self) -> list[ContactForms]:
-        """Forms of the current pairs, one set for each kind of master facet."""
+        """Forms of the current pairs, one set for each kind of master facet.
+
+        They read the state as it is now: ask anew where it has changed since.
+        """
         return self.interface.forms
 
     @property

@@ -14,56 +14,16 @@ import numpy.typing as npt
 
 from contactx import contact_mesh
 from contactx import cpp as core
+from contactx.cpp import Pairs
 from contactx.parallel.halo import Halo
 from dolfinx import cpp, fem, la
 
 
 @dataclass(frozen=True)
-class Pairs:
-    """Pairs of slave nodes, or of slave facets, with master facets of one kind.
-
-    Attributes:
-        slaves: Slave nodes by their number in the contact, those of other ranks last: one a pair,
-            or those of a slave facet, shape (num_pairs, num_slaves).
-        nodes: The slave nodes and the master facet's nodes, numbered as all nodes of this rank:
-            the blocks of the displacement's dofmap, then the halo, shape (num_pairs, num_slaves +
-            num_nodes).
-        data: What the kernels read of a pair, as cpp/contactx/kernel/layout.h says, shape
-            (num_pairs, size).
-        slip: What they read of slip a slave node, else None: shape (num_pairs, 6) with a facet,
-            (num_pairs, 12) with a rigid obstacle.
-        is_movement: Whether they measure slip alone: pairs of facets of the step's start.
-    """
-
-    slaves: npt.NDArray[np.int32]
-    nodes: npt.NDArray[np.int32]
-    data: npt.NDArray[np.float64]
-    slip: npt.NDArray[np.float64] | None = None
-    is_movement: bool = False
-
-    @property
-    def num_nodes(self) -> int:
-        """Nodes of the master facet, 0 for a rigid obstacle."""
-        return int(self.nodes.shape[1] - self.slaves.shape[1])
-
-    def same(self, other: Pairs) -> bool:
-        """Whether others have the same nodes, so that forms of these serve them, too."""
-        return (
-            self.is_movement == other.is_movement
-            and np.array_equal(self.nodes, other.nodes)
-            and np.array_equal(self.slaves, other.slaves)
-        )
-
-    @property
-    def normal(self) -> npt.NDArray[np.float64]:
-        """Unit normals that the search found for single slave nodes, shape (num_pairs, 3)."""
-        at = core.rigid_layout if self.num_nodes == 0 else core.pair_layout
-        return self.data[:, at["normal"] : at["normal"] + 3]
-
-
-@dataclass(frozen=True)
 class State:
     """Vectors of the slave nodes that the kernels read, those of other ranks last.
+
+    They are copies: the core owns what the slave nodes have (``take``).
 
     Attributes:
         multiplier: Multiplier of the slave nodes, force/area: pressure or traction.
@@ -81,7 +41,7 @@ class State:
 
     @staticmethod
     def of(gdim: int, slave_map: Any, *, is_vector: bool) -> State:
-        """Make the vectors, zero.
+        """Make the vectors, zero but for areas of one.
 
         Args:
             gdim: Geometric dimension.
@@ -92,13 +52,32 @@ class State:
         def vector(block: int) -> la.Vector:
             return la.vector(slave_map, block)
 
+        area = vector(1)
+        # What is divided by it goes nowhere for slave nodes of other ranks
+        area.array[:] = 1
         return State(
             multiplier=vector(gdim if is_vector else 1),
-            area=vector(1),
+            area=area,
             gap_derivative=vector(gdim if is_vector else 1),
             slip_derivative=vector(gdim * gdim) if is_vector else None,
             normal_derivative=vector(gdim * gdim) if is_vector else None,
         )
+
+    def take(self, nodes: core.NodeState) -> None:
+        """Copy the state of this rank's slave nodes as it is now.
+
+        Args:
+            nodes: The state.
+        """
+        for vector, values in (
+            (self.multiplier, nodes.multiplier),
+            (self.area, nodes.area),
+            (self.gap_derivative, nodes.by_gap),
+            (self.slip_derivative, nodes.by_slip),
+            (self.normal_derivative, nodes.by_normal),
+        ):
+            if vector is not None:
+                vector.array[: len(values)] = values
 
 
 class ContactForms:
@@ -106,14 +85,10 @@ class ContactForms:
 
     The displacement's spaces borrow the dofs of the bulk, the multiplier's those of the slave
     nodes, so a form is assembled straight into vectors and matrices of either. Forms that vanish,
-    or that other pairs have, are None.
+    or that other pairs have, are None. Gap, normal and slip need no form: the core assembles them.
 
     Attributes:
         pairs: The pairs.
-        gap: Gap of each slave node, a vector of the slave nodes.
-        normal: Normal of its master, of unit length but for a mean over facets; for vector
-            multipliers.
-        slip: Its slip, or its movement along with the normal part; for vector multipliers.
         residual: Contact forces -A lambda . (v_s - sum_l N_l v_l), a vector of the bulk.
         stiffness: Derivative of the residual with respect to the displacement; it vanishes in
             small sliding, and for vector multipliers on a rigid obstacle.
@@ -121,9 +96,6 @@ class ContactForms:
         constraint: Derivative of the complementarity function with respect to the displacement.
     """
 
-    gap: fem.Form | None
-    normal: fem.Form | None
-    slip: fem.Form | None
     residual: fem.Form | None
     stiffness: fem.Form | None
     traction: fem.Form | None
@@ -175,13 +147,10 @@ class ContactForms:
             )
         terms = core.terms(law, sliding, *kind)
         if pairs.is_movement:
-            terms = [term for term in terms if term in ("slip", "constraint")]
+            terms = ["constraint"]
         U = spaces["nodes", gdim]
         S = spaces["slave", state.multiplier.block_size]
         arguments = {
-            "gap": [spaces["slave", 1]],
-            "normal": [S],
-            "slip": [S],
             "residual": [U],
             "stiffness": [U, U],
             "traction": [U, S],

@@ -12,19 +12,16 @@ from mpi4py import MPI
 import numpy as np
 import numpy.typing as npt
 
+from contactx import cpp as core
 from contactx.assembly import Assembly
 from contactx.errors import point_text
 from contactx.forms import ContactForms, Pairs, State
-from contactx.law.law import Law
-from contactx.law.nodes import Nodes, touching_gap
 from contactx.master.master import Master
-from contactx.master.obstacle import ObstacleMaster
 from contactx.nodal import NodalValue
 from contactx.parallel import reduce
 from contactx.parallel.agreement import agreed
 from contactx.parallel.halo import Halo, first_node
 from contactx.parallel.slaves import SlaveNodes
-from contactx.slip import SlipHistory
 from dolfinx import cpp
 
 # Share of a relative movement that must be free for a constraint on it
@@ -56,10 +53,11 @@ class Interface:
     def __init__(
         self,
         slaves: SlaveNodes,
-        master: Master,
+        master: Master | core.Master,
         halo: Halo,
         *,
-        law: Law,
+        law: core.Law,
+        friction: NodalValue | None,
         sliding: str,
         has_means: bool,
         offset: NodalValue,
@@ -73,6 +71,7 @@ class Interface:
             master: Master side, without pairs yet.
             halo: Nodes of this rank.
             law: Contact law.
+            friction: Coefficient of friction, read at each iterate; None for other laws.
             sliding: "finite" or "small".
             has_means: Whether normals are means over facets.
             offset: What is taken off the gap.
@@ -98,13 +97,14 @@ class Interface:
         # State is this rank's alone
         slave_map = cpp.common.IndexMap(MPI.COMM_SELF, len(slaves.around))
         self.state = State.of(gdim, slave_map, is_vector=law.is_vector)
-        self._assembly = Assembly(law.name, self.state, halo)
+        self.nodes = core.NodeState(n, gdim, law.is_vector, has_means)
+        self._assembly = Assembly(law.name, self.nodes, self.state, halo)
         self.slave_nodes = slaves
-        self.nodes = Nodes(self.state, n, gdim, has_means=has_means)
-        self.history = SlipHistory(n, gdim) if law.is_vector and not law.is_tied else None
+        slips = law.is_vector and not law.is_tied
+        self.history = core.SlipHistory(n, gdim) if slips else None
         self._touched = np.zeros(n, dtype=bool)
         self.active, self.skipped_searches = True, 0
-        self._offset = offset
+        self._offset, self._friction = offset, friction
         # A crack's tip: nodes of both sides have no gap
         self.is_shared = np.zeros(n, dtype=bool) if shared is None else shared[self.slaves]
         self.shared_nodes = np.flatnonzero([] if shared is None else shared)
@@ -118,7 +118,10 @@ class Interface:
     def _halo_changed(self) -> None:
         """Make what is kept of all nodes fit a halo that has changed."""
         self._free = self._halo.scatter_forward(self._markers) == 0
-        self.master.halo_changed(self._halo.scatter_forward)
+        if isinstance(self.master, core.Master):
+            self.master.nodes_changed()
+        else:
+            self.master.halo_changed(self._halo.scatter_forward)
 
     def positions(self) -> npt.NDArray[np.float64]:
         """Current positions of all nodes, shape (num_nodes, gdim)."""
@@ -198,7 +201,7 @@ class Interface:
             compliance: Compliance of all nodes, length/force, zero where one cannot move.
         """
         of_pairs = compliance[self.slaves] + self.master.compliance(compliance)
-        self.nodes.set_factor(of_pairs, self._halo.comm)
+        self.nodes.set_factor(of_pairs, self._halo.nodes)
 
     def search(self) -> int:
         """Pair the slave nodes in the current configuration, unless kinematics are frozen.
@@ -229,10 +232,10 @@ class Interface:
 
     def _find_immobile(self) -> None:
         along, each = self.master.mobility(self._free)
-        self.nodes.immobile = self.master.paired & (along < 1e-8)
+        self.nodes.immobile[:] = self.master.paired & (along < 1e-8)
         if self.law.is_vector:
             # A projection over an open gap on a tilted facet leaves a symmetry plane by a little
-            self.nodes.mobile = np.where(each < _MOBILE, 0.0, 1.0)
+            self.nodes.mobile[:] = np.where(each < _MOBILE, 0.0, 1.0)
 
     def freeze_kinematics(self, frozen: bool) -> None:
         """Freeze pairs, normals and projections of finite sliding, or update them again.
@@ -258,21 +261,35 @@ class Interface:
 
     @property
     def forms(self) -> list[ContactForms]:
-        """Forms of the current pairs, one set for each kind of master facet."""
+        """Forms of the current pairs, one set for each kind of master facet.
+
+        They read the state as it is now: ask anew where it has changed since.
+        """
         return self._assembly.forms
 
     def update_gap(self) -> None:
         """First pass: assemble gap, normal and slip of each slave node; all ranks take part."""
         with agreed(self._halo.comm):
-            self.law.check(self.nodes)
+            self._read_friction()
             offset = self.offset()
             fresh = self.master.update(self.positions(), self._frozen_kinematics, offset)
         if fresh is not None:
             self._take(fresh)
-        self._assembly.kinematics(self.nodes)
-        self._assembly.slip(self.nodes, self.master.origin)
-        self.nodes.gap -= offset
-        self.nodes.gap[~(self.master.paired & self.active) | self.is_shared] = np.nan
+        self._assembly.kinematics()
+        self._assembly.slip(self.master.origin)
+        gap = self.nodes.gap
+        gap -= offset
+        gap[~(self.master.paired & self.active) | self.is_shared] = np.nan
+
+    def _read_friction(self) -> None:
+        """Hand the law the coefficients of now.
+
+        Raises:
+            ValueError: If one is negative or not finite.
+        """
+        if self._friction is not None and isinstance(self.law, core.Coulomb):
+            friction = np.broadcast_to(self._friction.now(), self.slaves.shape)
+            self.law.set_friction(friction)
 
     def offset(self) -> npt.NDArray[np.float64]:
         """What is taken off the gap now, shape (n,)."""
@@ -294,7 +311,7 @@ class Interface:
         if self.history is not None:
             with agreed(self._halo.comm):
                 self._measure_from_touching(closing & ~self._touched)
-        self.law.set_status(nodes)
+        self.law.set_status(nodes, self._halo.nodes)
         if first:
             # Nor does rounding decide between stick and slip where nothing presses yet
             loose = ~nodes.closed | ~nodes.multiplier.reshape(-1, nodes.size).any(axis=1)
@@ -309,7 +326,7 @@ class Interface:
         self._touched = self._touched | which
         fresh = self.master.update(x, self._frozen_kinematics, offset)
         self._take(self.master.pairs() if fresh is None else fresh)
-        self._assembly.slip(self.nodes, self.master.origin)
+        self._assembly.slip(self.master.origin)
 
     def closing(self, first: bool = False) -> npt.NDArray[np.bool_]:
         """Which nodes the complementarity closes; all ranks must take part at a step's start.
@@ -325,7 +342,7 @@ class Interface:
         """
         if not first:
             return self.nodes.closing()
-        tie = touching_gap(self._halo.comm, self.positions()[self.slaves])
+        tie = core.touching_gap(self._halo.nodes, self.positions()[self.slaves])
         return self.nodes.closing(tie)
 
     def add_residual(self, b: npt.NDArray[np.float64]) -> None:
@@ -387,7 +404,7 @@ def check_drag(interfaces: Sequence[Interface], names: Sequence[Any], halo: Halo
     """
     for k, interface in enumerate(interfaces):
         master = interface.master
-        if not isinstance(master, ObstacleMaster) or not interface.active:
+        if not isinstance(master, core.ObstacleMaster) or not interface.active:
             continue
         size = reduce.extent(halo.comm, halo.x[interface.slaves]).max()
         with agreed(halo.comm):
@@ -408,7 +425,7 @@ def _constrained_inside(
 ) -> npt.NDArray[np.int32]:
     """Constrained slave nodes of this rank inside an obstacle, as blocks of the dofmap."""
     master = interface.master
-    if not isinstance(master, ObstacleMaster) or interface.law.is_tied:
+    if not isinstance(master, core.ObstacleMaster) or interface.law.is_tied:
         return np.array([], dtype=np.int32)
     x = halo.x[: halo.num_bulk] + prescribed.reshape(-1, halo.gdim)
     with agreed(halo.comm):

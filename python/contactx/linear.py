@@ -13,7 +13,7 @@ import numpy as np
 
 from contactx.bulk import Bulk
 from contactx.callback import keeps_its_error, weakly
-from contactx.condensed.blocks import Array
+from contactx.condensed.numbering import Array
 from contactx.condensed.solver import CondensedSolver
 from contactx.report import Report
 from contactx.system import SaddlePointSystem

@@ -27,6 +27,7 @@ from dolfinx import fem
 # State of the slave nodes that outlives a step, and what laws of vectors have as well
 _NODAL = ("multiplier", "status", "gap", "immobile")
 _VECTORS = ("normal", "slip", "mobile")
+_HISTORY = ("slip", "total", "dissipation")
 
 
 def state_rows(interface: Interface) -> dict[str, RowKind]:
@@ -38,7 +39,7 @@ def state_rows(interface: Interface) -> dict[str, RowKind]:
     Returns:
         Kinds by the names of the arrays.
     """
-    history = () if interface.history is None else vars(interface.history)
+    history = () if interface.history is None else _HISTORY
     nodal = (*_nodal(interface), *(f"history_{name}" for name in history))
     kinds: dict[str, RowKind] = {"active": "global", **dict.fromkeys(nodal, "slave")}
     return kinds | {f"master_{name}": kind for name, kind in interface.master.saved_rows.items()}
@@ -54,14 +55,14 @@ def save_state(interface: Interface) -> dict[str, npt.NDArray[Any]]:
         Arrays of this rank by their names, with shapes and types that never change.
     """
     nodes = interface.nodes
-    history = {} if interface.history is None else vars(interface.history)
+    history = () if interface.history is None else _HISTORY
     n = len(nodes.status)
     shapes = {"multiplier": (n, nodes.size)}
     nodal = {name: getattr(nodes, name).copy() for name in _nodal(interface)}
     return {
         "active": np.array(interface.active),
         **{name: a.reshape(shapes.get(name, a.shape)) for name, a in nodal.items()},
-        **{f"history_{name}": values.copy() for name, values in history.items()},
+        **{f"history_{name}": getattr(interface.history, name) for name in history},
         **{f"master_{name}": values for name, values in interface.master.save().items()},
     }
 
@@ -84,8 +85,7 @@ def load_state(interface: Interface, saved: Mapping[str, npt.NDArray[Any]]) -> N
         values = getattr(nodes, name)
         values[:] = saved[name].reshape(values.shape)
     if interface.history is not None:
-        for name in vars(interface.history):
-            setattr(interface.history, name, saved[f"history_{name}"].copy())
+        interface.history.restore(*(saved[f"history_{name}"] for name in _HISTORY))
     interface.rebuild()
 
 

@@ -25,10 +25,10 @@ ROOT = Path(__file__).parents[2]
 # Parts of the project and where they are
 PARTS = {
     "kernels": ("cpp/contactx/kernel",),
-    "law": ("cpp/contactx/law", "python/contactx/law"),
+    "law": ("cpp/contactx/law", "cpp/contactx/contact"),
     "pairing": ("cpp/contactx/search", "cpp/contactx/facet", "python/contactx/search"),
     "mortar": ("cpp/contactx/mortar", "python/contactx/master"),
-    "condensation": ("python/contactx/condensed",),
+    "condensation": ("cpp/contactx/condense", "python/contactx/condensed"),
     "steps": ("python/contactx/steps",),
     "parallel": ("python/contactx/parallel",),
 }

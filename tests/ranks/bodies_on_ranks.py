@@ -6,7 +6,8 @@ from mpi4py import MPI
 
 import numpy as np
 
-from contactx.bodies.modes import RigidModes
+from contactx import cpp as core
+from contactx.bodies.adapter import BulkSide
 
 from ranks.checks_on_ranks import check_errors, check_passages, nested
 from scenes.free_block import FreeBlock
@@ -38,7 +39,7 @@ def check_bodies(one, scene):
         cells = len(bodies.cells(body))
         assert COMM.allreduce(cells) == len(one.bodies.cells(body))
         # Of one node that one rank knows of
-        node = np.flatnonzero(halo.original[: halo.num_owned] == body)
+        node = np.flatnonzero(halo.original[: halo.num_owned] == body).astype(np.int32)
         assert bodies.carrying(node) == [body]
     some = np.array(names[::-1])
     np.testing.assert_array_equal(bodies.boxes(some), one.bodies.boxes(some))
@@ -48,8 +49,9 @@ def check_bodies(one, scene):
 def check_modes(one, scene):
     found = []
     for s in (one, scene):
-        modes = RigidModes(s.bulk, s.bodies, s.halo.x)
-        modes.update(s.halo.x)
+        side = BulkSide(s.bulk, s.halo)
+        modes = core.RigidModes(s.bodies, side, s.halo.x)
+        modes.update(side, s.halo.x)
         owned = np.arange(s.halo.num_owned, dtype=np.int32)
         found.append((modes, s.everywhere(modes.at(owned, s.halo.x))))
     (serial, fields), (modes, ours) = found

@@ -7,6 +7,7 @@ from types import SimpleNamespace
 import numpy as np
 
 import contactx as cx
+from contactx import cpp as core
 from contactx.audit.passage import NONE, _normals, passages
 from contactx.geometry import inside
 from contactx.geometry.facets import check_facets
@@ -14,7 +15,6 @@ from contactx.geometry.facing import check_facing
 from contactx.geometry.inside import check_apart, check_outside
 from contactx.interface import check_over_constrained
 from contactx.master.facets import FacetMaster
-from contactx.master.obstacle import ObstacleMaster
 from contactx.parallel.slaves import SlaveNodes
 from contactx.search.records import slave_facets
 from contactx.surface import FacetList
@@ -94,8 +94,9 @@ def over_constrained(scene):
     nodes = nodes[nodes < halo.num_owned]
     up = np.eye(scene.dim)[height] + 0.2 * np.eye(scene.dim)[0]
     x0 = np.eye(scene.dim)[0] - np.eye(scene.dim)[height]
-    every = SimpleNamespace(owned=nodes, facing=lambda x, normal: np.ones(len(nodes), dtype=bool))
-    master = ObstacleMaster(every, cx.Plane(x0, up), halo.x, None, measures_slip=False)
+    no_facets = np.zeros(1, dtype=np.int32), np.zeros(0, dtype=np.int32)
+    options = (cx.Plane(x0, up), halo.nodes, *no_facets, nodes, halo.x, None, False)
+    master = core.ObstacleMaster(*options)
     interface = SimpleNamespace(
         master=master,
         law=SimpleNamespace(is_tied=False),

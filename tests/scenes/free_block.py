@@ -3,17 +3,12 @@
 """An upper block that only its contact with the lower one supports, without a search."""
 
 from types import SimpleNamespace
-from typing import Any
 
 import numpy as np
 
 from contactx import cpp as core
 from contactx.bodies.free_bodies import FreeBodies
-from contactx.law.coulomb import Coulomb
-from contactx.law.law import Frictionless
-from contactx.law.nodes import Nodes
 from contactx.master.master import Weights
-from contactx.nodal import NodalValue
 
 
 class FreeBlock:
@@ -27,7 +22,7 @@ class FreeBlock:
 
     def __init__(self, scene, *, friction=0.0, slope=0.01, gap=0.05):
         self.scene = scene
-        halo, V, dim = scene.halo, scene.u.function_space, scene.dim
+        halo, dim = scene.halo, scene.dim
         x = scene.everywhere(halo.x[: halo.num_owned])
         upper = scene.everywhere(scene.bodies.number[: halo.num_owned])[:, 0] == 1
         height = x[:, -1]
@@ -39,22 +34,10 @@ class FreeBlock:
         here = [(s, m) for s, m in here if s < halo.num_owned]
         slaves, masters = np.array(here, dtype=np.int32).reshape(-1, 2).T
         n = len(slaves)
-
-        def vector(block):
-            return SimpleNamespace(array=np.zeros(n * block), block_size=block)
-
-        size = dim if friction else 1
-        law: Any = Frictionless()
-        if friction:
-            law = Coulomb(NodalValue(friction, "friction", V, slaves), halo.comm)
-        state = SimpleNamespace(
-            multiplier=vector(size),
-            area=vector(1),
-            gap_derivative=vector(size),
-            slip_derivative=vector(dim * dim) if friction else None,
-            normal_derivative=vector(dim * dim) if friction else None,
-        )
-        self.nodes = Nodes(state, n, dim)
+        law = core.Coulomb() if friction else core.Frictionless()
+        if isinstance(law, core.Coulomb):
+            law.set_friction(np.full(n, friction))
+        self.nodes = core.NodeState(n, dim, law.is_vector)
         self.nodes.area[:] = 0.1
         self.nodes.gap[:] = gap + slope * halo.x[slaves, 0]
         up = np.zeros((n, 3))

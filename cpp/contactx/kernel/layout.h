@@ -174,4 +174,16 @@ constexpr int offset(Law law, Coefficient c, int num_nodes, int gdim,
   }
   return n;
 }
+
+/// @brief Number of values of all coefficients that a kernel is given.
+/// @param[in] law Contact law.
+/// @param[in] num_nodes Number of nodes of the facet, 0 for a rigid obstacle.
+/// @param[in] gdim Geometric dimension.
+/// @param[in] num_slaves Number of slave nodes: 1, or those of a slave facet.
+constexpr int coefficient_values(Law law, int num_nodes, int gdim,
+                                 int num_slaves = 1)
+{
+  return offset(law, static_cast<Coefficient>(num_coefficients), num_nodes,
+                gdim, num_slaves);
+}
 } // namespace contactx::kernel

@@ -27,15 +27,43 @@ std::span<const Entry> contactx::kernel::registry()
   return entries;
 }
 
-const Entry& contactx::kernel::find(Law law, std::string_view sliding,
-                                    std::string_view term, int num_nodes,
-                                    int gdim, int num_slaves)
+Shape contactx::kernel::shape(const Entry& entry)
+{
+  const int dofs = entry.gdim * (entry.num_slaves + entry.num_nodes);
+  const int multipliers
+      = entry.num_slaves * (entry.law == Law::frictionless ? 1 : entry.gdim);
+  if (entry.term == "gap")
+    return {entry.num_slaves, 1};
+  if (entry.term == "residual")
+    return {dofs, 1};
+  if (entry.term == "stiffness")
+    return {dofs, dofs};
+  if (entry.term == "traction")
+    return {dofs, multipliers};
+  if (entry.term == "constraint")
+    return {multipliers, dofs};
+  return {multipliers, 1}; // normal and slip
+}
+
+const Entry* contactx::kernel::find_if_any(Law law, std::string_view sliding,
+                                           std::string_view term, int num_nodes,
+                                           int gdim, int num_slaves)
 {
   for (const Entry& e : registry())
     if (e.law == law and e.sliding == sliding and e.term == term
         and e.num_nodes == num_nodes and e.gdim == gdim
         and e.num_slaves == num_slaves)
-      return e;
+      return &e;
+  return nullptr;
+}
+
+const Entry& contactx::kernel::find(Law law, std::string_view sliding,
+                                    std::string_view term, int num_nodes,
+                                    int gdim, int num_slaves)
+{
+  if (const Entry* e
+      = find_if_any(law, sliding, term, num_nodes, gdim, num_slaves))
+    return *e;
   throw std::invalid_argument("there is no kernel for " + std::string(sliding)
                               + " sliding, term " + std::string(term)
                               + " and facets of " + std::to_string(num_nodes)

@@ -22,8 +22,23 @@ struct Entry
   int num_slaves = 1; ///< slave nodes: one, or those of a slave facet
 };
 
+/// @brief Numbers of rows and columns of what a kernel adds to, row-major.
+struct Shape
+{
+  int rows, columns;
+};
+
+/// @brief Shape of a kernel's tensor: slave nodes, multipliers or the
+/// displacements of the pair's nodes, and one column where it is a vector.
+Shape shape(const Entry& entry);
+
 /// @brief All kernels.
 std::span<const Entry> registry();
+
+/// @brief Find a kernel, or nothing where there is none; see find().
+const Entry* find_if_any(Law law, std::string_view sliding,
+                         std::string_view term, int num_nodes, int gdim,
+                         int num_slaves = 1);
 
 /// @brief Find a kernel.
 /// @param[in] law Contact law.

@@ -9,32 +9,6 @@
 
 namespace contactx::fuzz
 {
-/// @brief Numbers of rows and columns of what a kernel adds to.
-struct Shape
-{
-  int rows, columns;
-};
-
-/// @brief Shape of a kernel's tensor.
-inline Shape shape(const kernel::Entry& e)
-{
-  const int dofs = e.gdim * (e.num_slaves + e.num_nodes);
-  const int gaps = e.num_slaves;
-  const int multipliers
-      = gaps * (e.law == kernel::Law::frictionless ? 1 : e.gdim);
-  if (e.term == "gap")
-    return {gaps, 1};
-  if (e.term == "residual")
-    return {dofs, 1};
-  if (e.term == "stiffness")
-    return {dofs, dofs};
-  if (e.term == "traction")
-    return {dofs, multipliers};
-  if (e.term == "constraint")
-    return {multipliers, dofs};
-  return {multipliers, 1}; // normal and slip
-}
-
 /// @brief A kernel's coefficients, of exactly their size so that what lies
 /// beyond is found out.
 class Coefficients
@@ -42,11 +16,8 @@ class Coefficients
 public:
   explicit Coefficients(const kernel::Entry& e) : _entry(e)
   {
-    const auto last = kernel::Coefficient::normal_derivative;
-    const auto table
-        = kernel::coefficients(e.law, e.num_nodes, e.gdim, e.num_slaves);
-    _values.resize(offset(last)
-                   + e.num_slaves * table[static_cast<int>(last)].size);
+    _values.resize(
+        kernel::coefficient_values(e.law, e.num_nodes, e.gdim, e.num_slaves));
   }
 
   /// @brief Place of a coefficient's values.
@@ -58,7 +29,7 @@ public:
   /// @brief Call the kernel.
   std::vector<double> tabulate() const
   {
-    const Shape s = shape(_entry);
+    const kernel::Shape s = kernel::shape(_entry);
     std::vector<double> tensor(s.rows * s.columns, 0);
     _entry.function(tensor.data(), _values.data(), nullptr, nullptr, nullptr,
                     nullptr, nullptr);
@@ -85,7 +56,7 @@ inline void require_balance(const kernel::Entry& e,
       or (e.term != "residual" and e.term != "traction"
           and e.term != "stiffness"))
     return;
-  const Shape s = shape(e);
+  const kernel::Shape s = kernel::shape(e);
   const double rounding = 1e-9 * largest(tensor);
   for (int col = 0; col < s.columns; ++col)
     for (int k = 0; k < e.gdim; ++k)

@@ -9,6 +9,7 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 
+from contactx import cpp as core
 from contactx.audit.deformed_cells import DeformedCells
 from contactx.audit.findings import Findings
 from contactx.audit.obstacles import ObstacleAudit
@@ -18,7 +19,6 @@ from contactx.errors import point_text
 from contactx.interface import Interface
 from contactx.master.facets import FacetMaster
 from contactx.master.mortar import MortarMaster
-from contactx.master.obstacle import ObstacleMaster
 from contactx.parallel.halo import Halo
 from contactx.parallel.reduce import anywhere, extent
 
@@ -52,7 +52,7 @@ class Audit:
                 pass
             elif isinstance(master, FacetMaster | MortarMaster):
                 look = SurfacesAudit(interface, master, halo)
-            elif isinstance(master, ObstacleMaster) and interface.sliding == "finite":
+            elif isinstance(master, core.ObstacleMaster) and interface.sliding == "finite":
                 # In small sliding the obstacle of each node is a plane
                 look = ObstacleAudit(interface, master, halo)
             self._looks.append(look)

@@ -13,7 +13,6 @@ from contactx import cpp as core
 from contactx.audit.findings import Depth, Findings
 from contactx.geometry.facets import facet_middles
 from contactx.interface import Interface
-from contactx.master.obstacle import ObstacleMaster
 from contactx.obstacles import Plane
 from contactx.parallel import reduce
 from contactx.parallel.agreement import agreed
@@ -32,7 +31,7 @@ _NEGLIGIBLE = 4e-3
 class ObstacleAudit:
     """Looks at an obstacle from all of the slave facets, and whether nodes came to its far side."""
 
-    def __init__(self, interface: Interface, master: ObstacleMaster, halo: Halo):
+    def __init__(self, interface: Interface, master: core.ObstacleMaster, halo: Halo):
         """Prepare the looks.
 
         Args:
@@ -150,7 +149,7 @@ class ObstacleAudit:
             return None
         x, offsets = self._halo.positions()[self._slave.around], self._slave.facets.offsets
         size = self._sizes()
-        extent = np.full(len(size), self._master.obstacle.size())
+        extent = np.full(len(size), self._master.obstacle.size(x.shape[1]))
         curvature, normal = self._curvatures(x)
         explained = core.explained_depths(size, curvature, near, extent)
         sampling = core.FacetSampling(offsets, self._corners, x, x.shape[1], explained, _LEVELS)
@@ -175,9 +174,8 @@ class ObstacleAudit:
         geometry = self._master.obstacle.evaluate(x)
         offsets, gdim = self._slave.facets.offsets, x.shape[1]
         at_nodes = np.abs(geometry.curvature).sum(axis=2).max(axis=1)
-        normal = np.ascontiguousarray(geometry.normal)
-        turn = core.facet_turns(offsets, self._corners, x, normal, gdim)
-        return np.maximum(turn, self._slave.largest(at_nodes)), normal
+        turn = core.facet_turns(offsets, self._corners, x, geometry.normal, gdim)
+        return np.maximum(turn, self._slave.largest(at_nodes)), geometry.normal
 
     def _turns(self, which: npt.NDArray[np.integer], at: Array, x: Array, normal: Array) -> Array:
         """How much the obstacle's normal turns on the way from nodes of facets to points in them.
@@ -212,7 +210,7 @@ class ObstacleAudit:
         start, own_before, before = self._before
         now = obstacle.placement(gdim)
         before = before @ self._placed.turn(now).T
-        after = np.ascontiguousarray(obstacle.evaluate(points).normal)
+        after = obstacle.evaluate(points).normal
         before = np.ascontiguousarray(before)
         passed = np.flatnonzero(core.far_side(own_before, own, before, after, gdim))
         if obstacle.tells_movement and len(passed) > 0:

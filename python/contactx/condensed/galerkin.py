@@ -11,8 +11,7 @@ from petsc4py import PETSc
 
 import numpy as np
 
-from contactx.condensed.blocks import Index
-from contactx.condensed.numbering import index_set, own_columns
+from contactx.condensed.numbering import Index, index_set, own_columns
 from contactx.condensed.operator import Change
 from contactx.parallel import reduce
 

@@ -11,11 +11,11 @@ from petsc4py import PETSc
 
 import numpy as np
 
-from contactx.bodies.modes import rigid_modes
+from contactx import cpp as core
 from contactx.bulk import Bulk
 from contactx.callback import Quiet, weakly
-from contactx.condensed.blocks import Array, Index
 from contactx.condensed.galerkin import Galerkin
+from contactx.condensed.numbering import Array, Index
 from contactx.condensed.operator import Change, CondensedOperator
 from contactx.options import ROUNDING, multigrid_options
 from contactx.parallel import reduce
@@ -276,7 +276,7 @@ def near_null_space(x: Array, comm: MPI.Comm) -> Array:
         Displacements of the owned nodes, shape (3 or 6, num_owned * gdim).
     """
     middle = reduce.total(comm, x.sum(axis=0)) / reduce.total(comm, len(x))
-    modes = rigid_modes(x - middle)
+    modes = core.rigid_modes(x - middle)
     modes = modes.reshape(x.size, modes.shape[2])
     modes /= np.sqrt(reduce.total(comm, (modes**2).sum(axis=0)))
     gram = reduce.total(comm, modes.T @ modes)

@@ -1,6 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""What elimination needs to know of all nodes on a rank, those of other ranks included."""
+"""Where displacements are on a rank, those of other ranks included, and in PETSc's matrices."""
 
 from __future__ import annotations
 
@@ -9,10 +9,14 @@ from petsc4py import PETSc
 import numpy as np
 import numpy.typing as npt
 
+from contactx import cpp as core
 from contactx.bulk import Bulk
-from contactx.condensed.blocks import Array, Entries, Index
+from contactx.interface import Interface
 from contactx.parallel.halo import Halo
 from contactx.system import SaddlePointSystem
+
+type Array = npt.NDArray[np.float64]
+type Index = npt.NDArray[np.integer]
 
 
 class Numbering:
@@ -25,6 +29,7 @@ class Numbering:
         comm: Communicator.
         num_owned: Number of displacements that this rank owns.
         num_local: Number of displacements of all nodes.
+        nodes: Nodes of this rank as the core sees them.
     """
 
     def __init__(self, halo: Halo):
@@ -35,6 +40,7 @@ class Numbering:
         """
         self._halo = halo
         self.comm = halo.comm
+        self.nodes = halo.nodes
         gdim = halo.gdim
         self.num_owned = halo.num_owned * gdim
         self.num_local = halo.num_nodes * gdim
@@ -57,19 +63,6 @@ class Numbering:
         ).ravel()
         return every
 
-    def marks(self, dofs: Index) -> npt.NDArray[np.bool_]:
-        """Mark some displacements wherever they are known; all ranks must take part.
-
-        Args:
-            dofs: Owned displacements.
-
-        Returns:
-            Which of all nodes' displacements their owners have given, shape (num_local,).
-        """
-        mine = np.zeros(self.num_owned, dtype=bool)
-        mine[dofs] = True
-        return self.scatter_forward(mine)
-
     def scatter_reverse(self, values: Array) -> Array:
         """Add what all ranks have for a displacement on its owner; all ranks must take part.
 
@@ -89,7 +82,7 @@ class Numbering:
         """Owned displacements as an index set of the bulk's matrix."""
         return PETSc.IS().createGeneral(_integers(self.numbers(dofs)), comm=self.comm)
 
-    def matrix(self, entries: Entries, rows: Index | None = None) -> PETSc.Mat:
+    def matrix(self, entries: core.Triplets, rows: Index | None = None) -> PETSc.Mat:
         """Matrix with the bulk's columns; entries of one place are added, over all ranks.
 
         All ranks must take part.
@@ -118,12 +111,12 @@ class Surroundings:
     Attributes:
         numbering: Where the displacements are in the bulk's matrix.
         free: 1 at displacements that are not prescribed, else 0, shape (num_local,).
-        is_slave: Whether each node is slave in each contact, shape (num_nodes, num_contacts).
+        is_slave: 1 where a node is slave in a contact, else 0, shape (num_nodes, num_contacts).
     """
 
     numbering: Numbering
-    free: Array
-    is_slave: npt.NDArray[np.bool_]
+    free: npt.NDArray[np.int8]
+    is_slave: npt.NDArray[np.int8]
 
     def __init__(self, bulk: Bulk, system: SaddlePointSystem):
         """Create it; ``rebuild`` comes before the first use.
@@ -143,12 +136,23 @@ class Surroundings:
             return
         self._version = halo.version
         self.numbering = Numbering(halo)
-        self.free = self.numbering.scatter_forward((self._bulk.markers == 0).astype(np.float64))
-        interfaces = self._system.interfaces
-        is_slave = np.zeros((halo.num_owned, len(interfaces)), dtype=bool)
-        for k, interface in enumerate(interfaces):
-            is_slave[interface.slaves, k] = True
-        self.is_slave = halo.scatter_forward(is_slave)
+        self.free = self.numbering.scatter_forward((self._bulk.markers == 0).astype(np.int8))
+        contacts = [contact_nodes(interface) for interface in self._system.interfaces]
+        self.is_slave = core.slave_marks(halo.nodes, contacts)
+
+
+def contact_nodes(interface: Interface) -> core.ContactNodes:
+    """What the core reads of the slave nodes to eliminate their multipliers, as it is now."""
+    nodes = interface.nodes
+    return core.ContactNodes(
+        interface.slaves,
+        nodes.size,
+        nodes.status,
+        nodes.area,
+        nodes.normal,
+        nodes.by_multiplier,
+        nodes.softness,
+    )
 
 
 def index_set(places: Index, A: PETSc.Mat) -> PETSc.IS:

@@ -10,11 +10,9 @@ from petsc4py import PETSc
 
 import numpy as np
 
+from contactx import cpp as core
 from contactx.bulk import Bulk
-from contactx.condensed.blocks import Array, ContactBlocks, Entries, Index, joined
-from contactx.condensed.chains import is_symmetric
-from contactx.condensed.elimination import Elimination
-from contactx.condensed.numbering import Numbering, index_set
+from contactx.condensed.numbering import Array, Index, Numbering, index_set
 from contactx.parallel import reduce
 
 
@@ -35,45 +33,37 @@ class CondensedOperator:
         self,
         bulk: Bulk,
         numbering: Numbering,
-        blocks: ContactBlocks,
-        elimination: Elimination,
+        condensation: core.Condensation,
         springs: Array | None,
-        soft: Entries | None = None,
     ):
         """Create the operator.
 
         Args:
             bulk: The bulk.
             numbering: Displacements on this rank.
-            blocks: Contact blocks of the Jacobian.
-            elimination: How the multipliers are eliminated.
+            condensation: How the multipliers are eliminated.
             springs: What is added to the diagonal, shape (num_owned,), on all ranks or on none.
-            soft: What soft contact has added to the stiffness of ``blocks``, on all ranks or none.
         """
         self._bulk = bulk
         self._numbering = numbering
         self._K = bulk.matrix()
-        self._elimination = elimination
+        self._condensation = condensation
         self._springs = springs
-        self._soft = soft
-        self.slave_dofs = elimination.slave_dofs
-        self.eliminated = elimination.eliminated
+        self.slave_dofs = condensation.slave_dofs
+        self.eliminated = condensation.eliminated
         # Rows of the eliminated displacements alone
-        self._right = numbering.matrix(elimination.right, self.eliminated)
+        self._right = numbering.matrix(condensation.right, self.eliminated)
         self._some = self._right.createVecLeft()
-        transposed = is_symmetric(elimination, numbering)
-        self.is_symmetric = bulk.is_symmetric and transposed
-        others = (blocks.stiffness, elimination.left, elimination.law)
-        counts = reduce.largest(numbering.comm, np.array([len(e.rows) for e in others]))
-        self._S, left, self._law = (
-            numbering.matrix(e)
-            if count > 0 and not (transposed and e is elimination.left)
-            else None
-            for e, count in zip(others, counts, strict=True)
-        )
+        self._transposed = condensation.is_symmetric(numbering.nodes)
+        self.is_symmetric = bulk.is_symmetric and self._transposed
+        others = (condensation.stiffness, condensation.left, condensation.law)
+        counts = reduce.largest(numbering.comm, np.array([len(e) for e in others]))
         # Where left is the transpose of right it is not made
-        self._left = left
-        self._transposed = transposed
+        needed = (counts > 0) & [True, not self._transposed, True]
+        self._S, self._left, self._law = (
+            numbering.matrix(e) if is_needed else None
+            for e, is_needed in zip(others, needed, strict=True)
+        )
         self.diagonal = np.abs(self._K.getDiagonal().array_r)[self.eliminated]
         self._z, self._w = self._K.createVecs()
         self._work = self._w.duplicate()
@@ -129,30 +119,16 @@ class CondensedOperator:
 
     def _elastic(self) -> PETSc.Mat | None:
         """Springs and soft contact as a matrix, without rows of eliminated displacements."""
-        if self._springs is None and self._soft is None:
+        # The same on all ranks
+        if self._springs is None and not self._condensation.is_soft:
             return None
-        parts = [] if self._soft is None else [self._soft]
-        if self._springs is not None:
-            sprung = np.flatnonzero(self._springs)
-            parts.append(Entries(sprung, sprung, self._springs[sprung]))
-        every = joined(parts)
-        taken = self._numbering.marks(self.eliminated)
-        return self._numbering.matrix(every.select(~(taken[every.rows] | taken[every.columns])))
+        numbering = self._numbering
+        return numbering.matrix(self._condensation.elastic(numbering.nodes, self._springs))
 
     def _bound(self) -> PETSc.Vec:
-        """Diagonal D with which the condensed matrix has no larger eigenvalue than the bulk's.
-
-        With K <= lambda D_K and displacements sum_l R_sl v_l of the eliminated s, Cauchy's
-        inequality gives D = D_K + sum_s D_s (sum_l |R_sl|) |R_s|.
-        """
+        """Diagonal with which the condensed matrix has no larger eigenvalue than the bulk's."""
         bound = self._K.getDiagonal()
-        D = np.abs(bound.array_r)
-        R = self._elimination.right
-        R = R.select(R.rows != R.columns)
-        size = np.abs(R.values)
-        total = np.bincount(R.rows, size, len(D))
-        more = np.bincount(R.columns, (D * total)[R.rows] * size, self._numbering.num_local)
-        D = D + self._numbering.scatter_reverse(more)
+        D = self._condensation.bound(self._numbering.nodes, np.abs(bound.array_r))
         if self._S is not None:
             indptr, _, values = self._S.getValuesCSR()
             rows = np.repeat(np.arange(len(D)), np.diff(indptr))

@@ -12,16 +12,13 @@ from petsc4py import PETSc
 
 import numpy as np
 
+from contactx import cpp as core
 from contactx.bulk import Bulk
 from contactx.callback import Quiet
-from contactx.condensed.blocks import Array, ContactBlocks, NotCondensable, lumped
-from contactx.condensed.chains import check_chains
-from contactx.condensed.elimination import Elimination
 from contactx.condensed.guess import Guess
 from contactx.condensed.multigrid import Multigrid
-from contactx.condensed.numbering import Numbering, Surroundings
+from contactx.condensed.numbering import Array, Numbering, Surroundings, contact_nodes
 from contactx.condensed.operator import CondensedOperator
-from contactx.condensed.prescribed import Prescribed
 from contactx.factorised import FactorisedSolver
 from contactx.options import ROUNDING
 from contactx.parallel import reduce
@@ -131,7 +128,7 @@ class CondensedSolver:
         try:
             with self._report.timing("condensation"):
                 A, system, is_exact = self._condense(b)
-        except NotCondensable as reason:
+        except core.NotCondensable as reason:
             self._solve_directly(b, x, str(reason))
             return
         solve = partial(self._solve, system)
@@ -146,34 +143,30 @@ class CondensedSolver:
             This rank's contact entries, the condensed system, and whether it stands for them.
 
         Raises:
-            NotCondensable: On all ranks, where a multiplier has no equation of its own.
+            core.NotCondensable: On all ranks, where a multiplier has no equation of its own.
         """
         around = self._surroundings
         around.rebuild()
-        comm, gdim = around.numbering.comm, self._system.block
-        interfaces = self._system.interfaces
-        with agreed(comm):
+        numbering = around.numbering
+        with agreed(numbering.comm):
             A = self._system.contact_entries(b)
-            blocks = ContactBlocks.of(A, around.numbering.num_local)
-            diagonal = lumped(blocks, interfaces, around.is_slave, gdim)
-            contact = Prescribed(interfaces, diagonal, around.free, gdim)
-            elimination = Elimination(interfaces, contact, around.free, gdim)
-        check_chains(elimination, around.numbering, gdim)
+            offsets, columns, values = A.getValuesCSR()
+            condensation = core.Condensation(
+                offsets.astype(np.int32, copy=False),
+                columns.astype(np.int32, copy=False),
+                values,
+                [contact_nodes(interface) for interface in self._system.interfaces],
+                around.is_slave,
+                around.free,
+                self._system.block,
+            )
+        condensation.check_chains(numbering.nodes)
         self._bulk.update()
-        self._bulk.rows(elimination.slave_dofs)
+        self._bulk.rows(condensation.slave_dofs)
         self._bulk.keep_half()
-        # The same on all ranks
-        is_soft = any(interface.nodes.softness > 0 for interface in interfaces)
-        operator = CondensedOperator(
-            self._bulk,
-            around.numbering,
-            contact.blocks,
-            elimination,
-            self.springs,
-            contact.springs if is_soft else None,
-        )
-        is_exact = reduce.everywhere(comm, diagonal is blocks)
-        return A, _Condensed(around.numbering, operator, elimination, contact), is_exact
+        operator = CondensedOperator(self._bulk, numbering, condensation, self.springs)
+        is_exact = reduce.everywhere(numbering.comm, condensation.is_exact)
+        return A, _Condensed(numbering, operator, condensation), is_exact
 
     def _correct(
         self,
@@ -223,26 +216,23 @@ class CondensedSolver:
     def _solve(self, system: _Condensed, b: PETSc.Vec, x: PETSc.Vec, target: float) -> bool:
         """Solve with the multipliers eliminated; whether the iterations converged."""
         numbering, operator = system.numbering, system.operator
-        elimination, contact = system.elimination, system.contact
+        condensation = system.condensation
         n = numbering.num_owned
         given, constraints = np.split(b.array_r, [n])
-        forces, d = contact.right_hand_side(constraints)
-        known = elimination.open_multipliers(d)
-        T = contact.blocks.traction
-        np.add.at(forces, T.rows, -T.values * known[T.columns])
+        forces, shift, extra, multipliers = condensation.right_hand_side(constraints)
         h, w = self._bulk.matrix().createVecs()
         rhs, v = w.duplicate(), h.duplicate()
         w.array[:] = given + numbering.scatter_reverse(forces)
         balance = w.duplicate()
         w.copy(balance)
-        h.array[:] = elimination.shift(d)[:n]
+        h.array[:] = shift[:n]
         work = w.duplicate()
         operator.bulk(h, work)
         w.axpy(-1.0, work)
         operator.combine(w, rhs)
         operator.add_law(h, rhs, -1.0)
-        rhs.array[:] += elimination.extra(d)[:n]
-        rhs.array[elimination.eliminated] = 0
+        rhs.array[:] += extra[:n]
+        rhs.array[operator.eliminated] = 0
         v.set(0.0)
         self._guess.start(operator, rhs, v)
         if not self._multigrid.solve(operator, rhs, v, target, self._report):
@@ -252,10 +242,10 @@ class CondensedSolver:
         h.axpy(1.0, work)
         operator.bulk(h, work)
         balance.axpy(-1.0, work)
-        elimination.recover(balance.array_r, known)
-        contact.recover(constraints, numbering.scatter_forward(h.array_r), known)
+        u = numbering.scatter_forward(h.array_r)
+        condensation.recover(constraints, balance.array_r, u, multipliers)
         x.array[:n] = np.where(self._surroundings.free[:n] == 1, h.array_r, given)
-        x.array[n:] = known
+        x.array[n:] = multipliers
         return True
 
     def _solve_directly(self, b: PETSc.Vec, x: PETSc.Vec, reason: str) -> None:
@@ -271,8 +261,7 @@ class _Condensed:
 
     numbering: Numbering
     operator: CondensedOperator
-    elimination: Elimination
-    contact: Prescribed
+    condensation: core.Condensation
 
 
 class _Nearly:

@@ -21,7 +21,7 @@ def check_facing(
     slave: Surface,
     slaves: SlaveNodes,
     master: Surface | Obstacle,
-    pairs: Master,
+    pairs: Master | core.Master,
     halo: Halo,
 ) -> None:
     """Check that the slave surface does not face away from all of its master that is in reach.

@@ -6,16 +6,14 @@ from __future__ import annotations
 
 import numpy as np
 
+from contactx import cpp as core
 from contactx.bodies.bodies import Bodies
 from contactx.geometry.facets import check_facets, check_folds
 from contactx.geometry.inside import check_apart, check_outside
-from contactx.law.law import Law
 from contactx.master.facets import FacetMaster
 from contactx.master.master import Master
 from contactx.master.mortar import MortarMaster
-from contactx.master.mortar_obstacle import MortarObstacle
-from contactx.master.obstacle import ObstacleMaster
-from contactx.master.ties import FacetTie, MortarTie, ObstacleTie
+from contactx.master.ties import FacetTie, MortarTie
 from contactx.obstacles import Obstacle, Plane
 from contactx.parallel.agreement import agreed
 from contactx.parallel.halo import Halo
@@ -31,12 +29,12 @@ def make_master(
     master: Surface | Obstacle,
     bodies: Bodies,
     halo: Halo,
-    law: Law,
+    law: core.Law,
     *,
     method: str,
     sliding: str,
     search_distance: float | None,
-) -> Master:
+) -> Master | core.Master:
     """Make the master side of a contact, without pairs yet; all ranks must take part.
 
     Args:
@@ -62,18 +60,17 @@ def make_master(
     if isinstance(master, Obstacle):
         size = float(extent(halo.comm, halo.x[slaves.owned]).max())
         master.extent = max(master.extent, size)
-        options = (master, halo.x, search_distance)
-        obstacle: ObstacleMaster
+        around = (slaves.facets.offsets, slaves.facets.nodes, slaves.owned)
+        options = (master, halo.nodes, *around, halo.x, search_distance)
+        obstacle: core.ObstacleMaster
         with agreed(halo.comm):
             if law.is_tied:
-                obstacle = ObstacleTie(slaves, *options, measures_slip=True)
+                obstacle = core.ObstacleTie(*options)
             elif method == "surface-to-surface" and not isinstance(master, Plane):
-                obstacle = MortarObstacle(
-                    slaves, master, halo, search_distance, measures_slip=law.is_vector
-                )
+                obstacle = core.MortarObstacle(*options, law.is_vector)
             else:
                 # Dual functions weigh what is linear on a facet, as a plane's gap, at its nodes
-                obstacle = ObstacleMaster(slaves, *options, measures_slip=law.is_vector)
+                obstacle = core.ObstacleMaster(*options, law.is_vector)
             gap = obstacle.inside(halo.x)
         check_outside(slave, slaves.owned, gap, master, bodies)
         return obstacle

@@ -15,7 +15,6 @@ from contactx import cpp as core
 from contactx.forms import Pairs
 from contactx.master.facets import FacetMaster
 from contactx.master.mortar import MortarMaster
-from contactx.master.obstacle import ObstacleMaster
 
 _AT = core.slip_layout
 
@@ -92,37 +91,3 @@ class MortarTie(MortarMaster):
     def load(self, saved: Mapping[str, npt.NDArray[Any]]) -> None:
         """See ``Master``; the pairs are those of the reference."""
         self._x0 = self._halo.scatter_forward(saved["before"])
-
-
-class ObstacleTie(ObstacleMaster):
-    """Slave nodes tied to a rigid obstacle: they move with it."""
-
-    def __init__(self, *args: Any, **options: Any):
-        """Create the pairs, none yet; the arguments are those of ``ObstacleMaster``."""
-        super().__init__(*args, **options)
-        self._found = False
-        self._offset = np.zeros(len(self._slaves))
-        self._first = self._placed
-
-    def search(self, x: npt.NDArray[np.float64], closed: npt.NDArray[np.int8]) -> int:
-        """See ``Master``; only the first search counts."""
-        if self._found:
-            return 0
-        self._found = True
-        self._reference = x[self._slaves]
-        self._normal = self._obstacle.evaluate(self._reference).normal
-        return super().search(x, closed)
-
-    def update(
-        self, x: npt.NDArray[np.float64], frozen_kinematics: bool, offset: npt.NDArray[np.float64]
-    ) -> list[Pairs] | None:
-        """See ``Master``; the offset is what a tie is longer by."""
-        self._offset = offset
-        return super().update(x, frozen_kinematics, offset)
-
-    def _update_slip(self, x: npt.NDArray[np.float64], data: npt.NDArray[np.float64]) -> None:
-        """The whole way from the place that the obstacle has carried the node to."""
-        n, gdim = x.shape
-        place = self._reference + self._offset[:, None] * self._normal
-        carried = self._first.carry(place, self._obstacle.placement(gdim))
-        self._set_slip(x - carried, np.tile(np.eye(gdim), (n, 1, 1)))

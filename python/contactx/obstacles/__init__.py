@@ -4,10 +4,10 @@
 
 from __future__ import annotations
 
+from contactx.cpp import Obstacle
 from contactx.obstacles.cylinder import Cylinder
 from contactx.obstacles.level_set import LevelSet
-from contactx.obstacles.obstacle import Geometry, Obstacle, Placement
 from contactx.obstacles.plane import Plane
 from contactx.obstacles.sphere import Sphere
 
-__all__ = ["Cylinder", "Geometry", "LevelSet", "Obstacle", "Placement", "Plane", "Sphere"]
+__all__ = ["Cylinder", "LevelSet", "Obstacle", "Plane", "Sphere"]

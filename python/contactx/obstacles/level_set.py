@@ -13,14 +13,19 @@ import numpy as np
 import numpy.typing as npt
 
 import ufl
-from contactx.obstacles.obstacle import Geometry, Obstacle, Placement
+from contactx import cpp as core
 from dolfinx import fem, mesh
+
+# Value, gradient and second derivative, if there is one
+type Values = tuple[
+    npt.NDArray[np.float64], npt.NDArray[np.float64], npt.NDArray[np.float64] | None
+]
 
 # Numbers of points that a function of UFL is kept compiled for
 _MOST_COMPILED = 3
 
 
-class LevelSet(Obstacle):
+class LevelSet(core.LevelSet):
     """Body where a function is negative; bodies may be where it is positive.
 
     The function need not be a distance: its zero is the surface, and g = f / |grad f| is the
@@ -28,11 +33,6 @@ class LevelSet(Obstacle):
     friction its material is at rest, and a step in which it changes while it is touched is refused.
     Plane, Sphere and Cylinder drag what touches them.
     """
-
-    usual_mistake = (
-        "Perhaps the sign of its function is wrong: it must be positive where bodies may be"
-    )
-    tells_movement = False
 
     def __init__(
         self,
@@ -57,117 +57,71 @@ class LevelSet(Obstacle):
             raise TypeError(
                 f"gradient of a LevelSet must be a function, not {type(gradient).__name__}"
             )
-        self._f = f
-        self._gradient = gradient
-        self._compiled: dict[tuple[int, ...], _Compiled] = {}
+        # Not methods of this object: what the core keeps must not keep the obstacle
+        function = _OfUFL(f) if gradient is None else _OfPython(f, gradient)
+        super().__init__(function.values, function.parameters)
 
-    def evaluate(self, x: npt.NDArray[np.float64]) -> Geometry:
-        """See ``Obstacle``; g = f / |grad f|.
+
+class _OfPython:
+    """A Python function with its gradient."""
+
+    def __init__(
+        self,
+        f: Callable[[Any], Any],
+        gradient: Callable[[npt.NDArray[np.float64]], npt.ArrayLike],
+    ):
+        self._f, self._gradient = f, gradient
+
+    def values(self, x: npt.NDArray[np.float64], order: int) -> Values:
+        """Value and gradient, shapes (n,) and (n, gdim); the core makes differences of them.
 
         Raises:
-            ValueError: If a Python function has no gradient, a shape does not fit, or the
-                function or its gradient is not finite or its gradient zero at a slave node.
+            TypeError: If they are no real numbers.
+            ValueError: If a shape does not fit.
         """
-        n, gdim = x.shape
-        if n == 0:
-            # A rank without slave nodes: neither UFL nor a user's function needs to take that
-            return Geometry(*(np.zeros((0,) + (gdim,) * k) for k in (0, 1, 1, 2)))
-        if self._gradient is None:
-            f, g, H = self._compiled_for(x)(x)
-        else:
-            f, g = self._values(x)
-            H = self._second_derivative(x)
-        size = np.linalg.norm(g, axis=1)
-        bad = ~(np.isfinite(f) & np.isfinite(size) & (size > 0))
-        if bad.any():
-            raise ValueError(
-                f"the function of a LevelSet or its gradient is not finite, or the gradient zero, "
-                f"at {bad.sum()} slave nodes, first at {x[np.flatnonzero(bad)[0]]}: the gradient "
-                "must point outward wherever a slave node may come"
-            )
-        normal = g / size[:, None]
-        projector = np.eye(gdim) - normal[:, :, None] * normal[:, None, :]
-        curvature = np.einsum("nij,njk->nik", projector, H) / size[:, None, None]
-        along = np.einsum("nij,nj->ni", H, normal)
-        gap = f / size
-        gradient = normal - gap[:, None] * along / size[:, None]
-        return Geometry(gap, gradient, normal, curvature)
-
-    def distance(self, x: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
-        """See ``Obstacle``; points between slave nodes may be where the function means nothing."""
-        f, _, size = self._first_order(x)
-        gap = np.copysign(np.inf, f)
-        np.divide(f, size, out=gap, where=size > 0)
-        gap[~np.isfinite(f) | ~np.isfinite(size)] = np.inf
-        return gap
-
-    def normals(self, x: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
-        """See ``Obstacle``."""
-        _, g, size = self._first_order(x)
-        usable = np.isfinite(size) & (size > 0)
-        return np.divide(g, size[:, None], out=np.zeros_like(g), where=usable[:, None])
-
-    def _first_order(self, x: npt.NDArray[np.float64]) -> tuple[npt.NDArray[np.float64], ...]:
-        """Function, its gradient and the size of that."""
-        if len(x) == 0:
-            return np.zeros(0), np.zeros(x.shape), np.zeros(0)
-        f, g = self._values(x) if self._gradient is not None else self._compiled_for(x)(x)[:2]
-        return f, g, np.linalg.norm(g, axis=1)
-
-    def _compiled_for(self, x: npt.NDArray[np.float64]) -> _Compiled:
-        if x.shape not in self._compiled:
-            # Slave nodes, points of slave facets, and what the audit looks at
-            while len(self._compiled) >= _MOST_COMPILED:
-                del self._compiled[next(iter(self._compiled))]
-            self._compiled[x.shape] = _Compiled(self._f, *x.shape)
-        return self._compiled[x.shape]
-
-    def placement(self, gdim: int) -> Placement:
-        """See ``Obstacle``; a function tells of no movement, so its material counts as at rest."""
-        return Placement(np.zeros(gdim))
-
-    def parameters(self) -> npt.NDArray[np.float64]:
-        """See ``Obstacle``; the constants of a UFL function that has been evaluated."""
-        values = [np.zeros(0), *(c.constants() for c in self._compiled.values())]
-        return np.concatenate(values)
-
-    def level(self, x: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
-        """See ``Obstacle``; the function itself."""
-        if len(x) == 0:
-            return np.zeros(0)
-        if self._gradient is not None:
-            return self._values(x)[0]
-        compiled = self._compiled.get(x.shape) or _Compiled(self._f, *x.shape)
-        return compiled(x)[0]
-
-    def _values(
-        self, x: npt.NDArray[np.float64]
-    ) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
-        """Value and gradient of a Python function, shapes (n,) and (n, gdim)."""
-        assert self._gradient is not None
         f, g = (_real(np.asarray(function(x.T))) for function in (self._f, self._gradient))
         if f.shape != (len(x),) or g.shape != x.T.shape:
             raise ValueError(
                 f"for points of shape {x.T.shape} the function of a LevelSet gave shape {f.shape} "
                 f"and its gradient {g.shape}; they must be ({len(x)},) and {x.T.shape}"
             )
-        return f, g.T
+        return f, g.T, None
 
-    def _second_derivative(self, x: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
-        """Central differences of the gradient, symmetric, shape (n, gdim, gdim).
+    def parameters(self, gdim: int) -> npt.NDArray[np.float64]:
+        """None that are known, shape (0,)."""
+        return np.zeros(0)
 
-        They only serve the tangent: the solution does not depend on them.
+
+class _OfUFL:
+    """A UFL function, compiled for as many points as it is asked about."""
+
+    def __init__(self, f: Callable[[Any], Any]):
+        self._f = f
+        self._compiled: dict[tuple[int, ...], _Compiled] = {}
+
+    def values(self, x: npt.NDArray[np.float64], order: int) -> Values:
+        """Value, gradient and second derivative, shapes (n,), (n, gdim), (n, gdim, gdim).
+
+        Raises:
+            ValueError: If it is not one of UFL, no scalar, or holds what it may not.
         """
-        # Not a length of these points alone: which ones they are depends on the partition
-        size = self.extent or np.ptp(x, axis=0).max()
-        h = 1e-6 * np.maximum(np.abs(x).max(axis=1, keepdims=True) * 1e-3, max(size, 1e-30))
-        columns = []
-        for i in range(x.shape[1]):
-            dx = h * np.eye(x.shape[1])[i]
-            columns.append((self._values(x + dx)[1] - self._values(x - dx)[1]) / (2 * h))
-        H = np.stack(columns, axis=2)
-        symmetric: npt.NDArray[np.float64] = (H + H.transpose(0, 2, 1)) / 2
-        return symmetric
+        if order == 0:
+            # Of all nodes of a body, once
+            return (self._compiled.get(x.shape) or _Compiled(self._f, *x.shape))(x)
+        return self._compiled_for(x.shape)(x)
+
+    def parameters(self, gdim: int) -> npt.NDArray[np.float64]:
+        """Current values of the constants, also on a rank that has asked about no point."""
+        compiled = next(iter(self._compiled.values()), None) or self._compiled_for((1, gdim))
+        return compiled.constants()
+
+    def _compiled_for(self, shape: tuple[int, ...]) -> _Compiled:
+        if shape not in self._compiled:
+            # Slave nodes, points of slave facets, and what the audit looks at
+            while len(self._compiled) >= _MOST_COMPILED:
+                del self._compiled[next(iter(self._compiled))]
+            self._compiled[shape] = _Compiled(self._f, *shape)
+        return self._compiled[shape]
 
 
 def _real(values: npt.NDArray[Any]) -> npt.NDArray[np.float64]:

@@ -90,7 +90,7 @@ def case(request):
     rng = np.random.default_rng(5)
     scene.u.x.array[:] = 0.1 * rng.standard_normal(len(scene.u.x.array))
     contact.multiplier[:] = rng.standard_normal(len(contact.multiplier))
-    contact.interface.state.gap_derivative.array[:] = rng.standard_normal(len(contact.multiplier))
+    contact.interface.nodes.by_gap[:] = rng.standard_normal(len(contact.multiplier))
     return scene, contact, ByHand(scene, contact)
 
 
@@ -122,7 +122,7 @@ def test_constraint_block(case):
     scene, contact, hand = case
     n = len(scene.u.x.array)
     block = sum(assembled(form.constraint, (hand.n, n)) for form in contact.forms)
-    factor = contact.interface.state.gap_derivative.array
+    factor = contact.interface.nodes.by_gap
     assert close(block, factor[:, None] * hand.D)
 
 

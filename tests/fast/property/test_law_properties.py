@@ -10,7 +10,7 @@ from contactx import cpp as core
 
 from inputs.core import fractions, powers, rotations
 
-_MATRICES = ("by_traction", "by_slip", "by_normal")
+_FUNCTION = ("value", "by_multiplier", "by_gap", "by_slip", "by_normal")
 
 
 @st.composite
@@ -30,24 +30,25 @@ def states(draw, gdims=(2, 3)):
     return tuple(np.array(v, dtype=np.float64) for v in values)
 
 
+class _OneRank:
+    rank, size = 0, 1
+
+    def agree(self, work):
+        work()
+
+
+_RANKS = core.PythonNodes(_OneRank())
+
+
 def _evaluate(state):
-    gdim = len(state[0])
-    status = np.zeros(1, dtype=np.int8)
-    core.frictional_status(*state, 10.0, status)
-    value, by_gap = np.zeros(gdim), np.zeros(gdim)
-    matrices = {name: np.zeros(gdim * gdim) for name in _MATRICES}
-    core.frictional_complementarity(
-        *state,
-        np.ones(1),
-        status,
-        np.ones(gdim),
-        value,
-        matrices["by_traction"],
-        by_gap,
-        matrices["by_slip"],
-        matrices["by_normal"],
-    )
-    return status[0], {"value": value, "by_gap": by_gap} | matrices
+    traction, gap, normal, slip, c, friction = state
+    node, law = core.NodeState(1, len(traction), True), core.Coulomb()
+    node.multiplier[:], node.gap[:], node.normal[0] = traction, gap, normal
+    node.slip[0], node.c[:], node.area[:] = slip, c, 1
+    law.set_friction(friction)
+    law.set_status(node, _RANKS)
+    law.evaluate(node)
+    return node.status[0], {name: getattr(node, name).ravel() for name in _FUNCTION}
 
 
 @given(states())
@@ -80,7 +81,7 @@ def test_the_law_does_not_depend_on_the_unit_of_force(state, scale):
     assert other == status
     assert np.array_equal(scaled["value"], scale * law["value"])
     assert np.array_equal(scaled["by_slip"], scale * law["by_slip"])
-    assert np.array_equal(scaled["by_traction"], law["by_traction"])
+    assert np.array_equal(scaled["by_multiplier"], law["by_multiplier"])
 
 
 @given(st.data(), states())
@@ -97,14 +98,15 @@ def test_the_law_does_not_depend_on_the_axes(data, state):
 
 @given(fractions, st.one_of(fractions, st.just(np.nan)), fractions.map(abs))
 def test_normal_law(pressure, gap, c):
-    arrays = [np.array([v]) for v in (pressure, gap, c)]
-    status, out = np.zeros(1, dtype=np.int8), [np.zeros(1) for _ in range(3)]
-    core.normal_status(*arrays, status)
-    core.normal_complementarity(*arrays, np.ones(1), status, *out)
+    node, law = core.NodeState(1, 2, False), core.Frictionless()
+    node.multiplier[:], node.gap[:], node.c[:], node.area[:] = pressure, gap, c, 1
+    law.set_status(node, _RANKS)
+    law.evaluate(node)
     closed = pressure - c * gap > 0
-    assert (status[0] != core.OPEN) == closed
+    assert (node.status[0] != core.OPEN) == closed
+    assert node.value[0] == (c * gap if closed else pressure)
+    assert (node.by_multiplier.item(), node.by_gap[0]) == ((0, c) if closed else (1, 0))
     # Once closed it only opens without pressure
-    core.normal_status(arrays[0], np.full(1, 1e3), arrays[2], status)
-    assert (status[0] != core.OPEN) == ((closed and pressure > 0) or pressure - c * 1e3 > 0)
-    assert out[0][0] == (c * gap if closed else pressure)
-    assert (out[1][0], out[2][0]) == ((0, c) if closed else (1, 0))
+    node.gap[:] = 1e3
+    law.set_status(node, _RANKS)
+    assert (node.status[0] != core.OPEN) == ((closed and pressure > 0) or pressure - c * 1e3 > 0)

@@ -1,13 +1,10 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Frozen kinematics are those of the iterate at which they were frozen, in any unit of length."""
-
-from mpi4py import MPI
+"""Frozen kinematics are those of the iterate at which they were frozen."""
 
 import numpy as np
 import pytest
 
-from contactx.law.nodes import touching_gap
 from dolfinx.mesh import CellType
 
 from scenes import Blocks
@@ -37,11 +34,3 @@ def test_slip_is_the_same_when_it_is_frozen(cell):
     assert np.abs(nodes.gap - gap).max() <= 1e-14
     assert np.abs(slip).max() > 1e-2
     assert np.abs(nodes.slip - slip).max() <= 1e-13
-
-
-def test_what_touches_does_not_depend_on_units():
-    x = np.array([[0.0, 1.0], [2.0, -1.0], [1.0, 0.5]])
-    gap = touching_gap(MPI.COMM_SELF, x)
-    assert 0 < gap < 1e-10
-    for length in (1e-6, 1e6):
-        assert touching_gap(MPI.COMM_SELF, length * x) == pytest.approx(length * gap)

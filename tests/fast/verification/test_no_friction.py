@@ -70,8 +70,7 @@ def test_nothing_tangential_exists_without_friction(sliding, method):
     for array in (interface.nodes.by_slip, interface.nodes.by_normal):
         assert array.size == 0
     for form in contact.forms:
-        assert form.slip is None
-        assert form.normal is None
+        assert form.pairs.slip is None
         assert form._slip_data is None
     for name in ("slip", "slip_total"):
         with pytest.raises(RuntimeError, match="measures no slip: give it friction"):

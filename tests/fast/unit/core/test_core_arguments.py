@@ -173,15 +173,47 @@ def test_pairs_of_another_search():
         search.integrals(pairs, _X, _X, np.zeros((2, 3)))
 
 
-def test_vectors_of_the_laws():
-    one, status = np.ones(2), np.zeros(2, dtype=np.int8)
-    for count in (0, 2, 5, 8):
-        v = np.zeros(count)
-        with pytest.raises(ValueError, match="traction must have two or three values"):
-            core.frictional_status(v, one, v, v, one, one, 10.0, status)
-    v = np.zeros(4)
-    with pytest.raises(ValueError, match="differ in size"):
-        core.frictional_status(v, one, np.zeros(6), v, one, one, 10.0, status)
+def test_state_of_the_slave_nodes():
+    for arguments, message in (
+        ((-1, 2, True), "num_nodes must not be negative"),
+        ((2, 4, True), "gdim must be 2 or 3, not 4"),
+    ):
+        with pytest.raises(ValueError, match=message):
+            core.NodeState(*arguments)
+    state = core.NodeState(2, 3, True)
+    for bad in (-1, 2):
+        with pytest.raises(ValueError, match="nodes must be numbers of slave nodes"):
+            state.close(np.array([0, bad]))
+    assert not state.closed.any()
+    with pytest.raises(ValueError, match="origin must have 6 values"):
+        state.project(np.zeros(1))
+
+
+def test_arrays_of_the_slave_nodes_are_the_state_itself():
+    state = core.NodeState(2, 3, True)
+    multiplier, ceded = state.multiplier, state.ceded
+    state.gap[:] = -1.0
+    multiplier[:], ceded[:] = np.arange(6.0), [False, True]
+    state.normal[:] = [0, 0, 1]
+    assert np.array_equal(state.pressure, [2, 5])
+    assert np.array_equal(state.closing(), [True, False])
+    # They outlive the name
+    del state
+    assert multiplier[5] == 5
+    assert ceded[1]
+
+
+def test_laws_of_other_multipliers():
+    scalar, vector = core.NodeState(2, 3, False), core.NodeState(2, 3, True)
+    for law, state in (
+        (core.Frictionless(), vector),
+        (core.Coulomb(), scalar),
+        (core.Tied(), scalar),
+    ):
+        with pytest.raises(ValueError, match="multipliers for the law"):
+            law.evaluate(state)
+    with pytest.raises(ValueError, match="friction must have a coefficient for each of 2"):
+        core.Coulomb().evaluate(vector)
 
 
 def test_sizes_of_layouts():

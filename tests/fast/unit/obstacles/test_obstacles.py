@@ -1,6 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Obstacles as functions: derivatives by central differences, invariance, bad input."""
+"""Level sets as functions: derivatives by central differences; constants move obstacles."""
 
 from mpi4py import MPI
 
@@ -11,22 +11,14 @@ import contactx as cx
 import ufl
 from dolfinx import fem, mesh
 
-AXIS = np.array([0.3, -0.5, 0.8])
-
 
 def length(v):
     return ufl.sqrt(ufl.dot(v, v))
 
 
 def cases(gdim):
-    """Obstacles and points outside of their singular places."""
-    point, normal = np.array([0.1, 0.2, -0.3])[:gdim], np.array([0.4, -1.0, 2.0])[:gdim]
-    yield "plane", cx.Plane(point, normal)
-    yield "sphere", cx.Sphere(point, 0.7)
-    yield "bowl", cx.Sphere(point, 3.0, hollow=True)
-    if gdim == 3:
-        yield "cylinder", cx.Cylinder(point, AXIS, 0.7)
-        yield "pipe", cx.Cylinder(point, AXIS, 3.0, hollow=True)
+    """Level sets of UFL and of Python."""
+    point = np.array([0.1, 0.2, -0.3])[:gdim]
     p = ufl.as_vector(point)
     yield "ufl", cx.LevelSet(lambda x: ufl.dot(x - p, x - p) + 0.3 * ufl.sin(x[0]) - 0.5)
     yield (
@@ -84,33 +76,6 @@ def test_functions_are_not_asked_about_no_points():
     assert len(ufl_set.level(np.zeros((0, 2)))) == 0
 
 
-def test_a_curvature_does_not_depend_on_other_points():
-    """Which of them a rank has must not matter; one at the origin has no length of its own."""
-    obstacle = cx.LevelSet(
-        lambda x: x[1] + np.sin(x[0]), lambda x: np.stack([np.cos(x[0]), 1 + 0 * x[1]])
-    )
-    obstacle.extent = 2.0
-    x = np.array([[0.0, 0.0], [0.3, 0.1], [-0.7, 1.0]])
-    every = obstacle.evaluate(x).curvature
-    each = np.concatenate([obstacle.evaluate(point[None]).curvature for point in x])
-    assert np.array_equal(each, every)
-
-
-def test_gaps_and_normals_of_known_points():
-    x = np.array([[0.0, 0.0, 2.0], [3.0, 4.0, 0.0]])
-    plane = cx.Plane((0, 0, 1), (0, 0, 5)).evaluate(x)
-    assert plane.gap == pytest.approx([1, -1])
-    assert np.array_equal(plane.normal, [[0, 0, 1], [0, 0, 1]])
-    sphere = cx.Sphere((0, 0, 0), 4.0).evaluate(x)
-    assert sphere.gap == pytest.approx([-2, 1])
-    assert sphere.normal == pytest.approx(np.array([[0, 0, 1], [0.6, 0.8, 0]]))
-    bowl = cx.Sphere((0, 0, 0), 4.0, hollow=True).evaluate(x)
-    assert bowl.gap == pytest.approx([2, -1])
-    assert bowl.normal == pytest.approx(-sphere.normal)
-    cylinder = cx.Cylinder((0, 0, 7), (0, 2, 0), 1.0).evaluate(x)
-    assert cylinder.gap == pytest.approx([np.hypot(0, 5) - 1, np.hypot(3, 7) - 1])
-
-
 def test_a_level_set_that_is_no_distance_measures_to_first_order():
     x = np.array([[1.001, 0.0], [0.0, 0.999]])
     square = cx.LevelSet(lambda p: 5 * (ufl.dot(p, p) - 1)).evaluate(x)
@@ -133,22 +98,12 @@ def test_constants_move_an_obstacle():
     assert level_set.evaluate(x).gap == pytest.approx(0.5)
 
 
-@pytest.mark.parametrize(
-    ("obstacle", "message"),
-    [
-        (cx.Cylinder((0, 0, 0), (0, 0, 0), 1.0), "axis of a Cylinder is a zero vector"),
-    ],
-)
-def test_an_axis_without_direction(obstacle, message):
-    with pytest.raises(ValueError, match=message):
-        obstacle.evaluate(np.array([[1.0, 2.0, 3.0]]))
-
-
-@pytest.mark.parametrize(
-    "obstacle", [cx.Sphere((1, 2, 3), 1.5), cx.Cylinder((1, 2, 0), (0, 0, 1), 1.5)]
-)
-def test_in_the_centre_there_is_no_normal(obstacle):
-    geometry = obstacle.evaluate(np.array([[1.0, 2.0, 3.0]]))
-    assert geometry.gap == -1.5
-    assert not geometry.normal.any()
-    assert not geometry.curvature.any()
+def test_constants_are_told_without_points():
+    """As on a rank without slave nodes: all ranks save as many of them."""
+    domain = mesh.create_unit_cube(MPI.COMM_SELF, 1, 1, 1)
+    height = fem.Constant(domain, np.array([0.0, 1.0]))
+    level_set = cx.LevelSet(lambda p: p[1] - height[1])
+    assert level_set.parameters(2).tolist() == [0, 1]
+    level_set.evaluate(np.ones((4, 2)))
+    height.value[1] = 3
+    assert level_set.parameters(2).tolist() == [0, 3]

@@ -1,0 +1,211 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include "bindings.h"
+#include "check.h"
+#include "master.h"
+#include <contactx/contact/mortar_obstacle.h>
+#include <contactx/contact/obstacle_tie.h>
+#include <contactx/obstacle/cylinder.h>
+#include <contactx/obstacle/level_set.h>
+#include <contactx/obstacle/plane.h>
+#include <contactx/obstacle/sphere.h>
+#include <pybind11/functional.h>
+#include <pybind11/stl.h>
+
+namespace py = pybind11;
+using namespace contactx_bindings;
+using namespace contactx::contact;
+using namespace contactx::obstacle;
+
+namespace
+{
+/// An obstacle whose subclass in Python hands its parameters over.
+template <class O>
+class Refreshed final : public O
+{
+public:
+  using O::O;
+
+protected:
+  void refresh(int gdim) override { PYBIND11_OVERRIDE(void, O, refresh, gdim); }
+};
+
+/// What is seen, which knows its shapes.
+struct Seen
+{
+  Geometry at;
+  py::ssize_t gdim;
+};
+
+struct Dimension
+{
+  int gdim;
+
+  explicit Dimension(const Array<double>& x) : gdim(0)
+  {
+    if (x.ndim() != 2)
+      throw std::invalid_argument("x must have a row for each point");
+    gdim = static_cast<int>(x.shape(1));
+    check::dimension(gdim);
+  }
+};
+
+py::array_t<double> rows(const std::vector<double>& values, py::ssize_t width)
+{
+  return array(values,
+               {static_cast<py::ssize_t>(values.size()) / width, width});
+}
+
+std::vector<double> numbers(const py::handle& values)
+{
+  using Values = py::array_t<double, py::array::c_style | py::array::forcecast>;
+  const auto a = py::cast<Values>(values);
+  return {a.data(), a.data() + a.size()};
+}
+
+/// A level set's function in Python: of points (n, gdim) and an order, to
+/// values, gradients and second derivatives, of which the last ones may be
+/// None.
+LevelSet::Function level_function(py::function f)
+{
+  return [f = std::move(f)](std::span<const double> x, int gdim, int order)
+  {
+    const py::ssize_t n = static_cast<py::ssize_t>(x.size()) / gdim;
+    // A copy: the user's function may keep it
+    const py::array_t<double> points({n, py::ssize_t(gdim)}, x.data());
+    const py::tuple result = f(points, order);
+    LevelValues at;
+    at.value = numbers(result[0]);
+    at.gradient = numbers(result[1]);
+    if (not result[2].is_none())
+      at.hessian = numbers(result[2]);
+    return at;
+  };
+}
+
+template <class M>
+std::shared_ptr<M>
+make_master(std::shared_ptr<Obstacle> obstacle,
+            std::shared_ptr<contactx::parallel::NodeMap> nodes,
+            const Array<std::int32_t>& offsets,
+            const Array<std::int32_t>& facet_nodes,
+            const Array<std::int32_t>& owned, const Array<double>& x,
+            std::optional<double> reach, auto... measures_slip)
+{
+  return std::make_shared<M>(
+      std::move(obstacle), std::move(nodes),
+      contactx::facet::FacetList{view(offsets), view(facet_nodes)}, view(owned),
+      view(x), Dimension(x).gdim,
+      reach.value_or(std::numeric_limits<double>::infinity()),
+      measures_slip...);
+}
+} // namespace
+
+void contactx_bindings::obstacle(py::module_& m)
+{
+  const auto part = [](std::vector<double> Geometry::* values, int rank)
+  {
+    return [values, rank](py::object self)
+    {
+      const auto& seen = self.cast<const Seen&>();
+      std::vector<py::ssize_t> shape{
+          static_cast<py::ssize_t>(seen.at.gap.size())};
+      shape.insert(shape.end(), rank, seen.gdim);
+      return looking(seen.at.*values, shape, self);
+    };
+  };
+  py::class_<Seen>(m, "Geometry", "An obstacle seen from points")
+      .def_property_readonly("gap", part(&Geometry::gap, 0))
+      .def_property_readonly("gradient", part(&Geometry::gradient, 1))
+      .def_property_readonly("normal", part(&Geometry::normal, 1))
+      .def_property_readonly("curvature", part(&Geometry::curvature, 2));
+  py::class_<Placement>(m, "Placement", "Where a rigid obstacle is")
+      .def_property_readonly("point",
+                             [](const Placement& p) { return array(p.point); })
+      .def("turn",
+           [](const Placement& self, const Placement& to)
+           {
+             return rows(self.turn(to),
+                         static_cast<py::ssize_t>(self.point.size()));
+           })
+      .def(
+          "carry",
+          [](const Placement& self, const Array<double>& x, const Placement& to)
+          {
+            check::rows(x.size(), x.ndim() == 2 ? x.shape(0) : -1,
+                        static_cast<int>(self.point.size()), "x", "point");
+            return rows(self.carry(view(x), to),
+                        static_cast<py::ssize_t>(self.point.size()));
+          });
+  py::class_<Obstacle, std::shared_ptr<Obstacle>>(
+      m, "Obstacle", "Rigid body, a master without degrees of freedom")
+      .def("evaluate",
+           [](Obstacle& self, const Array<double>& x)
+           {
+             const int gdim = Dimension(x).gdim;
+             return Seen{self.evaluate(view(x), gdim), gdim};
+           })
+      .def("placement", &Obstacle::placement)
+      .def("size", &Obstacle::size)
+      .def("parameters", [](Obstacle& self, int gdim)
+           { return array(self.parameters(gdim)); })
+      .def("distance", [](Obstacle& self, const Array<double>& x)
+           { return array(self.distance(view(x), Dimension(x).gdim)); })
+      .def("normals",
+           [](Obstacle& self, const Array<double>& x)
+           {
+             const int gdim = Dimension(x).gdim;
+             return rows(self.normals(view(x), gdim), gdim);
+           })
+      .def("level", [](Obstacle& self, const Array<double>& x)
+           { return array(self.level(view(x), Dimension(x).gdim)); })
+      .def_property_readonly("tells_movement", &Obstacle::tells_movement)
+      .def_property_readonly("usual_mistake", &Obstacle::usual_mistake)
+      .def_readwrite("extent", &Obstacle::extent);
+  py::class_<Plane, Refreshed<Plane>, Obstacle, std::shared_ptr<Plane>>(
+      m, "Plane", "Half-space bounded by a plane")
+      .def(py::init<>())
+      .def("place", &Plane::place);
+  py::class_<Sphere, Refreshed<Sphere>, Obstacle, std::shared_ptr<Sphere>>(
+      m, "Sphere", "Ball, or all that is outside of one")
+      .def(py::init<bool>())
+      .def("place", &Sphere::place);
+  py::class_<Cylinder, Refreshed<Cylinder>, Obstacle,
+             std::shared_ptr<Cylinder>>(
+      m, "Cylinder", "Endless circular cylinder, or all that is outside of one")
+      .def(py::init<bool>())
+      .def("place", &Cylinder::place);
+  py::class_<LevelSet, Obstacle, std::shared_ptr<LevelSet>>(
+      m, "LevelSet", "Body where a function is negative")
+      .def(py::init(
+          [](py::function f, std::function<std::vector<double>(int)> parameters)
+          {
+            return std::make_shared<LevelSet>(level_function(std::move(f)),
+                                              std::move(parameters));
+          }));
+
+  // A subclass in Python must outlive who calls its methods
+  py::class_<ObstacleMaster, Master, std::shared_ptr<ObstacleMaster>>(
+      m, "ObstacleMaster", "Pairs of slave nodes with a rigid obstacle")
+      .def(py::init(&make_master<ObstacleMaster, bool>), py::arg("obstacle"),
+           py::arg("nodes"), py::arg("offsets"), py::arg("facet_nodes"),
+           py::arg("owned"), py::arg("x"), py::arg("reach"),
+           py::arg("measures_slip"), py::keep_alive<1, 2>())
+      .def_property_readonly("obstacle", &ObstacleMaster::obstacle)
+      .def("inside", [](const ObstacleMaster& self, const Array<double>& x)
+           { return array(self.inside(view(x))); })
+      .def("moves_untold", &ObstacleMaster::moves_untold);
+  py::class_<ObstacleTie, ObstacleMaster, std::shared_ptr<ObstacleTie>>(
+      m, "ObstacleTie", "Slave nodes tied to a rigid obstacle")
+      .def(py::init(&make_master<ObstacleTie>), py::arg("obstacle"),
+           py::arg("nodes"), py::arg("offsets"), py::arg("facet_nodes"),
+           py::arg("owned"), py::arg("x"), py::arg("reach"),
+           py::keep_alive<1, 2>());
+  py::class_<MortarObstacle, ObstacleMaster, std::shared_ptr<MortarObstacle>>(
+      m, "MortarObstacle", "Pairs of slave facets with a rigid obstacle")
+      .def(py::init(&make_master<MortarObstacle, bool>), py::arg("obstacle"),
+           py::arg("nodes"), py::arg("offsets"), py::arg("facet_nodes"),
+           py::arg("owned"), py::arg("x"), py::arg("reach"),
+           py::arg("measures_slip"), py::keep_alive<1, 2>());
+}

@@ -1,0 +1,84 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include "condensation.h"
+#include <algorithm>
+#include <string>
+
+using namespace contactx::condense;
+
+namespace
+{
+void check_size(std::size_t size, std::size_t least, std::size_t most,
+                const char* name)
+{
+  if (size < least or size > most)
+    throw std::invalid_argument(std::string(name) + " has "
+                                + std::to_string(size) + " values, not "
+                                + std::to_string(most));
+}
+
+/// Blocks in which a slave node stands for the others of its facets
+Blocks lumped(const CompressedRows& contact, std::span<const Nodes> contacts,
+              std::span<const std::int8_t> is_slave,
+              std::span<const std::int8_t> free, int gdim, bool& is_exact)
+{
+  check(contacts, free.size() / std::max(gdim, 1), gdim);
+  const std::size_t num_local = free.size();
+  check_size(num_local, num_local / gdim * gdim, num_local / gdim * gdim,
+             "free");
+  check_size(is_slave.size(), num_local / gdim * contacts.size(),
+             num_local / gdim * contacts.size(), "is_slave");
+  const std::size_t size = num_local + num_multipliers(contacts);
+  check_size(contact.offsets.size(), size + 1, size + 1, "offsets");
+  Blocks blocks = sorted(contact, num_local);
+  is_exact = not lump(blocks, contacts, is_slave, gdim);
+  return blocks;
+}
+} // namespace
+
+Condensation::Condensation(const CompressedRows& contact,
+                           std::span<const Nodes> contacts,
+                           std::span<const std::int8_t> is_slave,
+                           std::span<const std::int8_t> free, int gdim)
+    : _num_local(free.size()),
+      _num_multipliers(condense::num_multipliers(contacts)),
+      _is_soft(std::ranges::any_of(contacts, [](const Nodes& nodes)
+                                   { return nodes.softness > 0; })),
+      _prescribed(contacts,
+                  lumped(contact, contacts, is_slave, free, gdim, _is_exact),
+                  free, gdim),
+      _elimination(contacts, _prescribed, free, gdim)
+{
+}
+
+Condensation::RightHandSide
+Condensation::right_hand_side(std::span<const double> d) const
+{
+  check_size(d.size(), _num_multipliers, _num_multipliers, "d");
+  RightHandSide result;
+  result.forces.assign(_num_local, 0);
+  std::vector<double> left(d.begin(), d.end());
+  _prescribed.right_hand_side(left, result.forces);
+  result.multipliers = _elimination.open_multipliers(left);
+  _prescribed.blocks().traction.multiply(result.multipliers, result.forces, -1);
+  result.shift = _elimination.shift(left);
+  result.extra = _elimination.extra(left);
+  return result;
+}
+
+void Condensation::recover(std::span<const double> d,
+                           std::span<const double> defect,
+                           std::span<const double> u,
+                           std::span<double> multipliers) const
+{
+  check_size(d.size(), _num_multipliers, _num_multipliers, "d");
+  check_size(u.size(), _num_local, _num_local, "u");
+  check_size(multipliers.size(), _num_multipliers, _num_multipliers,
+             "multipliers");
+  const auto& rows = _elimination.recovered();
+  const std::size_t least = rows.empty() ? 0 : std::ranges::max(rows) + 1;
+  check_size(defect.size(), least, _num_local, "defect");
+  _elimination.recover(defect, multipliers);
+  _prescribed.recover(d, u, multipliers);
+}

@@ -1,0 +1,84 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#pragma once
+
+#include "elimination.h"
+
+namespace contactx::condense
+{
+/// @brief The contacts of this rank with their multipliers eliminated.
+///
+/// With b the right-hand side of the displacements' rows, d that of the
+/// multipliers' and h = (I + right) v + shift the displacements,
+///
+///     (I + left) ((K + S) h - b - forces) + law h = extra
+///
+/// gives v, see Elimination; `recover` gives the multipliers.
+class Condensation
+{
+public:
+  /// @brief What right-hand sides become.
+  struct RightHandSide
+  {
+    std::vector<double> forces; ///< what is added to b (shape=(num_local))
+    std::vector<double> shift;  ///< of the displacements (shape=(num_local))
+    std::vector<double> extra;  ///< of the law's rows (shape=(num_local))
+    /// Multipliers of open nodes, zero elsewhere (shape=(num_multipliers))
+    std::vector<double> multipliers;
+  };
+
+  /// @brief Eliminate the multipliers.
+  /// @param[in] contact Contact part of the Jacobian, of this rank's pairs, in
+  /// displacements of all nodes and multipliers.
+  /// @param[in] contacts The contacts; they are not read later on.
+  /// @param[in] is_slave 1 where one of all nodes is slave in a contact, else 0
+  /// (shape=(num_nodes, num_contacts)).
+  /// @param[in] free 1 at displacements that are not prescribed, else 0
+  /// (shape=(num_local)).
+  /// @param[in] gdim Geometric dimension.
+  /// @throws NotCondensable where a multiplier has no equation of its own.
+  /// @throws std::invalid_argument if arrays do not fit.
+  Condensation(const CompressedRows& contact, std::span<const Nodes> contacts,
+               std::span<const std::int8_t> is_slave,
+               std::span<const std::int8_t> free, int gdim);
+
+  /// @brief Whether it stands for the Jacobian, not for one in which slave
+  /// nodes stand for others of their facets.
+  bool is_exact() const { return _is_exact; }
+
+  /// @brief Whether a contact is soft.
+  bool is_soft() const { return _is_soft; }
+
+  /// @brief Contact's part S of the stiffness, (dof, dof).
+  const Triplets& stiffness() const { return _prescribed.blocks().stiffness; }
+
+  /// @brief What soft contact, and multipliers that the law gives, have added
+  /// to it, (dof, dof).
+  const Triplets& springs() const { return _prescribed.springs(); }
+
+  /// @brief The transforms.
+  const Elimination& elimination() const { return _elimination; }
+
+  /// @brief Change right-hand sides.
+  /// @param[in] d Right-hand side of the multipliers' rows
+  /// (shape=(num_multipliers)).
+  RightHandSide right_hand_side(std::span<const double> d) const;
+
+  /// @brief Find the multipliers.
+  /// @param[in] d Right-hand side of the multipliers' rows
+  /// (shape=(num_multipliers)).
+  /// @param[in] defect b + forces - (K + S) u (shape=(num_owned)).
+  /// @param[in] u Displacements of all nodes (shape=(num_local)).
+  /// @param[in,out] multipliers Those of open nodes, then all
+  /// (shape=(num_multipliers)).
+  void recover(std::span<const double> d, std::span<const double> defect,
+               std::span<const double> u, std::span<double> multipliers) const;
+
+private:
+  std::size_t _num_local, _num_multipliers;
+  bool _is_soft, _is_exact = true;
+  Prescribed _prescribed;
+  Elimination _elimination;
+};
+} // namespace contactx::condense

@@ -1,0 +1,121 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#pragma once
+
+#include "prescribed.h"
+
+namespace contactx::condense
+{
+/// @brief Transforms that take the multipliers out of J (du, dl) = (b, d).
+///
+/// A multiplier follows from its slave node's own rows, T_s dl = b_s - K_s du,
+/// as the slave side is diagonal. What it does to other rows is taken over by
+/// `left`; a constraint without the multiplier gives a displacement of the
+/// slave node, du = (I + right) v + shift, and where it slips the tangential
+/// rows are those of the law: with tangential vectors tau_i the row of the
+/// displacement i becomes tau_i (C_l A^-1 K_s + C_u), the natural one for no
+/// friction.
+///
+/// So the displacements v follow from
+///
+///     (I + left) ((K + S) ((I + right) v + shift) - b)
+///         + law ((I + right) v + shift) = extra
+///
+/// but for the rows of eliminated displacements, in which v is zero.
+///
+/// All of it is of one rank alone: its slave nodes, in the numbers of all
+/// nodes' displacements on the rank, those of its own nodes first.
+class Elimination
+{
+public:
+  /// @brief Find the transforms.
+  /// @param[in] contacts The contacts.
+  /// @param[in] contact Contact blocks of the Jacobian, without multipliers
+  /// that the bulk cannot give.
+  /// @param[in] free 1 at displacements that are not prescribed, else 0
+  /// (shape=(num_local)).
+  /// @param[in] gdim Geometric dimension.
+  /// @throws NotCondensable where a multiplier has no equation of its own.
+  Elimination(std::span<const Nodes> contacts, const Prescribed& contact,
+              std::span<const std::int8_t> free, int gdim);
+
+  /// @brief Geometric dimension.
+  int gdim() const { return _gdim; }
+
+  /// @brief Change of the rows' combinations, (dof, dof).
+  const Triplets& left() const { return _left; }
+
+  /// @brief Change of the displacements, (dof, dof).
+  const Triplets& right() const { return _right; }
+
+  /// @brief Rows of the law that are added, (dof, dof).
+  const Triplets& law() const { return _law; }
+
+  /// @brief Displacements that the constraints give, in order (shape=(k)).
+  const std::vector<std::int32_t>& eliminated() const { return _eliminated; }
+
+  /// @brief Displacements whose rows give multipliers (shape=(m)).
+  const std::vector<std::int32_t>& recovered() const { return _recovered; }
+
+  /// @brief Displacements of all slave nodes, in order.
+  const std::vector<std::int32_t>& slave_dofs() const { return _slave_dofs; }
+
+  /// @brief Whether a node slips with friction.
+  bool slips() const { return _slips; }
+
+  /// @brief Whether a node sticks to a master along several displacements.
+  bool sticks() const { return _sticks; }
+
+  /// @brief What the constraints' right-hand side gives of displacements.
+  /// @param[in] d Right-hand side (shape=(num_multipliers)).
+  /// @return Displacements (shape=(num_local)).
+  std::vector<double> shift(std::span<const double> d) const;
+
+  /// @brief What the law's right-hand side adds to the rows.
+  /// @param[in] d Right-hand side (shape=(num_multipliers)).
+  /// @return Forces (shape=(num_local)).
+  std::vector<double> extra(std::span<const double> d) const;
+
+  /// @brief Multipliers that no displacement enters, zero elsewhere.
+  /// @param[in] d Right-hand side (shape=(num_multipliers)).
+  /// @return Multipliers (shape=(num_multipliers)).
+  std::vector<double> open_multipliers(std::span<const double> d) const;
+
+  /// @brief Set the multipliers of closed nodes.
+  /// @param[in] defect b - K du (shape=(num_owned)).
+  /// @param[in,out] multipliers Values to write into (shape=(num_multipliers)).
+  void recover(std::span<const double> defect,
+               std::span<double> multipliers) const;
+
+private:
+  class Rows;
+
+  void add_force(const Triplets& T, std::span<const std::int32_t> entries,
+                 std::int32_t row, std::int32_t multiplier, Rows& rows);
+  void add_scalar(std::int32_t multiplier, std::int32_t first,
+                  std::span<const std::int8_t> free, const Rows& rows);
+  void add_stick(std::int32_t multiplier, std::int32_t first,
+                 std::span<const std::int8_t> own, const Rows& rows);
+  void add_slip(std::int32_t multiplier, std::int32_t first,
+                std::span<const std::int8_t> own, const double* normal,
+                const double* by, double area, const Rows& rows);
+
+  int _gdim;
+  std::size_t _num_local;
+  std::vector<std::int32_t> _eliminated, _recovered, _slave_dofs;
+  Triplets _left, _right, _law;
+  bool _slips = false, _sticks = false;
+
+  // Displacements and rows by the rows of d
+  Triplets _shift, _extra;
+  // Multipliers that rows of the bulk give, and their factors there
+  std::vector<std::int32_t> _given;
+  std::vector<double> _factors;
+  // Multipliers of open nodes, and their factors in their own rows; how many
+  // there are in all
+  std::vector<std::int32_t> _open;
+  std::vector<double> _diagonal;
+  std::size_t _num_multipliers;
+};
+} // namespace contactx::condense

@@ -1,0 +1,62 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include "multigrid.h"
+#include <cmath>
+#include <stdexcept>
+
+using namespace contactx;
+using namespace contactx::condense;
+
+namespace
+{
+void check_owned(std::size_t size, const parallel::NodeMap& nodes, int gdim)
+{
+  if (size != static_cast<std::size_t>(nodes.num_owned()) * gdim)
+    throw std::invalid_argument(
+        "diagonal must have a value for each owned displacement, not "
+        + std::to_string(size));
+}
+} // namespace
+
+std::vector<double> contactx::condense::bound(const Elimination& elimination,
+                                              const parallel::NodeMap& nodes,
+                                              std::span<const double> diagonal)
+{
+  const int gdim = elimination.gdim();
+  check_owned(diagonal.size(), nodes, gdim);
+  const Triplets& R = elimination.right();
+  std::vector<double> sums(diagonal.size(), 0);
+  for (std::size_t e = 0; e < R.size(); ++e)
+    if (R.rows[e] != R.columns[e])
+      sums[R.rows[e]] += std::abs(R.values[e]);
+  std::vector<double> more(static_cast<std::size_t>(nodes.num_nodes()) * gdim,
+                           0);
+  for (std::size_t e = 0; e < R.size(); ++e)
+    if (const std::int32_t s = R.rows[e]; s != R.columns[e])
+      more[R.columns[e]] += diagonal[s] * sums[s] * std::abs(R.values[e]);
+  nodes.reverse(more, gdim);
+  more.resize(diagonal.size());
+  for (std::size_t i = 0; i < more.size(); ++i)
+    more[i] += diagonal[i];
+  return more;
+}
+
+Triplets contactx::condense::elastic(const Elimination& elimination,
+                                     const parallel::NodeMap& nodes,
+                                     const Triplets& soft,
+                                     std::span<const double> diagonal)
+{
+  const int gdim = elimination.gdim();
+  if (not diagonal.empty())
+    check_owned(diagonal.size(), nodes, gdim);
+  const auto taken = marks(nodes, elimination.eliminated(), gdim);
+  Triplets left
+      = soft.select([&](std::int32_t row, std::int32_t column, double)
+                    { return taken[row] == 0 and taken[column] == 0; });
+  for (std::size_t i = 0; i < diagonal.size(); ++i)
+    if (diagonal[i] != 0 and taken[i] == 0)
+      left.add(static_cast<std::int32_t>(i), static_cast<std::int32_t>(i),
+               diagonal[i]);
+  return left;
+}

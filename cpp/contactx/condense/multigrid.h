@@ -1,0 +1,33 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#pragma once
+
+#include "chains.h"
+
+namespace contactx::condense
+{
+/// @brief Diagonal with which the matrix (I + right)^T K (I + right) has no
+/// larger eigenvalue than K has with its own; all ranks must take part.
+///
+/// With K <= lambda D_K and displacements sum_l R_sl v_l of the eliminated s,
+/// Cauchy's inequality gives D = D_K + sum_s D_s (sum_l |R_sl|) |R_s|.
+/// @param[in] elimination That of this rank.
+/// @param[in] nodes Nodes of this rank.
+/// @param[in] diagonal Diagonal of K, not negative (shape=(num_owned)).
+/// @return D (shape=(num_owned)).
+std::vector<double> bound(const Elimination& elimination,
+                          const parallel::NodeMap& nodes,
+                          std::span<const double> diagonal);
+
+/// @brief Springs without rows and columns of eliminated displacements; all
+/// ranks must take part.
+/// @param[in] elimination That of this rank.
+/// @param[in] nodes Nodes of this rank.
+/// @param[in] soft What soft contact adds to the stiffness, (dof, dof).
+/// @param[in] diagonal Springs of single displacements (shape=(num_owned)), or
+/// nothing.
+/// @return Entries (dof, dof).
+Triplets elastic(const Elimination& elimination, const parallel::NodeMap& nodes,
+                 const Triplets& soft, std::span<const double> diagonal);
+} // namespace contactx::condense

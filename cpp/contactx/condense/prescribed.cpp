@@ -1,0 +1,168 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include "prescribed.h"
+#include "small.h"
+#include <utility>
+
+using namespace contactx::condense;
+
+namespace
+{
+/// Determinant of D_pp over the area, from which on it has an inverse
+constexpr double least_determinant = 1e-8;
+} // namespace
+
+Prescribed::Prescribed(std::span<const Nodes> contacts, Blocks blocks,
+                       std::span<const std::int8_t> free, int gdim)
+    : _blocks(std::move(blocks))
+{
+  const std::size_t count = num_multipliers(contacts);
+  _own.assign(count, 1);
+  std::size_t first = 0;
+  for (const Nodes& nodes : contacts)
+  {
+    const int k = nodes.size;
+    auto& by = _by_multiplier.emplace_back(nodes.by_multiplier.begin(),
+                                           nodes.by_multiplier.end());
+    for (std::size_t s = 0; s < nodes.count(); ++s, first += k)
+    {
+      if (not nodes.is_closed(s))
+        continue;
+      std::int8_t* own = _own.data() + first;
+      bool is_concerned = false;
+      for (int i = 0; i < k; ++i)
+      {
+        own[i] = k == 1 ? not(nodes.softness > 0)
+                        : free[nodes.slaves[s] * gdim + i] != 0;
+        is_concerned = is_concerned or own[i] == 0;
+      }
+      if (not is_concerned)
+        continue;
+
+      double* d = by.data() + s * k * k;
+      Small D{}, block{}, G{};
+      for (int i = 0; i < k; ++i)
+        for (int j = 0; j < k; ++j)
+        {
+          D[i][j] = d[k * i + j];
+          // D_pp, and ones elsewhere on the diagonal
+          if (own[i] == 0 and own[j] == 0)
+            block[i][j] = D[i][j] / nodes.area[s];
+          else
+            block[i][j] = i == j and own[i] != 0;
+        }
+      if (std::abs(invert(k, block, G)) < least_determinant)
+        throw NotCondensable(
+            "a slave node with a prescribed displacement moves its master");
+      for (int i = 0; i < k; ++i)
+        for (int j = 0; j < k; ++j)
+          G[i][j] = own[i] == 0 and own[j] == 0 ? G[i][j] / nodes.area[s] : 0;
+
+      const Small DG = product(k, D, G), GD = product(k, G, D),
+                  DGD = product(k, DG, D);
+      const auto place = static_cast<std::int32_t>(_multipliers.size());
+      for (int i = 0; i < k; ++i)
+      {
+        _multipliers.push_back(static_cast<std::int32_t>(first) + i);
+        for (int j = 0; j < k; ++j)
+        {
+          // D - D G D is zero in the rows and columns of p
+          const bool is_left = own[i] != 0 and own[j] != 0;
+          d[k * i + j] = is_left ? D[i][j] - DGD[i][j] : 0;
+          _law.add(place + i, place + j, D[i][j]);
+          _inverse.add(place + i, place + j, G[i][j]);
+          _rows.add(place + i, place + j, -DG[i][j]);
+          _columns.add(place + i, place + j, -GD[i][j]);
+        }
+      }
+    }
+  }
+  if (not _multipliers.empty())
+    take_out(count, free.size());
+}
+
+void Prescribed::take_out(std::size_t num_multipliers, std::size_t num_local)
+{
+  const std::size_t m = _multipliers.size();
+  std::vector<std::int32_t> place(num_multipliers, -1);
+  for (std::size_t i = 0; i < m; ++i)
+    place[_multipliers[i]] = static_cast<std::int32_t>(i);
+
+  Blocks left;
+  const Triplets &T = _blocks.traction, &C = _blocks.constraint;
+  for (std::size_t e = 0; e < T.size(); ++e)
+    if (const std::int32_t at = place[T.columns[e]]; at >= 0)
+      _T.add(T.rows[e], at, T.values[e]);
+    else
+      left.traction.add(T.rows[e], T.columns[e], T.values[e]);
+  for (std::size_t e = 0; e < C.size(); ++e)
+    if (const std::int32_t at = place[C.rows[e]]; at >= 0)
+      _C.add(at, C.columns[e], C.values[e]);
+    else
+      left.constraint.add(C.rows[e], C.columns[e], C.values[e]);
+
+  // Of the multipliers concerned only the others, f, are left
+  auto is_left = [this](std::int32_t i) { return _own[_multipliers[i]] != 0; };
+  Triplets rows, columns;
+  for (std::size_t e = 0; e < _rows.size(); ++e)
+  {
+    if (is_left(_rows.rows[e]))
+      rows.add(_rows.rows[e], _rows.columns[e], _rows.values[e]);
+    if (is_left(_columns.columns[e]))
+      columns.add(_columns.rows[e], _columns.columns[e], _columns.values[e]);
+  }
+  for (std::size_t i = 0; i < m; ++i)
+    if (const auto at = static_cast<std::int32_t>(i); is_left(at))
+    {
+      rows.add(at, at, 1);
+      columns.add(at, at, 1);
+    }
+  Triplets changed = product(_T, columns, num_local, m, m);
+  for (std::int32_t& column : changed.columns)
+    column = _multipliers[column];
+  left.traction.join(changed);
+  changed = product(rows, _C, m, m, num_local);
+  for (std::int32_t& row : changed.rows)
+    row = _multipliers[row];
+  left.constraint.join(changed);
+
+  _springs.join(product(product(_T, _inverse, num_local, m, m), _C, num_local,
+                        m, num_local),
+                -1);
+  left.stiffness = std::move(_blocks.stiffness);
+  left.stiffness.join(_springs);
+  _blocks = std::move(left);
+}
+
+void Prescribed::right_hand_side(std::span<double> d,
+                                 std::span<double> forces) const
+{
+  const std::size_t m = _multipliers.size();
+  std::vector<double> given(m), known(m, 0), change(m, 0);
+  for (std::size_t i = 0; i < m; ++i)
+    given[i] = d[_multipliers[i]];
+  _inverse.multiply(given, known);
+  _T.multiply(known, forces, -1);
+  _rows.multiply(given, change);
+  // Nothing is left in the rows of p
+  for (std::size_t i = 0; i < m; ++i)
+    d[_multipliers[i]] = _own[_multipliers[i]] != 0 ? given[i] + change[i] : 0;
+}
+
+void Prescribed::recover(std::span<const double> d, std::span<const double> u,
+                         std::span<double> multipliers) const
+{
+  const std::size_t m = _multipliers.size();
+  std::vector<double> left(m), others(m), found(m, 0);
+  for (std::size_t i = 0; i < m; ++i)
+  {
+    left[i] = d[_multipliers[i]];
+    others[i] = multipliers[_multipliers[i]];
+  }
+  _C.multiply(u, left, -1);
+  _law.multiply(others, left, -1);
+  _inverse.multiply(left, found);
+  for (std::size_t i = 0; i < m; ++i)
+    multipliers[_multipliers[i]] += found[i];
+}

@@ -1,0 +1,89 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#pragma once
+
+#include "blocks.h"
+
+namespace contactx::condense
+{
+/// @brief Takes multipliers p that follow from their own rows of the law out of
+/// the contact blocks.
+///
+/// The bulk has no row that gives those along prescribed displacements, as
+/// where a plane of symmetry holds a slave node and there is no friction across
+/// it; those of soft contact are the forces of springs. With the law's
+/// derivatives D by the multipliers of a node, C by the displacements and the
+/// traction block T, and G = D_pp^-1,
+///
+///     l_p = G (d - C u - D_pf l_f)
+///
+/// goes into the other rows: C - D G C, D - D G D and T - T G D take the place
+/// of C, D and T, and -T G C is added to the stiffness.
+///
+/// All of it is of one rank alone: its slave nodes' constraints, in all nodes'
+/// displacements.
+class Prescribed
+{
+public:
+  /// @brief Take them out.
+  /// @param[in] contacts The contacts.
+  /// @param[in] blocks Contact blocks of the Jacobian, lumped.
+  /// @param[in] free 1 at displacements that are not prescribed, else 0
+  /// (shape=(num_local)).
+  /// @param[in] gdim Geometric dimension.
+  /// @throws NotCondensable where the law does not give such a multiplier.
+  Prescribed(std::span<const Nodes> contacts, Blocks blocks,
+             std::span<const std::int8_t> free, int gdim);
+
+  /// @brief Contact blocks without these multipliers.
+  const Blocks& blocks() const { return _blocks; }
+
+  /// @brief What these multipliers add to the stiffness, which has it already,
+  /// (dof, dof).
+  const Triplets& springs() const { return _springs; }
+
+  /// @brief 1 where a multiplier follows from a row of the bulk, else 0
+  /// (shape=(num_multipliers)).
+  std::span<const std::int8_t> own() const { return _own; }
+
+  /// @brief The law's derivatives D without these multipliers.
+  /// @param[in] contact Number of the contact.
+  /// @return Derivatives (shape=(n, size, size)).
+  std::span<const double> by_multiplier(std::size_t contact) const
+  {
+    return _by_multiplier[contact];
+  }
+
+  /// @brief What these multipliers change in the right-hand sides.
+  /// @param[in,out] d Right-hand side of the multipliers' rows, then that
+  /// without these multipliers (shape=(num_multipliers)).
+  /// @param[in,out] forces Right-hand side of all nodes' displacements, which
+  /// it is added to (shape=(num_local)).
+  void right_hand_side(std::span<double> d, std::span<double> forces) const;
+
+  /// @brief Add these multipliers.
+  /// @param[in] d Right-hand side of the multipliers' rows
+  /// (shape=(num_multipliers)).
+  /// @param[in] u Displacements of all nodes (shape=(num_local)).
+  /// @param[in,out] multipliers The others, zero where these are to go
+  /// (shape=(num_multipliers)).
+  void recover(std::span<const double> d, std::span<const double> u,
+               std::span<double> multipliers) const;
+
+private:
+  void take_out(std::size_t num_multipliers, std::size_t num_local);
+
+  Blocks _blocks;
+  Triplets _springs;
+  std::vector<std::int8_t> _own;
+  std::vector<std::vector<double>> _by_multiplier;
+
+  // Multipliers of the nodes concerned, which are numbered by their place here
+  std::vector<std::int32_t> _multipliers;
+  // D, G, -D G and -G D of these nodes
+  Triplets _law, _inverse, _rows, _columns;
+  // Columns of T and rows of C at their multipliers
+  Triplets _T, _C;
+};
+} // namespace contactx::condense

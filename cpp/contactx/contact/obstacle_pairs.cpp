@@ -1,0 +1,451 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include "obstacle_pairs.h"
+#include "../kernel/layout.h"
+#include "../vec.h"
+#include "facing.h"
+#include "touching.h"
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <stdexcept>
+
+using namespace contactx;
+using namespace contactx::contact;
+
+namespace
+{
+void check_size(std::size_t size, std::size_t expected, const char* name)
+{
+  if (size != expected)
+    throw std::invalid_argument(std::string(name) + " must have "
+                                + std::to_string(expected) + " values, not "
+                                + std::to_string(size));
+}
+
+/// Positions that hold all of some nodes.
+void check_positions(std::span<const double> x,
+                     std::span<const std::int32_t> nodes, int gdim)
+{
+  const std::size_t count
+      = nodes.empty() ? 0 : std::size_t(std::ranges::max(nodes)) + 1;
+  if (x.size() % gdim != 0 or x.size() / gdim < count)
+    throw std::invalid_argument(
+        "x must hold " + std::to_string(gdim) + " coordinates for each of "
+        + std::to_string(count) + " nodes or more: it has "
+        + std::to_string(x.size()) + " values");
+}
+
+std::vector<double> gathered_rows(std::span<const double> x,
+                                  std::span<const std::int32_t> nodes, int gdim)
+{
+  check_positions(x, nodes, gdim);
+  std::vector<double> rows(nodes.size() * gdim);
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    for (int k = 0; k < gdim; ++k)
+      rows[gdim * i + k] = x[std::size_t(gdim) * nodes[i] + k];
+  return rows;
+}
+
+void check_facets(const facet::FacetList& facets, int gdim)
+{
+  if (gdim != 2 and gdim != 3)
+    throw std::invalid_argument("gdim must be 2 or 3, not "
+                                + std::to_string(gdim));
+  if (facets.offsets.empty() or facets.offsets.front() != 0
+      or facets.offsets.back() != std::ssize(facets.nodes))
+    throw std::invalid_argument(
+        "offsets must begin with 0 and end at the number of nodes");
+  for (std::int32_t f = 0; f < facets.size(); ++f)
+  {
+    const std::int32_t n = facets.offsets[f + 1] - facets.offsets[f];
+    if (gdim == 2 ? n != 2 : n != 3 and n != 4)
+      throw std::invalid_argument("offsets must give a facet two nodes in 2D, "
+                                  "and three or four in 3D");
+  }
+}
+
+/// Saved values of a known size.
+std::vector<double> values_of_size(const std::vector<Saved>& saved,
+                                   const char* name, std::size_t size)
+{
+  const auto& values = values_of<double>(saved, name);
+  check_size(values.size(), size, name);
+  return values;
+}
+
+bool has(const std::vector<Saved>& saved, const char* name)
+{
+  return std::ranges::any_of(saved,
+                             [=](const Saved& s) { return s.name == name; });
+}
+} // namespace
+
+ObstacleMaster::ObstacleMaster(std::shared_ptr<obstacle::Obstacle> obstacle,
+                               std::shared_ptr<const parallel::NodeMap> nodes,
+                               const facet::FacetList& facets,
+                               std::span<const std::int32_t> owned,
+                               std::span<const double> x, int gdim,
+                               double reach, bool measures_slip)
+    : _obstacle(std::move(obstacle)), _nodes(std::move(nodes)),
+      _owned(owned.begin(), owned.end()), _gdim(gdim), _reach(reach),
+      _measures_slip(measures_slip), _paired(owned.size(), 0),
+      _slip(owned.size() * kernel::rigid_slip_size, 0),
+      _data(owned.size() * kernel::rigid_size, 0)
+{
+  check_facets(facets, gdim);
+  if (std::ranges::adjacent_find(_owned, std::greater_equal<>{})
+      != _owned.end())
+    throw std::invalid_argument("owned must be nodes in order");
+  if (not _owned.empty() and _owned.front() < 0)
+    throw std::invalid_argument("owned must be node numbers, from 0 on");
+  if (not facets.nodes.empty() and std::ranges::min(facets.nodes) < 0)
+    throw std::invalid_argument("nodes must be node numbers, from 0 on");
+  check_positions(x, facets.nodes, gdim);
+
+  std::vector<std::int32_t> others(facets.nodes.begin(), facets.nodes.end());
+  std::ranges::sort(others);
+  others.erase(std::unique(others.begin(), others.end()), others.end());
+  std::erase_if(others, [this](std::int32_t node)
+                { return std::ranges::binary_search(_owned, node); });
+  _slaves.around = _owned;
+  _slaves.around.insert(_slaves.around.end(), others.begin(), others.end());
+  _slaves.offsets.assign(facets.offsets.begin(), facets.offsets.end());
+  _slaves.nodes.assign(facets.nodes.begin(), facets.nodes.end());
+  for (std::int32_t node : facets.nodes)
+  {
+    auto place = std::ranges::lower_bound(_owned, node) - _owned.begin();
+    if (place == std::ssize(_owned) or _owned[place] != node)
+      place = std::ssize(_owned)
+              + (std::ranges::lower_bound(others, node) - others.begin());
+    _slaves.corners.push_back(static_cast<std::int32_t>(place));
+  }
+  _at = at_slaves(x);
+  ObstacleMaster::accept(x);
+  ObstacleMaster::begin_step();
+}
+
+std::vector<double> ObstacleMaster::at_slaves(std::span<const double> x) const
+{
+  return gathered_rows(x, _owned, _gdim);
+}
+
+std::vector<double>
+ObstacleMaster::kernel_data(const obstacle::Geometry& seen) const
+{
+  const std::size_t g = _gdim;
+  std::vector<double> data(size() * kernel::rigid_size, 0);
+  for (std::size_t i = 0; i < size(); ++i)
+  {
+    double* row = &data[i * kernel::rigid_size];
+    row[kernel::rigid_gap] = seen.gap[i];
+    std::copy_n(&seen.gradient[g * i], g, row + kernel::rigid_gradient);
+    std::copy_n(&seen.normal[g * i], g, row + kernel::rigid_normal);
+    std::copy_n(&seen.curvature[g * g * i], g * g,
+                row + kernel::rigid_curvature);
+  }
+  return data;
+}
+
+std::vector<std::int8_t>
+ObstacleMaster::facing(std::span<const double> x,
+                       std::span<const double> normal) const
+{
+  std::vector<double> every(_slaves.around.size() * _gdim, 0);
+  std::ranges::copy(normal, every.begin());
+  std::vector<std::int8_t> faces
+      = facing_nodes({_slaves.offsets, _slaves.corners},
+                     gathered_rows(x, _slaves.around, _gdim), every, _gdim);
+  faces.resize(size());
+  return faces;
+}
+
+std::int32_t ObstacleMaster::search(std::span<const double> x,
+                                    std::span<const std::int8_t>)
+{
+  _at = at_slaves(x);
+  _obstacle->evaluate(_at, _gdim, _seen);
+  _data = kernel_data(_seen);
+  update_slip(_at, _data);
+  // The far side of an obstacle, too, has a closest point for a node
+  _paired = facing(x, _seen.normal);
+  for (std::size_t i = 0; i < size(); ++i)
+    _paired[i] = _paired[i] and std::abs(_seen.gap[i]) <= _reach;
+  return 0;
+}
+
+std::vector<Pairs> ObstacleMaster::pairs() const { return group(_data); }
+
+std::optional<std::vector<Pairs>>
+ObstacleMaster::update(std::span<const double> x, bool frozen,
+                       std::span<const double>)
+{
+  const std::vector<double> now = at_slaves(x);
+  std::vector<double> data;
+  if (not frozen)
+  {
+    _obstacle->evaluate(now, _gdim, _seen);
+    data = kernel_data(_seen);
+  }
+  else
+  {
+    data = _data;
+    for (std::size_t i = 0; i < size(); ++i)
+    {
+      double* row = &data[i * kernel::rigid_size];
+      double more = 0;
+      for (int k = 0; k < _gdim; ++k)
+        more += row[kernel::rigid_gradient + k]
+                * (now[_gdim * i + k] - _at[_gdim * i + k]);
+      row[kernel::rigid_gap] += more;
+      std::fill_n(row + kernel::rigid_curvature, _gdim * _gdim, 0.0);
+    }
+  }
+  update_slip(now, data);
+  return group(data);
+}
+
+void ObstacleMaster::update_slip(std::span<const double> at,
+                                 std::span<const double> data)
+{
+  if (not _measures_slip)
+    return;
+  const std::vector<double> from = carried();
+  const int g = _gdim;
+  std::ranges::fill(_slip, 0.0);
+  for (std::size_t i = 0; i < size(); ++i)
+  {
+    const double* normal = &data[i * kernel::rigid_size + kernel::rigid_normal];
+    const double* turn
+        = &data[i * kernel::rigid_size + kernel::rigid_curvature];
+    double* slip = &_slip[i * kernel::rigid_slip_size + kernel::rigid_slip];
+    double* derivative
+        = &_slip[i * kernel::rigid_slip_size + kernel::rigid_slip_derivative];
+    Vector<3> way{}, way_turns{};
+    double height = 0;
+    for (int k = 0; k < g; ++k)
+    {
+      way[k] = at[g * i + k] - from[g * i + k];
+      height += normal[k] * way[k];
+    }
+    for (int k = 0; k < g; ++k)
+      for (int j = 0; j < g; ++j)
+        way_turns[k] += way[j] * turn[g * j + k];
+    for (int j = 0; j < g; ++j)
+      for (int k = 0; k < g; ++k)
+      {
+        const double across = (j == k) - normal[j] * normal[k];
+        slip[j] += across * way[k];
+        derivative[g * j + k]
+            = across - height * turn[g * j + k] - normal[j] * way_turns[k];
+      }
+  }
+}
+
+std::vector<double> ObstacleMaster::carried() const
+{
+  return _placed.carry(_start, _obstacle->placement(_gdim));
+}
+
+void ObstacleMaster::accept(std::span<const double> x)
+{
+  if (not _measures_slip)
+    return;
+  std::vector<double> x0 = at_slaves(x);
+  obstacle::Placement placed = _obstacle->placement(_gdim);
+  std::vector<double> gap0 = _obstacle->evaluate(x0, _gdim).gap;
+  _parameters = _obstacle->parameters(_gdim);
+  _x0 = std::move(x0);
+  _placed = std::move(placed);
+  _gap0 = std::move(gap0);
+}
+
+void ObstacleMaster::begin_step()
+{
+  if (_measures_slip)
+    _start = _x0;
+}
+
+bool ObstacleMaster::moves_untold(double tolerance) const
+{
+  if (not _measures_slip or _obstacle->tells_movement())
+    return false;
+  const std::vector<double> gap = _obstacle->evaluate(_x0, _gdim).gap;
+  for (std::size_t i = 0; i < size(); ++i)
+    if (std::abs(gap[i] - _gap0[i]) > tolerance)
+      return true;
+  return _obstacle->parameters(_gdim) != _parameters;
+}
+
+std::optional<std::vector<double>>
+ObstacleMaster::turn(std::span<const double>) const
+{
+  if (not _measures_slip)
+    return std::nullopt;
+  const std::vector<double> one = _placed.turn(_obstacle->placement(_gdim));
+  std::vector<double> all;
+  all.reserve(size() * one.size());
+  for (std::size_t i = 0; i < size(); ++i)
+    all.insert(all.end(), one.begin(), one.end());
+  return all;
+}
+
+void ObstacleMaster::touch(std::span<const std::int8_t> which,
+                           std::span<const double> x,
+                           std::span<const double> offset)
+{
+  if (not _measures_slip)
+    return;
+  check_size(which.size(), size(), "which");
+  check_size(offset.size(), size(), "offset");
+  const std::vector<double> now = at_slaves(x);
+  const std::vector<double> gap = _obstacle->evaluate(now, _gdim).gap;
+  const std::vector<double> seen
+      = _obstacle->placement(_gdim).carry(now, _placed);
+  for (std::size_t i = 0; i < size(); ++i)
+  {
+    if (not which[i])
+      continue;
+    const double part = touching(_gap0[i] - offset[i], gap[i] - offset[i]);
+    for (std::size_t k = _gdim * i; k < _gdim * (i + 1); ++k)
+      _start[k] = _x0[k] + part * (seen[k] - _x0[k]);
+  }
+}
+
+std::vector<Pairs> ObstacleMaster::group(std::span<const double> data) const
+{
+  Pairs p;
+  p.data_size = kernel::rigid_size;
+  p.slip_size = _measures_slip ? kernel::rigid_slip_size : 0;
+  for (std::size_t i = 0; i < size(); ++i)
+  {
+    if (not _paired[i])
+      continue;
+    p.slaves.push_back(static_cast<std::int32_t>(i));
+    p.nodes.push_back(_owned[i]);
+    const auto row = data.subspan(i * p.data_size, p.data_size);
+    p.data.insert(p.data.end(), row.begin(), row.end());
+    const auto slip = _slip.begin() + i * p.slip_size;
+    p.slip.insert(p.slip.end(), slip, slip + p.slip_size);
+  }
+  if (p.slaves.empty())
+    return {};
+  std::vector<Pairs> groups;
+  groups.push_back(std::move(p));
+  return groups;
+}
+
+std::vector<double> ObstacleMaster::normals() const
+{
+  std::vector<double> normals(3 * size(), 0);
+  for (std::size_t i = 0; i < size(); ++i)
+    if (_paired[i])
+      std::copy_n(&_data[i * kernel::rigid_size + kernel::rigid_normal], _gdim,
+                  &normals[3 * i]);
+  return normals;
+}
+
+Weights ObstacleMaster::weights() const
+{
+  Weights w;
+  for (std::size_t i = 0; i < size(); ++i)
+    if (_paired[i])
+    {
+      w.slaves.push_back(static_cast<std::int32_t>(i));
+      w.nodes.push_back(_owned[i]);
+      w.values.push_back(1);
+    }
+  return w;
+}
+
+std::vector<double> ObstacleMaster::compliance(std::span<const double>) const
+{
+  return std::vector<double>(size(), 0.0);
+}
+
+Mobility ObstacleMaster::mobility(std::span<const std::int8_t> free) const
+{
+  const std::size_t count = _owned.empty() ? 0 : std::size_t(_owned.back()) + 1;
+  if (free.size() < count * _gdim)
+    throw std::invalid_argument("free must hold each component of all nodes");
+  Mobility m{std::vector<double>(size(), 0),
+             std::vector<double>(size() * _gdim)};
+  for (std::size_t i = 0; i < size(); ++i)
+  {
+    const double* normal
+        = &_data[i * kernel::rigid_size + kernel::rigid_normal];
+    double square = 0;
+    for (int k = 0; k < _gdim; ++k)
+    {
+      const double moves = free[std::size_t(_gdim) * _owned[i] + k] ? 1 : 0;
+      m.each[_gdim * i + k] = moves;
+      square += normal[k] * moves * normal[k] * moves;
+    }
+    m.normal[i] = std::sqrt(square);
+  }
+  return m;
+}
+
+std::vector<double> ObstacleMaster::inside(std::span<const double> x) const
+{
+  return _obstacle->evaluate(at_slaves(x), _gdim).gap;
+}
+
+double ObstacleMaster::distance(std::span<const double> x) const
+{
+  double least = std::numeric_limits<double>::infinity();
+  for (double gap : inside(x))
+    least = std::min(least, std::abs(gap));
+  return least;
+}
+
+std::vector<Saved> ObstacleMaster::save() const
+{
+  using enum RowKind;
+  std::vector<Saved> saved{{"paired", slave, 0, _paired},
+                           {"data", slave, kernel::rigid_size, _data},
+                           {"at", slave, _gdim, _at}};
+  if (not _measures_slip)
+    return saved;
+  saved.push_back({"slip_data", slave, kernel::rigid_slip_size, _slip});
+  saved.push_back({"start", slave, _gdim, _start});
+  saved.push_back({"x0", slave, _gdim, _x0});
+  saved.push_back({"gap0", slave, 0, _gap0});
+  saved.push_back({"point", global, 0, _placed.point});
+  if (not _placed.direction.empty())
+    saved.push_back({"direction", global, 0, _placed.direction});
+  if (not _parameters.empty())
+    saved.push_back({"parameters", global, 0, _parameters});
+  return saved;
+}
+
+void ObstacleMaster::load(const std::vector<Saved>& saved)
+{
+  const std::size_t n = size();
+  const auto& paired = values_of<std::int8_t>(saved, "paired");
+  check_size(paired.size(), n, "paired");
+  auto data = values_of_size(saved, "data", n * kernel::rigid_size);
+  auto at = values_of_size(saved, "at", n * _gdim);
+  if (_measures_slip)
+  {
+    auto slip = values_of_size(saved, "slip_data", n * kernel::rigid_slip_size);
+    auto start = values_of_size(saved, "start", n * _gdim);
+    auto x0 = values_of_size(saved, "x0", n * _gdim);
+    auto gap0 = values_of_size(saved, "gap0", n);
+    obstacle::Placement placed{values_of_size(saved, "point", _gdim), {}};
+    if (has(saved, "direction"))
+      placed.direction = values_of_size(saved, "direction", _gdim);
+    _parameters = has(saved, "parameters")
+                      ? values_of<double>(saved, "parameters")
+                      : std::vector<double>{};
+    _slip = std::move(slip);
+    _start = std::move(start);
+    _x0 = std::move(x0);
+    _gap0 = std::move(gap0);
+    _placed = std::move(placed);
+  }
+  _paired = paired;
+  _data = std::move(data);
+  _at = std::move(at);
+}

@@ -1,0 +1,41 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#pragma once
+
+#include "obstacle_pairs.h"
+
+namespace contactx::contact
+{
+/// @brief Slave nodes tied to a rigid obstacle: they move with it, from where
+/// both were when the tie was made.
+class ObstacleTie final : public ObstacleMaster
+{
+public:
+  /// @brief Create the pairs, none yet; the arguments are those of
+  /// ObstacleMaster.
+  ObstacleTie(std::shared_ptr<obstacle::Obstacle> obstacle,
+              std::shared_ptr<const parallel::NodeMap> nodes,
+              const facet::FacetList& facets,
+              std::span<const std::int32_t> owned, std::span<const double> x,
+              int gdim, double reach);
+
+  /// @copydoc Master::search; only the first search counts
+  std::int32_t search(std::span<const double> x,
+                      std::span<const std::int8_t> closed) override;
+
+  /// @copydoc Master::update; the offset is what a tie is longer by
+  std::optional<std::vector<Pairs>>
+  update(std::span<const double> x, bool frozen,
+         std::span<const double> offset) override;
+
+private:
+  /// The whole way from the place that the obstacle has carried the node to.
+  void update_slip(std::span<const double> at,
+                   std::span<const double> data) override;
+
+  bool _found = false;
+  obstacle::Placement _first;
+  std::vector<double> _reference, _normal, _offset;
+};
+} // namespace contactx::contact

@@ -1,0 +1,293 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include "assemble.h"
+#include "registry.h"
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+using namespace contactx;
+using namespace contactx::kernel;
+using contactx::contact::Pairs;
+
+namespace
+{
+constexpr std::array<std::string_view, 4> vectors{"gap", "normal", "slip",
+                                                  "residual"};
+constexpr std::array<std::string_view, 3> matrices{"stiffness", "traction",
+                                                   "constraint"};
+
+[[noreturn]] void fail(const std::string& message)
+{
+  throw std::invalid_argument(message);
+}
+
+bool contains(std::span<const std::string_view> terms, std::string_view term)
+{
+  return std::ranges::find(terms, term) != terms.end();
+}
+
+void check_size(std::size_t size, std::size_t rows, int width,
+                const std::string& name)
+{
+  if (size != rows * width)
+    fail(name + " must have " + std::to_string(width) + " values for each of "
+         + std::to_string(rows) + " pairs, not " + std::to_string(size)
+         + " in all");
+}
+
+/// Each number must be one of `count` things.
+void check_numbers(std::span<const std::int32_t> numbers, std::size_t count,
+                   const std::string& name, std::string_view of)
+{
+  const auto bad
+      = std::ranges::find_if(numbers, [count](std::int32_t i)
+                             { return i < 0 or std::size_t(i) >= count; });
+  if (bad != numbers.end())
+    fail(name + " must be numbers of " + std::string(of) + ", of which there "
+         + "are " + std::to_string(count) + ": there is "
+         + std::to_string(*bad));
+}
+
+void check_pairs(const Pairs& pairs, int gdim)
+{
+  if (gdim != 2 and gdim != 3)
+    fail("gdim must be 2 or 3, not " + std::to_string(gdim));
+  if (pairs.num_slaves < 1 or pairs.num_slaves > 4)
+    fail("pairs.num_slaves must be from 1 to 4, not "
+         + std::to_string(pairs.num_slaves));
+  if (pairs.num_nodes < 0 or pairs.num_nodes > 4)
+    fail("pairs.num_nodes must be from 0 to 4, not "
+         + std::to_string(pairs.num_nodes));
+  const std::size_t n = pairs.size();
+  check_size(pairs.slaves.size(), n, pairs.num_slaves, "pairs.slaves");
+  check_size(pairs.nodes.size(), n, pairs.num_slaves + pairs.num_nodes,
+             "pairs.nodes");
+  const int size = pair_values(pairs.num_slaves, pairs.num_nodes, gdim);
+  if (pairs.data_size != size)
+    fail("pairs.data_size must be " + std::to_string(size) + ", not "
+         + std::to_string(pairs.data_size));
+  check_size(pairs.data.size(), n, size, "pairs.data");
+}
+
+/// The kernel of a term; none where it vanishes.
+const Entry* entry_of(Law law, std::string_view sliding, std::string_view term,
+                      const Pairs& pairs, int gdim)
+{
+  if (!contains(vectors, term) and !contains(matrices, term))
+    fail("there is no term " + std::string(term));
+  check_pairs(pairs, gdim);
+  if (pairs.is_movement)
+  {
+    if (law == Law::frictionless)
+      fail("pairs that measure movement are for vector multipliers");
+    // The kernels of a tie measure movement
+    law = Law::tied;
+  }
+  // Every kind of pairs has forces
+  find(law, sliding, "residual", pairs.num_nodes, gdim, pairs.num_slaves);
+  if (pairs.is_movement and term != "slip" and term != "constraint")
+    return nullptr;
+  return find_if_any(law, sliding, term, pairs.num_nodes, gdim,
+                     pairs.num_slaves);
+}
+
+/// Coefficients of one pair after another, as its kernel reads them, and what
+/// the kernel gives.
+class Tabulation
+{
+public:
+  Tabulation(const Entry& entry, const Pairs& pairs, const NodalArrays& arrays)
+      : shape(kernel::shape(entry)), _entry(entry), _pairs(pairs),
+        _w(coefficient_values(entry.law, entry.num_nodes, entry.gdim,
+                              entry.num_slaves)),
+        _tensor(shape.rows * shape.columns)
+  {
+    // In the order of Coefficient
+    const std::array<std::span<const double>, num_coefficients> all{
+        arrays.displacement,
+        arrays.position,
+        pairs.data,
+        pairs.slip,
+        arrays.multiplier,
+        arrays.area,
+        arrays.gap_derivative,
+        arrays.slip_derivative,
+        arrays.normal_derivative};
+    const auto table = coefficients(entry.law, entry.num_nodes, entry.gdim,
+                                    entry.num_slaves);
+    for (const Coefficient c : entry.active)
+    {
+      const CoefficientInfo& info = table[static_cast<int>(c)];
+      const auto values = all[static_cast<int>(c)];
+      const std::string name(info.name);
+      if (info.site == Site::pair)
+        check_size(values.size(), pairs.size(), info.size, "pairs." + name);
+      else
+      {
+        if (values.size() % info.size != 0)
+          fail(name + " must have rows of " + std::to_string(info.size)
+               + " values, not " + std::to_string(values.size()) + " in all");
+        check_numbers(info.site == Site::nodes ? pairs.nodes : pairs.slaves,
+                      values.size() / info.size,
+                      info.site == Site::nodes ? "pairs.nodes" : "pairs.slaves",
+                      "rows of " + name);
+      }
+      _sources[_num_sources++] = {values.data(), info.site, info.size,
+                                  _w.data()
+                                      + offset(entry.law, c, entry.num_nodes,
+                                               entry.gdim, entry.num_slaves)};
+    }
+  }
+
+  /// Call the kernel for a pair.
+  std::span<const double> operator()(std::size_t pair)
+  {
+    const auto nodes = nodes_of(pair), slaves = slaves_of(pair);
+    for (int i = 0; i < _num_sources; ++i)
+    {
+      const Source& s = _sources[i];
+      double* to = s.to;
+      if (s.site == Site::pair)
+        std::copy_n(s.values + s.size * pair, s.size, to);
+      else
+        for (const std::int32_t row : s.site == Site::nodes ? nodes : slaves)
+          to = std::copy_n(s.values + std::size_t(s.size) * row, s.size, to);
+    }
+    std::ranges::fill(_tensor, 0.0);
+    _entry.function(_tensor.data(), _w.data(), nullptr, nullptr, nullptr,
+                    nullptr, nullptr);
+    return _tensor;
+  }
+
+  std::span<const std::int32_t> nodes_of(std::size_t pair) const
+  {
+    const int width = _pairs.num_slaves + _pairs.num_nodes;
+    return {_pairs.nodes.data() + width * pair, std::size_t(width)};
+  }
+
+  std::span<const std::int32_t> slaves_of(std::size_t pair) const
+  {
+    return {_pairs.slaves.data() + _pairs.num_slaves * pair,
+            std::size_t(_pairs.num_slaves)};
+  }
+
+  const Shape shape; ///< of what a call gives
+
+private:
+  struct Source
+  {
+    const double* values;
+    Site site;
+    int size;
+    double* to;
+  };
+
+  const Entry& _entry;
+  const Pairs& _pairs;
+  std::vector<double> _w, _tensor;
+  std::array<Source, num_coefficients> _sources;
+  int _num_sources = 0;
+};
+} // namespace
+
+bool kernel::has_term(Law law, std::string_view sliding, std::string_view term,
+                      const Pairs& pairs, int gdim)
+{
+  return entry_of(law, sliding, term, pairs, gdim) != nullptr;
+}
+
+void kernel::add_vector(Law law, std::string_view sliding,
+                        std::string_view term, const Pairs& pairs,
+                        const NodalArrays& arrays, int gdim,
+                        std::span<double> b)
+{
+  if (!contains(vectors, term))
+    fail("the term must be gap, normal, slip or residual, not "
+         + std::string(term));
+  const Entry* entry = entry_of(law, sliding, term, pairs, gdim);
+  if (!entry)
+    return;
+  Tabulation tabulate(*entry, pairs, arrays);
+  const bool over_nodes = term == "residual";
+  const int width = over_nodes ? gdim : tabulate.shape.rows / pairs.num_slaves;
+  if (b.size() % width != 0)
+    fail("b must have rows of " + std::to_string(width) + " values, not "
+         + std::to_string(b.size()) + " in all");
+  const std::size_t rows = b.size() / width;
+  if (over_nodes)
+    check_numbers(pairs.nodes, rows, "pairs.nodes", "rows of b");
+  else if (std::ranges::any_of(pairs.slaves,
+                               [](std::int32_t i) { return i < 0; }))
+    fail("pairs.slaves must not be negative");
+  for (std::size_t p = 0; p < pairs.size(); ++p)
+  {
+    const auto tensor = tabulate(p);
+    const double* from = tensor.data();
+    for (const std::int32_t row :
+         over_nodes ? tabulate.nodes_of(p) : tabulate.slaves_of(p))
+    {
+      if (std::size_t(row) < rows)
+        for (int k = 0; k < width; ++k)
+          b[std::size_t(width) * row + k] += from[k];
+      from += width;
+    }
+  }
+}
+
+Triplets kernel::assemble_matrix(Law law, std::string_view sliding,
+                                 std::string_view term, const Pairs& pairs,
+                                 const NodalArrays& arrays, int gdim)
+{
+  if (!contains(matrices, term))
+    fail("the term must be stiffness, traction or constraint, not "
+         + std::string(term));
+  const Entry* entry = entry_of(law, sliding, term, pairs, gdim);
+  if (!entry)
+    return {};
+  Tabulation tabulate(*entry, pairs, arrays);
+  // A kernel need not read what its rows or columns are numbered by
+  const int size = law == Law::frictionless ? 1 : gdim;
+  constexpr std::size_t most = std::numeric_limits<std::int32_t>::max();
+  check_numbers(pairs.slaves, most / size, "pairs.slaves", "slave nodes");
+  check_numbers(pairs.nodes, most / gdim, "pairs.nodes", "nodes");
+
+  const auto dofs
+      = [](std::span<const std::int32_t> numbers, int width, auto& to)
+  {
+    auto at = to.begin();
+    for (const std::int32_t i : numbers)
+      for (int k = 0; k < width; ++k)
+        *at++ = width * i + k;
+  };
+  const auto [num_rows, num_columns] = tabulate.shape;
+  std::vector<std::int32_t> rows(num_rows), columns(num_columns);
+  Triplets result;
+  const std::size_t count = pairs.size() * num_rows * num_columns;
+  result.rows.reserve(count);
+  result.columns.reserve(count);
+  result.values.reserve(count);
+  for (std::size_t p = 0; p < pairs.size(); ++p)
+  {
+    if (term == "constraint")
+      dofs(tabulate.slaves_of(p), size, rows);
+    else
+      dofs(tabulate.nodes_of(p), gdim, rows);
+    if (term == "traction")
+      dofs(tabulate.slaves_of(p), size, columns);
+    else
+      dofs(tabulate.nodes_of(p), gdim, columns);
+    const auto tensor = tabulate(p);
+    result.values.insert(result.values.end(), tensor.begin(), tensor.end());
+    for (const std::int32_t row : rows)
+    {
+      result.rows.insert(result.rows.end(), columns.size(), row);
+      result.columns.insert(result.columns.end(), columns.begin(),
+                            columns.end());
+    }
+  }
+  return result;
+}

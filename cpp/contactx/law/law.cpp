@@ -1,0 +1,206 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include "law.h"
+#include "coulomb.h"
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+using namespace contactx;
+using namespace contactx::law;
+using contactx::contact::NodeState;
+
+namespace
+{
+// A node that slips starts the next step on the edge of the cone: what a solve
+// has left must not say on which side of it. Parts of the node's pressure and
+// of the largest one
+constexpr double edge_of_cone = 1e-10;
+constexpr double left_by_solve = 1e-9;
+// By how much more trial friction may exceed its bound where iterates go round
+constexpr double farther = 1e3;
+
+/// What is thrown for other multipliers than those of a law.
+void check_multipliers(const Law& law, const NodeState& nodes)
+{
+  if (law.is_vector() != nodes.is_vector())
+    throw std::invalid_argument(
+        "nodes must have " + std::string(law.is_vector() ? "vector" : "scalar")
+        + " multipliers for the law \"" + std::string(law.name()) + "\"");
+}
+
+/// Gaps, NaN where a node cannot close
+std::vector<double> closable_gaps(const NodeState& nodes)
+{
+  std::vector<double> gap(nodes.gap.size());
+  for (std::size_t i = 0; i < gap.size(); ++i)
+    gap[i] = nodes.closable_gap(i);
+  return gap;
+}
+
+/// Part of the bound on friction that a node which slips may fall short of.
+double edge(double pressure, double highest)
+{
+  return pressure > 0
+             ? std::min(edge_of_cone + left_by_solve * highest / pressure, 0.5)
+             : 0.5;
+}
+
+/// Whether the trial friction of a node exceeds a part of its pressure.
+bool exceeds(const NodeState& nodes, std::size_t i, double friction)
+{
+  const std::size_t gdim = nodes.gdim();
+  const double p = nodes.pressure(i), c = nodes.c[i];
+  double size = 0;
+  for (std::size_t k = gdim * i; k < gdim * (i + 1); ++k)
+  {
+    const double trial
+        = nodes.multiplier[k] - p * nodes.normal[k] - c * nodes.slip[k];
+    size += trial * trial;
+  }
+  return std::sqrt(size) > friction * (p - c * nodes.gap[i]);
+}
+} // namespace
+
+std::int32_t Frictionless::set_status(NodeState& nodes, parallel::Ranks&) const
+{
+  check_multipliers(*this, nodes);
+  const auto gap = closable_gaps(nodes);
+  return normal_status({nodes.multiplier, gap, nodes.c}, nodes.status);
+}
+
+void Frictionless::evaluate(NodeState& nodes) const
+{
+  check_multipliers(*this, nodes);
+  if (not(nodes.softness >= 0))
+    throw std::invalid_argument("softness must not be negative");
+  normal_complementarity({nodes.multiplier, nodes.gap, nodes.c, nodes.softness},
+                         nodes.area, nodes.status, nodes.value,
+                         nodes.by_multiplier, nodes.by_gap);
+}
+
+void Coulomb::begin_step() { _reach = _usual_reach; }
+
+void Coulomb::allow_larger_friction() { _reach *= farther; }
+
+void Coulomb::set_friction(std::span<const double> friction)
+{
+  const auto bad
+      = std::ranges::find_if(friction, [](double mu)
+                             { return not(mu >= 0) or not std::isfinite(mu); });
+  if (bad != friction.end())
+  {
+    char text[32];
+    const auto end = std::to_chars(text, text + sizeof(text), *bad).ptr;
+    throw std::invalid_argument("friction is " + std::string(text, end)
+                                + ": give numbers of at least 0");
+  }
+  _friction.assign(friction.begin(), friction.end());
+}
+
+std::vector<double> Coulomb::friction(const NodeState& nodes) const
+{
+  if (_friction.size() != nodes.smooth.size())
+    throw std::invalid_argument("friction must have a coefficient for each of "
+                                + std::to_string(nodes.smooth.size())
+                                + " slave nodes, not "
+                                + std::to_string(_friction.size()));
+  std::vector<double> result = _friction;
+  for (std::size_t i = 0; i < result.size(); ++i)
+    if (nodes.smooth[i])
+      result[i] = 0;
+  return result;
+}
+
+std::int32_t Coulomb::set_status(NodeState& nodes, parallel::Ranks& ranks) const
+{
+  double highest = 0;
+  for (std::size_t i = 0; i < nodes.status.size(); ++i)
+    highest = std::max(highest, nodes.pressure(i));
+  highest = parallel::largest(ranks, highest);
+  // Only now: no rank may leave the others waiting
+  check_multipliers(*this, nodes);
+  auto mu = friction(nodes);
+  for (std::size_t i = 0; i < mu.size(); ++i)
+    if (nodes.status[i] == slip)
+      mu[i] *= 1 - edge(nodes.pressure(i), highest);
+
+  const auto before = nodes.status;
+  const auto gap = closable_gaps(nodes);
+  frictional_status({nodes.gdim(), nodes.multiplier, gap, nodes.normal,
+                     nodes.slip, nodes.c, mu},
+                    _reach, nodes.status);
+  std::int32_t changed = 0;
+  for (std::size_t i = 0; i < before.size(); ++i)
+  {
+    std::int8_t& now = nodes.status[i];
+    if (before[i] == open and now == slip and mu[i] > 0)
+    {
+      if (nodes.closings[i] % 4 == 3)
+        now = stick;
+      ++nodes.closings[i];
+    }
+    else if (before[i] == slip and now == stick and exceeds(nodes, i, mu[i]))
+    {
+      if (nodes.turns[i] % 2 == 1)
+        now = slip;
+      ++nodes.turns[i];
+    }
+    changed += now != before[i];
+  }
+  return changed;
+}
+
+void Coulomb::evaluate(NodeState& nodes) const
+{
+  check_multipliers(*this, nodes);
+  const auto mu = friction(nodes);
+  frictional_complementarity({nodes.gdim(), nodes.multiplier, nodes.gap,
+                              nodes.normal, nodes.slip, nodes.c, mu},
+                             nodes.area, nodes.status, nodes.mobile,
+                             {nodes.value, nodes.by_multiplier, nodes.by_gap,
+                              nodes.by_slip, nodes.by_normal});
+  if (nodes.mean)
+    nodes.mean->chain(nodes.normal, nodes.by_slip, nodes.by_normal);
+}
+
+std::int32_t Tied::set_status(NodeState& nodes, parallel::Ranks&) const
+{
+  check_multipliers(*this, nodes);
+  std::int32_t changed = 0;
+  for (std::size_t i = 0; i < nodes.status.size(); ++i)
+  {
+    const std::int8_t now
+        = std::isnan(nodes.gap[i]) or nodes.ceded[i] ? open : stick;
+    changed += now != nodes.status[i];
+    nodes.status[i] = now;
+  }
+  return changed;
+}
+
+void Tied::evaluate(NodeState& nodes) const
+{
+  check_multipliers(*this, nodes);
+  const std::size_t gdim = nodes.gdim();
+  for (auto* derivative :
+       {&nodes.by_multiplier, &nodes.by_gap, &nodes.by_slip, &nodes.by_normal})
+    std::ranges::fill(*derivative, 0.0);
+  for (std::size_t i = 0; i < nodes.status.size(); ++i)
+    for (std::size_t k = 0; k < gdim; ++k)
+    {
+      const std::size_t at = gdim * i + k, diagonal = gdim * at + k;
+      if (nodes.closed(i) and nodes.mobile[at] > 0)
+      {
+        nodes.by_slip[diagonal] = nodes.area[i] * nodes.c[i];
+        nodes.value[at] = nodes.by_slip[diagonal] * nodes.slip[at];
+      }
+      else
+      {
+        nodes.by_multiplier[diagonal] = nodes.area[i];
+        nodes.value[at] = nodes.area[i] * nodes.multiplier[at];
+      }
+    }
+}

@@ -1,0 +1,120 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#pragma once
+
+#include "../contact/node_state.h"
+#include "../parallel/ranks.h"
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace contactx::law
+{
+/// @brief Complementarity of the slave nodes of a contact.
+class Law
+{
+public:
+  virtual ~Law() = default;
+
+  /// @brief Name of the kernels.
+  virtual std::string_view name() const = 0;
+
+  /// @brief Whether the multiplier is a vector, and slip is measured.
+  virtual bool is_vector() const { return true; }
+
+  /// @brief Whether pairs are those of the reference for ever.
+  virtual bool is_tied() const { return false; }
+
+  /// @brief Start a step: what iterates of the last one have shown does not
+  /// count.
+  virtual void begin_step() {}
+
+  /// @brief Accept larger trial frictions, where iterates go round in a circle.
+  virtual void allow_larger_friction() {}
+
+  /// @brief Set each node's status from its multiplier, gap and slip.
+  /// @param[in,out] nodes Slave nodes.
+  /// @param[in] ranks The ranks, all of which take part.
+  /// @return Number of this rank's nodes that changed.
+  /// @throws std::invalid_argument if the multipliers are not those of the law.
+  virtual std::int32_t set_status(contact::NodeState& nodes,
+                                  parallel::Ranks& ranks) const = 0;
+
+  /// @brief Compute the complementarity function and its derivatives for the
+  /// status.
+  /// @param[in,out] nodes Slave nodes.
+  /// @throws std::invalid_argument if the multipliers are not those of the law.
+  virtual void evaluate(contact::NodeState& nodes) const = 0;
+};
+
+/// @brief Unilateral contact: p >= 0, g >= 0, p g = 0; see `normal_status`.
+class Frictionless final : public Law
+{
+public:
+  std::string_view name() const override { return "frictionless"; }
+  bool is_vector() const override { return false; }
+  std::int32_t set_status(contact::NodeState& nodes,
+                          parallel::Ranks& ranks) const override;
+  void evaluate(contact::NodeState& nodes) const override;
+};
+
+/// @brief Unilateral contact with dry friction: |t| <= mu p, and slip only
+/// where they are equal; see `frictional_status`.
+class Coulomb final : public Law
+{
+public:
+  std::string_view name() const override { return "frictional"; }
+  void begin_step() override;
+
+  /// @copydoc Law::allow_larger_friction
+  ///
+  /// What friction throws far may be what it deforms after all.
+  void allow_larger_friction() override;
+
+  /// @brief Take the coefficients of friction, which count from now on.
+  /// @param[in] friction Coefficients (shape=(n)).
+  /// @throws std::invalid_argument if one is negative or not finite; nothing
+  /// has changed.
+  void set_friction(std::span<const double> friction);
+
+  /// @brief Coefficients of friction, zero where it is left out (shape=(n)).
+  /// @param[in] nodes Slave nodes.
+  /// @throws std::invalid_argument if coefficients of others have been taken.
+  std::vector<double> friction(const contact::NodeState& nodes) const;
+
+  /// @copydoc Law::set_status
+  ///
+  /// On the edge of the cone a node that slips goes on. One that closes again
+  /// and again with slip, which pulls it off, sticks every fourth time. Slip
+  /// that turns back sticks first; where that has been tried it turns: a node
+  /// that opens only on the way back would stick and slip for ever.
+  std::int32_t set_status(contact::NodeState& nodes,
+                          parallel::Ranks& ranks) const override;
+  void evaluate(contact::NodeState& nodes) const override;
+
+private:
+  // Trial friction over its bound up to which slip that turns back sticks
+  // first. Measured: 3 to 100 differ by little, without a limit it is twice
+  // the work
+  static constexpr double _usual_reach = 10;
+
+  std::vector<double> _friction;
+  double _reach = _usual_reach;
+};
+
+/// @brief Slave nodes keep their place in the frame of their facet: those with
+/// a pair are tied, and slip has a normal part, too.
+///
+/// Each component on its own is A c ds where it can move, else A lambda.
+class Tied final : public Law
+{
+public:
+  std::string_view name() const override { return "tied"; }
+  bool is_tied() const override { return true; }
+  std::int32_t set_status(contact::NodeState& nodes,
+                          parallel::Ranks& ranks) const override;
+  void evaluate(contact::NodeState& nodes) const override;
+};
+} // namespace contactx::law

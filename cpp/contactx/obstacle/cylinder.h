@@ -1,0 +1,48 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#pragma once
+
+#include "../vec.h"
+#include "obstacle.h"
+
+namespace contactx::obstacle
+{
+/// @brief Endless circular cylinder, or if hollow all that is outside of one;
+/// in three dimensions alone.
+class Cylinder : public Obstacle
+{
+public:
+  /// @brief A cylinder that must be placed before it is used.
+  /// @param[in] hollow Whether bodies are inside, as in a pipe.
+  explicit Cylinder(bool hollow = false) : _hollow(hollow) {}
+
+  /// @brief Create a cylinder.
+  /// @param[in] point A point of the axis (shape=(3)).
+  /// @param[in] axis Direction of the axis, of any length (shape=(3)).
+  /// @param[in] radius Radius.
+  /// @param[in] hollow Whether bodies are inside.
+  Cylinder(std::vector<double> point, std::vector<double> axis, double radius,
+           bool hollow = false);
+
+  /// @brief Move it; what does not fit is found where it is used.
+  void place(std::vector<double> point, std::vector<double> axis,
+             double radius);
+
+  using Obstacle::evaluate;
+  /// @copydoc Obstacle::evaluate; g is the distance from the axis less the
+  /// radius, or its opposite for a hollow cylinder
+  void evaluate(std::span<const double> x, int gdim, Geometry& at) override;
+  Placement placement(int gdim) override;
+  double size(int gdim) override;
+  std::string usual_mistake() const override;
+
+private:
+  /// Read the parameters anew.
+  void read(int gdim);
+
+  bool _hollow;
+  std::vector<double> _point, _axis;
+  double _radius = 0;
+};
+} // namespace contactx::obstacle

@@ -1,0 +1,210 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include "level_set.h"
+#include "parameters.h"
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+using namespace contactx::obstacle;
+
+namespace
+{
+/// Lengths of vectors.
+std::vector<double> sizes(std::span<const double> vectors, int gdim)
+{
+  std::vector<double> size(vectors.size() / gdim);
+  for (std::size_t i = 0; i < size.size(); ++i)
+  {
+    double square = 0;
+    for (int k = 0; k < gdim; ++k)
+      square += vectors[gdim * i + k] * vectors[gdim * i + k];
+    size[i] = std::sqrt(square);
+  }
+  return size;
+}
+
+void check(const std::vector<double>& values, std::size_t size,
+           const char* name)
+{
+  if (values.size() != size)
+    throw std::invalid_argument(std::string(name) + " of a LevelSet gave "
+                                + std::to_string(values.size())
+                                + " values: it must give "
+                                + std::to_string(size));
+}
+} // namespace
+
+LevelSet::LevelSet(Function f, Parameters parameters)
+    : _f(std::move(f)), _parameters(std::move(parameters))
+{
+}
+
+LevelValues LevelSet::values(std::span<const double> x, int gdim,
+                             int order) const
+{
+  // A rank without slave nodes: no function needs to take that
+  if (x.empty())
+    return {};
+  const std::size_t n = x.size() / gdim;
+  LevelValues at = _f(x, gdim, order);
+  check(at.value, n, "the function");
+  if (order > 0)
+    check(at.gradient, n * gdim, "the gradient");
+  if (order > 1 and not at.hessian.empty())
+    check(at.hessian, n * gdim * gdim, "the second derivative");
+  return at;
+}
+
+std::vector<double> LevelSet::differences(std::span<const double> x,
+                                          int gdim) const
+{
+  const std::size_t n = x.size() / gdim;
+  // Not a length of these points alone: which ones they are depends on the
+  // partition
+  double size = extent;
+  if (size == 0)
+    for (int k = 0; k < gdim; ++k)
+    {
+      double low = x[k], high = x[k];
+      for (std::size_t i = 0; i < n; ++i)
+      {
+        low = std::min(low, x[gdim * i + k]);
+        high = std::max(high, x[gdim * i + k]);
+      }
+      size = std::max(size, high - low);
+    }
+  std::vector<double> h(n), H(n * gdim * gdim);
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    double largest = 0;
+    for (int k = 0; k < gdim; ++k)
+      largest = std::max(largest, std::abs(x[gdim * i + k]));
+    h[i] = 1e-6 * std::max(largest * 1e-3, std::max(size, 1e-30));
+  }
+  std::vector<double> moved;
+  for (int k = 0; k < gdim; ++k)
+  {
+    const auto gradient = [&](double sign)
+    {
+      moved.assign(x.begin(), x.end());
+      for (std::size_t i = 0; i < n; ++i)
+        moved[gdim * i + k] += sign * h[i];
+      return values(moved, gdim, 1).gradient;
+    };
+    const std::vector<double> plus = gradient(1), minus = gradient(-1);
+    for (std::size_t i = 0; i < n; ++i)
+      for (int j = 0; j < gdim; ++j)
+        H[gdim * (gdim * i + j) + k]
+            = (plus[gdim * i + j] - minus[gdim * i + j]) / (2 * h[i]);
+  }
+  for (std::size_t i = 0; i < n; ++i)
+    for (int j = 0; j < gdim; ++j)
+      for (int k = 0; k < j; ++k)
+      {
+        double &a = H[gdim * (gdim * i + j) + k],
+               &b = H[gdim * (gdim * i + k) + j];
+        a = b = (a + b) / 2;
+      }
+  return H;
+}
+
+void LevelSet::evaluate(std::span<const double> x, int gdim, Geometry& at)
+{
+  const std::size_t n = x.size() / gdim;
+  at.resize(n, gdim);
+  if (n == 0)
+    return;
+  LevelValues f = values(x, gdim, 2);
+  if (f.hessian.empty())
+    f.hessian = differences(x, gdim);
+  const std::vector<double> size = sizes(f.gradient, gdim);
+  std::size_t bad = 0, first = 0;
+  for (std::size_t i = n; i-- > 0;)
+    if (not(std::isfinite(f.value[i]) and std::isfinite(size[i])
+            and size[i] > 0))
+    {
+      ++bad;
+      first = i;
+    }
+  if (bad > 0)
+    throw std::invalid_argument(
+        "the function of a LevelSet or its gradient is not finite, or the "
+        "gradient zero, at "
+        + std::to_string(bad) + " slave nodes, first at "
+        + text(x.subspan(gdim * first, gdim))
+        + ": the gradient must point outward wherever a slave node may come");
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    const double* H = &f.hessian[gdim * gdim * i];
+    double* normal = &at.normal[gdim * i];
+    for (int k = 0; k < gdim; ++k)
+      normal[k] = f.gradient[gdim * i + k] / size[i];
+    at.gap[i] = f.value[i] / size[i];
+    for (int j = 0; j < gdim; ++j)
+    {
+      double along = 0;
+      for (int k = 0; k < gdim; ++k)
+        along += H[gdim * j + k] * normal[k];
+      at.gradient[gdim * i + j] = normal[j] - at.gap[i] * along / size[i];
+      for (int k = 0; k < gdim; ++k)
+      {
+        double projected = 0;
+        for (int l = 0; l < gdim; ++l)
+          projected += ((j == l) - normal[j] * normal[l]) * H[gdim * l + k];
+        at.curvature[gdim * (gdim * i + j) + k] = projected / size[i];
+      }
+    }
+  }
+}
+
+Placement LevelSet::placement(int gdim)
+{
+  return {std::vector<double>(gdim, 0.0), {}};
+}
+
+std::vector<double> LevelSet::distance(std::span<const double> x, int gdim)
+{
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const LevelValues f = values(x, gdim, 1);
+  const std::vector<double> size = sizes(f.gradient, gdim);
+  std::vector<double> gap(size.size());
+  for (std::size_t i = 0; i < gap.size(); ++i)
+  {
+    gap[i] = size[i] > 0 ? f.value[i] / size[i]
+                         : std::copysign(infinity, f.value[i]);
+    if (not std::isfinite(f.value[i]) or not std::isfinite(size[i]))
+      gap[i] = infinity;
+  }
+  return gap;
+}
+
+std::vector<double> LevelSet::normals(std::span<const double> x, int gdim)
+{
+  std::vector<double> normal = values(x, gdim, 1).gradient;
+  const std::vector<double> size = sizes(normal, gdim);
+  for (std::size_t i = 0; i < size.size(); ++i)
+    for (int k = 0; k < gdim; ++k)
+    {
+      double& c = normal[gdim * i + k];
+      c = std::isfinite(size[i]) and size[i] > 0 ? c / size[i] : 0;
+    }
+  return normal;
+}
+
+std::vector<double> LevelSet::level(std::span<const double> x, int gdim)
+{
+  return values(x, gdim, 0).value;
+}
+
+std::vector<double> LevelSet::parameters(int gdim)
+{
+  return _parameters ? _parameters(gdim) : std::vector<double>{};
+}
+
+std::string LevelSet::usual_mistake() const
+{
+  return "Perhaps the sign of its function is wrong: it must be positive where "
+         "bodies may be";
+}

@@ -1,0 +1,72 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#pragma once
+
+#include "obstacle.h"
+#include <functional>
+
+namespace contactx::obstacle
+{
+/// @brief A function of the position at n points.
+struct LevelValues
+{
+  std::vector<double> value;    ///< (shape=(n))
+  std::vector<double> gradient; ///< (shape=(n, gdim))
+  /// Second derivatives (shape=(n, gdim, gdim)); empty where the function has
+  /// none, and differences of the gradient serve
+  std::vector<double> hessian;
+};
+
+/// @brief Body where a function is negative; bodies may be where it is
+/// positive.
+///
+/// The function need not be a distance: its zero is the surface, and g = f /
+/// |grad f| is the distance to first order. A function that changes tells of no
+/// movement along its surface: for friction its material is at rest.
+class LevelSet : public Obstacle
+{
+public:
+  /// @brief Evaluates the function at points (shape=(n, gdim)), n > 0, up to
+  /// the derivatives of some order, 0 to 2.
+  using Function = std::function<LevelValues(std::span<const double> x,
+                                             int gdim, int order)>;
+
+  /// @brief Current values of what changes the function, as many on each rank.
+  using Parameters = std::function<std::vector<double>(int gdim)>;
+
+  /// @brief Create an obstacle.
+  /// @param[in] f The function; what it throws comes through.
+  /// @param[in] parameters Tells whether the function has changed.
+  explicit LevelSet(Function f, Parameters parameters = {});
+
+  using Obstacle::evaluate;
+  /// @copydoc Obstacle::evaluate
+  /// @throws std::invalid_argument if the function or its gradient is not
+  /// finite or its gradient zero at a point.
+  void evaluate(std::span<const double> x, int gdim, Geometry& at) override;
+  Placement placement(int gdim) override;
+
+  /// @copydoc Obstacle::distance; points between slave nodes may be where the
+  /// function means nothing
+  std::vector<double> distance(std::span<const double> x, int gdim) override;
+  std::vector<double> normals(std::span<const double> x, int gdim) override;
+
+  /// @copydoc Obstacle::level; the function itself
+  std::vector<double> level(std::span<const double> x, int gdim) override;
+
+  bool tells_movement() const override { return false; }
+  std::vector<double> parameters(int gdim) override;
+  std::string usual_mistake() const override;
+
+private:
+  LevelValues values(std::span<const double> x, int gdim, int order) const;
+
+  /// Central differences of the gradient, symmetric. They only serve the
+  /// tangent: the solution does not depend on them.
+  std::vector<double> differences(std::span<const double> x, int gdim) const;
+
+  Function _f;
+  Parameters _parameters;
+};
+} // namespace contactx::obstacle

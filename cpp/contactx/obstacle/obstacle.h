@@ -1,0 +1,119 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <string>
+#include <vector>
+
+/// @brief Rigid bodies that deformable ones come into contact with.
+namespace contactx::obstacle
+{
+/// @brief An obstacle seen from n points; arrays are row-major.
+struct Geometry
+{
+  /// Signed distance, or what is one to first order: positive outside
+  /// (shape=(n))
+  std::vector<double> gap;
+  std::vector<double> gradient; ///< of the gap (shape=(n, gdim))
+  std::vector<double> normal;   ///< outward, of unit length (shape=(n, gdim))
+  /// Derivative of the normal by the position (shape=(n, gdim, gdim))
+  std::vector<double> curvature;
+
+  /// @brief Make room for values at `n` points.
+  void resize(std::size_t n, int gdim);
+};
+
+/// @brief Where a rigid obstacle is.
+struct Placement
+{
+  std::vector<double> point; ///< moves with it (shape=(gdim))
+  /// Unit vector that turns with it (shape=(gdim)); empty where none is known
+  std::vector<double> direction;
+
+  /// @brief Rotation to another placement, on the shortest way from one
+  /// direction to the other; nothing spins about it.
+  /// @param[in] to The other placement.
+  /// @return Rotation (shape=(gdim, gdim)), the identity where a direction is
+  /// not known.
+  /// @throws std::invalid_argument if it turns by 180 degrees, which has no
+  /// shortest way.
+  std::vector<double> turn(const Placement& to) const;
+
+  /// @brief Carry points of the obstacle's material from this placement to
+  /// another one.
+  /// @param[in] x Points (shape=(n, gdim)).
+  /// @param[in] to The other placement.
+  /// @return Points (shape=(n, gdim)).
+  /// @throws std::invalid_argument as `turn`.
+  std::vector<double> carry(std::span<const double> x,
+                            const Placement& to) const;
+};
+
+/// @brief Rigid body, a master without degrees of freedom.
+///
+/// Points `x` are row-major (shape=(n, gdim)); each function may throw
+/// std::invalid_argument where the obstacle's parameters do not fit.
+class Obstacle
+{
+public:
+  virtual ~Obstacle() = default;
+
+  /// @brief See the obstacle from points.
+  virtual void evaluate(std::span<const double> x, int gdim, Geometry& at) = 0;
+
+  /// @brief The same.
+  Geometry evaluate(std::span<const double> x, int gdim)
+  {
+    Geometry at;
+    evaluate(x, gdim, at);
+    return at;
+  }
+
+  /// @brief Where the obstacle is: its movement enters the slip of what touches
+  /// it.
+  virtual Placement placement(int gdim) = 0;
+
+  /// @brief Its diameter, infinite where none is known.
+  virtual double size(int /*gdim*/)
+  {
+    return std::numeric_limits<double>::infinity();
+  }
+
+  /// @brief Gap alone, infinite where there is none (shape=(n)).
+  virtual std::vector<double> distance(std::span<const double> x, int gdim);
+
+  /// @brief Outward unit normals alone, zero where there is none (shape=(n,
+  /// gdim)).
+  virtual std::vector<double> normals(std::span<const double> x, int gdim);
+
+  /// @brief Function of the sign of the gap, of any scale, also where there is
+  /// no normal (shape=(n)).
+  virtual std::vector<double> level(std::span<const double> x, int gdim);
+
+  /// @brief Whether `placement` says how its material moves.
+  virtual bool tells_movement() const { return true; }
+
+  /// @brief Current values of what moves it although `placement` does not tell.
+  virtual std::vector<double> parameters(int /*gdim*/) { return {}; }
+
+  /// @brief What is probably wrong where a whole body is inside: a sentence
+  /// without its full stop.
+  virtual std::string usual_mistake() const
+  {
+    return "It is probably in the wrong place";
+  }
+
+  /// Size of the largest surface that is measured against it, the same on all
+  /// ranks; zero if none is known
+  double extent = 0;
+
+protected:
+  /// @brief Called before the parameters are read. Who gets them from
+  /// elsewhere hands their current values over here.
+  virtual void refresh(int /*gdim*/) {}
+};
+} // namespace contactx::obstacle

@@ -1,0 +1,70 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include "parameters.h"
+#include <algorithm>
+#include <charconv>
+#include <stdexcept>
+
+using namespace contactx;
+
+namespace
+{
+std::string text_of(double value)
+{
+  std::array<char, 32> buffer;
+  const auto end
+      = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+  return {buffer.data(), end.ptr};
+}
+} // namespace
+
+std::string obstacle::text(std::span<const double> values)
+{
+  std::string all;
+  for (double value : values)
+    all += (all.empty() ? "" : ", ") + text_of(value);
+  return "[" + all + "]";
+}
+
+Vector<3> obstacle::vector(std::span<const double> value, int gdim,
+                           const char* name)
+{
+  if (std::ssize(value) != gdim
+      or not std::ranges::all_of(value,
+                                 [](double v) { return std::isfinite(v); }))
+    throw std::invalid_argument(std::string(name) + " is " + text(value)
+                                + ": give " + std::to_string(gdim)
+                                + " finite numbers, as the mesh has");
+  Vector<3> v{};
+  std::ranges::copy(value, v.begin());
+  return v;
+}
+
+Vector<3> obstacle::direction(std::span<const double> value, int gdim,
+                              const char* name)
+{
+  Vector<3> v = vector(value, gdim, name);
+  double largest = 0;
+  for (double c : v)
+    largest = std::max(largest, std::abs(c));
+  if (largest == 0)
+    throw std::invalid_argument(std::string(name)
+                                + " is a zero vector: give a direction");
+  // Squares of very small and very large components are none
+  if (not(1e-100 < largest and largest < 1e100))
+    for (double& c : v)
+      c /= largest;
+  const double length = norm(v);
+  for (double& c : v)
+    c /= length;
+  return v;
+}
+
+double obstacle::positive(double value, const char* name)
+{
+  if (not(std::isfinite(value) and value > 0))
+    throw std::invalid_argument(std::string(name) + " is " + text_of(value)
+                                + ": give a positive number");
+  return value;
+}

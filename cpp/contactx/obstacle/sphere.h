@@ -1,0 +1,40 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#pragma once
+
+#include "obstacle.h"
+
+namespace contactx::obstacle
+{
+/// @brief Ball, or if hollow all that is outside of one; in the plane a disc.
+class Sphere : public Obstacle
+{
+public:
+  /// @brief A sphere that must be placed before it is used.
+  /// @param[in] hollow Whether bodies are inside, as in a bowl.
+  explicit Sphere(bool hollow = false) : _hollow(hollow) {}
+
+  /// @brief Create a sphere.
+  /// @param[in] centre Centre (shape=(gdim)).
+  /// @param[in] radius Radius.
+  /// @param[in] hollow Whether bodies are inside.
+  Sphere(std::vector<double> centre, double radius, bool hollow = false);
+
+  /// @brief Move it; what does not fit is found where it is used.
+  void place(std::vector<double> centre, double radius);
+
+  using Obstacle::evaluate;
+  /// @copydoc Obstacle::evaluate; g = |x - centre| - radius, or its opposite
+  /// for a hollow sphere
+  void evaluate(std::span<const double> x, int gdim, Geometry& at) override;
+  Placement placement(int gdim) override;
+  double size(int gdim) override;
+  std::string usual_mistake() const override;
+
+private:
+  bool _hollow;
+  std::vector<double> _centre;
+  double _radius = 0;
+};
+} // namespace contactx::obstacle

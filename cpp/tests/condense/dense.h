@@ -1,0 +1,398 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#pragma once
+
+#include <cmath>
+#include <contactx/condense/condensation.h>
+#include <stdexcept>
+
+#include "generator.h"
+
+/// @brief Dense algebra, and contacts with random entries.
+namespace contactx::tests
+{
+using Column = std::vector<double>;
+
+/// @brief A dense matrix.
+class Dense
+{
+public:
+  Dense(std::size_t rows, std::size_t columns)
+      : _rows(rows), _columns(columns), _values(rows * columns, 0)
+  {
+  }
+
+  Dense(const condense::Triplets& entries, std::size_t rows,
+        std::size_t columns)
+      : Dense(rows, columns)
+  {
+    for (std::size_t e = 0; e < entries.size(); ++e)
+      (*this)(entries.rows.at(e), entries.columns.at(e)) += entries.values[e];
+  }
+
+  static Dense one(std::size_t n)
+  {
+    Dense I(n, n);
+    for (std::size_t i = 0; i < n; ++i)
+      I(i, i) = 1;
+    return I;
+  }
+
+  double& operator()(std::size_t i, std::size_t j)
+  {
+    return _values.at(i * _columns + j);
+  }
+  double operator()(std::size_t i, std::size_t j) const
+  {
+    return _values.at(i * _columns + j);
+  }
+
+  std::size_t rows() const { return _rows; }
+  std::size_t columns() const { return _columns; }
+
+  Dense operator+(const Dense& other) const
+  {
+    Dense sum = *this;
+    for (std::size_t i = 0; i < _values.size(); ++i)
+      sum._values[i] += other._values.at(i);
+    return sum;
+  }
+
+  Dense operator*(const Dense& other) const
+  {
+    Dense product(_rows, other._columns);
+    for (std::size_t i = 0; i < _rows; ++i)
+      for (std::size_t k = 0; k < _columns; ++k)
+        for (std::size_t j = 0; j < other._columns; ++j)
+          product(i, j) += (*this)(i, k) * other(k, j);
+    return product;
+  }
+
+  Column operator*(const Column& x) const
+  {
+    Column y(_rows, 0);
+    for (std::size_t i = 0; i < _rows; ++i)
+      for (std::size_t j = 0; j < _columns; ++j)
+        y[i] += (*this)(i, j) * x.at(j);
+    return y;
+  }
+
+  /// @brief Solve by elimination with partial pivoting.
+  Column solve(Column b) const
+  {
+    Dense A = *this;
+    const std::size_t n = _rows;
+    for (std::size_t k = 0; k < n; ++k)
+    {
+      std::size_t pivot = k;
+      for (std::size_t i = k; i < n; ++i)
+        if (std::abs(A(i, k)) > std::abs(A(pivot, k)))
+          pivot = i;
+      if (A(pivot, k) == 0)
+        throw std::runtime_error("a matrix of a test is singular");
+      for (std::size_t j = 0; j < n; ++j)
+        std::swap(A(k, j), A(pivot, j));
+      std::swap(b[k], b[pivot]);
+      for (std::size_t i = k + 1; i < n; ++i)
+      {
+        const double factor = A(i, k) / A(k, k);
+        for (std::size_t j = k; j < n; ++j)
+          A(i, j) -= factor * A(k, j);
+        b[i] -= factor * b[k];
+      }
+    }
+    for (std::size_t k = n; k-- > 0;)
+    {
+      for (std::size_t j = k + 1; j < n; ++j)
+        b[k] -= A(k, j) * b[j];
+      b[k] /= A(k, k);
+    }
+    return b;
+  }
+
+private:
+  std::size_t _rows, _columns;
+  std::vector<double> _values;
+};
+
+inline Column operator+(Column a, const Column& b)
+{
+  for (std::size_t i = 0; i < a.size(); ++i)
+    a[i] += b.at(i);
+  return a;
+}
+
+inline Column operator-(Column a, const Column& b)
+{
+  for (std::size_t i = 0; i < a.size(); ++i)
+    a[i] -= b.at(i);
+  return a;
+}
+
+/// @brief Largest difference of two columns.
+inline double distance(const Column& a, const Column& b)
+{
+  double most = 0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    most = std::max(most, std::abs(a[i] - b.at(i)));
+  return most;
+}
+
+inline double largest(const Column& a)
+{
+  return distance(a, Column(a.size(), 0));
+}
+
+/// @brief One contact of a test.
+struct Contact
+{
+  std::vector<std::int32_t> slaves;
+  std::vector<std::int32_t> masters; ///< of all slave nodes alike
+  int size;
+  std::vector<std::int8_t> status;
+  double softness = 0;
+  std::vector<double> area = {}, normal = {}, by_multiplier = {};
+
+  condense::Nodes nodes() const
+  {
+    return {slaves, size, status, area, normal, by_multiplier, softness};
+  }
+};
+
+/// @brief A saddle point problem with random entries: displacements of some
+/// nodes, then the multipliers.
+///
+/// As contact has it, the slave side is diagonal and a node's law is
+/// D l + C u = d with D zero where it sticks or carries a scalar, zero along
+/// the normal where it slips, and the area where it is open. Along prescribed
+/// displacements the law gives the multiplier by D alone.
+class Saddle
+{
+public:
+  Saddle(int gdim, int num_nodes, std::vector<Contact> contacts,
+         std::vector<std::int32_t> prescribed, unsigned seed)
+      : gdim(gdim), n(static_cast<std::size_t>(gdim) * num_nodes),
+        contacts(std::move(contacts)), free(n, 1), bulk(Dense::one(n)),
+        contact(0, 0), random(seed)
+  {
+    for (const std::int32_t dof : prescribed)
+      free.at(dof) = 0;
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j < n; ++j)
+        if (free[i] and free[j])
+          bulk(i, j) = (i == j ? 8.0 : 0.0) + random(-1, 1);
+    m = 0;
+    for (const Contact& c : this->contacts)
+      m += c.slaves.size() * c.size;
+    contact = Dense(n + m, n + m);
+    is_slave.assign(static_cast<std::size_t>(num_nodes) * this->contacts.size(),
+                    0);
+    std::size_t first = n;
+    for (std::size_t k = 0; k < this->contacts.size(); ++k)
+    {
+      Contact& c = this->contacts[k];
+      for (std::size_t s = 0; s < c.slaves.size(); ++s, first += c.size)
+      {
+        is_slave[c.slaves[s] * this->contacts.size() + k] = 1;
+        add_node(c, s, first);
+      }
+    }
+  }
+
+  /// @brief Displacements and multipliers from the whole system.
+  Column solve(const Column& b, const Column& d) const
+  {
+    Dense A = contact;
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j < n; ++j)
+        A(i, j) += bulk(i, j);
+    Column both = b;
+    both.insert(both.end(), d.begin(), d.end());
+    return A.solve(both);
+  }
+
+  /// @brief Eliminate the multipliers.
+  condense::Condensation condensed() const
+  {
+    std::vector<std::int32_t> offsets{0}, columns;
+    std::vector<double> values;
+    for (std::size_t i = 0; i < n + m; ++i)
+    {
+      for (std::size_t j = 0; j < n + m; ++j)
+        if (contact(i, j) != 0)
+        {
+          columns.push_back(static_cast<std::int32_t>(j));
+          values.push_back(contact(i, j));
+        }
+      offsets.push_back(static_cast<std::int32_t>(columns.size()));
+    }
+    std::vector<condense::Nodes> nodes;
+    for (const Contact& c : contacts)
+      nodes.push_back(c.nodes());
+    return condense::Condensation({offsets, columns, values}, nodes, is_slave,
+                                  free, gdim);
+  }
+
+  /// @brief The same from the system without multipliers.
+  Column solve_condensed(const condense::Condensation& condensation,
+                         const Column& b, const Column& d) const
+  {
+    const auto& elimination = condensation.elimination();
+    const Dense I = Dense::one(n);
+    const Dense left = I + Dense(elimination.left(), n, n);
+    const Dense right = I + Dense(elimination.right(), n, n);
+    const Dense law(elimination.law(), n, n);
+    const Dense K = bulk + Dense(condensation.stiffness(), n, n);
+    const auto given = condensation.right_hand_side(d);
+    Dense A = left * (K * right) + law * right;
+    Column rhs = left * (b + given.forces - K * given.shift) - law * given.shift
+                 + given.extra;
+    for (const std::int32_t dof : elimination.eliminated())
+    {
+      for (std::size_t j = 0; j < n; ++j)
+        A(dof, j) = static_cast<std::size_t>(dof) == j;
+      rhs[dof] = 0;
+    }
+    Column u = right * A.solve(rhs) + given.shift;
+    Column multipliers = given.multipliers;
+    condensation.recover(d, b + given.forces - K * u, u, multipliers);
+    u.insert(u.end(), multipliers.begin(), multipliers.end());
+    return u;
+  }
+
+  /// @brief A random column.
+  Column column(std::size_t size)
+  {
+    Column x(size);
+    for (double& value : x)
+      value = random(-1, 1);
+    return x;
+  }
+
+  int gdim;
+  std::size_t n, m;
+  std::vector<Contact> contacts;
+  std::vector<std::int8_t> free, is_slave;
+  Dense bulk, contact; ///< of displacements, and of all unknowns
+  Generator random;
+
+private:
+  void add_node(Contact& c, std::size_t s, std::size_t first)
+  {
+    const int g = gdim, k = c.size;
+    const double area = random(0.5, 2);
+    c.area.push_back(area);
+    Column normal(g);
+    double length = 0;
+    for (double& x : normal)
+    {
+      x = random(0.2, 1) * (random(-1, 1) > 0 ? 1 : -1);
+      length += x * x;
+    }
+    for (double& x : normal)
+      x /= std::sqrt(length);
+    if (k > 1)
+      c.normal.insert(c.normal.end(), normal.begin(), normal.end());
+
+    std::vector<std::int32_t> dofs;
+    for (int i = 0; i < g; ++i)
+    {
+      dofs.push_back(c.slaves[s] * g + i);
+      for (const std::int32_t node : c.masters)
+        dofs.push_back(node * g + i);
+    }
+    const bool is_closed = c.status[s] != 0;
+    for (const std::int32_t dof : dofs)
+    {
+      const bool is_own = dof / g == c.slaves[s];
+      for (int i = 0; i < k and free[dof]; ++i)
+      {
+        // The slave side of a vector is diagonal
+        if (not is_own)
+          contact(dof, first + i) = random(-1, 1);
+        else if (k == 1)
+          contact(dof, first) = -area * normal[dof % g];
+        else if (dof % g == i)
+          contact(dof, first + i) = -area;
+        if (is_closed)
+          contact(first + i, dof)
+              = random(-1, 1)
+                + (is_own and dof % g == (k == 1 ? int(s) % g : i) ? 4 : 0);
+      }
+      for (const std::int32_t other : dofs)
+        if (free[dof] and free[other] and is_closed)
+          contact(dof, other) += 0.1 * random(-1, 1);
+    }
+
+    const Dense D = law(c, s, normal, area);
+    for (int i = 0; i < k; ++i)
+      for (int j = 0; j < k; ++j)
+      {
+        c.by_multiplier.push_back(D(i, j));
+        contact(first + i, first + j) = D(i, j);
+      }
+  }
+
+  /// The law's derivative by the multiplier
+  Dense law(const Contact& c, std::size_t s, const Column& normal, double area)
+  {
+    const int k = c.size;
+    Dense D(k, k);
+    if (c.status[s] == 0)
+    {
+      for (int i = 0; i < k; ++i)
+        D(i, i) = area;
+      return D;
+    }
+    if (k == 1)
+    {
+      D(0, 0) = area * c.softness;
+      return D;
+    }
+    std::vector<int> f, p;
+    for (int i = 0; i < k; ++i)
+      (free[c.slaves[s] * gdim + i] ? f : p).push_back(i);
+    if (c.status[s] == 2)
+    {
+      // B without what is along the normal in f
+      double square = 0;
+      for (const int i : f)
+        square += normal[i] * normal[i];
+      for (const int j : f)
+      {
+        Column B = column(k);
+        double along = 0;
+        for (const int i : f)
+          along += normal[i] * B[i];
+        for (const int i : f)
+          D(i, j) = area * (B[i] - along * normal[i] / square);
+      }
+    }
+    if (p.empty())
+      return D;
+    Dense pp(p.size(), p.size());
+    for (std::size_t i = 0; i < p.size(); ++i)
+      for (std::size_t j = 0; j < p.size(); ++j)
+        D(p[i], p[j]) = pp(i, j)
+            = area * ((i == j ? 2 : 0) + 0.5 * random(-1, 1));
+    for (const int i : f)
+      for (const int j : p)
+      {
+        D(i, j) = area * random(-1, 1);
+        D(j, i) = area * random(-1, 1);
+      }
+    for (const int j : f)
+    {
+      Column pf;
+      for (const int i : p)
+        pf.push_back(D(i, j));
+      const Column x = pp.solve(pf);
+      for (const int i : f)
+        for (std::size_t l = 0; l < p.size(); ++l)
+          D(i, j) += D(i, p[l]) * x[l];
+    }
+    return D;
+  }
+};
+} // namespace contactx::tests

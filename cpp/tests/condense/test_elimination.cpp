@@ -1,0 +1,304 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include <algorithm>
+#include <gtest/gtest.h>
+#include <string>
+
+#include "dense.h"
+
+using namespace contactx::condense;
+using namespace contactx::tests;
+
+namespace
+{
+constexpr std::int8_t open = 0, stick = 1, slip = 2;
+
+/// Solve with random right-hand sides, whole and without multipliers
+void compare(Saddle& saddle)
+{
+  const Condensation condensation = saddle.condensed();
+  EXPECT_TRUE(condensation.is_exact());
+  const Column b = saddle.column(saddle.n), d = saddle.column(saddle.m);
+  const Column exact = saddle.solve(b, d);
+  const Column found = saddle.solve_condensed(condensation, b, d);
+  EXPECT_LE(distance(found, exact), 1e-10 * largest(exact));
+  // No multiplier is forgotten: each has an equation
+  const Column other
+      = saddle.solve_condensed(condensation, b, Column(saddle.m, 0));
+  EXPECT_GT(distance(other, exact), 1e-3 * largest(exact));
+}
+
+/// Displacements of some nodes along some axes
+std::vector<std::int32_t> along(int gdim, std::vector<std::int32_t> nodes,
+                                std::vector<int> axes)
+{
+  std::vector<std::int32_t> dofs;
+  for (const std::int32_t node : nodes)
+    for (const int axis : axes)
+      dofs.push_back(node * gdim + axis);
+  return dofs;
+}
+
+/// What a system that cannot be condensed says
+std::string reason(const Saddle& saddle)
+{
+  try
+  {
+    saddle.condensed();
+  }
+  catch (const NotCondensable& error)
+  {
+    return error.what();
+  }
+  return "";
+}
+
+class Eliminated : public testing::TestWithParam<int>
+{
+protected:
+  int gdim = GetParam();
+};
+} // namespace
+
+INSTANTIATE_TEST_SUITE_P(Dimensions, Eliminated, testing::Values(2, 3));
+
+TEST_P(Eliminated, Frictionless)
+{
+  for (unsigned seed = 0; seed < 10; ++seed)
+  {
+    Saddle saddle(gdim, 7, {{{0, 4, 2}, {1, 5, 6}, 1, {slip, open, slip}}}, {},
+                  seed);
+    compare(saddle);
+    EXPECT_FALSE(saddle.condensed().elimination().slips());
+    EXPECT_EQ(saddle.condensed().elimination().eliminated().size(), 2u);
+  }
+}
+
+TEST_P(Eliminated, OpenNodesKeepWhatTheyAreGiven)
+{
+  Saddle saddle(gdim, 6,
+                {{{0, 4}, {1, 5}, gdim, {open, open}}, {{2}, {1}, 1, {open}}},
+                {}, 3);
+  const Condensation condensation = saddle.condensed();
+  EXPECT_TRUE(condensation.elimination().eliminated().empty());
+  EXPECT_TRUE(condensation.elimination().recovered().empty());
+  compare(saddle);
+}
+
+TEST_P(Eliminated, StickingOrTied)
+{
+  for (unsigned seed = 0; seed < 10; ++seed)
+  {
+    Saddle saddle(gdim, 7, {{{3, 4, 2}, {1, 5, 6}, gdim, {stick, open, stick}}},
+                  {}, seed);
+    compare(saddle);
+    const Condensation condensation = saddle.condensed();
+    const auto& dofs = condensation.elimination().eliminated();
+    EXPECT_EQ(dofs.size(), 2u * gdim);
+    EXPECT_TRUE(std::ranges::is_sorted(dofs));
+  }
+}
+
+TEST_P(Eliminated, SlippingWithFriction)
+{
+  for (unsigned seed = 0; seed < 10; ++seed)
+  {
+    Saddle saddle(gdim, 7,
+                  {{{3, 0, 4, 2}, {1, 5, 6}, gdim, {slip, stick, open, slip}}},
+                  {}, seed);
+    compare(saddle);
+    EXPECT_TRUE(saddle.condensed().elimination().slips());
+  }
+}
+
+TEST_P(Eliminated, RigidObstacle)
+{
+  for (const int size : {1, gdim})
+  {
+    const std::int8_t held = size == 1 ? slip : stick;
+    Saddle saddle(gdim, 5, {{{0, 3, 4}, {}, size, {held, slip, open}}}, {}, 7);
+    compare(saddle);
+  }
+}
+
+TEST_P(Eliminated, PrescribedDisplacementsOfSlaveNodes)
+{
+  for (unsigned seed = 0; seed < 10; ++seed)
+  {
+    const auto fixed = along(gdim, {0, 2, 3}, {int(seed) % gdim});
+    Saddle vectors(gdim, 8,
+                   {{{0, 2, 3, 7}, {1, 5, 6}, gdim, {slip, stick, open, slip}}},
+                   fixed, seed);
+    compare(vectors);
+    Saddle scalars(gdim, 8, {{{0, 2, 3, 7}, {1, 5, 6}, 1, {2, 2, 0, 2}}}, fixed,
+                   seed);
+    compare(scalars);
+  }
+}
+
+TEST_P(Eliminated, AllDisplacementsOfASlaveNodePrescribed)
+{
+  std::vector<int> axes{0, 1, 2};
+  axes.resize(gdim);
+  // With friction the law alone gives its traction
+  Saddle vectors(gdim, 6, {{{0, 2}, {1, 5}, gdim, {stick, stick}}},
+                 along(gdim, {0}, axes), 1);
+  compare(vectors);
+  Saddle scalars(gdim, 6, {{{0, 2}, {1, 5}, 1, {slip, slip}}},
+                 along(gdim, {0}, axes), 1);
+  EXPECT_EQ(reason(scalars),
+            "all displacements of a slave node are prescribed");
+}
+
+TEST_P(Eliminated, PrescribedDisplacementsOfMasters)
+{
+  Saddle saddle(gdim, 8,
+                {{{0, 2, 3, 7}, {1, 5, 6}, gdim, {slip, stick, open, slip}}},
+                along(gdim, {1, 6}, {0, 1}), 4);
+  compare(saddle);
+}
+
+TEST_P(Eliminated, SoftContact)
+{
+  for (unsigned seed = 0; seed < 10; ++seed)
+  {
+    Saddle saddle(gdim, 7, {{{0, 4, 2}, {1, 5, 6}, 1, {slip, open, slip}, 0.3}},
+                  {}, seed);
+    compare(saddle);
+    const Condensation condensation = saddle.condensed();
+    EXPECT_TRUE(condensation.is_soft());
+    EXPECT_GT(condensation.springs().size(), 0u);
+    EXPECT_TRUE(condensation.elimination().eliminated().empty());
+  }
+}
+
+TEST_P(Eliminated, TwoContacts)
+{
+  for (unsigned seed = 0; seed < 10; ++seed)
+  {
+    Saddle saddle(gdim, 10,
+                  {{{0, 4, 2}, {1, 5, 6}, gdim, {slip, open, stick}},
+                   {{8, 3}, {6, 7, 9}, 1, {slip, slip}}},
+                  along(gdim, {0, 8}, {0}), seed);
+    compare(saddle);
+    // Slave nodes of both, each once and in order
+    EXPECT_EQ(saddle.condensed().elimination().slave_dofs().size(), 5u * gdim);
+  }
+}
+
+TEST_P(Eliminated, ANodeThatIsSlaveInTwoContacts)
+{
+  for (const int other : {1, gdim})
+  {
+    const std::int8_t held = other == 1 ? slip : stick;
+    Saddle closed(gdim, 6,
+                  {{{0, 2}, {1}, gdim, {stick, stick}},
+                   {{0, 4}, {5}, other, {held, held}}},
+                  {}, 2);
+    EXPECT_EQ(reason(closed),
+              "a node is slave in several contacts that are closed");
+    // One of them may be open
+    Saddle half(gdim, 6,
+                {{{0, 2}, {1}, gdim, {stick, stick}},
+                 {{0, 4}, {5}, other, {open, held}}},
+                {}, 2);
+    compare(half);
+    EXPECT_EQ(half.condensed().elimination().slave_dofs().size(), 3u * gdim);
+  }
+}
+
+TEST_P(Eliminated, APrescribedDisplacementWithoutALaw)
+{
+  // The law gives no traction where the slave node is held and sticks
+  Saddle saddle(gdim, 5, {{{0, 2}, {1}, gdim, {stick, stick}}},
+                along(gdim, {0}, {1}), 5);
+  saddle.contacts[0].by_multiplier[gdim + 1] = 0;
+  EXPECT_EQ(reason(saddle),
+            "a slave node with a prescribed displacement moves its master");
+}
+
+TEST_P(Eliminated, ConstraintsThatDoNotHoldTheirNode)
+{
+  Saddle saddle(gdim, 5, {{{0, 2}, {1}, gdim, {stick, stick}}}, {}, 5);
+  for (int j = 0; j < gdim; ++j)
+    saddle.contact(saddle.n, j) = 0;
+  EXPECT_NE(reason(saddle), "");
+}
+
+TEST_P(Eliminated, SurfacesFeelTheirNeighbours)
+{
+  Saddle saddle(gdim, 7, {{{0, 4}, {1, 5}, 1, {slip, slip}}}, {}, 8);
+  EXPECT_TRUE(saddle.condensed().is_exact());
+  // The constraint of node 0 has entries of node 4, too
+  Saddle lumped = saddle;
+  const std::size_t row = saddle.n;
+  const std::size_t own = 0, other = 4 * gdim;
+  for (int i = 0; i < gdim; ++i)
+  {
+    saddle.contact(row, other + i) = 0.1 * (i + 1);
+    lumped.contact(row, own + i) += 0.1 * (i + 1);
+    saddle.contact(other + i, row) = 0.2 * (i + 1);
+    lumped.contact(own + i, row) += 0.2 * (i + 1);
+  }
+  const Condensation nearly = saddle.condensed();
+  EXPECT_FALSE(nearly.is_exact());
+  EXPECT_TRUE(lumped.condensed().is_exact());
+  const Column b = saddle.column(saddle.n), d = saddle.column(saddle.m);
+  const Column wanted = lumped.solve(b, d);
+  EXPECT_LE(distance(saddle.solve_condensed(nearly, b, d), wanted),
+            1e-10 * largest(wanted));
+}
+
+TEST_P(Eliminated, ArraysThatDoNotFitAreRefused)
+{
+  const Saddle whole(gdim, 6, {{{0, 2}, {1, 5}, gdim, {stick, slip}}}, {}, 1);
+  EXPECT_NO_THROW(whole.condensed());
+  const auto refuses = [](const Saddle& saddle, const std::string& name)
+  {
+    try
+    {
+      saddle.condensed();
+    }
+    catch (const std::invalid_argument& error)
+    {
+      return std::string(error.what()).starts_with(name);
+    }
+    return false;
+  };
+  Saddle wrong = whole;
+  wrong.contacts[0].status.pop_back();
+  EXPECT_TRUE(refuses(wrong, "status"));
+  wrong = whole;
+  wrong.contacts[0].area.push_back(1);
+  EXPECT_TRUE(refuses(wrong, "area"));
+  wrong = whole;
+  wrong.contacts[0].normal.pop_back();
+  EXPECT_TRUE(refuses(wrong, "normal"));
+  wrong = whole;
+  wrong.contacts[0].by_multiplier.pop_back();
+  EXPECT_TRUE(refuses(wrong, "by_multiplier"));
+  wrong = whole;
+  wrong.contacts[0].slaves[1] = 6;
+  EXPECT_TRUE(refuses(wrong, "slaves"));
+  wrong = whole;
+  wrong.contacts[0].size = 5 - gdim;
+  EXPECT_TRUE(refuses(wrong, "size"));
+  wrong = whole;
+  wrong.is_slave.pop_back();
+  EXPECT_TRUE(refuses(wrong, "is_slave"));
+  wrong = whole;
+  wrong.free.pop_back();
+  EXPECT_TRUE(refuses(wrong, "free"));
+  wrong = whole;
+  wrong.gdim = 4;
+  EXPECT_TRUE(refuses(wrong, "gdim"));
+
+  const Condensation condensation = whole.condensed();
+  Column d(whole.m, 0), u(whole.n, 0), few(1, 0);
+  EXPECT_THROW(condensation.right_hand_side(few), std::invalid_argument);
+  EXPECT_THROW(condensation.recover(few, u, u, d), std::invalid_argument);
+  EXPECT_THROW(condensation.recover(d, few, u, d), std::invalid_argument);
+  EXPECT_THROW(condensation.recover(d, u, few, d), std::invalid_argument);
+  EXPECT_THROW(condensation.recover(d, u, u, few), std::invalid_argument);
+}

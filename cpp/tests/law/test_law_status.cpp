@@ -1,0 +1,276 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include "node_states.h"
+#include <gtest/gtest.h>
+#include <limits>
+
+using namespace contactx;
+using namespace contactx::law;
+using namespace contactx::tests;
+using contactx::contact::NodeState;
+
+namespace
+{
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// Nodes with friction 0.5, upright.
+struct Rubbing
+{
+  explicit Rubbing(int n, int gdim = 3, double mu = 0.5) : nodes(n, gdim, true)
+  {
+    law.set_friction(std::vector<double>(n, mu));
+    for (int i = 0; i < n; ++i)
+      set_upright(nodes, i, 2, 0, 0, 0);
+  }
+
+  int update() { return law.set_status(nodes, ranks); }
+  void set(std::size_t i, std::int8_t status, double p, double t, double slip)
+  {
+    set_upright(nodes, i, p, t, 0, slip);
+    nodes.status[i] = status;
+  }
+
+  NodeState nodes;
+  law::Coulomb law;
+  parallel::OneRank ranks;
+};
+
+TEST(FrictionlessLaw, ClosesUnderPressureOrPenetration)
+{
+  NodeState nodes(4, 3, false);
+  nodes.multiplier = {1, 0, -1, 1};
+  nodes.gap = {0, -0.1, 0, nan};
+  parallel::OneRank ranks;
+  const Frictionless law;
+  EXPECT_EQ(law.set_status(nodes, ranks), 2);
+  EXPECT_EQ(nodes.status, (std::vector<std::int8_t>{slip, slip, open, open}));
+  EXPECT_EQ(law.set_status(nodes, ranks), 0);
+  // Once closed a node opens without pressure only
+  nodes.gap[0] = nodes.gap[1] = 10;
+  EXPECT_EQ(law.set_status(nodes, ranks), 1);
+  EXPECT_EQ(nodes.status, (std::vector<std::int8_t>{slip, open, open, open}));
+}
+
+TEST(FrictionlessLaw, ImmobileAndCededNodesStayOpen)
+{
+  NodeState nodes(3, 3, false);
+  nodes.multiplier = {1, 1, 1};
+  nodes.gap = {-1, -1, -1};
+  nodes.immobile[0] = nodes.ceded[1] = 1;
+  parallel::OneRank ranks;
+  EXPECT_EQ(Frictionless().set_status(nodes, ranks), 1);
+  EXPECT_EQ(nodes.status, (std::vector<std::int8_t>{open, open, slip}));
+}
+
+TEST(FrictionlessLaw, ASoftLayerAddsItsCompliance)
+{
+  NodeState nodes(2, 3, false);
+  nodes.multiplier = {3, 3};
+  nodes.gap = {-0.5, -0.5};
+  nodes.area = {2, 2};
+  nodes.c = {4, 4};
+  nodes.status = {slip, open};
+  nodes.softness = 0.25;
+  const Frictionless law;
+  law.evaluate(nodes);
+  // A (c g + s p), and A p on the open node
+  EXPECT_EQ(nodes.value, (std::vector{2 * (4 * -0.5 + 0.25 * 3), 6.0}));
+  EXPECT_EQ(nodes.by_multiplier, (std::vector{0.5, 2.0}));
+  EXPECT_EQ(nodes.by_gap, (std::vector{8.0, 0.0}));
+  nodes.softness = -1;
+  EXPECT_THROW(law.evaluate(nodes), std::invalid_argument);
+  nodes.softness = nan;
+  EXPECT_THROW(law.evaluate(nodes), std::invalid_argument);
+}
+
+TEST(CoulombLaw, ChecksItsCoefficients)
+{
+  law::Coulomb law;
+  const NodeState nodes(2, 3, true);
+  for (double bad : {-0.5, nan, std::numeric_limits<double>::infinity()})
+    EXPECT_THROW(law.set_friction(std::vector{0.3, bad}),
+                 std::invalid_argument);
+  EXPECT_THROW(law.friction(nodes), std::invalid_argument);
+  law.set_friction(std::vector{0.3, 0.4});
+  EXPECT_THROW(law.set_friction(std::vector{-0.25, 0.4}),
+               std::invalid_argument);
+  EXPECT_EQ(law.friction(nodes), (std::vector{0.3, 0.4}));
+  try
+  {
+    law.set_friction(std::vector{0.3, -0.25});
+    FAIL();
+  }
+  catch (const std::invalid_argument& e)
+  {
+    EXPECT_STREQ(e.what(), "friction is -0.25: give numbers of at least 0");
+  }
+}
+
+TEST(CoulombLaw, ASmoothNodeHasNoFriction)
+{
+  Rubbing a(2);
+  a.nodes.smooth[1] = 1;
+  EXPECT_EQ(a.law.friction(a.nodes), (std::vector{0.5, 0.0}));
+  EXPECT_EQ(a.update(), 2);
+  EXPECT_EQ(a.nodes.status, (std::vector<std::int8_t>{stick, slip}));
+}
+
+TEST(CoulombLaw, ImmobileAndCededNodesStayOpen)
+{
+  Rubbing a(3);
+  a.nodes.immobile[0] = a.nodes.ceded[1] = 1;
+  EXPECT_EQ(a.update(), 1);
+  EXPECT_EQ(a.nodes.status, (std::vector<std::int8_t>{open, open, stick}));
+}
+
+TEST(CoulombLaw, OnTheEdgeOfTheConeANodeThatSlipsGoesOn)
+{
+  Rubbing a(4);
+  // mu p = 1. A part of 1e-9 is left of the bound by a solve
+  a.set(0, slip, 2, 1 - 1e-10, 0);
+  a.set(1, slip, 2, 1 - 1e-8, 0);
+  a.set(2, stick, 2, 1 - 1e-10, 0);
+  a.set(3, open, 2, 1 - 1e-10, 0);
+  a.update();
+  EXPECT_EQ(a.nodes.status,
+            (std::vector<std::int8_t>{slip, stick, stick, stick}));
+}
+
+TEST(CoulombLaw, TheEdgeIsAsWideAsTheLargestPressureSays)
+{
+  // What a solve leaves goes with the largest pressure, also of other ranks
+  const auto status = [](parallel::Ranks& ranks, double elsewhere)
+  {
+    Rubbing a(2);
+    a.set(0, slip, 2, 1 - 1e-6, 0);
+    a.set(1, stick, elsewhere, 0, 0);
+    a.law.set_status(a.nodes, ranks);
+    return a.nodes.status[0];
+  };
+  parallel::OneRank alone;
+  OtherRank light({2.0}), heavy({2e4});
+  EXPECT_EQ(status(alone, 2), stick);
+  EXPECT_EQ(status(alone, 2e4), slip);
+  EXPECT_EQ(status(light, 2), stick);
+  EXPECT_EQ(status(heavy, 2), slip);
+  // But no node falls short of its bound by more than half of it
+  Rubbing a(2);
+  a.set(0, slip, 2e-12, 0.49e-12, 0);
+  a.set(1, stick, 2, 0, 0);
+  a.update();
+  EXPECT_EQ(a.nodes.status[0], stick);
+}
+
+TEST(CoulombLaw, EveryFourthClosingWithSlipSticks)
+{
+  Rubbing a(2);
+  a.law.set_friction(std::vector{0.5, 0.0});
+  for (int k = 0; k < 8; ++k)
+  {
+    for (std::size_t i : {0, 1})
+      a.set(i, open, 2, 4, 0);
+    EXPECT_EQ(a.update(), 2);
+    EXPECT_EQ(a.nodes.status[0], k % 4 == 3 ? stick : slip) << k;
+    EXPECT_EQ(a.nodes.closings[0], k + 1);
+    // Nothing sticks without friction
+    EXPECT_EQ(a.nodes.status[1], slip);
+    EXPECT_EQ(a.nodes.closings[1], 0);
+  }
+  // One that is closed already does not count
+  a.set(0, slip, 2, 4, 0);
+  a.nodes.closings[0] = 3;
+  a.update();
+  EXPECT_EQ(a.nodes.status[0], slip);
+  EXPECT_EQ(a.nodes.closings[0], 3);
+}
+
+TEST(CoulombLaw, SlipThatTurnsBackSticksFirst)
+{
+  Rubbing a(1);
+  for (int k = 0; k < 4; ++k)
+  {
+    // mu p = 1, t_hat = 0.5 - 8 * 0.5 against t
+    a.set(0, slip, 2, 0.5, 0.5);
+    EXPECT_EQ(a.update(), k % 2 == 0);
+    EXPECT_EQ(a.nodes.status[0], k % 2 == 0 ? stick : slip) << k;
+    EXPECT_EQ(a.nodes.turns[0], k + 1);
+  }
+  // What sticks within the bound has not turned back
+  a.nodes.turns[0] = 1;
+  a.set(0, slip, 2, 0.5, 0);
+  EXPECT_EQ(a.update(), 1);
+  EXPECT_EQ(a.nodes.status[0], stick);
+  EXPECT_EQ(a.nodes.turns[0], 1);
+  // mu p_hat = 1.4 where it penetrates
+  a.set(0, slip, 2, 1.2, 0);
+  a.nodes.gap[0] = -0.1;
+  EXPECT_EQ(a.update(), 1);
+  EXPECT_EQ(a.nodes.status[0], stick);
+  EXPECT_EQ(a.nodes.turns[0], 1);
+  // Nor has what stuck before
+  a.set(0, stick, 2, 0.5, 0.5);
+  EXPECT_EQ(a.update(), 0);
+  EXPECT_EQ(a.nodes.turns[0], 1);
+}
+
+TEST(CoulombLaw, ReachesFartherWhereIteratesGoRound)
+{
+  Rubbing a(1);
+  // |t_hat| = 39.5 mu p
+  const auto status = [&a]
+  {
+    a.nodes.turns[0] = 0;
+    a.set(0, slip, 2, 0.5, 5);
+    a.update();
+    return a.nodes.status[0];
+  };
+  EXPECT_EQ(status(), slip);
+  a.law.allow_larger_friction();
+  EXPECT_EQ(status(), stick);
+  a.law.begin_step();
+  EXPECT_EQ(status(), slip);
+}
+
+TEST(CoulombLaw, CountsTheNodesThatChangeInTheEnd)
+{
+  // The complementarity asks for stick, and the second turn for slip
+  Rubbing a(1);
+  a.set(0, slip, 2, 0.5, 0.5);
+  a.nodes.turns[0] = 1;
+  EXPECT_EQ(a.update(), 0);
+}
+
+TEST(TiedLaw, TiesWhatHasAPair)
+{
+  NodeState nodes(4, 2, true);
+  nodes.gap = {1, nan, -1, -1};
+  nodes.status[1] = stick;
+  nodes.ceded[2] = 1;
+  // Its multiplier is another one's matter
+  nodes.immobile[3] = 1;
+  parallel::OneRank ranks;
+  const Tied law;
+  EXPECT_EQ(law.set_status(nodes, ranks), 3);
+  EXPECT_EQ(nodes.status, (std::vector<std::int8_t>{stick, open, open, stick}));
+  EXPECT_EQ(law.set_status(nodes, ranks), 0);
+}
+
+TEST(Laws, RefuseOtherMultipliers)
+{
+  NodeState scalar(1, 3, false), vector(1, 3, true);
+  parallel::OneRank ranks;
+  law::Coulomb coulomb;
+  coulomb.set_friction(std::vector{0.5});
+  const Tied tied;
+  for (const Law* law : std::initializer_list<const Law*>{&coulomb, &tied})
+  {
+    EXPECT_TRUE(law->is_vector());
+    EXPECT_THROW(law->evaluate(scalar), std::invalid_argument);
+    EXPECT_THROW(law->set_status(scalar, ranks), std::invalid_argument);
+  }
+  EXPECT_FALSE(Frictionless().is_vector());
+  EXPECT_THROW(Frictionless().evaluate(vector), std::invalid_argument);
+  EXPECT_THROW(Frictionless().set_status(vector, ranks), std::invalid_argument);
+}
+} // namespace

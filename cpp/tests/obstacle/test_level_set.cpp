@@ -1,0 +1,168 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include "generator.h"
+#include "obstacles.h"
+#include <gtest/gtest.h>
+#include <stdexcept>
+
+using namespace contactx;
+using namespace contactx::obstacle;
+using namespace contactx::tests;
+
+namespace
+{
+/// Distance from a sphere of radius r about the origin, times a factor.
+LevelSet round_set(double r, double factor, bool has_hessian = true)
+{
+  return LevelSet(
+      [=](std::span<const double> x, int gdim, int)
+      {
+        LevelValues at;
+        for (std::size_t i = 0; i < x.size() / gdim; ++i)
+        {
+          double square = 0;
+          for (int k = 0; k < gdim; ++k)
+            square += x[gdim * i + k] * x[gdim * i + k];
+          const double d = std::sqrt(square);
+          at.value.push_back(factor * (d - r));
+          for (int j = 0; j < gdim; ++j)
+          {
+            const double u = x[gdim * i + j] / d;
+            at.gradient.push_back(factor * u);
+            for (int k = 0; has_hessian and k < gdim; ++k)
+              at.hessian.push_back(factor / d
+                                   * ((j == k) - u * x[gdim * i + k] / d));
+          }
+        }
+        return at;
+      });
+}
+
+TEST(LevelSet, OfADistanceIsASphere)
+{
+  Generator random(2);
+  for (int gdim : {2, 3})
+    for (bool has_hessian : {true, false})
+    {
+      LevelSet set = round_set(0.7, 2.5, has_hessian);
+      Sphere sphere(std::vector<double>(gdim, 0.0), 0.7);
+      std::vector<double> x(30 * gdim);
+      for (double& c : x)
+        c = random(0.3, 1.5);
+      const Geometry a = set.evaluate(x, gdim), b = sphere.evaluate(x, gdim);
+      const double tolerance = has_hessian ? 1e-14 : 1e-9;
+      for (std::size_t i = 0; i < a.gap.size(); ++i)
+        EXPECT_NEAR(a.gap[i], b.gap[i], 1e-14);
+      for (std::size_t i = 0; i < a.normal.size(); ++i)
+      {
+        EXPECT_NEAR(a.normal[i], b.normal[i], 1e-14);
+        EXPECT_NEAR(a.gradient[i], b.gradient[i], tolerance);
+      }
+      for (std::size_t i = 0; i < a.curvature.size(); ++i)
+        EXPECT_NEAR(a.curvature[i], b.curvature[i], tolerance);
+      const auto gap = set.distance(x, gdim), normal = set.normals(x, gdim),
+                 level = set.level(x, gdim);
+      for (std::size_t i = 0; i < gap.size(); ++i)
+      {
+        EXPECT_NEAR(gap[i], b.gap[i], 1e-14);
+        EXPECT_NEAR(level[i], 2.5 * b.gap[i], 1e-14);
+      }
+      EXPECT_EQ(normal, a.normal);
+      EXPECT_FALSE(set.tells_movement());
+    }
+}
+
+TEST(LevelSet, ThatIsNoDistanceMeasuresToFirstOrder)
+{
+  LevelSet square(
+      [](std::span<const double> x, int, int)
+      {
+        return LevelValues{{5 * (x[0] * x[0] + x[1] * x[1] - 1)},
+                           {10 * x[0], 10 * x[1]},
+                           {10, 0, 0, 10}};
+      });
+  EXPECT_NEAR(square.distance(std::vector<double>{1.001, 0}, 2)[0], 1e-3, 1e-6);
+  EXPECT_NEAR(square.evaluate(std::vector<double>{0, 0.999}, 2).gap[0], -1e-3,
+              1e-6);
+}
+
+TEST(LevelSet, ACurvatureDoesNotDependOnOtherPoints)
+{
+  LevelSet wave(
+      [](std::span<const double> x, int gdim, int)
+      {
+        LevelValues at;
+        for (std::size_t i = 0; i < x.size(); i += gdim)
+        {
+          at.value.push_back(x[i + 1] + std::sin(x[i]));
+          at.gradient.push_back(std::cos(x[i]));
+          at.gradient.push_back(1);
+        }
+        return at;
+      });
+  wave.extent = 2;
+  const std::vector<double> x{0, 0, 0.3, 0.1, -0.7, 1};
+  const auto every = wave.evaluate(x, 2).curvature;
+  for (int i = 0; i < 3; ++i)
+  {
+    const auto one = wave.evaluate(std::span(x).subspan(2 * i, 2), 2).curvature;
+    EXPECT_TRUE(std::equal(one.begin(), one.end(), every.begin() + 4 * i));
+  }
+}
+
+TEST(LevelSet, ItsFunctionIsNotAskedAboutNoPoints)
+{
+  LevelSet set([](std::span<const double>, int, int) -> LevelValues
+               { throw std::runtime_error("asked"); });
+  EXPECT_TRUE(set.evaluate({}, 2).gap.empty());
+  EXPECT_TRUE(set.level({}, 2).empty());
+  EXPECT_THROW(set.level(std::vector<double>{1, 2}, 2), std::runtime_error);
+}
+
+TEST(LevelSet, WhereItMeansNothingNothingIsNear)
+{
+  const double inf = std::numeric_limits<double>::infinity();
+  const double nan = std::nan("");
+  // Fine, without gradient outside and inside, not finite, a bad gradient
+  const LevelValues values{{2, 1, -1, nan, 1},
+                           {4, 0, 0, 0, 0, 0, 1, 0, nan, 1},
+                           std::vector<double>(20, 0.0)};
+  LevelSet set([&](std::span<const double>, int, int) { return values; });
+  const std::vector<double> x{0, 0, 0.25, 1, 0, 0, 0, 0, 0, 0};
+  EXPECT_EQ(set.distance(x, 2),
+            (std::vector<double>{0.5, inf, -inf, inf, inf}));
+  EXPECT_EQ(set.normals(x, 2),
+            (std::vector<double>{1, 0, 0, 0, 0, 0, 1, 0, 0, 0}));
+  try
+  {
+    set.evaluate(x, 2);
+    ADD_FAILURE();
+  }
+  catch (const std::invalid_argument& e)
+  {
+    EXPECT_EQ(
+        std::string(e.what()),
+        "the function of a LevelSet or its gradient is not finite, or the "
+        "gradient zero, at 4 slave nodes, first at [0.25, 1]: the "
+        "gradient must point outward wherever a slave node may come");
+  }
+}
+
+TEST(LevelSet, RefusesValuesOfAnotherNumber)
+{
+  LevelSet set([](std::span<const double>, int, int)
+               { return LevelValues{{1, 2}, {1, 0}, {}}; });
+  EXPECT_THROW(set.level(std::vector<double>{1, 2}, 2), std::invalid_argument);
+}
+
+TEST(LevelSet, TellsItsParameters)
+{
+  double height = 1;
+  LevelSet set([](std::span<const double>, int, int) { return LevelValues{}; },
+               [&](int gdim)
+               { return std::vector<double>{height, 1. * gdim}; });
+  height = 2;
+  EXPECT_EQ(set.parameters(3), (std::vector<double>{2, 3}));
+}
+} // namespace

@@ -1,0 +1,64 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Parameters of obstacles, which users may change at any time.
+
+They are numbers or ``fem.Constant``, and the core asks for them whenever it uses an obstacle. It
+checks what they are, too.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+import ufl
+from contactx.arguments import is_number
+from dolfinx import fem
+
+type Parameter = npt.ArrayLike | fem.Constant
+
+
+def vector(value: Parameter, gdim: int, name: str) -> list[float]:
+    """Current value of a vector parameter.
+
+    Args:
+        value: Numbers or a constant.
+        gdim: Geometric dimension.
+        name: Name of the parameter.
+
+    Returns:
+        Its components.
+
+    Raises:
+        TypeError: If it does not consist of real numbers in a row.
+    """
+    given = value.value if isinstance(value, fem.Constant) else value
+    try:
+        array = np.array([]) if isinstance(given, ufl.core.expr.Expr) else np.array(given, float)
+    except (TypeError, ValueError):
+        array = np.array([])
+    if array.size == 0 or array.ndim > 1:
+        raise TypeError(
+            f"{name} is {given!r}: give {gdim} finite numbers, or a fem.Constant of them"
+        )
+    components: list[float] = array.reshape(-1).tolist()
+    return components
+
+
+def number(value: float | fem.Constant, name: str) -> float:
+    """Current value of a positive number.
+
+    Args:
+        value: A number or a constant.
+        name: Name of the parameter.
+
+    Returns:
+        The number.
+
+    Raises:
+        TypeError: If it is no real number.
+    """
+    given = value.value if isinstance(value, fem.Constant) else value
+    if not is_number(given):
+        raise TypeError(f"{name} is {given!r}: give a positive number, or a fem.Constant of one")
+    return float(given)
