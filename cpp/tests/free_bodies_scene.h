@@ -243,6 +243,8 @@ public:
 
   void close(std::span<const std::int32_t> which) override
   {
+    if (not which.empty() and on_close)
+      on_close();
     for (const std::int32_t i : which)
       kind[i] = friction > 0 ? law::stick : law::slip;
   }
@@ -287,6 +289,7 @@ public:
   active_set::Pairing found;
   std::vector<std::int8_t> kind;
   std::vector<double> gap, slip, traction;
+  std::function<void()> on_close; ///< called where nodes are closed
 };
 
 /// @brief A truss with its bodies, on one rank or several.
