@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from contactx import cpp as core
 from contactx.parallel.halo import Halo
-from contactx.search.records import slave_facets
+from contactx.search.surface import slave_facets
 from contactx.surface import FacetList
 
 
