@@ -293,11 +293,11 @@ public:
 };
 
 /// @brief A truss with its bodies, on one rank or several.
-struct Scene
+struct FreeScene
 {
   /// @param[in] truss The truss.
   /// @param[in] ranks The ranks; one alone if null.
-  explicit Scene(Truss given, parallel::Ranks* ranks = nullptr)
+  explicit FreeScene(Truss given, parallel::Ranks* ranks = nullptr)
       : truss(std::move(given)), number(truss.num_nodes())
   {
     const std::int32_t n = truss.num_nodes();

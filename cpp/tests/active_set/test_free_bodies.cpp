@@ -8,8 +8,8 @@
 
 using namespace contactx;
 using namespace contactx::active_set;
+using tests::FreeScene;
 using tests::NodeContact;
-using tests::Scene;
 using tests::Truss;
 
 namespace
@@ -68,7 +68,7 @@ struct Block
     return found;
   }
 
-  Scene scene;
+  FreeScene scene;
   std::shared_ptr<NodeContact> floor;
   std::vector<std::int32_t> slaves; ///< in the truss
 };
@@ -166,7 +166,7 @@ TEST(FreeBodies, BodiesMoveAsTheirNumbersOfNodesLetThem)
   truss.add_block(1, {5, 0, 0}, 1);
   for (const double gap : {0.19, 0.21})
   {
-    Scene scene(truss);
+    FreeScene scene(truss);
     const auto large = scene.add_contact(), small = scene.add_contact();
     for (int i = 0; i < 4; ++i)
       large->add(i, -1, {0, 1, 0}, 0.05);
@@ -280,7 +280,7 @@ struct Tower
     return truss;
   }
 
-  Scene scene;
+  FreeScene scene;
   std::shared_ptr<NodeContact> upper, lower;
 };
 
@@ -406,7 +406,7 @@ struct Disc
     return truss;
   }
 
-  Scene scene;
+  FreeScene scene;
   std::shared_ptr<NodeContact> floor;
 };
 
@@ -600,7 +600,7 @@ TEST(FreeBodies, NoDecisionDependsOnTheAxes)
     truss.x[i] = c * x - s * y;
     truss.x[i + 1] = s * x + c * y;
   }
-  Scene scene(truss);
+  FreeScene scene(truss);
   const auto slope = scene.add_contact();
   for (int i = 0; i < 4; ++i)
     slope->add(i, -1, {-s, c, 0}, 0.05 + 0.01 * i / 3);
