@@ -96,6 +96,12 @@ test: lint test-cpp test-fast
 test-cpp: $(INSTALLED)
 	$(RUN) cmake --build build/package --target contactx_tests
 	build/package/contactx_tests --gtest_brief=1
+	rm -rf build/outside
+	$(RUN) cmake --install build/package --component development --prefix build/outside/package
+	$(RUN) cmake -S cpp/tests/outside -B build/outside/build -G Ninja \
+		-DCMAKE_PREFIX_PATH="$(CURDIR)/build/outside/package"
+	$(RUN) cmake --build build/outside/build
+	build/outside/build/outside
 
 # Scripts on several ranks take all cores: they come by themselves.
 test-fast: $(INSTALLED)
@@ -156,7 +162,7 @@ sanitize: $(DEPENDENCIES)
 	mkdir -p build/sanitize/site
 	cp -R python/contactx build/sanitize/site/
 	rm -f build/sanitize/site/contactx/*.so
-	$(RUN) cmake --install build/sanitize --prefix build/sanitize/site
+	$(RUN) cmake --install build/sanitize --component python --prefix build/sanitize/site
 	$(RUN) LD_PRELOAD="$$($${CXX:-c++} -print-file-name=libasan.so) $$($${CXX:-c++} -print-file-name=libstdc++.so)" \
 		ASAN_OPTIONS=detect_leaks=0 PYTHONPATH="$(CURDIR)/build/sanitize/site" \
 		$(BIN)/python -m pytest -q $(SANITIZED)

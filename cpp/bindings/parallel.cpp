@@ -3,6 +3,8 @@
 
 #include "parallel.h"
 #include "bindings.h"
+#include "check.h"
+#include <algorithm>
 #include <pybind11/functional.h>
 
 namespace py = pybind11;
@@ -42,6 +44,12 @@ public:
     _adapter.attr("reduce")(shared(values), name_of(how));
   }
 
+  std::vector<double> gather(std::span<const double> mine) override
+  {
+    const std::vector<double> values(mine.begin(), mine.end());
+    return copy(_adapter.attr("gather")(array(values)).cast<Array<double>>());
+  }
+
   Messages exchange(const Messages& outgoing) override
   {
     py::dict out;
@@ -75,46 +83,118 @@ private:
   py::object _adapter;
   int _rank, _size;
 };
+class PythonAdapter final : public HaloAdapter
+{
+public:
+  explicit PythonAdapter(const py::object& adapter)
+      : _adapter(adapter), _ranks(adapter)
+  {
+  }
+
+  Ranks& ranks() override { return _ranks; }
+
+  void set_ghosts(std::span<const std::int64_t> numbers,
+                  std::span<const std::int32_t> owners) override
+  {
+    _adapter.attr("set_ghosts")(
+        array(std::vector<std::int64_t>(numbers.begin(), numbers.end())),
+        array(std::vector<std::int32_t>(owners.begin(), owners.end())));
+  }
+
+  void forward(std::span<double> values, int width) override
+  {
+    _adapter.attr("forward")(shared(values), width);
+  }
+
+  void forward(std::span<std::int64_t> values, int width) override
+  {
+    _adapter.attr("forward")(shared(values), width);
+  }
+
+  void reverse(std::span<double> values, int width) override
+  {
+    _adapter.attr("reverse")(shared(values), width);
+  }
+
+  void displacement(std::span<double> values) const override
+  {
+    const auto found
+        = _adapter.attr("current_displacement")().cast<Array<double>>();
+    check::rows(found.size(), std::ssize(values), 1, "displacement", "value");
+    std::ranges::copy(view(found), values.begin());
+  }
+
+  void changed() override { _adapter.attr("changed")(); }
+
+private:
+  py::object _adapter;
+  PythonRanks _ranks;
+};
+
+/// The bulk's nodes as the adapter has them.
+BulkNodes bulk_of(const py::object& adapter)
+{
+  const py::dict bulk = adapter.attr("bulk")();
+  return {bulk["gdim"].cast<int>(),
+          bulk["num_owned"].cast<std::int32_t>(),
+          copy(bulk["numbers"].cast<Array<std::int64_t>>()),
+          copy(bulk["owners"].cast<Array<std::int32_t>>()),
+          copy(bulk["original"].cast<Array<std::int64_t>>()),
+          copy(bulk["reference"].cast<Array<double>>())};
+}
 } // namespace
 
-PythonNodes::PythonNodes(py::object adapter)
-    : _adapter(adapter), _ranks(std::make_unique<PythonRanks>(adapter))
+PythonNodes::PythonNodes(const py::object& adapter)
+    : Halo(bulk_of(adapter), std::make_unique<PythonAdapter>(adapter))
 {
-}
-
-std::int32_t PythonNodes::num_owned() const
-{
-  return _adapter.attr("num_owned").cast<std::int32_t>();
-}
-
-std::int32_t PythonNodes::num_nodes() const
-{
-  return _adapter.attr("num_nodes").cast<std::int32_t>();
-}
-
-void PythonNodes::forward(std::span<double> values, int width) const
-{
-  if (_ranks->size() > 1)
-    _adapter.attr("forward")(shared(values), width);
-}
-
-void PythonNodes::forward(std::span<std::int64_t> values, int width) const
-{
-  if (_ranks->size() > 1)
-    _adapter.attr("forward")(shared(values), width);
-}
-
-void PythonNodes::reverse(std::span<double> values, int width) const
-{
-  if (_ranks->size() > 1)
-    _adapter.attr("reverse")(shared(values), width);
 }
 
 void contactx_bindings::parallel(py::module_& m)
 {
   py::class_<NodeMap, std::shared_ptr<NodeMap>>(
       m, "NodeMap", "Nodes of this rank, for the core");
-  py::class_<PythonNodes, NodeMap, std::shared_ptr<PythonNodes>>(
-      m, "PythonNodes", "Nodes that an object of Python looks after")
-      .def(py::init<py::object>(), py::arg("adapter"));
+  py::class_<Halo, NodeMap, std::shared_ptr<Halo>>(
+      m, "Halo", "The bulk's nodes and those of other ranks that contact needs")
+      .def_property_readonly("num_owned", &Halo::num_owned)
+      .def_property_readonly("num_bulk", &Halo::num_bulk)
+      .def_property_readonly("num_nodes", &Halo::num_nodes)
+      .def_property_readonly("gdim", &Halo::gdim)
+      .def_property_readonly("version", &Halo::version)
+      .def_property_readonly(
+          "original",
+          [](const Halo& self)
+          {
+            const auto found = self.original();
+            return array(std::vector<std::int64_t>(found.begin(), found.end()));
+          })
+      .def_property_readonly(
+          "reference",
+          [](const Halo& self)
+          {
+            const auto found = self.reference();
+            return array(std::vector<double>(found.begin(), found.end()),
+                         {self.num_nodes(), self.gdim()});
+          })
+      .def("positions", [](const Halo& self)
+           { return array(self.positions(), {self.num_nodes(), self.gdim()}); })
+      .def(
+          "numbers", [](const Halo& self, const Array<std::int32_t>& nodes)
+          { return array(self.numbers(view(nodes))); }, py::arg("nodes"))
+      .def(
+          "owners", [](const Halo& self, const Array<std::int32_t>& nodes)
+          { return array(self.owners(view(nodes))); }, py::arg("nodes"))
+      .def(
+          "find", [](const Halo& self, const Array<std::int64_t>& numbers)
+          { return array(self.find(view(numbers))); }, py::arg("numbers"))
+      .def(
+          "grow",
+          [](Halo& self, const Array<std::int64_t>& numbers,
+             const Array<std::int32_t>& owners, bool for_good)
+          { self.grow(view(numbers), view(owners), for_good); },
+          py::arg("numbers"), py::arg("owners"), py::kw_only(),
+          py::arg("for_good") = false)
+      .def("shrink", &Halo::shrink);
+  py::class_<PythonNodes, Halo, std::shared_ptr<PythonNodes>>(
+      m, "PythonNodes", "A halo whose adapter is an object of Python")
+      .def(py::init<const py::object&>(), py::arg("adapter"));
 }

@@ -11,7 +11,7 @@
 namespace py = pybind11;
 using namespace contactx_bindings;
 using contactx::search::Finder;
-using contactx::search::Found;
+using contactx::search::FoundNearest;
 using contactx::search::Pairing;
 using contactx::search::Projection;
 
@@ -33,36 +33,16 @@ py::dict find(const Finder& self, std::span<const double> x,
   const std::size_t n = reach.size();
   check::rows(std::ssize(points), n, gdim, "points", "reach");
   check::rows(std::ssize(normals), n, gdim, "normals", "reach");
-  constexpr double none = std::numeric_limits<double>::infinity();
-  std::vector<double> distance(n, none), size(n, 0), gap(n, 0), xi(2 * n),
-      normal(3 * n);
-  std::vector<std::int32_t> nearest(n, -1), facet(n, -1), feature(n, 0);
-  std::int32_t hint = -1;
-  for (std::size_t i = 0; i < n; ++i)
-  {
-    const Found found = self.find(x, row(points, i, gdim),
-                                  row(normals, i, gdim), reach[i], hint);
-    if (!found.nearest)
-      continue;
-    hint = nearest[i] = found.nearest->facet;
-    distance[i] = contactx::norm(found.nearest->d);
-    size[i] = found.nearest->size;
-    if (!found.selected)
-      continue;
-    const Projection& q = *found.selected;
-    facet[i] = q.facet;
-    feature[i] = q.feature;
-    gap[i] = q.gap;
-    std::copy(q.xi.begin(), q.xi.end(), xi.begin() + 2 * i);
-    std::copy(q.normal.begin(), q.normal.end(), normal.begin() + 3 * i);
-  }
+  const FoundNearest found = self.find(x, points, normals, reach);
   const auto rows = static_cast<py::ssize_t>(n);
-  return py::dict(
-      py::arg("distance") = array(distance),
-      py::arg("nearest") = array(nearest), py::arg("size") = array(size),
-      py::arg("facet") = array(facet), py::arg("feature") = array(feature),
-      py::arg("gap") = array(gap), py::arg("xi") = array(xi, {rows, 2}),
-      py::arg("normal") = array(normal, {rows, 3}));
+  return py::dict(py::arg("distance") = array(found.distance),
+                  py::arg("nearest") = array(found.nearest),
+                  py::arg("size") = array(found.size),
+                  py::arg("facet") = array(found.facet),
+                  py::arg("feature") = array(found.feature),
+                  py::arg("gap") = array(found.gap),
+                  py::arg("xi") = array(found.xi, {rows, 2}),
+                  py::arg("normal") = array(found.normal, {rows, 3}));
 }
 
 /// Positions, and what they are used with: pairs of a list of facets that was

@@ -243,6 +243,8 @@ public:
 
   void close(std::span<const std::int32_t> which) override
   {
+    if (not which.empty() and on_close)
+      on_close();
     for (const std::int32_t i : which)
       kind[i] = friction > 0 ? law::stick : law::slip;
   }
@@ -287,14 +289,15 @@ public:
   active_set::Pairing found;
   std::vector<std::int8_t> kind;
   std::vector<double> gap, slip, traction;
+  std::function<void()> on_close; ///< called where nodes are closed
 };
 
 /// @brief A truss with its bodies, on one rank or several.
-struct Scene
+struct FreeScene
 {
   /// @param[in] truss The truss.
   /// @param[in] ranks The ranks; one alone if null.
-  explicit Scene(Truss given, parallel::Ranks* ranks = nullptr)
+  explicit FreeScene(Truss given, parallel::Ranks* ranks = nullptr)
       : truss(std::move(given)), number(truss.num_nodes())
   {
     const std::int32_t n = truss.num_nodes();

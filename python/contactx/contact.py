@@ -381,10 +381,11 @@ def _check_options(
             "write Surface(facet_tags, tag)"
         )
     if not isinstance(master, Surface | Obstacle):
+        is_class = isinstance(master, type)
+        given = f"the class {master.__name__}" if is_class else type(master).__name__
         raise TypeError(
-            f"master must be a contactx.Surface or a rigid obstacle, not "
-            f"{type(master).__name__}: write Surface(facet_tags, tag), or Plane, Sphere, "
-            "Cylinder or LevelSet"
+            f"master must be a contactx.Surface or a rigid obstacle, not {given}: write "
+            "Surface(facet_tags, tag), or Plane, Sphere, Cylinder or LevelSet"
         )
     if isinstance(master, Surface) and slave.facet_tags.topology is master.facet_tags.topology:
         topology = slave.facet_tags.topology

@@ -5,7 +5,6 @@
 from __future__ import annotations
 
 import math
-import pickle
 import sys
 import time
 from collections import Counter
@@ -20,7 +19,6 @@ import hertz_case
 import numpy as np
 
 import contactx as cx
-from contactx.search import distributed
 from dolfinx.mesh import CellType
 
 import meshes
@@ -148,54 +146,49 @@ class Sent:
     def __init__(self, contact: cx.Contact):
         """Count from now on."""
         self.counts: Counter[tuple[str, str]] = Counter()
-        self._halo = halo = contact.interface.halo
+        self._adapter = adapter = contact.interface.halo.adapter
         # Index map of the halo, and with how many ranks it shares how many owned nodes
         self._shared: tuple[Any, int, int] = None, 0, 0
-        self._exchange = halo.exchange
-        halo.exchange = self._exchanged
-        for name, count in (("scatter_forward", self._forward), ("scatter_reverse", self._reverse)):
-            setattr(halo, name, self._counting(getattr(halo, name), count))
-        self._reach = distributed.Reach
-        distributed.Reach = self._gathered
-
-    def stop(self) -> None:
-        """Count the boxes of other contacts no more."""
-        distributed.Reach = self._reach
+        for name, count in (
+            ("exchange", self._exchanged),
+            ("gather", self._gathered),
+            ("forward", self._forward),
+            ("reverse", self._reverse),
+        ):
+            setattr(adapter, name, self._counting(getattr(adapter, name), count))
 
     def _add(self, purpose: str, messages: int, size: int) -> None:
         self.counts["messages", purpose] += messages
         self.counts["bytes", purpose] += size
 
-    def _exchanged(self, outgoing: Mapping[int, Any]) -> dict[int, Any]:
-        for rank, item in outgoing.items():
-            if rank != self._halo.comm.rank:
-                self._add("exchange", 1, len(pickle.dumps(item, protocol=5)))
-        return self._exchange(outgoing)
-
-    def _gathered(self, halo: Any, own: Any, x: Any) -> Any:
-        # A box, the axis of a cone and its angle
-        self._add("boxes", 1, 8 * (3 * halo.gdim + 1))
-        return self._reach(halo, own, x)
-
-    def _counting(self, scatter: Any, count: Any) -> Any:
-        def counted(values: Any) -> Any:
-            if self._halo.comm.size > 1:
-                count(8 * (1 if values.ndim == 1 else values.shape[1]))
-            return scatter(values)
+    def _counting(self, operation: Any, count: Any) -> Any:
+        def counted(*arguments: Any) -> Any:
+            if self._adapter.size > 1:
+                count(*arguments)
+            return operation(*arguments)
 
         return counted
 
-    def _forward(self, size: int) -> None:
-        index_map = self._halo._map
+    def _exchanged(self, outgoing: Mapping[int, bytes]) -> None:
+        for rank, item in outgoing.items():
+            if rank != self._adapter.rank:
+                self._add("exchange", 1, len(item))
+
+    def _gathered(self, values: Any) -> None:
+        # A box, the axis of a cone and its angle
+        self._add("boxes", 1, values.nbytes)
+
+    def _forward(self, values: Any, width: int) -> None:
+        index_map = self._adapter.full_map
         if self._shared[0] is not index_map:
             ranks = index_map.index_to_dest_ranks(_TAG).array
             self._shared = index_map, len(np.unique(ranks)), len(ranks)
         _, messages, nodes = self._shared
-        self._add("halo", messages, nodes * size)
+        self._add("halo", messages, nodes * width * values.itemsize)
 
-    def _reverse(self, size: int) -> None:
-        owners = self._halo._map.owners
-        self._add("halo", len(np.unique(owners)), len(owners) * size)
+    def _reverse(self, values: Any, width: int) -> None:
+        owners = self._adapter.full_map.owners
+        self._add("halo", len(np.unique(owners)), len(owners) * width * values.itemsize)
 
 
 class SearchTraffic:
@@ -248,7 +241,6 @@ def weak(dim: int, method: str, partition: str) -> dict[str, Any]:
     counter = SearchTraffic(slab.contact)
     with counter.collectives.counting():
         iterations = slab.move(2 * ASIDE)
-    counter.sent.stop()
     solver = _petsc_traffic() - before
     outside = counter.all() - counter.inside
     found = {

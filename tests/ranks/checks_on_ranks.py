@@ -16,7 +16,7 @@ from contactx.geometry.inside import check_apart, check_outside
 from contactx.interface import check_over_constrained
 from contactx.master.facets import FacetMaster
 from contactx.parallel.slaves import SlaveNodes
-from contactx.search.records import slave_facets
+from contactx.search.surface import slave_facets
 from contactx.surface import FacetList
 from dolfinx import mesh
 

@@ -88,11 +88,14 @@ void Coulomb::allow_larger_friction() { _reach *= farther; }
 
 void Coulomb::set_friction(std::span<const double> friction)
 {
-  const auto bad
-      = std::ranges::find_if(friction, [](double mu)
-                             { return not(mu >= 0) or not std::isfinite(mu); });
+  const auto is_bad
+      = [](double mu) { return not(mu >= 0) or not std::isfinite(mu); };
+  auto bad = std::ranges::find_if(friction, is_bad);
   if (bad != friction.end())
   {
+    // The least tells most
+    if (const auto least = std::ranges::min_element(friction); *least < 0)
+      bad = least;
     char text[32];
     const auto end = std::to_chars(text, text + sizeof(text), *bad).ptr;
     throw std::invalid_argument("friction is " + std::string(text, end)

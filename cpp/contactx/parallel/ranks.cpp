@@ -2,11 +2,23 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "ranks.h"
+#include <algorithm>
 #include <exception>
 #include <stdexcept>
 #include <string>
 
 using namespace contactx::parallel;
+
+std::vector<double> Ranks::gather(std::span<const double> mine)
+{
+  // A sum with zeros is exact
+  std::vector<double> every(mine.size() * size(), 0);
+  std::ranges::copy(
+      mine, every.begin() + static_cast<std::ptrdiff_t>(mine.size()) * rank());
+  if (size() > 1)
+    reduce(every, Reduction::sum);
+  return every;
+}
 
 void Ranks::agree(const std::function<void()>& work)
 {

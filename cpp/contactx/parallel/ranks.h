@@ -49,6 +49,11 @@ public:
   /// @copydoc reduce
   virtual void reduce(std::span<std::int64_t> values, Reduction how) = 0;
 
+  /// @brief Numbers of all ranks, one rank's after the other's.
+  /// @param[in] mine Numbers of this rank, as many on each.
+  /// @return Those of all ranks (shape=(size, number of them)).
+  virtual std::vector<double> gather(std::span<const double> mine);
+
   /// @brief Send messages and receive those of others, who do not know of them
   /// yet.
   /// @param[in] outgoing Messages, one to this rank itself among them or not.

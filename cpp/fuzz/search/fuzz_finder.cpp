@@ -8,7 +8,7 @@
 using namespace contactx;
 using namespace contactx::fuzz;
 using search::Finder;
-using search::Found;
+using search::FoundPlace;
 
 namespace
 {
@@ -23,8 +23,8 @@ void check(const Finder& finder, const Scene& scene, Input& in)
   }
   const double reach = in.flag() ? in.positive() : INFINITY;
   const std::int32_t num_facets = finder.surface().facets().size();
-  const Found found = finder.find(scene.x, p, normal, reach);
-  const Found hinted
+  const FoundPlace found = finder.find(scene.x, p, normal, reach);
+  const FoundPlace hinted
       = finder.find(scene.x, p, normal, reach, in.below(num_facets + 1) - 1);
   if (!in.finite())
     return;

@@ -8,8 +8,8 @@
 
 using namespace contactx;
 using namespace contactx::active_set;
+using tests::FreeScene;
 using tests::NodeContact;
-using tests::Scene;
 using tests::Truss;
 
 namespace
@@ -68,7 +68,7 @@ struct Block
     return found;
   }
 
-  Scene scene;
+  FreeScene scene;
   std::shared_ptr<NodeContact> floor;
   std::vector<std::int32_t> slaves; ///< in the truss
 };
@@ -146,6 +146,60 @@ TEST(FreeBodies, NodesThatAreAsNearCloseTogether)
     EXPECT_TRUE(free.stabilise(block.scene.loads(block.load(down(g)))));
     EXPECT_EQ(free.closed_for_balance(), g == 2 ? 4 : 16);
   }
+}
+
+TEST(FreeBodies, NodesThatPenetrateTouchAtOnce)
+{
+  Block block(2);
+  block.floor->gap = {-0.1, -0.05, 1e-3, -0.01};
+  FreeBodies free = block.scene.free_bodies();
+  free.begin_step();
+  EXPECT_TRUE(free.stabilise(block.scene.loads(block.load(down(2)))));
+  EXPECT_EQ(block.nodes(law::slip), (std::set<std::int32_t>{0, 1, 3}));
+}
+
+TEST(FreeBodies, BodiesMoveAsTheirNumbersOfNodesLetThem)
+{
+  // Under equal loads: the small one four times as fast
+  Truss truss{2, {}, {}};
+  truss.add_block(3, {0, 0, 0}, 1);
+  truss.add_block(1, {5, 0, 0}, 1);
+  for (const double gap : {0.19, 0.21})
+  {
+    FreeScene scene(truss);
+    const auto large = scene.add_contact(), small = scene.add_contact();
+    for (int i = 0; i < 4; ++i)
+      large->add(i, -1, {0, 1, 0}, 0.05);
+    small->add(16, -1, {0, 1, 0}, gap);
+    small->add(17, -1, {0, 1, 0}, gap);
+    std::vector<const NodeContact*> order;
+    for (const auto& contact : {large, small})
+      contact->on_close = [&order, c = contact.get()] { order.push_back(c); };
+    FreeBodies free = scene.free_bodies();
+    free.begin_step();
+    std::vector<double> load = scene.push(0, down(2));
+    for (std::size_t i = 32; i < 40; ++i)
+      load[i] *= 4;
+    EXPECT_TRUE(free.stabilise(scene.loads(load)));
+    ASSERT_EQ(order.size(), 2);
+    EXPECT_EQ(order[0] == small.get(), gap < 0.2);
+  }
+}
+
+TEST(FreeBodies, ASupportMayGetItsStiffnessOnTheWay)
+{
+  Block block(2);
+  FreeBodies free = block.scene.free_bodies();
+  free.begin_step();
+  for (double& spring : block.scene.bulk->ground)
+    spring = 1;
+  const auto forces = block.scene.loads(block.load(down(2, -1)));
+  free.stabilise(forces);
+  EXPECT_TRUE(free.is_unbalanced());
+  EXPECT_EQ(free.free_modes(), 3);
+  // It is looked for where nothing balances a body
+  free.stabilise(forces);
+  EXPECT_EQ(free.free_modes(), 0);
 }
 
 TEST(FreeBodies, NodesThatCannotCloseStayOpen)
@@ -226,7 +280,7 @@ struct Tower
     return truss;
   }
 
-  Scene scene;
+  FreeScene scene;
   std::shared_ptr<NodeContact> upper, lower;
 };
 
@@ -289,6 +343,15 @@ TEST(FreeBodies, ABlockSticksFirstWhereSlipReverses)
       EXPECT_EQ(block.floor->traction[i * g + g - 1], 1);
     }
   }
+  // Without a bound of friction nothing sticks
+  Block bare(2, 0.3);
+  bare.slide(0.02);
+  bare.floor->traction[0] = bare.floor->traction[1] = 0;
+  bare.floor->gap[0] = -0.1;
+  FreeBodies next = bare.scene.free_bodies();
+  next.begin_step();
+  EXPECT_TRUE(next.stabilise(bare.scene.loads(bare.load({-0.01, 0}))));
+  EXPECT_EQ(bare.nodes(law::stick), std::set<std::int32_t>{1});
   // A push on along the slip reverses nothing
   Block block(2, 0.3);
   block.slide(0.02);
@@ -316,6 +379,17 @@ TEST(FreeBodies, WhatSlipLacksToTheConeCountsInTheBalance)
   }
 }
 
+TEST(FreeBodies, In3DTractionsOfTheIterateCountAlone)
+{
+  Block block(3, 0.3);
+  block.slide(0.02);
+  FreeBodies free = block.scene.free_bodies();
+  free.begin_step();
+  const double whole = 16 * 0.1 * (0.3 - 0.02) / 64;
+  EXPECT_FALSE(free.stabilise(block.scene.loads(block.load({whole, 0, 0}))));
+  EXPECT_TRUE(free.is_unbalanced());
+}
+
 /// A disc on a plane, with the lowest node of its rim closed.
 struct Disc
 {
@@ -332,7 +406,7 @@ struct Disc
     return truss;
   }
 
-  Scene scene;
+  FreeScene scene;
   std::shared_ptr<NodeContact> floor;
 };
 
@@ -526,7 +600,7 @@ TEST(FreeBodies, NoDecisionDependsOnTheAxes)
     truss.x[i] = c * x - s * y;
     truss.x[i + 1] = s * x + c * y;
   }
-  Scene scene(truss);
+  FreeScene scene(truss);
   const auto slope = scene.add_contact();
   for (int i = 0; i < 4; ++i)
     slope->add(i, -1, {-s, c, 0}, 0.05 + 0.01 * i / 3);

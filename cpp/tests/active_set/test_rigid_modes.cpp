@@ -8,21 +8,21 @@
 
 using namespace contactx;
 using namespace contactx::active_set;
-using tests::Scene;
+using tests::FreeScene;
 using tests::Truss;
 
 namespace
 {
-Scene block(int gdim)
+FreeScene block(int gdim)
 {
   Truss truss{gdim, {}, {}};
   truss.add_block(2, {0.3, -0.2, 0.5}, 1.0);
-  return Scene(truss);
+  return FreeScene(truss);
 }
 
 /// Fix components of the nodes where a function of the position holds.
 template <class F>
-void fix(Scene& scene, F at, std::vector<int> components)
+void fix(FreeScene& scene, F at, std::vector<int> components)
 {
   const int g = scene.truss.gdim;
   for (std::int32_t i = 0; i < scene.truss.num_nodes(); ++i)
@@ -32,7 +32,8 @@ void fix(Scene& scene, F at, std::vector<int> components)
 }
 
 /// Whether no mode moves what is fixed, and the bars are as long as they were.
-void expect_free(const Scene& scene, const RigidModes& modes, std::size_t body)
+void expect_free(const FreeScene& scene, const RigidModes& modes,
+                 std::size_t body)
 {
   const std::size_t g = scene.truss.gdim, m = modes.modes_per_body();
   const dense::Matrix& free = modes.free()[body];
@@ -57,7 +58,7 @@ void expect_free(const Scene& scene, const RigidModes& modes, std::size_t body)
   }
 }
 
-std::size_t num_free(Scene& scene)
+std::size_t num_free(FreeScene& scene)
 {
   const RigidModes modes(scene.bodies, *scene.bulk, scene.bulk->reference());
   expect_free(scene, modes, 0);
@@ -91,7 +92,7 @@ TEST(RigidModes, ModesAreAboutTheMiddleOverTheRadius)
   Truss truss{2, {}, {}};
   truss.add_block(1, {0, 0, 0}, 2.0);
   truss.add_block(1, {10, 4, 0}, 1.0);
-  const Scene scene(truss);
+  const FreeScene scene(truss);
   const RigidModes modes(scene.bodies, *scene.bulk, scene.bulk->reference());
   EXPECT_EQ(modes.count(), 2);
   EXPECT_NEAR(modes.size(), std::sqrt(2.0), 1e-15);
@@ -105,8 +106,8 @@ TEST(RigidModes, ModesAreAboutTheMiddleOverTheRadius)
 
 TEST(RigidModes, SupportsIn2D)
 {
-  Scene none = block(2), point = block(2), points = block(2), line = block(2),
-        roller = block(2), slope = block(2);
+  FreeScene none = block(2), point = block(2), points = block(2),
+            line = block(2), roller = block(2), slope = block(2);
   EXPECT_EQ(num_free(none), 3);
   fix(point, [](const double* x) { return x[0] < 0.4 and x[1] < 0; }, {0, 1});
   EXPECT_EQ(num_free(point), 1);
@@ -130,8 +131,8 @@ TEST(RigidModes, SupportsIn3D)
   { return x[0] < 0.4 and x[1] < -0.1 and x[2] < 0.6; };
   const auto edge = [](const double* x) { return x[1] < -0.1 and x[2] < 0.6; };
   const auto face = [](const double* x) { return x[2] < 0.6; };
-  Scene none = block(3), point = block(3), line = block(3), plane = block(3),
-        roller = block(3), guided = block(3);
+  FreeScene none = block(3), point = block(3), line = block(3),
+            plane = block(3), roller = block(3), guided = block(3);
   EXPECT_EQ(num_free(none), 6);
   fix(point, corner, {0, 1, 2});
   EXPECT_EQ(num_free(point), 3);
@@ -151,7 +152,7 @@ TEST(RigidModes, ElasticSupports)
   for (const int g : {2, 3})
   {
     // Of all nodes in one direction
-    Scene scene = block(g);
+    FreeScene scene = block(g);
     const double k = 1e-6;
     for (std::int32_t i = 0; i < scene.truss.num_nodes(); ++i)
       scene.bulk->ground[i * g + g - 1] = k;
@@ -176,7 +177,7 @@ TEST(RigidModes, StressesAreNoSupport)
 {
   for (const int g : {2, 3})
   {
-    Scene scene = block(g);
+    FreeScene scene = block(g);
     RigidModes modes(scene.bodies, *scene.bulk, scene.bulk->reference());
     EXPECT_EQ(modes.free()[0].cols, num_modes(g));
     // They resist rotations alone
@@ -197,7 +198,7 @@ TEST(RigidModes, StressesAreNoSupport)
 
 TEST(RigidModes, AStiffnessThatThrowsChangesNothing)
 {
-  Scene scene = block(2);
+  FreeScene scene = block(2);
   RigidModes modes(scene.bodies, *scene.bulk, scene.bulk->reference());
   scene.bulk->throws = true;
   EXPECT_THROW(modes.update(*scene.bulk, scene.bulk->reference()),
@@ -214,12 +215,12 @@ TEST(RigidModes, OnSeveralRanksTheyAreThoseOfOne)
     Truss truss{g, {}, {}};
     truss.add_block(2, {0.3, -0.2, 0.5}, 1.0);
     truss.add_block(3, {2, 2, 2}, 2.0);
-    const auto hold = [g](Scene& scene)
+    const auto hold = [g](FreeScene& scene)
     {
       scene.bulk->fixed[0] = 1;
       scene.bulk->ground[2 * g - 1] = 1e-5;
     };
-    Scene one(truss);
+    FreeScene one(truss);
     hold(one);
     const RigidModes serial(one.bodies, *one.bulk, one.bulk->reference());
     EXPECT_EQ(serial.free()[0].cols, num_modes(g) - 2);
@@ -229,7 +230,7 @@ TEST(RigidModes, OnSeveralRanksTheyAreThoseOfOne)
           size,
           [&](parallel::Ranks& ranks)
           {
-            Scene scene(truss, &ranks);
+            FreeScene scene(truss, &ranks);
             hold(scene);
             const RigidModes modes(scene.bodies, *scene.bulk,
                                    scene.bulk->reference());

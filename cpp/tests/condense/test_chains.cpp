@@ -85,6 +85,12 @@ TEST(Chains, ANodeThatIsSlaveHereAndMasterThere)
                    {}, 3);
       EXPECT_THROW(check_chains(chain.condensed().elimination(), nodes),
                    NotCondensable);
+      // It is master by its forces alone
+      for (std::size_t i = 2 * size; i < chain.m; ++i)
+        for (int j = 0; j < gdim; ++j)
+          chain.contact(chain.n + i, 2 * gdim + j) = 0;
+      EXPECT_THROW(check_chains(chain.condensed().elimination(), nodes),
+                   NotCondensable);
       // Open there, or no master there
       Saddle half(gdim, 8,
                   {{{0, 2}, {1, 5}, size, {held, open}},

@@ -298,7 +298,9 @@ TEST_P(Eliminated, ArraysThatDoNotFitAreRefused)
   Column d(whole.m, 0), u(whole.n, 0), few(1, 0);
   EXPECT_THROW(condensation.right_hand_side(few), std::invalid_argument);
   EXPECT_THROW(condensation.recover(few, u, u, d), std::invalid_argument);
-  EXPECT_THROW(condensation.recover(d, few, u, d), std::invalid_argument);
+  // The last row that gives a multiplier is of node 2
+  const Column too_few(3 * gdim - 1, 0);
+  EXPECT_THROW(condensation.recover(d, too_few, u, d), std::invalid_argument);
   EXPECT_THROW(condensation.recover(d, u, few, d), std::invalid_argument);
   EXPECT_THROW(condensation.recover(d, u, u, few), std::invalid_argument);
 }

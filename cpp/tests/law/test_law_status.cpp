@@ -98,7 +98,7 @@ TEST(CoulombLaw, ChecksItsCoefficients)
   EXPECT_EQ(law.friction(nodes), (std::vector{0.3, 0.4}));
   try
   {
-    law.set_friction(std::vector{0.3, -0.25});
+    law.set_friction(std::vector{-0.125, -0.25, 0.3});
     FAIL();
   }
   catch (const std::invalid_argument& e)

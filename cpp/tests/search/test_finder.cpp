@@ -38,7 +38,7 @@ TEST(Finder, HasNoMemory)
   s.move_to({1.04, 0.01});
   const Finder finder = finder_of(s.pairing, s.x);
   const Vector<3> p{1.04, 0.01, 0}, down{0, -1, 0};
-  const Found found = finder.find(s.x, p, down, 10);
+  const FoundPlace found = finder.find(s.x, p, down, 10);
   EXPECT_NEAR(found.selected->gap, -0.03 / std::sqrt(2), 1e-15);
   EXPECT_EQ(finder.find(s.x, p, down, 10, 0).selected->gap,
             found.selected->gap);
@@ -66,7 +66,7 @@ TEST(Finder, NearestMayLieBeyondTheEdge)
 {
   SlidingSegment s({{0, 0}, {1, 0}, {2, 0}});
   const Finder finder = finder_of(s.pairing, s.x);
-  const Found found = finder.find(s.x, {-0.3, 0.4, 0}, {0, -1, 0}, 1);
+  const FoundPlace found = finder.find(s.x, {-0.3, 0.4, 0}, {0, -1, 0}, 1);
   EXPECT_NEAR(norm(found.nearest->d), 0.5, 1e-15);
   EXPECT_FALSE(found.selected);
 }
@@ -231,7 +231,8 @@ TEST(PairingOnMixedFacets, ProjectsOnTheFacetThatItNames)
       const std::int32_t slave = pairing.slaves()[k];
       Vector<3> n;
       std::copy_n(normals.begin() + 3 * slave, 3, n.begin());
-      const Found found = finder.find(s.scene.x, s.scene.point(slave), n, 1);
+      const FoundPlace found
+          = finder.find(s.scene.x, s.scene.point(slave), n, 1);
       EXPECT_NEAR(q->gap, found.selected->gap, 1e-15);
     }
     EXPECT_GT(interior, 60);

@@ -16,8 +16,7 @@ from contactx.master.facets import FacetMaster
 from contactx.master.mortar import MortarMaster
 from contactx.parallel import reduce
 from contactx.parallel.halo import Halo
-from contactx.search.onlooker import Onlooker
-from contactx.search.outside import Outside
+from contactx.search.surface import onlooker, outside
 from contactx.surface import FacetList
 
 type Array = npt.NDArray[np.float64]
@@ -48,9 +47,9 @@ class SurfacesAudit:
         self._interface, self._halo = interface, halo
         self._slave = interface.slave_nodes
         self._known = master.surface
-        self._at_slave = Onlooker(halo, self._slave.facets)
+        self._at_slave = onlooker(halo, self._slave.facets)
         self._extent = float(reduce.extent(halo.comm, halo.x[master.surface.own.nodes]).max())
-        self._outside_slave = Outside(halo, self._slave.own)
+        self._outside_slave = outside(halo, self._slave.own)
         self._at_master = master.outside.onlooker
         marks = np.zeros(halo.num_nodes)
         marks[master.surface.own.nodes] = 1

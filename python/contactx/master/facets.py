@@ -16,8 +16,7 @@ from contactx.master.master import Array, Master, RowKind, Weights, touching
 from contactx.master.mobility import free_squares, pair_weights
 from contactx.parallel.halo import Halo
 from contactx.parallel.slaves import SlaveNodes
-from contactx.search.distributed import master_surface
-from contactx.search.outside import Outside
+from contactx.search.surface import MasterSurface, outside
 from contactx.surface import FacetList
 
 _SAVED = ("feature", "xi", "cone", "normal")
@@ -60,8 +59,8 @@ class FacetMaster(Master):
         """
         self._halo = halo
         self._facets = slave.facets
-        self.surface = master_surface(halo, master)
-        self.outside = Outside(halo, master)
+        self.surface = MasterSurface(halo, master)
+        self.outside = outside(halo, master)
         x = halo.x
         self._small = sliding == "small"
         self._measures_slip = measures_slip

@@ -21,8 +21,7 @@ from contactx.master.mortar_slip import MortarSlip
 from contactx.parallel.halo import Halo
 from contactx.parallel.reduce import anywhere, largest, least
 from contactx.parallel.slaves import SlaveNodes
-from contactx.search.distributed import master_surface
-from contactx.search.outside import Outside
+from contactx.search.surface import MasterSurface, outside
 from contactx.surface import FacetList
 
 # How far beyond a slave facet's edges pairs are found in advance, as a part of its size
@@ -69,8 +68,8 @@ class MortarMaster(Master):
         """
         self._halo = halo
         self._facets = facets = slave.facets
-        self.surface = master_surface(halo, master)
-        self.outside = Outside(halo, master)
+        self.surface = MasterSurface(halo, master)
+        self.outside = outside(halo, master)
         self._gdim = halo.gdim
         self._small = sliding == "small"
         self.reach = reach

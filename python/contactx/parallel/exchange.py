@@ -4,9 +4,7 @@
 
 from __future__ import annotations
 
-import pickle
 from collections.abc import Mapping
-from typing import Any
 
 from mpi4py import MPI
 
@@ -29,24 +27,23 @@ class Exchange:
         self.comm = comm
         self._turn = 0
 
-    def __call__(self, outgoing: Mapping[int, Any]) -> dict[int, Any]:
-        """Send objects and receive those of others; all ranks must take part.
+    def __call__(self, outgoing: Mapping[int, bytes]) -> dict[int, bytes]:
+        """Send bytes and receive those of others; all ranks must take part.
 
         Args:
-            outgoing: Objects by the rank that they go to, each of which can be pickled.
+            outgoing: Bytes by the rank that they go to.
 
         Returns:
-            Objects by the rank that sent them, in ascending order.
+            Bytes by the rank that sent them, in ascending order.
         """
         comm, tag = self.comm, _FIRST + self._turn
         self._turn = (self._turn + 1) % _COUNT
         received = {}
         sending = []
-        for rank, item in outgoing.items():
+        for rank, data in outgoing.items():
             if rank == comm.rank:
-                received[rank] = item
+                received[rank] = data
                 continue
-            data = pickle.dumps(item, protocol=5)
             sending.append(comm.Issend([data, MPI.BYTE], dest=rank, tag=tag))
         if comm.size == 1:
             return received
@@ -56,7 +53,7 @@ class Exchange:
             if comm.Iprobe(MPI.ANY_SOURCE, tag, status):
                 buffer = bytearray(status.Get_count(MPI.BYTE))
                 comm.Recv([buffer, MPI.BYTE], source=status.source, tag=tag)
-                received[status.source] = pickle.loads(buffer)
+                received[status.source] = bytes(buffer)
             if barrier is None and MPI.Request.Testall(sending):
                 barrier = comm.Ibarrier()
         return dict(sorted(received.items()))

@@ -16,21 +16,19 @@ import numpy.typing as npt
 from contactx import cpp as core
 from contactx.parallel import reduce
 from contactx.parallel.adapter import Adapter
-from contactx.parallel.exchange import Exchange
-from dolfinx import cpp, fem, la
+from dolfinx import fem, la
 
 type Array = npt.NDArray[np.float64]
-
-_TAG = 7090
 
 
 class Halo:
     """The bulk's nodes on this rank, followed by nodes of other ranks that contact needs here.
 
-    The bulk's own numbers stay as they are: its owned nodes come first, then its ghosts, then those
-    of the contact halo. Arrays "of all nodes" have a row for each of them. The halo grows as pairs
-    are found, by nodes that are appended, and shrinks at a step's start. On one rank there is none,
-    and the arrays are the bulk's.
+    The core keeps the books of them (``nodes``), and vectors of DOLFINx follow. The bulk's own
+    numbers stay as they are: its owned nodes come first, then its ghosts, then those of the contact
+    halo. Arrays "of all nodes" have a row for each of them. The halo grows as pairs are found, by
+    nodes that are appended, and shrinks at a step's start. On one rank there is none, and the
+    arrays are the bulk's.
 
     Attributes:
         comm: Communicator.
@@ -39,14 +37,12 @@ class Halo:
         num_bulk: Number of the bulk's nodes here, ghosts included.
         original: Number of each node in the mesh as it was made: the same on any number of ranks,
             shape (num_nodes,).
-        displacement: Displacement of all nodes, as of the last ``update_ghosts``.
         position: Reference position of all nodes.
-        version: Counts how often the halo has changed.
-        exchange: Messages to other ranks.
-        nodes: The nodes as the core sees them.
+        adapter: What the core asks of other ranks.
+        nodes: The nodes as the core has them.
     """
 
-    displacement: la.Vector
+    original: npt.NDArray[np.int64]
     position: la.Vector
 
     def __init__(self, u: fem.Function, X: Array):
@@ -56,29 +52,35 @@ class Halo:
             u: Displacement, in a linear Lagrange space.
             X: Reference positions of its nodes, ghosts included, shape (num_bulk, gdim).
         """
-        V = u.function_space
-        self._u = u
-        self._bulk_map = bulk = V.dofmap.index_map
-        self.comm: MPI.Comm = V.mesh.comm
-        self.gdim = X.shape[1]
-        self.num_owned: int = bulk.size_local
-        self.num_bulk: int = bulk.size_local + bulk.num_ghosts
-        self.exchange = Exchange(self.comm)
-        self.version = 0
+        self.adapter = Adapter(u, X)
+        self.comm: MPI.Comm = self.adapter.comm
+        self.nodes = core.PythonNodes(self.adapter)
+        self.gdim = self.nodes.gdim
+        self.num_owned = self.nodes.num_owned
+        self.num_bulk = self.nodes.num_bulk
         self._observers: list[weakref.WeakMethod[Callable[[], None]]] = []
-        self._bulk_original = original_nodes(V)
-        self._reference = X
-        # Global numbers and owners of the halo, and how many of them stay for good
-        self._ghosts = np.zeros(0, dtype=np.int64)
-        self._owners = np.zeros(0, dtype=np.int32)
-        self._kept = 0
-        self.nodes = core.PythonNodes(Adapter(self))
-        self._rebuild()
+        self.adapter.on_change(self._changed)
+        self._changed()
 
     @property
     def num_nodes(self) -> int:
         """Number of nodes on this rank, those of the halo included."""
-        return self.num_bulk + len(self._ghosts)
+        return self.nodes.num_nodes
+
+    @property
+    def version(self) -> int:
+        """Counts how often the halo has changed."""
+        return self.nodes.version
+
+    @property
+    def index_map(self) -> Any:
+        """Index map of all nodes, on this rank alone."""
+        return self.adapter.index_map
+
+    @property
+    def displacement(self) -> la.Vector:
+        """Displacement of all nodes, as of the last ``update_ghosts``."""
+        return self.adapter.displacement
 
     @property
     def x(self) -> Array:
@@ -93,11 +95,7 @@ class Halo:
 
     def update_ghosts(self) -> None:
         """Give ghosts the owners' displacements: those of the bulk and of the contact halo."""
-        if self.comm.size > 1:
-            owned = self._u.x.array.reshape(-1, self.gdim)[: self.num_owned]
-            values = self.scatter_forward(owned)
-            self.displacement.array[:] = values.ravel()
-            self._u.x.array[:] = values[: self.num_bulk].ravel()
+        self.adapter.update_ghosts()
 
     def scatter_forward(self, values: npt.NDArray[Any]) -> npt.NDArray[Any]:
         """Give all nodes the values that their owners have; all ranks must take part.
@@ -111,12 +109,10 @@ class Halo:
         if self.comm.size == 1:
             return values
         dtype = np.int64 if values.dtype.kind in "iub" else np.float64
-        width = 1 if values.ndim == 1 else values.shape[1]
-        vector = self._vector(width, dtype)
-        vector.array[: self.num_owned * width] = values[: self.num_owned].ravel()
-        vector.scatter_forward()
-        everywhere: npt.NDArray[Any] = vector.array.reshape(-1, *values.shape[1:])
-        return everywhere.astype(values.dtype)
+        every = np.zeros((self.num_nodes, *values.shape[1:]), dtype=dtype)
+        every[: self.num_owned] = values[: self.num_owned]
+        self.adapter.forward(every, 1 if values.ndim == 1 else values.shape[1])
+        return every.astype(values.dtype)
 
     def updated(self, values: npt.NDArray[Any], version: int) -> npt.NDArray[Any]:
         """Values of all nodes that were made before the halo changed, for its nodes of now.
@@ -138,37 +134,17 @@ class Halo:
         """
         if self.comm.size == 1:
             return values
-        width = 1 if values.ndim == 1 else values.shape[1]
-        vector = self._vector(width, np.float64)
-        vector.array[:] = values.ravel()
-        vector.scatter_reverse(la.InsertMode.add)
-        sums: Array = vector.array.reshape(-1, *values.shape[1:])[: self.num_owned].copy()
-        return sums
+        every = np.array(values, dtype=np.float64)
+        self.adapter.reverse(every, 1 if values.ndim == 1 else values.shape[1])
+        return every[: self.num_owned]
 
     def numbers(self, nodes: npt.NDArray[np.integer]) -> npt.NDArray[np.int64]:
-        """Global numbers of some nodes, as the bulk's index map has them."""
-        result: npt.NDArray[np.int64] = self._global[nodes]
-        return result
+        """Global numbers of some nodes, as the bulk's index map has them, shape (n,)."""
+        return self.nodes.numbers(np.ascontiguousarray(nodes, dtype=np.int32))
 
     def owners(self, nodes: npt.NDArray[np.integer]) -> npt.NDArray[np.int32]:
-        """Ranks that own some nodes."""
-        result: npt.NDArray[np.int32] = self._owner[nodes]
-        return result
-
-    def find(self, numbers: npt.NDArray[np.int64]) -> npt.NDArray[np.int32]:
-        """Nodes by their global numbers.
-
-        Args:
-            numbers: Global numbers of nodes that are here, of any shape.
-
-        Returns:
-            Nodes, of the same shape.
-        """
-        if self.comm.size == 1:
-            return numbers.astype(np.int32)
-        place = np.searchsorted(self._sorted, numbers)
-        nodes: npt.NDArray[np.int32] = self._order[place]
-        return nodes
+        """Ranks that own some nodes, shape (n,)."""
+        return self.nodes.owners(np.ascontiguousarray(nodes, dtype=np.int32))
 
     def grow(
         self,
@@ -184,62 +160,24 @@ class Halo:
             owners: Ranks that own them.
             for_good: Whether they stay when the halo shrinks.
         """
-        if self.comm.size == 1:
-            return
-        numbers, first = np.unique(numbers, return_index=True)
-        new = ~np.isin(numbers, self._sorted)
-        if self.comm.allreduce(bool(new.any()), MPI.LOR):
-            self._ghosts = np.concatenate([self._ghosts, numbers[new]])
-            self._owners = np.concatenate([self._owners, owners[first][new]]).astype(np.int32)
-            self._rebuild()
-        if for_good:
-            self._kept = len(self._ghosts)
+        self.nodes.grow(numbers, owners, for_good=for_good)
 
     def shrink(self) -> None:
         """Drop what was not appended for good; all ranks must take part."""
-        if self.comm.size > 1:
-            self._ghosts, self._owners = self._ghosts[: self._kept], self._owners[: self._kept]
-            self._rebuild()
+        self.nodes.shrink()
 
     def on_change(self, observer: Callable[[], None]) -> None:
         """Call a method whenever the halo has changed, on all ranks, while its object lives."""
         self._observers.append(weakref.WeakMethod(observer))
 
-    def _rebuild(self) -> None:
-        bulk = self._bulk_map
-        self._map = bulk
-        if self.comm.size > 1:
-            ghosts = np.concatenate([bulk.ghosts, self._ghosts])
-            owners = np.concatenate([bulk.owners, self._owners]).astype(np.int32)
-            self._map = cpp.common.IndexMap(self.comm, bulk.size_local, ghosts, owners, _TAG)
-        every = np.arange(self.num_nodes, dtype=np.int32)
-        self._global = self._map.local_to_global(every)
-        self._owner = np.concatenate(
-            [np.full(self.num_owned, self.comm.rank), self._map.owners]
-        ).astype(np.int32)
-        self._order = every
-        if self.comm.size > 1:
-            self._order = np.argsort(self._global).astype(np.int32)
-        self._sorted = self._global[self._order]
-        self._vectors: dict[tuple[int, Any], la.Vector] = {}
-        self.original = self.scatter_forward(self._bulk_original)
-        # Forms are assembled rank by rank
-        serial = cpp.common.IndexMap(MPI.COMM_SELF, self.num_nodes)
-        self.index_map = serial
-        self.position = la.vector(serial, self.gdim)
-        self.position.array[:] = self.scatter_forward(self._reference).ravel()
-        self.displacement = self._u.x if self.comm.size == 1 else la.vector(serial, self.gdim)
-        self.update_ghosts()
-        self.version += 1
+    def _changed(self) -> None:
+        self.original = self.nodes.original
+        self.position = la.vector(self.index_map, self.gdim)
+        self.position.array[:] = self.nodes.reference.ravel()
         for reference in self._observers:
             observer = reference()
             if observer is not None:
                 observer()
-
-    def _vector(self, width: int, dtype: Any) -> la.Vector:
-        if (width, dtype) not in self._vectors:
-            self._vectors[width, dtype] = la.vector(self._map, width, dtype)
-        return self._vectors[width, dtype]
 
 
 def first_node(
@@ -260,21 +198,3 @@ def first_node(
         halo.comm, numbers, list(zip(numbers, x[nodes], strict=True))
     )
     return first
-
-
-def original_nodes(V: fem.FunctionSpace) -> npt.NDArray[np.int64]:
-    """Number of each node in the mesh as it was made; of owned nodes first, then of ghosts.
-
-    Args:
-        V: Linear Lagrange space.
-
-    Returns:
-        Numbers, the same on any number of ranks, shape (num_nodes,).
-    """
-    geometry = V.mesh.geometry
-    dofs, index_map = V.dofmap.list, V.dofmap.index_map
-    original = np.full(index_map.size_local + index_map.num_ghosts, -1, dtype=np.int64)
-    # Vertices come first in the geometry of a cell
-    vertices = geometry.dofmaps[0][:, : dofs.shape[1]]
-    original[dofs.ravel()] = geometry.input_global_indices[vertices.ravel()]
-    return original

@@ -15,8 +15,8 @@ import numpy.typing as npt
 from contactx.interface import Interface
 from contactx.master.master import RowKind
 from contactx.nodal import reference_positions
+from contactx.parallel.adapter import original_nodes
 from contactx.parallel.agreement import agreed
-from contactx.parallel.halo import original_nodes
 from contactx.problem import ContactProblem
 from contactx.state import Snapshot, load_state, save_state, state_rows
 from contactx.steps.function_rows import FunctionRows, cell_nodes

@@ -7,7 +7,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from contactx.parallel.halo import original_nodes
+from contactx.parallel.adapter import original_nodes
 from contactx.steps.rows import Array, Rows
 from dolfinx import cpp, fem
 

@@ -81,7 +81,7 @@ ROWS = [
         "friction: a negative function",
         lambda: function("friction", -1.0),
         ValueError,
-        r"friction is -1\.0: give numbers of at least 0",
+        r"friction is -1: give numbers of at least 0",
     ),
     Row(
         "offset: an infinite function",

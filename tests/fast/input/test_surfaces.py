@@ -208,7 +208,7 @@ ROWS = [
         "master as a class",
         lambda: cx.Contact(surface(11), cx.Plane),
         TypeError,
-        "master must be a contactx.Surface or a rigid obstacle, not ABCMeta.* or Plane",
+        "master must be a contactx.Surface or a rigid obstacle, not the class Plane",
     ),
     Row(
         "nodes of another space",

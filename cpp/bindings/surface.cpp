@@ -1,0 +1,246 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include "bindings.h"
+#include "check.h"
+#include "master.h"
+#include <contactx/facet/facets.h>
+#include <contactx/search/master_surface.h>
+#include <contactx/search/outside.h>
+#include <contactx/search/slave_facets.h>
+#include <memory>
+#include <pybind11/stl.h>
+
+namespace py = pybind11;
+using namespace contactx_bindings;
+using contactx::facet::FacetList;
+using contactx::parallel::Halo;
+using contactx::search::Found;
+using contactx::search::MasterSurface;
+using contactx::search::Onlooker;
+using contactx::search::Outside;
+using contactx::search::Pairing;
+using contactx::search::Seen;
+using contactx::search::Ways;
+
+namespace
+{
+py::ssize_t length(const auto& values)
+{
+  return static_cast<py::ssize_t>(values.size());
+}
+
+/// Offsets and nodes.
+py::tuple lists(const FacetList& facets)
+{
+  return py::make_tuple(array(std::vector<std::int32_t>(facets.offsets.begin(),
+                                                        facets.offsets.end())),
+                        array(std::vector<std::int32_t>(facets.nodes.begin(),
+                                                        facets.nodes.end())));
+}
+
+/// Array of a member that has a row a point, which keeps its owner alive.
+template <class T, class V>
+auto column(std::vector<V> T::* member, py::ssize_t width = 0)
+{
+  return [member, width](py::object self)
+  {
+    const T& found = self.cast<const T&>();
+    std::vector<py::ssize_t> shape{length(found.gap)};
+    if (width > 0)
+      shape.push_back(width);
+    return looking(found.*member, shape, self);
+  };
+}
+
+/// Facets of nodes that this rank has.
+FacetList facets_of(const Halo& halo, const Array<std::int32_t>& offsets,
+                    const Array<std::int32_t>& nodes)
+{
+  check::facets(view(offsets), view(nodes), halo.gdim());
+  check::numbers(view(nodes), halo.num_nodes(), "nodes", "nodes");
+  return {view(offsets), view(nodes)};
+}
+} // namespace
+
+void contactx_bindings::surface(py::module_& m)
+{
+  py::class_<Found>(m, "Found", "What a search finds for points")
+      .def_property_readonly("distance", column(&Found::distance))
+      .def_property_readonly("facet", column(&Found::facet))
+      .def_property_readonly("feature", column(&Found::feature))
+      .def_property_readonly("gap", column(&Found::gap))
+      .def_property_readonly("xi", column(&Found::xi, 2))
+      .def_property_readonly("normal", column(&Found::normal, 3));
+  py::class_<MasterSurface, std::shared_ptr<MasterSurface>>(
+      m, "MasterSurface",
+      "Facets of a master surface, as the slave nodes of a rank see them")
+      .def(py::init(
+               [](const std::shared_ptr<Halo>& halo,
+                  const Array<std::int32_t>& offsets,
+                  const Array<std::int32_t>& nodes)
+               {
+                 const FacetList own = facets_of(*halo, offsets, nodes);
+                 return contactx::search::make_master_surface(halo, own.offsets,
+                                                              own.nodes);
+               }),
+           py::arg("halo"), py::arg("offsets"), py::arg("nodes"))
+      .def_property_readonly("facets", [](const MasterSurface& self)
+                             { return lists(self.facets()); })
+      .def_property_readonly("own", [](const MasterSurface& self)
+                             { return lists(self.own()); })
+      .def_property_readonly("around", [](const MasterSurface& self)
+                             { return lists(self.around()); })
+      .def_property_readonly("version", &MasterSurface::version)
+      .def(
+          "find",
+          [](MasterSurface& self, const Array<double>& x,
+             const Array<double>& points, const Array<double>& normals,
+             double reach)
+          { return self.find(view(x), view(points), view(normals), reach); },
+          py::arg("x"), py::arg("points"), py::arg("normals"), py::arg("reach"))
+      .def(
+          "pair",
+          [](MasterSurface& self, Pairing& pairing,
+             const Array<std::int32_t>& offsets,
+             const Array<std::int32_t>& nodes, const Array<double>& x,
+             double reach, const Array<std::int8_t>& closed)
+          {
+            check::surface(view(offsets), view(nodes), x.size(),
+                           pairing.master().gdim());
+            return self.pair(pairing, {view(offsets), view(nodes)}, view(x),
+                             reach, view(closed));
+          },
+          py::arg("pairing"), py::arg("offsets"), py::arg("nodes"),
+          py::arg("x"), py::arg("reach"), py::arg("closed"))
+      .def(
+          "look",
+          [](MasterSurface& self, const Array<double>& x,
+             const Array<std::int32_t>& offsets,
+             const Array<std::int32_t>& nodes, double reach, double margin)
+          { self.look(view(x), {view(offsets), view(nodes)}, reach, margin); },
+          py::arg("x"), py::arg("offsets"), py::arg("nodes"), py::arg("reach"),
+          py::arg("margin"))
+      .def(
+          "keep", [](MasterSurface& self, const Array<std::int32_t>& used)
+          { return array(self.keep(view(used))); }, py::arg("used"))
+      .def(
+          "distance",
+          [](MasterSurface& self, const Array<double>& x,
+             const Array<double>& points)
+          { return self.distance(view(x), view(points)); },
+          py::arg("x"), py::arg("points"))
+      .def(
+          "mean", [](MasterSurface& self, const Array<double>& nodal)
+          { return self.mean(view(nodal)); }, py::arg("nodal"))
+      .def("identity",
+           [](const MasterSurface& self)
+           {
+             return py::dict(py::arg("facets")
+                             = array(self.identity(), {self.own().size(), 4}));
+           })
+      .def(
+          "names",
+          [](const MasterSurface& self, const Array<std::int32_t>& which)
+          { return array(self.names(view(which)), {which.size(), 4}); },
+          py::arg("which"))
+      .def(
+          "named", [](MasterSurface& self, const Array<std::int64_t>& names)
+          { return array(self.named(view(names))); }, py::arg("names"));
+  py::class_<Seen>(m, "Seen", "What points see of a surface")
+      .def_property_readonly("distance", column(&Seen::distance))
+      .def_property_readonly("gap", column(&Seen::gap))
+      .def_property_readonly("height", column(&Seen::height))
+      .def_property_readonly("inside", [](const Seen& self)
+                             { return to_bool(self.inside); })
+      .def_property_readonly("margin", column(&Seen::margin))
+      .def_property_readonly("way", column(&Seen::way))
+      .def_property_readonly(
+          "values",
+          [](py::object self)
+          {
+            const Seen& seen = self.cast<Seen&>();
+            return looking(seen.values, {length(seen.gap), seen.width}, self);
+          });
+  py::class_<Onlooker, std::shared_ptr<Onlooker>>(
+      m, "Onlooker", "Finds the nearest facet of a surface; changes nothing")
+      .def(py::init(
+               [](const std::shared_ptr<Halo>& halo,
+                  const Array<std::int32_t>& offsets,
+                  const Array<std::int32_t>& nodes)
+               {
+                 const FacetList own = facets_of(*halo, offsets, nodes);
+                 return std::make_shared<Onlooker>(halo, own.offsets,
+                                                   own.nodes);
+               }),
+           py::arg("halo"), py::arg("offsets"), py::arg("nodes"))
+      .def_property_readonly("num_facets", &Onlooker::num_facets)
+      .def(
+          "look",
+          [](Onlooker& self, const Array<double>& x,
+             const Array<double>& points, const Array<double>& normals,
+             double reach, const Array<double>& values,
+             const std::optional<std::pair<Array<double>, Array<double>>>& ways)
+          {
+            if (values.ndim() != 2)
+              throw std::invalid_argument("values must have a row a facet");
+            std::optional<Ways> given;
+            if (ways)
+              given = Ways{view(ways->first), view(ways->second)};
+            return self.look(view(x), view(points), view(normals), reach,
+                             view(values), static_cast<int>(values.shape(1)),
+                             given);
+          },
+          py::arg("x"), py::arg("points"), py::arg("normals"), py::arg("reach"),
+          py::arg("values"), py::arg("ways") = py::none());
+  py::class_<Outside, std::shared_ptr<Outside>>(
+      m, "Outside",
+      "Tells points that penetrate a body from those outside, where its "
+      "surface goes around it")
+      .def(py::init(
+               [](const std::shared_ptr<Halo>& halo,
+                  const Array<std::int32_t>& offsets,
+                  const Array<std::int32_t>& nodes)
+               {
+                 const FacetList own = facets_of(*halo, offsets, nodes);
+                 return std::make_shared<Outside>(halo, own.offsets, own.nodes);
+               }),
+           py::arg("halo"), py::arg("offsets"), py::arg("nodes"))
+      .def_property_readonly("is_around", &Outside::is_around)
+      .def_property_readonly("onlooker", &Outside::onlooker,
+                             py::return_value_policy::reference_internal)
+      .def(
+          "find",
+          [](Outside& self, const Array<double>& x, const Array<double>& points,
+             const Array<double>& depth, const Array<double>& size,
+             bool within_depth)
+          {
+            return to_bool(self.find(view(x), view(points), view(depth),
+                                     view(size), within_depth));
+          },
+          py::arg("x"), py::arg("points"), py::arg("depth"), py::arg("size"),
+          py::kw_only(), py::arg("within_depth") = false);
+  m.def(
+      "slave_facets",
+      [](Halo& halo, const Array<std::int32_t>& offsets,
+         const Array<std::int32_t>& nodes)
+      {
+        const FacetList own = facets_of(halo, offsets, nodes);
+        return lists(
+            contactx::search::slave_facets(halo, own.offsets, own.nodes)
+                .list());
+      },
+      py::arg("halo"), py::arg("offsets"), py::arg("nodes"),
+      "Facets of a slave surface around this rank's own nodes");
+  m.def(
+      "in_order",
+      [](const Halo& halo, const Array<std::int32_t>& offsets,
+         const Array<std::int32_t>& nodes)
+      {
+        const FacetList own = facets_of(halo, offsets, nodes);
+        return lists(
+            contactx::search::in_order(halo, own.offsets, own.nodes).list());
+      },
+      py::arg("halo"), py::arg("offsets"), py::arg("nodes"),
+      "Facets in the order of their nodes' original numbers");
+}

@@ -1,0 +1,64 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#pragma once
+
+#include "master_surface.h"
+#include "reach.h"
+#include "records.h"
+
+namespace contactx::search
+{
+/// @brief Facets of a master surface of which each rank has a part.
+///
+/// A rank asks others by points, and by slave facets, and gets the facets that
+/// matter to them. It keeps those until the step's end. Boxes of the ranks'
+/// facets say which to ask.
+class DistributedSurface final : public MasterSurface
+{
+public:
+  /// @brief Take this rank's facets and those around them, whose nodes are
+  /// added to the halo for good; all ranks must take part.
+  /// @param[in] halo Nodes of this rank.
+  /// @param[in] own Facets of the surface that this rank has.
+  DistributedSurface(std::shared_ptr<parallel::Halo> halo, facet::Facets own);
+
+  Found find(std::span<const double> x, std::span<const double> points,
+             std::span<const double> normals, double reach) override;
+  std::int32_t pair(Pairing& pairing, const facet::FacetList& slave,
+                    std::span<const double> x, double reach,
+                    std::span<const std::int8_t> closed) override;
+  void look(std::span<const double> x, const facet::FacetList& slave,
+            double reach, double margin) override;
+  std::vector<std::int32_t> keep(std::span<const std::int32_t> used) override;
+  std::vector<std::int32_t> named(std::span<const std::int64_t> names) override;
+
+private:
+  struct Parts;
+  class Best;
+
+  DistributedSurface(std::shared_ptr<parallel::Halo> halo, Parts parts);
+
+  // Ask ranks for the points that are wanted of them, and take what is better
+  void ask(std::span<const double> x, std::span<const double> points,
+           std::span<const double> normals,
+           const std::map<int, std::vector<std::int32_t>>& wanted, Best& best);
+
+  // What this rank's facets are to points. A nearest facet that is only around
+  // them is left to the rank that has it, and all that is around that one; the
+  // bound may be lowered to its distance.
+  std::vector<std::byte> answer(std::span<const double> x,
+                                std::span<const double> points,
+                                std::span<const double> normals,
+                                std::span<double> bound) const;
+
+  // Numbers of facets among `facets`, to which new ones are appended
+  std::vector<std::int32_t> learn(const FacetRecords& facets);
+
+  void set_known(FacetRecords known);
+
+  FacetRecords _own_records, _around_records, _known;
+  std::vector<std::int8_t> _is_own;        // of those around
+  std::map<FacetKey, std::int32_t> _place; // in _known
+};
+} // namespace contactx::search

@@ -1,0 +1,201 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include "onlooker.h"
+#include "check.h"
+#include "reach.h"
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+using namespace contactx;
+using namespace contactx::search;
+
+namespace
+{
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+/// What a rank sees from a point. It is sent as it lies in memory, and the
+/// values of the facets after all of them.
+struct Sight
+{
+  std::int32_t point, inside;
+  double distance, gap, height, margin, way;
+};
+static_assert(sizeof(Sight) == 2 * sizeof(std::int32_t) + 5 * sizeof(double));
+
+/// Vector from the place of a facet that it has moved to.
+Vector<3> moved(std::span<const std::int32_t> nodes,
+                std::span<const double> nodal, std::span<const double> xi,
+                int gdim)
+{
+  return facet::visit(
+      static_cast<int>(nodes.size()),
+      [&]<class F>(F)
+      {
+        facet::Local<F> at;
+        std::copy_n(xi.begin(), F::tdim, at.begin());
+        const auto N = F::shape(at);
+        Vector<3> way{};
+        for (int l = 0; l < F::nodes; ++l)
+          for (int k = 0; k < gdim; ++k)
+            way[k]
+                += N[l] * nodal[static_cast<std::size_t>(nodes[l]) * gdim + k];
+        return way;
+      });
+}
+
+/// Take a row of what another rank sees.
+void take(Seen& seen, std::size_t i, const Sight& s,
+          std::span<const double> values)
+{
+  seen.distance[i] = s.distance;
+  seen.gap[i] = s.gap;
+  seen.height[i] = s.height;
+  seen.inside[i] = static_cast<std::int8_t>(s.inside);
+  seen.margin[i] = s.margin;
+  seen.way[i] = s.way;
+  std::ranges::copy(values,
+                    seen.values.begin()
+                        + static_cast<std::ptrdiff_t>(i) * std::ssize(values));
+}
+} // namespace
+
+Seen::Seen(std::size_t n, int width)
+    : width(width), distance(n, infinite),
+      gap(n, std::numeric_limits<double>::quiet_NaN()), height(gap),
+      inside(n, 0), margin(n, 1), way(n, 0), values(n * width, 0)
+{
+}
+
+Onlooker::Onlooker(std::shared_ptr<parallel::Halo> halo,
+                   std::span<const std::int32_t> offsets,
+                   std::span<const std::int32_t> nodes)
+    : _halo(std::move(halo)),
+      _finder({offsets.begin(), offsets.end()}, {nodes.begin(), nodes.end()},
+              _halo->gdim())
+{
+}
+
+Seen Onlooker::look(std::span<const double> x, std::span<const double> points,
+                    std::span<const double> normals, double reach,
+                    std::span<const double> values, int width,
+                    const std::optional<Ways>& ways)
+{
+  const int gdim = _halo->gdim();
+  const std::size_t n = points.size() / gdim;
+  check::positions(x.size(), _finder.surface().num_nodes(), gdim);
+  check::positions(points.size(), 0, gdim, "points");
+  check::rows(normals.size(), n, gdim, "normals", "point");
+  check::rows(values.size(), num_facets(), width, "values", "facet");
+  if (ways)
+  {
+    check::positions(ways->nodes.size(), _finder.surface().num_nodes(), gdim,
+                     "ways");
+    check::rows(ways->points.size(), n, gdim, "ways", "point");
+  }
+  const std::span nodal = ways ? ways->nodes : std::span<const double>();
+  const std::span own = ways ? ways->points : std::span<const double>();
+  _finder.refit(x);
+  parallel::Ranks& ranks = _halo->ranks();
+  if (ranks.size() == 1)
+    return see(x, points, normals, reach, values, width, own, nodal);
+
+  const Reach::Near near
+      = Reach(ranks, _finder.surface().facets(), x, gdim)
+            .from_points(points, normals, std::vector<double>(n, reach));
+  std::map<int, std::vector<std::int32_t>> asked;
+  const std::size_t m = near.ranks.size();
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < m; ++j)
+      if (near.distance[i * m + j] < infinite)
+        asked[near.ranks[j]].push_back(static_cast<std::int32_t>(i));
+  parallel::Messages questions;
+  for (const auto& [rank, which] : asked)
+    for (const auto& table : {points, normals, own})
+      if (!table.empty())
+        for (const std::int32_t i : which)
+          parallel::pack(questions[rank],
+                         table.subspan(static_cast<std::size_t>(i) * gdim,
+                                       static_cast<std::size_t>(gdim)));
+  parallel::Messages answers;
+  const int tables = ways ? 3 : 2;
+  for (const auto& [rank, bytes] : ranks.exchange(questions))
+  {
+    std::span<const std::byte> left = bytes;
+    const std::size_t size = bytes.size() / sizeof(double) / tables;
+    const auto p = parallel::unpack<double>(left, size);
+    const auto normal = parallel::unpack<double>(left, size);
+    const auto way = parallel::unpack<double>(left, ways ? size : 0);
+    const Seen seen = see(x, p, normal, reach, values, width, way, nodal);
+    std::vector<Sight> sights;
+    std::vector<double> rows;
+    for (std::size_t i = 0; i < seen.distance.size(); ++i)
+    {
+      if (not(seen.distance[i] < infinite))
+        continue;
+      sights.push_back({static_cast<std::int32_t>(i), seen.inside[i],
+                        seen.distance[i], seen.gap[i], seen.height[i],
+                        seen.margin[i], seen.way[i]});
+      const auto row
+          = seen.values.begin() + static_cast<std::ptrdiff_t>(i) * width;
+      rows.insert(rows.end(), row, row + width);
+    }
+    parallel::pack<Sight>(answers[rank], sights);
+    parallel::pack<double>(answers[rank], rows);
+  }
+  Seen best(n, width);
+  // By rank, so that of facets as near the same one is taken in every run
+  for (const auto& [rank, bytes] : ranks.exchange(answers))
+  {
+    std::span<const std::byte> left = bytes;
+    const std::size_t size
+        = bytes.size() / (sizeof(Sight) + width * sizeof(double));
+    const auto sights = parallel::unpack<Sight>(left, size);
+    const auto rows = parallel::unpack<double>(left, size * width);
+    for (std::size_t k = 0; k < size; ++k)
+    {
+      const std::size_t i = asked.at(rank)[sights[k].point];
+      if (sights[k].distance < best.distance[i])
+        take(best, i, sights[k], std::span(rows).subspan(k * width, width));
+    }
+  }
+  return best;
+}
+
+Seen Onlooker::see(std::span<const double> x, std::span<const double> points,
+                   std::span<const double> normals, double reach,
+                   std::span<const double> values, int width,
+                   std::span<const double> ways,
+                   std::span<const double> nodal) const
+{
+  const int gdim = _halo->gdim();
+  const std::size_t n = points.size() / gdim;
+  const Surface& surface = _finder.surface();
+  const FoundNearest found
+      = _finder.find(x, points, normals, std::vector<double>(n, reach));
+  Seen seen(n, width);
+  seen.distance = found.distance;
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    const std::int32_t f = found.facet[i];
+    if (f < 0)
+      continue;
+    const std::span xi = std::span(found.xi).subspan(2 * i, 2);
+    seen.gap[i] = seen.height[i] = found.gap[i];
+    seen.inside[i] = found.feature[i] == facet::interior;
+    seen.margin[i] = outer_margin(surface, f, {xi[0], xi[1]});
+    if (!ways.empty())
+    {
+      Vector<3> way{}, normal{};
+      std::copy_n(ways.begin() + i * gdim, gdim, way.begin());
+      std::copy_n(found.normal.begin() + 3 * i, 3, normal.begin());
+      way = way - moved(surface.facets()[f], nodal, xi, gdim);
+      seen.gap[i] += dot(normal, way);
+      seen.way[i] = norm(way);
+    }
+    std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(f) * width, width,
+                seen.values.begin() + static_cast<std::ptrdiff_t>(i) * width);
+  }
+  return seen;
+}

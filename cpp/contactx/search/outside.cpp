@@ -1,0 +1,83 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include "outside.h"
+#include "../facet/middle.h"
+#include "check.h"
+#include <algorithm>
+#include <limits>
+
+using namespace contactx;
+using namespace contactx::search;
+
+namespace
+{
+/// Cosine of the angle between the mean normal of a surface and any other one
+/// from which on it goes around a body
+constexpr double around = 0.5;
+
+/// Depth below a facet, by its size, up to which a point counts as on it: pairs
+/// may stay with a facet beyond its edges, and a point may stand for all of a
+/// facet
+constexpr double on_it = 0.2;
+} // namespace
+
+Outside::Outside(std::shared_ptr<parallel::Halo> halo,
+                 std::span<const std::int32_t> offsets,
+                 std::span<const std::int32_t> nodes)
+    : _halo(std::move(halo)), _onlooker(_halo, offsets, nodes)
+{
+  const int gdim = _halo->gdim();
+  const std::vector<double> normals
+      = facet::middles({offsets, nodes}, _halo->reference(), gdim).normals;
+  Vector<3> mean{};
+  for (std::size_t i = 0; i < normals.size(); ++i)
+    mean[i % gdim] += normals[i];
+  if (_halo->ranks().size() > 1)
+    _halo->ranks().reduce(mean, parallel::Reduction::sum);
+  const double length = norm(mean);
+  double cosine = 1;
+  for (std::size_t i = 0; length > 0 and i < normals.size(); i += gdim)
+  {
+    Vector<3> normal{};
+    std::copy_n(normals.begin() + i, gdim, normal.begin());
+    cosine = std::min(cosine, dot(normal, mean) / length);
+  }
+  _is_around = length == 0 or parallel::least(_halo->ranks(), cosine) < around;
+}
+
+std::vector<std::int8_t> Outside::find(std::span<const double> x,
+                                       std::span<const double> points,
+                                       std::span<const double> depth,
+                                       std::span<const double> size,
+                                       bool within_depth)
+{
+  const std::size_t g = _halo->gdim(), n = points.size() / g;
+  check::rows(points.size(), n, static_cast<int>(g), "points", "point");
+  check::rows(depth.size(), n, 1, "depth", "point");
+  check::rows(size.size(), n, 1, "size", "point");
+  std::vector<std::int8_t> result(n, 0);
+  if (!_is_around)
+    return result;
+  std::vector<std::size_t> which;
+  std::vector<double> at;
+  for (std::size_t i = 0; i < n; ++i)
+    if (depth[i] > on_it * size[i])
+    {
+      which.push_back(i);
+      const auto point = points.subspan(i * g, g);
+      at.insert(at.end(), point.begin(), point.end());
+    }
+  if (!parallel::anywhere(_halo->ranks(), !which.empty()))
+    return result;
+  // Of any normal: what is in front of the nearest facet is outside
+  const Seen seen = _onlooker.look(x, at, std::vector<double>(at.size(), 0),
+                                   std::numeric_limits<double>::infinity());
+  for (std::size_t k = 0; k < which.size(); ++k)
+  {
+    const std::size_t i = which[k];
+    result[i] = seen.gap[k] > 0
+                and not(within_depth and seen.distance[k] >= depth[i]);
+  }
+  return result;
+}

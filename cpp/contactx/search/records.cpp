@@ -1,0 +1,164 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include "records.h"
+#include <algorithm>
+
+using namespace contactx;
+using namespace contactx::search;
+
+namespace
+{
+// They are sent as they lie in memory
+static_assert(sizeof(FacetRecord) == 80);
+
+/// Send facets by rank, and receive those of others.
+std::map<int, FacetRecords> exchanged(parallel::Ranks& ranks,
+                                      const std::map<int, FacetRecords>& facets)
+{
+  parallel::Messages out;
+  for (const auto& [rank, theirs] : facets)
+    parallel::pack<FacetRecord>(out[rank], theirs);
+  std::map<int, FacetRecords> in;
+  for (const auto& [rank, bytes] : ranks.exchange(out))
+  {
+    std::span<const std::byte> left = bytes;
+    in[rank] = parallel::unpack<FacetRecord>(left, bytes.size()
+                                                       / sizeof(FacetRecord));
+  }
+  return in;
+}
+} // namespace
+
+int FacetRecord::size() const
+{
+  return static_cast<int>(std::ranges::find(numbers, none) - numbers.begin());
+}
+
+FacetKey FacetRecord::key() const
+{
+  FacetKey key = original;
+  std::ranges::sort(key);
+  return key;
+}
+
+FacetRecord FacetRecord::nothing()
+{
+  FacetRecord record;
+  record.numbers.fill(none);
+  record.original.fill(none);
+  record.owners.fill(-1);
+  return record;
+}
+
+FacetKey contactx::search::key_of(std::span<const std::int64_t> name)
+{
+  FacetKey key;
+  for (int l = 0; l < most_nodes; ++l)
+    key[l] = name[l] < 0 ? FacetRecord::none : name[l];
+  std::ranges::sort(key);
+  return key;
+}
+
+FacetRecords contactx::search::records(const facet::FacetList& facets,
+                                       const parallel::Halo& halo)
+{
+  const std::vector<std::int64_t> numbers = halo.numbers(facets.nodes);
+  const std::vector<std::int32_t> owners = halo.owners(facets.nodes);
+  FacetRecords result(facets.size(), FacetRecord::nothing());
+  for (std::int32_t f = 0; f < facets.size(); ++f)
+    for (std::int32_t i = facets.offsets[f]; i < facets.offsets[f + 1]; ++i)
+    {
+      const std::int32_t l = i - facets.offsets[f];
+      result[f].numbers[l] = numbers[i];
+      result[f].original[l] = halo.original()[facets.nodes[i]];
+      result[f].owners[l] = owners[i];
+    }
+  return result;
+}
+
+FacetRecords contactx::search::joined(FacetRecords facets)
+{
+  std::ranges::stable_sort(facets, {}, &FacetRecord::key);
+  const auto twice = std::ranges::unique(facets, {}, &FacetRecord::key);
+  facets.erase(twice.begin(), twice.end());
+  return facets;
+}
+
+void contactx::search::add_to(parallel::Halo& halo, const FacetRecords& facets,
+                              bool for_good)
+{
+  std::vector<std::int64_t> numbers;
+  std::vector<std::int32_t> owners;
+  for (const FacetRecord& facet : facets)
+    for (int l = 0; l < facet.size(); ++l)
+    {
+      numbers.push_back(facet.numbers[l]);
+      owners.push_back(facet.owners[l]);
+    }
+  halo.grow(numbers, owners, for_good);
+}
+
+facet::Facets contactx::search::here(const FacetRecords& facets,
+                                     const parallel::Halo& halo)
+{
+  facet::Facets result;
+  std::vector<std::int64_t> numbers;
+  for (const FacetRecord& facet : facets)
+  {
+    numbers.insert(numbers.end(), facet.numbers.begin(),
+                   facet.numbers.begin() + facet.size());
+    result.offsets.push_back(static_cast<std::int32_t>(numbers.size()));
+  }
+  result.nodes = halo.find(numbers);
+  return result;
+}
+
+std::map<int, FacetRecords>
+contactx::search::around_nodes(parallel::Ranks& ranks,
+                               const FacetRecords& facets)
+{
+  std::map<int, FacetRecords> out;
+  for (const FacetRecord& facet : facets)
+    for (int l = 0; l < facet.size(); ++l)
+    {
+      const auto before = std::span(facet.owners).first(l);
+      if (std::ranges::find(before, facet.owners[l]) == before.end())
+        out[facet.owners[l]].push_back(facet);
+    }
+  return exchanged(ranks, out);
+}
+
+FacetRecords contactx::search::around_facets(parallel::Ranks& ranks,
+                                             const FacetRecords& facets)
+{
+  // Who owns a node knows all facets there, and who has them
+  const auto at_nodes = around_nodes(ranks, facets);
+  FacetRecords every;
+  for (const auto& [rank, theirs] : at_nodes)
+    every.insert(every.end(), theirs.begin(), theirs.end());
+  every = joined(std::move(every));
+  std::map<int, FacetRecords> out;
+  for (const auto& [rank, theirs] : at_nodes)
+  {
+    std::vector<std::int64_t> nodes;
+    for (const FacetRecord& facet : theirs)
+      for (int l = 0; l < facet.size(); ++l)
+        if (facet.owners[l] == ranks.rank())
+          nodes.push_back(facet.numbers[l]);
+    std::ranges::sort(nodes);
+    std::ranges::copy_if(
+        every, std::back_inserter(out[rank]),
+        [&nodes](const FacetRecord& facet)
+        {
+          return std::ranges::any_of(
+              std::span(facet.numbers).first(facet.size()),
+              [&nodes](std::int64_t number)
+              { return std::ranges::binary_search(nodes, number); });
+        });
+  }
+  FacetRecords found = facets;
+  for (const auto& [rank, theirs] : exchanged(ranks, out))
+    found.insert(found.end(), theirs.begin(), theirs.end());
+  return joined(std::move(found));
+}

@@ -1,0 +1,44 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include "slave_facets.h"
+#include <algorithm>
+#include <numeric>
+
+using namespace contactx;
+using namespace contactx::search;
+
+facet::Facets
+contactx::search::slave_facets(parallel::Halo& halo,
+                               std::span<const std::int32_t> offsets,
+                               std::span<const std::int32_t> nodes)
+{
+  if (halo.ranks().size() == 1)
+    return {{offsets.begin(), offsets.end()}, {nodes.begin(), nodes.end()}};
+  FacetRecords every;
+  for (const auto& [rank, theirs] :
+       around_nodes(halo.ranks(), records({offsets, nodes}, halo)))
+    every.insert(every.end(), theirs.begin(), theirs.end());
+  every = joined(std::move(every));
+  add_to(halo, every, true);
+  return here(every, halo);
+}
+
+facet::Facets contactx::search::in_order(const parallel::Halo& halo,
+                                         std::span<const std::int32_t> offsets,
+                                         std::span<const std::int32_t> nodes)
+{
+  const facet::FacetList facets{offsets, nodes};
+  const FacetRecords found = records(facets, halo);
+  std::vector<std::int32_t> order(found.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::stable_sort(order, {},
+                           [&found](std::int32_t f) { return found[f].key(); });
+  facet::Facets result;
+  for (const std::int32_t f : order)
+  {
+    result.nodes.insert(result.nodes.end(), facets[f].begin(), facets[f].end());
+    result.offsets.push_back(static_cast<std::int32_t>(result.nodes.size()));
+  }
+  return result;
+}

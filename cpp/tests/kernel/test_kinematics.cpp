@@ -1,0 +1,258 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include "kernel_samples.h"
+
+using namespace contactx;
+using namespace contactx::facet;
+using namespace contactx::tests;
+
+namespace
+{
+using Values = std::vector<double>;
+
+/// Kernels of a slave node over the facet F.
+template <class F>
+class KernelsOver : public ::testing::Test
+{
+public:
+  static constexpr int gdim = F::gdim;
+
+  /// Samples over the interior, or over anything, of a law.
+  static std::vector<Sample> of(Law law, bool interior)
+  {
+    std::vector<Sample> all = samples({law, F::nodes, gdim, 1});
+    if (interior)
+      std::erase_if(all, [](const Sample& s) { return s.feature != 0; });
+    return all;
+  }
+
+  static Vector<gdim> vector(const Values& v, int i = 0)
+  {
+    Vector<gdim> x;
+    std::copy_n(&v[gdim * i], gdim, x.begin());
+    return x;
+  }
+
+  static Nodes<F> master(const Sample& s)
+  {
+    Nodes<F> x;
+    for (int l = 0; l < F::nodes; ++l)
+      x[l] = vector(s.positions(), 1 + l);
+    return x;
+  }
+
+  static Local<F> local(const double* xi)
+  {
+    Local<F> x;
+    std::copy_n(xi, F::tdim, x.begin());
+    return x;
+  }
+
+  template <std::size_t D>
+  static void expect_near(const std::array<double, D>& a,
+                          const std::array<double, D>& b)
+  {
+    EXPECT_LE(norm(a - b), 1e-13);
+  }
+};
+
+TYPED_TEST_SUITE(KernelsOver, FacetTypes);
+
+TYPED_TEST(KernelsOver, GiveTheDistanceFromTheFacetAlongItsOutwardNormal)
+{
+  using F = TypeParam;
+  for (Sample s : this->of(Law::frictionless, true))
+  {
+    *s.at(Coefficient::gap_derivative) = 1;
+    const auto x = this->master(s);
+    const auto slave = this->vector(s.positions());
+    const double gap = s("finite", "gap")[0];
+    // By the slave node's position: the unit normal
+    const Values dg = s("finite", "constraint");
+    const auto normal = this->vector(dg);
+    EXPECT_NEAR(norm(normal), 1, 1e-14);
+    // By the nodes: their weights at the foot times -n
+    Vector<F::nodes> N;
+    for (int l = 0; l < F::nodes; ++l)
+      N[l] = -dot(this->vector(dg, 1 + l), normal);
+    this->expect_near(combine<F>(N, x), slave - gap * normal);
+    // The foot is a point of the facet, and its outward normal is that
+    Local<F> xi;
+    if constexpr (F::nodes == 2)
+      xi = {N[1]};
+    else if constexpr (F::nodes == 3)
+      xi = {N[1], N[2]};
+    else
+      xi = {N[1] + N[3], N[2] + N[3]};
+    this->expect_near(F::shape(xi), N);
+    this->expect_near(frame<F>(x, xi).n, normal);
+  }
+}
+
+TYPED_TEST(KernelsOver, MeasureAtTheSearchesPointInSmallSliding)
+{
+  using F = TypeParam;
+  for (const Sample& s : this->of(Law::frictionless, false))
+  {
+    const double* p = s.at(Coefficient::pair);
+    const auto xi = this->local(p + kernel::pair_xi);
+    const auto N = F::shape(xi);
+    Vector<F::gdim> normal;
+    std::copy_n(p + kernel::pair_normal, F::gdim, normal.begin());
+    const auto d = this->vector(s.positions()) - combine<F>(N, this->master(s));
+    EXPECT_NEAR(s("small", "gap")[0], dot(normal, d), 1e-14);
+    const Values forces = s("small", "residual");
+    const double force
+        = *s.at(Coefficient::area) * *s.at(Coefficient::multiplier);
+    this->expect_near(this->vector(forces), -force * normal);
+    for (int l = 0; l < F::nodes; ++l)
+      this->expect_near(this->vector(forces, 1 + l), force * N[l] * normal);
+  }
+}
+
+TYPED_TEST(KernelsOver, GiveASlipAcrossTheNormal)
+{
+  for (const Sample& s : this->of(Law::frictional, false))
+    for (const std::string_view sliding : {"finite", "small"})
+    {
+      const auto normal = this->vector(s(sliding, "normal"));
+      EXPECT_NEAR(norm(normal), 1, 1e-14);
+      EXPECT_NEAR(dot(this->vector(s(sliding, "slip")), normal), 0, 1e-14);
+    }
+}
+
+TYPED_TEST(KernelsOver, SlipFromThePointThatTheNodeWasOverToTheOneItIsOver)
+{
+  using F = TypeParam;
+  for (Sample s : this->of(Law::frictional, true))
+  {
+    double* from = s.at(Coefficient::slip);
+    from[kernel::slip_gap] = 0;
+    const auto start
+        = position<F>(this->master(s), this->local(from + kernel::slip_xi));
+    const auto normal = this->vector(s("finite", "normal"));
+    const auto foot
+        = this->vector(s.positions()) - s("finite", "gap")[0] * normal;
+    const auto way = foot - start;
+    this->expect_near(this->vector(s("finite", "slip")),
+                      way - dot(way, normal) * normal);
+  }
+}
+
+TYPED_TEST(KernelsOver, MeasureATieFromItsPlaceInTheTurningFrame)
+{
+  using F = TypeParam;
+  for (const Sample& s : this->of(Law::tied, false))
+  {
+    const double* from = s.at(Coefficient::slip);
+    const auto xi = this->local(from + kernel::slip_xi);
+    const auto x = this->master(s);
+    const auto n = frame<F>(x, xi).n;
+    const auto d = this->vector(s.positions()) - position<F>(x, xi);
+    this->expect_near(this->vector(s("finite", "slip")),
+                      d - from[kernel::slip_gap] * n);
+    this->expect_near(this->vector(s("finite", "normal")), n);
+    EXPECT_NEAR(s("finite", "gap")[0], dot(n, d), 1e-14);
+  }
+}
+
+/// Values of an obstacle's pair that a kernel gives as they are.
+Values part(const double* values, int first, int count, double factor = 1)
+{
+  Values result(values + first, values + first + count);
+  for (double& v : result)
+    v *= factor;
+  return result;
+}
+
+TEST(KernelsOfObstacles, GiveWhatTheyAreGivenAtANode)
+{
+  for_all_samples(
+      [](const Sample& s)
+      {
+        if (!s.kind.is_rigid() or s.kind.is_mortar())
+          return;
+        const int gdim = s.kind.gdim;
+        const double area = *s.at(Coefficient::area);
+        const double* pair = s.at(Coefficient::pair);
+        const double* lambda = s.at(Coefficient::multiplier);
+        const Values normal = part(pair, kernel::rigid_normal, gdim);
+        for (const std::string_view sliding : {"finite", "small"})
+        {
+          EXPECT_EQ(s(sliding, "gap"), part(pair, kernel::rigid_gap, 1));
+          if (s.kind.law == Law::frictionless)
+          {
+            expect_close(s(sliding, "residual"),
+                         part(normal.data(), 0, gdim, -area * *lambda), 1e-15);
+            continue;
+          }
+          EXPECT_EQ(s(sliding, "normal"), normal);
+          EXPECT_EQ(s(sliding, "slip"),
+                    part(s.at(Coefficient::slip), kernel::rigid_slip, gdim));
+          expect_close(s(sliding, "residual"), part(lambda, 0, gdim, -area),
+                       1e-15);
+        }
+      });
+}
+
+TEST(KernelsOfObstacles, DivideIntegralsByTheAreasOfTheNodes)
+{
+  for_all_samples(
+      [](const Sample& s)
+      {
+        if (!s.kind.is_rigid() or !s.kind.is_mortar())
+          return;
+        const auto [law, m, gdim, n] = s.kind;
+        const kernel::RigidMortarLayout at(n, gdim);
+        const double* pair = s.at(Coefficient::pair);
+        const double* area = s.at(Coefficient::area);
+        const double* lambda = s.at(Coefficient::multiplier);
+        const Values x = s.positions();
+        Values gap, normal, slip, residual;
+        for (int a = 0; a < n; ++a)
+        {
+          gap.push_back(pair[at.gap + a] / area[a]);
+          for (int i = gdim * a; i < gdim * (a + 1); ++i)
+          {
+            normal.push_back(pair[at.normal + i] / area[a]);
+            slip.push_back(pair[at.area + a] / area[a] * x[i]);
+            residual.push_back(law == Law::frictionless
+                                   ? -lambda[a] * pair[at.normal + i]
+                                   : -lambda[i] * pair[at.area + a]);
+          }
+        }
+        for (const std::string_view sliding : {"finite", "small"})
+        {
+          expect_close(s(sliding, "gap"), gap, 1e-15);
+          expect_close(s(sliding, "residual"), residual, 1e-15);
+          if (law == Law::frictionless)
+            continue;
+          expect_close(s(sliding, "normal"), normal, 1e-15);
+          expect_close(s(sliding, "slip"), slip, 1e-15);
+        }
+      });
+}
+
+TEST(KernelRegistry, HasOneKernelOfEachDescription)
+{
+  for (const kernel::Entry& e : kernel::registry())
+    EXPECT_EQ(
+        &find(e.law, e.sliding, e.term, e.num_nodes, e.gdim, e.num_slaves), &e);
+}
+
+TEST(KernelRegistry, TellsWhatThereIsNot)
+{
+  using kernel::find;
+  EXPECT_THROW(find(Law::frictionless, "finite", "gap", 5, 3),
+               std::invalid_argument);
+  EXPECT_THROW(find(Law::frictionless, "small", "stiffness", 3, 3),
+               std::invalid_argument);
+  EXPECT_THROW(find(Law::frictionless, "medium", "gap", 3, 3),
+               std::invalid_argument);
+  EXPECT_THROW(find(Law::frictionless, "finite", "x", 3, 3),
+               std::invalid_argument);
+  for (const Law law : {Law::frictional, Law::tied})
+    EXPECT_THROW(find(law, "finite", "stiffness", 0, 3), std::invalid_argument);
+}
+} // namespace

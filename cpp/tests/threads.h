@@ -1,0 +1,431 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#pragma once
+
+#include "generator.h"
+#include "scene.h"
+#include <algorithm>
+#include <condition_variable>
+#include <contactx/facet/facets.h>
+#include <contactx/parallel/halo.h>
+#include <exception>
+#include <mutex>
+#include <thread>
+
+/// @brief Several ranks in one process, each a thread.
+namespace contactx::tests
+{
+/// @brief Where the threads wait for each other, and see what each has.
+class Meeting
+{
+public:
+  explicit Meeting(int size) : board(size), _size(size) {}
+
+  int size() const { return _size; }
+
+  /// @brief Wait until all have come here.
+  /// @throws std::logic_error if one has left for good.
+  void wait()
+  {
+    std::unique_lock lock(_mutex);
+    const int turn = _turn;
+    if (++_waiting == _size)
+    {
+      _waiting = 0;
+      ++_turn;
+      _changed.notify_all();
+      return;
+    }
+    _changed.wait(lock, [&] { return turn != _turn or _left; });
+    if (turn == _turn)
+      throw std::logic_error("another rank has left");
+  }
+
+  /// @brief Wait no more, and let nobody wait for this one.
+  void leave()
+  {
+    const std::lock_guard lock(_mutex);
+    _left = true;
+    _changed.notify_all();
+  }
+
+  std::vector<const void*> board; ///< What each rank shows to the others
+
+private:
+  int _size, _waiting = 0, _turn = 0;
+  bool _left = false;
+  std::mutex _mutex;
+  std::condition_variable _changed;
+};
+
+/// @brief A rank of several.
+class ThreadRanks final : public parallel::Ranks
+{
+public:
+  ThreadRanks(Meeting& meeting, int rank) : _meeting(meeting), _rank(rank) {}
+
+  int rank() const override { return _rank; }
+  int size() const override { return _meeting.size(); }
+  void reduce(std::span<double> values, parallel::Reduction how) override
+  {
+    reduce_all(values, how);
+  }
+  void reduce(std::span<std::int64_t> values, parallel::Reduction how) override
+  {
+    reduce_all(values, how);
+  }
+
+  parallel::Messages exchange(const parallel::Messages& outgoing) override
+  {
+    ++num_exchanges;
+    parallel::Messages incoming;
+    show(outgoing,
+         [&](int rank, const parallel::Messages& theirs)
+         {
+           if (const auto at = theirs.find(_rank); at != theirs.end())
+             incoming[rank] = at->second;
+         });
+    return incoming;
+  }
+
+  /// @brief Show something to all ranks, and see what they show, rank by rank.
+  template <class T, class See>
+  void show(const T& mine, See&& see)
+  {
+    _meeting.board[_rank] = &mine;
+    _meeting.wait();
+    for (int r = 0; r < size(); ++r)
+      see(r, *static_cast<const T*>(_meeting.board[r]));
+    _meeting.wait();
+  }
+
+  int num_exchanges = 0;
+
+private:
+  template <class T>
+  void reduce_all(std::span<T> values, parallel::Reduction how)
+  {
+    std::vector<T> all(values.size());
+    show(values,
+         [&](int rank, std::span<T> theirs)
+         {
+           for (std::size_t i = 0; i < all.size(); ++i)
+             all[i] = rank == 0                         ? theirs[i]
+                      : how == parallel::Reduction::sum ? all[i] + theirs[i]
+                      : how == parallel::Reduction::least
+                          ? std::min(all[i], theirs[i])
+                          : std::max(all[i], theirs[i]);
+         });
+    std::ranges::copy(all, values.begin());
+  }
+
+  Meeting& _meeting;
+  int _rank;
+};
+
+/// @brief Do something on several ranks, and throw what one of them throws.
+/// @param[in] size Number of ranks.
+/// @param[in] work Called as work(ranks) by each.
+template <class Work>
+void on_ranks(int size, Work work)
+{
+  Meeting meeting(size);
+  std::vector<std::exception_ptr> errors(size);
+  std::vector<std::thread> threads;
+  for (int r = 0; r < size; ++r)
+    threads.emplace_back(
+        [&, r]
+        {
+          ThreadRanks ranks(meeting, r);
+          try
+          {
+            work(ranks);
+          }
+          catch (...)
+          {
+            errors[r] = std::current_exception();
+            meeting.leave();
+          }
+        });
+  for (std::thread& thread : threads)
+    thread.join();
+  // What made the others leave comes first
+  for (const bool last : {false, true})
+    for (const std::exception_ptr& error : errors)
+      if (error)
+        try
+        {
+          std::rethrow_exception(error);
+        }
+        catch (const std::logic_error& e)
+        {
+          if (last or std::string(e.what()) != "another rank has left")
+            throw;
+        }
+}
+
+/// @brief Nodes of a mesh that are distributed, each with an owner.
+struct Distribution
+{
+  int num_ranks;
+  std::vector<int> owner;             ///< of each node
+  std::vector<std::int64_t> number;   ///< that all ranks know
+  std::vector<std::int64_t> original; ///< in the mesh as it was made
+  std::vector<std::int32_t> place;    ///< among those of its owner
+
+  /// @brief Give nodes to ranks, in any order.
+  /// @param[in] owners Owner of each node.
+  /// @param[in] num_ranks Number of ranks.
+  /// @param[in] random For the order in which the mesh was made.
+  Distribution(std::vector<int> owners, int num_ranks, Generator& random)
+      : num_ranks(num_ranks), owner(std::move(owners)), number(owner.size()),
+        original(owner.size()), place(owner.size())
+  {
+    std::int64_t count = 0;
+    for (int r = 0; r < num_ranks; ++r)
+    {
+      std::int32_t n = 0;
+      for (std::size_t i = 0; i < owner.size(); ++i)
+        if (owner[i] == r)
+        {
+          number[i] = count++;
+          place[i] = n++;
+        }
+    }
+    for (std::size_t i = 0; i < original.size(); ++i)
+      original[i] = static_cast<std::int64_t>(i);
+    for (std::size_t i = original.size(); i-- > 1;)
+      std::swap(original[i], original[static_cast<std::size_t>(
+                                 random(0, static_cast<double>(i)))]);
+  }
+};
+
+/// @brief The bulk of a rank whose nodes are distributed.
+class ThreadBulk final : public parallel::HaloAdapter
+{
+public:
+  /// @brief Take the nodes.
+  /// @param[in] nodes All nodes.
+  /// @param[in] ranks This rank.
+  /// @param[in] ghosts Nodes of other ranks that the bulk has.
+  /// @param[in] displacement Of all nodes of the mesh (shape=(n, gdim)).
+  ThreadBulk(const Distribution& nodes, ThreadRanks& ranks,
+             const std::vector<std::int32_t>& ghosts,
+             std::vector<double> displacement, int gdim)
+      : _nodes(nodes), _ranks(ranks), _gdim(gdim),
+        _displacement(std::move(displacement))
+  {
+    for (std::size_t i = 0; i < nodes.owner.size(); ++i)
+      if (nodes.owner[i] == ranks.rank())
+        _here.push_back(static_cast<std::int32_t>(i));
+    _num_owned = static_cast<std::int32_t>(_here.size());
+    _here.insert(_here.end(), ghosts.begin(), ghosts.end());
+    _num_bulk = _here.size();
+  }
+
+  /// @brief What the halo is made of.
+  /// @param[in] x Positions of all nodes of the mesh.
+  parallel::BulkNodes bulk(std::span<const double> x) const
+  {
+    parallel::BulkNodes result{_gdim, _num_owned, {}, {}, {}, {}};
+    for (const std::int32_t node : _here)
+    {
+      const bool is_ghost = _nodes.owner[node] != _ranks.rank();
+      result.numbers.push_back(_nodes.number[node]);
+      result.owners.push_back(_nodes.owner[node]);
+      // What a rank need not know of its ghosts it asks their owners for
+      result.original.push_back(is_ghost ? -1 : _nodes.original[node]);
+      for (int k = 0; k < _gdim; ++k)
+        result.reference.push_back(is_ghost ? 1e300 : x[node * _gdim + k]);
+    }
+    return result;
+  }
+
+  parallel::Ranks& ranks() override { return _ranks; }
+
+  void set_ghosts(std::span<const std::int64_t> numbers,
+                  std::span<const std::int32_t> owners) override
+  {
+    _here.resize(_num_bulk);
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+    {
+      const auto at = std::ranges::find(_nodes.number, numbers[i]);
+      const auto node = static_cast<std::int32_t>(at - _nodes.number.begin());
+      if (at == _nodes.number.end() or _nodes.owner[node] != owners[i])
+        throw std::logic_error("a ghost of another owner");
+      _here.push_back(node);
+    }
+  }
+
+  void forward(std::span<double> values, int width) override
+  {
+    forward_all(values, width);
+  }
+  void forward(std::span<std::int64_t> values, int width) override
+  {
+    forward_all(values, width);
+  }
+
+  void reverse(std::span<double> values, int width) override
+  {
+    std::vector<double> sums(values.begin(),
+                             values.begin() + _num_owned * width);
+    _ranks.show(std::pair(values, std::span(_here)),
+                [&](int rank, const auto& theirs)
+                {
+                  if (rank == _ranks.rank())
+                    return;
+                  for (std::size_t i = 0; i < theirs.second.size(); ++i)
+                    if (_nodes.owner[theirs.second[i]] == _ranks.rank())
+                      for (int k = 0; k < width; ++k)
+                        sums[_nodes.place[theirs.second[i]] * width + k]
+                            += theirs.first[i * width + k];
+                });
+    std::ranges::copy(sums, values.begin());
+  }
+
+  void displacement(std::span<double> values) const override
+  {
+    for (std::size_t i = 0; i < _here.size(); ++i)
+      for (int k = 0; k < _gdim; ++k)
+        values[i * _gdim + k] = _displacement[_here[i] * _gdim + k];
+  }
+
+  void changed() override { ++num_changes; }
+
+  int num_changes = 0;
+
+private:
+  template <class T>
+  void forward_all(std::span<T> values, int width)
+  {
+    std::vector<T> found(values.begin(), values.end());
+    _ranks.show(values,
+                [&](int rank, std::span<T> theirs)
+                {
+                  for (std::size_t i = _num_owned; i < _here.size(); ++i)
+                    if (_nodes.owner[_here[i]] == rank)
+                      std::copy_n(theirs.begin()
+                                      + _nodes.place[_here[i]] * width,
+                                  width, found.begin() + i * width);
+                });
+    std::ranges::copy(found, values.begin());
+  }
+
+  const Distribution& _nodes;
+  ThreadRanks& _ranks;
+  int _gdim;
+  std::vector<double> _displacement;
+  std::int32_t _num_owned;
+  std::size_t _num_bulk;
+  std::vector<std::int32_t> _here; // nodes of the mesh by their number here
+};
+
+/// @brief Facets of which each rank has some, and the nodes they need.
+class DistributedScene
+{
+public:
+  /// @brief Distribute nodes and facets.
+  /// @param[in] scene Facets of all ranks.
+  /// @param[in] num_ranks Number of ranks.
+  /// @param[in] seed Of how they are distributed and numbered.
+  /// @param[in] scattered Whether anything may be anywhere; else ranks have
+  /// pieces along the first axis.
+  DistributedScene(const Scene& scene, int num_ranks, unsigned seed,
+                   bool scattered)
+      : scene(scene), _random(seed),
+        // The same mesh on any number of ranks
+        nodes(owners(num_ranks, scattered), num_ranks, _random)
+  {
+    Generator random(seed + 1);
+    for (std::int32_t f = 0; f < scene.facets().size(); ++f)
+    {
+      const auto facet = scene.facets()[f];
+      facet_rank.push_back(
+          scattered ? static_cast<int>(random(0, num_ranks))
+                    : nodes.owner[facet[static_cast<std::size_t>(
+                          random(0, static_cast<double>(facet.size())))]]);
+    }
+  }
+
+  /// @brief Nodes of a rank, its facets' among them.
+  /// @param[in] ranks The rank.
+  /// @param[in] displacement Of all nodes of the mesh, none for zero.
+  std::shared_ptr<parallel::Halo>
+  halo(ThreadRanks& ranks, std::vector<double> displacement = {}) const
+  {
+    displacement.resize(scene.x.size());
+    std::vector<std::int32_t> ghosts;
+    for (std::int32_t f = 0; f < scene.facets().size(); ++f)
+      if (facet_rank[f] == ranks.rank())
+        for (const std::int32_t node : scene.facets()[f])
+          if (nodes.owner[node] != ranks.rank())
+            ghosts.push_back(node);
+    std::ranges::sort(ghosts);
+    const auto twice = std::ranges::unique(ghosts);
+    ghosts.erase(twice.begin(), twice.end());
+    auto bulk = std::make_unique<ThreadBulk>(
+        nodes, ranks, ghosts, std::move(displacement), scene.gdim);
+    auto given = bulk->bulk(scene.x);
+    return std::make_shared<parallel::Halo>(std::move(given), std::move(bulk));
+  }
+
+  /// @brief Facets of a rank, of those from one to another one.
+  facet::Facets own(const parallel::Halo& halo, std::int32_t begin,
+                    std::int32_t end) const
+  {
+    facet::Facets result;
+    for (std::int32_t f = begin; f < end; ++f)
+      if (facet_rank[f] == halo.ranks().rank())
+      {
+        for (const std::int32_t node : scene.facets()[f])
+          result.nodes.push_back(
+              halo.find(std::vector{nodes.number[node]}).front());
+        result.offsets.push_back(
+            static_cast<std::int32_t>(result.nodes.size()));
+      }
+    return result;
+  }
+
+  /// @brief Nodes of the mesh by their numbers on a rank.
+  std::vector<std::int32_t>
+  mesh_nodes(const parallel::Halo& halo,
+             std::span<const std::int32_t> which) const
+  {
+    std::vector<std::int32_t> result;
+    for (const std::int64_t number : halo.numbers(which))
+      result.push_back(static_cast<std::int32_t>(
+          std::ranges::find(nodes.number, number) - nodes.number.begin()));
+    return result;
+  }
+
+  const Scene& scene;
+
+private:
+  std::vector<int> owners(int num_ranks, bool scattered)
+  {
+    Generator random(7);
+    std::vector<double> along;
+    for (std::size_t i = 0; i < scene.x.size(); i += scene.gdim)
+      along.push_back(scene.x[i]);
+    std::vector<double> sorted = along;
+    std::ranges::sort(sorted);
+    std::vector<int> result;
+    for (const double a : along)
+    {
+      const auto at = std::ranges::lower_bound(sorted, a) - sorted.begin();
+      result.push_back(
+          scattered ? static_cast<int>(random(0, num_ranks))
+                    : static_cast<int>(at * num_ranks / std::ssize(sorted)));
+    }
+    return result;
+  }
+
+  Generator _random;
+
+public:
+  Distribution nodes;
+  std::vector<int> facet_rank; ///< of each facet
+};
+} // namespace contactx::tests
