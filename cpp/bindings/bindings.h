@@ -53,6 +53,7 @@ void facet(py::module_& m);
 void search(py::module_& m);
 void node_state(py::module_& m);
 void surface(py::module_& m);
+void deformable(py::module_& m);
 void law(py::module_& m);
 void active_set(py::module_& m);
 void kernel(py::module_& m);

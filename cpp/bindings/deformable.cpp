@@ -3,6 +3,7 @@
 
 #include "bindings.h"
 #include "check.h"
+#include <contactx/contact/node_to_surface.h>
 #include <contactx/contact/surface_to_surface.h>
 
 namespace py = pybind11;
@@ -15,7 +16,7 @@ namespace
 template <class T>
 void bind(py::module_& m, const char* name, const char* text)
 {
-  py::class_<T, Master, std::shared_ptr<T>>(m, name, text)
+  py::class_<T, DeformableMaster, std::shared_ptr<T>>(m, name, text)
       .def(py::init(
                [](std::shared_ptr<parallel::Halo> halo,
                   const Array<std::int32_t>& offsets,
@@ -31,14 +32,16 @@ void bind(py::module_& m, const char* name, const char* text)
                }),
            py::arg("halo"), py::arg("offsets"), py::arg("nodes"),
            py::arg("surface"), py::arg("outside"), py::arg("reach"),
-           py::arg("is_small"), py::arg("measures_slip"))
-      .def_property_readonly("surface", &T::surface)
-      .def_property_readonly("outside", &T::outside);
+           py::arg("is_small"), py::arg("measures_slip"));
 }
 } // namespace
 
 void contactx_bindings::deformable(py::module_& m)
 {
+  py::class_<DeformableMaster, Master, std::shared_ptr<DeformableMaster>>(
+      m, "DeformableMaster", "Pairs with facets of a deformable body")
+      .def_property_readonly("surface", &DeformableMaster::surface)
+      .def_property_readonly("outside", &DeformableMaster::outside);
   bind<NodeToSurface>(m, "NodeToSurface",
                       "Pairs of slave nodes with facets of a deformable body");
   bind<NodeTie>(m, "NodeTie", "Slave nodes tied to facets");

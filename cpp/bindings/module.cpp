@@ -13,6 +13,7 @@ PYBIND11_MODULE(cpp, m)
   contactx_bindings::search(m);
   contactx_bindings::node_state(m);
   contactx_bindings::surface(m);
+  contactx_bindings::deformable(m);
   contactx_bindings::law(m);
   contactx_bindings::active_set(m);
   contactx_bindings::bodies(m);

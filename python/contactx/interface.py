@@ -16,7 +16,6 @@ from contactx import cpp as core
 from contactx.assembly import Assembly
 from contactx.errors import point_text
 from contactx.forms import ContactForms, Pairs, State
-from contactx.master.master import Master
 from contactx.nodal import NodalValue
 from contactx.parallel import reduce
 from contactx.parallel.agreement import agreed
@@ -53,7 +52,7 @@ class Interface:
     def __init__(
         self,
         slaves: SlaveNodes,
-        master: Master | core.Master,
+        master: core.Master,
         halo: Halo,
         *,
         law: core.Law,
@@ -118,10 +117,7 @@ class Interface:
     def _halo_changed(self) -> None:
         """Make what is kept of all nodes fit a halo that has changed."""
         self._free = self._halo.scatter_forward(self._markers) == 0
-        if isinstance(self.master, core.Master):
-            self.master.nodes_changed()
-        else:
-            self.master.halo_changed(self._halo.scatter_forward)
+        self.master.nodes_changed()
 
     def positions(self) -> npt.NDArray[np.float64]:
         """Current positions of all nodes, shape (num_nodes, gdim)."""

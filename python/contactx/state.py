@@ -14,15 +14,18 @@ others, which do not count. No number in them is a local one.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import numpy.typing as npt
 
 from contactx.contact import Contact
 from contactx.interface import Interface
-from contactx.master.master import RowKind
 from dolfinx import fem
+
+# What the rows of a saved array stand for: an owned slave node, an owned node of the bulk, or
+# nothing where the array is the same on all ranks
+type RowKind = Literal["slave", "node", "global"]
 
 # State of the slave nodes that outlives a step, and what laws of vectors have as well
 _NODAL = ("multiplier", "status", "gap", "immobile")

@@ -18,7 +18,7 @@ from contactx import cpp as core
 from contactx import linear
 from contactx.bulk import Bulk
 from contactx.condensed.multigrid import Multigrid
-from contactx.master.facets import FacetMaster
+from contactx.interface import Interface
 from dolfinx.io.gmsh import MeshData
 from dolfinx.mesh import CellType
 
@@ -172,18 +172,17 @@ def _search_anew() -> Iterator[None]:
 
     So pairs and iterations stay the same; the search that the library does comes on top.
     """
-    init, search = FacetMaster.__init__, FacetMaster.search
+    search = Interface._search
 
-    def new_init(self: Any, halo: Any, slave: Any, master: Any, *args: Any, **kwargs: Any) -> None:
-        facets = slave.facets
-        self.surfaces = (facets.offsets, facets.nodes, master.offsets, master.nodes, halo.gdim)
-        init(self, halo, slave, master, *args, **kwargs)
+    def new_search(self: Interface, x: Any) -> int:
+        master, slave = self.master, self.slave_nodes.facets
+        if isinstance(master, core.DeformableMaster):
+            closed = self.nodes.closed.astype(np.int8)
+            lists = (slave.offsets, slave.nodes, *master.surface.facets)
+            core.Pairing(*lists, x.shape[1]).update(x, master.reach, closed)
+        return search(self, x)
 
-    def new_search(self: Any, x: Any, closed: Any) -> tuple[int, bool]:
-        core.Pairing(*self.surfaces).update(x, self.reach, closed)
-        return search(self, x, closed)
-
-    with _replaced(FacetMaster, __init__=new_init, search=new_search):
+    with _replaced(Interface, _search=new_search):
         yield
 
 

@@ -14,7 +14,6 @@ from contactx.geometry.facets import check_facets
 from contactx.geometry.facing import check_facing
 from contactx.geometry.inside import check_apart, check_outside
 from contactx.interface import check_over_constrained
-from contactx.master.facets import FacetMaster
 from contactx.parallel.slaves import SlaveNodes
 from contactx.search.surface import slave_facets
 from contactx.surface import FacetList
@@ -109,7 +108,7 @@ def over_constrained(scene):
     return said(scene, check_over_constrained, [interface], ["name"], u, halo)
 
 
-class Pairs(FacetMaster):
+class Pairs(core.NodeToSurface):
     """Pairs that a search has not found."""
 
     paired = np.zeros(1, dtype=bool)
@@ -120,7 +119,10 @@ def facing(scene):
     height, halo = scene.dim - 1, scene.halo
     bottom = FacetList(*scene.facets(lambda x: np.isclose(x[height], -1)))
     slaves = SlaveNodes(halo, bottom)
-    pairs = Pairs(halo, slaves, top(scene), 1.1, sliding="small", measures_slip=False)
+    ours, theirs = ((f.offsets, f.nodes) for f in (slaves.facets, top(scene)))
+    surface, outside = (kind(halo.nodes, *theirs) for kind in (core.MasterSurface, core.Outside))
+    options = {"is_small": True, "measures_slip": False}
+    pairs = Pairs(halo.nodes, *ours, surface, outside, 1.1, **options)
     away = said(scene, check_facing, "bottom", slaves, "top", pairs, halo)
     pairs.paired = np.full(1, halo.comm.rank == halo.comm.size - 1)
     assert said(scene, check_facing, "bottom", slaves, "top", pairs, halo) is None

@@ -8,7 +8,6 @@ import numpy as np
 
 from contactx import cpp as core
 from contactx.bodies.free_bodies import FreeBodies
-from contactx.master.master import Weights
 
 
 class FreeBlock:
@@ -45,8 +44,10 @@ class FreeBlock:
         self.nodes.normal[:] = up[: len(self.nodes.normal), :dim]
         self.slaves = slaves
         numbers = np.repeat(np.arange(n), 2)
-        weights = Weights(
-            numbers, np.column_stack([slaves, masters]).ravel(), np.tile([1.0, -1], n)
+        weights = SimpleNamespace(
+            slaves=numbers,
+            nodes=np.column_stack([slaves, masters]).ravel(),
+            values=np.tile([1.0, -1], n),
         )
         master = SimpleNamespace(
             paired=np.ones(n, dtype=bool), weights=lambda: weights, normals=lambda: up

@@ -35,15 +35,12 @@ NodeToSurface::NodeToSurface(std::shared_ptr<parallel::Halo> halo,
                              std::shared_ptr<search::MasterSurface> surface,
                              std::shared_ptr<search::Outside> outside,
                              const PairingOptions& options)
-    : _halo(std::move(halo)), _slave(std::move(slave)),
-      _surface(std::move(surface)), _outside(std::move(outside)),
-      _options(options),
+    : DeformableMaster(std::move(halo), std::move(slave), std::move(surface),
+                       std::move(outside), options),
       _pairing(_slave.offsets, _slave.nodes, copy(_surface->facets().offsets),
                copy(_surface->facets().nodes), _halo->gdim(),
                _halo->num_owned())
 {
-  if (not(options.reach > 0))
-    throw std::invalid_argument("the reach of pairs must be larger than zero");
   const auto x = _halo->reference();
   _x0.assign(x.begin(), x.end());
   _at = _x0;
@@ -414,7 +411,8 @@ Mobility NodeToSurface::mobility(std::span<const std::int8_t> free) const
       found.normal[i] = std::sqrt(sum);
       if (group.slip_size == 0)
         continue;
-      const Vector<3> each = squares(group.slip.data() + slip_size * p + slip_xi);
+      const Vector<3> each
+          = squares(group.slip.data() + slip_size * p + slip_xi);
       for (int k = 0; k < g; ++k)
         found.each[g * i + k] = std::sqrt(each[k]);
     }
@@ -441,11 +439,6 @@ Weights NodeToSurface::weights() const
                          group.nodes.end());
   }
   return weights;
-}
-
-std::vector<Saved> NodeToSurface::identity() const
-{
-  return {{"facets", RowKind::global, 4, _surface->identity()}};
 }
 
 std::vector<Saved> NodeToSurface::save() const
@@ -530,7 +523,7 @@ std::int32_t NodeTie::search(std::span<const double> x,
     return 0;
   _found = true;
   const std::int32_t changed = NodeToSurface::search(x, closed);
-  const auto at = parallel::spread(*halo(), x, gdim());
+  const auto at = spread(*_halo, x, gdim());
   const std::vector<double> points = at_slaves(at);
   auto [xi, gap] = feet(at, points);
   auto [foot, normal] = places(at, xi);

@@ -3,28 +3,15 @@
 
 #pragma once
 
-#include "../facet/facets.h"
-#include "../parallel/halo.h"
 #include "../search/foot.h"
-#include "../search/master_surface.h"
-#include "../search/outside.h"
 #include "../search/pairing.h"
-#include "master.h"
-#include <memory>
+#include "deformable_master.h"
 
 namespace contactx::contact
 {
-/// @brief How a contact pairs its slave nodes.
-struct PairingOptions
-{
-  double reach;       ///< largest distance of a pair
-  bool is_small;      ///< whether sliding is small: pairs never change
-  bool measures_slip; ///< whether slip is measured
-};
-
 /// @brief Pairs of slave nodes with the facets of a deformable body, each with
 /// the one that it projects on.
-class NodeToSurface : public Master
+class NodeToSurface : public DeformableMaster
 {
 public:
   /// @brief Create it with no node paired.
@@ -38,8 +25,6 @@ public:
                 std::shared_ptr<search::Outside> outside,
                 const PairingOptions& options);
 
-  int gdim() const override { return _halo->gdim(); }
-  double reach() const override { return _options.reach; }
   void accept(std::span<const double> x) override;
   void begin_step() override;
   void rebuild() override;
@@ -59,19 +44,12 @@ public:
   Weights weights() const override;
   std::vector<double> compliance(std::span<const double> nodal) const override;
   Mobility mobility(std::span<const std::int8_t> free) const override;
-  std::vector<Saved> identity() const override;
   std::vector<Saved> save() const override;
   void load(const std::vector<Saved>& saved) override;
   double distance(std::span<const double> x) const override;
   std::vector<std::int32_t> frozen_pairs() const override;
   void reset_flips() override { _pairing.begin_step(); }
   HiddenGap deepest_frozen_pair(std::span<const double> x) const override;
-
-  /// @brief Master surface.
-  std::shared_ptr<search::MasterSurface> surface() const { return _surface; }
-
-  /// @brief Tells what is outside of the master's body.
-  std::shared_ptr<search::Outside> outside() const { return _outside; }
 
 protected:
   /// @brief What the kernels read of slip (shape=(n, kernel::slip_size)).
@@ -93,9 +71,6 @@ protected:
   search::Places places(std::span<const double> x,
                         std::span<const double> xi) const;
 
-  /// @brief Nodes of this rank.
-  const std::shared_ptr<parallel::Halo>& halo() const { return _halo; }
-
   /// @brief Pairs of the last search.
   const search::Pairing& pairing() const { return _pairing; }
 
@@ -107,11 +82,6 @@ private:
   std::vector<Saved> saved_pairs() const;
   std::vector<double> frames(std::span<const double> x) const;
 
-  std::shared_ptr<parallel::Halo> _halo;
-  facet::Facets _slave;
-  std::shared_ptr<search::MasterSurface> _surface;
-  std::shared_ptr<search::Outside> _outside;
-  PairingOptions _options;
   search::Pairing _pairing;
   // Positions of all nodes at the step's start and at the last search, and
   // where the slip of each slave node starts, as a place in the configuration

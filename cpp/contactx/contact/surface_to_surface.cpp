@@ -36,16 +36,14 @@ SurfaceToSurface::SurfaceToSurface(
     std::shared_ptr<parallel::Halo> halo, facet::Facets slave,
     std::shared_ptr<search::MasterSurface> surface,
     std::shared_ptr<search::Outside> outside, const PairingOptions& options)
-    : _halo(std::move(halo)), _slave(std::move(slave)),
-      _surface(std::move(surface)), _outside(std::move(outside)),
-      _options(options), _sides(_slave.list(), _halo->num_owned(),
-                                _halo->reference(), _halo->gdim()),
+    : DeformableMaster(std::move(halo), std::move(slave), std::move(surface),
+                       std::move(outside), options),
+      _sides(_slave.list(), _halo->num_owned(), _halo->reference(),
+             _halo->gdim()),
       _slip(_sides, _halo->gdim(), options.is_small),
       _nodes(nodes_of_both(_slave.list(), _surface->own())),
       _area(_sides.size(), 0), _paired(_sides.size(), 0)
 {
-  if (not(options.reach > 0))
-    throw std::invalid_argument("the reach of pairs must be larger than zero");
   _inradius = parallel::least(_halo->ranks(), _sides.inradius());
   const auto x = _halo->reference();
   _x0.assign(x.begin(), x.end());
@@ -105,9 +103,9 @@ void SurfaceToSurface::pair(std::span<const double> x)
 
 void SurfaceToSurface::look(std::span<const double> x, double margin)
 {
-  const std::int32_t known = _surface->facets().size();
+  const int known = _surface->version();
   _surface->look(x, _slave.list(), _options.reach, margin);
-  if (_surface->facets().size() != known)
+  if (_surface->version() != known)
     meet();
 }
 
@@ -416,11 +414,6 @@ Mobility SurfaceToSurface::mobility(std::span<const std::int8_t> free) const
     found.normal[i] = _paired[i] ? std::sqrt(sum) : 1.0;
   }
   return found;
-}
-
-std::vector<Saved> SurfaceToSurface::identity() const
-{
-  return {{"facets", RowKind::global, 4, _surface->identity()}};
 }
 
 std::vector<Saved> SurfaceToSurface::save() const

@@ -4,8 +4,8 @@
 #pragma once
 
 #include "../mortar/facet_search.h"
+#include "deformable_master.h"
 #include "mortar_slip.h"
-#include "node_to_surface.h"
 
 namespace contactx::contact
 {
@@ -15,7 +15,7 @@ namespace contactx::contact
 /// A slave node's constraint gathers from all pairs of its facets. A node of
 /// which little is in front of the master is not paired. Facets of which slave
 /// nodes belong to other ranks are integrated by all of these.
-class SurfaceToSurface : public Master
+class SurfaceToSurface : public DeformableMaster
 {
 public:
   /// @brief Create it with no pair; all ranks must take part.
@@ -31,8 +31,6 @@ public:
   SurfaceToSurface(const SurfaceToSurface&) = delete;
   SurfaceToSurface& operator=(const SurfaceToSurface&) = delete;
 
-  int gdim() const override { return _halo->gdim(); }
-  double reach() const override { return _options.reach; }
   void accept(std::span<const double> x) override;
 
   /// @brief Pairs are then those of the start alone, whatever has been before.
@@ -64,16 +62,9 @@ public:
   /// @brief On a plane of symmetry nothing moves across it: only half of what
   /// is around its slave nodes is integrated, where the master seems to.
   Mobility mobility(std::span<const std::int8_t> free) const override;
-  std::vector<Saved> identity() const override;
   std::vector<Saved> save() const override;
   void load(const std::vector<Saved>& saved) override;
   double distance(std::span<const double> x) const override;
-
-  /// @brief Master surface.
-  std::shared_ptr<search::MasterSurface> surface() const { return _surface; }
-
-  /// @brief Tells what is outside of the master's body.
-  std::shared_ptr<search::Outside> outside() const { return _outside; }
 
 protected:
   /// @brief Whether there was a search.
@@ -107,11 +98,6 @@ private:
   Mortar normalised() const;
   std::vector<double> distances(std::span<const double> x) const;
 
-  std::shared_ptr<parallel::Halo> _halo;
-  facet::Facets _slave;
-  std::shared_ptr<search::MasterSurface> _surface;
-  std::shared_ptr<search::Outside> _outside;
-  PairingOptions _options;
   MortarSides _sides;
   MortarSlip _slip;
   std::optional<mortar::FacetSearch> _search;

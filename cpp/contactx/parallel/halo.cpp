@@ -59,10 +59,16 @@ void Halo::reverse(std::span<double> values, int width) const
     _adapter->reverse(values, width);
 }
 
+std::vector<double> Halo::displacement() const
+{
+  std::vector<double> u(_reference.size());
+  _adapter->displacement(u);
+  return u;
+}
+
 std::vector<double> Halo::positions() const
 {
-  std::vector<double> x(_reference.size());
-  _adapter->displacement(x);
+  std::vector<double> x = displacement();
   for (std::size_t i = 0; i < x.size(); ++i)
     x[i] += _reference[i];
   return x;

@@ -96,6 +96,9 @@ public:
   /// @brief Reference positions of all nodes (shape=(num_nodes, gdim)).
   std::span<const double> reference() const { return _reference; }
 
+  /// @brief Displacements of all nodes (shape=(num_nodes, gdim)).
+  std::vector<double> displacement() const;
+
   /// @brief Positions of all nodes (shape=(num_nodes, gdim)).
   std::vector<double> positions() const;
 

@@ -17,8 +17,6 @@ from contactx.audit.surfaces import SurfacesAudit
 from contactx.bulk import Bulk
 from contactx.errors import point_text
 from contactx.interface import Interface
-from contactx.master.facets import FacetMaster
-from contactx.master.mortar import MortarMaster
 from contactx.parallel.halo import Halo
 from contactx.parallel.reduce import anywhere, extent
 
@@ -50,7 +48,7 @@ class Audit:
             look: SurfacesAudit | ObstacleAudit | None = None
             if interface.law.is_tied:
                 pass
-            elif isinstance(master, FacetMaster | MortarMaster):
+            elif isinstance(master, core.DeformableMaster):
                 look = SurfacesAudit(interface, master, halo)
             elif isinstance(master, core.ObstacleMaster) and interface.sliding == "finite":
                 # In small sliding the obstacle of each node is a plane

@@ -12,8 +12,6 @@ from contactx.audit.findings import Depth, Findings
 from contactx.audit.passage import passages
 from contactx.errors import point_text
 from contactx.interface import Interface
-from contactx.master.facets import FacetMaster
-from contactx.master.mortar import MortarMaster
 from contactx.parallel import reduce
 from contactx.parallel.halo import Halo
 from contactx.search.surface import onlooker, outside
@@ -36,7 +34,7 @@ class SurfacesAudit:
     In small sliding all is seen in the reference configuration, with gaps linear in displacements.
     """
 
-    def __init__(self, interface: Interface, master: FacetMaster | MortarMaster, halo: Halo):
+    def __init__(self, interface: Interface, master: core.DeformableMaster, halo: Halo):
         """Prepare the looks.
 
         Args:
@@ -46,16 +44,17 @@ class SurfacesAudit:
         """
         self._interface, self._halo = interface, halo
         self._slave = interface.slave_nodes
-        self._known = master.surface
+        self._own = FacetList(*master.surface.own)
+        self._around = FacetList(*master.surface.around)
         self._at_slave = onlooker(halo, self._slave.facets)
-        self._extent = float(reduce.extent(halo.comm, halo.x[master.surface.own.nodes]).max())
+        self._extent = float(reduce.extent(halo.comm, halo.x[self._own.nodes]).max())
         self._outside_slave = outside(halo, self._slave.own)
         self._at_master = master.outside.onlooker
         marks = np.zeros(halo.num_nodes)
-        marks[master.surface.own.nodes] = 1
+        marks[self._own.nodes] = 1
         marks[interface.shared_nodes] = 0
         self._owned_master = np.flatnonzero(halo.scatter_reverse(marks) > 0).astype(np.int32)
-        self._points = np.setdiff1d(master.surface.own.nodes, interface.shared_nodes)
+        self._points = np.setdiff1d(self._own.nodes, interface.shared_nodes)
         self._behind = np.zeros(len(interface.slaves), dtype=bool)
 
     def __call__(self, name: str, start: Array, findings: Findings) -> None:
@@ -78,7 +77,7 @@ class SurfacesAudit:
         interface, halo = self._interface, self._halo
         if interface.sliding == "small":
             return
-        x, slave, master = halo.positions(), self._slave.own, self._known.own
+        x, slave, master = halo.positions(), self._slave.own, self._own
         # What has a pair faces what it is paired with. A master node has none, and what the other
         # looks see of it is within a facet's size
         loose = interface.slaves[~interface.master.paired & ~interface.is_shared]
@@ -122,7 +121,7 @@ class SurfacesAudit:
         x, ways = self._configuration()
         size = core.facet_sizes(facets.offsets, facets.nodes, x, gdim)
         reach = reduce.largest(comm, size.max(initial=0.0))
-        around = self._known.around
+        around = self._around
         normals = core.nodal_normals(around.offsets, around.nodes, x, gdim).reshape(-1, gdim)
         curvature = core.nodal_curvatures(around.offsets, around.nodes, x, normals, gdim)
         nodes = self._points
@@ -183,7 +182,7 @@ class SurfacesAudit:
     def _find_behind(self) -> npt.NDArray[np.bool_]:
         """Which slave nodes without a pair lie behind the nearest facet, of any normal."""
         comm, gdim = self._halo.comm, self._halo.gdim
-        interface, own = self._interface, self._known.own
+        interface, own = self._interface, self._own
         which = ~interface.master.paired & ~interface.nodes.immobile & ~interface.is_shared
         behind = np.zeros(len(which), dtype=bool)
         if not reduce.anywhere(comm, which.any()):

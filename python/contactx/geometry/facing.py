@@ -7,9 +7,6 @@ from __future__ import annotations
 import numpy as np
 
 from contactx import cpp as core
-from contactx.master.facets import FacetMaster
-from contactx.master.master import Master
-from contactx.master.mortar import MortarMaster
 from contactx.obstacles import Obstacle
 from contactx.parallel.halo import Halo
 from contactx.parallel.reduce import anywhere, least
@@ -21,7 +18,7 @@ def check_facing(
     slave: Surface,
     slaves: SlaveNodes,
     master: Surface | Obstacle,
-    pairs: Master | core.Master,
+    pairs: core.Master,
     halo: Halo,
 ) -> None:
     """Check that the slave surface does not face away from all of its master that is in reach.
@@ -40,7 +37,7 @@ def check_facing(
         ValueError: If it does, on all ranks.
     """
     comm, x, facets = halo.comm, halo.x, slaves.facets
-    if not isinstance(pairs, FacetMaster | MortarMaster) or anywhere(comm, pairs.paired.any()):
+    if not isinstance(pairs, core.DeformableMaster) or anywhere(comm, pairs.paired.any()):
         return
     distance = least(comm, pairs.distance(x))
     normals = core.nodal_normals(facets.offsets, facets.nodes, x, halo.gdim)

@@ -10,10 +10,6 @@ from contactx import cpp as core
 from contactx.bodies.bodies import Bodies
 from contactx.geometry.facets import check_facets, check_folds
 from contactx.geometry.inside import check_apart, check_outside
-from contactx.master.facets import FacetMaster
-from contactx.master.master import Master
-from contactx.master.mortar import MortarMaster
-from contactx.master.ties import FacetTie, MortarTie
 from contactx.obstacles import Obstacle, Plane
 from contactx.parallel.agreement import agreed
 from contactx.parallel.halo import Halo
@@ -34,7 +30,7 @@ def make_master(
     method: str,
     sliding: str,
     search_distance: float | None,
-) -> Master | core.Master:
+) -> core.Master:
     """Make the master side of a contact, without pairs yet; all ranks must take part.
 
     Args:
@@ -80,13 +76,25 @@ def make_master(
     others = in_order(others, halo)
     if method == "node-to-surface":
         check_folds(slave, slaves, halo)
-    deformable: type[FacetMaster | MortarMaster]
+    deformable: type[core.DeformableMaster]
     if method == "surface-to-surface":
-        deformable = MortarTie if law.is_tied else MortarMaster
+        deformable = core.SurfaceTie if law.is_tied else core.SurfaceToSurface
     else:
-        deformable = FacetTie if law.is_tied else FacetMaster
+        deformable = core.NodeTie if law.is_tied else core.NodeToSurface
     reach = search_distance or _default_reach(halo, slaves.facets, others)
-    return deformable(halo, slaves, others, reach, sliding=sliding, measures_slip=law.is_vector)
+    surface = core.MasterSurface(halo.nodes, others.offsets, others.nodes)
+    outside = core.Outside(halo.nodes, others.offsets, others.nodes)
+    ours = slaves.facets
+    return deformable(
+        halo.nodes,
+        ours.offsets,
+        ours.nodes,
+        surface,
+        outside,
+        reach,
+        is_small=sliding == "small",
+        measures_slip=law.is_vector,
+    )
 
 
 def _default_reach(halo: Halo, slave: FacetList, master: FacetList) -> float:

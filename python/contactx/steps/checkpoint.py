@@ -13,12 +13,11 @@ import numpy as np
 import numpy.typing as npt
 
 from contactx.interface import Interface
-from contactx.master.master import RowKind
 from contactx.nodal import reference_positions
 from contactx.parallel.adapter import original_nodes
 from contactx.parallel.agreement import agreed
 from contactx.problem import ContactProblem
-from contactx.state import Snapshot, load_state, save_state, state_rows
+from contactx.state import RowKind, Snapshot, load_state, save_state, state_rows
 from contactx.steps.function_rows import FunctionRows, cell_nodes
 from contactx.steps.rows import Rows
 from dolfinx import fem

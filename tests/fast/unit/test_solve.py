@@ -7,8 +7,8 @@ import pytest
 
 import contactx as cx
 import ufl
+from contactx import cpp as core
 from contactx.cycling import FrozenPairs
-from contactx.master.facets import FacetMaster
 from dolfinx import default_scalar_type, fem
 from dolfinx.mesh import CellType
 
@@ -131,8 +131,8 @@ def test_frozen_pairs_that_hide_a_penetration_warn(monkeypatch, method):
         searches.append(1)
         return -1e-3, -1e-2
 
-    monkeypatch.setattr(FacetMaster, "frozen_pairs", np.arange(2))
-    monkeypatch.setattr(FacetMaster, "deepest_frozen_pair", deepest_frozen)
+    monkeypatch.setattr(core.NodeToSurface, "frozen_pairs", np.arange(2))
+    monkeypatch.setattr(core.NodeToSurface, "deepest_frozen_pair", deepest_frozen)
     with pytest.warns(UserWarning, match=r"2 pairs went back.*hide a penetration of 0\.001"):
         problem.solve()
     assert problem.report.frozen_gap == -1e-3
@@ -144,8 +144,8 @@ def test_frozen_pairs_that_hide_much_are_released_and_then_refused(monkeypatch, 
     scene = Blocks(CellType.tetrahedron)
     problem = scene.problem(scene.contact())
     let_go = []
-    monkeypatch.setattr(FacetMaster, "frozen_pairs", np.arange(2))
-    monkeypatch.setattr(FacetMaster, "deepest_frozen_pair", lambda *_: (-1e-3, -0.1))
+    monkeypatch.setattr(core.NodeToSurface, "frozen_pairs", np.arange(2))
+    monkeypatch.setattr(core.NodeToSurface, "deepest_frozen_pair", lambda *_: (-1e-3, -0.1))
     forget = FrozenPairs.release
     monkeypatch.setattr(FrozenPairs, "release", lambda s: let_go.append(1) or forget(s))
     with pytest.raises(

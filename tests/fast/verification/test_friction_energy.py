@@ -7,7 +7,6 @@ import pytest
 
 import contactx as cx
 from contactx import cpp as core
-from contactx.master.mortar import MortarMaster
 
 from scenes import CELLS, dimension
 from scenes.coulomb import parts
@@ -40,7 +39,7 @@ def relative(scene, du):
     interface = scene.contact.interface
     du = du.reshape(-1, scene.gdim)
     way = du[interface.slaves].copy()
-    if isinstance(interface.master, MortarMaster):
+    if isinstance(interface.master, core.SurfaceToSurface):
         weights = interface.master.weights()
         way[:] = 0
         np.add.at(way, weights.slaves, weights.values[:, None] * du[weights.nodes])

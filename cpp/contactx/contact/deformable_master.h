@@ -1,0 +1,70 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#pragma once
+
+#include "../facet/facets.h"
+#include "../parallel/halo.h"
+#include "../search/master_surface.h"
+#include "../search/outside.h"
+#include "master.h"
+#include <memory>
+#include <stdexcept>
+
+namespace contactx::contact
+{
+/// @brief How a contact pairs its slave nodes or facets.
+struct PairingOptions
+{
+  double reach;       ///< largest distance of a pair
+  bool is_small;      ///< whether sliding is small: pairs never change
+  bool measures_slip; ///< whether slip is measured
+};
+
+/// @brief Pairs with the facets of a deformable body.
+class DeformableMaster : public Master
+{
+public:
+  /// @brief Take both surfaces.
+  /// @param[in] halo Nodes of this rank.
+  /// @param[in] slave Slave facets around the owned slave nodes.
+  /// @param[in] surface Master surface.
+  /// @param[in] outside Tells what is outside of its body.
+  /// @param[in] options How pairs are made.
+  /// @throws std::invalid_argument if the reach is not larger than zero.
+  DeformableMaster(std::shared_ptr<parallel::Halo> halo, facet::Facets slave,
+                   std::shared_ptr<search::MasterSurface> surface,
+                   std::shared_ptr<search::Outside> outside,
+                   const PairingOptions& options)
+      : _halo(std::move(halo)), _slave(std::move(slave)),
+        _surface(std::move(surface)), _outside(std::move(outside)),
+        _options(options)
+  {
+    if (not(options.reach > 0))
+      throw std::invalid_argument("the reach of pairs is not larger than zero");
+  }
+
+  int gdim() const override { return _halo->gdim(); }
+  double reach() const override { return _options.reach; }
+  std::vector<Saved> identity() const override
+  {
+    return {{"facets", RowKind::global, 4, _surface->identity()}};
+  }
+
+  /// @brief Master surface.
+  const std::shared_ptr<search::MasterSurface>& surface() const
+  {
+    return _surface;
+  }
+
+  /// @brief Tells what is outside of the master's body.
+  const std::shared_ptr<search::Outside>& outside() const { return _outside; }
+
+protected:
+  std::shared_ptr<parallel::Halo> _halo;           ///< Nodes of this rank
+  facet::Facets _slave;                            ///< Slave facets
+  std::shared_ptr<search::MasterSurface> _surface; ///< Master surface
+  std::shared_ptr<search::Outside> _outside; ///< What is outside of the body
+  PairingOptions _options;                   ///< How pairs are made
+};
+} // namespace contactx::contact
