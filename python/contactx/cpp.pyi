@@ -363,6 +363,9 @@ def passed(crossings: NDArray[Any], tolerance: NDArray[np.float64]) -> NDArray[n
 
 class NodeMap: ...
 
+class SerialNodes(NodeMap):
+    def __init__(self, num_nodes: int) -> None: ...
+
 class Halo(NodeMap):
     @property
     def num_owned(self) -> int: ...

@@ -36,7 +36,8 @@ void check_chains(const Elimination& elimination,
                   const parallel::NodeMap& nodes);
 
 /// @brief Whether no node sticks or slips, and `left` is the transpose of
-/// `right` but for eliminated rows and rounding.
+/// `right` but for eliminated rows and rounding, entry by entry: what is lumped
+/// from several entries into one place is not compared by its sum.
 /// @param[in] elimination That of this rank.
 /// @param[in] nodes Nodes of this rank.
 /// @return The same on all ranks.

@@ -16,7 +16,7 @@ constexpr auto nothing_free
     = "all displacements of a slave node are prescribed";
 } // namespace
 
-/// Rows, or columns, of one node's multipliers, one entry for each place
+/// Rows of one node's multipliers, one entry for each place
 class Elimination::Rows
 {
 public:
@@ -100,17 +100,16 @@ Elimination::Elimination(std::span<const Nodes> contacts,
       if (size == 1 and own[0] == 0)
         continue;
 
+      if (size == 1)
+      {
+        add_scalar(C, constraint[multiplier], multiplier, first, free);
+        add_force(T, traction[multiplier], _shift.rows.back(), multiplier);
+        continue;
+      }
       rows.clear();
       for (int i = 0; i < size; ++i)
         for (const std::int32_t e : constraint[multiplier + i])
           rows.add(i, C.columns[e], C.values[e]);
-      if (size == 1)
-      {
-        add_scalar(multiplier, first, free, rows);
-        add_force(T, traction[multiplier], _shift.rows.back(), multiplier,
-                  rows);
-        continue;
-      }
       if (nodes.status[s] == law::stick)
         add_stick(multiplier, first, own, rows);
       else
@@ -118,8 +117,7 @@ Elimination::Elimination(std::span<const Nodes> contacts,
                  by + s * size * size, nodes.area[s], rows);
       for (int i = 0; i < size; ++i)
         if (own[i] != 0)
-          add_force(T, traction[multiplier + i], first + i, multiplier + i,
-                    rows);
+          add_force(T, traction[multiplier + i], first + i, multiplier + i);
     }
   }
 
@@ -142,43 +140,42 @@ Elimination::Elimination(std::span<const Nodes> contacts,
 /// Other rows, as those of the master, take over that of the slave node
 void Elimination::add_force(const Triplets& T,
                             std::span<const std::int32_t> entries,
-                            std::int32_t row, std::int32_t multiplier,
-                            Rows& rows)
+                            std::int32_t row, std::int32_t multiplier)
 {
-  rows.clear();
+  double factor = 0;
   for (const std::int32_t e : entries)
-    rows.add(0, T.rows[e], T.values[e]);
-  const double factor = rows.at(row)[0];
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    if (rows.place(i) != row)
-      _left.add(rows.place(i), row, -rows.values(i)[0] / factor);
+    if (T.rows[e] == row)
+      factor += T.values[e];
+  for (const std::int32_t e : entries)
+    if (T.rows[e] != row)
+      _left.add(T.rows[e], row, -T.values[e] / factor);
   _given.push_back(multiplier);
   _recovered.push_back(row);
   _factors.push_back(factor);
 }
 
 /// Frictionless node: the pressure follows from one row of the slave node
-void Elimination::add_scalar(std::int32_t multiplier, std::int32_t first,
-                             std::span<const std::int8_t> free,
-                             const Rows& rows)
+void Elimination::add_scalar(const Triplets& C,
+                             std::span<const std::int32_t> entries,
+                             std::int32_t multiplier, std::int32_t first,
+                             std::span<const std::int8_t> free)
 {
-  double factor = 0;
-  std::int32_t pivot = first;
+  // Coefficients of the slave node's displacements in its constraint
+  std::array<double, 3> own{};
+  for (const std::int32_t e : entries)
+    if (const std::int32_t i = C.columns[e] - first; i >= 0 and i < _gdim)
+      own[i] += C.values[e];
+  int k = -1;
   for (int i = 0; i < _gdim; ++i)
-  {
-    const double own = rows.at(first + i)[0];
-    if (free[first + i] != 0 and std::abs(own) > std::abs(factor))
-    {
-      factor = own;
-      pivot = first + i;
-    }
-  }
-  if (factor == 0)
+    if (free[first + i] != 0 and own[i] != 0
+        and (k < 0 or std::abs(own[i]) > std::abs(own[k])))
+      k = i;
+  if (k < 0)
     throw NotCondensable(nothing_free);
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    _right.add(pivot, rows.place(i), -rows.values(i)[0] / factor);
-  _shift.add(pivot, multiplier, 1 / factor);
-  _eliminated.push_back(pivot);
+  for (const std::int32_t e : entries)
+    _right.add(first + k, C.columns[e], -C.values[e] / own[k]);
+  _shift.add(first + k, multiplier, 1 / own[k]);
+  _eliminated.push_back(first + k);
 }
 
 /// Sticking or tied node: the constraints give its displacements

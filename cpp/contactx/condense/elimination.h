@@ -92,9 +92,10 @@ private:
   class Rows;
 
   void add_force(const Triplets& T, std::span<const std::int32_t> entries,
-                 std::int32_t row, std::int32_t multiplier, Rows& rows);
-  void add_scalar(std::int32_t multiplier, std::int32_t first,
-                  std::span<const std::int8_t> free, const Rows& rows);
+                 std::int32_t row, std::int32_t multiplier);
+  void add_scalar(const Triplets& C, std::span<const std::int32_t> entries,
+                  std::int32_t multiplier, std::int32_t first,
+                  std::span<const std::int8_t> free);
   void add_stick(std::int32_t multiplier, std::int32_t first,
                  std::span<const std::int8_t> own, const Rows& rows);
   void add_slip(std::int32_t multiplier, std::int32_t first,

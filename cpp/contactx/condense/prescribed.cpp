@@ -118,6 +118,8 @@ void Prescribed::take_out(std::size_t num_multipliers, std::size_t num_local)
       rows.add(at, at, 1);
       columns.add(at, at, 1);
     }
+  left.traction = merged(left.traction, num_local, num_multipliers);
+  left.constraint = merged(left.constraint, num_multipliers, num_local);
   Triplets changed = product(_T, columns, num_local, m, m);
   for (std::int32_t& column : changed.columns)
     column = _multipliers[column];

@@ -86,3 +86,13 @@ Triplets contactx::condense::product(const Triplets& A, const Triplets& B,
   }
   return C;
 }
+
+Triplets contactx::condense::merged(const Triplets& A, std::size_t num_rows,
+                                    std::size_t num_columns)
+{
+  Triplets one;
+  one.reserve(num_columns);
+  for (std::size_t i = 0; i < num_columns; ++i)
+    one.add(static_cast<std::int32_t>(i), static_cast<std::int32_t>(i), 1);
+  return product(A, one, num_rows, num_columns, num_columns);
+}

@@ -88,4 +88,12 @@ Groups grouped(std::span<const std::int32_t> places, std::size_t count);
 /// @param[in] num_columns Number of columns of the second one.
 Triplets product(const Triplets& A, const Triplets& B, std::size_t num_rows,
                  std::size_t num_inner, std::size_t num_columns);
+
+/// @brief The same matrix by one entry for each place, and none that are zero;
+/// row by row, columns in order.
+/// @param[in] A Matrix.
+/// @param[in] num_rows Number of its rows.
+/// @param[in] num_columns Number of its columns.
+Triplets merged(const Triplets& A, std::size_t num_rows,
+                std::size_t num_columns);
 } // namespace contactx::condense

@@ -57,6 +57,19 @@ TEST(Triplets, AProductHasNoZeros)
   EXPECT_EQ(AB.values[0], 2);
 }
 
+TEST(Triplets, OneEntryForEachPlace)
+{
+  Generator random(5);
+  Triplets A = random_entries(random, 4, 3, 40);
+  A.add(2, 1, 0.5 - Dense(A, 4, 3)(2, 1));
+  A.add(2, 1, -0.5);
+  const Dense wanted(A, 4, 3), found(merged(A, 4, 3), 4, 3);
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t j = 0; j < 3; ++j)
+      EXPECT_NEAR(found(i, j), wanted(i, j), 1e-15);
+  EXPECT_LE(merged(A, 4, 3).size(), 12u);
+}
+
 TEST(Triplets, ProductWithAColumnIsAdded)
 {
   Generator random(2);

@@ -30,14 +30,7 @@ def states(draw, gdims=(2, 3)):
     return tuple(np.array(v, dtype=np.float64) for v in values)
 
 
-class _OneRank:
-    rank, size = 0, 1
-
-    def agree(self, work):
-        work()
-
-
-_RANKS = core.PythonNodes(_OneRank())
+_RANKS = core.SerialNodes(1)
 
 
 def _evaluate(state):
