@@ -265,36 +265,49 @@ inline void place_facets(Sample& s, Generator& random, bool within)
     s.renew = integrate_facets;
 }
 
-/// @brief The distance of a point from a sphere and its derivatives, and the
-/// movement along the sphere from where the point started.
-struct RoundObstacle
+/// @brief An ellipsoid's level set, whose gradient is no unit vector and whose
+/// normal has a derivative that is not symmetric, and the movement across its
+/// normal from where a point started.
+struct Ellipsoid
 {
   double radius;
   std::vector<double> centre = {}, start = {};
+  Vector<3> stretch = {1, 1.3, 0.8};
 
   /// @brief Values of an obstacle's pair at a point, those of kernel/layout.h.
   /// @param[out] pair Values a pair.
   /// @param[out] slip Values of slip; not written if null.
   void operator()(int gdim, const double* x, double* pair, double* slip) const
   {
-    double r = 0;
+    Vector<3> d{}, stretched{};
     for (int k = 0; k < gdim; ++k)
-      r += (x[k] - centre[k]) * (x[k] - centre[k]);
-    r = std::sqrt(r);
+    {
+      d[k] = stretch[k] * (x[k] - centre[k]);
+      stretched[k] = stretch[k] * d[k];
+    }
+    const double r = norm(d);
+    const Vector<3> gradient = (1 / r) * stretched;
+    const double slope = norm(gradient);
     pair[kernel::rigid_gap] = r - radius;
+    std::copy_n(gradient.begin(), gdim, pair + kernel::rigid_gradient);
     double* n = pair + kernel::rigid_normal;
     for (int k = 0; k < gdim; ++k)
-      n[k] = pair[kernel::rigid_gradient + k] = (x[k] - centre[k]) / r;
+      n[k] = gradient[k] / slope;
     double* dn = pair + kernel::rigid_curvature;
-    double along = 0; // of the movement
-    for (int i = 0; i < gdim; ++i)
+    for (int j = 0; j < gdim; ++j)
     {
-      along += n[i] * (x[i] - start[i]);
-      for (int j = 0; j < gdim; ++j)
-        dn[gdim * i + j] = ((i == j) - n[i] * n[j]) / r;
+      // Of the gradient by x_j
+      Vector<3> turn = (-gradient[j] / r) * gradient;
+      turn[j] += stretch[j] * stretch[j] / r;
+      const double along = dot(gradient, turn) / (slope * slope);
+      for (int i = 0; i < gdim; ++i)
+        dn[gdim * i + j] = (turn[i] - along * gradient[i]) / slope;
     }
     if (!slip)
       return;
+    double along = 0; // of the movement
+    for (int i = 0; i < gdim; ++i)
+      along += n[i] * (x[i] - start[i]);
     double* ds = slip + kernel::rigid_slip_derivative;
     for (int i = 0; i < gdim; ++i)
     {
@@ -311,37 +324,37 @@ struct RoundObstacle
   }
 };
 
-/// @brief A slave node near a sphere.
+/// @brief A slave node near a obstacle.
 inline void place_before_obstacle(Sample& s, Generator& random)
 {
   const int gdim = s.kind.gdim;
-  RoundObstacle sphere{.radius = random(0.5, 1)};
+  Ellipsoid obstacle{.radius = random(0.5, 1)};
   const auto x = s.positions();
   const Vector<3> way = random.unit<3>();
   for (int k = 0; k < gdim; ++k)
   {
-    sphere.centre.push_back(x[k] + way[k] + 0.1 * (k == 0));
-    sphere.start.push_back(x[k] + random(-0.3, 0.3));
+    obstacle.centre.push_back(x[k] + way[k] + 0.1 * (k == 0));
+    obstacle.start.push_back(x[k] + random(-0.3, 0.3));
   }
-  s.renew = [sphere](Sample& now)
+  s.renew = [obstacle](Sample& now)
   {
-    sphere(now.kind.gdim, now.positions().data(), now.at(Coefficient::pair),
-           now.kind.law == Law::frictionless ? nullptr
-                                             : now.at(Coefficient::slip));
+    obstacle(now.kind.gdim, now.positions().data(), now.at(Coefficient::pair),
+             now.kind.law == Law::frictionless ? nullptr
+                                               : now.at(Coefficient::slip));
   };
   s.renew(s);
 }
 
-/// @brief A slave facet near a sphere, with integrals by some points and
+/// @brief A slave facet near an obstacle, with integrals by some points and
 /// weights: whatever they are, the kernels are those of the integrals.
 inline void place_facet_before_obstacle(Sample& s, Generator& random)
 {
   const auto [law, m, gdim, n] = s.kind;
-  RoundObstacle sphere{.radius = random(1, 2)};
+  Ellipsoid obstacle{.radius = random(1, 2)};
   for (int k = 0; k < gdim; ++k)
   {
-    sphere.centre.push_back(k == 0 ? 3 : random(-0.5, 0.5));
-    sphere.start.push_back(0);
+    obstacle.centre.push_back(k == 0 ? 3 : random(-0.5, 0.5));
+    obstacle.start.push_back(0);
   }
   constexpr int num_points = 3;
   // Shape functions and weighted dual functions at each point
@@ -351,7 +364,7 @@ inline void place_facet_before_obstacle(Sample& s, Generator& random)
     shape.push_back(random(0.1, 0.6));
     dual.push_back(random(-0.2, 0.8));
   }
-  s.renew = [sphere, shape, dual](Sample& now)
+  s.renew = [obstacle, shape, dual](Sample& now)
   {
     const auto [law, m, gdim, n] = now.kind;
     const kernel::RigidMortarLayout at(n, gdim);
@@ -366,7 +379,7 @@ inline void place_facet_before_obstacle(Sample& s, Generator& random)
         for (int k = 0; k < gdim; ++k)
           point[k] += N[t] * x[gdim * t + k];
       std::array<double, kernel::rigid_size> d;
-      sphere(gdim, point.data(), d.data(), nullptr);
+      obstacle(gdim, point.data(), d.data(), nullptr);
       for (int a = 0; a < n; ++a)
       {
         p[at.area + a] += phi[a];

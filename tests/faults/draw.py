@@ -30,7 +30,7 @@ PARTS = {
     "mortar": ("cpp/contactx/mortar", "python/contactx/master"),
     "condensation": ("cpp/contactx/condense", "python/contactx/condensed"),
     "steps": ("python/contactx/steps",),
-    "parallel": ("python/contactx/parallel",),
+    "parallel": ("cpp/contactx/parallel", "python/contactx/parallel"),
 }
 
 # A token and what it becomes, for both languages

@@ -16,11 +16,11 @@
 using namespace contactx;
 
 // What PETSc declares in its headers: contactx must not hide it
-using Vector = struct _p_Vec*;
+using Vec = struct _p_Vec*;
 
 int main()
 {
-  [[maybe_unused]] const Vector vector_of_petsc = nullptr;
+  [[maybe_unused]] const Vec vector_of_petsc = nullptr;
 
   // A master segment from x_1 to x_2, its outward normal n on the right, and
   // two slave facets over it, towards it

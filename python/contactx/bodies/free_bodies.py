@@ -24,7 +24,8 @@ class FreeBodies(core.FreeBodies):
             interfaces: Discrete sides of the contacts.
             bodies: Bodies of the mesh.
         """
-        halo = bodies.halo
+        # The halo tells this object, not the core's, when it has changed
+        self._bodies, halo = bodies, bodies.halo
         super().__init__(
             bodies,
             BulkSide(bulk, halo),
