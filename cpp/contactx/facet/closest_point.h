@@ -12,10 +12,10 @@ namespace contactx::facet
 template <class F>
 struct ClosestPoint
 {
-  Local<F> xi;      ///< local coordinates
-  int feature;      ///< interior, an edge or a vertex
-  double distance2; ///< squared distance
-  Vector<F::gdim> d;   ///< vector from the closest point to the given one
+  Local<F> xi;       ///< local coordinates
+  int feature;       ///< interior, an edge or a vertex
+  double distance2;  ///< squared distance
+  Vector<F::gdim> d; ///< vector from the closest point to the given one
 };
 
 /// @brief Components of the projection of `d` on the plane of the tangents.

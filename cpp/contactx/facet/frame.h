@@ -13,7 +13,7 @@ struct Frame
 {
   std::array<Vector<F::gdim>, F::tdim> t; ///< tangents, t_a = dx / dxi_a
   Vector<F::gdim> n;                      ///< outward unit normal
-  double jacobian;                     ///< area of the cell spanned by t
+  double jacobian;                        ///< area of the cell spanned by t
 };
 
 /// @brief Tangents of a facet.
@@ -21,7 +21,7 @@ struct Frame
 /// @param[in] xi Local coordinates.
 template <class F>
 std::array<Vector<F::gdim>, F::tdim> tangents(const Nodes<F>& x,
-                                           const Local<F>& xi)
+                                              const Local<F>& xi)
 {
   const auto dN = F::derivative(xi);
   std::array<Vector<F::gdim>, F::tdim> t;

@@ -31,7 +31,7 @@ constexpr std::pair<int, int> feature_edge(int feature)
 /// @param[in] xi Local coordinates of the point on the feature.
 template <class F>
 std::array<Vector<F::gdim>, F::gdim> ridge_axes(const Nodes<F>& x, int feature,
-                                             const Local<F>& xi)
+                                                const Local<F>& xi)
 {
   const auto [i, j] = feature_edge<F>(feature);
   const Vector<F::gdim> edge = x[j] - x[i];

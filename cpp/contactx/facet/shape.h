@@ -29,7 +29,10 @@ struct Segment
   static constexpr std::array<std::pair<int, int>, 2> edges{{{0, 1}, {1, 0}}};
 
   /// @brief Shape functions N_l at `xi`.
-  static constexpr Vector<2> shape(const Vector<1>& xi) { return {1 - xi[0], xi[0]}; }
+  static constexpr Vector<2> shape(const Vector<1>& xi)
+  {
+    return {1 - xi[0], xi[0]};
+  }
 
   /// @brief First derivatives of the shape functions, [tdim][nodes].
   static constexpr std::array<Vector<2>, 1> derivative(const Vector<1>&)
