@@ -1,0 +1,94 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#pragma once
+
+#include "facing.h"
+#include <contactx/contact/node_to_surface.h>
+#include <contactx/contact/surface_to_surface.h>
+
+namespace contactx::tests
+{
+/// @brief A slave sheet that looks down on a master sheet that looks up.
+struct TwoSheets
+{
+  int gdim;
+  std::vector<double> x;
+  facet::Facets slave, master;
+  std::int32_t num_slaves; ///< the slave's nodes come first
+
+  /// @brief Create them over squares.
+  /// @param[in] dim Geometric dimension.
+  /// @param[in] height Height of the slave over the master, which is at zero.
+  /// @param[in] cells What they are made of.
+  /// @param[in] high Where the slave ends; it begins at zero, and the master is
+  /// from -1 to 2.
+  explicit TwoSheets(int dim, double height = 0, Cells cells = Cells::mixed,
+                     double high = 1)
+      : gdim(dim)
+  {
+    const Scene up = sheet(dim, 5, cells, true, -1, 2, level(dim, 0));
+    const Scene down = sheet(dim, 3, cells, false, 0, high, level(dim, height));
+    x = down.x;
+    x.insert(x.end(), up.x.begin(), up.x.end());
+    num_slaves = static_cast<std::int32_t>(down.x.size()) / dim;
+    slave = {down.offsets, down.nodes};
+    master = {up.offsets, up.nodes};
+    for (std::int32_t& node : master.nodes)
+      node += num_slaves;
+  }
+
+  /// @brief Number of all nodes.
+  std::int32_t num_nodes() const
+  {
+    return static_cast<std::int32_t>(x.size()) / gdim;
+  }
+
+  /// @brief Positions after each node p has gone to way(p, is_slave).
+  template <class Way>
+  std::vector<double> moved(Way way) const
+  {
+    std::vector<double> y = x;
+    for (std::int32_t i = 0; i < num_nodes(); ++i)
+    {
+      Vector<3> p{};
+      std::copy_n(x.begin() + gdim * i, gdim, p.begin());
+      p = way(p, i < num_slaves);
+      std::copy_n(p.begin(), gdim, y.begin() + gdim * i);
+    }
+    return y;
+  }
+
+  /// @brief Pairs of these surfaces, searched for.
+  template <class M>
+  std::shared_ptr<M> pairs(bool is_small = false, bool measures_slip = true)
+  {
+    auto halo = parallel::serial_halo(x, gdim);
+    auto surface
+        = search::make_master_surface(halo, master.offsets, master.nodes);
+    auto outside
+        = std::make_shared<search::Outside>(halo, master.offsets, master.nodes);
+    auto made = std::make_shared<M>(
+        halo, slave, surface, outside,
+        contact::PairingOptions{1.0, is_small, measures_slip});
+    made->search(x, std::vector<std::int8_t>(num_slaves, 0));
+    made->begin_step();
+    return made;
+  }
+
+  /// @brief Turned about the origin, in the plane of the first and last axis.
+  std::vector<double> turned(double angle) const
+  {
+    const double c = std::cos(angle), s = std::sin(angle);
+    const int z = gdim - 1;
+    return moved(
+        [c, s, z](Vector<3> p, bool)
+        {
+          const double a = p[0], b = p[z];
+          p[0] = c * a - s * b;
+          p[z] = s * a + c * b;
+          return p;
+        });
+  }
+};
+} // namespace contactx::tests
