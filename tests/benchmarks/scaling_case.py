@@ -207,9 +207,9 @@ class SearchTraffic:
         self.collectives = Collectives()
         self.searches = 0
         self.inside: Counter[tuple[str, str]] = Counter()
-        master = contact.interface.master
-        self._search = master.search
-        master.search = self._counted
+        interface = contact.interface
+        self._search = interface._search
+        vars(interface)["_search"] = self._counted
 
     def _counted(self, *arguments: Any) -> Any:
         before = self.all()
