@@ -9,6 +9,17 @@
 using namespace contactx;
 using namespace contactx::contact;
 
+bool contactx::contact::all_free(std::span<const std::int32_t> nodes,
+                                 std::span<const std::int8_t> free, int gdim)
+{
+  const auto is_free = [free, gdim](std::int32_t node)
+  {
+    const auto row = free.subspan(std::size_t(node) * gdim, gdim);
+    return std::ranges::all_of(row, [](std::int8_t f) { return f != 0; });
+  };
+  return std::ranges::all_of(nodes, is_free);
+}
+
 void contactx::contact::pair_weights(int num_nodes, const double* xi,
                                      double* weight)
 {
@@ -32,13 +43,9 @@ contactx::contact::free_squares(const Weights& weights,
   const std::size_t n = paired.size();
   std::vector<double> squares(n * gdim, 1);
   std::vector<std::int8_t> constrained(n, 0);
-  const auto is_free = [free, gdim](std::int32_t node)
-  {
-    const auto row = free.subspan(std::size_t(node) * gdim, gdim);
-    return std::ranges::all_of(row, [](std::int8_t f) { return f != 0; });
-  };
   for (std::size_t k = 0; k < weights.slaves.size(); ++k)
-    if (paired[weights.slaves[k]] and not is_free(weights.nodes[k]))
+    if (paired[weights.slaves[k]]
+        and not all_free({&weights.nodes[k], 1}, free, gdim))
       constrained[weights.slaves[k]] = 1;
   std::vector<std::size_t> some;
   for (std::size_t k = 0; k < weights.slaves.size(); ++k)

@@ -7,6 +7,14 @@
 
 namespace contactx::contact
 {
+/// @brief Whether no displacement of some nodes is prescribed.
+/// @param[in] nodes The nodes.
+/// @param[in] free 1 at displacements of all nodes that are not prescribed
+/// (shape=(num_nodes, gdim)).
+/// @param[in] gdim Geometric dimension.
+bool all_free(std::span<const std::int32_t> nodes,
+              std::span<const std::int8_t> free, int gdim);
+
 /// @brief Weights of a pair's nodes in the relative movement of its slave node:
 /// 1, then -N_l of the facet's nodes.
 /// @param[in] num_nodes Nodes of the facet: 2, 3 or 4.

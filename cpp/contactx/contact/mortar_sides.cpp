@@ -132,6 +132,15 @@ MortarSides::at_corners(std::span<const double> values,
   return corners;
 }
 
+std::vector<double> MortarSides::total(std::span<const double> values) const
+{
+  std::vector<double> sums(_around.size(), 0);
+  for (std::size_t c = 0; c < _numbers.size(); ++c)
+    sums[_numbers[c]] += values[c];
+  sums.resize(_num_owned);
+  return sums;
+}
+
 std::vector<double>
 MortarSides::total(std::span<const double> values,
                    std::span<const std::int32_t> facets) const

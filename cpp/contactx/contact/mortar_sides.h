@@ -106,9 +106,13 @@ public:
   std::vector<double> at_corners(std::span<const double> values,
                                  std::span<const std::int32_t> facets) const;
 
-  /// @brief Sums over the facets of each owned slave node (shape=(n)).
+  /// @brief Sums over all facets of each owned slave node (shape=(n)).
   /// @param[in] values Values at corners (shape=(num_facets, 4)).
-  /// @param[in] facets Their slave facets.
+  std::vector<double> total(std::span<const double> values) const;
+
+  /// @brief Sums over some facets of each owned slave node (shape=(n)).
+  /// @param[in] values Values at corners (shape=(m, 4)).
+  /// @param[in] facets Their slave facets (shape=(m)).
   std::vector<double> total(std::span<const double> values,
                             std::span<const std::int32_t> facets) const;
 

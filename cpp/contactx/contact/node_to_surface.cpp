@@ -378,6 +378,9 @@ Mobility NodeToSurface::mobility(std::span<const std::int8_t> free) const
   const int g = gdim();
   Mobility found{std::vector<double>(size(), 1),
                  std::vector<double>(size() * g, 1)};
+  if (all_free(_pairing.slaves(), free, g)
+      and all_free(_surface->facets().nodes, free, g))
+    return found;
   for (const Pairs& group : pairs())
   {
     const int width = 1 + group.num_nodes;
@@ -385,7 +388,9 @@ Mobility NodeToSurface::mobility(std::span<const std::int8_t> free) const
     for (std::size_t p = 0; p < group.size(); ++p)
     {
       const std::size_t i = group.slaves[p];
-      const std::int32_t* nodes = group.nodes.data() + width * p;
+      const auto nodes = std::span(group.nodes).subspan(width * p, width);
+      if (all_free(nodes, free, g))
+        continue;
       const auto squares = [&](const double* xi)
       {
         pair_weights(group.num_nodes, xi, weight.data());
@@ -401,13 +406,6 @@ Mobility NodeToSurface::mobility(std::span<const std::int8_t> free) const
       double sum = 0;
       for (int k = 0; k < g; ++k)
         sum += data[pair_normal + k] * data[pair_normal + k] * square[k];
-      // Exactly one where all is free, whatever the weights
-      bool all = true;
-      for (int l = 0; l < width; ++l)
-        for (int k = 0; k < g; ++k)
-          all = all and free[std::size_t(nodes[l]) * g + k];
-      if (all)
-        continue;
       found.normal[i] = std::sqrt(sum);
       if (group.slip_size == 0)
         continue;
@@ -422,22 +420,25 @@ Mobility NodeToSurface::mobility(std::span<const std::int8_t> free) const
 
 Weights NodeToSurface::weights() const
 {
-  using namespace kernel;
+  const facet::FacetList facets = _surface->facets();
   Weights weights;
-  for (const Pairs& group : pairs())
-  {
-    const int width = 1 + group.num_nodes;
-    for (std::size_t p = 0; p < group.size(); ++p)
+  // In the order of `pairs`
+  for (std::size_t num_nodes = 2; num_nodes <= 4; ++num_nodes)
+    for (std::size_t i = 0; i < size(); ++i)
     {
-      weights.slaves.insert(weights.slaves.end(), width, group.slaves[p]);
+      const std::int32_t f = _pairing.facet()[i];
+      if (f < 0 or facets[f].size() != num_nodes)
+        continue;
+      weights.slaves.insert(weights.slaves.end(), 1 + num_nodes,
+                            static_cast<std::int32_t>(i));
+      weights.nodes.push_back(_pairing.slaves()[i]);
+      weights.nodes.insert(weights.nodes.end(), facets[f].begin(),
+                           facets[f].end());
       const std::size_t at = weights.values.size();
-      weights.values.resize(at + width);
-      pair_weights(group.num_nodes, group.data.data() + pair_size * p + pair_xi,
+      weights.values.resize(at + 1 + num_nodes);
+      pair_weights(static_cast<int>(num_nodes), _pairing.xi().data() + 2 * i,
                    weights.values.data() + at);
     }
-    weights.nodes.insert(weights.nodes.end(), group.nodes.begin(),
-                         group.nodes.end());
-  }
   return weights;
 }
 

@@ -77,7 +77,8 @@ std::vector<T> of_facets(const facet::FacetList& facets,
 SlaveNodes::SlaveNodes(std::shared_ptr<const parallel::NodeMap> nodes,
                        const facet::FacetList& facets,
                        const facet::FacetList& own)
-    : _nodes(std::move(nodes)), _facets(facets), _own(own)
+    : _nodes(std::move(nodes)), _facets(facet::copied(facets)),
+      _own(facet::copied(own))
 {
   if (not _nodes)
     throw std::invalid_argument("nodes must not be empty");

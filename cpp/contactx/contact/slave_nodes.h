@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "../facet/nodal.h"
+#include "../facet/facets.h"
 #include "../parallel/ranks.h"
 #include <memory>
 
@@ -126,22 +126,11 @@ public:
   std::vector<double> sums(std::span<const double> corners) const;
 
 private:
-  struct Facets
-  {
-    explicit Facets(const facet::FacetList& facets)
-        : offsets(facets.offsets.begin(), facets.offsets.end()),
-          nodes(facets.nodes.begin(), facets.nodes.end())
-    {
-    }
-    facet::FacetList list() const { return {offsets, nodes}; }
-    std::vector<std::int32_t> offsets, nodes;
-  };
-
   // Values at owned slave nodes with zero at those of other ranks
   std::vector<double> padded(std::span<const double> normal, int gdim) const;
 
   std::shared_ptr<const parallel::NodeMap> _nodes;
-  Facets _facets, _own;
+  facet::Facets _facets, _own;
   std::vector<std::int32_t> _around, _corners;
   std::size_t _num_owned;
 };

@@ -191,9 +191,7 @@ void SurfaceToSurface::integrate(std::span<const double> x)
   if (_options.is_small)
     all = integrate(_sides.between(x, *_found, all.weight, all.normal));
   _at.assign(x.begin(), x.end());
-  std::vector<std::int32_t> facets(_sides.num_slave_facets());
-  std::ranges::generate(facets, [f = 0]() mutable { return f++; });
-  _area = _sides.total(all.area, facets);
+  _area = _sides.total(all.area);
   _dual = std::move(all.dual);
   _normal = std::move(all.normal);
   _mortar = {_found->slave, _found->master, std::move(all.weight),
@@ -323,7 +321,7 @@ void SurfaceToSurface::begin_step()
   if (not _options.is_small)
   {
     _found.reset();
-    pair(std::vector<double>(_x0));
+    pair(_x0);
   }
   if (_options.measures_slip)
     _slip.begin_step(normalised(), distances(_x0));
@@ -385,6 +383,9 @@ Mobility SurfaceToSurface::mobility(std::span<const std::int8_t> free) const
 {
   const int g = gdim();
   const std::size_t n = _sides.size();
+  if (all_free(_sides.slaves(), free, g)
+      and all_free(_surface->facets().nodes, free, g))
+    return {std::vector<double>(n, 1), std::vector<double>(n * g, 1)};
   std::vector<double> squares = free_squares(weights(), free, _paired, g);
   std::vector<std::int8_t> around(_sides.around().size() * g, 0);
   for (std::int32_t f = 0; f < _sides.num_slave_facets(); ++f)

@@ -18,4 +18,11 @@ struct Facets
 
   bool operator==(const Facets&) const = default;
 };
+
+/// @brief Facets with arrays of their own, as they are now.
+inline Facets copied(const FacetList& facets)
+{
+  return {{facets.offsets.begin(), facets.offsets.end()},
+          {facets.nodes.begin(), facets.nodes.end()}};
+}
 } // namespace contactx::facet
