@@ -64,20 +64,6 @@ void contactx_bindings::kernel(py::module_& m)
                                    py::arg("cone") = kernel::pair_cone,
                                    py::arg("normal") = kernel::pair_normal,
                                    py::arg("size") = kernel::pair_size);
-  m.attr("slip_layout") = py::dict(py::arg("xi") = kernel::slip_xi,
-                                   py::arg("gap") = kernel::slip_gap,
-                                   py::arg("origin") = kernel::slip_origin,
-                                   py::arg("size") = kernel::slip_size);
-  m.attr("rigid_slip_layout")
-      = py::dict(py::arg("slip") = kernel::rigid_slip,
-                 py::arg("derivative") = kernel::rigid_slip_derivative,
-                 py::arg("size") = kernel::rigid_slip_size);
-  m.attr("rigid_layout")
-      = py::dict(py::arg("gap") = kernel::rigid_gap,
-                 py::arg("gradient") = kernel::rigid_gradient,
-                 py::arg("normal") = kernel::rigid_normal,
-                 py::arg("curvature") = kernel::rigid_curvature,
-                 py::arg("size") = kernel::rigid_size);
   m.def(
       "mortar_layout",
       [](int num_slaves, int num_nodes)

@@ -16,25 +16,7 @@ void contactx_bindings::mortar(py::module_& m)
       .def_property_readonly("slave", [](const FacetPairs& self)
                              { return array(self.slave); })
       .def_property_readonly("master", [](const FacetPairs& self)
-                             { return array(self.master); })
-      .def(
-          "without",
-          [](const FacetPairs& self, const Array<std::int8_t>& dropped)
-          {
-            check::rows(dropped.size(), std::ssize(self.slave), 1, "dropped",
-                        "pair");
-            FacetPairs kept;
-            for (std::size_t i = 0; i < self.slave.size(); ++i)
-              if (dropped.data()[i] == 0)
-              {
-                kept.slave.push_back(self.slave[i]);
-                kept.master.push_back(self.master[i]);
-              }
-            return kept;
-          },
-          py::arg("dropped"), "The pairs that are not dropped")
-      .def("contains", &contactx::mortar::contains, py::arg("part"),
-           "Whether all pairs of others are among these");
+                             { return array(self.master); });
   py::class_<FacetSearch>(m, "FacetSearch",
                           "Finds the master facets in front of slave facets")
       .def(py::init(

@@ -138,26 +138,7 @@ void contactx_bindings::search(py::module_& m)
           },
           py::arg("x"), py::arg("points"), py::arg("normals"), py::arg("reach"),
           "Nearest facets that face points, and the projections that contact "
-          "is measured with")
-      .def(
-          "outer_margins",
-          [](const Finder& self, const Array<std::int32_t>& facet,
-             const Array<double>& xi)
-          {
-            const auto n = static_cast<std::ptrdiff_t>(facet.size());
-            check::numbers(view(facet), self.surface().facets().size(), "facet",
-                           "facets", -1);
-            check::rows(xi.size(), n, 2, "xi", "facet");
-            std::vector<double> margin(n, 1);
-            for (std::ptrdiff_t i = 0; i < n; ++i)
-              if (facet.data()[i] >= 0)
-                margin[i] = contactx::search::outer_margin(
-                    self.surface(), facet.data()[i],
-                    {xi.data()[2 * i], xi.data()[2 * i + 1]});
-            return array(margin);
-          },
-          py::arg("facet"), py::arg("xi"),
-          "Distances of places on facets from the surface's outer edge, local");
+          "is measured with");
   py::class_<Pairing>(m, "Pairing",
                       "Pairs of slave nodes and master facets, kept from one "
                       "search to the next")
@@ -243,24 +224,12 @@ void contactx_bindings::search(py::module_& m)
                              { return array(self.facet()); })
       .def_property_readonly("feature", [](const Pairing& self)
                              { return array(self.feature()); })
-      .def_property_readonly(
-          "xi", [](const Pairing& self)
-          { return array(self.xi(), {py::ssize_t(self.xi().size() / 2), 2}); })
-      .def_property_readonly("cone",
-                             [](const Pairing& self)
-                             {
-                               const auto& c = self.cone();
-                               return array(c, {py::ssize_t(c.size() / 3), 3});
-                             })
       .def_property_readonly("normal",
                              [](const Pairing& self)
                              {
                                const auto& n = self.normal();
                                return array(n, {py::ssize_t(n.size() / 3), 3});
                              })
-      .def(
-          "frozen", [](const Pairing& self) { return array(self.frozen()); },
-          "Slave nodes whose pair is frozen, by their place in slaves")
       .def(
           "feet",
           [](const Pairing& self, const Array<double>& x,

@@ -91,62 +91,14 @@ void contactx_bindings::surface(py::module_& m)
                              { return lists(self.own()); })
       .def_property_readonly("around", [](const MasterSurface& self)
                              { return lists(self.around()); })
-      .def_property_readonly("version", &MasterSurface::version)
       .def(
           "find",
           [](MasterSurface& self, const Array<double>& x,
              const Array<double>& points, const Array<double>& normals,
              double reach)
           { return self.find(view(x), view(points), view(normals), reach); },
-          py::arg("x"), py::arg("points"), py::arg("normals"), py::arg("reach"))
-      .def(
-          "pair",
-          [](MasterSurface& self, Pairing& pairing,
-             const Array<std::int32_t>& offsets,
-             const Array<std::int32_t>& nodes, const Array<double>& x,
-             double reach, const Array<std::int8_t>& closed)
-          {
-            check::surface(view(offsets), view(nodes), x.size(),
-                           pairing.master().gdim());
-            return self.pair(pairing, {view(offsets), view(nodes)}, view(x),
-                             reach, view(closed));
-          },
-          py::arg("pairing"), py::arg("offsets"), py::arg("nodes"),
-          py::arg("x"), py::arg("reach"), py::arg("closed"))
-      .def(
-          "look",
-          [](MasterSurface& self, const Array<double>& x,
-             const Array<std::int32_t>& offsets,
-             const Array<std::int32_t>& nodes, double reach, double margin)
-          { self.look(view(x), {view(offsets), view(nodes)}, reach, margin); },
-          py::arg("x"), py::arg("offsets"), py::arg("nodes"), py::arg("reach"),
-          py::arg("margin"))
-      .def(
-          "keep", [](MasterSurface& self, const Array<std::int32_t>& used)
-          { return array(self.keep(view(used))); }, py::arg("used"))
-      .def(
-          "distance",
-          [](MasterSurface& self, const Array<double>& x,
-             const Array<double>& points)
-          { return self.distance(view(x), view(points)); },
-          py::arg("x"), py::arg("points"))
-      .def(
-          "mean", [](MasterSurface& self, const Array<double>& nodal)
-          { return self.mean(view(nodal)); }, py::arg("nodal"))
-      .def("identity",
-           [](const MasterSurface& self)
-           {
-             return py::dict(py::arg("facets")
-                             = array(self.identity(), {self.own().size(), 4}));
-           })
-      .def(
-          "names",
-          [](const MasterSurface& self, const Array<std::int32_t>& which)
-          { return array(self.names(view(which)), {which.size(), 4}); },
-          py::arg("which"))
-      .def(
-          "named", [](MasterSurface& self, const Array<std::int64_t>& names)
-          { return array(self.named(view(names))); }, py::arg("names"));
+          py::arg("x"), py::arg("points"), py::arg("normals"),
+          py::arg("reach"));
   py::class_<Seen>(m, "Seen", "What points see of a surface")
       .def_property_readonly("distance", column(&Seen::distance))
       .def_property_readonly("gap", column(&Seen::gap))
@@ -206,7 +158,6 @@ void contactx_bindings::surface(py::module_& m)
                  return std::make_shared<Outside>(halo, own.offsets, own.nodes);
                }),
            py::arg("halo"), py::arg("offsets"), py::arg("nodes"))
-      .def_property_readonly("is_around", &Outside::is_around)
       .def_property_readonly("onlooker", &Outside::onlooker,
                              py::return_value_policy::reference_internal)
       .def(

@@ -18,14 +18,14 @@ from contactx.forms import ContactForms
 from contactx.geometry.facing import check_facing
 from contactx.geometry.inside import shared_nodes
 from contactx.interface import Interface
-from contactx.master.make import make_master
+from contactx.master import make_master
 from contactx.nodal import NodalValue
 from contactx.obstacles import Obstacle
 from contactx.parallel import reduce
 from contactx.parallel.agreement import agreed
 from contactx.parallel.halo import Halo
 from contactx.parallel.slaves import SlaveNodes
-from contactx.search.surface import in_order
+from contactx.search import in_order
 from contactx.surface import Surface
 from dolfinx import fem
 

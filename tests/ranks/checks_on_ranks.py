@@ -15,7 +15,7 @@ from contactx.geometry.facing import check_facing
 from contactx.geometry.inside import check_apart, check_outside
 from contactx.interface import check_over_constrained
 from contactx.parallel.slaves import SlaveNodes
-from contactx.search.surface import slave_facets
+from contactx.search import slave_facets
 from contactx.surface import FacetList
 from dolfinx import mesh
 

@@ -14,7 +14,7 @@ from contactx.errors import point_text
 from contactx.interface import Interface
 from contactx.parallel import reduce
 from contactx.parallel.halo import Halo
-from contactx.search.surface import onlooker, outside
+from contactx.search import onlooker, outside
 from contactx.surface import FacetList
 
 type Array = npt.NDArray[np.float64]

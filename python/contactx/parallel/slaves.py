@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from contactx import cpp as core
 from contactx.parallel.halo import Halo
-from contactx.search.surface import slave_facets
+from contactx.search import slave_facets
 from contactx.surface import FacetList
 
 

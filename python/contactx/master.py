@@ -15,7 +15,7 @@ from contactx.parallel.agreement import agreed
 from contactx.parallel.halo import Halo
 from contactx.parallel.reduce import extent, largest, total
 from contactx.parallel.slaves import SlaveNodes
-from contactx.search.surface import in_order
+from contactx.search import in_order
 from contactx.surface import FacetList, Surface
 
 
