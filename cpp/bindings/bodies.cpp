@@ -3,35 +3,20 @@
 
 #include "check.h"
 #include "master.h"
-#include <contactx/active_set/free_bodies.h>
+#include <contactx/active_set/active_set.h>
 #include <contactx/contact/bodies.h>
+#include <pybind11/stl.h>
 #include <stdexcept>
 
 namespace py = pybind11;
 using namespace contactx_bindings;
 using namespace contactx::active_set;
 using contactx::contact::Bodies;
+using contactx::contact::Contact;
 using contactx::parallel::NodeMap;
 
 namespace
 {
-template <class T>
-std::vector<T> values_of(py::handle values)
-{
-  // Converted where it has another type
-  const auto a
-      = py::array_t<T, py::array::c_style | py::array::forcecast>::ensure(
-          values);
-  if (not a)
-    throw py::error_already_set();
-  return {a.data(), a.data() + a.size()};
-}
-
-std::vector<std::int8_t> truths_of(py::handle values)
-{
-  return truths(values.cast<Array<bool>>());
-}
-
 /// Bulk that an object of Python looks after: see python/contactx/bodies.
 class PythonBulk final : public Bulk
 {
@@ -88,65 +73,10 @@ private:
   Array<std::int8_t> _markers;
 };
 
-/// Contact that an object of Python looks after.
-class PythonHolding final : public Holding
+std::vector<double> values_of(const py::object& values)
 {
-public:
-  explicit PythonHolding(py::object adapter) : _adapter(std::move(adapter)) {}
-
-  bool is_small() const override
-  {
-    return _adapter.attr("is_small").cast<bool>();
-  }
-  bool has_friction() const override
-  {
-    return _adapter.attr("has_friction").cast<bool>();
-  }
-  Pairing pairing() const override
-  {
-    const py::tuple p = _adapter.attr("pairing")();
-    return {truths_of(p[0]),
-            values_of<double>(p[1]),
-            {values_of<std::int32_t>(p[2]), values_of<std::int32_t>(p[3]),
-             values_of<double>(p[4])}};
-  }
-  std::vector<std::int8_t> status() const override
-  {
-    return values_of<std::int8_t>(_adapter.attr("status"));
-  }
-  std::vector<double> closable_gap() const override
-  {
-    return values_of<double>(_adapter.attr("closable_gap"));
-  }
-  Rubbing rubbing() override
-  {
-    const py::tuple p = _adapter.attr("rubbing")();
-    return {values_of<double>(p[0]), values_of<double>(p[1]),
-            values_of<double>(p[2]), values_of<double>(p[3]),
-            values_of<double>(p[4]), truths_of(p[5])};
-  }
-  void close(std::span<const std::int32_t> which) override
-  {
-    _adapter.attr("close")(numbers(which));
-  }
-  void set_tractions(std::span<const std::int32_t> which,
-                     std::span<const double> tractions) override
-  {
-    _adapter.attr("set_tractions")(
-        numbers(which),
-        py::array_t<double>(static_cast<py::ssize_t>(tractions.size()),
-                            tractions.data()));
-  }
-
-private:
-  static py::array_t<std::int32_t> numbers(std::span<const std::int32_t> which)
-  {
-    return py::array_t<std::int32_t>(static_cast<py::ssize_t>(which.size()),
-                                     which.data());
-  }
-
-  py::object _adapter;
-};
+  return copy(values.cast<Array<double>>());
+}
 
 py::list matrices(const std::vector<contactx::dense::Matrix>& all)
 {
@@ -183,7 +113,6 @@ void contactx_bindings::bodies(py::module_& m)
                }),
            py::arg("cells"), py::arg("num_owned"), py::arg("original"),
            py::arg("nodes"))
-      .def("nodes_changed", &Bodies::nodes_changed)
       .def_property_readonly("names",
                              [](const Bodies& b) { return array(b.names()); })
       .def_property_readonly("of_node",
@@ -266,36 +195,40 @@ void contactx_bindings::bodies(py::module_& m)
             return modes;
           },
           py::arg("nodes"), py::arg("x"));
-  py::class_<FreeBodies>(m, "FreeBodies",
-                         "What keeps bodies without enough supports solvable")
+  py::class_<Forces>(m, "Forces",
+                     "Forces at an iterate, asked for where needed")
+      .def(py::init(
+               [](py::function residual, py::function of_bulk,
+                  py::function scale)
+               {
+                 return Forces{[residual = std::move(residual)]
+                               { return values_of(residual()); },
+                               [of_bulk = std::move(of_bulk)]
+                               { return values_of(of_bulk()); },
+                               [scale = std::move(scale)]
+                               { return scale().cast<double>(); }};
+               }),
+           py::arg("residual"), py::arg("of_bulk"), py::arg("scale"));
+  py::class_<FreeBodies, std::shared_ptr<FreeBodies>>(
+      m, "FreeBodies", "What keeps bodies without enough supports solvable")
       .def(py::init(
                [](std::shared_ptr<Bodies> bodies, py::object bulk,
-                  const py::list& contacts, const Array<std::int64_t>& original)
+                  const std::vector<std::shared_ptr<Contact>>& contacts,
+                  const Array<std::int64_t>& original)
                {
-                 std::vector<std::shared_ptr<Holding>> holding;
-                 for (const py::handle& contact : contacts)
-                   holding.push_back(std::make_shared<PythonHolding>(
-                       py::reinterpret_borrow<py::object>(contact)));
-                 return std::make_unique<FreeBodies>(
+                 std::vector<std::shared_ptr<Holding>> holdings;
+                 for (const auto& contact : contacts)
+                   holdings.push_back(holding(contact));
+                 return std::make_shared<FreeBodies>(
                      std::move(bodies),
                      std::make_shared<PythonBulk>(std::move(bulk)),
-                     std::move(holding), view(original));
+                     std::move(holdings), view(original));
                }),
            py::arg("bodies"), py::arg("bulk"), py::arg("contacts"),
            py::arg("original"))
       .def("begin_step", &FreeBodies::begin_step)
       .def("reset", &FreeBodies::reset)
-      .def(
-          "stabilise",
-          [](FreeBodies& self, const py::function& residual,
-             const py::function& of_bulk, const py::function& scale)
-          {
-            return self.stabilise(
-                {[&residual] { return values_of<double>(residual()); },
-                 [&of_bulk] { return values_of<double>(of_bulk()); },
-                 [&scale] { return scale().cast<double>(); }});
-          },
-          py::arg("residual"), py::arg("of_bulk"), py::arg("scale"))
+      .def("stabilise", &FreeBodies::stabilise, py::arg("forces"))
       .def("drift", [](FreeBodies& self) { return or_none(self.drift()); })
       .def_property_readonly("springs", [](const FreeBodies& self)
                              { return or_none(self.springs()); })

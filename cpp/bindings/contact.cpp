@@ -3,149 +3,74 @@
 
 #include "master.h"
 #include "parallel.h"
-#include <contactx/contact/recovery.h>
+#include <contactx/contact/contact.h>
+#include <pybind11/stl.h>
 
 namespace py = pybind11;
 using namespace contactx_bindings;
 using namespace contactx::contact;
-using contactx::parallel::NodeMap;
-
-namespace
-{
-template <class T>
-py::array_t<T> scattered(const SlaveNodes& self, const Array<T>& values)
-{
-  const int width = values.ndim() < 2 ? 1 : static_cast<int>(values.shape(1));
-  std::vector<py::ssize_t> shape(values.shape(),
-                                 values.shape() + values.ndim());
-  shape.at(0) = std::ssize(self.around());
-  return array(self.scatter_forward(view(values), width), std::move(shape));
-}
-
-int width_of(const Array<double>& x)
-{
-  if (x.ndim() != 2)
-    throw std::invalid_argument("x must have a row for each node");
-  return static_cast<int>(x.shape(1));
-}
-} // namespace
+using contactx::law::Law;
+using contactx::parallel::Halo;
 
 void contactx_bindings::contact(py::module_& m)
 {
-  py::class_<SlaveNodes, std::shared_ptr<SlaveNodes>>(
-      m, "SlaveNodes",
-      "Slave nodes that a rank owns, and those of others that share a facet "
-      "with them")
-      .def(py::init(
-               [](std::shared_ptr<NodeMap> nodes,
-                  const Array<std::int32_t>& offsets,
-                  const Array<std::int32_t>& facet_nodes,
-                  const Array<std::int32_t>& own_offsets,
-                  const Array<std::int32_t>& own_nodes)
-               {
-                 return std::make_shared<SlaveNodes>(
-                     std::move(nodes),
-                     contactx::facet::FacetList{view(offsets),
-                                                view(facet_nodes)},
-                     contactx::facet::FacetList{view(own_offsets),
-                                                view(own_nodes)});
-               }),
-           py::arg("nodes"), py::arg("offsets"), py::arg("facet_nodes"),
-           py::arg("own_offsets"), py::arg("own_nodes"))
-      .def_property_readonly("owned",
-                             [](py::object self)
-                             {
-                               const auto& s = self.cast<const SlaveNodes&>();
-                               return looking(s.around(),
-                                              {std::ssize(s.owned())}, self);
-                             })
-      .def_property_readonly("around",
-                             [](py::object self)
-                             {
-                               const auto& s = self.cast<const SlaveNodes&>();
-                               return looking(s.around(),
-                                              {std::ssize(s.around())}, self);
-                             })
-      .def_property_readonly("corners",
-                             [](py::object self)
-                             {
-                               const auto& s = self.cast<const SlaveNodes&>();
-                               return looking(s.corners(),
-                                              {std::ssize(s.corners())}, self);
-                             })
-      .def("scatter_forward", &scattered<double>, py::arg("values"))
-      .def("scatter_forward", &scattered<std::int8_t>, py::arg("values"))
-      .def("scatter_forward", &scattered<std::int64_t>, py::arg("values"))
+  py::class_<Contact, std::shared_ptr<Contact>>(
+      m, "Contact", "Slave nodes of a contact with their pairs, state and law")
       .def(
-          "scatter_forward",
-          [](const SlaveNodes& self, const Array<bool>& values)
-          { return to_bool(self.scatter_forward(truths(values))); },
-          py::arg("values"))
+          py::init(
+              [](std::shared_ptr<Halo> halo, std::shared_ptr<SlaveNodes> slaves,
+                 std::shared_ptr<Master> master, std::shared_ptr<Law> law,
+                 bool is_small, bool has_means,
+                 const Array<std::int8_t>& prescribed,
+                 const std::optional<Array<bool>>& shared)
+              {
+                return std::make_shared<Contact>(
+                    std::move(halo), std::move(slaves), std::move(master),
+                    std::move(law),
+                    Contact::Options{
+                        is_small ? Sliding::small : Sliding::finite, has_means,
+                        copy(prescribed),
+                        shared ? truths(*shared) : std::vector<std::int8_t>()});
+              }),
+          py::arg("halo"), py::arg("slaves"), py::arg("master"), py::arg("law"),
+          py::kw_only(), py::arg("is_small"), py::arg("has_means"),
+          py::arg("prescribed"), py::arg("shared") = py::none())
+      .def_property_readonly("master", &Contact::master)
+      .def_property_readonly("law", &Contact::law)
+      .def_property_readonly("nodes", &Contact::nodes)
+      .def_property_readonly("history", &Contact::history)
+      .def_property_readonly(
+          "sliding", [](const Contact& self)
+          { return self.sliding() == Sliding::small ? "small" : "finite"; })
+      .def_property_readonly(
+          "kinematics", [](const Contact& self)
+          { return self.kinematics() == Sliding::small ? "small" : "finite"; })
+      .def_property_readonly("updates_kinematics", &Contact::updates_kinematics)
+      .def_property_readonly("pairs", &Contact::pairs)
+      .def_property_readonly("version", &Contact::version)
+      .def_property_readonly("is_shared", [](const Contact& self)
+                             { return to_bool(self.is_shared()); })
+      .def_property("active", &Contact::is_active, &Contact::set_active)
+      .def_property_readonly("skipped_searches", &Contact::skipped_searches)
       .def(
-          "facing",
-          [](const SlaveNodes& self, const Array<double>& x,
-             const Array<double>& normal)
-          { return to_bool(self.facing(view(x), view(normal), width_of(x))); },
-          py::arg("x"), py::arg("normal"))
+          "set_offset", [](Contact& self, const Array<double>& offset)
+          { self.set_offset(view(offset)); }, py::arg("offset"))
+      .def("begin_step", &Contact::begin_step)
+      .def("accept", &Contact::accept)
+      .def("rebuild", &Contact::rebuild)
       .def(
-          "facing_areas",
-          [](const SlaveNodes& self, const Array<double>& reference,
-             const Array<double>& x, const Array<double>& normal)
-          {
-            return array(self.facing_areas(view(reference), view(x),
-                                           view(normal), width_of(x)));
-          },
-          py::arg("reference"), py::arg("x"), py::arg("normal"))
+          "set_factor", [](Contact& self, const Array<double>& compliance)
+          { self.set_factor(view(compliance)); }, py::arg("compliance"))
+      .def("search", &Contact::search)
+      .def("freeze", &Contact::freeze, py::arg("is_frozen"))
+      .def("update_gap", &Contact::update_gap)
+      .def("update_status", &Contact::update_status,
+           py::arg("is_first") = false)
       .def(
-          "largest", [](const SlaveNodes& self, const Array<double>& values)
-          { return array(self.largest(view(values))); }, py::arg("values"))
+          "closing", [](Contact& self, bool is_first)
+          { return to_bool(self.closing(is_first)); },
+          py::arg("is_first") = false)
       .def(
-          "smallest", [](const SlaveNodes& self, const Array<double>& values)
-          { return array(self.smallest(view(values))); }, py::arg("values"))
-      .def(
-          "near", [](const SlaveNodes& self, const Array<bool>& which)
-          { return array(self.near(truths(which))); }, py::arg("which"))
-      .def(
-          "sums", [](const SlaveNodes& self, const Array<double>& corners)
-          { return array(self.sums(view(corners))); }, py::arg("corners"));
-  py::class_<Recovery>(m, "Recovery",
-                       "Nodal tractions that scatter less than multipliers")
-      .def(py::init(
-               [](std::shared_ptr<SlaveNodes> slaves, const Array<double>& x)
-               {
-                 return std::make_unique<Recovery>(std::move(slaves), view(x),
-                                                   width_of(x));
-               }),
-           py::arg("slaves"), py::arg("x"))
-      .def(
-          "pressure",
-          [](const Recovery& self, const Array<double>& p,
-             const Array<double>& area, const Array<bool>& closed)
-          { return array(self.pressure(view(p), view(area), truths(closed))); },
-          py::arg("p"), py::arg("area"), py::arg("closed"))
-      .def(
-          "tractions",
-          [](const Recovery& self, const Array<double>& multiplier,
-             const Array<double>& normal, const Array<double>& area,
-             const Array<bool>& closed)
-          {
-            const Recovered found = self.tractions(
-                view(multiplier), view(normal), view(area), truths(closed));
-            const py::ssize_t n = std::ssize(found.pressure);
-            const py::ssize_t gdim = width_of(normal);
-            return py::make_tuple(array(found.pressure),
-                                  array(found.traction, {n, gdim}));
-          },
-          py::arg("multiplier"), py::arg("normal"), py::arg("area"),
-          py::arg("closed"));
-  m.def(
-      "recovery_change",
-      [](const NodeMap& nodes, const Array<double>& forces,
-         const Array<double>& recovered)
-      {
-        return recovery_change(nodes.ranks(), view(forces), view(recovered),
-                               width_of(forces));
-      },
-      py::arg("nodes"), py::arg("forces"), py::arg("recovered"),
-      "By how much recovered tractions change the force of a contact");
+          "add_residual", [](const Contact& self, Array<double>& b)
+          { self.add_residual(mutable_view(b)); }, py::arg("b").noconvert());
 }

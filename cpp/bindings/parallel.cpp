@@ -36,17 +36,21 @@ public:
 
   void reduce(std::span<double> values, Reduction how) override
   {
-    _adapter.attr("reduce")(shared(values), name_of(how));
+    if (_size > 1)
+      _adapter.attr("reduce")(shared(values), name_of(how));
   }
 
   void reduce(std::span<std::int64_t> values, Reduction how) override
   {
-    _adapter.attr("reduce")(shared(values), name_of(how));
+    if (_size > 1)
+      _adapter.attr("reduce")(shared(values), name_of(how));
   }
 
   std::vector<double> gather(std::span<const double> mine) override
   {
     const std::vector<double> values(mine.begin(), mine.end());
+    if (_size == 1)
+      return values;
     return copy(_adapter.attr("gather")(array(values)).cast<Array<double>>());
   }
 
@@ -69,7 +73,10 @@ public:
 
   void agree(const std::function<void()>& work) override
   {
-    _adapter.attr("agree")(py::cpp_function(work));
+    if (_size == 1)
+      work();
+    else
+      _adapter.attr("agree")(py::cpp_function(work));
   }
 
 private:

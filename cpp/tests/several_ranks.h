@@ -150,7 +150,11 @@ public:
   const std::vector<std::int64_t>& numbers() const { return _numbers; }
 
   /// @brief Add a node of another rank.
-  void add(std::int64_t number) { _numbers.push_back(number); }
+  void add(std::int64_t number)
+  {
+    _numbers.push_back(number);
+    notify();
+  }
 
   void forward(std::span<double> values, int width) const override
   {

@@ -27,25 +27,20 @@ from petsc4py import PETSc
 import numpy as np
 import numpy.typing as npt
 
+from contactx import cpp as core
 from contactx.audit.audit import Audit
+from contactx.bodies.adapter import BulkSide
 from contactx.bodies.bodies import Bodies
-from contactx.bodies.free_bodies import FreeBodies
 from contactx.bulk import Bulk
 from contactx.callback import keeps_its_error, weakly
 from contactx.convergence import ConvergenceCriterion
-from contactx.cycling import CycleGuard, FrozenPairs
 from contactx.interface import Interface
-from contactx.junctions import Junctions
 from contactx.linear import Condensed, LinearSolver, SaddlePoint
 from contactx.options import is_condensed, newton_options
-from contactx.parallel.reduce import anywhere, largest, total
+from contactx.parallel.reduce import largest
 from contactx.report import Iteration, Report
-from contactx.soft_path import SoftPath
 from contactx.step_length import StepLength
 from contactx.system import SaddlePointSystem
-
-# Share of the closed nodes above which changes of status or facet freeze the kinematics
-_FEW = 0.2
 
 # Iterates with unbalanced forces on a free body and settled status after which the loop gives up
 _MOST_UNBALANCED = 10
@@ -147,20 +142,22 @@ class NewtonLoop:
         self._report = Report()
         self.error: BaseException | None = None
         self._converged = self._has_modes = self._has_full_steps = False
-        # Whether kinematics are frozen, and whether the residual is that of frozen ones
-        self._frozen_kinematics = self._stale = False
-        self._changes = (0, 0)
         # Iterates with unbalanced forces on a free body
         self._unbalanced = 0
         # Displacements at the step's start
         self._start = np.zeros(0)
         self._criterion = ConvergenceCriterion(bulk, interfaces, system)
-        self._free_bodies = FreeBodies(bulk, interfaces, bodies)
-        self._junctions = Junctions(interfaces, system.halo)
-        self._guard = CycleGuard(interfaces, system.halo)
-        self._frozen_pairs = FrozenPairs(interfaces, system.halo)
+        halo = system.halo
+        self._free_bodies = core.FreeBodies(
+            bodies, BulkSide(bulk, halo), list(interfaces), halo.original[: halo.num_owned]
+        )
+        self._active_set = core.ActiveSet(halo.nodes, list(interfaces), self._free_bodies)
+        self._forces = core.Forces(
+            system.displacement_residual, system.bulk_residual, self._criterion.scale_of_balance
+        )
+        # The iterate before, with hard contact
+        self._last: PETSc.Vec | None = None
         self._audit = Audit(bulk, interfaces, system.halo)
-        self._path = SoftPath(interfaces, system.halo.comm)
         self._length = StepLength(bulk, system, self._audit.cells)
         self._names, self._refuses = names, refuses
         # Why the step has failed, and whether no other way may lead to a solution
@@ -182,14 +179,10 @@ class NewtonLoop:
         skipped = self._bulk.skipped
         self._system.begin_step()
         self.snes.setFunction(weakly(self._function), self._system.b)
-        self._frozen_kinematics = False
         self._failure, self._is_final = "", False
         self._unbalanced = 0
-        self._frozen_pairs.begin_step()
-        self._halo.shrink()
-        for interface in self._interfaces:
-            interface.begin_step()
-        self._path.begin_step()
+        self._last = None
+        self._active_set.begin_step()
         self._length.begin_step(damped=report.damped)
         with self._options.in_database():
             self._options.hand_to(self.snes)
@@ -203,9 +196,11 @@ class NewtonLoop:
             self._set_factors(stiffness)
             self._free_bodies.begin_step()
             self._audit.begin_step()
-            self._guard.begin_step()
-            self._changes = self._settle(first=True)
+            self._settle(is_first=True)
             self._system.pack()
+            # What asks for the Jacobian before it asks for the residual
+            for interface in self._interfaces:
+                interface.law.evaluate(interface.nodes)
             self._linear.update(self._free_bodies.springs)
             self.snes.solve(None, self._system.x)
             report.unread = self._options.unread()
@@ -216,15 +211,15 @@ class NewtonLoop:
             self._failure = self._why_slow(code)
             self._is_final = bool(self._failure)
         report.reason = self._failure or _reason_of(code, self._converged)
-        report.frozen_gap = min(self._frozen_pairs.gaps, default=0.0)
+        report.frozen_gap = min(self._active_set.hidden_gaps, default=0.0)
         self._has_modes |= self._converged
         if self._converged:
             self._criterion.accept()
         self._linear.end_step(report)
-        report.soft = self._path.iterations
+        report.soft = self._active_set.soft_iterations
         report.limited, report.shortened = self._length.limited, self._length.damped
-        report.cycles = self._guard.cycles
-        report.corners = int(total(self._halo.comm, self._junctions.corners))
+        report.cycles = self._active_set.cycles
+        report.corners = self._active_set.num_corners()
         report.free_modes = self._free_bodies.free_modes
         report.closed_for_balance = self._free_bodies.closed_for_balance
         report.skipped = Counter({"bulk Jacobian assembly": self._bulk.skipped - skipped})
@@ -270,7 +265,7 @@ class NewtonLoop:
     @property
     def hidden_gaps(self) -> Sequence[float]:
         """Smallest gap that frozen pairs of each contact hide, at the solution."""
-        return self._frozen_pairs.gaps
+        return self._active_set.hidden_gaps
 
     def accept(self) -> None:
         """Take the converged state as the start of the next step; all ranks must take part."""
@@ -318,74 +313,18 @@ class NewtonLoop:
             self._system.unpack(x)
             self._system.residual(b)
 
-    def _settle(self, first: bool = False, may_freeze: bool = True) -> tuple[int, int]:
+    def _settle(self, *, is_first: bool = False) -> None:
         """Update pairs and the active set at an accepted iterate.
 
-        While many nodes change their status, the active set is far off, and so are pressures and
-        deformation: pairs found on it, and the stiffness of its normals, lead astray. So the
-        kinematics (pairs, normals and projections) are frozen, which makes the contact conditions
-        linear, and the active set converges as surely as in small sliding. Once few nodes change
-        the kinematics are updated again.
-
         Args:
-            first: Whether the iterate is the step's start.
-            may_freeze: Whether kinematics are frozen where many nodes change.
-
-        Returns:
-            Number of nodes of all ranks that changed their status, and of those that changed their
-            facet.
+            is_first: Whether the iterate is the step's start.
         """
         # Only all ranks together can free what they have dropped
         PETSc.garbage_cleanup(self._halo.comm)
-        status, pairs = self._update_active_set(first)
-        self._stale = self._frozen_kinematics and self._many(status) and may_freeze
-        if self._frozen_kinematics and not self._stale:
-            self._freeze_kinematics(False)
-            more, pairs = self._update_active_set()
-            status += more
-        self._freeze_kinematics(self._many(status + pairs) and may_freeze)
-        if self._many(status):
-            # What flips on an active set that is far off says nothing of the solution, and no more
-            # does the residual of the pairs that were frozen for it
-            frozen = any(len(i.master.frozen_pairs) > 0 for i in self._interfaces)
-            self._stale |= may_freeze and anywhere(self._halo.comm, frozen)
-            for interface in self._interfaces:
-                interface.master.reset_flips()
         for interface in self._interfaces:
-            interface.nodes.drop_open()
-        scale = self._criterion.scale_of_balance
-        system = self._system
-        if self._free_bodies.stabilise(system.displacement_residual, system.bulk_residual, scale):
-            self._freeze_kinematics(True)
-        for interface in self._interfaces:
-            interface.law.evaluate(interface.nodes)
-        return status, pairs
-
-    def _update_active_set(self, first: bool = False) -> tuple[int, int]:
-        """Update pairs, gaps and status; returns the changes of status and of facets."""
-        status = pairs = 0
-        with self._report.timing("search"):
-            for interface in self._interfaces:
-                pairs += interface.search()
-        for interface in self._interfaces:
-            interface.update_gap()
-        self._junctions.update(first)
-        for interface in self._interfaces:
-            status += interface.update_status(first)
-        status, pairs = total(self._halo.comm, np.array([status, pairs])).tolist()
-        return status, pairs
-
-    def _many(self, changes: int) -> bool:
-        return changes > max(1, _FEW * self._num_closed())
-
-    def _num_closed(self) -> int:
-        closed = sum(int(i.nodes.closed.sum()) for i in self._interfaces)
-        return int(total(self._halo.comm, closed))
-
-    def _freeze_kinematics(self, frozen: bool) -> None:
-        self._frozen_kinematics = frozen and any(i.updates_kinematics for i in self._interfaces)
-        for interface in self._interfaces:
-            interface.freeze_kinematics(frozen)
+            interface.read_values()
+        with self._report.timing("settle"):
+            self._active_set.settle(self._forces, is_first)
 
     @keeps_its_error
     def _test(
@@ -396,28 +335,26 @@ class NewtonLoop:
         if not np.isfinite(norms[2]):
             return reason.DIVERGED_FUNCTION_NANORINF
         if number > 0:
-            if self._guard.shorten(self._system.x):
-                self._system.unpack(self._system.x)
+            self._shorten_circle()
             self._take_off_drift()
-            # On the soft path nothing leads far astray
-            self._changes = self._settle(may_freeze=not self._path.is_soft)
-            is_full = self._length.part == 1
-            self._path.advance(self._changes[0], self._num_closed(), is_full=is_full)
+            self._settle()
+            self._active_set.advance(is_full=self._length.part == 1)
         row, small = self._evaluate(snes, number)
-        if small and self._path.is_soft:
-            self._path.harden()
+        if small and self._active_set.is_soft:
+            self._active_set.harden()
             row, small = self._evaluate(snes, number)
-        # With frozen kinematics the residual is not the true one. The active set need not settle:
-        # nodes without force change their status by rounding for ever
-        while small and (self._stale or self._frozen_pairs.hide_penetration()):
-            if not (self._stale or self._frozen_pairs.release()):
+        while small:
+            end = self._active_set.may_end(self._forces)
+            if end == core.ActiveSet.End.solution:
+                break
+            if end == core.ActiveSet.End.hidden:
                 self._failure, self._is_final = _HIDDEN, True
                 return reason.DIVERGED_FUNCTION_DOMAIN
-            self._changes = self._settle(may_freeze=False)
             row, small = self._evaluate(snes, number)
         self._report.history.append(row)
-        if not self._path.is_soft:
-            self._guard.note(self._system.x, row.residual)
+        self._active_set.note(row.residual)
+        if not self._active_set.is_soft:
+            self._last = self._system.x.copy()
         if not np.isfinite(row.residual):
             return reason.DIVERGED_FUNCTION_NANORINF
         if small:
@@ -435,7 +372,8 @@ class NewtonLoop:
             return reason.DIVERGED_FUNCTION_DOMAIN
         self._linear.update(self._free_bodies.springs)
         # Where an active set has come back, only exact solves tell it from its successor
-        changing = 0.0 if self._guard.cycles else sum(self._changes) / max(1, row.closed)
+        changes = sum(self._active_set.changes)
+        changing = 0.0 if self._active_set.cycles else changes / max(1, row.closed)
         self._linear.set_accuracy(row.residual, row.tolerance, changing)
         return reason.CONVERGED_ITERATING
 
@@ -443,7 +381,7 @@ class NewtonLoop:
         """Whether nothing balances a body, now that the active set has settled."""
         if not self._free_bodies.is_unbalanced:
             self._unbalanced = 0
-        elif self._changes[0] == 0:
+        elif self._active_set.changes[0] == 0:
             self._unbalanced += 1
         return self._unbalanced >= _MOST_UNBALANCED
 
@@ -453,7 +391,7 @@ class NewtonLoop:
         parts = self._system.blocks(step.array_r)[1:]
         # A line search of the user's would have nowhere to go
         is_able = self.snes.getIterationNumber() > 0 and self._has_full_steps
-        if is_able and self._path.begins(parts):
+        if is_able and self._active_set.softens([-part for part in parts]):
             step.zeroEntries()
         else:
             self._length.shorten(self.snes, x, step, self._function)
@@ -476,14 +414,20 @@ class NewtonLoop:
         step = np.abs(self._bulk.u.x.array - self._start)
         return float(largest(self._halo.comm, step.max(initial=0.0)))
 
+    def _shorten_circle(self) -> None:
+        """Take back a part of the last step, if iterates go round in a circle."""
+        if self._last is not None and self._active_set.shortens():
+            part = core.ActiveSet.part
+            self._system.x.aypx(part, (1 - part) * self._last)
+            self._system.unpack(self._system.x)
+
     def _take_off_drift(self) -> None:
         """Take off what free bodies have drifted in a step of linear contact conditions.
 
         With current kinematics pressures resist such motions by a little, and steps seek the place
         where they balance.
         """
-        updated = any(i.updates_kinematics for i in self._interfaces)
-        if updated and not self._frozen_kinematics:
+        if not self._active_set.is_linear:
             return
         drift = self._free_bodies.drift()
         if drift is not None:
@@ -500,10 +444,10 @@ class NewtonLoop:
             number=number,
             residual=residual,
             tolerance=tolerance,
-            closed=self._num_closed(),
-            status_changes=self._changes[0],
-            pair_changes=self._changes[1],
-            frozen_kinematics=self._frozen_kinematics,
+            closed=self._active_set.num_closed(),
+            status_changes=self._active_set.changes[0],
+            pair_changes=self._active_set.changes[1],
+            frozen_kinematics=self._active_set.is_frozen,
             dirichlet_defect=defect,
         )
         size = largest(self._halo.comm, np.abs(self._bulk.u.x.array).max(initial=0.0))

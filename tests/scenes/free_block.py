@@ -2,16 +2,16 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """An upper block that only its contact with the lower one supports, without a search."""
 
-from types import SimpleNamespace
-
 import numpy as np
 
+import contactx as cx
 from contactx import cpp as core
-from contactx.bodies.free_bodies import FreeBodies
+from contactx.bodies.adapter import BulkSide
+from dolfinx import mesh
 
 
 class FreeBlock:
-    """Each node of the upper block's bottom is paired with the nearest one of the lower's top.
+    """The bottom of the upper block is slave on the top of the lower one, with gaps as given.
 
     Attributes:
         scene: The blocks, with all nodes on all ranks.
@@ -21,41 +21,32 @@ class FreeBlock:
 
     def __init__(self, scene, *, friction=0.0, slope=0.01, gap=0.05):
         self.scene = scene
-        halo, dim = scene.halo, scene.dim
-        x = scene.everywhere(halo.x[: halo.num_owned])
-        upper = scene.everywhere(scene.bodies.number[: halo.num_owned])[:, 0] == 1
-        height = x[:, -1]
-        bottom = np.flatnonzero(upper & np.isclose(height, 0.1))
-        top = np.flatnonzero(~upper & np.isclose(height, 0))
-        nearest = top[np.linalg.norm(x[bottom, None] - x[top], axis=2).argmin(axis=1)]
-        place = dict(zip(halo.original.tolist(), range(halo.num_nodes), strict=True))
-        here = [(place[s], place[m]) for s, m in zip(bottom, nearest, strict=True)]
-        here = [(s, m) for s, m in here if s < halo.num_owned]
-        slaves, masters = np.array(here, dtype=np.int32).reshape(-1, 2).T
-        n = len(slaves)
-        law = core.Coulomb() if friction else core.Frictionless()
-        if isinstance(law, core.Coulomb):
-            law.set_friction(np.full(n, friction))
-        self.nodes = core.NodeState(n, dim, law.is_vector)
+        halo, dim, domain = scene.halo, scene.dim, scene.domain
+        found = [
+            mesh.locate_entities_boundary(domain, dim - 1, lambda x, h=h: np.isclose(x[dim - 1], h))
+            for h in (0.1, 0)
+        ]
+        facets = np.concatenate(found).astype(np.int32)
+        values = np.repeat(np.array([1, 2], dtype=np.int32), [len(f) for f in found])
+        order = facets.argsort()
+        tags = mesh.meshtags(domain, dim - 1, facets[order], values[order])
+        contact = cx.Contact(cx.Surface(tags, 1), cx.Surface(tags, 2), friction=friction)
+        interface = contact.attach(halo, scene.bulk.markers, scene.bodies)
+        # The nodes look at their interface's
+        self.interface, self.nodes, self.slaves = interface, interface.nodes, interface.slaves
+        assert interface.master.paired.all()
+        interface.read_values()
         self.nodes.area[:] = 0.1
-        self.nodes.gap[:] = gap + slope * halo.x[slaves, 0]
-        up = np.zeros((n, 3))
-        up[:, dim - 1] = 1
-        self.nodes.normal[:] = up[: len(self.nodes.normal), :dim]
-        self.slaves = slaves
-        numbers = np.repeat(np.arange(n), 2)
-        weights = SimpleNamespace(
-            slaves=numbers,
-            nodes=np.column_stack([slaves, masters]).ravel(),
-            values=np.tile([1.0, -1], n),
+        self.nodes.gap[:] = gap + slope * halo.x[self.slaves, 0]
+        if friction:
+            self.nodes.normal[:] = interface.master.normals()[:, :dim]
+        scene.see_all()
+        self.free_bodies = core.FreeBodies(
+            scene.bodies,
+            BulkSide(scene.bulk, halo),
+            [interface],
+            halo.original[: halo.num_owned],
         )
-        master = SimpleNamespace(
-            paired=np.ones(n, dtype=bool), weights=lambda: weights, normals=lambda: up
-        )
-        interface = SimpleNamespace(
-            positions=halo.positions, nodes=self.nodes, master=master, law=law, sliding="finite"
-        )
-        self.free_bodies = FreeBodies(scene.bulk, [interface], scene.bodies)
 
     def slip(self, p=1.0, aside=0.02):
         """All nodes slip along x, by what grows with x, under a pressure."""
@@ -73,7 +64,7 @@ class FreeBlock:
         force[self.scene.bodies.number[: halo.num_owned] == 0] = 0
         self.free_bodies.begin_step()
         changed = self.free_bodies.stabilise(
-            lambda: -force.ravel(), lambda: -force.ravel(), lambda: 1.0
+            core.Forces(lambda: -force.ravel(), lambda: -force.ravel(), lambda: 1.0)
         )
         stiffness = self.free_bodies.springs
         status = np.full(halo.num_owned, -1)

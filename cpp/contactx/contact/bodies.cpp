@@ -112,6 +112,7 @@ Bodies::Bodies(std::span<const std::int32_t> cells, int width,
   for (std::size_t c = 0; c < cells.size(); c += width)
     _of_cell.push_back(_of_node[cells[c]]);
   nodes_changed();
+  _observer = _map->on_change([this] { nodes_changed(); });
 }
 
 std::vector<std::int64_t>

@@ -34,8 +34,9 @@ public:
          std::int32_t num_owned_cells, std::span<const std::int64_t> original,
          std::shared_ptr<const parallel::NodeMap> nodes);
 
-  /// @brief Give nodes that have come to this rank their bodies; collective.
-  void nodes_changed();
+  // Halos call it
+  Bodies(const Bodies&) = delete;
+  Bodies& operator=(const Bodies&) = delete;
 
   /// @brief The nodes of this rank.
   const parallel::NodeMap& map() const { return *_map; }
@@ -91,11 +92,14 @@ private:
   /// that the parts with the given names on this rank belong to.
   std::vector<std::int64_t> across_ranks(std::span<const std::int64_t> here,
                                          std::int32_t num_bulk);
+  /// Give nodes that have come to this rank their bodies; collective.
+  void nodes_changed();
 
   std::shared_ptr<const parallel::NodeMap> _map;
   std::vector<std::int64_t> _names, _of_node, _of_cell;
   std::vector<std::int32_t> _number;
   std::int32_t _num_owned_cells;
+  std::shared_ptr<const void> _observer;
 };
 
 /// @brief Smallest of the nodes that each node is connected to by cells

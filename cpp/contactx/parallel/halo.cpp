@@ -174,6 +174,7 @@ void Halo::take_ghosts()
   forward(_reference, _gdim);
   ++_version;
   _adapter->changed();
+  notify();
 }
 
 void Halo::sort()

@@ -71,3 +71,19 @@ void Ranks::agree(const std::function<void()>& work)
     throw std::invalid_argument(theirs);
   throw std::runtime_error(theirs);
 }
+
+std::shared_ptr<const void>
+NodeMap::on_change(std::function<void()> observer) const
+{
+  std::erase_if(_observers, [](const auto& o) { return o.expired(); });
+  const auto kept = std::make_shared<const Observer>(std::move(observer));
+  _observers.push_back(kept);
+  return kept;
+}
+
+void NodeMap::notify() const
+{
+  for (const auto& observer : _observers)
+    if (const auto call = observer.lock())
+      (*call)();
+}

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <functional>
 #include <map>
+#include <memory>
 #include <span>
 #include <stdexcept>
 #include <type_traits>
@@ -208,6 +209,20 @@ public:
   /// sums, the others mean nothing then (shape=(num_nodes, width)), row-major.
   /// @param[in] width Values a node.
   virtual void reverse(std::span<double> values, int width) const = 0;
+
+  /// @brief Call a function on all ranks whenever the nodes have changed.
+  /// @param[in] observer The function.
+  /// @return What it is called for: nothing once this is gone.
+  [[nodiscard]] std::shared_ptr<const void>
+  on_change(std::function<void()> observer) const;
+
+protected:
+  /// @brief Call whoever asked to know of changes, in order; collective.
+  void notify() const;
+
+private:
+  using Observer = std::function<void()>;
+  mutable std::vector<std::weak_ptr<const Observer>> _observers;
 };
 
 /// @brief Nodes of one rank alone.

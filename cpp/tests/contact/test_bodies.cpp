@@ -151,7 +151,6 @@ TEST(Bodies, OnSeveralRanksTheyAreThoseOfOne)
           EXPECT_TRUE(std::ranges::equal(bodies.names(), graph.names));
           // A node that comes later
           map->add(n / 2);
-          bodies.nodes_changed();
           for (int i = 0; i < map->num_nodes(); ++i)
           {
             EXPECT_EQ(bodies.of_node()[i], graph.name[map->numbers()[i]]);

@@ -38,11 +38,6 @@ class Bodies(core.Bodies):
         )
         self.V = V
         self.halo = halo
-        halo.on_change(self._halo_changed)
-
-    def _halo_changed(self) -> None:
-        """Give the nodes of the halo their bodies."""
-        self.nodes_changed()
 
     @property
     def x(self) -> npt.NDArray[np.float64]:

@@ -93,7 +93,7 @@ def test_one_linear_solve_finds_the_solution_of_its_active_set(cell):
 
 def constraint_matrix(contact, n):
     """Derivative of the gaps with respect to the displacement, by exact differences."""
-    u = contact.interface._halo.displacement.array
+    u = contact.interface.halo.displacement.array
     keep = u.copy()
     u[:] = 0
     contact.interface.update_gap()
@@ -110,7 +110,7 @@ def constraint_matrix(contact, n):
 
 
 def gap_at(contact, function):
-    u = contact.interface._halo.displacement.array
+    u = contact.interface.halo.displacement.array
     keep = u.copy()
     u[:] = function.x.array
     contact.interface.update_gap()

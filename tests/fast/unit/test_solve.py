@@ -8,7 +8,6 @@ import pytest
 import contactx as cx
 import ufl
 from contactx import cpp as core
-from contactx.cycling import FrozenPairs
 from dolfinx import default_scalar_type, fem
 from dolfinx.mesh import CellType
 
@@ -125,34 +124,23 @@ def test_frozen_pairs_that_hide_a_penetration_warn(monkeypatch, method):
     contact = scene.contact()
     problem = scene.problem(contact)
     assert contact.interface.master.deepest_frozen_pair(contact.interface.positions()) == (0, 0)
-    searches = []
-
-    def deepest_frozen(*_):
-        searches.append(1)
-        return -1e-3, -1e-2
-
     monkeypatch.setattr(core.NodeToSurface, "frozen_pairs", np.arange(2))
-    monkeypatch.setattr(core.NodeToSurface, "deepest_frozen_pair", deepest_frozen)
+    monkeypatch.setattr(core.ActiveSet, "hidden_gaps", property(lambda _: [-1e-3]))
     with pytest.warns(UserWarning, match=r"2 pairs went back.*hide a penetration of 0\.001"):
         problem.solve()
     assert problem.report.frozen_gap == -1e-3
-    assert len(searches) == 1
 
 
-@pytest.mark.parametrize("method", ["node-to-surface"], indirect=True)
-def test_frozen_pairs_that_hide_much_are_released_and_then_refused(monkeypatch, method):
+def test_frozen_pairs_that_hide_much_are_refused(monkeypatch):
+    """When they are released, and how often: see test_active_set.cpp."""
     scene = Blocks(CellType.tetrahedron)
     problem = scene.problem(scene.contact())
-    let_go = []
-    monkeypatch.setattr(core.NodeToSurface, "frozen_pairs", np.arange(2))
-    monkeypatch.setattr(core.NodeToSurface, "deepest_frozen_pair", lambda *_: (-1e-3, -0.1))
-    forget = FrozenPairs.release
-    monkeypatch.setattr(FrozenPairs, "release", lambda s: let_go.append(1) or forget(s))
+    hidden = core.ActiveSet.End.hidden
+    monkeypatch.setattr(core.ActiveSet, "may_end", lambda *_: hidden)
     with pytest.raises(
         cx.ConvergenceError, match="hide a penetration: refine the coarser surface there"
     ):
         problem.solve()
-    assert len(let_go) == 3
     assert not scene.u.x.array.any()
 
 

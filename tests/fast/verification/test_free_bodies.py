@@ -10,7 +10,7 @@ import stacked_blocks
 
 import contactx as cx
 import ufl
-from contactx.bodies.free_bodies import FreeBodies
+from contactx import cpp as core
 from dolfinx import fem
 from dolfinx.mesh import CellType
 
@@ -131,14 +131,14 @@ def test_touching_without_force_is_no_trouble(cell, friction, method):
 def test_the_springs_do_not_change_the_answer(cell, friction, monkeypatch):
     """Without friction the place along the surface is free: rounding over the spring decides it."""
     answers = []
-    given = FreeBodies.springs
+    given = core.FreeBodies.springs
 
     def springs(free, factor):
         found = given.fget(free)
         return None if found is None else factor * found
 
     for factor in (1e-3, 1.0, 1e3):
-        monkeypatch.setattr(FreeBodies, "springs", property(partial(springs, factor=factor)))
+        monkeypatch.setattr(core.FreeBodies, "springs", property(partial(springs, factor=factor)))
         scene = FreeBlock(cell, friction=friction, sliding="small")
         scene.solve()
         answers.append((scene.u.x.array.copy(), scene.contact.multiplier.copy()))

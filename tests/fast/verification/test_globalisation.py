@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import contactx as cx
+from contactx import cpp as core
 from contactx.newton import NewtonLoop
-from contactx.soft_path import SoftPath
 from contactx.step_length import StepLength
 from dolfinx.mesh import CellType
 
@@ -23,7 +23,7 @@ def answer(strip):
 
 
 def without_soft_path(monkeypatch):
-    monkeypatch.setattr(SoftPath, "begins", lambda self, step: False)
+    monkeypatch.setattr(core.ActiveSet, "softens", lambda self, step: False)
 
 
 @pytest.mark.parametrize("method", METHODS)

@@ -1,0 +1,151 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include "master.h"
+#include "parallel.h"
+#include <contactx/contact/recovery.h>
+
+namespace py = pybind11;
+using namespace contactx_bindings;
+using namespace contactx::contact;
+using contactx::parallel::NodeMap;
+
+namespace
+{
+template <class T>
+py::array_t<T> scattered(const SlaveNodes& self, const Array<T>& values)
+{
+  const int width = values.ndim() < 2 ? 1 : static_cast<int>(values.shape(1));
+  std::vector<py::ssize_t> shape(values.shape(),
+                                 values.shape() + values.ndim());
+  shape.at(0) = std::ssize(self.around());
+  return array(self.scatter_forward(view(values), width), std::move(shape));
+}
+
+int width_of(const Array<double>& x)
+{
+  if (x.ndim() != 2)
+    throw std::invalid_argument("x must have a row for each node");
+  return static_cast<int>(x.shape(1));
+}
+} // namespace
+
+void contactx_bindings::slave_nodes(py::module_& m)
+{
+  py::class_<SlaveNodes, std::shared_ptr<SlaveNodes>>(
+      m, "SlaveNodes",
+      "Slave nodes that a rank owns, and those of others that share a facet "
+      "with them")
+      .def(py::init(
+               [](std::shared_ptr<NodeMap> nodes,
+                  const Array<std::int32_t>& offsets,
+                  const Array<std::int32_t>& facet_nodes,
+                  const Array<std::int32_t>& own_offsets,
+                  const Array<std::int32_t>& own_nodes)
+               {
+                 return std::make_shared<SlaveNodes>(
+                     std::move(nodes),
+                     contactx::facet::FacetList{view(offsets),
+                                                view(facet_nodes)},
+                     contactx::facet::FacetList{view(own_offsets),
+                                                view(own_nodes)});
+               }),
+           py::arg("nodes"), py::arg("offsets"), py::arg("facet_nodes"),
+           py::arg("own_offsets"), py::arg("own_nodes"))
+      .def_property_readonly("owned",
+                             [](py::object self)
+                             {
+                               const auto& s = self.cast<const SlaveNodes&>();
+                               return looking(s.around(),
+                                              {std::ssize(s.owned())}, self);
+                             })
+      .def_property_readonly("around",
+                             [](py::object self)
+                             {
+                               const auto& s = self.cast<const SlaveNodes&>();
+                               return looking(s.around(),
+                                              {std::ssize(s.around())}, self);
+                             })
+      .def_property_readonly("corners",
+                             [](py::object self)
+                             {
+                               const auto& s = self.cast<const SlaveNodes&>();
+                               return looking(s.corners(),
+                                              {std::ssize(s.corners())}, self);
+                             })
+      .def("scatter_forward", &scattered<double>, py::arg("values"))
+      .def("scatter_forward", &scattered<std::int8_t>, py::arg("values"))
+      .def("scatter_forward", &scattered<std::int64_t>, py::arg("values"))
+      .def(
+          "scatter_forward",
+          [](const SlaveNodes& self, const Array<bool>& values)
+          { return to_bool(self.scatter_forward(truths(values))); },
+          py::arg("values"))
+      .def(
+          "facing",
+          [](const SlaveNodes& self, const Array<double>& x,
+             const Array<double>& normal)
+          { return to_bool(self.facing(view(x), view(normal), width_of(x))); },
+          py::arg("x"), py::arg("normal"))
+      .def(
+          "facing_areas",
+          [](const SlaveNodes& self, const Array<double>& reference,
+             const Array<double>& x, const Array<double>& normal)
+          {
+            return array(self.facing_areas(view(reference), view(x),
+                                           view(normal), width_of(x)));
+          },
+          py::arg("reference"), py::arg("x"), py::arg("normal"))
+      .def(
+          "largest", [](const SlaveNodes& self, const Array<double>& values)
+          { return array(self.largest(view(values))); }, py::arg("values"))
+      .def(
+          "smallest", [](const SlaveNodes& self, const Array<double>& values)
+          { return array(self.smallest(view(values))); }, py::arg("values"))
+      .def(
+          "near", [](const SlaveNodes& self, const Array<bool>& which)
+          { return array(self.near(truths(which))); }, py::arg("which"))
+      .def(
+          "sums", [](const SlaveNodes& self, const Array<double>& corners)
+          { return array(self.sums(view(corners))); }, py::arg("corners"));
+  py::class_<Recovery>(m, "Recovery",
+                       "Nodal tractions that scatter less than multipliers")
+      .def(py::init(
+               [](std::shared_ptr<SlaveNodes> slaves, const Array<double>& x)
+               {
+                 return std::make_unique<Recovery>(std::move(slaves), view(x),
+                                                   width_of(x));
+               }),
+           py::arg("slaves"), py::arg("x"))
+      .def(
+          "pressure",
+          [](const Recovery& self, const Array<double>& p,
+             const Array<double>& area, const Array<bool>& closed)
+          { return array(self.pressure(view(p), view(area), truths(closed))); },
+          py::arg("p"), py::arg("area"), py::arg("closed"))
+      .def(
+          "tractions",
+          [](const Recovery& self, const Array<double>& multiplier,
+             const Array<double>& normal, const Array<double>& area,
+             const Array<bool>& closed)
+          {
+            const Recovered found = self.tractions(
+                view(multiplier), view(normal), view(area), truths(closed));
+            const py::ssize_t n = std::ssize(found.pressure);
+            const py::ssize_t gdim = width_of(normal);
+            return py::make_tuple(array(found.pressure),
+                                  array(found.traction, {n, gdim}));
+          },
+          py::arg("multiplier"), py::arg("normal"), py::arg("area"),
+          py::arg("closed"));
+  m.def(
+      "recovery_change",
+      [](const NodeMap& nodes, const Array<double>& forces,
+         const Array<double>& recovered)
+      {
+        return recovery_change(nodes.ranks(), view(forces), view(recovered),
+                               width_of(forces));
+      },
+      py::arg("nodes"), py::arg("forces"), py::arg("recovered"),
+      "By how much recovered tractions change the force of a contact");
+}

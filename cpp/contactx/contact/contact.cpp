@@ -1,0 +1,425 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include "contact.h"
+#include "../vec.h"
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+using namespace contactx;
+using namespace contactx::contact;
+
+namespace
+{
+// Part of a relative movement that Dirichlet conditions leave free, below which
+// a node cannot move along its normal
+constexpr double immobile_part = 1e-8;
+// The same along a component: a projection over an open gap on a tilted facet
+// leaves a symmetry plane by a little
+constexpr double mobile_part = 0.05;
+
+kernel::Law kind_of(const law::Law& law)
+{
+  if (law.is_tied())
+    return kernel::Law::tied;
+  return law.is_vector() ? kernel::Law::frictional : kernel::Law::frictionless;
+}
+
+std::string_view name_of(Sliding sliding)
+{
+  return sliding == Sliding::small ? "small" : "finite";
+}
+
+void require(bool fits, const char* what)
+{
+  if (not fits)
+    throw std::invalid_argument(what);
+}
+} // namespace
+
+Contact::Contact(std::shared_ptr<parallel::Halo> halo,
+                 std::shared_ptr<const SlaveNodes> slaves,
+                 std::shared_ptr<Master> master, std::shared_ptr<law::Law> law,
+                 Options options)
+    : _halo(std::move(halo)), _slaves(std::move(slaves)),
+      _master(std::move(master)), _law(std::move(law)),
+      _options(std::move(options)),
+      _is_frozen(_options.sliding == Sliding::small)
+{
+  const auto owned = _slaves->owned();
+  const auto n = static_cast<std::int32_t>(owned.size());
+  require(_options.prescribed.size() == std::size_t(_halo->num_bulk()) * gdim(),
+          "prescribed must have a value for each displacement of the bulk");
+  require(_options.shared.empty()
+              or _options.shared.size() == std::size_t(_halo->num_owned()),
+          "shared must have a value for each owned node");
+  _nodes = std::make_shared<NodeState>(n, gdim(), _law->is_vector(),
+                                       _options.has_means);
+  if (_law->is_vector() and not _law->is_tied())
+    _history = std::make_shared<SlipHistory>(n, gdim());
+  _touched.assign(n, 0);
+  _offset.assign(n, 0);
+  _is_shared.assign(n, 0);
+  if (not _options.shared.empty())
+    for (std::int32_t i = 0; i < n; ++i)
+      _is_shared[i] = _options.shared[owned[i]];
+  nodes_changed();
+  _observer = _halo->on_change([this] { nodes_changed(); });
+  _halo->ranks().agree([&] { _master->accept(_halo->positions()); });
+  const auto reference = _halo->reference();
+  const std::vector<double> x(reference.begin(), reference.end());
+  const std::vector<std::int8_t> open(n, 0);
+  if (_master->is_rigid())
+    _halo->ranks().agree([&] { _master->search(x, open); });
+  else
+    _master->search(x, open);
+  find_front();
+  _master->begin_step();
+  take(_master->pairs());
+  find_immobile();
+}
+
+std::vector<double> Contact::at_slaves(std::span<const double> x) const
+{
+  const auto owned = _slaves->owned();
+  std::vector<double> rows(owned.size() * gdim());
+  for (std::size_t i = 0; i < owned.size(); ++i)
+    std::copy_n(x.begin() + std::size_t(owned[i]) * gdim(), gdim(),
+                rows.begin() + gdim() * i);
+  return rows;
+}
+
+void Contact::set_offset(std::span<const double> offset)
+{
+  require(offset.size() == _offset.size(),
+          "offset must have a value for each slave node");
+  if (std::ranges::equal(offset, _offset))
+    return;
+  _offset.assign(offset.begin(), offset.end());
+  _evaluated_version = -1;
+}
+
+void Contact::set_active(bool is_active)
+{
+  _is_active = is_active;
+  _evaluated_version = -1;
+}
+
+void Contact::nodes_changed()
+{
+  std::vector<std::int64_t> marks(std::size_t(_halo->num_nodes()) * gdim(), 0);
+  std::copy_n(_options.prescribed.begin(),
+              std::size_t(_halo->num_owned()) * gdim(), marks.begin());
+  _halo->forward(std::span(marks), gdim());
+  _free.resize(marks.size());
+  std::ranges::transform(marks, _free.begin(),
+                         [](std::int64_t mark) { return mark == 0; });
+  _master->nodes_changed();
+}
+
+void Contact::begin_step()
+{
+  _skipped_searches = 0;
+  _law->begin_step();
+  _master->rebuild();
+  freeze(false);
+  turn_tractions();
+  _master->begin_step();
+  for (std::size_t i = 0; i < _touched.size(); ++i)
+    _touched[i] = _nodes->closed(i);
+  std::ranges::fill(_nodes->turns, 0);
+  std::ranges::fill(_nodes->closings, 0);
+  if (sliding() == Sliding::small and _master->is_rigid())
+  {
+    const auto reference = _halo->reference();
+    pair(std::vector<double>(reference.begin(), reference.end()));
+  }
+  else
+    take(_master->pairs());
+}
+
+/// Turns the tractions with a master that has turned since, as a better start.
+void Contact::turn_tractions()
+{
+  if (not _history or not updates_kinematics())
+    return;
+  const auto turn = _master->turn(_halo->positions());
+  if (not turn)
+    return;
+  const int g = gdim();
+  for (std::int32_t i = 0; i < _nodes->num_nodes(); ++i)
+  {
+    double* t = _nodes->multiplier.data() + std::size_t(g) * i;
+    Vector<3> before{};
+    std::copy_n(t, g, before.begin());
+    for (int r = 0; r < g; ++r)
+    {
+      t[r] = 0;
+      for (int c = 0; c < g; ++c)
+        t[r] += (*turn)[g * (std::size_t(g) * i + r) + c] * before[c];
+    }
+  }
+}
+
+void Contact::accept()
+{
+  const std::vector<double> x = _halo->positions();
+  _halo->ranks().agree([&] { _master->accept(x); });
+  const std::vector<double> front = _front, area = _nodes->area;
+  find_front();
+  if (parallel::anywhere(_halo->ranks(), front != _front))
+  {
+    take(_master->pairs());
+    // Forces stay
+    const int size = _nodes->size();
+    for (std::size_t i = 0; i < area.size(); ++i)
+      for (int k = 0; k < size; ++k)
+        _nodes->multiplier[size * i + k] *= area[i] / _nodes->area[i];
+  }
+  if (_history)
+    _history->add(*_nodes);
+}
+
+void Contact::rebuild()
+{
+  _is_frozen = sliding() == Sliding::small;
+  find_front();
+  take(_master->pairs());
+}
+
+/// Finds which part of the slave nodes' area is in front of the master.
+void Contact::find_front()
+{
+  const int g = gdim();
+  const auto reference = _halo->reference();
+  const std::vector<double> x = _halo->positions();
+  const std::vector<double> normals = _master->normals();
+  std::vector<double> normal(normals.size() / 3 * g);
+  for (std::size_t i = 0; i < normals.size() / 3; ++i)
+    std::copy_n(normals.begin() + 3 * i, g, normal.begin() + g * i);
+  const std::vector<double> corners = _slaves->facing_areas(
+      reference, sliding() == Sliding::small ? reference : std::span(x), normal,
+      g);
+  _front = _slaves->sums(corners);
+  std::vector<std::int8_t> faces(corners.size());
+  std::ranges::transform(corners, faces.begin(),
+                         [](double area) { return area > 0; });
+  _halo->ranks().agree([&] { _master->take_front(faces); });
+}
+
+void Contact::take(std::vector<Pairs> pairs)
+{
+  // Others look at the array
+  std::ranges::copy(_master->area(_front), _nodes->area.begin());
+  _pairs.clear();
+  for (Pairs& p : pairs)
+    _pairs.push_back(std::make_shared<Pairs>(std::move(p)));
+  ++_version;
+}
+
+void Contact::set_factor(std::span<const double> compliance)
+{
+  require(compliance.size() == std::size_t(_halo->num_nodes()),
+          "compliance must have a value for each node");
+  std::vector<double> of_pairs = _master->compliance(compliance);
+  const auto owned = _slaves->owned();
+  for (std::size_t i = 0; i < owned.size(); ++i)
+    of_pairs[i] = compliance[owned[i]] + of_pairs[i];
+  _nodes->set_factor(_halo->ranks(), of_pairs);
+}
+
+std::int32_t Contact::search()
+{
+  if (_is_frozen or not updates_kinematics())
+  {
+    ++_skipped_searches;
+    return 0;
+  }
+  return pair(_halo->positions());
+}
+
+std::int32_t Contact::pair(std::span<const double> x)
+{
+  std::vector<std::int8_t> closed(_nodes->num_nodes());
+  for (std::size_t i = 0; i < closed.size(); ++i)
+    closed[i] = _nodes->closed(i);
+  std::int32_t changed = 0;
+  // What an obstacle's function throws comes to all ranks
+  if (_master->is_rigid())
+    _halo->ranks().agree([&] { _master->search(x, closed); });
+  else
+    changed = _master->search(x, closed);
+  take(_master->pairs());
+  find_immobile();
+  return changed;
+}
+
+void Contact::find_immobile()
+{
+  const Mobility found = _master->mobility(_free);
+  const std::vector<std::int8_t> paired = _master->paired();
+  for (std::size_t i = 0; i < paired.size(); ++i)
+    _nodes->immobile[i] = paired[i] and found.normal[i] < immobile_part;
+  for (std::size_t k = 0; k < _nodes->mobile.size(); ++k)
+    _nodes->mobile[k] = found.each[k] < mobile_part ? 0 : 1;
+}
+
+void Contact::freeze(bool is_frozen)
+{
+  if (not updates_kinematics() or is_frozen == _is_frozen)
+    return;
+  _is_frozen = is_frozen;
+  take(_master->pairs());
+}
+
+void Contact::update_gap()
+{
+  const std::vector<double> displacement = _halo->displacement();
+  // Each rank finds on its own whether it has anything to do
+  _halo->ranks().agree(
+      [&]
+      {
+        if (_evaluated_version == _version and _evaluated == displacement)
+          return;
+        if (auto fresh
+            = _master->update(_halo->positions(), _is_frozen, _offset))
+          take(std::move(*fresh));
+        assemble("gap", displacement, _nodes->gap);
+        if (_nodes->is_vector())
+        {
+          assemble("normal", displacement, _nodes->normal);
+          _nodes->normalise();
+          measure_slip(displacement);
+        }
+        const std::vector<std::int8_t> paired = _master->paired();
+        for (std::size_t i = 0; i < _offset.size(); ++i)
+          _nodes->gap[i] = paired[i] and _is_active and not _is_shared[i]
+                               ? _nodes->gap[i] - _offset[i]
+                               : std::numeric_limits<double>::quiet_NaN();
+        _evaluated = displacement;
+        _evaluated_version = _version;
+      });
+}
+
+void Contact::measure_slip(std::span<const double> displacement)
+{
+  assemble("slip", displacement, _nodes->slip);
+  if (not _law->is_tied())
+    _nodes->project(_master->origin());
+}
+
+/// Arrays that kernels read. Slave nodes of other ranks have no multipliers
+/// here, and areas of one: what is divided by them goes nowhere.
+kernel::NodalArrays
+Contact::arrays(std::span<const double> displacement,
+                std::array<std::vector<double>, 5>& padded) const
+{
+  kernel::NodalArrays a{
+      displacement,   _halo->reference(), _nodes->multiplier, _nodes->area,
+      _nodes->by_gap, _nodes->by_slip,    _nodes->by_normal};
+  const std::size_t n = _slaves->owned().size(), m = _slaves->around().size();
+  if (n == m)
+    return a;
+  const std::array views{&a.multiplier, &a.area, &a.gap_derivative,
+                         &a.slip_derivative, &a.normal_derivative};
+  for (std::size_t k = 0; k < views.size(); ++k)
+  {
+    // Facets without a node of this rank are none of its own: n > 0
+    const std::size_t width = views[k]->size() / n;
+    padded[k].assign(views[k]->begin(), views[k]->end());
+    padded[k].resize(m * width, views[k] == &a.area ? 1.0 : 0.0);
+    *views[k] = padded[k];
+  }
+  return a;
+}
+
+/// Values of the owned slave nodes; those of others are of their own ranks.
+void Contact::assemble(std::string_view term,
+                       std::span<const double> displacement,
+                       std::span<double> values) const
+{
+  std::ranges::fill(values, 0.0);
+  std::array<std::vector<double>, 5> padded;
+  const kernel::NodalArrays read = arrays(displacement, padded);
+  for (const auto& pairs : _pairs)
+    kernel::add_vector(kind_of(*_law), name_of(kinematics()), term, *pairs,
+                       read, gdim(), values);
+}
+
+void Contact::add_residual(std::span<double> b) const
+{
+  require(b.size() == std::size_t(_halo->num_nodes()) * gdim(),
+          "b must have a value for each displacement");
+  const std::vector<double> displacement = _halo->displacement();
+  std::array<std::vector<double>, 5> padded;
+  const kernel::NodalArrays read = arrays(displacement, padded);
+  for (const auto& pairs : _pairs)
+    kernel::add_vector(kind_of(*_law), name_of(kinematics()), "residual",
+                       *pairs, read, gdim(), b);
+}
+
+std::int32_t Contact::update_status(bool is_first)
+{
+  const std::vector<std::int8_t> before = _nodes->status;
+  const std::vector<std::int8_t> closes = closing(is_first);
+  if (_history)
+  {
+    std::vector<std::int8_t> first(closes.size());
+    for (std::size_t i = 0; i < closes.size(); ++i)
+      first[i] = closes[i] and not _touched[i];
+    measure_from_touching(first);
+  }
+  _law->set_status(*_nodes, _halo->ranks());
+  if (is_first)
+  {
+    // Nor does rounding decide between stick and slip where nothing presses yet
+    const int size = _nodes->size();
+    std::vector<std::int32_t> which;
+    for (std::size_t i = 0; i < closes.size(); ++i)
+    {
+      const auto multiplier
+          = std::span(_nodes->multiplier).subspan(size * i, size);
+      const bool presses
+          = std::ranges::any_of(multiplier, [](double m) { return m != 0; });
+      if (closes[i] and not(_nodes->closed(i) and presses))
+        which.push_back(static_cast<std::int32_t>(i));
+    }
+    _nodes->close(which);
+  }
+  std::int32_t changed = 0;
+  for (std::size_t i = 0; i < before.size(); ++i)
+    changed += before[i] != _nodes->status[i];
+  return changed;
+}
+
+void Contact::measure_from_touching(std::span<const std::int8_t> which)
+{
+  const std::vector<double> x = _halo->positions();
+  _halo->ranks().agree(
+      [&]
+      {
+        if (std::ranges::none_of(which, [](std::int8_t w) { return w != 0; }))
+          return;
+        _master->touch(which, x, _offset);
+        for (std::size_t i = 0; i < which.size(); ++i)
+          _touched[i] = _touched[i] or which[i];
+        auto fresh = _master->update(x, _is_frozen, _offset);
+        take(fresh ? std::move(*fresh) : _master->pairs());
+        measure_slip(_halo->displacement());
+        _evaluated_version = _version;
+      });
+}
+
+std::vector<std::int8_t> Contact::closing(bool is_first)
+{
+  const double tie = is_first
+                         ? touching_gap(_halo->ranks(),
+                                        at_slaves(_halo->positions()), gdim())
+                         : -1.0;
+  std::vector<std::int8_t> closes(_nodes->num_nodes());
+  for (std::size_t i = 0; i < closes.size(); ++i)
+    closes[i] = _nodes->closing(i, tie);
+  return closes;
+}

@@ -1,0 +1,208 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#pragma once
+
+#include "../kernel/assemble.h"
+#include "../law/law.h"
+#include "../parallel/halo.h"
+#include "master.h"
+#include "node_state.h"
+#include "slave_nodes.h"
+#include "slip_history.h"
+#include <array>
+#include <memory>
+
+namespace contactx::contact
+{
+/// @brief Kinematics of a contact.
+enum class Sliding : std::int8_t
+{
+  finite, ///< pairs, normals and projections are those of the iterate
+  small   ///< they are those of the reference configuration
+};
+
+/// @brief One contact: its slave nodes with their pairs, state and law.
+///
+/// Whoever solves calls, for each load step, `begin_step`; at each accepted
+/// iterate `search`, `update_gap` and `update_status` (`ActiveSet::settle` does
+/// so for all contacts of a problem); `update_gap` and the law's `evaluate`
+/// before terms are assembled over `pairs`; and `accept` at the end. Positions
+/// are those of the halo at each call; n is the number of owned slave nodes.
+/// All ranks must take part in whatever has no const.
+class Contact
+{
+public:
+  /// @brief How a contact is.
+  struct Options
+  {
+    Sliding sliding;
+    bool has_means = false; ///< whether normals are means over facets
+    /// 1 at displacements with a Dirichlet condition, those of the bulk's
+    /// nodes (shape=(num_bulk, gdim))
+    std::vector<std::int8_t> prescribed;
+    /// 1 at owned nodes that the master surface has, too: those of a crack's
+    /// tip, which have no gap (shape=(num_owned)); empty for none
+    std::vector<std::int8_t> shared;
+  };
+
+  /// @brief Pair the slave nodes in the reference configuration.
+  /// @param[in] halo Nodes of this rank.
+  /// @param[in] slaves Slave nodes.
+  /// @param[in] master Master, without pairs yet.
+  /// @param[in] law Contact law.
+  /// @param[in] options How the contact is.
+  /// @throws std::invalid_argument if sizes do not fit.
+  Contact(std::shared_ptr<parallel::Halo> halo,
+          std::shared_ptr<const SlaveNodes> slaves,
+          std::shared_ptr<Master> master, std::shared_ptr<law::Law> law,
+          Options options);
+
+  /// @brief Slave nodes.
+  const SlaveNodes& slaves() const { return *_slaves; }
+
+  /// @brief Master.
+  const std::shared_ptr<Master>& master() const { return _master; }
+
+  /// @brief Law.
+  const std::shared_ptr<law::Law>& law() const { return _law; }
+
+  /// @brief State of the slave nodes.
+  const std::shared_ptr<NodeState>& nodes() const { return _nodes; }
+
+  /// @brief What accepted steps have slipped; null where slip is not measured.
+  const std::shared_ptr<SlipHistory>& history() const { return _history; }
+
+  /// @brief Nodes of this rank.
+  const parallel::Halo& halo() const { return *_halo; }
+
+  /// @brief Kinematics.
+  Sliding sliding() const { return _options.sliding; }
+
+  /// @brief Kinematics of the terms now: frozen ones are those of small
+  /// sliding.
+  Sliding kinematics() const
+  {
+    return _is_frozen ? Sliding::small : Sliding::finite;
+  }
+
+  /// @brief Whether pairs, normals and projections follow the iterates.
+  bool updates_kinematics() const
+  {
+    return sliding() == Sliding::finite and not _law->is_tied();
+  }
+
+  /// @brief Pairs by the kinds of their facets, with their data of now.
+  const std::vector<std::shared_ptr<Pairs>>& pairs() const { return _pairs; }
+
+  /// @brief Counts how often `pairs` or `kinematics` have changed, be it but
+  /// their data.
+  std::int64_t version() const { return _version; }
+
+  /// @brief 1 at slave nodes that the master surface has, too (shape=(n)).
+  const std::vector<std::int8_t>& is_shared() const { return _is_shared; }
+
+  /// @brief Whether the contact is switched on.
+  bool is_active() const { return _is_active; }
+
+  /// @brief Switch the contact on or off; for the next step.
+  void set_active(bool is_active);
+
+  /// @brief Searches of this step that were not needed.
+  int skipped_searches() const { return _skipped_searches; }
+
+  /// @brief Take what is taken off the gap from now on (shape=(n)).
+  /// @throws std::invalid_argument if there are not as many.
+  void set_offset(std::span<const double> offset);
+
+  /// @brief What is taken off the gap (shape=(n)).
+  const std::vector<double>& offset() const { return _offset; }
+
+  /// @brief Start a step: pairs may change again, and in small sliding an
+  /// obstacle may have moved.
+  void begin_step();
+
+  /// @brief Take the converged state as the start of the next step.
+  void accept();
+
+  /// @brief Go on from a state that was loaded; kinematics are not frozen.
+  void rebuild();
+
+  /// @brief Set the factor c of the complementarity from the compliance of the
+  /// pairs.
+  ///
+  /// Slave node and master facet are springs in series: where one is much
+  /// stiffer than the other, the softer one decides how fast a gap closes.
+  /// @param[in] compliance Compliance of all nodes, length/force, zero where
+  /// one cannot move (shape=(num_nodes)).
+  void set_factor(std::span<const double> compliance);
+
+  /// @brief Pair the slave nodes, unless kinematics are frozen.
+  /// @return Number of this rank's nodes in contact whose facet has changed.
+  std::int32_t search();
+
+  /// @brief Freeze pairs, normals and projections of finite sliding, or update
+  /// them again.
+  ///
+  /// Frozen kinematics make the contact conditions linear. Those of small
+  /// sliding always are.
+  void freeze(bool is_frozen);
+
+  /// @brief Evaluate gap, normal and slip of each slave node, unless they are
+  /// those of these positions, pairs and offsets already.
+  void update_gap();
+
+  /// @brief Set each slave node's status from its multiplier, gap and slip.
+  /// @param[in] is_first Whether the iterate is the step's start.
+  /// @return Number of this rank's nodes that changed.
+  std::int32_t update_status(bool is_first);
+
+  /// @brief Which nodes the complementarity closes.
+  ///
+  /// At a step's start also those that touch but for rounding errors: these
+  /// must not decide which nodes carry a body that rests on another one.
+  /// @param[in] is_first Whether the iterate is the step's start.
+  /// @return 1 at these, else 0 (shape=(n)).
+  std::vector<std::int8_t> closing(bool is_first);
+
+  /// @brief Add this rank's contact forces.
+  /// @param[in,out] b Forces on all nodes (shape=(num_nodes, gdim)).
+  /// @throws std::invalid_argument if it has another size.
+  void add_residual(std::span<double> b) const;
+
+private:
+  int gdim() const { return _halo->gdim(); }
+  std::vector<double> at_slaves(std::span<const double> x) const;
+  void nodes_changed();
+  void turn_tractions();
+  void find_front();
+  void take(std::vector<Pairs> pairs);
+  std::int32_t pair(std::span<const double> x);
+  void find_immobile();
+  void measure_from_touching(std::span<const std::int8_t> which);
+  kernel::NodalArrays arrays(std::span<const double> displacement,
+                             std::array<std::vector<double>, 5>& padded) const;
+  void assemble(std::string_view term, std::span<const double> displacement,
+                std::span<double> values) const;
+  void measure_slip(std::span<const double> displacement);
+
+  std::shared_ptr<parallel::Halo> _halo;
+  std::shared_ptr<const SlaveNodes> _slaves;
+  std::shared_ptr<Master> _master;
+  std::shared_ptr<law::Law> _law;
+  Options _options;
+  std::shared_ptr<NodeState> _nodes;
+  std::shared_ptr<SlipHistory> _history;
+  bool _is_frozen, _is_active = true;
+  std::vector<std::shared_ptr<Pairs>> _pairs;
+  std::int64_t _version = 0;
+  int _skipped_searches = 0;
+  std::vector<double> _offset, _front;
+  std::vector<std::int8_t> _free; // displacements of all nodes
+  std::vector<std::int8_t> _touched, _is_shared;
+  // Displacements and version at which gaps were evaluated
+  std::vector<double> _evaluated;
+  std::int64_t _evaluated_version = -1;
+  std::shared_ptr<const void> _observer;
+};
+} // namespace contactx::contact
