@@ -4,6 +4,7 @@
 #include "master.h"
 #include "parallel.h"
 #include <contactx/condense/condensation.h>
+#include <contactx/condense/contact_block.h>
 #include <contactx/condense/multigrid.h>
 #include <optional>
 #include <pybind11/stl.h>
@@ -15,20 +16,11 @@ using contactx::parallel::NodeMap;
 
 namespace
 {
-/// Arrays of Python with what looks at them
-struct HeldNodes
-{
-  Array<std::int32_t> slaves;
-  Array<std::int8_t> status;
-  Array<double> area, normal, by_multiplier;
-  Nodes nodes;
-};
-
-std::vector<Nodes> nodes_of(const std::vector<const HeldNodes*>& contacts)
+std::vector<Nodes> nodes_of_all(const ContactBlock::Contacts& contacts)
 {
   std::vector<Nodes> nodes;
-  for (const HeldNodes* held : contacts)
-    nodes.push_back(held->nodes);
+  for (const auto& contact : contacts)
+    nodes.push_back(nodes_of(*contact));
   return nodes;
 }
 
@@ -61,31 +53,30 @@ void contactx_bindings::condense(py::module_& m)
             [](const Triplets& t) -> auto& { return t.values; });
   triplets.def("__len__", &Triplets::size);
 
-  py::class_<HeldNodes>(m, "ContactNodes",
-                        "What elimination reads of a contact's slave nodes")
+  py::class_<ContactBlock>(m, "ContactBlock",
+                           "Contacts' part of a Jacobian on one rank")
       .def(py::init(
-               [](Array<std::int32_t> slaves, int size,
-                  Array<std::int8_t> status, Array<double> area,
-                  Array<double> normal, Array<double> by_multiplier,
-                  double softness)
+               [](const ContactBlock::Contacts& contacts,
+                  const std::optional<Array<std::int8_t>>& prescribed,
+                  const std::optional<Array<double>>& d)
                {
-                 const Nodes nodes{view(slaves), size,
-                                   view(status), view(area),
-                                   view(normal), view(by_multiplier),
-                                   softness};
-                 return HeldNodes{std::move(slaves),        std::move(status),
-                                  std::move(area),          std::move(normal),
-                                  std::move(by_multiplier), nodes};
+                 return ContactBlock(contacts,
+                                     prescribed
+                                         ? view(*prescribed)
+                                         : std::span<const std::int8_t>(),
+                                     d ? view(*d) : std::span<const double>());
                }),
-           py::arg("slaves"), py::arg("size"), py::arg("status"),
-           py::arg("area"), py::arg("normal"), py::arg("by_multiplier"),
-           py::arg("softness"));
+           py::arg("contacts"), py::arg("prescribed") = py::none(),
+           py::arg("d") = py::none())
+      .def(
+          "multiply", [](const ContactBlock& self, const Array<double>& x)
+          { return array(self.multiply(view(x))); }, py::arg("x"));
 
   m.def(
       "slave_marks",
-      [](const NodeMap& nodes, const std::vector<const HeldNodes*>& contacts)
+      [](const NodeMap& nodes, const ContactBlock::Contacts& contacts)
       {
-        return array(slave_marks(nodes, nodes_of(contacts)),
+        return array(slave_marks(nodes, nodes_of_all(contacts)),
                      {static_cast<py::ssize_t>(nodes.num_nodes()),
                       static_cast<py::ssize_t>(contacts.size())});
       },
@@ -96,20 +87,16 @@ void contactx_bindings::condense(py::module_& m)
       m, "Condensation", "The contacts of a rank, multipliers eliminated");
   condensation
       .def(py::init(
-               [](const Array<std::int32_t>& offsets,
-                  const Array<std::int32_t>& columns,
-                  const Array<double>& values,
-                  const std::vector<const HeldNodes*>& contacts,
+               [](const ContactBlock& contact,
+                  const ContactBlock::Contacts& contacts,
                   const Array<std::int8_t>& is_slave,
                   const Array<std::int8_t>& free, int gdim)
                {
-                 return Condensation(
-                     {view(offsets), view(columns), view(values)},
-                     nodes_of(contacts), view(is_slave), view(free), gdim);
+                 return Condensation(contact.entries(), nodes_of_all(contacts),
+                                     view(is_slave), view(free), gdim);
                }),
-           py::arg("offsets"), py::arg("columns"), py::arg("values"),
-           py::arg("contacts"), py::arg("is_slave"), py::arg("free"),
-           py::arg("gdim"))
+           py::arg("contact"), py::arg("contacts"), py::arg("is_slave"),
+           py::arg("free"), py::arg("gdim"))
       .def_property_readonly("is_exact", &Condensation::is_exact)
       .def_property_readonly("is_soft", &Condensation::is_soft)
       .def_property_readonly("stiffness", &Condensation::stiffness)

@@ -17,11 +17,11 @@ PYBIND11_MODULE(cpp, m)
   contactx_bindings::law(m);
   contactx_bindings::slave_nodes(m);
   contactx_bindings::contact(m);
+  contactx_bindings::condense(m);
   contactx_bindings::bodies(m);
   contactx_bindings::active_set(m);
   contactx_bindings::mortar(m);
   contactx_bindings::kernel(m);
-  contactx_bindings::condense(m);
   contactx_bindings::penetration(m);
   contactx_bindings::audit(m);
   contactx_bindings::passage(m);

@@ -12,33 +12,31 @@ import numpy as np
 import numpy.typing as npt
 
 from contactx.interface import Interface
-from contactx.layout import Where
+from contactx.layout import Layout
 from contactx.parallel.halo import Halo
 from dolfinx import cpp, fem
 
 _NONE = np.array([], dtype=np.int8)
 
 
-def new_matrix(where: Where, interfaces: Sequence[Interface]) -> PETSc.Mat:
+def new_matrix(layout: Layout, interfaces: Sequence[Interface]) -> PETSc.Mat:
     """Matrix without entries that takes those of the contacts by this rank's own numbers.
 
     These are the displacements of all nodes, then the multipliers of each contact, with those of
-    slave nodes of other ranks, which it drops: they are theirs.
+    slave nodes of other ranks, which it drops: they are theirs. All ranks must take part.
 
     Args:
-        where: Places of the unknowns in the matrix.
+        layout: Places of the unknowns.
         interfaces: Discrete sides of the contacts.
     """
-    A = PETSc.Mat().createAIJ(((where.size, None), (where.size, None)), comm=where.comm)
-    A.setUp()
-    places, first = [where.nodes], where.multipliers
-    for interface in interfaces:
-        n, size = len(interface.nodes.multiplier), interface.nodes.size
-        places.append(first + np.arange(n))
-        places.append(np.full(interface.num_others * size, -1))
-        first += n
-    rows = np.concatenate(places).astype(PETSc.IntType)
-    local = PETSc.LGMap().create(rows, 1, comm=where.comm)
+    A = layout.matrix()
+    sizes = [len(interface.nodes.multiplier) for interface in interfaces]
+    places = layout.places()
+    nodes, *multipliers = np.split(places, len(places) - np.cumsum([0, *sizes[::-1]])[::-1])[:-1]
+    rows = [nodes]
+    for interface, own in zip(interfaces, multipliers, strict=True):
+        rows += [own, np.full(interface.num_others * interface.nodes.size, -1)]
+    local = PETSc.LGMap().create(np.concatenate(rows).astype(PETSc.IntType), 1, comm=A.comm)
     A.setLGMap(local, local)
     return A
 
@@ -47,35 +45,31 @@ def add_contacts(
     A: PETSc.Mat,
     interfaces: Sequence[Interface],
     halo: Halo,
-    which: Sequence[npt.NDArray[np.bool_]] | None,
     markers: npt.NDArray[np.int8],
 ) -> None:
-    """Assemble the contacts into a matrix of ``new_matrix``.
+    """Assemble the forms of the contacts into a matrix of ``new_matrix``.
 
     Args:
         A: The matrix.
         interfaces: Discrete sides of the contacts.
         halo: Nodes of this rank.
-        which: Slave nodes of each contact whose pairs are assembled, all if None.
         markers: 1 at displacements of all nodes whose rows and columns are left out.
     """
     serial = PETSc.COMM_SELF
     first = halo.num_nodes * halo.gdim
     # PETSc takes blocks of places for places where the map has none
     bulk = PETSc.IS().createStride(first, comm=serial)
-    for k, interface in enumerate(interfaces):
+    for interface in interfaces:
         size, n = interface.nodes.size, len(interface.slaves)
         every = (n + interface.num_others) * size
         slave = PETSc.IS().createStride(every, first, 1, comm=serial)
-        some = np.ones(n, dtype=bool) if which is None else which[k]
         for form in interface.forms:
-            stiffness, traction, constraint = form.blocks(some)
-            if stiffness is not None:
-                _assemble(A, stiffness, (bulk, bulk), (markers, markers))
-            if traction is not None:
-                _assemble(A, traction, (bulk, slave), (markers, _NONE))
-            if constraint is not None:
-                _assemble(A, constraint, (slave, bulk), (_NONE, markers))
+            if form.stiffness is not None:
+                _assemble(A, form.stiffness, (bulk, bulk), (markers, markers))
+            if form.traction is not None:
+                _assemble(A, form.traction, (bulk, slave), (markers, _NONE))
+            if form.constraint is not None:
+                _assemble(A, form.constraint, (slave, bulk), (_NONE, markers))
         rows = first + np.arange(n * size, dtype=PETSc.IntType)
         A.setValuesLocalIJV(
             np.arange(0, size * len(rows) + 1, size, dtype=PETSc.IntType),

@@ -374,27 +374,22 @@ class Triplets:
     def values(self) -> NDArray[np.float64]: ...
     def __len__(self) -> int: ...
 
-class ContactNodes:
+class ContactBlock:
     def __init__(
         self,
-        slaves: NDArray[np.int32],
-        size: int,
-        status: NDArray[np.int8],
-        area: NDArray[np.float64],
-        normal: NDArray[np.float64],
-        by_multiplier: NDArray[np.float64],
-        softness: float,
+        contacts: Sequence[Contact],
+        prescribed: NDArray[np.int8] | None = None,
+        d: NDArray[np.float64] | None = None,
     ) -> None: ...
+    def multiply(self, x: NDArray[np.float64]) -> NDArray[np.float64]: ...
 
-def slave_marks(nodes: NodeMap, contacts: Sequence[ContactNodes]) -> NDArray[np.int8]: ...
+def slave_marks(nodes: NodeMap, contacts: Sequence[Contact]) -> NDArray[np.int8]: ...
 
 class Condensation:
     def __init__(
         self,
-        offsets: NDArray[np.int32],
-        columns: NDArray[np.int32],
-        values: NDArray[np.float64],
-        contacts: Sequence[ContactNodes],
+        contact: ContactBlock,
+        contacts: Sequence[Contact],
         is_slave: NDArray[np.int8],
         free: NDArray[np.int8],
         gdim: int,

@@ -116,7 +116,6 @@ class ContactForms:
         num_pairs, num_slaves = pairs.slaves.shape
         gdim = halo.gdim
         kind = (pairs.num_nodes, gdim, num_slaves)
-        self._num_slaves: int = len(state.area.array)
         # The kernels of a tie measure movement
         law = "tied" if pairs.is_movement else law
         mesh = contact_mesh.carrier(comm, num_pairs)
@@ -157,34 +156,14 @@ class ContactForms:
             "constraint": [S, U],
         }
 
-        def form(term: str, cells: npt.NDArray[np.int32]) -> fem.Form | None:
-            if term not in terms:
-                return None
-            address, active = core.kernel(law, sliding, term, *kind)
-            integrals = {fem.IntegralType.cell: [(0, address, cells, active)]}
-            make = fem.form_cpp_class(np.float64)
-            return fem.Form(make(arguments[term], integrals, coefficients, [], False, [], mesh))
-
-        self._form = form
-        every = np.arange(num_pairs, dtype=np.int32)
-        for term in arguments:
-            setattr(self, term, form(term, every))
-
-    def blocks(self, which: npt.NDArray[np.bool_]) -> list[fem.Form | None]:
-        """Forms of the Jacobian over the pairs of some slave nodes.
-
-        Args:
-            which: Slave nodes, shape (n,).
-
-        Returns:
-            Stiffness, traction and constraint; None for those that vanish.
-        """
-        others = np.zeros(self._num_slaves - len(which), dtype=bool)
-        chosen = np.concatenate([which, others])[self.pairs.slaves].any(axis=1)
-        if chosen.all():
-            return [self.stiffness, self.traction, self.constraint]
-        cells = np.flatnonzero(chosen).astype(np.int32)
-        return [self._form(term, cells) for term in ("stiffness", "traction", "constraint")]
+        make, every = fem.form_cpp_class(np.float64), np.arange(num_pairs, dtype=np.int32)
+        for term, spaces_of in arguments.items():
+            form = None
+            if term in terms:
+                address, active = core.kernel(law, sliding, term, *kind)
+                integrals = {fem.IntegralType.cell: [(0, address, every, active)]}
+                form = fem.Form(make(spaces_of, integrals, coefficients, [], False, [], mesh))
+            setattr(self, term, form)
 
     def update(self, pairs: Pairs) -> None:
         """Take over new data of the same pairs."""

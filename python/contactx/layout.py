@@ -4,10 +4,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
-from mpi4py import MPI
 from petsc4py import PETSc
 
 import numpy as np
@@ -16,23 +14,6 @@ import numpy.typing as npt
 from contactx.parallel.halo import Halo
 
 type Index = npt.NDArray[np.int64]
-
-
-@dataclass(frozen=True)
-class Where:
-    """Places of unknowns in a matrix.
-
-    Attributes:
-        comm: Communicator of the matrix.
-        size: Number of rows of this rank.
-        multipliers: Place of this rank's first multiplier.
-        nodes: Places of the displacements of all nodes, shape (num_nodes * gdim,).
-    """
-
-    comm: MPI.Comm
-    size: int
-    multipliers: int
-    nodes: Index
 
 
 class Layout:
@@ -53,18 +34,20 @@ class Layout:
         self._bulk, self._all = np.cumsum([(0, 0), *counts], axis=0)[:-1].T
         self._start = int(self._all[halo.comm.rank])
 
-    def alone(self) -> Where:
-        """Places in a matrix of this rank alone: displacements of all nodes, then multipliers."""
-        halo = self._halo
-        n, own = halo.num_nodes * halo.gdim, halo.num_owned * halo.gdim
-        return Where(MPI.COMM_SELF, n + self._size - own, n, np.arange(n))
-
-    def among_ranks(self) -> Where:
-        """Places in a matrix of all ranks; all of them must take part."""
+    def places(self) -> Index:
+        """Places of the displacements of all nodes, then of this rank's multipliers; collective."""
         halo, g = self._halo, self._halo.gdim
         own = self._start + g * np.arange(halo.num_owned, dtype=np.int64)
         nodes = (halo.scatter_forward(own)[:, None] + np.arange(g)).ravel()
-        return Where(halo.comm, self._size, self._start + g * halo.num_owned, nodes)
+        multipliers = np.arange(self._start + g * halo.num_owned, self._start + self._size)
+        return np.concatenate([nodes, multipliers])
+
+    def matrix(self) -> PETSc.Mat:
+        """Matrix of all unknowns without entries."""
+        size = (self._size, None)
+        A = PETSc.Mat().createAIJ((size, size), comm=self._halo.comm)
+        A.setUp()
+        return A
 
     def embed(self, K: PETSc.Mat) -> PETSc.Mat:
         """The bulk's matrix with empty rows and columns for the multipliers."""

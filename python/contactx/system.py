@@ -15,6 +15,7 @@ from petsc4py import PETSc
 import numpy as np
 import numpy.typing as npt
 
+from contactx import cpp as core
 from contactx.bulk import Bulk
 from contactx.contact_matrix import add_contacts, new_matrix
 from contactx.forms import ContactForms
@@ -143,13 +144,11 @@ class SaddlePointSystem:
     ) -> None:
         """Take Dirichlet values that the displacement does not have yet to the other rows."""
         force += self._bulk.lifted()
-        A = new_matrix(self._layout.alone(), self.interfaces)
-        unmarked = np.zeros(self.num_local, dtype=np.int8)
-        add_contacts(A, self.interfaces, self.halo, None, unmarked)
-        v, y = A.createVecs()
-        v.array[: self.num_local] = self._to_all(defect)
-        A.mult(v, y)
-        lifted, *rows = np.split(y.array, self.num_local + self._offsets[1:-1] - self.num_bulk)
+        contact = core.ContactBlock(self.interfaces)
+        v = np.concatenate([self._to_all(defect), np.zeros(self._offsets[-1] - self.num_bulk)])
+        lifted, *rows = np.split(
+            contact.multiply(v), self.num_local + self._offsets[1:-1] - self.num_bulk
+        )
         pushed -= lifted
         for row, part in zip(constraints, rows, strict=True):
             row -= part
@@ -193,53 +192,42 @@ class SaddlePointSystem:
             A.zeroEntries()
             self._layout.add(self._bulk.jacobian(), A)
             A.assemble(PETSc.Mat.AssemblyType.FLUSH)
-            add_contacts(A, self.interfaces, self.halo, None, self._markers())
+            add_contacts(A, self.interfaces, self.halo, self._markers())
         if springs is not None:
             diagonal = self.x.duplicate()
             self.blocks(diagonal.array)[0][:] = springs
             A.setDiagonal(diagonal, addv=PETSc.InsertMode.ADD)
         return A
 
-    def contact_entries(self, b: PETSc.Vec | None = None) -> PETSc.Mat:
-        """Assemble this rank's pairs with no place for what is zero, as a matrix of its own.
-
-        Its rows and columns are the displacements of all nodes of this rank, then its multipliers.
+    def contact_block(self, b: PETSc.Vec | None = None) -> core.ContactBlock:
+        """Assemble this rank's pairs.
 
         Args:
             b: Right-hand side; where it is zero the multipliers of open nodes are, and nothing is
                 assembled for them. Any right-hand side if None.
         """
-        which = []
-        for k, interface in enumerate(self.interfaces, start=1):
-            rows = slice(self._offsets[k], self._offsets[k + 1])
-            known = np.ones(1) if b is None else b.array_r[rows].reshape(-1, interface.nodes.size)
-            which.append(interface.nodes.closed | (known != 0).any(axis=-1))
-        A = new_matrix(self._layout.alone(), self.interfaces)
-        A.setOption(PETSc.Mat.Option.IGNORE_ZERO_ENTRIES, True)
-        add_contacts(A, self.interfaces, self.halo, which, self._markers())
-        return A
+        d = None if b is None else b.array_r[self.num_bulk :]
+        return core.ContactBlock(self.interfaces, self._markers(), d)
 
-    def multiply_contact(self, entries: PETSc.Mat, x: PETSc.Vec, y: PETSc.Vec) -> None:
+    def multiply_contact(self, contact: core.ContactBlock, x: PETSc.Vec, y: PETSc.Vec) -> None:
         """Multiply by the contacts' part of the Jacobian; all ranks must take part.
 
         Args:
-            entries: What ``contact_entries`` gave.
+            contact: What ``contact_block`` gave.
             x: Vector of all unknowns.
             y: Product, overwritten.
         """
         n = self.num_bulk
-        v, w = entries.createVecs()
-        v.array[: self.num_local] = self._to_all(x.array_r[:n])
-        v.array[self.num_local :] = x.array_r[n:]
-        entries.mult(v, w)
-        y.array[:n] = self._sums(w.array[: self.num_local])
-        y.array[n:] = w.array[self.num_local :]
+        v = np.concatenate([self._to_all(x.array_r[:n]), x.array_r[n:]])
+        w = contact.multiply(v)
+        y.array[:n] = self._sums(w[: self.num_local])
+        y.array[n:] = w[self.num_local :]
 
     def _new_contact(self) -> PETSc.Mat:
         """Assemble the contacts' part of the Jacobian, in all unknowns."""
-        A = new_matrix(self._layout.among_ranks(), self.interfaces)
+        A = new_matrix(self._layout, self.interfaces)
         self._contact_pairs = [list(interface.forms) for interface in self.interfaces]
-        add_contacts(A, self.interfaces, self.halo, None, self._markers())
+        add_contacts(A, self.interfaces, self.halo, self._markers())
         return A
 
     def _markers(self) -> npt.NDArray[np.int8]:

@@ -170,6 +170,14 @@ public:
   /// @throws std::invalid_argument if it has another size.
   void add_residual(std::span<double> b) const;
 
+  /// @brief Assemble a block of the Jacobian over this rank's pairs, see
+  /// `kernel::assemble_matrix`; slave nodes of other ranks come last.
+  /// @param[in] term "stiffness", "traction" or "constraint".
+  /// @param[in] which 1 at slave nodes whose pairs are assembled (shape=(n));
+  /// empty for all.
+  kernel::Triplets block(std::string_view term,
+                         std::span<const std::int8_t> which = {}) const;
+
 private:
   int gdim() const { return _halo->gdim(); }
   std::vector<double> at_slaves(std::span<const double> x) const;

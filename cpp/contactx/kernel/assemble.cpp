@@ -240,7 +240,8 @@ void kernel::add_vector(Law law, std::string_view sliding,
 
 Triplets kernel::assemble_matrix(Law law, std::string_view sliding,
                                  std::string_view term, const Pairs& pairs,
-                                 const NodalArrays& arrays, int gdim)
+                                 const NodalArrays& arrays, int gdim,
+                                 std::span<const std::int8_t> which)
 {
   if (!contains(matrices, term))
     fail("the term must be stiffness, traction or constraint, not "
@@ -266,11 +267,18 @@ Triplets kernel::assemble_matrix(Law law, std::string_view sliding,
   const auto [num_rows, num_columns] = tabulate.shape;
   std::vector<std::int32_t> rows(num_rows), columns(num_columns);
   Triplets result;
-  const std::size_t count = pairs.size() * num_rows * num_columns;
+  std::vector<std::size_t> some;
+  for (std::size_t p = 0; p < pairs.size(); ++p)
+    if (which.empty()
+        or std::ranges::any_of(
+            tabulate.slaves_of(p), [which](std::int32_t i)
+            { return std::size_t(i) < which.size() and which[i]; }))
+      some.push_back(p);
+  const std::size_t count = some.size() * num_rows * num_columns;
   result.rows.reserve(count);
   result.columns.reserve(count);
   result.values.reserve(count);
-  for (std::size_t p = 0; p < pairs.size(); ++p)
+  for (const std::size_t p : some)
   {
     if (term == "constraint")
       dofs(tabulate.slaves_of(p), size, rows);

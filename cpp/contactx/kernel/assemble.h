@@ -81,9 +81,13 @@ void add_vector(Law law, std::string_view sliding, std::string_view term,
 /// @param[in] pairs Pairs.
 /// @param[in] arrays What the kernels read.
 /// @param[in] gdim Geometric dimension, 2 or 3.
+/// @param[in] which 1 at slave nodes of which all pairs are assembled, the
+/// others having none; empty for all pairs. It may end before the last slave
+/// node.
 /// @return The entries; none where the term vanishes.
 /// @throws std::invalid_argument If arguments do not fit.
 Triplets assemble_matrix(Law law, std::string_view sliding,
                          std::string_view term, const contact::Pairs& pairs,
-                         const NodalArrays& arrays, int gdim);
+                         const NodalArrays& arrays, int gdim,
+                         std::span<const std::int8_t> which = {});
 } // namespace contactx::kernel

@@ -11,7 +11,6 @@ import numpy.typing as npt
 
 from contactx import cpp as core
 from contactx.bulk import Bulk
-from contactx.interface import Interface
 from contactx.parallel.halo import Halo
 from contactx.system import SaddlePointSystem
 
@@ -137,22 +136,7 @@ class Surroundings:
         self._version = halo.version
         self.numbering = Numbering(halo)
         self.free = self.numbering.scatter_forward((self._bulk.markers == 0).astype(np.int8))
-        contacts = [contact_nodes(interface) for interface in self._system.interfaces]
-        self.is_slave = core.slave_marks(halo.nodes, contacts)
-
-
-def contact_nodes(interface: Interface) -> core.ContactNodes:
-    """What the core reads of the slave nodes to eliminate their multipliers, as it is now."""
-    nodes = interface.nodes
-    return core.ContactNodes(
-        interface.slaves,
-        nodes.size,
-        nodes.status,
-        nodes.area,
-        nodes.normal,
-        nodes.by_multiplier,
-        nodes.softness,
-    )
+        self.is_slave = core.slave_marks(halo.nodes, self._system.interfaces)
 
 
 def index_set(places: Index, A: PETSc.Mat) -> PETSc.IS:

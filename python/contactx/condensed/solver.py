@@ -17,7 +17,7 @@ from contactx.bulk import Bulk
 from contactx.callback import Quiet
 from contactx.condensed.guess import Guess
 from contactx.condensed.multigrid import Multigrid
-from contactx.condensed.numbering import Array, Numbering, Surroundings, contact_nodes
+from contactx.condensed.numbering import Array, Numbering, Surroundings
 from contactx.condensed.operator import CondensedOperator
 from contactx.factorised import FactorisedSolver
 from contactx.options import ROUNDING
@@ -136,7 +136,7 @@ class CondensedSolver:
             self._failures += 1
             self._solve_directly(b, x, _SLOW)
 
-    def _condense(self, b: PETSc.Vec) -> tuple[PETSc.Mat, _Condensed, bool]:
+    def _condense(self, b: PETSc.Vec) -> tuple[core.ContactBlock, _Condensed, bool]:
         """Eliminate the multipliers.
 
         Returns:
@@ -149,13 +149,10 @@ class CondensedSolver:
         around.rebuild()
         numbering = around.numbering
         with agreed(numbering.comm):
-            A = self._system.contact_entries(b)
-            offsets, columns, values = A.getValuesCSR()
+            A = self._system.contact_block(b)
             condensation = core.Condensation(
-                offsets.astype(np.int32, copy=False),
-                columns.astype(np.int32, copy=False),
-                values,
-                [contact_nodes(interface) for interface in self._system.interfaces],
+                A,
+                self._system.interfaces,
                 around.is_slave,
                 around.free,
                 self._system.block,
@@ -171,7 +168,7 @@ class CondensedSolver:
     def _correct(
         self,
         solve: Callable[[PETSc.Vec, PETSc.Vec, float], bool],
-        contact: PETSc.Mat,
+        contact: core.ContactBlock,
         b: PETSc.Vec,
         x: PETSc.Vec,
     ) -> bool:
@@ -201,9 +198,9 @@ class CondensedSolver:
             x: Vector of all unknowns.
             y: Product, overwritten.
         """
-        self._multiply(self._system.contact_entries(), x, y)
+        self._multiply(self._system.contact_block(), x, y)
 
-    def _multiply(self, contact: PETSc.Mat, x: PETSc.Vec, y: PETSc.Vec) -> None:
+    def _multiply(self, contact: core.ContactBlock, x: PETSc.Vec, y: PETSc.Vec) -> None:
         self._system.multiply_contact(contact, x, y)
         n = self._system.num_bulk
         u, w = self._bulk.matrix().createVecs()
