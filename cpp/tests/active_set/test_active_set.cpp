@@ -1,0 +1,422 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include "contact_scene.h"
+#include <cmath>
+#include <contactx/active_set/active_set.h>
+#include <gtest/gtest.h>
+#include <numeric>
+
+using namespace contactx;
+using namespace contactx::active_set;
+using namespace contactx::contact;
+using namespace contactx::tests;
+
+namespace
+{
+/// Solves a dense system by elimination with pivots.
+std::vector<double> solved(dense::Matrix A, std::vector<double> b)
+{
+  const std::size_t n = b.size();
+  for (std::size_t k = 0; k < n; ++k)
+  {
+    std::size_t pivot = k;
+    for (std::size_t i = k + 1; i < n; ++i)
+      if (std::abs(A(i, k)) > std::abs(A(pivot, k)))
+        pivot = i;
+    for (std::size_t j = k; j < n; ++j)
+      std::swap(A(k, j), A(pivot, j));
+    std::swap(b[k], b[pivot]);
+    for (std::size_t i = k + 1; i < n; ++i)
+    {
+      const double factor = A(i, k) / A(k, k);
+      for (std::size_t j = k; j < n; ++j)
+        A(i, j) -= factor * A(k, j);
+      b[i] -= factor * b[k];
+    }
+  }
+  for (std::size_t k = n; k-- > 0;)
+  {
+    for (std::size_t j = k + 1; j < n; ++j)
+      b[k] -= A(k, j) * b[j];
+    b[k] /= A(k, k);
+  }
+  return b;
+}
+
+/// Two sheets whose nodes hang on springs, the ends of which the test moves,
+/// and Newton's method with dense algebra.
+struct Springs
+{
+  ContactScene scene;
+  std::vector<std::shared_ptr<Contact>> contacts;
+  std::shared_ptr<ActiveSet> set;
+  std::vector<double> ends; ///< displacements of the springs' ends
+  double stiffness = 3;
+  Forces none{[] { return std::vector<double>(); },
+              [] { return std::vector<double>(); }, [] { return 1.0; }};
+
+  explicit Springs(int dim) : scene(dim), ends(scene.u->size(), 0) {}
+
+  template <class M>
+  void add(std::shared_ptr<law::Law> law, Sliding sliding = Sliding::finite)
+  {
+    contacts.push_back(scene.contact<M>(std::move(law), sliding));
+    set = std::make_shared<ActiveSet>(scene.halo, contacts);
+  }
+
+  /// Press the slave down by a dome, and aside.
+  void press(double down, double aside)
+  {
+    const int g = scene.sheets.gdim;
+    for (std::int32_t i = 0; i < scene.sheets.num_slaves; ++i)
+    {
+      double r2 = 0;
+      for (int k = 0; k < g - 1; ++k)
+        r2 += std::pow(scene.sheets.x[g * i + k] - 0.5, 2);
+      ends[g * i] = aside;
+      ends[g * i + g - 1] = -down * (1 - 3 * r2);
+    }
+  }
+
+  std::vector<double> forces()
+  {
+    std::vector<double> b = residual(contacts);
+    for (std::size_t k = 0; k < ends.size(); ++k)
+      b[k] += stiffness * ((*scene.u)[k] - ends[k]);
+    return b;
+  }
+
+  static double norm(std::span<const double> b)
+  {
+    return std::sqrt(std::inner_product(b.begin(), b.end(), b.begin(), 0.0));
+  }
+
+  /// Solve; the number of iterations, or -1.
+  int solve()
+  {
+    std::vector<double> compliance(scene.sheets.num_nodes(), 1 / stiffness);
+    set->begin_step();
+    for (const auto& c : contacts)
+      c->set_factor(compliance);
+    set->settle(none, true);
+    for (int iteration = 0; iteration < 30; ++iteration)
+    {
+      std::vector<double> b = forces();
+      while (norm(b) < 1e-13)
+      {
+        const auto end = set->may_end(none);
+        if (end == ActiveSet::End::solution)
+        {
+          for (const auto& c : contacts)
+            c->accept();
+          return iteration;
+        }
+        if (end == ActiveSet::End::hidden)
+          return -1;
+        b = forces();
+      }
+      set->note(norm(b));
+      const condense::ContactBlock J(contacts, {});
+      dense::Matrix A(J.size(), J.size());
+      const auto entries = J.entries();
+      for (std::size_t i = 0; i < J.size(); ++i)
+        for (auto e = entries.offsets[i]; e < entries.offsets[i + 1]; ++e)
+          A(i, entries.columns[e]) = entries.values[e];
+      for (std::size_t k = 0; k < ends.size(); ++k)
+        A(k, k) += stiffness;
+      const std::vector<double> step = solved(A, b);
+      std::size_t at = 0;
+      for (double& v : *scene.u)
+        v -= step[at++];
+      for (const auto& c : contacts)
+        for (double& m : c->nodes()->multiplier)
+          m -= step[at++];
+      set->settle(none);
+      set->advance(true);
+    }
+    return -1;
+  }
+};
+
+/// Frozen pairs that hide a penetration, until they are released.
+class Hiding : public NodeToSurface
+{
+public:
+  using NodeToSurface::NodeToSurface;
+
+  std::vector<std::int32_t> frozen_pairs() const override
+  {
+    return is_frozen ? std::vector<std::int32_t>{0}
+                     : std::vector<std::int32_t>();
+  }
+  void reset_flips() override
+  {
+    ++releases;
+    is_frozen = stays;
+  }
+  HiddenGap deepest_frozen_pair(std::span<const double>) const override
+  {
+    return is_frozen ? HiddenGap{-1e-3, -0.1} : HiddenGap();
+  }
+
+  bool is_frozen = true, stays = true;
+  int releases = 0;
+};
+
+template <class M>
+class ActiveSets : public testing::Test
+{
+};
+
+using Methods = testing::Types<NodeToSurface, SurfaceToSurface>;
+TYPED_TEST_SUITE(ActiveSets, Methods);
+} // namespace
+
+TYPED_TEST(ActiveSets, TheSolutionIsComplementary)
+{
+  for (int dim : {2, 3})
+    for (const Sliding sliding : {Sliding::finite, Sliding::small})
+    {
+      Springs scene(dim);
+      scene.template add<TypeParam>(std::make_shared<law::Frictionless>(),
+                                    sliding);
+      scene.press(0.09, 0.01);
+      const int iterations = scene.solve();
+      EXPECT_GT(iterations, 0);
+      EXPECT_LE(iterations, 10);
+      EXPECT_FALSE(scene.set->is_frozen());
+      const NodeState& nodes = *scene.contacts[0]->nodes();
+      std::int64_t closed = 0;
+      for (std::int32_t i = 0; i < nodes.num_nodes(); ++i)
+      {
+        EXPECT_GE(nodes.gap[i], -1e-12);
+        EXPECT_GE(nodes.multiplier[i], -1e-12);
+        EXPECT_NEAR(nodes.gap[i] * nodes.multiplier[i], 0, 1e-12);
+        closed += nodes.multiplier[i] > 1e-6;
+      }
+      // Some touch, some do not
+      EXPECT_GT(closed, 0);
+      EXPECT_LT(closed, nodes.num_nodes());
+      EXPECT_EQ(scene.set->num_closed(), closed);
+      // Once more from there nothing is left to do
+      EXPECT_EQ(scene.solve(), 0);
+      EXPECT_EQ(scene.set->changes().status, 0);
+    }
+}
+
+TYPED_TEST(ActiveSets, FrictionStaysInTheCone)
+{
+  for (int dim : {2, 3})
+  {
+    Springs scene(dim);
+    auto law = std::make_shared<law::Coulomb>();
+    law->set_friction(std::vector<double>(scene.scene.sheets.num_slaves, 0.3));
+    scene.add<TypeParam>(law);
+    scene.press(0.09, 0.0);
+    ASSERT_GE(scene.solve(), 0);
+    // Aside: nodes at the edge slip, those in the middle stick
+    scene.press(0.09, 0.008);
+    ASSERT_GE(scene.solve(), 0);
+    const Contact& contact = *scene.contacts[0];
+    const NodeState& nodes = *contact.nodes();
+    int sticking = 0, slipping = 0;
+    for (std::int32_t i = 0; i < nodes.num_nodes(); ++i)
+    {
+      const double p = nodes.pressure(i);
+      double t = 0, slip = 0, work = 0;
+      for (int k = 0; k < dim; ++k)
+      {
+        const std::size_t at = std::size_t(dim) * i + k;
+        const double along = nodes.multiplier[at] - p * nodes.normal[at];
+        t += along * along;
+        slip += nodes.slip[at] * nodes.slip[at];
+        work += along * nodes.slip[at];
+      }
+      EXPECT_LE(std::sqrt(t), 0.3 * p + 1e-12);
+      if (nodes.status[i] == law::open or p < 1e-6)
+        continue;
+      if (std::sqrt(t) < 0.3 * p * (1 - 1e-9))
+      {
+        EXPECT_NEAR(std::sqrt(slip), 0, 1e-12);
+        ++sticking;
+      }
+      else
+      {
+        // Against the slip
+        EXPECT_NEAR(work, -std::sqrt(t * slip), 1e-12);
+        ++slipping;
+      }
+    }
+    EXPECT_GT(sticking, 0);
+    EXPECT_GT(slipping, 0);
+    for (const double d : contact.history()->dissipation())
+      EXPECT_GE(d, -1e-15);
+  }
+}
+
+TEST(ActiveSet, AFarActiveSetFreezesTheKinematics)
+{
+  Springs scene(3);
+  scene.add<NodeToSurface>(std::make_shared<law::Frictionless>());
+  scene.set->begin_step();
+  scene.contacts[0]->set_factor(
+      std::vector<double>(scene.scene.sheets.num_nodes(), 1.0));
+  scene.set->settle(scene.none, true);
+  EXPECT_FALSE(scene.set->is_frozen());
+  // All nodes close at once
+  for (std::int32_t i = 0; i < scene.scene.sheets.num_slaves; ++i)
+    (*scene.scene.u)[3 * i + 2] = -0.1;
+  scene.set->settle(scene.none);
+  EXPECT_EQ(scene.set->changes().status, scene.scene.sheets.num_slaves);
+  EXPECT_TRUE(scene.set->is_frozen());
+  EXPECT_TRUE(scene.set->is_linear());
+  EXPECT_EQ(scene.contacts[0]->kinematics(), Sliding::small);
+  // Nothing changes any more: they are of the iterate again
+  const auto changes = scene.set->settle(scene.none);
+  EXPECT_EQ(changes.status, 0);
+  EXPECT_FALSE(scene.set->is_frozen());
+  EXPECT_EQ(scene.contacts[0]->kinematics(), Sliding::finite);
+  // A residual of frozen kinematics is not the true one
+  std::ranges::fill(*scene.scene.u, 0.0);
+  std::ranges::fill(scene.contacts[0]->nodes()->multiplier, -1.0);
+  scene.set->settle(scene.none);
+  EXPECT_TRUE(scene.set->is_frozen());
+}
+
+TEST(ActiveSet, AResidualOfFrozenKinematicsIsAskedForAgain)
+{
+  Springs scene(2);
+  scene.add<NodeToSurface>(std::make_shared<law::Frictionless>());
+  scene.set->begin_step();
+  NodeState& nodes = *scene.contacts[0]->nodes();
+  scene.contacts[0]->set_factor(
+      std::vector<double>(scene.scene.sheets.num_nodes(), 1.0));
+  scene.set->settle(scene.none, true);
+  EXPECT_EQ(scene.set->may_end(scene.none), ActiveSet::End::solution);
+  const auto move = [&](double down)
+  {
+    for (std::int32_t i = 0; i < scene.scene.sheets.num_slaves; ++i)
+      (*scene.scene.u)[2 * i + 1] = -down;
+  };
+  move(0.1);
+  scene.set->settle(scene.none);
+  ASSERT_TRUE(scene.set->is_frozen());
+  // Many open again while frozen
+  move(0.0);
+  std::ranges::fill(nodes.multiplier, 0.0);
+  scene.set->settle(scene.none);
+  ASSERT_TRUE(scene.set->is_frozen());
+  EXPECT_EQ(scene.set->may_end(scene.none), ActiveSet::End::again);
+  EXPECT_FALSE(scene.set->is_frozen());
+  EXPECT_EQ(scene.set->may_end(scene.none), ActiveSet::End::solution);
+}
+
+TEST(ActiveSet, FrozenPairsThatHideAPenetrationAreReleasedTwice)
+{
+  for (const bool stays : {true, false})
+  {
+    Springs scene(2);
+    scene.add<Hiding>(std::make_shared<law::Frictionless>());
+    auto& master = dynamic_cast<Hiding&>(*scene.contacts[0]->master());
+    master.stays = stays;
+    scene.set->begin_step();
+    scene.set->settle(scene.none, true);
+    // As if the pairs had gone back and forth since
+    master.is_frozen = true;
+    master.releases = 0;
+    EXPECT_EQ(scene.set->may_end(scene.none), ActiveSet::End::again);
+    EXPECT_EQ(scene.set->hidden_gaps(), std::vector<double>{-1e-3});
+    if (not stays)
+    {
+      EXPECT_EQ(scene.set->may_end(scene.none), ActiveSet::End::solution);
+      EXPECT_EQ(master.releases, 1);
+      continue;
+    }
+    EXPECT_EQ(scene.set->may_end(scene.none), ActiveSet::End::again);
+    EXPECT_EQ(scene.set->may_end(scene.none), ActiveSet::End::hidden);
+    EXPECT_EQ(master.releases, 2);
+    // A new step may try again
+    scene.set->begin_step();
+    scene.set->settle(scene.none, true);
+    EXPECT_EQ(scene.set->may_end(scene.none), ActiveSet::End::again);
+  }
+}
+
+TEST(ActiveSet, ANodeOfTwoContactsLeavesTheOneThatItDoesNotNeed)
+{
+  // The same surfaces twice: each node would be held twice along one normal
+  Springs scene(2);
+  scene.add<NodeToSurface>(std::make_shared<law::Frictionless>());
+  scene.add<NodeToSurface>(std::make_shared<law::Frictionless>());
+  scene.press(0.09, 0.0);
+  EXPECT_GT(scene.solve(), 0);
+  Springs alone(2);
+  alone.add<NodeToSurface>(std::make_shared<law::Frictionless>());
+  alone.press(0.09, 0.0);
+  EXPECT_GT(alone.solve(), 0);
+  for (std::size_t k = 0; k < alone.scene.u->size(); ++k)
+    EXPECT_NEAR((*scene.scene.u)[k], (*alone.scene.u)[k], 1e-13);
+  EXPECT_EQ(scene.set->num_closed(), alone.set->num_closed());
+  EXPECT_EQ(scene.set->num_corners(), 0);
+}
+
+TEST(ActiveSet, SoftContactIsForContactsWithoutFrictionAlone)
+{
+  for (const bool has_friction : {false, true})
+  {
+    Springs scene(3);
+    scene.add<NodeToSurface>(std::make_shared<law::Frictionless>());
+    if (has_friction)
+    {
+      auto law = std::make_shared<law::Coulomb>();
+      law->set_friction(
+          std::vector<double>(scene.scene.sheets.num_slaves, 0.3));
+      scene.add<NodeToSurface>(law);
+    }
+    scene.set->begin_step();
+    std::vector<std::vector<double>> changes;
+    for (const auto& c : scene.contacts)
+    {
+      c->set_factor(std::vector<double>(scene.scene.sheets.num_nodes(), 1.0));
+      c->update_gap();
+      std::ranges::fill(c->nodes()->status, law::slip);
+      // Bodies that are much softer than their surfaces: a gap is closed by
+      // little pressure, and most of the nodes would be pulled
+      changes.emplace_back(c->nodes()->multiplier.size(), -1e-9);
+    }
+    std::vector<std::span<const double>> step(changes.begin(), changes.end());
+    EXPECT_EQ(scene.set->softens(step), not has_friction);
+    EXPECT_EQ(scene.set->is_soft(), not has_friction);
+    EXPECT_EQ(scene.contacts[0]->nodes()->softness > 0, not has_friction);
+    if (has_friction)
+      continue;
+    // Once a step
+    EXPECT_FALSE(scene.set->softens(step));
+    scene.set->advance(true);
+    EXPECT_EQ(scene.set->soft_iterations(), 1);
+    scene.set->harden();
+    EXPECT_EQ(scene.contacts[0]->nodes()->softness, 0);
+    EXPECT_FALSE(scene.set->softens(step));
+    EXPECT_THROW(scene.set->softens({}), std::invalid_argument);
+  }
+}
+
+TEST(ActiveSet, IteratesThatGoRoundAreShortened)
+{
+  Springs scene(2);
+  scene.add<NodeToSurface>(std::make_shared<law::Frictionless>());
+  scene.set->begin_step();
+  auto& status = scene.contacts[0]->nodes()->status;
+  for (int turn = 0; turn < 2; ++turn)
+    for (const std::int8_t s : {law::open, law::slip})
+    {
+      std::ranges::fill(status, s);
+      scene.set->note(1.0);
+    }
+  EXPECT_GT(scene.set->cycles(), 0);
+  EXPECT_TRUE(scene.set->shortens());
+  scene.set->begin_step();
+  EXPECT_EQ(scene.set->cycles(), 0);
+  EXPECT_FALSE(scene.set->shortens());
+}

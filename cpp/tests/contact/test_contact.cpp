@@ -1,0 +1,365 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include "contact_scene.h"
+#include <cmath>
+#include <gtest/gtest.h>
+#include <limits>
+
+using namespace contactx;
+using namespace contactx::contact;
+using namespace contactx::tests;
+
+namespace
+{
+/// What is asked of contacts of either method.
+template <class M>
+class Contacts : public testing::Test
+{
+};
+
+using Methods = testing::Types<NodeToSurface, SurfaceToSurface>;
+TYPED_TEST_SUITE(Contacts, Methods);
+
+std::shared_ptr<law::Coulomb> coulomb(std::size_t n, double friction)
+{
+  auto law = std::make_shared<law::Coulomb>();
+  law->set_friction(std::vector<double>(n, friction));
+  return law;
+}
+
+/// A random state in the middle of a step.
+void spoil(ContactScene& scene, Contact& contact, std::mt19937& random)
+{
+  scene.shake(random, 0.01);
+  contact.search();
+  contact.update_gap();
+  contact.accept();
+  contact.begin_step();
+  scene.shake(random, 0.01);
+  contact.search();
+  contact.update_gap();
+  NodeState& nodes = *contact.nodes();
+  std::uniform_real_distribution<double> one(0, 1);
+  const int size = nodes.size();
+  for (std::int32_t i = 0; i < nodes.num_nodes(); ++i)
+  {
+    nodes.status[i] = static_cast<std::int8_t>(i % 3);
+    nodes.c[i] = 1 + one(random);
+    for (int k = 0; k < size; ++k)
+      nodes.multiplier[size * i + k] = one(random) - 0.5;
+    nodes.multiplier[size * i + size - 1] = 1 + one(random);
+  }
+  if (not nodes.is_vector())
+    for (auto& s : nodes.status)
+      s = s == law::open ? law::open : law::slip;
+  if (contact.law()->is_tied())
+    for (auto& s : nodes.status)
+      s = law::stick;
+}
+
+/// Compares the Jacobian with central differences of the residual.
+void expect_derivative(ContactScene& scene,
+                       const std::shared_ptr<Contact>& contact)
+{
+  const std::vector<std::shared_ptr<Contact>> contacts{contact};
+  std::vector<double>& u = *scene.u;
+  std::vector<double>& m = contact->nodes()->multiplier;
+  residual(contacts);
+  const condense::ContactBlock J(contacts, {});
+  ASSERT_EQ(J.size(), u.size() + m.size());
+  double largest = 0;
+  for (const double v : J.entries().values)
+    largest = std::max(largest, std::abs(v));
+  const double h = 1e-6;
+  std::vector<double> direction(J.size(), 0);
+  for (std::size_t j = 0; j < J.size(); ++j)
+  {
+    double& unknown = j < u.size() ? u[j] : m[j - u.size()];
+    const double before = unknown;
+    unknown = before + h;
+    const std::vector<double> after = residual(contacts);
+    unknown = before - h;
+    std::vector<double> difference = residual(contacts);
+    unknown = before;
+    for (std::size_t i = 0; i < difference.size(); ++i)
+      difference[i] = (after[i] - difference[i]) / (2 * h);
+    direction[j] = 1;
+    const std::vector<double> column = J.multiply(direction);
+    direction[j] = 0;
+    for (std::size_t i = 0; i < column.size(); ++i)
+      ASSERT_NEAR(column[i], difference[i], 1e-7 * largest)
+          << "row " << i << ", column " << j;
+  }
+}
+} // namespace
+
+TYPED_TEST(Contacts, TheJacobianIsTheDerivativeOfTheResidual)
+{
+  std::mt19937 random(3);
+  for (int dim : {2, 3})
+    for (const Sliding sliding : {Sliding::finite, Sliding::small})
+      for (const bool has_friction : {false, true})
+      {
+        ContactScene scene(dim);
+        std::shared_ptr<law::Law> law = std::make_shared<law::Frictionless>();
+        if (has_friction)
+          law = coulomb(scene.sheets.num_slaves, 0.4);
+        const auto contact
+            = scene.template contact<TypeParam>(std::move(law), sliding);
+        spoil(scene, *contact, random);
+        expect_derivative(scene, contact);
+      }
+}
+
+TEST(Ties, TheJacobianIsTheDerivativeOfTheResidual)
+{
+  std::mt19937 random(4);
+  for (int dim : {2, 3})
+    for (const Sliding sliding : {Sliding::finite, Sliding::small})
+    {
+      ContactScene scene(dim);
+      for (const auto& contact :
+           {scene.contact<NodeTie>(std::make_shared<law::Tied>(), sliding),
+            scene.contact<SurfaceTie>(std::make_shared<law::Tied>(), sliding)})
+      {
+        spoil(scene, *contact, random);
+        expect_derivative(scene, contact);
+      }
+    }
+}
+
+TYPED_TEST(Contacts, ForcesAndMomentsOfItsPairsSumToZero)
+{
+  std::mt19937 random(5);
+  for (int dim : {2, 3})
+  {
+    ContactScene scene(dim);
+    const auto contact = scene.template contact<TypeParam>(
+        std::make_shared<law::Frictionless>());
+    spoil(scene, *contact, random);
+    contact->update_gap();
+    std::vector<double> b(scene.u->size(), 0);
+    contact->add_residual(b);
+    const std::vector<double> x = scene.halo->positions();
+    double largest = 0;
+    Vector<3> sum{}, moment{};
+    for (std::int32_t i = 0; i < scene.sheets.num_nodes(); ++i)
+    {
+      Vector<3> p{}, f{};
+      std::copy_n(x.begin() + dim * i, dim, p.begin());
+      std::copy_n(b.begin() + dim * i, dim, f.begin());
+      for (int k = 0; k < 3; ++k)
+      {
+        largest = std::max(largest, std::abs(f[k]));
+        sum[k] += f[k];
+        moment[k] += p[(k + 1) % 3] * f[(k + 2) % 3]
+                     - p[(k + 2) % 3] * f[(k + 1) % 3];
+      }
+    }
+    ASSERT_GT(largest, 0.01);
+    for (int k = 0; k < 3; ++k)
+    {
+      EXPECT_NEAR(sum[k], 0, 1e-13);
+      // Mean normals are not along the way to the master
+      if (std::is_same_v<TypeParam, NodeToSurface>)
+        EXPECT_NEAR(moment[k], 0, 1e-13);
+    }
+  }
+}
+
+TYPED_TEST(Contacts, GapsAreHeightsLessWhatIsTakenOff)
+{
+  for (int dim : {2, 3})
+  {
+    ContactScene scene(dim, 0.05);
+    std::vector<std::int8_t> shared(scene.sheets.num_nodes(), 0);
+    shared[1] = 1;
+    const auto contact = scene.template contact<TypeParam>(
+        std::make_shared<law::Frictionless>(), Sliding::finite, shared);
+    const std::int32_t n = scene.sheets.num_slaves;
+    const std::vector<double>& gap = contact->nodes()->gap;
+    const auto expect = [&](double expected)
+    {
+      contact->update_gap();
+      for (std::int32_t i = 0; i < n; ++i)
+      {
+        if (i == 1)
+          EXPECT_TRUE(std::isnan(gap[i]));
+        else
+          EXPECT_NEAR(gap[i], expected, 1e-14);
+      }
+    };
+    expect(0.05);
+    // The slave comes down
+    for (std::int32_t i = 0; i < n; ++i)
+      (*scene.u)[dim * i + dim - 1] = -0.02;
+    expect(0.03);
+    contact->set_offset(std::vector<double>(n, 0.01));
+    expect(0.02);
+    contact->set_active(false);
+    contact->update_gap();
+    for (const double g : gap)
+      EXPECT_TRUE(std::isnan(g));
+    contact->set_active(true);
+    expect(0.02);
+    EXPECT_THROW(contact->set_offset(std::vector<double>(n + 1, 0)),
+                 std::invalid_argument);
+  }
+}
+
+TYPED_TEST(Contacts, FrozenKinematicsAreLinear)
+{
+  std::mt19937 random(6);
+  for (int dim : {2, 3})
+  {
+    ContactScene scene(dim);
+    const auto contact = scene.template contact<TypeParam>(
+        std::make_shared<law::Frictionless>());
+    scene.shake(random, 0.01);
+    contact->search();
+    const std::int64_t version = contact->version();
+    contact->freeze(true);
+    EXPECT_EQ(contact->kinematics(), Sliding::small);
+    EXPECT_GT(contact->version(), version);
+    const int skipped = contact->skipped_searches();
+    EXPECT_EQ(contact->search(), 0);
+    EXPECT_EQ(contact->skipped_searches(), skipped + 1);
+    EXPECT_TRUE(contact->block("stiffness").values.empty());
+    // Gaps along a straight way: the middle one is the mean
+    std::vector<std::vector<double>> gaps;
+    const std::vector<double> from = *scene.u;
+    scene.shake(random, 0.02);
+    const std::vector<double> to = *scene.u;
+    for (const double t : {0.0, 0.5, 1.0})
+    {
+      for (std::size_t k = 0; k < to.size(); ++k)
+        (*scene.u)[k] = (1 - t) * from[k] + t * to[k];
+      contact->update_gap();
+      gaps.push_back(contact->nodes()->gap);
+    }
+    for (std::size_t i = 0; i < gaps[0].size(); ++i)
+      EXPECT_NEAR(gaps[1][i], (gaps[0][i] + gaps[2][i]) / 2, 1e-14);
+    contact->freeze(false);
+    EXPECT_EQ(contact->kinematics(), Sliding::finite);
+    EXPECT_FALSE(contact->block("stiffness").values.empty());
+  }
+}
+
+TYPED_TEST(Contacts, TermsAreThoseOfChosenSlaveNodes)
+{
+  ContactScene scene(3);
+  const auto contact = scene.template contact<TypeParam>(
+      std::make_shared<law::Frictionless>());
+  NodeState& nodes = *contact->nodes();
+  contact->update_gap();
+  std::ranges::fill(nodes.status, law::open);
+  nodes.status[2] = law::slip;
+  std::ranges::fill(nodes.multiplier, 1.0);
+  std::ranges::fill(nodes.c, 1.0);
+  contact->law()->evaluate(nodes);
+  const std::vector<std::shared_ptr<Contact>> contacts{contact};
+  const std::size_t n = nodes.num_nodes();
+  std::vector<double> d(n, 0);
+  d[4] = 1;
+  const condense::ContactBlock all(contacts, {}), some(contacts, {}, d);
+  // Multipliers that may differ from zero act as in the whole
+  std::vector<double> x(all.size(), 0);
+  x[scene.u->size() + 2] = x[scene.u->size() + 4] = 1;
+  EXPECT_EQ(some.multiply(x), all.multiply(x));
+  EXPECT_LT(some.entries().values.size(), all.entries().values.size());
+  // Nothing acts on, or comes from, a displacement that is prescribed
+  std::vector<std::int8_t> prescribed(scene.u->size(), 0);
+  const std::size_t down = 3 * 2 + 2;
+  prescribed[down] = 1;
+  const condense::ContactBlock rest(contacts, prescribed);
+  std::vector<double> y(all.size(), 1);
+  EXPECT_NE(all.multiply(y)[down], 0);
+  EXPECT_EQ(rest.multiply(y)[down], 0);
+  EXPECT_THROW(condense::ContactBlock(contacts, {}, std::vector<double>(1)),
+               std::invalid_argument);
+}
+
+TYPED_TEST(Contacts, SlipIsMeasuredFromWhereANodeTouches)
+{
+  for (int dim : {2, 3})
+  {
+    ContactScene scene(dim, 0.1);
+    const auto contact = scene.template contact<TypeParam>(
+        coulomb(scene.sheets.num_slaves, 0.5));
+    contact->begin_step();
+    contact->search();
+    contact->update_gap();
+    contact->update_status(true);
+    // Down by twice the gap, aside by 0.04: it touches on half the way
+    for (std::int32_t i = 0; i < scene.sheets.num_slaves; ++i)
+    {
+      (*scene.u)[dim * i] = 0.04;
+      (*scene.u)[dim * i + dim - 1] = -0.2;
+    }
+    std::ranges::fill(contact->nodes()->c, 1.0);
+    contact->search();
+    contact->update_gap();
+    for (std::int32_t i = 0; i < scene.sheets.num_slaves; ++i)
+      EXPECT_NEAR(contact->nodes()->slip[dim * i], 0.04, 1e-13);
+    EXPECT_EQ(contact->update_status(false), scene.sheets.num_slaves);
+    for (std::int32_t i = 0; i < scene.sheets.num_slaves; ++i)
+      EXPECT_NEAR(contact->nodes()->slip[dim * i], 0.02, 1e-13);
+    // The residual asks again, and finds the same
+    contact->update_gap();
+    EXPECT_NEAR(contact->nodes()->slip[0], 0.02, 1e-13);
+  }
+}
+
+TEST(Contact, ForcesStayWhereAreasChange)
+{
+  // A fold of the slave that turns away from the master carries nothing
+  ContactScene scene(2, 0.0);
+  const auto contact
+      = scene.contact<NodeToSurface>(std::make_shared<law::Frictionless>());
+  NodeState& nodes = *contact->nodes();
+  std::ranges::fill(nodes.multiplier, 2.0);
+  const std::vector<double> before = nodes.area;
+  double force = 0;
+  for (const double a : before)
+    force += 2 * a;
+  // Its last segment stands upright now
+  const auto owned = scene.slaves->owned();
+  std::int32_t last = 0;
+  for (const std::int32_t i : owned)
+    if (scene.sheets.x[2 * i] > scene.sheets.x[2 * last])
+      last = i;
+  (*scene.u)[2 * last] = -0.5;
+  (*scene.u)[2 * last + 1] = 1;
+  contact->search();
+  contact->accept();
+  double after = 0;
+  for (std::size_t i = 0; i < before.size(); ++i)
+    after += nodes.multiplier[i] * nodes.area[i];
+  EXPECT_NE(nodes.area, before);
+  EXPECT_NEAR(after, force, 1e-12);
+}
+
+TEST(Contact, WhatDoesNotFitIsRefused)
+{
+  ContactScene scene(2);
+  auto law = std::make_shared<law::Frictionless>();
+  const auto make = [&](std::size_t prescribed, std::size_t shared)
+  {
+    return Contact(scene.halo, scene.slaves,
+                   scene.master<NodeToSurface>(*law, Sliding::finite), law,
+                   {Sliding::finite, false,
+                    std::vector<std::int8_t>(prescribed, 0),
+                    std::vector<std::int8_t>(shared, 0)});
+  };
+  EXPECT_NO_THROW(make(scene.u->size(), 0));
+  EXPECT_THROW(make(scene.u->size() - 1, 0), std::invalid_argument);
+  EXPECT_THROW(make(scene.u->size(), 1), std::invalid_argument);
+  const auto contact = scene.contact<NodeToSurface>(law);
+  std::vector<double> few(1);
+  EXPECT_THROW(contact->add_residual(few), std::invalid_argument);
+  EXPECT_THROW(contact->set_factor(few), std::invalid_argument);
+  EXPECT_THROW(contact->block("stiffness", std::vector<std::int8_t>(1)),
+               std::invalid_argument);
+  EXPECT_THROW(contact->block("gap"), std::invalid_argument);
+}

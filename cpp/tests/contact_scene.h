@@ -1,0 +1,123 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#pragma once
+
+#include "two_sheets.h"
+#include <contactx/condense/contact_block.h>
+#include <contactx/contact/contact.h>
+#include <random>
+
+namespace contactx::tests
+{
+/// @brief A bulk on one rank whose displacement the test moves.
+class MovingBulk final : public parallel::HaloAdapter
+{
+public:
+  explicit MovingBulk(std::shared_ptr<std::vector<double>> u) : _u(std::move(u))
+  {
+  }
+
+  parallel::Ranks& ranks() override { return _ranks; }
+  void set_ghosts(std::span<const std::int64_t>,
+                  std::span<const std::int32_t>) override
+  {
+  }
+  void forward(std::span<double>, int) override {}
+  void forward(std::span<std::int64_t>, int) override {}
+  void reverse(std::span<double>, int) override {}
+  void displacement(std::span<double> values) const override
+  {
+    std::ranges::copy(*_u, values.begin());
+  }
+
+private:
+  parallel::OneRank _ranks;
+  std::shared_ptr<std::vector<double>> _u;
+};
+
+/// @brief Two sheets in contact, and the displacement of their nodes.
+struct ContactScene
+{
+  TwoSheets sheets;
+  std::shared_ptr<std::vector<double>> u;
+  std::shared_ptr<parallel::Halo> halo;
+  std::shared_ptr<contact::SlaveNodes> slaves;
+  std::shared_ptr<search::MasterSurface> surface;
+  std::shared_ptr<search::Outside> outside;
+
+  explicit ContactScene(int dim, double height = 0.05,
+                        Cells cells = Cells::mixed)
+      : sheets(dim, height, cells),
+        u(std::make_shared<std::vector<double>>(sheets.x.size(), 0.0))
+  {
+    const std::int32_t n = sheets.num_nodes();
+    parallel::BulkNodes bulk{dim, n, {}, {}, {}, sheets.x};
+    for (std::int32_t i = 0; i < n; ++i)
+      bulk.numbers.push_back(i);
+    bulk.original = bulk.numbers;
+    bulk.owners.assign(n, 0);
+    halo = std::make_shared<parallel::Halo>(bulk,
+                                            std::make_unique<MovingBulk>(u));
+    slaves = std::make_shared<contact::SlaveNodes>(halo, sheets.slave.list(),
+                                                   sheets.slave.list());
+    surface = search::make_master_surface(halo, sheets.master.offsets,
+                                          sheets.master.nodes);
+    outside = std::make_shared<search::Outside>(halo, sheets.master.offsets,
+                                                sheets.master.nodes);
+  }
+
+  /// @brief Pairs of a method, not searched for yet.
+  template <class M>
+  std::shared_ptr<M> master(const law::Law& law, contact::Sliding sliding) const
+  {
+    return std::make_shared<M>(
+        halo, sheets.slave, surface, outside,
+        contact::PairingOptions{1.0, sliding == contact::Sliding::small,
+                                law.is_vector()});
+  }
+
+  /// @brief A contact of these sheets.
+  /// @param[in] shared 1 at nodes that both surfaces have; empty for none.
+  template <class M>
+  std::shared_ptr<contact::Contact>
+  contact(std::shared_ptr<law::Law> law,
+          contact::Sliding sliding = contact::Sliding::finite,
+          std::vector<std::int8_t> shared = {}) const
+  {
+    constexpr bool has_means = std::is_base_of_v<contact::SurfaceToSurface, M>;
+    return std::make_shared<contact::Contact>(
+        halo, slaves, master<M>(*law, sliding), law,
+        contact::Contact::Options{sliding, has_means,
+                                  std::vector<std::int8_t>(u->size(), 0),
+                                  std::move(shared)});
+  }
+
+  /// @brief Move all nodes by random numbers up to a size.
+  void shake(std::mt19937& random, double size)
+  {
+    std::uniform_real_distribution<double> any(-size, size);
+    for (double& v : *u)
+      v = any(random);
+  }
+};
+
+/// @brief Residual of contacts: forces on all nodes, then the complementarity
+/// function of each contact.
+inline std::vector<double>
+residual(const std::vector<std::shared_ptr<contact::Contact>>& contacts)
+{
+  const parallel::Halo& halo = contacts.front()->halo();
+  std::vector<double> b(std::size_t(halo.num_nodes()) * halo.gdim(), 0);
+  for (const auto& c : contacts)
+  {
+    c->update_gap();
+    c->law()->evaluate(*c->nodes());
+    c->add_residual(
+        std::span(b).first(std::size_t(halo.num_nodes()) * halo.gdim()));
+  }
+  for (const auto& c : contacts)
+    b.insert(b.end(), c->nodes()->value.begin(), c->nodes()->value.end());
+  return b;
+}
+} // namespace contactx::tests
