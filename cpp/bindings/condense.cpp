@@ -4,7 +4,7 @@
 #include "master.h"
 #include "parallel.h"
 #include <contactx/condense/condensation.h>
-#include <contactx/condense/contact_block.h>
+#include <contactx/condense/coupled_rows.h>
 #include <contactx/condense/multigrid.h>
 #include <optional>
 #include <pybind11/stl.h>
@@ -58,20 +58,41 @@ void contactx_bindings::condense(py::module_& m)
       .def(py::init(
                [](const ContactBlock::Contacts& contacts,
                   const std::optional<Array<std::int8_t>>& prescribed,
-                  const std::optional<Array<double>>& d)
+                  bool keeps_zeros, const std::optional<Array<double>>& d)
                {
-                 return ContactBlock(contacts,
-                                     prescribed
-                                         ? view(*prescribed)
-                                         : std::span<const std::int8_t>(),
-                                     d ? view(*d) : std::span<const double>());
+                 return ContactBlock(
+                     contacts,
+                     prescribed ? view(*prescribed)
+                                : std::span<const std::int8_t>(),
+                     keeps_zeros, d ? view(*d) : std::span<const double>());
                }),
            py::arg("contacts"), py::arg("prescribed") = py::none(),
+           py::kw_only(), py::arg("keeps_zeros") = false,
            py::arg("d") = py::none())
       .def(
           "multiply", [](const ContactBlock& self, const Array<double>& x)
           { return array(self.multiply(view(x))); }, py::arg("x"));
 
+  m.def(
+      "coupled_rows",
+      [](const Array<std::int64_t>& offsets, const Array<std::int64_t>& columns,
+         const Array<double>& values, const ContactBlock& contact,
+         const Array<std::int64_t>& places, std::size_t num_local)
+      {
+        const auto rows_of = [](const Rows& rows)
+        {
+          return py::make_tuple(array(rows.offsets), array(rows.columns),
+                                array(rows.values));
+        };
+        const CoupledRows found
+            = coupled(view(offsets), view(columns), view(values), contact,
+                      view(places), num_local);
+        return py::make_tuple(rows_of(found.own), array(found.others),
+                              rows_of(found.added));
+      },
+      py::arg("offsets"), py::arg("columns"), py::arg("values"),
+      py::arg("contact"), py::arg("places"), py::arg("num_local"),
+      "Rows of the coupled system, and what is added to those of other ranks");
   m.def(
       "slave_marks",
       [](const NodeMap& nodes, const ContactBlock::Contacts& contacts)

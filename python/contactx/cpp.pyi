@@ -379,10 +379,24 @@ class ContactBlock:
         self,
         contacts: Sequence[Contact],
         prescribed: NDArray[np.int8] | None = None,
+        *,
+        keeps_zeros: bool = False,
         d: NDArray[np.float64] | None = None,
     ) -> None: ...
     def multiply(self, x: NDArray[np.float64]) -> NDArray[np.float64]: ...
 
+def coupled_rows(
+    offsets: NDArray[np.int64],
+    columns: NDArray[np.int64],
+    values: NDArray[np.float64],
+    contact: ContactBlock,
+    places: NDArray[np.int64],
+    num_local: int,
+) -> tuple[
+    tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.float64]],
+    NDArray[np.int64],
+    tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.float64]],
+]: ...
 def slave_marks(nodes: NodeMap, contacts: Sequence[Contact]) -> NDArray[np.int8]: ...
 
 class Condensation:

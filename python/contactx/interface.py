@@ -86,6 +86,10 @@ class Interface(core.Contact):
         self.num_others = len(slaves.around) - len(slaves.owned)
         self.shared_nodes = np.flatnonzero([] if shared is None else shared)
         self._offset, self._friction = offset, friction
+        self._varies = True
+        if offset.is_number and (friction is None or friction.is_number):
+            self.read_values()
+            self._varies = False
         # State is this rank's alone
         slave_map = cpp.common.IndexMap(MPI.COMM_SELF, len(slaves.around))
         self.state = State.of(halo.gdim, slave_map, is_vector=law.is_vector)
@@ -107,6 +111,8 @@ class Interface(core.Contact):
         Raises:
             ValueError: If a coefficient is negative, or a value is not finite.
         """
+        if not self._varies:
+            return
         with agreed(self.halo.comm):
             if self._friction is not None and isinstance(self.law, core.Coulomb):
                 self.law.set_friction(np.broadcast_to(self._friction.now(), self.slaves.shape))

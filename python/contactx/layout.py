@@ -4,8 +4,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from petsc4py import PETSc
 
 import numpy as np
@@ -14,6 +12,7 @@ import numpy.typing as npt
 from contactx.parallel.halo import Halo
 
 type Index = npt.NDArray[np.int64]
+type Rows = tuple[Index, Index, npt.NDArray[np.float64]]
 
 
 class Layout:
@@ -42,33 +41,21 @@ class Layout:
         multipliers = np.arange(self._start + g * halo.num_owned, self._start + self._size)
         return np.concatenate([nodes, multipliers])
 
-    def matrix(self) -> PETSc.Mat:
-        """Matrix of all unknowns without entries."""
-        size = (self._size, None)
-        A = PETSc.Mat().createAIJ((size, size), comm=self._halo.comm)
-        A.setUp()
-        return A
-
-    def embed(self, K: PETSc.Mat) -> PETSc.Mat:
-        """The bulk's matrix with empty rows and columns for the multipliers."""
-        size = (self._size, None)
-        return PETSc.Mat().createAIJ((size, size), csr=self._rows(K), comm=self._halo.comm)
-
-    def add(self, K: PETSc.Mat, A: PETSc.Mat) -> None:
-        """Add the bulk's matrix to one that has its entries; entries of others may follow.
+    def matrix(self, rows: Rows) -> PETSc.Mat:
+        """Matrix of all unknowns; all ranks must take part.
 
         Args:
-            K: The bulk's matrix.
-            A: Matrix of all unknowns.
+            rows: This rank's rows, in places.
         """
-        A.setValuesIJV(*self._rows(K), addv=PETSc.InsertMode.ADD)
+        size, (offsets, columns, values) = (self._size, None), rows
+        csr = offsets.astype(PETSc.IntType), columns.astype(PETSc.IntType), values
+        return PETSc.Mat().createAIJ((size, size), csr=csr, comm=self._halo.comm)
 
-    def _rows(self, K: PETSc.Mat) -> tuple[npt.NDArray[Any], npt.NDArray[Any], npt.NDArray[Any]]:
-        """Entries of the bulk's matrix in compressed rows of all unknowns."""
+    def rows(self, K: PETSc.Mat) -> Rows:
+        """Rows of the bulk's matrix, with places of all unknowns for columns."""
         indptr, indices, values = K.getValuesCSR()
-        multipliers = self._size - self._halo.num_owned * self._halo.gdim
-        indptr = np.concatenate([indptr, np.full(multipliers, indptr[-1], dtype=indptr.dtype)])
+        columns = indices.astype(np.int64)
         if len(self._all) > 1:
-            rank = np.searchsorted(self._bulk, indices, side="right") - 1
-            indices = (indices + (self._all - self._bulk)[rank]).astype(PETSc.IntType)
-        return indptr, indices, values
+            rank = np.searchsorted(self._bulk, columns, side="right") - 1
+            columns += (self._all - self._bulk)[rank]
+        return indptr.astype(np.int64), columns, values

@@ -96,14 +96,14 @@ class SaddlePoint(LinearSolver):
         self._A = None
 
     def update(self, springs: Array | None) -> None:
-        """See ``LinearSolver``; the matrix must have the pattern of the current pairs."""
+        """See ``LinearSolver``."""
         self._springs = springs
-        if self._A is not None and self._system.fits():
-            return
         with self._report.timing("Jacobian"):
-            self._A = self._system.jacobian(springs=springs)
+            A = self._system.jacobian(self._A, springs)
         self._is_current = True
-        self._snes.setJacobian(weakly(self._jacobian), self._A)
+        if A is not self._A:
+            self._A = A
+            self._snes.setJacobian(weakly(self._jacobian), A)
 
     @keeps_its_error
     def _jacobian(self, snes: PETSc.SNES, x: PETSc.Vec, A: PETSc.Mat, P: PETSc.Mat) -> None:

@@ -155,6 +155,8 @@ class NewtonLoop:
         self._forces = core.Forces(
             system.displacement_residual, system.bulk_residual, self._criterion.scale_of_balance
         )
+        # Whether the Jacobian is that of the last iterate
+        self._is_current = False
         # The iterate before, with hard contact
         self._last: PETSc.Vec | None = None
         self._audit = Audit(bulk, interfaces, system.halo)
@@ -201,7 +203,7 @@ class NewtonLoop:
             # What asks for the Jacobian before it asks for the residual
             for interface in self._interfaces:
                 interface.law.evaluate(interface.nodes)
-            self._linear.update(self._free_bodies.springs)
+            self._update_jacobian()
             self.snes.solve(None, self._system.x)
             report.unread = self._options.unread()
         self._system.unpack(self._system.x)
@@ -325,6 +327,7 @@ class NewtonLoop:
             interface.read_values()
         with self._report.timing("settle"):
             self._active_set.settle(self._forces, is_first)
+        self._is_current = False
 
     @keeps_its_error
     def _test(
@@ -342,6 +345,7 @@ class NewtonLoop:
         row, small = self._evaluate(snes, number)
         if small and self._active_set.is_soft:
             self._active_set.harden()
+            self._is_current = False
             row, small = self._evaluate(snes, number)
         while small:
             end = self._active_set.may_end(self._forces)
@@ -350,6 +354,7 @@ class NewtonLoop:
             if end == core.ActiveSet.End.hidden:
                 self._failure, self._is_final = _HIDDEN, True
                 return reason.DIVERGED_FUNCTION_DOMAIN
+            self._is_current = False
             row, small = self._evaluate(snes, number)
         self._report.history.append(row)
         self._active_set.note(row.residual)
@@ -370,12 +375,18 @@ class NewtonLoop:
         if self._is_unbalanced() and not shrinks:
             self._failure, self._is_final = _UNBALANCED, True
             return reason.DIVERGED_FUNCTION_DOMAIN
-        self._linear.update(self._free_bodies.springs)
+        self._update_jacobian()
         # Where an active set has come back, only exact solves tell it from its successor
         changes = sum(self._active_set.changes)
         changing = 0.0 if self._active_set.cycles else changes / max(1, row.closed)
         self._linear.set_accuracy(row.residual, row.tolerance, changing)
         return reason.CONVERGED_ITERATING
+
+    def _update_jacobian(self) -> None:
+        """Bring the Jacobian up to the iterate, where something has changed since."""
+        if not self._is_current:
+            self._linear.update(self._free_bodies.springs)
+        self._is_current = True
 
     def _is_unbalanced(self) -> bool:
         """Whether nothing balances a body, now that the active set has settled."""

@@ -74,6 +74,11 @@ class NodalValue:
                 f"{name} is a constant of shape {value.value.shape}: give one of a number"
             )
 
+    @property
+    def is_number(self) -> bool:
+        """Whether it is a number, which never changes."""
+        return not isinstance(self._value, fem.Function | fem.Constant)
+
     def now(self) -> Any:
         """Current value: a number, or an array of shape (n,).
 

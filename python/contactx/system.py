@@ -17,12 +17,10 @@ import numpy.typing as npt
 
 from contactx import cpp as core
 from contactx.bulk import Bulk
-from contactx.contact_matrix import add_contacts, new_matrix
-from contactx.forms import ContactForms
 from contactx.interface import Interface
-from contactx.layout import Layout
+from contactx.layout import Layout, Rows
 from contactx.parallel.halo import Halo
-from contactx.parallel.reduce import everywhere, largest
+from contactx.parallel.reduce import anywhere, everywhere, largest
 
 # Relative difference from a Dirichlet value that has no share in the other rows
 _ROUNDING = 1e-15
@@ -63,7 +61,10 @@ class SaddlePointSystem:
         self._layout = Layout(halo, self._offsets[-1])
         self._bulk_residual = np.zeros(self.num_bulk)
         self._bulk_at: npt.NDArray[np.float64] | None = None
-        self._contact_pairs: list[list[ContactForms]] | None = None
+        # Rows of the bulk, and the number of its assemblies when they were taken
+        self._rows: tuple[int, Rows] | None = None
+        # Places of the entries of the last Jacobian
+        self._pattern: tuple[npt.NDArray[np.int64], ...] = ()
 
     @property
     def num_local(self) -> int:
@@ -157,11 +158,6 @@ class SaddlePointSystem:
         """Values of all nodes from those of this rank's, shape (num_local,)."""
         return self.halo.scatter_forward(values.reshape(-1, self.block)).ravel()
 
-    def fits(self) -> bool:
-        """Whether the last Jacobian has the pattern of the current pairs; all ranks take part."""
-        same = self._contact_pairs == [interface.forms for interface in self.interfaces]
-        return everywhere(self._comm, same)
-
     def displacement_residual(self) -> npt.NDArray[np.float64]:
         """Forces of bulk and contacts at the functions' state, without Dirichlet conditions."""
         pushed = np.zeros(self.num_local)
@@ -175,29 +171,40 @@ class SaddlePointSystem:
         """Assemble the Jacobian at the functions' state.
 
         Args:
+            A: What the last call returned: it is written to if it has the right places.
             springs: What is added to the diagonal of the displacements, shape (num_bulk,).
-            A: Matrix that an earlier call returned and whose pattern still fits, to write into.
 
         Returns:
             The Jacobian.
         """
-        if A is None:
-            contact = self._new_contact()
-            A = self._layout.embed(self._bulk.jacobian())
-            A.axpy(1.0, contact, PETSc.Mat.Structure.DIFFERENT_NONZERO_PATTERN)
-            # Those of the contacts are added by this rank's own numbers
-            A.setLGMap(*contact.getLGMap())
-            contact.destroy()
+        contact = core.ContactBlock(self.interfaces, self._markers(), keeps_zeros=True)
+        places = self._layout.places()
+        rows, others, added = core.coupled_rows(*self._bulk_rows(), contact, places, self.num_local)
+        pattern = (*rows[:2], others, *added[:2])
+        same = A is not None and all(map(np.array_equal, pattern, self._pattern))
+        if A is None or not everywhere(self._comm, same):
+            self._pattern = pattern
+            A = self._layout.matrix(rows)
         else:
             A.zeroEntries()
-            self._layout.add(self._bulk.jacobian(), A)
+            _add(A, rows, None)
+        if anywhere(self._comm, len(others) > 0):
             A.assemble(PETSc.Mat.AssemblyType.FLUSH)
-            add_contacts(A, self.interfaces, self.halo, self._markers())
+            A.setOption(PETSc.Mat.Option.NEW_NONZERO_ALLOCATION_ERR, False)
+            _add(A, added, others)
+        A.assemble()
         if springs is not None:
             diagonal = self.x.duplicate()
             self.blocks(diagonal.array)[0][:] = springs
             A.setDiagonal(diagonal, addv=PETSc.InsertMode.ADD)
         return A
+
+    def _bulk_rows(self) -> Rows:
+        """Rows of the bulk's Jacobian, which are kept where it does not change."""
+        K = self._bulk.jacobian()
+        if self._rows is None or not self._bulk.is_linear or self._rows[0] != self._bulk.assemblies:
+            self._rows = self._bulk.assemblies, self._layout.rows(K)
+        return self._rows[1]
 
     def contact_block(self, b: PETSc.Vec | None = None) -> core.ContactBlock:
         """Assemble this rank's pairs.
@@ -207,7 +214,7 @@ class SaddlePointSystem:
                 assembled for them. Any right-hand side if None.
         """
         d = None if b is None else b.array_r[self.num_bulk :]
-        return core.ContactBlock(self.interfaces, self._markers(), d)
+        return core.ContactBlock(self.interfaces, self._markers(), d=d)
 
     def multiply_contact(self, contact: core.ContactBlock, x: PETSc.Vec, y: PETSc.Vec) -> None:
         """Multiply by the contacts' part of the Jacobian; all ranks must take part.
@@ -223,14 +230,19 @@ class SaddlePointSystem:
         y.array[:n] = self._sums(w[: self.num_local])
         y.array[n:] = w[self.num_local :]
 
-    def _new_contact(self) -> PETSc.Mat:
-        """Assemble the contacts' part of the Jacobian, in all unknowns."""
-        A = new_matrix(self._layout, self.interfaces)
-        self._contact_pairs = [list(interface.forms) for interface in self.interfaces]
-        add_contacts(A, self.interfaces, self.halo, self._markers())
-        return A
-
     def _markers(self) -> npt.NDArray[np.int8]:
         """1 at prescribed displacements of all nodes, shape (num_local,)."""
         markers = self._bulk.markers.reshape(-1, self.block)
         return self.halo.scatter_forward(markers).ravel().astype(np.int8)
+
+
+def _add(A: PETSc.Mat, rows: Rows, which: npt.NDArray[np.int64] | None) -> None:
+    """Add rows to a matrix: those of this rank, or some by their places."""
+    offsets, columns, values = rows
+    A.setValuesIJV(
+        offsets.astype(PETSc.IntType),
+        columns.astype(PETSc.IntType),
+        values,
+        addv=PETSc.InsertMode.ADD,
+        rowmap=None if which is None else which.astype(PETSc.IntType),
+    )

@@ -35,15 +35,18 @@ std::vector<std::int8_t> needed(const contact::NodeState& nodes,
 Nodes contactx::condense::nodes_of(const contact::Contact& contact)
 {
   const contact::NodeState& nodes = *contact.nodes();
-  return {contact.slaves().owned(), nodes.size(),
-          nodes.status,             nodes.area,
-          nodes.normal,             nodes.by_multiplier,
+  return {contact.slaves().owned(),
+          nodes.size(),
+          nodes.status,
+          nodes.area,
+          nodes.normal,
+          nodes.by_multiplier,
           nodes.softness};
 }
 
 ContactBlock::ContactBlock(const Contacts& contacts,
                            std::span<const std::int8_t> prescribed,
-                           std::span<const double> d)
+                           bool keeps_zeros, std::span<const double> d)
 {
   require(not contacts.empty(), "contacts must not be empty");
   const parallel::Halo& halo = contacts.front()->halo();
@@ -81,12 +84,13 @@ ContactBlock::ContactBlock(const Contacts& contacts,
       {
         const std::int32_t row = place(part.rows[e], row_is);
         const std::int32_t column = place(part.columns[e], column_is);
-        if (row >= 0 and column >= 0 and part.values[e] != 0)
+        const bool counts = keeps_zeros or part.values[e] != 0;
+        if (row >= 0 and column >= 0 and counts)
           all.add(row, column, part.values[e]);
       }
     }
     for (std::size_t k = 0; k < nodes.by_multiplier.size(); ++k)
-      if (nodes.by_multiplier[k] != 0)
+      if (keeps_zeros or nodes.by_multiplier[k] != 0)
         all.add(static_cast<std::int32_t>(first + k / size),
                 static_cast<std::int32_t>(first + k / (size * size) * size
                                           + k % size),
@@ -113,7 +117,7 @@ ContactBlock::ContactBlock(const Contacts& contacts,
       sums[all.columns[e]] += all.values[e];
     for (const std::int32_t column : found)
     {
-      if (sums[column] != 0)
+      if (keeps_zeros or sums[column] != 0)
       {
         _columns.push_back(column);
         _values.push_back(sums[column]);

@@ -13,8 +13,7 @@ namespace contactx::condense
 ///
 /// Rows and columns are this rank's unknowns: the displacements of all nodes on
 /// it, then the multipliers of the slave nodes that it owns, one contact after
-/// the other. Entries that are zero are left out; columns of a row are in
-/// order.
+/// the other. Columns of a row are in order.
 class ContactBlock
 {
 public:
@@ -24,6 +23,8 @@ public:
   /// @param[in] contacts The contacts, of one halo.
   /// @param[in] prescribed 1 at displacements whose rows and columns are left
   /// out, else 0 (shape=(num_nodes, gdim)); empty for none.
+  /// @param[in] keeps_zeros Whether entries that are zero stay, so that their
+  /// places depend on the pairs alone.
   /// @param[in] d Right-hand side of the multipliers' rows: where it is zero
   /// the multipliers of open nodes are, and pairs that have no others are left
   /// out (shape=(num_multipliers)); empty for all pairs.
@@ -31,7 +32,7 @@ public:
   /// fit.
   ContactBlock(const Contacts& contacts,
                std::span<const std::int8_t> prescribed,
-               std::span<const double> d = {});
+               bool keeps_zeros = false, std::span<const double> d = {});
 
   /// @brief Number of rows.
   std::size_t size() const { return _offsets.size() - 1; }

@@ -7,6 +7,7 @@ from petsc4py import PETSc
 import numpy as np
 import pytest
 
+from contactx import cpp as core
 from dolfinx import cpp, fem
 
 from meshes import Tag
@@ -169,3 +170,41 @@ def test_system_jacobian_is_the_derivative_of_the_residual(cell):
 
 def test_petsc_is_real_double():
     assert np.dtype(PETSc.ScalarType) == np.float64
+
+
+@pytest.mark.parametrize("friction", [0.0, 0.3])
+@pytest.mark.parametrize("cell", CELLS, ids=lambda c: c.name)
+def test_forms_are_the_blocks_of_the_core(cell, friction):
+    """What DOLFINx assembles from the forms is what the core assembles from the same pairs."""
+    scene = Blocks(cell, gap=0.02)
+    contact = scene.contact(friction=friction)
+    scene.problem(contact)
+    interface, rng = contact.interface, np.random.default_rng(7)
+    nodes, n = interface.nodes, len(scene.u.x.array)
+    scene.u.x.array[:] = 0.01 * rng.standard_normal(n)
+    interface.search()
+    interface.update_gap()
+    nodes.multiplier[:] = rng.uniform(0.5, 1, len(nodes.multiplier))
+    nodes.c[:] = rng.uniform(1, 2, len(nodes.c))
+    nodes.status[:] = np.arange(len(nodes.status)) % 3
+    interface.law.evaluate(nodes)
+    m = len(nodes.multiplier)
+    forms, dense = contact.forms, np.zeros((n + m, n + m))
+    for form in forms:
+        if form.stiffness is not None:
+            dense[:n, :n] += assembled(form.stiffness, (n, n))
+        dense[:n, n:] += assembled(form.traction, (n, m))
+        dense[n:, :n] += assembled(form.constraint, (m, n))
+    size = nodes.size
+    for i in range(m // size):
+        rows = slice(n + i * size, n + (i + 1) * size)
+        dense[rows, rows] += nodes.by_multiplier.reshape(-1, size, size)[i]
+    block = core.ContactBlock([interface])
+    found = np.stack([block.multiply(unit) for unit in np.eye(n + m)], axis=1)
+    assert close(found, dense)
+    assert np.abs(dense[:n, n:]).max() > 0 and np.abs(dense[n:, :n]).max() > 0
+    b, forces = np.zeros(n), np.zeros(n)
+    interface.add_residual(b)
+    for form in forms:
+        fem.assemble_vector(forces, form.residual)
+    assert close(forces, b)
