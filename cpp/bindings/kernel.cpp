@@ -4,9 +4,8 @@
 #include "bindings.h"
 #include "check.h"
 #include <algorithm>
-#include <contactx/kernel/assemble.h>
+#include <contactx/kernel/layout.h>
 #include <contactx/kernel/registry.h>
-#include <optional>
 #include <pybind11/stl.h>
 #include <stdexcept>
 
@@ -36,24 +35,6 @@ void check_sizes(int num_nodes, int gdim, int num_slaves)
   check::dimension(gdim);
   check::between(num_slaves, 1, 4, "num_slaves");
 }
-/// Arrays that the kernels read, kept alive. Those that a contact law has not
-/// are None.
-struct KeptArrays
-{
-  using Kept = std::optional<Array<double>>;
-  Kept displacement, position, multiplier, area, gap_derivative,
-      slip_derivative, normal_derivative;
-
-  contactx::kernel::NodalArrays views() const
-  {
-    const auto look = [](const Kept& a)
-    { return a ? view(*a) : std::span<const double>(); };
-    return {look(displacement),     look(position),
-            look(multiplier),       look(area),
-            look(gap_derivative),   look(slip_derivative),
-            look(normal_derivative)};
-  }
-};
 } // namespace
 
 void contactx_bindings::kernel(py::module_& m)
@@ -151,35 +132,4 @@ void contactx_bindings::kernel(py::module_& m)
       py::arg("law"), py::arg("sliding"), py::arg("term"), py::arg("num_nodes"),
       py::arg("gdim"), py::arg("num_slaves") = 1,
       "Address of a kernel and the coefficients that it reads");
-  py::class_<KeptArrays>(m, "NodalArrays",
-                         "Arrays of nodes that the kernels read, not copied")
-      .def(
-          py::init(
-              [](const Array<double>& displacement,
-                 const Array<double>& position, const Array<double>& multiplier,
-                 const Array<double>& area, const Array<double>& gap_derivative,
-                 const KeptArrays::Kept& slip_derivative,
-                 const KeptArrays::Kept& normal_derivative)
-              {
-                return KeptArrays{
-                    displacement,   position,        multiplier,       area,
-                    gap_derivative, slip_derivative, normal_derivative};
-              }),
-          py::kw_only(), py::arg("displacement").noconvert(),
-          py::arg("position").noconvert(), py::arg("multiplier").noconvert(),
-          py::arg("area").noconvert(), py::arg("gap_derivative").noconvert(),
-          py::arg("slip_derivative").noconvert() = py::none(),
-          py::arg("normal_derivative").noconvert() = py::none());
-  m.def(
-      "add_vector",
-      [](const std::string& law, const std::string& sliding,
-         const std::string& term, const contact::Pairs& pairs,
-         const KeptArrays& arrays, int gdim, Array<double>& b)
-      {
-        kernel::add_vector(law_named(law), sliding, term, pairs, arrays.views(),
-                           gdim, mutable_view(b));
-      },
-      py::arg("law"), py::arg("sliding"), py::arg("term"), py::arg("pairs"),
-      py::arg("arrays"), py::arg("gdim"), py::arg("b").noconvert(),
-      "Add a vector term of pairs");
 }

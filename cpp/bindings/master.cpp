@@ -212,11 +212,6 @@ void contactx_bindings::master(py::module_& m)
                                  kinds[py::str(s.name)] = name_of(s.rows);
                                return kinds;
                              })
-      .def("accept",
-           [](Master& self, const Array<double>& x) { self.accept(view(x)); })
-      .def("begin_step", &Master::begin_step)
-      .def("rebuild", &Master::rebuild)
-      .def("nodes_changed", &Master::nodes_changed)
       .def("turn",
            [](const Master& self, const Array<double>& x) -> py::object
            {
@@ -228,9 +223,6 @@ void contactx_bindings::master(py::module_& m)
                  *turn,
                  {static_cast<py::ssize_t>(turn->size()) / (g * g), g, g});
            })
-      .def("touch", [](Master& self, const Array<bool>& which,
-                       const Array<double>& x, const Array<double>& offset)
-           { self.touch(truths(which), view(x), view(offset)); })
       .def("search", [](Master& self, const Array<double>& x,
                         const Array<std::int8_t>& closed)
            { return self.search(view(x), view(closed)); })
@@ -251,25 +243,6 @@ void contactx_bindings::master(py::module_& m)
       .def("weights", &Master::weights)
       .def("area", [](const Master& self, const Array<double>& whole)
            { return array(self.area(view(whole))); })
-      .def("take_front", [](Master& self, const Array<bool>& faces)
-           { self.take_front(truths(faces)); })
-      .def_property_readonly("origin",
-                             [](const Master& self) -> py::array_t<double>
-                             {
-                               const auto origin = self.origin();
-                               if (origin.empty())
-                                 return array(std::vector<double>{0.0});
-                               return rows(origin, self.gdim());
-                             })
-      .def("compliance", [](const Master& self, const Array<double>& nodal)
-           { return array(self.compliance(view(nodal))); })
-      .def("mobility",
-           [](const Master& self, const Array<bool>& free)
-           {
-             const Mobility found = self.mobility(truths(free));
-             return py::make_tuple(array(found.normal),
-                                   rows(found.each, self.gdim()));
-           })
       .def("identity",
            [](const Master& self) { return to_dict(self.identity()); })
       .def("save", [](const Master& self) { return to_dict(self.save()); })
@@ -279,7 +252,6 @@ void contactx_bindings::master(py::module_& m)
            { return self.distance(view(x)); })
       .def_property_readonly("frozen_pairs", [](const Master& self)
                              { return array(self.frozen_pairs()); })
-      .def("reset_flips", &Master::reset_flips)
       .def("deepest_frozen_pair",
            [](const Master& self, const Array<double>& x)
            {

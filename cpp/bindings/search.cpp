@@ -224,6 +224,15 @@ void contactx_bindings::search(py::module_& m)
                              { return array(self.facet()); })
       .def_property_readonly("feature", [](const Pairing& self)
                              { return array(self.feature()); })
+      .def_property_readonly(
+          "xi", [](const Pairing& self)
+          { return array(self.xi(), {py::ssize_t(self.xi().size() / 2), 2}); })
+      .def_property_readonly("cone",
+                             [](const Pairing& self)
+                             {
+                               const auto& c = self.cone();
+                               return array(c, {py::ssize_t(c.size() / 3), 3});
+                             })
       .def_property_readonly("normal",
                              [](const Pairing& self)
                              {

@@ -191,40 +191,6 @@ class Sent:
         self._add("halo", len(np.unique(owners)), len(owners) * width * values.itemsize)
 
 
-class SearchTraffic:
-    """What this rank sends within searches and outside of them.
-
-    Attributes:
-        searches: Number of searches.
-        collectives: Counts collective calls.
-        sent: Counts messages and bytes.
-        inside: What was sent within searches, as of ``all``.
-    """
-
-    def __init__(self, contact: cx.Contact):
-        """Count from now on."""
-        self.sent = Sent(contact)
-        self.collectives = Collectives()
-        self.searches = 0
-        self.inside: Counter[tuple[str, str]] = Counter()
-        interface = contact.interface
-        self._search = interface._search
-        vars(interface)["_search"] = self._counted
-
-    def _counted(self, *arguments: Any) -> Any:
-        before = self.all()
-        result = self._search(*arguments)
-        self.searches += 1
-        self.inside += self.all() - before
-        return result
-
-    def all(self) -> Counter[tuple[str, str]]:
-        """Messages and bytes by purpose, and collective calls."""
-        counts = self.sent.counts.copy()
-        counts["collectives", "all"] = self.collectives.count
-        return counts
-
-
 def weak(dim: int, method: str, partition: str) -> dict[str, Any]:
     """Drag the long slab on all ranks: time, and what the rank that sends most has sent."""
     comm = MPI.COMM_WORLD
@@ -238,15 +204,23 @@ def weak(dim: int, method: str, partition: str) -> dict[str, Any]:
     comm.Barrier()
     wall = time.perf_counter() - start
     before = _petsc_traffic()
-    counter = SearchTraffic(slab.contact)
-    with counter.collectives.counting():
+    sent, collectives = Sent(slab.contact), Collectives()
+
+    def all_sent() -> Counter[tuple[str, str]]:
+        """Messages and bytes by purpose, and collective calls."""
+        counts = sent.counts.copy()
+        counts["collectives", "all"] = collectives.count
+        return counts
+
+    with collectives.counting():
         iterations = slab.move(2 * ASIDE)
-    solver = _petsc_traffic() - before
-    outside = counter.all() - counter.inside
+        solver = _petsc_traffic() - before
+        whole = all_sent()
+        slab.contact.interface.search()
+    search = all_sent() - whole
     found = {
         "dofs": slab.problem.u.function_space.dofmap.index_map.size_global * dim,
         "iterations": iterations,
-        "searches": counter.searches,
         "wall": wall,
         "force": float(slab.contact.force[-1]) / comm.size,
         "krylov": slab.problem.report.krylov,
@@ -257,11 +231,11 @@ def weak(dim: int, method: str, partition: str) -> dict[str, Any]:
         "halo": comm.allreduce(_halo_size(slab.contact), MPI.MAX),
     }
     for kind in ("messages", "bytes", "collectives"):
-        inside = _sum(counter.inside, kind, comm.size) / max(1, counter.searches)
-        rest = _sum(outside, kind, comm.size) / max(1, iterations)
-        found[f"{kind} a search"] = comm.allreduce(inside, MPI.MAX)
-        found[f"{kind} an iteration"] = comm.allreduce(rest, MPI.MAX)
-    boxes = counter.inside["bytes", "boxes"] * (comm.size - 1) / max(1, counter.searches)
+        of_search = _sum(search, kind, comm.size)
+        of_all = _sum(whole, kind, comm.size) / max(1, iterations)
+        found[f"{kind} a search"] = comm.allreduce(of_search, MPI.MAX)
+        found[f"{kind} an iteration"] = comm.allreduce(of_all, MPI.MAX)
+    boxes = search["bytes", "boxes"] * (comm.size - 1)
     found["of boxes"] = comm.allreduce(boxes, MPI.MAX)
     return found
 

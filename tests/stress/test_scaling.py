@@ -23,7 +23,7 @@ def test_what_a_rank_sends_does_not_grow_with_their_number(method):
     assert not tables.failures(rows)
     one, few, many = rows
     assert one["bytes a search"] == one["halo"] == 0
-    assert few["iterations"] == many["iterations"] and few["searches"] == many["searches"]
+    assert few["iterations"] == many["iterations"]
     assert many["halo"] <= 1.1 * few["halo"]
     assert 0 < few["bytes an iteration"] and 0 < few["bytes a search"]
     assert many["bytes an iteration"] <= 1.1 * few["bytes an iteration"]

@@ -227,21 +227,17 @@ def test_sizes_of_layouts():
         core.shape_functions(3, np.zeros(3))
 
 
-def _one_pair(**arrays):
-    """A slave node over a triangle, and what its kernels read of nodes."""
+def _one_pair():
+    """A slave node over a triangle."""
     layout = core.pair_layout
     data = np.zeros((1, layout["size"]))
     data[0, layout["xi"] : layout["xi"] + 2] = 0.25
     data[0, layout["normal"] + 2] = 1
-    pairs = core.Pairs(_ints([[0]]), _ints([[3, 0, 1, 2]]), data)
-    x = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.25, 0.25, 0.125]])
-    zero = {name: np.zeros(1) for name in ("multiplier", "area", "gap_derivative")}
-    read = {"displacement": np.zeros_like(x), "position": x, **zero, **arrays}
-    return pairs, core.NodalArrays(**read)
+    return core.Pairs(_ints([[0]]), _ints([[3, 0, 1, 2]]), data)
 
 
 def test_pairs_look_at_their_arrays():
-    pairs, _ = _one_pair()
+    pairs = _one_pair()
     assert pairs.num_nodes == 3
     assert pairs.slip is None
     assert not pairs.is_movement
@@ -254,20 +250,6 @@ def test_pairs_look_at_their_arrays():
         slaves, nodes, data = (np.zeros(shape) for shape in shapes)
         with pytest.raises(ValueError, match=r"row for each pair|begin with the slave nodes"):
             core.Pairs(slaves.astype(np.int32), nodes.astype(np.int32), data)
-
-
-def test_terms_of_pairs():
-    gap = np.full(2, 1.0)
-    for sliding in ("finite", "small"):
-        core.add_vector("frictionless", sliding, "gap", *_one_pair(), 3, gap)
-    assert gap == pytest.approx([1.25, 1.0], abs=1e-15)
-    with pytest.raises(ValueError, match="displacement"):
-        few = _one_pair(displacement=np.zeros((3, 3)))
-        core.add_vector("frictionless", "finite", "gap", *few, 3, gap)
-    # What is written to is not copied
-    for bad in (np.zeros(2, dtype=np.float32), np.zeros(4)[::2]):
-        with pytest.raises(TypeError):
-            core.add_vector("frictionless", "finite", "gap", *_one_pair(), 3, bad)
 
 
 def test_kernels_that_there_are_not():
