@@ -61,6 +61,10 @@ void contactx_bindings::contact(py::module_& m)
       .def(
           "set_factor", [](Contact& self, const Array<double>& compliance)
           { self.set_factor(view(compliance)); }, py::arg("compliance"))
+      .def(
+          "kept_inside", [](Contact& self, const Array<double>& x)
+          { return array(self.kept_inside(view(x))); }, py::arg("x"))
+      .def("moves_untold", &Contact::moves_untold)
       .def("search", &Contact::search)
       .def("freeze", &Contact::freeze, py::arg("is_frozen"))
       .def("update_gap", &Contact::update_gap)

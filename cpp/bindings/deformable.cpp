@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "bindings.h"
-#include "check.h"
 #include <contactx/contact/node_to_surface.h>
 #include <contactx/contact/surface_to_surface.h>
 
@@ -19,20 +18,18 @@ void bind(py::module_& m, const char* name, const char* text)
   py::class_<T, DeformableMaster, std::shared_ptr<T>>(m, name, text)
       .def(py::init(
                [](std::shared_ptr<parallel::Halo> halo,
-                  const Array<std::int32_t>& offsets,
-                  const Array<std::int32_t>& nodes,
+                  std::shared_ptr<SlaveNodes> slaves,
                   std::shared_ptr<search::MasterSurface> surface,
                   std::shared_ptr<search::Outside> outside, double reach,
                   bool is_small, bool measures_slip)
                {
-                 check::facets(view(offsets), view(nodes), halo->gdim());
                  return std::make_shared<T>(
-                     halo, facet::Facets{copy(offsets), copy(nodes)}, surface,
-                     outside, PairingOptions{reach, is_small, measures_slip});
+                     std::move(halo), std::move(slaves), surface, outside,
+                     PairingOptions{reach, is_small, measures_slip});
                }),
-           py::arg("halo"), py::arg("offsets"), py::arg("nodes"),
-           py::arg("surface"), py::arg("outside"), py::arg("reach"),
-           py::arg("is_small"), py::arg("measures_slip"));
+           py::arg("halo"), py::arg("slaves"), py::arg("surface"),
+           py::arg("outside"), py::arg("reach"), py::arg("is_small"),
+           py::arg("measures_slip"));
 }
 } // namespace
 

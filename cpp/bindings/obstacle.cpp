@@ -87,16 +87,11 @@ LevelSet::Function level_function(py::function f)
 template <class M>
 std::shared_ptr<M>
 make_master(std::shared_ptr<Obstacle> obstacle,
-            std::shared_ptr<contactx::parallel::NodeMap> nodes,
-            const Array<std::int32_t>& offsets,
-            const Array<std::int32_t>& facet_nodes,
-            const Array<std::int32_t>& owned, const Array<double>& x,
+            std::shared_ptr<SlaveNodes> slaves, const Array<double>& x,
             std::optional<double> reach, auto... measures_slip)
 {
   return std::make_shared<M>(
-      std::move(obstacle), std::move(nodes),
-      contactx::facet::FacetList{view(offsets), view(facet_nodes)}, view(owned),
-      view(x), Dimension(x).gdim,
+      std::move(obstacle), std::move(slaves), view(x), Dimension(x).gdim,
       reach.value_or(std::numeric_limits<double>::infinity()),
       measures_slip...);
 }
@@ -189,23 +184,19 @@ void contactx_bindings::obstacle(py::module_& m)
   py::class_<ObstacleMaster, Master, std::shared_ptr<ObstacleMaster>>(
       m, "ObstacleMaster", "Pairs of slave nodes with a rigid obstacle")
       .def(py::init(&make_master<ObstacleMaster, bool>), py::arg("obstacle"),
-           py::arg("nodes"), py::arg("offsets"), py::arg("facet_nodes"),
-           py::arg("owned"), py::arg("x"), py::arg("reach"),
+           py::arg("slaves"), py::arg("x"), py::arg("reach"),
            py::arg("measures_slip"), py::keep_alive<1, 2>())
       .def_property_readonly("obstacle", &ObstacleMaster::obstacle)
       .def("inside", [](const ObstacleMaster& self, const Array<double>& x)
-           { return array(self.inside(view(x))); })
-      .def("moves_untold", &ObstacleMaster::moves_untold);
+           { return array(self.inside(view(x))); });
   py::class_<ObstacleTie, ObstacleMaster, std::shared_ptr<ObstacleTie>>(
       m, "ObstacleTie", "Slave nodes tied to a rigid obstacle")
       .def(py::init(&make_master<ObstacleTie>), py::arg("obstacle"),
-           py::arg("nodes"), py::arg("offsets"), py::arg("facet_nodes"),
-           py::arg("owned"), py::arg("x"), py::arg("reach"),
+           py::arg("slaves"), py::arg("x"), py::arg("reach"),
            py::keep_alive<1, 2>());
   py::class_<MortarObstacle, ObstacleMaster, std::shared_ptr<MortarObstacle>>(
       m, "MortarObstacle", "Pairs of slave facets with a rigid obstacle")
       .def(py::init(&make_master<MortarObstacle, bool>), py::arg("obstacle"),
-           py::arg("nodes"), py::arg("offsets"), py::arg("facet_nodes"),
-           py::arg("owned"), py::arg("x"), py::arg("reach"),
+           py::arg("slaves"), py::arg("x"), py::arg("reach"),
            py::arg("measures_slip"), py::keep_alive<1, 2>());
 }

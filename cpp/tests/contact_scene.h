@@ -72,7 +72,7 @@ struct ContactScene
   std::shared_ptr<M> master(const law::Law& law, contact::Sliding sliding) const
   {
     return std::make_shared<M>(
-        halo, sheets.slave, surface, outside,
+        halo, slaves, surface, outside,
         contact::PairingOptions{1.0, sliding == contact::Sliding::small,
                                 law.is_vector()});
   }

@@ -11,6 +11,27 @@
 
 namespace contactx::tests
 {
+/// @brief Nodes of one rank, of which others own the last ones.
+class PartOfNodes final : public parallel::NodeMap
+{
+public:
+  PartOfNodes(std::int32_t num_owned, std::int32_t num_nodes)
+      : _num_owned(num_owned), _num_nodes(num_nodes)
+  {
+  }
+
+  parallel::Ranks& ranks() const override { return _ranks; }
+  std::int32_t num_owned() const override { return _num_owned; }
+  std::int32_t num_nodes() const override { return _num_nodes; }
+  void forward(std::span<double>, int) const override {}
+  void forward(std::span<std::int64_t>, int) const override {}
+  void reverse(std::span<double>, int) const override {}
+
+private:
+  mutable parallel::OneRank _ranks;
+  std::int32_t _num_owned, _num_nodes;
+};
+
 /// @brief Slave nodes, each with a small facet of its own that faces an
 /// obstacle; the other nodes of the facets count as those of another rank.
 struct FacingNodes
@@ -18,7 +39,7 @@ struct FacingNodes
   int gdim, n;
   std::vector<double> x;
   std::vector<std::int32_t> owned, offsets{0}, nodes;
-  std::shared_ptr<parallel::NodeMap> map;
+  std::shared_ptr<const contact::SlaveNodes> slaves;
 
   /// @brief Nodes at random places around an obstacle.
   FacingNodes(obstacle::Obstacle& o, int dimension, int count = 12)
@@ -28,8 +49,6 @@ struct FacingNodes
     for (int i = 0; i < n * gdim; ++i)
       x.push_back(random(-1, 2));
     face(o);
-    map = std::make_shared<parallel::SerialNodes>(
-        static_cast<std::int32_t>(x.size()) / gdim);
   }
 
   /// @brief Nodes at given places.
@@ -38,8 +57,6 @@ struct FacingNodes
         x(std::move(points))
   {
     face(o);
-    map = std::make_shared<parallel::SerialNodes>(
-        static_cast<std::int32_t>(x.size()) / gdim);
   }
 
   facet::FacetList facets() const { return {offsets, nodes}; }
@@ -86,6 +103,10 @@ private:
       }
       offsets.push_back(static_cast<std::int32_t>(nodes.size()));
     }
+    slaves = std::make_shared<contact::SlaveNodes>(
+        std::make_shared<PartOfNodes>(n, static_cast<std::int32_t>(x.size())
+                                             / gdim),
+        facets(), facets());
   }
 };
 

@@ -69,7 +69,9 @@ struct TwoSheets
     auto outside
         = std::make_shared<search::Outside>(halo, master.offsets, master.nodes);
     auto made = std::make_shared<M>(
-        halo, slave, surface, outside,
+        halo,
+        std::make_shared<contact::SlaveNodes>(halo, slave.list(), slave.list()),
+        surface, outside,
         contact::PairingOptions{1.0, is_small, measures_slip});
     made->search(x, std::vector<std::int8_t>(num_slaves, 0));
     made->begin_step();

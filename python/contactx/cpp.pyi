@@ -240,7 +240,6 @@ class SlipHistory:
         dissipation: NDArray[np.float64],
     ) -> None: ...
 
-
 class Law:
     @property
     def name(self) -> str: ...
@@ -273,8 +272,6 @@ def terms(law: str, sliding: str, num_nodes: int, gdim: int, num_slaves: int = 1
 def kernel(
     law: str, sliding: str, term: str, num_nodes: int, gdim: int, num_slaves: int = 1
 ) -> tuple[int, NDArray[np.int8]]: ...
-
-
 def deformed_cells(
     cells: NDArray[np.int32], X: NDArray[np.float64], u: NDArray[np.float64], gdim: int
 ) -> tuple[float, int, int]: ...
@@ -656,6 +653,8 @@ class Contact:
     def accept(self) -> None: ...
     def rebuild(self) -> None: ...
     def set_factor(self, compliance: NDArray[np.float64]) -> None: ...
+    def kept_inside(self, x: NDArray[np.float64]) -> NDArray[np.int32]: ...
+    def moves_untold(self) -> bool: ...
     def search(self) -> int: ...
     def freeze(self, is_frozen: bool) -> None: ...
     def update_gap(self) -> None: ...
@@ -838,10 +837,7 @@ class ObstacleMaster(Master):
     def __init__(
         self,
         obstacle: Obstacle,
-        nodes: NodeMap,
-        offsets: NDArray[np.int32],
-        facet_nodes: NDArray[np.int32],
-        owned: NDArray[np.int32],
+        slaves: SlaveNodes,
         x: NDArray[np.float64],
         reach: float | None,
         measures_slip: bool,
@@ -855,10 +851,7 @@ class ObstacleTie(ObstacleMaster):
     def __init__(
         self,
         obstacle: Obstacle,
-        nodes: NodeMap,
-        offsets: NDArray[np.int32],
-        facet_nodes: NDArray[np.int32],
-        owned: NDArray[np.int32],
+        slaves: SlaveNodes,
         x: NDArray[np.float64],
         reach: float | None,
     ) -> None: ...
@@ -869,8 +862,7 @@ class DeformableMaster(Master):
     def __init__(
         self,
         halo: Halo,
-        offsets: NDArray[np.int32],
-        nodes: NDArray[np.int32],
+        slaves: SlaveNodes,
         surface: MasterSurface,
         outside: Outside,
         reach: float,

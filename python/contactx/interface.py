@@ -172,10 +172,12 @@ def check_over_constrained(
     Raises:
         ValueError: If they do on any rank, on all ranks.
     """
+    x = halo.x[: halo.num_bulk] + prescribed.reshape(-1, halo.gdim)
     for k, interface in enumerate(interfaces):
-        bad = _constrained_inside(interface, prescribed, halo)
+        interface.read_values()
+        bad = interface.kept_inside(x)
         count = reduce.total(halo.comm, len(bad))
-        if count > 0 and interface.active:
+        if count > 0:
             size = reduce.extent(halo.comm, halo.x[interface.slaves]).max()
             first, at = first_node(halo, bad, halo.x)
             raise ValueError(
@@ -186,26 +188,18 @@ def check_over_constrained(
             )
 
 
-def check_drag(interfaces: Sequence[Interface], names: Sequence[Any], halo: Halo) -> None:
+def check_drag(interfaces: Sequence[Interface], names: Sequence[Any]) -> None:
     """Check that no obstacle moves along with what touches it, unless it tells how.
 
     Args:
         interfaces: Discrete sides of the contacts.
         names: The contacts, for the message.
-        halo: Nodes on this rank.
 
     Raises:
         ValueError: If one does on any rank, on all ranks.
     """
     for k, interface in enumerate(interfaces):
-        master = interface.master
-        if not isinstance(master, core.ObstacleMaster) or not interface.active:
-            continue
-        size = reduce.extent(halo.comm, halo.x[interface.slaves]).max()
-        with agreed(halo.comm):
-            moves = master.moves_untold(1e-12 * size)
-        touched = reduce.anywhere(halo.comm, interface.nodes.closed.any())
-        if touched and reduce.anywhere(halo.comm, moves):
+        if interface.moves_untold():
             raise ValueError(
                 f"contact {k} ({names[k]}): the LevelSet moves while it is touched, and its "
                 "function does not tell how its material moves along its surface, which slip and "
@@ -213,20 +207,3 @@ def check_drag(interfaces: Sequence[Interface], names: Sequence[Any], halo: Halo
                 "them, or friction=0; or let it come from where nothing touches it to where it "
                 "stays"
             )
-
-
-def _constrained_inside(
-    interface: Interface, prescribed: npt.NDArray[np.float64], halo: Halo
-) -> npt.NDArray[np.int32]:
-    """Constrained slave nodes of this rank inside an obstacle, as blocks of the dofmap."""
-    master = interface.master
-    if not isinstance(master, core.ObstacleMaster) or interface.law.is_tied:
-        return np.array([], dtype=np.int32)
-    x = halo.x[: halo.num_bulk] + prescribed.reshape(-1, halo.gdim)
-    with agreed(halo.comm):
-        gap = master.inside(x) - interface.offset()
-    size = reduce.extent(halo.comm, x[interface.slaves]).max()
-    inside: npt.NDArray[np.int32] = interface.slaves[
-        interface.nodes.immobile & (gap < -1e-9 * size)
-    ]
-    return inside

@@ -56,8 +56,7 @@ def make_master(
     if isinstance(master, Obstacle):
         size = float(extent(halo.comm, halo.x[slaves.owned]).max())
         master.extent = max(master.extent, size)
-        around = (slaves.facets.offsets, slaves.facets.nodes, slaves.owned)
-        options = (master, halo.nodes, *around, halo.x, search_distance)
+        options = (master, slaves, halo.x, search_distance)
         obstacle: core.ObstacleMaster
         with agreed(halo.comm):
             if law.is_tied:
@@ -84,11 +83,9 @@ def make_master(
     reach = search_distance or _default_reach(halo, slaves.facets, others)
     surface = core.MasterSurface(halo.nodes, others.offsets, others.nodes)
     outside = core.Outside(halo.nodes, others.offsets, others.nodes)
-    ours = slaves.facets
     return deformable(
         halo.nodes,
-        ours.offsets,
-        ours.nodes,
+        slaves,
         surface,
         outside,
         reach,

@@ -184,7 +184,7 @@ class ContactProblem:
         prescribed = self._bulk.prescribed()
         check_prescribed(prescribed, self._bulk.markers, self._halo.comm)
         check_over_constrained(self._interfaces, self.contacts, prescribed, self._halo)
-        check_drag(self._interfaces, self.contacts, self._halo)
+        check_drag(self._interfaces, self.contacts)
         before = Snapshot(self.u, self.contacts, self._halo.update_ghosts)
         self._halo.update_ghosts()
         self.report = report = Report()
@@ -202,7 +202,7 @@ class ContactProblem:
                     interrupts.wait()
                 if not report.converged:
                     raise ConvergenceError(report.reason, report)
-                check_drag(self._interfaces, self.contacts, self._halo)
+                check_drag(self._interfaces, self.contacts)
                 for contact in self.contacts:
                     contact.accept()
                 with report.timing("audit"):

@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """Checks of surfaces and bodies: all ranks raise, and say what one rank would."""
 
-from types import SimpleNamespace
-
 import numpy as np
 
 import contactx as cx
@@ -13,7 +11,8 @@ from contactx.geometry import inside
 from contactx.geometry.facets import check_facets
 from contactx.geometry.facing import check_facing
 from contactx.geometry.inside import check_apart, check_outside
-from contactx.interface import check_over_constrained
+from contactx.interface import Interface, check_over_constrained
+from contactx.nodal import NodalValue
 from contactx.parallel.slaves import SlaveNodes
 from contactx.search import slave_facets
 from contactx.surface import FacetList
@@ -89,21 +88,22 @@ def over_constrained(scene):
     """Some nodes of the lower block's bottom are constrained in an obstacle, on any rank."""
     height = scene.dim - 1
     halo = scene.halo
-    nodes = np.unique(scene.facets(lambda x: np.isclose(x[height], -1))[1])
-    nodes = nodes[nodes < halo.num_owned]
     up = np.eye(scene.dim)[height] + 0.2 * np.eye(scene.dim)[0]
     x0 = np.eye(scene.dim)[0] - np.eye(scene.dim)[height]
-    no_facets = np.zeros(1, dtype=np.int32), np.zeros(0, dtype=np.int32)
-    options = (cx.Plane(x0, up), halo.nodes, *no_facets, nodes, halo.x, None, False)
-    master = core.ObstacleMaster(*options)
-    interface = SimpleNamespace(
-        master=master,
-        law=SimpleNamespace(is_tied=False),
-        offset=lambda: 0.0,
-        slaves=nodes,
-        nodes=SimpleNamespace(immobile=np.ones(len(nodes), dtype=bool)),
-        active=True,
+    slaves = SlaveNodes(halo, FacetList(*scene.facets(lambda x: np.isclose(x[height], -1))))
+    V = scene.u.function_space
+    interface = Interface(
+        slaves,
+        core.ObstacleMaster(cx.Plane(x0, up), slaves, halo.x, None, False),
+        halo,
+        law=core.Frictionless(),
+        friction=None,
+        sliding="finite",
+        has_means=False,
+        offset=NodalValue(0.0, "offset", V, slaves.owned),
+        markers=np.ones(halo.num_bulk * halo.gdim, dtype=np.int8),
     )
+    interface.nodes.immobile[:] = True
     u = np.zeros(halo.num_bulk * halo.gdim)
     return said(scene, check_over_constrained, [interface], ["name"], u, halo)
 
@@ -119,10 +119,11 @@ def facing(scene):
     height, halo = scene.dim - 1, scene.halo
     bottom = FacetList(*scene.facets(lambda x: np.isclose(x[height], -1)))
     slaves = SlaveNodes(halo, bottom)
-    ours, theirs = ((f.offsets, f.nodes) for f in (slaves.facets, top(scene)))
+    theirs = top(scene)
+    theirs = theirs.offsets, theirs.nodes
     surface, outside = (kind(halo.nodes, *theirs) for kind in (core.MasterSurface, core.Outside))
     options = {"is_small": True, "measures_slip": False}
-    pairs = Pairs(halo.nodes, *ours, surface, outside, 1.1, **options)
+    pairs = Pairs(halo.nodes, slaves, surface, outside, 1.1, **options)
     away = said(scene, check_facing, "bottom", slaves, "top", pairs, halo)
     pairs.paired = np.full(1, halo.comm.rank == halo.comm.size - 1)
     assert said(scene, check_facing, "bottom", slaves, "top", pairs, halo) is None

@@ -3,6 +3,7 @@
 
 #include "contact.h"
 #include "../vec.h"
+#include "obstacle_pairs.h"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -19,6 +20,29 @@ constexpr double immobile_part = 1e-8;
 // The same along a component: a projection over an open gap on a tilted facet
 // leaves a symmetry plane by a little
 constexpr double mobile_part = 0.05;
+
+// Depth over the size of the slave surface that counts as inside, and movement
+// over it that counts as none
+constexpr double inside_part = 1e-9, moved_part = 1e-12;
+
+/// Largest edge of the box around points of all ranks; collective.
+double largest_extent(parallel::Ranks& ranks, std::span<const double> x,
+                      int gdim)
+{
+  constexpr double none = -std::numeric_limits<double>::infinity();
+  // Largest coordinates, and largest of their opposites
+  std::array<double, 6> ends{none, none, none, none, none, none};
+  for (std::size_t k = 0; k < x.size(); ++k)
+  {
+    ends[k % gdim] = std::max(ends[k % gdim], x[k]);
+    ends[3 + k % gdim] = std::max(ends[3 + k % gdim], -x[k]);
+  }
+  ranks.reduce(std::span<double>(ends), parallel::Reduction::largest);
+  double size = 0;
+  for (int k = 0; k < gdim; ++k)
+    size = std::max(size, ends[k] + ends[3 + k]);
+  return size;
+}
 
 kernel::Law kind_of(const law::Law& law)
 {
@@ -228,6 +252,43 @@ void Contact::set_factor(std::span<const double> compliance)
   for (std::size_t i = 0; i < owned.size(); ++i)
     of_pairs[i] = compliance[owned[i]] + of_pairs[i];
   _nodes->set_factor(_halo->ranks(), of_pairs);
+}
+
+std::vector<std::int32_t> Contact::kept_inside(std::span<const double> x)
+{
+  const auto* master = dynamic_cast<const ObstacleMaster*>(_master.get());
+  if (not master or _law->is_tied() or not _is_active)
+    return {};
+  std::vector<double> gap, at;
+  _halo->ranks().agree(
+      [&]
+      {
+        gap = master->inside(x);
+        at = at_slaves(x);
+      });
+  const double size = largest_extent(_halo->ranks(), at, gdim());
+  std::vector<std::int32_t> nodes;
+  for (std::size_t i = 0; i < gap.size(); ++i)
+    if (_nodes->immobile[i] and gap[i] - _offset[i] < -inside_part * size)
+      nodes.push_back(_slaves->owned()[i]);
+  return nodes;
+}
+
+bool Contact::moves_untold()
+{
+  const auto* master = dynamic_cast<const ObstacleMaster*>(_master.get());
+  if (not master or not _is_active)
+    return false;
+  const double size
+      = largest_extent(_halo->ranks(), at_slaves(_halo->reference()), gdim());
+  bool moves = false;
+  _halo->ranks().agree([&]
+                       { moves = master->moves_untold(moved_part * size); });
+  const bool touches = std::ranges::any_of(_nodes->status, [](std::int8_t s)
+                                           { return s != law::open; });
+  // Both are asked on all ranks
+  const bool is_touched = parallel::anywhere(_halo->ranks(), touches);
+  return parallel::anywhere(_halo->ranks(), moves) and is_touched;
 }
 
 std::int32_t Contact::search()

@@ -137,6 +137,17 @@ public:
   /// one cannot move (shape=(num_nodes)).
   void set_factor(std::span<const double> compliance);
 
+  /// @brief Slave nodes of this rank that Dirichlet conditions keep inside a
+  /// rigid obstacle: no pressure could get them out.
+  /// @param[in] x Positions with the prescribed displacements (shape=(at least
+  /// num_owned, gdim)).
+  std::vector<std::int32_t> kept_inside(std::span<const double> x);
+
+  /// @brief Whether an obstacle that is touched has moved since the step's
+  /// start, and nothing tells how its material moves, which slip and ties are
+  /// measured from.
+  bool moves_untold();
+
   /// @brief Pair the slave nodes, unless kinematics are frozen.
   /// @return Number of this rank's nodes in contact whose facet has changed.
   std::int32_t search();

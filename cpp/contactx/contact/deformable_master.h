@@ -3,11 +3,11 @@
 
 #pragma once
 
-#include "../facet/facets.h"
 #include "../parallel/halo.h"
 #include "../search/master_surface.h"
 #include "../search/outside.h"
 #include "master.h"
+#include "slave_nodes.h"
 #include <memory>
 #include <stdexcept>
 
@@ -27,16 +27,17 @@ class DeformableMaster : public Master
 public:
   /// @brief Take both surfaces.
   /// @param[in] halo Nodes of this rank.
-  /// @param[in] slave Slave facets around the owned slave nodes.
+  /// @param[in] slaves Slave nodes.
   /// @param[in] surface Master surface.
   /// @param[in] outside Tells what is outside of its body.
   /// @param[in] options How pairs are made.
   /// @throws std::invalid_argument if the reach is not larger than zero.
-  DeformableMaster(std::shared_ptr<parallel::Halo> halo, facet::Facets slave,
+  DeformableMaster(std::shared_ptr<parallel::Halo> halo,
+                   std::shared_ptr<const SlaveNodes> slaves,
                    std::shared_ptr<search::MasterSurface> surface,
                    std::shared_ptr<search::Outside> outside,
                    const PairingOptions& options)
-      : _halo(std::move(halo)), _slave(std::move(slave)),
+      : _halo(std::move(halo)), _slaves(std::move(slaves)),
         _surface(std::move(surface)), _outside(std::move(outside)),
         _options(options)
   {
@@ -62,7 +63,7 @@ public:
 
 protected:
   std::shared_ptr<parallel::Halo> _halo;           ///< Nodes of this rank
-  facet::Facets _slave;                            ///< Slave facets
+  std::shared_ptr<const SlaveNodes> _slaves;       ///< Slave nodes
   std::shared_ptr<search::MasterSurface> _surface; ///< Master surface
   std::shared_ptr<search::Outside> _outside; ///< What is outside of the body
   PairingOptions _options;                   ///< How pairs are made

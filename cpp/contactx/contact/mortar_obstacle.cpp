@@ -68,14 +68,12 @@ double stretch(const facet::Nodes<F>& x, const facet::Local<F>& xi)
 } // namespace
 
 MortarObstacle::MortarObstacle(std::shared_ptr<obstacle::Obstacle> obstacle,
-                               std::shared_ptr<const parallel::NodeMap> nodes,
-                               const facet::FacetList& facets,
-                               std::span<const std::int32_t> owned,
+                               std::shared_ptr<const SlaveNodes> slaves,
                                std::span<const double> x, int gdim,
                                double reach, bool measures_slip)
-    : ObstacleMaster(std::move(obstacle), std::move(nodes), facets, owned, x,
-                     gdim, reach, measures_slip),
-      _faces(facets.nodes.size(), 1), _positions(x.begin(), x.end())
+    : ObstacleMaster(std::move(obstacle), std::move(slaves), x, gdim, reach,
+                     measures_slip),
+      _faces(_slaves->corners().size(), 1), _positions(x.begin(), x.end())
 {
   add_kind<facet::Segment>(x);
   add_kind<facet::Triangle>(x);
@@ -95,13 +93,13 @@ void MortarObstacle::add_kind(std::span<const double> x)
     const auto N = F::shape(point.xi);
     kind.N.insert(kind.N.end(), N.begin(), N.end());
   }
-  for (std::size_t f = 0; f + 1 < _slaves.offsets.size(); ++f)
+  for (std::size_t f = 0; f + 1 < _slaves->facets().offsets.size(); ++f)
   {
-    const std::int32_t first = _slaves.offsets[f];
-    if (_slaves.offsets[f + 1] - first != k)
+    const std::int32_t first = _slaves->facets().offsets[f];
+    if (_slaves->facets().offsets[f + 1] - first != k)
       continue;
     const auto xs
-        = facet::gather<F>(std::span(_slaves.nodes).subspan(first, k), x);
+        = facet::gather<F>(_slaves->facets().nodes.subspan(first, k), x);
     mortar::Square<k> mass{}, dual{};
     Vector<k> whole{};
     std::vector<double> area(kind.q);
@@ -137,7 +135,8 @@ std::vector<double> MortarObstacle::integrate(const Kind& kind,
     for (int p = 0; p < q; ++p)
       for (int t = 0; t < k; ++t)
       {
-        const std::size_t node = _slaves.nodes[kind.corners[k * f + t]];
+        const std::size_t node
+            = _slaves->facets().nodes[kind.corners[k * f + t]];
         for (int d = 0; d < g; ++d)
           _points[g * (q * f + p) + d] += kind.N[k * p + t] * x[g * node + d];
       }
@@ -186,8 +185,8 @@ MortarObstacle::integrate(std::span<const double> x)
 void MortarObstacle::nodes_changed()
 {
   // Those of owned nodes come first and stay
-  _positions.resize(std::size_t(_nodes->num_nodes()) * _gdim);
-  _nodes->forward(_positions, _gdim);
+  _positions.resize(std::size_t(_slaves->nodes().num_nodes()) * _gdim);
+  _slaves->nodes().forward(_positions, _gdim);
 }
 
 std::int32_t MortarObstacle::search(std::span<const double> x,
@@ -228,15 +227,15 @@ MortarObstacle::group(const std::vector<std::vector<double>>& values) const
       // Nodes of other ranks are looked after there
       const auto near = [this](std::int32_t corner)
       {
-        const std::size_t place = _slaves.corners[corner];
+        const std::size_t place = _slaves->corners()[corner];
         return place < size() and _paired[place] and _faces[corner];
       };
       if (not std::ranges::any_of(corners, near))
         continue;
       for (std::int32_t corner : corners)
       {
-        p.slaves.push_back(_slaves.corners[corner]);
-        p.nodes.push_back(_slaves.nodes[corner]);
+        p.slaves.push_back(_slaves->corners()[corner]);
+        p.nodes.push_back(_slaves->facets().nodes[corner]);
       }
       const auto row = values[i].begin() + f * p.data_size;
       p.data.insert(p.data.end(), row, row + p.data_size);
@@ -269,7 +268,8 @@ MortarObstacle::update(std::span<const double> x, bool frozen,
         double more = 0;
         for (int t = 0; t < k; ++t)
         {
-          const std::size_t node = _slaves.nodes[kind.corners[k * f + t]];
+          const std::size_t node
+              = _slaves->facets().nodes[kind.corners[k * f + t]];
           for (int d = 0; d < g; ++d)
             more += row[at.gradient + g * (k * s + t) + d]
                     * (x[g * node + d] - _positions[g * node + d]);
@@ -297,7 +297,7 @@ std::vector<Saved> MortarObstacle::save() const
 void MortarObstacle::load(const std::vector<Saved>& saved)
 {
   const auto& positions = values_of<double>(saved, "positions");
-  const std::size_t owned = std::size_t(_nodes->num_owned()) * _gdim;
+  const std::size_t owned = std::size_t(_slaves->nodes().num_owned()) * _gdim;
   if (positions.size() < owned)
     throw std::invalid_argument("positions must be those of all owned nodes");
   ObstacleMaster::load(saved);

@@ -22,10 +22,9 @@ public:
   /// ObstacleMaster.
   /// @throws std::invalid_argument also where a slave facet has no area.
   MortarObstacle(std::shared_ptr<obstacle::Obstacle> obstacle,
-                 std::shared_ptr<const parallel::NodeMap> nodes,
-                 const facet::FacetList& facets,
-                 std::span<const std::int32_t> owned, std::span<const double> x,
-                 int gdim, double reach, bool measures_slip);
+                 std::shared_ptr<const SlaveNodes> slaves,
+                 std::span<const double> x, int gdim, double reach,
+                 bool measures_slip);
 
   void nodes_changed() override;
   std::int32_t search(std::span<const double> x,

@@ -85,21 +85,14 @@ Mortar Mortar::joined(const Mortar& other) const
   return result;
 }
 
-MortarSides::MortarSides(const facet::FacetList& slave, std::int32_t num_owned,
+MortarSides::MortarSides(const SlaveNodes& slaves,
                          std::span<const double> reference, int gdim)
-    : _gdim(gdim), _around(search::sorted_unique(slave.nodes)),
+    : _slaves(&slaves), _gdim(gdim),
       _inradius(std::numeric_limits<double>::infinity())
 {
-  _num_owned = std::ranges::lower_bound(_around, num_owned) - _around.begin();
+  const facet::FacetList slave = slaves.facets();
   std::tie(_slave, _slave_sizes) = padded(slave);
-  _numbers.resize(_slave.size());
-  std::ranges::transform(_slave, _numbers.begin(),
-                         [this](std::int32_t node)
-                         {
-                           return static_cast<std::int32_t>(
-                               std::ranges::lower_bound(_around, node)
-                               - _around.begin());
-                         });
+  _numbers = padded(slaves.local()).first;
   for (std::int32_t f = 0; f < slave.size(); ++f)
   {
     std::array<Vector<3>, 4> p;
@@ -134,10 +127,10 @@ MortarSides::at_corners(std::span<const double> values,
 
 std::vector<double> MortarSides::total(std::span<const double> values) const
 {
-  std::vector<double> sums(_around.size(), 0);
+  std::vector<double> sums(around().size(), 0);
   for (std::size_t c = 0; c < _numbers.size(); ++c)
     sums[_numbers[c]] += values[c];
-  sums.resize(_num_owned);
+  sums.resize(size());
   return sums;
 }
 
@@ -145,11 +138,11 @@ std::vector<double>
 MortarSides::total(std::span<const double> values,
                    std::span<const std::int32_t> facets) const
 {
-  std::vector<double> sums(_num_owned, 0);
+  std::vector<double> sums(size(), 0);
   for (std::size_t p = 0; p < facets.size(); ++p)
     for (int s = 0; s < 4; ++s)
       if (const std::int32_t i = numbers(facets[p])[s];
-          i < std::int32_t(_num_owned))
+          i < std::int32_t(size()))
         sums[i] += values[4 * p + s];
   return sums;
 }
@@ -203,11 +196,11 @@ std::vector<Pairs> MortarSides::pairs(const Mortar& mortar,
 std::vector<double> MortarSides::frames(std::span<const double> x) const
 {
   const int g = _gdim;
-  std::vector<std::int32_t> facet(_around.size(), 0);
+  std::vector<std::int32_t> facet(around().size(), 0);
   for (std::size_t c = 0; c < _numbers.size(); ++c)
     facet[_numbers[c]] = static_cast<std::int32_t>(c / 4);
-  std::vector<double> frames(_num_owned * g * g);
-  for (std::size_t i = 0; i < _num_owned; ++i)
+  std::vector<double> frames(size() * g * g);
+  for (std::size_t i = 0; i < size(); ++i)
   {
     std::array<Vector<3>, 3> p;
     for (int k = 0; k < 3; ++k)

@@ -6,6 +6,7 @@
 #include "../facet/nodal.h"
 #include "../mortar/integrals.h"
 #include "pairs.h"
+#include "slave_nodes.h"
 #include <array>
 
 namespace contactx::contact
@@ -41,27 +42,23 @@ class MortarSides
 {
 public:
   /// @brief Take the slave's side.
-  /// @param[in] slave Slave facets around the owned slave nodes.
-  /// @param[in] num_owned Number of nodes that this rank owns.
+  /// @param[in] slaves Slave nodes, which must outlive this.
   /// @param[in] reference Reference positions (shape=(num_nodes, gdim)).
   /// @param[in] gdim Geometric dimension.
-  MortarSides(const facet::FacetList& slave, std::int32_t num_owned,
-              std::span<const double> reference, int gdim);
+  MortarSides(const SlaveNodes& slaves, std::span<const double> reference,
+              int gdim);
 
   /// @brief Take the master's side.
   void meet(const facet::FacetList& master);
 
   /// @brief Number of owned slave nodes.
-  std::size_t size() const { return _num_owned; }
+  std::size_t size() const { return _slaves->owned().size(); }
 
   /// @brief Owned slave nodes in order.
-  std::span<const std::int32_t> slaves() const
-  {
-    return std::span(_around).first(_num_owned);
-  }
+  std::span<const std::int32_t> slaves() const { return _slaves->owned(); }
 
   /// @brief All slave nodes in order, those of other ranks last.
-  std::span<const std::int32_t> around() const { return _around; }
+  std::span<const std::int32_t> around() const { return _slaves->around(); }
 
   /// @brief Nodes of a slave facet by their places in `around`.
   std::span<const std::int32_t, 4> numbers(std::int32_t facet) const
@@ -96,7 +93,7 @@ public:
   /// @param[in] number Place of the node in `around`.
   double at(std::span<const double> values, std::int32_t number) const
   {
-    return number < std::int32_t(_num_owned) ? values[number] : 0.0;
+    return number < std::int32_t(size()) ? values[number] : 0.0;
   }
 
   /// @brief Values at the corners of the slave facets of pairs, zero at nodes
@@ -144,12 +141,12 @@ public:
                               std::span<const double> normal) const;
 
 private:
+  const SlaveNodes* _slaves;
   std::array<double, 3> master_normal(std::span<const double> x,
                                       std::int32_t facet) const;
 
   int _gdim;
-  std::size_t _num_owned = 0;
-  std::vector<std::int32_t> _around, _slave, _numbers, _master;
+  std::vector<std::int32_t> _slave, _numbers, _master;
   std::vector<int> _slave_sizes, _master_sizes;
   double _inradius;
 };

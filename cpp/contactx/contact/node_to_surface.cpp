@@ -31,15 +31,15 @@ double product(const double* a, const double* b, int gdim)
 } // namespace
 
 NodeToSurface::NodeToSurface(std::shared_ptr<parallel::Halo> halo,
-                             facet::Facets slave,
+                             std::shared_ptr<const SlaveNodes> slaves,
                              std::shared_ptr<search::MasterSurface> surface,
                              std::shared_ptr<search::Outside> outside,
                              const PairingOptions& options)
-    : DeformableMaster(std::move(halo), std::move(slave), std::move(surface),
+    : DeformableMaster(std::move(halo), std::move(slaves), std::move(surface),
                        std::move(outside), options),
-      _pairing(_slave.offsets, _slave.nodes, copy(_surface->facets().offsets),
-               copy(_surface->facets().nodes), _halo->gdim(),
-               _halo->num_owned())
+      _pairing(copy(_slaves->facets().offsets), copy(_slaves->facets().nodes),
+               copy(_surface->facets().offsets), copy(_surface->facets().nodes),
+               _halo->gdim(), _halo->num_owned())
 {
   const auto x = _halo->reference();
   _x0.assign(x.begin(), x.end());
@@ -76,7 +76,7 @@ std::int32_t NodeToSurface::search(std::span<const double> x,
   const int version = _halo->version();
   std::vector<double> at(x.begin(), x.end());
   std::int32_t changed
-      = _surface->pair(_pairing, _slave.list(), at, _options.reach, closed);
+      = _surface->pair(_pairing, _slaves->facets(), at, _options.reach, closed);
   _at = _halo->updated(std::move(at), gdim(), version);
   return changed + drop_outside(_at, closed);
 }
@@ -486,7 +486,8 @@ HiddenGap NodeToSurface::deepest_frozen_pair(std::span<const double> x) const
   HiddenGap deepest;
   if (parallel::total(_halo->ranks(), std::int64_t(frozen.size())) == 0)
     return deepest;
-  const std::vector<double> nodal = facet::nodal_normals(_slave.list(), x, g);
+  const std::vector<double> nodal
+      = facet::nodal_normals(_slaves->facets(), x, g);
   std::vector<double> points, normals;
   for (const std::int32_t i : frozen)
   {

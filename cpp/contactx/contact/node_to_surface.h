@@ -16,11 +16,12 @@ class NodeToSurface : public DeformableMaster
 public:
   /// @brief Create it with no node paired.
   /// @param[in] halo Nodes of this rank.
-  /// @param[in] slave Slave facets around the owned slave nodes.
+  /// @param[in] slaves Slave nodes.
   /// @param[in] surface Master surface.
   /// @param[in] outside Tells what is outside of its body.
   /// @param[in] options How nodes are paired.
-  NodeToSurface(std::shared_ptr<parallel::Halo> halo, facet::Facets slave,
+  NodeToSurface(std::shared_ptr<parallel::Halo> halo,
+                std::shared_ptr<const SlaveNodes> slaves,
                 std::shared_ptr<search::MasterSurface> surface,
                 std::shared_ptr<search::Outside> outside,
                 const PairingOptions& options);

@@ -83,44 +83,16 @@ bool has(const std::vector<Saved>& saved, const char* name)
 } // namespace
 
 ObstacleMaster::ObstacleMaster(std::shared_ptr<obstacle::Obstacle> obstacle,
-                               std::shared_ptr<const parallel::NodeMap> nodes,
-                               const facet::FacetList& facets,
-                               std::span<const std::int32_t> owned,
+                               std::shared_ptr<const SlaveNodes> slaves,
                                std::span<const double> x, int gdim,
                                double reach, bool measures_slip)
-    : _obstacle(std::move(obstacle)), _nodes(std::move(nodes)),
-      _owned(owned.begin(), owned.end()), _gdim(gdim), _reach(reach),
-      _measures_slip(measures_slip), _paired(owned.size(), 0),
-      _slip(owned.size() * kernel::rigid_slip_size, 0),
-      _data(owned.size() * kernel::rigid_size, 0)
+    : _obstacle(std::move(obstacle)), _slaves(std::move(slaves)), _gdim(gdim),
+      _reach(reach), _measures_slip(measures_slip), _paired(size(), 0),
+      _slip(size() * kernel::rigid_slip_size, 0),
+      _data(size() * kernel::rigid_size, 0)
 {
-  check_facets(facets, gdim);
-  if (std::ranges::adjacent_find(_owned, std::greater_equal<>{})
-      != _owned.end())
-    throw std::invalid_argument("owned must be nodes in order");
-  if (not _owned.empty() and _owned.front() < 0)
-    throw std::invalid_argument("owned must be node numbers, from 0 on");
-  if (not facets.nodes.empty() and std::ranges::min(facets.nodes) < 0)
-    throw std::invalid_argument("nodes must be node numbers, from 0 on");
-  check_positions(x, facets.nodes, gdim);
-
-  std::vector<std::int32_t> others(facets.nodes.begin(), facets.nodes.end());
-  std::ranges::sort(others);
-  others.erase(std::unique(others.begin(), others.end()), others.end());
-  std::erase_if(others, [this](std::int32_t node)
-                { return std::ranges::binary_search(_owned, node); });
-  _slaves.around = _owned;
-  _slaves.around.insert(_slaves.around.end(), others.begin(), others.end());
-  _slaves.offsets.assign(facets.offsets.begin(), facets.offsets.end());
-  _slaves.nodes.assign(facets.nodes.begin(), facets.nodes.end());
-  for (std::int32_t node : facets.nodes)
-  {
-    auto place = std::ranges::lower_bound(_owned, node) - _owned.begin();
-    if (place == std::ssize(_owned) or _owned[place] != node)
-      place = std::ssize(_owned)
-              + (std::ranges::lower_bound(others, node) - others.begin());
-    _slaves.corners.push_back(static_cast<std::int32_t>(place));
-  }
+  check_facets(_slaves->facets(), gdim);
+  check_positions(x, _slaves->around(), gdim);
   _at = at_slaves(x);
   ObstacleMaster::accept(x);
   ObstacleMaster::begin_step();
@@ -128,7 +100,7 @@ ObstacleMaster::ObstacleMaster(std::shared_ptr<obstacle::Obstacle> obstacle,
 
 std::vector<double> ObstacleMaster::at_slaves(std::span<const double> x) const
 {
-  return gathered_rows(x, _owned, _gdim);
+  return gathered_rows(x, _slaves->owned(), _gdim);
 }
 
 std::vector<double>
@@ -148,19 +120,6 @@ ObstacleMaster::kernel_data(const obstacle::Geometry& seen) const
   return data;
 }
 
-std::vector<std::int8_t>
-ObstacleMaster::facing(std::span<const double> x,
-                       std::span<const double> normal) const
-{
-  std::vector<double> every(_slaves.around.size() * _gdim, 0);
-  std::ranges::copy(normal, every.begin());
-  std::vector<std::int8_t> faces
-      = facing_nodes({_slaves.offsets, _slaves.corners},
-                     gathered_rows(x, _slaves.around, _gdim), every, _gdim);
-  faces.resize(size());
-  return faces;
-}
-
 std::int32_t ObstacleMaster::search(std::span<const double> x,
                                     std::span<const std::int8_t>)
 {
@@ -169,7 +128,7 @@ std::int32_t ObstacleMaster::search(std::span<const double> x,
   _data = kernel_data(_seen);
   update_slip(_at, _data);
   // The far side of an obstacle, too, has a closest point for a node
-  _paired = facing(x, _seen.normal);
+  _paired = _slaves->facing(x, _seen.normal, _gdim);
   for (std::size_t i = 0; i < size(); ++i)
     _paired[i] = _paired[i] and std::abs(_seen.gap[i]) <= _reach;
   return 0;
@@ -323,7 +282,7 @@ std::vector<Pairs> ObstacleMaster::group(std::span<const double> data) const
     if (not _paired[i])
       continue;
     p.slaves.push_back(static_cast<std::int32_t>(i));
-    p.nodes.push_back(_owned[i]);
+    p.nodes.push_back(_slaves->owned()[i]);
     const auto row = data.subspan(i * p.data_size, p.data_size);
     p.data.insert(p.data.end(), row.begin(), row.end());
     const auto slip = _slip.begin() + i * p.slip_size;
@@ -353,7 +312,7 @@ Weights ObstacleMaster::weights() const
     if (_paired[i])
     {
       w.slaves.push_back(static_cast<std::int32_t>(i));
-      w.nodes.push_back(_owned[i]);
+      w.nodes.push_back(_slaves->owned()[i]);
       w.values.push_back(1);
     }
   return w;
@@ -366,7 +325,8 @@ std::vector<double> ObstacleMaster::compliance(std::span<const double>) const
 
 Mobility ObstacleMaster::mobility(std::span<const std::int8_t> free) const
 {
-  const std::size_t count = _owned.empty() ? 0 : std::size_t(_owned.back()) + 1;
+  const std::size_t count
+      = size() == 0 ? 0 : std::size_t(_slaves->owned().back()) + 1;
   if (free.size() < count * _gdim)
     throw std::invalid_argument("free must hold each component of all nodes");
   Mobility m{std::vector<double>(size(), 0),
@@ -378,7 +338,8 @@ Mobility ObstacleMaster::mobility(std::span<const std::int8_t> free) const
     double square = 0;
     for (int k = 0; k < _gdim; ++k)
     {
-      const double moves = free[std::size_t(_gdim) * _owned[i] + k] ? 1 : 0;
+      const double moves
+          = free[std::size_t(_gdim) * _slaves->owned()[i] + k] ? 1 : 0;
       m.each[_gdim * i + k] = moves;
       square += normal[k] * moves * normal[k] * moves;
     }

@@ -3,10 +3,9 @@
 
 #pragma once
 
-#include "../facet/nodal.h"
 #include "../obstacle/obstacle.h"
-#include "../parallel/ranks.h"
 #include "master.h"
+#include "slave_nodes.h"
 #include <memory>
 
 namespace contactx::contact
@@ -20,9 +19,7 @@ class ObstacleMaster : public Master
 public:
   /// @brief Create the pairs, none yet, from the reference configuration.
   /// @param[in] obstacle The obstacle.
-  /// @param[in] nodes Nodes of this rank.
-  /// @param[in] facets Slave facets around the owned slave nodes.
-  /// @param[in] owned Slave nodes that this rank owns, in order.
+  /// @param[in] slaves Slave nodes.
   /// @param[in] x Reference positions.
   /// @param[in] gdim Geometric dimension, 2 or 3.
   /// @param[in] reach Largest distance of a pair, infinite if unlimited.
@@ -30,10 +27,9 @@ public:
   /// @throws std::invalid_argument if the arguments do not fit together, or the
   /// obstacle's parameters the dimension.
   ObstacleMaster(std::shared_ptr<obstacle::Obstacle> obstacle,
-                 std::shared_ptr<const parallel::NodeMap> nodes,
-                 const facet::FacetList& facets,
-                 std::span<const std::int32_t> owned, std::span<const double> x,
-                 int gdim, double reach, bool measures_slip);
+                 std::shared_ptr<const SlaveNodes> slaves,
+                 std::span<const double> x, int gdim, double reach,
+                 bool measures_slip);
 
   int gdim() const override { return _gdim; }
   double reach() const override { return _reach; }
@@ -87,7 +83,7 @@ public:
 
 protected:
   /// Number of owned slave nodes.
-  std::size_t size() const { return _owned.size(); }
+  std::size_t size() const { return _slaves->owned().size(); }
 
   /// Positions of the owned slave nodes.
   std::vector<double> at_slaves(std::span<const double> x) const;
@@ -100,20 +96,8 @@ protected:
   /// Where the obstacle has carried the points that slip is measured from.
   std::vector<double> carried() const;
 
-  /// Nodes and facets of the slave surface, which never change.
-  struct Slaves
-  {
-    /// Slave nodes of the facets, the owned ones first, each in order
-    std::vector<std::int32_t> around;
-    std::vector<std::int32_t> offsets;
-    std::vector<std::int32_t> nodes;
-    std::vector<std::int32_t> corners; ///< the nodes by their places in around
-  };
-
   std::shared_ptr<obstacle::Obstacle> _obstacle;
-  std::shared_ptr<const parallel::NodeMap> _nodes;
-  std::vector<std::int32_t> _owned;
-  Slaves _slaves;
+  std::shared_ptr<const SlaveNodes> _slaves;
   int _gdim;
   double _reach;
   bool _measures_slip;
@@ -124,10 +108,6 @@ protected:
 private:
   /// Kernels' data from what is seen of the obstacle.
   std::vector<double> kernel_data(const obstacle::Geometry& seen) const;
-
-  /// Which owned slave nodes face the obstacle.
-  std::vector<std::int8_t> facing(std::span<const double> x,
-                                  std::span<const double> normal) const;
 
   std::vector<Pairs> group(std::span<const double> data) const;
 

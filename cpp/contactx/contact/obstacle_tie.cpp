@@ -10,13 +10,11 @@ using namespace contactx;
 using namespace contactx::contact;
 
 ObstacleTie::ObstacleTie(std::shared_ptr<obstacle::Obstacle> obstacle,
-                         std::shared_ptr<const parallel::NodeMap> nodes,
-                         const facet::FacetList& facets,
-                         std::span<const std::int32_t> owned,
+                         std::shared_ptr<const SlaveNodes> slaves,
                          std::span<const double> x, int gdim, double reach)
-    : ObstacleMaster(std::move(obstacle), std::move(nodes), facets, owned, x,
-                     gdim, reach, true),
-      _first(_placed), _offset(owned.size(), 0)
+    : ObstacleMaster(std::move(obstacle), std::move(slaves), x, gdim, reach,
+                     true),
+      _first(_placed), _offset(size(), 0)
 {
 }
 

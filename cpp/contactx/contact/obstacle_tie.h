@@ -15,10 +15,8 @@ public:
   /// @brief Create the pairs, none yet; the arguments are those of
   /// ObstacleMaster.
   ObstacleTie(std::shared_ptr<obstacle::Obstacle> obstacle,
-              std::shared_ptr<const parallel::NodeMap> nodes,
-              const facet::FacetList& facets,
-              std::span<const std::int32_t> owned, std::span<const double> x,
-              int gdim, double reach);
+              std::shared_ptr<const SlaveNodes> slaves,
+              std::span<const double> x, int gdim, double reach);
 
   /// @copydoc Master::search; only the first search counts
   std::int32_t search(std::span<const double> x,

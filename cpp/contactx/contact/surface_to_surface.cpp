@@ -23,6 +23,11 @@ constexpr double margin_ahead = 0.1;
 constexpr double enter = 0.06;
 constexpr double leave = 0.04;
 
+std::vector<std::int32_t> copied(std::span<const std::int32_t> values)
+{
+  return {values.begin(), values.end()};
+}
+
 std::vector<std::int32_t> nodes_of_both(const facet::FacetList& slave,
                                         const facet::FacetList& master)
 {
@@ -33,15 +38,15 @@ std::vector<std::int32_t> nodes_of_both(const facet::FacetList& slave,
 } // namespace
 
 SurfaceToSurface::SurfaceToSurface(
-    std::shared_ptr<parallel::Halo> halo, facet::Facets slave,
+    std::shared_ptr<parallel::Halo> halo,
+    std::shared_ptr<const SlaveNodes> slaves,
     std::shared_ptr<search::MasterSurface> surface,
     std::shared_ptr<search::Outside> outside, const PairingOptions& options)
-    : DeformableMaster(std::move(halo), std::move(slave), std::move(surface),
+    : DeformableMaster(std::move(halo), std::move(slaves), std::move(surface),
                        std::move(outside), options),
-      _sides(_slave.list(), _halo->num_owned(), _halo->reference(),
-             _halo->gdim()),
+      _sides(*_slaves, _halo->reference(), _halo->gdim()),
       _slip(_sides, _halo->gdim(), options.is_small),
-      _nodes(nodes_of_both(_slave.list(), _surface->own())),
+      _nodes(nodes_of_both(_slaves->facets(), _surface->own())),
       _area(_sides.size(), 0), _paired(_sides.size(), 0)
 {
   _inradius = parallel::least(_halo->ranks(), _sides.inradius());
@@ -49,7 +54,8 @@ SurfaceToSurface::SurfaceToSurface(
   _x0.assign(x.begin(), x.end());
   _at = _x0;
   meet();
-  const std::vector<double> area = facet::nodal_areas(_slave.list(), x, gdim());
+  const std::vector<double> area
+      = facet::nodal_areas(_slaves->facets(), x, gdim());
   for (const std::int32_t node : _sides.slaves())
     _whole.push_back(area[node]);
 }
@@ -57,12 +63,9 @@ SurfaceToSurface::SurfaceToSurface(
 /// Takes the master facets that are known now; those before keep their numbers.
 void SurfaceToSurface::meet()
 {
-  const facet::FacetList known = _surface->facets();
-  _search.emplace(
-      _slave.offsets, _slave.nodes,
-      std::vector<std::int32_t>(known.offsets.begin(), known.offsets.end()),
-      std::vector<std::int32_t>(known.nodes.begin(), known.nodes.end()),
-      gdim());
+  const facet::FacetList known = _surface->facets(), slave = _slaves->facets();
+  _search.emplace(copied(slave.offsets), copied(slave.nodes),
+                  copied(known.offsets), copied(known.nodes), gdim());
   _sides.meet(known);
 }
 
@@ -104,7 +107,7 @@ void SurfaceToSurface::pair(std::span<const double> x)
 void SurfaceToSurface::look(std::span<const double> x, double margin)
 {
   const int known = _surface->version();
-  _surface->look(x, _slave.list(), _options.reach, margin);
+  _surface->look(x, _slaves->facets(), _options.reach, margin);
   if (_surface->version() != known)
     meet();
 }
@@ -150,9 +153,10 @@ SurfaceToSurface::without_outside(std::span<const double> x,
     return found;
   const int g = gdim();
   const facet::FacetList theirs = _surface->facets();
-  const facet::Middles ours = facet::middles(_slave.list(), x, g);
+  const facet::Middles ours = facet::middles(_slaves->facets(), x, g);
   const std::vector<double> others = facet::middles(theirs, x, g).points;
-  const std::vector<double> own_sizes = audit::facet_sizes(_slave.list(), x, g);
+  const std::vector<double> own_sizes
+      = audit::facet_sizes(_slaves->facets(), x, g);
   const std::vector<double> their_sizes = audit::facet_sizes(theirs, x, g);
   std::vector<double> points, depth, size;
   for (std::size_t p = 0; p < found.size(); ++p)
@@ -184,7 +188,7 @@ void SurfaceToSurface::integrate(std::span<const double> x)
   const auto reference = _halo->reference();
   const auto integrate = [&](std::span<const double> normal)
   {
-    return mortar::integrals(_slave.list(), _surface->facets(), *_found, x,
+    return mortar::integrals(_slaves->facets(), _surface->facets(), *_found, x,
                              reference, gdim(), normal);
   };
   mortar::Integrals all = integrate({});
@@ -447,11 +451,11 @@ double SurfaceToSurface::distance(std::span<const double> x) const
 }
 
 SurfaceTie::SurfaceTie(std::shared_ptr<parallel::Halo> halo,
-                       facet::Facets slave,
+                       std::shared_ptr<const SlaveNodes> slaves,
                        std::shared_ptr<search::MasterSurface> surface,
                        std::shared_ptr<search::Outside> outside,
                        PairingOptions options)
-    : SurfaceToSurface(std::move(halo), std::move(slave), std::move(surface),
+    : SurfaceToSurface(std::move(halo), std::move(slaves), std::move(surface),
                        std::move(outside),
                        {options.reach, options.is_small, false}),
       _offset(sides().size(), 0)

@@ -20,11 +20,12 @@ class SurfaceToSurface : public DeformableMaster
 public:
   /// @brief Create it with no pair; all ranks must take part.
   /// @param[in] halo Nodes of this rank.
-  /// @param[in] slave Slave facets around the owned slave nodes.
+  /// @param[in] slaves Slave nodes.
   /// @param[in] surface Master surface.
   /// @param[in] outside Tells what is outside of its body.
   /// @param[in] options How facets are paired.
-  SurfaceToSurface(std::shared_ptr<parallel::Halo> halo, facet::Facets slave,
+  SurfaceToSurface(std::shared_ptr<parallel::Halo> halo,
+                   std::shared_ptr<const SlaveNodes> slaves,
                    std::shared_ptr<search::MasterSurface> surface,
                    std::shared_ptr<search::Outside> outside,
                    const PairingOptions& options);
@@ -117,7 +118,8 @@ class SurfaceTie final : public SurfaceToSurface
 {
 public:
   /// @copydoc SurfaceToSurface::SurfaceToSurface
-  SurfaceTie(std::shared_ptr<parallel::Halo> halo, facet::Facets slave,
+  SurfaceTie(std::shared_ptr<parallel::Halo> halo,
+             std::shared_ptr<const SlaveNodes> slaves,
              std::shared_ptr<search::MasterSurface> surface,
              std::shared_ptr<search::Outside> outside, PairingOptions options);
 

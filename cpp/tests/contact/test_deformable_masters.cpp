@@ -161,8 +161,10 @@ TYPED_TEST(DeformableMasters, ReachMustBePositive)
   const auto& [offsets, nodes] = sheets.master;
   auto surface = search::make_master_surface(halo, offsets, nodes);
   auto outside = std::make_shared<search::Outside>(halo, offsets, nodes);
+  auto slaves = std::make_shared<SlaveNodes>(halo, sheets.slave.list(),
+                                             sheets.slave.list());
   for (double reach : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()})
-    EXPECT_THROW(TypeParam(halo, sheets.slave, surface, outside,
+    EXPECT_THROW(TypeParam(halo, slaves, surface, outside,
                            PairingOptions{reach, false, false}),
                  std::invalid_argument);
 }

@@ -48,18 +48,18 @@ struct Front
 {
   Scene scene;
   std::int32_t n;
-  std::vector<std::int32_t> owned;
   std::unique_ptr<MortarObstacle> master;
 
   Front(Scene surface, std::shared_ptr<obstacle::Obstacle> o,
         bool measures_slip = false)
       : scene(std::move(surface)),
-        n(static_cast<std::int32_t>(scene.x.size()) / scene.gdim), owned(n)
+        n(static_cast<std::int32_t>(scene.x.size()) / scene.gdim)
   {
-    std::iota(owned.begin(), owned.end(), 0);
     master = std::make_unique<MortarObstacle>(
-        std::move(o), std::make_shared<parallel::SerialNodes>(n),
-        scene.facets(), owned, scene.x, scene.gdim, unlimited, measures_slip);
+        std::move(o),
+        std::make_shared<SlaveNodes>(std::make_shared<parallel::SerialNodes>(n),
+                                     scene.facets(), scene.facets()),
+        scene.x, scene.gdim, unlimited, measures_slip);
     master->search(scene.x, std::vector<std::int8_t>(n));
   }
 
@@ -316,15 +316,23 @@ TEST(MortarObstacle, WhatDoesNotFaceItIsNotIntegrated)
 
 TEST(MortarObstacle, FacetsBelongToWhereTheirNodesAreOwned)
 {
-  const Scene scene = surface(2, Cells::mixed, 0);
-  const std::vector<std::int32_t> owned{0, 4};
-  MortarObstacle master(ceiling(2, 0.5),
-                        std::make_shared<parallel::SerialNodes>(5),
-                        scene.facets(), owned, scene.x, 2, unlimited, true);
+  Scene scene = surface(2, Cells::mixed, 0);
+  // The ends of the line are owned
+  const std::array<std::int32_t, 5> number{0, 2, 3, 4, 1};
+  const std::vector<double> x = scene.x;
+  for (std::int32_t i = 0; i < 5; ++i)
+    std::copy_n(x.begin() + 2 * i, 2, scene.x.begin() + 2 * number[i]);
+  for (std::int32_t& node : scene.nodes)
+    node = number[node];
+  MortarObstacle master(
+      ceiling(2, 0.5),
+      std::make_shared<SlaveNodes>(std::make_shared<PartOfNodes>(2, 5),
+                                   scene.facets(), scene.facets()),
+      scene.x, 2, unlimited, true);
   master.search(scene.x, std::vector<std::int8_t>(2));
   const auto groups = master.pairs();
   // Owned slave nodes come first, then the others in order
-  EXPECT_EQ(groups.at(0).nodes, (std::vector<std::int32_t>{1, 0, 4, 3}));
+  EXPECT_EQ(groups.at(0).nodes, (std::vector<std::int32_t>{2, 0, 1, 4}));
   EXPECT_EQ(groups.at(0).slaves, (std::vector<std::int32_t>{2, 0, 1, 4}));
   EXPECT_EQ(groups.at(0).slip_size, 0);
   EXPECT_EQ(master.normals(), (std::vector<double>{0, -1, 0, 0, -1, 0}));

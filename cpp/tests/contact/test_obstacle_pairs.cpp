@@ -22,8 +22,7 @@ std::unique_ptr<ObstacleMaster> make(const FacingNodes& scene,
                                      double reach = unlimited)
 {
   auto master = std::make_unique<ObstacleMaster>(
-      std::move(o), scene.map, scene.facets(), scene.owned, scene.x, scene.gdim,
-      reach, measures_slip);
+      std::move(o), scene.slaves, scene.x, scene.gdim, reach, measures_slip);
   master->search(scene.x, std::vector<std::int8_t>(scene.n));
   return master;
 }
@@ -352,13 +351,15 @@ TEST(ObstacleMaster, PairsNodesThatFaceItWithinReach)
 {
   auto plane = std::make_shared<obstacle::Plane>(std::vector<double>{0, 0},
                                                  std::vector<double>{0, 1});
-  // Nodes 1 and 2 are those of facets that face away, node 3 is out of reach
+  // Nodes 1, 2 and 4 are those of facets that face away, node 3 is out of reach
   const std::vector<double> x{0,   0.1, 1,    0.1, 2,    0.1, 3,
                               0.9, 4,   -0.2, 5,   -0.6, 6,   0.1};
-  const std::vector<std::int32_t> offsets{0, 2, 4, 6}, nodes{0, 6, 2, 1, 3, 5},
-      owned{0, 1, 2, 3, 4, 5};
-  const auto map = std::make_shared<parallel::SerialNodes>(7);
-  ObstacleMaster master(plane, map, {offsets, nodes}, owned, x, 2, 0.5, false);
+  const std::vector<std::int32_t> offsets{0, 2, 4, 6, 8},
+      nodes{0, 6, 2, 1, 3, 5, 6, 4};
+  const auto slaves = std::make_shared<SlaveNodes>(
+      std::make_shared<PartOfNodes>(6, 7), facet::FacetList{offsets, nodes},
+      facet::FacetList{offsets, nodes});
+  ObstacleMaster master(plane, slaves, x, 2, 0.5, false);
   EXPECT_EQ(master.paired(), std::vector<std::int8_t>(6));
   EXPECT_TRUE(master.pairs().empty());
   master.search(x, std::vector<std::int8_t>(6));
@@ -465,19 +466,13 @@ TEST(ObstacleMaster, RefusesWhatDoesNotFit)
 {
   const auto o = make_obstacle(Kind::plane, 2);
   const FacingNodes s(*o, 2);
-  const auto made
-      = [&](std::vector<std::int32_t> owned, std::vector<std::int32_t> offsets,
-            std::vector<double> x, int gdim)
-  {
-    ObstacleMaster(o, s.map, {offsets, s.nodes}, owned, x, gdim, unlimited,
-                   true);
-  };
-  EXPECT_NO_THROW(made(s.owned, s.offsets, s.x, 2));
-  EXPECT_THROW(made({1, 0}, s.offsets, s.x, 2), std::invalid_argument);
-  EXPECT_THROW(made({-1}, s.offsets, s.x, 2), std::invalid_argument);
-  EXPECT_THROW(made(s.owned, {0, 3}, s.x, 2), std::invalid_argument);
-  EXPECT_THROW(made(s.owned, s.offsets, {0, 1}, 2), std::invalid_argument);
-  EXPECT_THROW(made(s.owned, s.offsets, s.x, 4), std::invalid_argument);
+  const auto made = [&](std::vector<double> x, int gdim)
+  { ObstacleMaster(o, s.slaves, x, gdim, unlimited, true); };
+  EXPECT_NO_THROW(made(s.x, 2));
+  EXPECT_THROW(made({0, 1}, 2), std::invalid_argument);
+  // Facets of two nodes are none in 3D
+  EXPECT_THROW(made(s.x, 3), std::invalid_argument);
+  EXPECT_THROW(made(s.x, 4), std::invalid_argument);
   EXPECT_THROW(make(s, o)->search(std::vector<double>{0, 1}, {}),
                std::invalid_argument);
 }
@@ -485,8 +480,7 @@ TEST(ObstacleMaster, RefusesWhatDoesNotFit)
 std::unique_ptr<ObstacleTie> tied(const FacingNodes& scene,
                                   std::shared_ptr<obstacle::Obstacle> o)
 {
-  auto tie = std::make_unique<ObstacleTie>(std::move(o), scene.map,
-                                           scene.facets(), scene.owned, scene.x,
+  auto tie = std::make_unique<ObstacleTie>(std::move(o), scene.slaves, scene.x,
                                            scene.gdim, unlimited);
   tie->search(scene.x, std::vector<std::int8_t>(scene.n));
   return tie;
