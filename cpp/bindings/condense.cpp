@@ -10,6 +10,7 @@
 #include <pybind11/stl.h>
 
 namespace py = pybind11;
+using namespace contactx;
 using namespace contactx_bindings;
 using namespace contactx::condense;
 using contactx::parallel::NodeMap;

@@ -7,6 +7,7 @@
 #include <array>
 #include <string>
 
+using namespace contactx;
 using namespace contactx::condense;
 
 namespace

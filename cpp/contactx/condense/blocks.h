@@ -3,9 +3,10 @@
 
 #pragma once
 
-#include "triplets.h"
+#include "../triplets.h"
 #include <stdexcept>
 
+/// @brief Multipliers eliminated from the linear system of contact.
 namespace contactx::condense
 {
 /// @brief A multiplier has no equation of its own; the message says which.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <string>
 
+using namespace contactx;
 using namespace contactx::condense;
 
 namespace

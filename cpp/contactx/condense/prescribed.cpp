@@ -5,6 +5,7 @@
 #include "small.h"
 #include <utility>
 
+using namespace contactx;
 using namespace contactx::condense;
 
 namespace

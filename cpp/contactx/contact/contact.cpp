@@ -421,24 +421,21 @@ void Contact::add_residual(std::span<double> b) const
                        *pairs, read, gdim(), b);
 }
 
-kernel::Triplets Contact::block(std::string_view term,
-                                std::span<const std::int8_t> which) const
+Triplets Contact::block(std::string_view term,
+                        std::span<const std::int8_t> which) const
 {
   require(which.empty() or which.size() == _slaves->owned().size(),
           "which must have a value for each slave node");
   const std::vector<double> displacement = _halo->displacement();
   std::array<std::vector<double>, 5> padded;
   const kernel::NodalArrays read = arrays(displacement, padded);
-  kernel::Triplets all;
+  Triplets all;
   for (const auto& pairs : _pairs)
   {
-    const kernel::Triplets part
+    const Triplets part
         = kernel::assemble_matrix(kind_of(*_law), name_of(kinematics()), term,
                                   *pairs, read, gdim(), which);
-    all.rows.insert(all.rows.end(), part.rows.begin(), part.rows.end());
-    all.columns.insert(all.columns.end(), part.columns.begin(),
-                       part.columns.end());
-    all.values.insert(all.values.end(), part.values.begin(), part.values.end());
+    all.join(part);
   }
   return all;
 }

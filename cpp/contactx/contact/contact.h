@@ -186,8 +186,8 @@ public:
   /// @param[in] term "stiffness", "traction" or "constraint".
   /// @param[in] which 1 at slave nodes whose pairs are assembled (shape=(n));
   /// empty for all.
-  kernel::Triplets block(std::string_view term,
-                         std::span<const std::int8_t> which = {}) const;
+  Triplets block(std::string_view term,
+                 std::span<const std::int8_t> which = {}) const;
 
 private:
   int gdim() const { return _halo->gdim(); }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "../contact/pairs.h"
+#include "../triplets.h"
 #include "layout.h"
 #include <span>
 #include <string_view>
@@ -25,14 +26,6 @@ struct NodalArrays
   /// Derivatives of the complementarity function: by the gap (shape=(n,
   /// size)), the slip and the normal (shape=(n, gdim, gdim))
   std::span<const double> gap_derivative, slip_derivative, normal_derivative;
-};
-
-/// @brief Entries of a sparse matrix; those of one place add up.
-struct Triplets
-{
-  std::vector<std::int32_t> rows;    ///< rows
-  std::vector<std::int32_t> columns; ///< columns
-  std::vector<double> values;        ///< values
 };
 
 /// @brief Whether a term of pairs has a kernel: it vanishes where there is

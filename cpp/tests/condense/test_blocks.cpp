@@ -5,6 +5,7 @@
 
 #include "dense.h"
 
+using namespace contactx;
 using namespace contactx::condense;
 using namespace contactx::tests;
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
-using namespace contactx::condense;
+using namespace contactx;
 
 void Triplets::reserve(std::size_t count)
 {
@@ -32,8 +32,8 @@ void Triplets::multiply(std::span<const double> x, std::span<double> y,
     y[rows[e]] += factor * values[e] * x[columns[e]];
 }
 
-Groups contactx::condense::grouped(std::span<const std::int32_t> places,
-                                   std::size_t count)
+Groups contactx::grouped(std::span<const std::int32_t> places,
+                         std::size_t count)
 {
   Groups groups;
   groups.offsets.assign(count + 1, 0);
@@ -49,10 +49,9 @@ Groups contactx::condense::grouped(std::span<const std::int32_t> places,
   return groups;
 }
 
-Triplets contactx::condense::product(const Triplets& A, const Triplets& B,
-                                     std::size_t num_rows,
-                                     std::size_t num_inner,
-                                     std::size_t num_columns)
+Triplets contactx::product(const Triplets& A, const Triplets& B,
+                           std::size_t num_rows, std::size_t num_inner,
+                           std::size_t num_columns)
 {
   const Groups rows = grouped(A.rows, num_rows);
   const Groups inner = grouped(B.rows, num_inner);
@@ -87,8 +86,8 @@ Triplets contactx::condense::product(const Triplets& A, const Triplets& B,
   return C;
 }
 
-Triplets contactx::condense::merged(const Triplets& A, std::size_t num_rows,
-                                    std::size_t num_columns)
+Triplets contactx::merged(const Triplets& A, std::size_t num_rows,
+                          std::size_t num_columns)
 {
   Triplets one;
   one.reserve(num_columns);

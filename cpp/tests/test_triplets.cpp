@@ -6,6 +6,7 @@
 
 #include "dense.h"
 
+using namespace contactx;
 using namespace contactx::condense;
 using namespace contactx::tests;
 

@@ -8,8 +8,7 @@
 #include <span>
 #include <vector>
 
-/// @brief Multipliers eliminated from the linear system of contact.
-namespace contactx::condense
+namespace contactx
 {
 /// @brief Entries of a sparse matrix; those of one place add up.
 struct Triplets
@@ -96,4 +95,4 @@ Triplets product(const Triplets& A, const Triplets& B, std::size_t num_rows,
 /// @param[in] num_columns Number of its columns.
 Triplets merged(const Triplets& A, std::size_t num_rows,
                 std::size_t num_columns);
-} // namespace contactx::condense
+} // namespace contactx

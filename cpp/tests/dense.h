@@ -23,7 +23,7 @@ public:
   {
   }
 
-  Dense(const condense::Triplets& entries, std::size_t rows,
+  Dense(const contactx::Triplets& entries, std::size_t rows,
         std::size_t columns)
       : Dense(rows, columns)
   {
