@@ -32,8 +32,6 @@ class Interface(core.Contact):
     Attributes:
         slaves: Slave nodes that this rank owns, numbered as the blocks of the displacement's
             dofmap, shape (n,).
-        slave_nodes: The same with their facets.
-        shared_nodes: Nodes of this rank that both surfaces have.
         num_others: Number of slave nodes of other ranks that share facets with these.
         halo: Nodes of this rank.
         state: Vectors that the forms read.
@@ -82,9 +80,8 @@ class Interface(core.Contact):
             shared=None if shared is None else shared[: halo.num_owned],
         )
         self.halo = halo
-        self.slaves, self.slave_nodes = slaves.owned, slaves
+        self.slaves = slaves.owned
         self.num_others = len(slaves.around) - len(slaves.owned)
-        self.shared_nodes = np.flatnonzero([] if shared is None else shared)
         self._offset, self._friction = offset, friction
         # State is this rank's alone
         slave_map = cpp.common.IndexMap(MPI.COMM_SELF, len(slaves.around))

@@ -9,7 +9,7 @@ import numpy as np
 from contactx import cpp as core
 from contactx.bodies.adapter import BulkSide
 
-from ranks.checks_on_ranks import check_errors, check_passages, nested
+from ranks.checks_on_ranks import check_errors, nested
 from scenes.free_block import FreeBlock
 from scenes.numbered_blocks import PARTITIONS, TwoBlocks, alone
 
@@ -132,7 +132,6 @@ def check_all():
                 check_modes,
                 check_free_bodies,
                 check_errors,
-                check_passages,
             ):
                 check(alone(dim), scene)
     COMM.Barrier()
