@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "surfaces_audit.h"
+#include "../parallel/spread.h"
 #include "passed_nodes.h"
 #include "penetration.h"
 #include <algorithm>
@@ -265,8 +266,14 @@ std::vector<double> SurfacesAudit::bent(const Configuration& now) const
     return std::vector<double>(local.size(), 0);
   const int g = _halo->gdim();
   const auto x = rows_of(now.x, slaves.around(), g);
+  // Their owners have all facets around the others
+  const std::size_t n = slaves.owned().size();
+  auto normals = facet::nodal_normals(local, x, g);
+  normals = slaves.scatter_forward(
+      std::span<const double>(normals).first(n * g), g);
+  const auto curvature = nodal_curvatures(local, x, normals, g);
   return slaves.largest(
-      nodal_curvatures(local, x, facet::nodal_normals(local, x, g), g));
+      slaves.scatter_forward(std::span<const double>(curvature).first(n)));
 }
 
 /// What the master's nodes see of the slave facets: the facet's size, how near
@@ -309,7 +316,9 @@ SurfacesAudit::look_from_master(std::span<const double> positions)
   const int g = _halo->gdim();
   const Configuration now = configuration();
   const facet::FacetList around = _master->surface()->around();
-  const auto normals = facet::nodal_normals(around, now.x, g);
+  // Of the facets around a node some may be on other ranks alone
+  const auto normals = parallel::spread(
+      *_halo, normals_of_all(*_halo, _master->surface()->own(), now.x), g);
   const auto curvature = nodal_curvatures(around, now.x, normals, g);
   const search::Seen seen = see_slave(now, normals);
   const std::size_t n = _points.size();
