@@ -32,6 +32,8 @@ public:
   /// only part of the body is tagged with.
   void accept() override;
 
+  /// @copydoc ContactAudit::look
+  /// @throws std::invalid_argument if there are not as many positions as nodes.
   Findings look(std::span<const double> start) override;
 
 private:

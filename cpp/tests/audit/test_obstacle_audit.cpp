@@ -5,7 +5,9 @@
 #include "obstacles.h"
 #include <contactx/audit/audit.h>
 #include <contactx/audit/obstacle_audit.h>
+#include <contactx/audit/surfaces_audit.h>
 #include <gtest/gtest.h>
+#include <numbers>
 
 using namespace contactx;
 using namespace contactx::audit;
@@ -74,6 +76,19 @@ TEST(AuditOfObstacles, ReachesBetweenSlaveNodes)
     EXPECT_NEAR(found.deepest->at[0], 0.5, 1e-15);
     EXPECT_NEAR(found.deepest->at[1], 0, 1e-15);
   }
+}
+
+TEST(AuditOfObstacles, IsSeenHoweverNarrow)
+{
+  // A 17th of the facet wide, and beside its middle
+  const double radius = 0.01, depth = 0.005;
+  MovedContact c(segments(0), disc(1.3 / 3, depth - radius, radius));
+  ObstacleAudit audit(c.halo, c.contact);
+  audit.accept();
+  const Findings found = audit.look({});
+  EXPECT_TRUE(found.is_too_deep);
+  EXPECT_LE(found.deepest->depth, depth + 1e-15);
+  EXPECT_GE(found.deepest->depth, 0.6 * depth);
 }
 
 TEST(AuditOfObstacles, WhatIsInContactMayBeDeeper)
@@ -184,6 +199,33 @@ TEST(AuditOfObstacles, OneThatHasMovedCarriesItsOwnFrame)
   EXPECT_EQ(audit.look({}).passed.count, 0);
 }
 
+TEST(AuditOfObstacles, APlaneThatTurnsIsNotPassed)
+{
+  // By more than a right angle, so that the slave is behind it
+  auto plane = std::make_shared<obstacle::Plane>(std::vector<double>{0.5, -0.1},
+                                                 std::vector<double>{0, 1});
+  MovedContact c(segments(0), plane);
+  ObstacleAudit audit(c.halo, c.contact);
+  audit.accept();
+  const double angle = 100 * std::numbers::pi / 180;
+  plane->place({0.5, -0.1}, {std::sin(angle), std::cos(angle)});
+  c.contact->search();
+  const Findings found = audit.look({});
+  EXPECT_EQ(found.passed.count, 0);
+  EXPECT_EQ(found.inside.count, 2) << "of them two nodes";
+}
+
+TEST(AuditOfObstacles, AFunctionTellsNoWay)
+{
+  // Of a disc what was beside it has not passed: here all four nodes and three
+  // facets that have come to its far side
+  MovedContact c(segments(0.6), function(0.5, 0, 0.1));
+  ObstacleAudit audit(c.halo, c.contact);
+  audit.accept();
+  c.move(0, 4, -1.2);
+  EXPECT_EQ(audit.look({}).passed.count, 7);
+}
+
 TEST(AuditOfObstacles, AFunctionIsSeenAsTheDiscIs)
 {
   for (const double y : {0.07 - 0.1, -0.05, 0.2})
@@ -207,6 +249,8 @@ TEST(AuditOfObstacles, AFunctionIsSeenAsTheDiscIs)
     if (found[0].deepest and found[0].deepest->depth > 0)
     {
       EXPECT_NEAR(found[0].deepest->depth, found[1].deepest->depth, 1e-12);
+      // Nothing tells its size but how its normal turns
+      EXPECT_GE(found[1].deepest->excess, found[1].deepest->depth * 256 / 0.3);
     }
   }
 }
@@ -253,4 +297,14 @@ TEST(AuditOfObstacles, SpaceToo)
       EXPECT_NEAR(found.deepest->size, std::sqrt(2.) / 3, 1e-14);
     }
   }
+}
+
+TEST(AuditOfObstacles, ArgumentsThatDoNotFit)
+{
+  MovedContact rigid(segments(0), disc(0.5, -0.2, 0.1));
+  MovedContact soft(TwoSheets(2, 0.1), 1, Sliding::finite);
+  EXPECT_THROW(SurfacesAudit(rigid.halo, rigid.contact), std::invalid_argument);
+  EXPECT_THROW(ObstacleAudit(soft.halo, soft.contact), std::invalid_argument);
+  SurfacesAudit audit(soft.halo, soft.contact);
+  EXPECT_THROW(audit.look(std::vector<double>(3)), std::invalid_argument);
 }

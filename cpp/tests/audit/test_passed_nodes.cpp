@@ -336,24 +336,24 @@ TEST(FoundNodes, AreThoseOfAllRanks)
 
 TEST(Depths, TheLargestExcessOfAllRanksCounts)
 {
-  on_ranks(
-      4,
-      [](ThreadRanks& ranks)
-      {
-        EXPECT_FALSE(deepest(ranks, std::nullopt, 2).has_value());
-        // The third and the fourth rank have the same excess
-        const double r = ranks.rank();
-        std::optional<Depth> mine;
-        if (r > 0)
-          mine = Depth{std::min(r, 2.) - 5, 0.1 * r, 10 * r, r > 1, {r, -r}};
-        const auto found = deepest(ranks, mine, 2);
-        ASSERT_TRUE(found.has_value());
-        EXPECT_EQ(found->excess, -3);
-        EXPECT_EQ(found->depth, 0.2);
-        EXPECT_EQ(found->size, 20);
-        EXPECT_TRUE(found->is_held);
-        EXPECT_EQ(found->at, (std::vector<double>{2, -2}));
-      });
+  on_ranks(4,
+           [](ThreadRanks& ranks)
+           {
+             EXPECT_FALSE(deepest(ranks, std::nullopt, 2).has_value());
+             // The third and the fourth rank have the same excess
+             const double r = ranks.rank();
+             std::optional<Depth> mine;
+             if (r > 0)
+               mine = Depth{
+                   std::min(r, 2.) - 5, 0.1 * r, 10 * r, r > 1, {r, -r}};
+             const auto found = deepest(ranks, mine, 2);
+             ASSERT_TRUE(found.has_value());
+             EXPECT_EQ(found->excess, -3);
+             EXPECT_EQ(found->depth, 0.2);
+             EXPECT_EQ(found->size, 20);
+             EXPECT_TRUE(found->is_held);
+             EXPECT_EQ(found->at, (std::vector<double>{2, -2}));
+           });
 }
 
 TEST(Depths, TheWorstIsTheFirstOfTheLargest)
