@@ -37,8 +37,7 @@ void contactx_bindings::deformable(py::module_& m)
 {
   py::class_<DeformableMaster, Master, std::shared_ptr<DeformableMaster>>(
       m, "DeformableMaster", "Pairs with facets of a deformable body")
-      .def_property_readonly("surface", &DeformableMaster::surface)
-      .def_property_readonly("outside", &DeformableMaster::outside);
+      .def_property_readonly("surface", &DeformableMaster::surface);
   bind<NodeToSurface>(m, "NodeToSurface",
                       "Pairs of slave nodes with facets of a deformable body");
   bind<NodeTie>(m, "NodeTie", "Slave nodes tied to facets");

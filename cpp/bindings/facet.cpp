@@ -36,30 +36,6 @@ void contactx_bindings::facet(py::module_& m)
       py::arg("offsets"), py::arg("nodes"), py::arg("x"), py::arg("gdim"),
       "Outward unit normal of each node of a surface");
   m.def(
-      "nodal_area_vectors",
-      [](const Array<std::int32_t>& offsets, const Array<std::int32_t>& nodes,
-         const Array<double>& x, int gdim)
-      {
-        check::surface(view(offsets), view(nodes), x.size(), gdim);
-        const auto v = contactx::facet::nodal_area_vectors(
-            {view(offsets), view(nodes)}, view(x), gdim);
-        return array(v, {static_cast<py::ssize_t>(v.size()) / gdim, gdim});
-      },
-      py::arg("offsets"), py::arg("nodes"), py::arg("x"), py::arg("gdim"),
-      "Area times outward normal of each node of a surface");
-  m.def(
-      "unit_normals",
-      [](const Array<double>& vector, const Array<double>& area, int gdim)
-      {
-        check::dimension(gdim);
-        check::rows(vector.size(), area.size(), gdim, "vector", "area");
-        const auto n
-            = contactx::facet::unit_normals(view(vector), view(area), gdim);
-        return array(n, {area.size(), gdim});
-      },
-      py::arg("vector"), py::arg("area"), py::arg("gdim"),
-      "Unit normals of nodes by their area vectors and areas");
-  m.def(
       "shape_functions",
       [](int num_nodes, const Array<double>& xi)
       {

@@ -22,7 +22,5 @@ PYBIND11_MODULE(cpp, m)
   contactx_bindings::active_set(m);
   contactx_bindings::mortar(m);
   contactx_bindings::kernel(m);
-  contactx_bindings::penetration(m);
   contactx_bindings::audit(m);
-  contactx_bindings::passage(m);
 }

@@ -105,12 +105,6 @@ void contactx_bindings::node_state(py::module_& m)
                             return each<bool>(nodes, [&](std::size_t i)
                                               { return nodes.closed(i); });
                           });
-  c.def_property_readonly("held",
-                          [](const NodeState& nodes)
-                          {
-                            return each<bool>(nodes, [&](std::size_t i)
-                                              { return nodes.held(i); });
-                          });
   c.def_property_readonly("closable_gap",
                           [](const NodeState& nodes)
                           {

@@ -51,12 +51,6 @@ struct Dimension
   }
 };
 
-py::array_t<double> rows(const std::vector<double>& values, py::ssize_t width)
-{
-  return array(values,
-               {static_cast<py::ssize_t>(values.size()) / width, width});
-}
-
 std::vector<double> numbers(const py::handle& values)
 {
   using Values = py::array_t<double, py::array::c_style | py::array::forcecast>;
@@ -115,24 +109,6 @@ void contactx_bindings::obstacle(py::module_& m)
       .def_property_readonly("gradient", part(&Geometry::gradient, 1))
       .def_property_readonly("normal", part(&Geometry::normal, 1))
       .def_property_readonly("curvature", part(&Geometry::curvature, 2));
-  py::class_<Placement>(m, "Placement", "Where a rigid obstacle is")
-      .def_property_readonly("point",
-                             [](const Placement& p) { return array(p.point); })
-      .def("turn",
-           [](const Placement& self, const Placement& to)
-           {
-             return rows(self.turn(to),
-                         static_cast<py::ssize_t>(self.point.size()));
-           })
-      .def(
-          "carry",
-          [](const Placement& self, const Array<double>& x, const Placement& to)
-          {
-            check::rows(x.size(), x.ndim() == 2 ? x.shape(0) : -1,
-                        static_cast<int>(self.point.size()), "x", "point");
-            return rows(self.carry(view(x), to),
-                        static_cast<py::ssize_t>(self.point.size()));
-          });
   py::class_<Obstacle, std::shared_ptr<Obstacle>>(
       m, "Obstacle", "Rigid body, a master without degrees of freedom")
       .def("evaluate",
@@ -141,21 +117,10 @@ void contactx_bindings::obstacle(py::module_& m)
              const int gdim = Dimension(x).gdim;
              return Seen{self.evaluate(view(x), gdim), gdim};
            })
-      .def("placement", &Obstacle::placement)
-      .def("size", &Obstacle::size)
       .def("parameters", [](Obstacle& self, int gdim)
            { return array(self.parameters(gdim)); })
-      .def("distance", [](Obstacle& self, const Array<double>& x)
-           { return array(self.distance(view(x), Dimension(x).gdim)); })
-      .def("normals",
-           [](Obstacle& self, const Array<double>& x)
-           {
-             const int gdim = Dimension(x).gdim;
-             return rows(self.normals(view(x), gdim), gdim);
-           })
       .def("level", [](Obstacle& self, const Array<double>& x)
            { return array(self.level(view(x), Dimension(x).gdim)); })
-      .def_property_readonly("tells_movement", &Obstacle::tells_movement)
       .def_property_readonly("usual_mistake", &Obstacle::usual_mistake)
       .def_readwrite("extent", &Obstacle::extent);
   py::class_<Plane, Refreshed<Plane>, Obstacle, std::shared_ptr<Plane>>(

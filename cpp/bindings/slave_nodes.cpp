@@ -12,16 +12,6 @@ using contactx::parallel::NodeMap;
 
 namespace
 {
-template <class T>
-py::array_t<T> scattered(const SlaveNodes& self, const Array<T>& values)
-{
-  const int width = values.ndim() < 2 ? 1 : static_cast<int>(values.shape(1));
-  std::vector<py::ssize_t> shape(values.shape(),
-                                 values.shape() + values.ndim());
-  shape.at(0) = std::ssize(self.around());
-  return array(self.scatter_forward(view(values), width), std::move(shape));
-}
-
 int width_of(const Array<double>& x)
 {
   if (x.ndim() != 2)
@@ -66,21 +56,6 @@ void contactx_bindings::slave_nodes(py::module_& m)
                                return looking(s.around(),
                                               {std::ssize(s.around())}, self);
                              })
-      .def_property_readonly("corners",
-                             [](py::object self)
-                             {
-                               const auto& s = self.cast<const SlaveNodes&>();
-                               return looking(s.corners(),
-                                              {std::ssize(s.corners())}, self);
-                             })
-      .def("scatter_forward", &scattered<double>, py::arg("values"))
-      .def("scatter_forward", &scattered<std::int8_t>, py::arg("values"))
-      .def("scatter_forward", &scattered<std::int64_t>, py::arg("values"))
-      .def(
-          "scatter_forward",
-          [](const SlaveNodes& self, const Array<bool>& values)
-          { return to_bool(self.scatter_forward(truths(values))); },
-          py::arg("values"))
       .def(
           "facing",
           [](const SlaveNodes& self, const Array<double>& x,
@@ -96,15 +71,6 @@ void contactx_bindings::slave_nodes(py::module_& m)
                                            view(normal), width_of(x)));
           },
           py::arg("reference"), py::arg("x"), py::arg("normal"))
-      .def(
-          "largest", [](const SlaveNodes& self, const Array<double>& values)
-          { return array(self.largest(view(values))); }, py::arg("values"))
-      .def(
-          "smallest", [](const SlaveNodes& self, const Array<double>& values)
-          { return array(self.smallest(view(values))); }, py::arg("values"))
-      .def(
-          "near", [](const SlaveNodes& self, const Array<bool>& which)
-          { return array(self.near(truths(which))); }, py::arg("which"))
       .def(
           "sums", [](const SlaveNodes& self, const Array<double>& corners)
           { return array(self.sums(view(corners))); }, py::arg("corners"));

@@ -17,11 +17,7 @@ using contactx::facet::FacetList;
 using contactx::parallel::Halo;
 using contactx::search::Found;
 using contactx::search::MasterSurface;
-using contactx::search::Onlooker;
 using contactx::search::Outside;
-using contactx::search::Pairing;
-using contactx::search::Seen;
-using contactx::search::Ways;
 
 namespace
 {
@@ -87,10 +83,6 @@ void contactx_bindings::surface(py::module_& m)
            py::arg("halo"), py::arg("offsets"), py::arg("nodes"))
       .def_property_readonly("facets", [](const MasterSurface& self)
                              { return lists(self.facets()); })
-      .def_property_readonly("own", [](const MasterSurface& self)
-                             { return lists(self.own()); })
-      .def_property_readonly("around", [](const MasterSurface& self)
-                             { return lists(self.around()); })
       .def(
           "find",
           [](MasterSurface& self, const Array<double>& x,
@@ -99,52 +91,6 @@ void contactx_bindings::surface(py::module_& m)
           { return self.find(view(x), view(points), view(normals), reach); },
           py::arg("x"), py::arg("points"), py::arg("normals"),
           py::arg("reach"));
-  py::class_<Seen>(m, "Seen", "What points see of a surface")
-      .def_property_readonly("distance", column(&Seen::distance))
-      .def_property_readonly("gap", column(&Seen::gap))
-      .def_property_readonly("height", column(&Seen::height))
-      .def_property_readonly("inside", [](const Seen& self)
-                             { return to_bool(self.inside); })
-      .def_property_readonly("margin", column(&Seen::margin))
-      .def_property_readonly("way", column(&Seen::way))
-      .def_property_readonly(
-          "values",
-          [](py::object self)
-          {
-            const Seen& seen = self.cast<Seen&>();
-            return looking(seen.values, {length(seen.gap), seen.width}, self);
-          });
-  py::class_<Onlooker, std::shared_ptr<Onlooker>>(
-      m, "Onlooker", "Finds the nearest facet of a surface; changes nothing")
-      .def(py::init(
-               [](const std::shared_ptr<Halo>& halo,
-                  const Array<std::int32_t>& offsets,
-                  const Array<std::int32_t>& nodes)
-               {
-                 const FacetList own = facets_of(*halo, offsets, nodes);
-                 return std::make_shared<Onlooker>(halo, own.offsets,
-                                                   own.nodes);
-               }),
-           py::arg("halo"), py::arg("offsets"), py::arg("nodes"))
-      .def_property_readonly("num_facets", &Onlooker::num_facets)
-      .def(
-          "look",
-          [](Onlooker& self, const Array<double>& x,
-             const Array<double>& points, const Array<double>& normals,
-             double reach, const Array<double>& values,
-             const std::optional<std::pair<Array<double>, Array<double>>>& ways)
-          {
-            if (values.ndim() != 2)
-              throw std::invalid_argument("values must have a row a facet");
-            std::optional<Ways> given;
-            if (ways)
-              given = Ways{view(ways->first), view(ways->second)};
-            return self.look(view(x), view(points), view(normals), reach,
-                             view(values), static_cast<int>(values.shape(1)),
-                             given);
-          },
-          py::arg("x"), py::arg("points"), py::arg("normals"), py::arg("reach"),
-          py::arg("values"), py::arg("ways") = py::none());
   py::class_<Outside, std::shared_ptr<Outside>>(
       m, "Outside",
       "Tells points that penetrate a body from those outside, where its "
@@ -157,20 +103,7 @@ void contactx_bindings::surface(py::module_& m)
                  const FacetList own = facets_of(*halo, offsets, nodes);
                  return std::make_shared<Outside>(halo, own.offsets, own.nodes);
                }),
-           py::arg("halo"), py::arg("offsets"), py::arg("nodes"))
-      .def_property_readonly("onlooker", &Outside::onlooker,
-                             py::return_value_policy::reference_internal)
-      .def(
-          "find",
-          [](Outside& self, const Array<double>& x, const Array<double>& points,
-             const Array<double>& depth, const Array<double>& size,
-             bool within_depth)
-          {
-            return to_bool(self.find(view(x), view(points), view(depth),
-                                     view(size), within_depth));
-          },
-          py::arg("x"), py::arg("points"), py::arg("depth"), py::arg("size"),
-          py::kw_only(), py::arg("within_depth") = false);
+           py::arg("halo"), py::arg("offsets"), py::arg("nodes"));
   m.def(
       "slave_facets",
       [](Halo& halo, const Array<std::int32_t>& offsets,

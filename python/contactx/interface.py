@@ -33,7 +33,6 @@ class Interface(core.Contact):
         slaves: Slave nodes that this rank owns, numbered as the blocks of the displacement's
             dofmap, shape (n,).
         slave_nodes: The same with their facets.
-        shared_nodes: Nodes of this rank that both surfaces have.
         num_others: Number of slave nodes of other ranks that share facets with these.
         halo: Nodes of this rank.
         state: Vectors that the forms read.
@@ -84,7 +83,6 @@ class Interface(core.Contact):
         self.halo = halo
         self.slaves, self.slave_nodes = slaves.owned, slaves
         self.num_others = len(slaves.around) - len(slaves.owned)
-        self.shared_nodes = np.flatnonzero([] if shared is None else shared)
         self._offset, self._friction = offset, friction
         self._varies = True
         if offset.is_number and (friction is None or friction.is_number):

@@ -9,16 +9,6 @@ from contactx.parallel.halo import Halo
 from contactx.surface import FacetList
 
 
-def onlooker(halo: Halo, facets: FacetList) -> core.Onlooker:
-    """Looks at a surface, of which each rank may have a part."""
-    return core.Onlooker(halo.nodes, facets.offsets, facets.nodes)
-
-
-def outside(halo: Halo, own: FacetList) -> core.Outside:
-    """Tells points that penetrate a body from those outside; all ranks must take part."""
-    return core.Outside(halo.nodes, own.offsets, own.nodes)
-
-
 def slave_facets(halo: Halo, facets: FacetList) -> FacetList:
     """Facets of a slave surface that this rank needs: all around its own nodes.
 

@@ -1,6 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Run by test_bodies_on_ranks.py under mpiexec: bodies, free ones, checks, passages."""
+"""Run by test_bodies_on_ranks.py under mpiexec: bodies, free ones, checks, audits."""
 
 from mpi4py import MPI
 
@@ -9,7 +9,8 @@ import numpy as np
 from contactx import cpp as core
 from contactx.bodies.adapter import BulkSide
 
-from ranks.checks_on_ranks import check_errors, check_passages, nested
+from ranks.audit_on_ranks import check_audit
+from ranks.checks_on_ranks import check_errors, nested
 from scenes.free_block import FreeBlock
 from scenes.numbered_blocks import PARTITIONS, TwoBlocks, alone
 
@@ -132,7 +133,7 @@ def check_all():
                 check_modes,
                 check_free_bodies,
                 check_errors,
-                check_passages,
+                check_audit,
             ):
                 check(alone(dim), scene)
     COMM.Barrier()

@@ -6,7 +6,6 @@ import numpy as np
 
 import contactx as cx
 from contactx import cpp as core
-from contactx.audit.passage import NONE, _normals, passages
 from contactx.geometry import inside
 from contactx.geometry.facets import check_facets
 from contactx.geometry.facing import check_facing
@@ -14,9 +13,7 @@ from contactx.geometry.inside import check_apart, check_outside
 from contactx.interface import Interface, check_over_constrained
 from contactx.nodal import NodalValue
 from contactx.parallel.slaves import SlaveNodes
-from contactx.search import slave_facets
 from contactx.surface import FacetList
-from dolfinx import mesh
 
 from scenes.numbered_blocks import TwoBlocks
 
@@ -154,75 +151,3 @@ def check_errors(one, scene):
         assert "None" not in str(expected) or check is outside
     plane, part, fails = outside(scene)
     assert "all its" in plane and part is None and fails == "too high"
-
-
-def outward(scene, at):
-    """Facets whose cells this rank owns, on the boundary where a function of the position holds."""
-    tdim = scene.dim
-    scene.domain.topology.create_connectivity(tdim - 1, tdim)
-    found = mesh.locate_entities_boundary(scene.domain, tdim - 1, at)
-    tags = mesh.meshtags(scene.domain, tdim - 1, found, np.ones_like(found))
-    return cx.Surface(tags, 1).facet_nodes(scene.u.function_space)
-
-
-def passed(scene, x1, one_way):
-    """What passes: nodes of the upper block's bottom, or those of the lower block's top."""
-    height, halo = scene.dim - 1, scene.halo
-    low = outward(scene, lambda x: np.isclose(x[height], 0))
-    high = outward(scene, lambda x: np.isclose(x[height], 0.1))
-    own, facets = (high, low) if one_way else (low, high)
-    nodes = slave_facets(halo, own).nodes
-    nodes = np.unique(nodes[nodes < halo.num_owned])
-    found = passages(halo, own, facets, halo.x, x1(halo.x), nodes, np.full(len(nodes), 0.02))
-    assert len(set(halo.comm.allgather((found.count, found.node)))) == 1
-    return found
-
-
-def check_passages(one, scene):
-    """Part of the upper block is pushed into the lower one, and all is turned."""
-    dim, height = scene.dim, scene.dim - 1
-    turn = np.eye(dim)
-    turn[np.ix_([0, height], [0, height])] = [[0.0, -1.0], [1.0, 0.0]]
-
-    def moved(down):
-        def x1(x):
-            upper = (x[:, height] > 0.05)[:, None]
-            return (x - np.where(upper, down(x[:, :1]), 0) * np.eye(dim)[height]) @ turn.T + 5
-
-        return x1
-
-    for down, count in ((lambda x: 0.4 * (x > 0.6), 2), (lambda x: 0.4 + 0 * x, 4)):
-        found = passed(scene, moved(down), True)
-        expected = passed(one, moved(down), True)
-        assert found.count == expected.count == count * 4 ** (dim - 2)
-        assert found.node == expected.node
-        assert np.abs(found.position - expected.position).max() <= 1e-14
-    # At 0.375 and 0.75 it is under the upper block
-    found, expected = (passed(s, moved(lambda x: 0.4 + 0 * x), False) for s in (scene, one))
-    assert found.count == expected.count == 2 ** (dim - 1)
-    assert found.node == expected.node
-    for down in (0.0, 0.1, -3.0):
-        assert passed(scene, moved(lambda x, down=down: down + 0 * x), True) == NONE
-    # Bodies that bend, turn and slide: how the surface moves as a whole matters, and all of it
-    rng = np.random.default_rng(1)
-    for _ in range(6):
-        wave, phase = rng.uniform(-0.6, 0.6, dim), rng.uniform(0, 6)
-        way, angle = rng.uniform(-0.8, 0.8, dim), rng.uniform(1, 3)
-
-        def waved(x, wave=wave, phase=phase, way=way, angle=angle):
-            upper = (x[:, height] > 0.05)[:, None]
-            x = x + np.sin(5 * x[:, :1] + phase) * wave + upper * way
-            turn = np.eye(dim)
-            c, s = np.cos(angle), np.sin(angle)
-            turn[np.ix_([0, height], [0, height])] = [[c, -s], [s, c]]
-            return x @ turn.T
-
-        for one_way in (True, False):
-            found, expected = (passed(s, waved, one_way) for s in (scene, one))
-            assert (found.count, found.node) == (expected.count, expected.node)
-        normals = []
-        for s in (scene, one):
-            own = outward(s, lambda x: np.isclose(x[height], 0) | np.isclose(x[0], 0))
-            x = waved(s.halo.x)
-            normals.append(s.everywhere(_normals(s.halo, own, s.halo.x, x)[1]))
-        assert np.abs(normals[0] - normals[1]).max() <= 1e-13

@@ -102,6 +102,10 @@ public:
   /// @brief 1 at slave nodes that the master surface has, too (shape=(n)).
   const std::vector<std::int8_t>& is_shared() const { return _is_shared; }
 
+  /// @brief 1 at owned nodes that the master surface has, too
+  /// (shape=(num_owned)); empty for none.
+  const std::vector<std::int8_t>& shared() const { return _options.shared; }
+
   /// @brief Whether the contact is switched on.
   bool is_active() const { return _is_active; }
 

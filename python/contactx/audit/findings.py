@@ -4,42 +4,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, field
-from operator import attrgetter
-from typing import NamedTuple
 
-from mpi4py import MPI
-
-import numpy as np
-import numpy.typing as npt
-
+from contactx import cpp as core
 from contactx.errors import point_text
-from contactx.parallel import reduce
-from contactx.parallel.halo import Halo, first_node
-
-
-class Depth(NamedTuple):
-    """How deep a master is below a slave facet, between its nodes.
-
-    Attributes:
-        excess: Ratio to what the mesh explains.
-        depth: The depth.
-        size: Size of the facet.
-        is_held: Whether a node of the facet is in contact.
-        at: Where that is, shape (gdim,).
-    """
-
-    excess: float
-    depth: float
-    size: float
-    is_held: bool
-    at: npt.NDArray[np.float64]
-
+from contactx.interface import Interface
 
 _FAR = (
     "the body has come to its far side, or is too thin for the overlap. Take smaller load steps, "
     "or start without the overlap"
+)
+_UNPAIRED = (
+    'sliding="small" pairs nodes in the reference configuration, once: give a larger '
+    'search_distance, or take sliding="finite"'
 )
 
 
@@ -67,58 +44,61 @@ class Findings:
     faults: list[str] = field(default_factory=list)
     warnings: list[str] = field(default_factory=list)
 
-    def add_far_side(
-        self, name: str, bad: npt.NDArray[np.int32], what: str, halo: Halo, advice: str = ""
+    def add(
+        self, name: str, interface: Interface, found: core.ContactFindings, size: float
     ) -> None:
-        """Add slave nodes inside their master; all ranks must take part.
+        """Add what was found of a contact.
 
         Args:
             name: Name of the contact.
-            bad: The nodes on this rank.
-            what: What they are inside of.
-            halo: Nodes of this rank.
-            advice: Why, and what to do, if it is not that the body came to the far side.
+            interface: Discrete side of the contact.
+            found: What was found of it.
+            size: Size of the scene.
         """
-        count = int(reduce.total(halo.comm, len(bad)))
-        if count == 0:
+        master, deepest = interface.master, found.deepest
+        self.passed += found.passed.count
+        self.far_side += found.inside.count
+        if deepest is not None and deepest.excess > self.excess:
+            self.excess, self.depth = deepest.excess, max(deepest.depth, 0.0)
+        if isinstance(master, core.ObstacleMaster):
+            kind = f"rigid {type(master.obstacle).__name__}"
+            if found.passed.count > 0:
+                self.faults.append(
+                    f"{name}: {found.passed.count} slave nodes and facets went through the {kind} "
+                    "within the step and are on its far side. Take smaller load steps"
+                )
+            self._add_inside(name, f"{kind}, which they face away from", found, size, _FAR)
+            self._add_depth(name, kind, found, "around", "Refine the slave surface")
             return
-        first, at = first_node(halo, bad, halo.positions())
-        size = float(reduce.extent(halo.comm, halo.x[: halo.num_owned]).max())
-        self.far_side += count
-        self.faults.append(
-            f"{name}: {count} slave nodes are inside the {what}, first node {first} of the mesh as "
-            f"it was made, at {point_text(at, size)}: {advice or _FAR}"
-        )
+        if found.passed.count > 0:
+            self.faults.append(
+                f"{name}: {found.passed.count} nodes went through the other surface within the "
+                f"step, the first is at {point_text(found.passed.at, found.facet_size)}. Take "
+                "smaller load steps"
+            )
+        advice = _UNPAIRED if interface.sliding == "small" else _FAR
+        self._add_inside(name, "master, and have no pair with it", found, size, advice)
+        advice = "Swap slave and master, or refine the slave surface"
+        self._add_depth(name, "master", found, "at", advice)
 
-    def add_depth(
-        self,
-        name: str,
-        what: str,
-        mine: Depth | None,
-        advice: str,
-        comm: MPI.Comm,
-        *,
-        is_fault: bool,
-        place: str = "at",
+    def _add_inside(
+        self, name: str, what: str, found: core.ContactFindings, size: float, advice: str
     ) -> None:
-        """Add the deepest place of a master below slave facets; all ranks must take part.
+        """Add a text on slave nodes inside their master, if there are any."""
+        inside = found.inside
+        if inside.count > 0:
+            self.faults.append(
+                f"{name}: {inside.count} slave nodes are inside the {what}, first node "
+                f"{inside.first} of the mesh as it was made, at {point_text(inside.at, size)}: "
+                f"{advice}"
+            )
 
-        Args:
-            name: Name of the contact.
-            what: What reaches through the facet.
-            mine: The deepest one on this rank, by what the mesh explains; None where there is none.
-            advice: What to do.
-            comm: Communicator.
-            is_fault: Whether it is one where it is too deep; else something else was found already.
-            place: The word before the place.
-        """
-        found: Sequence[Depth] = [d for d in comm.allgather(mine) if d is not None]
-        if not found:
-            return
-        worst = max(found, key=attrgetter("excess"))
-        if worst.excess > self.excess:
-            self.excess, self.depth = worst.excess, max(worst.depth, 0.0)
-        if worst.excess > 1 and is_fault:
+    def _add_depth(
+        self, name: str, what: str, found: core.ContactFindings, place: str, advice: str
+    ) -> None:
+        """Add a text on what reaches through a slave facet, if it is deeper than explained."""
+        worst = found.deepest
+        if found.is_too_deep and worst is not None:
             self.faults.append(
                 f"{name}: the {what} reaches {worst.depth:.3g} deep through a slave facet of size "
                 f"{worst.size:.3g} {place} {point_text(worst.at, worst.size)}, between its nodes"

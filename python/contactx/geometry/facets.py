@@ -38,27 +38,6 @@ def corner_normals(x: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
     return normals
 
 
-def facet_middles(
-    facets: FacetList, x: npt.NDArray[np.float64]
-) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
-    """Middles of facets and unit normals there.
-
-    Args:
-        facets: Facets.
-        x: Positions of all nodes, shape (num_nodes, gdim).
-
-    Returns:
-        Points and normals, each of shape (num_facets, gdim); a facet without area has no normal.
-    """
-    m = len(facets.offsets) - 1
-    middles, normals = np.zeros((m, x.shape[1])), np.zeros((m, x.shape[1]))
-    for which, nodes in facets.groups():
-        middles[which] = x[nodes].mean(axis=1)
-        normals[which] = corner_normals(x[nodes]).mean(axis=1)
-    size = np.linalg.norm(normals, axis=1, keepdims=True)
-    return middles, np.divide(normals, size, out=np.zeros_like(normals), where=size > 0)
-
-
 def check_folds(surface: Surface, slaves: SlaveNodes, halo: Halo) -> None:
     """Check that a slave surface is not folded onto itself, so that its nodes have a normal.
 

@@ -17,7 +17,6 @@ class SlaveNodes(core.SlaveNodes):
 
     Attributes:
         facets: Slave facets around the owned slave nodes.
-        own: Slave facets of this rank's cells, each on one rank alone.
     """
 
     def __init__(self, halo: Halo, own: FacetList):
@@ -27,7 +26,7 @@ class SlaveNodes(core.SlaveNodes):
             halo: Nodes of this rank, to which those of facets around its own are added for good.
             own: Slave facets of this rank's cells.
         """
-        self.facets, self.own = slave_facets(halo, own), own
+        self.facets = slave_facets(halo, own)
         # The nodes do not keep it alive
         self._halo = halo
         super().__init__(halo.nodes, self.facets.offsets, self.facets.nodes, own.offsets, own.nodes)

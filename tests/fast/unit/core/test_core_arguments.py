@@ -50,8 +50,6 @@ def test_facets(offsets, nodes, message):
     for call in (
         lambda: core.nodal_areas(*bad, _X, 3),
         lambda: core.nodal_normals(*bad, _X, 3),
-        lambda: core.nodal_area_vectors(*bad, _X, 3),
-        lambda: core.moments(*bad, _X, _X, 3, _X[0], _X[0]),
         lambda: core.Finder(*bad, 3),
         lambda: _pairing().set_master(*bad),
     ):

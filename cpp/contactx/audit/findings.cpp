@@ -1,0 +1,80 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include "findings.h"
+#include <array>
+#include <limits>
+
+using namespace contactx;
+using namespace contactx::audit;
+
+std::vector<double>
+contactx::audit::rows_of(std::span<const double> values,
+                         std::span<const std::int32_t> nodes, int width)
+{
+  std::vector<double> rows(nodes.size() * width);
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    std::ranges::copy(values.subspan(std::size_t(nodes[i]) * width, width),
+                      rows.begin() + static_cast<std::ptrdiff_t>(i) * width);
+  return rows;
+}
+
+FoundNodes contactx::audit::found_nodes(const parallel::Halo& halo,
+                                        std::span<const std::int32_t> nodes,
+                                        std::span<const double> x)
+{
+  parallel::Ranks& ranks = halo.ranks();
+  FoundNodes found;
+  found.count = parallel::total(ranks, std::ssize(nodes));
+  if (found.count == 0)
+    return found;
+  const auto original = halo.original();
+  std::int64_t mine = std::numeric_limits<std::int64_t>::max();
+  std::int32_t which = -1;
+  for (const std::int32_t node : nodes)
+    if (original[node] < mine)
+    {
+      mine = original[node];
+      which = node;
+    }
+  found.first = parallel::least(ranks, mine);
+  // One rank owns it
+  found.at.assign(halo.gdim(), 0);
+  if (which >= 0 and mine == found.first)
+    found.at = rows_of(x, std::span(&which, 1), halo.gdim());
+  ranks.reduce(std::span(found.at), parallel::Reduction::sum);
+  return found;
+}
+
+std::optional<Depth> contactx::audit::deepest(parallel::Ranks& ranks,
+                                              const std::optional<Depth>& mine,
+                                              int gdim)
+{
+  if (ranks.size() == 1)
+    return mine;
+  std::array<double, 8> row{};
+  if (mine)
+  {
+    row = {1, mine->excess, mine->depth, mine->size, double(mine->is_held)};
+    std::ranges::copy(mine->at, row.begin() + 5);
+  }
+  const std::vector<double> all = ranks.gather(row);
+  std::optional<Depth> found;
+  for (auto r = all.begin(); r != all.end(); r += row.size())
+    if (r[0] > 0 and (not found or r[1] > found->excess))
+      found = Depth{r[1], r[2], r[3], r[4] > 0, {r + 5, r + 5 + gdim}};
+  return found;
+}
+
+std::ptrdiff_t contactx::audit::worst_of(std::span<const double> values)
+{
+  std::ptrdiff_t worst = -1;
+  double most = -std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (values[i] > most)
+    {
+      most = values[i];
+      worst = static_cast<std::ptrdiff_t>(i);
+    }
+  return worst;
+}

@@ -1,0 +1,96 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#pragma once
+
+#include "../parallel/halo.h"
+#include <optional>
+
+/// @brief Whether a converged iterate is what it seems, by its geometry alone.
+namespace contactx::audit
+{
+/// @brief Nodes of all ranks; on each rank the same.
+struct FoundNodes
+{
+  std::int64_t count = 0;  ///< their number
+  std::int64_t first = -1; ///< the first one in the mesh as it was made
+  std::vector<double> at;  ///< where that one is (shape=(gdim)); empty for none
+};
+
+/// @brief How deep a master is below a slave facet, between its nodes.
+struct Depth
+{
+  double excess;          ///< ratio to what the mesh explains
+  double depth;           ///< the depth
+  double size;            ///< size of the facet
+  bool is_held;           ///< whether a node of the facet is in contact
+  std::vector<double> at; ///< where that is (shape=(gdim))
+};
+
+/// @brief What was found of one contact; on each rank the same.
+struct Findings
+{
+  /// Nodes that went through the other surface within the step; of an obstacle
+  /// slave nodes and facets, which have no first one
+  FoundNodes passed;
+  /// Slave nodes that came behind the master without a pair, or are inside an
+  /// obstacle that they face away from; looked for where nothing passed
+  FoundNodes inside;
+  /// Where the master is deepest below a slave facet, by what the mesh
+  /// explains; nothing where it is in front of none
+  std::optional<Depth> deepest;
+  /// Whether that is deeper than the mesh explains, and nothing else was found:
+  /// where nodes are inside the master their facets are, too
+  bool is_too_deep = false;
+  double facet_size = 0; ///< size of the largest slave facet
+
+  /// @brief Whether the iterate is wrong.
+  bool is_fault() const
+  {
+    return passed.count > 0 or inside.count > 0 or is_too_deep;
+  }
+};
+
+/// @brief Looks at one contact; all ranks must take part.
+class ContactAudit
+{
+public:
+  virtual ~ContactAudit() = default;
+
+  /// @brief Take the configuration of now as the one before the next step.
+  virtual void accept() = 0;
+
+  /// @brief Look at the state of now.
+  /// @param[in] start Positions of all nodes when the step started
+  /// (shape=(num_nodes, gdim)), row-major.
+  virtual Findings look(std::span<const double> start) = 0;
+};
+
+/// @brief Rows of some nodes.
+/// @param[in] values Values of all nodes (shape=(num_nodes, width)), row-major.
+/// @param[in] nodes Nodes.
+/// @param[in] width Values a node.
+/// @return Values (shape=(n, width)).
+std::vector<double> rows_of(std::span<const double> values,
+                            std::span<const std::int32_t> nodes, int width);
+
+/// @brief The nodes that each rank found, together; all ranks must take part.
+/// @param[in] halo Nodes of this rank.
+/// @param[in] nodes Nodes that this rank owns.
+/// @param[in] x Positions of all nodes (shape=(num_nodes, gdim)), row-major.
+FoundNodes found_nodes(const parallel::Halo& halo,
+                       std::span<const std::int32_t> nodes,
+                       std::span<const double> x);
+
+/// @brief The depth of all ranks with the largest excess; all ranks must take
+/// part.
+/// @param[in] ranks The ranks.
+/// @param[in] mine That of this rank, if it has one.
+/// @param[in] gdim Geometric dimension, 2 or 3.
+std::optional<Depth> deepest(parallel::Ranks& ranks,
+                             const std::optional<Depth>& mine, int gdim);
+
+/// @brief Number of the value that is the largest one and more than minus
+/// infinity; the first of equal ones, -1 for none.
+std::ptrdiff_t worst_of(std::span<const double> values);
+} // namespace contactx::audit

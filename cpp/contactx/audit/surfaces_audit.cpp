@@ -1,0 +1,366 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include "surfaces_audit.h"
+#include "../check_size.h"
+#include "../parallel/spread.h"
+#include "passed_nodes.h"
+#include "penetration.h"
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+using namespace contactx;
+using namespace contactx::audit;
+
+namespace
+{
+// Part of a facet by which a surface must overlap the other's outer edge: of
+// surface-to-surface the larger one of its two bounds
+constexpr double overlap_of_edges = 1. / 16;
+// Part of a facet's size that a node without a pair may be behind it
+constexpr double behind_by = 1. / 32;
+// Part of a facet's size that a node may be behind it and still be in contact
+constexpr double in_contact_by = 1. / 8;
+
+double largest_of(std::span<const double> values)
+{
+  double most = 0;
+  for (const double v : values)
+    most = std::max(most, v);
+  return most;
+}
+
+std::shared_ptr<contact::DeformableMaster>
+deformable(const contact::Contact& contact)
+{
+  auto master
+      = std::dynamic_pointer_cast<contact::DeformableMaster>(contact.master());
+  if (not master)
+    throw std::invalid_argument("the contact's master must be deformable");
+  return master;
+}
+
+/// Length of the longest side of the box around some nodes of all ranks.
+double extent_of(const parallel::Halo& halo,
+                 std::span<const std::int32_t> nodes)
+{
+  const int g = halo.gdim();
+  const auto x = halo.reference();
+  std::vector<double> corners(std::size_t(2) * g,
+                              -std::numeric_limits<double>::infinity());
+  for (const std::int32_t node : nodes)
+    for (int k = 0; k < g; ++k)
+    {
+      const double value = x[std::size_t(node) * g + k];
+      corners[k] = std::max(corners[k], -value);
+      corners[g + k] = std::max(corners[g + k], value);
+    }
+  halo.ranks().reduce(std::span(corners), parallel::Reduction::largest);
+  double extent = 0;
+  for (int k = 0; k < g; ++k)
+    extent = std::max(extent, corners[k] + corners[g + k]);
+  return extent;
+}
+
+/// Longest way of a node of facets.
+double longest_way_of(const facet::FacetList& facets,
+                      std::span<const double> from, std::span<const double> to,
+                      int gdim)
+{
+  double longest = 0;
+  for (const std::int32_t node : facets.nodes)
+  {
+    double square = 0;
+    for (int k = 0; k < gdim; ++k)
+    {
+      const std::size_t at = std::size_t(node) * gdim + k;
+      square += (to[at] - from[at]) * (to[at] - from[at]);
+    }
+    longest = std::max(longest, std::sqrt(square));
+  }
+  return longest;
+}
+} // namespace
+
+SurfacesAudit::SurfacesAudit(std::shared_ptr<parallel::Halo> halo,
+                             std::shared_ptr<contact::Contact> contact)
+    : _halo(std::move(halo)), _contact(std::move(contact)),
+      _master(deformable(*_contact)),
+      _at_slave(_halo, _contact->slaves().facets().offsets,
+                _contact->slaves().facets().nodes),
+      _outside_slave(_halo, _contact->slaves().own().offsets,
+                     _contact->slaves().own().nodes),
+      _extent(extent_of(*_halo, _master->surface()->own().nodes)),
+      _behind(_contact->slaves().owned().size(), 0)
+{
+  const auto n = std::size_t(_halo->num_nodes());
+  std::vector<std::int64_t> shared(n, 0);
+  std::ranges::copy(_contact->shared(), shared.begin());
+  _halo->forward(std::span(shared), 1);
+  std::vector<double> marks(n, 0);
+  for (const std::int32_t node : _master->surface()->own().nodes)
+    marks[node] = shared[node] == 0;
+  for (std::size_t i = 0; i < n; ++i)
+    if (marks[i] > 0)
+      _points.push_back(static_cast<std::int32_t>(i));
+  _halo->reverse(std::span(marks), 1);
+  for (std::int32_t i = 0; i < _halo->num_owned(); ++i)
+    if (marks[i] > 0)
+      _owned_master.push_back(i);
+}
+
+void SurfacesAudit::accept() { _behind = find_behind(); }
+
+Findings SurfacesAudit::look(std::span<const double> start)
+{
+  Findings findings;
+  const std::vector<double> x = _halo->positions();
+  check_size(start.size(), x.size(), 1, "start");
+  findings.facet_size = facet_size(_contact->slaves().own(), x);
+  look_back(start, x, findings);
+  if (findings.passed.count == 0)
+    findings.inside = look_from_slave(x);
+  findings.deepest = look_from_master(x);
+  findings.is_too_deep = not findings.is_fault() and findings.deepest
+                         and findings.deepest->excess > 1;
+  return findings;
+}
+
+bool SurfacesAudit::is_small() const
+{
+  return _contact->sliding() == contact::Sliding::small;
+}
+
+SurfacesAudit::Configuration SurfacesAudit::configuration() const
+{
+  if (not is_small())
+    return {_halo->positions(), {}};
+  const auto x = _halo->reference();
+  Configuration now{{x.begin(), x.end()}, _halo->positions()};
+  for (std::size_t i = 0; i < x.size(); ++i)
+    now.way[i] -= x[i];
+  return now;
+}
+
+/// Size of the largest facet on any rank.
+double SurfacesAudit::facet_size(const facet::FacetList& facets,
+                                 std::span<const double> x) const
+{
+  return parallel::largest(_halo->ranks(),
+                           largest_of(facet_sizes(facets, x, _halo->gdim())));
+}
+
+/// Nodes that are out of contact must not have gone through the other surface.
+void SurfacesAudit::look_back(std::span<const double> start,
+                              std::span<const double> x,
+                              Findings& findings) const
+{
+  if (is_small())
+    return;
+  struct Side
+  {
+    facet::FacetList own, other;
+    std::span<const std::int32_t> nodes;
+  };
+  const int g = _halo->gdim();
+  const auto slave = _contact->slaves().own(),
+             master = _master->surface()->own();
+  // What has a pair faces what it is paired with. A master node has none, and
+  // what the other looks see of it is within a facet's size
+  const auto slaves = _contact->slaves().owned();
+  const auto paired = _master->paired();
+  std::vector<std::int32_t> loose;
+  for (std::size_t i = 0; i < slaves.size(); ++i)
+    if (not paired[i] and not _contact->is_shared()[i])
+      loose.push_back(slaves[i]);
+  std::vector<Side> sides{{slave, master, loose}};
+  std::array ways{longest_way_of(slave, start, x, g),
+                  longest_way_of(master, start, x, g)};
+  _halo->ranks().reduce(std::span<double>(ways), parallel::Reduction::largest);
+  if (ways[0] + ways[1] > findings.facet_size)
+    sides.push_back({master, slave, _owned_master});
+  double overlap = 0;
+  for (const double offset : _contact->offset())
+    overlap = std::max(overlap, -offset);
+  overlap = parallel::largest(_halo->ranks(), overlap);
+  for (const auto& [own, other, nodes] : sides)
+  {
+    const double tolerance = in_contact_by * facet_size(other, x) + overlap;
+    FoundNodes found
+        = passed_nodes(*_halo, own, other, start, x, nodes, tolerance);
+    found.count += findings.passed.count;
+    if (findings.passed.count == 0)
+      findings.passed = std::move(found);
+    else
+      findings.passed.count = found.count;
+  }
+}
+
+/// Which slave nodes without a pair lie behind the nearest facet, of any
+/// normal.
+std::vector<std::int8_t> SurfacesAudit::find_behind()
+{
+  const int g = _halo->gdim();
+  parallel::Ranks& ranks = _halo->ranks();
+  const auto slaves = _contact->slaves().owned();
+  const auto paired = _master->paired();
+  const contact::NodeState& state = *_contact->nodes();
+  std::vector<std::int32_t> nodes;
+  std::vector<std::size_t> which;
+  for (std::size_t i = 0; i < slaves.size(); ++i)
+    if (not paired[i] and not state.immobile[i]
+        and not _contact->is_shared()[i])
+    {
+      which.push_back(i);
+      nodes.push_back(slaves[i]);
+    }
+  std::vector<std::int8_t> behind(slaves.size(), 0);
+  if (not parallel::anywhere(ranks, not which.empty()))
+    return behind;
+  const Configuration now = configuration();
+  const auto size = facet_sizes(_master->surface()->own(), now.x, g);
+  // What the search may reach, but in small sliding nodes may have gone farther
+  // since
+  double reach = parallel::largest(ranks, largest_of(size));
+  if (not is_small())
+    reach = std::min(reach, _master->reach());
+  const auto points = rows_of(now.x, nodes, g);
+  std::vector<double> way;
+  std::optional<search::Ways> ways;
+  if (is_small())
+  {
+    way = rows_of(now.way, nodes, g);
+    ways = search::Ways{now.way, way};
+  }
+  const search::Seen seen = _master->outside()->onlooker().look(
+      now.x, points, std::vector<double>(points.size(), 0), reach, size, 1,
+      ways);
+  for (std::size_t k = 0; k < which.size(); ++k)
+  {
+    const double offset = std::min(_contact->offset()[which[k]], 0.);
+    behind[which[k]] = seen.inside[k] and seen.margin[k] > overlap_of_edges
+                       and seen.gap[k] < offset - behind_by * seen.values[k];
+  }
+  return behind;
+}
+
+/// Slave nodes must not come behind the master without a pair.
+FoundNodes SurfacesAudit::look_from_slave(std::span<const double> x)
+{
+  const auto behind = find_behind();
+  const auto slaves = _contact->slaves().owned();
+  std::vector<std::int32_t> bad;
+  for (std::size_t i = 0; i < slaves.size(); ++i)
+    if (behind[i] and not _behind[i])
+      bad.push_back(slaves[i]);
+  return found_nodes(*_halo, bad, x);
+}
+
+/// Curvature of each slave facet, which matters to linear kinematics alone.
+std::vector<double> SurfacesAudit::bent(const Configuration& now) const
+{
+  const contact::SlaveNodes& slaves = _contact->slaves();
+  const facet::FacetList local = slaves.local();
+  if (not is_small())
+    return std::vector<double>(local.size(), 0);
+  const int g = _halo->gdim();
+  const auto x = rows_of(now.x, slaves.around(), g);
+  // Their owners have all facets around the others
+  const std::size_t n = slaves.owned().size();
+  auto normals = facet::nodal_normals(local, x, g);
+  normals = slaves.scatter_forward(
+      std::span<const double>(normals).first(n * g), g);
+  const auto curvature = nodal_curvatures(local, x, normals, g);
+  return slaves.largest(
+      slaves.scatter_forward(std::span<const double>(curvature).first(n)));
+}
+
+/// What the master's nodes see of the slave facets: the facet's size, how near
+/// it is to contact, what is taken off the gap, how it is bent.
+search::Seen SurfacesAudit::see_slave(const Configuration& now,
+                                      std::span<const double> normals)
+{
+  const int g = _halo->gdim();
+  const contact::SlaveNodes& slaves = _contact->slaves();
+  const contact::NodeState& state = *_contact->nodes();
+  const auto size = facet_sizes(slaves.facets(), now.x, g);
+  const double reach = parallel::largest(_halo->ranks(), largest_of(size));
+  std::vector<std::int8_t> held(slaves.owned().size());
+  for (std::size_t i = 0; i < held.size(); ++i)
+    held[i] = state.held(i);
+  const auto offset
+      = slaves.smallest(slaves.scatter_forward(_contact->offset()));
+  const auto near = slaves.near(held);
+  const auto curvature = bent(now);
+  std::vector<double> values;
+  values.reserve(4 * size.size());
+  for (std::size_t f = 0; f < size.size(); ++f)
+    values.insert(values.end(),
+                  {size[f], double(near[f]), offset[f], curvature[f]});
+  const auto points = rows_of(now.x, _points, g);
+  std::vector<double> way;
+  std::optional<search::Ways> ways;
+  if (is_small())
+  {
+    way = rows_of(now.way, _points, g);
+    ways = search::Ways{now.way, way};
+  }
+  return _at_slave.look(now.x, points, rows_of(normals, _points, g), reach,
+                        values, 4, ways);
+}
+
+std::optional<Depth>
+SurfacesAudit::look_from_master(std::span<const double> positions)
+{
+  const int g = _halo->gdim();
+  const Configuration now = configuration();
+  const facet::FacetList around = _master->surface()->around();
+  // Of the facets around a node some may be on other ranks alone
+  const auto normals = parallel::spread(
+      *_halo, normals_of_all(*_halo, _master->surface()->own(), now.x), g);
+  const auto curvature = nodal_curvatures(around, now.x, normals, g);
+  const search::Seen seen = see_slave(now, normals);
+  const std::size_t n = _points.size();
+  std::vector<double> below(n), sizes(n);
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    below[i] = std::isnan(seen.height[i]) ? 0 : -seen.height[i];
+    sizes[i] = seen.values[4 * i];
+  }
+  const auto outside
+      = _outside_slave.find(now.x, rows_of(now.x, _points, g), below, sizes);
+  std::vector<std::size_t> there;
+  std::vector<double> size, turn;
+  std::vector<std::int8_t> near;
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    // What overlaps the outer edge by less is not in contact
+    if (std::isnan(seen.gap[i]) or not(seen.margin[i] > overlap_of_edges)
+        or outside[i])
+      continue;
+    there.push_back(i);
+    size.push_back(sizes[i]);
+    near.push_back(static_cast<std::int8_t>(seen.values[4 * i + 1]));
+    turn.push_back(curvature[_points[i]]);
+  }
+  auto explained = explained_depths(size, turn, near,
+                                    std::vector<double>(there.size(), _extent));
+  std::vector<double> depth(there.size()), excess(there.size());
+  for (std::size_t k = 0; k < there.size(); ++k)
+  {
+    const std::size_t i = there[k];
+    // Linear kinematics see a curved surface as flat along the way
+    explained[k]
+        += (turn[k] + seen.values[4 * i + 3]) * (seen.way[i] * seen.way[i]);
+    depth[k] = seen.values[4 * i + 2] - seen.gap[i];
+    excess[k] = depth[k] / explained[k];
+  }
+  std::optional<Depth> mine;
+  if (const auto k = worst_of(excess); k >= 0)
+    mine = Depth{excess[k], depth[k], size[k], near[k] > 1,
+                 rows_of(positions, std::span(&_points[there[k]], 1), g)};
+  return deepest(_halo->ranks(), mine, g);
+}

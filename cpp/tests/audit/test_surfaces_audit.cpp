@@ -1,0 +1,254 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include "moved_contact.h"
+#include <contactx/audit/audit.h>
+#include <contactx/audit/penetration.h>
+#include <contactx/audit/surfaces_audit.h>
+#include <gtest/gtest.h>
+
+using namespace contactx;
+using namespace contactx::audit;
+using namespace contactx::tests;
+using contact::Sliding;
+
+namespace
+{
+class AuditOfSurfaces : public ::testing::TestWithParam<int>
+{
+protected:
+  int gdim() const { return GetParam(); }
+
+  /// The slave's nodes come first, and see the master from a height
+  TwoSheets sheets(double height) const
+  {
+    return TwoSheets(gdim(), height, Cells::quadrilaterals);
+  }
+
+  /// A master node that is between slave nodes, at 0.2 along each axis
+  std::int32_t between(const TwoSheets& s) const
+  {
+    for (std::int32_t i = s.num_slaves; i < s.num_nodes(); ++i)
+    {
+      bool is_it = true;
+      for (int k = 0; k + 1 < gdim(); ++k)
+        is_it = is_it and std::abs(s.x[gdim() * i + k] - 0.2) < 1e-12;
+      if (is_it)
+        return i;
+    }
+    return -1;
+  }
+
+  /// Diagonal of a slave facet
+  double facet_size() const { return std::sqrt(gdim() - 1.) / 3; }
+};
+
+/// Depth that the mesh explains where a node of the facet is in contact, or
+/// none is
+double explained(const MovedContact& c, const TwoSheets& s, std::int32_t node,
+                 double h, bool held)
+{
+  const auto x = c.halo->positions();
+  const auto list = s.master.list();
+  const auto k = nodal_curvatures(
+      list, x, facet::nodal_normals(list, x, s.gdim), s.gdim)[node];
+  EXPECT_LT(k * h, 0.5);
+  return std::max(h * (held ? 0.15 : 1. / 256), k * h * h / 4);
+}
+} // namespace
+
+TEST_P(AuditOfSurfaces, NothingIsFoundOnASoundContact)
+{
+  for (const Sliding sliding : {Sliding::finite, Sliding::small})
+    for (const double height : {0., 0.05})
+    {
+      const TwoSheets s = sheets(height);
+      MovedContact c(s, 1, sliding);
+      SurfacesAudit audit(c.halo, c.contact);
+      audit.accept();
+      const auto start = c.halo->positions();
+      c.move(0, s.num_slaves, -height);
+      c.contact->search();
+      const Findings found = audit.look(start);
+      EXPECT_FALSE(found.is_fault());
+      EXPECT_EQ(found.passed.count, 0);
+      EXPECT_EQ(found.inside.count, 0);
+      ASSERT_TRUE(found.deepest.has_value());
+      EXPECT_NEAR(found.deepest->depth, 0, 1e-14);
+      EXPECT_NEAR(found.facet_size, facet_size(), 1e-14);
+    }
+}
+
+TEST_P(AuditOfSurfaces, SlaveNodesBehindTheMasterWithoutAPair)
+{
+  const TwoSheets s = sheets(0.5);
+  for (const Sliding sliding : {Sliding::finite, Sliding::small})
+  {
+    MovedContact c(s, 0.2, sliding);
+    SurfacesAudit audit(c.halo, c.contact);
+    audit.accept();
+    // Of a master facet's size a 32nd part is allowed
+    const double h = 3. / 5 * std::sqrt(gdim() - 1.);
+    for (const double depth : {0.9 * h / 32, 1.1 * h / 32, 0.1})
+    {
+      c.move(0, s.num_slaves, -0.5);
+      (*c.displacement)[2 * gdim() - 1] = -0.5 - depth;
+      const auto x = c.halo->positions();
+      const Findings found = audit.look(x);
+      EXPECT_EQ(found.passed.count, 0);
+      ASSERT_EQ(found.inside.count, depth > h / 32) << depth;
+      if (found.inside.count == 0)
+        continue;
+      EXPECT_TRUE(found.is_fault());
+      EXPECT_EQ(found.inside.first, 1);
+      EXPECT_EQ(found.inside.at, std::vector<double>(x.begin() + gdim(),
+                                                     x.begin() + 2 * gdim()));
+      EXPECT_FALSE(found.is_too_deep) << "what else is found comes first";
+    }
+    // An overlap that was asked for
+    c.contact->set_offset(std::vector<double>(s.num_slaves, -0.1));
+    EXPECT_EQ(audit.look(c.halo->positions()).inside.count, 0);
+    c.contact->set_offset(std::vector<double>(s.num_slaves, 0.));
+    EXPECT_EQ(audit.look(c.halo->positions()).inside.count, 1);
+    // They may be there for good
+    audit.accept();
+    EXPECT_EQ(audit.look(c.halo->positions()).inside.count, 0);
+  }
+}
+
+TEST_P(AuditOfSurfaces, NodesThatWentThroughWithinAStep)
+{
+  const int lines = gdim() - 1;
+  const auto power = [lines](std::int64_t n) { return lines == 1 ? n : n * n; };
+  const TwoSheets s = sheets(0.1);
+  struct Case
+  {
+    double way;
+    std::int64_t count;
+  };
+  // On a way longer than a slave facet master nodes may have passed, too: two
+  // a line are below the slave
+  for (const auto& [way, count] :
+       {Case{0.05, 0}, Case{0.15, 0}, Case{0.3, power(4)},
+        Case{0.8, power(4) + power(2)}})
+  {
+    MovedContact c(s, 0.05, Sliding::finite);
+    SurfacesAudit audit(c.halo, c.contact);
+    audit.accept();
+    const auto start = c.halo->positions();
+    c.move(0, s.num_slaves, -way);
+    const Findings found = audit.look(start);
+    EXPECT_EQ(found.passed.count, count) << way;
+    EXPECT_EQ(found.is_fault(), count > 0 or found.inside.count > 0);
+    if (count == 0)
+      continue;
+    EXPECT_EQ(found.passed.first, 0);
+    const auto x = c.halo->positions();
+    EXPECT_EQ(found.passed.at,
+              std::vector<double>(x.begin(), x.begin() + gdim()));
+    EXPECT_EQ(found.inside.count, 0);
+    EXPECT_FALSE(found.is_too_deep);
+    EXPECT_EQ(audit.look(x).passed.count, 0) << "it was not in this step";
+  }
+}
+
+TEST_P(AuditOfSurfaces, MasterThatReachesBetweenSlaveNodes)
+{
+  const double height = 0.28, depth = 0.02, h = facet_size();
+  const TwoSheets s = sheets(height);
+  for (const bool held : {false, true})
+  {
+    MovedContact c(s, 1, Sliding::finite);
+    SurfacesAudit audit(c.halo, c.contact);
+    audit.accept();
+    const std::int32_t node = between(s);
+    ASSERT_GE(node, 0);
+    c.move(node, node + 1, height + depth);
+    if (held)
+      c.contact->nodes()->close(c.contact->slaves().facets()[0]);
+    const auto x = c.halo->positions();
+    const Findings found = audit.look(x);
+    EXPECT_EQ(found.passed.count + found.inside.count, 0);
+    ASSERT_TRUE(found.deepest.has_value());
+    const double allowed = explained(c, s, node, h, held);
+    EXPECT_NEAR(found.deepest->depth, depth, 1e-14);
+    EXPECT_NEAR(found.deepest->size, h, 1e-14);
+    EXPECT_NEAR(found.deepest->excess, depth / allowed, 1e-12 / allowed);
+    EXPECT_EQ(found.deepest->excess > 1, not held);
+    EXPECT_EQ(found.is_too_deep, not held);
+    EXPECT_EQ(found.is_fault(), not held);
+    EXPECT_EQ(found.deepest->at,
+              std::vector<double>(x.begin() + gdim() * node,
+                                  x.begin() + gdim() * (node + 1)));
+  }
+}
+
+TEST_P(AuditOfSurfaces, SmallSlidingSeesGapsThatAreLinear)
+{
+  // A master that is moved up at one node alone has the normals of before
+  const double height = 0.28, depth = 0.02, h = facet_size();
+  const TwoSheets s = sheets(height);
+  MovedContact c(s, 1, Sliding::small);
+  SurfacesAudit audit(c.halo, c.contact);
+  audit.accept();
+  const std::int32_t node = between(s);
+  c.move(node, node + 1, height + depth);
+  const Findings found = audit.look(c.halo->positions());
+  ASSERT_TRUE(found.deepest.has_value());
+  EXPECT_NEAR(found.deepest->depth, depth, 1e-14);
+  EXPECT_NEAR(found.deepest->excess, depth * 256 / h, 1e-9);
+  EXPECT_TRUE(found.is_too_deep);
+}
+
+TEST_P(AuditOfSurfaces, WhatBothSurfacesHaveIsNoMaster)
+{
+  // The master node between slave nodes counts as one of a crack's tip
+  const TwoSheets s = sheets(0.28);
+  MovedContact c(s, 1, Sliding::finite);
+  const std::int32_t node = between(s);
+  contact::Contact::Options options{Sliding::finite, false, {}, {}};
+  options.prescribed.assign(c.displacement->size(), 0);
+  options.shared.assign(s.num_nodes(), 0);
+  options.shared[node] = 1;
+  const auto list = s.slave.list();
+  c.contact = std::make_shared<contact::Contact>(
+      c.halo, std::make_shared<const contact::SlaveNodes>(c.halo, list, list),
+      c.contact->master(), c.contact->law(), options);
+  SurfacesAudit audit(c.halo, c.contact);
+  c.move(node, node + 1, 0.3);
+  const Findings found = audit.look(c.halo->positions());
+  ASSERT_TRUE(found.deepest.has_value());
+  EXPECT_LT(found.deepest->depth, 0);
+}
+
+TEST_P(AuditOfSurfaces, StepsStartWhereverTheDisplacementIs)
+{
+  const TwoSheets s = sheets(0.1);
+  MovedContact c(s, 0.05, Sliding::finite);
+  Audit audit(c.halo, {c.contact});
+  audit.begin_step();
+  c.move(0, s.num_slaves, -0.3);
+  EXPECT_GT(audit.look().at(0).passed.count, 0);
+  c.contact->set_active(false);
+  EXPECT_EQ(audit.look().at(0).passed.count, 0);
+  c.contact->set_active(true);
+  EXPECT_GT(audit.look().at(0).passed.count, 0);
+  // A displacement that was put there, not solved for
+  audit.begin_step();
+  EXPECT_EQ(audit.look().at(0).passed.count, 0);
+  EXPECT_EQ(audit.look().at(0).inside.count, 0);
+}
+
+TEST_P(AuditOfSurfaces, TiesAreNotLookedAt)
+{
+  const TwoSheets s = sheets(0.1);
+  MovedContact c(s, 0.05, Sliding::finite, std::make_shared<law::Tied>());
+  Audit audit(c.halo, {c.contact});
+  c.move(0, s.num_slaves, -0.3);
+  const auto found = audit.look();
+  ASSERT_EQ(found.size(), 1);
+  EXPECT_FALSE(found[0].is_fault());
+  EXPECT_FALSE(found[0].deepest.has_value());
+}
+
+INSTANTIATE_TEST_SUITE_P(All, AuditOfSurfaces, ::testing::Values(2, 3));
