@@ -10,32 +10,6 @@
 
 namespace contactx::tests
 {
-/// @brief A bulk on one rank whose displacement the test moves.
-class MovingBulk final : public parallel::HaloAdapter
-{
-public:
-  explicit MovingBulk(std::shared_ptr<std::vector<double>> u) : _u(std::move(u))
-  {
-  }
-
-  parallel::Ranks& ranks() override { return _ranks; }
-  void set_ghosts(std::span<const std::int64_t>,
-                  std::span<const std::int32_t>) override
-  {
-  }
-  void forward(std::span<double>, int) override {}
-  void forward(std::span<std::int64_t>, int) override {}
-  void reverse(std::span<double>, int) override {}
-  void displacement(std::span<double> values) const override
-  {
-    std::ranges::copy(*_u, values.begin());
-  }
-
-private:
-  parallel::OneRank _ranks;
-  std::shared_ptr<std::vector<double>> _u;
-};
-
 /// @brief Two sheets in contact, and the displacement of their nodes.
 struct ContactScene
 {
@@ -51,14 +25,7 @@ struct ContactScene
       : sheets(dim, height, cells),
         u(std::make_shared<std::vector<double>>(sheets.x.size(), 0.0))
   {
-    const std::int32_t n = sheets.num_nodes();
-    parallel::BulkNodes bulk{dim, n, {}, {}, {}, sheets.x};
-    for (std::int32_t i = 0; i < n; ++i)
-      bulk.numbers.push_back(i);
-    bulk.original = bulk.numbers;
-    bulk.owners.assign(n, 0);
-    halo = std::make_shared<parallel::Halo>(bulk,
-                                            std::make_unique<MovingBulk>(u));
+    halo = parallel::serial_halo(sheets.x, dim, u);
     slaves = std::make_shared<contact::SlaveNodes>(halo, sheets.slave.list(),
                                                    sheets.slave.list());
     surface = search::make_master_surface(halo, sheets.master.offsets,

@@ -9,34 +9,6 @@
 
 namespace contactx::tests
 {
-/// @brief A bulk on one rank whose displacement a test changes.
-class MovedBulk final : public parallel::HaloAdapter
-{
-public:
-  /// @brief Look at the displacement of all nodes (shape=(num_nodes, gdim)).
-  explicit MovedBulk(std::shared_ptr<const std::vector<double>> displacement)
-      : _displacement(std::move(displacement))
-  {
-  }
-
-  parallel::Ranks& ranks() override { return _ranks; }
-  void set_ghosts(std::span<const std::int64_t>,
-                  std::span<const std::int32_t>) override
-  {
-  }
-  void forward(std::span<double>, int) override {}
-  void forward(std::span<std::int64_t>, int) override {}
-  void reverse(std::span<double>, int) override {}
-  void displacement(std::span<double> values) const override
-  {
-    std::ranges::copy(*_displacement, values.begin());
-  }
-
-private:
-  parallel::OneRank _ranks;
-  std::shared_ptr<const std::vector<double>> _displacement;
-};
-
 /// @brief A contact whose nodes a test moves.
 struct MovedContact
 {
@@ -56,7 +28,10 @@ struct MovedContact
     auto outside = std::make_shared<search::Outside>(
         halo, sheets.master.offsets, sheets.master.nodes);
     auto master = std::make_shared<contact::NodeToSurface>(
-        halo, sheets.slave, surface, outside,
+        halo,
+        std::make_shared<contact::SlaveNodes>(halo, sheets.slave.list(),
+                                              sheets.slave.list()),
+        surface, outside,
         contact::PairingOptions{reach, sliding == contact::Sliding::small,
                                 false});
     make(sheets.slave.list(), master, std::move(law), sliding);
@@ -68,10 +43,10 @@ struct MovedContact
       : MovedContact(slave.x, slave.gdim)
   {
     const auto facets = slave.facets();
-    const contact::SlaveNodes slaves(halo, facets, facets);
     auto master = std::make_shared<contact::ObstacleMaster>(
-        std::move(obstacle), halo, facets, slaves.owned(), slave.x, gdim, 1.0,
-        false);
+        std::move(obstacle),
+        std::make_shared<contact::SlaveNodes>(halo, facets, facets), slave.x,
+        gdim, 1.0, false);
     make(facets, master, std::make_shared<law::Frictionless>(), sliding);
   }
 
@@ -87,14 +62,7 @@ private:
       : gdim(dim),
         displacement(std::make_shared<std::vector<double>>(x.size(), 0.))
   {
-    const auto n = static_cast<std::int32_t>(x.size()) / dim;
-    parallel::BulkNodes bulk{dim, n, {}, {}, {}, std::move(x)};
-    for (std::int32_t i = 0; i < n; ++i)
-      bulk.numbers.push_back(i);
-    bulk.owners.assign(n, 0);
-    bulk.original = bulk.numbers;
-    halo = std::make_shared<parallel::Halo>(
-        std::move(bulk), std::make_unique<MovedBulk>(displacement));
+    halo = parallel::serial_halo(std::move(x), dim, displacement);
   }
 
   void make(const facet::FacetList& facets,

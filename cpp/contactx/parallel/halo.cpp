@@ -207,15 +207,21 @@ void Halo::check(std::size_t size, int width) const
 
 void SerialBulk::displacement(std::span<double> values) const
 {
-  std::ranges::copy(_displacement, values.begin());
+  std::ranges::copy(*_displacement, values.begin());
 }
 
-std::shared_ptr<Halo>
-contactx::parallel::serial_halo(std::vector<double> reference, int gdim,
-                                std::vector<double> displacement)
+std::shared_ptr<Halo> contactx::parallel::serial_halo(
+    std::vector<double> reference, int gdim,
+    std::shared_ptr<const std::vector<double>> displacement)
 {
   const std::size_t n = reference.size() / gdim;
-  displacement.resize(reference.size());
+  if (not displacement)
+    displacement
+        = std::make_shared<const std::vector<double>>(reference.size(), 0.0);
+  if (displacement->size() != reference.size())
+    throw std::invalid_argument(
+        "displacement must have " + std::to_string(reference.size())
+        + " values, not " + std::to_string(displacement->size()));
   std::vector<std::int64_t> numbers(n);
   std::iota(numbers.begin(), numbers.end(), 0);
   return std::make_shared<Halo>(

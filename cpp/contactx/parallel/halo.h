@@ -159,8 +159,9 @@ private:
 class SerialBulk final : public HaloAdapter
 {
 public:
-  /// @brief Take the displacement of all nodes (shape=(num_nodes, gdim)).
-  explicit SerialBulk(std::vector<double> displacement)
+  /// @brief Look at the displacement of all nodes, which may change
+  /// (shape=(num_nodes, gdim)).
+  explicit SerialBulk(std::shared_ptr<const std::vector<double>> displacement)
       : _displacement(std::move(displacement))
   {
   }
@@ -177,13 +178,16 @@ public:
 
 private:
   OneRank _ranks;
-  std::vector<double> _displacement;
+  std::shared_ptr<const std::vector<double>> _displacement;
 };
 
 /// @brief Nodes of one rank alone, in the order of the mesh as it was made.
 /// @param[in] reference Reference positions (shape=(num_nodes, gdim)).
 /// @param[in] gdim Geometric dimension, 2 or 3.
-/// @param[in] displacement Displacements, none for zero.
-std::shared_ptr<Halo> serial_halo(std::vector<double> reference, int gdim,
-                                  std::vector<double> displacement = {});
+/// @param[in] displacement Displacements, which may change
+/// (shape=(num_nodes, gdim)); null for zero.
+/// @throws std::invalid_argument if they are not as many as the positions.
+std::shared_ptr<Halo>
+serial_halo(std::vector<double> reference, int gdim,
+            std::shared_ptr<const std::vector<double>> displacement = nullptr);
 } // namespace contactx::parallel

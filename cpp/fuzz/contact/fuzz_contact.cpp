@@ -16,32 +16,6 @@ using contact::Contact;
 
 namespace
 {
-using Values = std::shared_ptr<std::vector<double>>;
-
-/// A bulk on one rank whose displacement moves.
-class MovingBulk final : public parallel::HaloAdapter
-{
-public:
-  explicit MovingBulk(Values u) : _u(std::move(u)) {}
-
-  parallel::Ranks& ranks() override { return _ranks; }
-  void set_ghosts(std::span<const std::int64_t>,
-                  std::span<const std::int32_t>) override
-  {
-  }
-  void forward(std::span<double>, int) override {}
-  void forward(std::span<std::int64_t>, int) override {}
-  void reverse(std::span<double>, int) override {}
-  void displacement(std::span<double> values) const override
-  {
-    std::ranges::copy(*_u, values.begin());
-  }
-
-private:
-  parallel::OneRank _ranks;
-  Values _u;
-};
-
 std::shared_ptr<law::Law> any_law(Input& in, std::size_t n)
 {
   switch (in.below(3))
@@ -176,13 +150,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
   if (not in.even())
     return 0;
   const auto u = std::make_shared<std::vector<double>>(scene.x.size(), 0.0);
-  parallel::BulkNodes bulk{scene.gdim, scene.num_nodes(), {}, {}, {}, scene.x};
-  for (std::int32_t i = 0; i < scene.num_nodes(); ++i)
-    bulk.numbers.push_back(i);
-  bulk.original = bulk.numbers;
-  bulk.owners.assign(bulk.numbers.size(), 0);
-  const auto halo
-      = std::make_shared<parallel::Halo>(bulk, std::make_unique<MovingBulk>(u));
+  const auto halo = parallel::serial_halo(scene.x, scene.gdim, u);
   std::vector<std::shared_ptr<Contact>> contacts;
   for (int k = 1 + in.below(2); k > 0; --k)
     contacts.push_back(any_contact(in, scene, halo));

@@ -229,7 +229,8 @@ TEST(Halo, TheBulksArraysMustFit)
                  std::vector<std::int32_t>(owners),
                  {0, 1},
                  {0, 0, 0, 0}},
-                std::make_unique<parallel::SerialBulk>(std::vector<double>(4)));
+                std::make_unique<parallel::SerialBulk>(
+                    std::make_shared<const std::vector<double>>(4)));
   };
   EXPECT_EQ(make(2, 2).num_nodes(), 2);
   EXPECT_THROW(make(1, 2), std::invalid_argument);
