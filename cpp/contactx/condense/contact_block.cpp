@@ -111,8 +111,7 @@ ContactBlock::ContactBlock(const Contacts& contacts,
     for (const std::int32_t e : rows[i])
       found.push_back(all.columns[e]);
     std::ranges::sort(found);
-    const auto twice = std::ranges::unique(found);
-    found.erase(twice.begin(), twice.end());
+    found.erase(std::unique(found.begin(), found.end()), found.end());
     for (const std::int32_t e : rows[i])
       sums[all.columns[e]] += all.values[e];
     for (const std::int32_t column : found)

@@ -132,7 +132,7 @@ Elimination::Elimination(std::span<const Nodes> contacts,
   for (const Nodes& nodes : contacts)
     some.insert(some.end(), nodes.slaves.begin(), nodes.slaves.end());
   std::ranges::sort(some);
-  some.erase(std::ranges::unique(some).begin(), some.end());
+  some.erase(std::unique(some.begin(), some.end()), some.end());
   for (const std::int32_t node : some)
     for (int i = 0; i < gdim; ++i)
       _slave_dofs.push_back(node * gdim + i);

@@ -17,8 +17,7 @@ template <class T>
 void make_unique(std::vector<T>& values)
 {
   std::ranges::sort(values);
-  const auto rest = std::ranges::unique(values);
-  values.erase(rest.begin(), rest.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
 }
 
 /// Place of a value in an ascending list that has it.

@@ -86,8 +86,7 @@ SlaveNodes::SlaveNodes(std::shared_ptr<const parallel::NodeMap> nodes,
   check(own, _nodes->num_nodes(), "own");
   _around = _facets.nodes;
   std::ranges::sort(_around);
-  const auto rest = std::ranges::unique(_around);
-  _around.erase(rest.begin(), rest.end());
+  _around.erase(std::unique(_around.begin(), _around.end()), _around.end());
   const auto place = [this](std::int32_t node)
   {
     return static_cast<std::int32_t>(std::ranges::lower_bound(_around, node)

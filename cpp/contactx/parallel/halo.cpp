@@ -129,8 +129,10 @@ void Halo::grow(std::span<const std::int64_t> numbers,
     if (node_of(numbers[i]) < 0)
       fresh.emplace_back(numbers[i], owners[i]);
   std::ranges::stable_sort(fresh, {}, &Fresh::first);
-  const auto twice = std::ranges::unique(fresh, {}, &Fresh::first);
-  fresh.erase(twice.begin(), twice.end());
+  const auto twice = std::unique(fresh.begin(), fresh.end(),
+                                 [](const Fresh& a, const Fresh& b)
+                                 { return a.first == b.first; });
+  fresh.erase(twice, fresh.end());
   if (anywhere(ranks(), !fresh.empty()))
   {
     for (const auto& [number, owner] : fresh)

@@ -452,8 +452,8 @@ DistributedSurface::named(std::span<const std::int64_t> names)
                        [this, is_facet](const FacetKey& key)
                        { return is_facet(key) and !_place.contains(key); });
   std::ranges::sort(missing);
-  const auto twice = std::ranges::unique(missing);
-  missing.erase(twice.begin(), twice.end());
+  const auto twice = std::unique(missing.begin(), missing.end());
+  missing.erase(twice, missing.end());
   // All may have what is not known here
   parallel::Messages questions;
   if (!missing.empty())

@@ -80,8 +80,10 @@ FacetRecords contactx::search::records(const facet::FacetList& facets,
 FacetRecords contactx::search::joined(FacetRecords facets)
 {
   std::ranges::stable_sort(facets, {}, &FacetRecord::key);
-  const auto twice = std::ranges::unique(facets, {}, &FacetRecord::key);
-  facets.erase(twice.begin(), twice.end());
+  const auto same = [](const FacetRecord& a, const FacetRecord& b)
+  { return a.key() == b.key(); };
+  const auto twice = std::unique(facets.begin(), facets.end(), same);
+  facets.erase(twice, facets.end());
   return facets;
 }
 
