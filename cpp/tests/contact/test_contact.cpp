@@ -309,6 +309,14 @@ TYPED_TEST(Contacts, SlipIsMeasuredFromWhereANodeTouches)
     // The residual asks again, and finds the same
     contact->update_gap();
     EXPECT_NEAR(contact->nodes()->slip[0], 0.02, 1e-13);
+    // It opens and closes once more: what counts is where it first touched
+    for (std::int32_t i = 0; i < scene.sheets.num_slaves; ++i)
+      (*scene.u)[dim * i] = 0.08;
+    std::ranges::fill(contact->nodes()->status, law::open);
+    contact->update_gap();
+    EXPECT_EQ(contact->update_status(false), scene.sheets.num_slaves);
+    for (std::int32_t i = 0; i < scene.sheets.num_slaves; ++i)
+      EXPECT_NEAR(contact->nodes()->slip[dim * i], 0.06, 1e-13);
   }
 }
 
