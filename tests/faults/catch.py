@@ -34,7 +34,7 @@ TIERS = {
         ("verify", "{pytest} -n 2 tests/verify --ignore tests/verify/parallel", 1500),
     ),
 }
-_CHEAP = "tests/fast/kernels tests/fast/assembly tests/fast/unit tests/fast/verification"
+_CHEAP = "tests/fast/assembly tests/fast/unit tests/fast/verification"
 _PYTEST = "env OMP_NUM_THREADS=1 .venv/bin/python -m pytest -x -q -p no:cacheprovider"
 
 

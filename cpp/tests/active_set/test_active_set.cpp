@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "contact_scene.h"
+#include "free_bodies_scene.h"
 #include <cmath>
 #include <contactx/active_set/active_set.h>
 #include <gtest/gtest.h>
@@ -302,14 +303,97 @@ TEST(ActiveSet, AResidualOfFrozenKinematicsIsAskedForAgain)
   move(0.1);
   scene.set->settle(scene.none);
   ASSERT_TRUE(scene.set->is_frozen());
-  // Many open again while frozen
+  // Many open again while frozen, far aside: pairs stay
   move(0.0);
+  for (std::int32_t i = 0; i < scene.scene.sheets.num_slaves; ++i)
+    (*scene.scene.u)[2 * i] = 0.7;
   std::ranges::fill(nodes.multiplier, 0.0);
+  const auto facets
+      = [&] { return scene.contacts[0]->master()->weights().nodes; };
+  const std::vector<std::int32_t> before = facets();
   scene.set->settle(scene.none);
   ASSERT_TRUE(scene.set->is_frozen());
+  EXPECT_EQ(facets(), before);
   EXPECT_EQ(scene.set->may_end(scene.none), ActiveSet::End::again);
   EXPECT_FALSE(scene.set->is_frozen());
+  EXPECT_NE(facets(), before);
   EXPECT_EQ(scene.set->may_end(scene.none), ActiveSet::End::solution);
+}
+
+TEST(ActiveSet, KinematicsFreezeWhereMoreThanAFifthChanges)
+{
+  Springs scene(3);
+  scene.add<NodeToSurface>(std::make_shared<law::Frictionless>());
+  NodeState& nodes = *scene.contacts[0]->nodes();
+  const std::int32_t n = nodes.num_nodes();
+  const auto all_closed = [&]
+  {
+    std::ranges::fill(*scene.scene.u, 0.0);
+    scene.set->begin_step();
+    std::ranges::fill(nodes.c, 1.0);
+    scene.set->settle(scene.none, true);
+    std::ranges::fill(nodes.status, law::slip);
+    std::ranges::fill(nodes.multiplier, 1.0);
+  };
+  for (std::int32_t changes = 0; changes <= n; ++changes)
+  {
+    all_closed();
+    std::fill_n(nodes.multiplier.begin(), changes, -1.0);
+    EXPECT_EQ(scene.set->settle(scene.none).status, changes);
+    EXPECT_EQ(scene.set->is_frozen(),
+              changes > std::max(1.0, 0.2 * (n - changes)));
+  }
+  // Or goes to another facet
+  all_closed();
+  for (std::int32_t i = 0; i < n; ++i)
+    (*scene.scene.u)[3 * i] = 0.7;
+  const auto found = scene.set->settle(scene.none);
+  EXPECT_EQ(found.status, 0);
+  EXPECT_EQ(found.pairs, n);
+  EXPECT_TRUE(scene.set->is_frozen());
+}
+
+TEST(ActiveSet, WhatGoesBackAndForthOnAFarActiveSetCountsForNothing)
+{
+  Springs scene(2);
+  scene.add<Hiding>(std::make_shared<law::Frictionless>());
+  auto& master = dynamic_cast<Hiding&>(*scene.contacts[0]->master());
+  std::ranges::fill(scene.contacts[0]->nodes()->c, 1.0);
+  scene.set->begin_step();
+  scene.set->settle(scene.none, true);
+  master.releases = 0;
+  for (std::int32_t i = 0; i < scene.scene.sheets.num_slaves; ++i)
+    (*scene.scene.u)[2 * i + 1] = -0.1;
+  scene.set->settle(scene.none);
+  EXPECT_EQ(master.releases, 1);
+  // Nor does the residual of those pairs: that is none of the two releases
+  EXPECT_EQ(scene.set->may_end(scene.none), ActiveSet::End::again);
+  EXPECT_EQ(master.releases, 1);
+  EXPECT_EQ(scene.set->may_end(scene.none), ActiveSet::End::again);
+  EXPECT_EQ(scene.set->may_end(scene.none), ActiveSet::End::again);
+  EXPECT_EQ(scene.set->may_end(scene.none), ActiveSet::End::hidden);
+}
+
+TEST(ActiveSet, NodesThatCloseForBalanceFreezeTheKinematics)
+{
+  for (const double load : {0.0, 1.0})
+  {
+    // A free body above one node in its way
+    Truss truss{2, {}, {}};
+    truss.add_block(1, {0, 0, 0}, 1);
+    FreeScene body(truss);
+    body.add_contact()->add(0, -1, {0, 1, 0}, 0.1);
+    Springs scene(2);
+    scene.add<NodeToSurface>(std::make_shared<law::Frictionless>());
+    const auto free = std::make_shared<FreeBodies>(body.free_bodies());
+    ActiveSet set(scene.scene.halo, scene.contacts, free);
+    const Forces forces = body.loads(body.push(0, {0, -load}));
+    set.begin_step();
+    free->begin_step();
+    set.settle(forces, true);
+    EXPECT_EQ(free->closed_for_balance(), load > 0);
+    EXPECT_EQ(set.is_frozen(), load > 0);
+  }
 }
 
 TEST(ActiveSet, FrozenPairsThatHideAPenetrationAreReleasedTwice)
@@ -361,6 +445,22 @@ TEST(ActiveSet, ANodeOfTwoContactsLeavesTheOneThatItDoesNotNeed)
   EXPECT_EQ(scene.set->num_corners(), 0);
 }
 
+TEST(ActiveSet, OpenNodesLoseTheirPressures)
+{
+  Springs scene(3);
+  scene.add<NodeToSurface>(std::make_shared<law::Frictionless>());
+  scene.set->begin_step();
+  NodeState& nodes = *scene.contacts[0]->nodes();
+  std::ranges::fill(nodes.c, 1.0);
+  scene.set->settle(scene.none, true);
+  // Less than the gap of 0.05 asks for, but for one
+  std::ranges::fill(nodes.multiplier, 0.03);
+  nodes.multiplier[1] = 0.1;
+  scene.set->settle(scene.none);
+  for (std::int32_t i = 0; i < nodes.num_nodes(); ++i)
+    EXPECT_EQ(nodes.multiplier[i], i == 1 ? 0.1 : 0);
+}
+
 TEST(ActiveSet, SoftContactIsForContactsWithoutFrictionAlone)
 {
   for (const bool has_friction : {false, true})
@@ -393,6 +493,9 @@ TEST(ActiveSet, SoftContactIsForContactsWithoutFrictionAlone)
       continue;
     // Once a step
     EXPECT_FALSE(scene.set->softens(step));
+    // Many change, but nothing leads far astray
+    EXPECT_GT(scene.set->settle(scene.none).status, 0);
+    EXPECT_FALSE(scene.set->is_frozen());
     scene.set->advance(true);
     EXPECT_EQ(scene.set->soft_iterations(), 1);
     scene.set->harden();
@@ -419,4 +522,41 @@ TEST(ActiveSet, IteratesThatGoRoundAreShortened)
   scene.set->begin_step();
   EXPECT_EQ(scene.set->cycles(), 0);
   EXPECT_FALSE(scene.set->shortens());
+}
+
+TEST(ActiveSet, SlipTurnsBackFartherWhereIteratesGoRound)
+{
+  Springs scene(2);
+  auto law = std::make_shared<law::Coulomb>();
+  const std::int32_t n = scene.scene.sheets.num_slaves;
+  law->set_friction(std::vector<double>(n, 0.5));
+  scene.add<NodeToSurface>(law);
+  scene.set->begin_step();
+  NodeState& nodes = *scene.contacts[0]->nodes();
+  std::ranges::fill(nodes.c, 1.0);
+  scene.contacts[0]->update_gap();
+  // Trial friction of 39.5 times its bound, against the traction
+  const auto status = [&]
+  {
+    std::ranges::fill(nodes.status, law::slip);
+    std::ranges::fill(nodes.turns, 0);
+    for (std::int32_t i = 0; i < n; ++i)
+    {
+      nodes.multiplier[2 * i] = 0.5;
+      nodes.multiplier[2 * i + 1] = 2;
+      nodes.gap[i] = 0;
+      nodes.slip[2 * i] = 40;
+      nodes.slip[2 * i + 1] = 0;
+    }
+    law->set_status(nodes, scene.scene.halo->ranks());
+    return nodes.status;
+  };
+  EXPECT_EQ(status(), std::vector<std::int8_t>(n, law::slip));
+  for (int turn = 0; turn < 2; ++turn)
+    for (const std::int8_t s : {law::open, law::slip})
+    {
+      std::ranges::fill(nodes.status, s);
+      scene.set->note(1.0);
+    }
+  EXPECT_EQ(status(), std::vector<std::int8_t>(n, law::stick));
 }

@@ -309,6 +309,195 @@ TYPED_TEST(Contacts, SlipIsMeasuredFromWhereANodeTouches)
     // The residual asks again, and finds the same
     contact->update_gap();
     EXPECT_NEAR(contact->nodes()->slip[0], 0.02, 1e-13);
+    // It opens and closes once more: what counts is where it first touched
+    for (std::int32_t i = 0; i < scene.sheets.num_slaves; ++i)
+      (*scene.u)[dim * i] = 0.08;
+    std::ranges::fill(contact->nodes()->status, law::open);
+    contact->update_gap();
+    EXPECT_EQ(contact->update_status(false), scene.sheets.num_slaves);
+    for (std::int32_t i = 0; i < scene.sheets.num_slaves; ++i)
+      EXPECT_NEAR(contact->nodes()->slip[dim * i], 0.06, 1e-13);
+  }
+}
+
+TYPED_TEST(Contacts, WhatTouchesButForRoundingClosesAtTheStart)
+{
+  for (int dim : {2, 3})
+    for (const double gap : {5e-13, 1e-9})
+    {
+      ContactScene scene(dim, 0.0);
+      const auto contact = scene.template contact<TypeParam>(
+          std::make_shared<law::Frictionless>());
+      for (std::int32_t i = 0; i < scene.sheets.num_slaves; ++i)
+        (*scene.u)[dim * i + dim - 1] = gap;
+      contact->begin_step();
+      contact->search();
+      contact->update_gap();
+      const std::int32_t closes = gap < 1e-12 ? scene.sheets.num_slaves : 0;
+      EXPECT_EQ(contact->update_status(true), closes);
+      // Nothing presses, so they open in the iterates that follow
+      EXPECT_EQ(contact->update_status(false), closes);
+      EXPECT_EQ(contact->nodes()->status,
+                std::vector<std::int8_t>(scene.sheets.num_slaves, law::open));
+    }
+}
+
+TYPED_TEST(Contacts, WhereNothingPressesYetNodesStick)
+{
+  for (int dim : {2, 3})
+    for (const double pressure : {0.0, 1e-3})
+      for (const bool is_first : {true, false})
+      {
+        ContactScene scene(dim, 0.0);
+        const std::int32_t n = scene.sheets.num_slaves;
+        const auto contact = scene.template contact<TypeParam>(coulomb(n, 0.5));
+        contact->begin_step();
+        contact->search();
+        contact->update_gap();
+        NodeState& nodes = *contact->nodes();
+        std::ranges::fill(nodes.c, 1.0);
+        // Aside by more than friction takes
+        for (std::int32_t i = 0; i < n; ++i)
+        {
+          (*scene.u)[dim * i] = 0.02;
+          (*scene.u)[dim * i + dim - 1] = -0.01;
+          nodes.multiplier[dim * i + dim - 1] = pressure;
+        }
+        contact->search();
+        contact->update_gap();
+        contact->update_status(is_first);
+        const std::int8_t expected
+            = is_first and pressure == 0 ? law::stick : law::slip;
+        EXPECT_EQ(nodes.status, std::vector<std::int8_t>(n, expected));
+      }
+}
+
+TEST(Contact, WhatHardlyMovesAlongAnAxisHasNoFrictionThere)
+{
+  // All nodes on rails along y but for one of the master
+  ContactScene scene(2, 0.05);
+  const std::int32_t n = scene.sheets.num_slaves;
+  std::int32_t free = n;
+  for (std::int32_t i = n; i < scene.sheets.num_nodes(); ++i)
+    if (std::abs(scene.sheets.x[2 * i] - 0.8)
+        < std::abs(scene.sheets.x[2 * free] - 0.8))
+      free = i;
+  std::vector<std::int8_t> prescribed(scene.u->size(), 0);
+  for (std::int32_t i = 0; i < scene.sheets.num_nodes(); ++i)
+    prescribed[2 * i] = i != free;
+  const auto law = coulomb(n, 0.5);
+  Contact contact(scene.halo, scene.slaves,
+                  scene.master<NodeToSurface>(*law, Sliding::finite), law,
+                  {Sliding::finite, false, prescribed, {}});
+  const double aside = -0.34 / 3;
+  for (std::int32_t i = 0; i < n; ++i)
+    (*scene.u)[2 * i] = aside;
+  contact.search();
+  contact.accept();
+  contact.begin_step();
+  contact.search();
+  const NodeState& nodes = *contact.nodes();
+  int hardly = 0, moving = 0;
+  for (std::int32_t i = 0; i < n; ++i)
+  {
+    // What the node that is free weighs in the place under the slave node
+    const double x = scene.sheets.x[2 * i] + aside;
+    const double weight = std::max(1 - std::abs(x - 0.8) / 0.6, 0.0);
+    EXPECT_EQ(nodes.mobile[2 * i], weight < 0.05 ? 0 : 1);
+    EXPECT_EQ(nodes.mobile[2 * i + 1], 1);
+    EXPECT_EQ(nodes.immobile[i], 0);
+    hardly += weight > 0 and nodes.mobile[2 * i] == 0;
+    moving += nodes.mobile[2 * i] == 1;
+  }
+  EXPECT_GT(hardly, 0);
+  EXPECT_GT(moving, 0);
+}
+
+TEST(Contact, WhatCannotMoveAlongTheNormalStaysOpen)
+{
+  // On a master with a slope normals are not along an axis but for rounding
+  for (const double slope : {0.0, 1e-10, 1e-3})
+  {
+    ContactScene scene(2, 0.0);
+    const std::int32_t n = scene.sheets.num_slaves;
+    std::vector<std::int8_t> prescribed(scene.u->size(), 0);
+    for (std::int32_t i = 0; i < scene.sheets.num_nodes(); ++i)
+    {
+      prescribed[2 * i + 1] = 1;
+      (*scene.u)[2 * i + 1] = slope * scene.sheets.x[2 * i] - (i < n) * 0.01;
+    }
+    const auto law = std::make_shared<law::Frictionless>();
+    Contact contact(scene.halo, scene.slaves,
+                    scene.master<NodeToSurface>(*law, Sliding::finite), law,
+                    {Sliding::finite, false, prescribed, {}});
+    contact.begin_step();
+    contact.search();
+    contact.update_gap();
+    const bool is_immobile = slope < 1e-8;
+    EXPECT_EQ(contact.nodes()->immobile,
+              std::vector<std::int8_t>(n, is_immobile));
+    EXPECT_EQ(contact.update_status(false), is_immobile ? 0 : n);
+  }
+}
+
+TYPED_TEST(Contacts, FactorIsTheStiffnessOfSlaveAndMasterInARow)
+{
+  for (int dim : {2, 3})
+  {
+    ContactScene scene(dim);
+    const std::int32_t n = scene.sheets.num_slaves;
+    const auto contact = scene.template contact<TypeParam>(
+        std::make_shared<law::Frictionless>());
+    std::vector<double> compliance(scene.sheets.num_nodes(), 5.0);
+    std::fill_n(compliance.begin(), n, 2.0);
+    contact->set_factor(compliance);
+    for (std::int32_t i = 0; i < n; ++i)
+      EXPECT_NEAR(contact->nodes()->c[i] * contact->nodes()->area[i] * 7, 1,
+                  1e-13);
+  }
+}
+
+TEST(Contact, TurnsAndClosingsAreThoseOfAStep)
+{
+  ContactScene scene(2);
+  const std::int32_t n = scene.sheets.num_slaves;
+  const auto contact = scene.contact<NodeToSurface>(coulomb(n, 0.5));
+  NodeState& nodes = *contact->nodes();
+  std::ranges::fill(nodes.turns, 1);
+  std::ranges::fill(nodes.closings, 3);
+  contact->begin_step();
+  EXPECT_EQ(nodes.turns, std::vector<std::int32_t>(n, 0));
+  EXPECT_EQ(nodes.closings, std::vector<std::int32_t>(n, 0));
+}
+
+TEST(Contact, TractionsTurnWithTheMaster)
+{
+  for (int dim : {2, 3})
+  {
+    ContactScene scene(dim, 0.0);
+    const std::int32_t n = scene.sheets.num_slaves;
+    const auto contact = scene.contact<NodeToSurface>(coulomb(n, 0.5));
+    contact->begin_step();
+    contact->search();
+    contact->update_gap();
+    std::vector<double>& t = contact->nodes()->multiplier;
+    for (std::int32_t i = 0; i < n; ++i)
+    {
+      t[dim * i] = 0.2;
+      t[dim * i + dim - 1] = 1;
+    }
+    contact->accept();
+    const double angle = 0.3;
+    const std::vector<double> x = scene.sheets.turned(angle);
+    for (std::size_t k = 0; k < x.size(); ++k)
+      (*scene.u)[k] = x[k] - scene.sheets.x[k];
+    contact->begin_step();
+    for (std::int32_t i = 0; i < n; ++i)
+    {
+      EXPECT_NEAR(t[dim * i], 0.2 * std::cos(angle) - std::sin(angle), 1e-13);
+      EXPECT_NEAR(t[dim * i + dim - 1], 0.2 * std::sin(angle) + std::cos(angle),
+                  1e-13);
+    }
   }
 }
 

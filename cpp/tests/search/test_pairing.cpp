@@ -147,6 +147,27 @@ TEST(Pairing, OpenNodesAreNeverFrozen)
   EXPECT_TRUE(s.pairing.frozen().empty());
 }
 
+TEST(Pairing, FreezesANodeThatComesOffTheSurfaceTwice)
+{
+  // In contact it leaves by the outer edge, and is back in contact or open
+  for (const bool closed : {true, false})
+  {
+    SlidingSegment s(flat);
+    s.search_at({0.5, 0}, false);
+    for (int k = 0; k < 2; ++k)
+    {
+      EXPECT_TRUE(s.pairing.frozen().empty());
+      EXPECT_EQ(s.search_at({-0.5, 0}, true), 1);
+      EXPECT_EQ(s.facet(), -1);
+      EXPECT_EQ(s.search_at({0.5, 0}, closed), 0);
+      EXPECT_EQ(s.facet(), 0);
+    }
+    EXPECT_EQ(s.pairing.frozen(), std::vector<std::int32_t>{0});
+    EXPECT_EQ(s.search_at({-0.5, 0}, true), 0);
+    EXPECT_EQ(s.facet(), 0);
+  }
+}
+
 TEST(Pairing, SlidingOnIsNoReturn)
 {
   std::vector<Vector<2>> line;

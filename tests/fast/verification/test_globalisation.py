@@ -87,6 +87,14 @@ def test_soft_rows_are_condensed(method):
         np.testing.assert_allclose(a, b, rtol=0, atol=1e-8 * np.abs(b).max())
 
 
+def test_the_first_step_of_all_is_taken(monkeypatch):
+    """It brings the displacements that are prescribed: what it opens says nothing."""
+    asked = []
+    monkeypatch.setattr(core.ActiveSet, "softens", lambda self, step: asked.append(step))
+    report = slender.press(slender.beam(20, "thick"), "thick")
+    assert len(asked) == report.iterations - 1 > 0
+
+
 def test_stiff_bodies_take_no_soft_path():
     scene = Blocks(CellType.quadrilateral, n_upper=8, n_lower=11)
     problem = scene.problem(scene.contact())
@@ -157,6 +165,27 @@ def test_damped_steps_take_over(monkeypatch):
     monkeypatch.setattr(NewtonLoop, "damping_may_help", False)
     with pytest.raises(cx.ConvergenceError, match="no convergence"):
         Roller(*roller, n=10).press(0.5)
+
+
+def test_half_a_step_is_taken_where_iterates_go_round(monkeypatch):
+    """When they do: see test_cycle_guard.cpp. What is linear is then left by half."""
+    monkeypatch.setattr(core.ActiveSet, "shortens", lambda self: True)
+    scene = Blocks(CellType.triangle)
+    problem = scene.problem(scene.contact(sliding="small"), petsc_options={"snes_max_it": 12})
+    with pytest.raises(cx.ConvergenceError):
+        problem.solve()
+    residuals = np.array([row.residual for row in problem.report.history[-6:]])
+    np.testing.assert_allclose(residuals[1:] / residuals[:-1], 0.5, rtol=1e-6)
+
+
+def test_steps_that_lead_nowhere_end_the_loop(monkeypatch):
+    """When they do: see test_step_length.cpp."""
+    monkeypatch.setattr(StepLength, "is_stuck", True)
+    scene = Blocks(CellType.triangle)
+    problem = scene.problem(scene.contact(sliding="small"))
+    with pytest.raises(cx.ConvergenceError, match="no step is short enough to lead on"):
+        problem.solve()
+    assert problem.report.iterations == 0
 
 
 def test_a_line_search_of_ones_own_is_not_replaced():
