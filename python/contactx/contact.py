@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from contactx import cpp as core
 from contactx.arguments import check_switch, described, is_number
-from contactx.bodies.bodies import Bodies
+from contactx.bodies import Bodies
 from contactx.fields import Fields
 from contactx.forms import ContactForms
 from contactx.geometry.facing import check_facing

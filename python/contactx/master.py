@@ -7,7 +7,7 @@ from __future__ import annotations
 import numpy as np
 
 from contactx import cpp as core
-from contactx.bodies.bodies import Bodies
+from contactx.bodies import Bodies
 from contactx.geometry.facets import check_facets, check_folds
 from contactx.geometry.inside import check_apart, check_outside
 from contactx.obstacles import Obstacle, Plane

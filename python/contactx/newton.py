@@ -29,8 +29,7 @@ import numpy.typing as npt
 
 from contactx import cpp as core
 from contactx.audit.audit import Audit
-from contactx.bodies.adapter import BulkSide
-from contactx.bodies.bodies import Bodies
+from contactx.bodies import Bodies, BulkSide
 from contactx.bulk import Bulk
 from contactx.callback import keeps_its_error, weakly
 from contactx.convergence import ConvergenceCriterion

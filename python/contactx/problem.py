@@ -15,7 +15,7 @@ import numpy as np
 
 import ufl
 from contactx import compat
-from contactx.bodies.bodies import Bodies
+from contactx.bodies import Bodies
 from contactx.bulk import Bulk
 from contactx.bulk_input import (
     check_compiler_options,

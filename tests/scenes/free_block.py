@@ -6,7 +6,7 @@ import numpy as np
 
 import contactx as cx
 from contactx import cpp as core
-from contactx.bodies.adapter import BulkSide
+from contactx.bodies import BulkSide
 from dolfinx import mesh
 
 

@@ -12,7 +12,7 @@ import numpy as np
 
 import basix.ufl
 import ufl
-from contactx.bodies.bodies import Bodies
+from contactx.bodies import Bodies
 from contactx.bulk import Bulk
 from contactx.parallel.halo import Halo
 from dolfinx import fem, graph, mesh

@@ -7,7 +7,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from contactx.bodies.bodies import Bodies
+from contactx.bodies import Bodies
 from contactx.geometry.hull import in_hulls
 from contactx.obstacles import Obstacle
 from contactx.parallel import reduce

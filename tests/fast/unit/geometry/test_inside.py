@@ -11,7 +11,7 @@ from scipy.sparse.csgraph import connected_components
 
 import basix.ufl
 import contactx as cx
-from contactx.bodies.bodies import Bodies
+from contactx.bodies import Bodies
 from contactx.parallel.halo import Halo
 from dolfinx import mesh
 from dolfinx.mesh import CellType

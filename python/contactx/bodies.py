@@ -1,16 +1,62 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""The bulk as free bodies of the core see it."""
+"""Bodies, the connected parts of a mesh, and the bulk as free ones of the core see it."""
 
 from __future__ import annotations
 
 import numpy as np
 import numpy.typing as npt
 
+from contactx import cpp as core
 from contactx.bulk import Bulk
 from contactx.parallel.halo import Halo
+from dolfinx import fem
 
 type Array = npt.NDArray[np.float64]
+
+
+class Bodies(core.Bodies):
+    """Connected parts of a mesh, on any number of ranks; bodies share no nodes.
+
+    A body is named by the smallest number that a node of it has in the mesh as it was made.
+
+    Attributes:
+        V: Linear Lagrange space of vectors, whose blocks are the nodes.
+        halo: Nodes on this rank.
+    """
+
+    def __init__(self, V: fem.FunctionSpace, halo: Halo):
+        """Find the bodies; all ranks must take part.
+
+        Args:
+            V: Linear Lagrange space of vectors.
+            halo: Nodes on this rank.
+        """
+        topology = V.mesh.topology
+        super().__init__(
+            V.dofmap.list,
+            topology.index_map(topology.dim).size_local,
+            halo.original[: halo.num_bulk],
+            halo.nodes,
+        )
+        self.V = V
+        self.halo = halo
+
+    @property
+    def x(self) -> npt.NDArray[np.float64]:
+        """Reference positions of all nodes, shape (num_nodes, gdim)."""
+        return self.halo.x
+
+    def boxes(self, bodies: npt.NDArray[np.int64]) -> npt.NDArray[np.float64]:
+        """Bounding boxes of bodies on all ranks, which must take part.
+
+        Args:
+            bodies: Names, the same on all ranks.
+
+        Returns:
+            Lowest and highest corner, shape (2, num_bodies, gdim).
+        """
+        return self.boxes_of(bodies, self.x, self.halo.gdim)
 
 
 class BulkSide:
