@@ -4,11 +4,13 @@
 #include "../facets.h"
 #include "../require.h"
 #include <contactx/active_set/active_set.h>
+#include <contactx/condense/chains.h>
 #include <contactx/condense/condensation.h>
 #include <contactx/condense/contact_block.h>
 #include <contactx/contact/node_to_surface.h>
 #include <contactx/contact/obstacle_tie.h>
 #include <contactx/contact/surface_to_surface.h>
+#include <contactx/obstacle/plane.h>
 
 using namespace contactx;
 using namespace contactx::fuzz;
