@@ -413,6 +413,34 @@ TEST(Contact, WhatHardlyMovesAlongAnAxisHasNoFrictionThere)
   EXPECT_GT(moving, 0);
 }
 
+TEST(Contact, ASlaveNodeThatIsHeldWhereItsFacetsMoveHasNoConstraint)
+{
+  // Integrals over its facets move with the nodes beside it
+  ContactScene scene(2, 0.05);
+  const std::int32_t n = scene.sheets.num_slaves, held = 1;
+  for (const int axis : {0, 1})
+    for (const bool alone : {true, false})
+    {
+      std::vector<std::int8_t> prescribed(scene.u->size(), 0);
+      for (std::int32_t i = 0; i < n; ++i)
+        prescribed[2 * i + axis] = i == held or not alone;
+      const auto law = coulomb(n, 0.5);
+      const Contact contact(
+          scene.halo, scene.slaves,
+          scene.master<SurfaceToSurface>(*law, Sliding::finite), law,
+          {Sliding::finite, true, prescribed, {}});
+      const NodeState& nodes = *contact.nodes();
+      for (std::int32_t i = 0; i < n; ++i)
+      {
+        // If all of them are held, the master moves
+        const bool is_free = not alone or i != held;
+        EXPECT_EQ(nodes.mobile[2 * i + axis], is_free);
+        EXPECT_EQ(nodes.mobile[2 * i + 1 - axis], 1);
+        EXPECT_EQ(nodes.immobile[i], axis == 1 and not is_free);
+      }
+    }
+}
+
 TEST(Contact, WhatCannotMoveAlongTheNormalStaysOpen)
 {
   // On a master with a slope normals are not along an axis but for rounding
