@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "several_ranks.h"
+#include "thread_ranks.h"
 #include <array>
 #include <cmath>
 #include <contactx/active_set/free_bodies.h>

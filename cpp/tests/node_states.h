@@ -14,36 +14,6 @@
 
 namespace contactx::tests
 {
-/// @brief This rank, and another one that reduces to given numbers.
-class OtherRank final : public parallel::Ranks
-{
-public:
-  /// @brief Create the ranks.
-  /// @param[in] numbers What the other rank has in each reduction.
-  explicit OtherRank(std::vector<double> numbers) : _numbers(std::move(numbers))
-  {
-  }
-
-  int rank() const override { return 0; }
-  int size() const override { return 2; }
-  void reduce(std::span<double> values, parallel::Reduction how) override
-  {
-    for (std::size_t i = 0; i < values.size(); ++i)
-      values[i] = how == parallel::Reduction::sum ? values[i] + _numbers.at(i)
-                  : how == parallel::Reduction::least
-                      ? std::min(values[i], _numbers.at(i))
-                      : std::max(values[i], _numbers.at(i));
-  }
-  void reduce(std::span<std::int64_t>, parallel::Reduction) override {}
-  parallel::Messages exchange(const parallel::Messages& out) override
-  {
-    return out;
-  }
-
-private:
-  std::vector<double> _numbers;
-};
-
 /// @brief Set all that a law reads to random numbers, where nothing is
 /// singular: unit normals, trial friction far from zero and gaps away from it.
 inline void randomise(contact::NodeState& nodes, Generator& random)

@@ -81,10 +81,10 @@ TEST(Fingerprint, IsTheSameOnAllRanksAndKnowsWhoseStatusItIs)
   {
     std::vector<std::uint64_t> found(3);
     on_ranks(3,
-             [&](const std::shared_ptr<ThreadRank>& rank)
+             [&](parallel::Ranks& rank)
              {
-               const int r = rank->rank();
-               found[r] = fingerprint(*rank, {status[order[r]]});
+               const int r = rank.rank();
+               found[r] = fingerprint(rank, {status[order[r]]});
              });
     EXPECT_EQ(found[0], found[1]);
     EXPECT_EQ(found[0], found[2]);

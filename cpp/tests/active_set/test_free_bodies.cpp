@@ -668,15 +668,15 @@ TEST(FreeBodies, OnSeveralRanksTheyAreThoseOfOne)
       };
       const Outcome one = run(nullptr);
       for (const int size : {2, 3, 4})
-        tests::SeveralRanks::run(size,
-                                 [&](parallel::Ranks& ranks)
-                                 {
-                                   Outcome here = run(&ranks);
-                                   for (const auto& [node, kind] : here.status)
-                                     EXPECT_EQ(kind, one.status.at(node));
-                                   here.status = one.status;
-                                   EXPECT_EQ(here, one);
-                                 });
+        tests::on_ranks(size,
+                        [&](parallel::Ranks& ranks)
+                        {
+                          Outcome here = run(&ranks);
+                          for (const auto& [node, kind] : here.status)
+                            EXPECT_EQ(kind, one.status.at(node));
+                          here.status = one.status;
+                          EXPECT_EQ(here, one);
+                        });
     }
 }
 

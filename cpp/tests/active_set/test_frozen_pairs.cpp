@@ -28,14 +28,14 @@ TEST(FrozenPairs, HideAsMuchAsTheMeshExplains)
 TEST(FrozenPairs, OfAnyRankCount)
 {
   on_ranks(3,
-           [](const std::shared_ptr<ThreadRank>& rank)
+           [](parallel::Ranks& rank)
            {
              FrozenPairs pairs;
              std::vector<HiddenGap> found{{0, 0}, {-0.1, -0.01}};
-             EXPECT_FALSE(pairs.hide_penetration(*rank, found));
-             if (rank->rank() == 1)
+             EXPECT_FALSE(pairs.hide_penetration(rank, found));
+             if (rank.rank() == 1)
                found[0] = {-0.2, -0.04};
-             EXPECT_TRUE(pairs.hide_penetration(*rank, found));
+             EXPECT_TRUE(pairs.hide_penetration(rank, found));
              EXPECT_EQ(pairs.gaps(), (std::vector<double>{-0.2, -0.1}));
            });
 }

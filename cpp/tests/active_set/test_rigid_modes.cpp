@@ -226,33 +226,34 @@ TEST(RigidModes, OnSeveralRanksTheyAreThoseOfOne)
     EXPECT_EQ(serial.free()[0].cols, num_modes(g) - 2);
     EXPECT_EQ(serial.free()[1].cols, num_modes(g));
     for (const int size : {2, 3, 4})
-      tests::SeveralRanks::run(
-          size,
-          [&](parallel::Ranks& ranks)
-          {
-            FreeScene scene(truss, &ranks);
-            hold(scene);
-            const RigidModes modes(scene.bodies, *scene.bulk,
-                                   scene.bulk->reference());
-            EXPECT_NEAR(modes.size(), serial.size(), 1e-14);
-            for (std::size_t b = 0; b < 2; ++b)
-            {
-              // The same space
-              const dense::Matrix &F = modes.free()[b], &S = serial.free()[b];
-              ASSERT_EQ(F.cols, S.cols);
-              for (std::size_t i = 0; i < F.rows; ++i)
-                for (std::size_t j = 0; j < F.rows; ++j)
-                {
-                  double difference = 0;
-                  for (std::size_t k = 0; k < F.cols; ++k)
-                    difference += F(i, k) * F(j, k) - S(i, k) * S(j, k);
-                  EXPECT_NEAR(difference, 0, 1e-8);
-                }
-            }
-            ASSERT_EQ(modes.stiffness()[0].size(), 1);
-            EXPECT_NEAR(modes.stiffness()[0][0], serial.stiffness()[0][0],
-                        1e-15);
-          });
+      tests::on_ranks(size,
+                      [&](parallel::Ranks& ranks)
+                      {
+                        FreeScene scene(truss, &ranks);
+                        hold(scene);
+                        const RigidModes modes(scene.bodies, *scene.bulk,
+                                               scene.bulk->reference());
+                        EXPECT_NEAR(modes.size(), serial.size(), 1e-14);
+                        for (std::size_t b = 0; b < 2; ++b)
+                        {
+                          // The same space
+                          const dense::Matrix &F = modes.free()[b],
+                                              &S = serial.free()[b];
+                          ASSERT_EQ(F.cols, S.cols);
+                          for (std::size_t i = 0; i < F.rows; ++i)
+                            for (std::size_t j = 0; j < F.rows; ++j)
+                            {
+                              double difference = 0;
+                              for (std::size_t k = 0; k < F.cols; ++k)
+                                difference
+                                    += F(i, k) * F(j, k) - S(i, k) * S(j, k);
+                              EXPECT_NEAR(difference, 0, 1e-8);
+                            }
+                        }
+                        ASSERT_EQ(modes.stiffness()[0].size(), 1);
+                        EXPECT_NEAR(modes.stiffness()[0][0],
+                                    serial.stiffness()[0][0], 1e-15);
+                      });
   }
 }
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "generator.h"
-#include "several_ranks.h"
+#include "thread_ranks.h"
 #include <cmath>
 #include <contactx/active_set/rigid_modes.h>
 #include <contactx/active_set/springs.h>
@@ -115,35 +115,35 @@ TEST(Springs, OnSeveralRanksTheyAreThoseOfOne)
     const Points points(g, 20, 3);
     const std::vector<double> expected = points.springs();
     for (const int size : {2, 3, 4})
-      tests::SeveralRanks::run(
-          size,
-          [&](parallel::Ranks& ranks)
-          {
-            // The last rank has no node
-            dense::Matrix field;
-            std::vector<double> diagonal, mine;
-            std::vector<std::int8_t> prescribed;
-            std::vector<std::int64_t> original;
-            field.cols = points.field.cols;
-            for (int i = 0; i < 20; ++i)
-            {
-              if (i % (size - 1) != ranks.rank())
-                continue;
-              original.push_back(points.original[i]);
-              for (int dof = i * g; dof < (i + 1) * g; ++dof)
-              {
-                const auto row = points.field.row(dof);
-                field.values.insert(field.values.end(), row.begin(), row.end());
-                ++field.rows;
-                diagonal.push_back(points.diagonal[dof]);
-                prescribed.push_back(0);
-                mine.push_back(expected[dof]);
-              }
-            }
-            EXPECT_EQ(independent_springs(ranks, field, prescribed, diagonal,
-                                          original, g),
-                      mine);
-          });
+      tests::on_ranks(size,
+                      [&](parallel::Ranks& ranks)
+                      {
+                        // The last rank has no node
+                        dense::Matrix field;
+                        std::vector<double> diagonal, mine;
+                        std::vector<std::int8_t> prescribed;
+                        std::vector<std::int64_t> original;
+                        field.cols = points.field.cols;
+                        for (int i = 0; i < 20; ++i)
+                        {
+                          if (i % (size - 1) != ranks.rank())
+                            continue;
+                          original.push_back(points.original[i]);
+                          for (int dof = i * g; dof < (i + 1) * g; ++dof)
+                          {
+                            const auto row = points.field.row(dof);
+                            field.values.insert(field.values.end(), row.begin(),
+                                                row.end());
+                            ++field.rows;
+                            diagonal.push_back(points.diagonal[dof]);
+                            prescribed.push_back(0);
+                            mine.push_back(expected[dof]);
+                          }
+                        }
+                        EXPECT_EQ(independent_springs(ranks, field, prescribed,
+                                                      diagonal, original, g),
+                                  mine);
+                      });
   }
 }
 

@@ -1,10 +1,12 @@
 // Copyright (C) 2026 contactx authors
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
+#include <array>
 #include <contactx/condense/multigrid.h>
 #include <gtest/gtest.h>
 
 #include "dense.h"
+#include "thread_ranks.h"
 
 using namespace contactx;
 using namespace contactx::condense;
@@ -14,53 +16,6 @@ using namespace contactx::tests;
 namespace
 {
 constexpr std::int8_t open = 0, stick = 1, slip = 2;
-
-/// Two ranks, of which the other one has the largest or the least value
-class Two final : public Ranks
-{
-public:
-  int rank() const override { return 0; }
-  int size() const override { return 2; }
-  void reduce(std::span<double>, Reduction) override {}
-  void reduce(std::span<std::int64_t> values, Reduction how) override
-  {
-    for (std::int64_t& value : values)
-      value = how == Reduction::largest ? std::max<std::int64_t>(value, other)
-                                        : std::min<std::int64_t>(value, other);
-  }
-  Messages exchange(const Messages&) override { return {}; }
-
-  std::int64_t other = 0;
-};
-
-/// Nodes of one of two ranks: those from `owned` on are the other one's, which
-/// marks all of their displacements, or adds one to those of this rank
-class Half final : public NodeMap
-{
-public:
-  Half(std::int32_t owned, std::int32_t all) : _owned(owned), _all(all) {}
-
-  Ranks& ranks() const override { return two; }
-  std::int32_t num_owned() const override { return _owned; }
-  std::int32_t num_nodes() const override { return _all; }
-  void forward(std::span<double>, int) const override {}
-  void forward(std::span<std::int64_t> values, int width) const override
-  {
-    for (std::size_t i = _owned * width; i < values.size(); ++i)
-      values[i] = is_marked;
-  }
-  void reverse(std::span<double> values, int width) const override
-  {
-    for (std::int32_t i = 0; i < _owned * width; ++i)
-      values[i] += 1;
-  }
-
-  mutable Two two;
-  bool is_marked = true;
-
-private:
-  std::int32_t _owned, _all;
-};
 
 /// One contact without friction whose constraints and forces are the same
 Saddle symmetric(int gdim)
@@ -121,42 +76,88 @@ TEST(Chains, TwoPressuresOnOneNode)
 
 TEST(Chains, TheOtherNodeIsOfAnotherRank)
 {
-  Saddle saddle(3, 6, {{{0, 2}, {1, 5}, 3, {stick, stick}}}, {}, 3);
-  const Condensation condensation = saddle.condensed();
-  // Node 5 is another rank's, slave there or not
-  Half nodes(5, 6);
-  EXPECT_THROW(check_chains(condensation.elimination(), nodes), NotCondensable);
-  nodes.is_marked = false;
-  EXPECT_NO_THROW(check_chains(condensation.elimination(), nodes));
-  // What another rank finds is thrown here
-  nodes.two.other = 1;
-  EXPECT_THROW(check_chains(condensation.elimination(), nodes), NotCondensable);
+  // The first rank's master node 5 is the other one's first node
+  const auto is_chain = [](const std::vector<Contact>& others)
+  {
+    std::array<bool, 2> found{};
+    on_ranks(
+        2,
+        [&](Ranks& ranks)
+        {
+          const bool is_first = ranks.rank() == 0;
+          Saddle saddle
+              = is_first
+                    ? Saddle(3, 6, {{{0, 2}, {1, 5}, 3, {stick, stick}}}, {}, 3)
+                    : Saddle(3, 8, others, {}, 4);
+          const NumberedNodes nodes
+              = is_first ? NumberedNodes(ranks, {0, 1, 2, 3, 4, 5}, 5)
+                         : NumberedNodes(ranks, {5, 6, 7, 8, 9, 10, 11, 12}, 8);
+          try
+          {
+            check_chains(saddle.condensed().elimination(), nodes);
+          }
+          catch (const NotCondensable&)
+          {
+            found[ranks.rank()] = true;
+          }
+        });
+    EXPECT_EQ(found[0], found[1]);
+    return found[0];
+  };
+  // Slave there or not
+  EXPECT_TRUE(is_chain({{{0}, {3}, 3, {stick}}}));
+  EXPECT_FALSE(is_chain({{{1}, {3}, 3, {stick}}}));
+  // What another rank finds is thrown on both
+  EXPECT_TRUE(is_chain({{{1}, {2}, 3, {stick}}, {{2}, {3}, 3, {stick}}}));
 }
 
 TEST(Chains, MarksReachOtherRanks)
 {
-  const Half nodes(2, 3);
-  const std::vector<std::int32_t> dofs{1, 2};
-  EXPECT_EQ(marks(nodes, dofs, 2),
-            (std::vector<std::int8_t>{0, 1, 1, 0, 1, 1}));
-  const Contact first{{1}, {}, 1, {slip}}, second{{0, 1}, {}, 1, {slip, slip}};
-  const std::vector<Nodes> contacts{first.nodes(), second.nodes()};
-  EXPECT_EQ(slave_marks(nodes, contacts),
-            (std::vector<std::int8_t>{0, 1, 1, 1, 1, 1}));
+  on_ranks(
+      2,
+      [](Ranks& ranks)
+      {
+        const bool is_first = ranks.rank() == 0;
+        const NumberedNodes nodes = is_first
+                                        ? NumberedNodes(ranks, {0, 1, 2}, 2)
+                                        : NumberedNodes(ranks, {2, 0}, 1);
+        using Marks = std::vector<std::int8_t>;
+        const auto dofs = is_first ? std::vector<std::int32_t>{1, 2}
+                                   : std::vector<std::int32_t>{1};
+        EXPECT_EQ(marks(nodes, dofs, 2),
+                  is_first ? (Marks{0, 1, 1, 0, 0, 1}) : (Marks{0, 1, 0, 1}));
+        const Contact one{{1}, {}, 1, {slip}}, none{{}, {}, 1, {}},
+            here{{0}, {}, 1, {slip}}, both{{0, 1}, {}, 1, {slip, slip}};
+        const auto contacts
+            = is_first ? std::vector<Nodes>{one.nodes(), both.nodes()}
+                       : std::vector<Nodes>{here.nodes(), none.nodes()};
+        EXPECT_EQ(slave_marks(nodes, contacts),
+                  is_first ? (Marks{0, 1, 1, 1, 1, 0}) : (Marks{1, 0, 0, 1}));
+      });
 }
 
 TEST(Chains, SymmetricWithoutFriction)
 {
   for (const int gdim : {2, 3})
   {
-    Saddle saddle = symmetric(gdim);
-    Half nodes(6, 6);
-    nodes.two.other = 1;
-    EXPECT_TRUE(is_symmetric(saddle.condensed().elimination(), nodes));
-    // Another rank's is not
-    nodes.two.other = 0;
-    EXPECT_FALSE(is_symmetric(saddle.condensed().elimination(), nodes));
+    // On both ranks, and on one alone
+    for (const bool is_both : {true, false})
+      on_ranks(2,
+               [=](Ranks& ranks)
+               {
+                 Saddle mine = symmetric(gdim);
+                 if (ranks.rank() == 1 and not is_both)
+                   mine.contact(gdim, mine.n) += 1e-6;
+                 const std::int64_t first = 6 * ranks.rank();
+                 const NumberedNodes nodes(ranks,
+                                           {first, first + 1, first + 2,
+                                            first + 3, first + 4, first + 5},
+                                           6);
+                 EXPECT_EQ(is_symmetric(mine.condensed().elimination(), nodes),
+                           is_both);
+               });
 
+    Saddle saddle = symmetric(gdim);
     const SerialNodes all(6);
     EXPECT_TRUE(is_symmetric(saddle.condensed().elimination(), all));
     // A master's force, or its part in the constraint, differs
@@ -224,14 +225,44 @@ TEST(Multigrid, TheBoundHoldsForAllDisplacements)
 
 TEST(Multigrid, TheBoundAddsWhatOtherRanksHave)
 {
-  Saddle saddle(2, 6, {{{0, 2}, {1, 5}, 1, {slip, slip}}}, {}, 3);
-  const Condensation condensation = saddle.condensed();
-  const Column diagonal(10, 1), all(12, 1);
-  const Column alone = bound(condensation.elimination(), SerialNodes(6), all);
-  const Column both = bound(condensation.elimination(), Half(5, 6), diagonal);
-  ASSERT_EQ(both.size(), 10u);
-  for (std::size_t i = 0; i < 10; ++i)
-    EXPECT_NEAR(both[i], alone[i] + 1, 1e-14);
+  // Node 5 is the other rank's, which has a slave node of its own before it and
+  // before node 1
+  const std::array<std::vector<std::int64_t>, 2> numbers{
+      {{0, 1, 2, 3, 4, 5}, {5, 6, 1}}};
+  std::array<Saddle, 2> saddles{
+      Saddle(2, 6, {{{0, 2}, {1, 5}, 1, {slip, slip}}}, {}, 3),
+      Saddle(2, 3, {{{1}, {0, 2}, 1, {slip}}}, {}, 4)};
+  // What each adds to the unit diagonal
+  Column expected(14, 1);
+  for (const int r : {0, 1})
+  {
+    const Condensation condensation = saddles[r].condensed();
+    const auto count = static_cast<std::int32_t>(numbers[r].size());
+    const Column alone = bound(condensation.elimination(), SerialNodes(count),
+                               Column(2 * count, 1));
+    for (std::int32_t i = 0; i < 2 * count; ++i)
+    {
+      const std::int64_t node = numbers[r][i / 2];
+      expected[2 * node + i % 2] += alone[i] - 1;
+      // Both have a part in these
+      if (node == 1 or node == 5)
+        EXPECT_GT(alone[i], 1);
+    }
+  }
+  on_ranks(2,
+           [&](Ranks& ranks)
+           {
+             const int r = ranks.rank();
+             const std::int32_t num_owned = r == 0 ? 5 : 2;
+             const NumberedNodes nodes(ranks, numbers[r], num_owned);
+             const Condensation condensation = saddles[r].condensed();
+             const Column both = bound(condensation.elimination(), nodes,
+                                       Column(2 * num_owned, 1));
+             ASSERT_EQ(std::ssize(both), 2 * num_owned);
+             for (std::int32_t i = 0; i < 2 * num_owned; ++i)
+               EXPECT_NEAR(both[i], expected[2 * numbers[r][i / 2] + i % 2],
+                           1e-14);
+           });
 }
 
 TEST(Multigrid, SpringsOfWhatIsNotEliminated)

@@ -1,7 +1,7 @@
 // Copyright (C) 2026 contactx authors
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
-#include "several_ranks.h"
+#include "thread_ranks.h"
 #include <array>
 #include <atomic>
 #include <contactx/contact/bodies.h>
@@ -13,7 +13,7 @@
 using namespace contactx;
 using contact::Bodies;
 using tests::NumberedNodes;
-using tests::SeveralRanks;
+using tests::on_ranks;
 
 namespace
 {
@@ -121,7 +121,7 @@ TEST(Bodies, OnSeveralRanksTheyAreThoseOfOne)
     }
     for (int& rank : owner)
       rank = std::max(rank, 0);
-    SeveralRanks::run(
+    on_ranks(
         size,
         [&](parallel::Ranks& ranks)
         {
@@ -205,22 +205,21 @@ TEST(Bodies, WhatDoesNotFitIsRefusedOnAllRanks)
       bodies.boxes(std::vector<std::int64_t>{0}, std::array<double, 5>{}, 2),
       std::invalid_argument);
   std::atomic<int> refused = 0;
-  SeveralRanks::run(3,
-                    [&](parallel::Ranks& ranks)
-                    {
-                      auto map = std::make_shared<NumberedNodes>(
-                          ranks, std::vector<std::int64_t>{ranks.rank()}, 1);
-                      const std::vector<std::int32_t> cell{ranks.rank()};
-                      try
-                      {
-                        Bodies(cell, 1, 1,
-                               std::vector<std::int64_t>{ranks.rank()}, map);
-                      }
-                      catch (const std::invalid_argument&)
-                      {
-                        ++refused;
-                      }
-                    });
+  on_ranks(3,
+           [&](parallel::Ranks& ranks)
+           {
+             auto map = std::make_shared<NumberedNodes>(
+                 ranks, std::vector<std::int64_t>{ranks.rank()}, 1);
+             const std::vector<std::int32_t> cell{ranks.rank()};
+             try
+             {
+               Bodies(cell, 1, 1, std::vector<std::int64_t>{ranks.rank()}, map);
+             }
+             catch (const std::invalid_argument&)
+             {
+               ++refused;
+             }
+           });
   EXPECT_EQ(refused, 3);
 }
 } // namespace

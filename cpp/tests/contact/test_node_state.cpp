@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "node_states.h"
+#include "thread_ranks.h"
 #include <contactx/contact/slip_history.h>
 #include <gtest/gtest.h>
 #include <limits>
@@ -133,10 +134,18 @@ TEST(NodeState, FactorIsTheStiffnessOverTheArea)
   EXPECT_DOUBLE_EQ(nodes.c[1], 0.5);
   EXPECT_DOUBLE_EQ(nodes.c[2], 0.25);
   // Of all ranks: the product 64 of another one makes it (1 * 4 * 64)^(1/3)
-  OtherRank other({std::log(64.0), 1});
-  nodes.set_factor(other, std::vector{0.5, 0.0, 1.0});
-  EXPECT_DOUBLE_EQ(nodes.c[1], 1 / std::cbrt(256.0));
-  EXPECT_DOUBLE_EQ(nodes.c[2], 0.25);
+  on_ranks(2,
+           [](parallel::Ranks& two)
+           {
+             const bool is_first = two.rank() == 0;
+             NodeState here(is_first ? 3 : 2, 2, true);
+             here.area = is_first ? std::vector<double>{2, 1, 4}
+                                  : std::vector<double>{32, 1};
+             here.set_factor(two, is_first ? std::vector{0.5, 0.0, 1.0}
+                                           : std::vector{2.0, 0.0});
+             EXPECT_DOUBLE_EQ(here.c[1], 1 / std::cbrt(256.0));
+             EXPECT_DOUBLE_EQ(here.c[0], is_first ? 1 : 1.0 / 64);
+           });
   nodes.set_factor(ranks, std::vector(3, 0.0));
   EXPECT_EQ(nodes.c, std::vector(3, 1.0));
   EXPECT_THROW(nodes.set_factor(ranks, std::vector(2, 1.0)),
@@ -166,13 +175,17 @@ TEST(TouchingGap, IsAPartOfTheSizeInAnyUnit)
 
 TEST(TouchingGap, IsThatOfAllRanks)
 {
-  const std::vector<double> x{0, 1, 2, -1};
-  // The other one's largest coordinates, and those of the opposites
-  OtherRank other({1, 5, 0.5, 3});
+  const std::vector<double> x{0, 1, 2, -1}, other{1, -3, -0.5, 5};
   const double eps = std::numeric_limits<double>::epsilon();
-  EXPECT_DOUBLE_EQ(touching_gap(other, x, 2), 1e-12 * 8 + 16 * eps * 5);
-  // Without nodes of its own
-  EXPECT_DOUBLE_EQ(touching_gap(other, {}, 2), 1e-12 * 8 + 16 * eps * 5);
+  // The first one with nodes of its own, and without
+  for (const std::vector<double>& first : {x, {}})
+    on_ranks(2,
+             [&](parallel::Ranks& two)
+             {
+               EXPECT_DOUBLE_EQ(
+                   touching_gap(two, two.rank() == 0 ? first : other, 2),
+                   1e-12 * 8 + 16 * eps * 5);
+             });
   parallel::OneRank alone;
   EXPECT_EQ(touching_gap(alone, {}, 3), 0);
   EXPECT_THROW(touching_gap(alone, x, 3), std::invalid_argument);

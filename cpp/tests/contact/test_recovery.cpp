@@ -1,8 +1,8 @@
 // Copyright (C) 2026 contactx authors
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
+#include "slave_parts.h"
 #include "slave_sheet.h"
-#include "thread_ranks.h"
 #include <contactx/contact/recovery.h>
 #include <gtest/gtest.h>
 #include <numeric>
@@ -406,7 +406,7 @@ TEST(Recovery, IsTheSameOnRanks)
       for (int& r : owner)
         r = static_cast<int>(random(0, size));
       on_ranks(size,
-               [&](const std::shared_ptr<ThreadRank>& rank)
+               [&](parallel::Ranks& rank)
                {
                  const Part part = part_of(s.scene, owner, rank);
                  const Recovery recovery(part.slaves, part.scene.x, gdim);
@@ -416,7 +416,7 @@ TEST(Recovery, IsTheSameOnRanks)
                  expect_near(mine.pressure, part.take(found.pressure), 1e-14);
                  expect_near(mine.traction, part.take(found.traction, gdim),
                              1e-14);
-                 EXPECT_NEAR(recovery_change(*rank, part.take(lambda, gdim),
+                 EXPECT_NEAR(recovery_change(rank, part.take(lambda, gdim),
                                              mine.traction, gdim),
                              change, 1e-14);
                });

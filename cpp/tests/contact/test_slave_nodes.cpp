@@ -1,8 +1,8 @@
 // Copyright (C) 2026 contactx authors
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
+#include "slave_parts.h"
 #include "slave_sheet.h"
-#include "thread_ranks.h"
 #include <contactx/contact/facing.h>
 #include <gtest/gtest.h>
 #include <limits>
@@ -186,12 +186,12 @@ TEST(SlaveNodes, AreTheSameOnRanks)
       const auto area = facet::nodal_areas(whole.facets(), whole.x, gdim);
       std::vector<std::int64_t> own(size);
       on_ranks(size,
-               [&](const std::shared_ptr<ThreadRank>& rank)
+               [&](parallel::Ranks& rank)
                {
                  const Part part = part_of(whole, owner, rank);
                  const SlaveNodes& slaves = *part.slaves;
                  EXPECT_EQ(std::ssize(slaves.owned()), part.num_owned);
-                 own[rank->rank()] = slaves.own().size();
+                 own[rank.rank()] = slaves.own().size();
                  // What owners have
                  const auto w = slaves.scatter_forward(part.take(which));
                  const auto v = slaves.scatter_forward(part.take(values, 2), 2);
