@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "junctions.h"
-#include "../check_size.h"
+#include "../check.h"
 #include "../vec.h"
 #include <algorithm>
 #include <cmath>
@@ -86,9 +86,9 @@ std::vector<Shared> Junctions::update(const std::vector<Closing>& contacts,
     throw std::invalid_argument("contacts must be as many as there were");
   for (std::size_t k = 0; k < contacts.size(); ++k)
   {
-    check_size(contacts[k].closes.size(), _sizes[k], 1, "closes");
-    check_size(contacts[k].gap.size(), _sizes[k], 1, "gap");
-    check_size(contacts[k].normal.size(), _sizes[k], 3, "normal");
+    check::rows(contacts[k].closes.size(), _sizes[k], 1, "closes");
+    check::rows(contacts[k].gap.size(), _sizes[k], 1, "gap");
+    check::rows(contacts[k].normal.size(), _sizes[k], 3, "normal");
   }
   if (first)
   {

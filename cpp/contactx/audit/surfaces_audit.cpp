@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "surfaces_audit.h"
-#include "../check_size.h"
+#include "../check.h"
 #include "../parallel/spread.h"
 #include "passed_nodes.h"
 #include "penetration.h"
@@ -118,7 +118,7 @@ Findings SurfacesAudit::look(std::span<const double> start)
 {
   Findings findings;
   const std::vector<double> x = _halo->positions();
-  check_size(start.size(), x.size(), 1, "start");
+  check::rows(start.size(), x.size(), 1, "start");
   findings.facet_size = facet_size(_contact->slaves().own(), x);
   look_back(start, x, findings);
   if (findings.passed.count == 0)

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "blocks.h"
+#include "../check.h"
 #include "../law/normal.h"
 #include <algorithm>
 #include <array>
@@ -9,17 +10,6 @@
 
 using namespace contactx;
 using namespace contactx::condense;
-
-namespace
-{
-void check_size(std::size_t size, std::size_t wanted, const char* name)
-{
-  if (size != wanted)
-    throw std::invalid_argument(std::string(name) + " must have "
-                                + std::to_string(wanted) + " values, not "
-                                + std::to_string(size));
-}
-} // namespace
 
 bool Nodes::is_closed(std::size_t node) const
 {
@@ -37,26 +27,20 @@ std::size_t contactx::condense::num_multipliers(std::span<const Nodes> contacts)
 void contactx::condense::check(std::span<const Nodes> contacts,
                                std::size_t num_nodes, int gdim)
 {
-  if (gdim != 2 and gdim != 3)
-    throw std::invalid_argument("gdim must be 2 or 3, not "
-                                + std::to_string(gdim));
+  check::dimension(gdim);
   for (const Nodes& nodes : contacts)
   {
     if (nodes.size != 1 and nodes.size != gdim)
       throw std::invalid_argument("size must be 1 or gdim, not "
                                   + std::to_string(nodes.size));
     const std::size_t n = nodes.count();
-    check_size(nodes.status.size(), n, "status");
-    check_size(nodes.area.size(), n, "area");
+    check::rows(nodes.status.size(), n, 1, "status", "slave node");
+    check::rows(nodes.area.size(), n, 1, "area", "slave node");
     if (nodes.size > 1)
-      check_size(nodes.normal.size(), n * gdim, "normal");
-    check_size(nodes.by_multiplier.size(), n * nodes.size * nodes.size,
-               "by_multiplier");
-    for (const std::int32_t node : nodes.slaves)
-      if (node < 0 or static_cast<std::size_t>(node) >= num_nodes)
-        throw std::invalid_argument(
-            "slaves must be numbers of nodes, of which there are "
-            + std::to_string(num_nodes) + ": there is " + std::to_string(node));
+      check::rows(nodes.normal.size(), n, gdim, "normal", "slave node");
+    check::rows(nodes.by_multiplier.size(), n, nodes.size * nodes.size,
+                "by_multiplier", "slave node");
+    check::numbers(nodes.slaves, num_nodes, "slaves", "nodes");
   }
 }
 
@@ -69,15 +53,11 @@ Blocks contactx::condense::sorted(const CompressedRows& contact,
       or static_cast<std::size_t>(offsets.back()) != columns.size())
     throw std::invalid_argument(
         "offsets must rise from 0 to the number of columns");
-  check_size(values.size(), columns.size(), "values");
+  check::rows(values.size(), columns.size(), 1, "values", "column");
   const std::size_t n = offsets.size() - 1;
   if (num_local > n)
     throw std::invalid_argument("num_local must be at most the number of rows");
-  for (const std::int32_t column : columns)
-    if (column < 0 or static_cast<std::size_t>(column) >= n)
-      throw std::invalid_argument(
-          "columns must be numbers of unknowns, of which there are "
-          + std::to_string(n) + ": there is " + std::to_string(column));
+  check::numbers(columns, n, "columns", "unknowns");
 
   const auto first = static_cast<std::int32_t>(num_local);
   // Entries of the stiffness, the constraint and the traction block

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "contact_block.h"
+#include "../check.h"
 #include <algorithm>
 #include <stdexcept>
 
@@ -10,12 +11,6 @@ using namespace contactx::condense;
 
 namespace
 {
-void require(bool fits, const char* what)
-{
-  if (not fits)
-    throw std::invalid_argument(what);
-}
-
 /// 1 at slave nodes that are closed, or whose multiplier is not known to be
 /// zero.
 std::vector<std::int8_t> needed(const contact::NodeState& nodes,
@@ -48,16 +43,16 @@ ContactBlock::ContactBlock(const Contacts& contacts,
                            std::span<const std::int8_t> prescribed,
                            bool keeps_zeros, std::span<const double> d)
 {
-  require(not contacts.empty(), "contacts must not be empty");
+  check::require(not contacts.empty(), "contacts must not be empty");
   const parallel::Halo& halo = contacts.front()->halo();
   const std::size_t num_local = std::size_t(halo.num_nodes()) * halo.gdim();
   std::size_t num_multipliers = 0;
   for (const auto& c : contacts)
     num_multipliers += c->nodes()->multiplier.size();
-  require(prescribed.empty() or prescribed.size() == num_local,
-          "prescribed must have a value for each displacement");
-  require(d.empty() or d.size() == num_multipliers,
-          "d must have a value for each multiplier");
+  check::require(prescribed.empty() or prescribed.size() == num_local,
+                 "prescribed must have a value for each displacement");
+  check::require(d.empty() or d.size() == num_multipliers,
+                 "d must have a value for each multiplier");
 
   Triplets all;
   std::size_t first = num_local;
@@ -129,7 +124,7 @@ ContactBlock::ContactBlock(const Contacts& contacts,
 
 std::vector<double> ContactBlock::multiply(std::span<const double> x) const
 {
-  require(x.size() == size(), "x must have a value for each unknown");
+  check::require(x.size() == size(), "x must have a value for each unknown");
   std::vector<double> y(size(), 0);
   for (std::size_t i = 0; i < size(); ++i)
     for (std::int32_t e = _offsets[i]; e < _offsets[i + 1]; ++e)

@@ -2,20 +2,12 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "coupled_rows.h"
+#include "../check.h"
 #include <algorithm>
 #include <stdexcept>
 
 using namespace contactx;
 using namespace contactx::condense;
-
-namespace
-{
-void require(bool fits, const char* what)
-{
-  if (not fits)
-    throw std::invalid_argument(what);
-}
-} // namespace
 
 CoupledRows contactx::condense::coupled(std::span<const std::int64_t> offsets,
                                         std::span<const std::int64_t> columns,
@@ -25,18 +17,19 @@ CoupledRows contactx::condense::coupled(std::span<const std::int64_t> offsets,
                                         std::size_t num_local)
 {
   const CompressedRows c = contact.entries();
-  require(not offsets.empty() and offsets.front() == 0
-              and std::ranges::is_sorted(offsets),
-          "offsets must be where rows begin");
+  check::require(not offsets.empty() and offsets.front() == 0
+                     and std::ranges::is_sorted(offsets),
+                 "offsets must be where rows begin");
   const std::size_t num_owned = offsets.size() - 1;
-  require(columns.size() == values.size()
-              and offsets.back() == std::ssize(columns),
-          "columns and values must have what offsets say");
-  require(num_owned <= num_local and num_local <= contact.size(),
-          "num_local must be from the number of owned displacements to that "
-          "of unknowns");
-  require(places.size() == contact.size(),
-          "places must have a number for each unknown");
+  check::require(columns.size() == values.size()
+                     and offsets.back() == std::ssize(columns),
+                 "columns and values must have what offsets say");
+  check::require(
+      num_owned <= num_local and num_local <= contact.size(),
+      "num_local must be from the number of owned displacements to that "
+      "of unknowns");
+  check::require(places.size() == contact.size(),
+                 "places must have a number for each unknown");
 
   CoupledRows result;
   using Entry = std::pair<std::int64_t, double>;

@@ -2,29 +2,20 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "multigrid.h"
+#include "../check.h"
 #include <cmath>
 #include <stdexcept>
 
 using namespace contactx;
 using namespace contactx::condense;
 
-namespace
-{
-void check_owned(std::size_t size, const parallel::NodeMap& nodes, int gdim)
-{
-  if (size != static_cast<std::size_t>(nodes.num_owned()) * gdim)
-    throw std::invalid_argument(
-        "diagonal must have a value for each owned displacement, not "
-        + std::to_string(size));
-}
-} // namespace
-
 std::vector<double> contactx::condense::bound(const Elimination& elimination,
                                               const parallel::NodeMap& nodes,
                                               std::span<const double> diagonal)
 {
   const int gdim = elimination.gdim();
-  check_owned(diagonal.size(), nodes, gdim);
+  check::rows(diagonal.size(), nodes.num_owned(), gdim, "diagonal",
+              "owned node");
   const Triplets& R = elimination.right();
   std::vector<double> sums(diagonal.size(), 0);
   for (std::size_t e = 0; e < R.size(); ++e)
@@ -49,7 +40,8 @@ Triplets contactx::condense::elastic(const Elimination& elimination,
 {
   const int gdim = elimination.gdim();
   if (not diagonal.empty())
-    check_owned(diagonal.size(), nodes, gdim);
+    check::rows(diagonal.size(), nodes.num_owned(), gdim, "diagonal",
+                "owned node");
   const auto taken = marks(nodes, elimination.eliminated(), gdim);
   Triplets left
       = soft.select([&](std::int32_t row, std::int32_t column, double)

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "bodies.h"
+#include "../check.h"
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -35,12 +36,7 @@ contact::connected_parts(std::span<const std::int32_t> cells, int width,
   if (width < 1 or cells.size() % width != 0)
     throw std::invalid_argument("cells must have " + std::to_string(width)
                                 + " nodes each, at least one");
-  for (const std::int32_t node : cells)
-    if (node < 0 or node >= count)
-      throw std::invalid_argument("cells must be numbers of nodes, of which "
-                                  "there are "
-                                  + std::to_string(count) + ": there is "
-                                  + std::to_string(node));
+  check::numbers(cells, count, "cells", "nodes");
   std::vector<std::int32_t> part(count);
   for (std::int32_t i = 0; i < count; ++i)
     part[i] = i;
@@ -166,15 +162,9 @@ Bodies::carrying(std::span<const std::int32_t> nodes) const
   _map->ranks().agree(
       [&]
       {
+        check::numbers(nodes, std::ssize(_of_node), "nodes", "nodes");
         for (const std::int32_t node : nodes)
-        {
-          if (node < 0 or node >= std::ssize(_of_node))
-            throw std::invalid_argument(
-                "nodes must be numbers of nodes, of which there are "
-                + std::to_string(_of_node.size()) + ": there is "
-                + std::to_string(node));
           here.push_back(_of_node[node]);
-        }
       });
   make_unique(here);
   here = parallel::gathered(_map->ranks(), std::span<const std::int64_t>(here));

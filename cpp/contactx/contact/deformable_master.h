@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "../check.h"
 #include "../parallel/halo.h"
 #include "../search/master_surface.h"
 #include "../search/outside.h"
@@ -31,7 +32,8 @@ public:
   /// @param[in] surface Master surface.
   /// @param[in] outside Tells what is outside of its body.
   /// @param[in] options How pairs are made.
-  /// @throws std::invalid_argument if the reach is not larger than zero.
+  /// @throws std::invalid_argument if the slave facets are none of the halo's
+  /// dimension, or the reach is not larger than zero.
   DeformableMaster(std::shared_ptr<parallel::Halo> halo,
                    std::shared_ptr<const SlaveNodes> slaves,
                    std::shared_ptr<search::MasterSurface> surface,
@@ -41,6 +43,10 @@ public:
         _surface(std::move(surface)), _outside(std::move(outside)),
         _options(options)
   {
+    if (not _slaves)
+      throw std::invalid_argument("slaves must not be empty");
+    const facet::FacetList facets = _slaves->facets();
+    check::facets(facets.offsets, facets.nodes, _halo->gdim());
     if (not(options.reach > 0))
       throw std::invalid_argument("the reach of pairs is not larger than zero");
   }

@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "node_state.h"
+#include "../check.h"
 #include <algorithm>
 #include <array>
 #include <stdexcept>
 #include <string>
 
+using namespace contactx;
 using namespace contactx::contact;
 
 namespace
@@ -16,9 +18,7 @@ std::size_t checked(std::int32_t num_nodes, int gdim)
   if (num_nodes < 0)
     throw std::invalid_argument("num_nodes must not be negative, as "
                                 + std::to_string(num_nodes) + " is");
-  if (gdim != 2 and gdim != 3)
-    throw std::invalid_argument("gdim must be 2 or 3, not "
-                                + std::to_string(gdim));
+  check::dimension(gdim);
   return num_nodes;
 }
 } // namespace
@@ -85,12 +85,7 @@ void NodeState::set_factor(parallel::Ranks& ranks,
 
 void NodeState::close(std::span<const std::int32_t> nodes)
 {
-  const auto bad = std::ranges::find_if(nodes, [this](std::int32_t i)
-                                        { return i < 0 or i >= _num_nodes; });
-  if (bad != nodes.end())
-    throw std::invalid_argument(
-        "nodes must be numbers of slave nodes, of which there are "
-        + std::to_string(_num_nodes) + ": there is " + std::to_string(*bad));
+  check::numbers(nodes, _num_nodes, "nodes", "slave nodes");
   for (std::int32_t i : nodes)
     status[i] = is_vector() and not smooth[i] ? law::stick : law::slip;
 }

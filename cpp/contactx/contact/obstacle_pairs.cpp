@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "obstacle_pairs.h"
+#include "../check.h"
 #include "../kernel/layout.h"
 #include "../vec.h"
-#include "facing.h"
 #include "touching.h"
 #include <algorithm>
 #include <cmath>
@@ -16,31 +16,10 @@ using namespace contactx::contact;
 
 namespace
 {
-void check_size(std::size_t size, std::size_t expected, const char* name)
-{
-  if (size != expected)
-    throw std::invalid_argument(std::string(name) + " must have "
-                                + std::to_string(expected) + " values, not "
-                                + std::to_string(size));
-}
-
-/// Positions that hold all of some nodes.
-void check_positions(std::span<const double> x,
-                     std::span<const std::int32_t> nodes, int gdim)
-{
-  const std::size_t count
-      = nodes.empty() ? 0 : std::size_t(std::ranges::max(nodes)) + 1;
-  if (x.size() % gdim != 0 or x.size() / gdim < count)
-    throw std::invalid_argument(
-        "x must hold " + std::to_string(gdim) + " coordinates for each of "
-        + std::to_string(count) + " nodes or more: it has "
-        + std::to_string(x.size()) + " values");
-}
-
 std::vector<double> gathered_rows(std::span<const double> x,
                                   std::span<const std::int32_t> nodes, int gdim)
 {
-  check_positions(x, nodes, gdim);
+  check::positions(x.size(), check::num_nodes(nodes), gdim);
   std::vector<double> rows(nodes.size() * gdim);
   for (std::size_t i = 0; i < nodes.size(); ++i)
     for (int k = 0; k < gdim; ++k)
@@ -48,30 +27,13 @@ std::vector<double> gathered_rows(std::span<const double> x,
   return rows;
 }
 
-void check_facets(const facet::FacetList& facets, int gdim)
-{
-  if (gdim != 2 and gdim != 3)
-    throw std::invalid_argument("gdim must be 2 or 3, not "
-                                + std::to_string(gdim));
-  if (facets.offsets.empty() or facets.offsets.front() != 0
-      or facets.offsets.back() != std::ssize(facets.nodes))
-    throw std::invalid_argument(
-        "offsets must begin with 0 and end at the number of nodes");
-  for (std::int32_t f = 0; f < facets.size(); ++f)
-  {
-    const std::int32_t n = facets.offsets[f + 1] - facets.offsets[f];
-    if (gdim == 2 ? n != 2 : n != 3 and n != 4)
-      throw std::invalid_argument("offsets must give a facet two nodes in 2D, "
-                                  "and three or four in 3D");
-  }
-}
-
 /// Saved values of a known size.
 std::vector<double> values_of_size(const std::vector<Saved>& saved,
-                                   const char* name, std::size_t size)
+                                   const char* name, std::size_t rows,
+                                   int width)
 {
   const auto& values = values_of<double>(saved, name);
-  check_size(values.size(), size, name);
+  check::rows(values.size(), rows, width, name);
   return values;
 }
 
@@ -87,12 +49,16 @@ ObstacleMaster::ObstacleMaster(std::shared_ptr<obstacle::Obstacle> obstacle,
                                std::span<const double> x, int gdim,
                                double reach, bool measures_slip)
     : _obstacle(std::move(obstacle)), _slaves(std::move(slaves)), _gdim(gdim),
-      _reach(reach), _measures_slip(measures_slip), _paired(size(), 0),
-      _slip(size() * kernel::rigid_slip_size, 0),
-      _data(size() * kernel::rigid_size, 0)
+      _reach(reach), _measures_slip(measures_slip)
 {
-  check_facets(_slaves->facets(), gdim);
-  check_positions(x, _slaves->around(), gdim);
+  if (not _slaves)
+    throw std::invalid_argument("slaves must not be empty");
+  const facet::FacetList facets = _slaves->facets();
+  check::facets(facets.offsets, facets.nodes, gdim);
+  check::positions(x.size(), check::num_nodes(facets.nodes), gdim);
+  _paired.assign(size(), 0);
+  _slip.assign(size() * kernel::rigid_slip_size, 0);
+  _data.assign(size() * kernel::rigid_size, 0);
   _at = at_slaves(x);
   ObstacleMaster::accept(x);
   ObstacleMaster::begin_step();
@@ -256,8 +222,8 @@ void ObstacleMaster::touch(std::span<const std::int8_t> which,
 {
   if (not _measures_slip)
     return;
-  check_size(which.size(), size(), "which");
-  check_size(offset.size(), size(), "offset");
+  check::rows(which.size(), size(), 1, "which", "slave node");
+  check::rows(offset.size(), size(), 1, "offset", "slave node");
   const std::vector<double> now = at_slaves(x);
   const std::vector<double> gap = _obstacle->evaluate(now, _gdim).gap;
   const std::vector<double> seen
@@ -385,18 +351,18 @@ void ObstacleMaster::load(const std::vector<Saved>& saved)
 {
   const std::size_t n = size();
   const auto& paired = values_of<std::int8_t>(saved, "paired");
-  check_size(paired.size(), n, "paired");
-  auto data = values_of_size(saved, "data", n * kernel::rigid_size);
-  auto at = values_of_size(saved, "at", n * _gdim);
+  check::rows(paired.size(), n, 1, "paired", "slave node");
+  auto data = values_of_size(saved, "data", n, kernel::rigid_size);
+  auto at = values_of_size(saved, "at", n, _gdim);
   if (_measures_slip)
   {
-    auto slip = values_of_size(saved, "slip_data", n * kernel::rigid_slip_size);
-    auto start = values_of_size(saved, "start", n * _gdim);
-    auto x0 = values_of_size(saved, "x0", n * _gdim);
-    auto gap0 = values_of_size(saved, "gap0", n);
-    obstacle::Placement placed{values_of_size(saved, "point", _gdim), {}};
+    auto slip = values_of_size(saved, "slip_data", n, kernel::rigid_slip_size);
+    auto start = values_of_size(saved, "start", n, _gdim);
+    auto x0 = values_of_size(saved, "x0", n, _gdim);
+    auto gap0 = values_of_size(saved, "gap0", n, 1);
+    obstacle::Placement placed{values_of_size(saved, "point", 1, _gdim), {}};
     if (has(saved, "direction"))
-      placed.direction = values_of_size(saved, "direction", _gdim);
+      placed.direction = values_of_size(saved, "direction", 1, _gdim);
     _parameters = has(saved, "parameters")
                       ? values_of<double>(saved, "parameters")
                       : std::vector<double>{};

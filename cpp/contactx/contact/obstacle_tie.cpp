@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "obstacle_tie.h"
+#include "../check.h"
 #include "../kernel/layout.h"
 #include <algorithm>
 #include <stdexcept>
@@ -34,8 +35,7 @@ std::optional<std::vector<Pairs>>
 ObstacleTie::update(std::span<const double> x, bool frozen,
                     std::span<const double> offset)
 {
-  if (offset.size() != size())
-    throw std::invalid_argument("offset must have a value for each slave node");
+  check::rows(offset.size(), size(), 1, "offset", "slave node");
   std::ranges::copy(offset, _offset.begin());
   return ObstacleMaster::update(x, frozen, offset);
 }

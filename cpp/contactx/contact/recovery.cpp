@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "recovery.h"
-#include "../check_size.h"
+#include "../check.h"
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -43,9 +43,7 @@ Recovery::Recovery(std::shared_ptr<const SlaveNodes> slaves,
 {
   if (not _slaves)
     throw std::invalid_argument("slaves must not be empty");
-  if (gdim != 2 and gdim != 3)
-    throw std::invalid_argument("gdim must be 2 or 3, not "
-                                + std::to_string(gdim));
+  check::dimension(gdim);
   const facet::FacetList facets = _slaves->local();
   const std::vector<double> parts
       = corner_areas(facets, _slaves->here(x, gdim, "x"), gdim);
@@ -68,8 +66,8 @@ Recovery::flows(std::span<const double> area,
                 std::span<const std::int8_t> closed) const
 {
   const std::size_t n = _area.size();
-  check_size(area.size(), n, 1, "area");
-  check_size(closed.size(), n, 1, "closed");
+  check::rows(area.size(), n, 1, "area");
+  check::rows(closed.size(), n, 1, "closed");
   const std::vector<std::int8_t> is_closed = _slaves->scatter_forward(closed);
   std::vector<double> inside(n, 0), covered(n);
   for (const Flow& flow : _flows)
@@ -103,7 +101,7 @@ std::vector<double>
 Recovery::pressure(std::span<const double> p, std::span<const double> area,
                    std::span<const std::int8_t> closed) const
 {
-  check_size(p.size(), _area.size(), 1, "p");
+  check::rows(p.size(), _area.size(), 1, "p");
   const std::vector<Flow> flows = this->flows(area, closed);
   std::vector<double> result(p.begin(), p.end()), sum(p.size());
   for (int pass = 0; pass < passes; ++pass)
@@ -122,8 +120,8 @@ std::vector<double> Recovery::shear(std::span<const double> t,
                                     std::span<const double> area,
                                     std::span<const std::int8_t> closed) const
 {
-  check_size(t.size(), _area.size(), _gdim, "t");
-  check_size(normal.size(), _area.size(), _gdim, "normal");
+  check::rows(t.size(), _area.size(), _gdim, "t");
+  check::rows(normal.size(), _area.size(), _gdim, "normal");
   const std::vector<Flow> flows = this->flows(area, closed);
   const std::vector<double> normals = _slaves->scatter_forward(normal, _gdim);
   std::vector<double> result(t.begin(), t.end()), sum(t.size());
@@ -156,8 +154,8 @@ Recovered Recovery::tractions(std::span<const double> multiplier,
                               std::span<const std::int8_t> closed) const
 {
   const std::size_t n = _area.size();
-  check_size(multiplier.size(), n, _gdim, "multiplier");
-  check_size(normal.size(), n, _gdim, "normal");
+  check::rows(multiplier.size(), n, _gdim, "multiplier");
+  check::rows(normal.size(), n, _gdim, "normal");
   std::vector<double> p(n), t(multiplier.begin(), multiplier.end());
   for (std::size_t i = 0; i < n; ++i)
   {
@@ -181,7 +179,7 @@ double contactx::contact::recovery_change(parallel::Ranks& ranks,
 {
   if (gdim < 1 or forces.size() % gdim != 0)
     throw std::invalid_argument("forces must have gdim values a node");
-  check_size(recovered.size(), forces.size(), 1, "recovered");
+  check::rows(recovered.size(), forces.size(), 1, "recovered");
   // The size of the forces comes last
   std::vector<double> sums(gdim + 1, 0);
   for (std::size_t i = 0; i < forces.size(); i += gdim)

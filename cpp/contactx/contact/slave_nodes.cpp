@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "slave_nodes.h"
-#include "../check_size.h"
+#include "../check.h"
 #include "facing.h"
 #include <algorithm>
 #include <functional>
@@ -15,8 +15,8 @@ using namespace contactx::contact;
 
 namespace
 {
-void check(const facet::FacetList& facets, std::int32_t num_nodes,
-           const std::string& name)
+void check_facets(const facet::FacetList& facets, std::int32_t num_nodes,
+                  const std::string& name)
 {
   const auto& offsets = facets.offsets;
   if (offsets.empty() or offsets.front() != 0
@@ -24,11 +24,7 @@ void check(const facet::FacetList& facets, std::int32_t num_nodes,
       or not std::ranges::is_sorted(offsets, std::ranges::less_equal()))
     throw std::invalid_argument(name
                                 + ": the offsets of the facets do not fit");
-  for (std::int32_t node : facets.nodes)
-    if (node < 0 or node >= num_nodes)
-      throw std::invalid_argument(
-          name + " must have nodes of this rank, of which there are "
-          + std::to_string(num_nodes) + ": there is " + std::to_string(node));
+  check::numbers(facets.nodes, num_nodes, name, "nodes");
 }
 
 /// Values at owned slave nodes for all slave nodes, sent as numbers of type N.
@@ -36,7 +32,9 @@ template <class N, class T>
 std::vector<T> scattered(const SlaveNodes& slaves, std::span<const T> values,
                          int width)
 {
-  check_size(values.size(), slaves.owned().size(), width, "values");
+  check::require(width > 0, "width must be at least 1");
+  check::rows(values.size(), slaves.owned().size(), width, "values",
+              "owned slave node");
   const parallel::NodeMap& nodes = slaves.nodes();
   if (nodes.ranks().size() == 1)
     return {values.begin(), values.end()};
@@ -82,8 +80,8 @@ SlaveNodes::SlaveNodes(std::shared_ptr<const parallel::NodeMap> nodes,
 {
   if (not _nodes)
     throw std::invalid_argument("nodes must not be empty");
-  check(facets, _nodes->num_nodes(), "facets");
-  check(own, _nodes->num_nodes(), "own");
+  check_facets(facets, _nodes->num_nodes(), "facets");
+  check_facets(own, _nodes->num_nodes(), "own");
   _around = _facets.nodes;
   std::ranges::sort(_around);
   _around.erase(std::unique(_around.begin(), _around.end()), _around.end());
@@ -120,7 +118,8 @@ SlaveNodes::scatter_forward(std::span<const std::int8_t> values,
 std::vector<double> SlaveNodes::here(std::span<const double> values, int width,
                                      const char* name) const
 {
-  check_size(values.size(), _nodes->num_nodes(), width, name);
+  check::require(width > 0, "width must be at least 1");
+  check::rows(values.size(), _nodes->num_nodes(), width, name, "node");
   std::vector<double> result(_around.size() * width);
   for (std::size_t i = 0; i < _around.size(); ++i)
     std::copy_n(values.begin() + static_cast<std::size_t>(_around[i]) * width,
@@ -131,7 +130,7 @@ std::vector<double> SlaveNodes::here(std::span<const double> values, int width,
 std::vector<double> SlaveNodes::padded(std::span<const double> normal,
                                        int gdim) const
 {
-  check_size(normal.size(), _num_owned, gdim, "normal");
+  check::rows(normal.size(), _num_owned, gdim, "normal");
   std::vector<double> every(normal.begin(), normal.end());
   every.resize(_around.size() * gdim, 0);
   return every;
@@ -141,6 +140,7 @@ std::vector<std::int8_t> SlaveNodes::facing(std::span<const double> x,
                                             std::span<const double> normal,
                                             int gdim) const
 {
+  check::dimension(gdim);
   std::vector<std::int8_t> faces
       = facing_nodes(local(), here(x, gdim, "x"), padded(normal, gdim), gdim);
   faces.resize(_num_owned);
@@ -152,19 +152,20 @@ std::vector<double> SlaveNodes::facing_areas(std::span<const double> reference,
                                              std::span<const double> normal,
                                              int gdim) const
 {
+  check::dimension(gdim);
   return contact::facing_areas(local(), here(reference, gdim, "reference"),
                                here(x, gdim, "x"), padded(normal, gdim), gdim);
 }
 
 std::vector<double> SlaveNodes::largest(std::span<const double> values) const
 {
-  check_size(values.size(), _around.size(), 1, "values");
+  check::rows(values.size(), _around.size(), 1, "values");
   return of_facets(local(), values, std::greater_equal());
 }
 
 std::vector<double> SlaveNodes::smallest(std::span<const double> values) const
 {
-  check_size(values.size(), _around.size(), 1, "values");
+  check::rows(values.size(), _around.size(), 1, "values");
   return of_facets(local(), values, std::less_equal());
 }
 
@@ -191,7 +192,7 @@ SlaveNodes::near(std::span<const std::int8_t> which) const
 
 std::vector<double> SlaveNodes::sums(std::span<const double> corners) const
 {
-  check_size(corners.size(), _corners.size(), 1, "corners");
+  check::rows(corners.size(), _corners.size(), 1, "corners");
   std::vector<double> sums(_around.size(), 0);
   for (std::size_t c = 0; c < corners.size(); ++c)
     sums[_corners[c]] += corners[c];

@@ -23,11 +23,6 @@ constexpr double margin_ahead = 0.1;
 constexpr double enter = 0.06;
 constexpr double leave = 0.04;
 
-std::vector<std::int32_t> copied(std::span<const std::int32_t> values)
-{
-  return {values.begin(), values.end()};
-}
-
 std::vector<std::int32_t> nodes_of_both(const facet::FacetList& slave,
                                         const facet::FacetList& master)
 {
@@ -63,10 +58,11 @@ SurfaceToSurface::SurfaceToSurface(
 /// Takes the master facets that are known now; those before keep their numbers.
 void SurfaceToSurface::meet()
 {
-  const facet::FacetList known = _surface->facets(), slave = _slaves->facets();
-  _search.emplace(copied(slave.offsets), copied(slave.nodes),
-                  copied(known.offsets), copied(known.nodes), gdim());
-  _sides.meet(known);
+  facet::Facets ours = facet::copied(_slaves->facets()),
+                theirs = facet::copied(_surface->facets());
+  _search.emplace(std::move(ours.offsets), std::move(ours.nodes),
+                  std::move(theirs.offsets), std::move(theirs.nodes), gdim());
+  _sides.meet(_surface->facets());
 }
 
 std::int32_t SurfaceToSurface::search(std::span<const double> x,

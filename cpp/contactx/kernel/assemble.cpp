@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "assemble.h"
+#include "../check.h"
 #include "registry.h"
 #include <algorithm>
 #include <array>
@@ -30,47 +31,20 @@ bool contains(std::span<const std::string_view> terms, std::string_view term)
   return std::ranges::find(terms, term) != terms.end();
 }
 
-void check_size(std::size_t size, std::size_t rows, int width,
-                const std::string& name)
-{
-  if (size != rows * width)
-    fail(name + " must have " + std::to_string(width) + " values for each of "
-         + std::to_string(rows) + " pairs, not " + std::to_string(size)
-         + " in all");
-}
-
-/// Each number must be one of `count` things.
-void check_numbers(std::span<const std::int32_t> numbers, std::size_t count,
-                   const std::string& name, std::string_view of)
-{
-  const auto bad
-      = std::ranges::find_if(numbers, [count](std::int32_t i)
-                             { return i < 0 or std::size_t(i) >= count; });
-  if (bad != numbers.end())
-    fail(name + " must be numbers of " + std::string(of) + ", of which there "
-         + "are " + std::to_string(count) + ": there is "
-         + std::to_string(*bad));
-}
-
 void check_pairs(const Pairs& pairs, int gdim)
 {
-  if (gdim != 2 and gdim != 3)
-    fail("gdim must be 2 or 3, not " + std::to_string(gdim));
-  if (pairs.num_slaves < 1 or pairs.num_slaves > 4)
-    fail("pairs.num_slaves must be from 1 to 4, not "
-         + std::to_string(pairs.num_slaves));
-  if (pairs.num_nodes < 0 or pairs.num_nodes > 4)
-    fail("pairs.num_nodes must be from 0 to 4, not "
-         + std::to_string(pairs.num_nodes));
+  check::dimension(gdim);
+  check::between(pairs.num_slaves, 1, 4, "pairs.num_slaves");
+  check::between(pairs.num_nodes, 0, 4, "pairs.num_nodes");
   const std::size_t n = pairs.size();
-  check_size(pairs.slaves.size(), n, pairs.num_slaves, "pairs.slaves");
-  check_size(pairs.nodes.size(), n, pairs.num_slaves + pairs.num_nodes,
-             "pairs.nodes");
+  check::rows(pairs.slaves.size(), n, pairs.num_slaves, "pairs.slaves", "pair");
+  check::rows(pairs.nodes.size(), n, pairs.num_slaves + pairs.num_nodes,
+              "pairs.nodes", "pair");
   const int size = pair_values(pairs.num_slaves, pairs.num_nodes, gdim);
   if (pairs.data_size != size)
     fail("pairs.data_size must be " + std::to_string(size) + ", not "
          + std::to_string(pairs.data_size));
-  check_size(pairs.data.size(), n, size, "pairs.data");
+  check::rows(pairs.data.size(), n, size, "pairs.data", "pair");
 }
 
 /// The kernel of a term; none where it vanishes.
@@ -125,16 +99,18 @@ public:
       const auto values = all[static_cast<int>(c)];
       const std::string name(info.name);
       if (info.site == Site::pair)
-        check_size(values.size(), pairs.size(), info.size, "pairs." + name);
+        check::rows(values.size(), pairs.size(), info.size, "pairs." + name,
+                    "pair");
       else
       {
         if (values.size() % info.size != 0)
           fail(name + " must have rows of " + std::to_string(info.size)
                + " values, not " + std::to_string(values.size()) + " in all");
-        check_numbers(info.site == Site::nodes ? pairs.nodes : pairs.slaves,
-                      values.size() / info.size,
-                      info.site == Site::nodes ? "pairs.nodes" : "pairs.slaves",
-                      "rows of " + name);
+        check::numbers(info.site == Site::nodes ? pairs.nodes : pairs.slaves,
+                       values.size() / info.size,
+                       info.site == Site::nodes ? "pairs.nodes"
+                                                : "pairs.slaves",
+                       "rows of " + name);
       }
       _sources[_num_sources++] = {values.data(), info.site, info.size,
                                   _w.data()
@@ -219,7 +195,7 @@ void kernel::add_vector(Law law, std::string_view sliding,
          + std::to_string(b.size()) + " in all");
   const std::size_t rows = b.size() / width;
   if (over_nodes)
-    check_numbers(pairs.nodes, rows, "pairs.nodes", "rows of b");
+    check::numbers(pairs.nodes, rows, "pairs.nodes", "rows of b");
   else if (std::ranges::any_of(pairs.slaves,
                                [](std::int32_t i) { return i < 0; }))
     fail("pairs.slaves must not be negative");
@@ -253,8 +229,8 @@ Triplets kernel::assemble_matrix(Law law, std::string_view sliding,
   // A kernel need not read what its rows or columns are numbered by
   const int size = law == Law::frictionless ? 1 : gdim;
   constexpr std::size_t most = std::numeric_limits<std::int32_t>::max();
-  check_numbers(pairs.slaves, most / size, "pairs.slaves", "slave nodes");
-  check_numbers(pairs.nodes, most / gdim, "pairs.nodes", "nodes");
+  check::numbers(pairs.slaves, most / size, "pairs.slaves", "slave nodes");
+  check::numbers(pairs.nodes, most / gdim, "pairs.nodes", "nodes");
 
   const auto dofs
       = [](std::span<const std::int32_t> numbers, int width, auto& to)

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "halo.h"
+#include "../check.h"
 #include <algorithm>
 #include <numeric>
 #include <string>
@@ -19,9 +20,7 @@ Halo::Halo(BulkNodes bulk, std::unique_ptr<HaloAdapter> adapter)
   _adapter->ranks().agree(
       [this]
       {
-        if (_gdim != 2 and _gdim != 3)
-          throw std::invalid_argument("gdim must be 2 or 3, not "
-                                      + std::to_string(_gdim));
+        check::dimension(_gdim);
         if (_num_owned < 0 or _num_owned > _num_bulk)
           throw std::invalid_argument("num_owned must be from 0 to the number "
                                       "of the bulk's nodes");
@@ -189,22 +188,12 @@ void Halo::sort()
 
 void Halo::check(std::span<const std::int32_t> nodes) const
 {
-  const auto bad
-      = std::ranges::find_if(nodes, [n = num_nodes()](std::int32_t node)
-                             { return node < 0 or node >= n; });
-  if (bad != nodes.end())
-    throw std::invalid_argument("nodes must be numbers of nodes on this rank, "
-                                "of which there are "
-                                + std::to_string(num_nodes()) + ": there is "
-                                + std::to_string(*bad));
+  check::numbers(nodes, num_nodes(), "nodes", "nodes on this rank");
 }
 
 void Halo::check(std::size_t size, int width) const
 {
-  if (size != _numbers.size() * width)
-    throw std::invalid_argument("values must have " + std::to_string(width)
-                                + " for each of " + std::to_string(num_nodes())
-                                + " nodes, not " + std::to_string(size));
+  check::rows(size, num_nodes(), width, "values", "node");
 }
 
 void SerialBulk::displacement(std::span<double> values) const

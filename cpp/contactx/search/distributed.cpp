@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "distributed.h"
+#include "../check.h"
 #include "../mortar/facet_search.h"
-#include "check.h"
 #include <algorithm>
 #include <stdexcept>
 
@@ -414,7 +414,8 @@ void DistributedSurface::look(std::span<const double> x,
 std::vector<std::int32_t>
 DistributedSurface::keep(std::span<const std::int32_t> used)
 {
-  check::facets(used, static_cast<std::int32_t>(_known.size()), "used");
+  check::numbers(used, static_cast<std::int32_t>(_known.size()), "used",
+                 "facets", -1);
   std::vector<std::int32_t> kept;
   std::ranges::copy_if(used, std::back_inserter(kept),
                        [](std::int32_t f) { return f >= 0; });

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "master_surface.h"
-#include "check.h"
+#include "../check.h"
 #include "distributed.h"
 #include <map>
 #include <numeric>
@@ -117,7 +117,7 @@ std::vector<std::int64_t> MasterSurface::identity() const
 std::vector<std::int64_t>
 MasterSurface::names(std::span<const std::int32_t> which) const
 {
-  check::facets(which, facets().size(), "which");
+  check::numbers(which, facets().size(), "which", "facets", -1);
   std::vector<std::int64_t> names(which.size() * most_nodes, -1);
   for (std::size_t i = 0; i < which.size(); ++i)
     if (which[i] >= 0)

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "onlooker.h"
-#include "check.h"
+#include "../check.h"
 #include "reach.h"
 #include <algorithm>
 #include <cmath>

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "outside.h"
+#include "../check.h"
 #include "../facet/middle.h"
-#include "check.h"
 #include <algorithm>
 #include <limits>
 

@@ -169,6 +169,21 @@ TYPED_TEST(DeformableMasters, ReachMustBePositive)
                  std::invalid_argument);
 }
 
+TYPED_TEST(DeformableMasters, SlaveFacetsMustBeOfTheDimension)
+{
+  const TwoSheets sheets(3), line(2);
+  auto halo = parallel::serial_halo(sheets.x, 3);
+  const auto& [offsets, nodes] = sheets.master;
+  auto surface = search::make_master_surface(halo, offsets, nodes);
+  auto outside = std::make_shared<search::Outside>(halo, offsets, nodes);
+  const auto segments = std::make_shared<SlaveNodes>(halo, line.slave.list(),
+                                                     line.slave.list());
+  for (const auto& slaves : {segments, std::shared_ptr<SlaveNodes>()})
+    EXPECT_THROW(TypeParam(halo, slaves, surface, outside,
+                           PairingOptions{1.0, false, false}),
+                 std::invalid_argument);
+}
+
 TEST(NodeToSurface, ANodeThatFallsAsideSlipsFromWhereItTouches)
 {
   for (bool is_small : {false, true})

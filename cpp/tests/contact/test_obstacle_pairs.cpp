@@ -473,6 +473,8 @@ TEST(ObstacleMaster, RefusesWhatDoesNotFit)
   // Facets of two nodes are none in 3D
   EXPECT_THROW(made(s.x, 3), std::invalid_argument);
   EXPECT_THROW(made(s.x, 4), std::invalid_argument);
+  EXPECT_THROW(ObstacleMaster(o, nullptr, s.x, 2, unlimited, true),
+               std::invalid_argument);
   EXPECT_THROW(make(s, o)->search(std::vector<double>{0, 1}, {}),
                std::invalid_argument);
 }

@@ -234,7 +234,10 @@ TEST(SlaveNodes, RefuseWhatDoesNotFit)
   const auto slaves = slave_nodes(scene);
   const std::vector<double> few(3);
   EXPECT_THROW(slaves->scatter_forward(std::span(few)), std::invalid_argument);
+  EXPECT_THROW(slaves->scatter_forward(std::span(few).first(0), 0),
+               std::invalid_argument);
   EXPECT_THROW(slaves->sums(few), std::invalid_argument);
+  EXPECT_THROW(slaves->facing({}, {}, 0), std::invalid_argument);
   EXPECT_THROW(slaves->largest(few), std::invalid_argument);
   EXPECT_THROW(slaves->smallest(few), std::invalid_argument);
   EXPECT_THROW(slaves->facing(few, few, 3), std::invalid_argument);

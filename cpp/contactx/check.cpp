@@ -5,8 +5,9 @@
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
+#include <string>
 
-using namespace contactx_bindings;
+using namespace contactx;
 
 namespace
 {
@@ -18,6 +19,12 @@ namespace
 std::string text(std::ptrdiff_t value) { return std::to_string(value); }
 } // namespace
 
+void check::require(bool fits, const char* message)
+{
+  if (not fits)
+    throw std::invalid_argument(message);
+}
+
 void check::dimension(int gdim)
 {
   if (gdim != 2 and gdim != 3)
@@ -26,15 +33,15 @@ void check::dimension(int gdim)
 
 void check::facets(std::span<const std::int32_t> offsets,
                    std::span<const std::int32_t> nodes, int gdim,
-                   const std::string& of)
+                   std::string_view of)
 {
   dimension(gdim);
-  const std::string name = of + "offsets";
+  const std::string which(of), name = which + "offsets";
   if (offsets.empty() or offsets.front() != 0)
     fail(name + " must begin with 0");
   if (offsets.back() != std::ssize(nodes))
     fail(name + " must end at " + text(std::ssize(nodes)) + ", the number of "
-         + of + "nodes, not at " + text(offsets.back()));
+         + which + "nodes, not at " + text(offsets.back()));
   for (std::size_t f = 0; f + 1 < offsets.size(); ++f)
   {
     const std::int64_t n = std::int64_t(offsets[f + 1]) - offsets[f];
@@ -47,7 +54,7 @@ void check::facets(std::span<const std::int32_t> offsets,
   const auto bad = std::ranges::find_if(nodes, [](std::int32_t node)
                                         { return node < 0 or node == most; });
   if (bad != nodes.end())
-    fail(of + "nodes must be node numbers, from 0 to " + text(most - 1)
+    fail(which + "nodes must be node numbers, from 0 to " + text(most - 1)
          + ": there is " + text(*bad));
 }
 
@@ -57,12 +64,12 @@ std::int32_t check::num_nodes(std::span<const std::int32_t> nodes)
 }
 
 void check::positions(std::ptrdiff_t size, std::int32_t num_nodes, int gdim,
-                      const std::string& name)
+                      std::string_view name)
 {
   if (size % gdim != 0 or size / gdim < num_nodes)
-    fail(name + " must hold " + text(gdim) + " coordinates for each of "
-         + text(num_nodes) + " nodes or more: it has " + text(size)
-         + " values");
+    fail(std::string(name) + " must hold " + text(gdim)
+         + " coordinates for each of " + text(num_nodes)
+         + " nodes or more: it has " + text(size) + " values");
 }
 
 void check::surface(std::span<const std::int32_t> offsets,
@@ -74,27 +81,28 @@ void check::surface(std::span<const std::int32_t> offsets,
 }
 
 void check::rows(std::ptrdiff_t size, std::ptrdiff_t rows, int width,
-                 const std::string& name, const std::string& of)
+                 std::string_view name, std::string_view of)
 {
-  if (size != rows * width)
-    fail(name + " must have " + text(rows * width) + " values, " + text(width)
-         + " for each " + of + ", not " + text(size));
+  if (width < 0 or size != rows * width)
+    fail(std::string(name) + " must have " + text(rows * width) + " values, "
+         + text(width) + " for each " + std::string(of) + ", not "
+         + text(size));
 }
 
 void check::numbers(std::span<const std::int32_t> values, std::ptrdiff_t count,
-                    const std::string& name, const std::string& of, int first)
+                    std::string_view name, std::string_view of, int first)
 {
   const auto bad
       = std::ranges::find_if(values, [=](std::int32_t value)
                              { return value < first or value >= count; });
   if (bad != values.end())
-    fail(name + " must be numbers of " + of + ", of which there are "
-         + text(count) + ": there is " + text(*bad));
+    fail(std::string(name) + " must be numbers of " + std::string(of)
+         + ", of which there are " + text(count) + ": there is " + text(*bad));
 }
 
-void check::between(int value, int low, int high, const std::string& name)
+void check::between(int value, int low, int high, std::string_view name)
 {
   if (value < low or value > high)
-    fail(name + " must be from " + text(low) + " to " + text(high) + ", not "
-         + text(value));
+    fail(std::string(name) + " must be from " + text(low) + " to " + text(high)
+         + ", not " + text(value));
 }
