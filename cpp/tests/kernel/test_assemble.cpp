@@ -310,13 +310,13 @@ TEST(KernelAssembly, RefusesArgumentsThatDoNotFit)
   expect_refusal([](Scene& s, Values&) { s.pairs.slaves[0] = -1; },
                  "pairs.slaves must not be negative", "gap");
   expect_refusal([](Scene& s, Values&) { s.pairs.nodes.pop_back(); },
-                 "pairs.nodes must have 4 values");
+                 "pairs.nodes must have 36 values, 4 for each pair");
   expect_refusal([](Scene& s, Values&) { s.pairs.data.pop_back(); },
-                 "pairs.data must have 9 values");
+                 "pairs.data must have 81 values, 9 for each pair");
   expect_refusal([](Scene& s, Values&) { s.pairs.data_size = 8; },
                  "pairs.data_size must be 9");
   expect_refusal([](Scene& s, Values&) { s.pairs.slip.clear(); },
-                 "pairs.slip must have 6 values", "slip");
+                 "pairs.slip must have 54 values, 6 for each pair", "slip");
   expect_refusal([](Scene& s, Values&) { s.pairs.num_slaves = 0; },
                  "pairs.num_slaves must be from 1 to 4");
   expect_refusal([](Scene& s, Values&) { s.pairs.num_nodes = 5; },
