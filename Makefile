@@ -153,7 +153,7 @@ fuzz: $(DEPENDENCIES)
 # Python's own allocations are never all given back: leaks are looked for in
 # the C++ tests alone.
 sanitize: $(DEPENDENCIES)
-	$(RUN) cmake -S . -B build/sanitize -G Ninja -DCONTACTX_SANITIZE=ON -DCONTACTX_TESTS=ON \
+	$(RUN) cmake -S . -B build/sanitize -G Ninja -DCONTACTX_SANITIZE=ON -DCONTACTX_TESTS=ON -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON \
 		-DPython_EXECUTABLE="$(CURDIR)/$(BIN)/python" \
 		-Dpybind11_DIR="$$($(BIN)/python -m pybind11 --cmakedir)"
 	$(RUN) cmake --build build/sanitize --target all contactx_tests
