@@ -147,6 +147,7 @@ class Sent:
         """Count from now on."""
         self.counts: Counter[tuple[str, str]] = Counter()
         self._adapter = adapter = contact.interface.halo.adapter
+        self._gdim = contact.interface.halo.gdim
         # Index map of the halo, and with how many ranks it shares how many owned nodes
         self._shared: tuple[Any, int, int] = None, 0, 0
         for name, count in (
@@ -175,8 +176,9 @@ class Sent:
                 self._add("exchange", 1, len(item))
 
     def _gathered(self, values: Any) -> None:
-        # A box, the axis of a cone and its angle
-        self._add("boxes", 1, values.nbytes)
+        # A box has two corners, an axis and a sine; else it is the audit that asks
+        is_box = len(values) == 3 * self._gdim + 1
+        self._add("boxes" if is_box else "audit", 1, values.nbytes)
 
     def _forward(self, values: Any, width: int) -> None:
         index_map = self._adapter.full_map
