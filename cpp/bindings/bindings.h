@@ -55,7 +55,7 @@ void node_state(py::module_& m);
 void surface(py::module_& m);
 void deformable(py::module_& m);
 void law(py::module_& m);
-void active_set(py::module_& m);
+void newton(py::module_& m);
 void kernel(py::module_& m);
 void audit(py::module_& m);
 void mortar(py::module_& m);

@@ -1,6 +1,7 @@
 // Copyright (C) 2026 contactx authors
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
+#include "bulk.h"
 #include "check.h"
 #include "master.h"
 #include <contactx/active_set/active_set.h>
@@ -17,62 +18,6 @@ using contactx::parallel::NodeMap;
 
 namespace
 {
-/// Bulk that an object of Python looks after: see python/contactx/bodies.
-class PythonBulk final : public Bulk
-{
-public:
-  explicit PythonBulk(py::object adapter) : _adapter(std::move(adapter)) {}
-
-  int gdim() const override { return _adapter.attr("gdim").cast<int>(); }
-  bool is_linear() const override
-  {
-    return _adapter.attr("is_linear").cast<bool>();
-  }
-  std::span<const double> reference() override
-  {
-    return keep(_reference, _adapter.attr("reference"));
-  }
-  std::span<const double> positions() override
-  {
-    return keep(_positions, _adapter.attr("positions")());
-  }
-  std::span<const double> displacements() override
-  {
-    return keep(_displacements, _adapter.attr("displacements"));
-  }
-  std::span<const std::int8_t> markers() override
-  {
-    return keep(_markers, _adapter.attr("markers"));
-  }
-  std::span<const double> diagonal() override
-  {
-    return keep(_diagonal, _adapter.attr("diagonal")());
-  }
-  std::span<const double> products(std::span<const double> fields,
-                                   int count) override
-  {
-    const py::ssize_t size
-        = count == 0 ? 0 : static_cast<py::ssize_t>(fields.size()) / count;
-    // With a base nothing is copied
-    py::array_t<double> given({static_cast<py::ssize_t>(count), size},
-                              fields.data(), py::none());
-    given.attr("flags").attr("writeable") = false;
-    return keep(_products, _adapter.attr("products")(given));
-  }
-
-private:
-  template <class T>
-  static std::span<const T> keep(Array<T>& kept, const py::object& values)
-  {
-    kept = values.cast<Array<T>>();
-    return view(kept);
-  }
-
-  py::object _adapter;
-  Array<double> _reference, _positions, _displacements, _diagonal, _products;
-  Array<std::int8_t> _markers;
-};
-
 std::vector<double> values_of(const py::object& values)
 {
   return copy(values.cast<Array<double>>());

@@ -19,7 +19,7 @@ PYBIND11_MODULE(cpp, m)
   contactx_bindings::contact(m);
   contactx_bindings::condense(m);
   contactx_bindings::bodies(m);
-  contactx_bindings::active_set(m);
+  contactx_bindings::newton(m);
   contactx_bindings::mortar(m);
   contactx_bindings::kernel(m);
   contactx_bindings::audit(m);

@@ -247,22 +247,6 @@ class Bulk:
         self.assemblies += 1
         return True
 
-    def nodal_stiffness(self) -> npt.NDArray[np.float64]:
-        """Stiffness of each owned node: the mean of its free diagonal entries, force/length.
-
-        Returns:
-            Stiffness of this rank's nodes, shape (num_owned,); NaN where all of a node's dofs are
-            prescribed.
-        """
-        diagonal: npt.NDArray[np.float64] = np.abs(self.matrix().getDiagonal().array)
-        block = self.u.function_space.dofmap.index_map_bs
-        free = (self.markers[: self.num_dofs] == 0).reshape(-1, block)
-        total = np.where(free, diagonal.reshape(-1, block), 0).sum(axis=1)
-        count = free.sum(axis=1)
-        stiffness = np.full(len(count), np.nan)
-        np.divide(total, count, out=stiffness, where=count > 0)
-        return stiffness
-
     def cell_sizes(self) -> npt.NDArray[np.float64]:
         """Size of the largest cell of this rank around each owned node, shape (num_owned,)."""
         V = self.u.function_space

@@ -9,20 +9,13 @@ from types import SimpleNamespace
 
 from petsc4py import PETSc
 
-import numpy as np
-
+from contactx import cpp as core
 from contactx.bulk import Bulk
 from contactx.callback import keeps_its_error, weakly
 from contactx.condensed.numbering import Array
 from contactx.condensed.solver import CondensedSolver
 from contactx.report import Report
 from contactx.system import SaddlePointSystem
-
-# Part of the residual that the next iterate has while the active set changes, at least and at most:
-# a linear solve leaves a tenth of it
-_ROUGH = (1e-5, 0.1)
-# The same where a contact has friction
-_EXACT = 1e-10
 
 
 class LinearSolver(ABC):
@@ -52,13 +45,16 @@ class LinearSolver(ABC):
                 if none is.
         """
 
-    def set_accuracy(self, residual: float, tolerance: float, changing: float) -> None:
+    def set_accuracy(
+        self, residual: float, tolerance: float, changing: float, *, has_cycled: bool
+    ) -> None:
         """Set how accurate the next solve must be.
 
         Args:
             residual: Residual of the iterate.
             tolerance: What it must fall below.
             changing: Part of the nodes in contact whose status or pair has changed.
+            has_cycled: Whether an active set has come back in this step.
         """
 
     def end_step(self, report: Report) -> None:
@@ -129,9 +125,7 @@ class Condensed(LinearSolver):
         self._bulk = bulk
         self._system = system
         self._solver = CondensedSolver(bulk, system, x, prefix + "condensed_")
-        self._has_path = any(i.history is not None for i in system.interfaces)
-        # Residual of the iterate before, and what Newton's method makes of its square
-        self._before = self._curvature = 0.0
+        self._accuracy = core.Accuracy(any(i.history is not None for i in system.interfaces))
         size = system.x.getSizes()
         self._A = PETSc.Mat().createPython((size, size), self._called(), comm=system.x.comm)
         self._A.setUp()
@@ -140,7 +134,7 @@ class Condensed(LinearSolver):
         """See ``LinearSolver``."""
         self._snes, self._has_ended = snes, False
         self._solver.begin_step(report)
-        self._before = 0.0
+        self._accuracy.begin_step()
         snes.setJacobian(weakly(self._jacobian), self._A)
         pc = snes.getKSP().getPC()
         pc.setType("python")
@@ -150,28 +144,13 @@ class Condensed(LinearSolver):
         """See ``LinearSolver``."""
         self._solver.springs = springs
 
-    def set_accuracy(self, residual: float, tolerance: float, changing: float) -> None:
-        """See ``LinearSolver``; no more accurate than what the next residual will show.
-
-        While the active set changes, its change dominates the next residual. Once it has settled,
-        Newton's method leaves a multiple of the residual's square, as seen in the last iteration.
-        Where nodes slip from where they touch first, the solution depends on the iterates: these
-        must depend neither on the linear solver nor on the number of ranks.
-        """
-        if changing == 0 and self._before > 0:
-            seen = residual / self._before**2
-            # What the solve itself has left says no more than that it is not larger
-            shown = residual > 10 * self._solver.target
-            self._curvature = seen if shown else min(seen, self._curvature)
-        self._before = residual if changing == 0 else 0.0
-        left = min(self._curvature * residual**2, 0.1 * residual)
-        if changing > 0 and self._has_path:
-            left = _EXACT * residual
-        elif changing > 0:
-            left = max(left, float(np.clip(changing, *_ROUGH)) * residual)
-        # At the end far below the tolerance: errors must not decide between stick and slip
-        self._solver.target = max(0.1 * left, 0.01 * tolerance)
-        self._solver.is_last = self._solver.target < 0.1 * tolerance
+    def set_accuracy(
+        self, residual: float, tolerance: float, changing: float, *, has_cycled: bool
+    ) -> None:
+        """See ``LinearSolver``."""
+        self._accuracy.set(residual, tolerance, changing, has_cycled)
+        self._solver.target = self._accuracy.target
+        self._solver.is_last = self._accuracy.is_last
 
     def end_step(self, report: Report) -> None:
         """See ``LinearSolver``."""
@@ -189,7 +168,7 @@ class Condensed(LinearSolver):
             ksp = PETSc.KSP().create(comm=self._snes.comm)
             ksp.setOptionsPrefix(self._snes.getOptionsPrefix())
             self._snes.setKSP(ksp)
-        self._before = self._curvature = 0.0
+        self._accuracy.reset()
 
     def skipped(self) -> dict[str, int]:
         """See ``LinearSolver``."""

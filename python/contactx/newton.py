@@ -25,24 +25,19 @@ from typing import Any
 from petsc4py import PETSc
 
 import numpy as np
-import numpy.typing as npt
 
 from contactx import cpp as core
 from contactx.audit.audit import Audit
-from contactx.bodies import Bodies, BulkSide
+from contactx.bodies import Bodies
 from contactx.bulk import Bulk
 from contactx.callback import keeps_its_error, weakly
-from contactx.convergence import ConvergenceCriterion
+from contactx.errors import NotFiniteError
 from contactx.interface import Interface
 from contactx.linear import Condensed, LinearSolver, SaddlePoint
 from contactx.options import is_condensed, newton_options
-from contactx.parallel.reduce import largest
 from contactx.report import Iteration, Report
 from contactx.step_length import StepLength
 from contactx.system import SaddlePointSystem
-
-# Iterates with unbalanced forces on a free body and settled status after which the loop gives up
-_MOST_UNBALANCED = 10
 
 # Why the loop ended, and what to do about it
 _UNBALANCED = (
@@ -77,6 +72,13 @@ _STAGNATES = (
     "to a force that may be neglected"
 )
 _CODE = PETSc.SNES.ConvergedReason
+_CODES = {
+    core.Verdict.goes_on: _CODE.CONVERGED_ITERATING,
+    core.Verdict.solution: _CODE.CONVERGED_FNORM_ABS,
+    core.Verdict.not_finite: _CODE.DIVERGED_FUNCTION_NANORINF,
+    core.Verdict.stuck: _CODE.DIVERGED_LINE_SEARCH,
+}
+_FAILURES = {core.Verdict.hidden: _HIDDEN, core.Verdict.unbalanced: _UNBALANCED}
 _REASONS = {
     _CODE.CONVERGED_FNORM_ABS: "the residual is below the tolerance",
     _CODE.DIVERGED_MAX_IT: "no convergence in snes_max_it iterations: take smaller load steps; "
@@ -141,25 +143,11 @@ class NewtonLoop:
         self._report = Report()
         self.error: BaseException | None = None
         self._converged = self._has_modes = self._has_full_steps = False
-        # Iterates with unbalanced forces on a free body
-        self._unbalanced = 0
-        # Displacements at the step's start
-        self._start = np.zeros(0)
-        self._criterion = ConvergenceCriterion(bulk, interfaces, system)
-        halo = system.halo
-        self._free_bodies = core.FreeBodies(
-            bodies, BulkSide(bulk, halo), list(interfaces), halo.original[: halo.num_owned]
-        )
-        self._active_set = core.ActiveSet(halo.nodes, list(interfaces), self._free_bodies)
-        self._forces = core.Forces(
-            system.displacement_residual, system.bulk_residual, self._criterion.scale_of_balance
-        )
-        # Whether the Jacobian is that of the last iterate
-        self._is_current = False
-        # The iterate before, with hard contact
-        self._last: PETSc.Vec | None = None
+        self._loop = core.Loop(system.core, bodies)
+        # What the Jacobian was made for
+        self._version = -1
         self._audit = Audit(bulk, interfaces, system.halo)
-        self._length = StepLength(bulk, system, self._audit.cells)
+        self._length = StepLength(self._loop)
         self._names, self._refuses = names, refuses
         # Why the step has failed, and whether no other way may lead to a solution
         self._failure, self._is_final = "", False
@@ -176,32 +164,27 @@ class NewtonLoop:
         """
         self._report = report
         self._converged = False
-        self._start = self._bulk.u.x.array.copy()
         skipped = self._bulk.skipped
         self._system.begin_step()
         self.snes.setFunction(weakly(self._function), self._system.b)
         self._failure, self._is_final = "", False
-        self._unbalanced = 0
-        self._last = None
-        self._active_set.begin_step()
-        self._length.begin_step(damped=report.damped)
         with self._options.in_database():
             self._options.hand_to(self.snes)
             self._has_full_steps = self.snes.getLineSearch().getType() == "basic"
             self._time_linear_solves(report)
             self._linear.begin_step(self.snes, report)
-            self._criterion.check_start()
             with report.timing("bulk stiffness"):
-                stiffness = self._bulk.nodal_stiffness()
-            self._criterion.begin_step(stiffness)
-            self._set_factors(stiffness)
-            self._free_bodies.begin_step()
+                is_finite = self._loop.begin_step(damped=report.damped)
+            if not is_finite:
+                raise NotFiniteError(
+                    "the residual is not finite: the material fails at the start of the step, or "
+                    "a load or coefficient of F is NaN or infinite"
+                )
             self._audit.begin_step()
-            self._settle(is_first=True)
+            self._read_values()
+            with report.timing("settle"):
+                self._loop.settle_first()
             self._system.pack()
-            # What asks for the Jacobian before it asks for the residual
-            for interface in self._interfaces:
-                interface.law.evaluate(interface.nodes)
             self._update_jacobian()
             self.snes.solve(None, self._system.x)
             report.unread = self._options.unread()
@@ -212,17 +195,18 @@ class NewtonLoop:
             self._failure = self._why_slow(code)
             self._is_final = bool(self._failure)
         report.reason = self._failure or _reason_of(code, self._converged)
-        report.frozen_gap = min(self._active_set.hidden_gaps, default=0.0)
+        report.frozen_gap = min(self.hidden_gaps, default=0.0)
         self._has_modes |= self._converged
         if self._converged:
-            self._criterion.accept()
+            self._loop.accept()
         self._linear.end_step(report)
-        report.soft = self._active_set.soft_iterations
+        active_set, bodies = self._loop.active_set, self._loop.free_bodies
+        report.soft = active_set.soft_iterations
         report.limited, report.shortened = self._length.limited, self._length.damped
-        report.cycles = self._active_set.cycles
-        report.corners = self._active_set.num_corners()
-        report.free_modes = self._free_bodies.free_modes
-        report.closed_for_balance = self._free_bodies.closed_for_balance
+        report.cycles = active_set.cycles
+        report.corners = active_set.num_corners()
+        report.free_modes = bodies.free_modes
+        report.closed_for_balance = bodies.closed_for_balance
         report.skipped = Counter({"bulk Jacobian assembly": self._bulk.skipped - skipped})
         report.skipped.update(self._linear.skipped())
         for interface in self._interfaces:
@@ -242,7 +226,7 @@ class NewtonLoop:
         way = self._system.blocks(update.array_r)[0].reshape(-1, self._system.block)
         way = self._halo.scatter_forward(way).ravel()[: len(self._bulk.u.x.array)]
         # One size may be too large where the material is about to fail, or too small for rounding
-        sizes = [part * self._criterion.extent for part in (1e-4, 1e-6, 1e-8)]
+        sizes = [part * self._loop.convergence.extent for part in (1e-4, 1e-6, 1e-8)]
         error = min(self._bulk.jacobian_error(way, size) for size in sizes)
         if error > _WRONG:
             return _WRONG_JACOBIAN.format(100 * error) + _ADVICE[self._bulk.has_own_jacobian]
@@ -250,7 +234,7 @@ class NewtonLoop:
         residuals = [row.residual for row in last]
         changes = sum(row.status_changes + row.pair_changes for row in last)
         stagnant = len(last) == _STAGNANT and max(residuals) <= 4 * min(residuals)
-        if stagnant and changes == 0 and self._criterion.may_be_rounding(min(residuals)):
+        if stagnant and changes == 0 and self._loop.convergence.may_be_rounding(min(residuals)):
             return _STAGNATES.format(min(residuals), last[-1].tolerance)
         return ""
 
@@ -266,7 +250,7 @@ class NewtonLoop:
     @property
     def hidden_gaps(self) -> Sequence[float]:
         """Smallest gap that frozen pairs of each contact hide, at the solution."""
-        return self._active_set.hidden_gaps
+        return self._loop.active_set.hidden_gaps
 
     def accept(self) -> None:
         """Take the converged state as the start of the next step; all ranks must take part."""
@@ -275,7 +259,7 @@ class NewtonLoop:
     def find_rigid_modes(self) -> None:
         """Find the free rigid modes of the bodies as they are, as the first run does."""
         self._has_modes = True
-        self._free_bodies.begin_step()
+        self._loop.find_rigid_modes()
 
     def take_error(self) -> BaseException | None:
         """Error that a callback raised, once."""
@@ -288,19 +272,7 @@ class NewtonLoop:
         self.snes.reset()
         self._linear.reset()
         if not self._has_modes:
-            self._free_bodies.reset()
-
-    def _set_factors(self, stiffness: npt.NDArray[np.float64]) -> None:
-        """Set the factor c of each contact's complementarity.
-
-        Args:
-            stiffness: Stiffness of each owned node, force/length, NaN where one cannot move.
-        """
-        own = np.zeros_like(stiffness)
-        np.divide(1, stiffness, out=own, where=stiffness > 0)
-        compliance = self._halo.scatter_forward(own)
-        for interface in self._interfaces:
-            interface.set_factor(compliance)
+            self._loop.reset()
 
     def _time_linear_solves(self, report: Report) -> None:
         timer = ExitStack()
@@ -314,94 +286,61 @@ class NewtonLoop:
             self._system.unpack(x)
             self._system.residual(b)
 
-    def _settle(self, *, is_first: bool = False) -> None:
-        """Update pairs and the active set at an accepted iterate.
-
-        Args:
-            is_first: Whether the iterate is the step's start.
-        """
+    def _read_values(self) -> None:
+        """Hand the core what users may change."""
         # Only all ranks together can free what they have dropped
         PETSc.garbage_cleanup(self._halo.comm)
         for interface in self._interfaces:
             interface.read_values()
-        with self._report.timing("settle"):
-            self._active_set.settle(self._forces, is_first)
-        self._is_current = False
 
     @keeps_its_error
     def _test(
         self, snes: PETSc.SNES, number: int, norms: tuple[float, float, float]
     ) -> PETSc.SNES.ConvergedReason:
         """Update pairs and the active set at an iterate, and test the residual that they give."""
-        reason = PETSc.SNES.ConvergedReason
         if not np.isfinite(norms[2]):
-            return reason.DIVERGED_FUNCTION_NANORINF
+            return _CODE.DIVERGED_FUNCTION_NANORINF
         if number > 0:
-            self._shorten_circle()
-            self._take_off_drift()
-            self._settle()
-            self._active_set.advance(is_full=self._length.part == 1)
-        row, small = self._evaluate(snes, number)
-        if small and self._active_set.is_soft:
-            self._active_set.harden()
-            self._is_current = False
-            row, small = self._evaluate(snes, number)
-        while small:
-            end = self._active_set.may_end(self._forces)
-            if end == core.ActiveSet.End.solution:
-                break
-            if end == core.ActiveSet.End.hidden:
-                self._failure, self._is_final = _HIDDEN, True
-                return reason.DIVERGED_FUNCTION_DOMAIN
-            self._is_current = False
-            row, small = self._evaluate(snes, number)
-        self._report.history.append(row)
-        self._active_set.note(row.residual)
-        if not self._active_set.is_soft:
-            self._last = self._system.x.copy()
-        if not np.isfinite(row.residual):
-            return reason.DIVERGED_FUNCTION_NANORINF
-        if small:
+            self._read_values()
+        rtol, atol, _, _ = snes.getTolerances()
+        with self._report.timing("settle"):
+            verdict = self._loop.judge(number == 0, rtol, atol, self._system.b.array)
+            # Iterates may have been taken back
+            self._system.pack()
+        if verdict != core.Verdict.hidden:
+            self._report.history.append(_row(number, self._loop.iterate))
+        if verdict == core.Verdict.solution:
             self._failure = self._look_again()
-            # What geometry refuses, another way to the same place does not mend
-            self._is_final = bool(self._failure)
             self._converged = not self._failure
-            return reason.DIVERGED_FUNCTION_DOMAIN if self._failure else reason.CONVERGED_FNORM_ABS
-        if self._length.is_stuck:
-            return reason.DIVERGED_LINE_SEARCH
-        # In 3D nodes that all slip may balance a body by turning their friction
-        shrinks = any(row.residual < 0.7 * r.residual for r in self._report.history[-2:-1])
-        if self._is_unbalanced() and not shrinks:
-            self._failure, self._is_final = _UNBALANCED, True
-            return reason.DIVERGED_FUNCTION_DOMAIN
-        self._update_jacobian()
-        # Where an active set has come back, only exact solves tell it from its successor
-        changes = sum(self._active_set.changes)
-        changing = 0.0 if self._active_set.cycles else changes / max(1, row.closed)
-        self._linear.set_accuracy(row.residual, row.tolerance, changing)
-        return reason.CONVERGED_ITERATING
+        elif verdict == core.Verdict.ran_away:
+            self._failure = _RAN_AWAY.format(self._loop.way())
+        else:
+            self._failure = _FAILURES.get(verdict, "")
+        # What geometry refuses, another way to the same place does not mend
+        self._is_final = bool(self._failure)
+        if verdict == core.Verdict.goes_on:
+            self._update_jacobian()
+            row = self._loop.iterate
+            self._linear.set_accuracy(
+                row.residual,
+                row.tolerance,
+                self._loop.changing(),
+                has_cycled=self._loop.active_set.cycles > 0,
+            )
+        return _CODE.DIVERGED_FUNCTION_DOMAIN if self._failure else _CODES[verdict]
 
     def _update_jacobian(self) -> None:
         """Bring the Jacobian up to the iterate, where something has changed since."""
-        if not self._is_current:
-            self._linear.update(self._free_bodies.springs)
-        self._is_current = True
-
-    def _is_unbalanced(self) -> bool:
-        """Whether nothing balances a body, now that the active set has settled."""
-        if not self._free_bodies.is_unbalanced:
-            self._unbalanced = 0
-        elif self._active_set.changes[0] == 0:
-            self._unbalanced += 1
-        return self._unbalanced >= _MOST_UNBALANCED
+        if self._version != self._loop.version:
+            self._linear.update(self._loop.free_bodies.springs)
+        self._version = self._loop.version
 
     @keeps_its_error
     def _shorten(self, x: PETSc.Vec, step: PETSc.Vec) -> bool:
         """Shorten a Newton step before the line search; returns whether it may have changed."""
-        parts = self._system.blocks(step.array_r)[1:]
         # A line search of the user's would have nowhere to go
         is_able = self.snes.getIterationNumber() > 0 and self._has_full_steps
-        if is_able and self._active_set.softens([-part for part in parts]):
+        if is_able and self._loop.softens(step.array_r):
             step.zeroEntries()
         else:
             self._length.shorten(self.snes, x, step, self._function)
@@ -409,9 +348,6 @@ class NewtonLoop:
 
     def _look_again(self) -> str:
         """What is wrong with a converged iterate although its residual is small, or nothing."""
-        way = self._way()
-        if self._free_bodies.free_modes > 0 and way > self._criterion.farthest():
-            return _RAN_AWAY.format(way)
         with self._report.timing("audit"):
             self._report.audit = findings = self._audit(self._names)
         if self._refuses:
@@ -419,49 +355,19 @@ class NewtonLoop:
         findings.warnings += findings.faults
         return ""
 
-    def _way(self) -> float:
-        """Largest component of what any node has moved by in this step."""
-        step = np.abs(self._bulk.u.x.array - self._start)
-        return float(largest(self._halo.comm, step.max(initial=0.0)))
 
-    def _shorten_circle(self) -> None:
-        """Take back a part of the last step, if iterates go round in a circle."""
-        if self._last is not None and self._active_set.shortens():
-            part = core.ActiveSet.part
-            self._system.x.aypx(part, (1 - part) * self._last)
-            self._system.unpack(self._system.x)
-
-    def _take_off_drift(self) -> None:
-        """Take off what free bodies have drifted in a step of linear contact conditions.
-
-        With current kinematics pressures resist such motions by a little, and steps seek the place
-        where they balance.
-        """
-        if not self._active_set.is_linear:
-            return
-        drift = self._free_bodies.drift()
-        if drift is not None:
-            self._system.blocks(self._system.x.array)[0][:] -= drift
-            self._system.unpack(self._system.x)
-
-    def _evaluate(self, snes: PETSc.SNES, number: int) -> tuple[Iteration, bool]:
-        """Evaluate the residual of an accepted iterate, and whether it is small enough."""
-        self._system.pack()
-        self._function(snes, self._system.x, self._system.b)
-        rtol, atol, _, _ = snes.getTolerances()
-        residual, tolerance, defect = self._criterion(rtol, atol)
-        row = Iteration(
-            number=number,
-            residual=residual,
-            tolerance=tolerance,
-            closed=self._active_set.num_closed(),
-            status_changes=self._active_set.changes[0],
-            pair_changes=self._active_set.changes[1],
-            frozen_kinematics=self._active_set.is_frozen,
-            dirichlet_defect=defect,
-        )
-        size = largest(self._halo.comm, np.abs(self._bulk.u.x.array).max(initial=0.0))
-        return row, bool(residual <= tolerance and defect <= 1e-10 * size)
+def _row(number: int, iterate: core.Iterate) -> Iteration:
+    """Row of the report of an iterate."""
+    return Iteration(
+        number=number,
+        residual=iterate.residual,
+        tolerance=iterate.tolerance,
+        closed=iterate.closed,
+        status_changes=iterate.status_changes,
+        pair_changes=iterate.pair_changes,
+        frozen_kinematics=iterate.is_frozen,
+        dirichlet_defect=iterate.defect,
+    )
 
 
 def _reason_of(code: int, converged: bool) -> str:

@@ -17,13 +17,11 @@ import numpy.typing as npt
 
 from contactx import cpp as core
 from contactx.bulk import Bulk
+from contactx.bulk_side import BulkSide
 from contactx.interface import Interface
 from contactx.layout import Layout, Rows
 from contactx.parallel.halo import Halo
-from contactx.parallel.reduce import anywhere, everywhere, largest
-
-# Relative difference from a Dirichlet value that has no share in the other rows
-_ROUNDING = 1e-15
+from contactx.parallel.reduce import anywhere, everywhere
 
 
 class SaddlePointSystem:
@@ -33,6 +31,7 @@ class SaddlePointSystem:
     pairs concerns all nodes that it has.
 
     Attributes:
+        core: The core's part: residual and unknowns.
         x: Unknowns.
         b: Residual.
         interfaces: Discrete sides of the contacts.
@@ -50,17 +49,15 @@ class SaddlePointSystem:
             halo: Nodes of this rank.
         """
         self._bulk = bulk
+        self.core = core.System(halo.nodes, BulkSide(bulk, halo), list(interfaces))
         self.interfaces = list(interfaces)
         self.halo = halo
         self._comm = halo.comm
         self.block = halo.gdim
         self.num_bulk = halo.num_owned * halo.gdim
-        sizes = [self.num_bulk, *(len(i.nodes.multiplier) for i in self.interfaces)]
-        self._offsets = np.cumsum([0, *sizes])
+        self._offsets = self.core.offsets
         self._make_vectors()
         self._layout = Layout(halo, self._offsets[-1])
-        self._bulk_residual = np.zeros(self.num_bulk)
-        self._bulk_at: npt.NDArray[np.float64] | None = None
         # Rows of the bulk, and the number of its assemblies when they were taken
         self._rows: tuple[int, Rows] | None = None
         # Places of the entries of the last Jacobian
@@ -72,8 +69,7 @@ class SaddlePointSystem:
         return int(self.halo.num_nodes * self.block)
 
     def begin_step(self) -> None:
-        """Start a step: loads, constants and coefficients may have changed."""
-        self._bulk_at = None
+        """Start a step."""
         # An error inside PETSc leaves the old ones locked
         self._make_vectors()
 
@@ -87,27 +83,15 @@ class SaddlePointSystem:
 
     def pack(self) -> None:
         """Write the unknowns from the functions into ``x``."""
-        displacement, *multipliers = self.blocks(self.x.array)
-        displacement[:] = self._bulk.u.x.array[: self.num_bulk]
-        for part, interface in zip(multipliers, self.interfaces, strict=True):
-            part[:] = interface.nodes.multiplier
+        self.core.unknowns(self.x.array)
 
     def unpack(self, x: PETSc.Vec) -> None:
         """Write the unknowns from a vector into the functions; all ranks must take part."""
-        displacement, *multipliers = self.blocks(x.array_r)
-        self._bulk.u.x.array[: self.num_bulk] = displacement
-        self.halo.update_ghosts()
-        for part, interface in zip(multipliers, self.interfaces, strict=True):
-            interface.nodes.multiplier[:] = part
+        self.core.take(x.array_r)
 
     def bulk_residual(self) -> npt.NDArray[np.float64]:
         """Residual of the bulk alone, assembled anew only where the displacement has changed."""
-        u = self._bulk.u.x.array
-        same = self._bulk_at is not None and np.array_equal(u, self._bulk_at)
-        if not everywhere(self._comm, same):
-            self._bulk_residual = self._bulk.residual()
-            self._bulk_at = u.copy()
-        return self._bulk_residual
+        return self.core.bulk_residual()
 
     def residual(self, b: PETSc.Vec) -> None:
         """Assemble the residual at the functions' state; pairs and status are as they stand.
@@ -115,55 +99,7 @@ class SaddlePointSystem:
         Args:
             b: Vector that is overwritten.
         """
-        force, *constraints = self.blocks(b.array)
-        force[:] = self.bulk_residual()
-        pushed = np.zeros(self.num_local)
-        for interface, row in zip(self.interfaces, constraints, strict=True):
-            interface.update_gap()
-            interface.law.evaluate(interface.nodes)
-            interface.add_residual(pushed)
-            row[:] = interface.nodes.value
-        defect = self._bulk.dirichlet_defect()
-        size = np.abs(self._bulk.u.x.array).max(initial=0.0)
-        largest_, size = largest(self._comm, np.array([np.abs(defect).max(initial=0.0), size]))
-        if largest_ > _ROUNDING * size:
-            self._lift(force, pushed, constraints, defect)
-        force += self._sums(pushed)
-        prescribed = self._bulk.markers[: self.num_bulk] == 1
-        force[prescribed] = defect[: self.num_bulk][prescribed]
-
-    def _sums(self, pushed: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
-        """Forces on this rank's nodes from what the ranks have for theirs, shape (num_bulk,)."""
-        return self.halo.scatter_reverse(pushed.reshape(-1, self.block)).ravel()
-
-    def _lift(
-        self,
-        force: npt.NDArray[np.float64],
-        pushed: npt.NDArray[np.float64],
-        constraints: list[npt.NDArray[np.float64]],
-        defect: npt.NDArray[np.float64],
-    ) -> None:
-        """Take Dirichlet values that the displacement does not have yet to the other rows."""
-        force += self._bulk.lifted()
-        contact = core.ContactBlock(self.interfaces)
-        v = np.concatenate([self._to_all(defect), np.zeros(self._offsets[-1] - self.num_bulk)])
-        lifted, *rows = np.split(
-            contact.multiply(v), self.num_local + self._offsets[1:-1] - self.num_bulk
-        )
-        pushed -= lifted
-        for row, part in zip(constraints, rows, strict=True):
-            row -= part
-
-    def _to_all(self, values: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
-        """Values of all nodes from those of this rank's, shape (num_local,)."""
-        return self.halo.scatter_forward(values.reshape(-1, self.block)).ravel()
-
-    def displacement_residual(self) -> npt.NDArray[np.float64]:
-        """Forces of bulk and contacts at the functions' state, without Dirichlet conditions."""
-        pushed = np.zeros(self.num_local)
-        for interface in self.interfaces:
-            interface.add_residual(pushed)
-        return self.bulk_residual() + self._sums(pushed)
+        self.core.residual(b.array)
 
     def jacobian(
         self, A: PETSc.Mat | None = None, springs: npt.NDArray[np.float64] | None = None
@@ -224,11 +160,7 @@ class SaddlePointSystem:
             x: Vector of all unknowns.
             y: Product, overwritten.
         """
-        n = self.num_bulk
-        v = np.concatenate([self._to_all(x.array_r[:n]), x.array_r[n:]])
-        w = contact.multiply(v)
-        y.array[:n] = self._sums(w[: self.num_local])
-        y.array[n:] = w[self.num_local :]
+        self.core.multiply(contact, x.array_r, y.array)
 
     def _markers(self) -> npt.NDArray[np.int8]:
         """1 at prescribed displacements of all nodes, shape (num_local,)."""

@@ -6,7 +6,7 @@ import numpy as np
 
 import contactx as cx
 from contactx import cpp as core
-from contactx.bodies import BulkSide
+from contactx.bulk_side import BulkSide
 from dolfinx import mesh
 
 

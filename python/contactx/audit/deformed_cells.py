@@ -66,16 +66,3 @@ class DeformedCells:
         keys = [(value, tuple(place)) for value, place in mine]
         smallest, at = reduce.first(self._comm, keys, mine)
         return Squeezed(smallest, reduce.total(self._comm, inverted), at)
-
-    def longest_way(
-        self, u: npt.NDArray[np.float64], way: npt.NDArray[np.float64], left: float
-    ) -> float:
-        """Part of a way that leaves each cell a part of its volume; all ranks must take part.
-
-        Args:
-            u: Displacements of this rank's nodes, ghosts included, shape (num_nodes * gdim,).
-            way: What is added to them in all, likewise.
-            left: Part of min(det F, 1) that each cell keeps.
-        """
-        part = core.longest_way(self._cells, self._X, u, way, self._X.shape[1], left)
-        return float(reduce.least(self._comm, part))

@@ -134,7 +134,7 @@ def raise_at(call, error):
     return wrap
 
 
-@pytest.mark.parametrize(("error", "call"), [(Wrong, 16), (KeyboardInterrupt, 20), (Wrong, 25)])
+@pytest.mark.parametrize(("error", "call"), [(Wrong, 8), (KeyboardInterrupt, 10), (Wrong, 12)])
 def test_another_error_of_the_solve_is_not_cut(monkeypatch, error, call):
     """The loads are those of the last accepted step again."""
     scene = Sheared(far=0.1)

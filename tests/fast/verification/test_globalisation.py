@@ -23,7 +23,7 @@ def answer(strip):
 
 
 def without_soft_path(monkeypatch):
-    monkeypatch.setattr(core.ActiveSet, "softens", lambda self, step: False)
+    monkeypatch.setattr(core.Loop, "softens", lambda self, dx: False)
 
 
 @pytest.mark.parametrize("method", METHODS)
@@ -90,7 +90,7 @@ def test_soft_rows_are_condensed(method):
 def test_the_first_step_of_all_is_taken(monkeypatch):
     """It brings the displacements that are prescribed: what it opens says nothing."""
     asked = []
-    monkeypatch.setattr(core.ActiveSet, "softens", lambda self, step: asked.append(step))
+    monkeypatch.setattr(core.Loop, "softens", lambda self, dx: bool(asked.append(dx)))
     report = slender.press(slender.beam(20, "thick"), "thick")
     assert len(asked) == report.iterations - 1 > 0
 
@@ -167,20 +167,9 @@ def test_damped_steps_take_over(monkeypatch):
         Roller(*roller, n=10).press(0.5)
 
 
-def test_half_a_step_is_taken_where_iterates_go_round(monkeypatch):
-    """When they do: see test_cycle_guard.cpp. What is linear is then left by half."""
-    monkeypatch.setattr(core.ActiveSet, "shortens", lambda self: True)
-    scene = Blocks(CellType.triangle)
-    problem = scene.problem(scene.contact(sliding="small"), petsc_options={"snes_max_it": 12})
-    with pytest.raises(cx.ConvergenceError):
-        problem.solve()
-    residuals = np.array([row.residual for row in problem.report.history[-6:]])
-    np.testing.assert_allclose(residuals[1:] / residuals[:-1], 0.5, rtol=1e-6)
-
-
 def test_steps_that_lead_nowhere_end_the_loop(monkeypatch):
     """When they do: see test_step_length.cpp."""
-    monkeypatch.setattr(StepLength, "is_stuck", True)
+    monkeypatch.setattr(core.Loop, "judge", lambda *_: core.Verdict.stuck)
     scene = Blocks(CellType.triangle)
     problem = scene.problem(scene.contact(sliding="small"))
     with pytest.raises(cx.ConvergenceError, match="no step is short enough to lead on"):

@@ -1,0 +1,102 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#pragma once
+
+#include "bindings.h"
+#include <contactx/newton/bulk.h>
+
+namespace contactx_bindings
+{
+/// Bulk that an object of Python looks after: see
+/// python/contactx/bulk_side.py. The object is kept alive.
+class PythonBulk final : public contactx::newton::Bulk
+{
+public:
+  explicit PythonBulk(py::object adapter) : _adapter(std::move(adapter)) {}
+
+  int gdim() const override { return _adapter.attr("gdim").cast<int>(); }
+  bool is_linear() const override
+  {
+    return _adapter.attr("is_linear").cast<bool>();
+  }
+  std::span<const double> reference() override
+  {
+    return keep(_reference, _adapter.attr("reference"));
+  }
+  std::span<const double> positions() override
+  {
+    return keep(_positions, _adapter.attr("positions")());
+  }
+  std::span<const double> displacements() override
+  {
+    return keep(_displacements, _adapter.attr("displacements"));
+  }
+  std::span<const std::int8_t> markers() override
+  {
+    return keep(_markers, _adapter.attr("markers"));
+  }
+  std::span<const double> diagonal() override
+  {
+    return keep(_diagonal, _adapter.attr("diagonal")());
+  }
+  std::span<const double> products(std::span<const double> fields,
+                                   int count) override
+  {
+    const py::ssize_t size
+        = count == 0 ? 0 : static_cast<py::ssize_t>(fields.size()) / count;
+    // With a base nothing is copied
+    py::array_t<double> given({static_cast<py::ssize_t>(count), size},
+                              fields.data(), py::none());
+    given.attr("flags").attr("writeable") = false;
+    return keep(_products, _adapter.attr("products")(given));
+  }
+  std::span<const double> residual() override
+  {
+    return keep(_residual, _adapter.attr("residual")());
+  }
+  std::span<const double> defect() override
+  {
+    return keep(_defect, _adapter.attr("defect")());
+  }
+  std::span<const double> lifted() override
+  {
+    return keep(_lifted, _adapter.attr("lifted")());
+  }
+  void set_displacements(std::span<const double> u) override
+  {
+    _adapter.attr("set_displacements")(
+        py::array_t<double>(static_cast<py::ssize_t>(u.size()), u.data()));
+  }
+  std::span<const std::int32_t> cells() override
+  {
+    return keep(_cells, _adapter.attr("cells"));
+  }
+  int nodes_per_cell() const override
+  {
+    return _adapter.attr("nodes_per_cell").cast<int>();
+  }
+  std::span<const double> cell_sizes() override
+  {
+    return keep(_cell_sizes, _adapter.attr("cell_sizes")());
+  }
+  std::span<const double> cell_forces() override
+  {
+    return keep(_cell_forces, _adapter.attr("cell_forces")());
+  }
+
+private:
+  template <class T>
+  static std::span<const T> keep(Array<T>& kept, const py::object& values)
+  {
+    kept = values.cast<Array<T>>();
+    return view(kept);
+  }
+
+  py::object _adapter;
+  Array<double> _reference, _positions, _displacements, _diagonal, _products,
+      _residual, _defect, _lifted, _cell_sizes, _cell_forces;
+  Array<std::int32_t> _cells;
+  Array<std::int8_t> _markers;
+};
+} // namespace contactx_bindings

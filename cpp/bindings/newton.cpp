@@ -1,0 +1,159 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include "bulk.h"
+#include "master.h"
+#include <contactx/newton/accuracy.h>
+#include <contactx/newton/loop.h>
+#include <pybind11/stl.h>
+
+namespace py = pybind11;
+using namespace contactx_bindings;
+using namespace contactx::newton;
+using contactx::active_set::ActiveSet;
+using contactx::active_set::FreeBodies;
+using contactx::active_set::StepLength;
+using contactx::condense::ContactBlock;
+using contactx::contact::Bodies;
+using contactx::parallel::Halo;
+
+void contactx_bindings::newton(py::module_& m)
+{
+  py::class_<System, std::shared_ptr<System>>(m, "System",
+                                              "Coupled bulk and contacts")
+      .def(py::init(
+               [](std::shared_ptr<Halo> halo, py::object bulk,
+                  System::Contacts contacts)
+               {
+                 return std::make_shared<System>(
+                     std::move(halo),
+                     std::make_shared<PythonBulk>(std::move(bulk)),
+                     std::move(contacts));
+               }),
+           py::arg("halo"), py::arg("bulk"), py::arg("contacts"))
+      .def_property_readonly("offsets", &System::offsets)
+      .def("begin_step", &System::begin_step)
+      .def(
+          "unknowns", [](const System& self, Array<double> x)
+          { self.unknowns(mutable_view(x)); }, py::arg("x").noconvert())
+      .def(
+          "take", [](System& self, const Array<double>& x)
+          { self.take(view(x)); }, py::arg("x"))
+      .def("bulk_residual",
+           [](System& self)
+           {
+             const auto b = self.bulk_residual();
+             return array(std::vector<double>(b.begin(), b.end()));
+           })
+      .def(
+          "residual", [](System& self, Array<double> b)
+          { self.residual(mutable_view(b)); }, py::arg("b").noconvert())
+      .def("forces", [](System& self) { return array(self.forces()); })
+      .def(
+          "multiply",
+          [](const System& self, const ContactBlock& contact,
+             const Array<double>& x, Array<double> y)
+          { self.multiply(contact, view(x), mutable_view(y)); },
+          py::arg("contact"), py::arg("x"), py::arg("y").noconvert());
+
+  py::enum_<Verdict>(m, "Verdict", "What an accepted iterate is")
+      .value("goes_on", Verdict::goes_on)
+      .value("solution", Verdict::solution)
+      .value("not_finite", Verdict::not_finite)
+      .value("hidden", Verdict::hidden)
+      .value("ran_away", Verdict::ran_away)
+      .value("unbalanced", Verdict::unbalanced)
+      .value("stuck", Verdict::stuck);
+
+  py::class_<Iterate>(m, "Iterate", "An accepted iterate")
+      .def_readonly("residual", &Iterate::residual)
+      .def_readonly("tolerance", &Iterate::tolerance)
+      .def_readonly("defect", &Iterate::defect)
+      .def_readonly("closed", &Iterate::closed)
+      .def_readonly("is_frozen", &Iterate::is_frozen)
+      .def_property_readonly("status_changes", [](const Iterate& self)
+                             { return self.changes.status; })
+      .def_property_readonly("pair_changes", [](const Iterate& self)
+                             { return self.changes.pairs; });
+
+  py::class_<Convergence>(m, "Convergence", "When residuals are small")
+      .def_property_readonly("extent", &Convergence::extent)
+      .def(
+          "compare",
+          [](Convergence& self, const Array<double>& b, double rtol,
+             double atol)
+          {
+            const auto found = self.compare(view(b), rtol, atol);
+            return py::make_tuple(found.residual, found.tolerance,
+                                  found.defect);
+          },
+          py::arg("b"), py::arg("rtol"), py::arg("atol"))
+      .def("may_be_rounding", &Convergence::may_be_rounding,
+           py::arg("residual"));
+
+  py::class_<Loop>(m, "Loop", "Newton's method but for the linear solves")
+      .def(py::init<std::shared_ptr<System>, std::shared_ptr<Bodies>>(),
+           py::arg("system"), py::arg("bodies"))
+      .def_property_readonly("active_set", &Loop::active_set,
+                             py::return_value_policy::reference_internal)
+      .def_property_readonly("free_bodies", &Loop::free_bodies,
+                             py::return_value_policy::reference_internal)
+      .def_property_readonly("convergence", &Loop::convergence,
+                             py::return_value_policy::reference_internal)
+      .def_property_readonly("length", &Loop::length,
+                             py::return_value_policy::reference_internal)
+      .def_property_readonly("iterate", &Loop::iterate,
+                             py::return_value_policy::reference_internal)
+      .def_property_readonly("version", &Loop::version)
+      .def("begin_step", &Loop::begin_step, py::arg("damped"))
+      .def("settle_first", &Loop::settle_first)
+      .def(
+          "judge",
+          [](Loop& self, bool is_start, double rtol, double atol,
+             Array<double> b)
+          { return self.judge(is_start, rtol, atol, mutable_view(b)); },
+          py::arg("is_start"), py::arg("rtol"), py::arg("atol"),
+          py::arg("b").noconvert())
+      .def(
+          "softens", [](Loop& self, const Array<double>& dx)
+          { return self.softens(view(dx)); }, py::arg("dx"))
+      .def(
+          "within_cells", [](const Loop& self, const Array<double>& dx)
+          { return self.within_cells(view(dx)); }, py::arg("dx"))
+      .def(
+          "size_of", [](const Loop& self, const Array<double>& dx)
+          { return self.size_of(view(dx)); }, py::arg("dx"))
+      .def("way", &Loop::way)
+      .def("changing", &Loop::changing)
+      .def("accept", &Loop::accept)
+      .def("find_rigid_modes", &Loop::find_rigid_modes)
+      .def("reset", &Loop::reset);
+
+  py::class_<ActiveSet>(m, "ActiveSet", "Pairs and status of all contacts")
+      .def("num_closed", &ActiveSet::num_closed)
+      .def("num_corners", &ActiveSet::num_corners)
+      .def_property_readonly("is_frozen", &ActiveSet::is_frozen)
+      .def_property_readonly("is_soft", &ActiveSet::is_soft)
+      .def_property_readonly("cycles", &ActiveSet::cycles)
+      .def_property_readonly("soft_iterations", &ActiveSet::soft_iterations)
+      .def_property_readonly("hidden_gaps", &ActiveSet::hidden_gaps);
+
+  py::class_<StepLength>(m, "StepLength", "How much of a step is taken")
+      .def("begin", &StepLength::begin, py::arg("size"),
+           py::arg("within_cells"))
+      .def_property_readonly("has_trial", &StepLength::has_trial)
+      .def("judge", &StepLength::judge, py::arg("next_size"))
+      .def_property_readonly("part", &StepLength::part)
+      .def_property_readonly("limited", &StepLength::limited)
+      .def_property_readonly("damped", &StepLength::damped)
+      .def_property_readonly("is_stuck", &StepLength::is_stuck);
+
+  py::class_<Accuracy>(m, "Accuracy", "How accurate linear solves must be")
+      .def(py::init<bool>(), py::arg("has_path"))
+      .def("begin_step", &Accuracy::begin_step)
+      .def("reset", &Accuracy::reset)
+      .def("set", &Accuracy::set, py::arg("residual"), py::arg("tolerance"),
+           py::arg("changing"), py::arg("has_cycled") = false)
+      .def_property_readonly("target", &Accuracy::target)
+      .def_property_readonly("is_last", &Accuracy::is_last);
+}

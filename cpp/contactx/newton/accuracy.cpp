@@ -1,0 +1,40 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include "accuracy.h"
+#include <algorithm>
+
+using namespace contactx::newton;
+
+namespace
+{
+/// Part of the residual that the next iterate has while the active set changes,
+/// at least and at most: a linear solve leaves a tenth of it
+constexpr double rough_least = 1e-5, rough_most = 0.1;
+/// The same where a contact has friction
+constexpr double exact = 1e-10;
+} // namespace
+
+void Accuracy::set(double residual, double tolerance, double changing,
+                   bool has_cycled)
+{
+  const bool settled = has_cycled or changing == 0;
+  if (settled and _before > 0)
+  {
+    const double seen = residual / (_before * _before);
+    // What the solve itself has left says no more than that it is not larger
+    const bool shown = residual > 10 * _target;
+    _curvature = shown ? seen : std::min(seen, _curvature);
+  }
+  _before = settled ? residual : 0;
+  double left = std::min(_curvature * residual * residual, 0.1 * residual);
+  if (not settled and _has_path)
+    left = exact * residual;
+  else if (not settled)
+    left = std::max(left,
+                    std::clamp(changing, rough_least, rough_most) * residual);
+  // At the end far below the tolerance: errors must not decide between stick
+  // and slip
+  _target = std::max(0.1 * left, 0.01 * tolerance);
+  _is_last = _target < 0.1 * tolerance;
+}

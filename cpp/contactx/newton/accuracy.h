@@ -1,0 +1,51 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#pragma once
+
+namespace contactx::newton
+{
+/// @brief How accurate linear solves must be: no more than the next residual
+/// will show.
+///
+/// While the active set changes, its change dominates the next residual. Once
+/// it has settled, Newton's method leaves a multiple of the residual's square,
+/// as seen in the last iteration. Where nodes slip from where they touch first,
+/// the solution depends on the iterates: these must depend neither on the
+/// linear solver nor on the number of ranks.
+class Accuracy
+{
+public:
+  /// @param[in] has_path Whether slip is measured in any contact.
+  explicit Accuracy(bool has_path) : _has_path(has_path) {}
+
+  /// @brief Start a step.
+  void begin_step() { _before = 0; }
+
+  /// @brief Forget what iterations have shown.
+  void reset() { _before = _curvature = 0; }
+
+  /// @brief Set the accuracy of the next solve.
+  /// @param[in] residual Residual of the iterate.
+  /// @param[in] tolerance What it must fall below.
+  /// @param[in] changing Part of the nodes in contact whose status or pair has
+  /// changed.
+  /// @param[in] has_cycled Whether an active set has come back in this step:
+  /// only exact solves tell it from its successor.
+  void set(double residual, double tolerance, double changing,
+           bool has_cycled = false);
+
+  /// @brief Residual that the next solve may leave; zero before `set`.
+  double target() const { return _target; }
+
+  /// @brief Whether the next residual shall be below the tolerance.
+  bool is_last() const { return _is_last; }
+
+private:
+  bool _has_path, _is_last = false;
+  // Residual of the iterate before, and what Newton's method makes of its
+  // square
+  double _before = 0, _curvature = 0;
+  double _target = 0;
+};
+} // namespace contactx::newton

@@ -1,0 +1,51 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#pragma once
+
+#include "../active_set/rigid_modes.h"
+
+namespace contactx::newton
+{
+/// @brief Bodies without contact, as a Newton loop sees them.
+///
+/// An adapter provides it. All ranks must take part in what returns forces and
+/// in `set_displacements`.
+class Bulk : public active_set::Bulk
+{
+public:
+  /// @brief Forces at the displacements of now, internal ones less loads,
+  /// without Dirichlet conditions (shape=(num_owned, gdim)).
+  virtual std::span<const double> residual() = 0;
+
+  /// @brief Displacements minus Dirichlet values where these are prescribed,
+  /// else zero (shape=(num_owned, gdim)).
+  virtual std::span<const double> defect() = 0;
+
+  /// @brief Products of the stiffness with Dirichlet values that the
+  /// displacements do not have yet, less those with the displacements there
+  /// (shape=(num_owned, gdim)).
+  virtual std::span<const double> lifted() = 0;
+
+  /// @brief Set the displacements of the owned nodes, and give other ranks
+  /// those of theirs.
+  /// @param[in] u Displacements (shape=(num_owned, gdim)).
+  virtual void set_displacements(std::span<const double> u) = 0;
+
+  /// @brief Nodes of the cells that this rank owns (shape=(num_cells,
+  /// nodes_per_cell)).
+  virtual std::span<const std::int32_t> cells() = 0;
+
+  /// @brief Nodes of each cell.
+  virtual int nodes_per_cell() const = 0;
+
+  /// @brief Size of the largest cell around each owned node
+  /// (shape=(num_owned)).
+  virtual std::span<const double> cell_sizes() = 0;
+
+  /// @brief Sum over cells and terms of the size of their force on each owned
+  /// node (shape=(num_owned)): forces before they cancel. It is dear, and
+  /// asked for once a step at most.
+  virtual std::span<const double> cell_forces() = 0;
+};
+} // namespace contactx::newton

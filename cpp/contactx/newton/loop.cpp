@@ -1,0 +1,263 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include "loop.h"
+#include "../audit/deformed_cells.h"
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+using namespace contactx;
+using namespace contactx::newton;
+
+namespace
+{
+/// Difference from a Dirichlet value over the largest displacement
+constexpr double defect_allowed = 1e-10;
+
+std::vector<std::shared_ptr<active_set::Holding>>
+holdings(const System::Contacts& contacts)
+{
+  std::vector<std::shared_ptr<active_set::Holding>> held;
+  for (const auto& c : contacts)
+    held.push_back(active_set::holding(c));
+  return held;
+}
+} // namespace
+
+Loop::Loop(std::shared_ptr<System> system,
+           std::shared_ptr<const contact::Bodies> bodies)
+    : _system(std::move(system)), _convergence(_system),
+      _bodies(std::make_shared<active_set::FreeBodies>(
+          std::move(bodies), _system->bulk(), holdings(_system->contacts()),
+          _system->halo()->original().first(_system->halo()->num_owned()))),
+      _active_set(_system->halo(), _system->contacts(), _bodies),
+      _forces{[this] { return _system->forces(); },
+              [this]
+              {
+                const auto b = _system->bulk_residual();
+                return std::vector<double>(b.begin(), b.end());
+              },
+              [this] { return _convergence.scale_of_balance(); }}
+{
+}
+
+bool Loop::begin_step(bool damped)
+{
+  _system->begin_step();
+  _active_set.begin_step();
+  _length.begin_step(damped);
+  const std::span<const double> u = _system->bulk()->displacements();
+  _start.assign(u.begin(), u.end());
+  _last.reset();
+  _balance.begin_step();
+  _iterate = {};
+  ++_version;
+  if (not std::isfinite(_convergence.scale()))
+    return false;
+  std::vector<double> stiffness = this->stiffness();
+  set_factors(stiffness);
+  _convergence.begin_step(std::move(stiffness));
+  _bodies->begin_step();
+  return true;
+}
+
+/// Stiffness of each owned node: the mean of its free diagonal entries, zero
+/// where all are prescribed.
+std::vector<double> Loop::stiffness()
+{
+  Bulk& bulk = *_system->bulk();
+  const int g = _system->halo()->gdim();
+  const std::span<const double> diagonal = bulk.diagonal();
+  const std::span<const std::int8_t> markers = bulk.markers();
+  std::vector<double> stiffness(_system->halo()->num_owned());
+  for (std::size_t i = 0; i < stiffness.size(); ++i)
+  {
+    int free = 0;
+    for (int k = 0; k < g; ++k)
+      if (markers[g * i + k] == 0)
+      {
+        stiffness[i] += std::abs(diagonal[g * i + k]);
+        ++free;
+      }
+    if (free > 0)
+      stiffness[i] /= free;
+  }
+  return stiffness;
+}
+
+/// Sets the factor c of each contact's complementarity.
+void Loop::set_factors(std::span<const double> stiffness)
+{
+  std::vector<double> compliance(_system->halo()->num_nodes());
+  for (std::size_t i = 0; i < stiffness.size(); ++i)
+    if (stiffness[i] > 0)
+      compliance[i] = 1 / stiffness[i];
+  _system->halo()->forward(std::span(compliance), 1);
+  for (const auto& c : _system->contacts())
+    c->set_factor(compliance);
+}
+
+void Loop::settle_first()
+{
+  settle(true);
+  // What asks for the Jacobian before it asks for the residual
+  for (const auto& c : _system->contacts())
+    c->law()->evaluate(*c->nodes());
+}
+
+void Loop::settle(bool is_first)
+{
+  _active_set.settle(_forces, is_first);
+  ++_version;
+}
+
+Verdict Loop::judge(bool is_start, double rtol, double atol,
+                    std::span<double> b)
+{
+  if (not is_start)
+  {
+    take_back();
+    take_off_drift();
+    settle(false);
+    _active_set.advance(_length.part() == 1);
+  }
+  bool is_small = compare(rtol, atol, b);
+  if (is_small and _active_set.is_soft())
+  {
+    _active_set.harden();
+    ++_version;
+    is_small = compare(rtol, atol, b);
+  }
+  while (is_small)
+  {
+    const auto end = _active_set.may_end(_forces);
+    if (end == active_set::ActiveSet::End::solution)
+      break;
+    if (end == active_set::ActiveSet::End::hidden)
+      return Verdict::hidden;
+    ++_version;
+    is_small = compare(rtol, atol, b);
+  }
+  _active_set.note(_iterate.residual);
+  if (not _active_set.is_soft())
+  {
+    _last.emplace(_system->size());
+    _system->unknowns(*_last);
+  }
+  const bool is_unbalanced = _balance.note(
+      _bodies->is_unbalanced(), _iterate.changes.status, _iterate.residual);
+  if (not std::isfinite(_iterate.residual))
+    return Verdict::not_finite;
+  if (is_small)
+  {
+    const bool is_loose = _bodies->free_modes() > 0;
+    return is_loose and way() > _convergence.farthest() ? Verdict::ran_away
+                                                        : Verdict::solution;
+  }
+  if (_length.is_stuck())
+    return Verdict::stuck;
+  return is_unbalanced ? Verdict::unbalanced : Verdict::goes_on;
+}
+
+/// Takes back a part of the last step, if iterates go round in a circle.
+void Loop::take_back()
+{
+  if (not _last or not _active_set.shortens())
+    return;
+  constexpr double part = active_set::CycleGuard::part;
+  std::vector<double> x(_system->size());
+  _system->unknowns(x);
+  for (std::size_t i = 0; i < x.size(); ++i)
+    x[i] = part * x[i] + (1 - part) * (*_last)[i];
+  _system->take(x);
+}
+
+/// Takes off what free bodies have drifted in a step of linear contact
+/// conditions: with current kinematics pressures resist such motions by a
+/// little, and steps seek the place where they balance.
+void Loop::take_off_drift()
+{
+  if (not _active_set.is_linear())
+    return;
+  const auto drift = _bodies->drift();
+  if (not drift)
+    return;
+  const std::span<const double> now = _system->bulk()->displacements();
+  std::vector<double> u(now.begin(), now.end());
+  for (std::size_t i = 0; i < u.size(); ++i)
+    u[i] -= (*drift)[i];
+  _system->bulk()->set_displacements(u);
+}
+
+/// Evaluates the residual of an iterate, and whether it is small enough.
+bool Loop::compare(double rtol, double atol, std::span<double> b)
+{
+  _system->residual(b);
+  const auto found = _convergence.compare(b, rtol, atol);
+  _iterate = {found.residual,        found.tolerance,
+              found.defect,          _active_set.num_closed(),
+              _active_set.changes(), _active_set.is_frozen()};
+  double size = 0;
+  for (const double u : _system->bulk()->displacements())
+    size = std::max(size, std::abs(u));
+  size = parallel::largest(_system->halo()->ranks(), size);
+  return found.residual <= found.tolerance
+         and found.defect <= defect_allowed * size;
+}
+
+bool Loop::softens(std::span<const double> dx)
+{
+  const auto& offsets = _system->offsets();
+  std::vector<std::vector<double>> steps;
+  for (std::size_t k = 1; k + 1 < offsets.size(); ++k)
+  {
+    steps.emplace_back(dx.begin() + offsets[k], dx.begin() + offsets[k + 1]);
+    for (double& value : steps.back())
+      value = -value;
+  }
+  if (not _active_set.softens({steps.begin(), steps.end()}))
+    return false;
+  ++_version;
+  return true;
+}
+
+double Loop::within_cells(std::span<const double> dx) const
+{
+  Bulk& bulk = *_system->bulk();
+  if (bulk.is_linear())
+    return 1;
+  const parallel::Halo& halo = *_system->halo();
+  std::vector<double> way(std::size_t(halo.num_nodes()) * halo.gdim());
+  for (std::size_t i = 0; i < _system->num_displacements(); ++i)
+    way[i] = -dx[i];
+  halo.forward(std::span(way), halo.gdim());
+  const double part = audit::longest_way(
+      bulk.cells(), bulk.nodes_per_cell(), halo.reference(),
+      halo.displacement(), way, halo.gdim(), active_set::StepLength::left);
+  return parallel::least(halo.ranks(), part);
+}
+
+double Loop::size_of(std::span<const double> dx) const
+{
+  double sum = 0;
+  for (std::size_t i = 0; i < _system->num_displacements(); ++i)
+    sum += dx[i] * dx[i];
+  return std::sqrt(parallel::total(_system->halo()->ranks(), sum));
+}
+
+double Loop::way()
+{
+  const std::span<const double> u = _system->bulk()->displacements();
+  double most = 0;
+  for (std::size_t i = 0; i < u.size(); ++i)
+    most = std::max(most, std::abs(u[i] - _start[i]));
+  return parallel::largest(_system->halo()->ranks(), most);
+}
+
+double Loop::changing() const
+{
+  const auto changes = _iterate.changes.status + _iterate.changes.pairs;
+  return static_cast<double>(changes)
+         / static_cast<double>(std::max<std::int64_t>(1, _iterate.closed));
+}

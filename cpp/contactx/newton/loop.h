@@ -1,0 +1,165 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#pragma once
+
+#include "../active_set/active_set.h"
+#include "../active_set/balance_guard.h"
+#include "../active_set/step_length.h"
+#include "convergence.h"
+
+namespace contactx::newton
+{
+/// @brief What an accepted iterate is.
+enum class Verdict : std::int8_t
+{
+  goes_on,    ///< the Jacobian's turn
+  solution,   ///< bulk, contacts and active set are in equilibrium
+  not_finite, ///< the residual is not
+  hidden,     ///< frozen pairs hide a penetration, and cannot be released
+  ran_away,   ///< it would be, but for a body that nothing holds and that has
+              ///< left the scene
+  unbalanced, ///< nothing can balance the loads on a body
+  stuck       ///< the last steps have led nowhere
+};
+
+/// @brief An accepted iterate, as all ranks see it.
+struct Iterate
+{
+  double residual = 0;           ///< norm of the residual
+  double tolerance = 0;          ///< what it must not exceed
+  double defect = 0;             ///< largest difference from a Dirichlet value
+  std::int64_t closed = 0;       ///< slave nodes in contact
+  active_set::Changes changes{}; ///< of the last update
+  bool is_frozen = false;        ///< whether kinematics are
+};
+
+/// @brief Semismooth Newton method, the primal-dual active set strategy
+/// (Alart & Curnier 1991; Hueeber & Wohlmuth 2005), but for the linear solves.
+///
+/// Pairs and the active set (the closed nodes, and which of them stick) change
+/// once an accepted iterate, in `judge`, never inside a line search. The
+/// residual that is compared is that of the new pairs and the new active set.
+/// So a small residual means equilibrium and complementarity at once.
+///
+/// Whoever solves calls, in each load step,
+///
+///     loop.begin_step(damped);
+///     loop.settle_first();
+///     for (Verdict v = loop.judge(b, ...); v == goes_on; v = loop.judge(...))
+///     {
+///       // solve J dx = b, with loop.springs() on J's diagonal
+///       if (loop.softens(dx)) continue;       // contact is soft from now on
+///       loop.length().begin(loop.size_of(dx), loop.within_cells(dx));
+///       // try parts while loop.length() asks for it, see StepLength
+///       system.take(x - loop.length().part() * dx);
+///     }
+///     contacts accept; loop.accept();
+///
+/// All ranks must take part in whatever has no const.
+class Loop
+{
+public:
+  /// @brief Take a problem.
+  /// @param[in] system Bulk and contacts.
+  /// @param[in] bodies Bodies of the mesh.
+  Loop(std::shared_ptr<System> system,
+       std::shared_ptr<const contact::Bodies> bodies);
+  // Its own functions give it the forces
+  Loop(const Loop&) = delete;
+  Loop& operator=(const Loop&) = delete;
+
+  /// @brief The system.
+  const std::shared_ptr<System>& system() const { return _system; }
+
+  /// @brief Pairs and status.
+  const active_set::ActiveSet& active_set() const { return _active_set; }
+
+  /// @brief What keeps bodies without supports solvable.
+  const active_set::FreeBodies& free_bodies() const { return *_bodies; }
+
+  /// @brief When residuals are small.
+  Convergence& convergence() { return _convergence; }
+
+  /// @brief Start a step: loads, constants and coefficients may have changed.
+  /// @param[in] damped Whether steps are damped.
+  /// @return Whether the bulk's residual is finite; the step has not begun if
+  /// not.
+  bool begin_step(bool damped);
+
+  /// @brief Update pairs and the active set at the step's start.
+  void settle_first();
+
+  /// @brief Update pairs and the active set at an accepted iterate, and judge
+  /// the residual that they give.
+  ///
+  /// The iterate itself may change: where iterates go round a part of the last
+  /// step is taken back, and free bodies that have drifted are taken back.
+  /// @param[in] is_start Whether no step was taken since `settle_first`.
+  /// @param[in] rtol Tolerance relative to the forces.
+  /// @param[in] atol Absolute tolerance.
+  /// @param[out] b Residual of the iterate (shape=(System::size)).
+  Verdict judge(bool is_start, double rtol, double atol, std::span<double> b);
+
+  /// @brief The iterate that was judged.
+  const Iterate& iterate() const { return _iterate; }
+
+  /// @brief Counts how often what the Jacobian depends on has changed, the
+  /// displacements of linear solves apart.
+  std::int64_t version() const { return _version; }
+
+  /// @brief Whether a step that is about to be taken shall not be: contact
+  /// becomes soft instead, see active_set::SoftPath.
+  /// @param[in] dx What is to be taken off the unknowns (shape=(size)).
+  bool softens(std::span<const double> dx);
+
+  /// @brief Largest part of a step, at most 1, that turns no cell inside out.
+  /// @param[in] dx What is to be taken off the unknowns (shape=(size)).
+  double within_cells(std::span<const double> dx) const;
+
+  /// @brief The rule of the part of a step that is taken.
+  active_set::StepLength& length() { return _length; }
+
+  /// @brief Size of a step: norm of its displacements.
+  /// @param[in] dx Step (shape=(size)).
+  double size_of(std::span<const double> dx) const;
+
+  /// @brief Largest component of what any node has moved by in this step.
+  double way();
+
+  /// @brief Part of the nodes in contact whose status or pair has changed.
+  double changing() const;
+
+  /// @brief Take the converged state as the start of the next step.
+  void accept() { _convergence.accept(); }
+
+  /// @brief Find the free rigid modes of the bodies as they are.
+  void find_rigid_modes() { _bodies->begin_step(); }
+
+  /// @brief Drop the rigid modes: a failed step may have found them of a spoilt
+  /// stiffness.
+  void reset() { _bodies->reset(); }
+
+private:
+  void settle(bool is_first);
+  void take_back();
+  void take_off_drift();
+  bool compare(double rtol, double atol, std::span<double> b);
+  std::vector<double> stiffness();
+  void set_factors(std::span<const double> stiffness);
+
+  std::shared_ptr<System> _system;
+  Convergence _convergence;
+  std::shared_ptr<active_set::FreeBodies> _bodies;
+  active_set::ActiveSet _active_set;
+  active_set::Forces _forces;
+  active_set::StepLength _length;
+  active_set::BalanceGuard _balance;
+  Iterate _iterate;
+  std::int64_t _version = 0;
+  // Displacements at the step's start
+  std::vector<double> _start;
+  // The iterate before with hard contact
+  std::optional<std::vector<double>> _last;
+};
+} // namespace contactx::newton

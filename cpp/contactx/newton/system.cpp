@@ -1,0 +1,164 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include "system.h"
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+using namespace contactx;
+using namespace contactx::newton;
+
+namespace
+{
+/// Relative difference from a Dirichlet value that has no share in other rows
+constexpr double rounding = 1e-15;
+
+double largest_size(std::span<const double> values)
+{
+  double most = 0;
+  for (const double value : values)
+    most = std::max(most, std::abs(value));
+  return most;
+}
+} // namespace
+
+System::System(std::shared_ptr<parallel::Halo> halo, std::shared_ptr<Bulk> bulk,
+               Contacts contacts)
+    : _halo(std::move(halo)), _bulk(std::move(bulk)),
+      _contacts(std::move(contacts)),
+      _offsets{0, std::size_t(_halo->num_owned()) * _halo->gdim()}
+{
+  for (const auto& c : _contacts)
+    _offsets.push_back(_offsets.back() + c->nodes()->multiplier.size());
+}
+
+void System::check(std::size_t size, const char* name) const
+{
+  if (size != this->size())
+    throw std::invalid_argument(std::string(name)
+                                + " must have a value for each unknown of this "
+                                  "rank");
+}
+
+void System::unknowns(std::span<double> x) const
+{
+  check(x.size(), "x");
+  std::ranges::copy(_bulk->displacements(), x.begin());
+  for (std::size_t k = 0; k < _contacts.size(); ++k)
+    std::ranges::copy(_contacts[k]->nodes()->multiplier,
+                      x.begin() + _offsets[k + 1]);
+}
+
+void System::take(std::span<const double> x)
+{
+  _halo->ranks().agree([&] { check(x.size(), "x"); });
+  _bulk->set_displacements(x.first(num_displacements()));
+  for (std::size_t k = 0; k < _contacts.size(); ++k)
+  {
+    std::vector<double>& multiplier = _contacts[k]->nodes()->multiplier;
+    std::copy_n(x.begin() + _offsets[k + 1], multiplier.size(),
+                multiplier.begin());
+  }
+}
+
+std::span<const double> System::bulk_residual()
+{
+  const std::span<const double> u = _bulk->displacements();
+  const bool same = not _at.empty() and std::ranges::equal(u, _at);
+  if (not parallel::everywhere(_halo->ranks(), same or u.empty()))
+  {
+    _at.assign(u.begin(), u.end());
+    const std::span<const double> b = _bulk->residual();
+    _bulk_residual.assign(b.begin(), b.end());
+  }
+  return _bulk_residual;
+}
+
+/// Adds what all ranks have for the nodes that this one owns.
+void System::add_sums(std::vector<double>& pushed,
+                      std::span<double> force) const
+{
+  _halo->reverse(pushed, _halo->gdim());
+  for (std::size_t i = 0; i < force.size(); ++i)
+    force[i] += pushed[i];
+}
+
+std::vector<double> System::product(const condense::ContactBlock& contact,
+                                    std::span<const double> x) const
+{
+  const std::size_t all = std::size_t(_halo->num_nodes()) * _halo->gdim();
+  const std::size_t n = num_displacements();
+  std::vector<double> v(all + size() - n);
+  std::copy_n(x.begin(), n, v.begin());
+  _halo->forward(std::span(v).first(all), _halo->gdim());
+  std::copy(x.begin() + n, x.end(), v.begin() + all);
+  return contact.multiply(v);
+}
+
+void System::multiply(const condense::ContactBlock& contact,
+                      std::span<const double> x, std::span<double> y) const
+{
+  check(x.size(), "x");
+  check(y.size(), "y");
+  std::vector<double> w = product(contact, x);
+  const std::size_t all = std::size_t(_halo->num_nodes()) * _halo->gdim();
+  std::copy(w.begin() + all, w.end(), y.begin() + num_displacements());
+  w.resize(all);
+  const std::span<double> force = y.first(num_displacements());
+  std::ranges::fill(force, 0);
+  add_sums(w, force);
+}
+
+std::vector<double> System::forces()
+{
+  std::vector<double> pushed(std::size_t(_halo->num_nodes()) * _halo->gdim());
+  for (const auto& c : _contacts)
+    c->add_residual(pushed);
+  const std::span<const double> bulk = bulk_residual();
+  std::vector<double> sum(bulk.begin(), bulk.end());
+  add_sums(pushed, sum);
+  return sum;
+}
+
+void System::residual(std::span<double> b)
+{
+  _halo->ranks().agree([&] { check(b.size(), "b"); });
+  const std::span<double> force = b.first(num_displacements());
+  std::ranges::copy(bulk_residual(), force.begin());
+  const std::size_t all = std::size_t(_halo->num_nodes()) * _halo->gdim();
+  std::vector<double> pushed(all);
+  for (std::size_t k = 0; k < _contacts.size(); ++k)
+  {
+    contact::Contact& c = *_contacts[k];
+    c.update_gap();
+    c.law()->evaluate(*c.nodes());
+    c.add_residual(pushed);
+    std::ranges::copy(c.nodes()->value, b.begin() + _offsets[k + 1]);
+  }
+  const std::span<const double> defect = _bulk->defect();
+  std::array most{largest_size(defect), largest_size(_bulk->displacements())};
+  _halo->ranks().reduce(std::span<double>(most), parallel::Reduction::largest);
+  if (most[0] > rounding * most[1])
+  {
+    // Dirichlet values that the displacements do not have yet, in other rows
+    const std::span<const double> lifted = _bulk->lifted();
+    for (std::size_t i = 0; i < force.size(); ++i)
+      force[i] += lifted[i];
+    std::vector<double> x(size());
+    std::ranges::copy(defect, x.begin());
+    const std::vector<double> w
+        = product(condense::ContactBlock(_contacts, {}), x);
+    for (std::size_t i = 0; i < all; ++i)
+      pushed[i] -= w[i];
+    for (std::size_t i = all; i < w.size(); ++i)
+      b[num_displacements() + i - all] -= w[i];
+  }
+  add_sums(pushed, force);
+  const std::span<const std::int8_t> markers = _bulk->markers();
+  for (std::size_t i = 0; i < force.size(); ++i)
+    if (markers[i] == 1)
+      force[i] = defect[i];
+}

@@ -1,0 +1,95 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""The bulk as the core sees it."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from contactx.bulk import Bulk
+from contactx.cell_forces import CellForces
+from contactx.parallel.halo import Halo
+
+type Array = npt.NDArray[np.float64]
+
+
+class BulkSide:
+    """The bulk, as the core's ``newton::Bulk`` describes it."""
+
+    def __init__(self, bulk: Bulk, halo: Halo):
+        """Take the bulk and its nodes."""
+        self._bulk = bulk
+        self._halo = halo
+        self.gdim = halo.gdim
+        V = bulk.u.function_space
+        topology = V.mesh.topology
+        self.cells = V.dofmap.list[: topology.index_map(topology.dim).size_local]
+        self.nodes_per_cell = self.cells.shape[1]
+        self._cell_forces = CellForces(bulk.residual_form, bulk.u, halo, bulk.form_options)
+
+    @property
+    def is_linear(self) -> bool:
+        """Whether the stiffness does not depend on the displacement."""
+        return self._bulk.is_linear
+
+    @property
+    def reference(self) -> Array:
+        """Reference positions of all nodes."""
+        return self._halo.x
+
+    def positions(self) -> Array:
+        """Current positions of all nodes."""
+        return self._halo.positions()
+
+    @property
+    def displacements(self) -> Array:
+        """Displacements at owned dofs."""
+        u: Array = self._bulk.u.x.array[: self._halo.num_owned * self.gdim]
+        return u
+
+    @property
+    def markers(self) -> npt.NDArray[np.int8]:
+        """1 at owned dofs with a Dirichlet condition."""
+        return self._bulk.markers[: self._halo.num_owned * self.gdim]
+
+    def diagonal(self) -> Array:
+        """Diagonal of the stiffness at owned dofs."""
+        diagonal: Array = self._bulk.matrix().getDiagonal().array
+        return diagonal
+
+    def products(self, fields: Array) -> Array:
+        """Products of the stiffness with fields at owned dofs, shape (count, num_dofs)."""
+        K = self._bulk.matrix()
+        x, y = K.createVecs()
+        results = np.empty_like(fields)
+        for field, result in zip(fields, results, strict=True):
+            x.array[:] = field
+            K.mult(x, y)
+            result[:] = y.array
+        return results
+
+    def residual(self) -> Array:
+        """Forces at owned dofs, without Dirichlet conditions."""
+        return self._bulk.residual()
+
+    def defect(self) -> Array:
+        """Displacements minus Dirichlet values at owned dofs."""
+        return self._bulk.dirichlet_defect()[: self._halo.num_owned * self.gdim]
+
+    def lifted(self) -> Array:
+        """What Dirichlet values that displacements do not have yet do to other rows."""
+        return self._bulk.lifted()
+
+    def set_displacements(self, u: Array) -> None:
+        """Set displacements at owned dofs, and those of other ranks' nodes."""
+        self._bulk.u.x.array[: len(u)] = u
+        self._halo.update_ghosts()
+
+    def cell_sizes(self) -> Array:
+        """Size of the largest cell around each owned node."""
+        return self._bulk.cell_sizes()
+
+    def cell_forces(self) -> Array:
+        """Sum over cells and terms of the size of their force on each owned node."""
+        return self._cell_forces.magnitudes()
