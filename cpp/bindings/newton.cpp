@@ -88,6 +88,7 @@ void contactx_bindings::newton(py::module_& m)
                                   found.defect);
           },
           py::arg("b"), py::arg("rtol"), py::arg("atol"))
+      .def("scale", &Convergence::scale)
       .def("may_be_rounding", &Convergence::may_be_rounding,
            py::arg("residual"));
 

@@ -11,6 +11,7 @@ results. Import contactx before dolfinx.
 # First, because it loads the wheels' MPI and PETSc before DOLFINx
 from contactx import compat as compat  # isort: skip
 
+from contactx.assembler import ContactAssembler
 from contactx.contact import Contact
 from contactx.errors import ConvergenceError
 from contactx.obstacles import Cylinder, LevelSet, Plane, Sphere
@@ -22,6 +23,7 @@ from contactx.surface import Surface
 
 __all__ = [
     "Contact",
+    "ContactAssembler",
     "ContactProblem",
     "ConvergenceError",
     "Cylinder",

@@ -45,16 +45,11 @@ class LinearSolver(ABC):
                 if none is.
         """
 
-    def set_accuracy(
-        self, residual: float, tolerance: float, changing: float, *, has_cycled: bool
-    ) -> None:
+    def follow(self, loop: core.Loop) -> None:
         """Set how accurate the next solve must be.
 
         Args:
-            residual: Residual of the iterate.
-            tolerance: What it must fall below.
-            changing: Part of the nodes in contact whose status or pair has changed.
-            has_cycled: Whether an active set has come back in this step.
+            loop: The loop, which has judged an iterate.
         """
 
     def end_step(self, report: Report) -> None:
@@ -125,6 +120,7 @@ class Condensed(LinearSolver):
         self._bulk = bulk
         self._system = system
         self._solver = CondensedSolver(bulk, system, x, prefix + "condensed_")
+        self._snes: PETSc.SNES | None = None
         self._accuracy = core.Accuracy(any(i.history is not None for i in system.interfaces))
         size = system.x.getSizes()
         self._A = PETSc.Mat().createPython((size, size), self._called(), comm=system.x.comm)
@@ -132,11 +128,32 @@ class Condensed(LinearSolver):
 
     def begin_step(self, snes: PETSc.SNES, report: Report) -> None:
         """See ``LinearSolver``."""
-        self._snes, self._has_ended = snes, False
-        self._solver.begin_step(report)
-        self._accuracy.begin_step()
+        self._snes = snes
+        self.start(report)
         snes.setJacobian(weakly(self._jacobian), self._A)
         pc = snes.getKSP().getPC()
+        pc.setType("python")
+        pc.setPythonContext(self._called())
+
+    def start(self, report: Report) -> None:
+        """Start a step without a SNES.
+
+        Args:
+            report: Report whose times are added to.
+        """
+        self._has_ended = False
+        self._solver.begin_step(report)
+        self._accuracy.begin_step()
+
+    def hand_to(self, ksp: PETSc.KSP) -> None:
+        """Give a KSP the Jacobian, and this as its preconditioner.
+
+        Args:
+            ksp: The solver.
+        """
+        self._A.assemble()
+        ksp.setOperators(self._A)
+        pc = ksp.getPC()
         pc.setType("python")
         pc.setPythonContext(self._called())
 
@@ -144,11 +161,10 @@ class Condensed(LinearSolver):
         """See ``LinearSolver``."""
         self._solver.springs = springs
 
-    def set_accuracy(
-        self, residual: float, tolerance: float, changing: float, *, has_cycled: bool
-    ) -> None:
+    def follow(self, loop: core.Loop) -> None:
         """See ``LinearSolver``."""
-        self._accuracy.set(residual, tolerance, changing, has_cycled)
+        row, has_cycled = loop.iterate, loop.active_set.cycles > 0
+        self._accuracy.set(row.residual, row.tolerance, loop.changing(), has_cycled)
         self._solver.target = self._accuracy.target
         self._solver.is_last = self._accuracy.is_last
 
@@ -163,7 +179,7 @@ class Condensed(LinearSolver):
     def reset(self) -> None:
         """See ``LinearSolver``."""
         self._solver.reset()
-        if not self._has_ended:
+        if not self._has_ended and self._snes is not None:
             # PETSc counts the solves under way, and takes no more than two for ever
             ksp = PETSc.KSP().create(comm=self._snes.comm)
             ksp.setOptionsPrefix(self._snes.getOptionsPrefix())

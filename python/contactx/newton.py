@@ -17,43 +17,21 @@ All objects that take part in a solve, from contacts to linear solvers, have the
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Mapping, Sequence
-from contextlib import ExitStack
-from typing import Any
+import weakref
+from typing import TYPE_CHECKING
 
 from petsc4py import PETSc
 
 import numpy as np
 
-from contactx import cpp as core
-from contactx.audit.audit import Audit
-from contactx.bodies import Bodies
-from contactx.bulk import Bulk
 from contactx.callback import keeps_its_error, weakly
-from contactx.errors import NotFiniteError
-from contactx.interface import Interface
 from contactx.linear import Condensed, LinearSolver, SaddlePoint
-from contactx.options import is_condensed, newton_options
-from contactx.report import Iteration, Report
+from contactx.report import Report
 from contactx.step_length import StepLength
-from contactx.system import SaddlePointSystem
 
-# Why the loop ended, and what to do about it
-_UNBALANCED = (
-    "the loads on a body cannot be balanced: it has no support and nothing is in its way, or "
-    "friction barely could. Support it, or turn the loads so that they press the bodies together"
-)
-_RAN_AWAY = (
-    "a body that nothing holds has moved by {:.3g}, more than the size of the scene: no place was "
-    "found where the forces of contact balance. Support it. Where a ring can turn in another one, "
-    'take method="surface-to-surface", or numbers of facets that are no multiples of each other'
-)
-_HIDDEN = (
-    "pairs went back and forth between facets and were frozen, and hide a penetration: refine the "
-    "coarser surface there, swap slave and master where that is the slave, or take smaller load "
-    "steps"
-)
+if TYPE_CHECKING:
+    from contactx.assembler import ContactAssembler
+
 # Difference of a Jacobian from a difference quotient that is no rounding
 _WRONG = 1e-3
 # Iterates in turn with about the same residual that the bulk alone leaves
@@ -72,13 +50,6 @@ _STAGNATES = (
     "to a force that may be neglected"
 )
 _CODE = PETSc.SNES.ConvergedReason
-_CODES = {
-    core.Verdict.goes_on: _CODE.CONVERGED_ITERATING,
-    core.Verdict.solution: _CODE.CONVERGED_FNORM_ABS,
-    core.Verdict.not_finite: _CODE.DIVERGED_FUNCTION_NANORINF,
-    core.Verdict.stuck: _CODE.DIVERGED_LINE_SEARCH,
-}
-_FAILURES = {core.Verdict.hidden: _HIDDEN, core.Verdict.unbalanced: _UNBALANCED}
 _REASONS = {
     _CODE.CONVERGED_FNORM_ABS: "the residual is below the tolerance",
     _CODE.DIVERGED_MAX_IT: "no convergence in snes_max_it iterations: take smaller load steps; "
@@ -96,121 +67,83 @@ _REASONS = {
 class NewtonLoop:
     """Semismooth Newton method, the primal-dual active set strategy.
 
-    Pairs and the active set (the closed nodes, and which of them stick) change once an accepted
-    iterate, in SNES's convergence test, never inside a line search. The residual that is tested is
-    that of the new pairs and the new active set. So a small residual means equilibrium and
-    complementarity at once.
+    The assembler settles and judges once an accepted iterate, in SNES's convergence test, never
+    inside a line search.
 
     Attributes:
         snes: The solver.
         error: Error of Python inside PETSc; whoever deals with it sets it to None.
     """
 
-    def __init__(
-        self,
-        bulk: Bulk,
-        interfaces: Sequence[Interface],
-        bodies: Bodies,
-        system: SaddlePointSystem,
-        prefix: str,
-        options: Mapping[str, Any],
-        *,
-        names: Sequence[str],
-        refuses: bool,
-    ):
-        """Create the solver.
+    def __init__(self, assembler: ContactAssembler, snes: PETSc.SNES, *, condensed: bool):
+        """Have a solver call what belongs to the assembler.
 
         Args:
-            bulk: The bulk.
-            interfaces: Discrete sides of the contacts.
-            bodies: Bodies of the mesh.
-            system: The coupled system.
-            prefix: Prefix of the PETSc options.
-            options: Options of the user.
-            names: Names of the contacts, for messages.
-            refuses: Whether what the audit finds fails the step; else it is a warning.
+            assembler: The coupled system.
+            snes: The solver.
+            condensed: Whether the preconditioner is the condensed solver.
         """
-        self._bulk = bulk
-        self._interfaces = interfaces
-        self._system = system
-        self._halo = system.halo
-        dofs = bulk.u.x.index_map.size_global * system.block
-        condensed = is_condensed(options, dofs, system.block)
-        self._options = newton_options(prefix, options, condensed=condensed)
+        self._assembler = weakref.ref(assembler)
+        self._bulk, self._system = assembler.bulk, assembler.system
+        self._loop, self._halo = assembler.loop, assembler.halo
+        prefix = snes.getOptionsPrefix() or ""
         self._linear: LinearSolver = (
-            Condensed(bulk, system, bodies.x, prefix) if condensed else SaddlePoint(system)
+            Condensed(self._bulk, self._system, assembler.bodies.x, prefix)
+            if condensed
+            else SaddlePoint(self._system)
         )
         self._report = Report()
         self.error: BaseException | None = None
-        self._converged = self._has_modes = self._has_full_steps = False
-        self._loop = core.Loop(system.core, bodies)
         # What the Jacobian was made for
         self._version = -1
-        self._audit = Audit(bulk, interfaces, system.halo)
         self._length = StepLength(self._loop)
-        self._names, self._refuses = names, refuses
         # Why the step has failed, and whether no other way may lead to a solution
         self._failure, self._is_final = "", False
-        self.snes = PETSc.SNES().create(system.x.comm)
-        self.snes.setOptionsPrefix(prefix)
+        self._has_full_steps = False
+        self.snes = snes
         self.snes.setConvergenceTest(weakly(self._test))
         self.snes.setLineSearchPreCheck(weakly(self._shorten))
 
-    def run(self, report: Report) -> None:
-        """Run the loop from the state of the displacement and the contacts.
+    @property
+    def assembler(self) -> ContactAssembler:
+        """The coupled system."""
+        assembler = self._assembler()
+        assert assembler is not None
+        return assembler
+
+    def begin(self, report: Report) -> None:
+        """Start a step that the assembler has started.
 
         Args:
-            report: Report to fill in.
+            report: Report of the step.
         """
         self._report = report
-        self._converged = False
-        skipped = self._bulk.skipped
-        self._system.begin_step()
-        self.snes.setFunction(weakly(self._function), self._system.b)
         self._failure, self._is_final = "", False
-        with self._options.in_database():
-            self._options.hand_to(self.snes)
-            self._has_full_steps = self.snes.getLineSearch().getType() == "basic"
-            self._time_linear_solves(report)
-            self._linear.begin_step(self.snes, report)
-            with report.timing("bulk stiffness"):
-                is_finite = self._loop.begin_step(damped=report.damped)
-            if not is_finite:
-                raise NotFiniteError(
-                    "the residual is not finite: the material fails at the start of the step, or "
-                    "a load or coefficient of F is NaN or infinite"
-                )
-            self._audit.begin_step()
-            self._read_values()
-            with report.timing("settle"):
-                self._loop.settle_first()
-            self._system.pack()
-            self._update_jacobian()
-            self.snes.solve(None, self._system.x)
-            report.unread = self._options.unread()
+        self._has_full_steps = self.snes.getLineSearch().getType() == "basic"
+        self.snes.setFunction(weakly(self._function), self._system.b)
+        self._linear.begin_step(self.snes, report)
+        self._version = -1
+        self._update_jacobian()
+
+    def end(self, report: Report) -> None:
+        """End a step: say why; all ranks must take part.
+
+        Args:
+            report: Report of the step, which is written to.
+        """
+        converged = self.assembler.converged
         self._system.unpack(self._system.x)
         code = self.snes.getConvergedReason()
-        report.converged = self._converged
-        if not self._converged and not self._failure:
+        if not converged and not self._failure:
             self._failure = self._why_slow(code)
             self._is_final = bool(self._failure)
-        report.reason = self._failure or _reason_of(code, self._converged)
-        report.frozen_gap = min(self.hidden_gaps, default=0.0)
-        self._has_modes |= self._converged
-        if self._converged:
-            self._loop.accept()
+        report.converged = converged
+        report.reason = self._failure or _reason_of(code, converged)
         self._linear.end_step(report)
-        active_set, bodies = self._loop.active_set, self._loop.free_bodies
-        report.soft = active_set.soft_iterations
-        report.limited, report.shortened = self._length.limited, self._length.damped
-        report.cycles = active_set.cycles
-        report.corners = active_set.num_corners()
-        report.free_modes = bodies.free_modes
-        report.closed_for_balance = bodies.closed_for_balance
-        report.skipped = Counter({"bulk Jacobian assembly": self._bulk.skipped - skipped})
-        report.skipped.update(self._linear.skipped())
-        for interface in self._interfaces:
-            report.skipped.update({"search": interface.skipped_searches})
+
+    def skipped(self) -> dict[str, int]:
+        """What linear solves have not done again in this step, and how often."""
+        return self._linear.skipped()
 
     def _why_slow(self, code: int) -> str:
         """Reason why iterations came to nothing, if it is not one of the contacts; else empty.
@@ -244,22 +177,10 @@ class NewtonLoop:
 
         Not where steps solve what they solve exactly, nor on a user's own line search.
         """
-        is_curved = not self._bulk.is_linear or any(i.updates_kinematics for i in self._interfaces)
+        is_curved = not self._bulk.is_linear or any(
+            i.updates_kinematics for i in self.assembler.interfaces
+        )
         return is_curved and not self._is_final and self._has_full_steps
-
-    @property
-    def hidden_gaps(self) -> Sequence[float]:
-        """Smallest gap that frozen pairs of each contact hide, at the solution."""
-        return self._loop.active_set.hidden_gaps
-
-    def accept(self) -> None:
-        """Take the converged state as the start of the next step; all ranks must take part."""
-        self._audit.accept()
-
-    def find_rigid_modes(self) -> None:
-        """Find the free rigid modes of the bodies as they are, as the first run does."""
-        self._has_modes = True
-        self._loop.find_rigid_modes()
 
     def take_error(self) -> BaseException | None:
         """Error that a callback raised, once."""
@@ -271,27 +192,12 @@ class NewtonLoop:
         """Drop PETSc's work vectors and factors: an error inside PETSc leaves them locked."""
         self.snes.reset()
         self._linear.reset()
-        if not self._has_modes:
-            self._loop.reset()
-
-    def _time_linear_solves(self, report: Report) -> None:
-        timer = ExitStack()
-        ksp = self.snes.getKSP()
-        ksp.setPreSolve(lambda *_: timer.enter_context(report.timing("linear solve")))
-        ksp.setPostSolve(lambda *_: timer.close())
 
     @keeps_its_error
     def _function(self, snes: PETSc.SNES, x: PETSc.Vec, b: PETSc.Vec) -> None:
         with self._report.timing("residual"):
             self._system.unpack(x)
             self._system.residual(b)
-
-    def _read_values(self) -> None:
-        """Hand the core what users may change."""
-        # Only all ranks together can free what they have dropped
-        PETSc.garbage_cleanup(self._halo.comm)
-        for interface in self._interfaces:
-            interface.read_values()
 
     @keeps_its_error
     def _test(
@@ -301,33 +207,20 @@ class NewtonLoop:
         if not np.isfinite(norms[2]):
             return _CODE.DIVERGED_FUNCTION_NANORINF
         if number > 0:
-            self._read_values()
+            self.assembler.moved()
         rtol, atol, _, _ = snes.getTolerances()
-        with self._report.timing("settle"):
-            verdict = self._loop.judge(number == 0, rtol, atol, self._system.b.array)
-            # Iterates may have been taken back
-            self._system.pack()
-        if verdict != core.Verdict.hidden:
-            self._report.history.append(_row(number, self._loop.iterate))
-        if verdict == core.Verdict.solution:
-            self._failure = self._look_again()
-            self._converged = not self._failure
-        elif verdict == core.Verdict.ran_away:
-            self._failure = _RAN_AWAY.format(self._loop.way())
-        else:
-            self._failure = _FAILURES.get(verdict, "")
-        # What geometry refuses, another way to the same place does not mend
-        self._is_final = bool(self._failure)
-        if verdict == core.Verdict.goes_on:
-            self._update_jacobian()
-            row = self._loop.iterate
-            self._linear.set_accuracy(
-                row.residual,
-                row.tolerance,
-                self._loop.changing(),
-                has_cycled=self._loop.active_set.cycles > 0,
-            )
-        return _CODE.DIVERGED_FUNCTION_DOMAIN if self._failure else _CODES[verdict]
+        found = self.assembler.judge(rtol, atol)
+        if found.is_final:
+            self._failure, self._is_final = found.failure, True
+            return _CODE.DIVERGED_FUNCTION_DOMAIN
+        if found.converged:
+            return _CODE.CONVERGED_FNORM_ABS
+        if found.failure:
+            is_finite = np.isfinite(found.residual)
+            return _CODE.DIVERGED_LINE_SEARCH if is_finite else _CODE.DIVERGED_FUNCTION_NANORINF
+        self._update_jacobian()
+        self._linear.follow(self._loop)
+        return _CODE.CONVERGED_ITERATING
 
     def _update_jacobian(self) -> None:
         """Bring the Jacobian up to the iterate, where something has changed since."""
@@ -345,29 +238,6 @@ class NewtonLoop:
         else:
             self._length.shorten(self.snes, x, step, self._function)
         return True
-
-    def _look_again(self) -> str:
-        """What is wrong with a converged iterate although its residual is small, or nothing."""
-        with self._report.timing("audit"):
-            self._report.audit = findings = self._audit(self._names)
-        if self._refuses:
-            return "; ".join(findings.faults)
-        findings.warnings += findings.faults
-        return ""
-
-
-def _row(number: int, iterate: core.Iterate) -> Iteration:
-    """Row of the report of an iterate."""
-    return Iteration(
-        number=number,
-        residual=iterate.residual,
-        tolerance=iterate.tolerance,
-        closed=iterate.closed,
-        status_changes=iterate.status_changes,
-        pair_changes=iterate.pair_changes,
-        frozen_kinematics=iterate.is_frozen,
-        dirichlet_defect=iterate.defect,
-    )
 
 
 def _reason_of(code: int, converged: bool) -> str:

@@ -4,43 +4,21 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Mapping, Sequence
-from pathlib import Path
+from contextlib import ExitStack
 from typing import Any
 
 from petsc4py import PETSc
 
-import numpy as np
-
 import ufl
-from contactx import compat
-from contactx.bodies import Bodies
-from contactx.bulk import Bulk
-from contactx.bulk_input import (
-    check_compiler_options,
-    check_conditions,
-    check_displacement,
-    check_finite,
-    check_forms,
-    check_prescribed,
-    check_same_conditions,
-)
-from contactx.contact import Contact, check_contacts
+from contactx.assembler import ContactAssembler
+from contactx.contact import Contact
 from contactx.errors import ConvergenceError, NotFiniteError
-from contactx.geometry.cells import check_cells
-from contactx.geometry.curved import check_straight
-from contactx.interface import Interface, check_drag, check_over_constrained
 from contactx.interrupts import Interrupts
 from contactx.newton import NewtonLoop
-from contactx.nodal import reference_positions
-from contactx.options import check_petsc_options
-from contactx.parallel.halo import Halo
-from contactx.parallel.reduce import anywhere, least, total
+from contactx.options import check_petsc_options, is_condensed, newton_options
 from contactx.report import Report
-from contactx.state import Snapshot
-from contactx.system import SaddlePointSystem
-from dolfinx import fem, la
+from dolfinx import fem
 
 
 class ContactProblem:
@@ -57,6 +35,7 @@ class ContactProblem:
         u: Displacement.
         contacts: Contacts.
         report: Report of the last solve.
+        assembler: The coupled system that is solved.
     """
 
     def __init__(
@@ -101,52 +80,28 @@ class ContactProblem:
                 surface is folded onto itself, or a body lies wholly inside the other one or the
                 obstacle; the message says what to do.
         """
-        compat.require_real_double()
-        check_displacement(u)
-        check_forms(F, J, u)
-        check_conditions(bcs, u)
-        check_compiler_options(form_compiler_options, jit_options)
         check_petsc_options(petsc_options, petsc_options_prefix)
-        check_contacts(contacts)
-        if audit not in ("refuse", "warn"):
-            raise ValueError(f'audit must be "refuse" or "warn", not {audit!r}')
-        check_straight(contacts, u.function_space.mesh)
-
-        V = u.function_space
-        X = la.vector(V.dofmap.index_map, V.dofmap.index_map_bs)
-        gdim = V.mesh.geometry.dim
-        X.array[:] = reference_positions(V).ravel()
-        comm = V.mesh.comm
-        check_finite(comm, coordinates_of_the_mesh_are=X)
-
+        self.assembler = ContactAssembler(
+            F,
+            u,
+            contacts=contacts,
+            bcs=bcs,
+            J=J,
+            audit=audit,
+            form_compiler_options=form_compiler_options,
+            jit_options=jit_options,
+        )
         self.u = u
-        self.contacts = list(contacts)
+        self.contacts = self.assembler.contacts
         self.report = Report()
-        self._bcs: Sequence[fem.DirichletBC] = [] if bcs is None else bcs
-        self._bulk = Bulk(F, u, bcs or [], J, form_compiler_options, jit_options)
-        self._halo = Halo(u, X.array.reshape(-1, gdim))
-        bodies = Bodies(V, self._halo)
-        self._interfaces = []
+        system, options = self.assembler.system, petsc_options or {}
+        dofs = u.x.index_map.size_global * system.block
+        condensed = is_condensed(options, dofs, system.block)
+        self._options = newton_options(petsc_options_prefix, options, condensed=condensed)
+        snes = PETSc.SNES().create(system.x.comm)
+        snes.setOptionsPrefix(petsc_options_prefix)
+        self._newton = NewtonLoop(self.assembler, snes, condensed=condensed)
         self._read_options = False
-        try:
-            for contact in self.contacts:
-                self._interfaces.append(contact.attach(self._halo, self._bulk.markers, bodies))
-            check_cells(V.mesh)
-            self._system = SaddlePointSystem(self._bulk, self._interfaces, self._halo)
-            self._newton = NewtonLoop(
-                self._bulk,
-                self._interfaces,
-                bodies,
-                self._system,
-                petsc_options_prefix,
-                petsc_options or {},
-                names=[f"contact {k} ({contact})" for k, contact in enumerate(self.contacts)],
-                refuses=audit == "refuse",
-            )
-        except BaseException:
-            for contact in self.contacts[: len(self._interfaces)]:
-                contact.detach()
-            raise
 
     @property
     def solver(self) -> PETSc.SNES:
@@ -158,11 +113,11 @@ class ContactProblem:
 
         They must be those of bodies without stress, as the first solve finds them.
         """
-        self._newton.find_rigid_modes()
+        self.assembler.find_rigid_modes()
 
     def update_ghosts(self) -> None:
         """Give ghosts the owners' displacements, after these were set; all ranks must take part."""
-        self._halo.update_ghosts()
+        self.assembler.halo.update_ghosts()
 
     def solve(self) -> fem.Function:
         """Solve for the current loads and Dirichlet values, starting from ``u``.
@@ -179,130 +134,71 @@ class ContactProblem:
                 conditions constrain a slave node inside a rigid obstacle, or PETSc refuses an
                 option.
         """
-        check_same_conditions(self._bcs, self._bulk.bcs, self._halo.comm)
-        check_finite(self._halo.comm, the_displacement_u_is=self.u.x)
-        prescribed = self._bulk.prescribed()
-        check_prescribed(prescribed, self._bulk.markers, self._halo.comm)
-        check_over_constrained(self._interfaces, self.contacts, prescribed, self._halo)
-        check_drag(self._interfaces, self.contacts)
-        before = Snapshot(self.u, self.contacts, self._halo.update_ghosts)
-        self._halo.update_ghosts()
-        self.report = report = Report()
+        assembler = self.assembler
+        assembler.prepare()
         with Interrupts() as interrupts:
             try:
-                with report.timing("total"):
-                    self._newton.run(report)
+                self._run(Report())
                 interrupts.wait()
-                if not report.converged and self._newton.damping_may_help:
-                    before.restore()
+                if not self.report.converged and self._newton.damping_may_help:
+                    discarded = self.report.iterations
+                    assembler.restore()
                     self._newton.reset()
-                    self.report = report = Report(discarded=report.iterations, damped=True)
-                    with report.timing("total"):
-                        self._newton.run(report)
+                    self._run(Report(discarded=discarded, damped=True))
                     interrupts.wait()
-                if not report.converged:
-                    raise ConvergenceError(report.reason, report)
-                check_drag(self._interfaces, self.contacts)
-                for contact in self.contacts:
-                    contact.accept()
-                with report.timing("audit"):
-                    self._newton.accept()
-                self._complete(report)
+                if not self.report.converged:
+                    raise ConvergenceError(self.report.reason, self.report)
+                assembler.commit()
+                self._warn_of_options()
                 interrupts.come()
             except BaseException as error:
                 interrupts.wait()
-                before.restore()
+                assembler.restore()
                 self._newton.reset()
                 # An error inside PETSc comes back as the cause of one of PETSc, or without it
                 cause = self._newton.take_error() or error.__cause__
                 if isinstance(error, PETSc.Error) and cause is not None:
                     error = cause
                 if isinstance(error, NotFiniteError):
-                    report.reason = str(error)
-                    error = ConvergenceError(report.reason, report)
+                    self.report.reason = str(error)
+                    error = ConvergenceError(self.report.reason, self.report)
                 raise error from error.__cause__
         return self.u
 
-    def _complete(self, report: Report) -> None:
-        comm, interfaces = self._halo.comm, self._interfaces
-        report.slaves, report.pairs, report.immobile, report.frozen_pairs = total(
-            comm,
-            np.array(
-                [
-                    sum(len(i.slaves) for i in interfaces),
-                    sum(i.master.paired.sum() for i in interfaces),
-                    sum(i.nodes.immobile.sum() for i in interfaces),
-                    sum(len(i.master.frozen_pairs) for i in interfaces),
-                ]
-            ),
-        ).tolist()
-        histories = [i.history for i in interfaces if i.history is not None]
-        report.slip, report.dissipation = total(
-            comm,
-            np.array(
-                [
-                    sum(np.linalg.norm(h.slip, axis=1).sum() for h in histories),
-                    sum(h.dissipation.sum() for h in histories),
-                ],
-                dtype=np.float64,
-            ),
-        ).tolist()
-        report.force = [contact.force for contact in self.contacts]
-        report.recovery = [contact.fields.recovery_change for contact in self.contacts]
-        report.imbalance = np.sum([contact.fields.imbalance for contact in self.contacts], axis=0)
-        for k, interface in enumerate(self._interfaces):
-            self._warn(k, interface, self._newton.hidden_gaps[k])
-        for text in report.audit.warnings:
-            self._say(text)
-        if report.iterations > 0 and not self._read_options:
-            # Some are read but once
-            self._read_options = True
-            self._say(self._unread(report))
+    def _run(self, report: Report) -> None:
+        """Run the Newton loop once.
 
-    def _warn(self, k: int, interface: Interface, hidden: float) -> None:
-        """Warn of what a converged solution may hide in contact number k, such as a gap."""
-        name = f"contact {k} ({self.contacts[k]})"
-        comm, master = self._halo.comm, interface.master
-        text = ""
-        if interface.active and not anywhere(comm, master.paired.any()):
-            # Where its nodes were paired, or should have been
-            small = interface.sliding == "small"
-            x = self._halo.x if small else interface.positions()
-            distance = least(comm, master.distance(x))
-            text = f"{name} transmits no force: it has no slave node "
-            if distance > master.reach:
-                text += (
-                    f"within reach of its master; the nearest is {distance:.3g} away"
-                    f"{' in the reference configuration' if small else ''}, and the "
-                    f"search reaches {master.reach:.3g}"
-                )
-            else:
-                text += f"that faces its master, although the nearest is {distance:.3g} away"
-            if small and not master.is_rigid:
-                text += (
-                    '. sliding="small" pairs nodes in the reference configuration, once: give a '
-                    'larger search_distance, or take sliding="finite"'
-                )
-        elif hidden < 0:
-            frozen = total(comm, len(master.frozen_pairs))
-            text = (
-                f"{name}: {frozen} pairs went back and forth between facets and "
-                f"were frozen; they hide a penetration of {-hidden:.3g}. Refine the coarser "
-                "surface there or take smaller steps"
-            )
-        self._say(text)
+        Args:
+            report: Report to fill in.
+        """
+        self.report = report
+        newton, snes = self._newton, self.solver
+        with report.timing("total"), self._options.in_database():
+            self._options.hand_to(snes)
+            self._time_linear_solves(report)
+            self.assembler.start(report)
+            newton.begin(report)
+            snes.solve(None, self.assembler.x)
+            report.unread = self._options.unread()
+            newton.end(report)
+            self.assembler.summarise()
+            report.skipped.update(newton.skipped())
 
-    def _unread(self, report: Report) -> str:
+    def _time_linear_solves(self, report: Report) -> None:
+        timer = ExitStack()
+        ksp = self.solver.getKSP()
+        ksp.setPreSolve(lambda *_: timer.enter_context(report.timing("linear solve")))
+        ksp.setPostSolve(lambda *_: timer.close())
+
+    def _warn_of_options(self) -> None:
+        """Warn of options that nothing has read, once: some are read but once."""
+        report = self.report
+        if report.iterations == 0 or self._read_options:
+            return
+        self._read_options = True
         names = ", ".join(map(repr, report.unread))
-        return (
-            f"petsc_options has {names}, which nothing has read: check the spelling, leave out the "
-            "prefix"
-            if names
-            else ""
-        )
-
-    def _say(self, text: str) -> None:
-        """Warn, on rank 0."""
-        if text and self._halo.comm.rank == 0:
-            # Of the user's line, whether that calls solve or a loop of steps does
-            warnings.warn(text, skip_file_prefixes=(str(Path(__file__).parent),))
+        if names:
+            self.assembler.say(
+                f"petsc_options has {names}, which nothing has read: check the spelling, leave out "
+                "the prefix"
+            )

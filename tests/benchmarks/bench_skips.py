@@ -60,7 +60,7 @@ def measure(path: str, h: float, rule: str, off: bool) -> dict[str, Any]:
         **hertz_case.counts(problem),
         "cpu": cpu,
         "pairs": problem.report.pairs,
-        "assemblies": problem._bulk.assemblies,
+        "assemblies": problem.assembler.bulk.assemblies,
         "instead": skip.instead,
         "part": skip.part,
         **part,

@@ -18,9 +18,9 @@ import numpy as np
 import contactx as cx
 from contactx import cpp as core
 from contactx import linear
+from contactx.assembler import ContactAssembler
 from contactx.bulk import Bulk
 from contactx.condensed.multigrid import Multigrid
-from contactx.newton import NewtonLoop
 from dolfinx.io.gmsh import MeshData
 from dolfinx.mesh import CellType
 
@@ -147,14 +147,14 @@ def _hierarchy_each_time() -> AbstractContextManager[None]:
 
 def _exact() -> AbstractContextManager[None]:
     """Solves as accurate as a status asks for that no longer changes."""
-    before = linear.Condensed.set_accuracy
+    before = core.Accuracy.set
 
-    def set_accuracy(
-        self: linear.Condensed, residual: float, tolerance: float, changing: float, **more: Any
+    def exactly(
+        self: core.Accuracy, residual: float, tolerance: float, changing: float, has_cycled: bool
     ) -> None:
-        before(self, residual, tolerance, 0.0, **more)
+        before(self, residual, tolerance, 0.0, has_cycled)
 
-    return _replaced(linear.Condensed, set_accuracy=set_accuracy)
+    return _replaced(core.Accuracy, set=exactly)
 
 
 def _pattern_each_time() -> AbstractContextManager[None]:
@@ -174,42 +174,17 @@ def _search_anew() -> Iterator[None]:
 
     So pairs and iterations stay the same; the search that the library does comes on top.
     """
-    settle = NewtonLoop._settle
+    read_values = ContactAssembler._read_values
 
-    def search_too(self: NewtonLoop, *, is_first: bool = False) -> None:
-        with self._report.timing("settle"):
-            for interface in self._interfaces:
+    def search_too(self: ContactAssembler) -> None:
+        with self.report.timing("settle"):
+            for interface in self.interfaces:
                 master, slave = interface.master, interface.slave_nodes.facets
                 if isinstance(master, core.DeformableMaster):
                     x, closed = interface.positions(), interface.nodes.closed.astype(np.int8)
                     lists = (slave.offsets, slave.nodes, *master.surface.facets)
                     core.Pairing(*lists, x.shape[1]).update(x, master.reach, closed)
-        settle(self, is_first=is_first)
+        read_values(self)
 
-    with _replaced(NewtonLoop, _settle=search_too):
+    with _replaced(ContactAssembler, _read_values=search_too):
         yield
-
-
-SKIPS = {
-    "no tangential unknowns": Skip("friction 1e-8", scene=blocks, off={"friction": 1e-8}),
-    "no master side": Skip(
-        "a block of 1e6 E",
-        scene=on_plane,
-        scene_off=hertz,
-        off={"young": {Tag.LOWER: 1e6}},
-    ),
-    "only nodes in reach": Skip(
-        "all nodes have pairs",
-        scene=blocks,
-        on={"search_distance": 0.05, "sliding": "finite", "rounded": 0.5},
-        off={"search_distance": None},
-    ),
-    "bulk Jacobian once": Skip("assembled when u changes", replaced=_jacobian_each_time),
-    "hierarchies kept": Skip("one for each solve", "hierarchy", replaced=_hierarchy_each_time),
-    "matrix's pattern kept": Skip("a new one each time", on=DIRECT, replaced=_pattern_each_time),
-    "rough early solves": Skip("all to the tolerance", "Krylov", replaced=_exact),
-    "pairs kept, tree refitted": Skip(
-        "built, searched anew", "settle", on={"sliding": "finite"}, replaced=_search_anew
-    ),
-    "small sliding": Skip("finite sliding", off={"sliding": "finite"}),
-}

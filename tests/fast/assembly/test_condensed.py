@@ -10,7 +10,6 @@ import ufl
 from contactx import cpp as core
 from contactx.condensed.galerkin import Galerkin
 from contactx.condensed.solver import CondensedSolver
-from contactx.linear import Condensed
 from dolfinx.mesh import CellType
 
 from meshes import Tag
@@ -56,13 +55,13 @@ def test_one_solve(cell, law, sliding):
 
 def compare_one_solve(problem, rng):
     """Solve once for a random right-hand side."""
-    system = problem._system
+    system = problem.assembler.system
     b = rng.standard_normal(system.x.getSize())
-    b[: system.num_bulk][problem._bulk.markers == 1] = 0
+    b[: system.num_bulk][problem.assembler.bulk.markers == 1] = 0
     J = system.jacobian().convert("dense").getDenseArray()
     exact = np.linalg.solve(J, b)
     x = system.halo.x
-    solver = CondensedSolver(problem._bulk, system, x, "one_solve_")
+    solver = CondensedSolver(problem.assembler.bulk, system, x, "one_solve_")
     solver.target = 1e-13 * np.linalg.norm(b)
     right, result = system.x.duplicate(), system.x.duplicate()
     right.array[:] = b
@@ -128,12 +127,14 @@ def condensed_blocks(friction):
 def test_solves_are_told_how_accurate_they_must_be(cycles, monkeypatch):
     """By which rule: see test_accuracy.cpp."""
     seen = []
+    set_accuracy = core.Accuracy.set
 
-    def set_accuracy(self, residual, tolerance, changing, *, has_cycled):
+    def noted(self, residual, tolerance, changing, has_cycled):
         seen.append((residual > tolerance, changing, has_cycled))
+        set_accuracy(self, residual, tolerance, changing, has_cycled)
 
     monkeypatch.setattr(core.ActiveSet, "cycles", cycles)
-    monkeypatch.setattr(Condensed, "set_accuracy", set_accuracy)
+    monkeypatch.setattr(core.Accuracy, "set", noted)
     condensed_blocks(0.0).solve()
     large, changing, has_cycled = zip(*seen, strict=True)
     assert all(large)
@@ -179,14 +180,14 @@ def test_one_solve_with_prescribed_slave_nodes():
     interface, nodes = contact.interface, contact.interface.nodes
     rng = np.random.default_rng(5)
     problem.u.x.array[:] += 1e-3 * rng.standard_normal(len(problem.u.x.array))
-    for bc in problem._bulk.bcs:
+    for bc in problem.assembler.bulk.bcs:
         bc.set(problem.u.x.array)
     interface.search()
     interface.update_gap()
     closed = np.flatnonzero(nodes.closed)
     nodes.status[closed] = 1 + np.arange(len(closed)) % 2
     interface.law.evaluate(nodes)
-    prescribed = problem._bulk.markers.reshape(-1, 3)[interface.slaves[closed]]
+    prescribed = problem.assembler.bulk.markers.reshape(-1, 3)[interface.slaves[closed]]
     assert (prescribed.sum(axis=1) == 1).sum() > 2
     compare_one_solve(problem, rng)
 

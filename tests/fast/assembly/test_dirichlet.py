@@ -40,10 +40,10 @@ def test_prescribed_master_nodes(cell):
     # The same linear system with the final active set, all prescribed values eliminated by hand
     n = len(scene.u.x.array)
     zero = fem.Function(scene.u.function_space)
-    K = sum(fem.assemble_matrix(part).to_dense() for part in problem._bulk.J)
+    K = sum(fem.assemble_matrix(part).to_dense() for part in problem.assembler.bulk.J)
     D = constraint_matrix(contact, n)[closed]
     gap = gap_at(contact, zero)[closed]
-    prescribed = problem._bulk.markers == 1
+    prescribed = problem.assembler.bulk.markers == 1
     values = np.zeros(n)
     for bc in scene.bcs:
         bc.set(values)
@@ -75,13 +75,13 @@ def test_one_linear_solve_finds_the_solution_of_its_active_set(cell):
     problem = scene.problem(contact)
     problem.solve()
     u, pressure = scene.u.x.array.copy(), contact.multiplier.copy()
-    system = problem._system
+    system = problem.assembler.system
     scene.u.x.array[:] = 0
     contact.multiplier[:] = 0
     system.pack()
     system.residual(system.b)
     J = system.jacobian().convert("dense").getDenseArray()
-    prescribed = np.flatnonzero(problem._bulk.markers)
+    prescribed = np.flatnonzero(problem.assembler.bulk.markers)
     coupling = J.copy()
     coupling[prescribed, prescribed] = 0
     assert not coupling[:, prescribed].any()

@@ -138,7 +138,7 @@ def test_system_jacobian_is_the_derivative_of_the_residual(cell):
     scene = Blocks(cell, gap=0.02)
     contact = scene.contact()
     problem = scene.problem(contact)
-    system, interface = problem._system, contact.interface
+    system, interface = problem.assembler.system, contact.interface
     rng = np.random.default_rng(6)
     scene.u.x.array[:] = 0.01 * rng.standard_normal(len(scene.u.x.array))
     for bc in scene.bcs:
@@ -159,7 +159,7 @@ def test_system_jacobian_is_the_derivative_of_the_residual(cell):
 
     residual(x0)
     J = system.jacobian().convert("dense").getDenseArray()
-    free = np.flatnonzero(np.r_[problem._bulk.markers == 0, np.ones(n, dtype=bool)])
+    free = np.flatnonzero(np.r_[problem.assembler.bulk.markers == 0, np.ones(n, dtype=bool)])
     h = 1e-6
     for column in free[:: max(1, len(free) // 40)]:
         dx = np.zeros_like(x0)

@@ -58,7 +58,7 @@ def scene_with(cell, sliding, master, **options):
 
 def assert_consistent(problem, interface):
     """Every kind of column: free displacements and all multipliers."""
-    system = problem._system
+    system = problem.assembler.system
     system.pack()
     x0 = system.x.array.copy()
 
@@ -71,7 +71,7 @@ def assert_consistent(problem, interface):
     residual(x0)
     J = system.jacobian().convert("dense").getDenseArray()
     m = len(interface.nodes.multiplier)
-    free = np.flatnonzero(np.r_[problem._bulk.markers == 0, np.ones(m, dtype=bool)])
+    free = np.flatnonzero(np.r_[problem.assembler.bulk.markers == 0, np.ones(m, dtype=bool)])
     gdim = interface.nodes.size
     slaves = (interface.slaves[:, None] * gdim + np.arange(gdim)).ravel()
     few = free[:: max(1, len(free) // 30)]

@@ -78,7 +78,7 @@ def test_an_interrupt_anywhere_leaves_everything_as_it_was(monkeypatch, part, ca
     scene = Blocks(CellType.tetrahedron)
     contact = scene.contact()
     problem = scene.problem(contact)
-    system, calls = problem._system, []
+    system, calls = problem.assembler.system, []
     real = getattr(system, part)
 
     def interrupted(*args, **options):
@@ -135,7 +135,7 @@ def test_problems_are_freed():
     scene = Blocks(CellType.triangle)
     problem = scene.problem(scene.contact())
     problem.solve()
-    system = weakref.ref(problem._system)
+    system = weakref.ref(problem.assembler.system)
     del problem
     gc.collect()
     assert system() is None

@@ -11,6 +11,7 @@ import rich
 from rich.console import Console
 
 import contactx as cx
+from contactx import assembler
 
 from scenes.steps import Sheared
 
@@ -138,7 +139,7 @@ def raise_at(call, error):
 def test_another_error_of_the_solve_is_not_cut(monkeypatch, error, call):
     """The loads are those of the last accepted step again."""
     scene = Sheared(far=0.1)
-    system, states = scene.problem._system, []
+    system, states = scene.problem.assembler.system, []
     monkeypatch.setattr(system, "residual", raise_at(call, error)(system.residual))
     steps = scene.steps(4)
     with pytest.raises(error):
@@ -157,7 +158,7 @@ def test_an_error_after_the_solve_counts_as_a_failed_step(monkeypatch, error):
     next(iter(steps))
     before = scene.state()
     with monkeypatch.context() as patch:
-        patch.setattr(scene.problem, "_complete", raise_at(1, error)(lambda report: None))
+        patch.setattr(assembler, "complete", raise_at(1, error)(lambda *_: None))
         with pytest.raises(error):
             next(iter(steps))
     assert scene.state() == before
@@ -214,11 +215,10 @@ def test_warnings_point_to_the_loop(monkeypatch):
 
     master = type(scene.contact.interface.master)
 
-    def warned(report):
+    def unpaired(*_):
         monkeypatch.setattr(master, "paired", np.zeros(4, dtype=bool))
-        scene.problem._warn(0, scene.contact.interface, 0.0)
 
-    monkeypatch.setattr(scene.problem, "_complete", warned)
+    monkeypatch.setattr(assembler, "complete", unpaired)
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         next(iter(scene.steps(1)))

@@ -32,7 +32,7 @@ def test_changed_loads_are_seen():
     first = scene.u.x.array.copy()
     load.value = 0.04
     problem.solve()
-    assert problem._bulk.assemblies == 1
+    assert problem.assembler.bulk.assemblies == 1
     assert np.abs(scene.u.x.array - first).max() > 0.1 * np.abs(first).max()
 
 
@@ -62,17 +62,17 @@ def test_a_linear_bulk_is_assembled_once_and_again_when_a_constant_changes():
     contact = scene.contact()
     problem = scene.problem(contact)
     problem.solve()
-    assert problem._bulk.is_linear
-    assert problem._bulk.assemblies == 1
+    assert problem.assembler.bulk.is_linear
+    assert problem.assembler.bulk.assemblies == 1
     assert problem.report.skipped["bulk Jacobian assembly"] == problem.report.iterations
     force = contact.force.copy()
     scene.bcs[-1].g.value[...] *= 1.1
     problem.solve()
-    assert problem._bulk.assemblies == 1
+    assert problem.assembler.bulk.assemblies == 1
     scene.bcs[-1].g.value[...] /= 1.1
     E.value = 3.0
     problem.solve()
-    assert problem._bulk.assemblies == 2
+    assert problem.assembler.bulk.assemblies == 2
     assert contact.force == pytest.approx(3 * force, rel=1e-9, abs=1e-12)
 
 
@@ -148,13 +148,13 @@ def test_a_body_that_has_run_away_is_no_solution(method):
     scene = Blocks(CellType.quadrilateral)
     problem = scene.problem(scene.contact())
     problem.solve()
-    system, convergence = problem._system.core, problem._newton._loop.convergence
+    system, convergence = problem.assembler.system.core, problem.assembler.loop.convergence
     b = np.empty(system.offsets[-1])
 
     system.residual(b)
     residual, tolerance, _ = convergence.compare(b, 1e-11, 0.0)
     assert residual <= tolerance
-    free = np.flatnonzero(problem._newton._bulk.markers == 0)[0]
+    free = np.flatnonzero(problem.assembler.bulk.markers == 0)[0]
     scene.u.x.array[free] = 1e5
     residual, tolerance, _ = convergence.compare(b, 1e-11, 0.0)
     assert tolerance == 0

@@ -174,7 +174,7 @@ def test_cell_forces_of_one_cell_are_those_of_its_node():
     """Of a uniform stress, by hand: half the force on each side of a square."""
     scene = Apart(1.0, 1.0)
     problem = scene.problem(prestress(scene))
-    halo = problem._halo
+    halo = problem.assembler.halo
     forces = CellForces(
         ufl.inner(ufl.as_matrix([[2.0, 0.0], [0.0, 0.0]]), ufl.grad(scene.v)) * ufl.dx,
         scene.u,

@@ -99,4 +99,4 @@ def test_finite_strain_block_converges_quadratically():
     r = np.array(residuals_after_settling(problem.report)) / scale
     print("relative residuals once status and pairs have settled:", r)
     check_quadratic(r)
-    assert problem.report.iterations == problem._bulk.assemblies
+    assert problem.report.iterations == problem.assembler.bulk.assemblies

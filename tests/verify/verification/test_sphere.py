@@ -72,7 +72,7 @@ def test_sphere(sliding, h, method):
     assert contact.multiplier.min() >= 0
     assert np.linalg.norm(report.imbalance) <= 1e-13 * np.linalg.norm(contact.force)
     # A linear bulk is assembled once, however many iterations there are
-    assert problem._bulk.assemblies == 1
+    assert problem.assembler.bulk.assemblies == 1
     # Starting from the solution there is nothing to do
     problem.solve()
     assert problem.report.iterations == 0

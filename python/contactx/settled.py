@@ -1,0 +1,87 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""What an iterate is once pairs and active set are those of it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+
+from contactx import cpp as core
+from contactx.report import Iteration
+
+_FAILURES = {
+    core.Verdict.hidden: "pairs went back and forth between facets and were frozen, and hide a "
+    "penetration: refine the coarser surface there, swap slave and master where that is the slave, "
+    "or take smaller load steps",
+    core.Verdict.ran_away: "a body that nothing holds has moved by {way:.3g}, more than the size "
+    "of the scene: no place was found where the forces of contact balance. Support it. Where a "
+    'ring can turn in another one, take method="surface-to-surface", or numbers of facets that are '
+    "no multiples of each other",
+    core.Verdict.unbalanced: "the loads on a body cannot be balanced: it has no support and "
+    "nothing is in its way, or friction barely could. Support it, or turn the loads so that they "
+    "press the bodies together",
+    core.Verdict.not_finite: "the residual is not finite: the material fails, or a body is free to "
+    "move without touching anything. Take smaller load steps, or support the body",
+    core.Verdict.stuck: "no step is short enough to lead on: cells would turn inside out, or the "
+    "residual does not fall. Take smaller load steps",
+}
+
+
+@dataclass(frozen=True)
+class Settled(Iteration):
+    """An iterate with the pairs and the active set that are those of it.
+
+    Attributes:
+        scale: Forces of the problem, which ``tolerance`` is relative to: norm of the bulk's
+            residual.
+        converged: Whether it is a solution: the residual is small, no node changes its pair or
+            status any more, and geometry finds nothing wrong.
+        failure: Why no solution is to be expected any more, and what to do; empty while there is.
+        is_final: Whether another way to the same place would fail, too.
+    """
+
+    scale: float
+    converged: bool
+    failure: str
+    is_final: bool
+
+    def row(self) -> Iteration:
+        """The part that reports have."""
+        return Iteration(**{f.name: getattr(self, f.name) for f in fields(Iteration)})
+
+
+def settled(
+    number: int,
+    verdict: core.Verdict,
+    iterate: core.Iterate,
+    *,
+    scale: float,
+    way: float,
+    faults: str,
+) -> Settled:
+    """Describe an iterate.
+
+    Args:
+        number: Number of linear solves so far.
+        verdict: What the core says of it.
+        iterate: Its figures.
+        scale: Forces of the problem.
+        way: Farthest that any node has moved in this step.
+        faults: What the audit has found, if it was a solution for the core.
+    """
+    failure = faults or _FAILURES.get(verdict, "").format(way=way)
+    slow = verdict in (core.Verdict.not_finite, core.Verdict.stuck)
+    return Settled(
+        number=number,
+        residual=iterate.residual,
+        tolerance=iterate.tolerance,
+        closed=iterate.closed,
+        status_changes=iterate.status_changes,
+        pair_changes=iterate.pair_changes,
+        frozen_kinematics=iterate.is_frozen,
+        dirichlet_defect=iterate.defect,
+        scale=scale,
+        converged=verdict == core.Verdict.solution and not faults,
+        failure=failure,
+        is_final=bool(failure) and not slow,
+    )
