@@ -251,7 +251,7 @@ class ContactAssembler:
         self.system.pack()
         self._has_begun = True
 
-    def settle(self, rtol: float = 1e-11, atol: float = 0.0) -> Settled:
+    def settle(self, rtol: float = 1e-11, atol: float = 0.0, max_it: int = 50) -> Settled:
         """Update pairs and active set at an accepted iterate, and judge its residual.
 
         The iterate may change by a little: where iterates go round, part of the last step is taken
@@ -260,22 +260,25 @@ class ContactAssembler:
         Args:
             rtol: Tolerance relative to the forces of the problem.
             atol: Absolute tolerance, a force.
+            max_it: Most linear solves of the step.
 
         Returns:
             What the iterate is.
 
         Raises:
-            ConvergenceError: If no solution is to be expected any more; with an attached SNES
-                that raises nothing ``failure`` says so.
+            ConvergenceError: If no solution is to be expected any more.
             RuntimeError: If no step has begun.
             ValueError: If friction, offset or an obstacle has become what it must not be.
         """
         self._enter("settle")
-        self.halo.update_ghosts()
+        self._look_anew()
         found = self.judge(rtol, atol)
-        if found.failure:
-            self.report.reason = found.failure
-            raise ConvergenceError(found.failure, self.report)
+        reason = found.failure
+        if not (reason or found.converged) and found.number >= max_it:
+            reason = f"no convergence in {max_it} iterations: take smaller load steps"
+        if reason:
+            self.report.reason = reason
+            raise ConvergenceError(reason, self.report)
         return found
 
     def judge(self, rtol: float, atol: float) -> Settled:
@@ -313,6 +316,11 @@ class ContactAssembler:
         self._has_moved = False
         return self._found
 
+    def _look_anew(self) -> None:
+        """Take what a user may have changed since the last call: displacements, loads."""
+        self.halo.update_ghosts()
+        self.system.core.begin_step()
+
     def _read_values(self) -> None:
         """Hand the core what users may change."""
         # Only all ranks together can free what they have dropped
@@ -338,7 +346,7 @@ class ContactAssembler:
             ValueError: If the vector is of another layout.
         """
         self._enter("residual", b)
-        self.halo.update_ghosts()
+        self._look_anew()
         self.system.residual(b)
 
     def jacobian(self, A: PETSc.Mat | None = None) -> PETSc.Mat:

@@ -1,0 +1,74 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Newton loops of one's own around a ContactAssembler give what ContactProblem gives."""
+
+import arc_length
+import numpy as np
+import own_newton
+import own_snes
+import pytest
+
+import contactx as cx
+
+
+def assert_same(scene, other, tolerance=1e-10):
+    """Status is the same; displacements and multipliers are, relative to the largest."""
+    np.testing.assert_array_equal(scene.contact.status.x.array, other.contact.status.x.array)
+    for a, b in (
+        (scene.u.x.array, other.u.x.array),
+        (scene.contact.multiplier, other.contact.multiplier),
+    ):
+        assert np.abs(b).max() > 0
+        np.testing.assert_allclose(a, b, rtol=0, atol=tolerance * np.abs(b).max())
+
+
+@pytest.mark.parametrize(("condensed", "tolerance"), [(False, 1e-10), (True, 1e-8)])
+def test_a_loop_that_is_written_out(condensed, tolerance):
+    scene, other = own_newton.Scene(), own_newton.Scene()
+    counts = own_newton.solve(scene, condensed=condensed)
+    problem = cx.ContactProblem(
+        other.F,
+        other.u,
+        contacts=[other.contact],
+        bcs=other.bcs,
+        petsc_options_prefix="same_",
+        petsc_options={"pc_type": "condensed"} if condensed else None,
+    )
+    for step, count in enumerate(counts):
+        other.load((step + 1) / own_newton.STEPS)
+        problem.solve()
+        assert problem.report.iterations == count > 1
+    assert_same(scene, other, tolerance)
+
+
+def test_the_snes_of_a_nonlinear_problem():
+    scene, other = own_snes.Scene(), own_snes.Scene()
+    report = own_snes.solve(scene)
+    problem = cx.ContactProblem(
+        other.F, other.u, contacts=[other.contact], bcs=other.bcs, petsc_options_prefix="same_"
+    )
+    problem.solve()
+    assert report.converged
+    assert report.iterations == problem.report.iterations
+    assert report.reason == problem.report.reason
+    assert_same(scene, other)
+
+
+def test_an_arc_length_method():
+    arch, other = arc_length.Arch(), arc_length.Arch()
+    path = np.array(arc_length.follow(arch))
+    load, deflection, force = path.T
+    # Up to a limit, down again, and up on the floor
+    assert 3 <= load[:10].argmax() + 1 <= 8
+    assert load[10:14].min() < 0.5 * load[:10].max()
+    assert force[-1] > 0 == force[0]
+    assert (np.diff(deflection)[:-2] < 0).all()
+    # The end of the way is a solution under the load that it was found with
+    other.factor.value = arch.factor.value
+    other.u.x.array[:] = 0.99 * arch.u.x.array
+    problem = cx.ContactProblem(
+        other.F, other.u, contacts=[other.contact], bcs=other.bcs, petsc_options_prefix="same_"
+    )
+    problem.solve()
+    assert problem.report.iterations > 0
+    assert_same(arch, other)

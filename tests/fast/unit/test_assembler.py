@@ -1,0 +1,234 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""The assembler for Newton loops of one's own: its blocks, its steps, and its misuse."""
+
+from petsc4py import PETSc
+
+import numpy as np
+import pytest
+
+import contactx as cx
+from dolfinx.fem.petsc import create_vector
+from dolfinx.mesh import CellType
+
+from scenes.blocks import Blocks
+from scenes.materials import neo_hookean
+
+
+def make(cell=CellType.triangle, **options):
+    scene = Blocks(cell)
+    contact = scene.contact(**options)
+    return scene, contact, cx.ContactAssembler(scene.F, scene.u, contacts=[contact], bcs=scene.bcs)
+
+
+def direct(comm):
+    ksp = PETSc.KSP().create(comm)
+    ksp.setType("preonly")
+    ksp.getPC().setType("lu")
+    ksp.getPC().setFactorSolverType("mumps")
+    return ksp
+
+
+def solve(assembler, stop=50):
+    """Solve; or take some steps."""
+    b, dx = assembler.create_vector(), assembler.create_vector()
+    ksp = direct(b.comm)
+    assembler.begin_step()
+    while not assembler.settle().converged and stop > 0:
+        stop -= 1
+        assembler.residual(b)
+        assembler.set_up(ksp)
+        ksp.solve(-b, dx)
+        assembler.update(dx, assembler.limit(dx))
+
+
+def test_blocks_make_up_the_jacobian():
+    _, _, assembler = make(friction=0.3)
+    solve(assembler, 2)
+    J = assembler.jacobian()
+    blocks = assembler.blocks()
+    n = assembler.u.x.array.size
+    rows = [
+        [blocks[name].convert("dense").getDenseArray() for name in pair] for pair in ("KB", "CD")
+    ]
+    whole = J.convert("dense").getDenseArray()
+    np.testing.assert_array_equal(np.block(rows), whole)
+    assert np.abs(whole[:n, n:]).max() > 0 < np.abs(whole[n:, :n]).max()
+
+
+def test_the_jacobian_is_the_derivative_of_the_residual():
+    _, _, assembler = make(CellType.tetrahedron, friction=0.3)
+    solve(assembler, 2)
+    assembler.settle()
+    A = assembler.jacobian()
+    rng = np.random.default_rng(5)
+    dx = assembler.create_vector()
+    dx.array[:] = rng.standard_normal(dx.getLocalSize())
+    dx.array[: len(assembler.bulk.markers)][assembler.bulk.markers == 1] = 0
+    b, product = assembler.create_vector(), assembler.create_vector()
+    A.mult(dx, product)
+    quotient = np.zeros(dx.getLocalSize())
+    for sign in (1, -1):
+        assembler.update(dx, sign * 1e-6)
+        assembler.residual(b)
+        quotient += sign * b.array_r / 2e-6
+        assembler.update(dx, -sign * 1e-6)
+    np.testing.assert_allclose(
+        product.array_r, quotient, rtol=0, atol=1e-6 * np.abs(quotient).max()
+    )
+
+
+def test_what_settles_says_what_it_is():
+    _, contact, assembler = make()
+    assembler.begin_step()
+    found = assembler.settle()
+    assert (found.number, found.converged, found.failure) == (0, False, "")
+    assert not assembler.converged
+    solve(assembler)
+    found = assembler.settle()
+    assert found.converged
+    assert assembler.converged
+    assert found.residual <= found.tolerance
+    assert found.tolerance >= 1e-11 * found.scale > 0
+    assert found.closed == (contact.interface.nodes.status != 0).sum()
+    history = assembler.report.history
+    assert [row.number for row in history[:-1]] == list(range(len(history) - 1))
+
+
+def test_accepting_commits_history_and_restoring_takes_it_back():
+    scene, contact, assembler = make(friction=0.3)
+    solve(assembler)
+    u, multiplier = scene.u.x.array.copy(), contact.multiplier.copy()
+    assembler.accept()
+    assert assembler.report.converged
+    assert assembler.report.pairs > 0
+    assert contact.force[-1] > 0
+    assembler.begin_step()
+    assembler.settle()
+    step = assembler.create_vector()
+    step.array[:] = 1e-3
+    assembler.update(step)
+    assert np.abs(scene.u.x.array - u).max() > 0
+    assembler.restore()
+    np.testing.assert_array_equal(scene.u.x.array, u)
+    np.testing.assert_array_equal(contact.multiplier, multiplier)
+    assembler.begin_step()
+    assert assembler.settle().converged
+
+
+def test_loads_may_change_between_calls():
+    scene, _, assembler = make()
+    assembler.begin_step()
+    before = assembler.settle()
+    b, c = assembler.create_vector(), assembler.create_vector()
+    assembler.residual(b)
+    scene.u.x.array[:] += 1e-3
+    assembler.residual(c)
+    assert np.abs(b.array_r - c.array_r).max() > 1e-6
+    assert before.number == 0
+
+
+def test_steps_stop_short_of_turning_cells():
+    scene = Blocks(CellType.triangle)
+    scene.F = neo_hookean(scene.u, 1.0, 0.3)
+    contact = scene.contact()
+    assembler = cx.ContactAssembler(scene.F, scene.u, contacts=[contact], bcs=scene.bcs)
+    assembler.begin_step()
+    assembler.settle()
+    dx = assembler.create_vector()
+    assert assembler.limit(dx) == 1
+    dx.array[:] = np.random.default_rng(1).standard_normal(dx.getLocalSize())
+    part = assembler.limit(dx)
+    assert 0 < part < 0.5
+    dx.scale(part)
+    assert assembler.limit(dx) == pytest.approx(1, rel=2e-3)
+
+
+def test_a_loop_without_end_is_ended():
+    _, _, assembler = make()
+    assembler.begin_step()
+    nothing = assembler.create_vector()
+    with pytest.raises(cx.ConvergenceError, match="no convergence in 3 iterations"):
+        for _ in range(10):
+            assembler.settle(max_it=3)
+            assembler.update(nothing)
+    assert len(assembler.report.history) == 4
+
+
+@pytest.mark.parametrize(
+    "call", ["settle", "residual", "jacobian", "set_up", "limit", "update", "accept"]
+)
+def test_nothing_works_before_a_step_begins(call):
+    _, _, assembler = make()
+    given = {
+        "residual": assembler.create_vector(),
+        "limit": assembler.create_vector(),
+        "update": assembler.create_vector(),
+        "set_up": direct(assembler.x.comm),
+    }
+    arguments = [given[call]] if call in given else []
+    with pytest.raises(RuntimeError, match=rf"{call}\(\) before begin_step\(\)"):
+        getattr(assembler, call)(*arguments)
+
+
+@pytest.mark.parametrize("call", ["set_up", "limit", "accept"])
+def test_some_calls_want_an_iterate_that_has_settled(call):
+    _, _, assembler = make()
+    dx = assembler.create_vector()
+    given = {"set_up": [direct(dx.comm)], "limit": [dx], "accept": []}[call]
+    assembler.begin_step()
+    with pytest.raises(RuntimeError, match=rf"{call}\(\) before settle\(\)"):
+        getattr(assembler, call)(*given)
+    assembler.settle()
+    assembler.update(dx)
+    with pytest.raises(RuntimeError, match=rf"{call}\(\) before settle\(\)"):
+        getattr(assembler, call)(*given)
+
+
+def test_no_iterate_but_a_solution_is_accepted():
+    _, _, assembler = make()
+    assembler.begin_step()
+    assert not assembler.settle().converged
+    with pytest.raises(RuntimeError, match=r"go on until settle\(\) says converged"):
+        assembler.accept()
+
+
+def test_vectors_and_matrices_of_another_layout_are_refused():
+    scene, _, assembler = make()
+    assembler.begin_step()
+    assembler.settle()
+    bulk = create_vector(scene.u.function_space)
+    for call in ("residual", "limit", "update"):
+        with pytest.raises(ValueError, match=rf"{call}\(\) was given a Vec .*create_vector\(\)"):
+            getattr(assembler, call)(bulk)
+    n = scene.u.x.array.size
+    with pytest.raises(ValueError, match=r"jacobian\(\) was given a Mat"):
+        assembler.jacobian(PETSc.Mat().createAIJ((n, n)))
+    size = assembler.x.getSizes()
+    with pytest.raises(ValueError, match="not the matrix that jacobian"):
+        assembler.jacobian(PETSc.Mat().createAIJ((size, size)))
+    A = assembler.jacobian()
+    assert assembler.jacobian(A).handle == A.handle
+
+
+def test_a_snes_that_fails_takes_nothing_along():
+    scene, contact, assembler = make()
+    snes = PETSc.SNES().create(assembler.x.comm)
+    snes.getKSP().setType("preonly")
+    pc = snes.getKSP().getPC()
+    pc.setType("lu")
+    pc.setFactorSolverType("mumps")
+    snes.setTolerances(rtol=1e-11, max_it=1)
+    snes.getLineSearch().setType("basic")
+    assembler.attach(snes)
+    assembler.begin_step()
+    snes.solve(None, assembler.x)
+    with pytest.raises(cx.ConvergenceError, match="no convergence in snes_max_it iterations"):
+        assembler.accept()
+    assert not scene.u.x.array.any()
+    assert not contact.multiplier.any()
+    snes.setTolerances(max_it=50)
+    assembler.begin_step()
+    snes.solve(None, assembler.x)
+    assembler.accept()
+    assert contact.force[-1] > 0
