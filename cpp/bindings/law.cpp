@@ -4,6 +4,7 @@
 #include "bindings.h"
 #include <contactx/law/law.h>
 #include <memory>
+#include <pybind11/stl.h>
 
 namespace py = pybind11;
 using namespace contactx_bindings;
@@ -35,6 +36,27 @@ void contactx_bindings::law(py::module_& m)
   py::class_<Coulomb, Law, std::shared_ptr<Coulomb>>(
       m, "Coulomb", "Unilateral contact with dry friction")
       .def(py::init())
+      .def(py::init(
+               [](py::function bound)
+               {
+                 return std::make_shared<Coulomb>(
+                     [bound = std::move(bound)](std::span<const double> p,
+                                                std::span<const double> slip)
+                     {
+                       const auto given = [](std::span<const double> values)
+                       {
+                         return py::array_t<double>(
+                             static_cast<py::ssize_t>(values.size()),
+                             values.data());
+                       };
+                       const auto found
+                           = bound(given(p), given(slip))
+                                 .cast<std::array<Array<double>, 3>>();
+                       return Bounds{copy(found[0]), copy(found[1]),
+                                     copy(found[2])};
+                     });
+               }),
+           py::arg("bound"))
       .def(
           "set_friction", [](Coulomb& self, const Array<double>& friction)
           { self.set_friction(view(friction)); }, py::arg("friction"))

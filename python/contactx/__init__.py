@@ -14,6 +14,7 @@ from contactx import compat as compat  # isort: skip
 from contactx.assembler import ContactAssembler
 from contactx.contact import Contact
 from contactx.errors import ConvergenceError
+from contactx.friction import FrictionLaw
 from contactx.obstacles import Cylinder, LevelSet, Plane, Sphere
 from contactx.output import VTKOutput
 from contactx.problem import ContactProblem
@@ -27,6 +28,7 @@ __all__ = [
     "ContactProblem",
     "ConvergenceError",
     "Cylinder",
+    "FrictionLaw",
     "LevelSet",
     "LoadSteps",
     "Plane",
@@ -37,3 +39,8 @@ __all__ = [
 ]
 
 __version__ = "0.1.0"
+
+
+def __dir__() -> list[str]:
+    """What users call: the modules are there as well, but not for them."""
+    return [*__all__, "__version__"]

@@ -15,6 +15,7 @@ from contactx.arguments import check_switch, described, is_number
 from contactx.bodies import Bodies
 from contactx.fields import Fields
 from contactx.forms import ContactForms
+from contactx.friction import AccumulatedSlip, FrictionLaw
 from contactx.geometry.facing import check_facing
 from contactx.geometry.inside import shared_nodes
 from contactx.interface import Interface
@@ -58,7 +59,7 @@ class Contact:
         slave: Surface,
         master: Surface | Obstacle,
         *,
-        friction: float | fem.Constant | fem.Function = 0.0,
+        friction: float | fem.Constant | fem.Function | FrictionLaw = 0.0,
         sliding: str = "finite",
         method: str = "node-to-surface",
         tied: bool = False,
@@ -74,7 +75,7 @@ class Contact:
                 Cylinder or LevelSet.
             friction: Coulomb's coefficient: a number, a ``fem.Constant`` or a ``fem.Function`` of
                 the scalar linear space, which may change from step to step. With the number 0
-                nothing along the surface is computed.
+                nothing along the surface is computed. Or a ``FrictionLaw`` of one's own.
             sliding: "finite": pairs, normals and projections follow the deformation. "small": they
                 are those of the reference configuration, which is linear and cheap, and right
                 where bodies neither slide nor turn by much.
@@ -157,7 +158,9 @@ class Contact:
         slaves = SlaveNodes(halo, in_order(self.slave.facet_nodes(V), halo))
         with agreed(halo.comm):
             offset = NodalValue(self.offset, "offset", V, slaves.owned)
-            law, friction = self._law(V, slaves.owned)
+            own = self.friction
+            slipped = AccumulatedSlip(own) if isinstance(own, FrictionLaw) else None
+            law, friction = self._law(V, slaves.owned, slipped)
         master = make_master(
             self.slave,
             slaves,
@@ -185,24 +188,29 @@ class Contact:
             shared=shared,
         )
         check_facing(self.slave, slaves, self.master, master, halo)
+        if slipped is not None:
+            slipped.history = interface.history
         self._fields = Fields(interface, V, slaves, halo)
         self._interface = interface
         return interface
 
     def _law(
-        self, V: fem.FunctionSpace, slaves: npt.NDArray[np.int32]
+        self, V: fem.FunctionSpace, slaves: npt.NDArray[np.int32], own: AccumulatedSlip | None
     ) -> tuple[core.Law, NodalValue | None]:
         """Law of the contact, and the coefficient of friction that it is handed.
 
         Args:
             V: Space of the displacement.
             slaves: Slave nodes of this rank, shape (n,).
+            own: Law of friction of the user's own.
 
         Raises:
             ValueError: If friction is a function of another space, or a constant that is no number.
         """
         if self.tied:
             return core.Tied(), None
+        if own is not None:
+            return core.Coulomb(own), None
         # A constant of the value 0 may become another one
         if self.friction != 0:
             return core.Coulomb(), NodalValue(self.friction, "friction", V, slaves)
@@ -403,11 +411,11 @@ def _check_options(
         raise ValueError(
             f'method must be "node-to-surface" or "surface-to-surface", not {method!r}'
         )
+    numbers = "a number, a fem.Constant or a fem.Function"
     for name, value in (("friction", friction), ("offset", offset)):
-        if not (is_number(value) or isinstance(value, fem.Constant | fem.Function)):
-            raise TypeError(
-                f"{name} must be a number, a fem.Constant or a fem.Function, not {described(value)}"
-            )
+        is_law = name == "friction" and isinstance(value, FrictionLaw)
+        if not (is_law or is_number(value) or isinstance(value, fem.Constant | fem.Function)):
+            raise TypeError(f"{name} must be {numbers}, not {described(value)}")
     for name, value in (("friction", friction), ("offset", offset)):
         if is_number(value) and not (np.isfinite(value) and (name == "offset" or value >= 0)):
             wanted = "a finite number" if name == "offset" else "a number of at least 0"

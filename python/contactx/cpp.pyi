@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 
 from collections.abc import Callable, Sequence
-from typing import Any, ClassVar, Literal, TypeVar
+from typing import Any, ClassVar, Literal, TypeVar, overload
 
 import numpy as np
 from numpy.typing import NDArray
@@ -199,7 +199,16 @@ class Frictionless(Law):
     def __init__(self) -> None: ...
 
 class Coulomb(Law):
+    @overload
     def __init__(self) -> None: ...
+    @overload
+    def __init__(
+        self,
+        bound: Callable[
+            [NDArray[np.float64], NDArray[np.float64]],
+            tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]],
+        ],
+    ) -> None: ...
     def set_friction(self, friction: NDArray[np.float64]) -> None: ...
     def friction(self, state: NodeState) -> NDArray[np.float64]: ...
 

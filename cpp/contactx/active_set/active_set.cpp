@@ -54,12 +54,8 @@ public:
   Rubbing rubbing() override
   {
     _coulomb->evaluate(nodes());
-    const std::vector<double> friction = _coulomb->friction(nodes());
-    std::vector<std::int8_t> rubs(friction.size());
-    for (std::size_t i = 0; i < rubs.size(); ++i)
-      rubs[i] = friction[i] * nodes().pressure(i) > 0;
     return {nodes().normal, nodes().multiplier, nodes().slip,
-            nodes().value,  nodes().area,       std::move(rubs)};
+            nodes().value,  nodes().area,       _coulomb->rubs(nodes())};
   }
   void close(std::span<const std::int32_t> which) override
   {

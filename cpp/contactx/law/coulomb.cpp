@@ -77,7 +77,7 @@ struct Node
         slip(vector_at<D>(s.slip, i)), gap(s.gap[i]), c(s.c[i]),
         p(dot(n, lambda)), p_hat(pressure_hat(p, c, gap, is_closed)),
         t(lambda - p * n), t_hat(t - c * slip), size(norm(t_hat)),
-        bound(s.friction[i] * p_hat)
+        bound(s.bound.empty() ? s.friction[i] * p_hat : s.bound[i])
   {
   }
 
@@ -158,8 +158,10 @@ Terms<D> stick_terms(const Node<D>& a)
 }
 
 /// What vanishes along the surface of a slipping node
+/// @param[in] friction Derivative of the bound by p_hat.
+/// @param[in] softening Its derivative by the length of the slip.
 template <int D>
-Terms<D> slip_terms(const Node<D>& a, double friction)
+Terms<D> slip_terms(const Node<D>& a, double friction, double softening)
 {
   // Without a direction there is nothing to slip along: any will do
   const bool directed = a.size > 0;
@@ -172,6 +174,8 @@ Terms<D> slip_terms(const Node<D>& a, double friction)
   // See `pressure_hat`
   r.by_gap = a.gap > 0 ? Vector<D>{} : (a.c * friction) * s;
   r.by_slip = scaled<D>(a.c, turn);
+  if (const double length = norm(a.slip); softening != 0 and length > 0)
+    r.by_slip = sum<D>(r.by_slip, outer<D>((-softening / length) * s, a.slip));
   const Mat<D> tangential = across<D>(a.n);
   r.by_traction
       = sum<D>(sum<D>(tangential, scaled<D>(-1, multiply<D>(turn, tangential))),
@@ -269,7 +273,10 @@ void evaluate(const FrictionalState& state, std::span<const double> area,
     }
     const Terms<D> moving = status[i] == Status::stick
                                 ? stick_terms<D>(node)
-                                : slip_terms<D>(node, state.friction[i]);
+                                : slip_terms<D>(node, state.friction[i],
+                                                state.bound_by_slip.empty()
+                                                    ? 0
+                                                    : state.bound_by_slip[i]);
     const Terms<D> along = mixed<D>(node, moving, immobile_terms<D>(node),
                                     mobile.data() + D * i);
     write<D>(closed<D>(node, along), area[i], i, law);

@@ -17,7 +17,12 @@ struct FrictionalState
   std::span<const double> normal;   ///< unit vectors
   std::span<const double> slip;     ///< increment of the step, vectors
   std::span<const double> c;        ///< complementarity factor
-  std::span<const double> friction; ///< coefficient of friction
+  /// Coefficient of friction: derivative of the bound by p_hat
+  std::span<const double> friction;
+  /// Bound of |t|, a traction; friction times p_hat if empty
+  std::span<const double> bound = {};
+  /// Its derivative by the length of the slip increment; zero if empty
+  std::span<const double> bound_by_slip = {};
 };
 
 /// @brief Complementarity function and its derivatives, forces: vectors and
@@ -49,6 +54,8 @@ std::int32_t frictional_status(const FrictionalState& state, double reach,
 /// area: A lambda on open nodes, A c (g n + ds) on sticking ones and
 /// A (c g n + t - mu p_hat t_hat / |t_hat|) on slipping ones, with consistent
 /// derivatives (Alart & Curnier 1991; Hueeber & Wohlmuth 2005).
+///
+/// A bound of another law, tau(p_hat, |ds|), takes the place of mu p_hat.
 ///
 /// Directions in which neither the slave node nor its master can move carry
 /// no friction: there t takes the place of what is written after g n.

@@ -49,8 +49,8 @@ double edge(double pressure, double highest)
              : 0.5;
 }
 
-/// Whether the trial friction of a node exceeds a part of its pressure.
-bool exceeds(const NodeState& nodes, std::size_t i, double friction)
+/// Whether the trial friction of a node exceeds a bound.
+bool exceeds(const NodeState& nodes, std::size_t i, double bound)
 {
   const std::size_t gdim = nodes.gdim();
   const double p = nodes.pressure(i), c = nodes.c[i];
@@ -61,7 +61,33 @@ bool exceeds(const NodeState& nodes, std::size_t i, double friction)
         = nodes.multiplier[k] - p * nodes.normal[k] - c * nodes.slip[k];
     size += trial * trial;
   }
-  return std::sqrt(size) > friction * (p - c * nodes.gap[i]);
+  return std::sqrt(size) > bound;
+}
+
+std::vector<double> pressures(const NodeState& nodes)
+{
+  std::vector<double> p(nodes.status.size());
+  for (std::size_t i = 0; i < p.size(); ++i)
+    p[i] = nodes.pressure(i);
+  return p;
+}
+
+/// Pressures that the status goes by, see `pressure_hat`.
+std::vector<double> pressures_hat(const NodeState& nodes)
+{
+  std::vector<double> p(nodes.status.size());
+  for (std::size_t i = 0; i < p.size(); ++i)
+    p[i] = pressure_hat(nodes.pressure(i), nodes.c[i], nodes.gap[i],
+                        nodes.closed(i));
+  return p;
+}
+
+double length_of_slip(const NodeState& nodes, std::size_t i)
+{
+  double sum = 0;
+  for (std::size_t k = nodes.gdim() * i; k < nodes.gdim() * (i + 1); ++k)
+    sum += nodes.slip[k] * nodes.slip[k];
+  return std::sqrt(sum);
 }
 } // namespace
 
@@ -104,18 +130,75 @@ void Coulomb::set_friction(std::span<const double> friction)
   _friction.assign(friction.begin(), friction.end());
 }
 
+/// Bounds of friction at some pressures: no friction where it is left out. On
+/// nodes that are pulled off bounds go on as they do at no pressure.
+Bounds Coulomb::bounds(const NodeState& nodes,
+                       std::span<const double> pressure) const
+{
+  const std::size_t n = nodes.smooth.size();
+  Bounds found;
+  if (_bound)
+  {
+    std::vector<double> pressed(n), slipped(n);
+    for (std::size_t i = 0; i < n; ++i)
+    {
+      // False for NaN, too
+      pressed[i] = pressure[i] > 0 ? pressure[i] : 0;
+      slipped[i] = length_of_slip(nodes, i);
+    }
+    found = _bound(pressed, slipped);
+    for (const auto* values :
+         {&found.bound, &found.by_pressure, &found.by_slip})
+      if (values->size() != n)
+        throw std::invalid_argument("the law of friction must give values for "
+                                    "each of "
+                                    + std::to_string(n) + " slave nodes, not "
+                                    + std::to_string(values->size()));
+    for (std::size_t i = 0; i < n; ++i)
+    {
+      if (not(found.bound[i] >= 0) or not std::isfinite(found.bound[i])
+          or not std::isfinite(found.by_pressure[i])
+          or not std::isfinite(found.by_slip[i]))
+        throw std::invalid_argument(
+            "the law of friction gives the bound "
+            + std::to_string(found.bound[i]) + " at the pressure "
+            + std::to_string(pressed[i]) + ", with the derivatives "
+            + std::to_string(found.by_pressure[i]) + " and "
+            + std::to_string(found.by_slip[i])
+            + ": it must be at least 0, and all of them finite");
+      if (pressure[i] < 0)
+        found.bound[i] += found.by_pressure[i] * pressure[i];
+    }
+  }
+  else
+  {
+    if (_friction.size() != n)
+      throw std::invalid_argument(
+          "friction must have a coefficient for each of " + std::to_string(n)
+          + " slave nodes, not " + std::to_string(_friction.size()));
+    found = {std::vector<double>(n), _friction, std::vector<double>(n)};
+    for (std::size_t i = 0; i < n; ++i)
+      found.bound[i] = _friction[i] * pressure[i];
+  }
+  for (std::size_t i = 0; i < n; ++i)
+    if (nodes.smooth[i])
+      found.bound[i] = found.by_pressure[i] = found.by_slip[i] = 0;
+  return found;
+}
+
 std::vector<double> Coulomb::friction(const NodeState& nodes) const
 {
-  if (_friction.size() != nodes.smooth.size())
-    throw std::invalid_argument("friction must have a coefficient for each of "
-                                + std::to_string(nodes.smooth.size())
-                                + " slave nodes, not "
-                                + std::to_string(_friction.size()));
-  std::vector<double> result = _friction;
-  for (std::size_t i = 0; i < result.size(); ++i)
-    if (nodes.smooth[i])
-      result[i] = 0;
-  return result;
+  return bounds(nodes, pressures(nodes)).by_pressure;
+}
+
+std::vector<std::int8_t> Coulomb::rubs(const NodeState& nodes) const
+{
+  const std::vector<double> p = pressures(nodes);
+  const Bounds found = bounds(nodes, p);
+  std::vector<std::int8_t> rubs(p.size());
+  for (std::size_t i = 0; i < rubs.size(); ++i)
+    rubs[i] = p[i] > 0 and found.bound[i] > 0;
+  return rubs;
 }
 
 std::int32_t Coulomb::set_status(NodeState& nodes, parallel::Ranks& ranks) const
@@ -126,27 +209,33 @@ std::int32_t Coulomb::set_status(NodeState& nodes, parallel::Ranks& ranks) const
   highest = parallel::largest(ranks, highest);
   // Only now: no rank may leave the others waiting
   check_multipliers(*this, nodes);
-  auto mu = friction(nodes);
-  for (std::size_t i = 0; i < mu.size(); ++i)
+  Bounds found;
+  const auto look = [&] { found = bounds(nodes, pressures_hat(nodes)); };
+  if (may_throw())
+    ranks.agree(look);
+  else
+    look();
+  for (std::size_t i = 0; i < found.bound.size(); ++i)
     if (nodes.status[i] == slip)
-      mu[i] *= 1 - edge(nodes.pressure(i), highest);
+      found.bound[i] *= 1 - edge(nodes.pressure(i), highest);
 
   const auto before = nodes.status;
   const auto gap = closable_gaps(nodes);
   frictional_status({nodes.gdim(), nodes.multiplier, gap, nodes.normal,
-                     nodes.slip, nodes.c, mu},
+                     nodes.slip, nodes.c, found.by_pressure, found.bound},
                     _reach, nodes.status);
   std::int32_t changed = 0;
   for (std::size_t i = 0; i < before.size(); ++i)
   {
     std::int8_t& now = nodes.status[i];
-    if (before[i] == open and now == slip and mu[i] > 0)
+    if (before[i] == open and now == slip and found.bound[i] > 0)
     {
       if (nodes.closings[i] % 4 == 3)
         now = stick;
       ++nodes.closings[i];
     }
-    else if (before[i] == slip and now == stick and exceeds(nodes, i, mu[i]))
+    else if (before[i] == slip and now == stick
+             and exceeds(nodes, i, found.bound[i]))
     {
       if (nodes.turns[i] % 2 == 1)
         now = slip;
@@ -160,9 +249,10 @@ std::int32_t Coulomb::set_status(NodeState& nodes, parallel::Ranks& ranks) const
 void Coulomb::evaluate(NodeState& nodes) const
 {
   check_multipliers(*this, nodes);
-  const auto mu = friction(nodes);
+  const Bounds found = bounds(nodes, pressures_hat(nodes));
   frictional_complementarity({nodes.gdim(), nodes.multiplier, nodes.gap,
-                              nodes.normal, nodes.slip, nodes.c, mu},
+                              nodes.normal, nodes.slip, nodes.c,
+                              found.by_pressure, found.bound, found.by_slip},
                              nodes.area, nodes.status, nodes.mobile,
                              {nodes.value, nodes.by_multiplier, nodes.by_gap,
                               nodes.by_slip, nodes.by_normal});

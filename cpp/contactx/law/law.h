@@ -6,6 +6,7 @@
 #include "../contact/node_state.h"
 #include "../parallel/ranks.h"
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -47,6 +48,10 @@ public:
   /// @param[in,out] nodes Slave nodes.
   /// @throws std::invalid_argument if the multipliers are not those of the law.
   virtual void evaluate(contact::NodeState& nodes) const = 0;
+
+  /// @brief Whether it calls a user's function, which may throw on one rank
+  /// alone.
+  virtual bool may_throw() const { return false; }
 };
 
 /// @brief Unilateral contact: p >= 0, g >= 0, p g = 0; see `normal_status`.
@@ -60,11 +65,32 @@ public:
   void evaluate(contact::NodeState& nodes) const override;
 };
 
+/// @brief Bounds of friction with their derivatives, one value a slave node
+/// (shape=(n)).
+struct Bounds
+{
+  std::vector<double> bound;       ///< largest |t|, a traction of at least 0
+  std::vector<double> by_pressure; ///< derivative by the pressure
+  std::vector<double> by_slip;     ///< derivative by the length of the slip
+};
+
+/// @brief Bounds of friction from pressures of at least 0 and lengths of slip
+/// in this step (shape=(n)).
+using BoundFunction = std::function<Bounds(std::span<const double> pressure,
+                                           std::span<const double> slip)>;
+
 /// @brief Unilateral contact with dry friction: |t| <= mu p, and slip only
-/// where they are equal; see `frictional_status`.
+/// where they are equal; see `frictional_status`. Or with another bound than
+/// mu p, such as Tresca's.
 class Coulomb final : public Law
 {
 public:
+  Coulomb() = default;
+
+  /// @brief Take another bound than Coulomb's.
+  /// @param[in] bound Function that gives it.
+  explicit Coulomb(BoundFunction bound) : _bound(std::move(bound)) {}
+
   std::string_view name() const override { return "frictional"; }
   void begin_step() override;
 
@@ -79,10 +105,19 @@ public:
   /// has changed.
   void set_friction(std::span<const double> friction);
 
-  /// @brief Coefficients of friction, zero where it is left out (shape=(n)).
+  /// @brief Coefficients of friction, zero where it is left out: derivatives of
+  /// the bounds by the pressures (shape=(n)).
   /// @param[in] nodes Slave nodes.
-  /// @throws std::invalid_argument if coefficients of others have been taken.
+  /// @throws std::invalid_argument if coefficients of others have been taken,
+  /// or a function of the bound gives what is none.
   std::vector<double> friction(const contact::NodeState& nodes) const;
+
+  /// @brief Which nodes friction acts on: their bound is not zero (shape=(n)).
+  /// @param[in] nodes Slave nodes.
+  /// @throws std::invalid_argument as above.
+  std::vector<std::int8_t> rubs(const contact::NodeState& nodes) const;
+
+  bool may_throw() const override { return bool(_bound); }
 
   /// @copydoc Law::set_status
   ///
@@ -95,11 +130,15 @@ public:
   void evaluate(contact::NodeState& nodes) const override;
 
 private:
+  Bounds bounds(const contact::NodeState& nodes,
+                std::span<const double> pressure) const;
+
   // Trial friction over its bound up to which slip that turns back sticks
   // first. Measured: 3 to 100 differ by little, without a limit it is twice
   // the work
   static constexpr double _usual_reach = 10;
 
+  BoundFunction _bound;
   std::vector<double> _friction;
   double _reach = _usual_reach;
 };

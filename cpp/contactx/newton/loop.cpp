@@ -103,7 +103,7 @@ void Loop::settle_first()
   settle(true);
   // What asks for the Jacobian before it asks for the residual
   for (const auto& c : _system->contacts())
-    c->law()->evaluate(*c->nodes());
+    System::evaluate(*c);
 }
 
 void Loop::settle(bool is_first)

@@ -77,6 +77,15 @@ std::span<const double> System::bulk_residual()
   return _bulk_residual;
 }
 
+void System::evaluate(const contact::Contact& c)
+{
+  const auto law = [&] { c.law()->evaluate(*c.nodes()); };
+  if (c.law()->may_throw())
+    c.halo().ranks().agree(law);
+  else
+    law();
+}
+
 /// Adds what all ranks have for the nodes that this one owns.
 void System::add_sums(std::vector<double>& pushed,
                       std::span<double> force) const
@@ -134,7 +143,7 @@ void System::residual(std::span<double> b)
   {
     contact::Contact& c = *_contacts[k];
     c.update_gap();
-    c.law()->evaluate(*c.nodes());
+    evaluate(c);
     c.add_residual(pushed);
     std::ranges::copy(c.nodes()->value, b.begin() + _offsets[k + 1]);
   }

@@ -69,6 +69,9 @@ public:
   /// @throws std::invalid_argument on all ranks if it has another size.
   void residual(std::span<double> b);
 
+  /// @brief Evaluate the law of a contact.
+  static void evaluate(const contact::Contact& contact);
+
   /// @brief Forces of bulk and contacts, without Dirichlet conditions.
   /// @return Forces at owned dofs (shape=(num_owned, gdim)).
   std::vector<double> forces();

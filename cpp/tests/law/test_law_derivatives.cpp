@@ -50,6 +50,21 @@ void expect_differences(const NodeState& nodes,
   }
 }
 
+/// Friction that grows less than the pressure, and weakens with slip.
+law::Bounds weakening(std::span<const double> pressure,
+                      std::span<const double> slip)
+{
+  law::Bounds found;
+  for (std::size_t i = 0; i < pressure.size(); ++i)
+  {
+    const double p = pressure[i], weak = std::exp(-slip[i]);
+    found.bound.push_back((0.2 + 0.5 * weak) * std::log1p(p));
+    found.by_pressure.push_back((0.2 + 0.5 * weak) / (1 + p));
+    found.by_slip.push_back(-0.5 * weak * std::log1p(p));
+  }
+  return found;
+}
+
 /// A law with random coefficients of friction where it has some.
 std::unique_ptr<law::Law> law_of(const std::string& name, int n,
                                  Generator& random)
@@ -58,6 +73,8 @@ std::unique_ptr<law::Law> law_of(const std::string& name, int n,
     return std::make_unique<law::Frictionless>();
   if (name == "tied")
     return std::make_unique<law::Tied>();
+  if (name == "weakening")
+    return std::make_unique<law::Coulomb>(weakening);
   auto coulomb = std::make_unique<law::Coulomb>();
   std::vector<double> friction(n);
   for (double& mu : friction)
@@ -76,11 +93,12 @@ TEST_P(LawDerivatives, AreDifferencesOfTheValue)
 {
   const int gdim = GetParam();
   Generator random(11);
-  for (const char* name : {"frictionless", "frictional", "tied"})
+  for (const std::string name :
+       {"frictionless", "frictional", "tied", "weakening"})
   {
     SCOPED_TRACE(name);
     const auto law = law_of(name, n, random);
-    EXPECT_EQ(law->name(), name);
+    EXPECT_EQ(law->name(), name == "weakening" ? "frictional" : name);
     NodeState nodes(n, gdim, law->is_vector());
     randomise(nodes, random);
     nodes.smooth[5] = nodes.smooth[7] = nodes.smooth[9] = 1;

@@ -108,6 +108,47 @@ TEST(CoulombLaw, ChecksItsCoefficients)
   }
 }
 
+TEST(CoulombLaw, ChecksTheBoundsOfAFunction)
+{
+  NodeState nodes(2, 3, true);
+  parallel::OneRank ranks;
+  const auto gives = [&](const law::Bounds& bounds)
+  {
+    const law::Coulomb law([&](auto, auto) { return bounds; });
+    EXPECT_TRUE(law.may_throw());
+    law.rubs(nodes);
+    law.set_status(nodes, ranks);
+  };
+  const std::vector<double> ok{0.0, 0.5};
+  EXPECT_NO_THROW(gives({ok, ok, ok}));
+  EXPECT_THROW(gives({{0.5}, ok, ok}), std::invalid_argument);
+  EXPECT_THROW(gives({ok, ok, {0, 0, 0}}), std::invalid_argument);
+  EXPECT_THROW(gives({{0.5, -0.5}, ok, ok}), std::invalid_argument);
+  EXPECT_THROW(gives({{0.5, nan}, ok, ok}), std::invalid_argument);
+  EXPECT_THROW(gives({ok, {0, nan}, ok}), std::invalid_argument);
+  EXPECT_THROW(gives({ok, ok, {nan, 0}}), std::invalid_argument);
+}
+
+TEST(CoulombLaw, ABoundOfTrescaDoesNotDependOnThePressure)
+{
+  const auto tresca = [](std::span<const double> p, auto)
+  {
+    const std::vector<double> zero(p.size());
+    return law::Bounds{std::vector(p.size(), 0.3), zero, zero};
+  };
+  NodeState nodes(3, 2, true);
+  // Pressed by 1 and 100, and pulled sideways by 0.2, 0.4 and 0.2 in the end
+  nodes.normal = {0, 1, 0, 1, 0, 1};
+  nodes.multiplier = {0.2, 1, 0.4, 100, 0.2, -1};
+  std::ranges::fill(nodes.c, 1.0);
+  std::ranges::fill(nodes.gap, 0.0);
+  const law::Coulomb law(tresca);
+  parallel::OneRank ranks;
+  EXPECT_EQ(law.rubs(nodes), (std::vector<std::int8_t>{1, 1, 0}));
+  law.set_status(nodes, ranks);
+  EXPECT_EQ(nodes.status, (std::vector<std::int8_t>{stick, slip, open}));
+}
+
 TEST(CoulombLaw, ASmoothNodeHasNoFriction)
 {
   Rubbing a(2);
