@@ -130,8 +130,8 @@ void Coulomb::set_friction(std::span<const double> friction)
   _friction.assign(friction.begin(), friction.end());
 }
 
-/// Bounds of friction at some pressures: no friction where it is left out. On
-/// nodes that are pulled off bounds go on as they do at no pressure.
+/// Bounds of friction at some pressures: none where friction is left out, and
+/// on nodes that are pulled off those of no pressure.
 Bounds Coulomb::bounds(const NodeState& nodes,
                        std::span<const double> pressure) const
 {
@@ -167,7 +167,7 @@ Bounds Coulomb::bounds(const NodeState& nodes,
             + std::to_string(found.by_slip[i])
             + ": it must be at least 0, and all of them finite");
       if (pressure[i] < 0)
-        found.bound[i] += found.by_pressure[i] * pressure[i];
+        found.by_pressure[i] = 0;
     }
   }
   else
