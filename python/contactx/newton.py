@@ -195,6 +195,7 @@ class NewtonLoop:
                 stiffness = self._bulk.nodal_stiffness()
             self._criterion.begin_step(stiffness)
             self._set_factors(stiffness)
+            self._system.take_factors()
             self._free_bodies.begin_step()
             self._audit.begin_step()
             self._settle(is_first=True)
@@ -398,7 +399,7 @@ class NewtonLoop:
     @keeps_its_error
     def _shorten(self, x: PETSc.Vec, step: PETSc.Vec) -> bool:
         """Shorten a Newton step before the line search; returns whether it may have changed."""
-        parts = self._system.blocks(step.array_r)[1:]
+        parts = self._system.multipliers(step.array_r)
         # A line search of the user's would have nowhere to go
         is_able = self.snes.getIterationNumber() > 0 and self._has_full_steps
         if is_able and self._active_set.softens([-part for part in parts]):

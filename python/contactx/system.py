@@ -3,7 +3,10 @@
 """The coupled system of bulk and contacts: one vector, one matrix.
 
 Each rank's unknowns are its displacements followed by the multipliers of each contact. All rows are
-forces: the complementarity of a slave node is scaled by its area and the stiffness of its node.
+forces: the complementarity of a slave node is scaled by its area and the stiffness of its node. All
+unknowns are lengths: a multiplier is divided by its node's factor c, a traction per length. So all
+entries are stiffnesses, and pivots do not depend on the units. The factor is rounded to a power of
+two, which changes no digit of a multiplier.
 """
 
 from __future__ import annotations
@@ -57,6 +60,8 @@ class SaddlePointSystem:
         self.num_bulk = halo.num_owned * halo.gdim
         sizes = [self.num_bulk, *(len(i.nodes.multiplier) for i in self.interfaces)]
         self._offsets = np.cumsum([0, *sizes])
+        # Multipliers over unknowns
+        self._factors = np.ones(self._offsets[-1] - self.num_bulk)
         self._make_vectors()
         self._layout = Layout(halo, self._offsets[-1])
         self._bulk_residual = np.zeros(self.num_bulk)
@@ -85,19 +90,37 @@ class SaddlePointSystem:
         """Views of the displacement's part of a vector's values and of each contact's."""
         return [array[i:j] for i, j in zip(self._offsets, self._offsets[1:], strict=False)]
 
+    def take_factors(self) -> None:
+        """Take the contacts' factors c as the units of their multipliers."""
+        for part, interface in zip(self._parts(self._factors), self.interfaces, strict=True):
+            nodes = interface.nodes
+            part[:] = np.repeat(np.ldexp(1.0, np.frexp(nodes.c)[1]), nodes.size)
+
+    def _parts(self, values: npt.NDArray[np.float64]) -> list[npt.NDArray[np.float64]]:
+        """Views of each contact's part of the values of all multipliers."""
+        return np.split(values, self._offsets[1:-1] - self.num_bulk)[1:]
+
+    def multipliers(self, x: npt.NDArray[np.float64]) -> list[npt.NDArray[np.float64]]:
+        """Multipliers of each contact by a vector's values."""
+        return self._parts(x[self.num_bulk :] * self._factors)
+
+    def put_multipliers(
+        self, x: npt.NDArray[np.float64], multipliers: npt.NDArray[np.float64]
+    ) -> None:
+        """Write multipliers of all contacts into a vector's values."""
+        x[self.num_bulk :] = multipliers / self._factors
+
     def pack(self) -> None:
         """Write the unknowns from the functions into ``x``."""
-        displacement, *multipliers = self.blocks(self.x.array)
-        displacement[:] = self._bulk.u.x.array[: self.num_bulk]
-        for part, interface in zip(multipliers, self.interfaces, strict=True):
-            part[:] = interface.nodes.multiplier
+        x = self.x.array
+        x[: self.num_bulk] = self._bulk.u.x.array[: self.num_bulk]
+        self.put_multipliers(x, np.hstack([[], *(i.nodes.multiplier for i in self.interfaces)]))
 
     def unpack(self, x: PETSc.Vec) -> None:
         """Write the unknowns from a vector into the functions; all ranks must take part."""
-        displacement, *multipliers = self.blocks(x.array_r)
-        self._bulk.u.x.array[: self.num_bulk] = displacement
+        self._bulk.u.x.array[: self.num_bulk] = x.array_r[: self.num_bulk]
         self.halo.update_ghosts()
-        for part, interface in zip(multipliers, self.interfaces, strict=True):
+        for part, interface in zip(self.multipliers(x.array_r), self.interfaces, strict=True):
             interface.nodes.multiplier[:] = part
 
     def bulk_residual(self) -> npt.NDArray[np.float64]:
@@ -197,6 +220,10 @@ class SaddlePointSystem:
             diagonal = self.x.duplicate()
             self.blocks(diagonal.array)[0][:] = springs
             A.setDiagonal(diagonal, addv=PETSc.InsertMode.ADD)
+        factors = self.x.duplicate()
+        factors.array[: self.num_bulk] = 1
+        factors.array[self.num_bulk :] = self._factors
+        A.diagonalScale(None, factors)
         return A
 
     def _bulk_rows(self) -> Rows:
@@ -225,7 +252,7 @@ class SaddlePointSystem:
             y: Product, overwritten.
         """
         n = self.num_bulk
-        v = np.concatenate([self._to_all(x.array_r[:n]), x.array_r[n:]])
+        v = np.concatenate([self._to_all(x.array_r[:n]), *self.multipliers(x.array_r)])
         w = contact.multiply(v)
         y.array[:n] = self._sums(w[: self.num_local])
         y.array[n:] = w[self.num_local :]
