@@ -10,13 +10,15 @@ from stress.families import FAMILIES, all_scenes, cycles, peers
 from stress.outcome import Kind, Outcome, run
 
 # Tips that end behind each other, where their nodes have pairs, too; a plate that bends about a
-# corner between its nodes; a block that comes to lie on another one; a load that is taken off
+# corner between its nodes; a block that comes to lie on another one; a load that is taken off; a
+# disc that iterates distort, and that was pressed along the normals of these from afar
 _HARD = (
     "past one another, way in heights: 0.1, tip:tip, 0.1, whole, n2s, 1, False",
     "past one another, way in heights: 0.6, tip:tip, 0.1, whole, n2s, 3, True",
     "past one another, way in heights: 1, plate:plate, 0.1, whole, n2s, 1, True",
     "past one another, way in heights: 1, block:block, 0.1, whole, s2s, 3, True",
     "pressed and let go, units: 1000:1e+06, 0.3, svk, s2s, 2, False",
+    "arch under a disc, depth in heights: 2, 0.3, arch is the slave, linear, n2s, 1, True",
 )
 # A thousand steps take a minute
 _SHORT = [family for family in FAMILIES if family is not cycles.cyclic]
