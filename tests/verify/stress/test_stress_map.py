@@ -6,7 +6,7 @@ import pytest
 from rich.console import Console
 
 from stress import picture, sheet
-from stress.families import FAMILIES, all_scenes, cycles, peers
+from stress.families import FAMILIES, again, all_scenes, cycles, peers
 from stress.outcome import Kind, Outcome, run
 
 # Tips that end behind each other, where their nodes have pairs, too; a plate that bends about a
@@ -44,6 +44,15 @@ def test_hard_scenes_are_not_wrong(name):
     (scene,) = (s for s in all_scenes() if s.name == name)
     outcome = run(scene)
     assert outcome.kind != Kind.WRONG, outcome.reason
+
+
+@pytest.mark.parametrize("method", ["n2s", "s2s"])
+def test_iterations_are_the_same_in_all_units(method):
+    """Multipliers of any size beside displacements: a direct solver finds them as exactly."""
+    scenes = [s for s in again.repeated() if s.variant == f"{method}, small, mu 0.3, 2, 0.05"]
+    iterations = {scene.value: run(scene).iterations for scene in scenes}
+    assert len(iterations) == 6
+    assert len(set(iterations.values())) == 1, iterations
 
 
 def test_there_are_enough_scenes_and_none_twice():
