@@ -32,6 +32,8 @@ void contactx_bindings::newton(py::module_& m)
                }),
            py::arg("halo"), py::arg("bulk"), py::arg("contacts"))
       .def_property_readonly("offsets", &System::offsets)
+      .def_property_readonly("factors", [](const System& self)
+                             { return array(self.factors()); })
       .def("begin_step", &System::begin_step)
       .def(
           "unknowns", [](const System& self, Array<double> x)

@@ -55,7 +55,8 @@ class ContactAssembler:
     """The system of a bulk and its contacts, for whoever has a Newton loop of their own.
 
     The unknowns of a rank are the displacements of its nodes, as ``u`` has them, followed by the
-    multipliers of its slave nodes, one contact after the other. A loop reads::
+    multipliers of its slave nodes, one contact after the other, divided by each node's factor c of
+    the complementarity to be lengths, too. A loop reads::
 
         assembler = cx.ContactAssembler(F, u, contacts=[contact], bcs=bcs)
         b, dx = assembler.create_vector(), assembler.create_vector()

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """The coupled system of bulk and contacts: one vector, one matrix.
 
-Each rank's unknowns are its displacements followed by the multipliers of each contact. All rows are
-forces: the complementarity of a slave node is scaled by its area and the stiffness of its node.
+Each rank's unknowns are its displacements followed by the multipliers of each contact, all of them
+lengths, and all rows are forces: see ``newton/system.h``.
 """
 
 from __future__ import annotations
@@ -133,6 +133,10 @@ class SaddlePointSystem:
             diagonal = self.x.duplicate()
             self.blocks(diagonal.array)[0][:] = springs
             A.setDiagonal(diagonal, addv=PETSc.InsertMode.ADD)
+        factors = self.x.duplicate()
+        factors.array[: self.num_bulk] = 1
+        factors.array[self.num_bulk :] = self.core.factors
+        A.diagonalScale(None, factors)
         return A
 
     def _bulk_rows(self) -> Rows:

@@ -18,8 +18,11 @@ constexpr std::array resolved{0.5, 1., 1.};
 /// Depth of a chord of a circle, by curvature and squared length, and how often
 /// that is allowed
 constexpr double chord = 1. / 8, chords = 2;
+/// Depth by the size of a facet from which on it is too coarse for what it
+/// touches
+constexpr double deepest = 0.15;
 /// Depths by the size of a facet: away from contact, beside it and in it
-constexpr std::array by_contact{1. / 256, 0.075, 0.15};
+constexpr std::array by_contact{1. / 256, deepest / 2, deepest};
 
 double distance(std::span<const double> x, std::int32_t a, std::int32_t b,
                 int gdim)
@@ -100,7 +103,8 @@ std::vector<double> contactx::audit::explained_depths(
     const double h = size[i], turn = curvature[i] * h;
     depth[i] = std::min(h, extent[i]) * by_contact.at(contact[i]);
     if (turn <= resolved[contact[i]])
-      depth[i] = std::max(depth[i], chords * chord * turn * h);
+      depth[i]
+          = std::max(depth[i], std::min(chords * chord * turn, deepest) * h);
   }
   return depth;
 }

@@ -46,9 +46,9 @@ std::vector<double> facet_sizes(const facet::FacetList& facets,
 ///   allowed, as both surfaces are curved. That is so where the mesh resolves
 ///   the curvature, k h <= 1/2, and in and beside contact k h <= 1; the edge of
 ///   a punch, or a ball smaller than a facet, is no curvature that it sees;
+///   beyond 0.15 h the facet is too coarse, whatever the curvature;
 /// - a facet of which a node is in contact spans what its other nodes do not
-///   touch, as over the edge of a punch; beyond 0.15 h it is too coarse for
-///   that;
+///   touch, as over the edge of a punch: 0.15 h;
 /// - beside that, where a neighbour of the facet is in contact, pressure bends
 ///   the master's surface: half of that;
 /// - h / 256 is no matter.

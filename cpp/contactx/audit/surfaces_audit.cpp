@@ -168,19 +168,20 @@ void SurfacesAudit::look_back(std::span<const double> start,
   const int g = _halo->gdim();
   const auto slave = _contact->slaves().own(),
              master = _master->surface()->own();
-  // What has a pair faces what it is paired with. A master node has none, and
-  // what the other looks see of it is within a facet's size
-  const auto slaves = _contact->slaves().owned();
-  const auto paired = _master->paired();
-  std::vector<std::int32_t> loose;
-  for (std::size_t i = 0; i < slaves.size(); ++i)
-    if (not paired[i] and not _contact->is_shared()[i])
-      loose.push_back(slaves[i]);
-  std::vector<Side> sides{{slave, master, loose}};
+  // What has a pair faces what it is paired with, a master node has none: what
+  // the other looks see of them is within a facet's size
   std::array ways{longest_way_of(slave, start, x, g),
                   longest_way_of(master, start, x, g)};
   _halo->ranks().reduce(std::span<double>(ways), parallel::Reduction::largest);
-  if (ways[0] + ways[1] > findings.facet_size)
+  const bool is_far = ways[0] + ways[1] > findings.facet_size;
+  const auto slaves = _contact->slaves().owned();
+  const auto paired = _master->paired();
+  std::vector<std::int32_t> candidates;
+  for (std::size_t i = 0; i < slaves.size(); ++i)
+    if ((is_far or not paired[i]) and not _contact->is_shared()[i])
+      candidates.push_back(slaves[i]);
+  std::vector<Side> sides{{slave, master, candidates}};
+  if (is_far)
     sides.push_back({master, slave, _owned_master});
   double overlap = 0;
   for (const double offset : _contact->offset())

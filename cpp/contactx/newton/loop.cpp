@@ -96,6 +96,7 @@ void Loop::set_factors(std::span<const double> stiffness)
   _system->halo()->forward(std::span(compliance), 1);
   for (const auto& c : _system->contacts())
     c->set_factor(compliance);
+  _system->take_factors();
 }
 
 void Loop::settle_first()
@@ -209,14 +210,15 @@ bool Loop::compare(double rtol, double atol, std::span<double> b)
 bool Loop::softens(std::span<const double> dx)
 {
   const auto& offsets = _system->offsets();
-  std::vector<std::vector<double>> steps;
+  const std::size_t n = _system->num_displacements();
+  std::vector<double> step(dx.begin() + n, dx.end());
+  for (std::size_t i = 0; i < step.size(); ++i)
+    step[i] *= -_system->factors()[i];
+  std::vector<std::span<const double>> steps;
   for (std::size_t k = 1; k + 1 < offsets.size(); ++k)
-  {
-    steps.emplace_back(dx.begin() + offsets[k], dx.begin() + offsets[k + 1]);
-    for (double& value : steps.back())
-      value = -value;
-  }
-  if (not _active_set.softens({steps.begin(), steps.end()}))
+    steps.push_back(std::span<const double>(step).subspan(
+        offsets[k] - n, offsets[k + 1] - offsets[k]));
+  if (not _active_set.softens(steps))
     return false;
   ++_version;
   return true;

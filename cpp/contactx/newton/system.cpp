@@ -33,6 +33,23 @@ System::System(std::shared_ptr<parallel::Halo> halo, std::shared_ptr<Bulk> bulk,
 {
   for (const auto& c : _contacts)
     _offsets.push_back(_offsets.back() + c->nodes()->multiplier.size());
+  _factors.assign(size() - num_displacements(), 1);
+}
+
+void System::take_factors()
+{
+  std::size_t at = 0;
+  for (const auto& c : _contacts)
+  {
+    const contact::NodeState& nodes = *c->nodes();
+    for (const double factor : nodes.c)
+    {
+      int exponent = 0;
+      std::frexp(factor, &exponent);
+      for (std::size_t k = 0; k < nodes.size(); ++k)
+        _factors[at++] = std::ldexp(1.0, exponent);
+    }
+  }
 }
 
 void System::check(std::size_t size, const char* name) const
@@ -47,21 +64,26 @@ void System::unknowns(std::span<double> x) const
 {
   check(x.size(), "x");
   std::ranges::copy(_bulk->displacements(), x.begin());
-  for (std::size_t k = 0; k < _contacts.size(); ++k)
-    std::ranges::copy(_contacts[k]->nodes()->multiplier,
-                      x.begin() + _offsets[k + 1]);
+  std::size_t at = num_displacements();
+  for (const auto& c : _contacts)
+    for (const double multiplier : c->nodes()->multiplier)
+    {
+      x[at] = multiplier / _factors[at - num_displacements()];
+      ++at;
+    }
 }
 
 void System::take(std::span<const double> x)
 {
   _halo->ranks().agree([&] { check(x.size(), "x"); });
   _bulk->set_displacements(x.first(num_displacements()));
-  for (std::size_t k = 0; k < _contacts.size(); ++k)
-  {
-    std::vector<double>& multiplier = _contacts[k]->nodes()->multiplier;
-    std::copy_n(x.begin() + _offsets[k + 1], multiplier.size(),
-                multiplier.begin());
-  }
+  std::size_t at = num_displacements();
+  for (const auto& c : _contacts)
+    for (double& multiplier : c->nodes()->multiplier)
+    {
+      multiplier = x[at] * _factors[at - num_displacements()];
+      ++at;
+    }
 }
 
 std::span<const double> System::bulk_residual()
@@ -103,7 +125,8 @@ std::vector<double> System::product(const condense::ContactBlock& contact,
   std::vector<double> v(all + size() - n);
   std::copy_n(x.begin(), n, v.begin());
   _halo->forward(std::span(v).first(all), _halo->gdim());
-  std::copy(x.begin() + n, x.end(), v.begin() + all);
+  for (std::size_t i = n; i < x.size(); ++i)
+    v[all + i - n] = x[i] * _factors[i - n];
   return contact.multiply(v);
 }
 

@@ -13,7 +13,11 @@ namespace contactx::newton
 /// Unknowns of a rank are the displacements of its nodes, then the multipliers
 /// of its slave nodes, one contact after the other. All rows are forces: the
 /// complementarity of a slave node is scaled by its area and the stiffness of
-/// its node. The state is the bulk's displacements and the multipliers of the
+/// its node. All unknowns are lengths: a multiplier is divided by its node's
+/// factor c, a traction per length. So all entries of the Jacobian are
+/// stiffnesses, and pivots do not depend on the units. The factor is rounded to
+/// a power of two, which changes no digit of a multiplier.
+/// The state is the bulk's displacements and the multipliers of the
 /// contacts' nodes. All ranks must take part in whatever has no const.
 class System
 {
@@ -48,6 +52,12 @@ public:
 
   /// @brief Start a step: loads, constants and coefficients may have changed.
   void begin_step() { _at.clear(); }
+
+  /// @brief Take the contacts' factors c as the units of their multipliers.
+  void take_factors();
+
+  /// @brief Multipliers over unknowns (shape=(size - num_displacements)).
+  const std::vector<double>& factors() const { return _factors; }
 
   /// @brief The unknowns at the state of now.
   /// @param[out] x Unknowns (shape=(size)).
@@ -95,6 +105,7 @@ private:
   Contacts _contacts;
   std::vector<std::size_t> _offsets;
   std::vector<double> _bulk_residual;
+  std::vector<double> _factors;
   // Displacements at which it was assembled; empty if it must be anew
   std::vector<double> _at;
 };

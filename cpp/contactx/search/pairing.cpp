@@ -4,6 +4,8 @@
 #include "pairing.h"
 #include "../facet/gather.h"
 #include "order.h"
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 using namespace contactx;
@@ -135,13 +137,27 @@ std::vector<std::int32_t> Pairing::seek(std::span<const double> x, double reach)
   return left;
 }
 
+/// Whether a node lies on the ridge of its pair, as seen along the pair's
+/// normal: away from it the normal may be none of the cone any more.
+bool Pairing::is_on_ridge(std::size_t i, const Projection& q,
+                          std::span<const double> x) const
+{
+  const Vector<3> c = cone_components(master(), x, q);
+  double cosine = 0;
+  for (int k = 0; k < 3; ++k)
+    cosine += c[k] * _cone[3 * i + k];
+  const double beside = q.gap * std::sqrt(std::max(0., 1 - cosine * cosine));
+  return beside <= margin * q.size;
+}
+
 bool Pairing::settle(std::int32_t i, const std::optional<Projection>& q,
                      std::span<const double> x, double reach, bool closed)
 {
   const std::int32_t now = q ? q->facet : -1;
   const bool same = now == _facet[i] and (!q or q->feature == _feature[i]);
   // On a ridge any normal of the cone will do, but it must not wander
-  if (same and closed and q and q->feature != facet::interior)
+  if (same and closed and q and q->feature != facet::interior
+      and is_on_ridge(i, *q, x))
     return false;
   // One that came off the surface while in contact comes back open
   const bool back = _facet[i] < 0 and now == _left[i] and now >= 0;

@@ -111,6 +111,8 @@ private:
                                  double reach) const;
   void set(std::size_t i, const std::optional<Projection>& q,
            std::span<const double> x);
+  bool is_on_ridge(std::size_t i, const Projection& q,
+                   std::span<const double> x) const;
 
   std::vector<std::int32_t> _slave_offsets, _slave_nodes, _slaves;
   std::int32_t _num_slave_nodes; // with those that are paired elsewhere

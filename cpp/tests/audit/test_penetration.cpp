@@ -119,9 +119,19 @@ TEST(ExplainedDepths, AreLargerInContactAndScaleWithTheUnits)
 TEST(ExplainedDepths, BesideContactAreBetweenThoseOfItAndThoseAway)
 {
   EXPECT_EQ(explained(1, 0, 1), 0.075);
-  EXPECT_EQ(explained(1, 0.9, 1), 0.225);
+  EXPECT_EQ(explained(1, 0.5, 1), 0.125);
   EXPECT_EQ(explained(1, 1.1, 1), 0.075);
   EXPECT_THROW(explained(1, 0, 3), std::out_of_range);
+}
+
+TEST(ExplainedDepths, EndWhereAFacetIsTooCoarseHoweverTheMasterIsCurved)
+{
+  // Twice the chord would be a quarter of the facet
+  for (int contact : {1, 2})
+    for (double curvature : {0.7, 0.9, 1.})
+      EXPECT_EQ(explained(1, curvature, contact), 0.15);
+  // The chord of a circle is less than that
+  EXPECT_LT(1 - std::sqrt(1 - 0.25), 0.15);
 }
 
 TEST(ExplainedDepths, OfASmallMasterGoWithItsSize)

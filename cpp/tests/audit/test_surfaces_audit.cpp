@@ -152,6 +152,25 @@ TEST_P(AuditOfSurfaces, NodesThatWentThroughWithinAStep)
   }
 }
 
+TEST_P(AuditOfSurfaces, NodesThatWentThroughAndHaveAPair)
+{
+  // As thin bodies have behind each other: the pairs are those of the start
+  const TwoSheets s = sheets(0.1);
+  MovedContact c(s, 1, Sliding::finite);
+  SurfacesAudit audit(c.halo, c.contact);
+  audit.accept();
+  c.contact->search();
+  for (const std::int8_t paired : c.contact->master()->paired())
+    ASSERT_TRUE(paired);
+  const auto start = c.halo->positions();
+  c.move(0, s.num_slaves, -0.8);
+  // All of them, and of the master two a line that are below the slave
+  EXPECT_EQ(audit.look(start).passed.count,
+            s.num_slaves + (gdim() == 2 ? 2 : 4));
+  c.move(0, s.num_slaves, -0.1 - 1e-3 * facet_size());
+  EXPECT_EQ(audit.look(start).passed.count, 0);
+}
+
 TEST_P(AuditOfSurfaces, MasterThatReachesBetweenSlaveNodes)
 {
   const double height = 0.28, depth = 0.02, h = facet_size();

@@ -13,6 +13,8 @@ namespace
 {
 /// A roof with its ridge at the origin.
 const std::vector<Vector<2>> roof{{-1, -1}, {0, 0}, {1, -1}};
+/// A sharper one.
+const std::vector<Vector<2>> spike{{-0.2, -1}, {0, 0}, {0.2, -1}};
 
 Vector<3> cone(const SlidingSegment& s)
 {
@@ -34,15 +36,35 @@ TEST(PairingOnRidge, HasAUnitNormal)
 
 TEST(PairingOnRidge, KeepsItsNormalWhileInContact)
 {
-  SlidingSegment s(roof);
-  s.search_at({0.1, 0.5}, false);
+  SlidingSegment s(spike);
+  s.search_at({0.02, 0.1}, false);
   const Vector<3> first = cone(s);
-  EXPECT_EQ(s.search_at({-0.05, 0.4}, true), 0);
+  EXPECT_EQ(s.search_at({-0.005, 0.09}, true), 0);
   EXPECT_EQ(cone(s), first);
-  EXPECT_EQ(s.search_at({0.2, 0.4}, true), 0);
+  EXPECT_EQ(s.search_at({0.03, 0.09}, true), 0);
   EXPECT_EQ(cone(s), first);
-  s.search_at({0.2, 0.4}, false); // open: the normal follows the node
+  s.search_at({0.03, 0.09}, false); // open: the normal follows the node
   EXPECT_NE(cone(s), first);
+}
+
+TEST(PairingOnRidge, TakesAnotherNormalBesideTheRidge)
+{
+  // By the margin of a facet across the normal, at any height. Where bodies
+  // deform in between, the first normal may be none of the ridge any more, and
+  // the node touch along it from afar
+  const double size = std::hypot(0.2, 1), margin = 0.05;
+  const Vector<2> n{0.6, 0.8}, across{-0.8, 0.6};
+  for (const double height : {0.1, 0.5})
+    for (const double part : {0.9, 1.1})
+    {
+      SlidingSegment s(spike);
+      s.search_at(0.2 * n, false);
+      const Vector<3> first = cone(s);
+      EXPECT_EQ(s.search_at(height * n + part * margin * size * across, true),
+                0);
+      EXPECT_NE(s.feature(), facet::interior);
+      EXPECT_EQ(cone(s) == first, part < 1) << height;
+    }
 }
 
 TEST(PairingOnRidge, LeavesItForAFacet)

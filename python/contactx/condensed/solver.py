@@ -242,7 +242,7 @@ class CondensedSolver:
         u = numbering.scatter_forward(h.array_r)
         condensation.recover(constraints, balance.array_r, u, multipliers)
         x.array[:n] = np.where(self._surroundings.free[:n] == 1, h.array_r, given)
-        x.array[n:] = multipliers
+        x.array[n:] = multipliers / self._system.core.factors
         return True
 
     def _solve_directly(self, b: PETSc.Vec, x: PETSc.Vec, reason: str) -> None:

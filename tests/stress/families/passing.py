@@ -84,10 +84,11 @@ def _case(
     views = [
         apart(parts, *faces, radius=None, method=method, size=size),
         pushes(parts, (1.0, 0.0), foot),
-        # What hangs ends on the left of what stands
+        # What hangs ends on the left of what stands. A part of it may come to lie on top, as high
+        # as the left face is, but where its end is farthest to the left it has not passed it
         stays(
             parts,
-            lambda: parts.positions()[end].mean(axis=0),
+            lambda: min(parts.positions()[end], key=lambda point: point[0]),
             parts.facets(1, "x0"),
             (-20.0, 0.0),
         ),

@@ -50,6 +50,17 @@ def test_a_displacement_that_is_a_little_off(solved):
     assert "balance of nodes" in violated(judge)
 
 
+@pytest.mark.parametrize("part, right", [(1e-10, True), (1e-6, False)])
+def test_forces_that_are_left_of_those_before(solved, part, right):
+    """Without any load none are left, and nothing else is there to compare them with."""
+    blocks, judge = solved
+    blocks.contact.interface.nodes.multiplier[:] = 0
+    blocks.u.x.array[:] *= part
+    assert ("balance of nodes" not in violated(judge)) == right
+    # In the next step they would be a load that nothing bears
+    assert "balance of nodes" in violated(judge)
+
+
 def test_tension_and_friction_beyond_the_cone(solved):
     blocks, judge = solved
     nodes = blocks.contact.interface.nodes

@@ -6,9 +6,20 @@ import pytest
 from rich.console import Console
 
 from stress import picture, sheet
-from stress.families import FAMILIES, all_scenes, cycles, peers
+from stress.families import FAMILIES, again, all_scenes, cycles, peers
 from stress.outcome import Kind, Outcome, run
 
+# Tips that end behind each other, where their nodes have pairs, too; a plate that bends about a
+# corner between its nodes; a block that comes to lie on another one; a load that is taken off; a
+# disc that iterates distort, and that was pressed along the normals of these from afar
+_HARD = (
+    "past one another, way in heights: 0.1, tip:tip, 0.1, whole, n2s, 1, False",
+    "past one another, way in heights: 0.6, tip:tip, 0.1, whole, n2s, 3, True",
+    "past one another, way in heights: 1, plate:plate, 0.1, whole, n2s, 1, True",
+    "past one another, way in heights: 1, block:block, 0.1, whole, s2s, 3, True",
+    "pressed and let go, units: 1000:1e+06, 0.3, svk, s2s, 2, False",
+    "arch under a disc, depth in heights: 2, 0.3, arch is the slave, linear, n2s, 1, True",
+)
 # A thousand steps take a minute
 _SHORT = [family for family in FAMILIES if family is not cycles.cyclic]
 
@@ -26,6 +37,22 @@ def _some(family):
 def test_scene(scene):
     outcome = run(scene)
     assert outcome.kind in (Kind.CONVERGED, Kind.CUT, Kind.RIGHTLY), outcome.reason
+
+
+@pytest.mark.parametrize("name", _HARD)
+def test_hard_scenes_are_not_wrong(name):
+    (scene,) = (s for s in all_scenes() if s.name == name)
+    outcome = run(scene)
+    assert outcome.kind != Kind.WRONG, outcome.reason
+
+
+@pytest.mark.parametrize("method", ["n2s", "s2s"])
+def test_iterations_are_the_same_in_all_units(method):
+    """Multipliers of any size beside displacements: a direct solver finds them as exactly."""
+    scenes = [s for s in again.repeated() if s.variant == f"{method}, small, mu 0.3, 2, 0.05"]
+    iterations = {scene.value: run(scene).iterations for scene in scenes}
+    assert len(iterations) == 6
+    assert len(set(iterations.values())) == 1, iterations
 
 
 def test_there_are_enough_scenes_and_none_twice():
