@@ -21,8 +21,10 @@ from contactx.problem import ContactProblem
 from contactx.report import Report
 from contactx.steps import LoadSteps
 from contactx.surface import Surface
+from contactx.totals import CSVOutput
 
 __all__ = [
+    "CSVOutput",
     "Contact",
     "ContactAssembler",
     "ContactProblem",

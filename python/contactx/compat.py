@@ -23,10 +23,12 @@ import dolfinx
 import dolfinx.fem.petsc  # registers the PETSc type casters
 from ufl.corealg.dag_traverser import DAGTraverser
 
-if tuple(map(int, dolfinx.__version__.split(".")[:2])) < (0, 11):
+# Others have other names and layouts of what contactx builds on
+_SUPPORTED = (0, 11)
+if tuple(map(int, dolfinx.__version__.split(".")[:2])) != _SUPPORTED:
     raise ImportError(
-        f"contactx needs DOLFINx 0.11 or later, but this is {dolfinx.__version__}: "
-        "pip install 'contactx[wheels]', or take a newer one from conda or a distribution"
+        f"this contactx is for DOLFINx 0.11, but here is {dolfinx.__version__}: "
+        "pip install 'contactx[wheels]', or take DOLFINx 0.11 from conda or a distribution"
     )
 
 

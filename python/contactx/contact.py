@@ -339,6 +339,32 @@ class Contact:
         """Total force on the slave side of all ranks, shape (gdim,)."""
         return self.fields.force
 
+    def moment(self, point: npt.ArrayLike) -> float | npt.NDArray[np.float64]:
+        """Moment of the contact forces on the slave side about a point; all ranks must take part.
+
+        Forces act where the slave nodes are now, as of the last accepted step.
+
+        Args:
+            point: The point, shape (gdim,).
+
+        Returns:
+            The moment, force times length: in 2D a number, positive counter-clockwise, in 3D of
+            shape (3,).
+
+        Raises:
+            TypeError: If the point is not of real numbers.
+            ValueError: If it has another shape, or is not finite.
+        """
+        gdim = len(self.force)
+        try:
+            at = np.asarray(point, dtype=np.float64)
+        except (TypeError, ValueError):
+            raise TypeError(f"point is {point!r}: give {gdim} real numbers") from None
+        if at.shape != (gdim,) or not np.isfinite(at).all():
+            raise ValueError(f"point is {point!r}: give {gdim} finite numbers")
+        moment = self.fields.moment(at)
+        return float(moment[0]) if gdim == 2 else moment
+
 
 def check_contacts(contacts: Any) -> None:
     """Check that there are contacts and each is listed once.

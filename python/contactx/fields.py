@@ -62,6 +62,8 @@ class Fields:
         self.slip = fem.Function(V, name="slip") if measured else None
         self.slip_total = fem.Function(Q, name="slip_total") if measured else None
         self.force = np.zeros(self._gdim)
+        # Forces on the slave nodes and where they act
+        self._on_slave = self._at = np.zeros((len(interface.slaves), self._gdim))
         self.imbalance = np.zeros(self._gdim)
         self.recovery_change = 0.0
         self.gap.x.array[:] = np.nan
@@ -81,7 +83,8 @@ class Fields:
             self.slip_total.x.array[self._nodes] = interface.history.total
 
         forces = self._forces()
-        on_slave = forces[interface.slaves]
+        on_slave = self._on_slave = forces[interface.slaves]
+        self._at = interface.positions()[interface.slaves]
         comm = self._halo.comm
         self.force, sum_ = total(comm, np.stack([on_slave.sum(axis=0), forces.sum(axis=0)]))
         # What a rigid obstacle is pushed with goes to its support
@@ -91,6 +94,23 @@ class Fields:
         for function in vars(self).values():
             if isinstance(function, fem.Function):
                 function.x.scatter_forward()
+
+    def moment(self, point: Array) -> Array:
+        """Moment of the forces on the slave side about a point; all ranks must take part.
+
+        Args:
+            point: The point, shape (gdim,).
+
+        Returns:
+            The moment, shape (1,) in 2D, counter-clockwise, and (3,) in 3D.
+        """
+        arm, force = self._at - point, self._on_slave
+        if self._gdim == 2:
+            each = (arm[:, 0] * force[:, 1] - arm[:, 1] * force[:, 0])[:, None]
+        else:
+            each = np.cross(arm, force)
+        moment: Array = total(self._halo.comm, each.sum(axis=0))
+        return moment
 
     def _forces(self) -> Array:
         """Forces of the multipliers on the nodes that this rank owns, shape (num_owned, gdim)."""

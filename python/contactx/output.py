@@ -17,11 +17,16 @@ from contactx.arguments import described, is_number
 from contactx.contact import Contact
 from contactx.files import check_path, make_folder
 from contactx.parallel.agreement import agreed
-from dolfinx import fem, io
+from contactx.writers import WRITERS
+from dolfinx import fem
 
 
 class VTKOutput:
-    """Writes the displacement and the fields of contacts, one set a time, as a ``.pvd`` file.
+    """Writes the displacement and the fields of contacts, one set a time, for ParaView.
+
+    The suffix of the path says how: ``.pvd`` is VTK's format with a file of each rank and time,
+    ``.xdmf`` one file with its data in ``.h5`` beside it, and ``.bp`` ADIOS2's for VTX, scalars and
+    vectors in a folder each: ``name_scalars.bp`` and ``name_vectors.bp``.
 
     Example::
 
@@ -43,7 +48,7 @@ class VTKOutput:
         """Open the file.
 
         Args:
-            path: File with the suffix ``.pvd``; the data go into files beside it. Its folder is
+            path: File with one of the suffixes; the data go into files beside it. Its folder is
                 made.
             u: Displacement.
             contacts: Contacts of a ContactProblem.
@@ -56,12 +61,15 @@ class VTKOutput:
         """
         _check_output(u, contacts, fields)
         path = check_path("path", path)
-        if path.suffix != ".pvd":
-            raise ValueError(f"path ends in {path.suffix!r}: ParaView's collections end in .pvd")
+        if path.suffix not in WRITERS:
+            raise ValueError(
+                f"path ends in {path.suffix!r}: give one of {', '.join(WRITERS)}, ParaView's "
+                "collections, XDMF and ADIOS2"
+            )
         if "." in path.stem:
             raise ValueError(
-                f"path has the name {path.name!r}: take the dots before .pvd out, or all times "
-                "would be written to the same file"
+                f"path has the name {path.name!r}: take the dots before the suffix out, or "
+                "all times would be written to the same file"
             )
         self._comm = comm = u.function_space.mesh.comm
         with agreed(comm):
@@ -71,9 +79,8 @@ class VTKOutput:
         self._contacts = list(contacts)
         self._fields = list(fields)
         self._path = path
-        self._count = 0
         self._closed = False
-        self._file = io.VTKFile(comm, path, "w")
+        self._file = WRITERS[path.suffix](comm, path)
 
     def __enter__(self) -> VTKOutput:
         """Use the output in a with statement."""
@@ -91,7 +98,7 @@ class VTKOutput:
         else:
             # Other ranks may not come by
             self._closed = True
-            with suppress(RuntimeError):
+            with suppress(OSError):
                 self._file.close()
 
     def write(self, t: float) -> None:
@@ -120,13 +127,8 @@ class VTKOutput:
                 function = getattr(contact, name)
                 function.name = name + suffix
                 functions.append(function)
-        self._file.write_function(functions, float(t))
-        stem, rank = self._path.stem, self._comm.rank
         with agreed(self._comm):
-            self._check_whole(f"{stem}_p{rank}_{self._count:06d}.vtu")
-            if rank == 0:
-                self._check_whole(f"{stem}{self._count:06d}.pvtu")
-        self._count += 1
+            self._file.write(functions, float(t))
 
     def close(self) -> None:
         """Close the file.
@@ -138,24 +140,7 @@ class VTKOutput:
             return
         self._closed = True
         with agreed(self._comm):
-            try:
-                self._file.close()
-            except RuntimeError as error:
-                raise OSError(f"cannot write {self._path}: {error}") from error
-            if self._count > 0 and self._comm.rank == 0:
-                self._check_whole(self._path.name)
-
-    def _check_whole(self, name: str) -> None:
-        """Check that a file has its end: DOLFINx does not say if it could not be written."""
-        path = self._path.with_name(name)
-        try:
-            with open(path, "rb") as file:
-                file.seek(max(0, path.stat().st_size - 64))
-                whole = file.read().rstrip().endswith(b"</VTKFile>")
-        except OSError as error:
-            raise OSError(error.errno, f"cannot write {path}: {error.strerror}") from error
-        if not whole:
-            raise OSError(f"cannot write {path} whole: is the disk full?")
+            self._file.close()
 
 
 def _check_output(u: Any, contacts: Any, fields: Any) -> None:

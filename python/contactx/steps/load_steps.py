@@ -30,7 +30,7 @@ from dolfinx import fem
 
 
 class LoadSteps:
-    """Solves a problem step after step while t goes from 0 to 1.
+    """Solves a problem step after step while t goes from 0 to 1, or to ``t_end``.
 
     Example::
 
@@ -64,6 +64,7 @@ class LoadSteps:
         output: Callable[[Step], object] | None = None,
         checkpoint: str | Path | None = None,
         restart: str | Path | None = None,
+        t_end: float | None = None,
         max_cuts: int = 6,
         easy: int = 10,
         progress: bool = True,
@@ -72,7 +73,7 @@ class LoadSteps:
 
         Args:
             problem: The problem.
-            steps: Number of equal steps, or the t at which each ends, increasing in (0, 1].
+            steps: Number of equal steps, or the t at which each ends, increasing in (0, t_end].
             update: Function of t that sets loads and Dirichlet values. It is called before every
                 attempt; after a failure that ends the loop with the last accepted t, 0 if there is
                 none; and at a restart with the t of the file.
@@ -85,6 +86,7 @@ class LoadSteps:
                 one stays whole if writing fails.
             restart: Such a file to go on from. The problem must be made as it was then, and
                 continues to the same answer.
+            t_end: Where the last step ends, in the user's time; 1 if None.
             max_cuts: How often a given step may be halved.
             easy: Linear solves up to which a step counts as easy.
             progress: Whether to show a progress bar, and the table of steps at the end.
@@ -102,7 +104,7 @@ class LoadSteps:
         with agreed(comm):
             _check_functions(update, output, history)
             check_switch("progress", progress)
-            self._plan = make_plan(steps, max_cuts, easy)
+            self._plan = make_plan(steps, max_cuts, easy, t_end)
             self._checkpoint = None if checkpoint is None else check_path("checkpoint", checkpoint)
             restarted = None if restart is None else check_path("restart", restart)
             if self._checkpoint is not None and comm.rank == 0:

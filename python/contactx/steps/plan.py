@@ -13,6 +13,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from contactx.arguments import described, is_number
+
 
 @dataclass(frozen=True)
 class Plan:
@@ -124,32 +126,44 @@ class Plan:
         return end if share == 1 else self.start + share * (end - self.start)
 
 
-def make_plan(steps: int | Sequence[float], max_cuts: int, easy: int) -> Plan:
+def make_plan(
+    steps: int | Sequence[float], max_cuts: int, easy: int, t_end: float | None = None
+) -> Plan:
     """Make a plan of what a user gives.
 
     Args:
         steps: Number of equal steps, or the t of each.
         max_cuts: How often a given step may be halved.
         easy: Iterations up to which an accepted step counts as easy.
+        t_end: Where equal steps end, 1 if None; the largest t of a list.
 
     Raises:
         TypeError: If an argument is of another kind.
         ValueError: If a number is out of its range or the t do not increase.
     """
+    if t_end is not None:
+        if not is_number(t_end):
+            raise TypeError(f"t_end is {described(t_end)}: give a number")
+        if not (np.isfinite(t_end) and t_end > 0):
+            raise ValueError(f"t_end is {t_end}: give a finite number above 0")
+    end = 1.0 if t_end is None else float(t_end)
     max_cuts = _integer("max_cuts", max_cuts, 0, 40)
     easy = _integer("easy", easy, 0)
     if np.ndim(steps) == 0:
         n = _integer("steps", steps, 1)
-        return Plan(tuple(k / n for k in range(1, n + 1)), max_cuts, easy)
+        return Plan(tuple(end * (k / n) for k in range(1, n + 1)), max_cuts, easy)
     try:
         given = np.asarray(steps, dtype=np.float64)
     except (TypeError, ValueError):
         raise TypeError(f"steps is {steps!r}: give a number of steps or a list of t") from None
     if given.ndim != 1 or len(given) == 0:
         raise ValueError(f"steps has shape {given.shape}: give a number of steps or a list of t")
-    if not np.all((given > 0) & (given <= 1)):
-        bad = given[~((given > 0) & (given <= 1))][0]
-        raise ValueError(f"steps holds t = {bad:g}: each t must be above 0 and at most 1")
+    if not np.all((given > 0) & (given <= end)):
+        bad = given[~((given > 0) & (given <= end))][0]
+        hint = "" if t_end is not None else ", or give t_end"
+        raise ValueError(
+            f"steps holds t = {bad:g}: each t must be above 0 and at most {end:g}{hint}"
+        )
     if np.any(np.diff(given) <= 0):
         k = int(np.argmax(np.diff(given) <= 0))
         raise ValueError(

@@ -163,15 +163,15 @@ ROWS = [
     ),
     Row(
         "path: another suffix",
-        output(lambda b, c: {"path": "a.xdmf"}),
+        output(lambda b, c: {"path": "a.vtk"}),
         ValueError,
-        r"path ends in '.xdmf'.* collections end in .pvd",
+        r"path ends in '.vtk': give one of .pvd, .xdmf, .bp",
     ),
     Row(
         "path: a dot",
         output(lambda b, c: {"path": "a.b.pvd"}),
         ValueError,
-        r"path has the name 'a.b.pvd': take the dots before .pvd out",
+        r"path has the name 'a.b.pvd': take the dots before the suffix out",
     ),
     Row(
         "u: an array",

@@ -3,6 +3,7 @@
 """Files for ParaView."""
 
 from pathlib import Path
+from xml.etree import ElementTree as ET
 
 import numpy as np
 import pytest
@@ -44,3 +45,73 @@ def test_paraview_output(tmp_path: Path, contacts):
     assert data["pressure" + suffix].max() == pytest.approx(all_contacts[0].pressure.x.array.max())
     assert np.nanmin(data["gap" + suffix]) == pytest.approx(0, abs=1e-12)
     assert set(data["status" + suffix]) <= {-1, 0, 2}
+
+
+@pytest.mark.parametrize("suffix", [".xdmf", ".bp"])
+def test_other_formats(tmp_path: Path, suffix):
+    scene = Blocks(CellType.tetrahedron)
+    contact = scene.contact()
+    problem = scene.problem(contact)
+    with cx.VTKOutput(tmp_path / f"blocks{suffix}", scene.u, [contact]) as output:
+        output.write(0.0)
+        problem.solve()
+        output.write(1.0)
+    if suffix == ".bp":
+        adios2 = {kind: tmp_path / f"blocks_{kind}.bp" for kind in ("scalars", "vectors")}
+        assert all(sum(f.stat().st_size for f in p.iterdir()) > 1000 for p in adios2.values())
+        return
+    root = ET.parse(tmp_path / "blocks.xdmf").getroot()
+    names = [a.get("Name") for a in root.iter("Attribute")]
+    assert {"gap", "pressure", "status", "traction"} < set(names)
+    assert names.count("pressure") == 2
+    assert {float(t.get("Value")) for t in root.iter("Time")} == {0.0, 1.0}
+    n = scene.u.function_space.dofmap.index_map.size_global
+    assert (tmp_path / "blocks.h5").stat().st_size > 2 * 8 * 9 * n
+
+
+@pytest.mark.parametrize("friction", [0.0, 0.3])
+def test_totals(tmp_path: Path, friction):
+    scene = Blocks(CellType.hexahedron)
+    contacts = [
+        scene.contact(friction=friction),
+        cx.Contact(cx.Surface(scene.tags, Tag.UPPER_X1), cx.Plane((9, 0, 0), (-1, 0, 0))),
+    ]
+    problem = scene.problem(*contacts)
+    path = tmp_path / "new" / "totals.csv"
+    with cx.CSVOutput(path, contacts) as totals:
+        totals.write(0.0)
+        problem.solve()
+        totals.write(1.0)
+    header, first, last = (line.split(",") for line in path.read_text().splitlines())
+    assert header[:5] == ["t", "force_x_0", "force_y_0", "force_z_0", "closed_0"]
+    assert len(header) == 1 + 2 * 9
+    assert float(first[3]) == 0
+    row = dict(zip(header, map(float, last), strict=True))
+    nodes = contacts[0].interface.nodes
+    assert row["t"] == 1
+    assert [row[f"force_{axis}_0"] for axis in "xyz"] == contacts[0].force.tolist()
+    assert row["closed_0"] == nodes.closed.sum() > 0
+    assert row["slipping_0"] == (nodes.status == 2).sum()
+    assert row["area_0"] == pytest.approx(nodes.area[nodes.closed].sum())
+    assert row["largest_pressure_0"] == contacts[0].pressure.x.array.max()
+    assert row["smallest_gap_0"] == pytest.approx(0, abs=1e-12)
+    history = contacts[0].interface.history
+    assert row["dissipation_0"] == (0 if history is None else history.dissipation.sum())
+    assert 7 < row["smallest_gap_1"] < 9
+    assert row["closed_1"] == 0
+
+
+def test_totals_that_are_refused(tmp_path: Path):
+    scene = Blocks(CellType.triangle)
+    contact = scene.contact()
+    scene.problem(contact)
+    with pytest.raises(ValueError, match=r"path ends in '.txt': totals are written to .csv"):
+        cx.CSVOutput(tmp_path / "totals.txt", [contact])
+    with pytest.raises(TypeError, match=r"must be a list of contactx\.Contact, not Contact"):
+        cx.CSVOutput(tmp_path / "totals.csv", contact)
+    with pytest.raises(TypeError, match="contacts holds a int"):
+        cx.CSVOutput(tmp_path / "totals.csv", [1])
+    with pytest.raises(ValueError, match="contacts is empty"):
+        cx.CSVOutput(tmp_path / "totals.csv", [])
+    with pytest.raises(TypeError, match="t is str 'x': give a number"):
+        cx.CSVOutput(tmp_path / "totals.csv", [contact]).write("x")

@@ -203,3 +203,36 @@ def test_a_contact_that_a_dirichlet_value_closes_by_force():
     two.bcs[-1].g.value[...] = -0.05
     problem.solve()
     assert stepped.force == pytest.approx(contact.force, rel=1e-9, abs=1e-12)
+
+
+@pytest.mark.parametrize("cell", [CellType.quadrilateral, CellType.hexahedron])
+def test_moments_of_both_sides_and_of_another_point(cell):
+    """About two points they differ by the force's; the forces act where the slave nodes are."""
+    scene = Blocks(cell)
+    contact = scene.contact(friction=0.3)
+    scene.problem(contact).solve()
+    gdim = len(contact.force)
+    a, b = np.zeros(gdim), np.arange(1.0, gdim + 1)
+    arm = a - b
+    if gdim == 2:
+        turned = arm[0] * contact.force[1] - arm[1] * contact.force[0]
+    else:
+        turned = np.cross(arm, contact.force)
+    np.testing.assert_allclose(contact.moment(b), contact.moment(a) + turned, rtol=1e-12)
+    x = contact.interface.positions()[contact.slave_nodes]
+    forces = contact.area[:, None] * contact.multiplier
+    if scene.u.function_space.mesh.geometry.dim == 2:
+        by_hand = (x[:, 0] * forces[:, 1] - x[:, 1] * forces[:, 0]).sum()
+    else:
+        by_hand = np.cross(x, forces).sum(axis=0)
+    np.testing.assert_allclose(contact.moment(a), by_hand, rtol=1e-12, atol=1e-14)
+    with pytest.raises(ValueError, match="finite numbers"):
+        contact.moment(np.zeros(gdim + 1))
+    with pytest.raises(TypeError, match="real numbers"):
+        contact.moment("here")
+
+
+def test_what_users_see_are_the_names_for_them():
+    names = [name for name in dir(cx) if not name.startswith("_")]
+    assert set(names) == set(cx.__all__)
+    assert all(hasattr(cx, name) for name in names)

@@ -113,3 +113,15 @@ def test_a_saved_place_serves_other_given_t():
 def test_wrong_steps(steps, error, message):
     with pytest.raises(error, match=message):
         make_plan(steps, 6, 10)
+
+
+def test_steps_may_end_in_the_users_time():
+    assert walk(make_plan(4, 6, 10, 10.0)) == [2.5, 5.0, 7.5, 10.0]
+    assert walk(make_plan([3, 20], 6, 10, 20)) == [3.0, 20.0]
+    for wrong, error in (("10", TypeError), (0, ValueError), (np.inf, ValueError)):
+        with pytest.raises(error, match="t_end is"):
+            make_plan(4, 6, 10, wrong)
+    with pytest.raises(ValueError, match="t = 21: each t must be above 0 and at most 20"):
+        make_plan([3, 21], 6, 10, 20)
+    with pytest.raises(ValueError, match="at most 1, or give t_end"):
+        make_plan([3, 21], 6, 10)
