@@ -42,8 +42,8 @@ endif
 PYTEST := exec $(RUN) $(BIN)/python -m pytest
 
 .DELETE_ON_ERROR:
-.PHONY: all demo test test-cpp test-fast verify stress leaks fuzz sanitize bench bench-core lint \
-	format clean help
+.PHONY: all demo test test-cpp test-fast verify stress leaks fuzz sanitize bench bench-core wheel \
+	lint format clean help
 
 all: $(INSTALLED)
 
@@ -58,6 +58,7 @@ help:
 	@echo "make bench-core  time the kernels and the search"
 	@echo "make fuzz     feed the C++ core a million random inputs a target (RUNS=...)"
 	@echo "make sanitize C++ tests and some Python tests with ASan and UBSan"
+	@echo "make wheel    an sdist and a wheel, which runs the quick start in an empty environment"
 	@echo "make lint     check format, style and types"
 	@echo "make format   format C++ and Python"
 	@echo "make clean    remove everything that make made"
@@ -116,6 +117,10 @@ verify: $(INSTALLED)
 stress: $(INSTALLED)
 	$(RUN) $(BIN)/python tests/stress/stress_map.py --workers $(JOBS)
 	$(PYTEST) tests/stress
+
+# In build/wheel; the environment there is made anew.
+wheel: $(DEPENDENCIES)
+	tools/wheel.sh $(BIN)/python
 
 # Memory of a process per run, every fiftieth step; fails where it grows.
 leaks: $(INSTALLED)
