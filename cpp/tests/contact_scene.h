@@ -38,8 +38,7 @@ struct ContactScene
     slaves = std::make_shared<contact::SlaveNodes>(halo, around.list(),
                                                    own.list());
     const auto master = mesh.here(sheets.master, false);
-    surface
-        = search::make_master_surface(halo, master.offsets, master.nodes);
+    surface = search::make_master_surface(halo, master.offsets, master.nodes);
     outside
         = std::make_shared<search::Outside>(halo, master.offsets, master.nodes);
   }
@@ -65,8 +64,8 @@ struct ContactScene
     constexpr bool has_means = std::is_base_of_v<contact::SurfaceToSurface, M>;
     return std::make_shared<contact::Contact>(
         halo, slaves, master<M>(*law, sliding), law,
-        contact::Contact::Options{sliding, has_means,
-                                  prescribed, std::move(shared)});
+        contact::Contact::Options{sliding, has_means, prescribed,
+                                  std::move(shared)});
   }
 
   /// @brief Move all nodes by random numbers up to a size.

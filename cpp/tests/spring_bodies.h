@@ -25,10 +25,9 @@ public:
   SpringBulk(const WholeMesh& mesh, std::shared_ptr<parallel::Halo> halo,
              std::shared_ptr<std::vector<double>> u,
              const std::vector<std::int32_t>& cells, int width)
-      : u(std::move(u)), ground(this->u->size(), 0), ends(ground),
-        load(ground), values(ground), fixed(ground.size(), 0),
-        size(halo->num_nodes(), 0), cell_force(size), _halo(std::move(halo)),
-        _width(width)
+      : u(std::move(u)), ground(this->u->size(), 0), ends(ground), load(ground),
+        values(ground), fixed(ground.size(), 0), size(halo->num_nodes(), 0),
+        cell_force(size), _halo(std::move(halo)), _width(width)
   {
     for (const std::int32_t node : cells)
       _cells.push_back(mesh.place[node]);
@@ -126,15 +125,15 @@ public:
   }
 
   std::shared_ptr<std::vector<double>> u;
-  std::vector<double> ground;      ///< stiffness of the springs to the ground
-  std::vector<double> ends;        ///< displacements of their ends
-  std::vector<double> load;        ///< forces on the nodes
-  std::vector<double> values;      ///< Dirichlet values
-  std::vector<std::int8_t> fixed;  ///< 1 where there are some
-  std::vector<double> size;        ///< of the largest cell around each node
-  std::vector<double> cell_force;  ///< what cancels at each node
-  double bar = 0;                  ///< stiffness between nodes of a cell
-  bool linear = true;              ///< what is said of the stiffness
+  std::vector<double> ground;     ///< stiffness of the springs to the ground
+  std::vector<double> ends;       ///< displacements of their ends
+  std::vector<double> load;       ///< forces on the nodes
+  std::vector<double> values;     ///< Dirichlet values
+  std::vector<std::int8_t> fixed; ///< 1 where there are some
+  std::vector<double> size;       ///< of the largest cell around each node
+  std::vector<double> cell_force; ///< what cancels at each node
+  double bar = 0;                 ///< stiffness between nodes of a cell
+  bool linear = true;             ///< what is said of the stiffness
   int residuals = 0, lifts = 0, looks = 0; ///< how often they were asked for
 
 private:
@@ -205,8 +204,8 @@ struct SpringBodies
   /// added.
   void prescribe(std::int32_t node, int direction, double value)
   {
-    const std::size_t dof = scene.sheets.gdim * scene.mesh.place[node]
-                            + direction;
+    const std::size_t dof
+        = scene.sheets.gdim * scene.mesh.place[node] + direction;
     scene.prescribed[dof] = bulk->fixed[dof] = 1;
     bulk->values[dof] = value;
   }
@@ -251,12 +250,37 @@ struct SpringBodies
     return std::make_shared<newton::System>(scene.halo, bulk, contacts);
   }
 
+  /// @brief Unknowns of this rank from those of one alone.
+  std::vector<double> mine(const std::vector<double>& all) const
+  {
+    const std::vector<std::int64_t>& number = scene.mesh.number;
+    std::vector<double> rows;
+    const auto add = [&](std::size_t first, std::int64_t node, int width)
+    {
+      const auto at = all.begin() + first + width * node;
+      rows.insert(rows.end(), at, at + width);
+    };
+    for (std::int32_t i = 0; i < scene.mesh.num_owned; ++i)
+      add(0, number[i], scene.sheets.gdim);
+    std::size_t first = scene.u->size();
+    for (const auto& c : contacts)
+    {
+      // The mesh's first nodes are the slave's
+      const int width = c->nodes()->size();
+      for (const std::int32_t i : scene.slaves->owned())
+        add(first, number[i], width);
+      first += width * scene.sheets.num_slaves;
+    }
+    return rows;
+  }
+
   /// @brief Bodies of the mesh: the sheets.
   std::shared_ptr<const contact::Bodies> bodies() const
   {
     const auto cells = bulk->cells();
+    const int width = bulk->nodes_per_cell();
     return std::make_shared<contact::Bodies>(
-        cells, 2, static_cast<std::int32_t>(cells.size() / 2),
+        cells, width, static_cast<std::int32_t>(cells.size() / width),
         scene.halo->original(), scene.halo);
   }
 

@@ -21,8 +21,9 @@ struct WholeMesh
     std::iota(number.begin(), number.end(), 0);
     if (ranks)
       num_owned = static_cast<std::int32_t>(
-          std::ranges::stable_partition(number, [&](std::int64_t node)
-                                        { return owner(node) == ranks->rank(); })
+          std::ranges::stable_partition(
+              number,
+              [&](std::int64_t node) { return owner(node) == ranks->rank(); })
               .begin()
           - number.begin());
     for (std::int32_t i = 0; i < n; ++i)

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "free_bodies_scene.h"
+#include "hiding_pairs.h"
 #include "spring_bodies.h"
 #include <cmath>
 #include <gtest/gtest.h>
@@ -68,31 +69,6 @@ struct Springs : SpringBodies
     }
     return -1;
   }
-};
-
-/// Frozen pairs that hide a penetration, until they are released.
-class Hiding : public NodeToSurface
-{
-public:
-  using NodeToSurface::NodeToSurface;
-
-  std::vector<std::int32_t> frozen_pairs() const override
-  {
-    return is_frozen ? std::vector<std::int32_t>{0}
-                     : std::vector<std::int32_t>();
-  }
-  void reset_flips() override
-  {
-    ++releases;
-    is_frozen = stays;
-  }
-  HiddenGap deepest_frozen_pair(std::span<const double>) const override
-  {
-    return is_frozen ? HiddenGap{-1e-3, -0.1} : HiddenGap();
-  }
-
-  bool is_frozen = true, stays = true;
-  int releases = 0;
 };
 
 template <class M>
