@@ -228,6 +228,11 @@ TEST(Convergence, ANodeThatStaysHasTheRoundingOfThoseAround)
   EXPECT_TRUE(row.converges({0, 0.49 * eps * 1e12, 0}));
   EXPECT_FALSE(row.converges({0, 0.51 * eps * 1e12, 0}));
   EXPECT_FALSE(row.converges({0.49 * eps * 1e12, 0, 0}));
+  // The largest of a cell, not their sum
+  row.way(1) = 1;
+  EXPECT_TRUE(row.converges({0.99 * eps * 1e12, 0, 0}));
+  EXPECT_TRUE(row.converges({0, 0.99 * eps * 1e12, 0}));
+  EXPECT_FALSE(row.converges({0, 1.01 * eps * 1e12, 0}));
 }
 
 TEST(Convergence, CellsAreLookedIntoOnceAStepAtMostAndIfLittleIsLeft)
