@@ -650,13 +650,18 @@ TEST(Loop, MeasuresSteps)
   EXPECT_EQ(found.loop->within_cells(dx), 1);
   found.bulk->linear = false;
   EXPECT_NEAR(found.loop->within_cells(dx), 0.3, 1e-3);
+  // The last node's one cell is another rank's
+  std::vector<double> last = dx;
+  for (std::int32_t i = 0; i + 1 < n; ++i)
+    last[2 * i + 1] = 0;
+  EXPECT_LT(found.loop->within_cells(last), 1);
   on_ranks(2,
            [&](parallel::Ranks& ranks)
            {
              Triangles here(&ranks);
              here.bulk->linear = false;
-             EXPECT_EQ(here.loop->within_cells(here.mine(dx)),
-                       found.loop->within_cells(dx));
+             EXPECT_EQ(here.loop->within_cells(here.mine(last)),
+                       found.loop->within_cells(last));
              EXPECT_DOUBLE_EQ(here.loop->size_of(here.mine(dx)), 2);
            });
   go(-1);
