@@ -4,6 +4,7 @@
 #pragma once
 
 #include "two_sheets.h"
+#include "whole_mesh.h"
 #include <contactx/condense/contact_block.h>
 #include <contactx/contact/contact.h>
 #include <random>
@@ -14,24 +15,32 @@ namespace contactx::tests
 struct ContactScene
 {
   TwoSheets sheets;
+  WholeMesh mesh;
   std::shared_ptr<std::vector<double>> u;
   std::shared_ptr<parallel::Halo> halo;
   std::shared_ptr<contact::SlaveNodes> slaves;
   std::shared_ptr<search::MasterSurface> surface;
   std::shared_ptr<search::Outside> outside;
 
+  /// 1 at displacements with a Dirichlet condition, in the order of this rank
+  std::vector<std::int8_t> prescribed;
+
   explicit ContactScene(int dim, double height = 0.05,
-                        Cells cells = Cells::mixed)
-      : sheets(dim, height, cells),
-        u(std::make_shared<std::vector<double>>(sheets.x.size(), 0.0))
+                        Cells cells = Cells::mixed,
+                        parallel::Ranks* ranks = nullptr)
+      : sheets(dim, height, cells), mesh(sheets.num_nodes(), ranks),
+        u(std::make_shared<std::vector<double>>(sheets.x.size(), 0.0)),
+        prescribed(u->size(), 0)
   {
-    halo = parallel::serial_halo(sheets.x, dim, u);
-    slaves = std::make_shared<contact::SlaveNodes>(halo, sheets.slave.list(),
-                                                   sheets.slave.list());
-    surface = search::make_master_surface(halo, sheets.master.offsets,
-                                          sheets.master.nodes);
-    outside = std::make_shared<search::Outside>(halo, sheets.master.offsets,
-                                                sheets.master.nodes);
+    halo = mesh.halo(sheets.x, dim, u);
+    const auto around = mesh.here(sheets.slave, true);
+    const auto own = mesh.here(sheets.slave, false);
+    slaves = std::make_shared<contact::SlaveNodes>(halo, around.list(),
+                                                   own.list());
+    const auto master = mesh.here(sheets.master, false);
+    surface = search::make_master_surface(halo, master.offsets, master.nodes);
+    outside
+        = std::make_shared<search::Outside>(halo, master.offsets, master.nodes);
   }
 
   /// @brief Pairs of a method, not searched for yet.
@@ -55,8 +64,7 @@ struct ContactScene
     constexpr bool has_means = std::is_base_of_v<contact::SurfaceToSurface, M>;
     return std::make_shared<contact::Contact>(
         halo, slaves, master<M>(*law, sliding), law,
-        contact::Contact::Options{sliding, has_means,
-                                  std::vector<std::int8_t>(u->size(), 0),
+        contact::Contact::Options{sliding, has_means, prescribed,
                                   std::move(shared)});
   }
 

@@ -185,9 +185,11 @@ Convergence::rounding_of_cancelling(double residual)
 /// What the norm of the rounding errors cannot exceed, which costs little.
 double Convergence::largest_error() const
 {
-  const double most = parallel::largest(ranks(), largest_of(sizes())
-                                                     + largest_of(_cell_size));
-  return eps * (_stiff * most + (_cancelling ? norm(*_cancelling) : 0));
+  // They may be on different ranks
+  std::array most{largest_of(sizes()), largest_of(_cell_size)};
+  ranks().reduce(std::span<double>(most), parallel::Reduction::largest);
+  const double cancelling = _cancelling ? norm(*_cancelling) : 0;
+  return eps * (_stiff * (most[0] + most[1]) + cancelling);
 }
 
 /// Evaluates the forces that cancel between cells and terms, once a step at

@@ -1,12 +1,11 @@
 // Copyright (C) 2026 contactx authors
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
-#include "contact_scene.h"
 #include "free_bodies_scene.h"
+#include "hiding_pairs.h"
+#include "spring_bodies.h"
 #include <cmath>
-#include <contactx/active_set/active_set.h>
 #include <gtest/gtest.h>
-#include <numeric>
 
 using namespace contactx;
 using namespace contactx::active_set;
@@ -15,96 +14,38 @@ using namespace contactx::tests;
 
 namespace
 {
-/// Solves a dense system by elimination with pivots.
-std::vector<double> solved(dense::Matrix A, std::vector<double> b)
+/// Bodies of springs, and Newton's method with dense algebra around an active
+/// set alone.
+struct Springs : SpringBodies
 {
-  const std::size_t n = b.size();
-  for (std::size_t k = 0; k < n; ++k)
-  {
-    std::size_t pivot = k;
-    for (std::size_t i = k + 1; i < n; ++i)
-      if (std::abs(A(i, k)) > std::abs(A(pivot, k)))
-        pivot = i;
-    for (std::size_t j = k; j < n; ++j)
-      std::swap(A(k, j), A(pivot, j));
-    std::swap(b[k], b[pivot]);
-    for (std::size_t i = k + 1; i < n; ++i)
-    {
-      const double factor = A(i, k) / A(k, k);
-      for (std::size_t j = k; j < n; ++j)
-        A(i, j) -= factor * A(k, j);
-      b[i] -= factor * b[k];
-    }
-  }
-  for (std::size_t k = n; k-- > 0;)
-  {
-    for (std::size_t j = k + 1; j < n; ++j)
-      b[k] -= A(k, j) * b[j];
-    b[k] /= A(k, k);
-  }
-  return b;
-}
-
-/// Two sheets whose nodes hang on springs, the ends of which the test moves,
-/// and Newton's method with dense algebra.
-struct Springs
-{
-  ContactScene scene;
-  std::vector<std::shared_ptr<Contact>> contacts;
   std::shared_ptr<ActiveSet> set;
-  std::vector<double> ends; ///< displacements of the springs' ends
-  double stiffness = 3;
   Forces none{[] { return std::vector<double>(); },
               [] { return std::vector<double>(); }, [] { return 1.0; }};
 
-  explicit Springs(int dim) : scene(dim), ends(scene.u->size(), 0) {}
+  explicit Springs(int dim) : SpringBodies(dim) {}
 
   template <class M>
   void add(std::shared_ptr<law::Law> law, Sliding sliding = Sliding::finite)
   {
-    contacts.push_back(scene.contact<M>(std::move(law), sliding));
+    SpringBodies::add<M>(std::move(law), sliding);
     set = std::make_shared<ActiveSet>(scene.halo, contacts);
-  }
-
-  /// Press the slave down by a dome, and aside.
-  void press(double down, double aside, double steep = 3)
-  {
-    const int g = scene.sheets.gdim;
-    for (std::int32_t i = 0; i < scene.sheets.num_slaves; ++i)
-    {
-      double r2 = 0;
-      for (int k = 0; k < g - 1; ++k)
-        r2 += std::pow(scene.sheets.x[g * i + k] - 0.5, 2);
-      ends[g * i] = aside;
-      ends[g * i + g - 1] = -down * (1 - steep * r2);
-    }
-  }
-
-  std::vector<double> forces()
-  {
-    std::vector<double> b = residual(contacts);
-    for (std::size_t k = 0; k < ends.size(); ++k)
-      b[k] += stiffness * ((*scene.u)[k] - ends[k]);
-    return b;
-  }
-
-  static double norm(std::span<const double> b)
-  {
-    return std::sqrt(std::inner_product(b.begin(), b.end(), b.begin(), 0.0));
   }
 
   /// Solve; the number of iterations, or -1.
   int solve()
   {
-    std::vector<double> compliance(scene.sheets.num_nodes(), 1 / stiffness);
+    const auto system = this->system();
+    std::vector<double> compliance(scene.sheets.num_nodes(),
+                                   1 / bulk->ground[0]);
     set->begin_step();
     for (const auto& c : contacts)
       c->set_factor(compliance);
     set->settle(none, true);
+    std::vector<double> b(system->size()), x(b);
     for (int iteration = 0; iteration < 30; ++iteration)
     {
-      std::vector<double> b = forces();
-      while (norm(b) < 1e-13)
+      system->residual(b);
+      while (dense::norm(b) < 1e-13)
       {
         const auto end = set->may_end(none);
         if (end == ActiveSet::End::solution)
@@ -115,54 +56,19 @@ struct Springs
         }
         if (end == ActiveSet::End::hidden)
           return -1;
-        b = forces();
+        system->residual(b);
       }
-      set->note(norm(b));
-      const condense::ContactBlock J(contacts, {});
-      dense::Matrix A(J.size(), J.size());
-      const auto entries = J.entries();
-      for (std::size_t i = 0; i < J.size(); ++i)
-        for (auto e = entries.offsets[i]; e < entries.offsets[i + 1]; ++e)
-          A(i, entries.columns[e]) = entries.values[e];
-      for (std::size_t k = 0; k < ends.size(); ++k)
-        A(k, k) += stiffness;
-      const std::vector<double> step = solved(A, b);
-      std::size_t at = 0;
-      for (double& v : *scene.u)
-        v -= step[at++];
-      for (const auto& c : contacts)
-        for (double& m : c->nodes()->multiplier)
-          m -= step[at++];
+      set->note(dense::norm(b));
+      const std::vector<double> step = dense::solve(jacobian(), b);
+      system->unknowns(x);
+      for (std::size_t i = 0; i < x.size(); ++i)
+        x[i] -= step[i];
+      system->take(x);
       set->settle(none);
       set->advance(true);
     }
     return -1;
   }
-};
-
-/// Frozen pairs that hide a penetration, until they are released.
-class Hiding : public NodeToSurface
-{
-public:
-  using NodeToSurface::NodeToSurface;
-
-  std::vector<std::int32_t> frozen_pairs() const override
-  {
-    return is_frozen ? std::vector<std::int32_t>{0}
-                     : std::vector<std::int32_t>();
-  }
-  void reset_flips() override
-  {
-    ++releases;
-    is_frozen = stays;
-  }
-  HiddenGap deepest_frozen_pair(std::span<const double>) const override
-  {
-    return is_frozen ? HiddenGap{-1e-3, -0.1} : HiddenGap();
-  }
-
-  bool is_frozen = true, stays = true;
-  int releases = 0;
 };
 
 template <class M>

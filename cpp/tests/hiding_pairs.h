@@ -1,0 +1,34 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#pragma once
+
+#include <contactx/contact/node_to_surface.h>
+
+namespace contactx::tests
+{
+/// @brief Frozen pairs that hide a penetration, until they are released.
+class Hiding : public contact::NodeToSurface
+{
+public:
+  using NodeToSurface::NodeToSurface;
+
+  std::vector<std::int32_t> frozen_pairs() const override
+  {
+    return is_frozen ? std::vector<std::int32_t>{0}
+                     : std::vector<std::int32_t>();
+  }
+  void reset_flips() override
+  {
+    ++releases;
+    is_frozen = stays;
+  }
+  contact::HiddenGap deepest_frozen_pair(std::span<const double>) const override
+  {
+    return is_frozen ? contact::HiddenGap{-1e-3, -0.1} : contact::HiddenGap();
+  }
+
+  bool is_frozen = true, stays = true;
+  int releases = 0;
+};
+} // namespace contactx::tests

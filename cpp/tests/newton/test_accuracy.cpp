@@ -1,0 +1,88 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include <contactx/newton/accuracy.h>
+#include <gtest/gtest.h>
+
+using contactx::newton::Accuracy;
+
+namespace
+{
+constexpr double tolerance = 1e-12;
+
+/// What the next solve may leave.
+double target(Accuracy& accuracy, double residual, double changing,
+              bool has_cycled = false)
+{
+  accuracy.set(residual, tolerance, changing, has_cycled);
+  return accuracy.target();
+}
+} // namespace
+
+TEST(Accuracy, IsATenthOfTheChangesOfTheActiveSet)
+{
+  Accuracy accuracy(false);
+  EXPECT_EQ(accuracy.target(), 0);
+  EXPECT_NEAR(target(accuracy, 2, 1e-7), 2e-6, 1e-18);
+  EXPECT_NEAR(target(accuracy, 2, 0.05), 1e-2, 1e-15);
+  EXPECT_NEAR(target(accuracy, 2, 0.9), 2e-2, 1e-15);
+  EXPECT_FALSE(accuracy.is_last());
+}
+
+TEST(Accuracy, IsThatOfExactSolvesWhereThePathCounts)
+{
+  Accuracy accuracy(true);
+  for (const double changing : {1e-7, 0.05, 0.9})
+    EXPECT_NEAR(target(accuracy, 2, changing), 2e-11, 1e-24);
+}
+
+TEST(Accuracy, IsATenthOfWhatNewtonsMethodLeaves)
+{
+  for (const bool has_path : {false, true})
+  {
+    Accuracy accuracy(has_path);
+    target(accuracy, 2, 0.9);
+    // Nothing is known yet: far below the tolerance
+    EXPECT_NEAR(target(accuracy, 1e-2, 0), 1e-14, 1e-27);
+    // A residual that goes with ten times the square of the last
+    EXPECT_NEAR(target(accuracy, 1e-3, 0), 1e-6, 1e-18);
+    EXPECT_FALSE(accuracy.is_last());
+    EXPECT_NEAR(target(accuracy, 1e-5, 0), 1e-10, 1e-22);
+    // At most a hundredth of the residual
+    EXPECT_NEAR(target(accuracy, 1e3, 0), 1e1, 1e-12);
+    // And at the end far less than the tolerance
+    target(accuracy, 1e-5, 0);
+    EXPECT_NEAR(target(accuracy, 1e-9, 0), 1e-14, 1e-27);
+    EXPECT_TRUE(accuracy.is_last());
+  }
+}
+
+TEST(Accuracy, ResidualsOfActiveSetsThatChangeSayNothingOfTheNext)
+{
+  Accuracy accuracy(false);
+  target(accuracy, 1e-2, 0.5);
+  EXPECT_NEAR(target(accuracy, 1e-3, 0), 1e-14, 1e-27);
+}
+
+TEST(Accuracy, IsThatOfASettledActiveSetOnceOneHasComeBack)
+{
+  Accuracy accuracy(false);
+  EXPECT_NEAR(target(accuracy, 1e-2, 0.5, true), 1e-14, 1e-27);
+  EXPECT_NEAR(target(accuracy, 1e-3, 0.5, true), 1e-6, 1e-18);
+}
+
+TEST(Accuracy, KeepsWhatItHasSeenForTheNextStep)
+{
+  Accuracy accuracy(false);
+  const auto see = [&]
+  {
+    target(accuracy, 1e-2, 0);
+    target(accuracy, 1e-3, 0);
+  };
+  see();
+  accuracy.begin_step();
+  // Not that 1e-6 comes after 1e-3
+  EXPECT_NEAR(target(accuracy, 1e-6, 0), 1e-12, 1e-24);
+  accuracy.reset();
+  EXPECT_NEAR(target(accuracy, 1e-6, 0), 1e-14, 1e-27);
+}
