@@ -30,7 +30,7 @@ def master_side(scene, slave, master, names=("slave", "master"), reach=None):
     mesh = core.ReferenceMesh(nodes, scene.bodies, scene.u.function_space.dofmap.list)
     options = core.MasterOptions(is_mortar=False, is_small=True, search_distance=reach)
     slaves, law = core.SlaveNodes(nodes, *slave), core.Frictionless()
-    if isinstance(master, cx.Obstacle):
+    if isinstance(master, core.Obstacle):
         pairs = core.make_obstacle_master(mesh, slaves, names[0], master, law, options)
     else:
         pairs = core.make_surface_master(mesh, slaves, names[0], *master, names[1], law, options)
