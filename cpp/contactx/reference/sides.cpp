@@ -115,7 +115,7 @@ std::shared_ptr<contact::DeformableMaster> contactx::reference::make_master(
   check_facets(*halo, master, "master");
   check_shared(*halo, slave, master);
   check_nested(mesh, slave, master);
-  // A node of folded facets has no normal to look along; facets have
+  // Where facets are folded a node has no normal to look along; facets have
   const bool is_mortar = options.method == Method::surface_to_surface;
   if (not is_mortar)
     check_folds(*halo, *slaves, slave_name);
