@@ -178,23 +178,37 @@ TEST_P(Inside, AFinerBodyInTheSamePlace)
 {
   // Its outer nodes are on the surface of the other, but for rounding
   for (const int gdim : {2, 3})
-  {
-    Blocks blocks(gdim);
-    blocks.add(5, {}, {1, 1, 1});
-    blocks.add(3, {}, {1, 1, 1});
-    for (double& c : blocks.x)
-      c = 1e-4 * (c + 1e3);
-    const Side a = blocks.side(0, 0, true), b = blocks.side(1, 0, true);
-    EXPECT_TRUE(tests::said(blocks, GetParam(),
-                            [&](const RankBlocks& mine)
-                            {
-                              const facet::Facets own = mine.own(a),
-                                                  other = mine.own(b);
-                              check_nested(mine.mesh(), {"A", own.list()},
-                                           {"B", other.list()});
-                            })
-                    .starts_with("the body of the slave surface A lies"));
-  }
+    for (const double angle : {0.0, 0.3, 0.7, 1.2})
+    {
+      Blocks blocks(gdim);
+      blocks.add(5, {}, {1, 1, 1});
+      const std::size_t fine = blocks.x.size();
+      blocks.add(3, {}, {1, 1, 1});
+      const double c = std::cos(angle), s = std::sin(angle);
+      for (std::size_t i = 0; i < blocks.x.size(); i += gdim)
+      {
+        double *x = &blocks.x[i], *y = x + gdim - 1;
+        const double a = *x, b = *y;
+        *x = c * a - s * b;
+        *y = s * a + c * b;
+        for (int k = 0; k < gdim; ++k)
+          x[k] = 1e-4 * (x[k] + 1e3);
+        // Rounding of a mesh generator
+        if (i < fine)
+          for (int k = 0; k < gdim; ++k)
+            x[k] += 1e-10 * (x[k] - 0.1);
+      }
+      const Side a = blocks.side(0, 0, true), b = blocks.side(1, 0, true);
+      EXPECT_TRUE(tests::said(blocks, GetParam(),
+                              [&](const RankBlocks& mine)
+                              {
+                                const facet::Facets own = mine.own(a),
+                                                    other = mine.own(b);
+                                check_nested(mine.mesh(), {"A", own.list()},
+                                             {"B", other.list()});
+                              })
+                      .starts_with("the body of the slave surface A lies"));
+    }
 }
 
 TEST_P(Inside, ABodyInAnObstacleIsRefused)
