@@ -12,7 +12,7 @@ using namespace contactx::tests;
 
 namespace
 {
-class Facing : public testing::TestWithParam<int>
+class FacingMaster : public testing::TestWithParam<int>
 {
 };
 
@@ -75,7 +75,7 @@ std::string said_of(const Blocks& blocks, int ranks, const Side& slave,
 }
 } // namespace
 
-TEST_P(Facing, AwayIsRefused)
+TEST_P(FacingMaster, AwayIsRefused)
 {
   for (const int gdim : {2, 3})
   {
@@ -96,7 +96,7 @@ TEST_P(Facing, AwayIsRefused)
   }
 }
 
-TEST_P(Facing, OutOfReachIsLegal)
+TEST_P(FacingMaster, OutOfReachIsLegal)
 {
   const TwoBlocks two(3);
   const Side slave = two.upper(0, true), master = two.lower(0, true);
@@ -104,7 +104,7 @@ TEST_P(Facing, OutOfReachIsLegal)
   EXPECT_NE(said_of(two.blocks, GetParam(), slave, master, 0.289), "");
 }
 
-TEST_P(Facing, OnlyFacetsInReachCount)
+TEST_P(FacingMaster, OnlyFacetsInReachCount)
 {
   const TwoBlocks two(3);
   const Side slave = two.upper(0, true),
@@ -114,7 +114,7 @@ TEST_P(Facing, OnlyFacetsInReachCount)
   EXPECT_EQ(said_of(two.blocks, GetParam(), slave, master, 1.24), "");
 }
 
-TEST_P(Facing, BeyondTheOuterEdgeIsLegal)
+TEST_P(FacingMaster, BeyondTheOuterEdgeIsLegal)
 {
   for (const int gdim : {2, 3})
   {
@@ -125,7 +125,7 @@ TEST_P(Facing, BeyondTheOuterEdgeIsLegal)
   }
 }
 
-TEST_P(Facing, WherePairsAreNothingIsLookedAt)
+TEST_P(FacingMaster, WherePairsAreNothingIsLookedAt)
 {
   // Pairs are those of another place, where the slave is turned over and one of
   // its nodes, which one rank owns, is in front of the master
@@ -140,4 +140,4 @@ TEST_P(Facing, WherePairsAreNothingIsLookedAt)
   EXPECT_NE(said_of(two.blocks, GetParam(), slave, master, 5, turned(4)), "");
 }
 
-INSTANTIATE_TEST_SUITE_P(Ranks, Facing, testing::Values(1, 2, 3, 4));
+INSTANTIATE_TEST_SUITE_P(Ranks, FacingMaster, testing::Values(1, 2, 3, 4));
