@@ -52,7 +52,6 @@ py::array_t<T> array(const std::vector<T>& v,
 void facet(py::module_& m);
 void search(py::module_& m);
 void node_state(py::module_& m);
-void surface(py::module_& m);
 void deformable(py::module_& m);
 void law(py::module_& m);
 void newton(py::module_& m);
@@ -66,4 +65,5 @@ void parallel(py::module_& m);
 void master(py::module_& m);
 void bodies(py::module_& m);
 void obstacle(py::module_& m);
+void reference(py::module_& m);
 } // namespace contactx_bindings

@@ -1,13 +1,12 @@
 // Copyright (C) 2026 contactx authors
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
-#include "bindings.h"
+#include "master.h"
 #include <contactx/contact/node_to_surface.h>
 #include <contactx/contact/surface_to_surface.h>
 
 namespace py = pybind11;
 using namespace contactx_bindings;
-using namespace contactx;
 using namespace contactx::contact;
 
 namespace
@@ -15,26 +14,18 @@ namespace
 template <class T>
 void bind(py::module_& m, const char* name, const char* text)
 {
-  py::class_<T, DeformableMaster, std::shared_ptr<T>>(m, name, text)
-      .def(py::init(
-               [](std::shared_ptr<parallel::Halo> halo,
-                  std::shared_ptr<SlaveNodes> slaves,
-                  std::shared_ptr<search::MasterSurface> surface,
-                  std::shared_ptr<search::Outside> outside, double reach,
-                  bool is_small, bool measures_slip)
-               {
-                 return std::make_shared<T>(
-                     std::move(halo), std::move(slaves), surface, outside,
-                     PairingOptions{reach, is_small, measures_slip});
-               }),
-           py::arg("halo"), py::arg("slaves"), py::arg("surface"),
-           py::arg("outside"), py::arg("reach"), py::arg("is_small"),
-           py::arg("measures_slip"));
+  py::class_<T, DeformableMaster, std::shared_ptr<T>>(m, name, text);
 }
 } // namespace
 
 void contactx_bindings::deformable(py::module_& m)
 {
+  using contactx::search::MasterSurface;
+  py::class_<MasterSurface, std::shared_ptr<MasterSurface>>(
+      m, "MasterSurface",
+      "Facets of a master surface, as the slave nodes of a rank see them")
+      .def_property_readonly("facets", [](const MasterSurface& self)
+                             { return to_tuple(self.facets()); });
   py::class_<DeformableMaster, Master, std::shared_ptr<DeformableMaster>>(
       m, "DeformableMaster", "Pairs with facets of a deformable body")
       .def_property_readonly("surface", &DeformableMaster::surface);

@@ -120,6 +120,13 @@ py::list contactx_bindings::to_list(std::vector<Pairs> pairs)
   return result;
 }
 
+py::tuple contactx_bindings::to_tuple(const contactx::facet::FacetList& facets)
+{
+  const auto copied = [](std::span<const std::int32_t> values)
+  { return array(std::vector<std::int32_t>(values.begin(), values.end())); };
+  return py::make_tuple(copied(facets.offsets), copied(facets.nodes));
+}
+
 std::vector<std::int8_t> contactx_bindings::truths(const Array<bool>& values)
 {
   return {values.data(), values.data() + values.size()};

@@ -5,6 +5,7 @@
 
 #include "bindings.h"
 #include <contactx/contact/master.h>
+#include <contactx/facet/nodal.h>
 #include <memory>
 
 namespace contactx_bindings
@@ -25,6 +26,9 @@ std::vector<contactx::contact::Saved> from_dict(const py::dict& saved);
 
 /// @brief Pairs as a list of Python.
 py::list to_list(std::vector<contactx::contact::Pairs> pairs);
+
+/// @brief Facets as offsets and nodes.
+py::tuple to_tuple(const contactx::facet::FacetList& facets);
 
 /// @brief Truth values as the core has them.
 std::vector<std::int8_t> truths(const Array<bool>& values);

@@ -12,13 +12,13 @@ PYBIND11_MODULE(cpp, m)
   contactx_bindings::facet(m);
   contactx_bindings::search(m);
   contactx_bindings::node_state(m);
-  contactx_bindings::surface(m);
   contactx_bindings::deformable(m);
   contactx_bindings::law(m);
   contactx_bindings::slave_nodes(m);
   contactx_bindings::contact(m);
   contactx_bindings::condense(m);
   contactx_bindings::bodies(m);
+  contactx_bindings::reference(m);
   contactx_bindings::newton(m);
   contactx_bindings::mortar(m);
   contactx_bindings::kernel(m);

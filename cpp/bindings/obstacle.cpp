@@ -77,18 +77,6 @@ LevelSet::Function level_function(py::function f)
     return at;
   };
 }
-
-template <class M>
-std::shared_ptr<M>
-make_master(std::shared_ptr<Obstacle> obstacle,
-            std::shared_ptr<SlaveNodes> slaves, const Array<double>& x,
-            std::optional<double> reach, auto... measures_slip)
-{
-  return std::make_shared<M>(
-      std::move(obstacle), std::move(slaves), view(x), Dimension(x).gdim,
-      reach.value_or(std::numeric_limits<double>::infinity()),
-      measures_slip...);
-}
 } // namespace
 
 void contactx_bindings::obstacle(py::module_& m)
@@ -121,7 +109,6 @@ void contactx_bindings::obstacle(py::module_& m)
            { return array(self.parameters(gdim)); })
       .def("level", [](Obstacle& self, const Array<double>& x)
            { return array(self.level(view(x), Dimension(x).gdim)); })
-      .def_property_readonly("usual_mistake", &Obstacle::usual_mistake)
       .def_readwrite("extent", &Obstacle::extent);
   py::class_<Plane, Refreshed<Plane>, Obstacle, std::shared_ptr<Plane>>(
       m, "Plane", "Half-space bounded by a plane")
@@ -145,23 +132,11 @@ void contactx_bindings::obstacle(py::module_& m)
                                               std::move(parameters));
           }));
 
-  // A subclass in Python must outlive who calls its methods
   py::class_<ObstacleMaster, Master, std::shared_ptr<ObstacleMaster>>(
       m, "ObstacleMaster", "Pairs of slave nodes with a rigid obstacle")
-      .def(py::init(&make_master<ObstacleMaster, bool>), py::arg("obstacle"),
-           py::arg("slaves"), py::arg("x"), py::arg("reach"),
-           py::arg("measures_slip"), py::keep_alive<1, 2>())
-      .def_property_readonly("obstacle", &ObstacleMaster::obstacle)
-      .def("inside", [](const ObstacleMaster& self, const Array<double>& x)
-           { return array(self.inside(view(x))); });
+      .def_property_readonly("obstacle", &ObstacleMaster::obstacle);
   py::class_<ObstacleTie, ObstacleMaster, std::shared_ptr<ObstacleTie>>(
-      m, "ObstacleTie", "Slave nodes tied to a rigid obstacle")
-      .def(py::init(&make_master<ObstacleTie>), py::arg("obstacle"),
-           py::arg("slaves"), py::arg("x"), py::arg("reach"),
-           py::keep_alive<1, 2>());
+      m, "ObstacleTie", "Slave nodes tied to a rigid obstacle");
   py::class_<MortarObstacle, ObstacleMaster, std::shared_ptr<MortarObstacle>>(
-      m, "MortarObstacle", "Pairs of slave facets with a rigid obstacle")
-      .def(py::init(&make_master<MortarObstacle, bool>), py::arg("obstacle"),
-           py::arg("slaves"), py::arg("x"), py::arg("reach"),
-           py::arg("measures_slip"), py::keep_alive<1, 2>());
+      m, "MortarObstacle", "Pairs of slave facets with a rigid obstacle");
 }

@@ -4,10 +4,12 @@
 #include "master.h"
 #include "parallel.h"
 #include <contactx/contact/recovery.h>
+#include <contactx/reference/sides.h>
 
 namespace py = pybind11;
 using namespace contactx_bindings;
 using namespace contactx::contact;
+using contactx::parallel::Halo;
 using contactx::parallel::NodeMap;
 
 namespace
@@ -27,21 +29,16 @@ void contactx_bindings::slave_nodes(py::module_& m)
       "Slave nodes that a rank owns, and those of others that share a facet "
       "with them")
       .def(py::init(
-               [](std::shared_ptr<NodeMap> nodes,
+               [](const std::shared_ptr<Halo>& halo,
                   const Array<std::int32_t>& offsets,
-                  const Array<std::int32_t>& facet_nodes,
-                  const Array<std::int32_t>& own_offsets,
-                  const Array<std::int32_t>& own_nodes)
+                  const Array<std::int32_t>& nodes)
                {
-                 return std::make_shared<SlaveNodes>(
-                     std::move(nodes),
-                     contactx::facet::FacetList{view(offsets),
-                                                view(facet_nodes)},
-                     contactx::facet::FacetList{view(own_offsets),
-                                                view(own_nodes)});
+                 return contactx::reference::make_slave_nodes(
+                     halo, {view(offsets), view(nodes)});
                }),
-           py::arg("nodes"), py::arg("offsets"), py::arg("facet_nodes"),
-           py::arg("own_offsets"), py::arg("own_nodes"))
+           py::arg("halo"), py::arg("offsets"), py::arg("nodes"))
+      .def_property_readonly("facets", [](const SlaveNodes& self)
+                             { return to_tuple(self.facets()); })
       .def_property_readonly("owned",
                              [](py::object self)
                              {

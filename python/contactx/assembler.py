@@ -39,7 +39,6 @@ from contactx.newton import NewtonLoop
 from contactx.nodal import reference_positions
 from contactx.parallel.agreement import agreed
 from contactx.parallel.halo import Halo
-from contactx.parallel.reduce import gathered
 from contactx.report import Report
 from contactx.settled import Settled, settled
 from contactx.state import Snapshot
@@ -434,7 +433,7 @@ class ContactAssembler:
         """
         self._enter("limit", dx)
         step = -dx.array_r
-        if self._solves > 0 and self.loop.softens(step):
+        if self.loop.softens(step):
             return 0.0
         size = self.loop.size_of(step)
         self.loop.length.begin(size, self.loop.within_cells(step) if np.isfinite(size) else 1.0)
@@ -554,8 +553,8 @@ class ContactAssembler:
             RuntimeError: If ranks call different methods, or it is not this one's turn.
             ValueError: If a vector or matrix is of another layout.
         """
-        calls = gathered(self._comm, np.array([_CALLS.index(call)]))
-        if len(set(calls.tolist())) > 1:
+        calls = self._comm.allgather(_CALLS.index(call))
+        if len(set(calls)) > 1:
             names = ", ".join(f"{_CALLS[k]}() on rank {r}" for r, k in enumerate(calls))
             raise RuntimeError(
                 f"all ranks must call the same method of a ContactAssembler: {names}"

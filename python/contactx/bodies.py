@@ -43,14 +43,3 @@ class Bodies(core.Bodies):
     def x(self) -> npt.NDArray[np.float64]:
         """Reference positions of all nodes, shape (num_nodes, gdim)."""
         return self.halo.x
-
-    def boxes(self, bodies: npt.NDArray[np.int64]) -> npt.NDArray[np.float64]:
-        """Bounding boxes of bodies on all ranks, which must take part.
-
-        Args:
-            bodies: Names, the same on all ranks.
-
-        Returns:
-            Lowest and highest corner, shape (2, num_bodies, gdim).
-        """
-        return self.boxes_of(bodies, self.x, self.halo.gdim)

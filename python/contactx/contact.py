@@ -16,17 +16,12 @@ from contactx.bodies import Bodies
 from contactx.fields import Fields
 from contactx.forms import ContactForms
 from contactx.friction import AccumulatedSlip, FrictionLaw
-from contactx.geometry.facing import check_facing
-from contactx.geometry.inside import shared_nodes
 from contactx.interface import Interface
-from contactx.master import make_master
 from contactx.nodal import NodalValue
 from contactx.obstacles import Obstacle
 from contactx.parallel import reduce
 from contactx.parallel.agreement import agreed
 from contactx.parallel.halo import Halo
-from contactx.parallel.slaves import SlaveNodes
-from contactx.search import in_order
 from contactx.surface import Surface
 from dolfinx import fem
 
@@ -155,26 +150,14 @@ class Contact:
                 f"{self} belongs to a ContactProblem already: create one Contact a problem"
             )
         V = bodies.V
-        slaves = SlaveNodes(halo, in_order(self.slave.facet_nodes(V), halo))
+        facets = self.slave.facet_nodes(V)
+        slaves = core.SlaveNodes(halo.nodes, facets.offsets, facets.nodes)
         with agreed(halo.comm):
             offset = NodalValue(self.offset, "offset", V, slaves.owned)
             own = self.friction
             slipped = AccumulatedSlip(own) if isinstance(own, FrictionLaw) else None
             law, friction = self._law(V, slaves.owned, slipped)
-        master = make_master(
-            self.slave,
-            slaves,
-            self.master,
-            bodies,
-            halo,
-            law,
-            method=self.method,
-            sliding=self.sliding,
-            search_distance=self.search_distance,
-        )
-        shared = None
-        if isinstance(self.master, Surface):
-            shared = shared_nodes(self.slave.facet_nodes(V), self.master.facet_nodes(V), halo)
+        master, shared = self._make_master(slaves, law, halo, bodies)
         interface = Interface(
             slaves,
             master,
@@ -187,12 +170,48 @@ class Contact:
             markers=markers,
             shared=shared,
         )
-        check_facing(self.slave, slaves, self.master, master, halo)
+        if isinstance(master, core.DeformableMaster):
+            core.check_facing(halo.nodes, slaves, str(self.slave), master, str(self.master))
         if slipped is not None:
             slipped.history = interface.history
         self._fields = Fields(interface, V, slaves, halo)
         self._interface = interface
         return interface
+
+    def _make_master(
+        self, slaves: core.SlaveNodes, law: core.Law, halo: Halo, bodies: Bodies
+    ) -> tuple[core.Master, npt.NDArray[np.bool_] | None]:
+        """Make the master side, without pairs yet; see ``reference/sides.h``.
+
+        Args:
+            slaves: Slave nodes.
+            law: Contact law.
+            halo: Nodes of this rank.
+            bodies: Bodies of the mesh.
+
+        Returns:
+            The master side, and which nodes of this rank the master surface shares with the slave;
+            None of an obstacle.
+
+        Raises:
+            ValueError: If facets are degenerate, the surfaces share nodes, a body lies wholly
+                inside its master, or an obstacle's parameters do not fit.
+        """
+        mesh = core.ReferenceMesh(halo.nodes, bodies, bodies.V.dofmap.list)
+        options = core.MasterOptions(
+            is_mortar=self.method == "surface-to-surface",
+            is_small=self.sliding == "small",
+            search_distance=self.search_distance,
+        )
+        name = str(self.slave)
+        if isinstance(self.master, Obstacle):
+            return core.make_obstacle_master(mesh, slaves, name, self.master, law, options), None
+        facets = self.master.facet_nodes(bodies.V)
+        lists = facets.offsets, facets.nodes
+        master = core.make_surface_master(
+            mesh, slaves, name, *lists, str(self.master), law, options
+        )
+        return master, core.shared_nodes(halo.nodes, slaves, *lists)
 
     def _law(
         self, V: fem.FunctionSpace, slaves: npt.NDArray[np.int32], own: AccumulatedSlip | None

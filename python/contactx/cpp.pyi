@@ -346,45 +346,9 @@ class Condensation:
     def bound(self, nodes: NodeMap, diagonal: NDArray[np.float64]) -> NDArray[np.float64]: ...
     def elastic(self, nodes: NodeMap, diagonal: NDArray[np.float64] | None) -> Triplets: ...
 
-class Found:
-    @property
-    def distance(self) -> NDArray[np.float64]: ...
-    @property
-    def facet(self) -> NDArray[np.int32]: ...
-    @property
-    def feature(self) -> NDArray[np.int32]: ...
-    @property
-    def gap(self) -> NDArray[np.float64]: ...
-    @property
-    def xi(self) -> NDArray[np.float64]: ...
-    @property
-    def normal(self) -> NDArray[np.float64]: ...
-
 class MasterSurface:
-    def __init__(
-        self, halo: Halo, offsets: NDArray[np.int32], nodes: NDArray[np.int32]
-    ) -> None: ...
     @property
     def facets(self) -> tuple[NDArray[np.int32], NDArray[np.int32]]: ...
-    def find(
-        self,
-        x: NDArray[np.float64],
-        points: NDArray[np.float64],
-        normals: NDArray[np.float64],
-        reach: float,
-    ) -> Found: ...
-
-class Outside:
-    def __init__(
-        self, halo: Halo, offsets: NDArray[np.int32], nodes: NDArray[np.int32]
-    ) -> None: ...
-
-def slave_facets(
-    halo: Halo, offsets: NDArray[np.int32], nodes: NDArray[np.int32]
-) -> tuple[NDArray[np.int32], NDArray[np.int32]]: ...
-def in_order(
-    halo: Halo, offsets: NDArray[np.int32], nodes: NDArray[np.int32]
-) -> tuple[NDArray[np.int32], NDArray[np.int32]]: ...
 
 class Pairs:
     def __init__(
@@ -448,13 +412,10 @@ class Master:
 
 class SlaveNodes:
     def __init__(
-        self,
-        nodes: NodeMap,
-        offsets: NDArray[np.int32],
-        facet_nodes: NDArray[np.int32],
-        own_offsets: NDArray[np.int32],
-        own_nodes: NDArray[np.int32],
+        self, halo: Halo, offsets: NDArray[np.int32], nodes: NDArray[np.int32]
     ) -> None: ...
+    @property
+    def facets(self) -> tuple[NDArray[np.int32], NDArray[np.int32]]: ...
     @property
     def owned(self) -> NDArray[np.int32]: ...
     @property
@@ -772,8 +733,6 @@ class Obstacle:
     def evaluate(self, x: NDArray[np.float64]) -> Geometry: ...
     def parameters(self, gdim: int) -> NDArray[np.float64]: ...
     def level(self, x: NDArray[np.float64]) -> NDArray[np.float64]: ...
-    @property
-    def usual_mistake(self) -> str: ...
 
 class Plane(Obstacle):
     def __init__(self) -> None: ...
@@ -798,41 +757,13 @@ class LevelSet(Obstacle):
     ) -> None: ...
 
 class ObstacleMaster(Master):
-    def __init__(
-        self,
-        obstacle: Obstacle,
-        slaves: SlaveNodes,
-        x: NDArray[np.float64],
-        reach: float | None,
-        measures_slip: bool,
-    ) -> None: ...
     @property
     def obstacle(self) -> Obstacle: ...
-    def inside(self, x: NDArray[np.float64]) -> NDArray[np.float64]: ...
-    def moves_untold(self, tolerance: float) -> bool: ...
 
-class ObstacleTie(ObstacleMaster):
-    def __init__(
-        self,
-        obstacle: Obstacle,
-        slaves: SlaveNodes,
-        x: NDArray[np.float64],
-        reach: float | None,
-    ) -> None: ...
-
+class ObstacleTie(ObstacleMaster): ...
 class MortarObstacle(ObstacleMaster): ...
 
 class DeformableMaster(Master):
-    def __init__(
-        self,
-        halo: Halo,
-        slaves: SlaveNodes,
-        surface: MasterSurface,
-        outside: Outside,
-        reach: float,
-        is_small: bool,
-        measures_slip: bool,
-    ) -> None: ...
     @property
     def surface(self) -> MasterSurface: ...
 
@@ -840,3 +771,41 @@ class NodeToSurface(DeformableMaster): ...
 class NodeTie(DeformableMaster): ...
 class SurfaceToSurface(DeformableMaster): ...
 class SurfaceTie(DeformableMaster): ...
+
+class ReferenceMesh:
+    def __init__(self, halo: Halo, bodies: Bodies, cells: NDArray[np.int32]) -> None: ...
+
+class MasterOptions:
+    def __init__(
+        self, *, is_mortar: bool, is_small: bool, search_distance: float | None
+    ) -> None: ...
+
+def point_text(x: NDArray[np.float64] | Sequence[float], size: float) -> str: ...
+def make_surface_master(
+    mesh: ReferenceMesh,
+    slaves: SlaveNodes,
+    slave: str,
+    offsets: NDArray[np.int32],
+    nodes: NDArray[np.int32],
+    master: str,
+    law: Law,
+    options: MasterOptions,
+) -> DeformableMaster: ...
+def make_obstacle_master(
+    mesh: ReferenceMesh,
+    slaves: SlaveNodes,
+    slave: str,
+    obstacle: Obstacle,
+    law: Law,
+    options: MasterOptions,
+) -> ObstacleMaster: ...
+def shared_nodes(
+    halo: Halo, slaves: SlaveNodes, offsets: NDArray[np.int32], nodes: NDArray[np.int32]
+) -> NDArray[np.bool_]: ...
+def check_facing(
+    halo: Halo,
+    slaves: SlaveNodes,
+    slave_name: str,
+    master: DeformableMaster,
+    master_name: str,
+) -> None: ...

@@ -1,13 +1,10 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Errors that contactx raises, and how their messages say where something is."""
+"""Errors that contactx raises."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
-
-import numpy as np
-import numpy.typing as npt
 
 if TYPE_CHECKING:
     from contactx.report import Report
@@ -39,13 +36,3 @@ class ConvergenceError(RuntimeError):
     def __reduce__(self) -> tuple[type[ConvergenceError], tuple[str, Report], dict[str, object]]:
         """Copy it by what it was made of, to other ranks for example."""
         return type(self), (self.reason, self.report), self.__dict__
-
-
-def point_text(x: npt.NDArray[np.float64], size: float) -> str:
-    """Coordinates of a point in six digits, without what rounding has left of a zero.
-
-    Args:
-        x: Point, shape (gdim,).
-        size: Size of what it is a part of.
-    """
-    return f"({', '.join(f'{0.0 if abs(value) < 1e-9 * size else value:.6g}' for value in x)})"

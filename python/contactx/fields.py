@@ -16,7 +16,6 @@ from contactx.interface import Interface
 from contactx.nodal import matching_nodes
 from contactx.parallel.halo import Halo
 from contactx.parallel.reduce import total
-from contactx.parallel.slaves import SlaveNodes
 from dolfinx import fem
 
 type Array = npt.NDArray[np.float64]
@@ -38,7 +37,9 @@ class Fields:
             nodes' forces.
     """
 
-    def __init__(self, interface: Interface, V: fem.FunctionSpace, slaves: SlaveNodes, halo: Halo):
+    def __init__(
+        self, interface: Interface, V: fem.FunctionSpace, slaves: core.SlaveNodes, halo: Halo
+    ):
         """Create the functions.
 
         Args:

@@ -13,13 +13,11 @@ import numpy as np
 import numpy.typing as npt
 
 from contactx import cpp as core
-from contactx.errors import point_text
 from contactx.forms import ContactForms, State
 from contactx.nodal import NodalValue
 from contactx.parallel import reduce
 from contactx.parallel.agreement import agreed
 from contactx.parallel.halo import Halo, first_node
-from contactx.parallel.slaves import SlaveNodes
 from dolfinx import cpp
 
 
@@ -40,7 +38,7 @@ class Interface(core.Contact):
 
     def __init__(
         self,
-        slaves: SlaveNodes,
+        slaves: core.SlaveNodes,
         master: core.Master,
         halo: Halo,
         *,
@@ -181,7 +179,7 @@ def check_over_constrained(
             raise ValueError(
                 f"contact {k} ({names[k]}) is over-constrained: Dirichlet conditions constrain "
                 f"{count} slave nodes inside the rigid obstacle, first node {first} of the mesh as "
-                f"it was made, at {point_text(at, size)}. Take them out of the slave surface, "
+                f"it was made, at {core.point_text(at, size)}. Take them out of the slave surface, "
                 "release them along the obstacle's normal or prescribe values outside of it"
             )
 

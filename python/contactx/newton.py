@@ -232,8 +232,7 @@ class NewtonLoop:
     def _shorten(self, x: PETSc.Vec, step: PETSc.Vec) -> bool:
         """Shorten a Newton step before the line search; returns whether it may have changed."""
         # A line search of the user's would have nowhere to go
-        is_able = self.snes.getIterationNumber() > 0 and self._has_full_steps
-        if is_able and self._loop.softens(step.array_r):
+        if self._has_full_steps and self._loop.softens(step.array_r):
             step.zeroEntries()
         else:
             self._length.shorten(self.snes, x, step, self._function)

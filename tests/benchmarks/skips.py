@@ -182,7 +182,7 @@ def _search_anew() -> Iterator[None]:
                 master, slave = interface.master, interface.slave_nodes.facets
                 if isinstance(master, core.DeformableMaster):
                     x, closed = interface.positions(), interface.nodes.closed.astype(np.int8)
-                    lists = (slave.offsets, slave.nodes, *master.surface.facets)
+                    lists = (*slave, *master.surface.facets)
                     core.Pairing(*lists, x.shape[1]).update(x, master.reach, closed)
         read_values(self)
 

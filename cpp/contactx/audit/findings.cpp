@@ -19,33 +19,6 @@ contactx::audit::rows_of(std::span<const double> values,
   return rows;
 }
 
-FoundNodes contactx::audit::found_nodes(const parallel::Halo& halo,
-                                        std::span<const std::int32_t> nodes,
-                                        std::span<const double> x)
-{
-  parallel::Ranks& ranks = halo.ranks();
-  FoundNodes found;
-  found.count = parallel::total(ranks, std::ssize(nodes));
-  if (found.count == 0)
-    return found;
-  const auto original = halo.original();
-  std::int64_t mine = std::numeric_limits<std::int64_t>::max();
-  std::int32_t which = -1;
-  for (const std::int32_t node : nodes)
-    if (original[node] < mine)
-    {
-      mine = original[node];
-      which = node;
-    }
-  found.first = parallel::least(ranks, mine);
-  // One rank owns it
-  found.at.assign(halo.gdim(), 0);
-  if (which >= 0 and mine == found.first)
-    found.at = rows_of(x, std::span(&which, 1), halo.gdim());
-  ranks.reduce(std::span(found.at), parallel::Reduction::sum);
-  return found;
-}
-
 std::optional<Depth> contactx::audit::deepest(parallel::Ranks& ranks,
                                               const std::optional<Depth>& mine,
                                               int gdim)

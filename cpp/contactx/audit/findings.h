@@ -3,19 +3,14 @@
 
 #pragma once
 
-#include "../parallel/halo.h"
+#include "../parallel/found_nodes.h"
 #include <optional>
 
 /// @brief Whether a converged iterate is what it seems, by its geometry alone.
 namespace contactx::audit
 {
-/// @brief Nodes of all ranks; on each rank the same.
-struct FoundNodes
-{
-  std::int64_t count = 0;  ///< their number
-  std::int64_t first = -1; ///< the first one in the mesh as it was made
-  std::vector<double> at;  ///< where that one is (shape=(gdim)); empty for none
-};
+using parallel::found_nodes;
+using parallel::FoundNodes;
 
 /// @brief How deep a master is below a slave facet, between its nodes.
 struct Depth
@@ -73,14 +68,6 @@ public:
 /// @return Values (shape=(n, width)).
 std::vector<double> rows_of(std::span<const double> values,
                             std::span<const std::int32_t> nodes, int width);
-
-/// @brief The nodes that each rank found, together; all ranks must take part.
-/// @param[in] halo Nodes of this rank.
-/// @param[in] nodes Nodes that this rank owns.
-/// @param[in] x Positions of all nodes (shape=(num_nodes, gdim)), row-major.
-FoundNodes found_nodes(const parallel::Halo& halo,
-                       std::span<const std::int32_t> nodes,
-                       std::span<const double> x);
 
 /// @brief The depth of all ranks with the largest excess; all ranks must take
 /// part.

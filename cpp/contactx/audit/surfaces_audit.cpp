@@ -3,13 +3,13 @@
 
 #include "surfaces_audit.h"
 #include "../check.h"
+#include "../parallel/extent.h"
 #include "../parallel/spread.h"
 #include "passed_nodes.h"
 #include "penetration.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 using namespace contactx;
@@ -43,28 +43,6 @@ deformable(const contact::Contact& contact)
   return master;
 }
 
-/// Length of the longest side of the box around some nodes of all ranks.
-double extent_of(const parallel::Halo& halo,
-                 std::span<const std::int32_t> nodes)
-{
-  const int g = halo.gdim();
-  const auto x = halo.reference();
-  std::vector<double> corners(std::size_t(2) * g,
-                              -std::numeric_limits<double>::infinity());
-  for (const std::int32_t node : nodes)
-    for (int k = 0; k < g; ++k)
-    {
-      const double value = x[std::size_t(node) * g + k];
-      corners[k] = std::max(corners[k], -value);
-      corners[g + k] = std::max(corners[g + k], value);
-    }
-  halo.ranks().reduce(std::span(corners), parallel::Reduction::largest);
-  double extent = 0;
-  for (int k = 0; k < g; ++k)
-    extent = std::max(extent, corners[k] + corners[g + k]);
-  return extent;
-}
-
 /// Longest way of a node of facets.
 double longest_way_of(const facet::FacetList& facets,
                       std::span<const double> from, std::span<const double> to,
@@ -93,7 +71,9 @@ SurfacesAudit::SurfacesAudit(std::shared_ptr<parallel::Halo> halo,
                 _contact->slaves().facets().nodes),
       _outside_slave(_halo, _contact->slaves().own().offsets,
                      _contact->slaves().own().nodes),
-      _extent(extent_of(*_halo, _master->surface()->own().nodes)),
+      _extent(std::ranges::max(
+          parallel::extent(_halo->ranks(), _master->surface()->own().nodes,
+                           _halo->reference(), _halo->gdim()))),
       _behind(_contact->slaves().owned().size(), 0)
 {
   const auto n = std::size_t(_halo->num_nodes());

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "contact.h"
+#include "../parallel/extent.h"
 #include "../vec.h"
 #include "obstacle_pairs.h"
 #include <algorithm>
@@ -24,25 +25,6 @@ constexpr double mobile_part = 0.05;
 // Depth over the size of the slave surface that counts as inside, and movement
 // over it that counts as none
 constexpr double inside_part = 1e-9, moved_part = 1e-12;
-
-/// Largest edge of the box around points of all ranks; collective.
-double largest_extent(parallel::Ranks& ranks, std::span<const double> x,
-                      int gdim)
-{
-  constexpr double none = -std::numeric_limits<double>::infinity();
-  // Largest coordinates, and largest of their opposites
-  std::array<double, 6> ends{none, none, none, none, none, none};
-  for (std::size_t k = 0; k < x.size(); ++k)
-  {
-    ends[k % gdim] = std::max(ends[k % gdim], x[k]);
-    ends[3 + k % gdim] = std::max(ends[3 + k % gdim], -x[k]);
-  }
-  ranks.reduce(std::span<double>(ends), parallel::Reduction::largest);
-  double size = 0;
-  for (int k = 0; k < gdim; ++k)
-    size = std::max(size, ends[k] + ends[3 + k]);
-  return size;
-}
 
 kernel::Law kind_of(const law::Law& law)
 {
@@ -266,7 +248,8 @@ std::vector<std::int32_t> Contact::kept_inside(std::span<const double> x)
         gap = master->inside(x);
         at = at_slaves(x);
       });
-  const double size = largest_extent(_halo->ranks(), at, gdim());
+  const double size
+      = std::ranges::max(parallel::extent(_halo->ranks(), at, gdim()));
   std::vector<std::int32_t> nodes;
   for (std::size_t i = 0; i < gap.size(); ++i)
     if (_nodes->immobile[i] and gap[i] - _offset[i] < -inside_part * size)
@@ -279,8 +262,8 @@ bool Contact::moves_untold()
   const auto* master = dynamic_cast<const ObstacleMaster*>(_master.get());
   if (not master or not _is_active)
     return false;
-  const double size
-      = largest_extent(_halo->ranks(), at_slaves(_halo->reference()), gdim());
+  const double size = std::ranges::max(
+      parallel::extent(_halo->ranks(), at_slaves(_halo->reference()), gdim()));
   bool moves = false;
   _halo->ranks().agree([&]
                        { moves = master->moves_untold(moved_part * size); });

@@ -51,6 +51,7 @@ bool Loop::begin_step(bool damped)
   _start.assign(u.begin(), u.end());
   _last.reset();
   _balance.begin_step();
+  _has_stepped = false;
   _iterate = {};
   ++_version;
   if (not std::isfinite(_convergence.scale()))
@@ -118,6 +119,7 @@ Verdict Loop::judge(bool is_start, double rtol, double atol,
 {
   if (not is_start)
   {
+    _has_stepped = true;
     take_back();
     take_off_drift();
     settle(false);
@@ -209,6 +211,8 @@ bool Loop::compare(double rtol, double atol, std::span<double> b)
 
 bool Loop::softens(std::span<const double> dx)
 {
+  if (not _has_stepped)
+    return false;
   const auto& offsets = _system->offsets();
   const std::size_t n = _system->num_displacements();
   std::vector<double> step(dx.begin() + n, dx.end());

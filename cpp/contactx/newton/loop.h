@@ -110,6 +110,9 @@ public:
 
   /// @brief Whether a step that is about to be taken shall not be: contact
   /// becomes soft instead, see active_set::SoftPath.
+  ///
+  /// The first step of all is taken: it brings the displacements that are
+  /// prescribed, and what it opens says nothing.
   /// @param[in] dx What is to be taken off the unknowns (shape=(size)).
   bool softens(std::span<const double> dx);
 
@@ -157,6 +160,7 @@ private:
   active_set::BalanceGuard _balance;
   Iterate _iterate;
   std::int64_t _version = 0;
+  bool _has_stepped = false;
   // Displacements at the step's start
   std::vector<double> _start;
   // The iterate before with hard contact

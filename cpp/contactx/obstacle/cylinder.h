@@ -35,6 +35,7 @@ public:
   void evaluate(std::span<const double> x, int gdim, Geometry& at) override;
   Placement placement(int gdim) override;
   double size(int gdim) override;
+  std::string name() const override { return "Cylinder"; }
   std::string usual_mistake() const override;
 
 private:

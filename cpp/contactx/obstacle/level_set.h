@@ -57,6 +57,7 @@ public:
 
   bool tells_movement() const override { return false; }
   std::vector<double> parameters(int gdim) override;
+  std::string name() const override { return "LevelSet"; }
   std::string usual_mistake() const override;
 
 private:

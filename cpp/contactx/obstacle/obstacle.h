@@ -100,6 +100,12 @@ public:
   /// @brief Current values of what moves it although `placement` does not tell.
   virtual std::vector<double> parameters(int /*gdim*/) { return {}; }
 
+  /// @brief Whether its gap is linear in the position, as that of a plane.
+  virtual bool is_flat() const { return false; }
+
+  /// @brief What messages call its kind.
+  virtual std::string name() const { return "obstacle"; }
+
   /// @brief What is probably wrong where a whole body is inside: a sentence
   /// without its full stop.
   virtual std::string usual_mistake() const

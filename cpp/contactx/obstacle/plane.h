@@ -27,6 +27,8 @@ public:
   /// @copydoc Obstacle::evaluate; g = n . (x - point)
   void evaluate(std::span<const double> x, int gdim, Geometry& at) override;
   Placement placement(int gdim) override;
+  bool is_flat() const override { return true; }
+  std::string name() const override { return "Plane"; }
   std::string usual_mistake() const override;
 
 private:

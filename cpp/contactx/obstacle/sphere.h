@@ -30,6 +30,7 @@ public:
   void evaluate(std::span<const double> x, int gdim, Geometry& at) override;
   Placement placement(int gdim) override;
   double size(int gdim) override;
+  std::string name() const override { return "Sphere"; }
   std::string usual_mistake() const override;
 
 private:

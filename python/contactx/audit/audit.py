@@ -10,7 +10,6 @@ from contactx import cpp as core
 from contactx.audit.deformed_cells import DeformedCells
 from contactx.audit.findings import Findings
 from contactx.bulk import Bulk
-from contactx.errors import point_text
 from contactx.interface import Interface
 from contactx.parallel.agreement import agreed
 from contactx.parallel.halo import Halo
@@ -83,7 +82,7 @@ class Audit:
             return
         text = (
             f"{found.inverted} cells are turned inside out, the worst with det F = "
-            f"{found.smallest:.3g} at {point_text(found.at, self._size)} in the reference "
+            f"{found.smallest:.3g} at {core.point_text(found.at, self._size)} in the reference "
             "configuration. "
         )
         if self._bulk.is_linear:

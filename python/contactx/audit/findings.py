@@ -7,7 +7,6 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from contactx import cpp as core
-from contactx.errors import point_text
 from contactx.interface import Interface
 
 _FAR = (
@@ -73,7 +72,7 @@ class Findings:
         if found.passed.count > 0:
             self.faults.append(
                 f"{name}: {found.passed.count} nodes went through the other surface within the "
-                f"step, the first is at {point_text(found.passed.at, found.facet_size)}. Take "
+                f"step, the first is at {core.point_text(found.passed.at, found.facet_size)}. Take "
                 "smaller load steps"
             )
         advice = _UNPAIRED if interface.sliding == "small" else _FAR
@@ -89,8 +88,8 @@ class Findings:
         if inside.count > 0:
             self.faults.append(
                 f"{name}: {inside.count} slave nodes are inside the {what}, first node "
-                f"{inside.first} of the mesh as it was made, at {point_text(inside.at, size)}: "
-                f"{advice}"
+                f"{inside.first} of the mesh as it was made, at "
+                f"{core.point_text(inside.at, size)}: {advice}"
             )
 
     def _add_depth(
@@ -101,7 +100,8 @@ class Findings:
         if found.is_too_deep and worst is not None:
             self.faults.append(
                 f"{name}: the {what} reaches {worst.depth:.3g} deep through a slave facet of size "
-                f"{worst.size:.3g} {place} {point_text(worst.at, worst.size)}, between its nodes"
+                f"{worst.size:.3g} {place} {core.point_text(worst.at, worst.size)}, between its "
+                "nodes"
                 + ("" if worst.is_held else ", which are open")
                 + f": the slave surface is too coarse to see it. {advice}"
             )

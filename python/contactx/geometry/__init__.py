@@ -1,3 +1,3 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Shape of cells and facets, and how surfaces and bodies lie in the reference configuration."""
+"""Shape of the cells of a mesh, and of curved ones at contact surfaces."""

@@ -9,7 +9,7 @@ from itertools import product
 import numpy as np
 import numpy.typing as npt
 
-from contactx.errors import point_text
+from contactx import cpp as core
 from contactx.parallel import reduce
 from dolfinx import mesh
 from dolfinx.mesh import CellType
@@ -90,7 +90,7 @@ def check_cells(domain: mesh.Mesh) -> None:
         size = float(reduce.extent(domain.comm, geometry.x).max())
         raise ValueError(
             f"{count} cells of the mesh are degenerate: they have no volume, or are folded so that "
-            f"their Jacobian changes sign. The first is at {point_text(at, size)} and is cell "
+            f"their Jacobian changes sign. The first is at {core.point_text(at, size)} and is cell "
             f"{number} of the mesh as it was made: repair the mesh there. The vertices of "
             "quadrilaterals and hexahedra may be in another order than DOLFINx has: row by row, "
             "not round about"

@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 import basix
-from contactx.errors import point_text
+from contactx import cpp as core
 from contactx.parallel import reduce
 from contactx.surface import Surface
 from dolfinx import mesh
@@ -61,7 +61,7 @@ def _check_surface(name: str, surface: Surface, domain: mesh.Mesh) -> None:
     raise ValueError(
         f"{name} is curved: the mesh is of order {domain.geometry.cmaps[0].degree}, and {count} of "
         f"these facets have nodes up to {most:.3g} away from where straight ones have them, first "
-        f"at {point_text(place, extent)}. Contact and the linear displacement take facets as "
+        f"at {core.point_text(place, extent)}. Contact and the linear displacement take facets as "
         "straight: make the mesh of order 1, in gmsh by gmsh.model.mesh.setOrder(1), and finer "
         "where it is round"
     )

@@ -44,11 +44,6 @@ def norm(comm: MPI.Comm, *parts: npt.NDArray[np.float64]) -> float:
     return float(np.sqrt(total(comm, float(sum(np.dot(part, part) for part in parts)))))
 
 
-def gathered(comm: MPI.Comm, rows: npt.NDArray[Any]) -> npt.NDArray[Any]:
-    """Rows of all ranks, one rank's after the other's; for few of them."""
-    return rows if comm.size == 1 else np.concatenate(comm.allgather(rows))
-
-
 def extent(comm: MPI.Comm, x: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
     """Size of the box around points that each rank has some of; zero where there are none.
 

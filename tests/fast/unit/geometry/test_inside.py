@@ -149,7 +149,7 @@ def test_bodies_are_the_connected_parts(cell):
     np.testing.assert_array_equal(bodies.names, np.sort(names))
     np.testing.assert_array_equal(bodies.of_node, names[label])
     for name in names:
-        low, high = bodies.boxes(np.array([name]))
+        low, high = bodies.boxes_of(np.array([name]), x, gdim)
         np.testing.assert_array_equal(low[0], x[bodies.nodes(name)].min(axis=0))
         np.testing.assert_array_equal(high[0], x[bodies.nodes(name)].max(axis=0))
         assert set(cells[bodies.cells(name)].ravel()) == set(bodies.nodes(name))

@@ -1,0 +1,35 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#pragma once
+
+#include "../contact/slave_nodes.h"
+#include "../obstacle/obstacle.h"
+#include "mesh.h"
+
+namespace contactx::reference
+{
+/// @brief Check that neither body of a contact lies wholly inside the other
+/// one, where nothing can push it out; all ranks must take part.
+///
+/// Bodies may overlap in part, by however much.
+/// @param[in] mesh The mesh.
+/// @param[in] slave Slave surface.
+/// @param[in] master Master surface.
+/// @throws std::invalid_argument on all ranks if one does.
+void check_nested(const Mesh& mesh, const NamedSurface& slave,
+                  const NamedSurface& master);
+
+/// @brief Check that no slave body lies wholly inside a rigid obstacle; all
+/// ranks must take part.
+/// @param[in] mesh The mesh.
+/// @param[in] slaves Slave nodes.
+/// @param[in] name What messages call the slave surface.
+/// @param[in] gap Gaps of the owned slave nodes (shape=(n)).
+/// @param[in] obstacle The obstacle; what it throws on any rank is thrown on
+/// all of them.
+/// @throws std::invalid_argument on all ranks if one does.
+void check_outside(const Mesh& mesh, const contact::SlaveNodes& slaves,
+                   const std::string& name, std::span<const double> gap,
+                   obstacle::Obstacle& obstacle);
+} // namespace contactx::reference

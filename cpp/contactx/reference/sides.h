@@ -1,0 +1,85 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#pragma once
+
+#include "../contact/contact.h"
+#include "../contact/deformable_master.h"
+#include "../contact/obstacle_pairs.h"
+#include "../law/law.h"
+#include "mesh.h"
+#include <optional>
+
+namespace contactx::reference
+{
+/// @brief What a contact is measured between.
+enum class Method : std::int8_t
+{
+  node_to_surface,   ///< slave nodes and the facets that they project on
+  surface_to_surface ///< parts of slave facets and the facets in front of them
+};
+
+/// @brief How the master side of a contact is made.
+struct MasterOptions
+{
+  Method method = Method::node_to_surface;
+  contact::Sliding sliding = contact::Sliding::finite;
+  /// Largest distance of a pair. If there is none it is the diameter of the
+  /// larger surface, and unlimited for an obstacle
+  std::optional<double> search_distance;
+};
+
+/// @brief Slave nodes of a surface; all ranks must take part.
+/// @param[in,out] halo Nodes of this rank, to which those of facets around its
+/// own are added for good.
+/// @param[in] facets Facets of this rank's cells, each on one rank alone.
+/// @throws std::invalid_argument on all ranks if the facets of one are none of
+/// its nodes.
+std::shared_ptr<contact::SlaveNodes>
+make_slave_nodes(const std::shared_ptr<parallel::Halo>& halo,
+                 const facet::FacetList& facets);
+
+/// @brief Make the master side of a contact with a deformable body, without
+/// pairs yet; all ranks must take part.
+/// @param[in] mesh The mesh, whose halo may grow.
+/// @param[in] slaves Slave nodes, as `make_slave_nodes` makes them.
+/// @param[in] slave_name What messages call the slave surface.
+/// @param[in] master Master surface.
+/// @param[in] law Contact law.
+/// @param[in] options How it is made.
+/// @throws std::invalid_argument on all ranks if facets of any rank are
+/// degenerate or the slave surface is folded, if the surfaces share nodes that
+/// are no crack's tip, or a body lies wholly inside the other one.
+std::shared_ptr<contact::DeformableMaster>
+make_master(const Mesh& mesh, std::shared_ptr<const contact::SlaveNodes> slaves,
+            const std::string& slave_name, const NamedSurface& master,
+            const law::Law& law, const MasterOptions& options);
+
+/// @brief Make the master side of a contact with an obstacle, without pairs
+/// yet; all ranks must take part.
+/// @param[in] mesh The mesh.
+/// @param[in] slaves Slave nodes, as `make_slave_nodes` makes them.
+/// @param[in] slave_name What messages call the slave surface.
+/// @param[in] obstacle The obstacle, which gets to know the size of the slave
+/// surface. What it throws on any rank is thrown on all of them.
+/// @param[in] law Contact law.
+/// @param[in] options How it is made; sliding does not count here.
+/// @throws std::invalid_argument on all ranks if slave facets of any rank are
+/// degenerate, the obstacle's parameters do not fit, or a body lies wholly
+/// inside the obstacle.
+std::shared_ptr<contact::ObstacleMaster>
+make_master(const Mesh& mesh, std::shared_ptr<const contact::SlaveNodes> slaves,
+            const std::string& slave_name,
+            std::shared_ptr<obstacle::Obstacle> obstacle, const law::Law& law,
+            const MasterOptions& options);
+
+/// @brief Diameter of the larger of two surfaces: twice the largest distance
+/// of its nodes from their mean. All ranks must take part.
+///
+/// A body that has moved into another within one iteration must still be found.
+/// @param[in] halo Nodes of this rank.
+/// @param[in] slave Slave facets on this rank.
+/// @param[in] master Master facets on this rank.
+double default_reach(const parallel::Halo& halo, const facet::FacetList& slave,
+                     const facet::FacetList& master);
+} // namespace contactx::reference

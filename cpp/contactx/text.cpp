@@ -1,0 +1,26 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include "text.h"
+#include <array>
+#include <charconv>
+#include <cmath>
+
+std::string contactx::number_text(double value, int digits)
+{
+  if (std::isnan(value))
+    return "nan"; // Without a sign
+  std::array<char, 32> buffer;
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(),
+                                 value, std::chars_format::general, digits);
+  return {buffer.data(), end.ptr};
+}
+
+std::string contactx::point_text(std::span<const double> x, double size)
+{
+  std::string text;
+  for (const double value : x)
+    text += (text.empty() ? "" : ", ")
+            + number_text(std::abs(value) < 1e-9 * size ? 0 : value, 6);
+  return "(" + text + ")";
+}
