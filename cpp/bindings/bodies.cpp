@@ -85,22 +85,6 @@ void contactx_bindings::bodies(py::module_& m)
                          {2, bodies.size(), gdim});
           },
           py::arg("bodies"), py::arg("x"), py::arg("gdim"));
-  m.def(
-      "rigid_modes",
-      [](const Array<double>& d)
-      {
-        if (d.ndim() != 2)
-          throw std::invalid_argument("d must have a row for each point");
-        const int gdim = static_cast<int>(d.shape(1));
-        check::dimension(gdim);
-        py::array_t<double> modes(
-            {d.shape(0), py::ssize_t(gdim), py::ssize_t(num_modes(gdim))});
-        for (py::ssize_t i = 0; i < d.shape(0); ++i)
-          rigid_modes(d.data(i, 0), modes.mutable_data(i, 0, 0), gdim);
-        return modes;
-      },
-      py::arg("d"),
-      "Translations, then rotations about the origin, at some points");
   py::class_<RigidModes>(m, "RigidModes", "Rigid modes of bodies")
       .def(py::init(
                [](std::shared_ptr<Bodies> bodies, py::object bulk,

@@ -21,6 +21,10 @@ class Guess:
 
     Where the status has settled and the load grows evenly, the next step's increment is that of the
     last one but for a factor.
+
+    PETSc's guess after Fischer keeps products of the matrices that were: its preconditioner is
+    reused, so PETSc takes them for those of today's. With 20 vectors instead of these two it takes
+    up to 6 % more iterations, 2 % in the mean; without any guess it is 16 %.
     """
 
     def __init__(self) -> None:

@@ -10,8 +10,8 @@ from mpi4py import MPI
 from petsc4py import PETSc
 
 import numpy as np
+import numpy.typing as npt
 
-from contactx import cpp as core
 from contactx.bulk import Bulk
 from contactx.callback import Quiet, weakly
 from contactx.condensed.galerkin import Galerkin
@@ -176,14 +176,9 @@ class Multigrid:
         self.reset()
         P = self._bulk.copy()
         P.setBlockSize(self._x.shape[1])
-        vectors = []
+        # Rows of prescribed displacements have a one and no neighbours
         prescribed = self._bulk.markers[: self._x.size] == 1
-        for mode in near_null_space(self._x, self._comm):
-            vector = P.createVecRight()
-            # Rows of prescribed displacements have a one and no neighbours
-            vector.array[:] = np.where(prescribed, 0.0, mode)
-            vectors.append(vector)
-        P.setNearNullSpace(PETSc.NullSpace().create(vectors=vectors, comm=self._comm))
+        P.setNearNullSpace(near_null_space(self._x, prescribed, self._comm))
         ksp = PETSc.KSP().create(comm=self._comm)
         ksp.setOptionsPrefix(self._prefix)
         pc = ksp.getPC()
@@ -265,20 +260,24 @@ def _distance(operator: CondensedOperator, rhs: PETSc.Vec, v: PETSc.Vec) -> floa
     return float(residual.norm())
 
 
-def near_null_space(x: Array, comm: MPI.Comm) -> Array:
-    """Rigid modes of all nodes, orthonormal over all ranks, which must all take part.
+def near_null_space(x: Array, prescribed: npt.NDArray[np.bool_], comm: MPI.Comm) -> PETSc.NullSpace:
+    """Rigid modes of all nodes, zero where displacements are prescribed; all ranks must take part.
+
+    Hertz takes up to 15 % more iterations where they are not zero there.
 
     Args:
         x: Positions of the owned nodes, shape (num_owned, gdim).
+        prescribed: Whether a displacement is prescribed, shape (num_owned * gdim,).
         comm: Communicator.
 
     Returns:
-        Displacements of the owned nodes, shape (3 or 6, num_owned * gdim).
+        Three modes in the plane, six in space.
     """
+    # About the origin of a far body rotations are all but translations, and lost in rounding
     middle = reduce.total(comm, x.sum(axis=0)) / reduce.total(comm, len(x))
-    modes = core.rigid_modes(x - middle)
-    modes = modes.reshape(x.size, modes.shape[2])
-    modes /= np.sqrt(reduce.total(comm, (modes**2).sum(axis=0)))
-    gram = reduce.total(comm, modes.T @ modes)
-    basis: Array = np.linalg.solve(np.linalg.cholesky(gram), modes.T)
-    return basis
+    nodes = PETSc.Vec().createWithArray((x - middle).ravel(), bsize=x.shape[1], comm=comm)
+    # PETSc lets nobody change its own
+    modes = [mode.copy() for mode in PETSc.NullSpace().createRigidBody(nodes).getVecs()]
+    for mode in modes:
+        mode.array[prescribed] = 0
+    return PETSc.NullSpace().create(vectors=modes, comm=comm)

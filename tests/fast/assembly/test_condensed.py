@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """The condensed solver against a dense solution of the whole Jacobian."""
 
+from mpi4py import MPI
+
 import numpy as np
 import pytest
 import stacked_blocks
@@ -9,6 +11,7 @@ import stacked_blocks
 import ufl
 from contactx import cpp as core
 from contactx.condensed.galerkin import Galerkin
+from contactx.condensed.multigrid import near_null_space
 from contactx.condensed.solver import CondensedSolver
 from dolfinx.mesh import CellType
 
@@ -307,3 +310,19 @@ def test_coarse_levels_are_kept_while_contact_hardly_changes(monkeypatch):
         problem.solve()
         assert problem.report.iterations >= 3
         assert len(updates) == wanted
+
+
+@pytest.mark.parametrize("gdim", [2, 3])
+def test_rigid_modes_of_nodes_far_away(gdim):
+    rng = np.random.default_rng(3)
+    x = rng.random((40, gdim))
+    none = np.zeros(x.size, dtype=bool)
+    far = [mode.array for mode in near_null_space(x + 1e7, none, MPI.COMM_SELF).getVecs()]
+    assert np.allclose(far @ np.transpose(far), np.eye(gdim * (gdim + 1) // 2), atol=1e-12)
+    for mode in far:
+        # Distances stay
+        u, d = mode.reshape(x.shape), x[1:] - x[:-1]
+        assert np.allclose(np.sum((u[1:] - u[:-1]) * d, axis=1), 0, atol=1e-7)
+    held = rng.random(x.size) < 0.3
+    near = [mode.array for mode in near_null_space(x, held, MPI.COMM_SELF).getVecs()]
+    assert np.all(np.array(near)[:, held] == 0) and np.all(np.any(near, axis=1))
