@@ -120,6 +120,35 @@ def friction_is_negative(folder: Path) -> dict[str, Any]:
     return {"errors": _raised(domain.comm, problem.solve)}
 
 
+def law_of_friction_is_wrong(folder: Path) -> dict[str, Any]:
+    """Its bound is negative where one rank has slave nodes."""
+    scene = Blocks(QUADRILATERAL)
+    comm = scene.u.function_space.mesh.comm
+    signs = [0.3, 0.3]
+    law = cx.FrictionLaw(lambda p, s: signs[0] * p + 1e-3 * signs[1], lambda p, s: (signs[0], 0.0))
+    contact = scene.contact(friction=law)
+    problem = scene.problem(contact)
+    if comm.rank == _last_with_slaves(contact, comm):
+        signs[1] = -1.0
+    errors = _raised(comm, problem.solve)
+    signs[1] = 0.3
+    problem.solve()
+    return {"errors": errors, "converged": problem.report.converged}
+
+
+def calls_differ(folder: Path) -> dict[str, Any]:
+    """One rank goes on with a loop of its own that the others have ended."""
+    scene = Blocks(QUADRILATERAL)
+    comm = scene.u.function_space.mesh.comm
+    contact = scene.contact()
+    assembler = cx.ContactAssembler(scene.F, scene.u, contacts=[contact], bcs=scene.bcs)
+    assembler.begin_step()
+    assembler.settle()
+    last = comm.rank == comm.size - 1
+    call = assembler.accept if comm.size == 1 or not last else assembler.settle
+    return {"errors": _raised(comm, call)}
+
+
 def displacement_is_infinite(folder: Path) -> dict[str, Any]:
     """At one node of the last rank."""
     scene = Blocks(QUADRILATERAL)

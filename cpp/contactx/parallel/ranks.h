@@ -165,7 +165,8 @@ std::vector<T> gathered(Ranks& ranks, std::span<const T> values)
   if (ranks.size() == 1)
     return all;
   Messages out;
-  for (int r = 0; r < ranks.size(); ++r)
+  // Whoever has nothing says nothing
+  for (int r = 0; r < ranks.size() and not values.empty(); ++r)
     pack(out[r], values);
   all.clear();
   for (const auto& [r, bytes] : ranks.exchange(out))

@@ -52,11 +52,17 @@ struct Newton : SpringBodies
     iterates.push_back(std::move(x));
   }
 
+  /// Jacobian by the unknowns, which are lengths.
   dense::Matrix matrix() const
   {
     const auto& springs = loop->free_bodies().springs();
-    return jacobian(springs ? std::span<const double>(*springs)
-                            : std::span<const double>());
+    dense::Matrix J = jacobian(springs ? std::span<const double>(*springs)
+                                       : std::span<const double>());
+    const std::size_t n = system().num_displacements();
+    for (std::size_t i = 0; i < J.rows; ++i)
+      for (std::size_t k = n; k < J.cols; ++k)
+        J(i, k) *= system().factors()[k - n];
+    return J;
   }
 
   /// Solve a step as the loop's description says.
@@ -529,11 +535,20 @@ TEST(Loop, SoftContactGetsHardBeforeTheEnd)
   found.add<NodeToSurface>(found.law(0));
   found.begin();
   NodeState& nodes = *found.contacts[0]->nodes();
+  // The first step brings what is prescribed, and what it opens says nothing
+  const std::vector<double> none(found.system().size());
+  std::ranges::fill(nodes.status, law::slip);
+  std::vector<double> pull(none);
+  std::fill(pull.begin() + found.system().num_displacements(), pull.end(), 1);
+  EXPECT_FALSE(found.loop->softens(pull));
+  found.judge();
   std::ranges::fill(nodes.status, law::slip);
   // Bodies much softer than their surfaces: little pressure closes the gaps,
   // and most nodes would be pulled
   std::vector<double> dx(found.system().size());
-  std::fill(dx.begin() + found.system().num_displacements(), dx.end(), 1e-9);
+  const std::size_t n = found.system().num_displacements();
+  for (std::size_t i = n; i < dx.size(); ++i)
+    dx[i] = 1e-9 / found.system().factors()[i - n];
   const std::int64_t version = found.loop->version();
   std::vector<double> opposite = dx;
   for (double& v : opposite)

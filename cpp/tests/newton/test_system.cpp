@@ -203,6 +203,38 @@ TEST(System, ForcesAreThoseOfBulkAndContactsWithoutDirichletConditions)
   }
 }
 
+TEST(System, MultipliersAreSolvedForAsLengths)
+{
+  for (const int dim : {2, 3})
+  {
+    Hanging s(dim);
+    s.residual();
+    const std::size_t n = s.system->num_displacements();
+    std::vector<double> x(s.system->size()), before(x.size());
+    for (std::size_t i = n; i < x.size(); ++i)
+      x[i] = std::sin(1.0 + static_cast<double>(i));
+    const condense::ContactBlock block(s.contacts, s.scene.prescribed);
+    s.system->multiply(block, x, before);
+    for (const auto& c : s.contacts)
+      std::ranges::fill(c->nodes()->c, 5.0);
+    s.system->take_factors();
+    // The next power of two
+    for (const double factor : s.system->factors())
+      EXPECT_EQ(factor, 8);
+    std::vector<double> after(x.size()), back(x.size());
+    s.system->multiply(block, x, after);
+    for (std::size_t i = 0; i < x.size(); ++i)
+      EXPECT_NEAR(after[i], 8 * before[i], 1e-13 * std::abs(after[i]));
+    s.system->take(x);
+    std::size_t at = n;
+    for (const auto& c : s.contacts)
+      for (const double multiplier : c->nodes()->multiplier)
+        EXPECT_EQ(multiplier, 8 * x[at++]);
+    s.system->unknowns(back);
+    EXPECT_EQ(back, x);
+  }
+}
+
 TEST(System, MultipliesByTheContactsPartOfTheJacobian)
 {
   for (const int dim : {2, 3})

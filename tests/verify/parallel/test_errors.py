@@ -16,6 +16,7 @@ RAISED = {
     "level_set_throws": "Wrong: in a level set",
     "material_fails": "ConvergenceError: contact did not converge: the residual is not finite",
     "friction_is_negative": "ValueError: friction is -0.3",
+    "law_of_friction_is_wrong": "ValueError: the law of friction gives the bound -0.00",
     "displacement_is_infinite": "ValueError: the displacement u is not finite",
     "tag_is_missing": "ValueError: tag 99 is not in the facet tags; there are: 11, 12, 13, 14, 15, "
     "16, 21, 22, 23, 24, 25, 26",
@@ -40,7 +41,7 @@ def found(request, tmp_path_factory):
     def file(name):
         return folder / f"{name}-{ranks}.json"
 
-    names = [*RAISED, "nothing_in_reach"]
+    names = [*RAISED, "nothing_in_reach", "calls_differ"]
     wrong = launch_together(SCRIPT, ranks, folder, names, file)
     for text in wrong.values():
         print(text)
@@ -54,6 +55,18 @@ def test_all_ranks_raise(found, name):
     assert len(errors) == ranks
     assert len(set(errors)) == 1
     assert RAISED[name] in errors[0]
+
+
+def test_ranks_that_call_different_methods(found):
+    ranks, outcomes = found
+    errors = outcomes["calls_differ"]["errors"]
+    said = "RuntimeError: "
+    if ranks == 1:
+        said += "accept() of an iterate that is no solution"
+    else:
+        said += "ranks call different methods of a ContactAssembler: accept() on rank 0, "
+    assert len(errors) == ranks
+    assert all(error.startswith(said) for error in errors)
 
 
 def test_what_is_left_is_as_it_was(found):
