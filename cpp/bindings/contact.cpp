@@ -53,6 +53,10 @@ void contactx_bindings::contact(py::module_& m)
       .def(
           "set_offset", [](Contact& self, const Array<double>& offset)
           { self.set_offset(view(offset)); }, py::arg("offset"))
+      .def(
+          "set_prescribed",
+          [](Contact& self, const Array<std::int8_t>& prescribed)
+          { self.set_prescribed(view(prescribed)); }, py::arg("prescribed"))
       .def("begin_step", &Contact::begin_step)
       .def("accept", &Contact::accept)
       .def("rebuild", &Contact::rebuild)

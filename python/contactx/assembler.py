@@ -27,7 +27,7 @@ from contactx.bulk_input import (
     check_finite,
     check_forms,
     check_prescribed,
-    check_same_conditions,
+    have_changed,
 )
 from contactx.contact import Contact, check_contacts
 from contactx.errors import ConvergenceError, NotFiniteError
@@ -157,6 +157,8 @@ class ContactAssembler:
         self._has_modes = False
         self._A: PETSc.Mat | None = None
         self._condensed: Condensed | None = None
+        # What must be made anew where the Dirichlet conditions are others
+        self.solvers: list[Condensed | NewtonLoop] = []
         self._attached: NewtonLoop | None = None
 
     def create_vector(self) -> PETSc.Vec:
@@ -182,6 +184,7 @@ class ContactAssembler:
             condensed: Whether its preconditioner is contactx's condensed solver, which is exact.
         """
         self._attached = NewtonLoop(self, snes, condensed=condensed)
+        self.solvers.append(self._attached)
 
     @property
     def x(self) -> PETSc.Vec:
@@ -212,7 +215,8 @@ class ContactAssembler:
     def prepare(self) -> None:
         """Check what a step starts from, and remember it; ``begin_step`` does so."""
         self._before, self._has_begun = None, False
-        check_same_conditions(self._bcs, self.bulk.bcs, self._comm)
+        if have_changed(self._bcs, self.bulk.bcs, self._comm):
+            self._take_conditions()
         check_finite(self._comm, the_displacement_u_is=self.u.x)
         prescribed = self.bulk.prescribed()
         check_prescribed(prescribed, self.bulk.markers, self._comm)
@@ -220,6 +224,15 @@ class ContactAssembler:
         check_drag(self.interfaces, self.contacts)
         self._before = Snapshot(self.u, self.contacts, self.halo.update_ghosts)
         self.halo.update_ghosts()
+
+    def _take_conditions(self) -> None:
+        """Take the Dirichlet conditions that the user's list has now."""
+        check_conditions(self._bcs, self.u)
+        self.bulk.set_conditions(self._bcs)
+        for interface in self.interfaces:
+            interface.set_prescribed(self.bulk.markers)
+        for solver in self.solvers:
+            solver.reset()
 
     def start(self, report: Report) -> None:
         """Start a step that was prepared; ``begin_step`` does so.
@@ -409,6 +422,7 @@ class ContactAssembler:
         if self._condensed is None:
             prefix = ksp.getOptionsPrefix() or "contactx_"
             self._condensed = Condensed(self.bulk, self.system, self.bodies.x, prefix)
+            self.solvers.append(self._condensed)
             self._condensed.start(self.report)
         self._condensed.update(self.loop.free_bodies.springs)
         self._condensed.follow(self.loop)

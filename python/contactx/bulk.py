@@ -61,7 +61,6 @@ class Bulk:
         """
         self.u = u
         self.residual_form = F
-        self.bcs = list(bcs)
         V = u.function_space
         self.has_own_jacobian = J is not None
         if J is None:
@@ -85,10 +84,21 @@ class Bulk:
         self._symmetric: bool | None = None
         self._assembled_with: list[npt.NDArray[np.float64]] | None = None
         self.markers = np.zeros(len(u.x.array), dtype=np.int8)
-        for bc in self.bcs:
-            self.markers[bc.dof_indices()[0]] = 1
+        self.set_conditions(bcs)
         self.assemblies = 0
         self.skipped = 0
+
+    def set_conditions(self, bcs: Sequence[fem.DirichletBC]) -> None:
+        """Take other Dirichlet conditions from now on; all ranks must take part.
+
+        Args:
+            bcs: The conditions.
+        """
+        self.bcs = list(bcs)
+        self.markers[:] = 0
+        for bc in self.bcs:
+            self.markers[bc.dof_indices()[0]] = 1
+        self._assembled_with = None
 
     def residual(self) -> npt.NDArray[np.float64]:
         """Residual on this rank's dofs, without Dirichlet conditions; all ranks must take part."""

@@ -19,6 +19,7 @@ import basix.ufl
 import ffcx.options
 import ufl
 from contactx.parallel.agreement import agreed
+from contactx.parallel.reduce import anywhere
 from dolfinx import fem, jit, la
 
 
@@ -188,26 +189,17 @@ def check_conditions(bcs: Any, u: fem.Function) -> None:
             )
 
 
-def check_same_conditions(
+def have_changed(
     given: Sequence[fem.DirichletBC], taken: Sequence[fem.DirichletBC], comm: MPI.Comm
-) -> None:
-    """Check that the user's list of Dirichlet conditions is as it was when a problem was made.
+) -> bool:
+    """Whether the user's list of Dirichlet conditions is another one on any rank.
 
     Args:
         given: The list, as it is now.
         taken: The conditions of the problem.
         comm: Communicator.
-
-    Raises:
-        ValueError: If a condition has come, gone or been replaced on any rank, on all ranks.
     """
-    with agreed(comm):
-        if [id(bc) for bc in given] != [id(bc) for bc in taken]:
-            raise ValueError(
-                f"bcs has changed since the ContactProblem was made, from {len(taken)} conditions "
-                f"to {len(given)}: a problem keeps those that it was made with. Make another "
-                "ContactProblem, or change the values of conditions that are there"
-            )
+    return anywhere(comm, [id(bc) for bc in given] != [id(bc) for bc in taken])
 
 
 class _Wrapped:

@@ -121,6 +121,7 @@ class Condensed(LinearSolver):
         self._system = system
         self._solver = CondensedSolver(bulk, system, x, prefix + "condensed_")
         self._snes: PETSc.SNES | None = None
+        self._has_ended = True
         self._accuracy = core.Accuracy(any(i.history is not None for i in system.interfaces))
         size = system.x.getSizes()
         self._A = PETSc.Mat().createPython((size, size), self._called(), comm=system.x.comm)

@@ -61,7 +61,8 @@ class ContactProblem:
             contacts: Contacts of surfaces of the mesh with each other or with rigid obstacles. A
                 node may be slave in several.
             petsc_options_prefix: Prefix of the PETSc options, unique in the program.
-            bcs: Dirichlet conditions; none are needed where contact supports the bodies.
+            bcs: Dirichlet conditions; none are needed where contact supports the bodies. The list
+                may change between solves.
             J: Jacobian of F; derived if None.
             petsc_options: Options of SNES, its KSP and PC, without the prefix. ``snes_rtol``
                 (default 1e-11) is relative to the forces of the problem.
@@ -101,6 +102,7 @@ class ContactProblem:
         snes = PETSc.SNES().create(system.x.comm)
         snes.setOptionsPrefix(petsc_options_prefix)
         self._newton = NewtonLoop(self.assembler, snes, condensed=condensed)
+        self.assembler.solvers.append(self._newton)
         self._read_options = False
 
     @property
@@ -128,11 +130,10 @@ class ContactProblem:
         Raises:
             ConvergenceError: If the Newton loop fails. The displacement and the contacts are then
                 as they were before the call.
-            ValueError: If the list ``bcs`` has changed since the problem was made, ``u`` or a
-                Dirichlet value is not finite, friction, offset or an obstacle has become what it
-                must not be, a LevelSet with friction moves while it is touched, Dirichlet
-                conditions constrain a slave node inside a rigid obstacle, or PETSc refuses an
-                option.
+            ValueError: If a condition in ``bcs`` is of another space, ``u`` or a Dirichlet value is
+                not finite, friction, offset or an obstacle has become what it must not be, a
+                LevelSet with friction moves while it is touched, Dirichlet conditions constrain a
+                slave node inside a rigid obstacle, or PETSc refuses an option.
         """
         assembler = self.assembler
         assembler.prepare()

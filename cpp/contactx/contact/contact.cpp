@@ -113,7 +113,29 @@ void Contact::set_active(bool is_active)
   _evaluated_version = -1;
 }
 
+void Contact::set_prescribed(std::span<const std::int8_t> prescribed)
+{
+  _halo->ranks().agree(
+      [&]
+      {
+        require(prescribed.size() == _options.prescribed.size(),
+                "prescribed must have a value for each displacement of the "
+                "bulk");
+      });
+  _options.prescribed.assign(prescribed.begin(), prescribed.end());
+  find_free();
+  find_immobile();
+  ++_version;
+}
+
 void Contact::nodes_changed()
+{
+  find_free();
+  _master->nodes_changed();
+}
+
+/// Finds the displacements of all nodes that no Dirichlet condition prescribes.
+void Contact::find_free()
 {
   std::vector<std::int64_t> marks(std::size_t(_halo->num_nodes()) * gdim(), 0);
   std::copy_n(_options.prescribed.begin(),
@@ -122,7 +144,6 @@ void Contact::nodes_changed()
   _free.resize(marks.size());
   std::ranges::transform(marks, _free.begin(),
                          [](std::int64_t mark) { return mark == 0; });
-  _master->nodes_changed();
 }
 
 void Contact::begin_step()

@@ -122,6 +122,12 @@ public:
   /// @brief What is taken off the gap (shape=(n)).
   const std::vector<double>& offset() const { return _offset; }
 
+  /// @brief Take other Dirichlet conditions from now on.
+  /// @param[in] prescribed 1 at displacements with one, those of the bulk's
+  /// nodes (shape=(num_bulk, gdim)).
+  /// @throws std::invalid_argument on all ranks if there are not as many.
+  void set_prescribed(std::span<const std::int8_t> prescribed);
+
   /// @brief Start a step: pairs may change again, and in small sliding an
   /// obstacle may have moved.
   void begin_step();
@@ -197,6 +203,7 @@ private:
   int gdim() const { return _halo->gdim(); }
   std::vector<double> at_slaves(std::span<const double> x) const;
   void nodes_changed();
+  void find_free();
   void turn_tractions();
   void find_front();
   void take(std::vector<Pairs> pairs);

@@ -46,7 +46,7 @@ void System::take_factors()
     {
       int exponent = 0;
       std::frexp(factor, &exponent);
-      for (std::size_t k = 0; k < nodes.size(); ++k)
+      for (int k = 0; k < nodes.size(); ++k)
         _factors[at++] = std::ldexp(1.0, exponent);
     }
   }

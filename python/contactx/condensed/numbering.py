@@ -128,6 +128,10 @@ class Surroundings:
         self._system = system
         self._version = -1
 
+    def reset(self) -> None:
+        """Make all anew when asked for it next: prescribed displacements may be others."""
+        self._version = -1
+
     def rebuild(self) -> None:
         """Make all anew where the nodes of this rank have changed; all ranks must take part."""
         halo = self._system.halo

@@ -86,6 +86,7 @@ class CondensedSolver:
         What the failed step found of multigrid does not count either.
         """
         self._failures = self._failures_before
+        self._surroundings.reset()
         self._guess.reset()
         self._multigrid.reset()
         self._factorised.reset()
