@@ -188,3 +188,28 @@ def _search_anew() -> Iterator[None]:
 
     with _replaced(ContactAssembler, _read_values=search_too):
         yield
+
+
+SKIPS = {
+    "no tangential unknowns": Skip("friction 1e-8", scene=blocks, off={"friction": 1e-8}),
+    "no master side": Skip(
+        "a block of 1e6 E",
+        scene=on_plane,
+        scene_off=hertz,
+        off={"young": {Tag.LOWER: 1e6}},
+    ),
+    "only nodes in reach": Skip(
+        "all nodes have pairs",
+        scene=blocks,
+        on={"search_distance": 0.05, "sliding": "finite", "rounded": 0.5},
+        off={"search_distance": None},
+    ),
+    "bulk Jacobian once": Skip("assembled when u changes", replaced=_jacobian_each_time),
+    "hierarchies kept": Skip("one for each solve", "hierarchy", replaced=_hierarchy_each_time),
+    "matrix's pattern kept": Skip("a new one each time", on=DIRECT, replaced=_pattern_each_time),
+    "rough early solves": Skip("all to the tolerance", "Krylov", replaced=_exact),
+    "pairs kept, tree refitted": Skip(
+        "built, searched anew", "settle", on={"sliding": "finite"}, replaced=_search_anew
+    ),
+    "small sliding": Skip("finite sliding", off={"sliding": "finite"}),
+}

@@ -16,6 +16,7 @@ import pytest
 
 import contactx as cx
 from contactx.interrupts import Interrupts
+from contactx.state import Snapshot
 
 from scenes.steps import KINDS, Rubbing
 
@@ -165,14 +166,14 @@ def test_a_second_one_waits_until_the_state_is_back():
     before = scene.state()
     scene.update(0.25)
     with pytest.raises(KeyboardInterrupt), Counter(200, times=1) as counter:
-        restore = cx.problem.Snapshot.restore
+        restore = Snapshot.restore
 
         def pressed_again(snapshot):
             signal.raise_signal(signal.SIGINT)
             restore(snapshot)
 
         with pytest.MonkeyPatch.context() as patch:
-            patch.setattr(cx.problem.Snapshot, "restore", pressed_again)
+            patch.setattr(Snapshot, "restore", pressed_again)
             scene.problem.solve()
     assert counter.calls >= 200
     assert scene.state() == before
