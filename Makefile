@@ -43,7 +43,7 @@ PYTEST := exec $(RUN) $(BIN)/python -m pytest
 
 .DELETE_ON_ERROR:
 .PHONY: all demo test test-cpp test-fast verify stress leaks fuzz sanitize bench bench-core wheel \
-	lint format clean help
+	distribution lint format clean help
 
 all: $(INSTALLED)
 
@@ -59,6 +59,7 @@ help:
 	@echo "make fuzz     feed the C++ core a million random inputs a target (RUNS=...)"
 	@echo "make sanitize C++ tests and some Python tests with ASan and UBSan"
 	@echo "make wheel    an sdist and a wheel, which runs the quick start in an empty environment"
+	@echo "make distribution  install contactx beside Debian sid's DOLFINx and test it there; root"
 	@echo "make lint     check format, style and types"
 	@echo "make format   format C++ and Python"
 	@echo "make clean    remove everything that make made"
@@ -121,6 +122,10 @@ stress: $(INSTALLED)
 # In build/wheel; the environment there is made anew.
 wheel: $(DEPENDENCIES)
 	tools/wheel.sh $(BIN)/python
+
+# Debian sid in build/distribution: 5 GB, gone at the end (KEEP=1 keeps it)
+distribution:
+	tools/distribution.sh build/distribution
 
 # Memory of a process per run, every fiftieth step; fails where it grows.
 leaks: $(INSTALLED)

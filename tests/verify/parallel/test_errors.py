@@ -64,7 +64,7 @@ def test_ranks_that_call_different_methods(found):
     if ranks == 1:
         said += "accept() of an iterate that is no solution"
     else:
-        said += "ranks call different methods of a ContactAssembler: accept() on rank 0, "
+        said += "all ranks must call the same method of a ContactAssembler: accept() on rank 0, "
     assert len(errors) == ranks
     assert all(error.startswith(said) for error in errors)
 

@@ -1,0 +1,113 @@
+#!/bin/sh
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+#
+# Install contactx beside the DOLFINx of a distribution, Debian sid, as a user
+# of it would, and run the quick start and the Python tests there, on one rank
+# and on two.
+#
+# It needs root, debootstrap, 5 GB of disk and 15 minutes. Packages come from
+# where this machine's own come from. What it mounts it unmounts, and the folder
+# is removed at the end: KEEP=1 keeps it for the next run.
+#
+# Usage: tools/distribution.sh FOLDER
+set -eu
+
+cd "$(dirname "$0")/.."
+folder=$1
+wanted=0.11
+
+say() {
+	echo "distribution: $*"
+}
+
+fail() {
+	say "$*" >&2
+	exit 1
+}
+
+test "$(id -u)" = 0 || fail "needs root, for chroot and mount"
+command -v debootstrap > /dev/null || fail "needs debootstrap: apt-get install debootstrap"
+mkdir -p "$folder"
+folder=$(cd "$folder" && pwd)
+root=$folder/sid
+
+clean() {
+	for at in dev/shm dev/pts dev sys proc; do
+		if mountpoint -q "$root/$at"; then umount "$root/$at"; fi
+	done
+	# Nothing of this machine may be below it any more
+	if [ -z "${KEEP:-}" ] && ! grep -q " $root/" /proc/mounts; then rm -rf "$root"; fi
+}
+trap clean EXIT
+trap 'exit 1' INT TERM HUP
+
+inside() {
+	chroot "$root" /usr/bin/env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin LC_ALL=C.UTF-8 \
+		DEBIAN_FRONTEND=noninteractive OMP_NUM_THREADS=1 OMPI_ALLOW_RUN_AS_ROOT=1 \
+		OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 PRTE_MCA_rmaps_default_mapping_policy=:oversubscribe \
+		"$@"
+}
+
+if [ ! -e "$root/etc/debian_version" ]; then
+	mirror=$(awk '/^URIs:/ { print $2; exit } $1 == "deb" { print $2; exit }' \
+		/etc/apt/sources.list.d/debian.sources /etc/apt/sources.list 2> /dev/null)
+	test -n "$mirror" || fail "finds no Debian archive in this machine's apt sources"
+	say "sid into $root"
+	rm -rf "$root"
+	debootstrap --variant=minbase sid "$root" "$mirror" > "$folder/debootstrap.log" 2>&1 \
+		|| fail "debootstrap failed, see $folder/debootstrap.log"
+	# The archive may be a copy that is past its date
+	echo 'Acquire::Check-Valid-Until "false";' > "$root/etc/apt/apt.conf.d/99valid"
+fi
+for at in proc sys dev dev/pts; do
+	mountpoint -q "$root/$at" || mount --bind "/$at" "$root/$at"
+done
+mountpoint -q "$root/dev/shm" || mount -t tmpfs tmpfs "$root/dev/shm"
+cp /etc/resolv.conf "$root/etc/resolv.conf"
+
+inside apt-get update -qq
+version=$(inside apt-cache policy python3-dolfinx-real | awk '/Candidate:/ { print $2 }')
+case $version in
+*:$wanted.*) say "DOLFINx $version" ;;
+*) fail "sid has DOLFINx $version, and contactx is for $wanted: nothing to test here" ;;
+esac
+say "packages"
+inside apt-get install -y -qq --no-install-recommends python3-dolfinx-real libdolfinx-real-dev g++ \
+	cmake ninja-build python3-venv python3-pip python3-dev pybind11-dev python3-pybind11 \
+	python3-scikit-build-core python3-rich python3-pytest python3-pytest-xdist \
+	python3-hypothesis python3-scipy python3-gmsh python3-jinja2 python3-yaml python3-pyvista \
+	python3-matplotlib > "$folder/apt.log" 2>&1 || fail "apt-get failed, see $folder/apt.log"
+
+say "contactx, in a virtual environment with system packages"
+rm -rf "$root/root/contactx" "$root/root/venv"
+mkdir -p "$root/root/contactx"
+git ls-files -z | xargs -0 tar c | tar x -C "$root/root/contactx"
+inside python3 -m venv --system-site-packages /root/venv
+inside sh -c 'cd /root/contactx && /root/venv/bin/pip install --quiet --no-deps \
+	--no-build-isolation . && rm -rf build'
+
+say "quick start"
+awk '/^## Quick start/ { here = 1 } here && /^```$/ { exit } inside { print }
+	here && /^```python$/ { inside = 1 }' README.md > "$root/root/quick_start.py"
+for ranks in 1 2; do
+	inside sh -c "cd /root && mpiexec -n $ranks venv/bin/python quick_start.py > quick.log &&
+		grep 'force of contact' quick.log || tail -20 quick.log"
+done
+
+say "loops of one's own, on one rank and on two"
+for demo in own_newton own_snes arc_length; do
+	inside sh -c "cd /root/contactx/demos && /root/venv/bin/python $demo.py > /root/1.log &&
+		mpiexec -n 2 /root/venv/bin/python $demo.py > /root/2.log && tail -1 /root/1.log"
+	# To the digits printed, but for zeros
+	inside sh -c "diff /root/1.log /root/2.log > /root/diff.log || test $demo = own_snes"
+done
+
+say "tests"
+inside sh -c "cd /root/contactx && /root/venv/bin/python -m pytest -q -n $(nproc) tests/fast \
+	--ignore tests/fast/parallel --ignore tests/fast/demos" > "$folder/tests.log" 2>&1 || {
+	tail -60 "$folder/tests.log"
+	fail "tests failed, see $folder/tests.log"
+}
+tail -1 "$folder/tests.log"
+say "passed on DOLFINx $version"
