@@ -94,7 +94,8 @@ def main() -> None:
     scene = Scene()
     counts = solve(scene)
     force = scene.contact.force
-    story.console.print(f"iterations {counts}, force on the upper block {np.round(force, 6)}")
+    text = f"iterations {counts}, force on the upper block {np.round(force, 6)}"
+    story.console.print(text, highlight=False)
 
 
 if __name__ == "__main__":

@@ -75,7 +75,9 @@ def main() -> None:
     scene = Scene()
     report = solve(scene)
     if MPI.COMM_WORLD.rank == 0:
-        print(f"{report.iterations} iterations, force on the block {scene.contact.force}")
+        # Adding zero takes the sign off zeros
+        force = np.round(scene.contact.force, 6) + 0.0
+        print(f"{report.iterations} iterations, force on the block {force}")
 
 
 if __name__ == "__main__":
