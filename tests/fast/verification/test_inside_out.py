@@ -38,7 +38,7 @@ def test_load_steps_cut_until_it_is_right():
     for steps in (1, 4):
         pressed = HeldSheet(n=24, thickness=1.0, on_ground=True, material=st_venant_kirchhoff)
         for step in cx.LoadSteps(
-            pressed.problem, steps, update=lambda t, p=pressed: p.push(0.6 * t), progress=False
+            pressed.problem, steps, update=lambda t, p=pressed: p.push(0.45 * t), progress=False
         ):
             assert step.report.audit.inverted == 0
         forces.append(pressed.contact.force[1])
