@@ -92,7 +92,7 @@ std::shared_ptr<Contact> any_contact(Input& in, const Scene& scene,
       Contact::Options{sliding, has_means, std::move(prescribed), {}});
 }
 
-void check(const Contact& contact, const Scene& scene)
+void check_state(const Contact& contact, const Scene& scene)
 {
   const contact::NodeState& nodes = *contact.nodes();
   for (std::int32_t i = 0; i < nodes.num_nodes(); ++i)
@@ -180,7 +180,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
       {
         c->update_gap();
         c->law()->evaluate(*c->nodes());
-        check(*c, scene);
+        check_state(*c, scene);
       }
       eliminate(contacts, *halo, in);
       if (in.flag())
@@ -196,7 +196,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
         contacts[k]->master()->load(saved[k]);
         contacts[k]->rebuild();
       }
-      check(*contacts[k], scene);
+      check_state(*contacts[k], scene);
     }
   }
   return 0;
