@@ -207,7 +207,7 @@ def apart(
     *,
     radius: float | None,
     method: str,
-    size: float,
+    size: float | Callable[[Array], float],
 ) -> View:
     """Two bodies, neither inside the other.
 
@@ -217,7 +217,8 @@ def apart(
         master: The same for the master.
         radius: Radius of the rounder one where they touch; unknown if None.
         method: Method of the contact.
-        size: Size that nothing may be missed by: the thickness of a plate, the radius of a disc.
+        size: Size that nothing may be missed by: the thickness of a plate, the radius of a disc; a
+            function of the place where it deforms.
     """
     bodies = [parts.bodies[k].boundary for k, _ in (slave, master)]
     own, other = slave[1], master[1]
@@ -227,10 +228,7 @@ def apart(
         # Between the slave's nodes nothing is seen
         h = parts.lengths(own, x).max()
         least = min(h, float(np.median(parts.lengths(other, x))))
-        most = 2 * float(between(np.array([h]), radius, size, method)[0])
-        most = max(min(most, DEEP * h, 0.4 * size), DEEP * least)
-        first = max(float(unseen(np.array([h]), radius, size)[0]), DEEP * least)
-        deepest = 0.0
+        missed = False
         for (_, facets), body, name in (
             (slave, bodies[1], "slave"),
             (master, bodies[0], "master"),
@@ -239,10 +237,15 @@ def apart(
             if len(facets) == 0:
                 continue
             points = sampled(x, facets)[:, ::4].reshape(-1, x.shape[1])
-            deep = float(inside.depth(points, x, body).max(initial=0.0))
-            deepest = max(deepest, deep)
+            depths = inside.depth(points, x, body)
+            deep = float(depths.max(initial=0.0))
+            here = size(points[depths.argmax()]) if callable(size) else size
+            most = 2 * float(between(np.array([h]), radius, here, method)[0])
+            most = max(min(most, DEEP * h, 0.4 * here), DEEP * least)
+            first = max(float(unseen(np.array([h]), radius, here)[0]), DEEP * least)
+            missed = missed or deep > first
             yield Check(f"{name} is outside of the other body", deep / most, 1.0)
-        if deepest > first:
+        if missed:
             yield Check("the other body is not missed", float(not _force(parts) > 0), 0.5)
 
     return look

@@ -13,7 +13,7 @@ import numpy as np
 import contactx as cx
 
 from stress.families.grid import label, variants
-from stress.grids import disc, even, grid
+from stress.grids import Array, disc, even, grid
 from stress.outcome import taken
 from stress.parts import Parts
 from stress.scene import METHODS, Case, Scene
@@ -59,7 +59,14 @@ def _arch(
         if kind == "arch is the slave":
             surfaces, faces = surfaces[::-1], faces[::-1]
         contact = cx.Contact(*surfaces, method=method)
-        views.append(apart(parts, *faces, radius=_RADIUS, method=method, size=thick))
+
+        def thickness(at: Array) -> float:
+            """Of the arch where it is nearest: linear bodies may swell by much."""
+            x = parts.positions()[: 2 * (n + 1)].reshape(-1, 2, 2)
+            column = np.linalg.norm(x[:, 1] - at, axis=1).argmin()
+            return float(np.linalg.norm(x[column, 1] - x[column, 0]))
+
+        views.append(apart(parts, *faces, radius=_RADIUS, method=method, size=thickness))
         middle = int(np.argmin(np.linalg.norm(parts.x - at, axis=1)))
         views.append(stays(parts, lambda: parts.positions()[middle], face, (0.0, 20.0)))
 
