@@ -117,12 +117,14 @@ void contactx_bindings::obstacle(py::module_& m)
   py::class_<Sphere, Refreshed<Sphere>, Obstacle, std::shared_ptr<Sphere>>(
       m, "Sphere", "Ball, or all that is outside of one")
       .def(py::init<bool>())
-      .def("place", &Sphere::place);
+      .def("place", &Sphere::place, py::arg("centre"), py::arg("radius"),
+           py::arg("angle") = std::vector<double>{});
   py::class_<Cylinder, Refreshed<Cylinder>, Obstacle,
              std::shared_ptr<Cylinder>>(
       m, "Cylinder", "Endless circular cylinder, or all that is outside of one")
       .def(py::init<bool>())
-      .def("place", &Cylinder::place);
+      .def("place", &Cylinder::place, py::arg("point"), py::arg("axis"),
+           py::arg("radius"), py::arg("angle") = std::vector<double>{});
   py::class_<LevelSet, Obstacle, std::shared_ptr<LevelSet>>(
       m, "LevelSet", "Body where a function is negative")
       .def(py::init(

@@ -88,6 +88,8 @@ void ObstacleAudit::accept()
       {
         Places now = places(_halo->positions());
         _placed = _master->obstacle()->placement(gdim());
+        // Spin moves no shape
+        _placed.angle.clear();
         _normals = _master->obstacle()->evaluate(now.points, gdim()).normal;
         _before = std::move(now);
       });

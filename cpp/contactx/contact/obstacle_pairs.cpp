@@ -342,6 +342,8 @@ std::vector<Saved> ObstacleMaster::save() const
   saved.push_back({"point", global, 0, _placed.point});
   if (not _placed.direction.empty())
     saved.push_back({"direction", global, 0, _placed.direction});
+  if (not _placed.angle.empty())
+    saved.push_back({"angle", global, 0, _placed.angle});
   if (not _parameters.empty())
     saved.push_back({"parameters", global, 0, _parameters});
   return saved;
@@ -360,9 +362,11 @@ void ObstacleMaster::load(const std::vector<Saved>& saved)
     auto start = values_of_size(saved, "start", n, _gdim);
     auto x0 = values_of_size(saved, "x0", n, _gdim);
     auto gap0 = values_of_size(saved, "gap0", n, 1);
-    obstacle::Placement placed{values_of_size(saved, "point", 1, _gdim), {}};
+    obstacle::Placement placed{values_of_size(saved, "point", 1, _gdim)};
     if (has(saved, "direction"))
       placed.direction = values_of_size(saved, "direction", 1, _gdim);
+    if (has(saved, "angle"))
+      placed.angle = values_of<double>(saved, "angle");
     _parameters = has(saved, "parameters")
                       ? values_of<double>(saved, "parameters")
                       : std::vector<double>{};

@@ -17,8 +17,9 @@ Cylinder::Cylinder(std::vector<double> point, std::vector<double> axis,
 }
 
 void Cylinder::place(std::vector<double> point, std::vector<double> axis,
-                     double radius)
+                     double radius, std::vector<double> angle)
 {
+  _angle = std::move(angle);
   _point = std::move(point);
   _axis = std::move(axis);
   _radius = radius;
@@ -65,7 +66,9 @@ Placement Cylinder::placement(int gdim)
   read(gdim);
   const Vector<3> point = vector(_point, 3, "point of a Cylinder");
   const Vector<3> axis = direction(_axis, 3, "axis of a Cylinder");
-  return {{point.begin(), point.end()}, {axis.begin(), axis.end()}};
+  return {{point.begin(), point.end()},
+          {axis.begin(), axis.end()},
+          spun(_angle, 1, "angle of a Cylinder")};
 }
 
 double Cylinder::size(int gdim)

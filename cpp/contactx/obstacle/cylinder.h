@@ -26,8 +26,18 @@ public:
            bool hollow = false);
 
   /// @brief Move it; what does not fit is found where it is used.
-  void place(std::vector<double> point, std::vector<double> axis,
-             double radius);
+  /// @param[in] point A point of the axis (shape=(3)).
+  /// @param[in] axis Direction of the axis, of any length (shape=(3)).
+  /// @param[in] radius Radius.
+  /// @param[in] angle How far it has spun about its axis (shape=(1)); empty if
+  /// it does not.
+  /// @param[in] point A point of the axis (shape=(3)).
+  /// @param[in] axis Direction of the axis, of any length (shape=(3)).
+  /// @param[in] radius Radius.
+  /// @param[in] angle How far it has spun about its axis (shape=(1)); empty if
+  /// it does not.
+  void place(std::vector<double> point, std::vector<double> axis, double radius,
+             std::vector<double> angle = {});
 
   using Obstacle::evaluate;
   /// @copydoc Obstacle::evaluate; g is the distance from the axis less the
@@ -43,7 +53,7 @@ private:
   void read(int gdim);
 
   bool _hollow;
-  std::vector<double> _point, _axis;
+  std::vector<double> _point, _axis, _angle;
   double _radius = 0;
 };
 } // namespace contactx::obstacle

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "obstacle.h"
+#include <cmath>
 #include <stdexcept>
 
 using namespace contactx::obstacle;
@@ -13,6 +14,36 @@ void Geometry::resize(std::size_t n, int gdim)
   normal.resize(n * gdim);
   curvature.resize(n * gdim * gdim);
 }
+
+namespace
+{
+std::vector<double> product(const std::vector<double>& A,
+                            const std::vector<double>& B, std::size_t n)
+{
+  std::vector<double> C(n * n);
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t k = 0; k < n; ++k)
+      for (std::size_t j = 0; j < n; ++j)
+        C[n * i + j] += A[n * i + k] * B[n * k + j];
+  return C;
+}
+
+/// Rotation by a rotation vector: I + sin(a) K + (1 - cos(a)) K^2, with its
+/// length a and the cross product K of its direction.
+std::vector<double> rotation(std::span<const double> v)
+{
+  const double a = std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+  std::vector<double> R{1, 0, 0, 0, 1, 0, 0, 0, 1};
+  if (a == 0)
+    return R;
+  const double x = v[0] / a, y = v[1] / a, z = v[2] / a;
+  const std::vector<double> K{0, -z, y, z, 0, -x, -y, x, 0};
+  const std::vector<double> square = product(K, K, 3);
+  for (int i = 0; i < 9; ++i)
+    R[i] += std::sin(a) * K[i] + (1 - std::cos(a)) * square[i];
+  return R;
+}
+} // namespace
 
 std::vector<double> Placement::turn(const Placement& to) const
 {
@@ -48,11 +79,35 @@ std::vector<double> Placement::turn(const Placement& to) const
   return R;
 }
 
+/// Rotation of the material about the direction of another placement, or by the
+/// difference of rotation vectors.
+std::vector<double> Placement::spin(const Placement& to) const
+{
+  const std::size_t gdim = point.size();
+  if (gdim == 3 and angle.size() == 3)
+  {
+    std::vector<double> back = rotation(angle), R(9);
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        R[3 * i + j] = back[3 * j + i];
+    return product(rotation(to.angle), R, 3);
+  }
+  const double by = to.angle[0] - angle[0];
+  if (gdim == 2)
+    return {std::cos(by), -std::sin(by), std::sin(by), std::cos(by)};
+  std::vector<double> vector = to.direction;
+  for (double& component : vector)
+    component *= by;
+  return rotation(vector);
+}
+
 std::vector<double> Placement::carry(std::span<const double> x,
                                      const Placement& to) const
 {
   const std::size_t gdim = point.size();
-  const std::vector<double> R = turn(to);
+  std::vector<double> R = turn(to);
+  if (not angle.empty() and angle.size() == to.angle.size())
+    R = product(spin(to), R, gdim);
   std::vector<double> carried(x.size());
   for (std::size_t row = 0; row + gdim <= x.size(); row += gdim)
     for (std::size_t i = 0; i < gdim; ++i)

@@ -32,10 +32,14 @@ struct Placement
 {
   std::vector<double> point; ///< moves with it (shape=(gdim))
   /// Unit vector that turns with it (shape=(gdim)); empty where none is known
-  std::vector<double> direction;
+  std::vector<double> direction{};
+  /// How far its material has spun, in radians: in the plane counter-clockwise,
+  /// in space about the direction (shape=(1)), or, where there is none, by a
+  /// rotation vector (shape=(3)); empty if it does not spin
+  std::vector<double> angle{};
 
-  /// @brief Rotation to another placement, on the shortest way from one
-  /// direction to the other; nothing spins about it.
+  /// @brief Rotation of the obstacle's shape to another placement, on the
+  /// shortest way from one direction to the other; spin does not change it.
   /// @param[in] to The other placement.
   /// @return Rotation (shape=(gdim, gdim)), the identity where a direction is
   /// not known.
@@ -44,13 +48,16 @@ struct Placement
   std::vector<double> turn(const Placement& to) const;
 
   /// @brief Carry points of the obstacle's material from this placement to
-  /// another one.
+  /// another one, with its spin.
   /// @param[in] x Points (shape=(n, gdim)).
   /// @param[in] to The other placement.
   /// @return Points (shape=(n, gdim)).
   /// @throws std::invalid_argument as `turn`.
   std::vector<double> carry(std::span<const double> x,
                             const Placement& to) const;
+
+private:
+  std::vector<double> spin(const Placement& to) const;
 };
 
 /// @brief Rigid body, a master without degrees of freedom.

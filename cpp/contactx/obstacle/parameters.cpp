@@ -41,6 +41,22 @@ Vector<3> obstacle::vector(std::span<const double> value, int gdim,
   return v;
 }
 
+std::vector<double> obstacle::spun(std::span<const double> value, int size,
+                                   const char* name)
+{
+  const bool is_finite
+      = std::ranges::all_of(value, [](double v) { return std::isfinite(v); });
+  if (not is_finite or (not value.empty() and std::ssize(value) != size))
+    throw std::invalid_argument(
+        std::string(name) + " is " + text(value) + ": give "
+        + (size == 1 ? "a finite number"
+                     : std::to_string(size)
+                           + " finite numbers, a rotation "
+                             "vector")
+        + ", in radians");
+  return {value.begin(), value.end()};
+}
+
 Vector<3> obstacle::direction(std::span<const double> value, int gdim,
                               const char* name)
 {

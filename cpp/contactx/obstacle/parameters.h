@@ -6,6 +6,7 @@
 #include "../vec.h"
 #include <span>
 #include <string>
+#include <vector>
 
 /// @brief Values of an obstacle's parameters, checked when they are used: each
 /// function throws std::invalid_argument, which names the parameter.
@@ -26,6 +27,14 @@ Vector<3> vector(std::span<const double> value, int gdim, const char* name);
 /// @param[in] gdim Geometric dimension.
 /// @param[in] name Name of the parameter.
 Vector<3> direction(std::span<const double> value, int gdim, const char* name);
+
+/// @brief How far something has spun, in radians.
+/// @param[in] value Angle, or rotation vector; empty if it does not.
+/// @param[in] size Numbers that there must be, if there are any.
+/// @param[in] name Name of the parameter.
+/// @return The same.
+std::vector<double> spun(std::span<const double> value, int size,
+                         const char* name);
 
 /// @brief A positive number.
 double positive(double value, const char* name);

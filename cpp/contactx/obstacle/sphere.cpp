@@ -13,10 +13,12 @@ Sphere::Sphere(std::vector<double> centre, double radius, bool hollow)
 {
 }
 
-void Sphere::place(std::vector<double> centre, double radius)
+void Sphere::place(std::vector<double> centre, double radius,
+                   std::vector<double> angle)
 {
   _centre = std::move(centre);
   _radius = radius;
+  _angle = std::move(angle);
 }
 
 void Sphere::evaluate(std::span<const double> x, int gdim, Geometry& at)
@@ -46,7 +48,9 @@ Placement Sphere::placement(int gdim)
 {
   refresh(gdim);
   const Vector<3> centre = vector(_centre, gdim, "centre of a Sphere");
-  return {{centre.begin(), centre.begin() + gdim}, {}};
+  return {{centre.begin(), centre.begin() + gdim},
+          {},
+          spun(_angle, gdim == 2 ? 1 : 3, "angle of a Sphere")};
 }
 
 double Sphere::size(int gdim)

@@ -22,7 +22,11 @@ public:
   Sphere(std::vector<double> centre, double radius, bool hollow = false);
 
   /// @brief Move it; what does not fit is found where it is used.
-  void place(std::vector<double> centre, double radius);
+  /// @param[in] centre Centre (shape=(gdim)).
+  /// @param[in] radius Radius.
+  /// @param[in] angle How far it has spun, see Placement; empty if it does not.
+  void place(std::vector<double> centre, double radius,
+             std::vector<double> angle = {});
 
   using Obstacle::evaluate;
   /// @copydoc Obstacle::evaluate; g = |x - centre| - radius, or its opposite
@@ -35,7 +39,7 @@ public:
 
 private:
   bool _hollow;
-  std::vector<double> _centre;
+  std::vector<double> _centre, _angle;
   double _radius = 0;
 };
 } // namespace contactx::obstacle

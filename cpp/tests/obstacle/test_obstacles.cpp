@@ -4,6 +4,7 @@
 #include "generator.h"
 #include "obstacles.h"
 #include <gtest/gtest.h>
+#include <numbers>
 #include <stdexcept>
 
 using namespace contactx;
@@ -264,5 +265,55 @@ TEST(Placement, AHalfTurnHasNoShortestWay)
 {
   const Placement from{{0, 0}, {1, 0}}, to{{0, 0}, {-1, 0}};
   EXPECT_THROW(from.turn(to), std::invalid_argument);
+}
+
+void expect_near(const std::vector<double>& found,
+                 const std::vector<double>& expected)
+{
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t i = 0; i < found.size(); ++i)
+    EXPECT_NEAR(found[i], expected[i], 1e-14);
+}
+
+TEST(Placement, CarriesMaterialWithItsSpin)
+{
+  const double pi = std::numbers::pi;
+  // In the plane, counter-clockwise about a centre that moves
+  const Placement disc{{1, 2}, {}, {0.25}}, spun{{3, 2}, {}, {0.25 + pi / 2}};
+  expect_near(disc.carry(std::vector<double>{2, 2, 1, 5}, spun), {3, 3, 0, 2});
+  // About an axis that turns from z to x, then about x
+  const Placement rod{{0, 0, 0}, {0, 0, 1}, {1.0}};
+  const Placement turned{{0, 0, 0}, {1, 0, 0}, {1.0 + pi / 2}};
+  expect_near(rod.carry(std::vector<double>{0, 0, 2, 0, 1, 0}, turned),
+              {2, 0, 0, 0, 0, 1});
+  // By rotation vectors: half a turn about z after a quarter about x
+  const Placement ball{{0, 0, 0}, {}, {pi / 2, 0, 0}};
+  const Placement other{{0, 0, 0}, {}, {0, 0, pi}};
+  expect_near(ball.carry(std::vector<double>{0, 0, 1}, other), {0, -1, 0});
+  expect_near(other.carry(std::vector<double>{0, -1, 0}, ball), {0, 0, 1});
+  // The shape does not spin
+  expect_near(disc.turn(spun), {1, 0, 0, 1});
+  // What does not spin stays, whatever the other one does
+  const Placement still{{1, 2}, {}, {}};
+  expect_near(still.carry(std::vector<double>{2, 2}, spun), {4, 2});
+}
+
+TEST(Obstacles, SayHowFarTheyHaveSpun)
+{
+  Sphere sphere;
+  sphere.place({0, 0}, 1, {0.5});
+  EXPECT_EQ(sphere.placement(2).angle, std::vector{0.5});
+  sphere.place({0, 0, 0}, 1, {0.5, 0, 1});
+  EXPECT_EQ(sphere.placement(3).angle, (std::vector{0.5, 0.0, 1.0}));
+  sphere.place({0, 0}, 1, {0.5, 0, 1});
+  EXPECT_THROW(sphere.placement(2), std::invalid_argument);
+  sphere.place({0, 0, 0}, 1, {0.5});
+  EXPECT_THROW(sphere.placement(3), std::invalid_argument);
+  Cylinder cylinder;
+  cylinder.place({0, 0, 0}, {0, 0, 1}, 1, {0.5});
+  EXPECT_EQ(cylinder.placement(3).angle, std::vector{0.5});
+  cylinder.place({0, 0, 0}, {0, 0, 1}, 1,
+                 {std::numeric_limits<double>::quiet_NaN()});
+  EXPECT_THROW(cylinder.placement(3), std::invalid_argument);
 }
 } // namespace

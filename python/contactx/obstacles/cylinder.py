@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from contactx import cpp as core
 from contactx.arguments import check_switch
-from contactx.obstacles.parameters import Parameter, number, vector
+from contactx.obstacles.parameters import Parameter, angle, number, vector
 from dolfinx import fem
 
 
@@ -23,6 +23,7 @@ class Cylinder(core.Cylinder):
         radius: float | fem.Constant,
         *,
         hollow: bool = False,
+        angle: float | fem.Constant | None = None,
     ):
         """Create a cylinder.
 
@@ -31,6 +32,8 @@ class Cylinder(core.Cylinder):
             axis: Direction of the axis, of any length, shape (3,), numbers or a ``fem.Constant``.
             radius: Radius, a number or a ``fem.Constant``.
             hollow: False: bodies may be outside of the cylinder. True: inside, as in a pipe.
+            angle: How far it has spun about its axis, right-handed, in radians, which drags what
+                touches it by friction or ties. Spin by less than a right angle a step.
 
         Raises:
             TypeError: If hollow is neither True nor False.
@@ -40,6 +43,7 @@ class Cylinder(core.Cylinder):
         self.point = point
         self.axis = axis
         self.radius = radius
+        self.angle = angle
 
     def refresh(self, gdim: int) -> None:
         """Hand the current parameters to the core, which calls this before it uses them."""
@@ -47,4 +51,5 @@ class Cylinder(core.Cylinder):
             vector(self.point, gdim, "point of a Cylinder"),
             vector(self.axis, gdim, "axis of a Cylinder"),
             number(self.radius, "radius of a Cylinder"),
+            angle(self.angle, "angle of a Cylinder"),
         )

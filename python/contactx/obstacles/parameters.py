@@ -62,3 +62,19 @@ def number(value: float | fem.Constant, name: str) -> float:
     if not is_number(given):
         raise TypeError(f"{name} is {given!r}: give a positive number, or a fem.Constant of one")
     return float(given)
+
+
+def angle(value: Parameter | None, name: str) -> list[float]:
+    """Current value of an angle, or of a rotation vector.
+
+    Args:
+        value: Numbers or a constant, in radians; None where nothing spins.
+        name: Name of the parameter.
+
+    Returns:
+        The angle, or the components of the vector; nothing for None.
+
+    Raises:
+        TypeError: If it does not consist of real numbers.
+    """
+    return [] if value is None else vector(value, 1, name)

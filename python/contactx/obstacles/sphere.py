@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from contactx import cpp as core
 from contactx.arguments import check_switch
-from contactx.obstacles.parameters import Parameter, number, vector
+from contactx.obstacles.parameters import Parameter, angle, number, vector
 from dolfinx import fem
 
 
@@ -16,13 +16,23 @@ class Sphere(core.Sphere):
     Changing the value of a ``fem.Constant`` moves it.
     """
 
-    def __init__(self, centre: Parameter, radius: float | fem.Constant, *, hollow: bool = False):
+    def __init__(
+        self,
+        centre: Parameter,
+        radius: float | fem.Constant,
+        *,
+        hollow: bool = False,
+        angle: Parameter | None = None,
+    ):
         """Create a sphere.
 
         Args:
             centre: Centre, shape (gdim,), numbers or a ``fem.Constant``.
             radius: Radius, a number or a ``fem.Constant``.
             hollow: False: bodies may be outside of the sphere. True: inside, as in a bowl.
+            angle: How far it has spun, in radians, which drags what touches it by friction or ties:
+                in the plane counter-clockwise, a number or a ``fem.Constant``; in space a rotation
+                vector, shape (3,). Spin by less than a right angle a step.
 
         Raises:
             TypeError: If hollow is neither True nor False.
@@ -31,10 +41,12 @@ class Sphere(core.Sphere):
         super().__init__(bool(hollow))
         self.centre = centre
         self.radius = radius
+        self.angle = angle
 
     def refresh(self, gdim: int) -> None:
         """Hand the current parameters to the core, which calls this before it uses them."""
         self.place(
             vector(self.centre, gdim, "centre of a Sphere"),
             number(self.radius, "radius of a Sphere"),
+            angle(self.angle, "angle of a Sphere"),
         )
