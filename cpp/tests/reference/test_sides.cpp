@@ -138,6 +138,10 @@ TEST_P(Sides, SlipIsMeasuredAsLawAndSlidingNeedIt)
                   = make_master(mine.mesh(), slaves, "A", {"B", other.list()},
                                 law, {Method::node_to_surface, sliding, {}});
               const std::size_t n = slaves->owned().size();
+              // As a contact does where the search brings nodes of other ranks
+              const auto observer
+                  = mine.halo->on_change([&] { master->nodes_changed(); });
+              master->accept(mine.halo->positions());
               master->search(mine.halo->positions(),
                              std::vector<std::int8_t>(n, 0));
               master->begin_step();
