@@ -23,13 +23,13 @@ struct Options
 {
   /// Coulomb's coefficient; with nothing along the surface nothing is computed
   /// there, with zero it may become another one
-  std::optional<double> friction;
+  std::optional<double> friction = std::nullopt;
   Method method = Method::node_to_surface; ///< what the gap is measured between
   Sliding sliding = Sliding::finite;       ///< whether pairs follow the bodies
   bool tied = false; ///< whether slave nodes keep their place on the master
   /// Largest distance of a pair; the diameter of the larger surface if not
   /// given, unlimited for an obstacle
-  std::optional<double> search_distance;
+  std::optional<double> search_distance = std::nullopt;
   double offset = 0; ///< length that is taken off the gap
 };
 

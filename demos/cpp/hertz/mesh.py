@@ -12,7 +12,7 @@ from mpi4py import MPI
 from dolfinx import io
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
-import meshes  # noqa: E402
+import meshes
 
 
 def main(h: float = 0.05) -> None:
