@@ -77,6 +77,8 @@ void solve(const Scene& scene, const char* name, const cx::Contact::Master& to,
   cx::Assembler assembler(F, J, u, bcs, {contact});
   cx::petsc::OwnVec b(assembler.create_vector()), dx(assembler.create_vector());
   cx::petsc::OwnMat A(assembler.create_matrix());
+  // Sizes are others than those of the contact before
+  KSPReset(ksp);
   for (double way : {0.0, 0.03, -0.02})
   {
     push->value[0] = way;

@@ -60,7 +60,7 @@ def main() -> None:
     V = fem.functionspace(mesh, ("Lagrange", 1, (2,)))
     base = cx.Surface(tags, 21)
     plane = cx.Plane(point=[0.0, 0.0], normal=[0.0, 1.0])
-    disc = cx.Sphere(center=[1.5, -4.0], radius=4.0)
+    disc = cx.Sphere(centre=[1.5, -4.0], radius=4.0)
     mortar: dict[str, Any] = {"method": "surface-to-surface"}
     little = {"offset": 1e-8}
     rubs = {"friction": 0.3, **little}
