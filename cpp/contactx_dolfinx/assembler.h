@@ -5,6 +5,7 @@
 
 #include "contact.h"
 #include "jacobian.h"
+#include "snapshot.h"
 #include <contactx/audit/audit.h>
 #include <contactx/audit/deformed_cells.h>
 #include <contactx/newton/loop.h>
@@ -50,6 +51,10 @@ struct Settled : newton::Iterate
 ///       assembler.update(dx, assembler.limit(dx));
 ///     }
 ///     assembler.accept();
+///
+/// and where a ConvergenceError ends it `restore` goes back to the step's
+/// start. Pairs and status change at accepted iterates alone, no step turns
+/// cells inside out, and what has converged is looked at before it is accepted.
 ///
 /// All ranks must call all functions, in the same order.
 class Assembler
@@ -149,20 +154,41 @@ public:
   /// inside a rigid obstacle, or values of a contact do not fit.
   void begin_step()
   {
-    _has_begun = false;
+    _has_begun = _is_settled = _is_solution = false;
     _adapter->update_ghosts();
     read_values();
     check_kept();
-    if (not _loop->begin_step(false))
-      throw ConvergenceError("the residual is not finite at the start of the "
-                             "step: the material fails, or a load is not "
-                             "finite");
-    _audit->begin_step();
-    _loop->settle_first();
+    _before.emplace(*_u, _system->contacts());
+    try
+    {
+      if (not _loop->begin_step(false))
+        throw ConvergenceError("the residual is not finite at the start of the "
+                               "step: the material fails, or a load is not "
+                               "finite");
+      _audit->begin_step();
+      _loop->settle_first();
+    }
+    catch (...)
+    {
+      restore();
+      throw;
+    }
     pack();
     _number = 0;
     _has_begun = true;
-    _is_settled = _is_solution = false;
+  }
+
+  /// @brief Return to where the last step began, bit for bit, with all
+  /// contacts: where it does not converge, and shorter ones may.
+  void restore()
+  {
+    if (_before)
+      _before->restore(*_u, *_adapter);
+    pack();
+    _has_begun = _is_settled = _is_solution = false;
+    // A failed step may have found the rigid modes of a spoilt stiffness
+    if (not _has_accepted)
+      _loop->reset();
   }
 
   /// @brief Update pairs and active set at an accepted iterate, and judge its
@@ -262,6 +288,7 @@ public:
       contact->accept();
     _audit->accept();
     _has_begun = _is_settled = _is_solution = false;
+    _has_accepted = true;
   }
 
   /// @brief The core's loop.
@@ -422,7 +449,9 @@ private:
   std::unique_ptr<newton::Loop> _loop;
   std::unique_ptr<Jacobian> _jacobian;
   std::unique_ptr<petsc::OwnVec> _x;
+  std::optional<Snapshot> _before;
   int _number = 0;
-  bool _has_begun = false, _is_settled = false, _is_solution = false;
+  bool _has_accepted = false, _has_begun = false, _is_settled = false,
+       _is_solution = false;
 };
 } // namespace contactx::dolfinx

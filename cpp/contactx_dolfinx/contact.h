@@ -73,52 +73,16 @@ public:
   {
     if (_discrete)
       throw std::logic_error("the contact belongs to an Assembler already");
-    const facet::Facets slave = _slave.facet_nodes(V, halo->ranks());
-    const auto slaves = reference::make_slave_nodes(halo, slave.list());
-    std::shared_ptr<law::Law> law;
-    if (_options.tied)
-      law = std::make_shared<law::Tied>();
-    else if (_options.friction)
-      law = _coulomb = std::make_shared<law::Coulomb>();
-    else
-      law = std::make_shared<law::Frictionless>();
-
-    const reference::Mesh mesh{halo, bodies, bulk.all_cells(),
-                               bulk.nodes_per_cell()};
-    const reference::MasterOptions how{_options.method, _options.sliding,
-                                       _options.search_distance};
-    contact::Contact::Options options{
-        .sliding = _options.sliding,
-        .has_means = _options.method == Method::surface_to_surface,
-        .prescribed = bulk.all_markers(),
-        .shared = {}};
-    if (const auto* obstacle
-        = std::get_if<std::shared_ptr<obstacle::Obstacle>>(&_master))
+    try
     {
-      const auto master = reference::make_master(mesh, slaves, _slave.name(),
-                                                 *obstacle, *law, how);
-      _discrete = std::make_shared<contact::Contact>(halo, slaves, master, law,
-                                                     std::move(options));
+      make(halo, bodies, bulk, V);
+      return _discrete;
     }
-    else
+    catch (...)
     {
-      const Surface& surface = std::get<Surface>(_master);
-      const facet::Facets facets = surface.facet_nodes(V, halo->ranks());
-      const auto master
-          = reference::make_master(mesh, slaves, _slave.name(),
-                                   {surface.name(), facets.list()}, *law, how);
-      options.shared
-          = reference::shared_nodes(*halo, slaves->own(), facets.list());
-      options.shared.resize(halo->num_owned());
-      _discrete = std::make_shared<contact::Contact>(halo, slaves, master, law,
-                                                     std::move(options));
-      reference::check_facing(*halo, *slaves, _slave.name(), *master,
-                              surface.name());
+      detach();
+      throw;
     }
-    _recovery = std::make_unique<contact::Recovery>(slaves, halo->reference(),
-                                                    halo->gdim());
-    read_values();
-    return _discrete;
   }
 
   /// @brief Leave the Assembler, which is gone.
@@ -127,6 +91,7 @@ public:
     _discrete.reset();
     _recovery.reset();
     _coulomb.reset();
+    _is_read = false;
   }
 
   /// @brief Take another coefficient of friction, on all ranks, from the next
@@ -235,6 +200,57 @@ public:
   }
 
 private:
+  void make(const std::shared_ptr<parallel::Halo>& halo,
+            const std::shared_ptr<const contact::Bodies>& bodies,
+            const Bulk& bulk, const FunctionSpace& V)
+  {
+    const facet::Facets slave = _slave.facet_nodes(V, halo->ranks());
+    const auto slaves = reference::make_slave_nodes(halo, slave.list());
+    std::shared_ptr<law::Law> law;
+    if (_options.tied)
+      law = std::make_shared<law::Tied>();
+    else if (_options.friction)
+      law = _coulomb = std::make_shared<law::Coulomb>();
+    else
+      law = std::make_shared<law::Frictionless>();
+
+    const reference::Mesh mesh{halo, bodies, bulk.all_cells(),
+                               bulk.nodes_per_cell()};
+    const reference::MasterOptions how{_options.method, _options.sliding,
+                                       _options.search_distance};
+    contact::Contact::Options options{
+        .sliding = _options.sliding,
+        .has_means = _options.method == Method::surface_to_surface,
+        .prescribed = bulk.all_markers(),
+        .shared = {}};
+    if (const auto* obstacle
+        = std::get_if<std::shared_ptr<obstacle::Obstacle>>(&_master))
+    {
+      const auto master = reference::make_master(mesh, slaves, _slave.name(),
+                                                 *obstacle, *law, how);
+      _discrete = std::make_shared<contact::Contact>(halo, slaves, master, law,
+                                                     std::move(options));
+    }
+    else
+    {
+      const Surface& surface = std::get<Surface>(_master);
+      const facet::Facets facets = surface.facet_nodes(V, halo->ranks());
+      const auto master
+          = reference::make_master(mesh, slaves, _slave.name(),
+                                   {surface.name(), facets.list()}, *law, how);
+      options.shared
+          = reference::shared_nodes(*halo, slaves->own(), facets.list());
+      options.shared.resize(halo->num_owned());
+      _discrete = std::make_shared<contact::Contact>(halo, slaves, master, law,
+                                                     std::move(options));
+      reference::check_facing(*halo, *slaves, _slave.name(), *master,
+                              surface.name());
+    }
+    _recovery = std::make_unique<contact::Recovery>(slaves, halo->reference(),
+                                                    halo->gdim());
+    read_values();
+  }
+
   Surface _slave;
   Master _master;
   Options _options;

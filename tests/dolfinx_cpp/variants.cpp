@@ -4,6 +4,7 @@
 // Each kind of contact on the mesh of demos/cpp/sliding_block: prints what
 // variants.py prints, in the same digits on any number of ranks.
 
+#include "neo_hooke.h"
 #include "sliding_block.h"
 #include <basix/finite-element.h>
 #include <contactx/obstacle/plane.h>
@@ -46,17 +47,19 @@ double squares(std::span<const double> values)
 }
 
 void solve(const Scene& scene, const char* name, const cx::Contact::Master& to,
-           const cx::Options& options)
+           const cx::Options& options,
+           ufcx_form* residual = form_sliding_block_F,
+           ufcx_form* jacobian = form_sliding_block_J)
 {
   const auto& [mesh, tags, V, load, ksp] = scene;
   auto u = std::make_shared<fem::Function<T>>(V);
   const auto top = fem::compute_integration_domains(
       fem::IntegralType::exterior_facet, *mesh->topology(), tags->find(12));
   auto F = std::make_shared<fem::Form<T>>(fem::create_form<T>(
-      *form_sliding_block_F, {V}, {{"u", u}}, {{"load", load}},
+      *residual, {V}, {{"u", u}}, {{"load", load}},
       {{fem::IntegralType::exterior_facet, {{12, top}}}}, {}));
-  auto J = std::make_shared<fem::Form<T>>(fem::create_form<T>(
-      *form_sliding_block_J, {V, V}, {{"u", u}}, {}, {}, {}));
+  auto J = std::make_shared<fem::Form<T>>(
+      fem::create_form<T>(*jacobian, {V, V}, {{"u", u}}, {}, {}, {}));
   std::vector<std::shared_ptr<const fem::DirichletBC<T>>> bcs;
   auto fix = [&](int component, int face)
   {
@@ -77,22 +80,31 @@ void solve(const Scene& scene, const char* name, const cx::Contact::Master& to,
   cx::Assembler assembler(F, J, u, bcs, {contact});
   cx::petsc::OwnVec b(assembler.create_vector()), dx(assembler.create_vector());
   cx::petsc::OwnMat A(assembler.create_matrix());
+  auto iterate = [&]
+  {
+    assembler.F(assembler.x(), b.get());
+    assembler.J(assembler.x(), A.get());
+    KSPSetOperators(ksp, A.get(), A.get());
+    KSPSolve(ksp, b.get(), dx.get());
+    VecScale(dx.get(), -1);
+    assembler.update(dx.get(), assembler.limit(dx.get()));
+  };
   // Sizes are others than those of the contact before
   KSPReset(ksp);
   for (double way : {0.0, 0.03, -0.02})
   {
+    // A step too far, which is given up, leaves no trace
+    push->value[0] = 5 * way;
+    assembler.begin_step();
+    for (int k = 0; k < 2 and not assembler.settle().converged; ++k)
+      iterate();
+    assembler.restore();
+
     push->value[0] = way;
     assembler.begin_step();
     cx::Settled it;
     while (not(it = assembler.settle()).converged)
-    {
-      assembler.F(assembler.x(), b.get());
-      assembler.J(assembler.x(), A.get());
-      KSPSetOperators(ksp, A.get(), A.get());
-      KSPSolve(ksp, b.get(), dx.get());
-      VecScale(dx.get(), -1);
-      assembler.update(dx.get(), assembler.limit(dx.get()));
-    }
+      iterate();
     assembler.accept();
     const auto force = contact->force();
     const std::span<const double> all = u->x()->array();
@@ -160,6 +172,8 @@ int main(int argc, char* argv[])
           {.friction = 0.3, .method = mortar, .offset = offset});
     solve(scene, "disc", std::make_shared<obstacle::Sphere>(middle, 4.0),
           {.friction = 0.1, .offset = offset});
+    solve(scene, "neo-Hooke", base, {.friction = 0.3, .offset = offset},
+          form_neo_hooke_F, form_neo_hooke_J);
   }
   PetscFinalize();
   return 0;

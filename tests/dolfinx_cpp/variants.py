@@ -14,6 +14,7 @@ from mpi4py import MPI
 
 import numpy as np
 
+import ufl
 from dolfinx import fem, io
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "demos"))
@@ -28,11 +29,20 @@ def norm(values: Any) -> float:
     return float(np.sqrt(MPI.COMM_WORLD.allreduce(float((np.asarray(values) ** 2).sum()))))
 
 
+def neo_hooke(u: fem.Function) -> Any:
+    """Residual of a compressible neo-Hookean solid."""
+    F = ufl.Identity(2) + ufl.grad(u)
+    log = ufl.ln(ufl.det(F))
+    energy = 0.5 * (ufl.tr(F.T * F) - 2 - 2 * log) + log**2
+    return ufl.derivative(energy * ufl.dx, u)
+
+
 def solve(name: str, tags: Any, V: fem.FunctionSpace, master: Any, **options: Any) -> None:
     """Solve three steps and print their figures."""
     u = fem.Function(V)
     load = fem.Constant(V.mesh, np.array([0, -0.01]))
-    F = story.elasticity(u, 1.0, 0.3) + story.traction(u, tags, 12, load)
+    F = neo_hooke(u) if name == "neo-Hooke" else story.elasticity(u, 1.0, 0.3)
+    F += story.traction(u, tags, 12, load)
     push = story.fix(u, tags, 0, 0.0, 12)
     bcs = [*(story.fix(u, tags, i, 0.0, 22) for i in range(2)), push]
     contact = cx.Contact(slave=cx.Surface(tags, 11), master=master, **options)
@@ -74,6 +84,7 @@ def main() -> None:
     solve("plane", tags, V, plane, **rubs)
     solve("mortar plane", tags, V, plane, **mortar, **rubs)
     solve("disc", tags, V, disc, friction=0.1, **little)
+    solve("neo-Hooke", tags, V, base, **rubs)
 
 
 if __name__ == "__main__":
