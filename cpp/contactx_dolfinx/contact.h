@@ -120,7 +120,7 @@ public:
   /// them is not finite.
   void read_values()
   {
-    if (std::exchange(_is_read, true))
+    if (_is_read)
       return;
     if (not std::isfinite(_options.offset))
       throw std::invalid_argument("the offset of a contact is not finite");
@@ -128,6 +128,7 @@ public:
     if (_coulomb)
       _coulomb->set_friction(std::vector<double>(n, *_options.friction));
     discrete().set_offset(std::vector<double>(n, _options.offset));
+    _is_read = true;
   }
 
   /// @brief The core's side.
@@ -248,7 +249,8 @@ private:
     }
     _recovery = std::make_unique<contact::Recovery>(slaves, halo->reference(),
                                                     halo->gdim());
-    read_values();
+    // A rank without slave nodes finds nothing wrong
+    halo->ranks().agree([this] { read_values(); });
   }
 
   Surface _slave;
