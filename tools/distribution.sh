@@ -80,7 +80,7 @@ inside apt-get install -y -qq --no-install-recommends python3-dolfinx-real libdo
 	python3-matplotlib > "$folder/apt.log" 2>&1 || fail "apt-get failed, see $folder/apt.log"
 
 say "contactx, in a virtual environment with system packages"
-rm -rf "$root/root/contactx" "$root/root/venv"
+rm -rf "$root/root/contactx" "$root/root/venv" "$root/root/cpp"
 mkdir -p "$root/root/contactx"
 git ls-files -z | xargs -0 tar c | tar x -C "$root/root/contactx"
 inside python3 -m venv --system-site-packages /root/venv
@@ -103,10 +103,12 @@ for demo in own_newton own_snes arc_length; do
 done
 
 say "C++ on the distribution's DOLFINx"
-inside sh -c 'set -e && cd /root/contactx
+inside sh -c 'set -e
+	cd /root/contactx
 	build() { cmake --build "$1" -j "$(nproc)"; }
 	cmake -S . -B /root/cpp/core -G Ninja -DCONTACTX_PYTHON=OFF
-	build /root/cpp/core && cmake --install /root/cpp/core --prefix /root/cpp/installed
+	build /root/cpp/core
+	cmake --install /root/cpp/core --prefix /root/cpp/installed
 	for project in demos/cpp/hertz demos/cpp/sliding_block tests/dolfinx_cpp; do
 		cmake -S $project -B /root/cpp/$project -G Ninja -DCMAKE_BUILD_TYPE=Release \
 			-DCMAKE_PREFIX_PATH=/root/cpp/installed
@@ -116,7 +118,9 @@ inside sh -c 'set -e && cd /root/contactx
 	fail "the C++ layer does not build, see $folder/cpp.log"
 }
 # The same lines as Python's, on the same mesh files
-inside sh -c 'set -e && cd /root/cpp && python=/root/venv/bin/python here=/root/contactx
+inside sh -c 'set -e
+	cd /root/cpp
+	python=/root/venv/bin/python here=/root/contactx
 	for demo in hertz sliding_block; do
 		$python $here/demos/cpp/$demo/mesh.py
 		$python $here/tests/dolfinx_cpp/demos.py $demo > $demo.log
@@ -124,9 +128,11 @@ inside sh -c 'set -e && cd /root/cpp && python=/root/venv/bin/python here=/root/
 	$python $here/tests/dolfinx_cpp/variants.py > variants.log
 	for ranks in 1 2; do
 		for demo in hertz sliding_block; do
-			mpiexec -n $ranks demos/cpp/$demo/$demo > cpp.log && diff cpp.log $demo.log
+			mpiexec -n $ranks demos/cpp/$demo/$demo > cpp.log
+			diff cpp.log $demo.log
 		done
-		mpiexec -n $ranks tests/dolfinx_cpp/variants > cpp.log && diff cpp.log variants.log
+		mpiexec -n $ranks tests/dolfinx_cpp/variants > cpp.log
+		diff cpp.log variants.log
 		mpiexec -n $ranks tests/dolfinx_cpp/refusals
 	done' || fail "C++ and Python differ"
 

@@ -112,8 +112,13 @@ void solve(const Scene& scene, const char* name, const cx::Contact::Master& to,
         = {squares(all.first(2 * V->dofmap()->index_map->size_local())),
            squares(contact->multiplier()), squares(contact->pressure())};
     if (dolfinx::MPI::rank(MPI_COMM_WORLD) == 0)
-      std::printf("%s %d %.9f %.9f %.9f %.9f %.9f\n", name, it.number,
-                  force[0] + 0.0, force[1], norms[0], norms[1], norms[2]);
+    {
+      std::printf("%s %d", name, it.number);
+      for (double f : {force[0], force[1], norms[0], norms[1], norms[2]})
+        // Rounding has a sign
+        std::printf(" %.9f", std::abs(f) < 5e-10 ? 0.0 : f);
+      std::printf("\n");
+    }
   }
 }
 } // namespace

@@ -55,9 +55,11 @@ def solve(name: str, tags: Any, V: fem.FunctionSpace, master: Any, **options: An
         pressure = contact.pressure.x.array[contact.slave_nodes]
         owned = u.x.array[: 2 * V.dofmap.index_map.size_local]
         norms = [norm(owned), norm(contact.multiplier), norm(pressure)]
-        figures = [contact.force[0] + 0.0, contact.force[1], *norms]
+        figures = [*contact.force, *norms]
         if MPI.COMM_WORLD.rank == 0:
-            print(name, problem.report.iterations, *(f"{f:.9f}" for f in figures))
+            # Rounding has a sign
+            texts = (f"{0.0 if abs(f) < 5e-10 else f:.9f}" for f in figures)
+            print(name, problem.report.iterations, *texts)
 
 
 def main() -> None:
