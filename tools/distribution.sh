@@ -3,8 +3,8 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 #
 # Install contactx beside the DOLFINx of a distribution, Debian sid, as a user
-# of it would, and run the quick start and the Python tests there, on one rank
-# and on two.
+# of it would, and run the quick start, the C++ programs and the Python tests
+# there, on one rank and on two.
 #
 # It needs root, debootstrap, 5 GB of disk and 15 minutes. Packages come from
 # where this machine's own come from. What it mounts it unmounts, and the folder
@@ -80,7 +80,7 @@ inside apt-get install -y -qq --no-install-recommends python3-dolfinx-real libdo
 	python3-matplotlib > "$folder/apt.log" 2>&1 || fail "apt-get failed, see $folder/apt.log"
 
 say "contactx, in a virtual environment with system packages"
-rm -rf "$root/root/contactx" "$root/root/venv"
+rm -rf "$root/root/contactx" "$root/root/venv" "$root/root/cpp"
 mkdir -p "$root/root/contactx"
 git ls-files -z | xargs -0 tar c | tar x -C "$root/root/contactx"
 inside python3 -m venv --system-site-packages /root/venv
@@ -101,6 +101,40 @@ for demo in own_newton own_snes arc_length; do
 		mpiexec -n 2 /root/venv/bin/python $demo.py > /root/2.log && tail -1 /root/1.log"
 	inside diff /root/1.log /root/2.log || fail "$demo is another one on two ranks"
 done
+
+say "C++ on the distribution's DOLFINx"
+inside sh -c 'set -e
+	cd /root/contactx
+	build() { cmake --build "$1" -j "$(nproc)"; }
+	cmake -S . -B /root/cpp/core -G Ninja -DCONTACTX_PYTHON=OFF
+	build /root/cpp/core
+	cmake --install /root/cpp/core --prefix /root/cpp/installed
+	for project in demos/cpp/hertz demos/cpp/sliding_block tests/dolfinx_cpp; do
+		cmake -S $project -B /root/cpp/$project -G Ninja -DCMAKE_BUILD_TYPE=Release \
+			-DCMAKE_PREFIX_PATH=/root/cpp/installed
+		build /root/cpp/$project
+	done' > "$folder/cpp.log" 2>&1 || {
+	tail -40 "$folder/cpp.log"
+	fail "the C++ layer does not build, see $folder/cpp.log"
+}
+# The same lines as Python's, on the same mesh files
+inside sh -c 'set -e
+	cd /root/cpp
+	python=/root/venv/bin/python here=/root/contactx
+	for demo in hertz sliding_block; do
+		$python $here/demos/cpp/$demo/mesh.py
+		$python $here/tests/dolfinx_cpp/demos.py $demo > $demo.log
+	done
+	$python $here/tests/dolfinx_cpp/variants.py > variants.log
+	for ranks in 1 2; do
+		for demo in hertz sliding_block; do
+			mpiexec -n $ranks demos/cpp/$demo/$demo > cpp.log
+			diff cpp.log $demo.log
+		done
+		mpiexec -n $ranks tests/dolfinx_cpp/variants > cpp.log
+		diff cpp.log variants.log
+		mpiexec -n $ranks tests/dolfinx_cpp/refusals
+	done' || fail "C++ and Python differ"
 
 say "tests"
 inside sh -c "cd /root/contactx && /root/venv/bin/python -m pytest -q -n $(nproc) tests/fast \

@@ -1,0 +1,457 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#pragma once
+
+#include "contact.h"
+#include "jacobian.h"
+#include "snapshot.h"
+#include <contactx/audit/audit.h>
+#include <contactx/audit/deformed_cells.h>
+#include <contactx/newton/loop.h>
+#include <contactx/parallel/extent.h>
+#include <contactx/parallel/found_nodes.h>
+#include <contactx/text.h>
+
+/// @brief Contact beside the forms of DOLFINx 0.11, compiled in the program
+/// that uses it: an adapter of the core, without any rule of contact.
+namespace contactx::dolfinx
+{
+/// @brief No solution is to be expected any more in a step.
+class ConvergenceError : public std::runtime_error
+{
+public:
+  using std::runtime_error::runtime_error;
+};
+
+/// @brief An iterate whose pairs and active set are those of it, as all ranks
+/// see it.
+struct Settled : newton::Iterate
+{
+  int number = 0;         ///< linear solves so far
+  bool converged = false; ///< whether it is a solution
+};
+
+/// @brief The system of a bulk and its contacts, for a Newton loop of one's
+/// own.
+///
+/// The unknowns of a rank are the displacements of its nodes, as u has them,
+/// followed by the multipliers of its slave nodes, one contact after the other,
+/// divided by each node's factor c of the complementarity to be lengths, too.
+/// A loop reads
+///
+///     Vec x = assembler.x();
+///     assembler.begin_step();
+///     while (not assembler.settle().converged)
+///     {
+///       assembler.F(x, b);
+///       assembler.J(x, A);
+///       KSPSolve(ksp, b, dx);
+///       VecScale(dx, -1);
+///       assembler.update(dx, assembler.limit(dx));
+///     }
+///     assembler.accept();
+///
+/// and where a ConvergenceError ends it `restore` goes back to the step's
+/// start. Pairs and status change at accepted iterates alone, no step turns
+/// cells inside out, and what has converged is looked at before it is accepted.
+///
+/// All ranks must call all functions, in the same order.
+class Assembler
+{
+public:
+  /// @brief Couple a bulk with contacts.
+  /// @param[in] F Residual of the bulk, linear in its test function.
+  /// @param[in] J Its derivative by the displacement.
+  /// @param[in] u Displacement, in a linear Lagrange space of vectors.
+  /// @param[in] bcs Dirichlet conditions, whose values may change from step to
+  /// step.
+  /// @param[in] contacts Contacts, at least one.
+  /// @throws std::invalid_argument on all ranks if they do not fit.
+  Assembler(std::shared_ptr<const Form> F, std::shared_ptr<const Form> J,
+            std::shared_ptr<Function> u,
+            std::vector<std::shared_ptr<const DirichletBC>> bcs,
+            std::vector<std::shared_ptr<Contact>> contacts)
+      : _u(std::move(u)), _contacts(std::move(contacts))
+  {
+    if (_contacts.empty())
+      throw std::invalid_argument("an Assembler needs at least one contact");
+    const FunctionSpace& V = *_u->function_space();
+    check(V);
+
+    auto adapter = std::make_unique<HaloAdapter>(_u);
+    _adapter = adapter.get();
+    parallel::BulkNodes nodes = adapter->bulk_nodes();
+    _halo = std::make_shared<parallel::Halo>(std::move(nodes),
+                                             std::move(adapter));
+    _bulk = std::make_shared<Bulk>(std::move(F), std::move(J), _u,
+                                   std::move(bcs), _halo, *_adapter);
+    const auto& topology = *V.mesh()->topology();
+    const auto bodies = std::make_shared<contact::Bodies>(
+        _bulk->all_cells(), _bulk->nodes_per_cell(),
+        topology.index_map(topology.dim())->size_local(),
+        _halo->original().first(_halo->num_bulk()), _halo);
+    std::size_t count = 0;
+    try
+    {
+      newton::System::Contacts discrete;
+      for (; count < _contacts.size(); ++count)
+        discrete.push_back(_contacts[count]->attach(_halo, bodies, *_bulk, V));
+      _audit = std::make_unique<audit::Audit>(_halo, discrete);
+      _system
+          = std::make_shared<newton::System>(_halo, _bulk, std::move(discrete));
+      _loop = std::make_unique<newton::Loop>(_system, bodies);
+      _jacobian = std::make_unique<Jacobian>(_system, _bulk);
+      _x = std::make_unique<petsc::OwnVec>(create_vector());
+    }
+    catch (...)
+    {
+      for (std::size_t k = 0; k < count; ++k)
+        _contacts[k]->detach();
+      throw;
+    }
+  }
+
+  ~Assembler()
+  {
+    for (const auto& contact : _contacts)
+      contact->detach();
+  }
+  Assembler(const Assembler&) = delete;
+  Assembler& operator=(const Assembler&) = delete;
+
+  /// @brief A vector of all unknowns, which the caller destroys.
+  ::Vec create_vector() const
+  {
+    ::Vec x = nullptr;
+    petsc::check(VecCreateMPI(comm(), static_cast<PetscInt>(_system->size()),
+                              PETSC_DETERMINE, &x),
+                 "VecCreateMPI");
+    return x;
+  }
+
+  /// @brief A matrix of all unknowns for `J`, which the caller destroys.
+  ::Mat create_matrix() const
+  {
+    ::Mat A = nullptr;
+    const auto size = static_cast<PetscInt>(_system->size());
+    petsc::check(MatCreate(comm(), &A), "MatCreate");
+    petsc::check(MatSetSizes(A, size, size, PETSC_DETERMINE, PETSC_DETERMINE),
+                 "MatSetSizes");
+    petsc::check(MatSetType(A, MATAIJ), "MatSetType");
+    petsc::check(MatSetUp(A), "MatSetUp");
+    return A;
+  }
+
+  /// @brief The unknowns of now, as of the last `begin_step`, `settle` or
+  /// `update`. It belongs to the assembler.
+  ::Vec x() const { return _x->get(); }
+
+  /// @brief Start a load step from u, with the loads and Dirichlet values of
+  /// now.
+  /// @throws ConvergenceError if the residual is not finite.
+  /// @throws std::invalid_argument if Dirichlet conditions keep slave nodes
+  /// inside a rigid obstacle, or values of a contact do not fit.
+  void begin_step()
+  {
+    _has_begun = _is_settled = _is_solution = false;
+    _adapter->update_ghosts();
+    read_values();
+    check_kept();
+    _before.emplace(*_u, _system->contacts());
+    try
+    {
+      if (not _loop->begin_step(false))
+        throw ConvergenceError("the residual is not finite at the start of the "
+                               "step: the material fails, or a load is not "
+                               "finite");
+      _audit->begin_step();
+      _loop->settle_first();
+    }
+    catch (...)
+    {
+      restore();
+      throw;
+    }
+    pack();
+    _number = 0;
+    _has_begun = true;
+  }
+
+  /// @brief Return to where the last step began, bit for bit, with all
+  /// contacts: where it does not converge, and shorter ones may.
+  void restore()
+  {
+    if (_before)
+      _before->restore(*_u, *_adapter);
+    pack();
+    _has_begun = _is_settled = _is_solution = false;
+    // A failed step may have found the rigid modes of a spoilt stiffness
+    if (not _has_accepted)
+      _loop->reset();
+  }
+
+  /// @brief Update pairs and active set at an accepted iterate, and judge its
+  /// residual.
+  ///
+  /// The iterate may change by a little: where iterates go round, part of the
+  /// last step is taken back, and so is what free bodies have drifted by.
+  /// @param[in] rtol Tolerance relative to the forces of the problem.
+  /// @param[in] atol Absolute tolerance, a force.
+  /// @param[in] max_it Most linear solves of the step.
+  /// @throws ConvergenceError if no solution is to be expected any more.
+  Settled settle(double rtol = 1e-11, double atol = 0, int max_it = 50)
+  {
+    require(_has_begun, "settle() before begin_step()");
+    look_anew();
+    if (_number > 0)
+      read_values();
+    std::vector<double> b(_system->size());
+    const newton::Verdict verdict = _loop->judge(_number == 0, rtol, atol, b);
+    // Iterates may have been taken back
+    pack();
+    if (const char* failure = reason(verdict))
+      throw ConvergenceError(failure);
+    _is_solution = verdict == newton::Verdict::solution;
+    if (_is_solution)
+      look_at_solution();
+    else if (_number >= max_it)
+      throw ConvergenceError("no convergence in " + std::to_string(max_it)
+                             + " iterations: take smaller load steps");
+    _is_settled = true;
+    return {_loop->iterate(), _number, _is_solution};
+  }
+
+  /// @brief Assemble the residual of bulk and contacts. Rows of Dirichlet
+  /// conditions are displacements minus what is prescribed.
+  /// @param[in] x Unknowns: the state becomes this.
+  /// @param[out] b Residual.
+  void F(::Vec x, ::Vec b)
+  {
+    require(_has_begun, "F() before begin_step()");
+    take(x);
+    _system->residual(petsc::Values(b).span());
+  }
+
+  /// @brief Assemble the Jacobian of bulk and contacts: a saddle point.
+  ///
+  /// Its pattern is another one where pairs have changed, which KSP notices.
+  /// @param[in] x Unknowns: the state becomes this.
+  /// @param[out] A Jacobian, a matrix of `create_matrix`.
+  void J(::Vec x, ::Mat A)
+  {
+    require(_has_begun, "J() before begin_step()");
+    take(x);
+    _jacobian->assemble(A, _loop->free_bodies().springs());
+  }
+
+  /// @brief How much of a step may be taken.
+  ///
+  /// No cell may turn inside out. Zero means that contact becomes soft before
+  /// the next solve, where a step would open many nodes of slender bodies.
+  /// @param[in] dx What is to be added to the unknowns.
+  /// @return Part of it, at most 1.
+  double limit(::Vec dx)
+  {
+    require(_is_settled, "limit() before settle()");
+    const petsc::ConstValues values(dx);
+    std::vector<double> step(values.span().begin(), values.span().end());
+    for (double& s : step)
+      s = -s;
+    if (_loop->softens(step))
+      return 0;
+    const double size = _loop->size_of(step);
+    _loop->length().begin(size,
+                          std::isfinite(size) ? _loop->within_cells(step) : 1);
+    return _loop->length().part();
+  }
+
+  /// @brief Add a step to the unknowns: to u and the contacts' multipliers.
+  /// @param[in] dx The step.
+  /// @param[in] part Part of it.
+  void update(::Vec dx, double part = 1)
+  {
+    require(_has_begun, "update() before begin_step()");
+    petsc::check(VecAXPY(_x->get(), part, dx), "VecAXPY");
+    take(_x->get());
+    ++_number;
+    _is_settled = _is_solution = false;
+  }
+
+  /// @brief Take the solution as the start of the next step.
+  /// @throws std::logic_error if the iterate that has settled last is none.
+  void accept()
+  {
+    require(_is_solution, "accept() of an iterate that is no solution");
+    _loop->accept();
+    for (const auto& contact : _system->contacts())
+      contact->accept();
+    _audit->accept();
+    _has_begun = _is_settled = _is_solution = false;
+    _has_accepted = true;
+  }
+
+  /// @brief The core's loop.
+  const newton::Loop& loop() const { return *_loop; }
+
+private:
+  MPI_Comm comm() const { return _u->function_space()->mesh()->comm(); }
+
+  static void check(const FunctionSpace& V)
+  {
+    const auto& mesh = *V.mesh();
+    const int gdim = mesh.geometry().dim(), tdim = mesh.topology()->dim();
+    const auto dofs = V.dofmap()->map();
+    const int vertices
+        = ::dolfinx::mesh::cell_num_entities(mesh.topology()->cell_type(), 0);
+    if (gdim != tdim or gdim < 2)
+      throw std::invalid_argument("contact needs plane cells in the plane or "
+                                  "solid ones in space");
+    if (V.dofmap()->bs() != gdim or static_cast<int>(dofs.extent(1)) != vertices
+        or V.element()->needs_dof_transformations())
+      throw std::invalid_argument("the displacement must be of a linear "
+                                  "Lagrange space of vectors");
+    if (mesh.geometry().cmaps().front().degree() != 1)
+      throw std::invalid_argument("contact needs cells with straight edges");
+  }
+
+  static void require(bool is_in_order, const char* what)
+  {
+    if (not is_in_order)
+      throw std::logic_error(what);
+  }
+
+  static const char* reason(newton::Verdict verdict)
+  {
+    switch (verdict)
+    {
+    case newton::Verdict::hidden:
+      return "pairs went back and forth between facets and were frozen, and "
+             "hide a penetration: refine the coarser surface there, or take "
+             "smaller load steps";
+    case newton::Verdict::ran_away:
+      return "a body that nothing holds has left the scene: support it";
+    case newton::Verdict::unbalanced:
+      return "the loads on a body cannot be balanced: it has no support and "
+             "nothing is in its way, or friction barely could";
+    case newton::Verdict::not_finite:
+      return "the residual is not finite: the material fails, or a body is "
+             "free to move without touching anything";
+    case newton::Verdict::stuck:
+      return "no step is short enough to lead on: take smaller load steps";
+    default:
+      return nullptr;
+    }
+  }
+
+  /// Take what a user may have changed since the last call.
+  void look_anew()
+  {
+    _adapter->update_ghosts();
+    _system->begin_step();
+  }
+
+  void read_values()
+  {
+    _halo->ranks().agree(
+        [this]
+        {
+          for (const auto& contact : _contacts)
+            contact->read_values();
+        });
+  }
+
+  void pack() { _system->unknowns(petsc::Values(_x->get()).span()); }
+
+  void take(::Vec x)
+  {
+    const petsc::ConstValues values(x);
+    _system->take(values.span());
+  }
+
+  /// Dirichlet conditions must keep no slave node inside a rigid obstacle.
+  void check_kept()
+  {
+    std::vector<double> x = _bulk->prescribed();
+    const std::span<const double> X = _halo->reference();
+    for (std::size_t i = 0; i < x.size(); ++i)
+      x[i] += X[i];
+    for (const auto& contact : _system->contacts())
+    {
+      const auto found
+          = parallel::found_nodes(*_halo, contact->kept_inside(x), X);
+      if (found.count == 0)
+        continue;
+      const Vector<3> size = parallel::extent(
+          _halo->ranks(), contact->slaves().owned(), X, _halo->gdim());
+      throw std::invalid_argument(
+          "Dirichlet conditions constrain " + std::to_string(found.count)
+          + " slave nodes inside a rigid obstacle, the first at "
+          + point_text(found.at, *std::ranges::max_element(size))
+          + ": take them out of the slave surface, or prescribe values outside "
+            "of it");
+    }
+  }
+
+  /// What the residual does not say, geometry does.
+  void look_at_solution()
+  {
+    const double size = [this]
+    {
+      const auto sizes = parallel::extent(
+          _halo->ranks(),
+          _halo->reference().first(_system->num_displacements()),
+          _halo->gdim());
+      return *std::ranges::max_element(sizes);
+    }();
+    const auto looks = _audit->look();
+    for (std::size_t k = 0; k < looks.size(); ++k)
+    {
+      const audit::Findings& found = looks[k];
+      if (not found.is_fault())
+        continue;
+      std::string text = "contact " + std::to_string(k) + ": ";
+      if (found.passed.count > 0)
+        text += std::to_string(found.passed.count)
+                + " nodes went through the other surface within the step";
+      else if (found.inside.count > 0)
+        text += std::to_string(found.inside.count)
+                + " slave nodes are inside the master without a pair, the "
+                  "first at "
+                + point_text(found.inside.at, size);
+      else
+        text += "the master reaches " + number_text(found.deepest->depth, 3)
+                + " deep through a slave facet, between its nodes, at "
+                + point_text(found.deepest->at, found.deepest->size)
+                + ": the slave surface is too coarse to see it";
+      throw ConvergenceError(text + ". Take smaller load steps, or refine");
+    }
+    if (_bulk->is_linear())
+      return;
+    const auto cells = audit::deformed_cells(
+        _bulk->cells(), _bulk->nodes_per_cell(), _halo->reference(),
+        _halo->displacement(), _halo->gdim());
+    if (const auto inverted = parallel::total(_halo->ranks(), cells.inverted);
+        inverted > 0)
+      throw ConvergenceError(std::to_string(inverted)
+                             + " cells are turned inside out: take smaller "
+                               "load steps");
+  }
+
+  std::shared_ptr<Function> _u;
+  std::vector<std::shared_ptr<Contact>> _contacts;
+  std::shared_ptr<parallel::Halo> _halo;
+  // The halo has it
+  HaloAdapter* _adapter = nullptr;
+  std::shared_ptr<Bulk> _bulk;
+  std::shared_ptr<newton::System> _system;
+  std::unique_ptr<audit::Audit> _audit;
+  std::unique_ptr<newton::Loop> _loop;
+  std::unique_ptr<Jacobian> _jacobian;
+  std::unique_ptr<petsc::OwnVec> _x;
+  std::optional<Snapshot> _before;
+  int _number = 0;
+  bool _has_accepted = false, _has_begun = false, _is_settled = false,
+       _is_solution = false;
+};
+} // namespace contactx::dolfinx

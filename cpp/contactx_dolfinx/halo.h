@@ -1,0 +1,197 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#pragma once
+
+#include "ranks.h"
+#include <contactx/parallel/halo.h>
+#include <dolfinx/common/IndexMap.h>
+#include <dolfinx/fem/DofMap.h>
+#include <dolfinx/fem/Function.h>
+#include <dolfinx/fem/FunctionSpace.h>
+#include <dolfinx/la/Vector.h>
+#include <dolfinx/mesh/Mesh.h>
+#include <functional>
+#include <map>
+#include <memory>
+#include <numeric>
+#include <vector>
+
+namespace contactx::dolfinx
+{
+/// Functions of the displacement's kind
+using Function = ::dolfinx::fem::Function<double>;
+/// Their spaces
+using FunctionSpace = ::dolfinx::fem::FunctionSpace<double>;
+
+/// @brief Number of this rank's nodes of a space, ghosts included.
+inline std::int32_t num_nodes(const FunctionSpace& V)
+{
+  const auto& map = *V.dofmap()->index_map;
+  return map.size_local() + map.num_ghosts();
+}
+
+/// @brief Call a function with each node of a linear space and its number in
+/// the mesh's geometry.
+template <class F>
+void for_each_node(const FunctionSpace& V, F&& visit)
+{
+  const auto dofs = V.dofmap()->map();
+  // Vertices come first in the geometry of a cell
+  const auto points = V.mesh()->geometry().dofmaps().front();
+  for (std::size_t c = 0; c < dofs.extent(0); ++c)
+    for (std::size_t i = 0; i < dofs.extent(1); ++i)
+      visit(dofs(c, i), points(c, i));
+}
+
+/// @brief Positions of the nodes of a linear space, ghosts included
+/// (shape=(num_nodes, gdim)).
+///
+/// They are the mesh's own to the last bit. What DOLFINx evaluates differs by
+/// rounding from cell to cell, and with it which of two facets is the nearer
+/// one would depend on the ranks.
+inline std::vector<double> reference_positions(const FunctionSpace& V)
+{
+  const auto& geometry = V.mesh()->geometry();
+  const int gdim = geometry.dim();
+  std::vector<double> x(std::size_t(num_nodes(V)) * gdim);
+  for_each_node(V,
+                [&](std::int32_t node, std::int32_t point)
+                {
+                  std::copy_n(geometry.x().begin() + 3 * point, gdim,
+                              x.begin() + gdim * node);
+                });
+  return x;
+}
+
+/// @brief Nodes of a displacement, as a halo needs them of whoever has the
+/// bulk.
+class HaloAdapter final : public parallel::HaloAdapter
+{
+public:
+  /// @brief Start with the bulk's nodes alone; all ranks must take part.
+  /// @param[in] u Displacement, in a linear Lagrange space.
+  explicit HaloAdapter(std::shared_ptr<Function> u)
+      : _u(std::move(u)), _map(_u->function_space()->dofmap()->index_map),
+        _gdim(_u->function_space()->mesh()->geometry().dim()),
+        _ranks(_map->comm())
+  {
+    set_ghosts({}, {});
+  }
+
+  /// @brief The nodes of the bulk.
+  parallel::BulkNodes bulk_nodes() const
+  {
+    const FunctionSpace& V = *_u->function_space();
+    parallel::BulkNodes nodes{.gdim = _gdim,
+                              .num_owned = _map->size_local(),
+                              .numbers = _map->global_indices(),
+                              .owners = {},
+                              .original = {},
+                              .reference = reference_positions(V)};
+    nodes.owners.assign(_map->size_local(), _ranks.rank());
+    nodes.owners.insert(nodes.owners.end(), _map->owners().begin(),
+                        _map->owners().end());
+    nodes.original.assign(num_nodes(V), -1);
+    const auto& numbers = V.mesh()->geometry().input_global_indices();
+    for_each_node(V, [&](std::int32_t node, std::int32_t point)
+                  { nodes.original[node] = numbers[point]; });
+    return nodes;
+  }
+
+  parallel::Ranks& ranks() override { return _ranks; }
+
+  void set_ghosts(std::span<const std::int64_t> numbers,
+                  std::span<const std::int32_t> owners) override
+  {
+    _doubles.clear();
+    _integers.clear();
+    _all = _map;
+    if (_ranks.size() > 1)
+    {
+      std::vector<std::int64_t> ghosts(_map->ghosts().begin(),
+                                       _map->ghosts().end());
+      ghosts.insert(ghosts.end(), numbers.begin(), numbers.end());
+      std::vector<int> from(_map->owners().begin(), _map->owners().end());
+      from.insert(from.end(), owners.begin(), owners.end());
+      _all = std::make_shared<const ::dolfinx::common::IndexMap>(
+          _map->comm(), _map->size_local(), ghosts, from, _tag);
+    }
+    _displacement.resize(std::size_t(_gdim)
+                         * (_all->size_local() + _all->num_ghosts()));
+    update_ghosts();
+  }
+
+  /// @brief Give ghosts the owners' displacements: those of the bulk and of
+  /// the contact halo. All ranks must take part.
+  void update_ghosts()
+  {
+    auto& u = _u->x()->array();
+    const std::size_t owned = std::size_t(_gdim) * _map->size_local();
+    std::copy_n(u.begin(), owned, _displacement.begin());
+    forward(std::span<double>(_displacement), _gdim);
+    std::copy_n(_displacement.begin(), u.size(), u.begin());
+  }
+
+  void forward(std::span<double> values, int width) override
+  {
+    scatter_forward(values, width, _doubles);
+  }
+
+  void forward(std::span<std::int64_t> values, int width) override
+  {
+    scatter_forward(values, width, _integers);
+  }
+
+  void reverse(std::span<double> values, int width) override
+  {
+    if (_ranks.size() == 1)
+      return;
+    auto& vector = vector_of(width, _doubles);
+    std::ranges::copy(values, vector.array().begin());
+    vector.scatter_rev(std::plus<double>());
+    std::copy_n(vector.array().begin(), std::size_t(width) * _map->size_local(),
+                values.begin());
+  }
+
+  void displacement(std::span<double> values) const override
+  {
+    std::ranges::copy(_displacement, values.begin());
+  }
+
+private:
+  // Of the messages in which index maps find out who has their ghosts
+  static constexpr int _tag = 7090;
+
+  template <class T>
+  using Vectors = std::map<int, ::dolfinx::la::Vector<T>>;
+
+  template <class T>
+  ::dolfinx::la::Vector<T>& vector_of(int width, Vectors<T>& vectors)
+  {
+    return vectors.try_emplace(width, _all, width).first->second;
+  }
+
+  template <class T>
+  void scatter_forward(std::span<T> values, int width, Vectors<T>& vectors)
+  {
+    if (_ranks.size() == 1)
+      return;
+    auto& vector = vector_of(width, vectors);
+    const std::size_t owned = std::size_t(width) * _map->size_local();
+    std::copy_n(values.begin(), owned, vector.array().begin());
+    vector.scatter_fwd();
+    std::copy(vector.array().begin() + owned, vector.array().end(),
+              values.begin() + owned);
+  }
+
+  std::shared_ptr<Function> _u;
+  std::shared_ptr<const ::dolfinx::common::IndexMap> _map, _all;
+  int _gdim;
+  Ranks _ranks;
+  Vectors<double> _doubles;
+  Vectors<std::int64_t> _integers;
+  // Of all nodes, as of the last update
+  std::vector<double> _displacement;
+};
+} // namespace contactx::dolfinx

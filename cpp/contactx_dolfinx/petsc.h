@@ -1,0 +1,105 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#pragma once
+
+#include <dolfinx/la/petsc.h>
+#include <petscmat.h>
+#include <petscvec.h>
+#include <span>
+#include <stdexcept>
+#include <type_traits>
+#include <utility>
+
+namespace contactx::dolfinx::petsc
+{
+static_assert(std::is_same_v<PetscScalar, double>,
+              "contactx needs a PETSc of real numbers in double precision");
+
+/// @brief Throw what PETSc says of an error.
+/// @param[in] error What a function of PETSc has returned.
+/// @param[in] function Its name.
+inline void check(PetscErrorCode error, const char* function)
+{
+  if (error != PETSC_SUCCESS)
+    ::dolfinx::la::petsc::error(error, __FILE__, function);
+}
+
+/// @brief Owner of an object of PETSc; all ranks must take part in its end.
+template <class T, PetscErrorCode (*destroy)(T*)>
+class Owner
+{
+public:
+  /// @brief Take an object over.
+  explicit Owner(T object = nullptr) : _object(object) {}
+  ~Owner() { destroy(&_object); }
+  Owner(const Owner&) = delete;
+  Owner& operator=(const Owner&) = delete;
+
+  /// @brief The object.
+  T get() const { return _object; }
+
+  /// @brief Where a function that creates the object puts it.
+  T* put()
+  {
+    destroy(&_object);
+    return &_object;
+  }
+
+private:
+  T _object;
+};
+
+using OwnVec = Owner<::Vec, VecDestroy>;
+using OwnMat = Owner<::Mat, MatDestroy>;
+
+/// @brief A vector's values on this rank, for as long as this lives.
+class Values
+{
+public:
+  /// @brief Look at the values, which may change.
+  explicit Values(::Vec x) : _x(x)
+  {
+    PetscInt size = 0;
+    check(VecGetLocalSize(x, &size), "VecGetLocalSize");
+    check(VecGetArray(x, &_values), "VecGetArray");
+    _size = size;
+  }
+  ~Values() { VecRestoreArray(_x, &_values); }
+  Values(const Values&) = delete;
+  Values& operator=(const Values&) = delete;
+
+  /// @brief The values.
+  std::span<double> span() const { return {_values, _size}; }
+
+private:
+  ::Vec _x;
+  double* _values = nullptr;
+  std::size_t _size = 0;
+};
+
+/// @brief The same of a vector that does not change.
+class ConstValues
+{
+public:
+  /// @brief Look at the values.
+  explicit ConstValues(::Vec x) : _x(x)
+  {
+    PetscInt size = 0;
+    check(VecGetLocalSize(x, &size), "VecGetLocalSize");
+    check(VecGetArrayRead(x, &_values), "VecGetArrayRead");
+    _size = size;
+  }
+  ~ConstValues() { VecRestoreArrayRead(_x, &_values); }
+  ConstValues(const ConstValues&) = delete;
+  ConstValues& operator=(const ConstValues&) = delete;
+
+  /// @brief The values.
+  std::span<const double> span() const { return {_values, _size}; }
+
+private:
+  ::Vec _x;
+  const double* _values = nullptr;
+  std::size_t _size = 0;
+};
+} // namespace contactx::dolfinx::petsc

@@ -1,0 +1,119 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#pragma once
+
+#include <algorithm>
+#include <climits>
+#include <contactx/parallel/ranks.h>
+#include <dolfinx/common/MPI.h>
+
+namespace contactx::dolfinx
+{
+/// @brief The ranks of a communicator, by MPI.
+///
+/// It has a communicator of its own, so that its messages meet no others.
+class Ranks final : public parallel::Ranks
+{
+public:
+  /// @brief Duplicate a communicator; all ranks must take part.
+  /// @param[in] comm Communicator.
+  explicit Ranks(MPI_Comm comm) : _comm(comm, true) {}
+
+  int rank() const override { return ::dolfinx::MPI::rank(_comm.comm()); }
+  int size() const override { return ::dolfinx::MPI::size(_comm.comm()); }
+
+  void reduce(std::span<double> values, parallel::Reduction how) override
+  {
+    reduce(values.data(), values.size(), MPI_DOUBLE, how);
+  }
+
+  void reduce(std::span<std::int64_t> values, parallel::Reduction how) override
+  {
+    reduce(values.data(), values.size(), MPI_INT64_T, how);
+  }
+
+  std::vector<double> gather(std::span<const double> mine) override
+  {
+    std::vector<double> every(mine.size() * size());
+    const int count = static_cast<int>(mine.size());
+    MPI_Allgather(mine.data(), count, MPI_DOUBLE, every.data(), count,
+                  MPI_DOUBLE, _comm.comm());
+    return every;
+  }
+
+  /// @brief Sparse exchange by nonblocking consensus (Hoefler, Siebert,
+  /// Lumsdaine 2010): what it costs a rank goes with the ranks that it writes
+  /// to, not with how many there are.
+  /// @throws std::length_error if a message is longer than MPI can count.
+  parallel::Messages exchange(const parallel::Messages& outgoing) override
+  {
+    // Tags in turn, so that a message never ends up in the exchange before its
+    // own
+    const int tag = _turn;
+    _turn = (_turn + 1) % 16;
+    parallel::Messages received;
+    std::vector<MPI_Request> sending;
+    for (const auto& [to, bytes] : outgoing)
+    {
+      if (to == rank())
+      {
+        received[to] = bytes;
+        continue;
+      }
+      if (bytes.size() > INT_MAX)
+        throw std::length_error("a message to another rank is too long");
+      MPI_Issend(bytes.data(), static_cast<int>(bytes.size()), MPI_BYTE, to,
+                 tag, _comm.comm(), &sending.emplace_back());
+    }
+    if (size() == 1)
+      return received;
+
+    MPI_Request barrier = MPI_REQUEST_NULL;
+    int is_done = 0;
+    for (bool is_waiting = false; not is_done;)
+    {
+      int is_there = 0;
+      MPI_Status status;
+      MPI_Iprobe(MPI_ANY_SOURCE, tag, _comm.comm(), &is_there, &status);
+      if (is_there)
+      {
+        int count = 0;
+        MPI_Get_count(&status, MPI_BYTE, &count);
+        std::vector<std::byte>& bytes = received[status.MPI_SOURCE];
+        bytes.resize(count);
+        MPI_Recv(bytes.data(), count, MPI_BYTE, status.MPI_SOURCE, tag,
+                 _comm.comm(), MPI_STATUS_IGNORE);
+      }
+      if (is_waiting)
+      {
+        MPI_Test(&barrier, &is_done, MPI_STATUS_IGNORE);
+        continue;
+      }
+      int is_sent = 0;
+      MPI_Testall(static_cast<int>(sending.size()), sending.data(), &is_sent,
+                  MPI_STATUSES_IGNORE);
+      if (is_sent)
+      {
+        MPI_Ibarrier(_comm.comm(), &barrier);
+        is_waiting = true;
+      }
+    }
+    return received;
+  }
+
+private:
+  void reduce(void* values, std::size_t count, MPI_Datatype type,
+              parallel::Reduction how)
+  {
+    const MPI_Op operation = how == parallel::Reduction::sum     ? MPI_SUM
+                             : how == parallel::Reduction::least ? MPI_MIN
+                                                                 : MPI_MAX;
+    MPI_Allreduce(MPI_IN_PLACE, values, static_cast<int>(count), type,
+                  operation, _comm.comm());
+  }
+
+  ::dolfinx::MPI::Comm _comm;
+  int _turn = 0;
+};
+} // namespace contactx::dolfinx

@@ -1,0 +1,95 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""The demos of demos/cpp in Python, on their mesh files: the same lines to the last digit."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import Any
+
+import contactx as cx  # isort: skip
+
+from mpi4py import MPI
+
+import numpy as np
+
+from dolfinx import fem, io
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "demos"))
+import reference
+import story
+
+LU = {"ksp_type": "preonly", "pc_type": "lu", "pc_factor_mat_solver_type": "mumps"}
+
+
+def read(name: str) -> Any:
+    """Displacement and facet tags on a mesh file."""
+    with io.XDMFFile(MPI.COMM_SELF, f"{name}.xdmf", "r") as file:
+        mesh = file.read_mesh(name="mesh")
+        tdim = mesh.topology.dim
+        mesh.topology.create_entities(tdim - 1)
+        mesh.topology.create_connectivity(tdim - 1, tdim)
+        return story.displacement(mesh), file.read_meshtags(mesh, "facet_tags")
+
+
+def hertz() -> None:
+    """An elastic sphere on an elastic block."""
+    u, tags = read("hertz")
+    bcs = [
+        story.fix(u, tags, 0, 0.0, 13, 23),
+        story.fix(u, tags, 1, 0.0, 14, 24),
+        story.fix(u, tags, 2, -0.02, 12),
+        *(story.fix(u, tags, i, 0.0, 22) for i in range(3)),
+    ]
+    contact = cx.Contact(slave=cx.Surface(tags, 11), master=cx.Surface(tags, 21))
+    problem = cx.ContactProblem(
+        story.elasticity(u, 1.0, 0.3),
+        u,
+        contacts=[contact],
+        bcs=bcs,
+        petsc_options_prefix="hertz_",
+        petsc_options=LU,
+    )
+    problem.solve()
+    for row in problem.report.history[:-1]:
+        print(f"{row.number:2d}  residual {row.residual:.3e}  closed {row.closed}")
+    force = 4 * contact.force[2]
+    modulus = reference.contact_modulus(1.0, 0.3, 1.0, 0.3)
+    peak = reference.HertzSphere(force=force, radius=1.0, modulus=modulus).peak_pressure
+    print(
+        f"iterations {problem.report.iterations}, force {force:.12g}, "
+        f"largest pressure {contact.pressure.x.array.max():.12g}, "
+        f"largest multiplier {contact.multiplier.max():.12g} (Hertz {peak:.4g})"
+    )
+
+
+def sliding_block() -> None:
+    """A block that is pushed to and fro."""
+    u, tags = read("sliding_block")
+    load = fem.Constant(u.function_space.mesh, np.array([0, -0.01]))
+    push = story.fix(u, tags, 0, 0.0, 12)
+    contact = cx.Contact(
+        slave=cx.Surface(tags, 11), master=cx.Surface(tags, 21), friction=0.3, offset=1e-8
+    )
+    problem = cx.ContactProblem(
+        story.elasticity(u, 1.0, 0.3) + story.traction(u, tags, 12, load),
+        u,
+        contacts=[contact],
+        bcs=[*(story.fix(u, tags, i, 0.0, 22) for i in range(2)), push],
+        petsc_options_prefix="block_",
+        petsc_options=LU,
+    )
+    for step in range(21):
+        way = step if step <= 4 else 8 - step if step <= 12 else step - 16
+        push.g.value[...] = 0.06 * way / 4
+        problem.solve()
+        sticking = int((contact.interface.nodes.status == 1).sum())
+        print(
+            f"push {float(push.g.value):6.3f}  force {-contact.force[0]:.10f} of 0.0060  "
+            f"sticking {sticking:2d}  iterations {problem.report.iterations}"
+        )
+
+
+if __name__ == "__main__":
+    {"hertz": hertz, "sliding_block": sliding_block}[sys.argv[1]]()

@@ -1,0 +1,195 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+// What the layer must refuse, on all ranks alike; prints what it did not.
+
+#include "sliding_block.h"
+#include <basix/finite-element.h>
+#include <contactx/obstacle/plane.h>
+#include <contactx_dolfinx/assembler.h>
+#include <cstdio>
+#include <dolfinx.h>
+#include <dolfinx/fem/Constant.h>
+#include <dolfinx/mesh/generation.h>
+
+using namespace dolfinx;
+using T = PetscScalar;
+using U = double;
+namespace cx = contactx::dolfinx;
+using Tags = mesh::MeshTags<std::int32_t>;
+
+namespace
+{
+int failures = 0;
+
+/// Whether all ranks refuse something with words of the message.
+template <class F>
+void refuses(const char* words, F&& work)
+{
+  int is_right = 0;
+  std::string message = "nothing";
+  try
+  {
+    work();
+  }
+  catch (const std::exception& error)
+  {
+    message = error.what();
+    is_right = message.find(words) != std::string::npos;
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &is_right, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD);
+  if (is_right)
+    return;
+  ++failures;
+  if (dolfinx::MPI::rank(MPI_COMM_WORLD) == 0)
+    std::printf("wanted \"%s\", but got \"%s\"\n", words, message.c_str());
+}
+
+std::shared_ptr<fem::FunctionSpace<U>>
+space(const std::shared_ptr<mesh::Mesh<U>>& mesh, int degree)
+{
+  auto element = basix::create_element<U>(
+      basix::element::family::P, basix::cell::type::quadrilateral, degree,
+      basix::element::lagrange_variant::gll_warped,
+      basix::element::dpc_variant::unset, false);
+  return std::make_shared<fem::FunctionSpace<U>>(fem::create_functionspace<U>(
+      mesh, std::make_shared<fem::FiniteElement<U>>(
+                element, std::vector<std::size_t>{2})));
+}
+
+/// A unit square with the tags 11 (bottom), 12 (top) and 5 (all inner facets).
+std::shared_ptr<const Tags> tags_of(const mesh::Mesh<U>& mesh)
+{
+  const auto topology = mesh.topology_mutable();
+  topology->create_connectivity(1, 2);
+  topology->create_connectivity(2, 1);
+  topology->create_connectivity(1, 0);
+  std::map<std::int32_t, std::int32_t> values;
+  const auto map = topology->index_map(1);
+  for (std::int32_t f = 0; f < map->size_local(); ++f)
+    values[f] = 5;
+  for (std::int32_t f : mesh::exterior_facet_indices(*topology))
+    values.erase(f);
+  for (auto [height, tag] : {std::pair{0.0, 11}, std::pair{1.0, 12}})
+  {
+    const auto facets = mesh::locate_entities_boundary(
+        mesh, 1,
+        [height](auto x)
+        {
+          std::vector<std::int8_t> is_there(x.extent(1));
+          for (std::size_t i = 0; i < is_there.size(); ++i)
+            is_there[i] = std::abs(x(1, i) - height) < 1e-12;
+          return is_there;
+        });
+    for (std::int32_t f : facets)
+      values[f] = tag;
+  }
+  std::vector<std::int32_t> facets, tags;
+  for (auto [f, tag] : values)
+  {
+    facets.push_back(f);
+    tags.push_back(tag);
+  }
+  return std::make_shared<const Tags>(mesh.topology(), 1, std::move(facets),
+                                      std::move(tags));
+}
+} // namespace
+
+int main(int argc, char* argv[])
+{
+  init_logging(argc, argv);
+  PetscInitialize(&argc, &argv, nullptr, nullptr);
+  {
+    auto square = [](mesh::GhostMode mode)
+    {
+      return std::make_shared<mesh::Mesh<U>>(
+          mesh::create_rectangle<U>(MPI_COMM_WORLD, {{{0, 0}, {1, 1}}}, {4, 4},
+                                    mesh::CellType::quadrilateral,
+                                    mesh::create_cell_partitioner(mode, 2)));
+    };
+    const auto mesh = square(mesh::GhostMode::shared_facet);
+    const auto tags = tags_of(*mesh);
+    const auto V = space(mesh, 1);
+    const auto u = std::make_shared<fem::Function<T>>(V);
+    const auto load = std::make_shared<fem::Constant<T>>(std::vector<T>{0, 0});
+    const auto F = std::make_shared<cx::Form>(fem::create_form<T>(
+        *form_sliding_block_F, {V}, {{"u", u}}, {{"load", load}}, {}, {}));
+    const auto J = std::make_shared<cx::Form>(fem::create_form<T>(
+        *form_sliding_block_J, {V, V}, {{"u", u}}, {}, {}, {}));
+    const auto plane_at = [](double height)
+    {
+      return std::make_shared<contactx::obstacle::Plane>(
+          std::vector<double>{0, height}, std::vector<double>{0, 1});
+    };
+    const cx::Surface bottom(tags, {11}), top(tags, {12});
+    const auto fixed = std::make_shared<const fem::DirichletBC<T>>(
+        std::vector<T>{0, 0},
+        fem::locate_dofs_topological(*mesh->topology_mutable(), *V->dofmap(), 1,
+                                     tags->find(12)),
+        V);
+    const auto make = [&](const cx::Surface& slave, cx::Contact::Master master,
+                          cx::Options options = {})
+    {
+      return std::make_shared<cx::Contact>(slave, std::move(master), options);
+    };
+    const auto couple = [&](std::shared_ptr<cx::Contact> contact)
+    {
+      return cx::Assembler(F, J, u, {fixed},
+                           contact
+                               ? std::vector{contact}
+                               : std::vector<std::shared_ptr<cx::Contact>>());
+    };
+
+    refuses("tag 7 is not", [&] { cx::Surface(tags, {11, 7}); });
+    refuses("at least one tag", [&] { cx::Surface(tags, {}); });
+    refuses("tied excludes friction",
+            [&] { make(bottom, top, {.friction = 0.1, .tied = true}); });
+    refuses("at least one contact", [&] { couple(nullptr); });
+    refuses("inside a body",
+            [&] { couple(make(cx::Surface(tags, {5}), plane_at(0))); });
+    const auto other = square(mesh::GhostMode::none);
+    refuses("another mesh", [&]
+            { couple(make(cx::Surface(tags_of(*other), {11}), plane_at(0))); });
+    refuses("at least 0",
+            [&] { couple(make(bottom, plane_at(0), {.friction = -1})); });
+    refuses("offset of a contact is not finite",
+            [&] { couple(make(bottom, plane_at(0), {.offset = NAN})); });
+    refuses("linear Lagrange space",
+            [&]
+            {
+              const auto w = std::make_shared<fem::Function<T>>(space(mesh, 2));
+              cx::Assembler(F, J, w, {}, {make(bottom, plane_at(0))});
+            });
+    refuses("inside a rigid obstacle",
+            [&]
+            {
+              couple(make(top, std::make_shared<contactx::obstacle::Plane>(
+                                   std::vector<double>{0, 0.99},
+                                   std::vector<double>{0, -1})))
+                  .begin_step();
+            });
+
+    const auto contact = make(bottom, plane_at(0));
+    refuses("no results before", [&] { contact->force(); });
+    refuses("has no friction", [&] { contact->set_friction(0.1); });
+    cx::Assembler assembler(F, J, u, {fixed}, {contact});
+    refuses("belongs to an Assembler already", [&] { couple(contact); });
+    const cx::petsc::OwnVec b(assembler.create_vector());
+    refuses("settle() before begin_step()", [&] { assembler.settle(); });
+    refuses("F() before begin_step()",
+            [&] { assembler.F(assembler.x(), b.get()); });
+    assembler.begin_step();
+    refuses("limit() before settle()", [&] { assembler.limit(b.get()); });
+    refuses("no solution", [&] { assembler.accept(); });
+    assembler.settle();
+    cx::petsc::OwnVec shorter;
+    VecCreateMPI(MPI_COMM_WORLD, 1, PETSC_DETERMINE, shorter.put());
+    refuses("", [&] { assembler.F(shorter.get(), b.get()); });
+    u->x()->array()[0] = NAN;
+    refuses("not finite", [&] { assembler.begin_step(); });
+  }
+  if (failures == 0 and dolfinx::MPI::rank(MPI_COMM_WORLD) == 0)
+    std::printf("all refused\n");
+  PetscFinalize();
+  return failures;
+}

@@ -1,0 +1,93 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Each kind of contact on the mesh of demos/cpp/sliding_block, as variants.cpp has them."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import Any
+
+import contactx as cx  # isort: skip
+
+from mpi4py import MPI
+
+import numpy as np
+
+import ufl
+from dolfinx import fem, io
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "demos"))
+import story
+
+WAYS = (0.0, 0.03, -0.02)
+LU = {"ksp_type": "preonly", "pc_type": "lu", "pc_factor_mat_solver_type": "mumps"}
+
+
+def norm(values: Any) -> float:
+    """Norm of what is on all ranks."""
+    return float(np.sqrt(MPI.COMM_WORLD.allreduce(float((np.asarray(values) ** 2).sum()))))
+
+
+def neo_hooke(u: fem.Function) -> Any:
+    """Residual of a compressible neo-Hookean solid."""
+    F = ufl.Identity(2) + ufl.grad(u)
+    log = ufl.ln(ufl.det(F))
+    energy = 0.5 * (ufl.tr(F.T * F) - 2 - 2 * log) + log**2
+    return ufl.derivative(energy * ufl.dx, u)
+
+
+def solve(name: str, tags: Any, V: fem.FunctionSpace, master: Any, **options: Any) -> None:
+    """Solve three steps and print their figures."""
+    u = fem.Function(V)
+    load = fem.Constant(V.mesh, np.array([0, -0.01]))
+    F = neo_hooke(u) if name == "neo-Hooke" else story.elasticity(u, 1.0, 0.3)
+    F += story.traction(u, tags, 12, load)
+    push = story.fix(u, tags, 0, 0.0, 12)
+    bcs = [*(story.fix(u, tags, i, 0.0, 22) for i in range(2)), push]
+    contact = cx.Contact(slave=cx.Surface(tags, 11), master=master, **options)
+    problem = cx.ContactProblem(
+        F, u, contacts=[contact], bcs=bcs, petsc_options_prefix="variants_", petsc_options=LU
+    )
+    for way in WAYS:
+        push.g.value[...] = way
+        problem.solve()
+        pressure = contact.pressure.x.array[contact.slave_nodes]
+        owned = u.x.array[: 2 * V.dofmap.index_map.size_local]
+        norms = [norm(owned), norm(contact.multiplier), norm(pressure)]
+        figures = [*contact.force, *norms]
+        if MPI.COMM_WORLD.rank == 0:
+            # Rounding has a sign
+            texts = (f"{0.0 if abs(f) < 5e-10 else f:.9f}" for f in figures)
+            print(name, problem.report.iterations, *texts)
+
+
+def main() -> None:
+    """Solve all."""
+    with io.XDMFFile(MPI.COMM_WORLD, "sliding_block.xdmf", "r") as file:
+        mesh = file.read_mesh(name="mesh")
+        mesh.topology.create_entities(1)
+        mesh.topology.create_connectivity(1, 2)
+        tags = file.read_meshtags(mesh, "facet_tags")
+    V = fem.functionspace(mesh, ("Lagrange", 1, (2,)))
+    base = cx.Surface(tags, 21)
+    plane = cx.Plane(point=[0.0, 0.0], normal=[0.0, 1.0])
+    disc = cx.Sphere(centre=[1.5, -4.0], radius=4.0)
+    mortar: dict[str, Any] = {"method": "surface-to-surface"}
+    little = {"offset": 1e-8}
+    rubs = {"friction": 0.3, **little}
+    solve("frictionless", tags, V, base, **little)
+    solve("friction", tags, V, base, **rubs)
+    solve("small", tags, V, base, sliding="small", **rubs)
+    solve("tied", tags, V, base, tied=True)
+    solve("mortar", tags, V, base, **mortar, **little)
+    solve("mortar friction", tags, V, base, **mortar, **rubs)
+    solve("mortar tied", tags, V, base, **mortar, tied=True)
+    solve("plane", tags, V, plane, **rubs)
+    solve("mortar plane", tags, V, plane, **mortar, **rubs)
+    solve("disc", tags, V, disc, friction=0.1, **little)
+    solve("neo-Hooke", tags, V, base, **rubs)
+
+
+if __name__ == "__main__":
+    main()
