@@ -21,7 +21,7 @@ INSTALLED := $(VENV)/installed.stamp
 # Folders too, so that a removed file counts as a change.
 SOURCES := $(shell find cpp/contactx cpp/bindings python/contactx \
 	-name __pycache__ -prune -o -print)
-CPP_FILES = $(shell find cpp -name '*.h' -o -name '*.cpp')
+CPP_FILES = $(shell find cpp demos/cpp tests/dolfinx_cpp -name '*.h' -o -name '*.cpp')
 PY_FOLDERS := python tests demos tools
 # What `make sanitize` runs in Python: both methods, friction, ties, obstacles,
 # finite and small sliding, the condensed solver.

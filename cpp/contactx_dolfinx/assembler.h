@@ -230,6 +230,8 @@ public:
   {
     require(_has_begun, "F() before begin_step()");
     take(x);
+    // Loads may be others, as in arc-length methods
+    _system->begin_step();
     _system->residual(petsc::Values(b).span());
   }
 
