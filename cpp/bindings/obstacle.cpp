@@ -77,6 +77,22 @@ LevelSet::Function level_function(py::function f)
     return at;
   };
 }
+/// The velocity of a level set's material in Python: of points (n, gdim), and
+/// the time.
+std::optional<LevelSet::Velocity> level_velocity(py::object velocity,
+                                                 py::object time)
+{
+  if (velocity.is_none())
+    return std::nullopt;
+  return LevelSet::Velocity{
+      [f = std::move(velocity)](std::span<const double> x, int gdim)
+      {
+        const py::ssize_t n = static_cast<py::ssize_t>(x.size()) / gdim;
+        return numbers(
+            f(py::array_t<double>({n, py::ssize_t(gdim)}, x.data())));
+      },
+      [t = std::move(time)] { return t().cast<double>(); }};
+}
 } // namespace
 
 void contactx_bindings::obstacle(py::module_& m)
@@ -128,11 +144,16 @@ void contactx_bindings::obstacle(py::module_& m)
   py::class_<LevelSet, Obstacle, std::shared_ptr<LevelSet>>(
       m, "LevelSet", "Body where a function is negative")
       .def(py::init(
-          [](py::function f, std::function<std::vector<double>(int)> parameters)
-          {
-            return std::make_shared<LevelSet>(level_function(std::move(f)),
-                                              std::move(parameters));
-          }));
+               [](py::function f,
+                  std::function<std::vector<double>(int)> parameters,
+                  py::object velocity, py::object time)
+               {
+                 return std::make_shared<LevelSet>(
+                     level_function(std::move(f)), std::move(parameters),
+                     level_velocity(std::move(velocity), std::move(time)));
+               }),
+           py::arg("function"), py::arg("parameters"),
+           py::arg("velocity") = py::none(), py::arg("time") = py::none());
 
   py::class_<ObstacleMaster, Master, std::shared_ptr<ObstacleMaster>>(
       m, "ObstacleMaster", "Pairs of slave nodes with a rigid obstacle")

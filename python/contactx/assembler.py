@@ -17,6 +17,7 @@ import numpy as np
 import ufl
 from contactx import compat
 from contactx import cpp as core
+from contactx.arguments import is_number
 from contactx.audit.audit import Audit
 from contactx.bodies import Bodies
 from contactx.bulk import Bulk
@@ -283,7 +284,7 @@ class ContactAssembler:
             RuntimeError: If no step has begun.
             ValueError: If friction, offset or an obstacle has become what it must not be.
         """
-        self._enter("settle")
+        self._enter("settle", rtol=rtol, atol=atol, max_it=max_it)
         self._look_anew()
         found = self.judge(rtol, atol)
         reason = found.failure
@@ -415,7 +416,7 @@ class ContactAssembler:
         Raises:
             RuntimeError: If no iterate has settled since the last step was taken.
         """
-        self._enter("set_up")
+        self._enter("set_up", condensed=int(condensed))
         if not condensed:
             ksp.setOperators(self.jacobian(self._A))
             return
@@ -464,7 +465,7 @@ class ContactAssembler:
             RuntimeError: If no step has begun.
             ValueError: If the vector is of another layout, or the part no number.
         """
-        self._enter("update", dx)
+        self._enter("update", dx, part=part)
         if not np.isfinite(part):
             raise ValueError(f"part is {part}: give a number of at most 1")
         self.system.pack()
@@ -556,23 +557,39 @@ class ContactAssembler:
             # Of the user's line, whether that calls solve or a loop of steps does
             warnings.warn(text, skip_file_prefixes=(str(Path(__file__).parent),))
 
-    def _enter(self, call: str, given: PETSc.Vec | PETSc.Mat | None = None) -> None:
+    def _enter(
+        self, call: str, given: PETSc.Vec | PETSc.Mat | None = None, **numbers: float
+    ) -> None:
         """Check that a call is in order; all ranks must take part.
 
         Args:
             call: Name of the method.
             given: Vector or matrix that must fit.
+            numbers: Other arguments, which must be the same on all ranks.
 
         Raises:
             RuntimeError: If ranks call different methods, or it is not this one's turn.
-            ValueError: If a vector or matrix is of another layout.
+            TypeError: If an argument is no number on any rank.
+            ValueError: If a vector or matrix is of another layout, or arguments differ.
         """
-        calls = self._comm.allgather(_CALLS.index(call))
-        if len(set(calls)) > 1:
-            names = ", ".join(f"{_CALLS[k]}() on rank {r}" for r, k in enumerate(calls))
+        wrong = ", ".join(f"{k}={v!r}" for k, v in numbers.items() if not is_number(v))
+        values = [] if wrong else [float(value) for value in numbers.values()]
+        calls = self._comm.allgather((_CALLS.index(call), wrong, values))
+        if len({k for k, _, _ in calls}) > 1:
+            names = ", ".join(f"{_CALLS[k]}() on rank {r}" for r, (k, _, _) in enumerate(calls))
             raise RuntimeError(
                 f"all ranks must call the same method of a ContactAssembler: {names}"
             )
+        wrong = next((text for _, text, _ in calls if text), "")
+        if wrong:
+            raise TypeError(f"{call}() was given {wrong}: give a number")
+        for name, *each in zip(numbers, *(theirs for _, _, theirs in calls), strict=True):
+            # NaN is unlike itself
+            if len(set(map(str, each))) > 1:
+                raise ValueError(
+                    f"{name} of {call}() differs between ranks, {', '.join(map(str, each))}: give "
+                    "the same on all"
+                )
         if call != "begin_step" and not self._has_begun:
             raise RuntimeError(f"{call}() before begin_step(): no step has begun")
         if call in ("set_up", "limit", "accept") and (self._has_moved or self._found is None):

@@ -761,6 +761,8 @@ class LevelSet(Obstacle):
             tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64] | None],
         ],
         parameters: Callable[[int], NDArray[np.float64]],
+        velocity: Callable[[NDArray[np.float64]], NDArray[np.float64]] | None = None,
+        time: Callable[[], float] | None = None,
     ) -> None: ...
 
 class ObstacleMaster(Master):

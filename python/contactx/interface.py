@@ -200,6 +200,6 @@ def check_drag(interfaces: Sequence[Interface], names: Sequence[Any]) -> None:
                 f"contact {k} ({names[k]}): the LevelSet moves while it is touched, and its "
                 "function does not tell how its material moves along its surface, which slip and "
                 "ties are measured from. Take a Sphere, Plane or Cylinder, which drag what touches "
-                "them, or friction=0; or let it come from where nothing touches it to where it "
-                "stays"
+                "them, or give it a velocity, or friction=0; or let it come from where nothing "
+                "touches it to where it stays"
             )

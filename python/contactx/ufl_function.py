@@ -62,13 +62,40 @@ class UFLFunction:
         return self._compiled[shape]
 
 
+class UFLField:
+    """A UFL function of a vector with a vector for its value, as ``UFLFunction`` has scalars."""
+
+    def __init__(self, f: Callable[[Any], Any], name: str):
+        """Take the function; nothing is compiled before it is asked for.
+
+        Args:
+            f: From a UFL vector to a vector expression of the same shape.
+            name: What it is, for messages.
+        """
+        self._f, self._name = f, name
+        self._compiled: _Compiled | None = None
+
+    def values(self, x: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+        """Values, shape (n, gdim).
+
+        Raises:
+            ValueError: If it is not one of UFL, no such vector, or holds what it may not.
+        """
+        if self._compiled is None or self._compiled.shape != x.shape:
+            self._compiled = _Compiled(self._f, self._name, *x.shape, is_field=True)
+        return self._compiled.table(x)[:, :-1]
+
+
 class _Compiled:
-    """A UFL function of the position with its derivatives, compiled for n points.
+    """A UFL function of the position, compiled for n points: a scalar with its derivatives.
 
     UFL evaluates on cells: here a chain of n cells, with the position constant on each.
     """
 
-    def __init__(self, f: Callable[[Any], Any], name: str, n: int, gdim: int):
+    def __init__(
+        self, f: Callable[[Any], Any], name: str, n: int, gdim: int, *, is_field: bool = False
+    ):
+        self.shape = n, gdim
         chain = mesh.create_interval(MPI.COMM_SELF, n, [0.0, 1.0])
         self._position = fem.Function(fem.functionspace(chain, ("DG", 0, (gdim,))))
         X = ufl.variable(self._position)
@@ -76,13 +103,12 @@ class _Compiled:
             value = ufl.as_ufl(f(X))
         except Exception as error:
             raise ValueError(
-                f"the function of a {name} is not one of UFL: for a function of Python give its "
-                f"gradient too, {name}(f, gradient)"
+                f"the function of a {name} is not one of UFL: one of Python needs its gradient, too"
             ) from error
-        if value.ufl_shape != ():
+        if value.ufl_shape != ((gdim,) if is_field else ()):
             raise ValueError(
                 f"the function of a {name} gave an expression of shape {value.ufl_shape}: it "
-                "must be a scalar"
+                f"must be {f'a vector of {gdim} components' if is_field else 'a scalar'}"
             )
         others = set(ufl.algorithms.extract_coefficients(value)) - {self._position}
         if others or ufl.algorithms.analysis.extract_type(value, ufl.classes.GeometricQuantity):
@@ -90,14 +116,15 @@ class _Compiled:
                 f"the function of a {name} holds a function or the coordinates of a mesh: it may "
                 "hold its argument and fem.Constant alone"
             )
-        gradient = ufl.diff(value, X)
-        second = ufl.diff(gradient, X)
-        values = ufl.as_vector(
-            [value, *(gradient[i] for i in range(gdim))]
-            + [second[i, j] for i in range(gdim) for j in range(gdim)]
-            # Not read; a function that does not depend on the position needs a mesh all the same
-            + [self._position[0]]
-        )
+        if is_field:
+            parts = [value[i] for i in range(gdim)]
+        else:
+            gradient = ufl.diff(value, X)
+            second = ufl.diff(gradient, X)
+            parts = [value, *(gradient[i] for i in range(gdim))]
+            parts += [second[i, j] for i in range(gdim) for j in range(gdim)]
+        # The last is not read; what does not depend on the position needs a mesh all the same
+        values = ufl.as_vector([*parts, self._position[0]])
         # The user's constants live on another mesh
         constants = ufl.algorithms.analysis.extract_constants(values)
         self._constants = [(c, fem.Constant(chain, c.value)) for c in constants]
@@ -111,14 +138,19 @@ class _Compiled:
         values = [np.zeros(0), *(np.ravel(theirs.value) for theirs, _ in self._constants)]
         return np.concatenate(values)
 
+    def table(self, x: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+        """All parts at each point, shape (n, number of parts + 1)."""
+        self._position.x.array[:] = x.ravel()
+        for theirs, ours in self._constants:
+            ours.value[...] = theirs.value
+        values: npt.NDArray[np.float64] = self._expression.eval(self._mesh, self._cells)
+        return values.reshape(len(x), -1)
+
     def __call__(
         self, x: npt.NDArray[np.float64]
     ) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64], npt.NDArray[np.float64]]:
         """Value, gradient and second derivative, shapes (n,), (n, gdim), (n, gdim, gdim)."""
         n, gdim = x.shape
-        self._position.x.array[:] = x.ravel()
-        for theirs, ours in self._constants:
-            ours.value[...] = theirs.value
-        table = self._expression.eval(self._mesh, self._cells).reshape(n, -1)
+        table = self.table(x)
         second = table[:, 1 + gdim : -1].reshape(n, gdim, gdim)
         return table[:, 0], table[:, 1 : 1 + gdim], second

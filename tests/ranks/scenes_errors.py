@@ -149,6 +149,28 @@ def calls_differ(folder: Path) -> dict[str, Any]:
     return {"errors": _raised(comm, call)}
 
 
+def arguments_differ(folder: Path) -> dict[str, Any]:
+    """The last rank has another tolerance."""
+    scene = Blocks(QUADRILATERAL)
+    comm = scene.u.function_space.mesh.comm
+    contact = scene.contact()
+    assembler = cx.ContactAssembler(scene.F, scene.u, contacts=[contact], bcs=scene.bcs)
+    assembler.begin_step()
+    rtol = 1e-11 if comm.rank < comm.size - 1 else 1e-6
+    return {"errors": _raised(comm, lambda: assembler.settle(rtol=rtol))}
+
+
+def argument_is_no_number(folder: Path) -> dict[str, Any]:
+    """On the last rank."""
+    scene = Blocks(QUADRILATERAL)
+    comm = scene.u.function_space.mesh.comm
+    contact = scene.contact()
+    assembler = cx.ContactAssembler(scene.F, scene.u, contacts=[contact], bcs=scene.bcs)
+    assembler.begin_step()
+    max_it: Any = 50 if comm.rank < comm.size - 1 else "many"
+    return {"errors": _raised(comm, lambda: assembler.settle(max_it=max_it))}
+
+
 def displacement_is_infinite(folder: Path) -> dict[str, Any]:
     """At one node of the last rank."""
     scene = Blocks(QUADRILATERAL)

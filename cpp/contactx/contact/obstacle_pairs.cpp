@@ -26,22 +26,6 @@ std::vector<double> gathered_rows(std::span<const double> x,
       rows[gdim * i + k] = x[std::size_t(gdim) * nodes[i] + k];
   return rows;
 }
-
-/// Saved values of a known size.
-std::vector<double> values_of_size(const std::vector<Saved>& saved,
-                                   const char* name, std::size_t rows,
-                                   int width)
-{
-  const auto& values = values_of<double>(saved, name);
-  check::rows(values.size(), rows, width, name);
-  return values;
-}
-
-bool has(const std::vector<Saved>& saved, const char* name)
-{
-  return std::ranges::any_of(saved,
-                             [=](const Saved& s) { return s.name == name; });
-}
 } // namespace
 
 ObstacleMaster::ObstacleMaster(std::shared_ptr<obstacle::Obstacle> obstacle,
@@ -170,7 +154,7 @@ void ObstacleMaster::update_slip(std::span<const double> at,
 
 std::vector<double> ObstacleMaster::carried() const
 {
-  return _placed.carry(_start, _obstacle->placement(_gdim));
+  return _obstacle->carry(_start, _placed, _obstacle->placement(_gdim));
 }
 
 void ObstacleMaster::accept(std::span<const double> x)
@@ -227,7 +211,7 @@ void ObstacleMaster::touch(std::span<const std::int8_t> which,
   const std::vector<double> now = at_slaves(x);
   const std::vector<double> gap = _obstacle->evaluate(now, _gdim).gap;
   const std::vector<double> seen
-      = _obstacle->placement(_gdim).carry(now, _placed);
+      = _obstacle->carry(now, _obstacle->placement(_gdim), _placed);
   for (std::size_t i = 0; i < size(); ++i)
   {
     if (not which[i])
@@ -344,6 +328,8 @@ std::vector<Saved> ObstacleMaster::save() const
     saved.push_back({"direction", global, 0, _placed.direction});
   if (not _placed.angle.empty())
     saved.push_back({"angle", global, 0, _placed.angle});
+  if (_placed.time != 0)
+    saved.push_back({"time", global, 0, std::vector<double>{_placed.time}});
   if (not _parameters.empty())
     saved.push_back({"parameters", global, 0, _parameters});
   return saved;
@@ -367,6 +353,8 @@ void ObstacleMaster::load(const std::vector<Saved>& saved)
       placed.direction = values_of_size(saved, "direction", 1, _gdim);
     if (has(saved, "angle"))
       placed.angle = values_of<double>(saved, "angle");
+    if (has(saved, "time"))
+      placed.time = values_of_size(saved, "time", 1, 1).front();
     _parameters = has(saved, "parameters")
                       ? values_of<double>(saved, "parameters")
                       : std::vector<double>{};

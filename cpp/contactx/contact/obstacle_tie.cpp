@@ -15,7 +15,7 @@ ObstacleTie::ObstacleTie(std::shared_ptr<obstacle::Obstacle> obstacle,
                          std::span<const double> x, int gdim, double reach)
     : ObstacleMaster(std::move(obstacle), std::move(slaves), x, gdim, reach,
                      true),
-      _first(_placed), _offset(size(), 0)
+      _offset(size(), 0)
 {
 }
 
@@ -24,8 +24,8 @@ std::int32_t ObstacleTie::search(std::span<const double> x,
 {
   if (_found)
     return 0;
-  _reference = at_slaves(x);
-  _normal = _obstacle->evaluate(_reference, _gdim).normal;
+  _place = at_slaves(x);
+  _normal = _obstacle->evaluate(_place, _gdim).normal;
   const std::int32_t changed = ObstacleMaster::search(x, closed);
   _found = true;
   return changed;
@@ -43,11 +43,11 @@ ObstacleTie::update(std::span<const double> x, bool frozen,
 void ObstacleTie::update_slip(std::span<const double> at,
                               std::span<const double>)
 {
-  std::vector<double> place(_reference.size());
+  std::vector<double> place = _place;
   for (std::size_t i = 0; i < place.size(); ++i)
-    place[i] = _reference[i] + _offset[i / _gdim] * _normal[i];
+    place[i] += _offset[i / _gdim] * _normal[i];
   const std::vector<double> carried
-      = _first.carry(place, _obstacle->placement(_gdim));
+      = _obstacle->carry(place, _placed, _obstacle->placement(_gdim));
   std::ranges::fill(_slip, 0.0);
   for (std::size_t i = 0; i < size(); ++i)
   {
@@ -58,4 +58,44 @@ void ObstacleTie::update_slip(std::span<const double> at,
       row[kernel::rigid_slip_derivative + (_gdim + 1) * k] = 1;
     }
   }
+}
+
+void ObstacleTie::accept(std::span<const double> x)
+{
+  if (_found)
+  {
+    // Step by step: a velocity is that of the step alone
+    std::vector<double> place
+        = _obstacle->carry(_place, _placed, _obstacle->placement(_gdim));
+    _normal = _obstacle->evaluate(place, _gdim).normal;
+    _place = std::move(place);
+  }
+  ObstacleMaster::accept(x);
+}
+
+std::vector<Saved> ObstacleTie::save() const
+{
+  std::vector<Saved> saved = ObstacleMaster::save();
+  if (_found)
+  {
+    saved.push_back({"place", RowKind::slave, _gdim, _place});
+    saved.push_back({"normal", RowKind::slave, _gdim, _normal});
+  }
+  return saved;
+}
+
+void ObstacleTie::load(const std::vector<Saved>& saved)
+{
+  _found = false;
+  if (has(saved, "place"))
+  {
+    std::vector<double> place = values_of_size(saved, "place", size(), _gdim);
+    std::vector<double> normal = values_of_size(saved, "normal", size(), _gdim);
+    ObstacleMaster::load(saved);
+    _place = std::move(place);
+    _normal = std::move(normal);
+    _found = true;
+  }
+  else
+    ObstacleMaster::load(saved);
 }

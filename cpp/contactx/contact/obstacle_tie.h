@@ -27,13 +27,18 @@ public:
   update(std::span<const double> x, bool frozen,
          std::span<const double> offset) override;
 
+  void accept(std::span<const double> x) override;
+  std::vector<Saved> save() const override;
+  void load(const std::vector<Saved>& saved) override;
+
 private:
   /// The whole way from the place that the obstacle has carried the node to.
   void update_slip(std::span<const double> at,
                    std::span<const double> data) override;
 
   bool _found = false;
-  obstacle::Placement _first;
-  std::vector<double> _reference, _normal, _offset;
+  // Where the obstacle has carried the nodes' places to by the last accepted
+  // step, and the outward normals there
+  std::vector<double> _place, _normal, _offset;
 };
 } // namespace contactx::contact

@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include "../check.h"
+#include <algorithm>
 #include <cstdint>
 #include <stdexcept>
 #include <string>
@@ -49,5 +51,27 @@ const std::vector<T>& values_of(const std::vector<Saved>& saved,
       throw std::invalid_argument("the array " + name + " is of another type");
     }
   throw std::invalid_argument("there is no array " + name);
+}
+
+/// @brief Values of a saved array of a known size.
+/// @param[in] saved The arrays.
+/// @param[in] name Name of the one.
+/// @param[in] rows Number of its rows.
+/// @param[in] width Values a row.
+/// @throws std::invalid_argument if it is not there, or of another size.
+inline std::vector<double> values_of_size(const std::vector<Saved>& saved,
+                                          const char* name, std::size_t rows,
+                                          int width)
+{
+  const auto& values = values_of<double>(saved, name);
+  check::rows(values.size(), rows, width, name);
+  return values;
+}
+
+/// @brief Whether an array was saved.
+inline bool has(const std::vector<Saved>& saved, const char* name)
+{
+  return std::ranges::any_of(saved,
+                             [=](const Saved& s) { return s.name == name; });
 }
 } // namespace contactx::contact

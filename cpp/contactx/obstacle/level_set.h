@@ -5,6 +5,7 @@
 
 #include "obstacle.h"
 #include <functional>
+#include <optional>
 
 namespace contactx::obstacle
 {
@@ -23,7 +24,8 @@ struct LevelValues
 ///
 /// The function need not be a distance: its zero is the surface, and g = f /
 /// |grad f| is the distance to first order. A function that changes tells of no
-/// movement along its surface: for friction its material is at rest.
+/// movement along its surface: for friction its material is at rest, unless it
+/// has a velocity.
 class LevelSet : public Obstacle
 {
 public:
@@ -35,17 +37,36 @@ public:
   /// @brief Current values of what changes the function, as many on each rank.
   using Parameters = std::function<std::vector<double>(int gdim)>;
 
+  /// @brief Velocity of its material.
+  struct Velocity
+  {
+    /// Evaluates it at points (shape=(n, gdim)), n > 0
+    std::function<std::vector<double>(std::span<const double> x, int gdim)>
+        values;
+    /// The time now: between two times the material goes with the velocity
+    std::function<double()> time;
+  };
+
   /// @brief Create an obstacle.
   /// @param[in] f The function; what it throws comes through.
   /// @param[in] parameters Tells whether the function has changed.
-  explicit LevelSet(Function f, Parameters parameters = {});
+  /// @param[in] velocity Tells how its material moves.
+  explicit LevelSet(Function f, Parameters parameters = {},
+                    std::optional<Velocity> velocity = std::nullopt);
 
   using Obstacle::evaluate;
   /// @copydoc Obstacle::evaluate
   /// @throws std::invalid_argument if the function or its gradient is not
   /// finite or its gradient zero at a point.
   void evaluate(std::span<const double> x, int gdim, Geometry& at) override;
+  /// @copydoc Obstacle::placement
+  /// @throws std::invalid_argument if the time is not finite.
   Placement placement(int gdim) override;
+
+  /// @copydoc Obstacle::carry
+  /// @throws std::invalid_argument if the velocity is not finite at a point.
+  std::vector<double> carry(std::span<const double> x, const Placement& from,
+                            const Placement& to) override;
 
   /// @copydoc Obstacle::distance; points between slave nodes may be where the
   /// function means nothing
@@ -55,12 +76,13 @@ public:
   /// @copydoc Obstacle::level; the function itself
   std::vector<double> level(std::span<const double> x, int gdim) override;
 
-  bool tells_movement() const override { return false; }
+  bool tells_movement() const override { return _velocity.has_value(); }
   std::vector<double> parameters(int gdim) override;
   std::string name() const override { return "LevelSet"; }
   std::string usual_mistake() const override;
 
 private:
+  std::vector<double> velocity(std::span<const double> x, int gdim) const;
   LevelValues values(std::span<const double> x, int gdim, int order) const;
 
   /// Central differences of the gradient, symmetric. They only serve the
@@ -69,5 +91,6 @@ private:
 
   Function _f;
   Parameters _parameters;
+  std::optional<Velocity> _velocity;
 };
 } // namespace contactx::obstacle

@@ -120,6 +120,12 @@ std::vector<double> Placement::carry(std::span<const double> x,
   return carried;
 }
 
+std::vector<double> Obstacle::carry(std::span<const double> x,
+                                    const Placement& from, const Placement& to)
+{
+  return from.carry(x, to);
+}
+
 std::vector<double> Obstacle::distance(std::span<const double> x, int gdim)
 {
   return evaluate(x, gdim).gap;

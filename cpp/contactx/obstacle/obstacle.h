@@ -37,6 +37,7 @@ struct Placement
   /// in space about the direction (shape=(1)), or, where there is none, by a
   /// rotation vector (shape=(3)); empty if it does not spin
   std::vector<double> angle{};
+  double time = 0; ///< up to which its material has gone with a velocity
 
   /// @brief Rotation of the obstacle's shape to another placement, on the
   /// shortest way from one direction to the other; spin does not change it.
@@ -83,6 +84,14 @@ public:
   /// @brief Where the obstacle is: its movement enters the slip of what touches
   /// it.
   virtual Placement placement(int gdim) = 0;
+
+  /// @brief Carry points of its material from one placement to another one.
+  /// @param[in] x Points (shape=(n, gdim)).
+  /// @param[in] from Where the obstacle is with these.
+  /// @param[in] to Where they are wanted.
+  /// @return Points (shape=(n, gdim)).
+  virtual std::vector<double> carry(std::span<const double> x,
+                                    const Placement& from, const Placement& to);
 
   /// @brief Its diameter, infinite where none is known.
   virtual double size(int /*gdim*/)

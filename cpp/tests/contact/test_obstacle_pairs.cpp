@@ -515,7 +515,79 @@ TEST(ObstacleTie, MovesWithItsObstacleOverSteps)
     // The tie's place is that of the reference for ever
     tie->search(x, std::vector<std::int8_t>(scene.n));
     EXPECT_LE(difference(given(*tie, scene, x).slip, d), 1e-14);
+    // Another one goes on from what was saved
+    const auto other = tied(scene, moving.o);
+    EXPECT_GE(difference(given(*other, scene, x).slip, d), 0.1);
+    other->load(tie->save());
+    other->search(x, std::vector<std::int8_t>(scene.n));
+    EXPECT_EQ(given(*other, scene, x).slip, given(*tie, scene, x).slip);
   }
+}
+
+/// A floor whose material goes along with a velocity that changes.
+struct Belt
+{
+  double time = 0, speed = 1;
+  std::shared_ptr<obstacle::LevelSet> o = std::make_shared<obstacle::LevelSet>(
+      [](std::span<const double> x, int g, int)
+      {
+        obstacle::LevelValues at;
+        for (std::size_t i = 0; i < x.size(); i += g)
+        {
+          at.value.push_back(x[i + 1] + 10);
+          at.gradient.insert(at.gradient.end(), {0, 1});
+        }
+        return at;
+      },
+      obstacle::LevelSet::Parameters{},
+      obstacle::LevelSet::Velocity{[this](std::span<const double> x, int g)
+                                   {
+                                     std::vector<double> v(x.size(), 0);
+                                     for (std::size_t i = 0; i < x.size();
+                                          i += g)
+                                       v[i] = speed;
+                                     return v;
+                                   },
+                                   [this] { return time; }});
+};
+
+TEST(ObstacleMaster, ABeltDragsByItsVelocity)
+{
+  Belt belt;
+  const FacingNodes scene(*belt.o, 2);
+  const auto master = make(scene, belt.o);
+  const auto tie = tied(scene, belt.o);
+  double way = 0;
+  for (double speed : {1.0, -3.0})
+  {
+    belt.speed = speed;
+    belt.time += 0.25;
+    way += 0.25 * speed;
+    const Given slips = given(*master, scene, scene.x);
+    const Given pulls = given(*tie, scene, scene.x);
+    for (int i = 0; i < scene.n; ++i)
+    {
+      EXPECT_NEAR(slips.slip[2 * i], -0.25 * speed, 1e-14);
+      EXPECT_NEAR(slips.slip[2 * i + 1], 0, 1e-14);
+      // A tie is pulled by all of it
+      EXPECT_NEAR(pulls.slip[2 * i], -way, 1e-14);
+    }
+    for (ObstacleMaster* each :
+         {master.get(), static_cast<ObstacleMaster*>(tie.get())})
+    {
+      each->accept(scene.x);
+      each->begin_step();
+    }
+  }
+  EXPECT_FALSE(master->moves_untold(0));
+  // The time is saved with the step's start
+  const auto other = make(scene, belt.o);
+  belt.time += 0.5;
+  const auto late = make(scene, belt.o);
+  late->load(master->save());
+  EXPECT_EQ(given(*late, scene, scene.x).slip,
+            given(*master, scene, scene.x).slip);
+  EXPECT_NEAR(given(*late, scene, scene.x).slip[0], 1.5, 1e-14);
 }
 
 TEST(ObstacleTie, AnOffsetMakesItLongerAlongTheNormalThatTurns)

@@ -4,6 +4,7 @@
 #include "generator.h"
 #include "obstacles.h"
 #include <gtest/gtest.h>
+#include <numbers>
 #include <stdexcept>
 
 using namespace contactx;
@@ -164,5 +165,91 @@ TEST(LevelSet, TellsItsParameters)
                { return std::vector<double>{height, 1. * gdim}; });
   height = 2;
   EXPECT_EQ(set.parameters(3), (std::vector<double>{2, 3}));
+}
+
+/// A round set that turns about the origin, one radian a unit of time.
+struct Turning
+{
+  double time = 0;
+  LevelSet set;
+
+  explicit Turning(int gdim)
+      : set([](std::span<const double> x, int g, int)
+            { return bump(x, g, true); }, {},
+            LevelSet::Velocity{[](std::span<const double> x, int g)
+                               {
+                                 std::vector<double> v(x.size(), 0);
+                                 for (std::size_t i = 0; i < x.size(); i += g)
+                                 {
+                                   v[i] = -x[i + 1];
+                                   v[i + 1] = x[i];
+                                 }
+                                 return v;
+                               },
+                               [this] { return time; }}),
+        from(set.placement(gdim))
+  {
+  }
+
+  Placement from;
+};
+
+TEST(LevelSet, AVelocityCarriesItsMaterial)
+{
+  Generator random(3);
+  for (int gdim : {2, 3})
+  {
+    Turning turning(gdim);
+    EXPECT_TRUE(turning.set.tells_movement());
+    std::vector<double> x(10 * gdim);
+    for (double& c : x)
+      c = random(-1, 1);
+    EXPECT_EQ(turning.set.carry(x, turning.from, turning.from), x);
+    for (double angle : {0.1, 0.5 * std::numbers::pi})
+    {
+      turning.time = angle;
+      const Placement to = turning.set.placement(gdim);
+      const auto y = turning.set.carry(x, turning.from, to);
+      const double c = std::cos(angle), s = std::sin(angle);
+      // The error of the method goes with the fifth power
+      const double tolerance = 2e-4 * std::pow(angle, 5);
+      for (std::size_t i = 0; i < x.size(); i += gdim)
+      {
+        EXPECT_NEAR(y[i], c * x[i] - s * x[i + 1], tolerance);
+        EXPECT_NEAR(y[i + 1], s * x[i] + c * x[i + 1], tolerance);
+        if (gdim == 3)
+        {
+          EXPECT_EQ(y[i + 2], x[i + 2]);
+        }
+      }
+      const auto back = turning.set.carry(y, to, turning.from);
+      for (std::size_t i = 0; i < x.size(); ++i)
+        EXPECT_NEAR(back[i], x[i], 2 * tolerance);
+    }
+    EXPECT_TRUE(
+        turning.set.carry({}, turning.from, {turning.from.point, {}, {}, 1})
+            .empty());
+  }
+}
+
+TEST(LevelSet, RefusesAVelocityThatIsNone)
+{
+  double time = 0;
+  std::vector<double> v{0, std::nan("")};
+  LevelSet set([](std::span<const double>, int, int) { return LevelValues{}; },
+               {},
+               LevelSet::Velocity{[&](std::span<const double>, int)
+                                  { return v; }, [&] { return time; }});
+  const Placement from = set.placement(2);
+  time = 1;
+  const Placement to = set.placement(2);
+  const std::vector<double> x{1, 2};
+  EXPECT_THROW(set.carry(x, from, to), std::invalid_argument);
+  v = {1};
+  EXPECT_THROW(set.carry(x, from, to), std::invalid_argument);
+  v = {1, 2};
+  EXPECT_NEAR(set.carry(x, from, to)[1], 4, 1e-15);
+  time = std::nan("");
+  EXPECT_THROW(set.placement(2), std::invalid_argument);
 }
 } // namespace

@@ -11,7 +11,9 @@ import numpy as np
 import numpy.typing as npt
 
 from contactx import cpp as core
-from contactx.ufl_function import UFLFunction, Values
+from contactx.arguments import is_number
+from contactx.ufl_function import UFLField, UFLFunction, Values
+from dolfinx import fem
 
 
 class LevelSet(core.LevelSet):
@@ -19,14 +21,17 @@ class LevelSet(core.LevelSet):
 
     The function need not be a distance: its zero is the surface, and g = f / |grad f| is the
     distance to first order. A function that changes tells of no movement along its surface: for
-    friction its material is at rest, and a step in which it changes while it is touched is refused.
-    Plane, Sphere and Cylinder drag what touches them.
+    friction its material is at rest, and a step in which it changes while it is touched is refused,
+    unless it has a velocity. Plane, Sphere and Cylinder drag what touches them.
     """
 
     def __init__(
         self,
         f: Callable[[Any], Any],
         gradient: Callable[[npt.NDArray[np.float64]], npt.ArrayLike] | None = None,
+        *,
+        velocity: Callable[[Any], Any] | None = None,
+        time: float | fem.Constant | None = None,
     ):
         """Create an obstacle.
 
@@ -36,9 +41,15 @@ class LevelSet(core.LevelSet):
                 differentiated by UFL. Or of Python: it takes an array of shape (gdim, n), as in
                 ``Function.interpolate``, and returns one of shape (n,).
             gradient: Gradient of a Python function, from (gdim, n) to (gdim, n).
+            velocity: Velocity of its material, which drags what touches it by friction or ties: a
+                belt's, for example. A function of the position, of UFL with a vector for its value
+                where f is one of UFL, else of arrays as the gradient. It must fit to how f changes.
+            time: Time of the velocity, a number or a ``fem.Constant``: between two steps the
+                material goes with the velocity for as long as the time has changed.
 
         Raises:
-            TypeError: If f or gradient is not callable.
+            TypeError: If f, gradient or velocity is not callable, or the time no number.
+            ValueError: If there is a velocity without a time, or a time without a velocity.
         """
         if not callable(f):
             raise TypeError(f"f of a LevelSet must be a function, not {type(f).__name__}")
@@ -46,9 +57,25 @@ class LevelSet(core.LevelSet):
             raise TypeError(
                 f"gradient of a LevelSet must be a function, not {type(gradient).__name__}"
             )
+        if velocity is not None and not callable(velocity):
+            raise TypeError(
+                f"velocity of a LevelSet must be a function, not {type(velocity).__name__}"
+            )
+        if (velocity is None) != (time is None):
+            given, missing = ("velocity", "time") if time is None else ("time", "velocity")
+            raise ValueError(
+                f"a LevelSet has a {given} but no {missing}: what its material moves by in a step "
+                "needs both"
+            )
         # Not methods of this object: what the core keeps must not keep the obstacle
         function = UFLFunction(f, "LevelSet") if gradient is None else _OfPython(f, gradient)
-        super().__init__(function.values, function.parameters)
+        if velocity is None:
+            super().__init__(function.values, function.parameters)
+            return
+        clock = _Clock(time)
+        clock()
+        field = UFLField(velocity, "LevelSet's velocity") if gradient is None else _Field(velocity)
+        super().__init__(function.values, function.parameters, field.values, clock)
 
 
 class _OfPython:
@@ -79,6 +106,43 @@ class _OfPython:
     def parameters(self, gdim: int) -> npt.NDArray[np.float64]:
         """None that are known, shape (0,)."""
         return np.zeros(0)
+
+
+class _Field:
+    """A velocity that a Python function gives."""
+
+    def __init__(self, velocity: Callable[[Any], Any]):
+        self._velocity = velocity
+
+    def values(self, x: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+        """Values, shape (n, gdim).
+
+        Raises:
+            TypeError: If they are no real numbers.
+            ValueError: If their shape does not fit.
+        """
+        v = _real(np.asarray(self._velocity(x.T)))
+        if v.shape != x.T.shape:
+            raise ValueError(
+                f"for points of shape {x.T.shape} the velocity of a LevelSet has shape {v.shape}; "
+                "it must be the same"
+            )
+        return v.T
+
+
+class _Clock:
+    """The current time."""
+
+    def __init__(self, time: Any):
+        self._time = time
+
+    def __call__(self) -> float:
+        given = self._time.value if isinstance(self._time, fem.Constant) else self._time
+        if not is_number(given):
+            raise TypeError(
+                f"time of a LevelSet is {given!r}: give a number, or a fem.Constant of one"
+            )
+        return float(given)
 
 
 def _real(values: npt.NDArray[Any]) -> npt.NDArray[np.float64]:

@@ -17,6 +17,7 @@ RAISED = {
     "material_fails": "ConvergenceError: contact did not converge: the residual is not finite",
     "friction_is_negative": "ValueError: friction is -0.3",
     "law_of_friction_is_wrong": "ValueError: the law of friction gives the bound -0.00",
+    "argument_is_no_number": "TypeError: settle() was given max_it='many': give a number",
     "displacement_is_infinite": "ValueError: the displacement u is not finite",
     "tag_is_missing": "ValueError: tag 99 is not in the facet tags; there are: 11, 12, 13, 14, 15, "
     "16, 21, 22, 23, 24, 25, 26",
@@ -41,7 +42,7 @@ def found(request, tmp_path_factory):
     def file(name):
         return folder / f"{name}-{ranks}.json"
 
-    names = [*RAISED, "nothing_in_reach", "calls_differ"]
+    names = [*RAISED, "nothing_in_reach", "calls_differ", "arguments_differ"]
     wrong = launch_together(SCRIPT, ranks, folder, names, file)
     for text in wrong.values():
         print(text)
@@ -67,6 +68,14 @@ def test_ranks_that_call_different_methods(found):
         said += "all ranks must call the same method of a ContactAssembler: accept() on rank 0, "
     assert len(errors) == ranks
     assert all(error.startswith(said) for error in errors)
+
+
+def test_ranks_that_give_different_arguments(found):
+    ranks, outcomes = found
+    # One alone does not differ from others
+    said = "ValueError: rtol of settle() differs between ranks, 1e-11" if ranks > 1 else ""
+    assert len(outcomes["arguments_differ"]["errors"]) == ranks
+    assert all(error.startswith(said) for error in outcomes["arguments_differ"]["errors"])
 
 
 def test_what_is_left_is_as_it_was(found):
