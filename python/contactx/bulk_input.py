@@ -18,6 +18,7 @@ import numpy.typing as npt
 import basix.ufl
 import ffcx.options
 import ufl
+from contactx import compat
 from contactx.parallel.agreement import agreed
 from contactx.parallel.reduce import anywhere
 from dolfinx import fem, jit, la
@@ -61,6 +62,12 @@ def check_displacement(u: Any) -> None:
         )
     if element.degree != 1:
         raise ValueError(f"u is of degree {element.degree}; contact needs degree 1: {wanted}")
+    if compat.has_other_constraints(V):
+        raise ValueError(
+            "u is in the function space of a MultiPointConstraint of dolfinx_mpc, which contactx "
+            "would leave out: take the space that the constraint was made of. Surfaces are glued "
+            "by cx.Contact(..., tied=True), symmetry planes held by fem.dirichletbc"
+        )
 
 
 def check_finite(comm: MPI.Comm, **vectors: la.Vector) -> None:

@@ -3,6 +3,8 @@
 """What differs between builds of DOLFINx."""
 
 import contextlib
+import gc
+import sys
 
 with contextlib.suppress(ModuleNotFoundError):
     # The PyPI wheels of DOLFINx must load their MPI and PETSc before DOLFINx;
@@ -21,6 +23,7 @@ import numpy as np
 
 import dolfinx
 import dolfinx.fem.petsc  # registers the PETSc type casters
+from dolfinx import fem
 from ufl.corealg.dag_traverser import DAGTraverser
 
 # Others have other names and layouts of what contactx builds on
@@ -43,6 +46,21 @@ def require_real_double() -> None:
             f"PETSc was built with {np.dtype(PETSc.ScalarType).name} scalars, but contactx needs "
             "real double precision (float64): use a DOLFINx with such a PETSc"
         )
+
+
+def has_other_constraints(V: fem.FunctionSpace) -> bool:
+    """Whether a function space belongs to a constraint of dolfinx_mpc.
+
+    Nothing in the space tells, but who has made one keeps the constraint.
+
+    Args:
+        V: Function space.
+    """
+    kind = getattr(sys.modules.get("dolfinx_mpc"), "MultiPointConstraint", None)
+    return kind is not None and any(
+        type(thing) is kind and thing.finalized and thing.function_space == V
+        for thing in gc.get_objects()
+    )
 
 
 def direct_solver() -> str | None:
