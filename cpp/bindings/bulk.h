@@ -5,15 +5,77 @@
 
 #include "bindings.h"
 #include <contactx/newton/bulk.h>
+#include <optional>
+#include <pybind11/stl.h>
 
 namespace contactx_bindings
 {
+/// An array of Python's that is looked at for as long as it is kept.
+template <class T>
+std::span<const T> keep(Array<T>& kept, const py::object& values)
+{
+  kept = values.cast<Array<T>>();
+  return view(kept);
+}
+
+/// What a bulk of Python has for unknowns beside displacements: see
+/// python/contactx/coupled.py.
+class PythonFields final : public contactx::newton::Fields
+{
+public:
+  explicit PythonFields(py::object adapter) : _adapter(std::move(adapter)) {}
+
+  std::vector<std::size_t> offsets() const override
+  {
+    return _adapter.attr("offsets").cast<std::vector<std::size_t>>();
+  }
+  std::span<const double> values() override
+  {
+    return keep(_values, _adapter.attr("values")());
+  }
+  void set(std::span<const double> values) override
+  {
+    _adapter.attr("set")(py::array_t<double>(
+        static_cast<py::ssize_t>(values.size()), values.data()));
+  }
+  std::span<const double> residual() override
+  {
+    return keep(_residual, _adapter.attr("residual")());
+  }
+  std::span<const double> defect() override
+  {
+    return keep(_defect, _adapter.attr("defect")());
+  }
+  std::span<const double> lifted() override
+  {
+    return keep(_lifted, _adapter.attr("lifted")());
+  }
+  std::span<const std::int8_t> markers() override
+  {
+    return keep(_markers, _adapter.attr("markers")());
+  }
+  std::span<const double> magnitudes() override
+  {
+    return keep(_magnitudes, _adapter.attr("magnitudes")());
+  }
+
+private:
+  py::object _adapter;
+  Array<double> _values, _residual, _defect, _lifted, _magnitudes;
+  Array<std::int8_t> _markers;
+};
+
 /// Bulk that an object of Python looks after: see
 /// python/contactx/bulk_side.py. The object is kept alive.
 class PythonBulk final : public contactx::newton::Bulk
 {
 public:
-  explicit PythonBulk(py::object adapter) : _adapter(std::move(adapter)) {}
+  explicit PythonBulk(py::object adapter) : _adapter(std::move(adapter))
+  {
+    if (const py::object fields = py::getattr(_adapter, "fields", py::none());
+        not fields.is_none())
+      _fields.emplace(fields);
+  }
 
   int gdim() const override { return _adapter.attr("gdim").cast<int>(); }
   bool is_linear() const override
@@ -84,16 +146,14 @@ public:
   {
     return keep(_cell_forces, _adapter.attr("cell_forces")());
   }
-
-private:
-  template <class T>
-  static std::span<const T> keep(Array<T>& kept, const py::object& values)
+  contactx::newton::Fields* fields() override
   {
-    kept = values.cast<Array<T>>();
-    return view(kept);
+    return _fields ? &*_fields : nullptr;
   }
 
+private:
   py::object _adapter;
+  std::optional<PythonFields> _fields;
   Array<double> _reference, _positions, _displacements, _diagonal, _products,
       _residual, _defect, _lifted, _cell_sizes, _cell_forces;
   Array<std::int32_t> _cells;

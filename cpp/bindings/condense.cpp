@@ -78,7 +78,8 @@ void contactx_bindings::condense(py::module_& m)
       "coupled_rows",
       [](const Array<std::int64_t>& offsets, const Array<std::int64_t>& columns,
          const Array<double>& values, const ContactBlock& contact,
-         const Array<std::int64_t>& places, std::size_t num_local)
+         const Array<std::int64_t>& places, std::size_t num_owned,
+         std::size_t num_local)
       {
         const auto rows_of = [](const Rows& rows)
         {
@@ -87,12 +88,13 @@ void contactx_bindings::condense(py::module_& m)
         };
         const CoupledRows found
             = coupled(view(offsets), view(columns), view(values), contact,
-                      view(places), num_local);
+                      view(places), num_owned, num_local);
         return py::make_tuple(rows_of(found.own), array(found.others),
                               rows_of(found.added));
       },
       py::arg("offsets"), py::arg("columns"), py::arg("values"),
-      py::arg("contact"), py::arg("places"), py::arg("num_local"),
+      py::arg("contact"), py::arg("places"), py::arg("num_owned"),
+      py::arg("num_local"),
       "Rows of the coupled system, and what is added to those of other ranks");
   m.def(
       "slave_marks",

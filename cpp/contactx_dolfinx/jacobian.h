@@ -48,9 +48,10 @@ public:
     const parallel::Halo& halo = *_system->halo();
     const condense::ContactBlock contact(_system->contacts(), markers(), true);
     const condense::Rows& bulk = bulk_rows();
-    const condense::CoupledRows rows = condense::coupled(
-        bulk.offsets, bulk.columns, bulk.values, contact, places(),
-        std::size_t(halo.num_nodes()) * halo.gdim());
+    const condense::CoupledRows rows
+        = condense::coupled(bulk.offsets, bulk.columns, bulk.values, contact,
+                            places(), _system->num_displacements(),
+                            std::size_t(halo.num_nodes()) * halo.gdim());
 
     PetscObjectId id = 0;
     petsc::check(PetscObjectGetId(reinterpret_cast<PetscObject>(A), &id),

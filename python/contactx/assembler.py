@@ -22,8 +22,10 @@ from contactx.audit.audit import Audit
 from contactx.bodies import Bodies
 from contactx.bulk import Bulk
 from contactx.bulk_input import (
+    as_blocks,
     check_compiler_options,
     check_conditions,
+    check_coupled_forms,
     check_displacement,
     check_finite,
     check_forms,
@@ -31,6 +33,7 @@ from contactx.bulk_input import (
     have_changed,
 )
 from contactx.contact import Contact, check_contacts
+from contactx.coupled import CoupledBulk
 from contactx.errors import ConvergenceError, NotFiniteError
 from contactx.geometry.cells import check_cells
 from contactx.geometry.curved import check_straight
@@ -45,6 +48,7 @@ from contactx.settled import Settled, settled
 from contactx.state import Snapshot
 from contactx.summary import complete, warning_of
 from contactx.system import SaddlePointSystem
+from contactx.unknowns import unknowns_of
 from dolfinx import fem, la
 
 # What all ranks must call at the same time
@@ -78,19 +82,21 @@ class ContactAssembler:
     All ranks must call all methods, in the same order.
 
     Attributes:
-        u: Displacement.
+        u: Displacement of the nodes; a copy where the user's function has more than that.
+        functions: What is solved for: the displacement, or the functions that it is one of.
         contacts: Contacts.
         report: Report of the step.
     """
 
     def __init__(
         self,
-        F: ufl.Form,
-        u: fem.Function,
+        F: ufl.Form | Sequence[ufl.Form],
+        u: fem.Function | Sequence[fem.Function],
         *,
         contacts: Sequence[Contact],
+        displacement: int | None = None,
         bcs: Sequence[fem.DirichletBC] | None = None,
-        J: ufl.Form | None = None,
+        J: ufl.Form | Sequence[Sequence[ufl.Form | None]] | None = None,
         audit: str = "refuse",
         form_compiler_options: dict[str, Any] | None = None,
         jit_options: dict[str, Any] | None = None,
@@ -98,9 +104,10 @@ class ContactAssembler:
         """Couple a bulk with contacts; the arguments are those of ``ContactProblem``.
 
         Args:
-            F: Residual of the bulk.
-            u: Displacement.
+            F: Residual of the bulk, or of each function.
+            u: Displacement; or a function of a mixed space, or functions, one of which has it.
             contacts: Contacts.
+            displacement: Which part or function is the displacement.
             bcs: Dirichlet conditions.
             J: Jacobian of F; derived if None.
             audit: "refuse" or "warn".
@@ -112,28 +119,41 @@ class ContactAssembler:
             ValueError: As ``ContactProblem`` does.
         """
         compat.require_real_double()
-        check_displacement(u)
-        check_forms(F, J, u)
-        check_conditions(bcs, u)
+        unknowns = unknowns_of(u, displacement)
+        functions: list[fem.Function] = [u] if unknowns is None else unknowns.functions
+        if unknowns is None:
+            check_displacement(u)
+            check_forms(F, J, u)
+        else:
+            check_coupled_forms(F, J, functions, is_list=isinstance(u, Sequence))
+        field: fem.Function = u if unknowns is None else unknowns.u
+        check_conditions(bcs, functions)
         check_compiler_options(form_compiler_options, jit_options)
         check_contacts(contacts)
         if audit not in ("refuse", "warn"):
             raise ValueError(f'audit must be "refuse" or "warn", not {audit!r}')
-        check_straight(contacts, u.function_space.mesh)
+        check_straight(contacts, field.function_space.mesh)
 
-        V = u.function_space
+        V = field.function_space
         X = la.vector(V.dofmap.index_map, V.dofmap.index_map_bs)
         gdim = V.mesh.geometry.dim
         X.array[:] = reference_positions(V).ravel()
         check_finite(V.mesh.comm, coordinates_of_the_mesh_are=X)
 
-        self.u = u
+        self.u = field
+        self.functions = functions
         self.contacts = list(contacts)
         self.report = Report()
         self._bcs: Sequence[fem.DirichletBC] = [] if bcs is None else bcs
         self._refuses = audit == "refuse"
-        self.bulk = Bulk(F, u, bcs or [], J, form_compiler_options, jit_options)
-        self.halo = Halo(u, X.array.reshape(-1, gdim))
+        options = form_compiler_options, jit_options
+        residuals, jacobians = as_blocks(F, J)
+        self.bulk = (
+            Bulk(residuals[0], field, bcs or [], jacobians and jacobians[0][0], *options)
+            if unknowns is None
+            else CoupledBulk(residuals, jacobians, unknowns, bcs or [], *options)
+        )
+        self.halo = Halo(field, X.array.reshape(-1, gdim))
         self._comm = self.halo.comm
         self.bodies = Bodies(V, self.halo)
         self.interfaces = []
@@ -184,6 +204,7 @@ class ContactAssembler:
             snes: The solver.
             condensed: Whether its preconditioner is contactx's condensed solver, which is exact.
         """
+        self._check_condensed(condensed)
         self._attached = NewtonLoop(self, snes, condensed=condensed)
         self.solvers.append(self._attached)
 
@@ -218,17 +239,22 @@ class ContactAssembler:
         self._before, self._has_begun = None, False
         if have_changed(self._bcs, self.bulk.bcs, self._comm):
             self._take_conditions()
+        self.bulk.read()
         check_finite(self._comm, the_displacement_u_is=self.u.x)
+        for function in self.functions:
+            check_finite(self._comm, the_start_of_the_solve_is=function.x)
         prescribed = self.bulk.prescribed()
         check_prescribed(prescribed, self.bulk.markers, self._comm)
         check_over_constrained(self.interfaces, self.contacts, prescribed, self.halo)
         check_drag(self.interfaces, self.contacts)
-        self._before = Snapshot(self.u, self.contacts, self.halo.update_ghosts)
+        self._before = Snapshot(
+            self.u, self.contacts, self.halo.update_ghosts, history=self.functions
+        )
         self.halo.update_ghosts()
 
     def _take_conditions(self) -> None:
         """Take the Dirichlet conditions that the user's list has now."""
-        check_conditions(self._bcs, self.u)
+        check_conditions(self._bcs, self.functions)
         self.bulk.set_conditions(self._bcs)
         for interface in self.interfaces:
             interface.set_prescribed(self.bulk.markers)
@@ -332,6 +358,7 @@ class ContactAssembler:
 
     def _look_anew(self) -> None:
         """Take what a user may have changed since the last call: displacements, loads."""
+        self.bulk.read()
         self.halo.update_ghosts()
         self.system.core.begin_step()
 
@@ -417,6 +444,7 @@ class ContactAssembler:
             RuntimeError: If no iterate has settled since the last step was taken.
         """
         self._enter("set_up", condensed=int(condensed))
+        self._check_condensed(condensed)
         if not condensed:
             ksp.setOperators(self.jacobian(self._A))
             return
@@ -428,6 +456,13 @@ class ContactAssembler:
         self._condensed.update(self.loop.free_bodies.springs)
         self._condensed.follow(self.loop)
         self._condensed.hand_to(ksp)
+
+    def _check_condensed(self, condensed: bool) -> None:
+        if condensed and self.bulk.fields is not None:
+            raise ValueError(
+                "the condensed solver is for a displacement alone: leave condensed out where other "
+                "fields are solved for with it"
+            )
 
     def limit(self, dx: PETSc.Vec) -> float:
         """How much of a step may be taken.

@@ -60,7 +60,7 @@ class Bulk:
             jit_options: Options of the compilation.
         """
         self.u = u
-        self.residual_form = F
+        self.residual_form: ufl.Form | None = F
         V = u.function_space
         self.has_own_jacobian = J is not None
         if J is None:
@@ -87,6 +87,34 @@ class Bulk:
         self.set_conditions(bcs)
         self.assemblies = 0
         self.skipped = 0
+        # Other fields: see coupled.py
+        self.fields: Any = None
+
+    def read(self) -> None:
+        """Take the displacement of the user's function, where u is a copy."""
+
+    def write(self) -> None:
+        """Give it to the user's function."""
+
+    def diagonal(self) -> npt.NDArray[np.float64]:
+        """Diagonal of the Jacobian at the displacement's owned dofs; all ranks must take part."""
+        diagonal: npt.NDArray[np.float64] = self.matrix().getDiagonal().array
+        return diagonal
+
+    def products(self, fields: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+        """Products of the displacement's block with fields; all ranks must take part.
+
+        Args:
+            fields: Displacements at owned dofs, shape (count, num_dofs).
+        """
+        K = self.matrix()
+        x, y = K.createVecs()
+        results = np.empty_like(fields)
+        for field, result in zip(fields, results, strict=True):
+            x.array[:] = field
+            K.mult(x, y)
+            result[:] = y.array
+        return results
 
     def set_conditions(self, bcs: Sequence[fem.DirichletBC]) -> None:
         """Take other Dirichlet conditions from now on; all ranks must take part.

@@ -45,12 +45,12 @@ def check_displacement(u: Any) -> None:
             f"u is on a mesh of cells of dimension {V.mesh.topology.dim} in {gdim} dimensions; "
             "contact needs plane cells in the plane or solid ones in space"
         )
-    wanted = f'functionspace(mesh, ("Lagrange", 1, ({gdim},)))'
+    wanted = wanted_space(gdim)
     element = V.ufl_element()
     if len(V._cpp_object.component()) > 0 or isinstance(element, basix.ufl._MixedElement):
         raise ValueError(
-            f"u is in a mixed space or a part of one; contact needs a displacement of its own: "
-            f"{wanted}"
+            "u is in a mixed space or a part of one: give the function of the whole, and say which "
+            "part is the displacement, as in displacement=0"
         )
     # Values of Nedelec's and Raviart's elements have the right shape, but no dofs at nodes
     if element.element_family != basix.ElementFamily.P or element.discontinuous:
@@ -68,6 +68,11 @@ def check_displacement(u: Any) -> None:
             "would leave out: take the space that the constraint was made of. Surfaces are glued "
             "by cx.Contact(..., tied=True), symmetry planes held by fem.dirichletbc"
         )
+
+
+def wanted_space(gdim: int) -> str:
+    """The space of a displacement, as a user writes it."""
+    return f'functionspace(mesh, ("Lagrange", 1, ({gdim},)))'
 
 
 def check_finite(comm: MPI.Comm, **vectors: la.Vector) -> None:
@@ -143,7 +148,72 @@ def check_forms(F: Any, J: Any, u: fem.Function) -> None:
         )
 
 
-def _check_form(form: Any, name: str, count: int, u: fem.Function, advice: str) -> None:
+def check_coupled_forms(
+    F: Any, J: Any, functions: Sequence[fem.Function], *, is_list: bool
+) -> None:
+    """Check residuals of several functions and their Jacobian.
+
+    Args:
+        F: Residual, or a list of them.
+        J: Jacobian, or rows of them; None to have it made.
+        functions: What is solved for.
+        is_list: Whether the user gave a list of functions.
+
+    Raises:
+        TypeError: If one is no UFL form, or a list is none.
+        ValueError: If there are not as many as functions, or as ``check_forms`` says.
+    """
+    if not is_list:
+        check_forms(F, J, functions[0])
+        return
+    n = len(functions)
+    _check_list(F, n, "F", "residual")
+    for i, (f, w) in enumerate(zip(F, functions, strict=True)):
+        _check_form(f, f"F[{i}]", 1, w, f"give the residual, linear in a TestFunction of u[{i}]")
+    if J is None:
+        used = {c for f in F for c in ufl.algorithms.extract_coefficients(f)}
+        for i, w in enumerate(functions):
+            if w not in used:
+                raise ValueError(
+                    f"no residual depends on u[{i}], so that nothing determines it: write F with "
+                    "the very functions that are passed as u, or give J"
+                )
+        return
+    _check_list(J, n, "J", "row")
+    for i, row in enumerate(J):
+        _check_list(row, n, f"J[{i}]", "form")
+        for j, form in enumerate(row):
+            if form is None:
+                continue
+            name, advice = f"J[{i}][{j}]", f"give the derivative of F[{i}] by u[{j}], or None"
+            _check_form(form, name, 2, functions[i], advice, functions[j])
+
+
+def as_blocks(F: Any, J: Any) -> tuple[list[Any], Any]:
+    """Residual and Jacobian as lists, which those of one function are not."""
+    if isinstance(F, ufl.Form):
+        return [F], None if J is None else [[J]]
+    return list(F), J
+
+
+def _check_list(given: Any, n: int, name: str, what: str) -> None:
+    if not isinstance(given, Sequence) or isinstance(given, str):
+        raise TypeError(
+            f"{name} must be a list with a {what} for each function of u, not "
+            f"{type(given).__name__}"
+        )
+    if len(given) != n:
+        raise ValueError(f"{name} has {len(given)} {what}s, but u has {n} functions: give {n}")
+
+
+def _check_form(
+    form: Any,
+    name: str,
+    count: int,
+    u: fem.Function,
+    advice: str,
+    trial: fem.Function | None = None,
+) -> None:
     if not isinstance(form, ufl.Form):
         raise TypeError(f"{name} must be a ufl.Form, not {type(form).__name__}: {advice}")
     if form.empty():
@@ -152,8 +222,9 @@ def _check_form(form: Any, name: str, count: int, u: fem.Function, advice: str) 
     arguments = form.arguments()
     if len(arguments) != count:
         raise ValueError(f"{name} has {len(arguments)} arguments, but must have {count}: {advice}")
-    for argument in arguments:
-        if argument.ufl_function_space() != V:
+    spaces = [V, V if trial is None else trial.function_space]
+    for argument, space in zip(arguments, spaces, strict=False):
+        if argument.ufl_function_space() != space:
             raise ValueError(
                 f"{name} has an argument in {argument.ufl_function_space().ufl_element()} that is "
                 "not of the function space of u: make test and trial functions with "
@@ -169,12 +240,12 @@ def _check_form(form: Any, name: str, count: int, u: fem.Function, advice: str) 
         )
 
 
-def check_conditions(bcs: Any, u: fem.Function) -> None:
-    """Check that Dirichlet conditions are those of the displacement.
+def check_conditions(bcs: Any, functions: Sequence[fem.Function]) -> None:
+    """Check that Dirichlet conditions are those of what is solved for.
 
     Args:
         bcs: Dirichlet conditions, or None.
-        u: Displacement.
+        functions: What is solved for.
 
     Raises:
         TypeError: If they are no list, or something else is in it.
@@ -189,7 +260,8 @@ def check_conditions(bcs: Any, u: fem.Function) -> None:
     for k, bc in enumerate(bcs):
         if not isinstance(bc, fem.DirichletBC):
             raise TypeError(f"bcs[{k}] is a {type(bc).__name__}: give a fem.dirichletbc")
-        if not u.function_space.contains(_Wrapped(bc.function_space)):
+        space = _Wrapped(bc.function_space)
+        if not any(u.function_space.contains(space) for u in functions):
             raise ValueError(
                 f"bcs[{k}] is a condition on another function space than that of u: make it with "
                 "u.function_space, or with u.function_space.sub(i)"

@@ -9,6 +9,7 @@ import numpy.typing as npt
 
 from contactx.bulk import Bulk
 from contactx.cell_forces import CellForces
+from contactx.coupled import CoupledBulk
 from contactx.parallel.halo import Halo
 
 type Array = npt.NDArray[np.float64]
@@ -26,7 +27,13 @@ class BulkSide:
         topology = V.mesh.topology
         self.cells = V.dofmap.list[: topology.index_map(topology.dim).size_local]
         self.nodes_per_cell = self.cells.shape[1]
-        self._cell_forces = CellForces(bulk.residual_form, bulk.u, halo, bulk.form_options)
+        self.fields = bulk.fields
+        if isinstance(bulk, CoupledBulk):
+            self._cell_forces = bulk.forces_of_cells
+        else:
+            assert bulk.residual_form is not None
+            cells = CellForces(bulk.residual_form, bulk.u, halo, bulk.form_options)
+            self._cell_forces = cells.magnitudes
 
     @property
     def is_linear(self) -> bool:
@@ -55,19 +62,11 @@ class BulkSide:
 
     def diagonal(self) -> Array:
         """Diagonal of the stiffness at owned dofs."""
-        diagonal: Array = self._bulk.matrix().getDiagonal().array
-        return diagonal
+        return self._bulk.diagonal()
 
     def products(self, fields: Array) -> Array:
         """Products of the stiffness with fields at owned dofs, shape (count, num_dofs)."""
-        K = self._bulk.matrix()
-        x, y = K.createVecs()
-        results = np.empty_like(fields)
-        for field, result in zip(fields, results, strict=True):
-            x.array[:] = field
-            K.mult(x, y)
-            result[:] = y.array
-        return results
+        return self._bulk.products(fields)
 
     def residual(self) -> Array:
         """Forces at owned dofs, without Dirichlet conditions."""
@@ -85,6 +84,7 @@ class BulkSide:
         """Set displacements at owned dofs, and those of other ranks' nodes."""
         self._bulk.u.x.array[: len(u)] = u
         self._halo.update_ghosts()
+        self._bulk.write()
 
     def cell_sizes(self) -> Array:
         """Size of the largest cell around each owned node."""
@@ -92,4 +92,4 @@ class BulkSide:
 
     def cell_forces(self) -> Array:
         """Sum over cells and terms of the size of their force on each owned node."""
-        return self._cell_forces.magnitudes()
+        return self._cell_forces()

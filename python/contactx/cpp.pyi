@@ -296,6 +296,7 @@ def coupled_rows(
     values: NDArray[np.float64],
     contact: ContactBlock,
     places: NDArray[np.int64],
+    num_owned: int,
     num_local: int,
 ) -> tuple[
     tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.float64]],

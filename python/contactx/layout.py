@@ -16,19 +16,19 @@ type Rows = tuple[Index, Index, npt.NDArray[np.float64]]
 
 
 class Layout:
-    """Each rank's displacements, followed by its multipliers."""
+    """Each rank's displacements, followed by the bulk's other fields and by its multipliers."""
 
-    def __init__(self, halo: Halo, size: int):
+    def __init__(self, halo: Halo, num_bulk: int, size: int):
         """Create the layout.
 
         Args:
             halo: Nodes of this rank.
+            num_bulk: Number of the bulk's unknowns of this rank.
             size: Number of this rank's unknowns.
         """
         self._halo = halo
-        self._size = int(size)
-        g = halo.gdim
-        counts = halo.comm.allgather((halo.num_owned * g, self._size))
+        self._num_bulk, self._size = int(num_bulk), int(size)
+        counts = halo.comm.allgather((self._num_bulk, self._size))
         # Where the displacements of each rank start in the bulk, and in all
         self._bulk, self._all = np.cumsum([(0, 0), *counts], axis=0)[:-1].T
         self._start = int(self._all[halo.comm.rank])
@@ -38,8 +38,12 @@ class Layout:
         halo, g = self._halo, self._halo.gdim
         own = self._start + g * np.arange(halo.num_owned, dtype=np.int64)
         nodes = (halo.scatter_forward(own)[:, None] + np.arange(g)).ravel()
-        multipliers = np.arange(self._start + g * halo.num_owned, self._start + self._size)
+        multipliers = np.arange(self._start + self._num_bulk, self._start + self._size)
         return np.concatenate([nodes, multipliers])
+
+    def bulk(self) -> Index:
+        """Places of the bulk's unknowns of this rank."""
+        return np.arange(self._start, self._start + self._num_bulk, dtype=np.int64)
 
     def matrix(self, rows: Rows) -> PETSc.Mat:
         """Matrix of all unknowns; all ranks must take part.

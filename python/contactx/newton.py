@@ -156,7 +156,7 @@ class NewtonLoop:
         if code not in (_CODE.DIVERGED_MAX_IT, _CODE.DIVERGED_LINE_SEARCH):
             return ""
         update = self.snes.getSolutionUpdate()
-        way = self._system.blocks(update.array_r)[0].reshape(-1, self._system.block)
+        way = update.array_r[: self._system.num_displacements].reshape(-1, self._system.block)
         way = self._halo.scatter_forward(way).ravel()[: len(self._bulk.u.x.array)]
         # One size may be too large where the material is about to fail, or too small for rounding
         sizes = [part * self._loop.convergence.extent for part in (1e-4, 1e-6, 1e-8)]

@@ -31,8 +31,12 @@ class ContactProblem:
     has lambda_s of any direction. All this is solved by a semismooth Newton method on the saddle
     point, the primal-dual active set strategy (Alart & Curnier 1991; Hueeber & Wohlmuth 2005).
 
+    The displacement may be a part of a mixed space, as in Taylor and Hood's elements, or one of
+    several functions that are solved for together, such as displacement and temperature.
+
     Attributes:
-        u: Displacement.
+        u: What is solved for, as given.
+        displacement: Displacement of the nodes: u itself, or a copy where u has more than that.
         contacts: Contacts.
         report: Report of the last solve.
         assembler: The coupled system that is solved.
@@ -40,13 +44,14 @@ class ContactProblem:
 
     def __init__(
         self,
-        F: ufl.Form,
-        u: fem.Function,
+        F: ufl.Form | Sequence[ufl.Form],
+        u: fem.Function | Sequence[fem.Function],
         *,
         contacts: Sequence[Contact],
         petsc_options_prefix: str,
+        displacement: int | None = None,
         bcs: Sequence[fem.DirichletBC] | None = None,
-        J: ufl.Form | None = None,
+        J: ufl.Form | Sequence[Sequence[ufl.Form | None]] | None = None,
         petsc_options: Mapping[str, Any] | None = None,
         audit: str = "refuse",
         form_compiler_options: dict[str, Any] | None = None,
@@ -56,14 +61,20 @@ class ContactProblem:
 
         Args:
             F: Residual of the bulk: any UFL form of the bodies, linear in its test function.
+                Where u is a list, a residual for each of its functions.
             u: Displacement, in the linear Lagrange space of vectors on a mesh of all bodies.
-                Its values are the start of the first solve.
+                Its values are the start of the first solve. With ``displacement``, a function of a
+                mixed space, or a list of functions, as DOLFINx's NonlinearProblem takes them.
             contacts: Contacts of surfaces of the mesh with each other or with rigid obstacles. A
                 node may be slave in several.
+            displacement: Number of the part of the mixed space, or of the function in the list,
+                that is the displacement. It is linear, and may have bubbles inside of cells. What
+                else is solved for goes through the direct solver.
             petsc_options_prefix: Prefix of the PETSc options, unique in the program.
             bcs: Dirichlet conditions; none are needed where contact supports the bodies. The list
                 may change between solves.
-            J: Jacobian of F; derived if None.
+            J: Jacobian of F; derived if None. Of a list of residuals, a list of rows, in which None
+                stands for zero.
             petsc_options: Options of SNES, its KSP and PC, without the prefix. ``snes_rtol``
                 (default 1e-11) is relative to the forces of the problem.
             audit: What becomes of a converged iterate that geometry shows to be wrong: nodes that
@@ -86,6 +97,7 @@ class ContactProblem:
             F,
             u,
             contacts=contacts,
+            displacement=displacement,
             bcs=bcs,
             J=J,
             audit=audit,
@@ -96,8 +108,16 @@ class ContactProblem:
         self.contacts = self.assembler.contacts
         self.report = Report()
         system, options = self.assembler.system, petsc_options or {}
-        dofs = u.x.index_map.size_global * system.block
+        self.displacement = self.assembler.u
+        dofs = self.displacement.x.index_map.size_global * system.block
         condensed = is_condensed(options, dofs, system.block)
+        if self.assembler.bulk.fields is not None:
+            if condensed and "pc_type" in options:
+                raise ValueError(
+                    "petsc_options['pc_type'] is 'condensed', which is for a displacement alone: "
+                    "leave it out where other fields are solved for with it"
+                )
+            condensed = False
         self._options = newton_options(petsc_options_prefix, options, condensed=condensed)
         snes = PETSc.SNES().create(system.x.comm)
         snes.setOptionsPrefix(petsc_options_prefix)
@@ -121,11 +141,16 @@ class ContactProblem:
         """Give ghosts the owners' displacements, after these were set; all ranks must take part."""
         self.assembler.halo.update_ghosts()
 
-    def solve(self) -> fem.Function:
+    @property
+    def beside(self) -> list[fem.Function]:
+        """What is solved for but the displacement, or with it in one function."""
+        return [w for w in self.assembler.functions if w is not self.displacement]
+
+    def solve(self) -> fem.Function | Sequence[fem.Function]:
         """Solve for the current loads and Dirichlet values, starting from ``u``.
 
         Returns:
-            The displacement ``u``.
+            ``u``.
 
         Raises:
             ConvergenceError: If the Newton loop fails. The displacement and the contacts are then

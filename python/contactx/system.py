@@ -18,6 +18,7 @@ import numpy.typing as npt
 from contactx import cpp as core
 from contactx.bulk import Bulk
 from contactx.bulk_side import BulkSide
+from contactx.coupled import CoupledBulk
 from contactx.interface import Interface
 from contactx.layout import Layout, Rows
 from contactx.parallel.halo import Halo
@@ -36,7 +37,8 @@ class SaddlePointSystem:
         b: Residual.
         interfaces: Discrete sides of the contacts.
         halo: Nodes of this rank.
-        num_bulk: Number of displacements of this rank.
+        num_displacements: Number of displacements of this rank.
+        num_bulk: Number of the bulk's unknowns of this rank, displacements first.
         block: Displacements a node.
     """
 
@@ -54,10 +56,11 @@ class SaddlePointSystem:
         self.halo = halo
         self._comm = halo.comm
         self.block = halo.gdim
-        self.num_bulk = halo.num_owned * halo.gdim
+        self.num_displacements = halo.num_owned * halo.gdim
         self._offsets = self.core.offsets
+        self.num_bulk = self._offsets[1]
         self._make_vectors()
-        self._layout = Layout(halo, self._offsets[-1])
+        self._layout = Layout(halo, self.num_bulk, self._offsets[-1])
         # Rows of the bulk, and the number of its assemblies when they were taken
         self._rows: tuple[int, Rows] | None = None
         # Places of the entries of the last Jacobian
@@ -76,10 +79,6 @@ class SaddlePointSystem:
     def _make_vectors(self) -> None:
         self.x = PETSc.Vec().createMPI((self._offsets[-1], None), comm=self._comm)
         self.b = self.x.duplicate()
-
-    def blocks(self, array: npt.NDArray[np.float64]) -> list[npt.NDArray[np.float64]]:
-        """Views of the displacement's part of a vector's values and of each contact's."""
-        return [array[i:j] for i, j in zip(self._offsets, self._offsets[1:], strict=False)]
 
     def pack(self) -> None:
         """Write the unknowns from the functions into ``x``."""
@@ -108,14 +107,16 @@ class SaddlePointSystem:
 
         Args:
             A: What the last call returned: it is written to if it has the right places.
-            springs: What is added to the diagonal of the displacements, shape (num_bulk,).
+            springs: What is added to the diagonal of the displacements, shape (num_displacements,).
 
         Returns:
             The Jacobian.
         """
         contact = core.ContactBlock(self.interfaces, self._markers(), keeps_zeros=True)
         places = self._layout.places()
-        rows, others, added = core.coupled_rows(*self._bulk_rows(), contact, places, self.num_local)
+        rows, others, added = core.coupled_rows(
+            *self._bulk_rows(), contact, places, self.num_displacements, self.num_local
+        )
         pattern = (*rows[:2], others, *added[:2])
         same = A is not None and all(map(np.array_equal, pattern, self._pattern))
         if A is None or not everywhere(self._comm, same):
@@ -131,7 +132,7 @@ class SaddlePointSystem:
         A.assemble()
         if springs is not None:
             diagonal = self.x.duplicate()
-            self.blocks(diagonal.array)[0][:] = springs
+            diagonal.array[: self.num_displacements] = springs
             A.setDiagonal(diagonal, addv=PETSc.InsertMode.ADD)
         factors = self.x.duplicate()
         factors.array[: self.num_bulk] = 1
@@ -143,7 +144,12 @@ class SaddlePointSystem:
         """Rows of the bulk's Jacobian, which are kept where it does not change."""
         K = self._bulk.jacobian()
         if self._rows is None or not self._bulk.is_linear or self._rows[0] != self._bulk.assemblies:
-            self._rows = self._bulk.assemblies, self._layout.rows(K)
+            rows = (
+                self._bulk.rows_in(self._layout.bulk())
+                if isinstance(self._bulk, CoupledBulk)
+                else self._layout.rows(K)
+            )
+            self._rows = self._bulk.assemblies, rows
         return self._rows[1]
 
     def contact_block(self, b: PETSc.Vec | None = None) -> core.ContactBlock:

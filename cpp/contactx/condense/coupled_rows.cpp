@@ -14,20 +14,22 @@ CoupledRows contactx::condense::coupled(std::span<const std::int64_t> offsets,
                                         std::span<const double> values,
                                         const ContactBlock& contact,
                                         std::span<const std::int64_t> places,
+                                        std::size_t num_owned,
                                         std::size_t num_local)
 {
   const CompressedRows c = contact.entries();
   check::require(not offsets.empty() and offsets.front() == 0
                      and std::ranges::is_sorted(offsets),
                  "offsets must be where rows begin");
-  const std::size_t num_owned = offsets.size() - 1;
+  const std::size_t num_bulk = offsets.size() - 1;
   check::require(columns.size() == values.size()
                      and offsets.back() == std::ssize(columns),
                  "columns and values must have what offsets say");
   check::require(
-      num_owned <= num_local and num_local <= contact.size(),
-      "num_local must be from the number of owned displacements to that "
-      "of unknowns");
+      num_owned <= num_bulk and num_owned <= num_local
+          and num_local <= contact.size(),
+      "num_owned must be at most the number of rows, and num_local from it to "
+      "the number of unknowns");
   check::require(places.size() == contact.size(),
                  "places must have a number for each unknown");
 
@@ -45,13 +47,16 @@ CoupledRows contactx::condense::coupled(std::span<const std::int64_t> offsets,
   const std::size_t most = values.size() + c.values.size();
   own.columns.reserve(most);
   own.values.reserve(most);
-  own.offsets.reserve(num_owned + contact.size() - num_local + 1);
+  own.offsets.reserve(num_bulk + contact.size() - num_local + 1);
   own.offsets.push_back(0);
   const auto end
       = [](Rows& rows) { rows.offsets.push_back(std::ssize(rows.columns)); };
-  for (std::size_t row = 0; row < num_owned; ++row)
+  for (std::size_t row = 0; row < num_bulk; ++row)
   {
-    take(row);
+    // Contact has nothing in rows of other fields
+    entries.clear();
+    if (row < num_owned)
+      take(row);
     auto at = entries.begin();
     for (auto e = offsets[row]; e < offsets[row + 1]; ++e)
     {

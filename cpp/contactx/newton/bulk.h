@@ -4,6 +4,7 @@
 #pragma once
 
 #include "../active_set/rigid_modes.h"
+#include "fields.h"
 
 namespace contactx::newton
 {
@@ -47,5 +48,8 @@ public:
   /// node (shape=(num_owned)): forces before they cancel. It is dear, and
   /// asked for once a step at most.
   virtual std::span<const double> cell_forces() = 0;
+
+  /// @brief Its unknowns beside displacements; none if null.
+  virtual Fields* fields() { return nullptr; }
 };
 } // namespace contactx::newton

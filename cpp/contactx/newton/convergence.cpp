@@ -80,6 +80,7 @@ void Convergence::begin_step(std::vector<double> stiffness)
   _least_scale.reset();
   _cancelling.reset();
   _before.reset();
+  _field_scales.clear();
   look_into_cells(scale());
 }
 
@@ -95,8 +96,75 @@ bool Convergence::may_be_rounding(double residual) const
   return residual <= tiny * _stiff * _extent;
 }
 
+/// The largest residual of other fields over what it may be: at most one where
+/// they have converged.
+double Convergence::excess_of_fields(std::span<const double> b, double rtol)
+{
+  Fields* fields = _system->bulk()->fields();
+  if (not fields)
+    return 0;
+  constexpr double defect_allowed = 1e-10;
+  const std::vector<std::size_t> offsets = fields->offsets();
+  const std::span<const std::int8_t> markers = fields->markers();
+  const std::span<const double> values = fields->values();
+  const std::size_t n = offsets.size() - 1;
+  // Of each field: residual, and the largest defect and value
+  std::vector<double> residual(n), largest(2 * n);
+  for (std::size_t f = 0; f < n; ++f)
+    for (std::size_t i = offsets[f]; i < offsets[f + 1]; ++i)
+    {
+      if (markers[i] == 1)
+        largest[2 * f] = std::max(largest[2 * f], std::abs(b[i]));
+      else
+        residual[f] += b[i] * b[i];
+      largest[2 * f + 1] = std::max(largest[2 * f + 1], std::abs(values[i]));
+    }
+  ranks().reduce(std::span<double>(residual), parallel::Reduction::sum);
+  ranks().reduce(std::span<double>(largest), parallel::Reduction::largest);
+  _field_scales.resize(n);
+  double excess = 0;
+  std::span<const double> terms;
+  for (std::size_t f = 0; f < n; ++f)
+  {
+    const double r = std::sqrt(residual[f]);
+    if (not std::isfinite(r))
+      return std::numeric_limits<double>::infinity();
+    _field_scales[f] = std::max(_field_scales[f], r);
+    double allowed = rtol * _field_scales[f];
+    if (r > allowed)
+    {
+      // The same on all ranks
+      if (terms.empty())
+        terms = fields->magnitudes();
+      const auto mine = terms.subspan(offsets[f], offsets[f + 1] - offsets[f]);
+      allowed = std::max(allowed, eps * norm(mine));
+    }
+    if (r > 0)
+      excess = std::max(excess, r / allowed);
+    if (largest[2 * f] > 0)
+      excess = std::max(excess,
+                        largest[2 * f] / (defect_allowed * largest[2 * f + 1]));
+  }
+  return excess;
+}
+
 Convergence::Result Convergence::compare(std::span<const double> b, double rtol,
                                          double atol)
+{
+  const std::size_t n = _system->num_displacements();
+  Result found = compare_forces(b, rtol, atol);
+  const double excess
+      = excess_of_fields(b.subspan(n, _system->num_bulk() - n), rtol);
+  // Relative to their tolerances the largest counts
+  if (excess > 1 and found.tolerance > 0)
+    found.residual = std::max(found.residual, excess * found.tolerance);
+  else if (excess > 1)
+    found.residual = std::max(found.residual, excess);
+  return found;
+}
+
+Convergence::Result Convergence::compare_forces(std::span<const double> b,
+                                                double rtol, double atol)
 {
   const std::span<const std::int8_t> markers = _system->bulk()->markers();
   const std::size_t n = _system->num_displacements();
@@ -111,7 +179,7 @@ Convergence::Result Convergence::compare(std::span<const double> b, double rtol,
     }
   defect = parallel::largest(ranks(), defect);
   const std::vector<double> force_size = sizes_of(force, g);
-  const double constraints = square(b.subspan(n));
+  const double constraints = square(b.subspan(_system->num_bulk()));
   const double residual
       = std::sqrt(parallel::total(ranks(), square(force) + constraints));
   double scale = this->scale();

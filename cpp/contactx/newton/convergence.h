@@ -25,8 +25,12 @@ namespace contactx::newton
 /// is no larger than the rounding error at each node.
 ///
 /// Rows of Dirichlet conditions are differences of displacements. They are
-/// compared apart from the forces, so that nothing depends on the units. All
-/// ranks must take part in whatever has no const.
+/// compared apart from the forces, so that nothing depends on the units.
+///
+/// Rows of other fields have units of their own. Those of each field are
+/// relative to the largest residual that the field has had in the step, and not
+/// below the rounding errors of their terms. All ranks must take part in
+/// whatever has no const.
 class Convergence
 {
 public:
@@ -84,6 +88,8 @@ private:
   void look_into_cells(double force);
   bool has_run_away();
   double scale_of_accepted();
+  Result compare_forces(std::span<const double> b, double rtol, double atol);
+  double excess_of_fields(std::span<const double> b, double rtol);
 
   std::shared_ptr<System> _system;
   double _extent, _farthest;
@@ -96,6 +102,8 @@ private:
   // Sizes of the forces that cancel, and the residual before
   std::optional<std::vector<double>> _cancelling;
   std::optional<double> _before;
+  // Largest residual of each other field in the step
+  std::vector<double> _field_scales;
   // Forces of the bulk at the last solution, and what its residual was
   // relative to
   std::optional<std::pair<std::vector<double>, double>> _accepted;

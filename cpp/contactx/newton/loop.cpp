@@ -214,7 +214,7 @@ bool Loop::softens(std::span<const double> dx)
   if (not _has_stepped)
     return false;
   const auto& offsets = _system->offsets();
-  const std::size_t n = _system->num_displacements();
+  const std::size_t n = _system->num_bulk();
   std::vector<double> step(dx.begin() + n, dx.end());
   for (std::size_t i = 0; i < step.size(); ++i)
     step[i] *= -_system->factors()[i];

@@ -29,11 +29,19 @@ System::System(std::shared_ptr<parallel::Halo> halo, std::shared_ptr<Bulk> bulk,
                Contacts contacts)
     : _halo(std::move(halo)), _bulk(std::move(bulk)),
       _contacts(std::move(contacts)),
-      _offsets{0, std::size_t(_halo->num_owned()) * _halo->gdim()}
+      _num_displacements(std::size_t(_halo->num_owned()) * _halo->gdim())
 {
+  const Fields* fields = _bulk->fields();
+  _offsets = {0, _num_displacements + (fields ? fields->offsets().back() : 0)};
   for (const auto& c : _contacts)
     _offsets.push_back(_offsets.back() + c->nodes()->multiplier.size());
-  _factors.assign(size() - num_displacements(), 1);
+  _factors.assign(size() - num_bulk(), 1);
+}
+
+std::span<const double> System::fields_values() const
+{
+  Fields* fields = _bulk->fields();
+  return fields ? fields->values() : std::span<const double>();
 }
 
 void System::take_factors()
@@ -64,11 +72,12 @@ void System::unknowns(std::span<double> x) const
 {
   check(x.size(), "x");
   std::ranges::copy(_bulk->displacements(), x.begin());
-  std::size_t at = num_displacements();
+  std::ranges::copy(fields_values(), x.begin() + num_displacements());
+  std::size_t at = num_bulk();
   for (const auto& c : _contacts)
     for (const double multiplier : c->nodes()->multiplier)
     {
-      x[at] = multiplier / _factors[at - num_displacements()];
+      x[at] = multiplier / _factors[at - num_bulk()];
       ++at;
     }
 }
@@ -77,11 +86,14 @@ void System::take(std::span<const double> x)
 {
   _halo->ranks().agree([&] { check(x.size(), "x"); });
   _bulk->set_displacements(x.first(num_displacements()));
-  std::size_t at = num_displacements();
+  if (Fields* fields = _bulk->fields())
+    fields->set(
+        x.subspan(num_displacements(), num_bulk() - num_displacements()));
+  std::size_t at = num_bulk();
   for (const auto& c : _contacts)
     for (double& multiplier : c->nodes()->multiplier)
     {
-      multiplier = x[at] * _factors[at - num_displacements()];
+      multiplier = x[at] * _factors[at - num_bulk()];
       ++at;
     }
 }
@@ -89,14 +101,29 @@ void System::take(std::span<const double> x)
 std::span<const double> System::bulk_residual()
 {
   const std::span<const double> u = _bulk->displacements();
-  const bool same = not _at.empty() and std::ranges::equal(u, _at);
-  if (not parallel::everywhere(_halo->ranks(), same or u.empty()))
+  const std::span<const double> values = fields_values();
+  const std::span<const double> at(_at);
+  const bool same = not at.empty() and std::ranges::equal(u, at.first(u.size()))
+                    and std::ranges::equal(values, at.subspan(u.size()));
+  if (not parallel::everywhere(_halo->ranks(), same or num_bulk() == 0))
   {
     _at.assign(u.begin(), u.end());
+    _at.insert(_at.end(), values.begin(), values.end());
     const std::span<const double> b = _bulk->residual();
     _bulk_residual.assign(b.begin(), b.end());
+    if (Fields* fields = _bulk->fields())
+    {
+      const std::span<const double> others = fields->residual();
+      _fields_residual.assign(others.begin(), others.end());
+    }
   }
   return _bulk_residual;
+}
+
+std::span<const double> System::fields_residual()
+{
+  bulk_residual();
+  return _fields_residual;
 }
 
 void System::evaluate(const contact::Contact& c)
@@ -121,9 +148,9 @@ std::vector<double> System::product(const condense::ContactBlock& contact,
                                     std::span<const double> x) const
 {
   const std::size_t all = std::size_t(_halo->num_nodes()) * _halo->gdim();
-  const std::size_t n = num_displacements();
+  const std::size_t n = num_bulk();
   std::vector<double> v(all + size() - n);
-  std::copy_n(x.begin(), n, v.begin());
+  std::copy_n(x.begin(), num_displacements(), v.begin());
   _halo->forward(std::span(v).first(all), _halo->gdim());
   for (std::size_t i = n; i < x.size(); ++i)
     v[all + i - n] = x[i] * _factors[i - n];
@@ -137,10 +164,10 @@ void System::multiply(const condense::ContactBlock& contact,
   check(y.size(), "y");
   std::vector<double> w = product(contact, x);
   const std::size_t all = std::size_t(_halo->num_nodes()) * _halo->gdim();
-  std::copy(w.begin() + all, w.end(), y.begin() + num_displacements());
+  std::copy(w.begin() + all, w.end(), y.begin() + num_bulk());
   w.resize(all);
   const std::span<double> force = y.first(num_displacements());
-  std::ranges::fill(force, 0);
+  std::ranges::fill(y.first(num_bulk()), 0);
   add_sums(w, force);
 }
 
@@ -160,6 +187,10 @@ void System::residual(std::span<double> b)
   _halo->ranks().agree([&] { check(b.size(), "b"); });
   const std::span<double> force = b.first(num_displacements());
   std::ranges::copy(bulk_residual(), force.begin());
+  const std::span<double> others
+      = b.subspan(num_displacements(), num_bulk() - num_displacements());
+  std::ranges::copy(fields_residual(), others.begin());
+  Fields* fields = _bulk->fields();
   const std::size_t all = std::size_t(_halo->num_nodes()) * _halo->gdim();
   std::vector<double> pushed(all);
   for (std::size_t k = 0; k < _contacts.size(); ++k)
@@ -171,14 +202,23 @@ void System::residual(std::span<double> b)
     std::ranges::copy(c.nodes()->value, b.begin() + _offsets[k + 1]);
   }
   const std::span<const double> defect = _bulk->defect();
-  std::array most{largest_size(defect), largest_size(_bulk->displacements())};
+  const std::span<const double> other_defect
+      = fields ? fields->defect() : std::span<const double>();
+  std::array most{largest_size(defect), largest_size(_bulk->displacements()),
+                  largest_size(other_defect), largest_size(fields_values())};
   _halo->ranks().reduce(std::span<double>(most), parallel::Reduction::largest);
-  if (most[0] > rounding * most[1])
+  if (most[0] > rounding * most[1] or most[2] > rounding * most[3])
   {
     // Dirichlet values that the displacements do not have yet, in other rows
     const std::span<const double> lifted = _bulk->lifted();
     for (std::size_t i = 0; i < force.size(); ++i)
       force[i] += lifted[i];
+    if (fields)
+    {
+      const std::span<const double> more = fields->lifted();
+      for (std::size_t i = 0; i < others.size(); ++i)
+        others[i] += more[i];
+    }
     std::vector<double> x(size());
     std::ranges::copy(defect, x.begin());
     const std::vector<double> w
@@ -186,11 +226,18 @@ void System::residual(std::span<double> b)
     for (std::size_t i = 0; i < all; ++i)
       pushed[i] -= w[i];
     for (std::size_t i = all; i < w.size(); ++i)
-      b[num_displacements() + i - all] -= w[i];
+      b[num_bulk() + i - all] -= w[i];
   }
   add_sums(pushed, force);
   const std::span<const std::int8_t> markers = _bulk->markers();
   for (std::size_t i = 0; i < force.size(); ++i)
     if (markers[i] == 1)
       force[i] = defect[i];
+  if (fields)
+  {
+    const std::span<const std::int8_t> prescribed = fields->markers();
+    for (std::size_t i = 0; i < others.size(); ++i)
+      if (prescribed[i] == 1)
+        others[i] = other_defect[i];
+  }
 }

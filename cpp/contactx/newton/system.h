@@ -10,10 +10,12 @@ namespace contactx::newton
 {
 /// @brief The coupled system of bulk and contacts.
 ///
-/// Unknowns of a rank are the displacements of its nodes, then the multipliers
-/// of its slave nodes, one contact after the other. All rows are forces: the
+/// Unknowns of a rank are the displacements of its nodes, then those of the
+/// bulk's other fields, if it has some, then the multipliers of its slave
+/// nodes, one contact after the other. All rows but those of other fields are
+/// forces: the
 /// complementarity of a slave node is scaled by its area and the stiffness of
-/// its node. All unknowns are lengths: a multiplier is divided by its node's
+/// its node. These unknowns are lengths: a multiplier is divided by its node's
 /// factor c, a traction per length. So all entries of the Jacobian are
 /// stiffnesses, and pivots do not depend on the units. The factor is rounded to
 /// a power of two, which changes no digit of a multiplier.
@@ -40,15 +42,18 @@ public:
   /// @brief The contacts.
   const Contacts& contacts() const { return _contacts; }
 
-  /// @brief Where the displacements and the multipliers of each contact begin
-  /// among the unknowns, and their number at the end (shape=(contacts + 2)).
+  /// @brief Where the bulk and the multipliers of each contact begin among the
+  /// unknowns, and their number at the end (shape=(contacts + 2)).
   const std::vector<std::size_t>& offsets() const { return _offsets; }
 
   /// @brief Number of unknowns of this rank.
   std::size_t size() const { return _offsets.back(); }
 
   /// @brief Number of displacements of this rank.
-  std::size_t num_displacements() const { return _offsets[1]; }
+  std::size_t num_displacements() const { return _num_displacements; }
+
+  /// @brief Number of the bulk's unknowns of this rank, displacements first.
+  std::size_t num_bulk() const { return _offsets[1]; }
 
   /// @brief Start a step: loads, constants and coefficients may have changed.
   void begin_step() { _at.clear(); }
@@ -56,7 +61,7 @@ public:
   /// @brief Take the contacts' factors c as the units of their multipliers.
   void take_factors();
 
-  /// @brief Multipliers over unknowns (shape=(size - num_displacements)).
+  /// @brief Multipliers over unknowns (shape=(size - num_bulk)).
   const std::vector<double>& factors() const { return _factors; }
 
   /// @brief The unknowns at the state of now.
@@ -69,9 +74,12 @@ public:
   /// @throws std::invalid_argument on all ranks if it has another size.
   void take(std::span<const double> x);
 
-  /// @brief Residual of the bulk alone, assembled anew only where displacements
-  /// have changed.
+  /// @brief Forces of the bulk alone, assembled anew only where unknowns of it
+  /// have changed (shape=(num_displacements)).
   std::span<const double> bulk_residual();
+
+  /// @brief Rows of its other fields, with them.
+  std::span<const double> fields_residual();
 
   /// @brief Evaluate the residual at the state of now; pairs and status are as
   /// they stand. Rows of Dirichlet conditions are differences of displacements.
@@ -95,6 +103,7 @@ public:
                 std::span<const double> x, std::span<double> y) const;
 
 private:
+  std::span<const double> fields_values() const;
   std::vector<double> product(const condense::ContactBlock& contact,
                               std::span<const double> x) const;
   void check(std::size_t size, const char* name) const;
@@ -104,9 +113,10 @@ private:
   std::shared_ptr<Bulk> _bulk;
   Contacts _contacts;
   std::vector<std::size_t> _offsets;
-  std::vector<double> _bulk_residual;
+  std::size_t _num_displacements;
+  std::vector<double> _bulk_residual, _fields_residual;
   std::vector<double> _factors;
-  // Displacements at which it was assembled; empty if it must be anew
+  // Unknowns of the bulk at which it was assembled; empty if it must be anew
   std::vector<double> _at;
 };
 } // namespace contactx::newton

@@ -36,8 +36,11 @@ TEST(CoupledRows, TheyAreTheSumOfBulkAndContacts)
 {
   std::mt19937 random(7);
   for (const bool keeps_zeros : {false, true})
-    for (const bool has_others : {false, true})
+    for (const int kind : {0, 1, 2, 3})
     {
+      // Nodes of another rank, and rows of other fields of the bulk
+      const bool has_others = kind % 2 == 1;
+      const std::size_t extra = kind / 2 * 5;
       ContactScene scene(2);
       const ContactBlock contact = random_block(scene, random, keeps_zeros);
       const std::size_t n = contact.size(), num_local = scene.u->size();
@@ -47,20 +50,22 @@ TEST(CoupledRows, TheyAreTheSumOfBulkAndContacts)
       for (std::size_t i = 0; i < n; ++i)
         places[i] = i < num_owned   ? 6 + std::int64_t(i)
                     : i < num_local ? std::int64_t(i - num_owned)
-                                    : std::int64_t(i);
+                                    : std::int64_t(i + extra);
       if (not has_others)
-        std::iota(places.begin(), places.end(), 0);
+        for (std::size_t i = 0; i < n; ++i)
+          places[i] = std::int64_t(i < num_local ? i : i + extra);
+      const std::size_t all = n + extra;
       // A bulk with a few entries a row
       std::vector<std::int64_t> offsets{0}, columns;
       std::vector<double> values;
       std::uniform_real_distribution<double> any(-1, 1);
-      dense::Matrix expected(n, n);
+      dense::Matrix expected(all, all);
       const std::int64_t first = places[0];
-      for (std::size_t i = 0; i < num_owned; ++i)
+      for (std::size_t i = 0; i < num_owned + extra; ++i)
       {
-        for (std::int64_t j = i % 3; j < std::ssize(places); j += 4)
+        for (std::size_t j = i % 3; j < all; j += 4)
         {
-          columns.push_back(j);
+          columns.push_back(std::int64_t(j));
           values.push_back(any(random));
           expected(first + i, j) += values.back();
         }
@@ -71,9 +76,9 @@ TEST(CoupledRows, TheyAreTheSumOfBulkAndContacts)
         for (auto e = c.offsets[i]; e < c.offsets[i + 1]; ++e)
           expected(places[i], places[c.columns[e]]) += c.values[e];
 
-      const CoupledRows found
-          = coupled(offsets, columns, values, contact, places, num_local);
-      dense::Matrix sum(n, n);
+      const CoupledRows found = coupled(offsets, columns, values, contact,
+                                        places, num_owned, num_local);
+      dense::Matrix sum(all, all);
       const auto add = [&sum](const Rows& rows, auto place)
       {
         for (std::size_t i = 0; i + 1 < rows.offsets.size(); ++i)
@@ -87,7 +92,7 @@ TEST(CoupledRows, TheyAreTheSumOfBulkAndContacts)
       // Own rows follow each other: displacements, then multipliers
       add(found.own, [first](std::size_t i) { return first + i; });
       add(found.added, [&found](std::size_t i) { return found.others[i]; });
-      ASSERT_EQ(found.own.offsets.size(), n - (num_local - num_owned) + 1);
+      ASSERT_EQ(found.own.offsets.size(), all - (num_local - num_owned) + 1);
       EXPECT_EQ(found.others.empty(), not has_others);
       for (std::size_t k = 0; k < sum.values.size(); ++k)
         EXPECT_NEAR(sum.values[k], expected.values[k], 1e-14);
@@ -127,17 +132,22 @@ TEST(CoupledRows, WhatDoesNotFitIsRefused)
   const std::size_t n = contact.size(), num_local = scene.u->size();
   std::vector<std::int64_t> places(n), offsets(num_local + 1, 0);
   std::iota(places.begin(), places.end(), 0);
-  EXPECT_NO_THROW(coupled(offsets, {}, {}, contact, places, num_local));
-  EXPECT_THROW(coupled({}, {}, {}, contact, places, num_local),
+  EXPECT_NO_THROW(
+      coupled(offsets, {}, {}, contact, places, num_local, num_local));
+  EXPECT_THROW(coupled({}, {}, {}, contact, places, num_local, num_local),
                std::invalid_argument);
-  EXPECT_THROW(coupled(offsets, {}, {}, contact, places, num_local - 1),
-               std::invalid_argument);
-  EXPECT_THROW(coupled(offsets, {}, {}, contact, places, n + 1),
+  EXPECT_THROW(
+      coupled(offsets, {}, {}, contact, places, num_local, num_local - 1),
+      std::invalid_argument);
+  EXPECT_THROW(
+      coupled(offsets, {}, {}, contact, places, num_local + 1, num_local + 1),
+      std::invalid_argument);
+  EXPECT_THROW(coupled(offsets, {}, {}, contact, places, num_local, n + 1),
                std::invalid_argument);
   const std::vector<double> one(1, 0.0);
-  EXPECT_THROW(coupled(offsets, {}, one, contact, places, num_local),
+  EXPECT_THROW(coupled(offsets, {}, one, contact, places, num_local, num_local),
                std::invalid_argument);
   places.pop_back();
-  EXPECT_THROW(coupled(offsets, {}, {}, contact, places, num_local),
+  EXPECT_THROW(coupled(offsets, {}, {}, contact, places, num_local, num_local),
                std::invalid_argument);
 }

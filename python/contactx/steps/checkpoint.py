@@ -41,12 +41,12 @@ class Checkpoint:
         Raises:
             ValueError: If such a function is of a space that several ranks cannot save.
         """
-        V = problem.u.function_space
+        V = problem.displacement.function_space
         self._problem = problem
         self._history = list(history)
         self._comm: MPI.Comm = V.mesh.comm
         self._owned: int = V.dofmap.index_map.size_local
-        self._u = FunctionRows(problem.u, "u")
+        self._u = FunctionRows(problem.displacement, "u")
         self._functions = [FunctionRows(f, f"history[{k}]") for k, f in enumerate(history)]
         self._interfaces: list[Interface] = [c.interface for c in problem.contacts]
         original = original_nodes(V)
@@ -83,7 +83,9 @@ class Checkpoint:
             if self._comm.rank == 0:
                 _check_fit(saved, present)
         problem = self._problem
-        before = Snapshot(problem.u, problem.contacts, problem.update_ghosts, self._history)
+        before = Snapshot(
+            problem.displacement, problem.contacts, problem.update_ghosts, self._history
+        )
         try:
             self._u.scatter(saved.get("u"))
             self._problem.update_ghosts()
@@ -103,7 +105,7 @@ class Checkpoint:
 
     def _identity(self) -> dict[str, npt.NDArray[Any] | None]:
         """Arrays that tell a problem from others to which its state would not fit."""
-        V = self._problem.u.function_space
+        V = self._problem.displacement.function_space
         x = reference_positions(V)[: self._owned]
         arrays = {"mesh: coordinates": self._u.rows.gather(x), "mesh: cells": self._cells}
         arrays |= {f"history {k}: rows": f.rows.digest for k, f in enumerate(self._functions)}

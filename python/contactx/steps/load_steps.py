@@ -100,7 +100,7 @@ class LoadSteps:
         """
         if not isinstance(problem, ContactProblem):
             raise TypeError(f"problem must be a ContactProblem, not {type(problem).__name__}")
-        self._comm = comm = problem.u.function_space.mesh.comm
+        self._comm = comm = problem.displacement.function_space.mesh.comm
         with agreed(comm):
             _check_functions(update, output, history)
             check_switch("progress", progress)
@@ -112,7 +112,7 @@ class LoadSteps:
         _check_same(comm, self._plan, self._checkpoint, restart, len(history), output is None)
         self._problem = problem
         self._update = update
-        self._history = list(history)
+        self._history = [*history, *problem.beside]
         self._output = output
         self._progress = progress and comm.rank == 0
         self._rows: list[Row] = []
@@ -237,7 +237,9 @@ class LoadSteps:
 
     def _snapshot(self) -> Snapshot:
         problem = self._problem
-        return Snapshot(problem.u, problem.contacts, problem.update_ghosts, self._history)
+        return Snapshot(
+            problem.displacement, problem.contacts, problem.update_ghosts, self._history
+        )
 
     def _update_again(self, error: BaseException) -> None:
         """Set the loads of the last accepted step, whatever that raises."""
