@@ -10,6 +10,65 @@
 
 namespace contactx::tests
 {
+/// @brief Fields beside displacements whose rows are stiffness times value
+/// minus load, apart from each other.
+class LooseFields final : public newton::Fields
+{
+public:
+  /// @param[in] offsets Where each field begins, and the end.
+  explicit LooseFields(std::vector<std::size_t> offsets)
+      : value(offsets.back(), 0), load(value), stiffness(value.size(), 1),
+        prescribed(value), size(value), fixed(value.size(), 0),
+        _offsets(std::move(offsets))
+  {
+  }
+
+  std::vector<std::size_t> offsets() const override { return _offsets; }
+  std::span<const double> values() override { return value; }
+  void set(std::span<const double> values) override
+  {
+    std::ranges::copy(values, value.begin());
+  }
+  std::span<const double> residual() override
+  {
+    ++residuals;
+    _residual.resize(value.size());
+    for (std::size_t i = 0; i < value.size(); ++i)
+      _residual[i] = stiffness[i] * value[i] - load[i];
+    return _residual;
+  }
+  std::span<const double> defect() override
+  {
+    _defect.resize(value.size());
+    for (std::size_t i = 0; i < value.size(); ++i)
+      _defect[i] = fixed[i] ? value[i] - prescribed[i] : 0;
+    return _defect;
+  }
+  std::span<const double> lifted() override
+  {
+    ++lifts;
+    return _lifted = std::vector<double>(value.size(), 0.5);
+  }
+  std::span<const std::int8_t> markers() override { return fixed; }
+  std::span<const double> magnitudes() override
+  {
+    ++looks;
+    return size;
+  }
+
+  std::vector<double> value;               ///< values of now
+  std::vector<double> load;                ///< loads
+  std::vector<double> stiffness;           ///< of each value
+  std::vector<double> prescribed;          ///< Dirichlet values
+  std::vector<double> size;                ///< of the terms of each row
+  std::vector<std::int8_t> fixed;          ///< 1 where there are some
+  int residuals = 0, lifts = 0, looks = 0; ///< how often they were asked for
+
+private:
+  std::vector<std::size_t> _offsets;
+  std::vector<double> _residual, _defect, _lifted;
+};
+
 /// @brief A bulk of springs. Each node has one to the ground in each direction,
 /// the end of which may move; the nodes of a cell are joined by springs that
 /// resist whatever moves one against the other. All arrays are in the order of
@@ -109,6 +168,8 @@ public:
     return std::span(cell_force).first(_halo->num_owned());
   }
 
+  newton::Fields* fields() override { return others.get(); }
+
   /// @brief Product of the stiffness with displacements of all nodes.
   std::vector<double> product(std::span<const double> field) const
   {
@@ -135,6 +196,7 @@ public:
   double bar = 0;                 ///< stiffness between nodes of a cell
   bool linear = true;             ///< what is said of the stiffness
   int residuals = 0, lifts = 0, looks = 0; ///< how often they were asked for
+  std::shared_ptr<LooseFields> others;     ///< other fields, or none
 
 private:
   template <class T>

@@ -242,10 +242,10 @@ class CoupledBulk(Bulk):
             for j, (indptr, indices, _) in enumerate(row):
                 rows.append(np.repeat(mine, np.diff(indptr)))
                 columns.append(self._places(j, own[numbers[j]], indices.astype(np.int64)))
-        row, column = np.concatenate(rows), np.concatenate(columns)
-        order = np.lexsort((column, row))
+        every, column = np.concatenate(rows), np.concatenate(columns)
+        order = np.lexsort((column, every))
         offsets = np.zeros(at + 1, dtype=np.int64)
-        np.cumsum(np.bincount(row, minlength=at), out=offsets[1:])
+        np.cumsum(np.bincount(every, minlength=at), out=offsets[1:])
         return order, offsets, column[order]
 
     def _places(self, k: int, own: Index, columns: Index) -> Index:

@@ -460,3 +460,74 @@ TEST(Convergence, TheLargestCellMayBeOnAnotherRankThanWhatMoves)
   EXPECT_TRUE(run(nullptr));
   on_ranks(2, [&](parallel::Ranks& ranks) { EXPECT_TRUE(run(&ranks)); });
 }
+
+/// A row with two other fields.
+struct RowWithFields : Row
+{
+  std::shared_ptr<LooseFields> others
+      = std::make_shared<LooseFields>(std::vector<std::size_t>{0, 2, 3});
+
+  RowWithFields()
+  {
+    bulk->others = others;
+    make();
+    load(0) = 5;
+    begin_step({1, 1, 1});
+  }
+
+  /// Residual over tolerance where forces are in balance.
+  double excess(std::vector<double> fields)
+  {
+    std::vector<double> b(6);
+    b.insert(b.end(), fields.begin(), fields.end());
+    const auto found = convergence->compare(b, rtol, 0);
+    EXPECT_EQ(found.defect, 0);
+    return found.residual / found.tolerance;
+  }
+};
+
+TEST(Convergence, OtherFieldsAreRelativeToTheirLargestResidual)
+{
+  RowWithFields row;
+  EXPECT_EQ(row.excess({0, 0, 0}), 0);
+  EXPECT_NEAR(row.excess({3, 4, 0}) * rtol, 1, 1e-14);
+  EXPECT_NEAR(row.excess({0.3, 0.4, 0}) * rtol, 0.1, 1e-14);
+  EXPECT_NEAR(row.excess({6e-10, 8e-10, 0}), 2, 1e-12);
+  EXPECT_EQ(row.excess({3e-10, 3.9e-10, 0}), 0);
+  // Each by itself: units may be any
+  EXPECT_NEAR(row.excess({0, 0, 1e-9}) * rtol, 1, 1e-14);
+  EXPECT_NEAR(row.excess({0, 0, 2e-19}), 2, 1e-12);
+  EXPECT_EQ(row.excess({0, 0, 0.9e-19}), 0);
+  // And in each step
+  row.begin_step({1, 1, 1});
+  EXPECT_NEAR(row.excess({3e-10, 4e-10, 0}) * rtol, 1, 1e-12);
+  EXPECT_TRUE(std::isinf(row.excess({NAN, 0, 0})));
+}
+
+TEST(Convergence, RoundingOfOtherFieldsIsNoResidual)
+{
+  RowWithFields row;
+  // Where nothing has changed a residual is all that there ever was
+  row.others->size = {3e3, 4e3, 1};
+  EXPECT_LE(row.excess({0.6 * eps * 5e3, 0.7 * eps * 5e3, 0}), 1);
+  EXPECT_GT(row.excess({0.9 * eps * 5e3, 0.9 * eps * 5e3, 0}), 1);
+  EXPECT_GT(row.excess({0, 0, 2 * eps}), 1);
+  // It is dear, and looked at where it matters alone
+  const int looks = row.others->looks;
+  row.excess({1, 1, 0});
+  EXPECT_EQ(row.others->looks, looks + 1);
+  row.excess({1e-11, 1e-11, 0});
+  EXPECT_EQ(row.others->looks, looks + 1);
+}
+
+TEST(Convergence, DirichletValuesOfOtherFieldsMustBeMet)
+{
+  RowWithFields row;
+  row.others->fixed = {1, 0, 0};
+  row.others->value = {100, 0, 0};
+  EXPECT_GT(row.excess({1e-7, 0, 0}), 1);
+  EXPECT_LE(row.excess({0.9e-8, 0, 0}), 1);
+  // Also where none has a value yet
+  row.others->value = {0, 0, 0};
+  EXPECT_NEAR(row.excess({7, 0, 0}), 1e10, 1);
+}

@@ -340,3 +340,86 @@ TEST(System, IsTheSameOnRanks)
           });
   }
 }
+
+TEST(System, OtherFieldsComeBetweenDisplacementsAndMultipliers)
+{
+  for (const int dim : {2, 3})
+  {
+    Hanging s(dim);
+    const std::size_t n = s.scene.u->size();
+    const std::vector<double> without = s.residual();
+    const auto others
+        = std::make_shared<LooseFields>(std::vector<std::size_t>{0, 3, 7});
+    s.bulk->others = others;
+    auto now
+        = std::make_shared<newton::System>(s.scene.halo, s.bulk, s.contacts);
+    EXPECT_EQ(now->num_displacements(), n);
+    EXPECT_EQ(now->num_bulk(), n + 7);
+    EXPECT_EQ(now->size(), s.system->size() + 7);
+    EXPECT_EQ(now->factors().size(), s.system->factors().size());
+    for (std::size_t i = 0; i < 7; ++i)
+    {
+      others->value[i] = 2.0 + double(i);
+      others->load[i] = 1;
+      others->stiffness[i] = 3;
+    }
+    std::vector<double> b(now->size()), expected = without;
+    now->residual(b);
+    // Dirichlet values of the displacements are lifted there, too
+    EXPECT_EQ(others->lifts, 1);
+    std::vector<double> rows;
+    for (const double v : others->value)
+      rows.push_back(3 * v - 1 + 0.5);
+    expected.insert(expected.begin() + n, rows.begin(), rows.end());
+    expect_near(b, expected, 1e-14);
+    EXPECT_EQ(now->forces().size(), n);
+    EXPECT_EQ(now->bulk_residual().size(), n);
+    // Another value of theirs alone is another state
+    const int before = s.bulk->residuals;
+    now->residual(b);
+    EXPECT_EQ(s.bulk->residuals, before);
+    others->value[6] = 0;
+    now->residual(b);
+    EXPECT_EQ(s.bulk->residuals, before + 1);
+    EXPECT_EQ(b[n + 6], -0.5);
+
+    std::vector<double> x(now->size()), back(x);
+    for (std::size_t i = 0; i < x.size(); ++i)
+      x[i] = 1e-3 * static_cast<double>(i);
+    now->take(x);
+    EXPECT_EQ(others->value,
+              std::vector<double>(x.begin() + n, x.begin() + n + 7));
+    now->unknowns(back);
+    EXPECT_EQ(back, x);
+    // Contact has no part in them
+    std::vector<double> y(x.size(), 1);
+    now->multiply(condense::ContactBlock(s.contacts, s.scene.prescribed), x, y);
+    for (std::size_t i = n; i < n + 7; ++i)
+      EXPECT_EQ(y[i], 0);
+    EXPECT_NE(*std::max_element(y.begin() + n + 7, y.end()), 0);
+  }
+}
+
+TEST(System, DirichletRowsOfOtherFieldsAreDifferences)
+{
+  Hanging s(2);
+  s.meet();
+  const auto others
+      = std::make_shared<LooseFields>(std::vector<std::size_t>{0, 2});
+  s.bulk->others = others;
+  others->value = {5, 5};
+  others->fixed = {1, 0};
+  others->prescribed = {4, 0};
+  newton::System system(s.scene.halo, s.bulk, s.contacts);
+  std::vector<double> b(system.size());
+  system.residual(b);
+  const std::size_t n = system.num_displacements();
+  EXPECT_EQ(b[n], 1);
+  EXPECT_EQ(b[n + 1], 5.5);
+  EXPECT_EQ(others->lifts, 1);
+  EXPECT_EQ(s.bulk->lifts, 1);
+  // Rounding is not lifted
+  others->prescribed[0] = 5 * (1 - 4e-16);
+  system.residual(b);
+  EXPECT_EQ(others->lifts, 1);
+}
