@@ -10,10 +10,17 @@ from dataclasses import dataclass
 
 import contactx as cx
 
-from ranks import partitions, scenes_elastic, scenes_rigid, scenes_rubbing, scenes_several
+from ranks import (
+    partitions,
+    scenes_coupled,
+    scenes_elastic,
+    scenes_rigid,
+    scenes_rubbing,
+    scenes_several,
+)
 
 METHODS = {"node": "node-to-surface", "surface": "surface-to-surface"}
-_MODULES = (scenes_elastic, scenes_rubbing, scenes_rigid, scenes_several)
+_MODULES = (scenes_elastic, scenes_rubbing, scenes_rigid, scenes_several, scenes_coupled)
 
 # Functions that yield the problem after each step
 SCENES: dict[str, Callable[[], Iterator[cx.ContactProblem]]] = {

@@ -25,7 +25,7 @@ class Outcome:
 
     def add(self, problem: cx.ContactProblem) -> None:
         """Keep the numbers of a step (collective)."""
-        report, comm = problem.report, problem.u.function_space.mesh.comm
+        report, comm = problem.report, problem.displacement.function_space.mesh.comm
         counts = []
         for contact in problem.contacts:
             status = owned(contact.status)
@@ -50,14 +50,14 @@ class Outcome:
             Arrays by name on rank 0, nothing elsewhere.
         """
         found = {f"step {key}": np.array([s[key] for s in self._steps]) for key in self._steps[0]}
-        found["u"] = in_order(problem.u)
+        found["u"] = in_order(problem.displacement)
         for k, contact in enumerate(problem.contacts):
             names = list(FIELDS)
             if not contact.tied and not contact.interface.law.name.startswith("frictionless"):
                 names += ["slip", "slip_total"]
             for name in names:
                 found[f"{name} {k}"] = in_order(getattr(contact, name))
-        return found if problem.u.function_space.mesh.comm.rank == 0 else {}
+        return found if problem.displacement.function_space.mesh.comm.rank == 0 else {}
 
 
 def owned(function: fem.Function) -> Array:

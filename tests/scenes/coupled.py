@@ -164,3 +164,37 @@ _FORMS: dict[str, Any] = {
     "MINI": _mini,
     "neo-Hooke": _neo_hooke,
 }
+
+
+def thermal(friction: float = 0.2, **options: Any) -> tuple[Any, ...]:
+    """Blocks that expand as they are heated; their conductivity depends on the temperature.
+
+    Returns:
+        Residuals, displacement, temperature, conditions on the temperature, on the displacement, and
+        the contact.
+    """
+    data = meshes.blocks(CellType.triangle, (4, 3), (5, 3))
+    tags, domain = data.facet_tags, data.mesh
+    V = fem.functionspace(domain, ("Lagrange", 1, (2,)))
+    Q = fem.functionspace(domain, ("Lagrange", 1))
+    u, T = fem.Function(V), fem.Function(Q)
+    v, q = ufl.TestFunction(V), ufl.TestFunction(Q)
+    e = strain(u) - EXPANSION * T * ufl.Identity(2)
+    F = [
+        ufl.inner(2 * MU * e + LAMBDA * ufl.tr(e) * ufl.Identity(2), strain(v)) * ufl.dx,
+        (1 + 0.01 * T) * ufl.inner(ufl.grad(T), ufl.grad(q)) * ufl.dx,
+    ]
+    heat = [
+        fix(Q, tags, 100.0, Tag.UPPER_TOP),
+        fix(Q, tags, 0.0, Tag.UPPER_CONTACT),
+        fix(Q, tags, 20.0, Tag.LOWER_BOTTOM),
+        fix(Q, tags, 50.0, Tag.LOWER_CONTACT),
+    ]
+    hold = [fix(V.sub(i), tags, 0.0, Tag.LOWER_BOTTOM, Tag.UPPER_TOP) for i in range(2)]
+    contact = cx.Contact(
+        cx.Surface(tags, Tag.UPPER_CONTACT),
+        cx.Surface(tags, Tag.LOWER_CONTACT),
+        friction=friction,
+        **options,
+    )
+    return F, u, T, heat, hold, contact

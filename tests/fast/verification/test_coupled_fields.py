@@ -11,9 +11,8 @@ import ufl
 from dolfinx import fem
 from dolfinx.mesh import CellType
 
-import meshes
 from meshes import Tag
-from scenes.coupled import EXPANSION, LAMBDA, MU, Coupled, fix, strain
+from scenes.coupled import Coupled, fix, thermal
 
 KINDS = ("mixed", "mixed, pressure first", "blocks")
 OPTIONS = {
@@ -127,39 +126,9 @@ def test_steps_are_gone_on_with_from_a_checkpoint(kind, tmp_path):
     assert (straight.contact.multiplier == second.contact.multiplier).all()
 
 
-def thermal(friction=0.2, **options):
-    """Blocks that expand; conductivity depends on the temperature."""
-    data = meshes.blocks(CellType.triangle, (4, 3), (5, 3))
-    tags, domain = data.facet_tags, data.mesh
-    V = fem.functionspace(domain, ("Lagrange", 1, (2,)))
-    Q = fem.functionspace(domain, ("Lagrange", 1))
-    u, T = fem.Function(V), fem.Function(Q)
-    v, q = ufl.TestFunction(V), ufl.TestFunction(Q)
-    e = strain(u) - EXPANSION * T * ufl.Identity(2)
-    F = [
-        ufl.inner(2 * MU * e + LAMBDA * ufl.tr(e) * ufl.Identity(2), strain(v)) * ufl.dx,
-        (1 + 0.01 * T) * ufl.inner(ufl.grad(T), ufl.grad(q)) * ufl.dx,
-    ]
-    hot = fem.Constant(domain, 100.0)
-    heat = [
-        fix(Q, tags, hot, Tag.UPPER_TOP),
-        fix(Q, tags, 0.0, Tag.UPPER_CONTACT),
-        fix(Q, tags, 20.0, Tag.LOWER_BOTTOM),
-        fix(Q, tags, 50.0, Tag.LOWER_CONTACT),
-    ]
-    hold = [fix(V.sub(i), tags, 0.0, Tag.LOWER_BOTTOM, Tag.UPPER_TOP) for i in range(2)]
-    contact = cx.Contact(
-        cx.Surface(tags, Tag.UPPER_CONTACT),
-        cx.Surface(tags, Tag.LOWER_CONTACT),
-        friction=friction,
-        **options,
-    )
-    return F, u, T, heat, hold, contact, hot
-
-
 @pytest.mark.parametrize("unit", [1.0, 1e-6])
 def test_heat_presses_as_it_does_field_by_field(unit):
-    F, u, T, heat, hold, contact, _ = thermal()
+    F, u, T, heat, hold, contact = thermal()
     F[1] = unit * F[1]
     problem = cx.ContactProblem(
         F, [u, T], contacts=[contact], bcs=heat + hold, displacement=0,
@@ -168,7 +137,7 @@ def test_heat_presses_as_it_does_field_by_field(unit):
     problem.solve()
     # Newton's method converges quadratically, whatever heat is measured in
     assert problem.report.iterations <= 7
-    G, w, S, heat, hold, same, _ = thermal()
+    G, w, S, heat, hold, same = thermal()
     fem.petsc.NonlinearProblem(
         G[1], S, bcs=heat, petsc_options_prefix="heat_", petsc_options={"snes_rtol": 1e-12}
     ).solve()
@@ -180,9 +149,9 @@ def test_heat_presses_as_it_does_field_by_field(unit):
 
 
 def test_a_hand_written_loop_solves_it_too():
-    F, u, T, heat, hold, contact, _ = thermal()
+    F, u, T, heat, hold, contact = thermal()
     assembler = cx.ContactAssembler(F, [u, T], contacts=[contact], bcs=heat + hold, displacement=0)
-    F, w, S, heat, hold, same, _ = thermal()
+    F, w, S, heat, hold, same = thermal()
     problem = cx.ContactProblem(
         F, [w, S], contacts=[same], bcs=heat + hold, displacement=0, petsc_options_prefix="same_"
     )
