@@ -170,8 +170,8 @@ def thermal(friction: float = 0.2, **options: Any) -> tuple[Any, ...]:
     """Blocks that expand as they are heated; their conductivity depends on the temperature.
 
     Returns:
-        Residuals, displacement, temperature, conditions on the temperature, on the displacement, and
-        the contact.
+        Residuals, displacement, temperature, conditions on the temperature and on the displacement,
+        and the contact.
     """
     data = meshes.blocks(CellType.triangle, (4, 3), (5, 3))
     tags, domain = data.facet_tags, data.mesh
