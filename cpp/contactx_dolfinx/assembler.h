@@ -296,6 +296,15 @@ public:
   /// @brief The core's loop.
   const newton::Loop& loop() const { return *_loop; }
 
+  /// @brief The core's system.
+  const std::shared_ptr<newton::System>& system() const { return _system; }
+
+  /// @brief The bulk.
+  const std::shared_ptr<Bulk>& bulk() const { return _bulk; }
+
+  /// @brief Linear solves of the step so far.
+  int number() const { return _number; }
+
 private:
   MPI_Comm comm() const { return _u->function_space()->mesh()->comm(); }
 

@@ -7,11 +7,15 @@
 //     python mesh.py 0.05
 //     cmake -S . -B build -DCMAKE_BUILD_TYPE=Release && cmake --build build
 //     mpiexec -n 2 build/hertz
+//     mpiexec -n 2 build/hertz -condensed
+//
+// For fine meshes: -condensed eliminates the multipliers and finds the
+// displacements by CG with multigrid.
 
 #include "hertz.h"
 #include <basix/finite-element.h>
 #include <cmath>
-#include <contactx_dolfinx/assembler.h>
+#include <contactx_dolfinx/condensed.h>
 #include <cstdio>
 #include <dolfinx.h>
 #include <dolfinx/fem/Constant.h>
@@ -87,6 +91,9 @@ int main(int argc, char* argv[])
     la::petsc::options::set("pc_type", "lu");
     la::petsc::options::set("pc_factor_mat_solver_type", "mumps");
     solver.set_from_options();
+    PetscBool is_condensed = PETSC_FALSE;
+    PetscOptionsHasName(nullptr, nullptr, "-condensed", &is_condensed);
+    cx::Condensed condensed(assembler, "condensed_");
 
     // Newton loop
     Vec x = assembler.x(), b = assembler.create_vector(),
@@ -101,9 +108,14 @@ int main(int argc, char* argv[])
         std::printf("%2d  residual %.3e  closed %lld\n", it.number, it.residual,
                     static_cast<long long>(it.closed));
       assembler.F(x, b);
-      assembler.J(x, A);
-      solver.set_operator(A);
-      solver.solve(dx, b);
+      if (is_condensed)
+        condensed.solve(b, dx);
+      else
+      {
+        assembler.J(x, A);
+        solver.set_operator(A);
+        solver.solve(dx, b);
+      }
       VecScale(dx, -1);
       assembler.update(dx, assembler.limit(dx));
     }
@@ -124,6 +136,9 @@ int main(int argc, char* argv[])
       std::printf("iterations %d, force %.12g, largest pressure %.12g, "
                   "largest multiplier %.12g (Hertz %.4g)\n",
                   it.number, force, most[0], most[1], peak);
+    if (rank == 0 and is_condensed)
+      std::printf("Krylov iterations %d, direct solves %d\n",
+                  condensed.iterations(), condensed.direct());
 
     VecDestroy(&b);
     VecDestroy(&dx);
