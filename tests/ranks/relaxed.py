@@ -32,6 +32,7 @@ class Relaxed(cx.ContactProblem):
     def __init__(self, domain: mesh.Mesh, fails_above: float = 1.0):
         dim = domain.geometry.dim
         self.u = fem.Function(fem.functionspace(domain, ("Lagrange", 1, (dim,))))
+        self.displacement = self.u
         self.contacts = []
         self.report = Report()
         points = basix.ufl.quadrature_element(domain.basix_cell(), (dim, dim), degree=2)
@@ -40,6 +41,11 @@ class Relaxed(cx.ContactProblem):
         self.fails_above = fails_above
         self.t = self.before = 0.0
         self.calls: list[float] = []
+
+    @property
+    def beside(self) -> list[fem.Function]:
+        """There is a displacement alone."""
+        return []
 
     def find_rigid_modes(self) -> None:
         """Nothing is to be found."""
