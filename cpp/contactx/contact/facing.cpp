@@ -60,7 +60,8 @@ contactx::contact::facing_nodes(const facet::FacetList& facets,
 
 std::vector<double> contactx::contact::facing_areas(
     const facet::FacetList& facets, std::span<const double> reference,
-    std::span<const double> x, std::span<const double> normal, int gdim)
+    std::span<const double> x, std::span<const double> normal, int gdim,
+    std::span<const double> weight)
 {
   check(x, normal);
   check(x, reference);
@@ -71,8 +72,9 @@ std::vector<double> contactx::contact::facing_areas(
   const facet::FacetList corners{facets.offsets, own};
   const std::vector<double> turned
       = facet::nodal_normals(corners, at_corners(facets, x, gdim), gdim);
-  std::vector<double> area
-      = facet::nodal_areas(corners, at_corners(facets, reference, gdim), gdim);
+  std::vector<double> area = facet::nodal_areas(
+      corners, at_corners(facets, reference, gdim), gdim,
+      weight.empty() ? std::vector<double>() : at_corners(facets, weight, 1));
 
   std::vector<double> cosine(n), most(x.size() / gdim, 0);
   for (std::size_t c = 0; c < n; ++c)

@@ -93,6 +93,7 @@ void MortarObstacle::add_kind(std::span<const double> x)
     const auto N = F::shape(point.xi);
     kind.N.insert(kind.N.end(), N.begin(), N.end());
   }
+  const std::vector<double> weight = _slaves->corner_weight();
   for (std::size_t f = 0; f + 1 < _slaves->facets().offsets.size(); ++f)
   {
     const std::int32_t first = _slaves->facets().offsets[f];
@@ -101,12 +102,17 @@ void MortarObstacle::add_kind(std::span<const double> x)
     const auto xs
         = facet::gather<F>(_slaves->facets().nodes.subspan(first, k), x);
     mortar::Square<k> mass{}, dual{};
-    Vector<k> whole{};
+    Vector<k> whole{}, factor;
+    factor.fill(1);
+    if (not weight.empty())
+      std::copy_n(weight.begin() + first, k, factor.begin());
     std::vector<double> area(kind.q);
     for (int p = 0; p < kind.q; ++p)
     {
       const auto N = F::shape(points[p].xi);
       area[p] = stretch<F>(xs, points[p].xi) * points[p].weight;
+      if (not weight.empty())
+        area[p] *= dot(factor, N);
       whole = whole + area[p] * N;
       for (int s = 0; s < k; ++s)
         mass[s] = mass[s] + (area[p] * N[s]) * N;

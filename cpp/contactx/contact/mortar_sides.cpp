@@ -186,6 +186,9 @@ std::vector<Pairs> MortarSides::pairs(const Mortar& mortar,
         }
         for (int k = 0; k < 3; ++k)
           data[at.normal + k] = normal[3 * std::size_t(e) + k];
+        const std::vector<double>& weight = _slaves->weight();
+        for (int s = 0; s < n; ++s)
+          data[at.factor + s] = weight.empty() ? 1 : weight[slaves[s]];
       }
       if (not group.slaves.empty())
         groups.push_back(std::move(group));

@@ -25,7 +25,8 @@ double product(const double* a, const double* b, int gdim)
 
 /// Areas of the corners of facets, each of which is a node of its own.
 std::vector<double> corner_areas(const facet::FacetList& facets,
-                                 std::span<const double> x, int gdim)
+                                 std::span<const double> x, int gdim,
+                                 std::span<const double> weight)
 {
   std::vector<std::int32_t> own(facets.nodes.size());
   std::iota(own.begin(), own.end(), 0);
@@ -33,7 +34,7 @@ std::vector<double> corner_areas(const facet::FacetList& facets,
   for (std::size_t c = 0; c < own.size(); ++c)
     std::copy_n(x.begin() + static_cast<std::size_t>(facets.nodes[c]) * gdim,
                 gdim, corners.begin() + c * gdim);
-  return facet::nodal_areas({facets.offsets, own}, corners, gdim);
+  return facet::nodal_areas({facets.offsets, own}, corners, gdim, weight);
 }
 } // namespace
 
@@ -45,8 +46,8 @@ Recovery::Recovery(std::shared_ptr<const SlaveNodes> slaves,
     throw std::invalid_argument("slaves must not be empty");
   check::dimension(gdim);
   const facet::FacetList facets = _slaves->local();
-  const std::vector<double> parts
-      = corner_areas(facets, _slaves->here(x, gdim, "x"), gdim);
+  const std::vector<double> parts = corner_areas(
+      facets, _slaves->here(x, gdim, "x"), gdim, _slaves->corner_weight());
   _area = _slaves->sums(parts);
   const auto n = static_cast<std::int32_t>(_area.size());
   for (std::int32_t f = 0; f < facets.size(); ++f)

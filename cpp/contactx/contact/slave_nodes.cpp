@@ -5,6 +5,7 @@
 #include "../check.h"
 #include "facing.h"
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <iterator>
 #include <stdexcept>
@@ -95,6 +96,39 @@ SlaveNodes::SlaveNodes(std::shared_ptr<const parallel::NodeMap> nodes,
   std::ranges::transform(_facets.nodes, _corners.begin(), place);
 }
 
+void SlaveNodes::set_weight(std::span<const double> weight)
+{
+  _nodes->ranks().agree(
+      [&]
+      {
+        check::rows(weight.size(), _num_owned, 1, "weight");
+        if (std::ranges::any_of(weight, [](double w)
+                                { return not(std::isfinite(w) and w >= 0); }))
+          throw std::invalid_argument("the weight must be finite and not "
+                                      "negative on the slave surface");
+      });
+  _weight = scatter_forward(weight);
+  _nodes->ranks().agree(
+      [this]
+      {
+        for (const double most : largest(_weight))
+          if (not(most > 0))
+            throw std::invalid_argument(
+                "the weight is zero all over a slave facet: take such facets "
+                "out of the surface, as those on the axis of an axisymmetric "
+                "model");
+      });
+}
+
+std::vector<double> SlaveNodes::corner_weight() const
+{
+  std::vector<double> corners;
+  if (not _weight.empty())
+    for (const std::int32_t place : _corners)
+      corners.push_back(_weight[place]);
+  return corners;
+}
+
 std::vector<double> SlaveNodes::scatter_forward(std::span<const double> values,
                                                 int width) const
 {
@@ -154,7 +188,8 @@ std::vector<double> SlaveNodes::facing_areas(std::span<const double> reference,
 {
   check::dimension(gdim);
   return contact::facing_areas(local(), here(reference, gdim, "reference"),
-                               here(x, gdim, "x"), padded(normal, gdim), gdim);
+                               here(x, gdim, "x"), padded(normal, gdim), gdim,
+                               _weight);
 }
 
 std::vector<double> SlaveNodes::largest(std::span<const double> values) const

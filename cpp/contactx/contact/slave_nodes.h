@@ -26,6 +26,22 @@ public:
   SlaveNodes(std::shared_ptr<const parallel::NodeMap> nodes,
              const facet::FacetList& facets, const facet::FacetList& own);
 
+  /// @brief Integrate with a weight: over all angles in axisymmetric models,
+  /// over the thickness in plane ones. Before masters and contacts are made of
+  /// the slave nodes; collective.
+  /// @param[in] weight Values at the owned slave nodes, between which the
+  /// shape functions interpolate (shape=(n)).
+  /// @throws std::invalid_argument on all ranks if a value is negative or not
+  /// finite, or those of a facet are all zero.
+  void set_weight(std::span<const double> weight);
+
+  /// @brief The weight at all slave nodes (shape=(m)); empty if there is none.
+  const std::vector<double>& weight() const { return _weight; }
+
+  /// @brief The weight at the corners of the facets, in the order of their
+  /// nodes; empty if there is none.
+  std::vector<double> corner_weight() const;
+
   /// @brief Nodes of this rank.
   const parallel::NodeMap& nodes() const { return *_nodes; }
 
@@ -132,6 +148,7 @@ private:
   std::shared_ptr<const parallel::NodeMap> _nodes;
   facet::Facets _facets, _own;
   std::vector<std::int32_t> _around, _corners;
+  std::vector<double> _weight;
   std::size_t _num_owned;
 };
 } // namespace contactx::contact

@@ -42,17 +42,17 @@ SurfaceToSurface::SurfaceToSurface(
       _sides(*_slaves, _halo->reference(), _halo->gdim()),
       _slip(_sides, _halo->gdim(), options.is_small),
       _nodes(nodes_of_both(_slaves->facets(), _surface->own())),
-      _area(_sides.size(), 0), _paired(_sides.size(), 0)
+      _area(_sides.size(), 0), _paired(_sides.size(), 0),
+      _weight(_slaves->corner_weight())
 {
   _inradius = parallel::least(_halo->ranks(), _sides.inradius());
   const auto x = _halo->reference();
   _x0.assign(x.begin(), x.end());
   _at = _x0;
   meet();
-  const std::vector<double> area
-      = facet::nodal_areas(_slaves->facets(), x, gdim());
-  for (const std::int32_t node : _sides.slaves())
-    _whole.push_back(area[node]);
+  _whole = facet::nodal_areas(_slaves->local(), _slaves->here(x, gdim(), "x"),
+                              gdim(), _slaves->weight());
+  _whole.resize(_sides.size());
 }
 
 /// Takes the master facets that are known now; those before keep their numbers.
@@ -185,7 +185,7 @@ void SurfaceToSurface::integrate(std::span<const double> x)
   const auto integrate = [&](std::span<const double> normal)
   {
     return mortar::integrals(_slaves->facets(), _surface->facets(), *_found, x,
-                             reference, gdim(), normal);
+                             reference, gdim(), normal, _weight);
   };
   mortar::Integrals all = integrate({});
   if (_options.is_small)

@@ -25,6 +25,42 @@ constexpr auto quadrature()
     return std::array<Vector<2>, 4>{{{a, a}, {b, a}, {a, b}, {b, b}}};
 }
 
+/// The same of products of two of them.
+template <class F>
+constexpr auto quadrature_of_products()
+{
+  if constexpr (F::nodes == 3)
+    return std::array<Vector<2>, 3>{
+        {{1. / 6, 1. / 6}, {2. / 3, 1. / 6}, {1. / 6, 2. / 3}}};
+  else
+    return quadrature<F>();
+}
+
+/// Area of each node with a weight.
+void add_weighted(const FacetList& facets, std::span<const double> x,
+                  std::span<const double> weight, std::vector<double>& area)
+{
+  for (std::int32_t i = 0; i < facets.size(); ++i)
+    visit(facets[i].size(),
+          [&]<class F>(F)
+          {
+            const Nodes<F> xf = gather<F>(facets[i], x);
+            constexpr auto points = quadrature_of_products<F>();
+            const double reference_area = F::nodes == 3 ? 0.5 : 1;
+            for (const auto& xi : points)
+            {
+              const auto N = F::shape(xi);
+              double w
+                  = frame<F>(xf, xi).jacobian * reference_area / points.size();
+              double of_point = 0;
+              for (int l = 0; l < F::nodes; ++l)
+                of_point += N[l] * weight[facets[i][l]];
+              for (int l = 0; l < F::nodes; ++l)
+                area[facets[i][l]] += N[l] * of_point * w;
+            }
+          });
+}
+
 /// Call f(node, area vector of the node's part of the facet) for each node of
 /// each facet.
 template <class Function>
@@ -55,9 +91,15 @@ void for_each_part(const FacetList& facets, std::span<const double> x,
 
 std::vector<double> contactx::facet::nodal_areas(const FacetList& facets,
                                                  std::span<const double> x,
-                                                 int gdim)
+                                                 int gdim,
+                                                 std::span<const double> weight)
 {
   std::vector<double> area(x.size() / gdim, 0);
+  if (not weight.empty())
+  {
+    add_weighted(facets, x, weight, area);
+    return area;
+  }
   for_each_part(facets, x, [&area](std::int32_t node, double w, const auto&)
                 { area[node] += w; });
   return area;

@@ -33,9 +33,12 @@ struct FacetList
 /// @param[in] facets Facets of the surface.
 /// @param[in] x Node coordinates (shape=(num_nodes, gdim)), row-major.
 /// @param[in] gdim Geometric dimension, 2 or 3.
+/// @param[in] weight What is integrated with: values at the nodes, between
+/// which the shape functions interpolate (shape=(num_nodes)); 1 if empty.
 /// @return Areas (shape=(num_nodes)), zero off the surface.
 std::vector<double> nodal_areas(const FacetList& facets,
-                                std::span<const double> x, int gdim);
+                                std::span<const double> x, int gdim,
+                                std::span<const double> weight = {});
 
 /// @brief Area times outward normal of each node; those of parts of a surface
 /// add up to those of the whole, as areas do.

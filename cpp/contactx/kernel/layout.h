@@ -90,15 +90,16 @@ inline constexpr int rigid_slip_size = 12;
 
 /// @brief Places of the values a pair of two facets, with `s` slave and `m`
 /// master nodes: integrals of the dual basis functions with the master's shape
-/// functions, the dual functions' coefficients, integrals of the gap, and the
-/// unit normal that the search found.
+/// functions, the dual functions' coefficients, integrals of the gap, the
+/// unit normal that the search found, and what is integrated with at the slave
+/// nodes.
 struct MortarLayout
 {
-  int weight, dual, gap, normal, size;
+  int weight, dual, gap, normal, factor, size;
 
   constexpr MortarLayout(int s, int m)
       : weight(0), dual(s * m), gap(dual + s * s), normal(gap + s),
-        size(normal + 3)
+        factor(normal + 3), size(factor + s)
   {
   }
 };

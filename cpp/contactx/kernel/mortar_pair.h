@@ -72,6 +72,14 @@ struct MortarPair
     return data[layout.dual + S::nodes * s + t];
   }
 
+  /// @brief What is integrated with, at the slave nodes.
+  Vector<S::nodes> factor() const
+  {
+    Vector<S::nodes> f;
+    std::copy_n(data + layout.factor, S::nodes, f.begin());
+    return f;
+  }
+
   /// @brief int Phi_s gap when the integrals were taken.
   double gap(int s) const { return data[layout.gap + s]; }
 

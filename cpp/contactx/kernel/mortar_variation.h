@@ -37,7 +37,7 @@ public:
   /// @brief Project the facets.
   /// @param[in] pair Pair.
   explicit MortarVariation(const MortarPair<S, M>& pair)
-      : _pair(pair), _slave(pair.slave, pair.reference),
+      : _pair(pair), _slave(pair.slave, pair.reference, pair.factor()),
         _r(mortar::project<M>(_slave.plane, pair.master)),
         _slope(S::derivative(mortar::plane_origin<S>()))
   {

@@ -91,7 +91,8 @@ Integrals contactx::mortar::integrals(const facet::FacetList& slave,
                                       const FacetPairs& pairs,
                                       std::span<const double> x,
                                       std::span<const double> reference,
-                                      int gdim, std::span<const double> normal)
+                                      int gdim, std::span<const double> normal,
+                                      std::span<const double> weight)
 {
   constexpr int n = most_nodes;
   Integrals all;
@@ -107,47 +108,56 @@ Integrals contactx::mortar::integrals(const facet::FacetList& slave,
     std::size_t last = first;
     while (last < pairs.size() and pairs.slave[last] == f)
       ++last;
-    facet::visit(
-        static_cast<int>(slave[f].size()),
-        [&](auto kind)
-        {
-          using S = decltype(kind);
-          const auto xs = facet::gather<S>(slave[f], x);
-          const auto X = facet::gather<S>(slave[f], reference);
-          const SlaveFacet<S> projected(plane_of<S>(xs, f, normal), xs, X);
-          for (int k = 0; k < gdim; ++k)
-            all.normal[3 * f + k] = -projected.plane.n[k];
-          Cover<S> cover;
-          for (std::size_t i = first; i < last; ++i)
-          {
-            const auto nodes = master[pairs.master[i]];
-            mortar::visit(S::nodes, static_cast<int>(nodes.size()),
-                          [&](auto, auto other)
-                          {
-                            using M = decltype(other);
-                            if constexpr (M::gdim == S::gdim)
-                              add_pair<S, M>(projected, xs,
-                                             facet::gather<M>(nodes, x), cover,
-                                             &all.weight[i * n * n],
-                                             &all.gap[i * n]);
-                          });
-          }
-          Square<S::nodes> dual{};
-          const bool covered = cover.total > least_cover * facet_area<S>(X)
-                               and invert<S::nodes>(cover.mass, dual);
-          for (int s = 0; s < S::nodes; ++s)
-          {
-            dual[s] = (covered ? cover.area[s] : 0) * dual[s];
-            all.area[n * f + s] = covered ? cover.area[s] : 0;
-            std::copy(dual[s].begin(), dual[s].end(),
-                      &all.dual[n * n * f + n * s]);
-          }
-          for (std::size_t i = first; i < last; ++i)
-          {
-            combine_rows<S>(dual, &all.weight[i * n * n], n);
-            combine_rows<S>(dual, &all.gap[i * n], 1);
-          }
-        });
+    facet::visit(static_cast<int>(slave[f].size()),
+                 [&](auto kind)
+                 {
+                   using S = decltype(kind);
+                   const auto xs = facet::gather<S>(slave[f], x);
+                   const auto X = facet::gather<S>(slave[f], reference);
+                   auto factor = SlaveFacet<S>::ones();
+                   if (not weight.empty())
+                     std::copy_n(weight.begin() + slave.offsets[f], S::nodes,
+                                 factor.begin());
+                   const SlaveFacet<S> projected(plane_of<S>(xs, f, normal), xs,
+                                                 X, factor);
+                   for (int k = 0; k < gdim; ++k)
+                     all.normal[3 * f + k] = -projected.plane.n[k];
+                   Cover<S> cover;
+                   for (std::size_t i = first; i < last; ++i)
+                   {
+                     const auto nodes = master[pairs.master[i]];
+                     mortar::visit(S::nodes, static_cast<int>(nodes.size()),
+                                   [&](auto, auto other)
+                                   {
+                                     using M = decltype(other);
+                                     if constexpr (M::gdim == S::gdim)
+                                       add_pair<S, M>(
+                                           projected, xs,
+                                           facet::gather<M>(nodes, x), cover,
+                                           &all.weight[i * n * n],
+                                           &all.gap[i * n]);
+                                   });
+                   }
+                   Square<S::nodes> dual{};
+                   double mean = 0;
+                   for (const double w : factor)
+                     mean += w / S::nodes;
+                   const bool covered
+                       = cover.total > least_cover * mean * facet_area<S>(X)
+                         and invert<S::nodes>(cover.mass, dual);
+                   for (int s = 0; s < S::nodes; ++s)
+                   {
+                     dual[s] = (covered ? cover.area[s] : 0) * dual[s];
+                     all.area[n * f + s] = covered ? cover.area[s] : 0;
+                     std::copy(dual[s].begin(), dual[s].end(),
+                               &all.dual[n * n * f + n * s]);
+                   }
+                   for (std::size_t i = first; i < last; ++i)
+                   {
+                     combine_rows<S>(dual, &all.weight[i * n * n], n);
+                     combine_rows<S>(dual, &all.gap[i * n], 1);
+                   }
+                 });
     first = last;
   }
   return all;

@@ -63,9 +63,12 @@ inline constexpr double least_cover = 1e-3;
 /// @param[in] gdim Geometric dimension, 2 or 3.
 /// @param[in] normal Unit normals of the master to project along, one a slave
 /// facet (shape=(num_facets, 3)); those against the slave facets' own if empty.
+/// @param[in] weight What is integrated with, at the corners of the slave
+/// facets (shape=(slave.nodes.size())); 1 if empty.
 Integrals integrals(const facet::FacetList& slave,
                     const facet::FacetList& master, const FacetPairs& pairs,
                     std::span<const double> x,
                     std::span<const double> reference, int gdim,
-                    std::span<const double> normal = {});
+                    std::span<const double> normal = {},
+                    std::span<const double> weight = {});
 } // namespace contactx::mortar

@@ -15,8 +15,10 @@ struct SlaveFacet
   /// @brief Project the facet.
   /// @param[in] x Its nodes.
   /// @param[in] reference Its nodes in the reference configuration.
-  SlaveFacet(const facet::Nodes<S>& x, const facet::Nodes<S>& reference)
-      : SlaveFacet(Plane<S>(x), x, reference)
+  /// @param[in] weight What is integrated with, at its nodes.
+  SlaveFacet(const facet::Nodes<S>& x, const facet::Nodes<S>& reference,
+             const Vector<S::nodes>& weight = ones())
+      : SlaveFacet(Plane<S>(x), x, reference, weight)
   {
   }
 
@@ -24,10 +26,13 @@ struct SlaveFacet
   /// @param[in] plane The plane.
   /// @param[in] x Its nodes.
   /// @param[in] reference Its nodes in the reference configuration.
+  /// @param[in] weight What is integrated with, at its nodes.
   SlaveFacet(const Plane<S>& plane, const facet::Nodes<S>& x,
-             const facet::Nodes<S>& reference)
+             const facet::Nodes<S>& reference,
+             const Vector<S::nodes>& weight = ones())
       : reference(reference), plane(plane), map(project<S>(plane, x)),
-        shape(outline<S>(project<S>(plane, x)))
+        shape(outline<S>(project<S>(plane, x))), weight(weight),
+        is_weighted(weight != ones())
   {
     if constexpr (S::flat)
       area = facet::frame<S>(reference, {}).jacobian;
@@ -46,30 +51,42 @@ struct SlaveFacet
     }
   }
 
-  /// @brief Reference area a unit of the plane's, at a point.
+  /// @brief Reference area a unit of the plane's, at a point, with the weight.
   double reference_area(const Shape<S>& s) const
   {
+    const double factor = is_weighted ? dot(weight, s.N) : 1;
     if constexpr (S::flat)
-      return area;
+      return factor * area;
     else
-      return facet::frame<S>(reference, s.xi).jacobian / s.jacobian;
+      return factor * (facet::frame<S>(reference, s.xi).jacobian / s.jacobian);
+  }
+
+  /// @brief No weight.
+  static constexpr Vector<S::nodes> ones()
+  {
+    Vector<S::nodes> w;
+    w.fill(1);
+    return w;
   }
 
   facet::Nodes<S> reference;
   Plane<S> plane;
   InverseMap<S> map;
   Overlap<S::tdim> shape; ///< its outline
+  Vector<S::nodes> weight;
+  bool is_weighted;
   double area = 0;
   double bend = 0;
 };
 
-/// @brief Degree of the rule: of the products of shape functions, and where
-/// facets are distorted what makes their inverse maps exact to rounding.
+/// @brief Degree of the rule: of the products of shape functions and the
+/// weight, and where facets are distorted what makes their inverse maps exact
+/// to rounding.
 template <class S, class M>
-int rule_degree(double distortion)
+int rule_degree(double distortion, bool is_weighted)
 {
-  constexpr int degree
-      = (S::flat ? 1 : 2) + std::max(S::flat ? 1 : 2, M::flat ? 1 : 2);
+  const int degree = (S::flat ? 1 : 2) * (is_weighted ? 2 : 1)
+                     + std::max(S::flat ? 1 : 2, M::flat ? 1 : 2);
   if (not(distortion >= 1e-13))
     return degree;
   // The error falls by half the distortion with every degree
@@ -97,7 +114,8 @@ void integrate(const SlaveFacet<S>& slave, const facet::Nodes<M>& master,
   const InverseMap<M> map(r);
   if (!map.exists())
     return;
-  const int degree = rule_degree<S, M>(std::max(slave.bend, map.distortion()));
+  const int degree = rule_degree<S, M>(std::max(slave.bend, map.distortion()),
+                                       slave.is_weighted);
   integrate(overlap, degree,
             [&](const facet::Local<S>& p, double weight)
             {
