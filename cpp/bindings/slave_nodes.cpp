@@ -37,6 +37,9 @@ void contactx_bindings::slave_nodes(py::module_& m)
                      halo, {view(offsets), view(nodes)});
                }),
            py::arg("halo"), py::arg("offsets"), py::arg("nodes"))
+      .def(
+          "set_weight", [](SlaveNodes& self, const Array<double>& weight)
+          { self.set_weight(view(weight)); }, py::arg("weight"))
       .def_property_readonly("facets", [](const SlaveNodes& self)
                              { return to_tuple(self.facets()); })
       .def_property_readonly("owned",

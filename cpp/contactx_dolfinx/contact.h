@@ -10,6 +10,7 @@
 #include <contactx/reference/facing.h>
 #include <contactx/reference/shared_nodes.h>
 #include <contactx/reference/sides.h>
+#include <functional>
 #include <optional>
 #include <variant>
 
@@ -31,6 +32,9 @@ struct Options
   /// given, unlimited for an obstacle
   std::optional<double> search_distance = std::nullopt;
   double offset = 0; ///< length that is taken off the gap
+  /// What contact is integrated with, at reference positions, as the bulk's
+  /// forms are: 2 pi r in axisymmetric models, a thickness; 1 if empty
+  std::function<double(const Vector<3>&)> weight = {};
 };
 
 /// @brief Contact of a slave surface with a master surface or a rigid obstacle.
@@ -207,6 +211,8 @@ private:
   {
     const facet::Facets slave = _slave.facet_nodes(V, halo->ranks());
     const auto slaves = reference::make_slave_nodes(halo, slave.list());
+    if (_options.weight)
+      slaves->set_weight(weights(*halo, *slaves));
     std::shared_ptr<law::Law> law;
     if (_options.tied)
       law = std::make_shared<law::Tied>();
@@ -251,6 +257,20 @@ private:
                                                     halo->gdim());
     // A rank without slave nodes finds nothing wrong
     halo->ranks().agree([this] { read_values(); });
+  }
+
+  std::vector<double> weights(const parallel::Halo& halo,
+                              const contact::SlaveNodes& slaves) const
+  {
+    std::vector<double> values;
+    for (const std::int32_t node : slaves.owned())
+    {
+      Vector<3> x{};
+      std::copy_n(halo.reference().begin() + halo.gdim() * node, halo.gdim(),
+                  x.begin());
+      values.push_back(_options.weight(x));
+    }
+    return values;
   }
 
   Surface _slave;

@@ -203,10 +203,11 @@ inline void integrate_facets(Sample& sample)
   const auto pairs = search.find(x, INFINITY, 0);
   if (pairs.size() != 1)
     throw std::runtime_error("the facets do not face one another");
-  const auto all = mortar::integrals(search.slave(), search.master(), pairs, x,
-                                     reference, gdim);
   double* p = sample.at(Coefficient::pair);
   const kernel::MortarLayout at(n, m);
+  const std::vector<double> weight(p + at.factor, p + at.factor + n);
+  const auto all = mortar::integrals(search.slave(), search.master(), pairs, x,
+                                     reference, gdim, {}, weight);
   for (int s = 0; s < n; ++s)
   {
     std::copy_n(&all.weight[mortar::most_nodes * s], m, p + at.weight + m * s);
@@ -260,6 +261,8 @@ inline void place_facets(Sample& s, Generator& random, bool within)
   for (std::size_t i = 0; i < x.size(); ++i)
     s.at(Coefficient::position)[i] = x[i] - u[i];
   s.covers = within;
+  double* factor = s.at(Coefficient::pair) + kernel::MortarLayout(n, m).factor;
+  std::generate_n(factor, n, [&random] { return random(0.3, 2); });
   integrate_facets(s);
   if (law != Law::tied)
     s.renew = integrate_facets;

@@ -80,8 +80,7 @@ inline std::pair<Scene, std::vector<std::int32_t>> in_bulk(const Scene& scene,
 }
 
 /// @brief Slave nodes of a surface on one rank.
-inline std::shared_ptr<const contact::SlaveNodes>
-slave_nodes(const Scene& scene)
+inline std::shared_ptr<contact::SlaveNodes> slave_nodes(const Scene& scene)
 {
   const auto nodes = std::make_shared<parallel::SerialNodes>(
       static_cast<std::int32_t>(scene.x.size()) / scene.gdim);

@@ -49,6 +49,7 @@ from contactx.state import Snapshot
 from contactx.summary import complete, warning_of
 from contactx.system import SaddlePointSystem
 from contactx.unknowns import unknowns_of
+from contactx.weight import is_axisymmetric
 from dolfinx import fem, la
 
 # What all ranks must call at the same time
@@ -168,6 +169,7 @@ class ContactAssembler:
             for contact in self.contacts[: len(self.interfaces)]:
                 contact.detach()
             raise
+        self._warn_of_weights(residuals[unknowns.index if unknowns else 0])
         self._names = [f"contact {k} ({contact})" for k, contact in enumerate(self.contacts)]
         self._before: Snapshot | None = None
         # Whether a step has begun, whether a part of it was taken since the last iterate settled,
@@ -591,6 +593,16 @@ class ContactAssembler:
         if text and self._comm.rank == 0:
             # Of the user's line, whether that calls solve or a loop of steps does
             warnings.warn(text, skip_file_prefixes=(str(Path(__file__).parent),))
+
+    def _warn_of_weights(self, F: ufl.Form) -> None:
+        """Warn of a bulk that is integrated with r where a contact is not."""
+        plain = [str(contact) for contact in self.contacts if not contact.is_weighted]
+        if plain and is_axisymmetric(F):
+            self.say(
+                "all that F integrates over cells has a coordinate as a factor, as in an "
+                f"axisymmetric model, but {', '.join(plain)} has no weight: give Contact("
+                "..., weight=2 * ufl.pi * r), or that factor of F"
+            )
 
     def _enter(
         self, call: str, given: PETSc.Vec | PETSc.Mat | None = None, **numbers: float

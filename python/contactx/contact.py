@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+import ufl
 from contactx import cpp as core
 from contactx.arguments import check_switch, described, is_number
 from contactx.bodies import Bodies
@@ -23,6 +24,7 @@ from contactx.parallel import reduce
 from contactx.parallel.agreement import agreed
 from contactx.parallel.halo import Halo
 from contactx.surface import Surface
+from contactx.weight import check_weight, nodal_weight
 from dolfinx import fem
 
 _OPTIONS = (
@@ -34,6 +36,7 @@ _OPTIONS = (
     "tied",
     "search_distance",
     "offset",
+    "weight",
 )
 _SLIDING = ("finite", "small")
 _METHODS = ("node-to-surface", "surface-to-surface")
@@ -60,6 +63,7 @@ class Contact:
         tied: bool = False,
         search_distance: float | None = None,
         offset: float | fem.Constant | fem.Function = 0.0,
+        weight: float | ufl.core.expr.Expr = 1.0,
     ):
         """Create a contact.
 
@@ -89,6 +93,11 @@ class Contact:
             offset: Length that is taken off the gap: positive where the bodies interfere by it or
                 carry a layer of that thickness, negative where they are that much farther apart. A
                 number, a ``fem.Constant`` or a ``fem.Function`` of the scalar linear space.
+            weight: What contact is integrated with, as the bulk's forms are: ``2 * pi * r`` in an
+                axisymmetric model, the thickness in a plane one. A number, or an expression of UFL
+                of the reference position; its values at the slave nodes are taken once, when the
+                problem is created, and interpolated between them. Forces then are integrals with
+                it, pressures and tractions still force per true area.
 
         Raises:
             TypeError: If an argument is of another kind.
@@ -104,12 +113,14 @@ class Contact:
             search_distance=search_distance,
             offset=offset,
         )
+        check_weight(weight)
         self.slave = slave
         self.master = master
         self.sliding = sliding
         self.method = method
         self.search_distance = search_distance
         self.offset = offset
+        self.weight = weight
         self.friction = friction
         self.tied = bool(tied)
         self._interface: Interface | None = None
@@ -152,6 +163,8 @@ class Contact:
         V = bodies.V
         facets = self.slave.facet_nodes(V)
         slaves = core.SlaveNodes(halo.nodes, facets.offsets, facets.nodes)
+        if self.is_weighted:
+            slaves.set_weight(nodal_weight(self.weight, V, slaves.owned))
         with agreed(halo.comm):
             offset = NodalValue(self.offset, "offset", V, slaves.owned)
             own = self.friction
@@ -235,6 +248,11 @@ class Contact:
             return core.Coulomb(), NodalValue(self.friction, "friction", V, slaves)
         return core.Frictionless(), None
 
+    @property
+    def is_weighted(self) -> bool:
+        """Whether contact is integrated with a weight other than 1."""
+        return not (is_number(self.weight) and self.weight == 1)
+
     def detach(self) -> None:
         """Free the contact for another problem; ContactProblem calls this if it is refused."""
         self._interface = self._fields = None
@@ -283,7 +301,10 @@ class Contact:
 
     @property
     def area(self) -> npt.NDArray[np.float64]:
-        """Reference area of each slave node of this rank (length in 2D), shape (n,)."""
+        """Reference area of each slave node of this rank (length in 2D), shape (n,).
+
+        The integral of its shape function with the contact's weight.
+        """
         return self.interface.nodes.area
 
     @property

@@ -195,6 +195,10 @@ int main(int argc, char* argv[])
           {.friction = 0.1, .offset = offset});
     solve(scene, "neo-Hooke", base, {.friction = 0.3, .offset = offset},
           form_neo_hooke_F, form_neo_hooke_J);
+    const auto weight = [](const auto& x) { return 1 + x[0] / 2; };
+    solve(scene, "weight", base, {.offset = offset, .weight = weight});
+    solve(scene, "mortar weight", base,
+          {.method = mortar, .offset = offset, .weight = weight});
 
     scene.condensed = true;
     solve(scene, "frictionless", base, {.offset = offset});

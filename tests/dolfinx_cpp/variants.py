@@ -100,6 +100,9 @@ def main() -> None:
     solve("mortar plane", tags, V, plane, **mortar, **rubs)
     solve("disc", tags, V, disc, friction=0.1, **little)
     solve("neo-Hooke", tags, V, base, **rubs)
+    weight: Any = {"weight": 1 + ufl.SpatialCoordinate(mesh)[0] / 2, **little}
+    solve("weight", tags, V, base, **weight)
+    solve("mortar weight", tags, V, base, **mortar, **weight)
     condensed: dict[str, Any] = {"condensed": True}
     solve("frictionless", tags, V, base, **little, **condensed)
     solve("friction", tags, V, base, **rubs, **condensed)

@@ -6,10 +6,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+import hertz_axisymmetric
 import hertz_cylinder
 import numpy as np
 
 import contactx as cx
+import ufl
 from dolfinx import fem
 from dolfinx.mesh import CellType
 
@@ -22,6 +24,16 @@ from story import fix, traction
 
 def hertz_2d() -> Iterator[cx.ContactProblem]:
     problem, _ = hertz_cylinder.create(0.02, "finite")
+    problem.solve()
+    yield problem
+
+
+def axisymmetric() -> Iterator[cx.ContactProblem]:
+    """Areas and integrals are weighted with the radius."""
+    scene = Blocks(CellType.quadrilateral, n_upper=7, n_lower=8)
+    scene.F = hertz_axisymmetric.elasticity(scene.u, 1.0, 0.3)
+    r = ufl.SpatialCoordinate(scene.u.function_space.mesh)[0]
+    problem = scene.problem(scene.contact(friction=0.1, weight=2 * ufl.pi * r))
     problem.solve()
     yield problem
 

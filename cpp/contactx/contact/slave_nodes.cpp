@@ -3,6 +3,7 @@
 
 #include "slave_nodes.h"
 #include "../check.h"
+#include "../parallel/ranks.h"
 #include "facing.h"
 #include <algorithm>
 #include <cmath>
@@ -16,6 +17,9 @@ using namespace contactx::contact;
 
 namespace
 {
+/// Of the largest weight: by so much a node on an axis may be off it.
+constexpr double rounding = 1e-12;
+
 void check_facets(const facet::FacetList& facets, std::int32_t num_nodes,
                   const std::string& name)
 {
@@ -98,16 +102,24 @@ SlaveNodes::SlaveNodes(std::shared_ptr<const parallel::NodeMap> nodes,
 
 void SlaveNodes::set_weight(std::span<const double> weight)
 {
+  double most = 0;
+  for (const double w : weight)
+    most = std::max(most, std::abs(w));
+  const double least = -rounding * parallel::largest(_nodes->ranks(), most);
   _nodes->ranks().agree(
       [&]
       {
         check::rows(weight.size(), _num_owned, 1, "weight");
-        if (std::ranges::any_of(weight, [](double w)
-                                { return not(std::isfinite(w) and w >= 0); }))
+        if (std::ranges::any_of(
+                weight, [least](double w)
+                { return not(std::isfinite(w) and w >= least); }))
           throw std::invalid_argument("the weight must be finite and not "
                                       "negative on the slave surface");
       });
-  _weight = scatter_forward(weight);
+  std::vector<double> own(weight.begin(), weight.end());
+  for (double& w : own)
+    w = std::max(w, 0.0);
+  _weight = scatter_forward(own);
   _nodes->ranks().agree(
       [this]
       {

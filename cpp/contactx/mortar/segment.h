@@ -83,7 +83,7 @@ struct SlaveFacet
 /// weight, and where facets are distorted what makes their inverse maps exact
 /// to rounding.
 template <class S, class M>
-int rule_degree(double distortion, bool is_weighted)
+int rule_degree(double distortion, bool is_weighted = false)
 {
   const int degree = (S::flat ? 1 : 2) * (is_weighted ? 2 : 1)
                      + std::max(S::flat ? 1 : 2, M::flat ? 1 : 2);

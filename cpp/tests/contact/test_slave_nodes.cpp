@@ -251,3 +251,48 @@ TEST(SlaveNodes, RefuseWhatDoesNotFit)
   EXPECT_THROW(SlaveNodes(nullptr, scene.facets(), scene.facets()),
                std::invalid_argument);
 }
+
+TEST(SlaveNodes, WeightsAreThoseOfTheirCorners)
+{
+  Generator random(6);
+  for (Facets kind : all_facets)
+  {
+    const auto [bulk, place] = in_bulk(slave_sheet(kind, 4, random), random);
+    const auto slaves = slave_nodes(bulk);
+    EXPECT_TRUE(slaves->corner_weight().empty());
+    std::vector<double> weight(slaves->owned().size());
+    for (double& w : weight)
+      w = random(0.5, 2);
+    // On the axis but for rounding
+    weight[0] = -1e-14;
+    slaves->set_weight(weight);
+    weight[0] = 0;
+    EXPECT_EQ(slaves->weight(), weight);
+    const auto at = slaves->corner_weight();
+    ASSERT_EQ(at.size(), bulk.nodes.size());
+    for (std::size_t c = 0; c < at.size(); ++c)
+      EXPECT_EQ(at[c], weight[slaves->corners()[c]]);
+  }
+}
+
+TEST(SlaveNodes, WeightsThatAreNoneAreRefused)
+{
+  Generator random(7);
+  const auto [bulk, place]
+      = in_bulk(slave_sheet(all_facets.front(), 4, random), random);
+  const auto slaves = slave_nodes(bulk);
+  std::vector<double> weight(slaves->owned().size(), 1);
+  const auto refused = [&](double value)
+  {
+    auto wrong = weight;
+    wrong.back() = value;
+    EXPECT_THROW(slaves->set_weight(wrong), std::invalid_argument);
+  };
+  refused(-1e-6);
+  refused(NAN);
+  refused(INFINITY);
+  EXPECT_THROW(slaves->set_weight(std::vector<double>(weight.size() + 1, 1)),
+               std::invalid_argument);
+  EXPECT_THROW(slaves->set_weight(std::vector<double>(weight.size(), 0)),
+               std::invalid_argument);
+}

@@ -40,6 +40,35 @@ Scene sphere_patch(int n, Cells cells)
               });
 }
 
+TEST(NodalAreas, WithAWeightAreItsIntegrals)
+{
+  Generator random(8);
+  for (const Cells cells : {Cells::triangles, Cells::quadrilaterals})
+  {
+    const Scene square = flat_grid(3, cells);
+    const std::size_t n = square.x.size() / 3;
+    const auto with = [&](const std::vector<double>& weight)
+    { return nodal_areas(square.facets(), square.x, 3, weight); };
+    const auto plain = areas(square);
+    const auto same = with(std::vector<double>(n, 1));
+    for (std::size_t i = 0; i < n; ++i)
+      EXPECT_NEAR(same[i], plain[i], 1e-15);
+    // The shape functions' mass matrix is symmetric, and exact
+    std::vector<double> x(n), w(n);
+    for (std::size_t i = 0; i < n; ++i)
+    {
+      x[i] = square.x[3 * i];
+      w[i] = random(0, 1);
+    }
+    const auto by_x = with(x), by_w = with(w);
+    EXPECT_NEAR(std::inner_product(x.begin(), x.end(), by_w.begin(), 0.0),
+                std::inner_product(w.begin(), w.end(), by_x.begin(), 0.0),
+                1e-15);
+    EXPECT_NEAR(std::inner_product(x.begin(), x.end(), by_x.begin(), 0.0),
+                1. / 3, 1e-15);
+  }
+}
+
 TEST(NodalAreas, OfAFlatSquareAddUpToItsArea)
 {
   for (Cells cells : {Cells::triangles, Cells::quadrilaterals, Cells::mixed})

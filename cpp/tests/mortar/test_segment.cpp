@@ -138,6 +138,8 @@ TEST(RuleDegree, GrowsWithDistortion)
   EXPECT_EQ((rule_degree<Triangle, Triangle>(0)), 2);
   EXPECT_EQ((rule_degree<Triangle, Q>(0)), 3);
   EXPECT_EQ((rule_degree<Q, Triangle>(0)), 4);
+  EXPECT_EQ((rule_degree<Triangle, Triangle>(0, true)), 3);
+  EXPECT_EQ((rule_degree<Q, Q>(0, true)), 6);
   EXPECT_EQ((rule_degree<Q, Q>(1e-16)), 4);
   int before = 4;
   for (const double distortion : {1e-12, 1e-6, 1e-2, 0.1, 0.5, 1., 2.})

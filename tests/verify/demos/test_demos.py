@@ -3,6 +3,7 @@
 """The demos run, print what they should and leave their pictures."""
 
 import finite_strain
+import hertz_axisymmetric
 import hertz_cylinder
 import hertz_sphere
 import level_set
@@ -22,6 +23,7 @@ from matplotlib import image
     [
         (hertz_sphere, "finite", "0.04", (1e-10, 0.05, 0.03, 0.2)),
         (hertz_cylinder, "small", "0.01", (2e-3, 0.05, 0.03)),
+        (hertz_axisymmetric, "finite", "0.003", (1e-3, 0.03, 0.01, 0.02)),
         (press_fit, "finite", "0.05", (0.01, 0.01, 0.01)),
         (rigid_plane, "small", "0.04", (0.01, 0.05, 0.1)),
         (rigid_sphere, "finite", "0.04", (0.01, 0.05, 0.1)),
