@@ -40,6 +40,9 @@ void contactx_bindings::slave_nodes(py::module_& m)
       .def(
           "set_weight", [](SlaveNodes& self, const Array<double>& weight)
           { self.set_weight(view(weight)); }, py::arg("weight"))
+      .def(
+          "set_level", [](SlaveNodes& self, const Array<std::int8_t>& level)
+          { self.set_level(view(level)); }, py::arg("level"))
       .def_property_readonly("facets", [](const SlaveNodes& self)
                              { return to_tuple(self.facets()); })
       .def_property_readonly("owned",
@@ -89,6 +92,18 @@ void contactx_bindings::slave_nodes(py::module_& m)
              const Array<double>& area, const Array<bool>& closed)
           { return array(self.pressure(view(p), view(area), truths(closed))); },
           py::arg("p"), py::arg("area"), py::arg("closed"))
+      .def(
+          "filled",
+          [](const Recovery& self, const Array<double>& values)
+          {
+            const bool is_flat = values.ndim() == 1;
+            const py::ssize_t width = is_flat ? 1 : values.shape(1);
+            const auto result
+                = self.filled(view(values), static_cast<int>(width));
+            return is_flat ? array(result)
+                           : array(result, {values.shape(0), width});
+          },
+          py::arg("values"))
       .def(
           "tractions",
           [](const Recovery& self, const Array<double>& multiplier,

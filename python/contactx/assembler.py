@@ -40,9 +40,9 @@ from contactx.geometry.curved import check_straight
 from contactx.interface import check_drag, check_over_constrained
 from contactx.linear import Condensed
 from contactx.newton import NewtonLoop
-from contactx.nodal import reference_positions
 from contactx.parallel.agreement import agreed
 from contactx.parallel.halo import Halo
+from contactx.refined import reference_positions
 from contactx.report import Report
 from contactx.settled import Settled, settled
 from contactx.state import Snapshot
@@ -133,7 +133,7 @@ class ContactAssembler:
         check_contacts(contacts)
         if audit not in ("refuse", "warn"):
             raise ValueError(f'audit must be "refuse" or "warn", not {audit!r}')
-        check_straight(contacts, field.function_space.mesh)
+        check_straight(contacts, field.function_space)
 
         V = field.function_space
         X = la.vector(V.dofmap.index_map, V.dofmap.index_map_bs)

@@ -9,6 +9,7 @@ import numpy.typing as npt
 
 from contactx import cpp as core
 from contactx.parallel.halo import Halo
+from contactx.refined import linear_cells, parts_of_cells
 from dolfinx import fem
 
 
@@ -18,7 +19,8 @@ class Bodies(core.Bodies):
     A body is named by the smallest number that a node of it has in the mesh as it was made.
 
     Attributes:
-        V: Linear Lagrange space of vectors, whose blocks are the nodes.
+        V: Lagrange space of vectors of degree 1 or 2, whose blocks are the nodes.
+        linear_cells: Linear cells between the nodes, shape (num_cells, num_vertices).
         halo: Nodes on this rank.
     """
 
@@ -26,13 +28,14 @@ class Bodies(core.Bodies):
         """Find the bodies; all ranks must take part.
 
         Args:
-            V: Linear Lagrange space of vectors.
+            V: Lagrange space of vectors of degree 1 or 2.
             halo: Nodes on this rank.
         """
         topology = V.mesh.topology
+        self.linear_cells = linear_cells(V)
         super().__init__(
-            V.dofmap.list,
-            topology.index_map(topology.dim).size_local,
+            self.linear_cells,
+            topology.index_map(topology.dim).size_local * parts_of_cells(V),
             halo.original[: halo.num_bulk],
             halo.nodes,
         )

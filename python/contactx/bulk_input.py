@@ -32,7 +32,7 @@ def check_displacement(u: Any) -> None:
 
     Raises:
         TypeError: If it is no function, or not of real double precision.
-        ValueError: If its space is not the linear Lagrange space of vectors on its mesh.
+        ValueError: If its space is no Lagrange space of vectors of degree 1 or 2 on its mesh.
     """
     if not isinstance(u, fem.Function):
         raise TypeError(f"u must be a dolfinx.fem.Function, not {type(u).__name__}")
@@ -60,8 +60,8 @@ def check_displacement(u: Any) -> None:
             f"u has values of shape {element.reference_value_shape}, but the displacement of this "
             f"mesh needs ({gdim},): {wanted}"
         )
-    if element.degree != 1:
-        raise ValueError(f"u is of degree {element.degree}; contact needs degree 1: {wanted}")
+    if element.degree not in (1, 2):
+        raise ValueError(f"u is of degree {element.degree}; contact needs degree 1 or 2: {wanted}")
     if compat.has_other_constraints(V):
         raise ValueError(
             "u is in the function space of a MultiPointConstraint of dolfinx_mpc, which contactx "
@@ -71,7 +71,7 @@ def check_displacement(u: Any) -> None:
 
 
 def wanted_space(gdim: int) -> str:
-    """The space of a displacement, as a user writes it."""
+    """A space of a displacement, as a user writes it."""
     return f'functionspace(mesh, ("Lagrange", 1, ({gdim},)))'
 
 

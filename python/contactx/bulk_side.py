@@ -11,6 +11,7 @@ from contactx.bulk import Bulk
 from contactx.cell_forces import CellForces
 from contactx.coupled import CoupledBulk
 from contactx.parallel.halo import Halo
+from contactx.refined import linear_cells, parts_of_cells
 
 type Array = npt.NDArray[np.float64]
 
@@ -25,7 +26,8 @@ class BulkSide:
         self.gdim = halo.gdim
         V = bulk.u.function_space
         topology = V.mesh.topology
-        self.cells = V.dofmap.list[: topology.index_map(topology.dim).size_local]
+        owned = topology.index_map(topology.dim).size_local
+        self.cells = linear_cells(V)[: owned * parts_of_cells(V)]
         self.nodes_per_cell = self.cells.shape[1]
         self.fields = bulk.fields
         if isinstance(bulk, CoupledBulk):

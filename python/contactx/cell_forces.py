@@ -13,6 +13,7 @@ import basix.ufl
 import ufl
 from contactx.compat import forget_derivatives
 from contactx.parallel.halo import Halo
+from contactx.refined import degree_of
 from dolfinx import fem, la
 
 
@@ -64,8 +65,8 @@ class CellForces:
         V = self._u.function_space
         domain = V.mesh
         element = basix.ufl.element(
-            "Lagrange", domain.basix_cell(), 1, shape=V.ufl_element().reference_value_shape,
-            discontinuous=True,
+            "Lagrange", domain.basix_cell(), degree_of(V), discontinuous=True,
+            shape=V.ufl_element().reference_value_shape,
         )  # fmt: skip
         w = ufl.TestFunction(fem.functionspace(domain, element))
         (v,) = self._F.arguments()

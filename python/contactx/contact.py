@@ -23,6 +23,7 @@ from contactx.obstacles import Obstacle
 from contactx.parallel import reduce
 from contactx.parallel.agreement import agreed
 from contactx.parallel.halo import Halo
+from contactx.refined import degree_of, node_levels
 from contactx.surface import Surface
 from contactx.weight import check_weight, nodal_weight
 from dolfinx import fem
@@ -163,6 +164,13 @@ class Contact:
         V = bodies.V
         facets = self.slave.facet_nodes(V)
         slaves = core.SlaveNodes(halo.nodes, facets.offsets, facets.nodes)
+        if degree_of(V) > 1:
+            if self.method == "surface-to-surface":
+                raise ValueError(
+                    "method is surface-to-surface, which is for displacements of degree 1: take "
+                    "node-to-surface for one of degree 2"
+                )
+            slaves.set_level(node_levels(V)[slaves.owned])
         if self.is_weighted:
             slaves.set_weight(nodal_weight(self.weight, V, slaves.owned))
         with agreed(halo.comm):
@@ -210,7 +218,7 @@ class Contact:
             ValueError: If facets are degenerate, the surfaces share nodes, a body lies wholly
                 inside its master, or an obstacle's parameters do not fit.
         """
-        mesh = core.ReferenceMesh(halo.nodes, bodies, bodies.V.dofmap.list)
+        mesh = core.ReferenceMesh(halo.nodes, bodies, bodies.linear_cells)
         options = core.MasterOptions(
             is_mortar=self.method == "surface-to-surface",
             is_small=self.sliding == "small",

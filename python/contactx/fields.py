@@ -16,6 +16,7 @@ from contactx.interface import Interface
 from contactx.nodal import matching_nodes
 from contactx.parallel.halo import Halo
 from contactx.parallel.reduce import total
+from contactx.refined import degree_of
 from dolfinx import fem
 
 type Array = npt.NDArray[np.float64]
@@ -52,8 +53,8 @@ class Fields:
         self._halo = halo
         self._gdim = halo.gdim
         self._recovery = core.Recovery(slaves, halo.x)
-        Q = fem.functionspace(V.mesh, ("Lagrange", 1))
-        # Both spaces number the vertices; where they differ the results must follow the bulk
+        Q = fem.functionspace(V.mesh, ("Lagrange", degree_of(V)))
+        # Both spaces number the nodes; where they differ the results must follow the bulk
         self._nodes = matching_nodes(V, Q)[interface.slaves]
         self.pressure = fem.Function(Q, name="pressure")
         self.traction = fem.Function(V, name="traction")
@@ -76,8 +77,10 @@ class Fields:
         """Read the results from the discrete side; all ranks must take part."""
         interface = self._interface
         nodes = interface.nodes
-        self.gap.x.array[self._nodes] = nodes.gap
-        self.status.x.array[self._nodes] = nodes.status
+        self.gap.x.array[self._nodes] = self._recovery.filled(nodes.gap)
+        # Between two of a kind it is theirs, else the more open one
+        status = self._recovery.filled(nodes.status.astype(np.float64))
+        self.status.x.array[self._nodes] = np.floor(status + 1e-9)
         if interface.history is not None and self.slip is not None and self.slip_total is not None:
             slip = self.slip.x.array.reshape(-1, self._gdim)
             slip[interface.slaves] = interface.history.slip
@@ -137,6 +140,6 @@ class Fields:
         else:
             p, traction = self._recovery.tractions(nodes.multiplier, nodes.normal, area, closed)
             recovered = area[:, None] * traction
-        self.pressure.x.array[self._nodes] = p
-        self.traction.x.array.reshape(-1, self._gdim)[slaves] = traction
+        self.pressure.x.array[self._nodes] = self._recovery.filled(p)
+        self.traction.x.array.reshape(-1, self._gdim)[slaves] = self._recovery.filled(traction)
         self.recovery_change = core.recovery_change(self._halo.nodes, forces, recovered)

@@ -10,32 +10,20 @@ import numpy as np
 import numpy.typing as npt
 
 import basix
+from contactx.refined import degree_of
 from dolfinx import fem
 
 
 def matching_nodes(V: fem.FunctionSpace, Q: fem.FunctionSpace) -> npt.NDArray[np.int32]:
-    """Node of the scalar linear space Q at each node of the vector space V."""
+    """Node of the scalar space Q at each node of the vector space V of the same degree."""
     index_map = V.dofmap.index_map
     match = np.empty(index_map.size_local + index_map.num_ghosts, dtype=np.int32)
     match[V.dofmap.list.ravel()] = Q.dofmap.list.ravel()
     return match
 
 
-def reference_positions(V: fem.FunctionSpace) -> npt.NDArray[np.float64]:
-    """Positions of the nodes of a linear space, ghosts included, shape (num_nodes, gdim).
-
-    They are the mesh's own to the last bit. What DOLFINx evaluates differs by rounding from cell
-    to cell, and with it which of two facets is the nearer one would depend on the ranks.
-    """
-    geometry, dofs, index_map = V.mesh.geometry, V.dofmap.list, V.dofmap.index_map
-    x = np.zeros((index_map.size_local + index_map.num_ghosts, geometry.dim))
-    # Vertices come first in the geometry of a cell
-    x[dofs] = geometry.x[geometry.dofmaps[0][:, : dofs.shape[1]], : geometry.dim]
-    return x
-
-
 class NodalValue:
-    """A number, or a function of a scalar linear space, read anew at each use."""
+    """A number, or a function of a scalar Lagrange space, read anew at each use."""
 
     def __init__(self, value: Any, name: str, V: fem.FunctionSpace, nodes: npt.NDArray[np.int32]):
         """Find the nodes of the function.
@@ -48,8 +36,8 @@ class NodalValue:
 
         Raises:
             TypeError: If its values are not of real double precision.
-            ValueError: If the function is not of a scalar linear space on V's mesh, or the constant
-                is no number.
+            ValueError: If the function is not of a scalar Lagrange space on V's mesh, linear or of
+                V's degree, or the constant is no number.
         """
         self._value = value
         self._name = name
@@ -61,13 +49,19 @@ class NodalValue:
         if isinstance(value, fem.Function):
             Q = value.function_space
             element = Q.ufl_element()
-            linear = (element.element_family, element.degree) == (basix.ElementFamily.P, 1)
+            degree = degree_of(V)
+            fits = element.element_family == basix.ElementFamily.P and element.degree in (1, degree)
             scalar = element.block_size == 1 and not element.discontinuous
-            if Q.mesh is not V.mesh or not (linear and scalar):
+            if Q.mesh is not V.mesh or not (fits and scalar):
                 raise ValueError(
                     f"{name} is a function of {element}: interpolate it into "
                     'functionspace(mesh, ("Lagrange", 1)) on the displacement\'s mesh'
                 )
+            self._between: fem.Function | None = None
+            if element.degree != degree:
+                # A linear one where there are nodes between the vertices
+                Q = fem.functionspace(V.mesh, ("Lagrange", degree))
+                self._between = fem.Function(Q)
             self._nodes = matching_nodes(V, Q)[nodes]
         elif isinstance(value, fem.Constant) and value.value.shape != ():
             raise ValueError(
@@ -86,7 +80,11 @@ class NodalValue:
             ValueError: If it is not finite at the nodes of this rank.
         """
         if isinstance(self._value, fem.Function):
-            value = self._value.x.array[self._nodes]
+            function = self._value
+            if self._between is not None:
+                self._between.interpolate(function)
+                function = self._between
+            value = function.x.array[self._nodes]
         else:
             value = float(self._value)
         if not np.all(np.isfinite(value)):

@@ -170,11 +170,11 @@ def _check_output(u: Any, contacts: Any, fields: Any) -> None:
         V = function.function_space
         if V.mesh is not u.function_space.mesh:
             raise ValueError(f"{name} is on another mesh than u: give one of the same mesh")
-        element = V.ufl_element()
-        if (element.element_family, element.degree) != (basix.ElementFamily.P, 1) or (
+        element, degree = V.ufl_element(), u.function_space.ufl_element().degree
+        if (element.element_family, element.degree) != (basix.ElementFamily.P, degree) or (
             element.discontinuous
         ):
             raise ValueError(
-                f"{name} is of {element}: interpolate it into a linear Lagrange space, "
-                'functionspace(mesh, ("Lagrange", 1))'
+                f"{name} is of {element}: interpolate it into a Lagrange space of u's degree, "
+                f'functionspace(mesh, ("Lagrange", {degree}))'
             )

@@ -13,8 +13,10 @@ from mpi4py import MPI
 import numpy as np
 import numpy.typing as npt
 
+import basix
 from contactx.parallel.agreement import agreed
 from contactx.parallel.reduce import anywhere, total
+from contactx.refined import facet_parts
 from dolfinx import cpp, fem, mesh
 
 
@@ -117,10 +119,11 @@ class Surface:
     def facet_nodes(self, V: fem.FunctionSpace) -> FacetList:
         """Nodes of the surface's facets whose cells this rank owns.
 
-        The normal of a facet, t_1 x t_2 of its local coordinates, points out of its cell.
+        The normal of a facet, t_1 x t_2 of its local coordinates, points out of its cell. Of
+        degree 2 a facet has as many as its linear parts, one after the other.
 
         Args:
-            V: Linear Lagrange space whose dofs, block by block, are the nodes.
+            V: Lagrange space of degree 1 or 2 whose dofs, block by block, are the nodes.
 
         Returns:
             The facets.
@@ -156,23 +159,27 @@ class Surface:
         facets_of_cell = cell_facets.array.reshape(-1, per_cell)
         local = np.argmax(facets_of_cell[cells] == facets[:, None], axis=1)
 
-        dofs = V.dofmap.list
-        x = V.tabulate_dof_coordinates()
-        layout = V.dofmap.dof_layout
-        closures = [layout.entity_closure_dofs(tdim - 1, i) for i in range(facets_of_cell.shape[1])]
-        sizes = np.array([len(c) for c in closures], dtype=np.int32)[local]
-        offsets = np.concatenate([[0], np.cumsum(sizes)]).astype(np.int32)
-        nodes = np.empty(offsets[-1], dtype=np.int32)
-        for i, closure in enumerate(closures):
+        dofs, geometry = V.dofmap.list, domain.geometry
+        # Vertices come first in the geometry of a cell
+        vertices = cpp.mesh.cell_num_vertices(topology.cell_type)
+        x = geometry.x[geometry.dofmaps[0][cells, :vertices]]
+        closures = [facet_parts(V, i, False) for i in range(per_cell)]
+        sizes = np.array([c.size for c in closures], dtype=np.int32)[local]
+        first = np.concatenate([[0], np.cumsum(sizes)]).astype(np.int32)
+        nodes = np.empty(first[-1], dtype=np.int32)
+        offsets = [np.zeros(1, dtype=np.int64)]
+        for i, parts in enumerate(closures):
             which = np.flatnonzero(local == i)
             if len(which) == 0:
                 continue
-            facet_nodes = dofs[np.ix_(cells[which], closure)]
-            inward = _points_inward(x[facet_nodes], x[dofs[cells[which]]].mean(axis=1))
-            swapped = [1, 0] if tdim == 2 else [0, 2, 1, *range(3, len(closure))]
-            facet_nodes[inward] = facet_nodes[inward][:, swapped]
-            nodes[offsets[which][:, None] + np.arange(len(closure))] = facet_nodes
-        return FacetList(offsets, nodes)
+            corners = list(basix.topology(domain.basix_cell())[tdim - 1][i])
+            inward = _points_inward(x[which][:, corners], x[which].mean(axis=1))
+            for turned, these in ((False, which[~inward]), (True, which[inward])):
+                own = facet_parts(V, i, turned).ravel()
+                nodes[first[these][:, None] + np.arange(parts.size)] = dofs[cells[these]][:, own]
+            ends = np.arange(1, len(parts) + 1) * parts.shape[1]
+            offsets.append((first[which][:, None] + ends).ravel())
+        return FacetList(np.sort(np.concatenate(offsets)).astype(np.int32), nodes)
 
 
 def _points_inward(
@@ -181,7 +188,7 @@ def _points_inward(
     """Whether the normals of facets point into their cells.
 
     Args:
-        x: Coordinates of the facets' nodes, shape (num_facets, num_nodes, 3).
+        x: Coordinates of the facets' vertices, shape (num_facets, num_vertices, 3).
         cell_midpoints: Midpoints of the facets' cells, shape (num_facets, 3).
     """
     t = x[:, 1] - x[:, 0]

@@ -12,6 +12,7 @@ import numpy.typing as npt
 import ufl
 from contactx.arguments import described, is_number
 from contactx.nodal import matching_nodes
+from contactx.refined import degree_of
 from dolfinx import fem
 from ufl.algorithms import extract_arguments
 from ufl.domain import extract_domains
@@ -67,7 +68,7 @@ def nodal_weight(
         raise ValueError("weight is an expression on another mesh than the displacement's")
     if isinstance(weight, fem.Constant):
         return np.full(len(nodes), float(weight))
-    Q = fem.functionspace(V.mesh, ("Lagrange", 1))
+    Q = fem.functionspace(V.mesh, ("Lagrange", degree_of(V)))
     values = fem.Function(Q)
     if isinstance(weight, fem.Function):
         values.interpolate(weight)

@@ -158,7 +158,7 @@ void SurfacesAudit::look_back(std::span<const double> start,
   const auto paired = _master->paired();
   std::vector<std::int32_t> candidates;
   for (std::size_t i = 0; i < slaves.size(); ++i)
-    if ((is_far or not paired[i]) and not _contact->is_shared()[i])
+    if ((is_far or not paired[i]) and not _contact->is_left_out()[i])
       candidates.push_back(slaves[i]);
   std::vector<Side> sides{{slave, master, candidates}};
   if (is_far)
@@ -193,7 +193,7 @@ std::vector<std::int8_t> SurfacesAudit::find_behind()
   std::vector<std::size_t> which;
   for (std::size_t i = 0; i < slaves.size(); ++i)
     if (not paired[i] and not state.immobile[i]
-        and not _contact->is_shared()[i])
+        and not _contact->is_left_out()[i])
     {
       which.push_back(i);
       nodes.push_back(slaves[i]);

@@ -38,6 +38,9 @@ std::string_view name_of(Sliding sliding)
   return sliding == Sliding::small ? "small" : "finite";
 }
 
+/// Of the largest area of a slave node: what one without any is given
+constexpr double hardly = 1e-9;
+
 void require(bool fits, const char* what)
 {
   if (not fits)
@@ -67,10 +70,11 @@ Contact::Contact(std::shared_ptr<parallel::Halo> halo,
     _history = std::make_shared<SlipHistory>(n, gdim());
   _touched.assign(n, 0);
   _offset.assign(n, 0);
-  _is_shared.assign(n, 0);
+  _is_left_out.assign(n, 0);
   if (not _options.shared.empty())
     for (std::int32_t i = 0; i < n; ++i)
-      _is_shared[i] = _options.shared[owned[i]];
+      _is_left_out[i] = _options.shared[owned[i]];
+  leave_out_empty();
   nodes_changed();
   _observer = _halo->on_change([this] { nodes_changed(); });
   _halo->ranks().agree([&] { _master->accept(_halo->positions()); });
@@ -236,10 +240,34 @@ void Contact::find_front()
   _halo->ranks().agree([&] { _master->take_front(faces); });
 }
 
+/// Slave nodes of quadratic facets that have no area take no force: their
+/// multipliers are zero, of equations that are not.
+void Contact::leave_out_empty()
+{
+  _filler.assign(_touched.size(), 0);
+  if (not _slaves->is_quadratic())
+    return;
+  const std::vector<double> area = _slaves->sums(
+      facet::corner_areas(_slaves->local(),
+                          _slaves->here(_halo->reference(), gdim(), "x"),
+                          gdim(), _slaves->shares()));
+  const double most = parallel::largest(
+      _halo->ranks(), area.empty() ? 0 : std::ranges::max(area));
+  for (std::size_t i = 0; i < area.size(); ++i)
+    if (area[i] == 0)
+    {
+      _is_left_out[i] = 1;
+      _filler[i] = hardly * most;
+    }
+}
+
 void Contact::take(std::vector<Pairs> pairs)
 {
   // Others look at the array
   std::ranges::copy(_master->area(_front), _nodes->area.begin());
+  for (std::size_t i = 0; i < _filler.size(); ++i)
+    if (_filler[i] > 0)
+      _nodes->area[i] = _filler[i];
   _pairs.clear();
   for (Pairs& p : pairs)
     _pairs.push_back(std::make_shared<Pairs>(std::move(p)));
@@ -360,7 +388,7 @@ void Contact::update_gap()
         }
         const std::vector<std::int8_t> paired = _master->paired();
         for (std::size_t i = 0; i < _offset.size(); ++i)
-          _nodes->gap[i] = paired[i] and _is_active and not _is_shared[i]
+          _nodes->gap[i] = paired[i] and _is_active and not _is_left_out[i]
                                ? _nodes->gap[i] - _offset[i]
                                : std::numeric_limits<double>::quiet_NaN();
         _evaluated = displacement;

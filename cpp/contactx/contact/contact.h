@@ -99,8 +99,9 @@ public:
   /// their data.
   std::int64_t version() const { return _version; }
 
-  /// @brief 1 at slave nodes that the master surface has, too (shape=(n)).
-  const std::vector<std::int8_t>& is_shared() const { return _is_shared; }
+  /// @brief 1 at slave nodes that take no force: those that the master surface
+  /// has, too, and those of quadratic facets that have no area (shape=(n)).
+  const std::vector<std::int8_t>& is_left_out() const { return _is_left_out; }
 
   /// @brief 1 at owned nodes that the master surface has, too
   /// (shape=(num_owned)); empty for none.
@@ -206,6 +207,7 @@ private:
   void find_free();
   void turn_tractions();
   void find_front();
+  void leave_out_empty();
   void take(std::vector<Pairs> pairs);
   std::int32_t pair(std::span<const double> x);
   void find_immobile();
@@ -229,7 +231,8 @@ private:
   int _skipped_searches = 0;
   std::vector<double> _offset, _front;
   std::vector<std::int8_t> _free; // displacements of all nodes
-  std::vector<std::int8_t> _touched, _is_shared;
+  std::vector<std::int8_t> _touched, _is_left_out;
+  std::vector<double> _filler; // areas of slave nodes that have none
   // Displacements and version at which gaps were evaluated
   std::vector<double> _evaluated;
   std::int64_t _evaluated_version = -1;

@@ -27,17 +27,6 @@ double product(std::span<const double> a, std::span<const double> b,
   return sum;
 }
 
-/// Positions of the corners of all facets, each on its own.
-std::vector<double> at_corners(const facet::FacetList& facets,
-                               std::span<const double> x, int gdim)
-{
-  std::vector<double> corners(facets.nodes.size() * gdim);
-  for (std::size_t c = 0; c < facets.nodes.size(); ++c)
-    std::copy_n(x.begin() + static_cast<std::size_t>(facets.nodes[c]) * gdim,
-                gdim, corners.begin() + c * gdim);
-  return corners;
-}
-
 void check(std::span<const double> x, std::span<const double> normal)
 {
   if (x.size() != normal.size())
@@ -61,7 +50,7 @@ contactx::contact::facing_nodes(const facet::FacetList& facets,
 std::vector<double> contactx::contact::facing_areas(
     const facet::FacetList& facets, std::span<const double> reference,
     std::span<const double> x, std::span<const double> normal, int gdim,
-    std::span<const double> weight)
+    const facet::Shares& shares)
 {
   check(x, normal);
   check(x, reference);
@@ -71,10 +60,9 @@ std::vector<double> contactx::contact::facing_areas(
   // Each corner of each facet as a node of its own
   const facet::FacetList corners{facets.offsets, own};
   const std::vector<double> turned
-      = facet::nodal_normals(corners, at_corners(facets, x, gdim), gdim);
-  std::vector<double> area = facet::nodal_areas(
-      corners, at_corners(facets, reference, gdim), gdim,
-      weight.empty() ? std::vector<double>() : at_corners(facets, weight, 1));
+      = facet::nodal_normals(corners, facet::at_corners(facets, x, gdim), gdim);
+  std::vector<double> area
+      = facet::corner_areas(facets, reference, gdim, shares);
 
   std::vector<double> cosine(n), most(x.size() / gdim, 0);
   for (std::size_t c = 0; c < n; ++c)

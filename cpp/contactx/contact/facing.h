@@ -37,7 +37,7 @@ std::vector<std::int8_t> facing_nodes(const facet::FacetList& facets,
 /// @param[in] normal Outward normal of the master at each node, or zero
 /// (shape=(num_nodes, gdim)).
 /// @param[in] gdim Geometric dimension, 2 or 3.
-/// @param[in] weight What areas are integrated with, see facet::nodal_areas.
+/// @param[in] shares What areas are shared out by.
 /// @return Area of each corner of each facet, zero where the facet does not
 /// face the master there (shape=(facets.nodes.size())).
 /// @throws std::invalid_argument If the sizes do not fit.
@@ -45,5 +45,5 @@ std::vector<double> facing_areas(const facet::FacetList& facets,
                                  std::span<const double> reference,
                                  std::span<const double> x,
                                  std::span<const double> normal, int gdim,
-                                 std::span<const double> weight = {});
+                                 const facet::Shares& shares = {});
 } // namespace contactx::contact

@@ -22,20 +22,6 @@ double product(const double* a, const double* b, int gdim)
 {
   return std::inner_product(a, a + gdim, b, 0.0);
 }
-
-/// Areas of the corners of facets, each of which is a node of its own.
-std::vector<double> corner_areas(const facet::FacetList& facets,
-                                 std::span<const double> x, int gdim,
-                                 std::span<const double> weight)
-{
-  std::vector<std::int32_t> own(facets.nodes.size());
-  std::iota(own.begin(), own.end(), 0);
-  std::vector<double> corners(own.size() * gdim);
-  for (std::size_t c = 0; c < own.size(); ++c)
-    std::copy_n(x.begin() + static_cast<std::size_t>(facets.nodes[c]) * gdim,
-                gdim, corners.begin() + c * gdim);
-  return facet::nodal_areas({facets.offsets, own}, corners, gdim, weight);
-}
 } // namespace
 
 Recovery::Recovery(std::shared_ptr<const SlaveNodes> slaves,
@@ -46,8 +32,8 @@ Recovery::Recovery(std::shared_ptr<const SlaveNodes> slaves,
     throw std::invalid_argument("slaves must not be empty");
   check::dimension(gdim);
   const facet::FacetList facets = _slaves->local();
-  const std::vector<double> parts = corner_areas(
-      facets, _slaves->here(x, gdim, "x"), gdim, _slaves->corner_weight());
+  const std::vector<double> parts = facet::corner_areas(
+      facets, _slaves->here(x, gdim, "x"), gdim, _slaves->shares());
   _area = _slaves->sums(parts);
   const auto n = static_cast<std::int32_t>(_area.size());
   for (std::int32_t f = 0; f < facets.size(); ++f)
@@ -58,7 +44,12 @@ Recovery::Recovery(std::shared_ptr<const SlaveNodes> slaves,
     for (std::size_t i = 0; i < nodes.size(); ++i)
       for (std::size_t j = 0; j < nodes.size(); ++j)
         if (i != j and nodes[i] < n)
-          _flows.push_back({nodes[i], nodes[j], part[i] * part[j] / whole});
+        {
+          if (part[i] > 0 and part[j] > 0)
+            _flows.push_back({nodes[i], nodes[j], part[i] * part[j] / whole});
+          else if (_area[nodes[i]] == 0)
+            _beside.push_back({nodes[i], nodes[j]});
+        }
   }
 }
 
@@ -76,9 +67,9 @@ Recovery::flows(std::span<const double> area,
       inside[flow.to] += flow.rate;
   for (std::size_t i = 0; i < n; ++i)
   {
-    inside[i] = 1 - inside[i] / _area[i];
     // Less than one where the master covers a node's facets in part
-    covered[i] = area[i] / _area[i];
+    covered[i] = _area[i] > 0 ? area[i] / _area[i] : 0;
+    inside[i] = _area[i] > 0 ? 1 - inside[i] / _area[i] : 0;
   }
   inside = _slaves->scatter_forward(inside);
   covered = _slaves->scatter_forward(covered);
@@ -96,6 +87,23 @@ Recovery::flows(std::span<const double> area,
          weight * std::min(covered[to], covered[from]) * (r * r) / area[to]});
   }
   return flows;
+}
+
+std::vector<double> Recovery::filled(std::span<const double> values,
+                                     int width) const
+{
+  std::vector<double> result(values.begin(), values.end());
+  if (not _slaves->is_quadratic())
+    return result;
+  const std::vector<double> every = _slaves->scatter_forward(values, width);
+  std::vector<int> count(_area.size(), 0);
+  for (const auto& [to, from] : _beside)
+    if (count[to]++ == 0)
+      std::fill_n(result.begin() + width * to, width, 0.0);
+  for (const auto& [to, from] : _beside)
+    for (int k = 0; k < width; ++k)
+      result[width * to + k] += every[width * from + k] / count[to];
+  return result;
 }
 
 std::vector<double>

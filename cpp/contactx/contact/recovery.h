@@ -94,6 +94,13 @@ public:
                       std::span<const double> area,
                       std::span<const std::int8_t> closed) const;
 
+  /// @brief Values with those of nodes that have no area, as the vertices of
+  /// quadratic triangles, from their neighbours; collective.
+  /// @param[in] values Values of the slave nodes (shape=(n, width)).
+  /// @param[in] width Values a node.
+  /// @return Values, at nodes without an area the mean of their neighbours'.
+  std::vector<double> filled(std::span<const double> values, int width) const;
+
 private:
   // Force that goes from one node to another one over the difference of their
   // tractions, and over the area of the one that it goes to
@@ -111,6 +118,8 @@ private:
   // Of all pairs of neighbours, with m_ij of nodes inside the contact
   std::vector<Flow> _flows;
   std::vector<double> _area; // of all of a node's facets
+  // Nodes without an area, and their neighbours
+  std::vector<std::pair<std::int32_t, std::int32_t>> _beside;
 };
 
 /// @brief By how much recovered tractions change the force of a contact, over

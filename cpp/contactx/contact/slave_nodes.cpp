@@ -132,6 +132,20 @@ void SlaveNodes::set_weight(std::span<const double> weight)
       });
 }
 
+void SlaveNodes::set_level(std::span<const std::int8_t> level)
+{
+  _nodes->ranks().agree(
+      [&]
+      {
+        check::rows(level.size(), _num_owned, 1, "level");
+        if (std::ranges::any_of(level,
+                                [](std::int8_t k) { return k < 0 or k > 2; }))
+          throw std::invalid_argument("level must be 0, 1 or 2");
+      });
+  _level = scatter_forward(level);
+  _is_quadratic = true;
+}
+
 std::vector<double> SlaveNodes::corner_weight() const
 {
   std::vector<double> corners;
@@ -201,7 +215,7 @@ std::vector<double> SlaveNodes::facing_areas(std::span<const double> reference,
   check::dimension(gdim);
   return contact::facing_areas(local(), here(reference, gdim, "reference"),
                                here(x, gdim, "x"), padded(normal, gdim), gdim,
-                               _weight);
+                               shares());
 }
 
 std::vector<double> SlaveNodes::largest(std::span<const double> values) const

@@ -35,6 +35,18 @@ public:
   /// finite, or those of a facet are all zero.
   void set_weight(std::span<const double> weight);
 
+  /// @brief Take the facets as parts of quadratic ones, which share their
+  /// nodes. Before masters and contacts are made of the slave nodes; collective.
+  /// @param[in] level Where each owned slave node is on quadratic facets: 0 at
+  /// vertices, 1 on edges, 2 inside (shape=(n)).
+  void set_level(std::span<const std::int8_t> level);
+
+  /// @brief Whether the facets are parts of quadratic ones.
+  bool is_quadratic() const { return _is_quadratic; }
+
+  /// @brief What areas are shared out by, at all slave nodes.
+  facet::Shares shares() const { return {_weight, _level}; }
+
   /// @brief The weight at all slave nodes (shape=(m)); empty if there is none.
   const std::vector<double>& weight() const { return _weight; }
 
@@ -149,6 +161,8 @@ private:
   facet::Facets _facets, _own;
   std::vector<std::int32_t> _around, _corners;
   std::vector<double> _weight;
+  std::vector<std::int8_t> _level;
+  bool _is_quadratic = false;
   std::size_t _num_owned;
 };
 } // namespace contactx::contact

@@ -4,6 +4,7 @@
 #include "nodal.h"
 #include "frame.h"
 #include "gather.h"
+#include <numeric>
 
 using namespace contactx;
 using namespace contactx::facet;
@@ -102,6 +103,56 @@ std::vector<double> contactx::facet::nodal_areas(const FacetList& facets,
   }
   for_each_part(facets, x, [&area](std::int32_t node, double w, const auto&)
                 { area[node] += w; });
+  return area;
+}
+
+std::vector<double>
+contactx::facet::at_corners(const FacetList& facets,
+                            std::span<const double> values, int width)
+{
+  std::vector<double> corners(facets.nodes.size() * width);
+  for (std::size_t c = 0; c < facets.nodes.size(); ++c)
+    std::copy_n(values.begin()
+                    + static_cast<std::size_t>(facets.nodes[c]) * width,
+                width, corners.begin() + c * width);
+  return corners;
+}
+
+std::vector<double> contactx::facet::corner_areas(const FacetList& facets,
+                                                  std::span<const double> x,
+                                                  int gdim,
+                                                  const Shares& shares)
+{
+  // Each corner of each facet as a node of its own
+  std::vector<std::int32_t> own(facets.nodes.size());
+  std::iota(own.begin(), own.end(), 0);
+  const FacetList corners{facets.offsets, own};
+  const std::vector<double> at = at_corners(facets, x, gdim);
+  const std::vector<double> weight
+      = shares.weight.empty() ? std::vector<double>()
+                              : at_corners(facets, shares.weight, 1);
+  if (shares.level.empty())
+    return nodal_areas(corners, at, gdim, weight);
+  std::vector<double> area = nodal_areas(corners, at, gdim);
+  for (std::int32_t f = 0; f < facets.size(); ++f)
+  {
+    const auto nodes = facets[f];
+    const std::span part(area.data() + facets.offsets[f], nodes.size());
+    const auto share = [&](std::int32_t node)
+    {
+      const std::int8_t level = shares.level[node];
+      return nodes.size() == 3 ? level > 0 : 1 << level;
+    };
+    double whole = 0, sum = 0;
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+    {
+      whole += part[i];
+      sum += share(nodes[i]);
+    }
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      part[i] = whole * share(nodes[i]) / sum
+                * (weight.empty() ? 1 : weight[facets.offsets[f] + i]);
+  }
   return area;
 }
 

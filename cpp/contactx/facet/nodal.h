@@ -40,6 +40,41 @@ std::vector<double> nodal_areas(const FacetList& facets,
                                 std::span<const double> x, int gdim,
                                 std::span<const double> weight = {});
 
+/// @brief What the areas of a surface are shared out by, beside the shape
+/// functions of its facets.
+struct Shares
+{
+  /// What is integrated with at each node, see nodal_areas; 1 if empty
+  std::span<const double> weight = {};
+  /// Where each node is on the quadratic facets that these are parts of, which
+  /// share their nodes: 0 at their vertices, 1 on their edges, 2 inside; empty
+  /// where facets are linear
+  std::span<const std::int8_t> level = {};
+};
+
+/// @brief Reference area of each corner of each facet.
+///
+/// Of parts of quadratic facets they are such that the sums at the nodes are
+/// the integrals of the quadratic shape functions where these facets are
+/// affine: by Simpson's rule 1:2 on edges and 1:2:4 on quadrilaterals; nothing
+/// at the vertices of triangles, whose shape functions have no integral.
+/// @param[in] facets Facets of the surface.
+/// @param[in] x Node coordinates (shape=(num_nodes, gdim)), row-major.
+/// @param[in] gdim Geometric dimension, 2 or 3.
+/// @param[in] shares What areas are shared out by.
+/// @return Areas (shape=(facets.nodes.size())).
+std::vector<double> corner_areas(const FacetList& facets,
+                                 std::span<const double> x, int gdim,
+                                 const Shares& shares = {});
+
+/// @brief Rows of nodes for each corner of each facet.
+/// @param[in] facets Facets.
+/// @param[in] values Values of the nodes (shape=(num_nodes, width)).
+/// @param[in] width Values a node.
+/// @return Values (shape=(facets.nodes.size(), width)).
+std::vector<double> at_corners(const FacetList& facets,
+                               std::span<const double> values, int width);
+
 /// @brief Area times outward normal of each node; those of parts of a surface
 /// add up to those of the whole, as areas do.
 /// @param[in] facets Facets of the surface.

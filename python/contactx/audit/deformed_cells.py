@@ -10,8 +10,8 @@ import numpy as np
 import numpy.typing as npt
 
 from contactx import cpp as core
-from contactx.nodal import reference_positions
 from contactx.parallel import reduce
+from contactx.refined import linear_cells, parts_of_cells, reference_positions
 from dolfinx import fem
 
 
@@ -31,9 +31,10 @@ class Squeezed(NamedTuple):
 
 
 class DeformedCells:
-    """The cells of a mesh, looked at under any displacement of a linear space.
+    """The cells of a mesh, looked at under any displacement of degree 1 or 2.
 
-    Cells of a curved geometry are taken as those with straight edges between their vertices.
+    They are taken as those with straight edges between their nodes: of a quadratic displacement the
+    linear cells that it has the nodes of, each of which counts for itself.
     """
 
     def __init__(self, V: fem.FunctionSpace):
@@ -45,7 +46,7 @@ class DeformedCells:
         domain = V.mesh
         self._comm = domain.comm
         owned = domain.topology.index_map(domain.topology.dim).size_local
-        self._cells = V.dofmap.list[:owned]
+        self._cells = linear_cells(V)[: owned * parts_of_cells(V)]
         self._X = reference_positions(V)
 
     def look(self, u: npt.NDArray[np.float64]) -> Squeezed:

@@ -1,6 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Curved cells, which linear displacements do not follow."""
+"""Curved cells, which a displacement of a lower degree does not follow."""
 
 from __future__ import annotations
 
@@ -13,8 +13,9 @@ import numpy.typing as npt
 import basix
 from contactx import cpp as core
 from contactx.parallel import reduce
+from contactx.refined import degree_of
 from contactx.surface import Surface
-from dolfinx import mesh
+from dolfinx import fem, mesh
 
 if TYPE_CHECKING:
     from contactx.contact import Contact
@@ -23,21 +24,22 @@ if TYPE_CHECKING:
 _STRAIGHT = 1e-6
 
 
-def check_straight(contacts: Sequence[Contact], domain: mesh.Mesh) -> None:
-    """Check that contact surfaces are as their vertices have them; all ranks must take part.
+def check_straight(contacts: Sequence[Contact], V: fem.FunctionSpace) -> None:
+    """Check that contact surfaces are as the displacement has them; all ranks must take part.
 
-    Contact sees the vertices of a facet alone, as the linear displacement does. The bulk may be
-    curved elsewhere.
+    Contact sees a facet at the nodes of the displacement: a linear one straight, a quadratic one
+    curved where the mesh is of order 2. The bulk may be curved elsewhere.
 
     Args:
         contacts: Contacts of a problem.
-        domain: Its mesh.
+        V: Space of the displacement.
 
     Raises:
         ValueError: If a contact surface is curved on any rank, on all ranks.
     """
+    domain = V.mesh
     degree = domain.geometry.cmaps[0].degree
-    if degree == 1:
+    if degree in (1, degree_of(V)):
         return
     for k, contact in enumerate(contacts):
         for name in ("slave", "master"):
@@ -61,9 +63,9 @@ def _check_surface(name: str, surface: Surface, domain: mesh.Mesh) -> None:
     raise ValueError(
         f"{name} is curved: the mesh is of order {domain.geometry.cmaps[0].degree}, and {count} of "
         f"these facets have nodes up to {most:.3g} away from where straight ones have them, first "
-        f"at {core.point_text(place, extent)}. Contact and the linear displacement take facets as "
+        f"at {core.point_text(place, extent)}. Contact and the displacement take facets as "
         "straight: make the mesh of order 1, in gmsh by gmsh.model.mesh.setOrder(1), and finer "
-        "where it is round"
+        "where it is round; or of order 2 with a displacement of degree 2"
     )
 
 

@@ -15,6 +15,7 @@ import numpy.typing as npt
 
 from contactx.parallel.agreement import agreed
 from contactx.parallel.exchange import Exchange
+from contactx.refined import original_nodes
 from dolfinx import cpp, fem, la
 
 type Array = npt.NDArray[np.float64]
@@ -163,21 +164,3 @@ class Adapter:
         if (width, dtype) not in self._vectors:
             self._vectors[width, dtype] = la.vector(self.full_map, width, dtype)
         return self._vectors[width, dtype]
-
-
-def original_nodes(V: fem.FunctionSpace) -> npt.NDArray[np.int64]:
-    """Number of each node in the mesh as it was made; of owned nodes first, then of ghosts.
-
-    Args:
-        V: Linear Lagrange space.
-
-    Returns:
-        Numbers, the same on any number of ranks, shape (num_nodes,).
-    """
-    geometry = V.mesh.geometry
-    dofs, index_map = V.dofmap.list, V.dofmap.index_map
-    original = np.full(index_map.size_local + index_map.num_ghosts, -1, dtype=np.int64)
-    # Vertices come first in the geometry of a cell
-    vertices = geometry.dofmaps[0][:, : dofs.shape[1]]
-    original[dofs.ravel()] = geometry.input_global_indices[vertices.ravel()]
-    return original

@@ -13,10 +13,10 @@ import numpy as np
 import numpy.typing as npt
 
 from contactx.interface import Interface
-from contactx.nodal import reference_positions
 from contactx.parallel.adapter import original_nodes
 from contactx.parallel.agreement import agreed
 from contactx.problem import ContactProblem
+from contactx.refined import reference_positions
 from contactx.state import RowKind, Snapshot, load_state, save_state, state_rows
 from contactx.steps.function_rows import FunctionRows, cell_nodes
 from contactx.steps.rows import Rows

@@ -7,13 +7,14 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from contactx.parallel.adapter import original_nodes
+import basix.ufl
+from contactx.refined import original_nodes
 from contactx.steps.rows import Array, Rows
-from dolfinx import cpp, fem
+from dolfinx import fem
 
 
 class FunctionRows:
-    """Values of a function: a row a node of linear Lagrange spaces, a row a cell of others.
+    """Values of a function: a row a node of Lagrange spaces of degree 1 or 2, else a row a cell.
 
     The others have all their dofs inside of cells: quadrature and discontinuous elements. On one
     rank there are rows of all spaces, by the numbers of their dofs.
@@ -65,11 +66,15 @@ def cell_nodes(V: fem.FunctionSpace) -> npt.NDArray[np.int64]:
 
 
 def _nodal(V: fem.FunctionSpace) -> _Keyed | None:
-    """Keys and dofs of owned nodes, where each vertex has a dof or block, and nothing else has."""
+    """Keys and dofs of owned nodes of continuous Lagrange spaces of degree 1 or 2."""
     dofmap, index_map = V.dofmap, V.dofmap.index_map
-    layout = dofmap.dof_layout
-    vertices = cpp.mesh.cell_num_vertices(V.mesh.topology.cell_type)
-    if layout.num_dofs != vertices or any(layout.entity_dofs(0, i) != [i] for i in range(vertices)):
+    element = V.ufl_element()
+    is_lagrange = (
+        not isinstance(element, basix.ufl._MixedElement)
+        and element.element_family == basix.ElementFamily.P
+        and not element.discontinuous
+    )
+    if not is_lagrange or element.degree not in (1, 2):
         return None
     owned = index_map.size_local
     return original_nodes(V)[:owned, None], _scalars(np.arange(owned)[:, None], dofmap.bs)
@@ -89,7 +94,8 @@ def _all(V: fem.FunctionSpace, name: str) -> _Keyed:
     if V.mesh.comm.size > 1:
         raise ValueError(
             f"{name} is of {V.ufl_element()}, which a checkpoint of several ranks cannot hold: "
-            "take a linear Lagrange, a quadrature or a discontinuous space, or one rank"
+            "take a Lagrange space of degree 1 or 2, a quadrature or a discontinuous space, or one "
+            "rank"
         )
     dofs = np.arange(V.dofmap.index_map.size_local * V.dofmap.index_map_bs)
     return dofs[:, None], dofs
