@@ -132,6 +132,7 @@ class Patch:
         young: tuple[float, float] = (1.0, 1.0),
         lateral: float = 0.0,
         petsc_options: dict[str, Any] | None = None,
+        degree: int = 1,
         **options: Any,
     ):
         """Set the problem up.
@@ -142,12 +143,13 @@ class Patch:
             young: Young's moduli of the upper and the lower block.
             lateral: Pressure on the side faces over that on the interface. Faces that lean need 1.
             petsc_options: Options of the solver.
+            degree: Degree of the displacement.
             options: Options of the contact.
         """
         self.shape, self._slave = shape, slave
         data = shape.mesh()
         self.tags = data.facet_tags
-        self.u = story.displacement(data.mesh)
+        self.u = story.displacement(data.mesh, degree)
         self.pressure = STRAIN * min(young)
         n = shape.frame[:, -1]
         along = np.eye(shape.dim) - np.outer(n, n)

@@ -65,9 +65,9 @@ class Deviation(Result):
         return cls(name, *norms)
 
 
-def displacement(domain: mesh.Mesh) -> fem.Function:
-    """Displacement in the linear Lagrange space of vectors."""
-    V = fem.functionspace(domain, ("Lagrange", 1, (domain.geometry.dim,)))
+def displacement(domain: mesh.Mesh, degree: int = 1) -> fem.Function:
+    """Displacement in the Lagrange space of vectors of a degree."""
+    V = fem.functionspace(domain, ("Lagrange", degree, (domain.geometry.dim,)))
     return fem.Function(V, name="displacement")
 
 

@@ -31,9 +31,9 @@ contactx::kernel::Law law_named(const std::string& name)
 /// ones, whose products are no sizes.
 void check_sizes(int num_nodes, int gdim, int num_slaves)
 {
-  check::between(num_nodes, 0, 4, "num_nodes");
+  check::between(num_nodes, 0, 9, "num_nodes");
   check::dimension(gdim);
-  check::between(num_slaves, 1, 4, "num_slaves");
+  check::between(num_slaves, 1, 9, "num_slaves");
 }
 } // namespace
 

@@ -51,16 +51,17 @@ void contactx_bindings::reference(py::module_& m)
   py::class_<MasterOptions>(m, "MasterOptions", "How a master side is made")
       .def(py::init(
                [](bool is_mortar, bool is_small,
-                  std::optional<double> search_distance)
+                  std::optional<double> search_distance,
+                  const Array<std::int8_t>& level)
                {
                  return MasterOptions{is_mortar ? Method::surface_to_surface
                                                 : Method::node_to_surface,
                                       is_small ? Sliding::small
                                                : Sliding::finite,
-                                      search_distance};
+                                      search_distance, copy(level)};
                }),
            py::kw_only(), py::arg("is_mortar"), py::arg("is_small"),
-           py::arg("search_distance"));
+           py::arg("search_distance"), py::arg("level"));
   m.def(
       "make_surface_master",
       [](const Mesh& mesh, const std::shared_ptr<SlaveNodes>& slaves,

@@ -41,8 +41,10 @@ void contactx_bindings::slave_nodes(py::module_& m)
           "set_weight", [](SlaveNodes& self, const Array<double>& weight)
           { self.set_weight(view(weight)); }, py::arg("weight"))
       .def(
-          "set_level", [](SlaveNodes& self, const Array<std::int8_t>& level)
-          { self.set_level(view(level)); }, py::arg("level"))
+          "set_level",
+          [](SlaveNodes& self, const Array<std::int8_t>& level, bool is_mortar)
+          { self.set_level(view(level), is_mortar); }, py::arg("level"),
+          py::arg("is_mortar"))
       .def_property_readonly("facets", [](const SlaveNodes& self)
                              { return to_tuple(self.facets()); })
       .def_property_readonly("owned",

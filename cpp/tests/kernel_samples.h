@@ -45,12 +45,15 @@ inline std::ostream& operator<<(std::ostream& out, const Kind& k)
              << k.num_nodes << ", " << k.gdim << "D";
 }
 
-/// @brief All kinds of the registry.
+/// @brief All kinds of the registry but those of quadratic facets, of which one
+/// pair of parts says nothing: scenes have them.
 inline std::vector<Kind> kinds()
 {
   std::vector<Kind> all;
   for (const kernel::Entry& e : kernel::registry())
   {
+    if (e.num_slaves > e.gdim + (e.gdim == 3))
+      continue;
     const Kind k{e.law, e.num_nodes, e.gdim, e.num_slaves};
     if (std::ranges::find(all, k) == all.end())
       all.push_back(k);

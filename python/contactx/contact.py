@@ -165,12 +165,12 @@ class Contact:
         facets = self.slave.facet_nodes(V)
         slaves = core.SlaveNodes(halo.nodes, facets.offsets, facets.nodes)
         if degree_of(V) > 1:
-            if self.method == "surface-to-surface":
+            if self._is_mortar(V) and halo.comm.size > 1:
                 raise ValueError(
-                    "method is surface-to-surface, which is for displacements of degree 1: take "
-                    "node-to-surface for one of degree 2"
+                    "method is surface-to-surface, which of a displacement of degree 2 runs on one "
+                    "rank alone: take node-to-surface, or one rank"
                 )
-            slaves.set_level(node_levels(V)[slaves.owned])
+            slaves.set_level(node_levels(V)[slaves.owned], self._is_mortar(V))
         if self.is_weighted:
             slaves.set_weight(nodal_weight(self.weight, V, slaves.owned))
         with agreed(halo.comm):
@@ -186,7 +186,7 @@ class Contact:
             law=law,
             friction=friction,
             sliding=self.sliding,
-            has_means=self.method == "surface-to-surface",
+            has_means=self._is_mortar(V),
             offset=offset,
             markers=markers,
             shared=shared,
@@ -220,9 +220,10 @@ class Contact:
         """
         mesh = core.ReferenceMesh(halo.nodes, bodies, bodies.linear_cells)
         options = core.MasterOptions(
-            is_mortar=self.method == "surface-to-surface",
+            is_mortar=self._is_mortar(bodies.V),
             is_small=self.sliding == "small",
             search_distance=self.search_distance,
+            level=node_levels(bodies.V)[: halo.num_bulk if degree_of(bodies.V) > 1 else 0],
         )
         name = str(self.slave)
         if isinstance(self.master, Obstacle):
@@ -233,6 +234,11 @@ class Contact:
             mesh, slaves, name, *lists, str(self.master), law, options
         )
         return master, core.shared_nodes(halo.nodes, slaves, *lists)
+
+    def _is_mortar(self, V: fem.FunctionSpace) -> bool:
+        """Whether facets are integrated: of a quadratic displacement not with obstacles."""
+        is_nodal = isinstance(self.master, Obstacle) and degree_of(V) > 1
+        return self.method == "surface-to-surface" and not is_nodal
 
     def _law(
         self, V: fem.FunctionSpace, slaves: npt.NDArray[np.int32], own: AccumulatedSlip | None

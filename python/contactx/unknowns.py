@@ -26,8 +26,9 @@ class Unknowns:
     Attributes:
         functions: The functions.
         displacement: Number of the displacement among the parts of a mixed space or the blocks.
-        u: Displacement of the nodes, in the linear Lagrange space of vectors: a copy of what the
-            function has of it, kept by ``read`` and ``write``; or one of the functions itself.
+        u: Displacement of the nodes, in the Lagrange space of vectors of degree 1 or 2: a copy of
+            what the function has of it, kept by ``read`` and ``write``; or one of the functions
+            itself.
         index: Number of the function that has the displacement.
     """
 
@@ -47,12 +48,12 @@ class Unknowns:
         part = V.sub(displacement) if is_mixed else V
         # Dofs of the function at each component of each node, ghosts included; None if it is u
         self._dofs: Index | None = None
-        if not is_mixed and _is_linear(V.ufl_element()):
+        if not is_mixed and _is_lagrange(V.ufl_element()):
             self.u = function
         else:
-            gdim = V.mesh.geometry.dim
-            self.u = fem.Function(fem.functionspace(V.mesh, ("Lagrange", 1, (gdim,))))
-            self._dofs = _vertex_dofs(part, self.u.function_space)
+            gdim, degree = V.mesh.geometry.dim, _degree_on_surface(part)
+            self.u = fem.Function(fem.functionspace(V.mesh, ("Lagrange", degree, (gdim,))))
+            self._dofs = _nodal_dofs(part, self.u.function_space)
             self.read()
         check_displacement(self.u)
 
@@ -155,18 +156,41 @@ def unknowns_of(u: Any, displacement: Any) -> Unknowns | None:
     return Unknowns(functions, int(displacement), is_mixed=is_mixed)
 
 
-def _is_linear(element: Any) -> bool:
-    return bool(element.element_family == basix.ElementFamily.P and element.degree == 1)
+def _is_lagrange(element: Any) -> bool:
+    return bool(element.element_family == basix.ElementFamily.P and element.degree in (1, 2))
+
+
+def _degree_on_surface(V: fem.FunctionSpace) -> int:
+    """Degree of a space whose dofs on facets are those of Lagrange spaces; 0 if it is another one.
+
+    Args:
+        V: Space of vectors.
+    """
+    cell, tdim = V.mesh.basix_cell(), V.mesh.topology.dim
+    layout = V.dofmap.dof_layout
+    for degree in (1, 2):
+        wanted = basix.create_element(
+            basix.ElementFamily.P, cell, degree, basix.LagrangeVariant.gll_warped
+        ).entity_dofs
+        same = all(
+            len(layout.entity_dofs(dim, i)) == len(dofs)
+            for dim in range(tdim)
+            for i, dofs in enumerate(wanted[dim])
+        )
+        # Inside there may be more
+        if same and len(layout.entity_dofs(tdim, 0)) >= len(wanted[tdim][0]):
+            return degree
+    return 0
 
 
 def _check_part(V: fem.FunctionSpace) -> None:
-    """Check that a part has a displacement of the vertices.
+    """Check that a part has a displacement of nodes.
 
     Args:
         V: Its space.
 
     Raises:
-        ValueError: If it is not linear Lagrange of vectors, but for bubbles.
+        ValueError: If it is not Lagrange of vectors of degree 1 or 2, but for bubbles.
     """
     element = V.ufl_element()
     gdim = V.mesh.geometry.dim
@@ -179,44 +203,40 @@ def _check_part(V: fem.FunctionSpace) -> None:
             f"the displacement is in {element}, which is no space of vectors of {gdim} Lagrange "
             f"components: contact needs {wanted_space(gdim)}"
         )
-    layout = V.dofmap.dof_layout
-    tdim = V.mesh.topology.dim
-    facets = [
-        layout.entity_closure_dofs(tdim - 1, i)
-        for i in range(len(basix.topology(V.mesh.basix_cell())[tdim - 1]))
-    ]
-    vertices = [len(facet) for facet in basix.topology(V.mesh.basix_cell())[tdim - 1]]
-    corners = range(len(basix.topology(V.mesh.basix_cell())[0]))
-    on_vertices = [len(layout.entity_dofs(0, i)) == 1 for i in corners]
-    if not all(on_vertices) or [len(dofs) for dofs in facets] != vertices:
+    if _degree_on_surface(V) == 0:
         raise ValueError(
-            f"the displacement is in {element}; contact needs degree 1 on the surface, which may "
-            f"be enriched by bubbles inside of cells: {wanted_space(gdim)}"
+            f"the displacement is in {element}; contact needs degree 1 or 2 on the surface, which "
+            f"may be enriched by bubbles inside of cells: {wanted_space(gdim)}"
         )
 
 
-def _vertex_dofs(part: fem.FunctionSpace, V: fem.FunctionSpace) -> Index:
-    """Dofs of a part of a space at each component of each node of a linear space.
+def _nodal_dofs(part: fem.FunctionSpace, V: fem.FunctionSpace) -> Index:
+    """Dofs of a part of a space at each component of each node of a Lagrange space.
 
     Args:
-        part: A space with a block of dofs at each vertex, whole or part of a mixed one.
-        V: Linear Lagrange space of vectors.
+        part: A space with a block of dofs at each node, whole or part of a mixed one.
+        V: Lagrange space of vectors.
 
     Returns:
         Dofs of the whole space, ghosts included, shape (num_nodes * gdim,).
     """
     gdim = V.mesh.geometry.dim
-    layout = part.dofmap.dof_layout
+    layout, own = part.dofmap.dof_layout, V.dofmap.dof_layout
     nodes = V.dofmap.list
-    vertices = [layout.entity_dofs(0, i)[0] for i in range(nodes.shape[1])]
+    # Local dof of the part at each node of a cell
+    local = np.empty(nodes.shape[1], dtype=np.int64)
+    for dim, entities in enumerate(basix.topology(V.mesh.basix_cell())):
+        for i in range(len(entities)):
+            for node, dof in zip(own.entity_dofs(dim, i), layout.entity_dofs(dim, i), strict=False):
+                local[node] = dof
     blocks = part.dofmap.list
     index_map = V.dofmap.index_map
     dofs = np.empty((index_map.size_local + index_map.num_ghosts, gdim), dtype=np.int64)
-    for i, vertex in enumerate(vertices):
+    for i, dof in enumerate(local):
         for k in range(gdim):
             # In a mixed space the components of a block have dofs of their own
             is_blocked = part.dofmap.bs == gdim
-            at = gdim * blocks[:, vertex] + k if is_blocked else blocks[:, gdim * vertex + k]
+            at = gdim * blocks[:, dof] + k if is_blocked else blocks[:, gdim * dof + k]
             dofs[nodes[:, i], k] = at
     return dofs.ravel()
 

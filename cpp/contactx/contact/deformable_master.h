@@ -20,6 +20,9 @@ struct PairingOptions
   double reach;       ///< largest distance of a pair
   bool is_small;      ///< whether sliding is small: pairs never change
   bool measures_slip; ///< whether slip is measured
+  /// Where each node is on quadratic facets, see facet::Shares; empty where
+  /// facets are linear
+  std::vector<std::int8_t> level = {};
 };
 
 /// @brief Pairs with the facets of a deformable body.

@@ -13,22 +13,6 @@ using namespace contactx::contact;
 
 namespace
 {
-/// Rows of four nodes of facets, and the numbers of their nodes.
-std::pair<std::vector<std::int32_t>, std::vector<int>>
-padded(const facet::FacetList& facets)
-{
-  std::vector<std::int32_t> rows(4 * std::size_t(facets.size()));
-  std::vector<int> sizes(facets.size());
-  for (std::int32_t f = 0; f < facets.size(); ++f)
-  {
-    const auto nodes = facets[f];
-    sizes[f] = static_cast<int>(nodes.size());
-    for (int k = 0; k < 4; ++k)
-      rows[4 * std::size_t(f) + k] = nodes[std::min(k, sizes[f] - 1)];
-  }
-  return {std::move(rows), std::move(sizes)};
-}
-
 Vector<3> position(std::span<const double> x, std::int32_t node, int gdim)
 {
   Vector<3> p{};
@@ -51,18 +35,19 @@ void contactx::contact::normalise(std::span<double> vectors)
 
 bool Mortar::has_weight(std::size_t p) const
 {
-  const auto row = std::span(weight).subspan(16 * p, 16);
+  const auto n = static_cast<std::size_t>(width) * width;
+  const auto row = std::span(weight).subspan(n * p, n);
   return std::ranges::any_of(row, [](double w) { return w != 0; });
 }
 
 Mortar Mortar::scaled(std::span<const double> factor) const
 {
   Mortar result = *this;
-  for (std::size_t c = 0; c < 4 * size(); ++c)
+  for (std::size_t c = 0; c < width * size(); ++c)
   {
     result.gap[c] *= factor[c];
-    for (int l = 0; l < 4; ++l)
-      result.weight[4 * c + l] *= factor[c];
+    for (int l = 0; l < width; ++l)
+      result.weight[width * c + l] *= factor[c];
   }
   return result;
 }
@@ -70,6 +55,8 @@ Mortar Mortar::scaled(std::span<const double> factor) const
 Mortar Mortar::joined(const Mortar& other) const
 {
   Mortar result;
+  result.width = width;
+  const std::ptrdiff_t n = width;
   for (const Mortar* part : {this, &other})
     for (std::size_t p = 0; p < part->size(); ++p)
     {
@@ -77,10 +64,10 @@ Mortar Mortar::joined(const Mortar& other) const
         continue;
       result.slave.push_back(part->slave[p]);
       result.master.push_back(part->master[p]);
-      const auto weights = part->weight.begin() + 16 * p;
-      result.weight.insert(result.weight.end(), weights, weights + 16);
-      const auto gaps = part->gap.begin() + 4 * p;
-      result.gap.insert(result.gap.end(), gaps, gaps + 4);
+      const auto weights = part->weight.begin() + n * n * p;
+      result.weight.insert(result.weight.end(), weights, weights + n * n);
+      const auto gaps = part->gap.begin() + n * p;
+      result.gap.insert(result.gap.end(), gaps, gaps + n);
     }
   return result;
 }
@@ -91,13 +78,18 @@ MortarSides::MortarSides(const SlaveNodes& slaves,
       _inradius(std::numeric_limits<double>::infinity())
 {
   const facet::FacetList slave = slaves.facets();
-  std::tie(_slave, _slave_sizes) = padded(slave);
-  _numbers = padded(slaves.local()).first;
+  const facet::Wholes local
+      = facet::wholes(slaves.local(), slaves.shares().level);
+  _numbers = local.nodes;
+  _slave = local;
+  for (std::int32_t& node : _slave.nodes)
+    node = slaves.around()[node];
   for (std::int32_t f = 0; f < slave.size(); ++f)
   {
     std::array<Vector<3>, 4> p;
-    for (int k = 0; k < 4; ++k)
-      p[k] = position(reference, slave_nodes(f)[k], gdim);
+    for (std::size_t k = 0; k < 4; ++k)
+      p[k] = position(reference, slave[f][std::min(k, slave[f].size() - 1)],
+                      gdim);
     double longest = 0;
     for (int k = 0; k < 4; ++k)
       longest = std::max(longest, norm(p[k] - p[(k + 3) % 4]));
@@ -109,19 +101,20 @@ MortarSides::MortarSides(const SlaveNodes& slaves,
   }
 }
 
-void MortarSides::meet(const facet::FacetList& master)
+void MortarSides::meet(const facet::FacetList& master,
+                       std::span<const std::int8_t> level)
 {
-  std::tie(_master, _master_sizes) = padded(master);
+  _master = facet::wholes(master, level);
 }
 
 std::vector<double>
 MortarSides::at_corners(std::span<const double> values,
                         std::span<const std::int32_t> facets) const
 {
-  std::vector<double> corners(4 * facets.size());
+  std::vector<double> corners(width() * facets.size());
   for (std::size_t p = 0; p < facets.size(); ++p)
-    for (int s = 0; s < 4; ++s)
-      corners[4 * p + s] = at(values, numbers(facets[p])[s]);
+    for (int s = 0; s < width(); ++s)
+      corners[width() * p + s] = at(values, numbers(facets[p])[s]);
   return corners;
 }
 
@@ -140,10 +133,10 @@ MortarSides::total(std::span<const double> values,
 {
   std::vector<double> sums(size(), 0);
   for (std::size_t p = 0; p < facets.size(); ++p)
-    for (int s = 0; s < 4; ++s)
+    for (int s = 0; s < width(); ++s)
       if (const std::int32_t i = numbers(facets[p])[s];
           i < std::int32_t(size()))
-        sums[i] += values[4 * p + s];
+        sums[i] += values[width() * p + s];
   return sums;
 }
 
@@ -153,8 +146,9 @@ std::vector<Pairs> MortarSides::pairs(const Mortar& mortar,
                                       bool is_movement) const
 {
   std::vector<Pairs> groups;
-  for (int n = 2; n <= 4; ++n)
-    for (int m = 2; m <= 4; ++m)
+  const std::size_t stride = width();
+  for (int n = 2; n <= width(); ++n)
+    for (int m = 2; m <= width(); ++m)
     {
       const kernel::MortarLayout at(n, m);
       Pairs group;
@@ -165,7 +159,7 @@ std::vector<Pairs> MortarSides::pairs(const Mortar& mortar,
       for (std::size_t p = 0; p < mortar.size(); ++p)
       {
         const std::int32_t e = mortar.slave[p], f = mortar.master[p];
-        if (_slave_sizes[e] != n or _master_sizes[f] != m)
+        if (_slave.sizes[e] != n or _master.sizes[f] != m)
           continue;
         const auto slaves = numbers(e).first(n);
         group.slaves.insert(group.slaves.end(), slaves.begin(), slaves.end());
@@ -179,16 +173,21 @@ std::vector<Pairs> MortarSides::pairs(const Mortar& mortar,
         for (int s = 0; s < n; ++s)
         {
           for (int l = 0; l < m; ++l)
-            data[at.weight + m * s + l] = mortar.weight[16 * p + 4 * s + l];
+            data[at.weight + m * s + l] = mortar.row(p, s)[l];
           for (int t = 0; t < n; ++t)
-            data[at.dual + n * s + t] = dual[16 * std::size_t(e) + 4 * s + t];
-          data[at.gap + s] = mortar.gap[4 * p + s];
+            data[at.dual + n * s + t] = dual[stride * (stride * e + s) + t];
+          data[at.gap + s] = mortar.gap[stride * p + s];
         }
         for (int k = 0; k < 3; ++k)
           data[at.normal + k] = normal[3 * std::size_t(e) + k];
         const std::vector<double>& weight = _slaves->weight();
-        for (int s = 0; s < n; ++s)
-          data[at.factor + s] = weight.empty() ? 1 : weight[slaves[s]];
+        for (int k = 0; k < 4; ++k)
+        {
+          const int of_slave = _slave.places[4 * std::size_t(e) + k];
+          data[at.factor + k] = weight.empty() ? 1 : weight[slaves[of_slave]];
+          data[at.slave_places + k] = of_slave;
+          data[at.master_places + k] = _master.places[4 * std::size_t(f) + k];
+        }
       }
       if (not group.slaves.empty())
         groups.push_back(std::move(group));
@@ -201,7 +200,7 @@ std::vector<double> MortarSides::frames(std::span<const double> x) const
   const int g = _gdim;
   std::vector<std::int32_t> facet(around().size(), 0);
   for (std::size_t c = 0; c < _numbers.size(); ++c)
-    facet[_numbers[c]] = static_cast<std::int32_t>(c / 4);
+    facet[_numbers[c]] = static_cast<std::int32_t>(c / width());
   std::vector<double> frames(size() * g * g);
   for (std::size_t i = 0; i < size(); ++i)
   {
@@ -233,8 +232,9 @@ std::vector<double> MortarSides::between(std::span<const double> x,
   for (std::size_t p = 0; p < pairs.size(); ++p)
   {
     double share = 0;
-    for (int k = 0; k < 16; ++k)
-      share += weight[16 * p + k];
+    const auto n = static_cast<std::size_t>(width()) * width();
+    for (std::size_t k = 0; k < n; ++k)
+      share += weight[n * p + k];
     const auto theirs = master_normal(x, pairs.master[p]);
     for (int k = 0; k < 3; ++k)
       mean[3 * std::size_t(pairs.slave[p]) + k] += share * theirs[k];
@@ -258,8 +258,9 @@ std::array<double, 3> MortarSides::master_normal(std::span<const double> x,
   if (_gdim == 3)
     // The diagonals of a quadrilateral, whose last node is opposite to its
     // first
-    n = _master_sizes[facet] == 4 ? cross(p[3] - p[0], p[2] - p[1])
-                                  : cross(first, p[2] - p[0]);
+    n = _master.sizes[facet] == 4 or _master.sizes[facet] == 9
+            ? cross(p[3] - p[0], p[2] - p[1])
+            : cross(first, p[2] - p[0]);
   normalise(n);
   return n;
 }

@@ -3,7 +3,8 @@
 
 #pragma once
 
-#include "../facet/nodal.h"
+#include "../facet/quadratic.h"
+#include "../facet/wholes.h"
 #include "../mortar/integrals.h"
 #include "pairs.h"
 #include "slave_nodes.h"
@@ -11,16 +12,17 @@
 
 namespace contactx::contact
 {
-/// @brief Pairs of facets with their integrals; facets have four places for
-/// nodes, of which triangles and segments leave some at zero.
+/// @brief Pairs of facets with their integrals; facets have so many places for
+/// nodes, of which smaller ones leave some at zero.
 struct Mortar
 {
+  int width = 4;                           ///< places for the nodes of a facet
   std::vector<std::int32_t> slave, master; ///< facets of each pair
   /// Integrals of the dual functions with the master's shape functions
-  /// (shape=(num_pairs, 4, 4))
+  /// (shape=(num_pairs, width, width))
   std::vector<double> weight;
   /// Integrals with the gap along the slave facet's normal
-  /// (shape=(num_pairs, 4))
+  /// (shape=(num_pairs, width))
   std::vector<double> gap;
 
   /// @brief Number of pairs.
@@ -29,15 +31,22 @@ struct Mortar
   /// @brief Whether a pair has any weight.
   bool has_weight(std::size_t p) const;
 
-  /// @brief With rows multiplied by factors (shape=(num_pairs, 4)).
+  /// @brief Integrals of a slave node of a pair with the master's nodes.
+  std::span<const double> row(std::size_t p, int s) const
+  {
+    return std::span(weight).subspan((p * width + s) * width, width);
+  }
+
+  /// @brief With rows multiplied by factors (shape=(num_pairs, width)).
   Mortar scaled(std::span<const double> factor) const;
 
   /// @brief With the pairs of another one, of both those that have any weight.
   Mortar joined(const Mortar& other) const;
 };
 
-/// @brief Facets of a slave and a master surface as rows of four nodes, of
-/// which triangles and segments repeat their last one.
+/// @brief Facets of a slave and a master surface as rows of nodes: their own,
+/// or those of the quadratic facets that they are parts of. Smaller facets
+/// repeat their last one.
 class MortarSides
 {
 public:
@@ -49,7 +58,19 @@ public:
               int gdim);
 
   /// @brief Take the master's side.
-  void meet(const facet::FacetList& master);
+  /// @param[in] master Master facets.
+  /// @param[in] level Where their nodes are on quadratic facets, see
+  /// facet::Shares; empty where facets are linear.
+  void meet(const facet::FacetList& master, std::span<const std::int8_t> level);
+
+  /// @brief Places for the nodes of a facet.
+  int width() const { return _slave.width; }
+
+  /// @brief Wholes of the slave facets.
+  const facet::Wholes& slave_wholes() const { return _slave; }
+
+  /// @brief Wholes of the master facets.
+  const facet::Wholes& master_wholes() const { return _master; }
 
   /// @brief Number of owned slave nodes.
   std::size_t size() const { return _slaves->owned().size(); }
@@ -61,27 +82,44 @@ public:
   std::span<const std::int32_t> around() const { return _slaves->around(); }
 
   /// @brief Nodes of a slave facet by their places in `around`.
-  std::span<const std::int32_t, 4> numbers(std::int32_t facet) const
+  std::span<const std::int32_t> numbers(std::int32_t facet) const
   {
-    return std::span<const std::int32_t, 4>(_numbers.data() + 4 * facet, 4);
+    return std::span(_numbers).subspan(std::size_t(facet) * width(), width());
   }
 
   /// @brief Nodes of a slave facet.
-  std::span<const std::int32_t, 4> slave_nodes(std::int32_t facet) const
+  std::span<const std::int32_t> slave_nodes(std::int32_t facet) const
   {
-    return std::span<const std::int32_t, 4>(_slave.data() + 4 * facet, 4);
+    return _slave.row(facet);
   }
 
   /// @brief Nodes of a master facet.
-  std::span<const std::int32_t, 4> master_nodes(std::int32_t facet) const
+  std::span<const std::int32_t> master_nodes(std::int32_t facet) const
   {
-    return std::span<const std::int32_t, 4>(_master.data() + 4 * facet, 4);
+    return _master.row(facet);
+  }
+
+  /// @brief Call f(node, part) for the nodes that a slave node's basis takes
+  /// parts of, see facet::Basis.
+  /// @param[in] facet Slave facet.
+  /// @param[in] s Number of the slave node in it.
+  /// @param[in] f Function.
+  template <class Function>
+  void for_each_part(std::int32_t facet, int s, Function&& f) const
+  {
+    const auto nodes = slave_nodes(facet);
+    facet::visit_whole(_gdim, _slave.sizes[facet],
+                       [&]<class F>(F)
+                       {
+                         facet::Basis<F>::for_each_part(
+                             s, [&](int j, double part) { f(nodes[j], part); });
+                       });
   }
 
   /// @brief Number of slave facets.
   std::int32_t num_slave_facets() const
   {
-    return static_cast<std::int32_t>(_slave_sizes.size());
+    return static_cast<std::int32_t>(_slave.sizes.size());
   }
 
   /// @brief Radius of the smallest slave facet's circle inside, about; infinite
@@ -97,26 +135,26 @@ public:
   }
 
   /// @brief Values at the corners of the slave facets of pairs, zero at nodes
-  /// of other ranks (shape=(num_pairs, 4)).
+  /// of other ranks (shape=(num_pairs, width)).
   /// @param[in] values Values of owned slave nodes (shape=(n)).
   /// @param[in] facets Slave facets.
   std::vector<double> at_corners(std::span<const double> values,
                                  std::span<const std::int32_t> facets) const;
 
   /// @brief Sums over all facets of each owned slave node (shape=(n)).
-  /// @param[in] values Values at corners (shape=(num_facets, 4)).
+  /// @param[in] values Values at corners (shape=(num_facets, width)).
   std::vector<double> total(std::span<const double> values) const;
 
   /// @brief Sums over some facets of each owned slave node (shape=(n)).
-  /// @param[in] values Values at corners (shape=(m, 4)).
+  /// @param[in] values Values at corners (shape=(m, width)).
   /// @param[in] facets Their slave facets (shape=(m)).
   std::vector<double> total(std::span<const double> values,
                             std::span<const std::int32_t> facets) const;
 
   /// @brief Pairs with what the kernels read, by the kinds of both facets.
   /// @param[in] mortar Pairs with their integrals.
-  /// @param[in] dual Coefficients of the dual functions (shape=(num_facets, 4,
-  /// 4)).
+  /// @param[in] dual Coefficients of the dual functions (shape=(num_facets,
+  /// width, width)).
   /// @param[in] normal Normals of the slave facets, those of the master
   /// (shape=(num_facets, 3)).
   /// @param[in] is_movement Whether they measure slip alone.
@@ -133,7 +171,8 @@ public:
   /// two surfaces that are pressed together meet midway.
   /// @param[in] x Positions.
   /// @param[in] pairs Pairs of facets.
-  /// @param[in] weight Integrals of the pairs (shape=(num_pairs, 4, 4)).
+  /// @param[in] weight Integrals of the pairs (shape=(num_pairs, width,
+  /// width)).
   /// @param[in] normal Normals of the slave facets (shape=(num_facets, 3)).
   std::vector<double> between(std::span<const double> x,
                               const mortar::FacetPairs& pairs,
@@ -146,8 +185,8 @@ private:
                                       std::int32_t facet) const;
 
   int _gdim;
-  std::vector<std::int32_t> _slave, _numbers, _master;
-  std::vector<int> _slave_sizes, _master_sizes;
+  facet::Wholes _slave, _master;
+  std::vector<std::int32_t> _numbers;
   double _inradius;
 };
 

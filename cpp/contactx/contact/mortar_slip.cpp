@@ -56,9 +56,9 @@ void MortarSlip::touch(std::span<const std::int8_t> which, const Mortar& now,
   const std::vector<double> gaps = _sides->total(now.gap, now.slave);
   std::vector<std::int8_t> known(_sides->around().size(), 0);
   for (std::size_t p = 0; p < _start->size(); ++p)
-    for (int s = 0; s < 4; ++s)
+    for (int s = 0; s < _start->width; ++s)
     {
-      const auto row = std::span(_start->weight).subspan(16 * p + 4 * s, 4);
+      const auto row = _start->row(p, s);
       if (std::ranges::any_of(row, [](double w) { return w != 0; }))
         known[_sides->numbers(_start->slave[p])[s]] = 1;
     }

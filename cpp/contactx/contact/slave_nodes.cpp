@@ -132,7 +132,7 @@ void SlaveNodes::set_weight(std::span<const double> weight)
       });
 }
 
-void SlaveNodes::set_level(std::span<const std::int8_t> level)
+void SlaveNodes::set_level(std::span<const std::int8_t> level, bool is_mortar)
 {
   _nodes->ranks().agree(
       [&]
@@ -144,6 +144,7 @@ void SlaveNodes::set_level(std::span<const std::int8_t> level)
       });
   _level = scatter_forward(level);
   _is_quadratic = true;
+  _is_mortar = is_mortar;
 }
 
 std::vector<double> SlaveNodes::corner_weight() const

@@ -36,16 +36,21 @@ public:
   void set_weight(std::span<const double> weight);
 
   /// @brief Take the facets as parts of quadratic ones, which share their
-  /// nodes. Before masters and contacts are made of the slave nodes; collective.
+  /// nodes. Before masters and contacts are made of the slave nodes;
+  /// collective.
   /// @param[in] level Where each owned slave node is on quadratic facets: 0 at
   /// vertices, 1 on edges, 2 inside (shape=(n)).
-  void set_level(std::span<const std::int8_t> level);
+  /// @param[in] is_mortar Whether facets are integrated, in facet::Basis.
+  void set_level(std::span<const std::int8_t> level, bool is_mortar);
 
   /// @brief Whether the facets are parts of quadratic ones.
   bool is_quadratic() const { return _is_quadratic; }
 
   /// @brief What areas are shared out by, at all slave nodes.
-  facet::Shares shares() const { return {_weight, _level}; }
+  facet::Shares shares() const
+  {
+    return {_weight, _level, _is_mortar ? 8. / 15 : 0};
+  }
 
   /// @brief The weight at all slave nodes (shape=(m)); empty if there is none.
   const std::vector<double>& weight() const { return _weight; }
@@ -162,7 +167,7 @@ private:
   std::vector<std::int32_t> _around, _corners;
   std::vector<double> _weight;
   std::vector<std::int8_t> _level;
-  bool _is_quadratic = false;
+  bool _is_quadratic = false, _is_mortar = false;
   std::size_t _num_owned;
 };
 } // namespace contactx::contact

@@ -50,9 +50,14 @@ SurfaceToSurface::SurfaceToSurface(
   _x0.assign(x.begin(), x.end());
   _at = _x0;
   meet();
-  _whole = facet::nodal_areas(_slaves->local(), _slaves->here(x, gdim(), "x"),
-                              gdim(), _slaves->weight());
-  _whole.resize(_sides.size());
+  _place.resize(_sides.size());
+  for (std::int32_t f = _sides.num_slave_facets(); f-- > 0;)
+    for (int s = _sides.width(); s-- > 0;)
+      if (const std::size_t i = _sides.numbers(f)[s]; i < _sides.size())
+        _place[i] = {f, s};
+  _whole = _slaves->sums(facet::corner_areas(_slaves->local(),
+                                             _slaves->here(x, gdim(), "x"),
+                                             gdim(), _slaves->shares()));
 }
 
 /// Takes the master facets that are known now; those before keep their numbers.
@@ -62,7 +67,7 @@ void SurfaceToSurface::meet()
                 theirs = facet::copied(_surface->facets());
   _search.emplace(std::move(ours.offsets), std::move(ours.nodes),
                   std::move(theirs.offsets), std::move(theirs.nodes), gdim());
-  _sides.meet(_surface->facets());
+  _sides.meet(_surface->facets(), _options.level);
 }
 
 std::int32_t SurfaceToSurface::search(std::span<const double> x,
@@ -184,8 +189,9 @@ void SurfaceToSurface::integrate(std::span<const double> x)
   const auto reference = _halo->reference();
   const auto integrate = [&](std::span<const double> normal)
   {
-    return mortar::integrals(_slaves->facets(), _surface->facets(), *_found, x,
-                             reference, gdim(), normal, _weight);
+    return mortar::integrals({_slaves->facets(), &_sides.slave_wholes()},
+                             {_surface->facets(), &_sides.master_wholes()},
+                             *_found, x, reference, gdim(), normal, _weight);
   };
   mortar::Integrals all = integrate({});
   if (_options.is_small)
@@ -194,7 +200,7 @@ void SurfaceToSurface::integrate(std::span<const double> x)
   _area = _sides.total(all.area);
   _dual = std::move(all.dual);
   _normal = std::move(all.normal);
-  _mortar = {_found->slave, _found->master, std::move(all.weight),
+  _mortar = {all.width, _found->slave, _found->master, std::move(all.weight),
              std::move(all.gap)};
 }
 
@@ -254,14 +260,14 @@ std::vector<double> SurfaceToSurface::normals() const
 {
   std::vector<double> normals(3 * _sides.size(), 0);
   for (std::size_t p = 0; p < _mortar.size(); ++p)
-    for (int s = 0; s < 4; ++s)
+    for (int s = 0; s < _mortar.width; ++s)
     {
       const std::size_t i = _sides.numbers(_mortar.slave[p])[s];
       if (i >= _sides.size() or not _paired[i])
         continue;
       double share = 0;
-      for (int l = 0; l < 4; ++l)
-        share += _mortar.weight[16 * p + 4 * s + l];
+      for (const double w : _mortar.row(p, s))
+        share += w;
       for (int k = 0; k < 3; ++k)
         normals[3 * i + k]
             += share * _normal[3 * std::size_t(_mortar.slave[p]) + k];
@@ -276,17 +282,20 @@ Weights SurfaceToSurface::weights() const
   Weights weights;
   for (std::size_t i = 0; i < _sides.size(); ++i)
     if (_paired[i])
-    {
-      weights.slaves.push_back(static_cast<std::int32_t>(i));
-      weights.nodes.push_back(_sides.slaves()[i]);
-      weights.values.push_back(1);
-    }
+      _sides.for_each_part(_place[i].first, _place[i].second,
+                           [&](std::int32_t node, double part)
+                           {
+                             weights.slaves.push_back(
+                                 static_cast<std::int32_t>(i));
+                             weights.nodes.push_back(node);
+                             weights.values.push_back(part);
+                           });
   for (std::size_t p = 0; p < mortar.size(); ++p)
-    for (int s = 0; s < 4; ++s)
-      for (int l = 0; l < 4; ++l)
+    for (int s = 0; s < mortar.width; ++s)
+      for (int l = 0; l < mortar.width; ++l)
       {
         // Zero for slave nodes of other ranks, too
-        const double w = mortar.weight[16 * p + 4 * s + l];
+        const double w = mortar.row(p, s)[l];
         if (w == 0)
           continue;
         weights.slaves.push_back(_sides.numbers(mortar.slave[p])[s]);
@@ -365,7 +374,13 @@ SurfaceToSurface::compliance(std::span<const double> nodal) const
 {
   const Weights w = weights();
   std::vector<double> total(_sides.size(), 0), mean(_sides.size(), 0);
-  for (std::size_t e = std::ranges::count(_paired, 1); e < w.values.size(); ++e)
+  // The slave nodes' own parts come first
+  std::size_t first = 0;
+  for (std::size_t i = 0; i < _sides.size(); ++i)
+    if (_paired[i])
+      _sides.for_each_part(_place[i].first, _place[i].second,
+                           [&first](std::int32_t, double) { ++first; });
+  for (std::size_t e = first; e < w.values.size(); ++e)
     if (w.values[e] <= 0)
     {
       const double size = std::abs(w.values[e]);
@@ -453,7 +468,7 @@ SurfaceTie::SurfaceTie(std::shared_ptr<parallel::Halo> halo,
                        PairingOptions options)
     : SurfaceToSurface(std::move(halo), std::move(slaves), std::move(surface),
                        std::move(outside),
-                       {options.reach, options.is_small, false}),
+                       {options.reach, options.is_small, false, options.level}),
       _offset(sides().size(), 0)
 {
 }
@@ -468,11 +483,12 @@ std::vector<Pairs> SurfaceTie::pairs() const
 {
   Mortar longer = mortar();
   const std::vector<double> offset = sides().at_corners(_offset, longer.slave);
+  const std::size_t n = longer.width;
   for (std::size_t c = 0; c < offset.size(); ++c)
   {
     double share = 0;
-    for (int l = 0; l < 4; ++l)
-      share += longer.weight[4 * c + l];
+    for (const double w : longer.row(c / n, static_cast<int>(c % n)))
+      share += w;
     longer.gap[c] += share * offset[c];
   }
   return groups(longer);

@@ -107,6 +107,8 @@ private:
   std::vector<double> _x0, _at, _searched; // positions; those of _nodes
   std::vector<double> _whole, _area;       // of the slave nodes
   std::vector<std::int8_t> _paired;
+  // A facet of each slave node, and its number there
+  std::vector<std::pair<std::int32_t, int>> _place;
   std::vector<double> _weight; // at the corners of the slave facets
   std::optional<mortar::FacetPairs> _found;
   std::vector<double> _dual, _normal;

@@ -4,6 +4,7 @@
 #include "nodal.h"
 #include "frame.h"
 #include "gather.h"
+#include <algorithm>
 #include <numeric>
 
 using namespace contactx;
@@ -106,9 +107,9 @@ std::vector<double> contactx::facet::nodal_areas(const FacetList& facets,
   return area;
 }
 
-std::vector<double>
-contactx::facet::at_corners(const FacetList& facets,
-                            std::span<const double> values, int width)
+std::vector<double> contactx::facet::at_corners(const FacetList& facets,
+                                                std::span<const double> values,
+                                                int width)
 {
   std::vector<double> corners(facets.nodes.size() * width);
   for (std::size_t c = 0; c < facets.nodes.size(); ++c)
@@ -128,9 +129,9 @@ std::vector<double> contactx::facet::corner_areas(const FacetList& facets,
   std::iota(own.begin(), own.end(), 0);
   const FacetList corners{facets.offsets, own};
   const std::vector<double> at = at_corners(facets, x, gdim);
-  const std::vector<double> weight
-      = shares.weight.empty() ? std::vector<double>()
-                              : at_corners(facets, shares.weight, 1);
+  const std::vector<double> weight = shares.weight.empty()
+                                         ? std::vector<double>()
+                                         : at_corners(facets, shares.weight, 1);
   if (shares.level.empty())
     return nodal_areas(corners, at, gdim, weight);
   std::vector<double> area = nodal_areas(corners, at, gdim);
@@ -138,10 +139,16 @@ std::vector<double> contactx::facet::corner_areas(const FacetList& facets,
   {
     const auto nodes = facets[f];
     const std::span part(area.data() + facets.offsets[f], nodes.size());
-    const auto share = [&](std::int32_t node)
+    const bool is_corner = std::ranges::any_of(
+        nodes, [&](std::int32_t node) { return shares.level[node] == 0; });
+    const auto share = [&](std::int32_t node) -> double
     {
       const std::int8_t level = shares.level[node];
-      return nodes.size() == 3 ? level > 0 : 1 << level;
+      if (nodes.size() != 3)
+        return 1 << level;
+      if (not is_corner)
+        return 1;
+      return level == 0 ? shares.of_vertex : (1 - shares.of_vertex) / 2;
     };
     double whole = 0, sum = 0;
     for (std::size_t i = 0; i < nodes.size(); ++i)

@@ -50,14 +50,18 @@ struct Shares
   /// share their nodes: 0 at their vertices, 1 on their edges, 2 inside; empty
   /// where facets are linear
   std::span<const std::int8_t> level = {};
+  /// Part of what is beside a vertex of a triangle of six nodes, a quarter of
+  /// it, that the vertex gets: the shape functions' integral is zero, that of
+  /// facet::Basis 8/15
+  double of_vertex = 0;
 };
 
 /// @brief Reference area of each corner of each facet.
 ///
 /// Of parts of quadratic facets they are such that the sums at the nodes are
-/// the integrals of the quadratic shape functions where these facets are
-/// affine: by Simpson's rule 1:2 on edges and 1:2:4 on quadrilaterals; nothing
-/// at the vertices of triangles, whose shape functions have no integral.
+/// the integrals of the quadratic shape functions, or of facet::Basis, where
+/// these facets are affine: by Simpson's rule 1:2 on edges and 1:2:4 on
+/// quadrilaterals.
 /// @param[in] facets Facets of the surface.
 /// @param[in] x Node coordinates (shape=(num_nodes, gdim)), row-major.
 /// @param[in] gdim Geometric dimension, 2 or 3.

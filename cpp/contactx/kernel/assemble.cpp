@@ -34,8 +34,8 @@ bool contains(std::span<const std::string_view> terms, std::string_view term)
 void check_pairs(const Pairs& pairs, int gdim)
 {
   check::dimension(gdim);
-  check::between(pairs.num_slaves, 1, 4, "pairs.num_slaves");
-  check::between(pairs.num_nodes, 0, 4, "pairs.num_nodes");
+  check::between(pairs.num_slaves, 1, 9, "pairs.num_slaves");
+  check::between(pairs.num_nodes, 0, 9, "pairs.num_nodes");
   const std::size_t n = pairs.size();
   check::rows(pairs.slaves.size(), n, pairs.num_slaves, "pairs.slaves", "pair");
   check::rows(pairs.nodes.size(), n, pairs.num_slaves + pairs.num_nodes,

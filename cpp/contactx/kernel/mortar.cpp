@@ -49,19 +49,6 @@ struct Mortar
   const double *multiplier, *area, *gap_derivative;
 };
 
-/// Call f(node of the pair, slave node, weight) for the parts of the virtual
-/// displacements that the slave nodes' multipliers work on.
-template <class S, class M, class Function>
-void for_each_weight(const MortarPair<S, M>& pair, Function&& f)
-{
-  for (int s = 0; s < S::nodes; ++s)
-  {
-    f(s, s, pair.area(s));
-    for (int l = 0; l < M::nodes; ++l)
-      f(S::nodes + l, s, -pair.weight(s, l));
-  }
-}
-
 template <class K>
 void residual(double* b, const double* w, const double*, const double*,
               const int*, const std::uint8_t*, void*)
@@ -70,18 +57,17 @@ void residual(double* b, const double* w, const double*, const double*,
   if (std::all_of(k.multiplier, k.multiplier + K::width,
                   [](double t) { return t == 0; }))
     return;
-  for_each_weight(k.pair,
-                  [&](int a, int s, double weight)
-                  {
-                    for (int i = 0; i < K::size; ++i)
-                    {
-                      const double force
-                          = weight * k.multiplier[K::size * s + i];
-                      const auto d = k.direction(i);
-                      for (int q = 0; q < K::gdim; ++q)
-                        b[K::gdim * a + q] -= force * d[q];
-                    }
-                  });
+  k.pair.for_each_weight(
+      [&](int a, int s, double weight)
+      {
+        for (int i = 0; i < K::size; ++i)
+        {
+          const double force = weight * k.multiplier[K::size * s + i];
+          const auto d = k.direction(i);
+          for (int q = 0; q < K::gdim; ++q)
+            b[K::gdim * a + q] -= force * d[q];
+        }
+      });
 }
 
 template <class K>
@@ -89,17 +75,16 @@ void traction(double* A, const double* w, const double*, const double*,
               const int*, const std::uint8_t*, void*)
 {
   const K k(w);
-  for_each_weight(k.pair,
-                  [&](int a, int s, double weight)
-                  {
-                    for (int i = 0; i < K::size; ++i)
-                    {
-                      const auto d = k.direction(i);
-                      for (int q = 0; q < K::gdim; ++q)
-                        A[K::width * (K::gdim * a + q) + K::size * s + i]
-                            -= weight * d[q];
-                    }
-                  });
+  k.pair.for_each_weight(
+      [&](int a, int s, double weight)
+      {
+        for (int i = 0; i < K::size; ++i)
+        {
+          const auto d = k.direction(i);
+          for (int q = 0; q < K::gdim; ++q)
+            A[K::width * (K::gdim * a + q) + K::size * s + i] -= weight * d[q];
+        }
+      });
 }
 
 template <class S, class M, Law L>
@@ -135,16 +120,15 @@ void stiffness(double* A, const double* w, const double*, const double*,
   if constexpr (L == Law::frictionless)
   {
     const auto dn = d.normal();
-    for_each_weight(k.pair,
-                    [&](int a, int s, double weight)
-                    {
-                      const double force = weight * k.multiplier[s];
-                      if (force != 0)
-                        for (int c = 0; c < K::gdim; ++c)
-                          for (int col = 0; col < n; ++col)
-                            A[n * (K::gdim * a + c) + col]
-                                -= force * dn[c][col];
-                    });
+    k.pair.for_each_weight(
+        [&](int a, int s, double weight)
+        {
+          const double force = weight * k.multiplier[s];
+          if (force != 0)
+            for (int c = 0; c < K::gdim; ++c)
+              for (int col = 0; col < n; ++col)
+                A[n * (K::gdim * a + c) + col] -= force * dn[c][col];
+        });
   }
 }
 
@@ -165,12 +149,12 @@ void constraint(double* A, const double* w, const double*, const double*,
            or std::all_of(by_normal, by_normal + gdim * K::width, zero)))
     return;
   std::array<Vector<n>, S::nodes> dg{};
-  for_each_weight(k.pair,
-                  [&](int a, int s, double weight)
-                  {
-                    for (int q = 0; q < gdim; ++q)
-                      dg[s][gdim * a + q] += weight * k.normal[q];
-                  });
+  k.pair.for_each_weight(
+      [&](int a, int s, double weight)
+      {
+        for (int q = 0; q < gdim; ++q)
+          dg[s][gdim * a + q] += weight * k.normal[q];
+      });
   std::array<Vector<n>, gdim> dn{};
   if constexpr (Turning)
   {
@@ -178,8 +162,18 @@ void constraint(double* A, const double* w, const double*, const double*,
     const auto factors = d.gap();
     for (int s = 0; s < S::nodes; ++s)
       d.add(factors[s], dg[s].data());
-    if constexpr (L != Law::frictionless)
+    if constexpr (L != Law::frictionless or not facet::is_linear<S>)
       dn = d.normal();
+    // Points of quadratic facets are beside those of their parts, so that the
+    // way from one to the other is not along the normal alone
+    if constexpr (not facet::is_linear<S>)
+      for (int s = 0; s < S::nodes; ++s)
+      {
+        const auto way = k.pair.distance(s);
+        for (int q = 0; q < gdim; ++q)
+          for (int col = 0; col < n; ++col)
+            dg[s][col] += way[q] * dn[q][col];
+      }
   }
   for (int s = 0; s < S::nodes; ++s)
     for (int i = 0; i < size; ++i)
@@ -231,7 +225,7 @@ void add(std::vector<Entry>& entries)
 std::vector<Entry> contactx::kernel::mortar()
 {
   std::vector<Entry> entries;
-  contactx::mortar::for_all_kinds(
+  contactx::mortar::for_all_wholes(
       [&entries]<class S, class M>(S, M)
       {
         add<S, M, Law::frictionless, false>(entries);

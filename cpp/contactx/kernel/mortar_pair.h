@@ -3,16 +3,20 @@
 
 #pragma once
 
+#include "../facet/quadratic.h"
 #include "../mortar/plane.h"
 #include "layout.h"
 #include <algorithm>
 
 namespace contactx::kernel
 {
-/// @brief A pair of a slave and a master facet as the kernels see it.
+/// @brief A pair of a slave and a master facet, or of a part of each, as the
+/// kernels see it.
 template <class S, class M>
 struct MortarPair
 {
+  using SlavePart = facet::Part<S>;
+  using MasterPart = facet::Part<M>;
   static constexpr int gdim = S::gdim;
   static constexpr int num_dofs = gdim * (S::nodes + M::nodes);
   static constexpr MortarLayout layout{S::nodes, M::nodes};
@@ -20,7 +24,9 @@ struct MortarPair
   facet::Nodes<S> slave;     ///< positions of the slave facet's nodes
   facet::Nodes<S> reference; ///< in the reference configuration
   facet::Nodes<M> master;    ///< positions of the master facet's nodes
-  const double* data;        ///< values of the pair
+  facet::Places<S> slave_places = facet::all_places<S>();
+  facet::Places<M> master_places = facet::all_places<M>();
+  const double* data; ///< values of the pair
 
   /// @brief Read a pair from the coefficients.
   /// @param[in] w Coefficients.
@@ -43,6 +49,18 @@ struct MortarPair
         const int i = gdim * (S::nodes + l) + k;
         master[l][k] = x[i] + u[i];
       }
+    if constexpr (!facet::is_linear<S>)
+      for (int j = 0; j < SlavePart::nodes; ++j)
+        slave_places[j] = static_cast<int>(data[layout.slave_places + j]);
+    if constexpr (!facet::is_linear<M>)
+      for (int j = 0; j < MasterPart::nodes; ++j)
+        master_places[j] = static_cast<int>(data[layout.master_places + j]);
+  }
+
+  /// @brief Positions of the nodes of the slave facet's part.
+  facet::Nodes<SlavePart> slave_part() const
+  {
+    return facet::part_of<S>(slave, slave_places);
   }
 
   /// @brief Values of a coefficient.
@@ -66,17 +84,17 @@ struct MortarPair
     return sum;
   }
 
-  /// @brief Coefficient of N_t in Phi_s.
+  /// @brief Coefficient of M_t in Phi_s.
   double dual(int s, int t) const
   {
     return data[layout.dual + S::nodes * s + t];
   }
 
-  /// @brief What is integrated with, at the slave nodes.
-  Vector<S::nodes> factor() const
+  /// @brief What is integrated with, at the nodes of the slave facet's part.
+  Vector<SlavePart::nodes> factor() const
   {
-    Vector<S::nodes> f;
-    std::copy_n(data + layout.factor, S::nodes, f.begin());
+    Vector<SlavePart::nodes> f;
+    std::copy_n(data + layout.factor, SlavePart::nodes, f.begin());
     return f;
   }
 
@@ -90,7 +108,10 @@ struct MortarPair
   {
     Vector<gdim> n;
     if constexpr (Turning)
-      n = -1. * facet::frame<S>(slave, mortar::plane_origin<S>()).n;
+      n = -1.
+          * facet::frame<SlavePart>(slave_part(),
+                                    mortar::plane_origin<SlavePart>())
+                .n;
     else
       std::copy_n(data + layout.normal, gdim, n.begin());
     return n;
@@ -99,10 +120,27 @@ struct MortarPair
   /// @brief int Phi_s (x_slave - x_master).
   Vector<gdim> distance(int s) const
   {
-    Vector<gdim> d = area(s) * slave[s];
+    Vector<gdim> d
+        = area(s)
+          * facet::Basis<S>::template coefficient<Vector<gdim>>(s, slave);
     for (int l = 0; l < M::nodes; ++l)
       d = d - weight(s, l) * master[l];
     return d;
+  }
+
+  /// @brief Call f(node of the pair, slave node, weight) for the parts of the
+  /// virtual displacements that the slave nodes' multipliers work on.
+  template <class Function>
+  void for_each_weight(Function&& f) const
+  {
+    for (int s = 0; s < S::nodes; ++s)
+    {
+      const double own = area(s);
+      facet::Basis<S>::for_each_part(s, [&](int node, double part)
+                                     { f(node, s, part * own); });
+      for (int l = 0; l < M::nodes; ++l)
+        f(S::nodes + l, s, -weight(s, l));
+    }
   }
 };
 } // namespace contactx::kernel

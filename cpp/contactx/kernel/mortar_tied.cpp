@@ -41,28 +41,29 @@ struct Tie
   template <class Function>
   void derivative(Function&& f) const
   {
-    for (int i = 0; i < gdim; ++i)
-      for (int s = 0; s < slaves; ++s)
-      {
-        f(s, i, gdim * s + i, pair.area(s));
-        for (int l = 0; l < M::nodes; ++l)
-          f(s, i, gdim * (slaves + l) + i, -pair.weight(s, l));
-      }
+    pair.for_each_weight(
+        [&](int a, int s, double weight)
+        {
+          for (int i = 0; i < gdim; ++i)
+            f(s, i, gdim * a + i, weight);
+        });
     if constexpr (Turning)
     {
-      const auto xi = contactx::mortar::plane_origin<S>();
-      const contactx::mortar::Plane<S> plane(pair.slave);
-      const auto slope = S::derivative(xi);
-      for (int t = 0; t < slaves; ++t)
+      using P = facet::Part<S>;
+      const auto xi = contactx::mortar::plane_origin<P>();
+      const contactx::mortar::Plane<P> plane(pair.slave_part());
+      const auto slope = P::derivative(xi);
+      for (int t = 0; t < P::nodes; ++t)
         for (int k = 0; k < gdim; ++k)
         {
           Vector<gdim> dn{}; // of the normal
+          const int node = pair.slave_places[t];
           for (int a = 0; a < S::tdim; ++a)
             dn = dn + (slope[a][t] * plane.n[k]) * plane.dual[a];
           for (int s = 0; s < slaves; ++s)
             if (pair.gap(s) != 0)
               for (int i = 0; i < gdim; ++i)
-                f(s, i, gdim * t + k, -pair.gap(s) * dn[i]);
+                f(s, i, gdim * node + k, -pair.gap(s) * dn[i]);
         }
     }
   }
@@ -127,7 +128,7 @@ template <class K>
 void stiffness(double* A, const double* w, const double*, const double*,
                const int*, const std::uint8_t*, void*)
 {
-  using S = typename K::Slave;
+  using P = facet::Part<typename K::Slave>;
   const K k(w);
   Vector<K::gdim> sum{};
   for (int s = 0; s < K::slaves; ++s)
@@ -135,11 +136,13 @@ void stiffness(double* A, const double* w, const double*, const double*,
       sum[i] += k.pair.gap(s) * k.multiplier[K::gdim * s + i];
   if (dot(sum, sum) == 0)
     return;
-  const auto xi = contactx::mortar::plane_origin<S>();
+  const auto xi = contactx::mortar::plane_origin<P>();
+  const auto dof = [&k](int i)
+  { return K::gdim * k.pair.slave_places[i / K::gdim] + i % K::gdim; };
   // The pair's normal is against that of the slave facet
-  for_each_normal_hessian<S>(facet::frame<S>(k.pair.slave, xi), xi, sum,
-                             [A](int i, int j, double value)
-                             { A[K::num_dofs * i + j] -= value; });
+  for_each_normal_hessian<P>(facet::frame<P>(k.pair.slave_part(), xi), xi, sum,
+                             [A, dof](int i, int j, double value)
+                             { A[K::num_dofs * dof(i) + dof(j)] -= value; });
 }
 
 template <class K>
@@ -169,7 +172,7 @@ void add(std::vector<Entry>& entries)
 std::vector<Entry> contactx::kernel::mortar_tied()
 {
   std::vector<Entry> entries;
-  contactx::mortar::for_all_kinds(
+  contactx::mortar::for_all_wholes(
       [&entries]<class S, class M>(S, M)
       {
         add<Tie<S, M, false>>(entries);

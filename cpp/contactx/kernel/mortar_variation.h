@@ -17,41 +17,53 @@ namespace contactx::kernel
 /// its centre. Shape functions of the master change by -grad N_l . v. As they
 /// are continuous from facet to facet, the ends of the parts add nothing;
 /// only where the master ends they do, and there they are left out.
+///
+/// Points of parts of quadratic facets move as those of the linear facets that
+/// the parts are; shape functions are those of the whole facets.
 template <class S, class M>
 class MortarVariation
 {
 public:
+  using P = facet::Part<S>; ///< part of the slave facet
+  using Q = facet::Part<M>; ///< part of the master facet
   static constexpr int gdim = S::gdim;
   static constexpr int tdim = S::tdim;
   static constexpr int num_dofs = MortarPair<S, M>::num_dofs;
   using Row = Vector<num_dofs>;
   using Local = facet::Local<S>;
 
-  /// @brief What multiplies the variations of r_j and c.
+  /// @brief What multiplies the variations of r_j, of the nodes of the master
+  /// facet's part, and c.
   struct Factors
   {
-    std::array<Local, M::nodes> r{};
+    std::array<Local, Q::nodes> r{};
     Local c{};
   };
 
   /// @brief Project the facets.
   /// @param[in] pair Pair.
   explicit MortarVariation(const MortarPair<S, M>& pair)
-      : _pair(pair), _slave(pair.slave, pair.reference, pair.factor()),
-        _r(mortar::project<M>(_slave.plane, pair.master)),
-        _slope(S::derivative(mortar::plane_origin<S>()))
+      : _pair(pair),
+        _master(facet::part_of<M>(pair.master, pair.master_places)),
+        _slave(pair.slave_part(),
+               facet::part_of<S>(pair.reference, pair.slave_places),
+               pair.factor()),
+        _r(mortar::project<Q>(_slave.plane, _master)),
+        _slope(P::derivative(mortar::plane_origin<P>()))
   {
     const auto& plane = _slave.plane;
     for (int l = 0; l < M::nodes; ++l)
       _height[l] = plane.height(pair.master[l]);
+    _part_height = facet::values_of<M>(_height, pair.master_places);
     for (int a = 0; a < tdim; ++a)
       for (int b = 0; b < tdim; ++b)
         _metric[a][b] = dot(plane.dual[a], plane.dual[b]);
-    if constexpr (!S::flat)
+    if constexpr (!P::flat)
     {
+      const auto part = pair.slave_part();
       Vector<gdim> w{};
-      for (int t = 0; t < S::nodes; ++t)
-        w = w + S::mixed_derivative[t] * pair.slave[t];
+      for (int t = 0; t < P::nodes; ++t)
+        w = w + P::mixed_derivative[t] * part[t];
       for (int a = 0; a < tdim; ++a)
         _twist[a] = dot(plane.dual[a], w);
       _warp = dot(plane.n, w);
@@ -64,10 +76,11 @@ public:
     std::array<Row, gdim> dn{};
     const auto& plane = _slave.plane;
     for (int i = 0; i < gdim; ++i)
-      for (int t = 0; t < S::nodes; ++t)
+      for (int t = 0; t < P::nodes; ++t)
         for (int k = 0; k < gdim; ++k)
           for (int a = 0; a < tdim; ++a)
-            dn[i][gdim * t + k] += plane.dual[a][i] * plane.n[k] * _slope[a][t];
+            dn[i][slave_dof(t) + k]
+                += plane.dual[a][i] * plane.n[k] * _slope[a][t];
     return dn;
   }
 
@@ -122,29 +135,30 @@ public:
   void add(const Factors& f, double* row) const
   {
     const auto& plane = _slave.plane;
-    constexpr Local o = mortar::plane_origin<S>();
-    const auto N = S::shape(o);
-    Vector<S::nodes> along{}; // of the height over a turning plane, by slope
-    std::array<Vector<S::nodes>, tdim> across{};
+    constexpr Local o = mortar::plane_origin<P>();
+    const auto N = P::shape(o);
+    Vector<P::nodes> along{}; // of the height over a turning plane, by slope
+    std::array<Vector<P::nodes>, tdim> across{};
     Local turn{};
-    for (int j = 0; j < M::nodes; ++j)
+    for (int j = 0; j < Q::nodes; ++j)
       for (int a = 0; a < tdim; ++a)
       {
         const double q = f.r[j][a];
+        const int node = S::nodes + _pair.master_places[j];
         for (int k = 0; k < gdim; ++k)
-          row[gdim * (S::nodes + j) + k] += q * plane.dual[a][k];
-        Vector<S::nodes> affine = N;
+          row[gdim * node + k] += q * plane.dual[a][k];
+        Vector<P::nodes> affine = N;
         for (int b = 0; b < tdim; ++b)
         {
           affine = affine + _r[j][b] * _slope[b];
-          turn[b] += q * _height[j] * _metric[a][b];
+          turn[b] += q * _part_height[j] * _metric[a][b];
         }
         across[a] = across[a] - q * affine;
       }
-    if constexpr (!S::flat)
+    if constexpr (!P::flat)
       for (int a = 0; a < tdim; ++a)
       {
-        Vector<S::nodes> d = S::mixed_derivative;
+        Vector<P::nodes> d = P::mixed_derivative;
         for (int b = 0; b < tdim; ++b)
         {
           d = d - _twist[b] * _slope[b];
@@ -154,13 +168,13 @@ public:
       }
     for (int b = 0; b < tdim; ++b)
       along = along + turn[b] * _slope[b];
-    for (int t = 0; t < S::nodes; ++t)
+    for (int t = 0; t < P::nodes; ++t)
       for (int k = 0; k < gdim; ++k)
       {
         double d = along[t] * plane.n[k];
         for (int a = 0; a < tdim; ++a)
           d += across[a][t] * plane.dual[a][k];
-        row[gdim * t + k] += d;
+        row[slave_dof(t) + k] += d;
       }
   }
 
@@ -170,11 +184,15 @@ private:
 
   static Local& at(Factors& f, int j) { return j < 0 ? f.c : f.r[j]; }
 
-  // Call add(int Phi_s N_j, reduce(grad N), j) in parts, once on flat facets
+  // First displacement of a node of the slave facet's part
+  int slave_dof(int t) const { return gdim * _pair.slave_places[t]; }
+
+  // Call add(int Phi_s n_j, reduce(grad N), j) in parts, once on flat facets;
+  // n_j are the shape functions of the master facet's part
   template <class Add, class Reduce>
   void moments(Add&& add, Reduce&& reduce) const
   {
-    if constexpr (S::flat and M::flat)
+    if constexpr (facet::is_linear<S> and P::flat and Q::flat)
     {
       const auto slope = reduce(mortar::InverseMap<M>(_r).at({}).slope);
       for (int j = 0; j < M::nodes; ++j)
@@ -186,30 +204,35 @@ private:
       }
     }
     else
-      mortar::integrate<M>(
-          _slave, _pair.master,
-          [&](const mortar::Shape<S>& s, const mortar::Shape<M>& m, double w)
+      mortar::integrate<S, M>(
+          _slave, _master,
+          [&](const mortar::Shape<P>& s, const mortar::Shape<Q>& m, double w)
           {
+            const auto basis = facet::Basis<S>::functions(
+                mortar::trace<S>(s, _pair.slave_places));
             Vector<S::nodes> phi{};
             for (int i = 0; i < S::nodes; ++i)
               for (int t = 0; t < S::nodes; ++t)
-                phi[i] += w * _pair.dual(i, t) * s.N[t];
-            const auto slope = reduce(m.slope);
-            for (int j = 0; j < M::nodes; ++j)
+                phi[i] += w * _pair.dual(i, t) * basis[t];
+            const auto slope
+                = reduce(mortar::trace_slope<M>(m, _pair.master_places));
+            for (int j = 0; j < Q::nodes; ++j)
               add(m.N[j] * phi, slope, j);
-            if constexpr (!S::flat)
+            if constexpr (!P::flat)
             {
-              const Local y = s.xi - mortar::plane_origin<S>();
+              const Local y = s.xi - mortar::plane_origin<P>();
               add((y[0] * y[1]) * phi, slope, distortion);
             }
           });
   }
 
   const MortarPair<S, M>& _pair;
-  mortar::SlaveFacet<S> _slave;
-  mortar::Flat<M> _r;
+  facet::Nodes<Q> _master;
+  mortar::SlaveFacet<P> _slave;
+  mortar::Flat<Q> _r;
   Vector<M::nodes> _height;
-  std::array<Vector<S::nodes>, tdim> _slope; // of the slave facet's centre
+  Vector<Q::nodes> _part_height;
+  std::array<Vector<P::nodes>, tdim> _slope; // of the slave part's centre
   std::array<Local, tdim> _metric{};
   Local _twist{};
   double _warp = 0;

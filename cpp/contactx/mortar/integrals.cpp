@@ -5,6 +5,8 @@
 #include "../facet/gather.h"
 #include "segment.h"
 #include "square.h"
+#include <algorithm>
+#include <numeric>
 
 using namespace contactx;
 using namespace contactx::mortar;
@@ -15,38 +17,46 @@ namespace
 template <class S>
 struct Cover
 {
-  Square<S::nodes> mass{}; ///< int N_s N_t
-  Vector<S::nodes> area{}; ///< int N_s
+  Square<S::nodes> mass{}; ///< int M_s M_t
   double total = 0;        ///< area
 };
 
-/// Add int N_t N_l and int N_t gap of a pair.
-template <class S, class M>
-void add_pair(const SlaveFacet<S>& slave, const facet::Nodes<S>& xs,
-              const facet::Nodes<M>& xm, Cover<S>& cover, double* weight,
-              double* gap)
+/// A part of a slave facet.
+template <class S>
+struct SlavePart
 {
-  Vector<S::nodes> low;
+  facet::Places<S> places;
+  SlaveFacet<facet::Part<S>> projected;
+  Vector<S::nodes> height; ///< of the nodes w of the basis, over its plane
+};
+
+/// Add int M_t N_l and int M_t gap of a pair, and int M_t.
+template <class S, class M>
+void add_pair(const SlavePart<S>& slave, const facet::Nodes<M>& xm,
+              const facet::Places<M>& places, int width, Cover<S>& cover,
+              double* area, double* weight, double* gap)
+{
   Vector<M::nodes> high;
-  for (int t = 0; t < S::nodes; ++t)
-    low[t] = slave.plane.height(xs[t]);
   for (int l = 0; l < M::nodes; ++l)
-    high[l] = slave.plane.height(xm[l]);
-  integrate<M>(slave, xm,
-               [&](const Shape<S>& s, const Shape<M>& m, double w)
-               {
-                 const double g = dot(m.N, high) - dot(s.N, low);
-                 cover.total += w;
-                 for (int t = 0; t < S::nodes; ++t)
-                 {
-                   const double wt = w * s.N[t];
-                   cover.area[t] += wt;
-                   cover.mass[t] = cover.mass[t] + wt * s.N;
-                   gap[t] += wt * g;
-                   for (int l = 0; l < M::nodes; ++l)
-                     weight[most_nodes * t + l] += wt * m.N[l];
-                 }
-               });
+    high[l] = slave.projected.plane.height(xm[l]);
+  integrate<S, M>(slave.projected, facet::part_of<M>(xm, places),
+                  [&](const auto& s, const auto& m, double w)
+                  {
+                    const auto basis
+                        = facet::Basis<S>::functions(trace<S>(s, slave.places));
+                    const auto N = trace<M>(m, places);
+                    const double g = dot(N, high) - dot(basis, slave.height);
+                    cover.total += w;
+                    for (int t = 0; t < S::nodes; ++t)
+                    {
+                      const double wt = w * basis[t];
+                      area[t] += wt;
+                      cover.mass[t] = cover.mass[t] + wt * basis;
+                      gap[t] += wt * g;
+                      for (int l = 0; l < M::nodes; ++l)
+                        weight[width * t + l] += wt * N[l];
+                    }
+                  });
 }
 
 /// Area of a facet, of a quadrilateral to first order.
@@ -72,9 +82,10 @@ Plane<S> plane_of(const facet::Nodes<S>& x, std::int32_t f,
 
 /// Rows combined with the coefficients of the dual functions.
 template <class S>
-void combine_rows(const Square<S::nodes>& dual, double* rows, int width)
+void combine_rows(const Square<S::nodes>& dual, double* rows, int width,
+                  int columns)
 {
-  for (int l = 0; l < width; ++l)
+  for (int l = 0; l < columns; ++l)
   {
     Vector<S::nodes> column{};
     for (int s = 0; s < S::nodes; ++s)
@@ -84,7 +95,142 @@ void combine_rows(const Square<S::nodes>& dual, double* rows, int width)
       rows[width * s + l] = column[s];
   }
 }
+
+template <class F>
+facet::Places<F> places_of(const facet::Wholes& wholes, std::int32_t part)
+{
+  facet::Places<F> places;
+  for (int j = 0; j < facet::Part<F>::nodes; ++j)
+    places[j] = wholes.places[4 * std::size_t(part) + j];
+  return places;
+}
+
+/// What is integrated: the arguments of `integrals`.
+struct Given
+{
+  const Side &slave, &master;
+  const FacetPairs& pairs;
+  std::span<const double> x, reference;
+  int gdim;
+  std::span<const double> normal, weight;
+};
+
+/// All pairs of a whole slave facet.
+/// @param[in] begin First pair of each slave facet, and the end.
+template <class S>
+void integrate_whole(const Given& given, std::span<const std::int32_t> parts,
+                     std::span<const std::size_t> begin, Integrals& all)
+{
+  using P = facet::Part<S>;
+  const facet::Wholes& wholes = *given.slave.wholes;
+  const std::size_t n = all.width;
+  const auto w = facet::gather<S>(wholes.of(parts[0]), given.x);
+  Cover<S> cover;
+  double whole = 0;
+  for (const std::int32_t f : parts)
+  {
+    const auto nodes = given.slave.facets[f];
+    const auto xs = facet::gather<P>(nodes, given.x);
+    const auto X = facet::gather<P>(nodes, given.reference);
+    auto factor = SlaveFacet<P>::ones();
+    if (not given.weight.empty())
+      std::copy_n(given.weight.begin() + given.slave.facets.offsets[f],
+                  P::nodes, factor.begin());
+    double mean = 0;
+    for (const double value : factor)
+      mean += value / P::nodes;
+    whole += mean * facet_area<P>(X);
+    if (begin[f] == begin[f + 1])
+      continue;
+    SlavePart<S> part{places_of<S>(wholes, f),
+                      {plane_of<P>(xs, f, given.normal), xs, X, factor},
+                      {}};
+    Vector<S::nodes> height;
+    for (int t = 0; t < S::nodes; ++t)
+      height[t] = part.projected.plane.height(w[t]);
+    for (int t = 0; t < S::nodes; ++t)
+      part.height[t] = facet::Basis<S>::template coefficient<double>(t, height);
+    for (int k = 0; k < given.gdim; ++k)
+      all.normal[3 * f + k] = -part.projected.plane.n[k];
+    for (std::size_t i = begin[f]; i < begin[f + 1]; ++i)
+    {
+      const std::int32_t m = given.pairs.master[i];
+      const auto others = given.master.wholes->of(m);
+      facet::visit_whole(
+          S::gdim, static_cast<int>(others.size()),
+          [&]<class M>(M)
+          {
+            if constexpr (M::gdim == S::gdim
+                          and facet::is_linear<M> == facet::is_linear<S>)
+              add_pair<S, M>(part, facet::gather<M>(others, given.x),
+                             places_of<M>(*given.master.wholes, m),
+                             static_cast<int>(n), cover, &all.area[n * f],
+                             &all.weight[i * n * n], &all.gap[i * n]);
+          });
+    }
+  }
+  Vector<S::nodes> area{};
+  for (const std::int32_t f : parts)
+    for (int s = 0; s < S::nodes; ++s)
+      area[s] += all.area[n * f + s];
+  Square<S::nodes> dual{};
+  const bool covered = cover.total > least_cover * whole
+                       and invert<S::nodes>(cover.mass, dual);
+  for (int s = 0; s < S::nodes; ++s)
+    dual[s] = (covered ? area[s] : 0) * dual[s];
+  for (const std::int32_t f : parts)
+  {
+    for (int s = 0; s < S::nodes; ++s)
+    {
+      if (not covered)
+        all.area[n * f + s] = 0;
+      std::copy(dual[s].begin(), dual[s].end(), &all.dual[n * n * f + n * s]);
+    }
+    for (std::size_t i = begin[f]; i < begin[f + 1]; ++i)
+    {
+      combine_rows<S>(dual, &all.weight[i * n * n], static_cast<int>(n),
+                      static_cast<int>(n));
+      combine_rows<S>(dual, &all.gap[i * n], 1, 1);
+    }
+  }
+}
 } // namespace
+
+Integrals contactx::mortar::integrals(const Side& slave, const Side& master,
+                                      const FacetPairs& pairs,
+                                      std::span<const double> x,
+                                      std::span<const double> reference,
+                                      int gdim, std::span<const double> normal,
+                                      std::span<const double> weight)
+{
+  const facet::Wholes& wholes = *slave.wholes;
+  Integrals all;
+  all.width = std::max(wholes.width, master.wholes->width);
+  const std::size_t n = all.width, count = slave.facets.size();
+  all.weight.assign(pairs.size() * n * n, 0);
+  all.gap.assign(pairs.size() * n, 0);
+  all.dual.assign(count * n * n, 0);
+  all.area.assign(count * n, 0);
+  all.normal.assign(count * 3, 0);
+  std::vector<std::size_t> begin(count + 1, 0);
+  for (const std::int32_t f : pairs.slave)
+    ++begin[f + 1];
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  const Given given{slave, master, pairs, x, reference, gdim, normal, weight};
+  for (std::int32_t k = 0; k < wholes.size(); ++k)
+  {
+    const std::span parts
+        = std::span(wholes.parts)
+              .subspan(wholes.offsets[k],
+                       wholes.offsets[k + 1] - wholes.offsets[k]);
+    if (std::ranges::all_of(parts, [&begin](std::int32_t f)
+                            { return begin[f] == begin[f + 1]; }))
+      continue;
+    facet::visit_whole(gdim, wholes.sizes[parts[0]], [&]<class S>(S)
+                       { integrate_whole<S>(given, parts, begin, all); });
+  }
+  return all;
+}
 
 Integrals contactx::mortar::integrals(const facet::FacetList& slave,
                                       const facet::FacetList& master,
@@ -94,71 +240,8 @@ Integrals contactx::mortar::integrals(const facet::FacetList& slave,
                                       int gdim, std::span<const double> normal,
                                       std::span<const double> weight)
 {
-  constexpr int n = most_nodes;
-  Integrals all;
-  all.weight.assign(pairs.size() * n * n, 0);
-  all.gap.assign(pairs.size() * n, 0);
-  all.dual.assign(static_cast<std::size_t>(slave.size()) * n * n, 0);
-  all.area.assign(static_cast<std::size_t>(slave.size()) * n, 0);
-  all.normal.assign(static_cast<std::size_t>(slave.size()) * 3, 0);
-  std::size_t first = 0;
-  while (first < pairs.size())
-  {
-    const std::int32_t f = pairs.slave[first];
-    std::size_t last = first;
-    while (last < pairs.size() and pairs.slave[last] == f)
-      ++last;
-    facet::visit(static_cast<int>(slave[f].size()),
-                 [&](auto kind)
-                 {
-                   using S = decltype(kind);
-                   const auto xs = facet::gather<S>(slave[f], x);
-                   const auto X = facet::gather<S>(slave[f], reference);
-                   auto factor = SlaveFacet<S>::ones();
-                   if (not weight.empty())
-                     std::copy_n(weight.begin() + slave.offsets[f], S::nodes,
-                                 factor.begin());
-                   const SlaveFacet<S> projected(plane_of<S>(xs, f, normal), xs,
-                                                 X, factor);
-                   for (int k = 0; k < gdim; ++k)
-                     all.normal[3 * f + k] = -projected.plane.n[k];
-                   Cover<S> cover;
-                   for (std::size_t i = first; i < last; ++i)
-                   {
-                     const auto nodes = master[pairs.master[i]];
-                     mortar::visit(S::nodes, static_cast<int>(nodes.size()),
-                                   [&](auto, auto other)
-                                   {
-                                     using M = decltype(other);
-                                     if constexpr (M::gdim == S::gdim)
-                                       add_pair<S, M>(
-                                           projected, xs,
-                                           facet::gather<M>(nodes, x), cover,
-                                           &all.weight[i * n * n],
-                                           &all.gap[i * n]);
-                                   });
-                   }
-                   Square<S::nodes> dual{};
-                   double mean = 0;
-                   for (const double w : factor)
-                     mean += w / S::nodes;
-                   const bool covered
-                       = cover.total > least_cover * mean * facet_area<S>(X)
-                         and invert<S::nodes>(cover.mass, dual);
-                   for (int s = 0; s < S::nodes; ++s)
-                   {
-                     dual[s] = (covered ? cover.area[s] : 0) * dual[s];
-                     all.area[n * f + s] = covered ? cover.area[s] : 0;
-                     std::copy(dual[s].begin(), dual[s].end(),
-                               &all.dual[n * n * f + n * s]);
-                   }
-                   for (std::size_t i = first; i < last; ++i)
-                   {
-                     combine_rows<S>(dual, &all.weight[i * n * n], n);
-                     combine_rows<S>(dual, &all.gap[i * n], 1);
-                   }
-                 });
-    first = last;
-  }
-  return all;
+  const facet::Wholes ours = facet::wholes(slave, {});
+  const facet::Wholes theirs = facet::wholes(master, {});
+  return integrals({slave, &ours}, {master, &theirs}, pairs, x, reference, gdim,
+                   normal, weight);
 }

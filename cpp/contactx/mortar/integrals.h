@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "../facet/nodal.h"
+#include "../facet/wholes.h"
 #include "../vec.h"
 #include <cstdint>
 #include <span>
@@ -23,27 +23,28 @@ struct FacetPairs
   bool operator==(const FacetPairs&) const = default;
 };
 
-/// Most nodes of a facet, the stride of arrays over facets' nodes
+/// Places for the nodes of a linear facet, the stride of arrays over them
 inline constexpr int most_nodes = 4;
 
 /// @brief Integrals of the dual basis functions of the slave facets over the
 /// parts that face master facets, by reference area.
 ///
-/// The dual functions Phi_s = sum_t a_st N_t of a slave facet are biorthogonal
-/// to its shape functions over all of its parts, int Phi_s N_t = delta_st
-/// area_s (B. I. Wohlmuth, SIAM J. Numer. Anal. 38, 2000; on facets that are
-/// partly covered: T. Cichosz and M. Bischoff, Comput. Methods Appl. Mech.
-/// Engrg. 200, 2011).
+/// The dual functions Phi_s = sum_t a_st M_t of a slave facet are biorthogonal
+/// to its basis M, see facet::Basis, over all of its parts, int Phi_s M_t =
+/// delta_st area_s (B. I. Wohlmuth, SIAM J. Numer. Anal. 38, 2000; on facets
+/// that are partly covered: T. Cichosz and M. Bischoff, Comput. Methods Appl.
+/// Mech. Engrg. 200, 2011).
 struct Integrals
 {
-  /// int Phi_s N_l of each pair (shape=(num_pairs, 4, 4))
+  int width = most_nodes; ///< places for a facet's nodes, n
+  /// int Phi_s N_l of each pair (shape=(num_pairs, n, n))
   std::vector<double> weight;
   /// int Phi_s gap of each pair, the gap measured along the direction of the
-  /// projection (shape=(num_pairs, 4))
+  /// projection (shape=(num_pairs, n))
   std::vector<double> gap;
-  /// Coefficients a_st of each slave facet (shape=(num_facets, 4, 4))
+  /// Coefficients a_st of each slave facet (shape=(num_facets, n, n))
   std::vector<double> dual;
-  /// int Phi_s = int N_s over the covered part (shape=(num_facets, 4))
+  /// int Phi_s = int M_s over the covered part (shape=(num_facets, n))
   std::vector<double> area;
   /// Unit normal of the master: against the direction that the slave facet is
   /// projected along (shape=(num_facets, 3))
@@ -53,7 +54,15 @@ struct Integrals
 /// Part of a slave facet that must be covered to count
 inline constexpr double least_cover = 1e-3;
 
-/// @brief Compute the integrals.
+/// @brief Facets of one side: linear ones, and those that they are parts of.
+struct Side
+{
+  facet::FacetList facets;     ///< what is paired
+  const facet::Wholes* wholes; ///< what they are parts of
+};
+
+/// @brief Compute the integrals. Those of parts are of the shape functions of
+/// the whole facets, in the order of their nodes.
 /// @param[in] slave Slave facets.
 /// @param[in] master Master facets.
 /// @param[in] pairs Pairs, ascending by slave facet. Those that share nothing
@@ -65,6 +74,13 @@ inline constexpr double least_cover = 1e-3;
 /// facet (shape=(num_facets, 3)); those against the slave facets' own if empty.
 /// @param[in] weight What is integrated with, at the corners of the slave
 /// facets (shape=(slave.nodes.size())); 1 if empty.
+Integrals integrals(const Side& slave, const Side& master,
+                    const FacetPairs& pairs, std::span<const double> x,
+                    std::span<const double> reference, int gdim,
+                    std::span<const double> normal = {},
+                    std::span<const double> weight = {});
+
+/// @brief The same of linear facets.
 Integrals integrals(const facet::FacetList& slave,
                     const facet::FacetList& master, const FacetPairs& pairs,
                     std::span<const double> x,

@@ -3,8 +3,8 @@
 
 #pragma once
 
-#include "inverse_map.h"
 #include "quadrature.h"
+#include "trace.h"
 
 namespace contactx::mortar
 {
@@ -79,14 +79,25 @@ struct SlaveFacet
   double bend = 0;
 };
 
+/// @brief Degree of the shape functions of a facet.
+template <class F>
+constexpr int shape_degree()
+{
+  if constexpr (facet::is_linear<F>)
+    return F::flat ? 1 : 2;
+  else
+    return F::degree;
+}
+
 /// @brief Degree of the rule: of the products of shape functions and the
 /// weight, and where facets are distorted what makes their inverse maps exact
 /// to rounding.
 template <class S, class M>
 int rule_degree(double distortion, bool is_weighted = false)
 {
-  const int degree = (S::flat ? 1 : 2) * (is_weighted ? 2 : 1)
-                     + std::max(S::flat ? 1 : 2, M::flat ? 1 : 2);
+  const int degree = shape_degree<S>()
+                     + std::max(shape_degree<S>(), shape_degree<M>())
+                     + (is_weighted ? shape_degree<facet::Part<S>>() : 0);
   if (not(distortion >= 1e-13))
     return degree;
   // The error falls by half the distortion with every degree
@@ -95,16 +106,20 @@ int rule_degree(double distortion, bool is_weighted = false)
          + static_cast<int>(digits / std::log(2 / std::min(distortion, 1.0)));
 }
 
-/// @brief Integrate over the part of a slave facet that faces a master facet,
-/// with the slave facet's reference area. A master facet that is folded or
-/// has no area shares nothing.
-/// @param[in] slave Slave facet.
-/// @param[in] master Nodes of the master facet.
-/// @param[in] f Called as f(slave's shape, master's shape, weight).
-template <class M, class S, class Function>
-void integrate(const SlaveFacet<S>& slave, const facet::Nodes<M>& master,
+/// @brief Integrate over what a part of a slave facet S and a part of a master
+/// facet M share, with the slave facet's reference area. A master facet that is
+/// folded or has no area shares nothing.
+/// @param[in] slave Part of the slave facet.
+/// @param[in] master Nodes of the part of the master facet.
+/// @param[in] f Called as f(slave's shape, master's shape, weight), the shapes
+/// being those of the parts.
+template <class SlaveWhole, class MasterWhole, class Function>
+void integrate(const SlaveFacet<facet::Part<SlaveWhole>>& slave,
+               const facet::Nodes<facet::Part<MasterWhole>>& master,
                Function&& f)
 {
+  using S = facet::Part<SlaveWhole>;
+  using M = facet::Part<MasterWhole>;
   const Flat<M> r = project<M>(slave.plane, master);
   if (!is_convex<M>(r))
     return;
@@ -114,8 +129,8 @@ void integrate(const SlaveFacet<S>& slave, const facet::Nodes<M>& master,
   const InverseMap<M> map(r);
   if (!map.exists())
     return;
-  const int degree = rule_degree<S, M>(std::max(slave.bend, map.distortion()),
-                                       slave.is_weighted);
+  const int degree = rule_degree<SlaveWhole, MasterWhole>(
+      std::max(slave.bend, map.distortion()), slave.is_weighted);
   integrate(overlap, degree,
             [&](const facet::Local<S>& p, double weight)
             {
@@ -129,13 +144,11 @@ void integrate(const SlaveFacet<S>& slave, const facet::Nodes<M>& master,
             });
 }
 
-/// @brief Call `f` with each kind of slave and master facet that can meet.
+/// @brief Call `f` with each kind of linear slave and master facet that can meet.
 template <class Function>
 void for_all_kinds(Function&& f)
 {
-  using facet::Quadrilateral;
-  using facet::Segment;
-  using facet::Triangle;
+  using namespace facet;
   f(Segment{}, Segment{});
   f(Triangle{}, Triangle{});
   f(Triangle{}, Quadrilateral{});
@@ -143,7 +156,21 @@ void for_all_kinds(Function&& f)
   f(Quadrilateral{}, Quadrilateral{});
 }
 
-/// @brief Call `f` with the facet types of so many nodes, of one dimension.
+/// @brief The same of facets that are linear or quadratic, both alike.
+template <class Function>
+void for_all_wholes(Function&& f)
+{
+  using namespace facet;
+  for_all_kinds(f);
+  f(QuadraticSegment{}, QuadraticSegment{});
+  f(QuadraticTriangle{}, QuadraticTriangle{});
+  f(QuadraticTriangle{}, BiquadraticQuadrilateral{});
+  f(BiquadraticQuadrilateral{}, QuadraticTriangle{});
+  f(BiquadraticQuadrilateral{}, BiquadraticQuadrilateral{});
+}
+
+/// @brief Call `f` with the linear facet types of so many nodes, of one
+/// dimension.
 template <class Function>
 decltype(auto) visit(int slave_nodes, int master_nodes, Function&& f)
 {

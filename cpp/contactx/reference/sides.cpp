@@ -123,7 +123,8 @@ std::shared_ptr<contact::DeformableMaster> contactx::reference::make_master(
       options.search_distance
           ? *options.search_distance
           : default_reach(*halo, slaves->facets(), master.facets),
-      options.sliding == contact::Sliding::small, law.is_vector()};
+      options.sliding == contact::Sliding::small, law.is_vector(),
+      options.level};
   const facet::Facets own
       = search::in_order(*halo, master.facets.offsets, master.facets.nodes);
   const auto surface

@@ -27,6 +27,9 @@ struct MasterOptions
   /// Largest distance of a pair. If there is none it is the diameter of the
   /// larger surface, and unlimited for an obstacle
   std::optional<double> search_distance;
+  /// Where each node of this rank is on quadratic facets, see facet::Shares;
+  /// empty where the displacement is linear
+  std::vector<std::int8_t> level = {};
 };
 
 /// @brief Slave nodes of a surface; all ranks must take part.

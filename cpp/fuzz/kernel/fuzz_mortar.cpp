@@ -18,7 +18,7 @@ std::vector<const Entry*> kernels()
 {
   std::vector<const Entry*> all;
   for (const Entry& e : kernel::registry())
-    if (e.num_slaves > 1)
+    if (e.num_slaves > 1 and e.num_slaves <= e.gdim + (e.gdim == 3))
       all.push_back(&e);
   return all;
 }

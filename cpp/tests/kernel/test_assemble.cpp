@@ -318,9 +318,9 @@ TEST(KernelAssembly, RefusesArgumentsThatDoNotFit)
   expect_refusal([](Scene& s, Values&) { s.pairs.slip.clear(); },
                  "pairs.slip must have 54 values, 6 for each pair", "slip");
   expect_refusal([](Scene& s, Values&) { s.pairs.num_slaves = 0; },
-                 "pairs.num_slaves must be from 1 to 4");
-  expect_refusal([](Scene& s, Values&) { s.pairs.num_nodes = 5; },
-                 "pairs.num_nodes must be from 0 to 4");
+                 "pairs.num_slaves must be from 1 to 9");
+  expect_refusal([](Scene& s, Values&) { s.pairs.num_nodes = 10; },
+                 "pairs.num_nodes must be from 0 to 9");
   expect_refusal([](Scene& s, Values&) { s.area.clear(); },
                  "rows of area, of which there are 0");
   expect_refusal([](Scene& s, Values&) { s.position.pop_back(); },

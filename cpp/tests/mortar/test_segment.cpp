@@ -22,16 +22,16 @@ struct Sums
 
   Sums(const SlaveFacet<S>& slave, const Nodes<M>& xm)
   {
-    integrate<M>(slave, xm,
-                 [this](const Shape<S>& s, const Shape<M>& m, double w)
-                 {
-                   total += w;
-                   for (int t = 0; t < S::nodes; ++t)
-                   {
-                     mixed[t] = mixed[t] + (w * s.N[t]) * m.N;
-                     mass[t] = mass[t] + (w * s.N[t]) * s.N;
-                   }
-                 });
+    integrate<S, M>(slave, xm,
+                    [this](const Shape<S>& s, const Shape<M>& m, double w)
+                    {
+                      total += w;
+                      for (int t = 0; t < S::nodes; ++t)
+                      {
+                        mixed[t] = mixed[t] + (w * s.N[t]) * m.N;
+                        mass[t] = mass[t] + (w * s.N[t]) * s.N;
+                      }
+                    });
   }
 };
 

@@ -103,10 +103,10 @@ ROWS = [
         r"u has values of shape \(3,\), but",
     ),
     Row(
-        "u: quadratic",
-        with_("u", lambda b: fem.Function(space(b, "Lagrange", 2, (2,)))),
+        "u: cubic",
+        with_("u", lambda b: fem.Function(space(b, "Lagrange", 3, (2,)))),
         ValueError,
-        f"u is of degree 2; {WANTED}",
+        f"u is of degree 3; {WANTED}",
     ),
     Row(
         "u: of edges, with values of the right shape",

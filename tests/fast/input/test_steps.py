@@ -219,7 +219,7 @@ ROWS = [
         "fields: quadratic",
         output(lambda b, c: {"fields": [quadratic(b)]}),
         ValueError,
-        r"fields\[0\] is of .*: interpolate it into a linear Lagrange space",
+        r"fields\[0\] is of .*: interpolate it into a Lagrange space of u's degree",
     ),
     Row("t: a text", output(lambda b, c: {"t": "0"}), TypeError, "t is str '0': give a number"),
     Row("t: NaN", output(lambda b, c: {"t": np.nan}), ValueError, "t is nan: give a finite number"),

@@ -276,8 +276,8 @@ def test_what_does_not_fit_is_refused():
     refused(r"F\[0\] has an argument|no residual depends on u\[0\]", u=[loose, u])
     refused("J has 1 rows, but u has 2", J=[[None, None]])
     refused(r"J\[0\] must be a list with a form", TypeError, J=[None, None])
-    quadratic = fem.Function(fem.functionspace(domain, ("Lagrange", 2, (2,))))
-    refused("contact needs degree 1 on the surface", u=[p, quadratic])
+    cubic = fem.Function(fem.functionspace(domain, ("Lagrange", 3, (2,))))
+    refused("contact needs degree 1 or 2 on the surface", u=[p, cubic])
     refused("displacement=0 is for a mixed space or a list", F=scene.F[0], u=p, displacement=0)
 
 

@@ -215,9 +215,9 @@ def test_laws_of_other_multipliers():
 
 
 def test_sizes_of_layouts():
-    with pytest.raises(ValueError, match="num_nodes must be from 0 to 4, not -1"):
+    with pytest.raises(ValueError, match="num_nodes must be from 0 to 9, not -1"):
         core.coefficients("tied", -1, 3)
-    with pytest.raises(ValueError, match="num_slaves must be from 1 to 4, not 2147483647"):
+    with pytest.raises(ValueError, match="num_slaves must be from 1 to 9, not 2147483647"):
         core.mortar_layout(2**31 - 1, 3)
     with pytest.raises(ValueError, match="num_nodes must be from 2 to 4, not 5"):
         core.shape_functions(5, np.zeros((1, 2)))

@@ -1,0 +1,146 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Quadratic displacements by both methods."""
+
+from __future__ import annotations
+
+from petsc4py import PETSc
+
+import numpy as np
+import pytest
+
+import contactx as cx
+from dolfinx import fem
+from dolfinx.mesh import CellType
+
+import meshes
+import story
+from meshes import Tag
+from patch_scene import Patch, Shape
+from scenes.blocks import CELLS, PLANE
+
+METHODS = ("node-to-surface", "surface-to-surface")
+LAWS = {
+    "frictionless": {},
+    "friction": {"friction": 0.3},
+    "tied": {"tied": True},
+    "small": {"friction": 0.3, "sliding": "small"},
+}
+
+
+@pytest.mark.parametrize("cell", CELLS)
+@pytest.mark.parametrize("options", LAWS.values(), ids=LAWS)
+def test_pressure_is_uniform_on_meshes_that_do_not_match(cell, options):
+    for slave in ("upper", "lower"):
+        shape = Shape(cell, upper=3, lower=2, distortion=0.0)
+        patch = Patch(shape, degree=2, slave=slave, method="surface-to-surface", **options)
+        patch.problem.solve()
+        assert patch.pressure_errors().max() < 1e-9
+        assert patch.stress_errors().max() < 1e-9
+        pressure = patch.contact.pressure.x.array[patch.contact.slave_nodes]
+        assert pressure == pytest.approx(patch.pressure, rel=1e-9)
+
+
+@pytest.mark.parametrize("cell", CELLS)
+@pytest.mark.parametrize("options", [{}, {"tied": True}], ids=("free", "tied"))
+def test_it_is_so_on_distorted_facets(cell, options):
+    shape = Shape(cell, upper=3, lower=4, distortion=0.15)
+    patch = Patch(
+        shape, degree=2, young=(1.0, 0.4), lateral=0.3, method="surface-to-surface", **options
+    )
+    patch.problem.solve()
+    # Inverse maps of quadrilaterals are no polynomials
+    tolerance = 1e-7 if cell == CellType.hexahedron else 1e-9
+    assert patch.pressure_errors().max() < tolerance
+    assert patch.stress_errors().max() < tolerance
+
+
+@pytest.mark.parametrize("cell", CELLS)
+@pytest.mark.parametrize("options", LAWS.values(), ids=LAWS)
+def test_nodes_on_equal_meshes_carry_what_is_uniform(cell, options):
+    patch = Patch(Shape(cell, upper=3, lower=3, distortion=0.0), degree=2, **options)
+    patch.problem.solve()
+    closed = patch.contact.interface.nodes.closed
+    assert patch.pressure_errors()[closed].max() < 1e-9
+    assert patch.stress_errors().max() < 1e-9
+    # Vertices of triangles of six nodes take no force, but have a pressure
+    assert closed.all() == (cell != CellType.tetrahedron)
+    slaves = patch.contact.slave_nodes
+    assert patch.contact.pressure.x.array[slaves] == pytest.approx(patch.pressure, rel=1e-9)
+    traction = patch.contact.traction.x.array.reshape(-1, patch.shape.dim)[slaves]
+    assert traction[:, -1] == pytest.approx(patch.pressure, rel=1e-9)
+    assert np.abs(patch.contact.gap.x.array[slaves]).max() < 1e-12
+    assert patch.contact.status.x.array[slaves].min() >= 1
+    assert patch.contact.area @ np.full(len(slaves), patch.pressure) == pytest.approx(
+        patch.contact.force[-1], rel=1e-6
+    )
+
+
+def blocks(cell: CellType, **options) -> tuple[cx.ContactAssembler, cx.Contact, fem.Function]:
+    """A block on a wider one, which is pushed down and sideways."""
+    dim = 2 if cell in PLANE else 3
+    data = meshes.blocks(
+        cell, (2,) * dim, (3,) * dim, size_lower=(1.5,) * (dim - 1) + (1.0,), shift=(0.23,) * (dim - 1)
+    )  # fmt: skip
+    tags = data.facet_tags
+    u = story.displacement(data.mesh, 2)
+    down = [0.02] * (dim - 1) + [-0.05]
+    bcs = [story.fix(u, tags, i, 0.0, Tag.LOWER_BOTTOM) for i in range(dim)]
+    bcs += [story.fix(u, tags, i, down[i], Tag.UPPER_TOP) for i in range(dim)]
+    contact = cx.Contact(
+        cx.Surface(tags, Tag.UPPER_CONTACT), cx.Surface(tags, Tag.LOWER_CONTACT), **options
+    )
+    F = story.elasticity(u, 1.0, 0.3)
+    return cx.ContactAssembler(F, u, contacts=[contact], bcs=bcs), contact, u
+
+
+@pytest.mark.parametrize("cell", CELLS)
+@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("options", LAWS.values(), ids=LAWS)
+def test_jacobians_are_derivatives(cell, method, options):
+    assembler, contact, u = blocks(cell, method=method, **options)
+    b, dx = assembler.create_vector(), assembler.create_vector()
+    ksp = PETSc.KSP().create()
+    ksp.setType("preonly")
+    ksp.getPC().setType("lu")
+    ksp.getPC().setFactorSolverType("mumps")
+    A = None
+    assembler.begin_step()
+    for _ in range(3):
+        assembler.settle()
+        assembler.residual(b)
+        A = assembler.jacobian(A)
+        ksp.setOperators(A)
+        ksp.solve(b, dx)
+        assembler.update(-dx)
+    assert (contact.interface.nodes.status > 0).sum() > 3
+
+    rng = np.random.default_rng(1)
+    n = len(u.x.array)
+
+    def by(way: np.ndarray) -> np.ndarray:
+        """Residual after a way; the state is what it was."""
+        dx.array[:] = way
+        assembler.update(dx)
+        assembler.residual(b)
+        found = b.array.copy()
+        dx.array[:] = -way
+        assembler.update(dx)
+        return found
+
+    by_noise = 1e-3 * rng.standard_normal(dx.getLocalSize())
+    dx.array[:] = by_noise
+    assembler.update(dx)
+    assembler.settle()
+    A = assembler.jacobian(A)
+    way, step = rng.standard_normal(dx.getLocalSize()), 3e-7
+    way[n:] *= 0.05
+    numbers = (by(step * way) - by(-step * way)) / (2 * step)
+    dx.array[:] = way
+    product = b.duplicate()
+    A.mult(dx, product)
+    # The direction of a short slip is far from linear
+    tolerance = 1e-6 if "friction" in options and cell not in PLANE else 1e-8
+    for rows in (slice(0, n), slice(n, None)):
+        error = np.abs(numbers - product.array)[rows].max()
+        assert error < tolerance * np.abs(product.array[rows]).max()
