@@ -61,7 +61,7 @@ void contactx_bindings::reference(py::module_& m)
                                       search_distance, copy(level)};
                }),
            py::kw_only(), py::arg("is_mortar"), py::arg("is_small"),
-           py::arg("search_distance"), py::arg("level"));
+           py::arg("search_distance"), py::arg("level") = Array<std::int8_t>());
   m.def(
       "make_surface_master",
       [](const Mesh& mesh, const std::shared_ptr<SlaveNodes>& slaves,

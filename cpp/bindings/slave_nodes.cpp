@@ -31,12 +31,14 @@ void contactx_bindings::slave_nodes(py::module_& m)
       .def(py::init(
                [](const std::shared_ptr<Halo>& halo,
                   const Array<std::int32_t>& offsets,
-                  const Array<std::int32_t>& nodes)
+                  const Array<std::int32_t>& nodes,
+                  const Array<std::int8_t>& level)
                {
                  return contactx::reference::make_slave_nodes(
-                     halo, {view(offsets), view(nodes)});
+                     halo, {view(offsets), view(nodes)}, view(level));
                }),
-           py::arg("halo"), py::arg("offsets"), py::arg("nodes"))
+           py::arg("halo"), py::arg("offsets"), py::arg("nodes"),
+           py::arg("level") = Array<std::int8_t>())
       .def(
           "set_weight", [](SlaveNodes& self, const Array<double>& weight)
           { self.set_weight(view(weight)); }, py::arg("weight"))

@@ -163,14 +163,10 @@ class Contact:
             )
         V = bodies.V
         facets = self.slave.facet_nodes(V)
-        slaves = core.SlaveNodes(halo.nodes, facets.offsets, facets.nodes)
+        level = node_levels(V)
+        slaves = core.SlaveNodes(halo.nodes, facets.offsets, facets.nodes, level)
         if degree_of(V) > 1:
-            if self._is_mortar(V) and halo.comm.size > 1:
-                raise ValueError(
-                    "method is surface-to-surface, which of a displacement of degree 2 runs on one "
-                    "rank alone: take node-to-surface, or one rank"
-                )
-            slaves.set_level(node_levels(V)[slaves.owned], self._is_mortar(V))
+            slaves.set_level(level[slaves.owned], self._is_mortar(V))
         if self.is_weighted:
             slaves.set_weight(nodal_weight(self.weight, V, slaves.owned))
         with agreed(halo.comm):
@@ -223,7 +219,7 @@ class Contact:
             is_mortar=self._is_mortar(bodies.V),
             is_small=self.sliding == "small",
             search_distance=self.search_distance,
-            level=node_levels(bodies.V)[: halo.num_bulk if degree_of(bodies.V) > 1 else 0],
+            level=node_levels(bodies.V),
         )
         name = str(self.slave)
         if isinstance(self.master, Obstacle):

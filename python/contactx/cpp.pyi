@@ -413,7 +413,11 @@ class Master:
 
 class SlaveNodes:
     def __init__(
-        self, halo: Halo, offsets: NDArray[np.int32], nodes: NDArray[np.int32]
+        self,
+        halo: Halo,
+        offsets: NDArray[np.int32],
+        nodes: NDArray[np.int32],
+        level: NDArray[np.int8] = ...,
     ) -> None: ...
     def set_weight(self, weight: NDArray[np.float64]) -> None: ...
     def set_level(self, level: NDArray[np.int8], is_mortar: bool) -> None: ...
@@ -795,7 +799,7 @@ class MasterOptions:
         is_mortar: bool,
         is_small: bool,
         search_distance: float | None,
-        level: NDArray[np.int8],
+        level: NDArray[np.int8] = ...,
     ) -> None: ...
 
 def point_text(x: NDArray[np.float64] | Sequence[float], size: float) -> str: ...

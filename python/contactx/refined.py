@@ -103,7 +103,10 @@ def _dofs_of_parts(
     if degree == 1:
         return np.array([corners])
     number = {tuple(sorted(v)): dof for dof, v in enumerate(_entities(cell, degree))}
-    return np.array([[number[tuple(sorted(v))] for v in part] for part in _parts(of, corners)])
+    parts: npt.NDArray[np.int64] = np.array(
+        [[number[tuple(sorted(v))] for v in part] for part in _parts(of, corners)]
+    )
+    return parts
 
 
 def linear_cells(V: fem.FunctionSpace) -> Int32:
@@ -118,7 +121,7 @@ def linear_cells(V: fem.FunctionSpace) -> Int32:
     """
     degree = degree_of(V)
     if degree == 1:
-        return V.dofmap.list
+        return np.asarray(V.dofmap.list)
     cell = V.mesh.basix_cell()
     corners = tuple(range(len(basix.geometry(cell))))
     parts = _dofs_of_parts(cell, corners, cell, degree)
@@ -149,14 +152,16 @@ def facet_parts(V: fem.FunctionSpace, facet: int, is_swapped: bool) -> npt.NDArr
 
 
 def node_levels(V: fem.FunctionSpace) -> npt.NDArray[np.int8]:
-    """Dimension of the entity that each node is on: 0 at vertices, 1 on edges, 2 elsewhere.
+    """Dimension of the entity that nodes of degree 2 are on: 0 vertices, 1 edges, 2 elsewhere.
 
     Args:
         V: Lagrange space of degree 1 or 2.
 
     Returns:
-        Levels of owned nodes, then of ghosts, shape (num_nodes,).
+        Levels of owned nodes, then of ghosts, shape (num_nodes,); of degree 1 none.
     """
+    if degree_of(V) == 1:
+        return np.zeros(0, dtype=np.int8)
     levels = np.zeros(_num_nodes(V), dtype=np.int8)
     level = {1: 0, 2: 1}
     for dof, vertices in enumerate(_entities(V.mesh.basix_cell(), degree_of(V))):

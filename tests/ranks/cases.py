@@ -14,13 +14,21 @@ from ranks import (
     partitions,
     scenes_coupled,
     scenes_elastic,
+    scenes_quadratic,
     scenes_rigid,
     scenes_rubbing,
     scenes_several,
 )
 
 METHODS = {"node": "node-to-surface", "surface": "surface-to-surface"}
-_MODULES = (scenes_elastic, scenes_rubbing, scenes_rigid, scenes_several, scenes_coupled)
+_MODULES = (
+    scenes_elastic,
+    scenes_rubbing,
+    scenes_rigid,
+    scenes_several,
+    scenes_coupled,
+    scenes_quadratic,
+)
 
 # Functions that yield the problem after each step
 SCENES: dict[str, Callable[[], Iterator[cx.ContactProblem]]] = {

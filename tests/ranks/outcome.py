@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 import contactx as cx
+from contactx.refined import original_nodes
 from dolfinx import fem
 
 type Array = npt.NDArray[Any]
@@ -70,11 +71,7 @@ def owned(function: fem.Function) -> Array:
 def in_order(function: fem.Function) -> Array:
     """Nodal values on rank 0 in the order of the mesh as it was made (collective)."""
     V = function.function_space
-    geometry, dofs, comm = V.mesh.geometry, V.dofmap.list, V.mesh.comm
-    original = np.full(V.dofmap.index_map.size_local + V.dofmap.index_map.num_ghosts, -1)
-    # Vertices come first in the geometry of a cell
-    vertices = geometry.dofmaps[0][:, : dofs.shape[1]]
-    original[dofs.ravel()] = geometry.input_global_indices[vertices.ravel()]
+    comm, original = V.mesh.comm, original_nodes(V)
     values = owned(function)
     parts = comm.gather((original[: len(values)], values))
     if comm.rank != 0:

@@ -42,6 +42,7 @@ class Blocks:
         gap: float = 0.0,
         n_upper: int = 2,
         n_lower: int = 3,
+        degree: int = 1,
     ):
         gdim = dimension(cell_type)
         data = meshes.blocks(
@@ -53,7 +54,7 @@ class Blocks:
             gap=gap,
         )
         self.tags = data.facet_tags
-        self.u = displacement(data.mesh)
+        self.u = displacement(data.mesh, degree)
         self.F = elasticity(self.u, 1.0, NU)
         self.bcs = [
             *(fix(self.u, self.tags, i, 0.0, Tag.LOWER_BOTTOM) for i in range(gdim)),

@@ -67,7 +67,15 @@ void SurfaceToSurface::meet()
                 theirs = facet::copied(_surface->facets());
   _search.emplace(std::move(ours.offsets), std::move(ours.nodes),
                   std::move(theirs.offsets), std::move(theirs.nodes), gdim());
-  _sides.meet(_surface->facets(), _options.level);
+  std::vector<std::int8_t> level;
+  if (_slaves->is_quadratic())
+  {
+    std::vector<std::int64_t> every(_halo->num_nodes(), 0);
+    std::copy_n(_options.level.begin(), _halo->num_owned(), every.begin());
+    _halo->forward(std::span<std::int64_t>(every), 1);
+    level.assign(every.begin(), every.end());
+  }
+  _sides.meet(_surface->facets(), level);
 }
 
 std::int32_t SurfaceToSurface::search(std::span<const double> x,
@@ -229,6 +237,10 @@ void SurfaceToSurface::rebuild()
   std::vector<std::int32_t> used(_mortar.master);
   const auto of_slip = _slip.masters();
   used.insert(used.end(), of_slip.begin(), of_slip.end());
+  // All parts of quadratic facets
+  for (const std::int32_t f : std::vector(used))
+    for (const std::int32_t part : _sides.master_wholes().parts_of(f))
+      used.push_back(part);
   used = search::sorted_unique(used);
   std::vector<std::int32_t> numbers(_surface->facets().size() + 1, 0);
   const std::vector<std::int32_t> kept = _surface->keep(used);

@@ -32,6 +32,13 @@ struct Wholes
     return std::span(nodes).subspan(std::size_t(part) * width, sizes[part]);
   }
 
+  /// @brief Parts of the whole of a part, itself included.
+  std::span<const std::int32_t> parts_of(std::int32_t part) const
+  {
+    const std::int32_t first = offsets[number[part]];
+    return std::span(parts).subspan(first, offsets[number[part] + 1] - first);
+  }
+
   /// @brief Nodes of the whole of a part in all places.
   std::span<const std::int32_t> row(std::int32_t part) const
   {

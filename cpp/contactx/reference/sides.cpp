@@ -86,14 +86,15 @@ double contactx::reference::default_reach(const parallel::Halo& halo,
 }
 
 std::shared_ptr<contact::SlaveNodes> contactx::reference::make_slave_nodes(
-    const std::shared_ptr<parallel::Halo>& halo, const facet::FacetList& facets)
+    const std::shared_ptr<parallel::Halo>& halo, const facet::FacetList& facets,
+    std::span<const std::int8_t> level)
 {
   check::require(halo != nullptr, "halo must not be empty");
   halo->ranks().agree([&] { check_facet_list(*halo, facets, ""); });
   const facet::Facets own
       = search::in_order(*halo, facets.offsets, facets.nodes);
   const facet::Facets around
-      = search::slave_facets(*halo, own.offsets, own.nodes);
+      = search::slave_facets(*halo, own.offsets, own.nodes, level);
   return std::make_shared<contact::SlaveNodes>(halo, around.list(), own.list());
 }
 
@@ -127,8 +128,8 @@ std::shared_ptr<contact::DeformableMaster> contactx::reference::make_master(
       options.level};
   const facet::Facets own
       = search::in_order(*halo, master.facets.offsets, master.facets.nodes);
-  const auto surface
-      = search::make_master_surface(halo, own.offsets, own.nodes);
+  const auto surface = search::make_master_surface(halo, own.offsets, own.nodes,
+                                                   options.level);
   const auto outside
       = std::make_shared<search::Outside>(halo, own.offsets, own.nodes);
   const auto made

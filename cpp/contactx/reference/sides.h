@@ -36,11 +36,14 @@ struct MasterOptions
 /// @param[in,out] halo Nodes of this rank, to which those of facets around its
 /// own are added for good.
 /// @param[in] facets Facets of this rank's cells, each on one rank alone.
+/// @param[in] level Where the bulk's nodes are on quadratic facets that these
+/// are parts of, see facet::Shares; empty where the displacement is linear.
 /// @throws std::invalid_argument on all ranks if the facets of one are none of
 /// its nodes.
 std::shared_ptr<contact::SlaveNodes>
 make_slave_nodes(const std::shared_ptr<parallel::Halo>& halo,
-                 const facet::FacetList& facets);
+                 const facet::FacetList& facets,
+                 std::span<const std::int8_t> level = {});
 
 /// @brief Make the master side of a contact with a deformable body, without
 /// pairs yet; all ranks must take part.

@@ -119,9 +119,11 @@ private:
 };
 
 DistributedSurface::DistributedSurface(std::shared_ptr<parallel::Halo> halo,
-                                       facet::Facets own)
+                                       facet::Facets own,
+                                       std::span<const std::int8_t> level)
     : DistributedSurface(halo, Parts(*halo, own))
 {
+  _own_wholes = facet::wholes(this->own(), level);
 }
 
 DistributedSurface::DistributedSurface(std::shared_ptr<parallel::Halo> halo,
@@ -396,7 +398,11 @@ void DistributedSurface::look(std::span<const double> x,
   for (auto& [rank, masters] : found)
   {
     FacetRecords records;
-    for (const std::int32_t f : sorted_unique(masters))
+    std::vector<std::int32_t> whole;
+    for (const std::int32_t f : masters)
+      for (const std::int32_t part : _own_wholes.parts_of(f))
+        whole.push_back(part);
+    for (const std::int32_t f : sorted_unique(whole))
       records.push_back(_own_records[f]);
     parallel::pack<FacetRecord>(answers[rank], records);
   }

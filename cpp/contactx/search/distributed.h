@@ -21,7 +21,9 @@ public:
   /// added to the halo for good; all ranks must take part.
   /// @param[in] halo Nodes of this rank.
   /// @param[in] own Facets of the surface that this rank has.
-  DistributedSurface(std::shared_ptr<parallel::Halo> halo, facet::Facets own);
+  /// @param[in] level See make_master_surface.
+  DistributedSurface(std::shared_ptr<parallel::Halo> halo, facet::Facets own,
+                     std::span<const std::int8_t> level = {});
 
   Found find(std::span<const double> x, std::span<const double> points,
              std::span<const double> normals, double reach) override;
@@ -58,6 +60,7 @@ private:
   void set_known(FacetRecords known);
 
   FacetRecords _own_records, _around_records, _known;
+  facet::Wholes _own_wholes;
   std::vector<std::int8_t> _is_own;        // of those around
   std::map<FacetKey, std::int32_t> _place; // in _known
 };

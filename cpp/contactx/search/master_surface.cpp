@@ -149,14 +149,14 @@ MasterSurface::named(std::span<const std::int64_t> names)
   return which;
 }
 
-std::shared_ptr<MasterSurface>
-contactx::search::make_master_surface(std::shared_ptr<parallel::Halo> halo,
-                                      std::span<const std::int32_t> offsets,
-                                      std::span<const std::int32_t> nodes)
+std::shared_ptr<MasterSurface> contactx::search::make_master_surface(
+    std::shared_ptr<parallel::Halo> halo, std::span<const std::int32_t> offsets,
+    std::span<const std::int32_t> nodes, std::span<const std::int8_t> level)
 {
   facet::Facets own{{offsets.begin(), offsets.end()},
                     {nodes.begin(), nodes.end()}};
   if (halo->ranks().size() == 1)
     return std::make_shared<MasterSurface>(std::move(halo), std::move(own));
-  return std::make_shared<DistributedSurface>(std::move(halo), std::move(own));
+  return std::make_shared<DistributedSurface>(std::move(halo), std::move(own),
+                                              level);
 }

@@ -122,8 +122,11 @@ private:
 /// @param[in] halo Nodes of this rank.
 /// @param[in] offsets First node of each facet that this rank has, and end.
 /// @param[in] nodes Nodes of these facets.
+/// @param[in] level Where nodes are on quadratic facets that these are parts
+/// of, see facet::Shares: `look` gives all parts of one then; empty otherwise.
 std::shared_ptr<MasterSurface>
 make_master_surface(std::shared_ptr<parallel::Halo> halo,
                     std::span<const std::int32_t> offsets,
-                    std::span<const std::int32_t> nodes);
+                    std::span<const std::int32_t> nodes,
+                    std::span<const std::int8_t> level = {});
 } // namespace contactx::search

@@ -118,16 +118,30 @@ facet::Facets contactx::search::here(const FacetRecords& facets,
 
 std::map<int, FacetRecords>
 contactx::search::around_nodes(parallel::Ranks& ranks,
-                               const FacetRecords& facets)
+                               const FacetRecords& facets,
+                               const facet::Wholes* wholes)
 {
   std::map<int, FacetRecords> out;
-  for (const FacetRecord& facet : facets)
-    for (int l = 0; l < facet.size(); ++l)
+  std::vector<std::int32_t> owners;
+  for (std::size_t f = 0; f < facets.size(); ++f)
+  {
+    owners.clear();
+    const auto add = [&owners](const FacetRecord& facet)
     {
-      const auto before = std::span(facet.owners).first(l);
-      if (std::ranges::find(before, facet.owners[l]) == before.end())
-        out[facet.owners[l]].push_back(facet);
-    }
+      owners.insert(owners.end(), facet.owners.begin(),
+                    facet.owners.begin() + facet.size());
+    };
+    if (wholes)
+      for (const std::int32_t part :
+           wholes->parts_of(static_cast<std::int32_t>(f)))
+        add(facets[part]);
+    else
+      add(facets[f]);
+    std::ranges::sort(owners);
+    owners.erase(std::unique(owners.begin(), owners.end()), owners.end());
+    for (const std::int32_t owner : owners)
+      out[owner].push_back(facets[f]);
+  }
   return exchanged(ranks, out);
 }
 

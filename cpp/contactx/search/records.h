@@ -4,6 +4,7 @@
 #pragma once
 
 #include "../facet/facets.h"
+#include "../facet/wholes.h"
 #include "../parallel/halo.h"
 #include <array>
 #include <limits>
@@ -69,8 +70,11 @@ facet::Facets here(const FacetRecords& facets, const parallel::Halo& halo);
 /// all ranks must take part.
 /// @param[in] ranks The ranks.
 /// @param[in] facets Facets that this rank has.
+/// @param[in] wholes What these are parts of, which count as one; null if each
+/// is one.
 std::map<int, FacetRecords> around_nodes(parallel::Ranks& ranks,
-                                         const FacetRecords& facets);
+                                         const FacetRecords& facets,
+                                         const facet::Wholes* wholes = nullptr);
 
 /// @brief Facets that share a node with those of this rank, which are among
 /// them, each once and in the order of their keys; all ranks must take part.

@@ -8,16 +8,16 @@
 using namespace contactx;
 using namespace contactx::search;
 
-facet::Facets
-contactx::search::slave_facets(parallel::Halo& halo,
-                               std::span<const std::int32_t> offsets,
-                               std::span<const std::int32_t> nodes)
+facet::Facets contactx::search::slave_facets(
+    parallel::Halo& halo, std::span<const std::int32_t> offsets,
+    std::span<const std::int32_t> nodes, std::span<const std::int8_t> level)
 {
   if (halo.ranks().size() == 1)
     return {{offsets.begin(), offsets.end()}, {nodes.begin(), nodes.end()}};
   FacetRecords every;
+  const facet::Wholes wholes = facet::wholes({offsets, nodes}, level);
   for (const auto& [rank, theirs] :
-       around_nodes(halo.ranks(), records({offsets, nodes}, halo)))
+       around_nodes(halo.ranks(), records({offsets, nodes}, halo), &wholes))
     every.insert(every.end(), theirs.begin(), theirs.end());
   every = joined(std::move(every));
   add_to(halo, every, true);

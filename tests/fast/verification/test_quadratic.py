@@ -79,9 +79,8 @@ def test_nodes_on_equal_meshes_carry_what_is_uniform(cell, options):
 def blocks(cell: CellType, **options) -> tuple[cx.ContactAssembler, cx.Contact, fem.Function]:
     """A block on a wider one, which is pushed down and sideways."""
     dim = 2 if cell in PLANE else 3
-    data = meshes.blocks(
-        cell, (2,) * dim, (3,) * dim, size_lower=(1.5,) * (dim - 1) + (1.0,), shift=(0.23,) * (dim - 1)
-    )  # fmt: skip
+    wide, shift = (1.5,) * (dim - 1) + (1.0,), (0.23,) * (dim - 1)
+    data = meshes.blocks(cell, (2,) * dim, (3,) * dim, size_lower=wide, shift=shift)
     tags = data.facet_tags
     u = story.displacement(data.mesh, 2)
     down = [0.02] * (dim - 1) + [-0.05]
