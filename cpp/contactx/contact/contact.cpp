@@ -247,10 +247,9 @@ void Contact::leave_out_empty()
   _filler.assign(_touched.size(), 0);
   if (not _slaves->is_quadratic())
     return;
-  const std::vector<double> area = _slaves->sums(
-      facet::corner_areas(_slaves->local(),
-                          _slaves->here(_halo->reference(), gdim(), "x"),
-                          gdim(), _slaves->shares()));
+  const std::vector<double> area = _slaves->sums(facet::corner_areas(
+      _slaves->local(), _slaves->here(_halo->reference(), gdim(), "x"), gdim(),
+      _slaves->shares()));
   const double most = parallel::largest(
       _halo->ranks(), area.empty() ? 0 : std::ranges::max(area));
   for (std::size_t i = 0; i < area.size(); ++i)

@@ -144,7 +144,8 @@ void integrate(const SlaveFacet<facet::Part<SlaveWhole>>& slave,
             });
 }
 
-/// @brief Call `f` with each kind of linear slave and master facet that can meet.
+/// @brief Call `f` with each kind of linear slave and master facet that can
+/// meet.
 template <class Function>
 void for_all_kinds(Function&& f)
 {
