@@ -41,6 +41,7 @@ class HertzSphere:
         search_distance: float | None = None,
         swapped: bool = False,
         method: str | None = None,
+        degree: int = 1,
         **options: Any,
     ):
         """Set the problem up.
@@ -54,9 +55,10 @@ class HertzSphere:
             search_distance: That of the contact.
             swapped: Whether the block is the slave.
             method: That of the contact; the default one if None.
+            degree: Degree of the displacement.
             options: Those of the problem.
         """
-        tags, u = data.facet_tags, displacement(data.mesh)
+        tags, u = data.facet_tags, displacement(data.mesh, degree)
         E = of_bodies(data, *_moduli(young))
         self._down = down
         self._top = fix(u, tags, 2, -down, Tag.UPPER_TOP)
