@@ -96,6 +96,8 @@ void contactx_bindings::slave_nodes(py::module_& m)
              const Array<double>& area, const Array<bool>& closed)
           { return array(self.pressure(view(p), view(area), truths(closed))); },
           py::arg("p"), py::arg("area"), py::arg("closed"))
+      .def_property_readonly("ratio", [](const Recovery& self)
+                             { return array(self.ratio()); })
       .def(
           "filled",
           [](const Recovery& self, const Array<double>& values)

@@ -77,10 +77,12 @@ class Fields:
         """Read the results from the discrete side; all ranks must take part."""
         interface = self._interface
         nodes = interface.nodes
-        self.gap.x.array[self._nodes] = self._recovery.filled(nodes.gap)
-        # Between two of a kind it is theirs, else the more open one
-        status = self._recovery.filled(nodes.status.astype(np.float64))
-        self.status.x.array[self._nodes] = np.floor(status + 1e-9)
+        # Nodes that are left out have what their neighbours have; of two status the more open one
+        filled = self._recovery.filled(nodes.gap)
+        status = np.floor(self._recovery.filled(nodes.status.astype(np.float64)) + 1e-9)
+        left_out = np.isnan(nodes.gap) & ~np.isnan(filled)
+        self.gap.x.array[self._nodes] = np.where(left_out, filled, nodes.gap)
+        self.status.x.array[self._nodes] = np.where(left_out, status, nodes.status)
         if interface.history is not None and self.slip is not None and self.slip_total is not None:
             slip = self.slip.x.array.reshape(-1, self._gdim)
             slip[interface.slaves] = interface.history.slip
@@ -139,7 +141,17 @@ class Fields:
             traction = recovered / area[:, None]
         else:
             p, traction = self._recovery.tractions(nodes.multiplier, nodes.normal, area, closed)
-            recovered = area[:, None] * traction
-        self.pressure.x.array[self._nodes] = self._recovery.filled(p)
-        self.traction.x.array.reshape(-1, self._gdim)[slaves] = self._recovery.filled(traction)
+        recovered = (area * self._recovery.ratio)[:, None] * traction
+        self.pressure.x.array[self._nodes] = self._between(p)
+        self.traction.x.array.reshape(-1, self._gdim)[slaves] = self._between(traction)
         self.recovery_change = core.recovery_change(self._halo.nodes, forces, recovered)
+
+    def _between(self, values: Array) -> Array:
+        """Values with those of vertices of quadratic triangles from the nodes beside them.
+
+        Args:
+            values: Tractions of the slave nodes, shape (n,) or (n, gdim).
+        """
+        filled = self._recovery.filled(values)
+        # One that is alone in contact keeps its own
+        return np.where(filled == 0, values, filled)

@@ -22,6 +22,7 @@ from scenes import dimension, transforms
 from scenes.materials import neo_hookean, of_bodies
 from scenes.supports import DrivenFaces
 from story import elasticity
+from stress.degree import DEGREE
 from stress.scene import Case
 
 # How far a node may lie in the other body where pairs are exact, and where gaps are means
@@ -121,7 +122,7 @@ class Blocks:
         domain.geometry.x[:, :dim] = self.length * (self.x0 @ Q.T + where)
         self.Q = Q
 
-        self.u = u = fem.Function(fem.functionspace(domain, ("Lagrange", 1, (dim,))))
+        self.u = u = fem.Function(fem.functionspace(domain, ("Lagrange", DEGREE, (dim,))))
         E = of_bodies(data, *(self.modulus * y for y in self.young))
         F = bulk(u, E, of_bodies(data, *self.nu), self.material)
         bottom, top = (DrivenFaces(u, tags, face) for face in (Tag.LOWER_BOTTOM, Tag.UPPER_TOP))

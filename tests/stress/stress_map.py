@@ -27,6 +27,7 @@ from rich.console import Console  # noqa: E402
 from rich.progress import Progress  # noqa: E402
 
 from stress import picture, pool, sheet  # noqa: E402
+from stress.degree import VARIABLE  # noqa: E402
 from stress.families import all_scenes  # noqa: E402
 from stress.outcome import Kind, Outcome  # noqa: E402
 
@@ -38,9 +39,11 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--family", default="", help="regular expression: only such families")
     parser.add_argument("--every", type=int, default=1, help="take each n-th scene only")
+    parser.add_argument("--degree", type=int, default=1, help="of the displacement of blocks")
     parser.add_argument("--workers", type=int, default=len(os.sched_getaffinity(0)))
     parser.add_argument("--output", type=Path, default=OUTPUT)
     args = parser.parse_args()
+    os.environ[VARIABLE] = str(args.degree)
     scenes = all_scenes()
     numbers = [i for i, s in enumerate(scenes) if re.search(args.family, s.family)]
     numbers = numbers[:: args.every]

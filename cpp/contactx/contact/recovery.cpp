@@ -32,9 +32,17 @@ Recovery::Recovery(std::shared_ptr<const SlaveNodes> slaves,
     throw std::invalid_argument("slaves must not be empty");
   check::dimension(gdim);
   const facet::FacetList facets = _slaves->local();
-  const std::vector<double> parts = facet::corner_areas(
-      facets, _slaves->here(x, gdim, "x"), gdim, _slaves->shares());
+  const std::vector<double> here = _slaves->here(x, gdim, "x");
+  const std::vector<double> parts
+      = facet::corner_areas(facets, here, gdim, _slaves->pressure_shares());
   _area = _slaves->sums(parts);
+  if (_slaves->is_quadratic())
+  {
+    _ratio = _slaves->sums(
+        facet::corner_areas(facets, here, gdim, _slaves->shares()));
+    for (std::size_t i = 0; i < _ratio.size(); ++i)
+      _ratio[i] = _ratio[i] > 0 ? _area[i] / _ratio[i] : 0;
+  }
   const auto n = static_cast<std::int32_t>(_area.size());
   for (std::int32_t f = 0; f < facets.size(); ++f)
   {
@@ -47,8 +55,10 @@ Recovery::Recovery(std::shared_ptr<const SlaveNodes> slaves,
         {
           if (part[i] > 0 and part[j] > 0)
             _flows.push_back({nodes[i], nodes[j], part[i] * part[j] / whole});
-          else if (_area[nodes[i]] == 0)
+          else if (_area[nodes[i]] == 0 and part[j] > 0)
             _beside.push_back({nodes[i], nodes[j]});
+          else if (part[j] == 0)
+            _given.push_back({nodes[i], nodes[j]});
         }
   }
 }
@@ -61,14 +71,15 @@ Recovery::flows(std::span<const double> area,
   check::rows(area.size(), n, 1, "area");
   check::rows(closed.size(), n, 1, "closed");
   const std::vector<std::int8_t> is_closed = _slaves->scatter_forward(closed);
-  std::vector<double> inside(n, 0), covered(n);
+  std::vector<double> inside(n, 0), covered(n), own(n);
   for (const Flow& flow : _flows)
     if (not is_closed[flow.from])
       inside[flow.to] += flow.rate;
   for (std::size_t i = 0; i < n; ++i)
   {
+    own[i] = area[i] * (_ratio.empty() ? 1 : _ratio[i]);
     // Less than one where the master covers a node's facets in part
-    covered[i] = _area[i] > 0 ? area[i] / _area[i] : 0;
+    covered[i] = _area[i] > 0 ? own[i] / _area[i] : 0;
     inside[i] = _area[i] > 0 ? 1 - inside[i] / _area[i] : 0;
   }
   inside = _slaves->scatter_forward(inside);
@@ -84,9 +95,42 @@ Recovery::flows(std::span<const double> area,
     const double r = less / more;
     flows.push_back(
         {to, from,
-         weight * std::min(covered[to], covered[from]) * (r * r) / area[to]});
+         weight * std::min(covered[to], covered[from]) * (r * r) / own[to]});
   }
   return flows;
+}
+
+std::vector<double>
+Recovery::consistent(std::span<const double> values, int width,
+                     std::span<const double> area,
+                     std::span<const std::int8_t> closed) const
+{
+  std::vector<double> result(values.begin(), values.end());
+  if (_ratio.empty())
+    return result;
+  const std::size_t n = _area.size();
+  const std::vector<std::int8_t> is_closed = _slaves->scatter_forward(closed);
+  std::vector<int> count(n, 0);
+  for (const auto& [vertex, to] : _beside)
+    count[vertex] += is_closed[to];
+  // Force that each of its neighbours gets
+  std::vector<double> share(n * width, 0);
+  for (std::size_t i = 0; i < n; ++i)
+    for (int k = 0; k < width; ++k)
+    {
+      double& value = result[width * i + k];
+      if (_ratio[i] > 0)
+        value /= _ratio[i];
+      else if (count[i] > 0)
+        share[width * i + k] = value * area[i] / count[i];
+    }
+  share = _slaves->scatter_forward(share, width);
+  for (const auto& [to, vertex] : _given)
+    if (is_closed[to] and _ratio[to] > 0)
+      for (int k = 0; k < width; ++k)
+        result[width * to + k]
+            += share[width * vertex + k] / (area[to] * _ratio[to]);
+  return result;
 }
 
 std::vector<double> Recovery::filled(std::span<const double> values,
@@ -112,7 +156,7 @@ Recovery::pressure(std::span<const double> p, std::span<const double> area,
 {
   check::rows(p.size(), _area.size(), 1, "p");
   const std::vector<Flow> flows = this->flows(area, closed);
-  std::vector<double> result(p.begin(), p.end()), sum(p.size());
+  std::vector<double> result = consistent(p, 1, area, closed), sum(p.size());
   for (int pass = 0; pass < passes; ++pass)
   {
     const std::vector<double> every = _slaves->scatter_forward(result);
@@ -133,7 +177,8 @@ std::vector<double> Recovery::shear(std::span<const double> t,
   check::rows(normal.size(), _area.size(), _gdim, "normal");
   const std::vector<Flow> flows = this->flows(area, closed);
   const std::vector<double> normals = _slaves->scatter_forward(normal, _gdim);
-  std::vector<double> result(t.begin(), t.end()), sum(t.size());
+  std::vector<double> result = consistent(t, _gdim, area, closed);
+  std::vector<double> sum(t.size());
   for (int pass = 0; pass < passes; ++pass)
   {
     const std::vector<double> every = _slaves->scatter_forward(result, _gdim);

@@ -94,14 +94,28 @@ public:
                       std::span<const double> area,
                       std::span<const std::int8_t> closed) const;
 
-  /// @brief Values with those of nodes that have no area, as the vertices of
-  /// quadratic triangles, from their neighbours; collective.
+  /// @brief What areas of slave nodes are to be multiplied with for forces of
+  /// recovered tractions: one but on triangles of six nodes (shape=(n)).
+  std::vector<double> ratio() const
+  {
+    return _ratio.empty() ? std::vector<double>(_area.size(), 1) : _ratio;
+  }
+
+  /// @brief Values with those of nodes at which the shape functions have no
+  /// integral, as the vertices of quadratic triangles, from their neighbours;
+  /// collective.
   /// @param[in] values Values of the slave nodes (shape=(n, width)).
   /// @param[in] width Values a node.
   /// @return Values, at nodes without an area the mean of their neighbours'.
   std::vector<double> filled(std::span<const double> values, int width) const;
 
 private:
+  // What multipliers are by the integrals of the shape functions, vertices of
+  // quadratic triangles giving their forces to closed neighbours
+  std::vector<double> consistent(std::span<const double> values, int width,
+                                 std::span<const double> area,
+                                 std::span<const std::int8_t> closed) const;
+
   // Force that goes from one node to another one over the difference of their
   // tractions, and over the area of the one that it goes to
   struct Flow
@@ -118,8 +132,10 @@ private:
   // Of all pairs of neighbours, with m_ij of nodes inside the contact
   std::vector<Flow> _flows;
   std::vector<double> _area; // of all of a node's facets
-  // Nodes without an area, and their neighbours
-  std::vector<std::pair<std::int32_t, std::int32_t>> _beside;
+  // Areas that multipliers are of over those above
+  std::vector<double> _ratio;
+  // Nodes without such an area, and their neighbours; these, and such nodes
+  std::vector<std::pair<std::int32_t, std::int32_t>> _beside, _given;
 };
 
 /// @brief By how much recovered tractions change the force of a contact, over

@@ -50,10 +50,10 @@ struct Shares
   /// share their nodes: 0 at their vertices, 1 on their edges, 2 inside; empty
   /// where facets are linear
   std::span<const std::int8_t> level = {};
-  /// Part of what is beside a vertex of a triangle of six nodes, a quarter of
-  /// it, that the vertex gets: the shape functions' integral is zero, that of
-  /// facet::Basis 8/15
-  double of_vertex = 0;
+  /// 1 at vertices of triangles of six nodes that have an area, the integral of
+  /// facet::Basis, which takes it from the edges beside them; that of the shape
+  /// functions is zero. Empty for none
+  std::span<const std::int8_t> has_area = {};
 };
 
 /// @brief Reference area of each corner of each facet.

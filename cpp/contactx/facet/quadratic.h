@@ -18,6 +18,7 @@ struct QuadraticSegment
   static constexpr int tdim = 1;
   static constexpr int nodes = 3;
   static constexpr int degree = 2;
+  static constexpr Vector<1> centre{0.5};
   static constexpr std::array<Vector<1>, 3> points{{{0}, {1}, {0.5}}};
 
   /// @copydoc Segment::shape
@@ -44,6 +45,7 @@ struct QuadraticTriangle
   static constexpr int tdim = 2;
   static constexpr int nodes = 6;
   static constexpr int degree = 2;
+  static constexpr Vector<2> centre{1. / 3, 1. / 3};
   static constexpr std::array<Vector<2>, 6> points{
       {{0, 0}, {1, 0}, {0, 1}, {0.5, 0.5}, {0, 0.5}, {0.5, 0}}};
 
@@ -73,6 +75,7 @@ struct BiquadraticQuadrilateral
   static constexpr int tdim = 2;
   static constexpr int nodes = 9;
   static constexpr int degree = 4;
+  static constexpr Vector<2> centre{0.5, 0.5};
   static constexpr std::array<Vector<2>, 9> points{{{0, 0},
                                                     {1, 0},
                                                     {0, 1},

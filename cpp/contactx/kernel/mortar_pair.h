@@ -3,8 +3,7 @@
 
 #pragma once
 
-#include "../facet/quadratic.h"
-#include "../mortar/plane.h"
+#include "../mortar/trace.h"
 #include "layout.h"
 #include <algorithm>
 
@@ -108,10 +107,7 @@ struct MortarPair
   {
     Vector<gdim> n;
     if constexpr (Turning)
-      n = -1.
-          * facet::frame<SlavePart>(slave_part(),
-                                    mortar::plane_origin<SlavePart>())
-                .n;
+      n = -1. * facet::frame<S>(slave, mortar::normal_place<S>()).n;
     else
       std::copy_n(data + layout.normal, gdim, n.begin());
     return n;

@@ -49,21 +49,17 @@ struct Tie
         });
     if constexpr (Turning)
     {
-      using P = facet::Part<S>;
-      const auto xi = contactx::mortar::plane_origin<P>();
-      const contactx::mortar::Plane<P> plane(pair.slave_part());
-      const auto slope = P::derivative(xi);
-      for (int t = 0; t < P::nodes; ++t)
+      const contactx::mortar::FacetNormal<S> own(pair.slave);
+      for (int t = 0; t < slaves; ++t)
         for (int k = 0; k < gdim; ++k)
         {
-          Vector<gdim> dn{}; // of the normal
-          const int node = pair.slave_places[t];
-          for (int a = 0; a < S::tdim; ++a)
-            dn = dn + (slope[a][t] * plane.n[k]) * plane.dual[a];
+          Vector<gdim> dn; // of the pair's normal
+          for (int i = 0; i < gdim; ++i)
+            dn[i] = -own.derivative(i, t, k);
           for (int s = 0; s < slaves; ++s)
             if (pair.gap(s) != 0)
               for (int i = 0; i < gdim; ++i)
-                f(s, i, gdim * node + k, -pair.gap(s) * dn[i]);
+                f(s, i, gdim * t + k, -pair.gap(s) * dn[i]);
         }
     }
   }
@@ -128,7 +124,7 @@ template <class K>
 void stiffness(double* A, const double* w, const double*, const double*,
                const int*, const std::uint8_t*, void*)
 {
-  using P = facet::Part<typename K::Slave>;
+  using S = typename K::Slave;
   const K k(w);
   Vector<K::gdim> sum{};
   for (int s = 0; s < K::slaves; ++s)
@@ -136,13 +132,11 @@ void stiffness(double* A, const double* w, const double*, const double*,
       sum[i] += k.pair.gap(s) * k.multiplier[K::gdim * s + i];
   if (dot(sum, sum) == 0)
     return;
-  const auto xi = contactx::mortar::plane_origin<P>();
-  const auto dof = [&k](int i)
-  { return K::gdim * k.pair.slave_places[i / K::gdim] + i % K::gdim; };
+  const auto xi = contactx::mortar::normal_place<S>();
   // The pair's normal is against that of the slave facet
-  for_each_normal_hessian<P>(facet::frame<P>(k.pair.slave_part(), xi), xi, sum,
-                             [A, dof](int i, int j, double value)
-                             { A[K::num_dofs * dof(i) + dof(j)] -= value; });
+  for_each_normal_hessian<S>(facet::frame<S>(k.pair.slave, xi), xi, sum,
+                             [A](int i, int j, double value)
+                             { A[K::num_dofs * i + j] -= value; });
 }
 
 template <class K>

@@ -43,9 +43,10 @@ public:
   /// @brief Project the facets.
   /// @param[in] pair Pair.
   explicit MortarVariation(const MortarPair<S, M>& pair)
-      : _pair(pair),
+      : _pair(pair), _normal(pair.slave),
         _master(facet::part_of<M>(pair.master, pair.master_places)),
-        _slave(pair.slave_part(),
+        _slave(mortar::part_plane<S>(pair.slave_part(), _normal.frame.n),
+               pair.slave_part(),
                facet::part_of<S>(pair.reference, pair.slave_places),
                pair.factor()),
         _r(mortar::project<Q>(_slave.plane, _master)),
@@ -53,8 +54,9 @@ public:
   {
     const auto& plane = _slave.plane;
     for (int l = 0; l < M::nodes; ++l)
-      _height[l] = plane.height(pair.master[l]);
-    _part_height = facet::values_of<M>(_height, pair.master_places);
+      _along[l] = dot(plane.n, pair.master[l] - plane.origin);
+    for (int j = 0; j < Q::nodes; ++j)
+      _height[j] = plane.height(_master[j]);
     for (int a = 0; a < tdim; ++a)
       for (int b = 0; b < tdim; ++b)
         _metric[a][b] = dot(plane.dual[a], plane.dual[b]);
@@ -66,7 +68,7 @@ public:
         w = w + P::mixed_derivative[t] * part[t];
       for (int a = 0; a < tdim; ++a)
         _twist[a] = dot(plane.dual[a], w);
-      _warp = dot(plane.n, w);
+      _warp = dot(plane.conormal, w);
     }
   }
 
@@ -74,13 +76,10 @@ public:
   std::array<Row, gdim> normal() const
   {
     std::array<Row, gdim> dn{};
-    const auto& plane = _slave.plane;
     for (int i = 0; i < gdim; ++i)
-      for (int t = 0; t < P::nodes; ++t)
+      for (int t = 0; t < S::nodes; ++t)
         for (int k = 0; k < gdim; ++k)
-          for (int a = 0; a < tdim; ++a)
-            dn[i][slave_dof(t) + k]
-                += plane.dual[a][i] * plane.n[k] * _slope[a][t];
+          dn[i][gdim * t + k] = -_normal.derivative(i, t, k);
     return dn;
   }
 
@@ -100,7 +99,7 @@ public:
         {
           Local d{};
           for (int a = 0; a < tdim; ++a)
-            d[a] = -dot(slope[a], _height);
+            d[a] = -dot(slope[a], _along);
           return d;
         });
     return all;
@@ -151,7 +150,7 @@ public:
         for (int b = 0; b < tdim; ++b)
         {
           affine = affine + _r[j][b] * _slope[b];
-          turn[b] += q * _part_height[j] * _metric[a][b];
+          turn[b] += q * _height[j] * _metric[a][b];
         }
         across[a] = across[a] - q * affine;
       }
@@ -171,11 +170,29 @@ public:
     for (int t = 0; t < P::nodes; ++t)
       for (int k = 0; k < gdim; ++k)
       {
-        double d = along[t] * plane.n[k];
+        // A part turns with the facet, a facet itself as its plane does
+        double d = facet::is_linear<S> ? along[t] * plane.n[k] : 0;
         for (int a = 0; a < tdim; ++a)
           d += across[a][t] * plane.dual[a][k];
         row[slave_dof(t) + k] += d;
       }
+    if constexpr (!facet::is_linear<S>)
+    {
+      Vector<gdim> by_normal{};
+      for (int a = 0; a < tdim; ++a)
+      {
+        double q = 0;
+        for (int j = 0; j < Q::nodes; ++j)
+          q -= f.r[j][a] * _height[j];
+        if constexpr (!P::flat)
+          q += f.c[a] * _warp;
+        by_normal = by_normal + q * plane.dual[a];
+      }
+      for (int t = 0; t < S::nodes; ++t)
+        for (int k = 0; k < gdim; ++k)
+          for (int i = 0; i < gdim; ++i)
+            row[gdim * t + k] += by_normal[i] * _normal.derivative(i, t, k);
+    }
   }
 
 private:
@@ -227,11 +244,12 @@ private:
   }
 
   const MortarPair<S, M>& _pair;
+  mortar::FacetNormal<S> _normal;
   facet::Nodes<Q> _master;
   mortar::SlaveFacet<P> _slave;
   mortar::Flat<Q> _r;
-  Vector<M::nodes> _height;
-  Vector<Q::nodes> _part_height;
+  Vector<M::nodes> _along;  // of the master's nodes, along the normal
+  Vector<Q::nodes> _height; // of its part's, over the plane
   std::array<Vector<P::nodes>, tdim> _slope; // of the slave part's centre
   std::array<Local, tdim> _metric{};
   Local _twist{};

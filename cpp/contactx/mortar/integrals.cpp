@@ -67,17 +67,22 @@ double facet_area(const facet::Nodes<S>& x)
   return S::nodes == 3 ? 0.5 * jacobian : jacobian;
 }
 
-/// Plane of a slave facet, projected along a given normal of the master.
+/// Plane of a part of a slave facet, along the mean of given normals of the
+/// master, or along that of the facet.
 template <class S>
-Plane<S> plane_of(const facet::Nodes<S>& x, std::int32_t f,
-                  std::span<const double> normal)
+Plane<facet::Part<S>>
+plane_of(const facet::Nodes<facet::Part<S>>& part, const facet::Nodes<S>& whole,
+         std::span<const std::int32_t> parts, std::span<const double> normal)
 {
   if (normal.empty())
-    return Plane<S>(x);
-  Vector<S::gdim> n;
-  for (int k = 0; k < S::gdim; ++k)
-    n[k] = -normal[3 * f + k];
-  return {x, n};
+    return part_plane<S>(part, facet::is_linear<S>
+                                   ? Vector<S::gdim>{}
+                                   : FacetNormal<S>(whole).frame.n);
+  Vector<S::gdim> n{};
+  for (const std::int32_t f : parts)
+    for (int k = 0; k < S::gdim; ++k)
+      n[k] -= normal[3 * f + k];
+  return {part, parts.size() == 1 ? n : (1 / norm(n)) * n};
 }
 
 /// Rows combined with the coefficients of the dual functions.
@@ -143,7 +148,7 @@ void integrate_whole(const Given& given, std::span<const std::int32_t> parts,
     if (begin[f] == begin[f + 1])
       continue;
     SlavePart<S> part{places_of<S>(wholes, f),
-                      {plane_of<P>(xs, f, given.normal), xs, X, factor},
+                      {plane_of<S>(xs, w, parts, given.normal), xs, X, factor},
                       {}};
     Vector<S::nodes> height;
     for (int t = 0; t < S::nodes; ++t)

@@ -8,6 +8,66 @@
 
 namespace contactx::mortar
 {
+/// @brief Local coordinates that a slave facet has its normal at.
+template <class S>
+constexpr facet::Local<S> normal_place()
+{
+  if constexpr (facet::is_linear<S>)
+    return plane_origin<S>();
+  else
+    return S::centre;
+}
+
+/// @brief Normal of a slave facet, which all of its parts are projected along,
+/// and its variation. Were the normals those of the parts, their sums would not
+/// be those of the facet, whose side is diagonal but in the sum.
+template <class S>
+struct FacetNormal
+{
+  explicit FacetNormal(const facet::Nodes<S>& x)
+      : frame(facet::frame<S>(x, normal_place<S>())),
+        slope(S::derivative(normal_place<S>()))
+  {
+    const Vector<3> m = facet::metric(frame.t);
+    for (int k = 0; k < S::gdim; ++k)
+    {
+      facet::Local<S> r;
+      for (int a = 0; a < S::tdim; ++a)
+        r[a] = frame.t[a][k];
+      const facet::Local<S> y = facet::solve(m, r);
+      for (int a = 0; a < S::tdim; ++a)
+        dual[a][k] = y[a];
+    }
+  }
+
+  /// @brief Derivative of a component of the normal by one of a node's
+  /// position.
+  double derivative(int i, int node, int k) const
+  {
+    double d = 0;
+    for (int a = 0; a < S::tdim; ++a)
+      d -= dual[a][i] * frame.n[k] * slope[a][node];
+    return d;
+  }
+
+  facet::Frame<S> frame;
+  std::array<Vector<S::nodes>, S::tdim> slope;
+  std::array<Vector<S::gdim>, S::tdim> dual;
+};
+
+/// @brief Plane of a part of a slave facet.
+/// @param[in] part Nodes of the part.
+/// @param[in] normal Normal of the facet.
+template <class S>
+Plane<facet::Part<S>> part_plane(const facet::Nodes<facet::Part<S>>& part,
+                                 const Vector<S::gdim>& normal)
+{
+  if constexpr (facet::is_linear<S>)
+    return Plane<S>(part);
+  else
+    return {part, normal};
+}
+
 /// @brief Shape functions of a facet at a point of one of its parts.
 /// @param[in] s Those of the part there.
 /// @param[in] places Places of the part's nodes.
