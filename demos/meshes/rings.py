@@ -55,6 +55,7 @@ def rings(
     n_master: int | None = None,
     *,
     radii: Sequence[float] = (1.0, 1.5, 2.0),
+    order: int = 1,
     comm: MPI.Comm = MPI.COMM_WORLD,
 ) -> MeshData:
     """Mesh a quarter of two concentric rings, the one inside the other (collective).
@@ -72,6 +73,7 @@ def rings(
         n: Number of cells of the inner ring along the quarter of a circle.
         n_master: The same for the outer ring; half as many again as n if None.
         radii: Radii of the bore, of the contact and of the rim, a length, shape (3,).
+        order: Order of the cells; of order 2 they are curved.
         comm: Communicator of the mesh; rank 0 makes it.
 
     Returns:
@@ -92,5 +94,6 @@ def rings(
         _add_ring(gmsh, radii[0], radii[1], n, Tag.UPPER, _UPPER_FACES)
         _add_ring(gmsh, radii[1], radii[2], n_lower, Tag.LOWER, _LOWER_FACES)
         gmsh.model.mesh.generate(2)
+        gmsh.model.mesh.setOrder(order)
 
     return build_mesh("rings", 2, recipe, comm)

@@ -74,7 +74,7 @@ class Contact:
             master: Surface that they are measured against, or a rigid obstacle: Plane, Sphere,
                 Cylinder or LevelSet.
             friction: Coulomb's coefficient: a number, a ``fem.Constant`` or a ``fem.Function`` of
-                the scalar linear space, which may change from step to step. With the number 0
+                a scalar Lagrange space, which may change from step to step. With the number 0
                 nothing along the surface is computed. Or a ``FrictionLaw`` of one's own.
             sliding: "finite": pairs, normals and projections follow the deformation. "small": they
                 are those of the reference configuration, which is linear and cheap, and right
@@ -93,7 +93,7 @@ class Contact:
                 diameter of the larger surface, and unlimited for a rigid obstacle.
             offset: Length that is taken off the gap: positive where the bodies interfere by it or
                 carry a layer of that thickness, negative where they are that much farther apart. A
-                number, a ``fem.Constant`` or a ``fem.Function`` of the scalar linear space.
+                number, a ``fem.Constant`` or a ``fem.Function`` of a scalar Lagrange space.
             weight: What contact is integrated with, as the bulk's forms are: ``2 * pi * r`` in an
                 axisymmetric model, the thickness in a plane one. A number, or an expression of UFL
                 of the reference position; its values at the slave nodes are taken once, when the

@@ -62,13 +62,13 @@ class ContactProblem:
         Args:
             F: Residual of the bulk: any UFL form of the bodies, linear in its test function.
                 Where u is a list, a residual for each of its functions.
-            u: Displacement, in the linear Lagrange space of vectors on a mesh of all bodies.
+            u: Displacement, in a Lagrange space of vectors of degree 1 or 2 on a mesh of all bodies.
                 Its values are the start of the first solve. With ``displacement``, a function of a
                 mixed space, or a list of functions, as DOLFINx's NonlinearProblem takes them.
             contacts: Contacts of surfaces of the mesh with each other or with rigid obstacles. A
                 node may be slave in several.
             displacement: Number of the part of the mixed space, or of the function in the list,
-                that is the displacement. It is linear, and may have bubbles inside of cells. What
+                that is the displacement. It may have bubbles inside of cells. What
                 else is solved for goes through the direct solver.
             petsc_options_prefix: Prefix of the PETSc options, unique in the program.
             bcs: Dirichlet conditions; none are needed where contact supports the bodies. The list

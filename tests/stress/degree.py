@@ -9,6 +9,7 @@ import os
 import numpy as np
 import numpy.typing as npt
 
+import basix
 from dolfinx import fem
 
 VARIABLE = "CONTACTX_STRESS_DEGREE"
@@ -37,13 +38,18 @@ def split(parts: npt.NDArray[np.integer], V: fem.FunctionSpace) -> npt.NDArray[n
     """
     if DEGREE == 1:
         return parts
-    x = V.tabulate_dof_coordinates()
-    number = {tuple(np.round(p, 9)): i for i, p in enumerate(x / np.ptp(x, axis=0).max())}
-    scale = np.ptp(x, axis=0).max()
+    cell, dofs = V.mesh.basix_cell(), V.dofmap.list
+    number: dict[tuple[int, ...], int] = {}
+    element = basix.create_element(basix.ElementFamily.P, cell, 2, basix.LagrangeVariant.gll_warped)
+    for entities, own in zip(basix.topology(cell), element.entity_dofs, strict=True):
+        for vertices, (dof, *_) in zip(entities, [d or [-1] for d in own], strict=True):
+            if dof >= 0:
+                ends = np.sort(dofs[:, vertices], axis=1)
+                number |= zip(map(tuple, ends.tolist()), dofs[:, dof].tolist(), strict=True)
 
     def middle(*columns: int) -> npt.NDArray[np.integer]:
-        places = x[parts[:, list(columns)]].mean(axis=1) / scale
-        return np.array([number[tuple(np.round(p, 9))] for p in places])
+        ends = np.sort(parts[:, list(columns)], axis=1)
+        return np.array([number[tuple(row)] for row in ends.tolist()])
 
     if parts.shape[1] == 2:
         a, b = parts.T

@@ -15,9 +15,6 @@ namespace
 /// kinematics
 constexpr double few = 0.2;
 
-/// Part of the slave nodes that is no more than a point
-constexpr double point_like = 0.01;
-
 std::vector<std::span<const std::int32_t>>
 slaves_of(const std::vector<std::shared_ptr<contact::Contact>>& contacts)
 {
@@ -123,8 +120,6 @@ Changes ActiveSet::settle(const Forces& forces, bool is_first)
 Changes ActiveSet::settle(const Forces& forces, bool is_first, bool may_freeze)
 {
   Changes changes = update(is_first);
-  if (is_first)
-    changes.status -= open_point_loads();
   _is_stale = _is_frozen and may_freeze and are_many(changes.status);
   if (_is_frozen and not _is_stale)
   {
@@ -150,37 +145,6 @@ Changes ActiveSet::settle(const Forces& forces, bool is_first, bool may_freeze)
     freeze(true);
   _changes = changes;
   return changes;
-}
-
-/// Opens the nodes that touch at a step's start if they are so few that they
-/// would carry its load in a point: they would dent the bodies as deep as these
-/// move, and what closes on a dented surface says little. Nodes that hold a body
-/// stay closed. Returns how many have opened.
-std::int64_t ActiveSet::open_point_loads()
-{
-  if (_bodies and _bodies->any_free())
-    return 0;
-  std::array<std::int64_t, 3> counts{}; // closed, of these pressed, all
-  for (const auto& c : _contacts)
-  {
-    const contact::NodeState& nodes = *c->nodes();
-    counts[2] += nodes.num_nodes();
-    for (std::size_t i = 0; i < std::size_t(nodes.num_nodes()); ++i)
-      if (nodes.closed(i))
-      {
-        ++counts[0];
-        counts[1] += c->law()->is_tied() or nodes.pressure(i) != 0;
-      }
-  }
-  _halo->ranks().reduce(std::span<std::int64_t>(counts),
-                        parallel::Reduction::sum);
-  if (counts[0] == 0 or counts[1] > 0
-      or static_cast<double>(counts[0])
-             > point_like * static_cast<double>(counts[2]))
-    return 0;
-  for (const auto& c : _contacts)
-    std::ranges::fill(c->nodes()->status, law::open);
-  return counts[0];
 }
 
 Changes ActiveSet::update(bool is_first)

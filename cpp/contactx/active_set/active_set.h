@@ -126,7 +126,6 @@ public:
   const std::vector<double>& hidden_gaps() const { return _frozen.gaps(); }
 
 private:
-  std::int64_t open_point_loads();
   Changes settle(const Forces& forces, bool is_first, bool may_freeze);
   Changes update(bool is_first);
   void share(bool is_first);

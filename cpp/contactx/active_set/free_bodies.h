@@ -132,9 +132,6 @@ public:
   /// force/length (shape=(num_owned, gdim)); nothing if there are none.
   const std::optional<std::vector<double>>& springs() const { return _springs; }
 
-  /// @brief Whether a body has no supports of its own, or but weak ones.
-  bool any_free() const { return _modes and _modes->any_free(); }
-
   /// @brief Number of free rigid modes at the last iterate.
   std::int64_t free_modes() const { return _free_modes; }
 

@@ -9,7 +9,6 @@
 #include <cmath>
 #include <functional>
 #include <iterator>
-#include <map>
 #include <stdexcept>
 #include <string>
 
@@ -146,28 +145,6 @@ void SlaveNodes::set_level(std::span<const std::int8_t> level, bool is_mortar)
   _level = scatter_forward(level);
   _is_quadratic = true;
   _is_mortar = is_mortar;
-  _has_area.assign(_around.size(), 1);
-  if (not is_mortar)
-    _has_area = scatter_forward(on_rim());
-}
-
-/// 1 at owned vertices of triangles where the surface ends: edges beside them
-/// belong to one triangle alone.
-std::vector<std::int8_t> SlaveNodes::on_rim() const
-{
-  const facet::FacetList facets = local();
-  std::map<std::pair<std::int32_t, std::int32_t>, int> count;
-  for (std::int32_t f = 0; f < facets.size(); ++f)
-    for (const std::int32_t vertex : facets[f])
-      if (facets[f].size() == 3 and _level[vertex] == 0)
-        for (const std::int32_t edge : facets[f])
-          if (edge != vertex)
-            ++count[{vertex, edge}];
-  std::vector<std::int8_t> rim(_num_owned, 0);
-  for (const auto& [pair, triangles] : count)
-    if (triangles == 1 and pair.first < std::int32_t(_num_owned))
-      rim[pair.first] = 1;
-  return rim;
 }
 
 std::vector<double> SlaveNodes::corner_weight() const

@@ -40,26 +40,21 @@ public:
   /// collective.
   /// @param[in] level Where each owned slave node is on quadratic facets: 0 at
   /// vertices, 1 on edges, 2 inside (shape=(n)).
-  /// @param[in] is_mortar Whether facets are integrated, in facet::Basis. If
-  /// not, vertices of triangles take no force but at the rim of the surface,
-  /// where a corner that presses into a master needs them.
+  /// @param[in] is_mortar Whether facets are integrated, in facet::Basis.
   void set_level(std::span<const std::int8_t> level, bool is_mortar);
 
   /// @brief Whether the facets are parts of quadratic ones.
   bool is_quadratic() const { return _is_quadratic; }
 
   /// @brief What areas are shared out by, at all slave nodes.
-  facet::Shares shares() const { return {_weight, _level, _has_area}; }
+  facet::Shares shares() const { return {_weight, _level}; }
 
   /// @brief The same by the integrals of the shape functions, which are zero at
   /// the vertices of triangles of six nodes; those of facet::Basis where facets
   /// are integrated.
   facet::Shares pressure_shares() const
   {
-    facet::Shares shares = this->shares();
-    if (not _is_mortar)
-      shares.has_area = {};
-    return shares;
+    return {_weight, _level, _is_mortar};
   }
 
   /// @brief The weight at all slave nodes (shape=(m)); empty if there is none.
@@ -169,8 +164,6 @@ public:
   std::vector<double> sums(std::span<const double> corners) const;
 
 private:
-  std::vector<std::int8_t> on_rim() const;
-
   // Values at owned slave nodes with zero at those of other ranks
   std::vector<double> padded(std::span<const double> normal, int gdim) const;
 
@@ -178,7 +171,7 @@ private:
   facet::Facets _facets, _own;
   std::vector<std::int32_t> _around, _corners;
   std::vector<double> _weight;
-  std::vector<std::int8_t> _level, _has_area;
+  std::vector<std::int8_t> _level;
   bool _is_quadratic = false, _is_mortar = false;
   std::size_t _num_owned;
 };

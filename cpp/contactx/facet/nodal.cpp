@@ -141,13 +141,8 @@ std::vector<double> contactx::facet::corner_areas(const FacetList& facets,
     const std::span part(area.data() + facets.offsets[f], nodes.size());
     const bool is_corner = std::ranges::any_of(
         nodes, [&](std::int32_t node) { return shares.level[node] == 0; });
-    const bool has_area
-        = not shares.has_area.empty()
-          and std::ranges::any_of(
-              nodes, [&](std::int32_t node)
-              { return shares.level[node] == 0 and shares.has_area[node]; });
     // Of what is beside a vertex, a quarter of the facet
-    const double of_vertex = has_area ? 8. / 15 : 0;
+    const double of_vertex = shares.of_basis ? 8. / 15 : 0;
     const auto share = [&](std::int32_t node) -> double
     {
       const std::int8_t level = shares.level[node];

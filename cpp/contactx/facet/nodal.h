@@ -50,10 +50,10 @@ struct Shares
   /// share their nodes: 0 at their vertices, 1 on their edges, 2 inside; empty
   /// where facets are linear
   std::span<const std::int8_t> level = {};
-  /// 1 at vertices of triangles of six nodes that have an area, the integral of
-  /// facet::Basis, which takes it from the edges beside them; that of the shape
-  /// functions is zero. Empty for none
-  std::span<const std::int8_t> has_area = {};
+  /// Whether vertices of triangles of six nodes have the areas of facet::Basis,
+  /// which takes them from the edges beside; the integrals of the shape
+  /// functions are zero there
+  bool of_basis = true;
 };
 
 /// @brief Reference area of each corner of each facet.
