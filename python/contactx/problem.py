@@ -62,9 +62,10 @@ class ContactProblem:
         Args:
             F: Residual of the bulk: any UFL form of the bodies, linear in its test function.
                 Where u is a list, a residual for each of its functions.
-            u: Displacement, in a Lagrange space of vectors of degree 1 or 2 on a mesh of all bodies.
-                Its values are the start of the first solve. With ``displacement``, a function of a
-                mixed space, or a list of functions, as DOLFINx's NonlinearProblem takes them.
+            u: Displacement, in a Lagrange space of vectors of degree 1 or 2 on a mesh of all
+                bodies. Its values are the start of the first solve. With ``displacement``, a
+                function of a mixed space, or a list of functions, as DOLFINx's NonlinearProblem
+                takes them.
             contacts: Contacts of surfaces of the mesh with each other or with rigid obstacles. A
                 node may be slave in several.
             displacement: Number of the part of the mixed space, or of the function in the list,

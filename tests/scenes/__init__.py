@@ -32,7 +32,13 @@ What they are made of:
 """
 
 from scenes.blocks import CELLS, NU, Blocks, dimension
-from scenes.hertz import HertzSphere, hertz_of, hertz_sphere, pressure_error
+from scenes.hertz import (
+    HertzSphere,
+    hertz_of,
+    hertz_sphere,
+    integrated_error,
+    pressure_error,
+)
 
 __all__ = [
     "CELLS",
@@ -42,5 +48,6 @@ __all__ = [
     "dimension",
     "hertz_of",
     "hertz_sphere",
+    "integrated_error",
     "pressure_error",
 ]
