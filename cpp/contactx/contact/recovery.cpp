@@ -106,7 +106,8 @@ Recovery::consistent(std::span<const double> values, int width,
                      std::span<const std::int8_t> closed) const
 {
   std::vector<double> result(values.begin(), values.end());
-  if (_ratio.empty())
+  // The same on all ranks, unlike the number of nodes
+  if (not _slaves->is_quadratic())
     return result;
   const std::size_t n = _area.size();
   const std::vector<std::int8_t> is_closed = _slaves->scatter_forward(closed);

@@ -17,7 +17,7 @@ UNUSUAL = {
     "ghosted": (3,),
 }
 # What they are tried on: free bodies, ties, nodes in several contacts, dragging, obstacles, both
-# solvers
+# solvers, quadratic displacement, weights
 TRIED = (
     ("hertz_3d", "node"),
     ("hertz_condensed", "surface"),
@@ -32,6 +32,10 @@ TRIED = (
     ("dragged_3d", "node"),
     ("plane", "node"),
     ("plastic", "surface"),
+    ("quadratic_triangles", "surface"),
+    ("quadratic_tetrahedra", "node"),
+    ("quadratic_condensed", "surface"),
+    ("axisymmetric", "node"),
 )
 BOTH = list(METHODS)
 CASES = [
