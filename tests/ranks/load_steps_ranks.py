@@ -197,12 +197,12 @@ def errors(folder: Path) -> None:
     refused(Wrong, "loads", lambda: steps(restart=file, update=on(1, Wrong("loads"))))
     assert np.array_equal(problem.u.x.array, u)
 
-    quadratic = fem.Function(fem.functionspace(problem.u.function_space.mesh, ("P", 2)))
-    inside = steps(history=[quadratic])
+    cubic = fem.Function(fem.functionspace(problem.u.function_space.mesh, ("P", 3)))
+    inside = steps(history=[cubic])
     next(iter(inside))
     message = "history[0] is of"
     refused(ValueError, message, lambda: inside.save(file))
-    refused(ValueError, message, lambda: steps(history=[quadratic], checkpoint=file))
+    refused(ValueError, message, lambda: steps(history=[cubic], checkpoint=file))
     refused(ValueError, "has other steps", lambda: steps(steps=2 + (WORLD.rank == last)))
     refused(TypeError, "must be a function", lambda: steps(update=3 if WORLD.rank == 1 else print))
 
