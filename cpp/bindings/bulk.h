@@ -42,6 +42,10 @@ public:
   {
     return keep(_residual, _adapter.attr("residual")());
   }
+  bool follow_contacts() const override
+  {
+    return _adapter.attr("follow_contacts").cast<bool>();
+  }
   std::span<const double> defect() override
   {
     return keep(_defect, _adapter.attr("defect")());

@@ -12,6 +12,7 @@ results. Import contactx before dolfinx.
 from contactx import compat as compat  # isort: skip
 
 from contactx.assembler import ContactAssembler
+from contactx.conductance import Conductance
 from contactx.contact import Contact
 from contactx.errors import ConvergenceError
 from contactx.friction import FrictionLaw
@@ -25,6 +26,7 @@ from contactx.totals import CSVOutput
 
 __all__ = [
     "CSVOutput",
+    "Conductance",
     "Contact",
     "ContactAssembler",
     "ContactProblem",

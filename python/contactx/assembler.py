@@ -32,6 +32,7 @@ from contactx.bulk_input import (
     check_prescribed,
     have_changed,
 )
+from contactx.conductance import Conductance, check_conductances
 from contactx.contact import Contact, check_contacts
 from contactx.coupled import CoupledBulk
 from contactx.errors import ConvergenceError, NotFiniteError
@@ -86,6 +87,7 @@ class ContactAssembler:
         u: Displacement of the nodes; a copy where the user's function has more than that.
         functions: What is solved for: the displacement, or the functions that it is one of.
         contacts: Contacts.
+        conductances: What flows across them.
         report: Report of the step.
     """
 
@@ -98,6 +100,7 @@ class ContactAssembler:
         displacement: int | None = None,
         bcs: Sequence[fem.DirichletBC] | None = None,
         J: ufl.Form | Sequence[Sequence[ufl.Form | None]] | None = None,
+        conductances: Sequence[Conductance] | None = None,
         audit: str = "refuse",
         form_compiler_options: dict[str, Any] | None = None,
         jit_options: dict[str, Any] | None = None,
@@ -111,6 +114,7 @@ class ContactAssembler:
             displacement: Which part or function is the displacement.
             bcs: Dirichlet conditions.
             J: Jacobian of F; derived if None.
+            conductances: What flows across the contacts.
             audit: "refuse" or "warn".
             form_compiler_options: Options of FFCx.
             jit_options: Options of the compilation.
@@ -131,6 +135,7 @@ class ContactAssembler:
         check_conditions(bcs, functions)
         check_compiler_options(form_compiler_options, jit_options)
         check_contacts(contacts)
+        self.conductances = check_conductances(conductances, list(contacts), functions, field)
         if audit not in ("refuse", "warn"):
             raise ValueError(f'audit must be "refuse" or "warn", not {audit!r}')
         check_straight(contacts, field.function_space)
@@ -162,6 +167,10 @@ class ContactAssembler:
             for contact in self.contacts:
                 self.interfaces.append(contact.attach(self.halo, self.bulk.markers, self.bodies))
             check_cells(V.mesh)
+            for conductance in self.conductances:
+                conductance.check()
+            if isinstance(self.bulk, CoupledBulk):
+                self.bulk.follow(self.conductances)
             self.system = SaddlePointSystem(self.bulk, self.interfaces, self.halo)
             self.loop = core.Loop(self.system.core, self.bodies)
             self._audit = Audit(self.bulk, self.interfaces, self.halo)

@@ -338,6 +338,15 @@ class Contact:
         return self.fields.pressure
 
     @property
+    def master_pressure(self) -> fem.Function:
+        """Contact pressure at the nodes of the master surface, zero elsewhere, for forms over it.
+
+        Each has the mean of the slave nodes in front of it, by the areas in which they meet. Of a
+        rigid obstacle it is zero.
+        """
+        return self.fields.master_pressure
+
+    @property
     def traction(self) -> fem.Function:
         """Traction that the master exerts on the slave, force/area, zero off the slave surface.
 
@@ -388,6 +397,43 @@ class Contact:
     def force(self) -> npt.NDArray[np.float64]:
         """Total force on the slave side of all ranks, shape (gdim,)."""
         return self.fields.force
+
+    def on_both(self, f: fem.Function, missing: float = 0.0) -> fem.Function:
+        """A field of the slave surface on both surfaces, without NaN: for forms over either.
+
+        ``contact.on_both(contact.gap, missing=1.0)`` is the gap, and 1 where there is none. Nodes
+        of the master have the mean of the slave nodes in front of them. All ranks must take part.
+
+        Args:
+            f: A result of the contact, or another function of the same space.
+            missing: Value where nothing is in front of a node, off the surfaces, and for NaN.
+
+        Returns:
+            A new function, of the contact as it is now.
+
+        Raises:
+            ValueError: If f is of another space, or the master is a rigid obstacle.
+        """
+        return self.fields.on_both(f, missing)
+
+    def across(self, f: fem.Function) -> fem.Function:
+        """What a field is on the other side: the temperature across, as a Robin condition needs.
+
+        Slave nodes have the master's value in front of them, by their pairs. Nodes of the master
+        have the mean of the slave nodes in front of them; all others have f itself. Fluxes of forms
+        with it balance as the mesh is refined; those of a ``Conductance`` do so exactly. All ranks
+        must take part.
+
+        Args:
+            f: A function of the space of the contact's results.
+
+        Returns:
+            A new function, of f and the contact as they are now.
+
+        Raises:
+            ValueError: If f is of another space, or the master is a rigid obstacle.
+        """
+        return self.fields.across(f)
 
     def moment(self, point: npt.ArrayLike) -> float | npt.NDArray[np.float64]:
         """Moment of the contact forces on the slave side about a point; all ranks must take part.

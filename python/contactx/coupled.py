@@ -15,6 +15,7 @@ import numpy.typing as npt
 import dolfinx.fem.petsc
 import ufl
 from contactx.bulk import Bulk
+from contactx.conductance import Conductance
 from contactx.errors import NotFiniteError
 from contactx.layout import Index, Rows
 from contactx.parallel import reduce
@@ -86,6 +87,7 @@ class CoupledBulk(Bulk):
         self.set_conditions(bcs)
         self._b = [la.vector(m.index_map, m.index_map_bs) for m in self._maps]
         self.fields = Fields(self)
+        self.conductances: list[Conductance] = []
         # Order of the entries of the Jacobian's blocks in rows, and these without values
         self._order: tuple[npt.NDArray[np.intp], Index, Index] | None = None
         self._columns: list[PETSc.Vec] | None = None
@@ -101,6 +103,16 @@ class CoupledBulk(Bulk):
         index = self.unknowns.index
         self.markers[:] = self._displacement_of(self.all_markers[index])
         self._assembled_with = None
+
+    def follow(self, conductances: Sequence[Conductance]) -> None:
+        """Take what flows across contacts, which is added to the residuals."""
+        self.conductances = list(conductances)
+        # Pairs, gaps and pressures decide on it
+        self.is_linear = self.is_linear and not conductances
+
+    def number_of(self, function: fem.Function) -> int:
+        """Number of one of the functions that are solved for."""
+        return next(k for k, w in enumerate(self._functions) if w is function)
 
     def _displacement_of[T: np.generic](self, values: npt.NDArray[T]) -> npt.NDArray[T]:
         """Values at the displacement's dofs, ghosts included, of those of its function."""
@@ -121,7 +133,7 @@ class CoupledBulk(Bulk):
             b.array[:] = 0
             for part in parts:
                 fem.assemble_vector(b.array, part)
-        return self._assembled("residual")
+        return self._assembled("residual", self.conductances)
 
     def lifted(self) -> Array:
         """See ``Bulk``."""
@@ -133,9 +145,12 @@ class CoupledBulk(Bulk):
                     fem.apply_lifting(b.array, [part], [bcs], [x], alpha=-1.0)
         return self._assembled("lifted")
 
-    def _assembled(self, name: str) -> Array:
+    def _assembled(self, name: str, conductances: Sequence[Conductance] = ()) -> Array:
         for b in self._b:
             b.scatter_reverse(la.InsertMode.add)
+        for conductance in conductances:
+            flow = conductance.residual()
+            self._b[self.number_of(conductance.field)].array[: len(flow)] += flow
         self.fields.keep(name, [b.array for b in self._b])
         forces: Array = self._b[self.unknowns.index].array[self._own]
         return forces
@@ -381,6 +396,15 @@ class Fields:
             functions[k].x.array[dofs] = part
         for k in sorted({k for k, _ in self._fields}):
             functions[k].x.scatter_forward()
+
+    @property
+    def follow_contacts(self) -> bool:
+        """Whether their residuals depend on contacts."""
+        return bool(self._bulk.conductances)
+
+    def first_of(self, function: int) -> int:
+        """Where the dofs of a function that is one field begin among all fields."""
+        return int(self.offsets[[k for k, _ in self._fields].index(function)])
 
     def residual(self) -> Array:
         """Their rows of the residual assembled last."""

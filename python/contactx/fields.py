@@ -27,6 +27,7 @@ class Fields:
 
     Attributes:
         pressure: Contact pressure, recovered.
+        master_pressure: Its means at the nodes of the master.
         traction: Traction that the master exerts on the slave, recovered.
         gap: Gap.
         status: Status.
@@ -55,8 +56,10 @@ class Fields:
         self._recovery = core.Recovery(slaves, halo.x)
         Q = fem.functionspace(V.mesh, ("Lagrange", degree_of(V)))
         # Both spaces number the nodes; where they differ the results must follow the bulk
-        self._nodes = matching_nodes(V, Q)[interface.slaves]
+        self._every = matching_nodes(V, Q)[: halo.num_owned]
+        self._nodes = self._every[interface.slaves]
         self.pressure = fem.Function(Q, name="pressure")
+        self.master_pressure = fem.Function(Q, name="master_pressure")
         self.traction = fem.Function(V, name="traction")
         self.gap = fem.Function(Q, name="gap")
         self.status = fem.Function(Q, name="status")
@@ -97,6 +100,10 @@ class Fields:
         carried = self.force if interface.master.is_rigid else 0
         self.imbalance = sum_ - carried
         self._recover(on_slave)
+        if not interface.master.is_rigid:
+            pressure = self.pressure.x.array[self._nodes]
+            at_master = core.Transfer(interface).at_master(pressure)
+            self.master_pressure.x.array[self._every] = np.nan_to_num(at_master)
         for function in vars(self).values():
             if isinstance(function, fem.Function):
                 function.x.scatter_forward()
@@ -117,6 +124,48 @@ class Fields:
             each = np.cross(arm, force)
         moment: Array = total(self._halo.comm, each.sum(axis=0))
         return moment
+
+    def on_both(self, f: fem.Function, missing: float) -> fem.Function:
+        """See ``Contact.on_both``."""
+        result = self._empty(f)
+        values = f.x.array[self._nodes]
+        is_known = ~np.isnan(values)
+        transfer = core.Transfer(self._interface)
+        # Means of those that are known
+        shares = transfer.at_master(is_known.astype(np.float64))
+        with np.errstate(invalid="ignore", divide="ignore"):
+            means = transfer.at_master(np.where(is_known, values, 0.0)) / shares
+        result.x.array[:] = missing
+        result.x.array[self._every] = np.where(np.isnan(means), missing, means)
+        result.x.array[self._nodes] = np.where(is_known, values, missing)
+        result.x.scatter_forward()
+        return result
+
+    def across(self, f: fem.Function) -> fem.Function:
+        """See ``Contact.across``."""
+        result = self._empty(f)
+        own = f.x.array[self._every]
+        transfer = core.Transfer(self._interface)
+        means = transfer.at_master(own[self._interface.slaves])
+        result.x.array[:] = f.x.array
+        result.x.array[self._every] = np.where(np.isnan(means), own, means)
+        differences = transfer.differences(self._halo.scatter_forward(np.ascontiguousarray(own)))
+        result.x.array[self._nodes] = own[self._interface.slaves] - differences
+        result.x.scatter_forward()
+        return result
+
+    def _empty(self, f: fem.Function) -> fem.Function:
+        """A function of the space of these results, which f must be of as well."""
+        if self._interface.master.is_rigid:
+            raise ValueError("the master is a rigid obstacle, which has no nodes")
+        Q = self.pressure.function_space
+        element = f.function_space.ufl_element()
+        if f.function_space.mesh is not Q.mesh or element != Q.ufl_element():
+            raise ValueError(
+                f"f is of {element}: take the space of the contact's results, that is "
+                f'functionspace(mesh, ("Lagrange", {degree_of(Q)}))'
+            )
+        return fem.Function(Q, name=f.name)
 
     def _forces(self) -> Array:
         """Forces of the multipliers on the nodes that this rank owns, shape (num_owned, gdim)."""
@@ -145,6 +194,16 @@ class Fields:
         self.pressure.x.array[self._nodes] = self._between(p)
         self.traction.x.array.reshape(-1, self._gdim)[slaves] = self._between(traction)
         self.recovery_change = core.recovery_change(self._halo.nodes, forces, recovered)
+
+    def recovered_pressure(self) -> Array:
+        """Pressures of the slave nodes for the multipliers of now; all ranks must take part."""
+        nodes = self._interface.nodes
+        area, closed = nodes.area, nodes.closed
+        if nodes.size == 1:
+            p = self._recovery.pressure(nodes.pressure, area, closed)
+        else:
+            p, _ = self._recovery.tractions(nodes.multiplier, nodes.normal, area, closed)
+        return self._between(p)
 
     def _between(self, values: Array) -> Array:
         """Values with those of vertices of quadratic triangles from the nodes beside them.

@@ -12,6 +12,7 @@ from petsc4py import PETSc
 
 import ufl
 from contactx.assembler import ContactAssembler
+from contactx.conductance import Conductance
 from contactx.contact import Contact
 from contactx.errors import ConvergenceError, NotFiniteError
 from contactx.interrupts import Interrupts
@@ -52,6 +53,7 @@ class ContactProblem:
         displacement: int | None = None,
         bcs: Sequence[fem.DirichletBC] | None = None,
         J: ufl.Form | Sequence[Sequence[ufl.Form | None]] | None = None,
+        conductances: Sequence[Conductance] | None = None,
         petsc_options: Mapping[str, Any] | None = None,
         audit: str = "refuse",
         form_compiler_options: dict[str, Any] | None = None,
@@ -76,6 +78,8 @@ class ContactProblem:
                 may change between solves.
             J: Jacobian of F; derived if None. Of a list of residuals, a list of rows, in which None
                 stands for zero.
+            conductances: What flows across contacts, where u is a list with its field in it: heat
+                by pressure and gap, for example.
             petsc_options: Options of SNES, its KSP and PC, without the prefix. ``snes_rtol``
                 (default 1e-11) is relative to the forces of the problem.
             audit: What becomes of a converged iterate that geometry shows to be wrong: nodes that
@@ -101,6 +105,7 @@ class ContactProblem:
             displacement=displacement,
             bcs=bcs,
             J=J,
+            conductances=conductances,
             audit=audit,
             form_compiler_options=form_compiler_options,
             jit_options=jit_options,

@@ -18,6 +18,7 @@ import numpy.typing as npt
 from contactx import cpp as core
 from contactx.bulk import Bulk
 from contactx.bulk_side import BulkSide
+from contactx.conductance import Conductance, add_entries
 from contactx.coupled import CoupledBulk
 from contactx.interface import Interface
 from contactx.layout import Layout, Rows
@@ -129,6 +130,9 @@ class SaddlePointSystem:
             A.assemble(PETSc.Mat.AssemblyType.FLUSH)
             A.setOption(PETSc.Mat.Option.NEW_NONZERO_ALLOCATION_ERR, False)
             _add(A, added, others)
+        if isinstance(self._bulk, CoupledBulk):
+            for conductance in self._bulk.conductances:
+                self._add_conductance(A, conductance, places)
         A.assemble()
         if springs is not None:
             diagonal = self.x.duplicate()
@@ -139,6 +143,46 @@ class SaddlePointSystem:
         factors.array[self.num_bulk :] = self.core.factors
         A.diagonalScale(None, factors)
         return A
+
+    def _add_conductance(
+        self, A: PETSc.Mat, conductance: Conductance, places: npt.NDArray[np.int64]
+    ) -> None:
+        """Add what flows across a contact; all ranks must take part.
+
+        Args:
+            A: Jacobian, not scaled yet.
+            conductance: What flows.
+            places: Places of the displacements of all nodes, then of this rank's multipliers.
+        """
+        assert isinstance(self._bulk, CoupledBulk)
+        bulk, interface = self._bulk, conductance.contact.interface
+        k = bulk.number_of(conductance.field)
+        count = conductance.field.function_space.dofmap.index_map.size_local
+        first = self._layout.bulk()[:1] + self.num_displacements + bulk.fields.first_of(k)
+        dofs = conductance.at_nodes(first + np.arange(count, dtype=np.int64))
+        free = conductance.at_nodes(bulk.all_markers[k].astype(np.int64)) == 0
+        by_field, by_displacement, by_pressure, normal = conductance.derivatives()
+        size = interface.nodes.size
+        at = self._offsets[1 + self.interfaces.index(interface)] - self.num_bulk
+        own = places[self.num_local + at :]
+        slaves = by_pressure.columns
+        multipliers = [
+            (
+                by_pressure.rows,
+                own[size * slaves + i],
+                by_pressure.values * (1.0 if size == 1 else normal[slaves, i]),
+            )
+            for i in range(size)
+        ]
+        A.assemble(PETSc.Mat.AssemblyType.FLUSH)
+        A.setOption(PETSc.Mat.Option.NEW_NONZERO_ALLOCATION_ERR, False)
+        for rows, columns, values in (
+            (by_field.rows, dofs[by_field.columns], by_field.values),
+            (by_displacement.rows, places[by_displacement.columns], by_displacement.values),
+            *multipliers,
+        ):
+            keep = free[rows]
+            add_entries(A, dofs[rows[keep]], columns[keep], values[keep])
 
     def _bulk_rows(self) -> Rows:
         """Rows of the bulk's Jacobian, which are kept where it does not change."""

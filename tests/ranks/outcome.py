@@ -15,7 +15,7 @@ from dolfinx import fem
 
 type Array = npt.NDArray[Any]
 
-FIELDS = ("pressure", "traction", "gap", "status")
+FIELDS = ("pressure", "master_pressure", "traction", "gap", "status")
 
 
 class Outcome:
@@ -58,6 +58,10 @@ class Outcome:
                 names += ["slip", "slip_total"]
             for name in names:
                 found[f"{name} {k}"] = in_order(getattr(contact, name))
+        for k, conductance in enumerate(problem.assembler.conductances):
+            found[f"field {k}"] = in_order(conductance.field)
+            found[f"across {k}"] = in_order(conductance.contact.across(conductance.field))
+            found[f"flow {k}"] = np.array([conductance.flow])
         return found if problem.displacement.function_space.mesh.comm.rank == 0 else {}
 
 

@@ -10,6 +10,7 @@ import contactx as cx
 from dolfinx.mesh import CellType
 
 from scenes.coupled import Coupled, thermal
+from scenes.heat import HeatedBlocks
 
 
 def pressure_of_cells() -> Iterator[cx.ContactProblem]:
@@ -32,6 +33,16 @@ def heat() -> Iterator[cx.ContactProblem]:
     )  # fmt: skip
     problem.solve()
     yield problem
+
+
+def heat_across() -> Iterator[cx.ContactProblem]:
+    """Heat from the one body to the other, which presses them; and what each sees of the other."""
+    scene = HeatedBlocks(CellType.tetrahedron, friction=0.2, gap=0.01)
+    problem = scene.problem()
+    for hot in (40.0, 100.0):
+        scene.heat[0].g.value[...] = hot
+        problem.solve()
+        yield problem
 
 
 def _solved(kind: str, cell: CellType = CellType.triangle) -> Iterator[cx.ContactProblem]:

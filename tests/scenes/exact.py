@@ -33,7 +33,7 @@ def stress(u: Any, body: Tag) -> Any:
     return 2 * mu * strain + lmbda * ufl.tr(strain) * ufl.Identity(len(u))
 
 
-def smooth(x: Any, body: Tag) -> Any:
+def smooth(x: Any, body: Tag, *, slips: bool = True) -> Any:
     """A displacement that slips along the face and bends it.
 
     With the height y it is -y grad g + k along the face and g + y q + y^2 g across it, which has
@@ -43,13 +43,15 @@ def smooth(x: Any, body: Tag) -> Any:
     Args:
         x: UFL coordinates.
         body: The body.
+        slips: Whether k is not zero; without it the displacement is continuous.
     """
     mu, lmbda = _lame(body)
     along = range(len(x) - 1)
     y = x[len(x) - 1]
     g = sum(0.1 * ufl.sin(3 * x[i] + 1 + i) for i in along)
-    k = [_SLIP[body] * ufl.cos(2 * x[i]) for i in along]
-    q = -(smooth_pressure(x) + lmbda * sum(k[i].dx(i) for i in along)) / (lmbda + 2 * mu)
+    k = [_SLIP[body] * ufl.cos(2 * x[i]) for i in along] if slips else [0.0] * len(along)
+    stretch = sum(k[i].dx(i) for i in along) if slips else 0
+    q = -(smooth_pressure(x) + lmbda * stretch) / (lmbda + 2 * mu)
     return ufl.as_vector([*(k[i] - y * g.dx(i) for i in along), g + y * q + y**2 * g])
 
 

@@ -45,7 +45,9 @@ class Case:
         problem: The problem.
     """
 
-    def __init__(self, cell: str, n: int, length: float, method: str):
+    def __init__(
+        self, cell: str, n: int, length: float, method: str, *, degree: int = 1, tied: bool = False
+    ):
         """Mesh the blocks.
 
         Args:
@@ -53,6 +55,8 @@ class Case:
             n: Number of cells along a unit of length of the slave, a multiple of 3.
             length: Length of the blocks along the first axis; the other ones are 1.
             method: Method of the contact.
+            degree: Degree of the displacement.
+            tied: Whether the blocks are tied.
         """
         gdim = dimension(mesh.CellType[cell])
         size = (length, *(1.0,) * (gdim - 1))
@@ -60,8 +64,8 @@ class Case:
         data = meshes.blocks(mesh.CellType[cell], fine, coarse, size_upper=size, size_lower=size)
         self.domain, self.tags = data.mesh, data.facet_tags
         self.cells = {body: data.cell_tags.find(body) for body in (Tag.UPPER, Tag.LOWER)}
-        self.u = displacement(self.domain)
-        self._method = method
+        self.u = displacement(self.domain, degree)
+        self._method, self._tied = method, tied
         self._measure = ufl.Measure(
             "dx",
             self.domain,
@@ -85,6 +89,7 @@ class Case:
             cx.Surface(self.tags, Tag.LOWER_CONTACT),
             sliding="small",
             method=self._method,
+            tied=self._tied,
             offset=offset,
         )
         self.problem = cx.ContactProblem(
@@ -92,12 +97,18 @@ class Case:
         )
         self.problem.solve()
 
-    def errors(self, u: Mapping[Tag, Any], pressure: Callable[[Array], Array]) -> dict[str, float]:
-        """Relative errors: displacement in H1 and L2, raw and best nodal pressure in L2.
+    def errors(
+        self, u: Mapping[Tag, Any], pressure: Callable[[Array], Array], density: Any
+    ) -> dict[str, float]:
+        """Relative errors: displacement in H1 and L2, pressure in L2.
+
+        The pressure is the raw and the recovered one at nodes, weighted by area, and the recovered
+        one integrated as a function.
 
         Args:
             u: Exact displacement in each body.
             pressure: Exact pressure at points of the interface, shape (n, 3).
+            density: The same in UFL.
         """
 
         def norm(of: Callable[[Any], Any], w: Mapping[Tag, Any]) -> float:
@@ -108,20 +119,42 @@ class Case:
         contact, x = self.contact, self.u.function_space.tabulate_dof_coordinates()
         w, p = contact.area, pressure(x[contact.slave_nodes])
         best = contact.pressure.x.array[contact.slave_nodes]
+        raw = contact.multiplier.reshape(len(w), -1)[:, -1]
+        face = ufl.Measure(
+            "ds",
+            self.domain,
+            subdomain_data=self.tags,
+            metadata={"quadrature_degree": 2 * _DEGREE},
+        )(int(Tag.UPPER_CONTACT))
+
+        def size(of: Any) -> float:
+            return float(np.sqrt(fem.assemble_scalar(fem.form(of**2 * face))))
+
         return {
             "H1": norm(ufl.grad, off) / norm(ufl.grad, u),
             "L2": norm(lambda f: f, off) / norm(lambda f: f, u),
-            "raw": float(np.sqrt(w @ (contact.multiplier - p) ** 2 / (w @ p**2))),
+            "raw": float(np.sqrt(w @ (raw - p) ** 2 / (w @ p**2))),
             "best": float(np.sqrt(w @ (best - p) ** 2 / (w @ p**2))),
+            "field": size(contact.pressure - density) / size(density),
         }
 
 
-def smooth(cell: str, n: int, method: str) -> dict[str, Any]:
-    """Solve with a smooth exact solution; all nodes are in contact, the sides carry tractions."""
-    case = Case(cell, n, 1.0, method)
+def smooth(
+    cell: str, n: int, method: str, *, degree: int = 1, tied: bool = False
+) -> dict[str, Any]:
+    """Solve with a smooth exact solution; all nodes are in contact, the sides carry tractions.
+
+    Args:
+        cell: Cell type.
+        n: Number of cells along a unit of length of the slave.
+        method: Method of the contact.
+        degree: Degree of the displacement.
+        tied: Whether the blocks are tied, and do not slip.
+    """
+    case = Case(cell, n, 1.0, method, degree=degree, tied=tied)
     V = case.u.function_space
     x = ufl.SpatialCoordinate(case.domain)
-    u = {body: exact.smooth(x, body) for body in case.cells}
+    u = {body: exact.smooth(x, body, slips=not tied) for body in case.cells}
     values = fem.Function(V)
     for body, cells in case.cells.items():
         values.interpolate(fem.Expression(u[body], V.element.interpolation_points), cells)
@@ -136,24 +169,33 @@ def smooth(cell: str, n: int, method: str) -> dict[str, Any]:
     case.solve(
         case.internal(zero) + pushed, prescribe(values, case.tags, Tag.UPPER_TOP, Tag.LOWER_BOTTOM)
     )
-    found = case.errors(u, lambda points: exact.smooth_pressure(points.T[: len(x)], np.cos))
+    found = case.errors(u, lambda points: exact.smooth_pressure(points.T[: len(x)], np.cos), p)
     return {"h": 1 / n, "dofs": len(case.u.x.array), **found}
 
 
-def hertz(cell: str, n: int, method: str) -> dict[str, Any]:
-    """Solve Hertz's line contact of half-planes cut to blocks, with their exact displacements."""
-    case = Case(cell, n, exact.LENGTH, method)
+def hertz(cell: str, n: int, method: str, *, degree: int = 1) -> dict[str, Any]:
+    """Solve Hertz's line contact of half-planes cut to blocks, with their exact displacements.
+
+    Args:
+        cell: Cell type.
+        n: Number of cells along a unit of length of the slave.
+        method: Method of the contact.
+        degree: Degree of the displacement.
+    """
+    case = Case(cell, n, exact.LENGTH, method, degree=degree)
     V = case.u.function_space
     high = fem.Function(fem.functionspace(case.domain, ("Lagrange", _HIGH, (2,))))
     values = fem.Function(V)
     for body, cells in case.cells.items():
         for function in (high, values):
             function.interpolate(lambda x, body=body: exact.hertz(x, body), cells)
-    offset = fem.Function(fem.functionspace(case.domain, ("Lagrange", 1)))
+    offset = fem.Function(fem.functionspace(case.domain, ("Lagrange", degree)))
     offset.interpolate(lambda x: -exact.hertz_gap(x[0]))
     sides = (Tag.UPPER_X0, Tag.UPPER_X1, Tag.LOWER_X0, Tag.LOWER_X1)
     bc = prescribe(values, case.tags, Tag.UPPER_TOP, Tag.LOWER_BOTTOM, *sides)
     case.solve(case.internal(dict.fromkeys(case.cells, case.u)), bc, offset)
     u = dict.fromkeys(case.cells, high)
-    found = case.errors(u, lambda points: exact.hertz_pressure(points[:, 0]))
+    ratio = (ufl.SpatialCoordinate(case.domain)[0] - exact.MIDDLE) / exact.HALF_WIDTH
+    p = exact.PEAK * ufl.sqrt(ufl.max_value(1 - ratio**2, 0))
+    found = case.errors(u, lambda points: exact.hertz_pressure(points[:, 0]), p)
     return {"h": 1 / n, "dofs": len(case.u.x.array), **found}

@@ -16,8 +16,6 @@ using namespace contactx::contact;
 
 namespace
 {
-constexpr int passes = 2;
-
 double product(const double* a, const double* b, int gdim)
 {
   return std::inner_product(a, a + gdim, b, 0.0);
@@ -31,6 +29,7 @@ Recovery::Recovery(std::shared_ptr<const SlaveNodes> slaves,
   if (not _slaves)
     throw std::invalid_argument("slaves must not be empty");
   check::dimension(gdim);
+  _passes = _slaves->is_quadratic() and _slaves->is_mortar() ? 1 : 2;
   const facet::FacetList facets = _slaves->local();
   const std::vector<double> here = _slaves->here(x, gdim, "x");
   const std::vector<double> parts
@@ -158,7 +157,7 @@ Recovery::pressure(std::span<const double> p, std::span<const double> area,
   check::rows(p.size(), _area.size(), 1, "p");
   const std::vector<Flow> flows = this->flows(area, closed);
   std::vector<double> result = consistent(p, 1, area, closed), sum(p.size());
-  for (int pass = 0; pass < passes; ++pass)
+  for (int pass = 0; pass < _passes; ++pass)
   {
     const std::vector<double> every = _slaves->scatter_forward(result);
     std::ranges::fill(sum, 0);
@@ -180,7 +179,7 @@ std::vector<double> Recovery::shear(std::span<const double> t,
   const std::vector<double> normals = _slaves->scatter_forward(normal, _gdim);
   std::vector<double> result = consistent(t, _gdim, area, closed);
   std::vector<double> sum(t.size());
-  for (int pass = 0; pass < passes; ++pass)
+  for (int pass = 0; pass < _passes; ++pass)
   {
     const std::vector<double> every = _slaves->scatter_forward(result, _gdim);
     std::ranges::fill(sum, 0);

@@ -19,7 +19,8 @@ struct Recovered
 /// A multiplier is the force of a slave node over its area. It scatters from
 /// node to node where the meshes do not match (by 20 % on Hertz's problem, node
 /// to surface), and at the edge of the contact. Recovery moves force between
-/// closed nodes i and j that share a facet, in two passes of
+/// closed nodes i and j that share a facet, in two passes (one where quadratic
+/// multipliers are integrated, which scatter less) of
 ///
 ///     p_i <- p_i + 1/A_i sum_j m_ij (p_j - p_i),
 ///     m_ij = (A_fi A_fj / A_f) r_ij^2
@@ -128,7 +129,7 @@ private:
                           std::span<const std::int8_t> closed) const;
 
   std::shared_ptr<const SlaveNodes> _slaves;
-  int _gdim;
+  int _gdim, _passes;
   // Of all pairs of neighbours, with m_ij of nodes inside the contact
   std::vector<Flow> _flows;
   std::vector<double> _area; // of all of a node's facets

@@ -46,6 +46,9 @@ public:
   /// @brief Whether the facets are parts of quadratic ones.
   bool is_quadratic() const { return _is_quadratic; }
 
+  /// @brief Whether they are of quadratic facets that are integrated.
+  bool is_mortar() const { return _is_mortar; }
+
   /// @brief What areas are shared out by, at all slave nodes.
   facet::Shares shares() const { return {_weight, _level}; }
 

@@ -13,8 +13,8 @@ namespace contactx::newton
 /// @brief What a bulk has for unknowns beside displacements: pressures of mixed
 /// spaces, temperatures of coupled problems, bubbles.
 ///
-/// Contact neither reads nor changes them; they are solved for together. Values
-/// are those of this rank, one field after the other (shape=(size)).
+/// Contact does not change them; they are solved for together. Values are those
+/// of this rank, one field after the other (shape=(size)).
 class Fields
 {
 public:
@@ -32,6 +32,10 @@ public:
 
   /// @brief Their rows of what `Bulk::residual` has assembled last.
   virtual std::span<const double> residual() = 0;
+
+  /// @brief Whether these depend on pairs, gaps and pressures, as what flows
+  /// across a contact does: they are asked for anew where those have changed.
+  virtual bool follow_contacts() const { return false; }
 
   /// @brief Values minus Dirichlet values where these are prescribed, else
   /// zero.

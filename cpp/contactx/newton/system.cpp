@@ -103,12 +103,20 @@ std::span<const double> System::bulk_residual()
   const std::span<const double> u = _bulk->displacements();
   const std::span<const double> values = fields_values();
   const std::span<const double> at(_at);
+  std::vector<double> others(values.begin(), values.end());
+  if (Fields* fields = _bulk->fields(); fields and fields->follow_contacts())
+    for (const auto& c : _contacts)
+    {
+      others.push_back(static_cast<double>(c->version()));
+      const std::vector<double>& multiplier = c->nodes()->multiplier;
+      others.insert(others.end(), multiplier.begin(), multiplier.end());
+    }
   const bool same = not at.empty() and std::ranges::equal(u, at.first(u.size()))
-                    and std::ranges::equal(values, at.subspan(u.size()));
+                    and std::ranges::equal(others, at.subspan(u.size()));
   if (not parallel::everywhere(_halo->ranks(), same or num_bulk() == 0))
   {
     _at.assign(u.begin(), u.end());
-    _at.insert(_at.end(), values.begin(), values.end());
+    _at.insert(_at.end(), others.begin(), others.end());
     const std::span<const double> b = _bulk->residual();
     _bulk_residual.assign(b.begin(), b.end());
     if (Fields* fields = _bulk->fields())

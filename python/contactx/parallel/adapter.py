@@ -36,6 +36,7 @@ class Adapter:
         full_map: Index map of all nodes, over the ranks.
         index_map: The same on this rank alone, by which forms are assembled.
         displacement: Displacement of all nodes, as of the last ``update_ghosts``.
+        space: Space of the displacement.
     """
 
     displacement: la.Vector
@@ -47,7 +48,7 @@ class Adapter:
             u: Displacement, in a linear Lagrange space.
             X: Reference positions of its nodes, ghosts included, shape (num_bulk, gdim).
         """
-        V = u.function_space
+        V = self.space = u.function_space
         self._u, self._X = u, X
         self._bulk_map = self.full_map = V.dofmap.index_map
         self.comm: MPI.Comm = V.mesh.comm

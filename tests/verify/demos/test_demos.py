@@ -3,6 +3,7 @@
 """The demos run, print what they should and leave their pictures."""
 
 import finite_strain
+import heat_conductance
 import hertz_axisymmetric
 import hertz_cylinder
 import hertz_sphere
@@ -45,6 +46,15 @@ def test_demo(demo, sliding, h, tolerances, tmp_path, capsys):
         assert pixels.shape[0] > 300
         assert len(np.unique(pixels.reshape(-1, pixels.shape[-1]), axis=0)) > 100
     assert "pressure" in pyvista.get_reader(str(tmp_path / f"{name}.pvd")).read()[0].point_data
+
+
+def test_heat(tmp_path, capsys):
+    results = heat_conductance.main(["--h", "0.02", "--output", str(tmp_path)])
+    assert [abs(result.error) <= 1e-7 for result in results] == [True] * 3
+    printed = capsys.readouterr().out
+    for text in ("expected", "computed", "error", "together", "in turns", "see "):
+        assert text in printed
+    assert image.imread(tmp_path / "heat_conductance.png").shape[0] > 300
 
 
 def test_finite_strain(tmp_path, capsys):

@@ -17,7 +17,7 @@ UNUSUAL = {
     "ghosted": (3,),
 }
 # What they are tried on: free bodies, ties, nodes in several contacts, dragging, obstacles, both
-# solvers, quadratic displacement, weights
+# solvers, quadratic displacement, weights, heat
 TRIED = (
     ("hertz_3d", "node"),
     ("hertz_condensed", "surface"),
@@ -36,6 +36,7 @@ TRIED = (
     ("quadratic_tetrahedra", "node"),
     ("quadratic_condensed", "surface"),
     ("axisymmetric", "node"),
+    ("heat_across", "surface"),
 )
 BOTH = list(METHODS)
 CASES = [

@@ -1,0 +1,362 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""What flows from one side of a contact to the other: heat, charge, fluid."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from petsc4py import PETSc
+
+import numpy as np
+import numpy.typing as npt
+
+import basix.ufl
+from contactx import cpp as core
+from contactx.arguments import described, is_number
+from contactx.contact import Contact
+from contactx.nodal import matching_nodes
+from contactx.obstacles import Obstacle
+from contactx.parallel import reduce
+from contactx.parallel.agreement import agreed
+from contactx.refined import degree_of
+from dolfinx import fem
+
+type Array = npt.NDArray[np.float64]
+type Index = npt.NDArray[np.int64]
+type Coefficient = float | Callable[[Array, Array], npt.ArrayLike]
+
+# Relative steps of the difference quotients of a coefficient
+_STEP = 1e-6
+
+
+class Conductance:
+    """Flow from the slave to the master of a contact, q = h(p, g) (T_slave - T_master) per area.
+
+    T is a scalar field such as a temperature, p the recovered contact pressure and g the gap. What
+    leaves the slave arrives at the master, whether the meshes match or not: with the weights of the
+    contact's pairs a node j has the flow sum_i w_ij A_i h_i sum_k w_ik T_k; see
+    ``contact/transfer.h``. Flows are integrals with the contact's weight, and over reference areas.
+
+    Given to a ``ContactProblem`` that solves for displacement and T together, it is part of that
+    system, with its derivatives by T, by the pressure and by the gap. Where T is solved for by
+    itself, after the contact, ``matrix`` and ``residual`` are what must be added to its system.
+
+    Attributes:
+        contact: The contact.
+        field: The field T.
+        coefficient: The coefficient h.
+        obstacle_value: Value of T at a rigid obstacle.
+    """
+
+    def __init__(
+        self,
+        contact: Contact,
+        field: fem.Function,
+        coefficient: Coefficient,
+        *,
+        obstacle_value: float | fem.Constant | None = None,
+    ):
+        """Create a conductance.
+
+        Args:
+            contact: The contact.
+            field: Field in the scalar Lagrange space of the displacement's degree and mesh.
+            coefficient: Flow per area and difference of T: a number, or a function of the contact
+                pressures (force/area) and gaps (a length) of some nodes, arrays of shape (n,) of
+                numbers that are at least 0, that returns as many values. They must be finite and
+                not negative. Nodes that have no master in front of them are left out.
+            obstacle_value: T of a rigid obstacle; only there, and needed there.
+
+        Raises:
+            TypeError: If an argument is of another kind.
+            ValueError: If the coefficient is negative or not finite, or obstacle_value is missing
+                or has no place.
+        """
+        if not isinstance(contact, Contact):
+            raise TypeError(f"contact must be a contactx.Contact, not {described(contact)}")
+        if not isinstance(field, fem.Function):
+            raise TypeError(f"field must be a dolfinx.fem.Function, not {described(field)}")
+        if not (callable(coefficient) or is_number(coefficient)):
+            raise TypeError(
+                f"coefficient is {described(coefficient)}: give a number, or a function of the "
+                "pressures and gaps"
+            )
+        if not callable(coefficient) and not (np.isfinite(coefficient) and coefficient >= 0):
+            raise ValueError(f"coefficient is {coefficient}: give a finite number of at least 0")
+        is_rigid = isinstance(contact.master, Obstacle)
+        if is_rigid != (obstacle_value is not None):
+            raise ValueError(
+                "obstacle_value is missing: give the field's value at the rigid obstacle"
+                if is_rigid
+                else "obstacle_value is for rigid obstacles: a master surface has the field itself"
+            )
+        if obstacle_value is not None and not (
+            is_number(obstacle_value) or isinstance(obstacle_value, fem.Constant)
+        ):
+            raise TypeError(
+                f"obstacle_value is {described(obstacle_value)}: give a number or a fem.Constant"
+            )
+        self.contact = contact
+        self.field = field
+        self.coefficient = coefficient
+        self.obstacle_value = obstacle_value
+        # Node of the field at each of the bulk's nodes
+        self._nodes: npt.NDArray[np.int32] | None = None
+
+    def check(self) -> None:
+        """Check that the field is one of the contact's nodes; all ranks must take part.
+
+        Raises:
+            RuntimeError: If the contact belongs to no problem yet.
+            ValueError: If it is of another space or mesh.
+        """
+        if self._nodes is not None:
+            return
+        V = self.contact.interface.halo.adapter.space
+        Q = self.field.function_space
+        element, degree = Q.ufl_element(), degree_of(V)
+        fits = (
+            not isinstance(element, basix.ufl._MixedElement)
+            and element.element_family == basix.ElementFamily.P
+            and element.degree == degree
+            and element.block_size == 1
+            and not element.discontinuous
+        )
+        if Q.mesh is not V.mesh or not fits:
+            raise ValueError(
+                f"the field of a conductance is of {element}: take "
+                f'functionspace(mesh, ("Lagrange", {degree})) on the displacement\'s mesh, whose '
+                "nodes are those of contact"
+            )
+        self._nodes = matching_nodes(V, Q)
+
+    @property
+    def flow(self) -> float:
+        """Flow from the slave to the master, of all ranks, for field and contact as they are now.
+
+        All ranks must take part.
+        """
+        transfer, h = self._evaluate()
+        flow = h * transfer.area * self._differences(transfer)
+        return float(reduce.total(self._halo.comm, flow.sum()))
+
+    def residual(self) -> Array:
+        """What leaves each of the field's dofs that this rank owns, shape (num_owned,).
+
+        All ranks must take part. It belongs to the left-hand side of a balance: the residual of
+        UFL's ``inner(k * grad(T), grad(v)) * dx - Q * v * dx`` plus this is zero.
+        """
+        transfer, h = self._evaluate()
+        b = np.zeros(self._halo.num_nodes)
+        transfer.add(h * transfer.area * self._differences(transfer), b)
+        sums = self._halo.scatter_reverse(b)
+        residual: Array = np.empty_like(sums)
+        assert self._nodes is not None
+        residual[self._nodes[: len(sums)]] = sums
+        return residual
+
+    def matrix(self) -> PETSc.Mat:
+        """Derivative of the residual by the field, over the dofs of its space.
+
+        It is symmetric and positive semidefinite. All ranks must take part. Rows of Dirichlet
+        conditions are not treated; add it before these are::
+
+            A = fem.petsc.assemble_matrix(a, bcs=bcs)
+            A.assemble()
+            C = conductance.matrix()
+            C.zeroRowsColumnsLocal(bc.dof_indices()[0], diag=0.0)
+            A.axpy(1.0, C)
+        """
+        transfer, h = self._evaluate()
+        dofs = self._numbers()
+        entries = transfer.by_field(h)
+        index_map = self.field.function_space.dofmap.index_map
+        size = (index_map.size_local, None)
+        C = PETSc.Mat().createAIJ((size, size), comm=self._halo.comm)
+        C.setUp()
+        add_entries(C, dofs[entries.rows], dofs[entries.columns], entries.values)
+        C.assemble()
+        ghosts = np.arange(index_map.size_local + index_map.num_ghosts, dtype=np.int32)
+        numbers = index_map.local_to_global(ghosts).astype(PETSc.IntType)
+        lgmap = PETSc.LGMap().create(numbers, comm=self._halo.comm)
+        C.setLGMap(lgmap, lgmap)
+        return C
+
+    def derivatives(self) -> tuple[core.Triplets, core.Triplets, core.Triplets, Array]:
+        """Derivatives of what leaves the nodes; all ranks must take part.
+
+        Returns:
+            Those by the field, nodes by nodes; by the displacement, nodes by displacements; by the
+            pressure, nodes by slave nodes; and the slave nodes' normals, shape (n, gdim).
+        """
+        interface = self.contact.interface
+        transfer, h = self._evaluate()
+        difference = transfer.area * self._differences(transfer)
+        by_pressure, by_gap = self._slopes(transfer)
+        normal = interface.master.normals().reshape(-1, 3)[:, : self._halo.gdim]
+        return (
+            transfer.by_field(h),
+            transfer.by_displacement(by_gap * difference),
+            transfer.by_slaves(by_pressure * difference),
+            normal,
+        )
+
+    @property
+    def _halo(self) -> Any:
+        return self.contact.interface.halo
+
+    def at_nodes(self, values: npt.NDArray[Any]) -> npt.NDArray[Any]:
+        """Values of the field's owned dofs at all nodes; all ranks must take part.
+
+        Args:
+            values: Values, shape (at least num_owned,).
+        """
+        assert self._nodes is not None
+        own = np.ascontiguousarray(values[self._nodes[: self._halo.num_owned]])
+        every: npt.NDArray[Any] = self._halo.scatter_forward(own)
+        return every
+
+    def _numbers(self) -> Index:
+        """Numbers of the field's dofs over the ranks at all nodes."""
+        index_map = self.field.function_space.dofmap.index_map
+        first, last = index_map.local_range
+        return self.at_nodes(np.arange(first, last, dtype=np.int64))
+
+    def _differences(self, transfer: core.Transfer) -> Array:
+        """Field of the slave nodes less that of the master in front of them, shape (n,)."""
+        differences = transfer.differences(self.at_nodes(self.field.x.array))
+        other = self.obstacle_value
+        if other is not None:
+            differences -= float(other.value if isinstance(other, fem.Constant) else other)
+        differences[~transfer.is_paired] = 0
+        return differences
+
+    def _evaluate(self) -> tuple[core.Transfer, Array]:
+        """Pairs and coefficients of the iterate, zero where there is no pair."""
+        self.check()
+        interface = self.contact.interface
+        interface.update_gap()
+        transfer = core.Transfer(interface)
+        # Iterates may pull, or penetrate
+        self._p = np.maximum(self.contact.fields.recovered_pressure(), 0.0)
+        self._gap = np.maximum(interface.nodes.gap, 0.0)
+        with agreed(self._halo.comm):
+            h = self._coefficients(transfer, self._p, self._gap)
+        return transfer, h
+
+    def _slopes(self, transfer: core.Transfer) -> tuple[Array, Array]:
+        """Derivatives of the coefficients by pressure and gap, where these were evaluated last."""
+        zero = np.zeros_like(self._p)
+        if not callable(self.coefficient):
+            return zero, zero
+        paired = self._conducts(transfer)
+        comm = self._halo.comm
+        slopes = []
+        for k, values in enumerate((self._p, self._gap)):
+            size = reduce.largest(comm, float(np.abs(values[paired]).max(initial=0.0)))
+            if size == 0:
+                slopes.append(zero)
+                continue
+            step = _STEP * size
+            with agreed(comm):
+                ends = []
+                for sign in (1, -1):
+                    given = [self._p, self._gap]
+                    given[k] = np.maximum(values + sign * step, 0.0)
+                    ends.append((self._coefficients(transfer, *given), given[k]))
+                (high, up), (low, down) = ends
+                slopes.append((high - low) / np.where(paired, up - down, 1.0))
+        return slopes[0], slopes[1]
+
+    def _conducts(self, transfer: core.Transfer) -> npt.NDArray[np.bool_]:
+        """Whether anything flows at slave nodes: not where contact is switched off."""
+        conducts: npt.NDArray[np.bool_] = transfer.is_paired & ~np.isnan(self._gap)
+        return conducts & self.contact.active
+
+    def _coefficients(self, transfer: core.Transfer, p: Array, gap: Array) -> Array:
+        """Coefficients of the slave nodes.
+
+        Raises:
+            ValueError: If they are not as they must be.
+        """
+        h = np.zeros(len(p))
+        paired = self._conducts(transfer)
+        if not paired.any():
+            return h
+        found: Any = self.coefficient
+        if callable(self.coefficient):
+            found = self.coefficient(p[paired].copy(), gap[paired].copy())
+        found = np.asarray(found, dtype=np.float64)
+        wanted = (int(paired.sum()),)
+        if callable(self.coefficient) and found.shape not in ((), wanted):
+            raise ValueError(
+                f"coefficient() of a conductance returned the shape {found.shape} for {wanted[0]} "
+                "nodes: return a value for each"
+            )
+        if not (np.isfinite(found).all() and (found >= 0).all()):
+            raise ValueError(
+                "coefficient() of a conductance is negative or not finite: it must not be for any "
+                "pressure and gap of at least zero"
+            )
+        h[paired] = found
+        return h
+
+
+def add_entries(A: PETSc.Mat, rows: Index, columns: Index, values: Array) -> None:
+    """Add entries to a matrix, those in rows of other ranks, too; it must be assembled then.
+
+    Args:
+        A: The matrix.
+        rows: Numbers of rows over the ranks, shape (n,).
+        columns: Numbers of columns, shape (n,).
+        values: Values, shape (n,).
+    """
+    order = np.argsort(rows, kind="stable")
+    which, counts = np.unique(rows[order], return_counts=True)
+    offsets = np.concatenate([[0], np.cumsum(counts)])
+    A.setValuesIJV(
+        offsets.astype(PETSc.IntType),
+        columns[order].astype(PETSc.IntType),
+        values[order],
+        addv=PETSc.InsertMode.ADD,
+        rowmap=which.astype(PETSc.IntType),
+    )
+
+
+def check_conductances(
+    conductances: Any, contacts: list[Contact], functions: list[fem.Function], displacement: Any
+) -> list[Conductance]:
+    """Check what a problem was given.
+
+    Args:
+        conductances: Conductances.
+        contacts: Contacts of the problem.
+        functions: What is solved for.
+        displacement: The displacement among that.
+
+    Raises:
+        TypeError: If it is no list of conductances.
+        ValueError: If one is of another contact, or of a field that is not solved for.
+    """
+    if conductances is None:
+        return []
+    if isinstance(conductances, Conductance):
+        raise TypeError("conductances must be a list: write conductances=[conductance]")
+    if not isinstance(conductances, list | tuple):
+        raise TypeError(f"conductances must be a list, not {described(conductances)}")
+    for k, c in enumerate(conductances):
+        if not isinstance(c, Conductance):
+            raise TypeError(f"conductances[{k}] must be a Conductance, not {described(c)}")
+        if not any(c.contact is contact for contact in contacts):
+            raise ValueError(
+                f"conductances[{k}] is of {c.contact}, which is none of the problem's contacts"
+            )
+        if not any(c.field is w for w in functions) or c.field is displacement:
+            raise ValueError(
+                f"the field of conductances[{k}] is not solved for: give it among the functions "
+                "u=[displacement, field]; a part of a mixed space will not do. Where it is solved "
+                "for by itself, leave conductances out and take matrix() and residual()"
+            )
+    return list(conductances)
