@@ -65,7 +65,7 @@ def smooth_pressure(x: Any, cos: Any = ufl.cos) -> Any:
     return 0.2 + sum(0.1 * cos(4 * x[i]) for i in range(len(x) - 1))
 
 
-def hertz(x: Array, body: Tag) -> Array:
+def hertz(x: Array, body: Tag, middle: float = MIDDLE) -> Array:
     """Displacement of a half-plane under Hertz's pressure, up to a rigid motion.
 
     Source: H. M. Westergaard, Bearing pressures and cracks, J. Appl. Mech. 6, 1939: for a face
@@ -77,6 +77,7 @@ def hertz(x: Array, body: Tag) -> Array:
     Args:
         x: Positions, shape (3, n).
         body: The body.
+        middle: Middle of the contact.
 
     Returns:
         Displacements, shape (2, n).
@@ -85,7 +86,7 @@ def hertz(x: Array, body: Tag) -> Array:
     up = 1.0 if body == Tag.UPPER else -1.0
     # On the edge the values are those from within
     y = np.minimum(-up * x[1], -1e-14)
-    z, b = x[0] - MIDDLE + 1j * y, HALF_WIDTH
+    z, b = x[0] - middle + 1j * y, HALF_WIDTH
     root = np.sqrt(b**2 - z**2)
     Z = -(PEAK / b) * (root - 1j * z)
     W = -(PEAK / b) * ((z * root + b**2 * np.arcsin(z / b)) / 2 - 1j * z**2 / 2)
@@ -94,15 +95,15 @@ def hertz(x: Array, body: Tag) -> Array:
     return np.stack([along, -up * across]) / (2 * mu)
 
 
-def hertz_gap(x: Array) -> Array:
+def hertz_gap(x: Array, middle: float = MIDDLE) -> Array:
     """Gap of the undeformed bodies: a parabola that their displacements close in the contact."""
     bend = sum((1 - NU**2) / young for young in YOUNG.values())
-    return np.asarray(bend * PEAK / HALF_WIDTH * (x - MIDDLE) ** 2)
+    return np.asarray(bend * PEAK / HALF_WIDTH * (x - middle) ** 2)
 
 
-def hertz_pressure(x: Array) -> Array:
+def hertz_pressure(x: Array, middle: float = MIDDLE) -> Array:
     """Hertz's pressure on the face."""
-    ratio = (x - MIDDLE) / HALF_WIDTH
+    ratio = (x - middle) / HALF_WIDTH
     return np.asarray(PEAK * np.sqrt(np.maximum(1 - ratio**2, 0)))
 
 

@@ -173,7 +173,9 @@ def smooth(
     return {"h": 1 / n, "dofs": len(case.u.x.array), **found}
 
 
-def hertz(cell: str, n: int, method: str, *, degree: int = 1) -> dict[str, Any]:
+def hertz(
+    cell: str, n: int, method: str, *, degree: int = 1, middle: float = exact.MIDDLE
+) -> dict[str, Any]:
     """Solve Hertz's line contact of half-planes cut to blocks, with their exact displacements.
 
     Args:
@@ -181,6 +183,7 @@ def hertz(cell: str, n: int, method: str, *, degree: int = 1) -> dict[str, Any]:
         n: Number of cells along a unit of length of the slave.
         method: Method of the contact.
         degree: Degree of the displacement.
+        middle: Middle of the contact.
     """
     case = Case(cell, n, exact.LENGTH, method, degree=degree)
     V = case.u.function_space
@@ -188,14 +191,14 @@ def hertz(cell: str, n: int, method: str, *, degree: int = 1) -> dict[str, Any]:
     values = fem.Function(V)
     for body, cells in case.cells.items():
         for function in (high, values):
-            function.interpolate(lambda x, body=body: exact.hertz(x, body), cells)
+            function.interpolate(lambda x, body=body: exact.hertz(x, body, middle), cells)
     offset = fem.Function(fem.functionspace(case.domain, ("Lagrange", degree)))
-    offset.interpolate(lambda x: -exact.hertz_gap(x[0]))
+    offset.interpolate(lambda x: -exact.hertz_gap(x[0], middle))
     sides = (Tag.UPPER_X0, Tag.UPPER_X1, Tag.LOWER_X0, Tag.LOWER_X1)
     bc = prescribe(values, case.tags, Tag.UPPER_TOP, Tag.LOWER_BOTTOM, *sides)
     case.solve(case.internal(dict.fromkeys(case.cells, case.u)), bc, offset)
     u = dict.fromkeys(case.cells, high)
-    ratio = (ufl.SpatialCoordinate(case.domain)[0] - exact.MIDDLE) / exact.HALF_WIDTH
+    ratio = (ufl.SpatialCoordinate(case.domain)[0] - middle) / exact.HALF_WIDTH
     p = exact.PEAK * ufl.sqrt(ufl.max_value(1 - ratio**2, 0))
-    found = case.errors(u, lambda points: exact.hertz_pressure(points[:, 0]), p)
+    found = case.errors(u, lambda points: exact.hertz_pressure(points[:, 0], middle), p)
     return {"h": 1 / n, "dofs": len(case.u.x.array), **found}

@@ -174,7 +174,7 @@ def test_curved_meshes_are_followed(method):
     assert curved[0] < 0.4 * straight
     assert curved[1] < curved[0]
     # Nodes on facets scatter where the meshes do not match
-    assert curved[1] < (2e-3 if method == "surface-to-surface" else 0.02)
+    assert curved[1] < (2.5e-3 if method == "surface-to-surface" else 0.02)
 
 
 def test_curved_meshes_of_linear_displacements_are_refused():

@@ -120,7 +120,7 @@ def test_methods(monkeypatch):
 
 
 def test_rates():
-    rows = bench_rates.main(["6", "12"])
+    rows = bench_rates.main(["3", "6"])
     assert len(rows) == 2 * len(bench_rates.CASES) * len(METHODS)
     assert all(0.5 < row["H1 rate"] < 1.5 for row in rows if row["n"] == 12)
 
