@@ -5,7 +5,7 @@
 import numpy as np
 import pytest
 
-from scenes import exact_blocks
+from scenes import exact, exact_blocks
 from story import METHODS
 
 MORTAR = "surface-to-surface"
@@ -43,6 +43,38 @@ def test_hertz(method, cells):
     if method == MORTAR:
         assert rate["raw"] > 0.85 and rate["best"] > 0.85
         assert fine["raw"] < 0.02
+
+
+@pytest.mark.parametrize("cells", ["triangle", "quadrilateral"])
+@pytest.mark.parametrize("tied", [False, True])
+def test_quadratic_displacements(cells, tied):
+    """Surface to surface: what theory gives, h^2 and h^3; the pressure as h^2 at nodes."""
+    coarse, fine = (exact_blocks.smooth(cells, n, MORTAR, degree=2, tied=tied) for n in (12, 24))
+    rate = {key: np.log2(coarse[key] / fine[key]) for key in ("H1", "L2", "raw", "field")}
+    assert rate["H1"] > 1.95 and rate["L2"] > 2.9
+    assert rate["raw"] > 1.9 and rate["field"] > 1.45
+
+
+@pytest.mark.parametrize("cells", ["tetrahedron", "hexahedron"])
+@pytest.mark.parametrize("tied", [False, True])
+def test_quadratic_displacements_in_space(cells, tied):
+    coarse, fine = (exact_blocks.smooth(cells, n, MORTAR, degree=2, tied=tied) for n in (3, 6))
+    rate = {key: np.log2(coarse[key] / fine[key]) for key in ("H1", "L2")}
+    assert rate["H1"] > 1.9 and rate["L2"] > 2.8
+
+
+@pytest.mark.parametrize("cells", ["triangle", "quadrilateral"])
+def test_hertz_by_quadratic_displacements(cells):
+    """The mean over several places of the contact: what a facet at its end errs by varies."""
+
+    def error(n):
+        found = [
+            exact_blocks.hertz(cells, n, MORTAR, degree=2, middle=exact.MIDDLE + place / 73)
+            for place in range(6)
+        ]
+        return float(np.sqrt(np.mean([f["field"] ** 2 for f in found])))
+
+    assert np.log(error(12) / error(48)) / np.log(4) > 0.9
 
 
 def test_in_space():
