@@ -21,7 +21,7 @@ _LOWER_FACES = {"z1": Tag.LOWER_CONTACT, **LOWER_QUARTER}
 _OPTIONS = {"Mesh.Algorithm3D": 10, "Mesh.MeshSizeMax": 0.2}
 
 
-def hertz_sphere(h: float, comm: MPI.Comm = MPI.COMM_WORLD) -> MeshData:
+def hertz_sphere(h: float, comm: MPI.Comm = MPI.COMM_WORLD, *, order: int = 1) -> MeshData:
     """Mesh a quarter hemisphere that touches a quarter block (collective).
 
     The upper body is the octant x, y >= 0, z <= 1 of the ball of radius 1 about (0, 0, 1), the
@@ -36,6 +36,7 @@ def hertz_sphere(h: float, comm: MPI.Comm = MPI.COMM_WORLD) -> MeshData:
     Args:
         h: Cell size in the contact zone, in radii; 0.04 is coarse, 0.01 fine.
         comm: Communicator of the mesh; rank 0 makes it.
+        order: Order of the cells; of order 2 they are curved.
 
     Returns:
         The mesh, with the ``Tag`` of its bodies in ``cell_tags`` and of faces in ``facet_tags``.
@@ -60,5 +61,7 @@ def hertz_sphere(h: float, comm: MPI.Comm = MPI.COMM_WORLD) -> MeshData:
         field.setString(size, "F", f"{h} + 0.25*Max(Sqrt(x*x+y*y+z*z) - 0.2, 0)")
         field.setAsBackgroundMesh(size)
         gmsh.model.mesh.generate(3)
+        if order > 1:
+            gmsh.model.mesh.setOrder(order)
 
     return build_mesh("hertz_sphere", 3, recipe, comm, _OPTIONS)

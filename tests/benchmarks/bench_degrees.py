@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """Linear and quadratic displacements by both methods: error of the pressure against time.
 
-The common Hertz problem on the same straight meshes. Process CPU seconds on one thread from the
-read mesh to the converged solution, the least of some runs, each in a process of its own. The error
-is integrated over the slave's facets.
+The common Hertz problem on the same straight meshes, and on curved ones. Process CPU seconds on one
+thread from the read mesh to the converged solution, the least of some runs, each in a process of
+its own. The error is integrated over the slave's facets.
 
     python tests/benchmarks/bench_degrees.py 0.04 0.02
 """
@@ -25,8 +25,11 @@ import story
 
 SIZES = (0.08, 0.04, 0.02)
 RUNS = 3
+# Degrees of the displacement with the meshes that they are solved on
+KINDS = ((1, "tetrahedra"), (2, "tetrahedra"), (2, "curved"))
 COLUMNS: list[tables.Column] = [
     ("degree", "degree", "d"),
+    ("cells", "cells", "s"),
     ("h", "h", "g"),
     ("method", "method", "s"),
     ("dofs", "dofs", "d"),
@@ -59,19 +62,20 @@ def main(argv: Sequence[str]) -> list[dict[str, Any]]:
     """Measure all and draw it."""
     rows = []
     for h in map(float, argv or SIZES):
-        path = str(hertz_case.mesh_file(h))
         for method in story.METHODS:
-            for degree in (1, 2):
+            for degree, cells in KINDS:
+                path = str(hertz_case.mesh_file(h, cells))
                 job = {"path": path, "degree": degree, "method": method}
                 found = [runner.alone("bench_degrees:measure", **job) for _ in range(RUNS)]
                 row = min(found, key=lambda row: row.get("cpu", 0))
-                rows.append({"h": h, **job, **row})
+                rows.append({"h": h, "cells": cells, **job, **row})
     title = "Common Hertz problem, linear and quadratic displacement"
     tables.show(title, COLUMNS, rows, runner.OUTPUT / "degrees.csv")
     groups: dict[str, list[dict[str, Any]]] = {}
     for row in rows:
         if "cpu" in row:
-            groups.setdefault(f"degree {row['degree']}, {row['method']}", []).append(row)
+            kind = "curved" if row["cells"] == "curved" else f"degree {row['degree']}"
+            groups.setdefault(f"{kind}, {row['method']}", []).append(row)
     pictures.lines(
         groups,
         runner.OUTPUT / "degrees.png",

@@ -7,6 +7,7 @@ from __future__ import annotations
 import inspect
 import shutil
 import tempfile
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -24,7 +25,11 @@ import scenes
 from meshes import Tag
 
 DOWN = 0.02
-MESHES = {"tetrahedra": meshes.hertz_sphere, "hexahedra": meshes.hertz_grid}
+MESHES = {
+    "tetrahedra": meshes.hertz_sphere,
+    "curved": partial(meshes.hertz_sphere, order=2),
+    "hexahedra": meshes.hertz_grid,
+}
 
 
 def mesh_file(h: float, cells: str = "tetrahedra") -> Path:
@@ -42,7 +47,8 @@ def mesh_file(h: float, cells: str = "tetrahedra") -> Path:
     folder = runner.OUTPUT / "meshes"
     folder.mkdir(parents=True, exist_ok=True)
     made = folder / f"hertz_{cells}_{h:g}"
-    source = Path(inspect.getfile(MESHES[cells]))
+    make = MESHES[cells]
+    source = Path(inspect.getfile(make.func if isinstance(make, partial) else make))
     if made.exists() and made.stat().st_mtime < source.stat().st_mtime:
         shutil.rmtree(made)
     if not made.exists():

@@ -41,6 +41,10 @@ std::string_view name_of(Sliding sliding)
 /// Of the largest area of a slave node: what one without any is given
 constexpr double hardly = 1e-9;
 
+/// What integration points and their projections are apart along the surface by
+/// rounding, by the size of the coordinates
+constexpr double apart = 1e-12;
+
 void require(bool fits, const char* what)
 {
   if (not fits)
@@ -89,6 +93,28 @@ Contact::Contact(std::shared_ptr<parallel::Halo> halo,
   _master->begin_step();
   take(_master->pairs());
   find_immobile();
+  find_rest();
+}
+
+/// Finds what ties measure as movement where nothing has moved: integration
+/// points of curved facets and what they are projected on are apart along the
+/// surface, too.
+void Contact::find_rest()
+{
+  if (not _law->is_tied() or not _options.has_means or _master->is_rigid())
+    return;
+  const auto reference = _halo->reference();
+  const std::vector<double> still(reference.size(), 0);
+  assemble("slip", still, _nodes->slip);
+  _rest = _nodes->slip;
+  std::ranges::fill(_nodes->slip, 0.0);
+  double most = 0;
+  for (const double v : reference)
+    most = std::max(most, std::abs(v));
+  // Straight facets have no more than rounding errors
+  if (std::ranges::all_of(_rest, [most](double v)
+                          { return std::abs(v) <= apart * most; }))
+    _rest.clear();
 }
 
 std::vector<double> Contact::at_slaves(std::span<const double> x) const
@@ -400,6 +426,26 @@ void Contact::measure_slip(std::span<const double> displacement)
   assemble("slip", displacement, _nodes->slip);
   if (not _law->is_tied())
     _nodes->project(_master->origin());
+  if (_rest.empty())
+    return;
+  const auto reference = _halo->reference();
+  std::vector<double> x(reference.begin(), reference.end());
+  for (std::size_t k = 0; k < x.size(); ++k)
+    x[k] += displacement[k];
+  const int g = gdim();
+  std::vector<double> turn;
+  if (kinematics() == Sliding::finite)
+    turn = _master->rotations(reference, x);
+  for (std::int32_t i = 0; i < _nodes->num_nodes(); ++i)
+    for (int r = 0; r < g; ++r)
+    {
+      double& slip = _nodes->slip[g * i + r];
+      if (turn.empty())
+        slip -= _rest[g * i + r];
+      else
+        for (int c = 0; c < g; ++c)
+          slip -= turn[g * (std::size_t(g) * i + r) + c] * _rest[g * i + c];
+    }
 }
 
 /// Arrays that kernels read. Slave nodes of other ranks have no multipliers

@@ -208,6 +208,7 @@ private:
   void turn_tractions();
   void find_front();
   void leave_out_empty();
+  void find_rest();
   void take(std::vector<Pairs> pairs);
   std::int32_t pair(std::span<const double> x);
   void find_immobile();
@@ -230,6 +231,7 @@ private:
   std::int64_t _version = 0;
   int _skipped_searches = 0;
   std::vector<double> _offset, _front;
+  std::vector<double> _rest;      // (n, gdim), in the reference configuration
   std::vector<std::int8_t> _free; // displacements of all nodes
   std::vector<std::int8_t> _touched, _is_left_out;
   std::vector<double> _filler; // areas of slave nodes that have none

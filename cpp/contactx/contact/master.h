@@ -72,6 +72,16 @@ public:
   virtual std::optional<std::vector<double>>
   turn(std::span<const double> x) const = 0;
 
+  /// @brief The same from some positions to others.
+  /// @param[in] before Positions.
+  /// @param[in] x Positions.
+  /// @return Rotations (shape=(n, gdim, gdim)); nothing where none is known.
+  virtual std::vector<double> rotations(std::span<const double> /*before*/,
+                                        std::span<const double> /*x*/) const
+  {
+    return {};
+  }
+
   /// @brief Measure the slip of nodes that touch first within the step from
   /// where they do: where the straight way from the step's start to the
   /// iterate that first closes them, seen from the master, meets the master.

@@ -369,8 +369,15 @@ SurfaceToSurface::turn(std::span<const double> x) const
 {
   if (std::ranges::equal(x, _x0))
     return std::nullopt;
+  return rotations(_x0, x);
+}
+
+std::vector<double> SurfaceToSurface::rotations(std::span<const double> from,
+                                                std::span<const double> x) const
+{
   const int g = gdim();
-  const std::vector<double> before = _sides.frames(_x0), now = _sides.frames(x);
+  const std::vector<double> before = _sides.frames(from);
+  const std::vector<double> now = _sides.frames(x);
   std::vector<double> turn(before.size(), 0);
   for (std::size_t i = 0; i < _sides.size(); ++i)
     for (int r = 0; r < g; ++r)

@@ -19,6 +19,7 @@ import story
 from meshes import Tag
 from patch_scene import Patch, Shape
 from scenes.blocks import CELLS, PLANE, Blocks
+from scenes.materials import st_venant_kirchhoff
 
 METHODS = ("node-to-surface", "surface-to-surface")
 LAWS = {
@@ -175,6 +176,37 @@ def test_curved_meshes_are_followed(method):
     assert curved[1] < curved[0]
     # Nodes on facets scatter where the meshes do not match
     assert curved[1] < (2.5e-3 if method == "surface-to-surface" else 0.02)
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_ties_of_curved_meshes_that_do_not_match_are_free_of_stress(method):
+    """At rest, and turned by any angle with all that they tie."""
+    data = meshes.rings(8, 12, order=2)
+    tags, u = data.facet_tags, story.displacement(data.mesh, 2)
+    V = u.function_space
+    bcs, values = [], []
+    for i in range(2):
+        W, _ = V.sub(i).collapse()
+        values.append(fem.Function(W))
+        dofs = fem.locate_dofs_topological((V.sub(i), W), 1, tags.find(Tag.UPPER_TOP))
+        bcs.append(fem.dirichletbc(values[i], dofs, V.sub(i)))
+    contact = cx.Contact(
+        cx.Surface(tags, Tag.UPPER_CONTACT),
+        cx.Surface(tags, Tag.LOWER_CONTACT),
+        method=method,
+        tied=True,
+    )
+    F = st_venant_kirchhoff(u, 1.0, 0.3)
+    problem = cx.ContactProblem(F, u, contacts=[contact], bcs=bcs, petsc_options_prefix="turned_")
+    for angle in (0.0, 0.5, 2.0):
+        c, s = np.cos(angle) - 1, np.sin(angle)
+        ways = (lambda x: c * x[0] - s * x[1], lambda x: s * x[0] + c * x[1])
+        for value, way in zip(values, ways, strict=True):
+            value.interpolate(way)
+        u.interpolate(lambda x: np.stack([way(x) for way in ways]))
+        problem.solve()
+        assert problem.report.iterations == 0
+        assert np.abs(contact.multiplier).max() < 1e-12
 
 
 def test_curved_meshes_of_linear_displacements_are_refused():

@@ -3,6 +3,7 @@
 """The benchmarks run on coarse meshes, so that they cannot rot; what they measure is not judged."""
 
 import bench_audit
+import bench_degrees
 import bench_friction
 import bench_growth
 import bench_hertz
@@ -117,6 +118,14 @@ def test_methods(monkeypatch):
     assert image.imread(runner.OUTPUT / "methods.png").shape[0] > 300
     lines = (runner.OUTPUT / "methods.md").read_text().splitlines()
     assert len(lines) == 2 + sum("cells" in row for row in rows)
+
+
+def test_degrees(monkeypatch):
+    monkeypatch.setattr(bench_degrees, "RUNS", 1)
+    rows = bench_degrees.main(["0.2"])
+    assert len(rows) == len(bench_degrees.KINDS) * len(METHODS)
+    assert all(0 < row["error"] < 1 for row in rows)
+    assert image.imread(runner.OUTPUT / "degrees.png").shape[0] > 300
 
 
 def test_rates():
