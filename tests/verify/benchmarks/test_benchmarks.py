@@ -8,6 +8,7 @@ import bench_friction
 import bench_growth
 import bench_hertz
 import bench_ironing
+import bench_locking
 import bench_methods
 import bench_rates
 import bench_scenes
@@ -126,6 +127,13 @@ def test_degrees(monkeypatch):
     assert len(rows) == len(bench_degrees.KINDS) * len(METHODS)
     assert all(0 < row["error"] < 1 for row in rows)
     assert image.imread(runner.OUTPUT / "degrees.png").shape[0] > 300
+
+
+def test_locking():
+    linear, mini, quadratic, mixed = (row["n = 16"] for row in bench_locking.main(["16", "32"]))
+    assert 7 < linear < 8
+    # Of that at 128: 0.3 % more
+    assert all(abs(ratio - 1) < 0.03 for ratio in (mini, quadratic, mixed))
 
 
 def test_rates():

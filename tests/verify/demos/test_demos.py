@@ -7,6 +7,7 @@ import heat_conductance
 import hertz_axisymmetric
 import hertz_cylinder
 import hertz_sphere
+import incompressible
 import level_set
 import numpy as np
 import patch_test
@@ -46,6 +47,14 @@ def test_demo(demo, sliding, h, tolerances, tmp_path, capsys):
         assert pixels.shape[0] > 300
         assert len(np.unique(pixels.reshape(-1, pixels.shape[-1]), axis=0)) > 100
     assert "pressure" in pyvista.get_reader(str(tmp_path / f"{name}.pvd")).read()[0].point_data
+
+
+def test_incompressible(tmp_path, capsys):
+    results = incompressible.main(["--output", str(tmp_path)])
+    linear, *others = (abs(result.error) for result in results)
+    assert linear > 2 and max(others) < 0.01
+    assert "MINI" in capsys.readouterr().out
+    assert image.imread(tmp_path / "incompressible.png").shape[0] > 300
 
 
 def test_heat(tmp_path, capsys):
