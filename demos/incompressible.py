@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """A material that hardly changes its volume, in several elements, under a rigid disc.
 
-A square of nu = 0.4999, side 1, E = 1, is held at its bottom and, across them, at its sides; a rigid
-disc of radius 0.5 is pressed 0.05 deep into its top, in plane strain. The force tells how much the
-elements lock: linear ones, by much; with a pressure beside the displacement (Taylor and Hood's
-elements, or MINI's with bubbles), or with a quadratic displacement, they do not.
+A square of nu = 0.4999, side 1, E = 1, is held at its bottom and, across them, at its sides; a
+rigid disc of radius 0.5 is pressed 0.05 deep into its top, in plane strain. The force tells how
+much the elements lock: linear ones, by much; with a pressure beside the displacement (Taylor and
+Hood's elements, or MINI's with bubbles), or with a quadratic displacement, they do not.
 
 Where the displacement is a part of a mixed space, ``ContactProblem`` is told which.
 
@@ -35,6 +35,8 @@ DEPTH, RADIUS = 0.05, 0.5
 # Force with Taylor and Hood's elements on 128 x 128 cells, two triangles each
 FORCE = 0.109083
 KINDS = ("linear", "MINI", "quadratic", "Taylor-Hood")
+# Those that have a pressure beside the displacement
+_MIXED = ("MINI", "Taylor-Hood")
 
 
 class Square:
@@ -56,10 +58,8 @@ class Square:
         """
         domain = mesh.create_unit_square(MPI.COMM_WORLD, n, n)
         mu, lmbda = E / (2 * (1 + NU)), E * NU / ((1 + NU) * (1 - 2 * NU))
-        W, is_mixed = (
-            fem.functionspace(domain, _element(kind, domain.basix_cell())),
-            _is_mixed(kind),
-        )
+        W = fem.functionspace(domain, _element(kind, domain.basix_cell()))
+        is_mixed = kind in _MIXED
         self.w = fem.Function(W)
         if is_mixed:
             (u, p), (v, q) = ufl.split(self.w), ufl.TestFunctions(W)
@@ -99,10 +99,6 @@ class Square:
         return -float(self.contact.force[1])
 
 
-def _is_mixed(kind: str) -> bool:
-    return kind in ("MINI", "Taylor-Hood")
-
-
 def _element(kind: str, cell: str) -> Any:
     linear = basix.ufl.element("Lagrange", cell, 1)
     degree = 1 if kind == "linear" else 2
@@ -110,7 +106,7 @@ def _element(kind: str, cell: str) -> Any:
     if kind == "MINI":
         bubbles = basix.ufl.element("Bubble", cell, 3)
         u = basix.ufl.blocked_element(basix.ufl.enriched_element([linear, bubbles]), shape=(2,))
-    return basix.ufl.mixed_element([u, linear]) if _is_mixed(kind) else u
+    return basix.ufl.mixed_element([u, linear]) if kind in _MIXED else u
 
 
 def main(argv: Sequence[str] | None = None) -> list[story.Result]:
