@@ -13,9 +13,12 @@ from mpi4py import MPI
 
 import numpy as np
 
+import basix.ufl
 import contactx as cx
 from contactx.steps import archive
+from contactx.steps.function_rows import FunctionRows
 from dolfinx import fem, mesh
+from dolfinx.mesh import CellType
 
 from ranks.agreeing import refused, some_ranks, wait
 from ranks.relaxed import MESHES, Relaxed
@@ -207,6 +210,43 @@ def errors(folder: Path) -> None:
     refused(TypeError, "must be a function", lambda: steps(update=3 if WORLD.rank == 1 else print))
 
 
+def mixed() -> None:
+    """Rows of mixed and enriched spaces are those of one rank."""
+    for cell in (CellType.triangle, CellType.tetrahedron):
+        found = []
+        for comm in (WORLD, MPI.COMM_SELF):
+            domain = (
+                mesh.create_unit_square(comm, 5, 4)
+                if cell == CellType.triangle
+                else mesh.create_unit_cube(comm, 3, 2, 2, cell)
+            )
+            name, dim = domain.basix_cell(), domain.geometry.dim
+            linear = basix.ufl.element("Lagrange", name, 1)
+            bubble = basix.ufl.element("Bubble", name, dim + 1)
+            mini = basix.ufl.enriched_element([linear, bubble])
+            for u in (
+                basix.ufl.element("Lagrange", name, 2, shape=(dim,)),
+                basix.ufl.blocked_element(mini, shape=(dim,)),
+            ):
+                W = fem.functionspace(domain, basix.ufl.mixed_element([u, linear]))
+                w = fem.Function(W)
+                V, dofs = W.sub(1).collapse()
+                p = fem.Function(V)
+                p.interpolate(lambda x: np.cos(x[0] + 2 * x[1]))
+                w.x.array[:] = 2
+                w.x.array[np.ravel(dofs)] = p.x.array
+                w.x.scatter_forward()
+                rows, before = FunctionRows(w, "w"), w.x.array.copy()
+                values = rows.gather()
+                w.x.array[:] = 0
+                rows.scatter(values)
+                assert np.array_equal(w.x.array, before)
+                if WORLD.rank == 0:
+                    found.append((values, rows.rows.digest.tobytes()))
+        for (a, digest), (b, same) in zip(found[:2], found[2:], strict=True):
+            assert digest == same and np.abs(a - b).max() < 1e-14
+
+
 def print_nothing(t: float) -> None:
     """No loads."""
 
@@ -215,5 +255,6 @@ if __name__ == "__main__":
     place = Path(sys.argv[1])
     checkpoints(place)
     errors(place)
+    mixed()
     # Nothing is left to be shown but a table, by one rank
     list(cx.LoadSteps(Relaxed(MADE["blocks", WORLD.size]), 2, update=print_nothing))

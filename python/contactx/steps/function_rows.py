@@ -14,10 +14,11 @@ from dolfinx import fem
 
 
 class FunctionRows:
-    """Values of a function: a row a node of Lagrange spaces of degree 1 or 2, else a row a cell.
+    """Values of a function: a row a node of Lagrange spaces of degree 1 or 2, or a row a cell.
 
-    The others have all their dofs inside of cells: quadrature and discontinuous elements. On one
-    rank there are rows of all spaces, by the numbers of their dofs.
+    The latter have all their dofs inside of cells: quadrature and discontinuous elements. Mixed and
+    enriched spaces have a row a dof, where no edge or face has several that its direction would
+    have to tell apart. On one rank there are rows of all spaces, by the numbers of their dofs.
 
     Attributes:
         rows: The rows, by the nodes' numbers in the mesh as it was made.
@@ -35,7 +36,7 @@ class FunctionRows:
         """
         self._function = function
         V = function.function_space
-        keys, dofs = _nodal(V) or _cellwise(V) or _all(V, name)
+        keys, dofs = _nodal(V) or _cellwise(V) or _entitywise(V) or _all(V, name)
         self._dofs = dofs
         self.rows = Rows(V.mesh.comm, keys)
 
@@ -89,13 +90,60 @@ def _cellwise(V: fem.FunctionSpace) -> _Keyed | None:
     return nodes, _scalars(V.dofmap.list[: len(nodes)], V.dofmap.bs)
 
 
+def _entitywise(V: fem.FunctionSpace) -> _Keyed | None:
+    """Keys and dofs of owned dofs by the vertices, edges, faces and cells that they are of."""
+    leaves = _leaves(V)
+    domain = V.mesh
+    numbers = domain.geometry.input_global_indices
+    tdim = domain.topology.dim
+    topology = basix.topology(domain.basix_cell())
+    num_vertices = len(topology[0])
+    vertices = numbers[domain.geometry.dofmaps[0][:, :num_vertices]]
+    keys: list[npt.NDArray[np.int64]] = []
+    dofs: list[npt.NDArray[np.int64]] = []
+    owned = V.dofmap.index_map.size_local * V.dofmap.index_map_bs
+    for leaf, (W, parent) in enumerate(leaves):
+        layout, block = W.dofmap.dof_layout, W.dofmap.bs
+        for dim, entities in enumerate(topology):
+            for number, corners in enumerate(entities):
+                own = layout.entity_dofs(dim, number)
+                if len(own) > 1 and dim < tdim:
+                    return None
+                at = vertices[:, corners]
+                if dim < tdim:
+                    at = np.sort(at, axis=1)
+                for k, dof in enumerate(own):
+                    for component in range(block):
+                        found = parent[block * W.dofmap.list[:, dof].astype(np.int64) + component]
+                        rows = np.full((len(found), 4 + num_vertices), -1, dtype=np.int64)
+                        rows[:, :4] = leaf, component, dim, k
+                        rows[:, 4 : 4 + len(corners)] = at
+                        keys.append(rows[found < owned])
+                        dofs.append(found[found < owned])
+    every, first = np.unique(np.concatenate(dofs), return_index=True)
+    return np.concatenate(keys)[first], every
+
+
+def _leaves(V: fem.FunctionSpace) -> list[tuple[fem.FunctionSpace, npt.NDArray[np.int64]]]:
+    """Parts of a mixed space, each with the dofs of V at its own scalar ones."""
+    if not isinstance(V.ufl_element(), basix.ufl._MixedElement):
+        count = (V.dofmap.index_map.size_local + V.dofmap.index_map.num_ghosts) * V.dofmap.bs
+        return [(V, np.arange(count, dtype=np.int64))]
+    leaves = []
+    for i in range(V.num_sub_spaces):
+        W, parent = V.sub(i).collapse()
+        whole = np.asarray(parent, dtype=np.int64).ravel()
+        leaves += [(leaf, whole[own]) for leaf, own in _leaves(W)]
+    return leaves
+
+
 def _all(V: fem.FunctionSpace, name: str) -> _Keyed:
     """Keys and dofs of one rank."""
     if V.mesh.comm.size > 1:
         raise ValueError(
             f"{name} is of {V.ufl_element()}, which a checkpoint of several ranks cannot hold: "
-            "take a Lagrange space of degree 1 or 2, a quadrature or a discontinuous space, or one "
-            "rank"
+            "take a Lagrange space of degree 1 or 2, a mixed one of such, a quadrature or a "
+            "discontinuous space, or one rank"
         )
     dofs = np.arange(V.dofmap.index_map.size_local * V.dofmap.index_map_bs)
     return dofs[:, None], dofs
