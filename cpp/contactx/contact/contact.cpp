@@ -186,6 +186,7 @@ void Contact::begin_step()
   _master->begin_step();
   for (std::size_t i = 0; i < _touched.size(); ++i)
     _touched[i] = _nodes->closed(i);
+  _is_predicted = false;
   std::ranges::fill(_nodes->turns, 0);
   std::ranges::fill(_nodes->closings, 0);
   if (sliding() == Sliding::small and _master->is_rigid())
@@ -523,9 +524,15 @@ std::int32_t Contact::update_status(bool is_first)
   const std::vector<std::int8_t> closes = closing(is_first);
   if (_history)
   {
+    // All of them in the step's first iterate, as no later one depends on the
+    // loads alone; then what had no master there
+    const bool is_prediction = not is_first and not _is_predicted;
     std::vector<std::int8_t> first(closes.size());
     for (std::size_t i = 0; i < closes.size(); ++i)
-      first[i] = closes[i] and not _touched[i];
+      first[i] = not _touched[i]
+                 and (closes[i]
+                      or (is_prediction and not std::isnan(_nodes->gap[i])));
+    _is_predicted = _is_predicted or is_prediction;
     measure_from_touching(first);
   }
   _law->set_status(*_nodes, _halo->ranks());

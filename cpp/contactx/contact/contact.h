@@ -227,6 +227,8 @@ private:
   std::shared_ptr<NodeState> _nodes;
   std::shared_ptr<SlipHistory> _history;
   bool _is_frozen, _is_active = true;
+  // Whether the step's first iterate has told where nodes touch
+  bool _is_predicted = false;
   std::vector<std::shared_ptr<Pairs>> _pairs;
   std::int64_t _version = 0;
   int _skipped_searches = 0;

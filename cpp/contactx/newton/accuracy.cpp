@@ -11,7 +11,7 @@ namespace
 /// Part of the residual that the next iterate has while the active set changes,
 /// at least and at most: a linear solve leaves a tenth of it
 constexpr double rough_least = 1e-5, rough_most = 0.1;
-/// The same where a contact has friction
+/// The same for the first iterate of a step, where a contact has friction
 constexpr double exact = 1e-10;
 } // namespace
 
@@ -28,7 +28,7 @@ void Accuracy::set(double residual, double tolerance, double changing,
   }
   _before = settled ? residual : 0;
   double left = std::min(_curvature * residual * residual, 0.1 * residual);
-  if (not settled and _has_path)
+  if (_has_path and _is_first)
     left = exact * residual;
   else if (not settled)
     left = std::max(left,
@@ -36,5 +36,6 @@ void Accuracy::set(double residual, double tolerance, double changing,
   // At the end far below the tolerance: errors must not decide between stick
   // and slip
   _target = std::max(0.1 * left, 0.01 * tolerance);
+  _is_first = false;
   _is_last = _target < 0.1 * tolerance;
 }

@@ -10,9 +10,9 @@ namespace contactx::newton
 ///
 /// While the active set changes, its change dominates the next residual. Once
 /// it has settled, Newton's method leaves a multiple of the residual's square,
-/// as seen in the last iteration. Where nodes slip from where they touch first,
-/// the solution depends on the iterates: these must depend neither on the
-/// linear solver nor on the number of ranks.
+/// as seen in the last iteration. The first iterate of a step tells from where
+/// nodes slip that touch within it, so that the solution depends on this one,
+/// which is solved for exactly.
 class Accuracy
 {
 public:
@@ -20,7 +20,11 @@ public:
   explicit Accuracy(bool has_path) : _has_path(has_path) {}
 
   /// @brief Start a step.
-  void begin_step() { _before = 0; }
+  void begin_step()
+  {
+    _before = 0;
+    _is_first = true;
+  }
 
   /// @brief Forget what iterations have shown.
   void reset() { _before = _curvature = 0; }
@@ -42,7 +46,7 @@ public:
   bool is_last() const { return _is_last; }
 
 private:
-  bool _has_path, _is_last = false;
+  bool _has_path, _is_first = true, _is_last = false;
   // Residual of the iterate before, and what Newton's method makes of its
   // square
   double _before = 0, _curvature = 0;

@@ -29,11 +29,15 @@ TEST(Accuracy, IsATenthOfTheChangesOfTheActiveSet)
   EXPECT_FALSE(accuracy.is_last());
 }
 
-TEST(Accuracy, IsThatOfExactSolvesWhereThePathCounts)
+TEST(Accuracy, IsThatOfExactSolvesInTheFirstIterateOfAPath)
 {
   Accuracy accuracy(true);
-  for (const double changing : {1e-7, 0.05, 0.9})
+  for (const double changing : {0., 1e-7, 0.05, 0.9})
+  {
+    accuracy.begin_step();
     EXPECT_NEAR(target(accuracy, 2, changing), 2e-11, 1e-24);
+    EXPECT_NEAR(target(accuracy, 2, 0.05), 1e-2, 1e-15);
+  }
 }
 
 TEST(Accuracy, IsATenthOfWhatNewtonsMethodLeaves)
