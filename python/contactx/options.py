@@ -17,8 +17,9 @@ from contactx import compat
 # Relative residual of a linear solve that rounding allows
 ROUNDING = 1e-13
 
-# Displacements from which on multigrid is faster than a direct solver, by the dimension
-_MANY = {2: 300_000, 3: 10_000}
+# Displacements from which on multigrid is faster than a direct solver, by the dimension: without
+# friction, and with it, where systems are not symmetric (bench_solvers)
+_MANY = {2: (4_000, 300_000), 3: (2_500, 2_500)}
 
 
 # PETSc's numbers of errors for a type, and for a package, that it does not have
@@ -122,17 +123,18 @@ def newton_options(prefix: str, given: Mapping[str, Any], *, condensed: bool) ->
     return SolverOptions(prefix, given, {**_newton(), **_direct()})
 
 
-def is_condensed(given: Mapping[str, Any], num_dofs: int, gdim: int) -> bool:
+def is_condensed(given: Mapping[str, Any], num_dofs: int, gdim: int, *, has_friction: bool) -> bool:
     """Whether the condensed solver is taken: where the user asks for it, or for nothing else.
 
     Args:
         given: Options of the user, without the prefix.
         num_dofs: Number of displacements.
         gdim: Geometric dimension.
+        has_friction: Whether a contact has friction.
     """
     if "pc_type" in given:
         return bool(given["pc_type"] == "condensed")
-    return num_dofs >= _MANY[gdim] and "ksp_type" not in given
+    return num_dofs >= _MANY[gdim][has_friction] and "ksp_type" not in given
 
 
 def _newton() -> dict[str, Any]:

@@ -13,6 +13,7 @@ import bench_methods
 import bench_rates
 import bench_scenes
 import bench_skips
+import bench_solvers
 import bench_spheres
 import bench_steps
 import numpy as np
@@ -134,6 +135,13 @@ def test_locking():
     assert 7 < linear < 8
     # Of that at 128: 0.3 % more
     assert all(abs(ratio - 1) < 0.03 for ratio in (mini, quadratic, mixed))
+
+
+def test_solvers(monkeypatch):
+    monkeypatch.setattr(bench_solvers, "RUNS", 1)
+    rows = bench_solvers.main(["2"], sizes=[6])
+    assert [row["friction"] for row in rows] == [0.0, 0.3]
+    assert all(row["ratio"] > 0 for row in rows)
 
 
 def test_rates():
