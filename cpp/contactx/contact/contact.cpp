@@ -73,6 +73,7 @@ Contact::Contact(std::shared_ptr<parallel::Halo> halo,
   if (_law->is_vector() and not _law->is_tied())
     _history = std::make_shared<SlipHistory>(n, gdim());
   _touched.assign(n, 0);
+  _had_master.assign(n, 0);
   _offset.assign(n, 0);
   _is_left_out.assign(n, 0);
   if (not _options.shared.empty())
@@ -524,16 +525,7 @@ std::int32_t Contact::update_status(bool is_first)
   const std::vector<std::int8_t> closes = closing(is_first);
   if (_history)
   {
-    // All of them in the step's first iterate, as no later one depends on the
-    // loads alone; then what had no master there
-    const bool is_prediction = not is_first and not _is_predicted;
-    std::vector<std::int8_t> first(closes.size());
-    for (std::size_t i = 0; i < closes.size(); ++i)
-      first[i] = not _touched[i]
-                 and (closes[i]
-                      or (is_prediction and not std::isnan(_nodes->gap[i])));
-    _is_predicted = _is_predicted or is_prediction;
-    measure_from_touching(first);
+    measure_from_touching(touching(closes, is_first));
   }
   _law->set_status(*_nodes, _halo->ranks());
   if (is_first)
@@ -556,6 +548,29 @@ std::int32_t Contact::update_status(bool is_first)
   for (std::size_t i = 0; i < before.size(); ++i)
     changed += before[i] != _nodes->status[i];
   return changed;
+}
+
+/// Slave nodes whose slip is to be counted from where this iterate touches.
+/// That is the step's first one for all of them, as later ones depend on more
+/// than the loads. What has no master there, but had one at the start, slips
+/// from the start, and what had none counts from the iterate that closes it.
+std::vector<std::int8_t> Contact::touching(std::span<const std::int8_t> closes,
+                                           bool is_first)
+{
+  const bool is_prediction = not is_first and not _is_predicted;
+  std::vector<std::int8_t> first(closes.size());
+  for (std::size_t i = 0; i < closes.size(); ++i)
+  {
+    const bool has_master = not std::isnan(_nodes->gap[i]);
+    if (not _touched[i])
+      first[i] = closes[i] or (is_prediction and has_master);
+    if (is_first)
+      _had_master[i] = has_master;
+    else if (is_prediction and _had_master[i])
+      _touched[i] = 1;
+  }
+  _is_predicted = _is_predicted or is_prediction;
+  return first;
 }
 
 void Contact::measure_from_touching(std::span<const std::int8_t> which)

@@ -212,6 +212,8 @@ private:
   void take(std::vector<Pairs> pairs);
   std::int32_t pair(std::span<const double> x);
   void find_immobile();
+  std::vector<std::int8_t> touching(std::span<const std::int8_t> closes,
+                                    bool is_first);
   void measure_from_touching(std::span<const std::int8_t> which);
   kernel::NodalArrays arrays(std::span<const double> displacement,
                              std::array<std::vector<double>, 5>& padded) const;
@@ -235,7 +237,7 @@ private:
   std::vector<double> _offset, _front;
   std::vector<double> _rest;      // (n, gdim), in the reference configuration
   std::vector<std::int8_t> _free; // displacements of all nodes
-  std::vector<std::int8_t> _touched, _is_left_out;
+  std::vector<std::int8_t> _touched, _had_master, _is_left_out;
   std::vector<double> _filler; // areas of slave nodes that have none
   // Displacements and version at which gaps were evaluated
   std::vector<double> _evaluated;

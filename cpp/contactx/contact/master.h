@@ -86,8 +86,8 @@ public:
   /// where they do: where the straight way from the step's start to its first
   /// iterate, seen from the master, meets the master, or ends before it.
   /// @param[in] which 1 at those slave nodes, else 0 (shape=(n)).
-  /// @param[in] x Positions at that iterate; later ones where they had no
-  /// master in it.
+  /// @param[in] x Positions at that iterate; at a later one for what had no
+  /// master at both.
   /// @param[in] offset What is taken off the gap (shape=(n)).
   virtual void touch(std::span<const std::int8_t> which,
                      std::span<const double> x, std::span<const double> offset)
