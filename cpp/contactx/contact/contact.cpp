@@ -551,9 +551,8 @@ std::int32_t Contact::update_status(bool is_first)
 }
 
 /// Slave nodes whose slip is to be counted from where this iterate touches.
-/// That is the step's first one for all of them, as later ones depend on more
-/// than the loads. What has no master there, but had one at the start, slips
-/// from the start, and what had none counts from the iterate that closes it.
+/// That is the step's first one, as later ones depend on more than the loads:
+/// what closes later slips from the step's start, unless it had no master then.
 std::vector<std::int8_t> Contact::touching(std::span<const std::int8_t> closes,
                                            bool is_first)
 {
@@ -562,8 +561,7 @@ std::vector<std::int8_t> Contact::touching(std::span<const std::int8_t> closes,
   for (std::size_t i = 0; i < closes.size(); ++i)
   {
     const bool has_master = not std::isnan(_nodes->gap[i]);
-    if (not _touched[i])
-      first[i] = closes[i] or (is_prediction and has_master);
+    first[i] = closes[i] and not _touched[i];
     if (is_first)
       _had_master[i] = has_master;
     else if (is_prediction and _had_master[i])

@@ -84,10 +84,10 @@ public:
 
   /// @brief Measure the slip of nodes that touch first within the step from
   /// where they do: where the straight way from the step's start to its first
-  /// iterate, seen from the master, meets the master, or ends before it.
+  /// iterate, seen from the master, meets the master.
   /// @param[in] which 1 at those slave nodes, else 0 (shape=(n)).
-  /// @param[in] x Positions at that iterate; at a later one for what had no
-  /// master at both.
+  /// @param[in] x Positions at that iterate; at the one that closes them for
+  /// what had no master at the start.
   /// @param[in] offset What is taken off the gap (shape=(n)).
   virtual void touch(std::span<const std::int8_t> which,
                      std::span<const double> x, std::span<const double> offset)
