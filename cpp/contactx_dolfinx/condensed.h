@@ -454,15 +454,16 @@ private:
   {
     PetscReal norm = 0;
     petsc::check(VecNorm(b, NORM_2, &norm), "VecNorm");
-    _part = std::max(0.1, norm > 0 ? 0.5 * _accuracy.target() / norm : 1.0);
+    const double target = _accuracy.finer_target();
+    _part = std::max(0.1, norm > 0 ? 0.5 * target / norm : 1.0);
     _has_failed = false;
     make_jacobian();
     OwnKSP ksp;
     petsc::check(KSPCreate(comm(), ksp.put()), "KSPCreate");
     petsc::check(KSPSetType(ksp.get(), KSPFGMRES), "KSPSetType");
-    petsc::check(KSPSetTolerances(ksp.get(), rounding, _accuracy.target(),
-                                  PETSC_DEFAULT, 30),
-                 "KSPSetTolerances");
+    petsc::check(
+        KSPSetTolerances(ksp.get(), rounding, target, PETSC_DEFAULT, 30),
+        "KSPSetTolerances");
     petsc::check(KSPSetOperators(ksp.get(), _J.get(), _J.get()),
                  "KSPSetOperators");
     PC pc = nullptr;

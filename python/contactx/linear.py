@@ -167,6 +167,7 @@ class Condensed(LinearSolver):
         row, has_cycled = loop.iterate, loop.active_set.cycles > 0
         self._accuracy.set(row.residual, row.tolerance, loop.changing(), has_cycled)
         self._solver.target = self._accuracy.target
+        self._solver.finer_target = self._accuracy.finer_target
         self._solver.is_last = self._accuracy.is_last
 
     def end_step(self, report: Report) -> None:

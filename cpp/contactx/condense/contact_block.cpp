@@ -72,9 +72,12 @@ ContactBlock::ContactBlock(const Contacts& contacts,
     };
     for (const char* term : {"stiffness", "traction", "constraint"})
     {
-      const auto part = c->block(term, which);
+      const auto part = c->block(term, which, keeps_zeros);
       const bool row_is = term == std::string_view("constraint");
       const bool column_is = term == std::string_view("traction");
+      const std::size_t count = all.size() + part.size();
+      if (count > all.values.capacity())
+        all.reserve(std::max(count, 2 * all.values.capacity()));
       for (std::size_t e = 0; e < part.values.size(); ++e)
       {
         const std::int32_t row = place(part.rows[e], row_is);
@@ -97,6 +100,7 @@ ContactBlock::ContactBlock(const Contacts& contacts,
   const std::size_t num_rows = num_local + num_multipliers;
   const Groups rows = grouped(all.rows, num_rows);
   std::vector<double> sums(num_rows, 0);
+  std::vector<std::int8_t> is_found(num_rows, 0);
   std::vector<std::int32_t> found;
   _offsets.assign(1, 0);
   _offsets.reserve(num_rows + 1);
@@ -104,13 +108,17 @@ ContactBlock::ContactBlock(const Contacts& contacts,
   {
     found.clear();
     for (const std::int32_t e : rows[i])
-      found.push_back(all.columns[e]);
+    {
+      const std::int32_t column = all.columns[e];
+      if (not is_found[column])
+        found.push_back(column);
+      is_found[column] = 1;
+      sums[column] += all.values[e];
+    }
     std::ranges::sort(found);
-    found.erase(std::unique(found.begin(), found.end()), found.end());
-    for (const std::int32_t e : rows[i])
-      sums[all.columns[e]] += all.values[e];
     for (const std::int32_t column : found)
     {
+      is_found[column] = 0;
       if (keeps_zeros or sums[column] != 0)
       {
         _columns.push_back(column);

@@ -501,7 +501,8 @@ void Contact::add_residual(std::span<double> b) const
 }
 
 Triplets Contact::block(std::string_view term,
-                        std::span<const std::int8_t> which) const
+                        std::span<const std::int8_t> which,
+                        bool keeps_zeros) const
 {
   require(which.empty() or which.size() == _slaves->owned().size(),
           "which must have a value for each slave node");
@@ -511,10 +512,13 @@ Triplets Contact::block(std::string_view term,
   Triplets all;
   for (const auto& pairs : _pairs)
   {
-    const Triplets part
+    Triplets part
         = kernel::assemble_matrix(kind_of(*_law), name_of(kinematics()), term,
-                                  *pairs, read, gdim(), which);
-    all.join(part);
+                                  *pairs, read, gdim(), which, keeps_zeros);
+    if (all.size() == 0)
+      all = std::move(part);
+    else
+      all.join(part);
   }
   return all;
 }

@@ -197,8 +197,9 @@ public:
   /// @param[in] term "stiffness", "traction" or "constraint".
   /// @param[in] which 1 at slave nodes whose pairs are assembled (shape=(n));
   /// empty for all.
-  Triplets block(std::string_view term,
-                 std::span<const std::int8_t> which = {}) const;
+  /// @param[in] keeps_zeros Whether entries that are zero are given, too.
+  Triplets block(std::string_view term, std::span<const std::int8_t> which = {},
+                 bool keeps_zeros = true) const;
 
 private:
   int gdim() const { return _halo->gdim(); }

@@ -217,7 +217,8 @@ void kernel::add_vector(Law law, std::string_view sliding,
 Triplets kernel::assemble_matrix(Law law, std::string_view sliding,
                                  std::string_view term, const Pairs& pairs,
                                  const NodalArrays& arrays, int gdim,
-                                 std::span<const std::int8_t> which)
+                                 std::span<const std::int8_t> which,
+                                 bool keeps_zeros)
 {
   if (!contains(matrices, term))
     fail("the term must be stiffness, traction or constraint, not "
@@ -250,7 +251,8 @@ Triplets kernel::assemble_matrix(Law law, std::string_view sliding,
             tabulate.slaves_of(p), [which](std::int32_t i)
             { return std::size_t(i) < which.size() and which[i]; }))
       some.push_back(p);
-  const std::size_t count = some.size() * num_rows * num_columns;
+  const std::size_t all = std::size_t(num_rows) * num_columns;
+  const std::size_t count = some.size() * (keeps_zeros ? all : all / 2);
   result.rows.reserve(count);
   result.columns.reserve(count);
   result.values.reserve(count);
@@ -265,6 +267,16 @@ Triplets kernel::assemble_matrix(Law law, std::string_view sliding,
     else
       dofs(tabulate.nodes_of(p), gdim, columns);
     const auto tensor = tabulate(p);
+    if (not keeps_zeros)
+    {
+      // Half of them, and what is not written need not be sorted
+      const double* value = tensor.data();
+      for (const std::int32_t row : rows)
+        for (const std::int32_t column : columns)
+          if (const double v = *value++; v != 0)
+            result.add(row, column, v);
+      continue;
+    }
     result.values.insert(result.values.end(), tensor.begin(), tensor.end());
     for (const std::int32_t row : rows)
     {

@@ -77,10 +77,12 @@ void add_vector(Law law, std::string_view sliding, std::string_view term,
 /// @param[in] which 1 at slave nodes of which all pairs are assembled, the
 /// others having none; empty for all pairs. It may end before the last slave
 /// node.
+/// @param[in] keeps_zeros Whether entries that are zero are given, too.
 /// @return The entries; none where the term vanishes.
 /// @throws std::invalid_argument If arguments do not fit.
 Triplets assemble_matrix(Law law, std::string_view sliding,
                          std::string_view term, const contact::Pairs& pairs,
                          const NodalArrays& arrays, int gdim,
-                         std::span<const std::int8_t> which = {});
+                         std::span<const std::int8_t> which = {},
+                         bool keeps_zeros = true);
 } // namespace contactx::kernel

@@ -13,6 +13,9 @@ namespace
 constexpr double rough_least = 1e-5, rough_most = 0.1;
 /// The same for the first iterate of a step, where a contact has friction
 constexpr double exact = 1e-10;
+/// Part of the target of solves that leave no gap where a node is closed, for
+/// those that do
+constexpr double finer = 0.03;
 } // namespace
 
 void Accuracy::set(double residual, double tolerance, double changing,
@@ -35,7 +38,8 @@ void Accuracy::set(double residual, double tolerance, double changing,
                     std::clamp(changing, rough_least, rough_most) * residual);
   // At the end far below the tolerance: errors must not decide between stick
   // and slip
-  _target = std::max(0.1 * left, 0.01 * tolerance);
+  _target = std::max(0.3 * left, 0.01 * tolerance);
+  _finer_target = std::max(finer * _target, 0.01 * tolerance);
   _is_first = false;
   _is_last = _target < 0.1 * tolerance;
 }

@@ -42,6 +42,10 @@ public:
   /// @brief Residual that the next solve may leave; zero before `set`.
   double target() const { return _target; }
 
+  /// @brief The same for a solve that leaves gaps where nodes are closed: nodes
+  /// that these open throw the next iterate off.
+  double finer_target() const { return _finer_target; }
+
   /// @brief Whether the next residual shall be below the tolerance.
   bool is_last() const { return _is_last; }
 
@@ -50,6 +54,6 @@ private:
   // Residual of the iterate before, and what Newton's method makes of its
   // square
   double _before = 0, _curvature = 0;
-  double _target = 0;
+  double _target = 0, _finer_target = 0;
 };
 } // namespace contactx::newton

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from contextlib import nullcontext
 from types import SimpleNamespace
 
 from mpi4py import MPI
@@ -17,7 +18,7 @@ from contactx.callback import Quiet, weakly
 from contactx.condensed.galerkin import Galerkin
 from contactx.condensed.numbering import Array, Index
 from contactx.condensed.operator import Change, CondensedOperator
-from contactx.options import ROUNDING, multigrid_options
+from contactx.options import ROUNDING, multigrid_options, product_options
 from contactx.parallel import reduce
 from contactx.report import Report
 
@@ -69,6 +70,9 @@ class Multigrid:
         self.iterations = self.hierarchies = 0
         size = (x.size, None)
         self._operator: CondensedOperator | None = None
+        # What the hierarchy was brought up to, and whether without its coarser levels
+        self._updated_for: CondensedOperator | None = None
+        self._serves = False
         self._quiet = Quiet()
         called = SimpleNamespace(mult=weakly(self._multiply))
         self._A = PETSc.Mat().createPython((size, size), called, comm=self._comm)
@@ -95,22 +99,25 @@ class Multigrid:
             Whether the iterations converged.
         """
         self._operator = operator
-        change = operator.change()
         if self._lost > _COST:
             self.reset()
         if self._ksp is None:
             self._build(operator.slave_dofs, report)
-        serves = self._galerkin.nearly_serves(change)
-        self._update(change, report, coarse=not serves)
+        if self._updated_for is not operator:
+            change = operator.change()
+            self._serves = self._galerkin.nearly_serves(change)
+            self._update(change, report, coarse=not self._serves)
+            self._updated_for = operator
         if self._iterate(operator, rhs, v, target, report):
             return True
-        if serves:
-            self._update(change, report)
+        if self._serves:
+            self._serves = False
+            self._update(operator.change(), report)
             if self._iterate(operator, rhs, v, target, report):
                 return True
         if self._built_at != self._bulk.assemblies:
             self._build(operator.slave_dofs, report)
-            self._update(change, report)
+            self._update(operator.change(), report)
             if self._iterate(operator, rhs, v, target, report):
                 return True
         self.reset()
@@ -120,7 +127,7 @@ class Multigrid:
         """Drop the hierarchy: two at once would be the largest part of the memory."""
         if self._ksp is not None:
             self._ksp.destroy()
-        self._ksp = None
+        self._ksp = self._updated_for = None
 
     def _iterate(
         self,
@@ -184,7 +191,9 @@ class Multigrid:
         pc = ksp.getPC()
         pc.setType("gamg")
         ksp.setOperators(self._A, P)
-        with multigrid_options(self._prefix).in_database():
+        # Of several ranks PETSc knows others
+        products = product_options().in_database() if self._comm.size == 1 else nullcontext()
+        with products, multigrid_options(self._prefix).in_database():
             ksp.setFromOptions()
             if pc.getType() != "gamg":
                 raise ValueError(

@@ -41,6 +41,7 @@ class CondensedSolver:
 
     Attributes:
         target: What the norm of the next solve's residual must fall below, a force.
+        finer_target: The same where what is condensed is nearly the system.
         is_last: Whether it is to be the last one of the step.
         direct: Solves that were not condensed since ``begin_step``, and why.
     """
@@ -60,7 +61,7 @@ class CondensedSolver:
         self._factorised = FactorisedSolver(system, prefix + "direct_")
         self._guess = Guess()
         self._multigrid = Multigrid(bulk, x[: system.num_bulk // system.block], prefix)
-        self.target = 0.0
+        self.target = self.finer_target = 0.0
         self.is_last = False
         self._failures = self._failures_before = 0
         self.springs: Array | None = None
@@ -175,7 +176,7 @@ class CondensedSolver:
     ) -> bool:
         """Solve J x = b by FGMRES with a solver of nearly the same system."""
         norm = b.norm()
-        part = max(_NEARLY, 0.5 * self.target / norm) if norm > 0 else 1.0
+        part = max(_NEARLY, 0.5 * self.finer_target / norm) if norm > 0 else 1.0
         nearly = _Nearly(solve, partial(self._multiply, contact), part)
         J = PETSc.Mat().createPython((x.getSizes(), x.getSizes()), nearly, comm=x.comm)
         ksp = PETSc.KSP().create(comm=x.comm)
@@ -183,7 +184,7 @@ class CondensedSolver:
         ksp.setType("fgmres")
         ksp.getPC().setType("python")
         ksp.getPC().setPythonContext(nearly)
-        ksp.setTolerances(rtol=ROUNDING, atol=self.target, max_it=_CORRECTIONS)
+        ksp.setTolerances(rtol=ROUNDING, atol=self.finer_target, max_it=_CORRECTIONS)
         with nearly.quiet:
             ksp.solve(b, x)
         converged = ksp.getConvergedReason() > 0 and not nearly.has_failed
