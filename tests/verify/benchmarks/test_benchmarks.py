@@ -8,6 +8,7 @@ import bench_friction
 import bench_growth
 import bench_hertz
 import bench_ironing
+import bench_limit
 import bench_locking
 import bench_methods
 import bench_rates
@@ -139,6 +140,13 @@ def test_solvers(monkeypatch):
     monkeypatch.setattr(bench_solvers, "RUNS", 1)
     rows = bench_solvers.main(["2"], sizes=[6])
     assert [row["friction"] for row in rows] == [0.0, 0.3]
+    assert all(row["ratio"] > 0 for row in rows)
+
+
+def test_limit(monkeypatch):
+    monkeypatch.setattr(bench_limit, "RUNS", 1)
+    rows = bench_limit.main(["0.1"])
+    assert [row["scene"] for row in rows[:3]] == [bench_limit.LIMIT, *2 * [bench_limit.METHODS[0]]]
     assert all(row["ratio"] > 0 for row in rows)
 
 
