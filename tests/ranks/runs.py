@@ -70,4 +70,5 @@ class Runs:
         found = self.get(case, ranks)
         if case.scene in ROUNDED:
             found["step iterations"] = expected["step iterations"]
-        assert not differences(found, expected, TOLERANCE)
+        texts = differences(found, expected, TOLERANCE)
+        assert not texts, texts
