@@ -320,6 +320,36 @@ TYPED_TEST(Contacts, SlipIsMeasuredFromWhereANodeTouches)
   }
 }
 
+TYPED_TEST(Contacts, WhatClosesAfterTheFirstIterateSlipsFromTheStart)
+{
+  for (int dim : {2, 3})
+  {
+    ContactScene scene(dim, 0.1);
+    const auto contact = scene.template contact<TypeParam>(
+        coulomb(scene.sheets.num_slaves, 0.5));
+    contact->begin_step();
+    contact->search();
+    contact->update_gap();
+    contact->update_status(true);
+    std::ranges::fill(contact->nodes()->c, 1.0);
+    // The first iterate comes half as near, the second one through
+    for (const auto& [aside, down] : {std::pair{0.04, 0.05}, {0.08, 0.2}})
+    {
+      for (std::int32_t i = 0; i < scene.sheets.num_slaves; ++i)
+      {
+        (*scene.u)[dim * i] = aside;
+        (*scene.u)[dim * i + dim - 1] = -down;
+      }
+      contact->search();
+      contact->update_gap();
+      EXPECT_EQ(contact->update_status(false),
+                down > 0.1 ? scene.sheets.num_slaves : 0);
+      for (std::int32_t i = 0; i < scene.sheets.num_slaves; ++i)
+        EXPECT_NEAR(contact->nodes()->slip[dim * i], aside, 1e-13);
+    }
+  }
+}
+
 TYPED_TEST(Contacts, WhatTouchesButForRoundingClosesAtTheStart)
 {
   for (int dim : {2, 3})
