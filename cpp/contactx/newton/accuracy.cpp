@@ -15,7 +15,7 @@ constexpr double rough_least = 1e-5, rough_most = 0.1;
 constexpr double exact = 1e-10;
 /// Part of the target of solves that leave no gap where a node is closed, for
 /// those that do
-constexpr double finer = 0.03;
+constexpr double finer = 0.1;
 } // namespace
 
 void Accuracy::set(double residual, double tolerance, double changing,

@@ -65,7 +65,7 @@ TEST(Accuracy, IsFinerWhereGapsAreLeft)
 {
   Accuracy accuracy(false);
   EXPECT_NEAR(target(accuracy, 2, 0.9), 6e-2, 1e-15);
-  EXPECT_NEAR(accuracy.finer_target(), 1.8e-3, 1e-15);
+  EXPECT_NEAR(accuracy.finer_target(), 6e-3, 1e-15);
   // But not below what the last solve leaves
   target(accuracy, 1e-11, 0);
   EXPECT_EQ(accuracy.finer_target(), accuracy.target());
