@@ -38,7 +38,7 @@ def lines(
         words: Name of each key's axis.
         title: Title of the whole.
     """
-    figure = Figure(figsize=(6.4 * len(axes), 6.6), layout="constrained")
+    figure = Figure(figsize=(max(11.0, 6.4 * len(axes)), 6.6), layout="constrained")
     handles: dict[str, Any] = {}
     families = list(dict.fromkeys(name.split(",")[0] for name in list(groups)[ours:]))
     for axis, (x, y) in zip(figure.subplots(1, len(axes), squeeze=False)[0], axes, strict=True):
