@@ -29,11 +29,10 @@ from dolfinx import fem
 from dolfinx.fem.petsc import apply_lifting, assemble_matrix, assemble_vector, set_bc
 
 import scenes
+import story
 from meshes import Tag
-from story import displacement, elasticity, fix
 
 SIZES = (0.02, 0.01, 0.005)
-METHODS = ("node-to-surface", "surface-to-surface")
 FRICTION, RUNS = (0.0, 0.3), 5
 PEERS = {
     0.0: Path(__file__).with_name("peers.csv"),
@@ -77,19 +76,14 @@ def linear(path: str) -> dict[str, Any]:
     from petsc4py import PETSc
 
     data = hertz_case.read_mesh(path)
-    tags, u = data.facet_tags, displacement(data.mesh)
+    scene = scenes.HertzSphere(data, "finite")
+    u, bcs = scene.problem.u, scene.bcs
     V = u.function_space
-    F = elasticity(u, 1.0, 0.3)
+    F = story.elasticity(u, 1.0, 0.3)
     a = fem.form(ufl.derivative(F, u))
-    ds = ufl.Measure("ds", data.mesh, subdomain_data=tags)
+    ds = ufl.Measure("ds", data.mesh, subdomain_data=data.facet_tags)
     pressed = ds((int(Tag.UPPER_CONTACT), int(Tag.LOWER_CONTACT)))
     L = fem.form(ufl.inner(-0.01 * ufl.FacetNormal(data.mesh), ufl.TestFunction(V)) * pressed)
-    bcs = [
-        fix(u, tags, 0, 0.0, Tag.UPPER_X0, Tag.LOWER_X0),
-        fix(u, tags, 1, 0.0, Tag.UPPER_Y0, Tag.LOWER_Y0),
-        *(fix(u, tags, i, 0.0, Tag.LOWER_BOTTOM) for i in range(3)),
-        fix(u, tags, 2, -hertz_case.DOWN, Tag.UPPER_TOP),
-    ]
     meter = runner.Meter()
     A = assemble_matrix(a, bcs=bcs)
     A.assemble()
@@ -125,7 +119,7 @@ def run(sizes: Sequence[float]) -> list[dict[str, Any]]:
     for h in sizes:
         path = str(hertz_case.mesh_file(h))
         jobs: list[tuple[str, dict[str, Any]]] = [("linear", {})]
-        jobs += [("contact", {"method": m, "friction": f}) for m in METHODS for f in FRICTION]
+        jobs += [("contact", {"method": m, "friction": f}) for m in story.METHODS for f in FRICTION]
         runs = [
             [runner.alone(f"bench_limit:{name}", path=path, **job) for name, job in jobs]
             for _ in range(RUNS)

@@ -87,18 +87,18 @@ class Meter:
         with contextlib.suppress(OSError):
             # The largest memory so far counts from here on
             Path("/proc/self/clear_refs").write_text("5")
-        self._memory = _memory("VmRSS")
+        self._memory = memory("VmRSS")
         self._start = time.process_time()
 
     def read(self) -> dict[str, float]:
         """CPU seconds, and the largest memory above that of the start, MB."""
         return {
             "cpu": time.process_time() - self._start,
-            "memory": _memory("VmHWM") - self._memory,
+            "memory": memory("VmHWM") - self._memory,
         }
 
 
-def _memory(name: str) -> float:
+def memory(name: str) -> float:
     """An entry of the process's status, MB; getrusage may give the parent's instead."""
     for line in Path("/proc/self/status").read_text().splitlines():
         if line.startswith(name + ":"):

@@ -10,6 +10,7 @@ import bench_hertz
 import bench_ironing
 import bench_limit
 import bench_locking
+import bench_many
 import bench_methods
 import bench_rates
 import bench_scenes
@@ -146,8 +147,18 @@ def test_solvers(monkeypatch):
 def test_limit(monkeypatch):
     monkeypatch.setattr(bench_limit, "RUNS", 1)
     rows = bench_limit.main(["0.1"])
-    assert [row["scene"] for row in rows[:3]] == [bench_limit.LIMIT, *2 * [bench_limit.METHODS[0]]]
+    assert [row["scene"] for row in rows[:3]] == [bench_limit.LIMIT, *2 * [METHODS[0]]]
     assert all(row["ratio"] > 0 for row in rows)
+
+
+def test_many():
+    """Pressed and dragged: friction is where Coulomb's law has it."""
+    rows = bench_many.main(["20"])
+    assert [row["method"] for row in rows] == [m for m in METHODS for _ in bench_many.FRICTION]
+    for row in rows:
+        along, across = row["force"]
+        assert abs(-along / across - row["friction"]) < 0.01
+        assert 0 < row["ratio"] < 20
 
 
 def test_rates():
