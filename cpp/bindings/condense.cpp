@@ -96,36 +96,25 @@ void contactx_bindings::condense(py::module_& m)
       py::arg("contact"), py::arg("places"), py::arg("num_owned"),
       py::arg("num_local"),
       "Rows of the coupled system, and what is added to those of other ranks");
-  m.def(
-      "slave_marks",
-      [](const NodeMap& nodes, const ContactBlock::Contacts& contacts)
-      {
-        return array(slave_marks(nodes, nodes_of_all(contacts)),
-                     {static_cast<py::ssize_t>(nodes.num_nodes()),
-                      static_cast<py::ssize_t>(contacts.size())});
-      },
-      py::arg("nodes"), py::arg("contacts"),
-      "Which of all nodes are slave in each contact; all ranks take part");
-
   py::class_<Condensation> condensation(
       m, "Condensation", "The contacts of a rank, multipliers eliminated");
   condensation
       .def(py::init(
                [](const ContactBlock& contact,
                   const ContactBlock::Contacts& contacts,
-                  const Array<std::int8_t>& is_slave,
                   const Array<std::int8_t>& free, int gdim)
                {
                  return Condensation(contact.entries(), nodes_of_all(contacts),
-                                     view(is_slave), view(free), gdim);
+                                     view(free), gdim);
                }),
-           py::arg("contact"), py::arg("contacts"), py::arg("is_slave"),
-           py::arg("free"), py::arg("gdim"))
-      .def_property_readonly("is_exact", &Condensation::is_exact)
+           py::arg("contact"), py::arg("contacts"), py::arg("free"),
+           py::arg("gdim"))
       .def_property_readonly("is_soft", &Condensation::is_soft)
       .def_property_readonly("stiffness", &Condensation::stiffness)
       .def_property_readonly("left", [](const Condensation& c) -> auto&
                              { return c.elimination().left(); })
+      .def_property_readonly("rows", [](const Condensation& c) -> auto&
+                             { return c.elimination().rows(); })
       .def_property_readonly("right", [](const Condensation& c) -> auto&
                              { return c.elimination().right(); })
       .def_property_readonly("law", [](const Condensation& c) -> auto&
@@ -149,8 +138,15 @@ void contactx_bindings::condense(py::module_& m)
           },
           py::arg("d"), py::arg("defect"), py::arg("u"),
           py::arg("multipliers").noconvert())
-      .def("check_chains", [](const Condensation& c, const NodeMap& nodes)
-           { check_chains(c.elimination(), nodes); })
+      .def(
+          "chains",
+          [](const Condensation& c, const NodeMap& nodes)
+          {
+            Chains found = chains(c.elimination(), nodes);
+            return py::make_tuple(std::move(found.right),
+                                  std::move(found.left));
+          },
+          "Entries by which eliminations need one another, of right and left")
       .def("is_symmetric", [](const Condensation& c, const NodeMap& nodes)
            { return is_symmetric(c.elimination(), nodes); })
       .def("bound", [](const Condensation& c, const NodeMap& nodes,
@@ -168,6 +164,8 @@ void contactx_bindings::condense(py::module_& m)
           py::arg("nodes"), py::arg("diagonal").none(true));
   add_array(condensation, "eliminated", [](const Condensation& c) -> auto&
             { return c.elimination().eliminated(); });
+  add_array(condensation, "recovered", [](const Condensation& c) -> auto&
+            { return c.elimination().recovered(); });
   add_array(condensation, "slave_dofs", [](const Condensation& c) -> auto&
             { return c.elimination().slave_dofs(); });
 }

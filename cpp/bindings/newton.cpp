@@ -158,6 +158,6 @@ void contactx_bindings::newton(py::module_& m)
       .def("set", &Accuracy::set, py::arg("residual"), py::arg("tolerance"),
            py::arg("changing"), py::arg("has_cycled") = false)
       .def_property_readonly("target", &Accuracy::target)
-      .def_property_readonly("finer_target", &Accuracy::finer_target)
+      .def("skip", &Accuracy::skip)
       .def_property_readonly("is_last", &Accuracy::is_last);
 }

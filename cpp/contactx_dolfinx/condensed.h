@@ -19,20 +19,21 @@ namespace contactx::dolfinx
 ///     K_c = (I + left) (K + S) (I + right) + law (I + right),
 ///
 /// see condense::Condensation, which is made as a matrix, and are found by CG,
-/// or GMRES where friction slips, with PETSc's algebraic multigrid. A loop
-/// reads as with `Assembler::J`, but for the linear solve:
+/// or GMRES where friction slips, with PETSc's algebraic multigrid. Where
+/// eliminations need one another, as in surface-to-surface contact that slides,
+/// K_c is applied as a product and the matrix, in which the series of their
+/// inverses are cut off, is for multigrid alone. A loop reads as with
+/// `Assembler::J`, but for the linear solve:
 ///
 ///     Condensed condensed(assembler, "condensed_");
 ///     ...
 ///       assembler.F(x, b);
 ///       condensed.solve(b, dx);
 ///
-/// Each solve is as accurate as the next residual will show. Where slave nodes
-/// stand for others of their facets, as in surface-to-surface contact that
-/// slides, K_c is nearly that of the Jacobian, and FGMRES corrects it. What
-/// cannot be condensed goes to a direct solver of the saddle point: nodes that
-/// are slave here and master there, and what multigrid does not converge for.
-/// All ranks must take part in everything.
+/// Each solve is as accurate as the next residual will show. What cannot be
+/// condensed goes to a direct solver of the saddle point: multipliers without
+/// an equation of their own, and what multigrid does not converge for. All
+/// ranks must take part in everything.
 class Condensed
 {
 public:
@@ -63,10 +64,7 @@ public:
       if (auto condensation = condense(b))
       {
         prepare(std::move(*condensation));
-        const bool is_exact = parallel::everywhere(
-            halo().ranks(), _system->condensation.is_exact());
-        const bool is_solved
-            = is_exact ? apply(b, dx, _accuracy.target()) : correct(b, dx);
+        const bool is_solved = apply(b, dx, _accuracy.target());
         _system.reset();
         if (is_solved)
           return;
@@ -85,6 +83,15 @@ public:
 private:
   using OwnKSP = petsc::Owner<KSP, KSPDestroy>;
 
+  /// What eliminations need of one another.
+  struct Chains
+  {
+    petsc::OwnMat C, E; // E = I - C
+    OwnKSP ksp;
+
+    bool any() const { return ksp.get() != nullptr; }
+  };
+
   /// The system of an iterate without multipliers, and the way there and back.
   struct System
   {
@@ -97,7 +104,11 @@ private:
     bool is_symmetric;
     std::vector<PetscInt> eliminated;
     ::Mat K = nullptr; // the bulk's, or stiff
-    petsc::OwnMat stiff, right, left, law, A;
+    // Without identity; A is for multigrid, and applied where nothing is
+    // chained
+    petsc::OwnMat stiff, right, left, law, A, product;
+    Chains of_right, of_left;
+    petsc::OwnVec v, w; // work
     bool is_new = true;
   };
 
@@ -130,8 +141,6 @@ private:
     std::vector<condense::Nodes> nodes;
     for (const auto& contact : system().contacts())
       nodes.push_back(condense::nodes_of(*contact));
-    const std::vector<std::int8_t> is_slave
-        = condense::slave_marks(halo(), nodes);
     std::optional<condense::Condensation> made;
     {
       const petsc::ConstValues values(b);
@@ -143,7 +152,7 @@ private:
                                                false, d);
             try
             {
-              made.emplace(block.entries(), nodes, is_slave, _free, g);
+              made.emplace(block.entries(), nodes, _free, g);
             }
             catch (const condense::NotCondensable&)
             {
@@ -153,14 +162,6 @@ private:
     }
     if (not parallel::everywhere(halo().ranks(), made.has_value()))
       return std::nullopt;
-    try
-    {
-      condense::check_chains(made->elimination(), halo());
-    }
-    catch (const condense::NotCondensable&)
-    {
-      return std::nullopt;
-    }
     return made;
   }
 
@@ -178,24 +179,17 @@ private:
     return places;
   }
 
-  /// A matrix of entries in this rank's numbers, with ones on the diagonal if
-  /// wanted. Entries of one place are added, over all ranks.
+  /// A matrix of entries in this rank's numbers. Entries of one place are
+  /// added, over all ranks.
   void make(petsc::OwnMat& A, const Triplets& entries,
-            std::span<const PetscInt> places, bool has_identity) const
+            std::span<const PetscInt> places) const
   {
     const auto n = static_cast<PetscInt>(num_owned());
     std::vector<PetscInt> rows, columns;
-    std::vector<double> values(entries.values);
     for (std::size_t e = 0; e < entries.size(); ++e)
     {
       rows.push_back(places[entries.rows[e]]);
       columns.push_back(places[entries.columns[e]]);
-    }
-    for (PetscInt i = 0; has_identity and i < n; ++i)
-    {
-      rows.push_back(places[i]);
-      columns.push_back(places[i]);
-      values.push_back(1);
     }
     petsc::check(MatCreate(comm(), A.put()), "MatCreate");
     petsc::check(MatSetSizes(A.get(), n, n, PETSC_DETERMINE, PETSC_DETERMINE),
@@ -205,8 +199,20 @@ private:
                                         static_cast<PetscCount>(rows.size()),
                                         rows.data(), columns.data()),
                  "MatSetPreallocationCOO");
-    petsc::check(MatSetValuesCOO(A.get(), values.data(), ADD_VALUES),
+    petsc::check(MatSetValuesCOO(A.get(), entries.values.data(), ADD_VALUES),
                  "MatSetValuesCOO");
+  }
+
+  /// Adds one to a matrix that may have no place on its diagonal.
+  void add_identity(petsc::OwnMat& A) const
+  {
+    Triplets ones;
+    for (std::size_t i = 0; i < num_owned(); ++i)
+      ones.add(static_cast<std::int32_t>(i), static_cast<std::int32_t>(i), 1);
+    petsc::OwnMat I;
+    make(I, ones, numbers());
+    petsc::check(MatAXPY(A.get(), 1, I.get(), DIFFERENT_NONZERO_PATTERN),
+                 "MatAXPY");
   }
 
   MPI_Comm comm() const
@@ -246,7 +252,7 @@ private:
       if (has_contact)
       {
         petsc::OwnMat S;
-        make(S, condensation.stiffness(), places, false);
+        make(S, condensation.stiffness(), places);
         petsc::check(MatAXPY(K, 1, S.get(), DIFFERENT_NONZERO_PATTERN),
                      "MatAXPY");
       }
@@ -263,36 +269,113 @@ private:
     }
 
     system.K = K;
-    petsc::OwnMat half;
-    make(system.right, elimination.right(), places, true);
-    petsc::check(MatMatMult(K, system.right.get(), MAT_INITIAL_MATRIX,
+    for (auto* vector : {&system.v, &system.w})
+      petsc::check(MatCreateVecs(K, vector->put(), nullptr), "MatCreateVecs");
+    for (const std::int32_t dof : elimination.eliminated())
+      system.eliminated.push_back(places[dof]);
+    make(system.right, elimination.right(), places);
+    if (anywhere(elimination.law().size() > 0))
+      make(system.law, elimination.law(), places);
+    if (not system.is_symmetric)
+    {
+      Triplets left = elimination.left();
+      const Triplets& rows = elimination.rows();
+      for (std::size_t e = 0; e < rows.size(); ++e)
+        left.add(rows.rows[e], rows.columns[e], rows.values[e]);
+      make(system.left, left, places);
+    }
+    const condense::Chains chains = condense::chains(elimination, halo());
+    make(system.of_right, chains.right, places);
+    if (not system.is_symmetric)
+      make(system.of_left, chains.left, places);
+    make_matrix();
+    make_product();
+    set_up();
+  }
+
+  /// Makes the solver of what eliminations need of one another, if they do.
+  void make(Chains& chains, const Triplets& entries,
+            std::span<const PetscInt> places) const
+  {
+    if (not anywhere(entries.size() > 0))
+      return;
+    make(chains.C, entries, places);
+    petsc::check(MatDuplicate(chains.C.get(), MAT_COPY_VALUES, chains.E.put()),
+                 "MatDuplicate");
+    petsc::check(MatScale(chains.E.get(), -1), "MatScale");
+    add_identity(chains.E);
+    petsc::check(KSPCreate(comm(), chains.ksp.put()), "KSPCreate");
+    const KSP ksp = chains.ksp.get();
+    petsc::check(KSPSetOperators(ksp, chains.E.get(), chains.E.get()),
+                 "KSPSetOperators");
+    petsc::check(KSPSetType(ksp, KSPGMRES), "KSPSetType");
+    PC pc = nullptr;
+    petsc::check(KSPGetPC(ksp, &pc), "KSPGetPC");
+    petsc::check(PCSetType(pc, PCBJACOBI), "PCSetType");
+    petsc::check(KSPSetTolerances(ksp, rounding, 0, PETSC_DEFAULT, most),
+                 "KSPSetTolerances");
+  }
+
+  /// First terms of the series of (I - C)^-1 X.
+  static void add_terms(const Chains& chains, petsc::OwnMat& X, bool is_left)
+  {
+    if (not chains.any())
+      return;
+    const ::Mat C = chains.C.get();
+    petsc::OwnMat term, next;
+    petsc::check(MatDuplicate(X.get(), MAT_COPY_VALUES, term.put()),
+                 "MatDuplicate");
+    for (int k = 0; k < terms; ++k)
+    {
+      petsc::check(MatMatMult(is_left ? term.get() : C,
+                              is_left ? C : term.get(), MAT_INITIAL_MATRIX,
+                              PETSC_DETERMINE, next.put()),
+                   "MatMatMult");
+      petsc::check(MatAXPY(X.get(), 1, next.get(), DIFFERENT_NONZERO_PATTERN),
+                   "MatAXPY");
+      petsc::check(MatDuplicate(next.get(), MAT_COPY_VALUES, term.put()),
+                   "MatDuplicate");
+    }
+  }
+
+  /// Makes K_c, or what is near it.
+  void make_matrix()
+  {
+    System& system = *_system;
+    petsc::OwnMat right, half;
+    petsc::check(MatDuplicate(system.right.get(), MAT_COPY_VALUES, right.put()),
+                 "MatDuplicate");
+    add_terms(system.of_right, right, false);
+    add_identity(right);
+    petsc::check(MatMatMult(system.K, right.get(), MAT_INITIAL_MATRIX,
                             PETSC_DETERMINE, half.put()),
                  "MatMatMult");
     if (system.is_symmetric)
-      petsc::check(MatTransposeMatMult(system.right.get(), half.get(),
+      petsc::check(MatTransposeMatMult(right.get(), half.get(),
                                        MAT_INITIAL_MATRIX, PETSC_DETERMINE,
                                        system.A.put()),
                    "MatTransposeMatMult");
     else
     {
-      make(system.left, elimination.left(), places, true);
-      petsc::check(MatMatMult(system.left.get(), half.get(), MAT_INITIAL_MATRIX,
+      petsc::OwnMat left;
+      petsc::check(MatDuplicate(system.left.get(), MAT_COPY_VALUES, left.put()),
+                   "MatDuplicate");
+      add_terms(system.of_left, left, true);
+      add_identity(left);
+      petsc::check(MatMatMult(left.get(), half.get(), MAT_INITIAL_MATRIX,
                               PETSC_DETERMINE, system.A.put()),
                    "MatMatMult");
     }
-    if (anywhere(elimination.law().size() > 0))
+    if (system.law.get())
     {
       petsc::OwnMat rows;
-      make(system.law, elimination.law(), places, false);
-      petsc::check(MatMatMult(system.law.get(), system.right.get(),
-                              MAT_INITIAL_MATRIX, PETSC_DETERMINE, rows.put()),
+      petsc::check(MatMatMult(system.law.get(), right.get(), MAT_INITIAL_MATRIX,
+                              PETSC_DETERMINE, rows.put()),
                    "MatMatMult");
       petsc::check(
           MatAXPY(system.A.get(), 1, rows.get(), DIFFERENT_NONZERO_PATTERN),
           "MatAXPY");
     }
-    for (const std::int32_t dof : elimination.eliminated())
-      system.eliminated.push_back(places[dof]);
     // Rows without neighbours: multigrid leaves them out, and as they are zero
     // on the right they stay zero in what is found
     petsc::check(
@@ -300,7 +383,105 @@ private:
                            static_cast<PetscInt>(system.eliminated.size()),
                            system.eliminated.data(), 0, nullptr, nullptr),
         "MatZeroRowsColumns");
-    set_up();
+  }
+
+  /// Makes K_c as a product, where its matrix is only near it.
+  void make_product()
+  {
+    System& system = *_system;
+    if (not system.of_right.any() and not system.of_left.any())
+      return;
+    const auto n = static_cast<PetscInt>(num_owned());
+    petsc::check(MatCreateShell(comm(), n, n, PETSC_DETERMINE, PETSC_DETERMINE,
+                                this, system.product.put()),
+                 "MatCreateShell");
+    petsc::check(MatShellSetOperation(
+                     system.product.get(), MATOP_MULT,
+                     reinterpret_cast<void (*)()>(&Condensed::multiply)),
+                 "MatShellSetOperation");
+  }
+
+  static PetscErrorCode multiply(::Mat A, ::Vec x, ::Vec y)
+  {
+    void* context = nullptr;
+    if (const PetscErrorCode error = MatShellGetContext(A, &context))
+      return error;
+    // Nothing may be thrown through PETSc
+    try
+    {
+      auto& self = *static_cast<Condensed*>(context);
+      System& system = *self._system;
+      const ::Vec u = system.v.get(), w = system.w.get();
+      self.expand(x, u);
+      petsc::check(MatMult(system.K, u, w), "MatMult");
+      self.combine(w, y);
+      if (system.law.get())
+        petsc::check(MatMultAdd(system.law.get(), u, y, y), "MatMultAdd");
+      self.clear_eliminated(y);
+      return PETSC_SUCCESS;
+    }
+    catch (const std::exception&)
+    {
+      return PETSC_ERR_LIB;
+    }
+  }
+
+  /// u = (I + right) v
+  void expand(::Vec v, ::Vec u) const
+  {
+    const System& system = *_system;
+    petsc::check(MatMult(system.right.get(), v, u), "MatMult");
+    solve(system.of_right, u, false);
+    petsc::check(VecAXPY(u, 1, v), "VecAXPY");
+  }
+
+  /// y = (I + left) w; w is overwritten by rows with one multiplier each
+  void combine(::Vec w, ::Vec y) const
+  {
+    const System& system = *_system;
+    petsc::check(VecCopy(w, y), "VecCopy");
+    release(w);
+    if (system.is_symmetric)
+      petsc::check(MatMultTransposeAdd(system.right.get(), w, y, y),
+                   "MatMultTransposeAdd");
+    else
+      petsc::check(MatMultAdd(system.left.get(), w, y, y), "MatMultAdd");
+  }
+
+  /// Makes rows that give multipliers have one each.
+  void release(::Vec w) const
+  {
+    const System& system = *_system;
+    solve(system.is_symmetric ? system.of_right : system.of_left, w,
+          system.is_symmetric);
+  }
+
+  /// Solves (I - C) x = x, with C transposed or not.
+  static void solve(const Chains& chains, ::Vec x, bool is_transposed)
+  {
+    if (not chains.any())
+      return;
+    petsc::OwnVec b;
+    petsc::check(VecDuplicate(x, b.put()), "VecDuplicate");
+    petsc::check(VecCopy(x, b.get()), "VecCopy");
+    const KSP ksp = chains.ksp.get();
+    petsc::check(is_transposed ? KSPSolveTranspose(ksp, b.get(), x)
+                               : KSPSolve(ksp, b.get(), x),
+                 "KSPSolve");
+    KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
+    petsc::check(KSPGetConvergedReason(ksp, &reason), "KSPGetConvergedReason");
+    // What does not converge leaves no solution, and is seen by its residual
+    if (reason < 0)
+      petsc::check(VecSet(x, std::numeric_limits<double>::quiet_NaN()),
+                   "VecSet");
+  }
+
+  void clear_eliminated(::Vec x) const
+  {
+    const petsc::Values values(x);
+    for (const std::int32_t dof :
+         _system->condensation.elimination().eliminated())
+      values.span()[dof] = 0;
   }
 
   /// Solves the system of an iterate; whether the iterations converged.
@@ -318,7 +499,7 @@ private:
     auto [forces, shift, extra, multipliers]
         = condensation.right_hand_side(given.span().subspan(n));
     halo().reverse(forces, g);
-    petsc::OwnVec w, h, work, rhs, v;
+    petsc::OwnVec w, h, work, rhs, v, balance;
     for (auto* vector : {&w, &h, &work, &rhs, &v})
       petsc::check(MatCreateVecs(K, vector->put(), nullptr), "MatCreateVecs");
     {
@@ -329,15 +510,12 @@ private:
         start.span()[i] = shift[i];
       }
     }
-    std::vector<double> balance(n);
-    std::ranges::copy(petsc::ConstValues(w.get()).span(), balance.begin());
+    solve(system.of_right, h.get(), false);
+    petsc::check(VecDuplicate(w.get(), balance.put()), "VecDuplicate");
+    petsc::check(VecCopy(w.get(), balance.get()), "VecCopy");
     petsc::check(MatMult(K, h.get(), work.get()), "MatMult");
     petsc::check(VecAXPY(w.get(), -1, work.get()), "VecAXPY");
-    if (system.is_symmetric)
-      petsc::check(MatMultTranspose(system.right.get(), w.get(), rhs.get()),
-                   "MatMultTranspose");
-    else
-      petsc::check(MatMult(system.left.get(), w.get(), rhs.get()), "MatMult");
+    combine(w.get(), rhs.get());
     if (system.law.get())
     {
       petsc::check(MatMult(system.law.get(), h.get(), work.get()), "MatMult");
@@ -347,25 +525,23 @@ private:
       const petsc::Values values(rhs.get());
       for (std::size_t i = 0; i < n; ++i)
         values.span()[i] += extra[i];
-      for (const std::int32_t dof : elimination.eliminated())
-        values.span()[dof] = 0;
     }
+    clear_eliminated(rhs.get());
     if (not iterate(rhs.get(), v.get(), target))
       return false;
 
     // Displacements, and what they leave for the multipliers
-    petsc::check(MatMultAdd(system.right.get(), v.get(), h.get(), h.get()),
-                 "MatMultAdd");
+    expand(v.get(), work.get());
+    petsc::check(VecAXPY(h.get(), 1, work.get()), "VecAXPY");
     petsc::check(MatMult(K, h.get(), work.get()), "MatMult");
+    petsc::check(VecAXPY(balance.get(), -1, work.get()), "VecAXPY");
+    release(balance.get());
     std::vector<double> u(_free.size());
-    {
-      const petsc::ConstValues displacement(h.get()), force(work.get());
-      std::ranges::copy(displacement.span(), u.begin());
-      for (std::size_t i = 0; i < n; ++i)
-        balance[i] -= force.span()[i];
-    }
+    std::ranges::copy(petsc::ConstValues(h.get()).span(), u.begin());
     halo().forward(std::span(u), g);
-    condensation.recover(given.span().subspan(n), balance, u, multipliers);
+    condensation.recover(given.span().subspan(n),
+                         petsc::ConstValues(balance.get()).span(), u,
+                         multipliers);
     const petsc::Values x(dx);
     for (std::size_t i = 0; i < n; ++i)
       x.span()[i] = _free[i] ? u[i] : given.span()[i];
@@ -400,10 +576,19 @@ private:
     petsc::check(KSPSetReusePreconditioner(ksp, system.is_new ? PETSC_FALSE
                                                               : PETSC_TRUE),
                  "KSPSetReusePreconditioner");
-    const ::Mat A = system.A.get();
     if (system.is_new)
-      set_near_null_space(A);
-    petsc::check(KSPSetOperators(ksp, A, A), "KSPSetOperators");
+      set_near_null_space(system.A.get());
+    set_operators();
+  }
+
+  void set_operators() const
+  {
+    const System& system = *_system;
+    const ::Mat A = system.A.get();
+    petsc::check(
+        KSPSetOperators(_ksp.get(),
+                        system.product.get() ? system.product.get() : A, A),
+        "KSPSetOperators");
   }
 
   /// Solves K_c v = rhs; whether the iterations converged.
@@ -425,8 +610,7 @@ private:
     petsc::check(KSPSetReusePreconditioner(ksp, PETSC_FALSE),
                  "KSPSetReusePreconditioner");
     set_near_null_space(_system->A.get());
-    petsc::check(KSPSetOperators(ksp, _system->A.get(), _system->A.get()),
-                 "KSPSetOperators");
+    set_operators();
     petsc::check(VecZeroEntries(v), "VecZeroEntries");
     return iterate(rhs, v, target);
   }
@@ -442,63 +626,8 @@ private:
     _iterations += static_cast<int>(count);
     _last = static_cast<int>(count);
     // An older preconditioner has other rows of eliminated displacements
-    const petsc::Values values(v);
-    for (const std::int32_t dof :
-         _system->condensation.elimination().eliminated())
-      values.span()[dof] = 0;
+    clear_eliminated(v);
     return reason;
-  }
-
-  /// Solves J dx = b by FGMRES with what is nearly its inverse.
-  bool correct(::Vec b, ::Vec dx)
-  {
-    PetscReal norm = 0;
-    petsc::check(VecNorm(b, NORM_2, &norm), "VecNorm");
-    const double target = _accuracy.finer_target();
-    _part = std::max(0.1, norm > 0 ? 0.5 * target / norm : 1.0);
-    _has_failed = false;
-    make_jacobian();
-    OwnKSP ksp;
-    petsc::check(KSPCreate(comm(), ksp.put()), "KSPCreate");
-    petsc::check(KSPSetType(ksp.get(), KSPFGMRES), "KSPSetType");
-    petsc::check(
-        KSPSetTolerances(ksp.get(), rounding, target, PETSC_DEFAULT, 30),
-        "KSPSetTolerances");
-    petsc::check(KSPSetOperators(ksp.get(), _J.get(), _J.get()),
-                 "KSPSetOperators");
-    PC pc = nullptr;
-    petsc::check(KSPGetPC(ksp.get(), &pc), "KSPGetPC");
-    petsc::check(PCSetType(pc, PCSHELL), "PCSetType");
-    petsc::check(PCShellSetContext(pc, this), "PCShellSetContext");
-    petsc::check(PCShellSetApply(pc, &Condensed::apply_nearly),
-                 "PCShellSetApply");
-    petsc::check(KSPSolve(ksp.get(), b, dx), "KSPSolve");
-    KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
-    petsc::check(KSPGetConvergedReason(ksp.get(), &reason),
-                 "KSPGetConvergedReason");
-    return reason > 0 and not _has_failed;
-  }
-
-  static PetscErrorCode apply_nearly(PC pc, ::Vec b, ::Vec dx)
-  {
-    void* context = nullptr;
-    if (const PetscErrorCode error = PCShellGetContext(pc, &context))
-      return error;
-    auto& self = *static_cast<Condensed*>(context);
-    PetscReal norm = 0;
-    if (const PetscErrorCode error = VecNorm(b, NORM_2, &norm))
-      return error;
-    // Nothing may be thrown through PETSc
-    try
-    {
-      if (not self._has_failed and self.apply(b, dx, self._part * norm))
-        return PETSC_SUCCESS;
-    }
-    catch (const std::exception&)
-    {
-    }
-    self._has_failed = true;
-    return VecZeroEntries(dx);
   }
 
   /// Rigid modes, zero where displacements are prescribed or eliminated.
@@ -586,6 +715,8 @@ private:
   // Relative residual that rounding allows, and Krylov iterations at most
   static constexpr double rounding = 1e-13;
   static constexpr int most = 500;
+  // Terms of the series that stand for an inverse in multigrid's matrix
+  static constexpr int terms = 2;
 
   Assembler* _assembler;
   std::string _prefix;
@@ -594,9 +725,6 @@ private:
   petsc::OwnMat _J;
   std::vector<std::int8_t> _free; // of the displacements of all nodes
   std::optional<System> _system;
-  // Of a right-hand side that a solve of nearly the same system may leave
-  double _part = 0;
-  bool _has_failed = false;
   // Iterations with the preconditioner: the first and the last ones
   int _first = 0, _last = std::numeric_limits<int>::max();
   int _iterations = 0, _direct = 0, _failures = 0;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cmath>
+#include <contactx/condense/chains.h>
 #include <contactx/condense/condensation.h>
 #include <stdexcept>
 
@@ -111,10 +112,34 @@ public:
     return b;
   }
 
+  /// @brief The inverse, column by column.
+  Dense inverse() const
+  {
+    Dense found(_rows, _rows);
+    for (std::size_t j = 0; j < _rows; ++j)
+    {
+      Column unit(_rows, 0);
+      unit[j] = 1;
+      const Column x = solve(unit);
+      for (std::size_t i = 0; i < _rows; ++i)
+        found(i, j) = x[i];
+    }
+    return found;
+  }
+
 private:
   std::size_t _rows, _columns;
   std::vector<double> _values;
 };
+
+inline Dense operator-(const Dense& A, const Dense& B)
+{
+  Dense difference = A;
+  for (std::size_t i = 0; i < A.rows(); ++i)
+    for (std::size_t j = 0; j < A.columns(); ++j)
+      difference(i, j) -= B(i, j);
+  return difference;
+}
 
 inline Column operator+(Column a, const Column& b)
 {
@@ -186,15 +211,12 @@ public:
     for (const Contact& c : this->contacts)
       m += c.slaves.size() * c.size;
     contact = Dense(n + m, n + m);
-    is_slave.assign(static_cast<std::size_t>(num_nodes) * this->contacts.size(),
-                    0);
     std::size_t first = n;
     for (std::size_t k = 0; k < this->contacts.size(); ++k)
     {
       Contact& c = this->contacts[k];
       for (std::size_t s = 0; s < c.slaves.size(); ++s, first += c.size)
       {
-        is_slave[c.slaves[s] * this->contacts.size() + k] = 1;
         add_node(c, s, first);
       }
     }
@@ -230,8 +252,8 @@ public:
     std::vector<condense::Nodes> nodes;
     for (const Contact& c : contacts)
       nodes.push_back(c.nodes());
-    return condense::Condensation({offsets, columns, values}, nodes, is_slave,
-                                  free, gdim);
+    return condense::Condensation({offsets, columns, values}, nodes, free,
+                                  gdim);
   }
 
   /// @brief The same from the system without multipliers.
@@ -240,11 +262,19 @@ public:
   {
     const auto& elimination = condensation.elimination();
     const Dense I = Dense::one(n);
-    const Dense left = I + Dense(elimination.left(), n, n);
-    const Dense right = I + Dense(elimination.right(), n, n);
+    const parallel::SerialNodes nodes(static_cast<std::int32_t>(n / gdim));
+    const auto chains = condense::chains(elimination, nodes);
+    const Dense of_right = (I - Dense(chains.right, n, n)).inverse();
+    const Dense of_left = (I - Dense(chains.left, n, n)).inverse();
+    const Dense left
+        = I
+          + (Dense(elimination.left(), n, n) + Dense(elimination.rows(), n, n))
+                * of_left;
+    const Dense right = I + of_right * Dense(elimination.right(), n, n);
     const Dense law(elimination.law(), n, n);
     const Dense K = bulk + Dense(condensation.stiffness(), n, n);
-    const auto given = condensation.right_hand_side(d);
+    auto given = condensation.right_hand_side(d);
+    given.shift = of_right * given.shift;
     Dense A = left * (K * right) + law * right;
     Column rhs = left * (b + given.forces - K * given.shift) - law * given.shift
                  + given.extra;
@@ -256,7 +286,8 @@ public:
     }
     Column u = right * A.solve(rhs) + given.shift;
     Column multipliers = given.multipliers;
-    condensation.recover(d, b + given.forces - K * u, u, multipliers);
+    condensation.recover(d, of_left * (b + given.forces - K * u), u,
+                         multipliers);
     u.insert(u.end(), multipliers.begin(), multipliers.end());
     return u;
   }
@@ -273,7 +304,7 @@ public:
   int gdim;
   std::size_t n, m;
   std::vector<Contact> contacts;
-  std::vector<std::int8_t> free, is_slave;
+  std::vector<std::int8_t> free;
   Dense bulk, contact; ///< of displacements, and of all unknowns
   Generator random;
 

@@ -122,7 +122,7 @@ class Condensed(LinearSolver):
         self._solver = CondensedSolver(bulk, system, x, prefix + "condensed_")
         self._snes: PETSc.SNES | None = None
         self._has_ended = True
-        self._accuracy = core.Accuracy(any(i.history is not None for i in system.interfaces))
+        self._accuracy = core.Accuracy(system.has_friction)
         size = system.x.getSizes()
         self._A = PETSc.Mat().createPython((size, size), self._called(), comm=system.x.comm)
         self._A.setUp()
@@ -165,9 +165,10 @@ class Condensed(LinearSolver):
     def follow(self, loop: core.Loop) -> None:
         """See ``LinearSolver``."""
         row, has_cycled = loop.iterate, loop.active_set.cycles > 0
+        if self._solver.is_guessed:
+            self._accuracy.skip()
         self._accuracy.set(row.residual, row.tolerance, loop.changing(), has_cycled)
         self._solver.target = self._accuracy.target
-        self._solver.finer_target = self._accuracy.finer_target
         self._solver.is_last = self._accuracy.is_last
 
     def end_step(self, report: Report) -> None:

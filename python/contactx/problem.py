@@ -116,8 +116,7 @@ class ContactProblem:
         system, options = self.assembler.system, petsc_options or {}
         self.displacement = self.assembler.u
         dofs = self.displacement.x.index_map.size_global * system.block
-        has_friction = any(i.history is not None for i in system.interfaces)
-        condensed = is_condensed(options, dofs, system.block, has_friction=has_friction)
+        condensed = is_condensed(options, dofs, system.block, has_friction=system.has_friction)
         if self.assembler.bulk.fields is not None:
             if condensed and "pc_type" in options:
                 raise ValueError(

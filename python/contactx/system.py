@@ -196,6 +196,11 @@ class SaddlePointSystem:
             self._rows = self._bulk.assemblies, rows
         return self._rows[1]
 
+    @property
+    def has_friction(self) -> bool:
+        """Whether a contact measures slip."""
+        return any(interface.history is not None for interface in self.interfaces)
+
     def contact_block(self, b: PETSc.Vec | None = None) -> core.ContactBlock:
         """Assemble this rank's pairs.
 

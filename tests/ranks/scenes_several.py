@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 import stacked_blocks
@@ -47,6 +48,14 @@ def _corner(cell: CellType, n: int) -> Iterator[cx.ContactProblem]:
 
 def chain() -> Iterator[cx.ContactProblem]:
     """The middle one of three blocks is slave below and master above, on edge nodes both."""
+    yield from _chain(None)
+
+
+def chain_condensed() -> Iterator[cx.ContactProblem]:
+    yield from _chain({"pc_type": "condensed"})
+
+
+def _chain(solver: Any) -> Iterator[cx.ContactProblem]:
     data = meshes.stack(CellType.hexahedron, [(3,) * 3, (4,) * 3, (5,) * 3])
     tags, u = data.facet_tags, displacement(data.mesh)
     bcs = [
@@ -60,7 +69,12 @@ def chain() -> Iterator[cx.ContactProblem]:
         cx.Contact(surface[2][0], surface[1][1], tied=True),
     ]
     problem = cx.ContactProblem(
-        elasticity(u, 1.0, NU), u, contacts=contacts, bcs=bcs, petsc_options_prefix="chain_"
+        elasticity(u, 1.0, NU),
+        u,
+        contacts=contacts,
+        bcs=bcs,
+        petsc_options_prefix="chain_",
+        petsc_options=solver,
     )
     problem.solve()
     yield problem

@@ -87,38 +87,3 @@ Blocks contactx::condense::sorted(const CompressedRows& contact,
   }
   return blocks;
 }
-
-bool contactx::condense::lump(Blocks& blocks, std::span<const Nodes> contacts,
-                              std::span<const std::int8_t> is_slave, int gdim)
-{
-  // Slave node and contact of each multiplier
-  std::vector<std::int32_t> home, contact;
-  home.reserve(num_multipliers(contacts));
-  contact.reserve(home.capacity());
-  for (std::size_t k = 0; k < contacts.size(); ++k)
-    for (const std::int32_t node : contacts[k].slaves)
-    {
-      home.insert(home.end(), contacts[k].size, node);
-      contact.insert(contact.end(), contacts[k].size,
-                     static_cast<std::int32_t>(k));
-    }
-
-  bool is_moved = false;
-  auto move = [&](std::vector<std::int32_t>& dofs,
-                  const std::vector<std::int32_t>& multipliers)
-  {
-    for (std::size_t e = 0; e < dofs.size(); ++e)
-    {
-      const std::int32_t node = dofs[e] / gdim, own = home[multipliers[e]];
-      if (node != own
-          and is_slave[node * contacts.size() + contact[multipliers[e]]] != 0)
-      {
-        dofs[e] = own * gdim + dofs[e] % gdim;
-        is_moved = true;
-      }
-    }
-  };
-  move(blocks.constraint.columns, blocks.constraint.rows);
-  move(blocks.traction.rows, blocks.traction.columns);
-  return is_moved;
-}

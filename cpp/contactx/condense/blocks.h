@@ -71,19 +71,4 @@ struct Blocks
 /// @param[in] num_local Number of displacements of all nodes on this rank.
 /// @throws std::invalid_argument if the matrix is none, or is not square.
 Blocks sorted(const CompressedRows& contact, std::size_t num_local);
-
-/// @brief Let a slave node stand for the others of its facets.
-///
-/// What is integrated over slave facets feels all of their nodes as they slide,
-/// if only by the angle between the surfaces, and ties turn with them. As if
-/// all moved like the constraint's own node, the slave side is diagonal.
-/// @param[in,out] blocks Contact blocks of a Jacobian.
-/// @param[in] contacts The contacts.
-/// @param[in] is_slave 1 where one of all nodes is slave in a contact, else 0
-/// (shape=(num_nodes, num_contacts)).
-/// @param[in] gdim Geometric dimension.
-/// @return Whether there were such entries: the blocks are not those of the
-/// Jacobian any more.
-bool lump(Blocks& blocks, std::span<const Nodes> contacts,
-          std::span<const std::int8_t> is_slave, int gdim);
 } // namespace contactx::condense

@@ -62,57 +62,36 @@ contactx::condense::marks(const parallel::NodeMap& nodes,
   return {marks.begin(), marks.end()};
 }
 
-std::vector<std::int8_t>
-contactx::condense::slave_marks(const parallel::NodeMap& nodes,
-                                std::span<const Nodes> contacts)
-{
-  const std::size_t width = contacts.size();
-  std::vector<std::int64_t> marks(nodes.num_nodes() * width, 0);
-  for (std::size_t k = 0; k < width; ++k)
-    for (const std::int32_t node : contacts[k].slaves)
-      marks[node * width + k] = 1;
-  nodes.forward(marks, static_cast<int>(width));
-  return {marks.begin(), marks.end()};
-}
-
-void contactx::condense::check_chains(const Elimination& elimination,
-                                      const parallel::NodeMap& nodes)
+Chains contactx::condense::chains(const Elimination& elimination,
+                                  const parallel::NodeMap& nodes)
 {
   const int gdim = elimination.gdim();
-  const Triplets &left = elimination.left(), &right = elimination.right();
-  const auto given = marks(nodes, elimination.recovered(), gdim);
   const auto taken = marks(nodes, elimination.eliminated(), gdim);
-  // A row that is taken over must not get one, nor a displacement follow from
-  // another
-  bool is_chain = false;
-  for (std::size_t e = 0; e < left.size() and not is_chain; ++e)
-    is_chain = given[left.rows[e]] != 0 and given[left.columns[e]] != 0
-               and left.rows[e] / gdim != left.columns[e] / gdim;
-  for (std::size_t e = 0; e < right.size() and not is_chain; ++e)
-    is_chain
-        = taken[right.columns[e]] != 0 and right.rows[e] != right.columns[e];
-  if (parallel::anywhere(nodes.ranks(), is_chain))
-    throw NotCondensable(
-        "a node is slave in one contact and master in another");
+  const auto given = marks(nodes, elimination.recovered(), gdim);
+  const auto joins = [](const std::vector<std::int8_t>& marks)
+  {
+    return [&marks](std::int32_t row, std::int32_t column, double)
+    { return row != column and marks[row] != 0 and marks[column] != 0; };
+  };
+  return {elimination.right().select(joins(taken)),
+          elimination.left().select(joins(given))};
 }
 
 bool contactx::condense::is_symmetric(const Elimination& elimination,
                                       const parallel::NodeMap& nodes)
 {
-  const auto taken = marks(nodes, elimination.eliminated(), elimination.gdim());
   // Where friction sticks its traction moves over a master with what presses it
   // on, and contact's part of the stiffness is not symmetric
   bool is_same = not elimination.slips() and not elimination.sticks();
   if (is_same)
   {
     // Both entries of a slave node are on its own rank
-    const Triplets left
-        = elimination.left().select([&](std::int32_t row, std::int32_t, double)
-                                    { return taken[row] == 0; });
     const Triplets right
         = elimination.right().select([](std::int32_t row, std::int32_t column,
                                         double) { return row != column; });
-    is_same = is_transpose(left, right, taken.size());
+    const std::size_t size
+        = static_cast<std::size_t>(nodes.num_nodes()) * elimination.gdim();
+    is_same = is_transpose(elimination.left(), right, size);
   }
   return parallel::everywhere(nodes.ranks(), is_same);
 }

@@ -19,25 +19,21 @@ namespace contactx::condense
 std::vector<std::int8_t> marks(const parallel::NodeMap& nodes,
                                std::span<const std::int32_t> dofs, int gdim);
 
-/// @brief Mark the slave nodes of each contact wherever they are known.
-/// @param[in] nodes Nodes of this rank.
-/// @param[in] contacts The contacts.
-/// @return 1 where a node is slave in a contact, else 0 (shape=(num_nodes,
-/// num_contacts)).
-std::vector<std::int8_t> slave_marks(const parallel::NodeMap& nodes,
-                                     std::span<const Nodes> contacts);
+/// @brief Entries by which eliminations need one another; see Elimination.
+struct Chains
+{
+  Triplets right; ///< of `right` between two eliminated displacements
+  Triplets left;  ///< of `left` between two rows that give multipliers
+};
 
-/// @brief Check that no elimination needs another one.
+/// @brief Find what eliminations need of one another.
 /// @param[in] elimination That of this rank.
 /// @param[in] nodes Nodes of this rank.
-/// @throws NotCondensable on all ranks, where a node is slave in one contact
-/// and master in another.
-void check_chains(const Elimination& elimination,
-                  const parallel::NodeMap& nodes);
+/// @return This rank's entries, in its numbers.
+Chains chains(const Elimination& elimination, const parallel::NodeMap& nodes);
 
 /// @brief Whether no node sticks or slips, and `left` is the transpose of
-/// `right` but for eliminated rows and rounding, entry by entry: what is lumped
-/// from several entries into one place is not compared by its sum.
+/// `right` but for rounding.
 /// @param[in] elimination That of this rank.
 /// @param[in] nodes Nodes of this rank.
 /// @return The same on all ranks.

@@ -19,36 +19,28 @@ void check_size(std::size_t size, std::size_t least, std::size_t most,
                                 + std::to_string(most));
 }
 
-/// Blocks in which a slave node stands for the others of its facets
-Blocks lumped(const CompressedRows& contact, std::span<const Nodes> contacts,
-              std::span<const std::int8_t> is_slave,
-              std::span<const std::int8_t> free, int gdim, bool& is_exact)
+/// Blocks of what fits
+Blocks checked(const CompressedRows& contact, std::span<const Nodes> contacts,
+               std::span<const std::int8_t> free, int gdim)
 {
   check(contacts, free.size() / std::max(gdim, 1), gdim);
   const std::size_t num_local = free.size();
   check_size(num_local, num_local / gdim * gdim, num_local / gdim * gdim,
              "free");
-  check_size(is_slave.size(), num_local / gdim * contacts.size(),
-             num_local / gdim * contacts.size(), "is_slave");
   const std::size_t size = num_local + num_multipliers(contacts);
   check_size(contact.offsets.size(), size + 1, size + 1, "offsets");
-  Blocks blocks = sorted(contact, num_local);
-  is_exact = not lump(blocks, contacts, is_slave, gdim);
-  return blocks;
+  return sorted(contact, num_local);
 }
 } // namespace
 
 Condensation::Condensation(const CompressedRows& contact,
                            std::span<const Nodes> contacts,
-                           std::span<const std::int8_t> is_slave,
                            std::span<const std::int8_t> free, int gdim)
     : _num_local(free.size()),
       _num_multipliers(condense::num_multipliers(contacts)),
       _is_soft(std::ranges::any_of(contacts, [](const Nodes& nodes)
                                    { return nodes.softness > 0; })),
-      _prescribed(contacts,
-                  lumped(contact, contacts, is_slave, free, gdim, _is_exact),
-                  free, gdim),
+      _prescribed(contacts, checked(contact, contacts, free, gdim), free, gdim),
       _elimination(contacts, _prescribed, free, gdim)
 {
 }

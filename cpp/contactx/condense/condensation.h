@@ -12,7 +12,7 @@ namespace contactx::condense
 /// With b the right-hand side of the displacements' rows, d that of the
 /// multipliers' and h = (I + right) v + shift the displacements,
 ///
-///     (I + left) ((K + S) h - b - forces) + law h = extra
+///     (I + left + rows) ((K + S) h - b - forces) + law h = extra
 ///
 /// gives v, see Elimination; `recover` gives the multipliers.
 class Condensation
@@ -32,20 +32,13 @@ public:
   /// @param[in] contact Contact part of the Jacobian, of this rank's pairs, in
   /// displacements of all nodes and multipliers.
   /// @param[in] contacts The contacts; they are not read later on.
-  /// @param[in] is_slave 1 where one of all nodes is slave in a contact, else 0
-  /// (shape=(num_nodes, num_contacts)).
   /// @param[in] free 1 at displacements that are not prescribed, else 0
   /// (shape=(num_local)).
   /// @param[in] gdim Geometric dimension.
   /// @throws NotCondensable where a multiplier has no equation of its own.
   /// @throws std::invalid_argument if arrays do not fit.
   Condensation(const CompressedRows& contact, std::span<const Nodes> contacts,
-               std::span<const std::int8_t> is_slave,
                std::span<const std::int8_t> free, int gdim);
-
-  /// @brief Whether it stands for the Jacobian, not for one in which slave
-  /// nodes stand for others of their facets.
-  bool is_exact() const { return _is_exact; }
 
   /// @brief Whether a contact is soft.
   bool is_soft() const { return _is_soft; }
@@ -68,7 +61,8 @@ public:
   /// @brief Find the multipliers.
   /// @param[in] d Right-hand side of the multipliers' rows
   /// (shape=(num_multipliers)).
-  /// @param[in] defect b + forces - (K + S) u (shape=(num_owned)).
+  /// @param[in] defect b + forces - (K + S) u, of rows that need none of each
+  /// other (shape=(num_owned)).
   /// @param[in] u Displacements of all nodes (shape=(num_local)).
   /// @param[in,out] multipliers Those of open nodes, then all
   /// (shape=(num_multipliers)).
@@ -77,7 +71,7 @@ public:
 
 private:
   std::size_t _num_local, _num_multipliers;
-  bool _is_soft, _is_exact = true;
+  bool _is_soft;
   Prescribed _prescribed;
   Elimination _elimination;
 };

@@ -4,6 +4,8 @@
 #include "contact_block.h"
 #include "../check.h"
 #include <algorithm>
+#include <array>
+#include <numeric>
 #include <stdexcept>
 
 using namespace contactx;
@@ -54,79 +56,133 @@ ContactBlock::ContactBlock(const Contacts& contacts,
   check::require(d.empty() or d.size() == num_multipliers,
                  "d must have a value for each multiplier");
 
-  Triplets all;
-  std::size_t first = num_local;
+  // Nodes have their displacements for unknowns, slave nodes of a contact their
+  // multipliers: those of one are neighbours
+  const std::int32_t num_nodes = halo.num_nodes(), gdim = halo.gdim();
+  std::vector<std::int32_t> widths(num_nodes, gdim);
+  std::vector<Tile> tiles;
+  std::vector<double> values;
+  std::size_t first = 0;
   for (const auto& c : contacts)
   {
     const contact::NodeState& nodes = *c->nodes();
-    const std::size_t n = nodes.multiplier.size(), size = nodes.size();
+    const std::size_t n = nodes.num_nodes(), size = nodes.size();
+    const auto start = static_cast<std::int32_t>(widths.size());
     std::vector<std::int8_t> which;
     if (not d.empty())
-      which = needed(nodes, d.subspan(first - num_local, n));
-    // Place of a displacement or multiplier, -1 where it is left out
-    const auto place = [&](std::int32_t i, bool is_multiplier)
-    {
-      if (is_multiplier)
-        return std::size_t(i) < n ? static_cast<std::int32_t>(first + i) : -1;
-      return not prescribed.empty() and prescribed[i] ? -1 : i;
-    };
+      which = needed(nodes, d.subspan(first, n * size));
     for (const char* term : {"stiffness", "traction", "constraint"})
     {
-      const auto part = c->block(term, which, keeps_zeros);
       const bool row_is = term == std::string_view("constraint");
       const bool column_is = term == std::string_view("traction");
-      const std::size_t count = all.size() + part.size();
-      if (count > all.values.capacity())
-        all.reserve(std::max(count, 2 * all.values.capacity()));
-      for (std::size_t e = 0; e < part.values.size(); ++e)
-      {
-        const std::int32_t row = place(part.rows[e], row_is);
-        const std::int32_t column = place(part.columns[e], column_is);
-        const bool counts = keeps_zeros or part.values[e] != 0;
-        if (row >= 0 and column >= 0 and counts)
-          all.add(row, column, part.values[e]);
-      }
+      const std::size_t height = row_is ? size : gdim,
+                        width = column_is ? size : gdim;
+      c->for_each_pair(
+          term, which,
+          [&](std::span<const std::int32_t> rows,
+              std::span<const std::int32_t> columns,
+              std::span<const double> block)
+          {
+            std::size_t at = values.size();
+            values.insert(values.end(), block.begin(), block.end());
+            const std::size_t stride = width * columns.size();
+            for (const std::int32_t row : rows)
+            {
+              for (std::size_t j = 0; j < columns.size(); ++j)
+              {
+                // Multipliers of other ranks' nodes come after those of this
+                // one
+                const bool is_here
+                    = (not row_is or std::size_t(row) < n)
+                      and (not column_is or std::size_t(columns[j]) < n);
+                if (is_here)
+                  tiles.push_back({row_is ? start + row : row,
+                                   column_is ? start + columns[j] : columns[j],
+                                   at + j * width, stride});
+              }
+              at += height * stride;
+            }
+          });
     }
-    for (std::size_t k = 0; k < nodes.by_multiplier.size(); ++k)
-      if (keeps_zeros or nodes.by_multiplier[k] != 0)
-        all.add(static_cast<std::int32_t>(first + k / size),
-                static_cast<std::int32_t>(first + k / (size * size) * size
-                                          + k % size),
-                nodes.by_multiplier[k]);
-    first += n;
+    for (std::size_t s = 0; s < n; ++s)
+    {
+      const auto node = static_cast<std::int32_t>(start + s);
+      tiles.push_back({node, node, values.size() + s * size * size, size});
+    }
+    values.insert(values.end(), nodes.by_multiplier.begin(),
+                  nodes.by_multiplier.end());
+    widths.insert(widths.end(), n, static_cast<std::int32_t>(size));
+    first += n * size;
   }
+  add_up(tiles, values, widths, prescribed, keeps_zeros);
+}
 
-  // Entries of one place add up, row by row
-  const std::size_t num_rows = num_local + num_multipliers;
-  const Groups rows = grouped(all.rows, num_rows);
-  std::vector<double> sums(num_rows, 0);
-  std::vector<std::int8_t> is_found(num_rows, 0);
-  std::vector<std::int32_t> found;
+void ContactBlock::add_up(std::span<const Tile> tiles,
+                          std::span<const double> values,
+                          std::span<const std::int32_t> widths,
+                          std::span<const std::int8_t> prescribed,
+                          bool keeps_zeros)
+{
+  const std::size_t num_groups = widths.size();
+  std::vector<std::int32_t> firsts(num_groups + 1, 0), ends(num_groups + 1, 0);
+  std::partial_sum(widths.begin(), widths.end(), firsts.begin() + 1);
+  for (const Tile& tile : tiles)
+    ++ends[tile.row + 1];
+  std::partial_sum(ends.begin(), ends.end(), ends.begin());
+  std::vector<std::int32_t> order(tiles.size()), next(ends);
+  for (std::size_t t = 0; t < tiles.size(); ++t)
+    order[next[tiles[t].row]++] = static_cast<std::int32_t>(t);
+
+  const auto is_left_out = [prescribed](std::size_t i)
+  { return i < prescribed.size() and prescribed[i] != 0; };
+  // Sums of the tiles of one place
+  using Sum = std::array<double, 9>;
+  std::vector<Sum> sums;
+  std::vector<std::int32_t> slots(num_groups, -1), found;
   _offsets.assign(1, 0);
-  _offsets.reserve(num_rows + 1);
-  for (std::size_t i = 0; i < num_rows; ++i)
+  _offsets.reserve(firsts.back() + 1);
+  for (std::size_t i = 0; i < num_groups; ++i)
   {
     found.clear();
-    for (const std::int32_t e : rows[i])
+    sums.clear();
+    const int height = widths[i];
+    for (std::int32_t e = ends[i]; e < ends[i + 1]; ++e)
     {
-      const std::int32_t column = all.columns[e];
-      if (not is_found[column])
-        found.push_back(column);
-      is_found[column] = 1;
-      sums[column] += all.values[e];
+      const Tile& tile = tiles[order[e]];
+      std::int32_t& slot = slots[tile.column];
+      if (slot < 0)
+      {
+        slot = static_cast<std::int32_t>(sums.size());
+        sums.push_back({});
+        found.push_back(tile.column);
+      }
+      const int width = widths[tile.column];
+      Sum& sum = sums[slot];
+      for (int k = 0; k < height; ++k)
+        for (int l = 0; l < width; ++l)
+          sum[k * width + l] += values[tile.at + k * tile.stride + l];
     }
     std::ranges::sort(found);
-    for (const std::int32_t column : found)
+    for (int k = 0; k < height; ++k)
     {
-      is_found[column] = 0;
-      if (keeps_zeros or sums[column] != 0)
+      for (const std::int32_t column : found)
       {
-        _columns.push_back(column);
-        _values.push_back(sums[column]);
+        const int width = widths[column];
+        for (int l = 0; l < width; ++l)
+        {
+          const double value = sums[slots[column]][k * width + l];
+          if ((keeps_zeros or value != 0) and not is_left_out(firsts[i] + k)
+              and not is_left_out(firsts[column] + l))
+          {
+            _columns.push_back(firsts[column] + l);
+            _values.push_back(value);
+          }
+        }
       }
-      sums[column] = 0;
+      _offsets.push_back(static_cast<std::int32_t>(_columns.size()));
     }
-    _offsets.push_back(static_cast<std::int32_t>(_columns.size()));
+    for (const std::int32_t column : found)
+      slots[column] = -1;
   }
 }
 

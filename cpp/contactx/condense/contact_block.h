@@ -45,6 +45,18 @@ public:
   std::vector<double> multiply(std::span<const double> x) const;
 
 private:
+  // What a pair has for the unknowns of one node by those of another: where it
+  // is among all values, and how far its rows are apart
+  struct Tile
+  {
+    std::int32_t row, column;
+    std::size_t at, stride;
+  };
+
+  void add_up(std::span<const Tile> tiles, std::span<const double> values,
+              std::span<const std::int32_t> widths,
+              std::span<const std::int8_t> prescribed, bool keeps_zeros);
+
   std::vector<std::int32_t> _offsets, _columns;
   std::vector<double> _values;
 };

@@ -15,6 +15,17 @@ namespace
 {
 constexpr auto nothing_free
     = "all displacements of a slave node are prescribed";
+
+/// Sum of the entries of one row
+double sum_at(const Triplets& T, std::span<const std::int32_t> entries,
+              std::int32_t row)
+{
+  double sum = 0;
+  for (const std::int32_t e : entries)
+    if (T.rows[e] == row)
+      sum += T.values[e];
+  return sum;
+}
 } // namespace
 
 /// Rows of one node's multipliers, one entry for each place
@@ -104,21 +115,28 @@ Elimination::Elimination(std::span<const Nodes> contacts,
       if (size == 1)
       {
         add_scalar(C, constraint[multiplier], multiplier, first, free);
-        add_force(T, traction[multiplier], _shift.rows.back(), multiplier);
+        const std::span<const std::int32_t> entries = traction[multiplier];
+        const std::int32_t row = _shift.rows.back();
+        add_force(T, entries, row, multiplier, sum_at(T, entries, row));
         continue;
       }
       rows.clear();
       for (int i = 0; i < size; ++i)
         for (const std::int32_t e : constraint[multiplier + i])
           rows.add(i, C.columns[e], C.values[e]);
+      std::array<double, 3> factors{};
+      for (int i = 0; i < size; ++i)
+        if (own[i] != 0)
+          factors[i] = sum_at(T, traction[multiplier + i], first + i);
       if (nodes.status[s] == law::stick)
         add_stick(multiplier, first, own, rows);
       else
         add_slip(multiplier, first, own, nodes.normal.data() + s * size,
-                 by + s * size * size, nodes.area[s], rows);
+                 by + s * size * size, factors, rows);
       for (int i = 0; i < size; ++i)
         if (own[i] != 0)
-          add_force(T, traction[multiplier + i], first + i, multiplier + i);
+          add_force(T, traction[multiplier + i], first + i, multiplier + i,
+                    factors[i]);
     }
   }
 
@@ -141,12 +159,9 @@ Elimination::Elimination(std::span<const Nodes> contacts,
 /// Other rows, as those of the master, take over that of the slave node
 void Elimination::add_force(const Triplets& T,
                             std::span<const std::int32_t> entries,
-                            std::int32_t row, std::int32_t multiplier)
+                            std::int32_t row, std::int32_t multiplier,
+                            double factor)
 {
-  double factor = 0;
-  for (const std::int32_t e : entries)
-    if (T.rows[e] == row)
-      factor += T.values[e];
   for (const std::int32_t e : entries)
     if (T.rows[e] != row)
       _left.add(T.rows[e], row, -T.values[e] / factor);
@@ -229,7 +244,8 @@ void Elimination::add_stick(std::int32_t multiplier, std::int32_t first,
 /// Slipping node: the normal row gives a displacement, the others are the law's
 void Elimination::add_slip(std::int32_t multiplier, std::int32_t first,
                            std::span<const std::int8_t> own,
-                           const double* normal, const double* by, double area,
+                           const double* normal, const double* by,
+                           const std::array<double, 3>& factors,
                            const Rows& rows)
 {
   const int g = _gdim;
@@ -265,9 +281,9 @@ void Elimination::add_slip(std::int32_t multiplier, std::int32_t first,
     const double back = -normal[i] / normal[k];
     for (int j = 0; j < g; ++j)
       if (own[j] != 0)
-        // by / area is C_l A^-1
-        _left.add(row, first + j,
-                  by[g * i + j] / area + back * (by[g * k + j] / area)
+        // C_l times the multiplier that the row gives
+        _rows.add(row, first + j,
+                  -(by[g * i + j] + back * by[g * k + j]) / factors[j]
                       - (i == j ? 1 : 0));
     for (std::size_t c = 0; c < rows.size(); ++c)
     {

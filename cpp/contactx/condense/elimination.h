@@ -4,6 +4,7 @@
 #pragma once
 
 #include "prescribed.h"
+#include <array>
 
 namespace contactx::condense
 {
@@ -14,15 +15,24 @@ namespace contactx::condense
 /// `left`; a constraint without the multiplier gives a displacement of the
 /// slave node, du = (I + right) v + shift, and where it slips the tangential
 /// rows are those of the law: with tangential vectors tau_i the row of the
-/// displacement i becomes tau_i (C_l A^-1 K_s + C_u), the natural one for no
+/// displacement i becomes tau_i (C_u - C_l T_s^-1 K_s), the natural one for no
 /// friction.
 ///
 /// So the displacements v follow from
 ///
-///     (I + left) ((K + S) ((I + right) v + shift) - b)
+///     (I + left + rows) ((K + S) ((I + right) v + shift) - b)
 ///         + law ((I + right) v + shift) = extra
 ///
 /// but for the rows of eliminated displacements, in which v is zero.
+///
+/// That holds where no elimination needs another one. But what is integrated
+/// over slave facets depends on all of their nodes as they slide, and a node
+/// may be slave in one contact and master in another. With C_r the entries of
+/// `right` between eliminated displacements and C_l those of `left` between
+/// rows that give multipliers (see `chains`), (I - C_r)^-1 right takes the
+/// place of `right`, (I - C_r)^-1 shift that of `shift`, (left + rows)
+/// (I - C_l)^-1 that of left + rows, and multipliers follow from (I - C_l)^-1
+/// times their rows.
 ///
 /// All of it is of one rank alone: its slave nodes, in the numbers of all
 /// nodes' displacements on the rank, those of its own nodes first.
@@ -43,8 +53,11 @@ public:
   /// @brief Geometric dimension.
   int gdim() const { return _gdim; }
 
-  /// @brief Change of the rows' combinations, (dof, dof).
+  /// @brief What rows take over from those that give multipliers, (dof, dof).
   const Triplets& left() const { return _left; }
+
+  /// @brief What the law makes of rows that give multipliers, (dof, dof).
+  const Triplets& rows() const { return _rows; }
 
   /// @brief Change of the displacements, (dof, dof).
   const Triplets& right() const { return _right; }
@@ -83,7 +96,8 @@ public:
   std::vector<double> open_multipliers(std::span<const double> d) const;
 
   /// @brief Set the multipliers of closed nodes.
-  /// @param[in] defect b - K du (shape=(num_owned)).
+  /// @param[in] defect b - K du, of rows that need none of each other
+  /// (shape=(num_owned)).
   /// @param[in,out] multipliers Values to write into (shape=(num_multipliers)).
   void recover(std::span<const double> defect,
                std::span<double> multipliers) const;
@@ -92,7 +106,7 @@ private:
   class Rows;
 
   void add_force(const Triplets& T, std::span<const std::int32_t> entries,
-                 std::int32_t row, std::int32_t multiplier);
+                 std::int32_t row, std::int32_t multiplier, double factor);
   void add_scalar(const Triplets& C, std::span<const std::int32_t> entries,
                   std::int32_t multiplier, std::int32_t first,
                   std::span<const std::int8_t> free);
@@ -100,12 +114,13 @@ private:
                  std::span<const std::int8_t> own, const Rows& rows);
   void add_slip(std::int32_t multiplier, std::int32_t first,
                 std::span<const std::int8_t> own, const double* normal,
-                const double* by, double area, const Rows& rows);
+                const double* by, const std::array<double, 3>& factors,
+                const Rows& rows);
 
   int _gdim;
   std::size_t _num_local;
   std::vector<std::int32_t> _eliminated, _recovered, _slave_dofs;
-  Triplets _left, _right, _law;
+  Triplets _left, _rows, _right, _law;
   bool _slips = false, _sticks = false;
 
   // Displacements and rows by the rows of d

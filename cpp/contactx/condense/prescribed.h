@@ -28,7 +28,7 @@ class Prescribed
 public:
   /// @brief Take them out.
   /// @param[in] contacts The contacts.
-  /// @param[in] blocks Contact blocks of the Jacobian, lumped.
+  /// @param[in] blocks Contact blocks of the Jacobian.
   /// @param[in] free 1 at displacements that are not prescribed, else 0
   /// (shape=(num_local)).
   /// @param[in] gdim Geometric dimension.

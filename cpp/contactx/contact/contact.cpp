@@ -501,8 +501,7 @@ void Contact::add_residual(std::span<double> b) const
 }
 
 Triplets Contact::block(std::string_view term,
-                        std::span<const std::int8_t> which,
-                        bool keeps_zeros) const
+                        std::span<const std::int8_t> which) const
 {
   require(which.empty() or which.size() == _slaves->owned().size(),
           "which must have a value for each slave node");
@@ -514,7 +513,7 @@ Triplets Contact::block(std::string_view term,
   {
     Triplets part
         = kernel::assemble_matrix(kind_of(*_law), name_of(kinematics()), term,
-                                  *pairs, read, gdim(), which, keeps_zeros);
+                                  *pairs, read, gdim(), which);
     if (all.size() == 0)
       all = std::move(part);
     else
@@ -523,14 +522,26 @@ Triplets Contact::block(std::string_view term,
   return all;
 }
 
+void Contact::for_each_pair(std::string_view term,
+                            std::span<const std::int8_t> which,
+                            const kernel::UsePair& use) const
+{
+  require(which.empty() or which.size() == _slaves->owned().size(),
+          "which must have a value for each slave node");
+  const std::vector<double> displacement = _halo->displacement();
+  std::array<std::vector<double>, 5> padded;
+  const kernel::NodalArrays read = arrays(displacement, padded);
+  for (const auto& pairs : _pairs)
+    kernel::for_each_pair(kind_of(*_law), name_of(kinematics()), term, *pairs,
+                          read, gdim(), which, use);
+}
+
 std::int32_t Contact::update_status(bool is_first)
 {
   const std::vector<std::int8_t> before = _nodes->status;
   const std::vector<std::int8_t> closes = closing(is_first);
   if (_history)
-  {
     measure_from_touching(touching(closes, is_first));
-  }
   _law->set_status(*_nodes, _halo->ranks());
   if (is_first)
   {

@@ -197,9 +197,16 @@ public:
   /// @param[in] term "stiffness", "traction" or "constraint".
   /// @param[in] which 1 at slave nodes whose pairs are assembled (shape=(n));
   /// empty for all.
-  /// @param[in] keeps_zeros Whether entries that are zero are given, too.
-  Triplets block(std::string_view term, std::span<const std::int8_t> which = {},
-                 bool keeps_zeros = true) const;
+  Triplets block(std::string_view term,
+                 std::span<const std::int8_t> which = {}) const;
+
+  /// @brief Tabulate a matrix term pair by pair.
+  /// @param[in] term "stiffness", "traction" or "constraint".
+  /// @param[in] which 1 at slave nodes whose pairs are taken (shape=(n)); empty
+  /// for all.
+  /// @param[in] use Called for each pair; slave nodes of other ranks come last.
+  void for_each_pair(std::string_view term, std::span<const std::int8_t> which,
+                     const kernel::UsePair& use) const;
 
 private:
   int gdim() const { return _halo->gdim(); }

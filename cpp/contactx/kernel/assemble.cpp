@@ -214,76 +214,57 @@ void kernel::add_vector(Law law, std::string_view sliding,
   }
 }
 
-Triplets kernel::assemble_matrix(Law law, std::string_view sliding,
-                                 std::string_view term, const Pairs& pairs,
-                                 const NodalArrays& arrays, int gdim,
-                                 std::span<const std::int8_t> which,
-                                 bool keeps_zeros)
+void kernel::for_each_pair(Law law, std::string_view sliding,
+                           std::string_view term, const Pairs& pairs,
+                           const NodalArrays& arrays, int gdim,
+                           std::span<const std::int8_t> which,
+                           const UsePair& use)
 {
   if (!contains(matrices, term))
     fail("the term must be stiffness, traction or constraint, not "
          + std::string(term));
   const Entry* entry = entry_of(law, sliding, term, pairs, gdim);
   if (!entry)
-    return {};
+    return;
   Tabulation tabulate(*entry, pairs, arrays);
   // A kernel need not read what its rows or columns are numbered by
   const int size = law == Law::frictionless ? 1 : gdim;
   constexpr std::size_t most = std::numeric_limits<std::int32_t>::max();
   check::numbers(pairs.slaves, most / size, "pairs.slaves", "slave nodes");
   check::numbers(pairs.nodes, most / gdim, "pairs.nodes", "nodes");
-
-  const auto dofs
-      = [](std::span<const std::int32_t> numbers, int width, auto& to)
-  {
-    auto at = to.begin();
-    for (const std::int32_t i : numbers)
-      for (int k = 0; k < width; ++k)
-        *at++ = width * i + k;
-  };
-  const auto [num_rows, num_columns] = tabulate.shape;
-  std::vector<std::int32_t> rows(num_rows), columns(num_columns);
-  Triplets result;
-  std::vector<std::size_t> some;
   for (std::size_t p = 0; p < pairs.size(); ++p)
+  {
+    const auto nodes = tabulate.nodes_of(p), slaves = tabulate.slaves_of(p);
     if (which.empty()
         or std::ranges::any_of(
-            tabulate.slaves_of(p), [which](std::int32_t i)
+            slaves, [which](std::int32_t i)
             { return std::size_t(i) < which.size() and which[i]; }))
-      some.push_back(p);
-  const std::size_t all = std::size_t(num_rows) * num_columns;
-  const std::size_t count = some.size() * (keeps_zeros ? all : all / 2);
-  result.rows.reserve(count);
-  result.columns.reserve(count);
-  result.values.reserve(count);
-  for (const std::size_t p : some)
-  {
-    if (term == "constraint")
-      dofs(tabulate.slaves_of(p), size, rows);
-    else
-      dofs(tabulate.nodes_of(p), gdim, rows);
-    if (term == "traction")
-      dofs(tabulate.slaves_of(p), size, columns);
-    else
-      dofs(tabulate.nodes_of(p), gdim, columns);
-    const auto tensor = tabulate(p);
-    if (not keeps_zeros)
-    {
-      // Half of them, and what is not written need not be sorted
-      const double* value = tensor.data();
-      for (const std::int32_t row : rows)
-        for (const std::int32_t column : columns)
-          if (const double v = *value++; v != 0)
-            result.add(row, column, v);
-      continue;
-    }
-    result.values.insert(result.values.end(), tensor.begin(), tensor.end());
-    for (const std::int32_t row : rows)
-    {
-      result.rows.insert(result.rows.end(), columns.size(), row);
-      result.columns.insert(result.columns.end(), columns.begin(),
-                            columns.end());
-    }
+      use(term == "constraint" ? slaves : nodes,
+          term == "traction" ? slaves : nodes, tabulate(p));
   }
+}
+
+Triplets kernel::assemble_matrix(Law law, std::string_view sliding,
+                                 std::string_view term, const Pairs& pairs,
+                                 const NodalArrays& arrays, int gdim,
+                                 std::span<const std::int8_t> which)
+{
+  const int size = law == Law::frictionless ? 1 : gdim;
+  const int row_width = term == "constraint" ? size : gdim;
+  const int column_width = term == "traction" ? size : gdim;
+  Triplets result;
+  for_each_pair(law, sliding, term, pairs, arrays, gdim, which,
+                [&](std::span<const std::int32_t> rows,
+                    std::span<const std::int32_t> columns,
+                    std::span<const double> values)
+                {
+                  const double* value = values.data();
+                  for (const std::int32_t row : rows)
+                    for (int k = 0; k < row_width; ++k)
+                      for (const std::int32_t column : columns)
+                        for (int l = 0; l < column_width; ++l)
+                          result.add(row_width * row + k,
+                                     column_width * column + l, *value++);
+                });
   return result;
 }

@@ -6,6 +6,7 @@
 #include "../contact/pairs.h"
 #include "../triplets.h"
 #include "layout.h"
+#include <functional>
 #include <span>
 #include <string_view>
 
@@ -61,6 +62,22 @@ void add_vector(Law law, std::string_view sliding, std::string_view term,
                 const contact::Pairs& pairs, const NodalArrays& arrays,
                 int gdim, std::span<double> b);
 
+/// @brief Takes the nodes or slave nodes of a pair's rows, those of its
+/// columns, and its block, row by row.
+using UsePair = std::function<void(std::span<const std::int32_t>,
+                                   std::span<const std::int32_t>,
+                                   std::span<const double>)>;
+
+/// @brief Tabulate a matrix term pair by pair; nothing where the term vanishes.
+///
+/// See `assemble_matrix` for the term, the order of a block and arguments.
+/// @param[in] use Called for each pair.
+/// @throws std::invalid_argument If arguments do not fit.
+void for_each_pair(Law law, std::string_view sliding, std::string_view term,
+                   const contact::Pairs& pairs, const NodalArrays& arrays,
+                   int gdim, std::span<const std::int8_t> which,
+                   const UsePair& use);
+
 /// @brief Assemble a matrix term of pairs.
 ///
 /// The component k of a node is row or column gdim * node + k, the component k
@@ -77,12 +94,10 @@ void add_vector(Law law, std::string_view sliding, std::string_view term,
 /// @param[in] which 1 at slave nodes of which all pairs are assembled, the
 /// others having none; empty for all pairs. It may end before the last slave
 /// node.
-/// @param[in] keeps_zeros Whether entries that are zero are given, too.
 /// @return The entries; none where the term vanishes.
 /// @throws std::invalid_argument If arguments do not fit.
 Triplets assemble_matrix(Law law, std::string_view sliding,
                          std::string_view term, const contact::Pairs& pairs,
                          const NodalArrays& arrays, int gdim,
-                         std::span<const std::int8_t> which = {},
-                         bool keeps_zeros = true);
+                         std::span<const std::int8_t> which = {});
 } // namespace contactx::kernel

@@ -9,13 +9,20 @@ using namespace contactx::newton;
 namespace
 {
 /// Part of the residual that the next iterate has while the active set changes,
-/// at least and at most: a linear solve leaves a tenth of it
+/// at least and at most
 constexpr double rough_least = 1e-5, rough_most = 0.1;
-/// The same for the first iterate of a step, where a contact has friction
+/// Part of it that a linear solve leaves
+constexpr double part = 0.3;
+/// How many solves of a step are finer, and by how much: rougher ones do not
+/// show that the bodies are slender
+constexpr int num_first = 2;
+constexpr double finer = 0.3;
+/// Part of the tolerance that the last solves leave: far less where slip is
+/// measured, as errors must not decide between stick and slip
+constexpr double least_part = 0.1, least_of_path = 0.01;
+/// The same as of a change for the first iterate of a step, where a contact has
+/// friction
 constexpr double exact = 1e-10;
-/// Part of the target of solves that leave no gap where a node is closed, for
-/// those that do
-constexpr double finer = 0.1;
 } // namespace
 
 void Accuracy::set(double residual, double tolerance, double changing,
@@ -31,15 +38,14 @@ void Accuracy::set(double residual, double tolerance, double changing,
   }
   _before = settled ? residual : 0;
   double left = std::min(_curvature * residual * residual, 0.1 * residual);
-  if (_has_path and _is_first)
+  if (_has_path and _solves == 0)
     left = exact * residual;
   else if (not settled)
-    left = std::max(left,
-                    std::clamp(changing, rough_least, rough_most) * residual);
-  // At the end far below the tolerance: errors must not decide between stick
-  // and slip
-  _target = std::max(0.3 * left, 0.01 * tolerance);
-  _finer_target = std::max(finer * _target, 0.01 * tolerance);
-  _is_first = false;
-  _is_last = _target < 0.1 * tolerance;
+    left = std::max(left, (_solves < num_first ? finer : 1.0)
+                              * std::clamp(changing, rough_least, rough_most)
+                              * residual);
+  const double least = (_has_path ? least_of_path : least_part) * tolerance;
+  _target = std::max(part * left, least);
+  ++_solves;
+  _is_last = _target <= least_part * tolerance;
 }

@@ -12,7 +12,8 @@ namespace contactx::newton
 /// it has settled, Newton's method leaves a multiple of the residual's square,
 /// as seen in the last iteration. The first iterate of a step tells from where
 /// nodes slip that touch within it, so that the solution depends on this one,
-/// which is solved for exactly.
+/// which is solved for exactly. The second one decides whether contact is made
+/// soft for a while.
 class Accuracy
 {
 public:
@@ -23,11 +24,15 @@ public:
   void begin_step()
   {
     _before = 0;
-    _is_first = true;
+    _solves = 0;
   }
 
   /// @brief Forget what iterations have shown.
   void reset() { _before = _curvature = 0; }
+
+  /// @brief The last step was not a solution: its residual shows nothing of
+  /// Newton's method.
+  void skip() { _before = 0; }
 
   /// @brief Set the accuracy of the next solve.
   /// @param[in] residual Residual of the iterate.
@@ -42,18 +47,15 @@ public:
   /// @brief Residual that the next solve may leave; zero before `set`.
   double target() const { return _target; }
 
-  /// @brief The same for a solve that leaves gaps where nodes are closed: nodes
-  /// that these open throw the next iterate off.
-  double finer_target() const { return _finer_target; }
-
   /// @brief Whether the next residual shall be below the tolerance.
   bool is_last() const { return _is_last; }
 
 private:
-  bool _has_path, _is_first = true, _is_last = false;
+  bool _has_path, _is_last = false;
+  int _solves = 0; // in this step
   // Residual of the iterate before, and what Newton's method makes of its
   // square
   double _before = 0, _curvature = 0;
-  double _target = 0, _finer_target = 0;
+  double _target = 0;
 };
 } // namespace contactx::newton

@@ -123,15 +123,13 @@ void eliminate(const std::vector<std::shared_ptr<Contact>>& contacts,
   std::vector<condense::Nodes> nodes;
   for (const auto& c : contacts)
     nodes.push_back(condense::nodes_of(*c));
-  const std::vector<std::int8_t> marks = condense::slave_marks(halo, nodes);
   std::vector<std::int8_t> free(n);
   for (auto& f : free)
     f = in.below(4) > 0;
   try
   {
-    const condense::Condensation c(block.entries(), nodes, marks, free,
-                                   halo.gdim());
-    condense::check_chains(c.elimination(), halo);
+    const condense::Condensation c(block.entries(), nodes, free, halo.gdim());
+    condense::chains(c.elimination(), halo);
     const std::vector<double> d(block.size() - n, 0.5);
     auto right = c.right_hand_side(d);
     const std::vector<double> u(n, 0.25);

@@ -281,24 +281,32 @@ TYPED_TEST(Contacts, TermsAreThoseOfChosenSlaveNodes)
       std::invalid_argument);
 }
 
+/// A contact with friction at the start of a step, with factors c of one.
+template <class T>
+auto started(ContactScene& scene)
+{
+  const auto contact
+      = scene.template contact<T>(coulomb(scene.sheets.num_slaves, 0.5));
+  contact->begin_step();
+  contact->search();
+  contact->update_gap();
+  contact->update_status(true);
+  std::ranges::fill(contact->nodes()->c, 1.0);
+  return contact;
+}
+
 TYPED_TEST(Contacts, SlipIsMeasuredFromWhereANodeTouches)
 {
   for (int dim : {2, 3})
   {
     ContactScene scene(dim, 0.1);
-    const auto contact = scene.template contact<TypeParam>(
-        coulomb(scene.sheets.num_slaves, 0.5));
-    contact->begin_step();
-    contact->search();
-    contact->update_gap();
-    contact->update_status(true);
+    const auto contact = started<TypeParam>(scene);
     // Down by twice the gap, aside by 0.04: it touches on half the way
     for (std::int32_t i = 0; i < scene.sheets.num_slaves; ++i)
     {
       (*scene.u)[dim * i] = 0.04;
       (*scene.u)[dim * i + dim - 1] = -0.2;
     }
-    std::ranges::fill(contact->nodes()->c, 1.0);
     contact->search();
     contact->update_gap();
     for (std::int32_t i = 0; i < scene.sheets.num_slaves; ++i)
@@ -325,13 +333,7 @@ TYPED_TEST(Contacts, WhatClosesAfterTheFirstIterateSlipsFromTheStart)
   for (int dim : {2, 3})
   {
     ContactScene scene(dim, 0.1);
-    const auto contact = scene.template contact<TypeParam>(
-        coulomb(scene.sheets.num_slaves, 0.5));
-    contact->begin_step();
-    contact->search();
-    contact->update_gap();
-    contact->update_status(true);
-    std::ranges::fill(contact->nodes()->c, 1.0);
+    const auto contact = started<TypeParam>(scene);
     // The first iterate comes half as near, the second one through
     for (const auto& [aside, down] : {std::pair{0.04, 0.05}, {0.08, 0.2}})
     {

@@ -17,15 +17,18 @@ from contactx.parallel import reduce
 
 _DIFFERENT = PETSc.Mat.Structure.DIFFERENT_NONZERO_PATTERN
 # Part of the eliminated displacements that may have changed for a hierarchy to serve as it is
-_FEW = 0.15
+_FEW = 0.25
+# Terms of a series, beside the first one
+_TERMS = 2
 
 
 class Galerkin:
     """Adds Q^T (T^T K T - K + springs) Q to the matrices of the coarser levels, T = I + right.
 
     T differs from one in the rows of eliminated displacements e alone: with X = R_e Q, Y = K_e Q
-    and M = X^T (Y + K_ee X / 2) it is M + M^T and the springs, products of few rows. What the
-    turning of normals adds to K is left to the finest level.
+    and M = X^T (Y + K_ee X / 2) it is M + M^T and the springs, products of few rows. Where these
+    displacements need one another the first terms of the series of (I - C)^-1 R_e take the place
+    of R_e. What the turning of normals adds to K is left to the finest level.
     """
 
     def __init__(self, comm: MPI.Comm, slave_rows: PETSc.Mat, prolongations: Sequence[PETSc.Mat]):
@@ -67,6 +70,8 @@ class Galerkin:
         levels = zip(self._prolongations, self._rows[1:], matrices, strict=True)
         for level, (Q, rows, A) in enumerate(levels):
             X = X.matMult(Q)
+            if level == 0 and part.chains is not None:
+                X = _chained(part.chains, X)
             Y = part.block.matMult(X)
             Y.scale(0.5)
             Y.axpy(1.0, rows.createSubMatrix(chosen, own_columns(rows)), _DIFFERENT)
@@ -80,3 +85,12 @@ class Galerkin:
                 change.axpy(-1.0, before, _DIFFERENT)
             A.axpy(1.0, change, _DIFFERENT)
         self._eliminated = part.places
+
+
+def _chained(C: PETSc.Mat, X: PETSc.Mat) -> PETSc.Mat:
+    """First terms of (I - C)^-1 X."""
+    term = X
+    for _ in range(_TERMS):
+        term = C.matMult(term)
+        X.axpy(1.0, term, _DIFFERENT)
+    return X

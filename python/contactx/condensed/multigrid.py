@@ -107,7 +107,6 @@ class Multigrid:
             change = operator.change()
             self._serves = self._galerkin.nearly_serves(change)
             self._update(change, report, coarse=not self._serves)
-            self._updated_for = operator
         if self._iterate(operator, rhs, v, target, report):
             return True
         if self._serves:
@@ -244,6 +243,7 @@ class Multigrid:
             report: Report whose times are added to.
             coarse: Whether on the coarser levels too.
         """
+        self._updated_for = self._operator
         finest, *coarser = self._smoothers
         with report.timing("condensation"):
             self._D.setDiagonal(change.bound)

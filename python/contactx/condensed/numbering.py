@@ -81,26 +81,31 @@ class Numbering:
         """Owned displacements as an index set of the bulk's matrix."""
         return PETSc.IS().createGeneral(_integers(self.numbers(dofs)), comm=self.comm)
 
-    def matrix(self, entries: core.Triplets, rows: Index | None = None) -> PETSc.Mat:
+    def matrix(self, *entries: core.Triplets, rows: Index | None = None) -> PETSc.Mat:
         """Matrix with the bulk's columns; entries of one place are added, over all ranks.
 
         All ranks must take part.
 
         Args:
-            entries: Entries in local numbers.
-            rows: Owned displacements that its rows stand for, in ascending order, when no other
+            *entries: Entries in local numbers.
+            rows: Owned displacements that its rows stand for, in order, when on no rank other
                 rows have entries; all displacements of all ranks if None.
         """
         size = self.num_owned
+        places = np.concatenate([part.rows for part in entries])
+        columns = np.concatenate([part.columns for part in entries])
         if rows is None:
-            places = self.numbers(entries.rows)
+            places = self.numbers(places)
         else:
             size = len(rows)
             first, _ = PETSc.Vec().createMPI((size, None), comm=self.comm).getOwnershipRange()
-            places = first + np.searchsorted(rows, entries.rows)
+            row = np.zeros(self.num_owned, dtype=np.int64)
+            row[rows] = first + np.arange(size)
+            # A row of a master may be another rank's
+            places = self.scatter_forward(row)[places]
         A = PETSc.Mat().createAIJ(((size, None), (self.num_owned, None)), comm=self.comm)
-        A.setPreallocationCOO(_integers(places), _integers(self.numbers(entries.columns)))
-        A.setValuesCOO(entries.values, PETSc.InsertMode.ADD)
+        A.setPreallocationCOO(_integers(places), _integers(self.numbers(columns)))
+        A.setValuesCOO(np.concatenate([part.values for part in entries]), PETSc.InsertMode.ADD)
         return A
 
 
@@ -110,12 +115,10 @@ class Surroundings:
     Attributes:
         numbering: Where the displacements are in the bulk's matrix.
         free: 1 at displacements that are not prescribed, else 0, shape (num_local,).
-        is_slave: 1 where a node is slave in a contact, else 0, shape (num_nodes, num_contacts).
     """
 
     numbering: Numbering
     free: npt.NDArray[np.int8]
-    is_slave: npt.NDArray[np.int8]
 
     def __init__(self, bulk: Bulk, system: SaddlePointSystem):
         """Create it; ``rebuild`` comes before the first use.
@@ -140,7 +143,6 @@ class Surroundings:
         self._version = halo.version
         self.numbering = Numbering(halo)
         self.free = self.numbering.scatter_forward((self._bulk.markers == 0).astype(np.int8))
-        self.is_slave = core.slave_marks(halo.nodes, self._system.interfaces)
 
 
 def index_set(places: Index, A: PETSc.Mat) -> PETSc.IS:

@@ -12,6 +12,7 @@ import numpy as np
 
 from contactx import cpp as core
 from contactx.bulk import Bulk
+from contactx.condensed.chains import Chains
 from contactx.condensed.numbering import Array, Index, Numbering, index_set
 from contactx.parallel import reduce
 
@@ -19,8 +20,10 @@ from contactx.parallel import reduce
 class CondensedOperator:
     """K_c = (I + left) (K + S) (I + right) + law (I + right), with ones for what is eliminated.
 
-    It is applied as it stands: the bulk's matrix is neither copied nor changed, and the others have
-    entries in contact rows alone. All ranks must take part in making and applying it.
+    Where eliminations need one another (I - C_r)^-1 right and left (I - C_l)^-1 take the place of
+    right and left; see ``condense/elimination.h``. It is applied as it stands: the bulk's matrix is
+    neither copied nor changed, and the others have entries in contact rows alone. All ranks must
+    take part in making and applying it.
 
     Attributes:
         diagonal: Entries that stand for the eliminated displacements, shape (k,).
@@ -52,18 +55,25 @@ class CondensedOperator:
         self.slave_dofs = condensation.slave_dofs
         self.eliminated = condensation.eliminated
         # Rows of the eliminated displacements alone
-        self._right = numbering.matrix(condensation.right, self.eliminated)
+        self._right = numbering.matrix(condensation.right, rows=self.eliminated)
         self._some = self._right.createVecLeft()
         self._transposed = condensation.is_symmetric(numbering.nodes)
         self.is_symmetric = bulk.is_symmetric and self._transposed
-        others = (condensation.stiffness, condensation.left, condensation.law)
-        counts = reduce.largest(numbering.comm, np.array([len(e) for e in others]))
+        left = (condensation.left, condensation.rows)
+        others = ((condensation.stiffness,), left, (condensation.law,))
+        counts = reduce.largest(numbering.comm, np.array([sum(map(len, p)) for p in others]))
         # Where left is the transpose of right it is not made
         needed = (counts > 0) & [True, not self._transposed, True]
         self._S, self._left, self._law = (
-            numbering.matrix(e) if is_needed else None
-            for e, is_needed in zip(others, needed, strict=True)
+            numbering.matrix(*parts) if is_needed else None
+            for parts, is_needed in zip(others, needed, strict=True)
         )
+        of_right, of_left = condensation.chains(numbering.nodes)
+        self._of_right = Chains.of(numbering, of_right, self.eliminated)
+        self._of_left, self._recovered = self._of_right, self.eliminated
+        if not self._transposed:
+            self._recovered = np.sort(condensation.recovered)
+            self._of_left = Chains.of(numbering, of_left, self._recovered)
         self.diagonal = np.abs(self._K.getDiagonal().array_r)[self.eliminated]
         self._z, self._w = self._K.createVecs()
         self._work = self._w.duplicate()
@@ -76,9 +86,31 @@ class CondensedOperator:
         if self._springs is not None:
             w.array[:] += self._springs * z.array_r
 
+    def place(self, values: Array) -> Array:
+        """What of eliminated displacements the constraints' right-hand side gives.
+
+        Args:
+            values: The same where none needs another one, shape (num_owned,); overwritten.
+        """
+        if self._of_right is not None:
+            self._of_right.solve_at(values, self.eliminated)
+        return values
+
+    def release(self, values: Array) -> Array:
+        """Rows that give multipliers, each with one multiplier alone.
+
+        Args:
+            values: Rows, shape (num_owned,); overwritten.
+        """
+        if self._of_left is not None:
+            self._of_left.solve_at(values, self._recovered, transposed=self._transposed)
+        return values
+
     def expand(self, v: PETSc.Vec, z: PETSc.Vec) -> None:
         """Give all displacements, z = (I + right) v."""
         self._right.mult(v, self._some)
+        if self._of_right is not None:
+            self._of_right.solve(self._some)
         v.copy(z)
         z.array[self.eliminated] += self._some.array_r
 
@@ -86,11 +118,17 @@ class CondensedOperator:
         """Combine rows, y = (I + left) w, zero in the eliminated ones."""
         if self._transposed:
             self._some.array[:] = w.array_r[self.eliminated]
+            if self._of_left is not None:
+                self._of_left.solve(self._some, transposed=True)
             self._right.multTransposeAdd(self._some, w, y)
         elif self._left is None:
             w.copy(y)
-        else:
+        elif self._of_left is None:
             self._left.multAdd(w, w, y)
+        else:
+            w.copy(self._work)
+            self.release(self._work.array)
+            self._left.multAdd(self._work, w, y)
         y.array[self.eliminated] = 0
 
     def add_law(self, z: PETSc.Vec, y: PETSc.Vec, sign: float) -> None:
@@ -115,7 +153,8 @@ class CondensedOperator:
             index_set(places, rows), self._numbering.index_set(self.eliminated)
         )
         springs = self._elastic()
-        return Change(places, self._right, block, springs, self._bound())
+        chains = None if self._of_right is None else self._of_right.C
+        return Change(places, self._right, chains, block, springs, self._bound())
 
     def _elastic(self) -> PETSc.Mat | None:
         """Springs and soft contact as a matrix, without rows of eliminated displacements."""
@@ -147,6 +186,7 @@ class Change:
     Attributes:
         places: Their places among the displacements of this rank's slave nodes, shape (k,).
         right: Their rows of ``right``, (k, num_dofs).
+        chains: What they need of one another, (k, k); None where they do not.
         block: Block K_ee, (k, k).
         springs: Springs elsewhere, (num_dofs, num_dofs); None where there are none.
         bound: Diagonal with which the eigenvalues stay those of the bulk.
@@ -154,6 +194,7 @@ class Change:
 
     places: Index
     right: PETSc.Mat
+    chains: PETSc.Mat | None
     block: PETSc.Mat
     springs: PETSc.Mat | None
     bound: PETSc.Vec

@@ -4,9 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
-from functools import partial
 
 from petsc4py import PETSc
 
@@ -14,22 +12,18 @@ import numpy as np
 
 from contactx import cpp as core
 from contactx.bulk import Bulk
-from contactx.callback import Quiet
 from contactx.condensed.guess import Guess
 from contactx.condensed.multigrid import Multigrid
 from contactx.condensed.numbering import Array, Numbering, Surroundings
 from contactx.condensed.operator import CondensedOperator
 from contactx.factorised import FactorisedSolver
-from contactx.options import ROUNDING
-from contactx.parallel import reduce
 from contactx.parallel.agreement import agreed
 from contactx.report import Report
 from contactx.system import SaddlePointSystem
 
 _SLOW = "multigrid is slow here"
-# Most solves of nearly the same system for one solution, and how accurate each is
-_CORRECTIONS = 30
-_NEARLY = 0.1
+# What a guess may leave for each part that a solve would: Newton's method leaves as much
+_NEAR = 300.0
 
 
 class CondensedSolver:
@@ -41,8 +35,8 @@ class CondensedSolver:
 
     Attributes:
         target: What the norm of the next solve's residual must fall below, a force.
-        finer_target: The same where what is condensed is nearly the system.
         is_last: Whether it is to be the last one of the step.
+        is_guessed: Whether the last solution was not solved for: it is what steps before tell.
         direct: Solves that were not condensed since ``begin_step``, and why.
     """
 
@@ -59,10 +53,10 @@ class CondensedSolver:
         self._system = system
         self._surroundings = Surroundings(bulk, system)
         self._factorised = FactorisedSolver(system, prefix + "direct_")
-        self._guess = Guess()
+        self._guess = Guess(bulk, system)
         self._multigrid = Multigrid(bulk, x[: system.num_bulk // system.block], prefix)
-        self.target = self.finer_target = 0.0
-        self.is_last = False
+        self.target = 0.0
+        self.is_last = self.is_guessed = False
         self._failures = self._failures_before = 0
         self.springs: Array | None = None
         self.begin_step(Report())
@@ -123,26 +117,24 @@ class CondensedSolver:
             x: Solution, overwritten.
         """
         self._solves += 1
+        self.is_guessed = False
         # What does not converge twice will not, and each attempt is dear
         if self._failures == 2:
             self._solve_directly(b, x, _SLOW)
             return
         try:
             with self._report.timing("condensation"):
-                A, system, is_exact = self._condense(b)
+                system = self._condense(b)
+            is_solved = self._solve(system, b, x)
         except core.NotCondensable as reason:
             self._solve_directly(b, x, str(reason))
             return
-        solve = partial(self._solve, system)
-        if not (solve(b, x, self.target) if is_exact else self._correct(solve, A, b, x)):
+        if not is_solved:
             self._failures += 1
             self._solve_directly(b, x, _SLOW)
 
-    def _condense(self, b: PETSc.Vec) -> tuple[core.ContactBlock, _Condensed, bool]:
+    def _condense(self, b: PETSc.Vec) -> _Condensed:
         """Eliminate the multipliers.
-
-        Returns:
-            This rank's contact entries, the condensed system, and whether it stands for them.
 
         Raises:
             core.NotCondensable: On all ranks, where a multiplier has no equation of its own.
@@ -151,47 +143,17 @@ class CondensedSolver:
         around.rebuild()
         numbering = around.numbering
         with agreed(numbering.comm):
-            A = self._system.contact_block(b)
             condensation = core.Condensation(
-                A,
+                self._system.contact_block(b),
                 self._system.interfaces,
-                around.is_slave,
                 around.free,
                 self._system.block,
             )
-        condensation.check_chains(numbering.nodes)
         self._bulk.update()
         self._bulk.rows(condensation.slave_dofs)
         self._bulk.keep_half()
         operator = CondensedOperator(self._bulk, numbering, condensation, self.springs)
-        is_exact = reduce.everywhere(numbering.comm, condensation.is_exact)
-        return A, _Condensed(numbering, operator, condensation), is_exact
-
-    def _correct(
-        self,
-        solve: Callable[[PETSc.Vec, PETSc.Vec, float], bool],
-        contact: core.ContactBlock,
-        b: PETSc.Vec,
-        x: PETSc.Vec,
-    ) -> bool:
-        """Solve J x = b by FGMRES with a solver of nearly the same system."""
-        norm = b.norm()
-        part = max(_NEARLY, 0.5 * self.finer_target / norm) if norm > 0 else 1.0
-        nearly = _Nearly(solve, partial(self._multiply, contact), part)
-        J = PETSc.Mat().createPython((x.getSizes(), x.getSizes()), nearly, comm=x.comm)
-        ksp = PETSc.KSP().create(comm=x.comm)
-        ksp.setOperators(J)
-        ksp.setType("fgmres")
-        ksp.getPC().setType("python")
-        ksp.getPC().setPythonContext(nearly)
-        ksp.setTolerances(rtol=ROUNDING, atol=self.finer_target, max_it=_CORRECTIONS)
-        with nearly.quiet:
-            ksp.solve(b, x)
-        converged = ksp.getConvergedReason() > 0 and not nearly.has_failed
-        # The matrix refers back to the solver
-        ksp.destroy()
-        J.destroy()
-        return converged
+        return _Condensed(numbering, operator, condensation)
 
     def multiply(self, x: PETSc.Vec, y: PETSc.Vec) -> None:
         """Multiply by the Jacobian, y = J x.
@@ -200,10 +162,7 @@ class CondensedSolver:
             x: Vector of all unknowns.
             y: Product, overwritten.
         """
-        self._multiply(self._system.contact_block(), x, y)
-
-    def _multiply(self, contact: core.ContactBlock, x: PETSc.Vec, y: PETSc.Vec) -> None:
-        self._system.multiply_contact(contact, x, y)
+        self._system.multiply_contact(self._system.contact_block(), x, y)
         n = self._system.num_bulk
         u, w = self._bulk.matrix().createVecs()
         u.array[:] = x.array_r[:n]
@@ -212,7 +171,7 @@ class CondensedSolver:
         if self.springs is not None:
             y.array[:n] += self.springs * u.array_r
 
-    def _solve(self, system: _Condensed, b: PETSc.Vec, x: PETSc.Vec, target: float) -> bool:
+    def _solve(self, system: _Condensed, b: PETSc.Vec, x: PETSc.Vec) -> bool:
         """Solve with the multipliers eliminated; whether the iterations converged."""
         numbering, operator = system.numbering, system.operator
         condensation = system.condensation
@@ -224,7 +183,7 @@ class CondensedSolver:
         w.array[:] = given + numbering.scatter_reverse(forces)
         balance = w.duplicate()
         w.copy(balance)
-        h.array[:] = shift[:n]
+        h.array[:] = operator.place(shift[:n])
         work = w.duplicate()
         operator.bulk(h, work)
         w.axpy(-1.0, work)
@@ -233,16 +192,19 @@ class CondensedSolver:
         rhs.array[:] += extra[:n]
         rhs.array[operator.eliminated] = 0
         v.set(0.0)
-        self._guess.start(operator, rhs, v)
-        if not self._multigrid.solve(operator, rhs, v, target, self._report):
+        guess = self._guess.start(operator, b, rhs, v, _NEAR * self.target)
+        self.is_guessed = guess is not None
+        if guess is not None:
+            x.array[:] = guess
+            return True
+        if not self._multigrid.solve(operator, rhs, v, self.target, self._report):
             return False
-        self._guess.keep(v)
         operator.expand(v, work)
         h.axpy(1.0, work)
         operator.bulk(h, work)
         balance.axpy(-1.0, work)
         u = numbering.scatter_forward(h.array_r)
-        condensation.recover(constraints, balance.array_r, u, multipliers)
+        condensation.recover(constraints, operator.release(balance.array), u, multipliers)
         x.array[:n] = np.where(self._surroundings.free[:n] == 1, h.array_r, given)
         x.array[n:] = multipliers / self._system.core.factors
         return True
@@ -261,31 +223,3 @@ class _Condensed:
     numbering: Numbering
     operator: CondensedOperator
     condensation: core.Condensation
-
-
-class _Nearly:
-    """A matrix with a solver of nearly the same system, as PETSc calls them."""
-
-    def __init__(
-        self,
-        solve: Callable[[PETSc.Vec, PETSc.Vec, float], bool],
-        multiply: Callable[[PETSc.Vec, PETSc.Vec], None],
-        part: float,
-    ):
-        """Take both, and the part of a right-hand side that a solve may leave."""
-        self._solve, self._multiply, self._part = solve, multiply, part
-        self.has_failed = False
-        self.quiet = Quiet()
-
-    def apply(self, pc: PETSc.PC, b: PETSc.Vec, x: PETSc.Vec) -> None:
-        """Solve, to a part of the right-hand side."""
-        self.quiet.call(lambda: self._apply(b, x), x)
-
-    def _apply(self, b: PETSc.Vec, x: PETSc.Vec) -> None:
-        if self.has_failed or not self._solve(b, x, self._part * b.norm()):
-            self.has_failed = True
-            x.zeroEntries()
-
-    def mult(self, mat: PETSc.Mat, x: PETSc.Vec, y: PETSc.Vec) -> None:
-        """Multiply."""
-        self.quiet.call(lambda: self._multiply(x, y), y)

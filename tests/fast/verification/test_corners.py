@@ -97,14 +97,8 @@ def test_a_tied_node_keeps_its_tie_alone(cell):
 )
 def test_a_surface_is_slave_here_and_master_there(cell, friction, sliding):
     """The middle one of three blocks: its edge nodes are slave of one and master of another."""
-    gdim = 2 if cell == CellType.quadrilateral else 3
-    data = meshes.stack(cell, [(2,) * gdim, (3,) * gdim, (4,) * gdim])
-    tags, u = data.facet_tags, displacement(data.mesh)
-    bcs = [
-        *(fix(u, tags, i, 0.0, block_tag(0, "bottom")) for i in range(gdim)),
-        *(fix(u, tags, i, 0.0, block_tag(2, "top")) for i in range(gdim - 1)),
-        fix(u, tags, gdim - 1, -0.05, block_tag(2, "top")),
-    ]
+    tags, u, bcs = stack(cell)
+    gdim = len(u)
     middle = {side: cx.Surface(tags, block_tag(1, side)) for side in ("bottom", "top", "x0")}
     pairs = [
         (middle["bottom"], cx.Surface(tags, block_tag(0, "top"))),
@@ -125,6 +119,55 @@ def test_a_surface_is_slave_here_and_master_there(cell, friction, sliding):
     assert problem.report.corners == 0
     assert below[-1] == pytest.approx(above[-1], rel=1e-9)
     assert below[-1] > 0.01
+
+
+def stack(cell):
+    """Facet tags, displacement and supports of three blocks, pressed together."""
+    gdim = 2 if cell == CellType.quadrilateral else 3
+    data = meshes.stack(cell, [(2,) * gdim, (3,) * gdim, (4,) * gdim])
+    tags, u = data.facet_tags, displacement(data.mesh)
+    bcs = [
+        *(fix(u, tags, i, 0.0, block_tag(0, "bottom")) for i in range(gdim)),
+        *(fix(u, tags, i, 0.0, block_tag(2, "top")) for i in range(gdim - 1)),
+        fix(u, tags, gdim - 1, -0.05, block_tag(2, "top")),
+    ]
+    return tags, u, bcs
+
+
+@covering(
+    cell=(CellType.quadrilateral, CellType.hexahedron),
+    friction=(0.0, 0.3),
+    sliding=SLIDINGS,
+    method=METHODS,
+)
+def test_a_node_that_is_slave_here_and_master_there_is_condensed(cell, friction, sliding):
+    """The middle block's side is pushed on a wall; its edges press on the other blocks, too."""
+    answers = []
+    for solver in ("lu", "condensed"):
+        tags, u, bcs = stack(cell)
+        axis = np.eye(len(u))[0]
+        bcs.append(fix(u, tags, 0, -0.02, block_tag(1, "x1")))
+        top, bottom, side = (cx.Surface(tags, block_tag(1, s)) for s in ("top", "bottom", "x0"))
+        pairs = [
+            (cx.Surface(tags, block_tag(0, "top")), bottom),
+            (cx.Surface(tags, block_tag(2, "bottom")), top),
+            (side, cx.Plane(0 * axis, axis)),
+        ]
+        contacts = [cx.Contact(*pair, friction=friction, sliding=sliding) for pair in pairs]
+        problem = cx.ContactProblem(
+            elasticity(u, 1.0, NU),
+            u,
+            contacts=contacts,
+            bcs=bcs,
+            petsc_options={"pc_type": solver},
+            petsc_options_prefix="chain_",
+        )
+        problem.solve()
+        assert contacts[2].force[0] > 1e-3
+        assert problem.report.uncondensed == []
+        answers.append((u.x.array, *(contact.multiplier for contact in contacts)))
+    for found, exact in zip(*answers[::-1], strict=True):
+        np.testing.assert_allclose(found, exact, rtol=0, atol=1e-8 * np.abs(exact).max())
 
 
 @covering(slope=(0.005, 0.03, 0.045, 0.06, 0.2), friction=(0.0, 0.3), method=METHODS)

@@ -22,7 +22,6 @@ def test_hertz_with_friction(method, monkeypatch):
         follow(self, loop)
         if not self._solver.is_last:
             self._solver.target *= part
-            self._solver.finer_target *= part
 
     monkeypatch.setattr(linear.Condensed, "follow", scaled)
     data = meshes.hertz_sphere(0.05)

@@ -26,6 +26,7 @@ TRIED = (
     ("tied", "node"),
     ("tied", "surface"),
     ("chain", "surface"),
+    ("chain_condensed", "surface"),
     ("corner_3d", "node"),
     ("sliding_block", "node"),
     ("dragged_2d", "surface"),

@@ -1,0 +1,82 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Eliminations that need one another."""
+
+from __future__ import annotations
+
+from petsc4py import PETSc
+
+from contactx import cpp as core
+from contactx.condensed.numbering import Array, Index, Numbering
+from contactx.parallel import reduce
+
+
+class Chains:
+    """Solves (I - C) y = x, C being what eliminations need of one another.
+
+    C joins eliminated displacements of one facet, or of a slave node and its master, so that its
+    factors are sparse. Several ranks have the factors of all of it each: iterations would wait for
+    one another in every product of the condensed matrix.
+
+    Attributes:
+        C: The matrix, (k, k).
+    """
+
+    def __init__(self, numbering: Numbering, entries: core.Triplets, dofs: Index):
+        """Factorise the matrix; all ranks must take part.
+
+        Args:
+            numbering: Displacements on this rank.
+            entries: Entries of C in local numbers.
+            dofs: Owned displacements that its rows and columns stand for, in order.
+        """
+        wide = numbering.matrix(entries, rows=dofs)
+        first, last = wide.getOwnershipRange()
+        rows = PETSc.IS().createStride(last - first, first, comm=numbering.comm)
+        self.C = wide.createSubMatrix(rows, numbering.index_set(dofs))
+        A = self.C.copy()
+        A.scale(-1.0)
+        A.shift(1.0)
+        self._ksp = PETSc.KSP().create(comm=numbering.comm)
+        self._ksp.setOperators(A)
+        self._ksp.setType("preonly")
+        self._ksp.getPC().setType("lu" if numbering.comm.size == 1 else "redundant")
+        self._b = A.createVecRight()
+
+    def solve(self, x: PETSc.Vec, *, transposed: bool = False) -> None:
+        """Solve in place; all ranks must take part.
+
+        Args:
+            x: Right-hand side, overwritten by the solution.
+            transposed: Whether with the matrix transposed.
+
+        Raises:
+            core.NotCondensable: On all ranks, where the matrix is singular.
+        """
+        x.copy(self._b)
+        if transposed:
+            self._ksp.solveTranspose(self._b, x)
+        else:
+            self._ksp.solve(self._b, x)
+        if self._ksp.getConvergedReason() < 0:
+            raise core.NotCondensable("slave nodes that are masters hold one another")
+
+    def solve_at(self, values: Array, dofs: Index, *, transposed: bool = False) -> None:
+        """Solve in place for some values of an array; see ``solve``.
+
+        Args:
+            values: Array that holds the right-hand side and is overwritten, shape (num_owned,).
+            dofs: Displacements of the rows, in order.
+            transposed: Whether with the matrix transposed.
+        """
+        x = self._b.duplicate()
+        x.array[:] = values[dofs]
+        self.solve(x, transposed=transposed)
+        values[dofs] = x.array_r
+
+    @classmethod
+    def of(cls, numbering: Numbering, entries: core.Triplets, dofs: Index) -> Chains | None:
+        """The same, None on all ranks where there are no entries; all ranks must take part."""
+        if not reduce.anywhere(numbering.comm, len(entries) > 0):
+            return None
+        return cls(numbering, entries, dofs)
