@@ -6,6 +6,7 @@
 #include <contactx/condense/condensation.h>
 #include <contactx/condense/coupled_rows.h>
 #include <contactx/condense/multigrid.h>
+#include <contactx/condense/stiff_bodies.h>
 #include <optional>
 #include <pybind11/stl.h>
 
@@ -102,15 +103,16 @@ void contactx_bindings::condense(py::module_& m)
       .def(py::init(
                [](const ContactBlock& contact,
                   const ContactBlock::Contacts& contacts,
-                  const Array<std::int8_t>& free, int gdim)
+                  const Array<std::int8_t>& free, int gdim, bool holds)
                {
                  return Condensation(contact.entries(), nodes_of_all(contacts),
-                                     view(free), gdim);
+                                     view(free), gdim, holds);
                }),
            py::arg("contact"), py::arg("contacts"), py::arg("free"),
-           py::arg("gdim"))
+           py::arg("gdim"), py::kw_only(), py::arg("holds") = false)
       .def_property_readonly("is_soft", &Condensation::is_soft)
       .def_property_readonly("stiffness", &Condensation::stiffness)
+      .def_property_readonly("traction", &Condensation::traction)
       .def_property_readonly("left", [](const Condensation& c) -> auto&
                              { return c.elimination().left(); })
       .def_property_readonly("rows", [](const Condensation& c) -> auto&
@@ -125,7 +127,8 @@ void contactx_bindings::condense(py::module_& m)
              const auto result = c.right_hand_side(view(d));
              return py::make_tuple(array(result.forces), array(result.shift),
                                    array(result.extra),
-                                   array(result.multipliers));
+                                   array(result.multipliers),
+                                   array(result.held));
            })
       .def(
           "recover",
@@ -147,6 +150,21 @@ void contactx_bindings::condense(py::module_& m)
                                   std::move(found.left));
           },
           "Entries by which eliminations need one another, of right and left")
+      .def_property_readonly(
+          "held",
+          [](const Condensation& c)
+          {
+            const Held& held = c.held();
+            return py::make_tuple(array(held.dofs), array(held.multipliers),
+                                  array(held.scale));
+          },
+          "Places of held multipliers, their numbers, and their scale")
+      .def(
+          "stiff_bodies",
+          [](const Condensation& c, const contact::Bodies& bodies,
+             const Array<double>& diagonal)
+          { return array(stiff_bodies(c, bodies, view(diagonal))); },
+          py::arg("bodies"), py::arg("diagonal"))
       .def("is_symmetric", [](const Condensation& c, const NodeMap& nodes)
            { return is_symmetric(c.elimination(), nodes); })
       .def("bound", [](const Condensation& c, const NodeMap& nodes,

@@ -235,7 +235,8 @@ public:
   }
 
   /// @brief Eliminate the multipliers.
-  condense::Condensation condensed() const
+  /// @param[in] holds Whether multipliers may stay unknowns.
+  condense::Condensation condensed(bool holds = false) const
   {
     std::vector<std::int32_t> offsets{0}, columns;
     std::vector<double> values;
@@ -253,7 +254,7 @@ public:
     for (const Contact& c : contacts)
       nodes.push_back(c.nodes());
     return condense::Condensation({offsets, columns, values}, nodes, free,
-                                  gdim);
+                                  gdim, holds);
   }
 
   /// @brief The same from the system without multipliers.
@@ -276,7 +277,10 @@ public:
     auto given = condensation.right_hand_side(d);
     given.shift = of_right * given.shift;
     Dense A = left * (K * right) + law * right;
-    Column rhs = left * (b + given.forces - K * given.shift) - law * given.shift
+    Column forces = b + given.forces;
+    for (std::size_t i = 0; i < given.held.size(); ++i)
+      forces[condensation.held().dofs[i]] = given.held[i];
+    Column rhs = left * (forces - K * given.shift) - law * given.shift
                  + given.extra;
     for (const std::int32_t dof : elimination.eliminated())
     {
@@ -288,6 +292,8 @@ public:
     Column multipliers = given.multipliers;
     condensation.recover(d, of_left * (b + given.forces - K * u), u,
                          multipliers);
+    for (const std::int32_t dof : condensation.held().dofs)
+      u[dof] = b[dof];
     u.insert(u.end(), multipliers.begin(), multipliers.end());
     return u;
   }

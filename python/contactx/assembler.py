@@ -461,7 +461,7 @@ class ContactAssembler:
             return
         if self._condensed is None:
             prefix = ksp.getOptionsPrefix() or "contactx_"
-            self._condensed = Condensed(self.bulk, self.system, self.bodies.x, prefix)
+            self._condensed = Condensed(self.bulk, self.system, self.bodies, prefix)
             self.solvers.append(self._condensed)
             self._condensed.start(self.report)
         self._condensed.update(self.loop.free_bodies.springs)

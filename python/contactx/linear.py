@@ -10,6 +10,7 @@ from types import SimpleNamespace
 from petsc4py import PETSc
 
 from contactx import cpp as core
+from contactx.bodies import Bodies
 from contactx.bulk import Bulk
 from contactx.callback import keeps_its_error, weakly
 from contactx.condensed.numbering import Array
@@ -108,18 +109,18 @@ class SaddlePoint(LinearSolver):
 class Condensed(LinearSolver):
     """The condensed solver as a preconditioner that is exact; the Jacobian is not assembled."""
 
-    def __init__(self, bulk: Bulk, system: SaddlePointSystem, x: Array, prefix: str):
+    def __init__(self, bulk: Bulk, system: SaddlePointSystem, bodies: Bodies, prefix: str):
         """Create the solver.
 
         Args:
             bulk: The bulk.
             system: The coupled system.
-            x: Reference positions, those of owned nodes first, shape (num_nodes, gdim).
+            bodies: The bodies.
             prefix: Prefix of the PETSc options.
         """
         self._bulk = bulk
         self._system = system
-        self._solver = CondensedSolver(bulk, system, x, prefix + "condensed_")
+        self._solver = CondensedSolver(bulk, system, bodies, prefix + "condensed_")
         self._snes: PETSc.SNES | None = None
         self._has_ended = True
         self._accuracy = core.Accuracy(system.has_friction)
@@ -176,6 +177,7 @@ class Condensed(LinearSolver):
         self._has_ended = True
         report.krylov = self._solver.iterations
         report.hierarchies = self._solver.hierarchies
+        report.by_bodies = list(self._solver.by_bodies)
         report.uncondensed = list(self._solver.direct)
         report.factorisations = self._solver.factorisations
 

@@ -88,7 +88,7 @@ class NewtonLoop:
         self._loop, self._halo = assembler.loop, assembler.halo
         prefix = snes.getOptionsPrefix() or ""
         self._linear: LinearSolver = (
-            Condensed(self._bulk, self._system, assembler.bodies.x, prefix)
+            Condensed(self._bulk, self._system, assembler.bodies, prefix)
             if condensed
             else SaddlePoint(self._system)
         )

@@ -184,6 +184,23 @@ def direct_options(prefix: str) -> SolverOptions:
     return SolverOptions(prefix, {}, {**_direct(), **krylov})
 
 
+def block_options(prefix: str, *, is_symmetric: bool) -> SolverOptions:
+    """Options of a direct solver of a block, in single precision where the solver has it.
+
+    Args:
+        prefix: Prefix of the options in PETSc's database.
+        is_symmetric: Whether the block is symmetric.
+    """
+    options = {"ksp_type": "preonly", **_direct()}
+    if compat.direct_solver() == "mumps":
+        # Iterations correct for what rounding leaves
+        options["pc_precision"] = "single"
+        options["mat_mumps_icntl_14"] = 30
+        if is_symmetric:
+            options["pc_type"] = "cholesky"
+    return SolverOptions(prefix, {}, options)
+
+
 def check_petsc_options(options: Any, prefix: Any) -> None:
     """Check the options of a problem.
 

@@ -63,7 +63,8 @@ class Report:
             slide without friction there, and of parallel contacts only the deepest counts.
         krylov: Iterations of the condensed solver.
         hierarchies: Multigrid hierarchies made for it.
-        factorisations: Factorisations of what was not condensed.
+        factorisations: Factorisations, of the blocks of bodies or of what was not condensed.
+        by_bodies: Why condensed solves were by bodies, without multigrid, one entry a solve.
         uncondensed: Why solves were not condensed, one entry a solve.
         soft: Linear solves on the path from soft to hard contact.
         limited: Newton steps that were shortened so as not to turn a cell inside out.
@@ -98,6 +99,7 @@ class Report:
     krylov: int = 0
     hierarchies: int = 0
     factorisations: int = 0
+    by_bodies: list[str] = field(default_factory=list)
     uncondensed: list[str] = field(default_factory=list)
     soft: int = 0
     limited: int = 0
@@ -170,6 +172,8 @@ class Report:
                 f"linear solves: {self.krylov} Krylov iterations, {self.hierarchies} hierarchies, "
                 f"{self.factorisations} factorisations"
             )
+        for reason in sorted(set(self.by_bodies)):
+            lines.append(f"solved by bodies {self.by_bodies.count(reason)} times: {reason}")
         for reason in sorted(set(self.uncondensed)):
             lines.append(f"solved directly {self.uncondensed.count(reason)} times: {reason}")
         acted = [

@@ -12,6 +12,7 @@ import contactx as cx
 
 from ranks import (
     partitions,
+    scenes_by_bodies,
     scenes_coupled,
     scenes_elastic,
     scenes_quadratic,
@@ -28,6 +29,7 @@ _MODULES = (
     scenes_several,
     scenes_coupled,
     scenes_quadratic,
+    scenes_by_bodies,
 )
 
 # Functions that yield the problem after each step

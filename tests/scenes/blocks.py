@@ -43,7 +43,19 @@ class Blocks:
         n_upper: int = 2,
         n_lower: int = 3,
         degree: int = 1,
+        stiffness: float = 1.0,
     ):
+        """Create it.
+
+        Args:
+            cell_type: Kind of cells.
+            down: Displacement of the upper block's top.
+            gap: Distance of the blocks.
+            n_upper: Cells an edge of the upper block.
+            n_lower: Cells an edge of the lower block.
+            degree: Degree of the displacement.
+            stiffness: Young's modulus of the lower block; that of the upper one is one.
+        """
         gdim = dimension(cell_type)
         data = meshes.blocks(
             cell_type,
@@ -55,7 +67,12 @@ class Blocks:
         )
         self.tags = data.facet_tags
         self.u = displacement(data.mesh, degree)
-        self.F = elasticity(self.u, 1.0, NU)
+        young: Any = 1.0
+        if stiffness != 1.0:
+            young = fem.Function(fem.functionspace(data.mesh, ("DG", 0)))
+            young.x.array[:] = 1.0
+            young.x.array[data.cell_tags.find(Tag.LOWER)] = stiffness
+        self.F = elasticity(self.u, young, NU)
         self.bcs = [
             *(fix(self.u, self.tags, i, 0.0, Tag.LOWER_BOTTOM) for i in range(gdim)),
             *(fix(self.u, self.tags, i, 0.0, Tag.UPPER_TOP) for i in range(gdim - 1)),

@@ -35,12 +35,14 @@ Blocks checked(const CompressedRows& contact, std::span<const Nodes> contacts,
 
 Condensation::Condensation(const CompressedRows& contact,
                            std::span<const Nodes> contacts,
-                           std::span<const std::int8_t> free, int gdim)
+                           std::span<const std::int8_t> free, int gdim,
+                           bool holds)
     : _num_local(free.size()),
       _num_multipliers(condense::num_multipliers(contacts)),
       _is_soft(std::ranges::any_of(contacts, [](const Nodes& nodes)
                                    { return nodes.softness > 0; })),
-      _prescribed(contacts, checked(contact, contacts, free, gdim), free, gdim),
+      _prescribed(contacts, checked(contact, contacts, free, gdim), free, gdim,
+                  holds),
       _elimination(contacts, _prescribed, free, gdim)
 {
 }
@@ -52,7 +54,7 @@ Condensation::right_hand_side(std::span<const double> d) const
   RightHandSide result;
   result.forces.assign(_num_local, 0);
   std::vector<double> left(d.begin(), d.end());
-  _prescribed.right_hand_side(left, result.forces);
+  _prescribed.right_hand_side(left, result.forces, result.held);
   result.multipliers = _elimination.open_multipliers(left);
   _prescribed.blocks().traction.multiply(result.multipliers, result.forces, -1);
   result.shift = _elimination.shift(left);

@@ -26,6 +26,7 @@ public:
     std::vector<double> extra;  ///< of the law's rows (shape=(num_local))
     /// Multipliers of open nodes, zero elsewhere (shape=(num_multipliers))
     std::vector<double> multipliers;
+    std::vector<double> held; ///< rows of held multipliers (shape=(n))
   };
 
   /// @brief Eliminate the multipliers.
@@ -35,16 +36,24 @@ public:
   /// @param[in] free 1 at displacements that are not prescribed, else 0
   /// (shape=(num_local)).
   /// @param[in] gdim Geometric dimension.
+  /// @param[in] holds Whether multipliers without an equation of their own may
+  /// stay unknowns; see Prescribed.
   /// @throws NotCondensable where a multiplier has no equation of its own.
   /// @throws std::invalid_argument if arrays do not fit.
   Condensation(const CompressedRows& contact, std::span<const Nodes> contacts,
-               std::span<const std::int8_t> free, int gdim);
+               std::span<const std::int8_t> free, int gdim, bool holds = false);
 
   /// @brief Whether a contact is soft.
   bool is_soft() const { return _is_soft; }
 
   /// @brief Contact's part S of the stiffness, (dof, dof).
   const Triplets& stiffness() const { return _prescribed.blocks().stiffness; }
+
+  /// @brief Contact's block of forces by multipliers that are eliminated.
+  const Triplets& traction() const { return _prescribed.blocks().traction; }
+
+  /// @brief Multipliers that stay unknowns.
+  const Held& held() const { return _prescribed.held(); }
 
   /// @brief What soft contact, and multipliers that the law gives, have added
   /// to it, (dof, dof).
@@ -63,7 +72,8 @@ public:
   /// (shape=(num_multipliers)).
   /// @param[in] defect b + forces - (K + S) u, of rows that need none of each
   /// other (shape=(num_owned)).
-  /// @param[in] u Displacements of all nodes (shape=(num_local)).
+  /// @param[in] u Displacements of all nodes, held multipliers over their scale
+  /// in the place of theirs (shape=(num_local)).
   /// @param[in,out] multipliers Those of open nodes, then all
   /// (shape=(num_multipliers)).
   void recover(std::span<const double> d, std::span<const double> defect,

@@ -109,7 +109,8 @@ Elimination::Elimination(std::span<const Nodes> contacts,
         }
         continue;
       }
-      if (size == 1 and own[0] == 0)
+      if (std::ranges::all_of(own, [](std::int8_t is_own)
+                              { return is_own == 0; }))
         continue;
 
       if (size == 1)

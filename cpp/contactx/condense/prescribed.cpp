@@ -3,6 +3,9 @@
 
 #include "prescribed.h"
 #include "small.h"
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <utility>
 
 using namespace contactx;
@@ -12,10 +15,19 @@ namespace
 {
 /// Determinant of D_pp over the area, from which on it has an inverse
 constexpr double least_determinant = 1e-8;
+
+/// Whether no multiplier is in the law of one, nor that in theirs
+bool is_without_law(int k, const Small& D, int i)
+{
+  for (int j = 0; j < k; ++j)
+    if (D[i][j] != 0 or D[j][i] != 0)
+      return false;
+  return true;
+}
 } // namespace
 
 Prescribed::Prescribed(std::span<const Nodes> contacts, Blocks blocks,
-                       std::span<const std::int8_t> free, int gdim)
+                       std::span<const std::int8_t> free, int gdim, bool holds)
     : _blocks(std::move(blocks))
 {
   const std::size_t count = num_multipliers(contacts);
@@ -43,6 +55,8 @@ Prescribed::Prescribed(std::span<const Nodes> contacts, Blocks blocks,
 
       double* d = by.data() + s * k * k;
       Small D{}, block{}, G{};
+      std::array<bool, 3> gives{}, stays{};
+      bool all_prescribed = true;
       for (int i = 0; i < k; ++i)
         for (int j = 0; j < k; ++j)
         {
@@ -53,12 +67,39 @@ Prescribed::Prescribed(std::span<const Nodes> contacts, Blocks blocks,
           else
             block[i][j] = i == j and own[i] != 0;
         }
+      for (int i = 0; i < k; ++i)
+      {
+        all_prescribed = all_prescribed and own[i] == 0;
+        stays[i] = holds and own[i] == 0 and is_without_law(k, D, i);
+        if (stays[i])
+          block[i][i] = 1;
+      }
       if (std::abs(invert(k, block, G)) < least_determinant)
-        throw NotCondensable(
-            "a slave node with a prescribed displacement moves its master");
+      {
+        if (not(holds and all_prescribed))
+          throw NotCondensable(
+              "a slave node with a prescribed displacement moves its master");
+        stays.fill(true);
+      }
+      const auto first_held = static_cast<std::int32_t>(_held.dofs.size());
+      std::array<std::int32_t, 3> number{};
+      for (int i = 0, next = first_held; i < k; ++i)
+      {
+        gives[i] = own[i] == 0 and not stays[i];
+        if (stays[i])
+        {
+          number[i] = next++;
+          _held.multipliers.push_back(static_cast<std::int32_t>(first) + i);
+          _held.dofs.push_back(nodes.slaves[s] * gdim + i);
+        }
+      }
       for (int i = 0; i < k; ++i)
         for (int j = 0; j < k; ++j)
-          G[i][j] = own[i] == 0 and own[j] == 0 ? G[i][j] / nodes.area[s] : 0;
+          if (stays[i] and stays[j] and D[i][j] != 0)
+            _held_law.add(number[i], number[j], D[i][j]);
+      for (int i = 0; i < k; ++i)
+        for (int j = 0; j < k; ++j)
+          G[i][j] = gives[i] and gives[j] ? G[i][j] / nodes.area[s] : 0;
 
       const Small DG = product(k, D, G), GD = product(k, G, D),
                   DGD = product(k, DG, D);
@@ -79,8 +120,64 @@ Prescribed::Prescribed(std::span<const Nodes> contacts, Blocks blocks,
       }
     }
   }
+  if (not _held.dofs.empty())
+    hold();
   if (not _multipliers.empty())
     take_out(count, free.size());
+}
+
+void Prescribed::hold()
+{
+  const std::size_t n = _held.dofs.size();
+  std::vector<std::int32_t> place(_own.size(), -1);
+  for (std::size_t i = 0; i < n; ++i)
+    place[_held.multipliers[i]] = static_cast<std::int32_t>(i);
+  Blocks left;
+  left.stiffness = std::move(_blocks.stiffness);
+  const Triplets &T = _blocks.traction, &C = _blocks.constraint;
+  std::vector<double> of_traction(n, 0), of_constraint(n, 0);
+  for (std::size_t e = 0; e < C.size(); ++e)
+    if (const std::int32_t at = place[C.rows[e]]; at >= 0)
+    {
+      of_constraint[at] = std::max(of_constraint[at], std::abs(C.values[e]));
+      left.stiffness.add(_held.dofs[at], C.columns[e], C.values[e]);
+    }
+    else
+      left.constraint.add(C.rows[e], C.columns[e], C.values[e]);
+  for (std::size_t e = 0; e < T.size(); ++e)
+    if (const std::int32_t at = place[T.columns[e]]; at >= 0)
+      of_traction[at] = std::max(of_traction[at], std::abs(T.values[e]));
+  double sum = 0;
+  int count = 0;
+  for (std::size_t i = 0; i < n; ++i)
+    if (of_traction[i] > 0 and of_constraint[i] > 0)
+    {
+      sum += of_constraint[i] / of_traction[i];
+      ++count;
+    }
+  if (count == 0)
+    throw NotCondensable("no displacement of a master that a prescribed one of "
+                         "its slave node holds is free");
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    // One whose master is prescribed, too, is in the law of another one alone
+    const bool is_free = of_traction[i] > 0 and of_constraint[i] > 0;
+    _held.scale.push_back(is_free ? of_constraint[i] / of_traction[i]
+                                  : sum / count);
+    // The bulk's row of a prescribed displacement has a one
+    left.stiffness.add(_held.dofs[i], _held.dofs[i], -1);
+  }
+  for (std::size_t e = 0; e < T.size(); ++e)
+    if (const std::int32_t at = place[T.columns[e]]; at >= 0)
+      left.stiffness.add(T.rows[e], _held.dofs[at],
+                         _held.scale[at] * T.values[e]);
+    else
+      left.traction.add(T.rows[e], T.columns[e], T.values[e]);
+  for (std::size_t e = 0; e < _held_law.size(); ++e)
+    left.stiffness.add(_held.dofs[_held_law.rows[e]],
+                       _held.dofs[_held_law.columns[e]],
+                       _held_law.values[e] * _held.scale[_held_law.columns[e]]);
+  _blocks = std::move(left);
 }
 
 void Prescribed::take_out(std::size_t num_multipliers, std::size_t num_local)
@@ -139,8 +236,11 @@ void Prescribed::take_out(std::size_t num_multipliers, std::size_t num_local)
 }
 
 void Prescribed::right_hand_side(std::span<double> d,
-                                 std::span<double> forces) const
+                                 std::span<double> forces,
+                                 std::vector<double>& held) const
 {
+  for (const std::int32_t i : _held.multipliers)
+    held.push_back(std::exchange(d[i], 0));
   const std::size_t m = _multipliers.size();
   std::vector<double> given(m), known(m, 0), change(m, 0);
   for (std::size_t i = 0; i < m; ++i)
@@ -156,6 +256,8 @@ void Prescribed::right_hand_side(std::span<double> d,
 void Prescribed::recover(std::span<const double> d, std::span<const double> u,
                          std::span<double> multipliers) const
 {
+  for (std::size_t i = 0; i < _held.dofs.size(); ++i)
+    multipliers[_held.multipliers[i]] = _held.scale[i] * u[_held.dofs[i]];
   const std::size_t m = _multipliers.size();
   std::vector<double> left(m), others(m), found(m, 0);
   for (std::size_t i = 0; i < m; ++i)

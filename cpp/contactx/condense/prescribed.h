@@ -7,6 +7,15 @@
 
 namespace contactx::condense
 {
+/// @brief Multipliers that are unknowns in the place of prescribed
+/// displacements.
+struct Held
+{
+  std::vector<std::int32_t> multipliers; ///< numbers (shape=(n))
+  std::vector<std::int32_t> dofs;        ///< their places (shape=(n))
+  std::vector<double> scale;             ///< multiplier a unit (shape=(n))
+};
+
 /// @brief Takes multipliers p that follow from their own rows of the law out of
 /// the contact blocks.
 ///
@@ -21,6 +30,14 @@ namespace contactx::condense
 /// goes into the other rows: C - D G C, D - D G D and T - T G D take the place
 /// of C, D and T, and -T G C is added to the stiffness.
 ///
+/// Where D has neither a row nor a column of one, as where such a node sticks
+/// to a master that is free to move, it may be held: l_p stays an unknown, in
+/// the place of the prescribed displacement, whose row the bulk has no use for.
+/// C_p is added to that row of the stiffness, and T_p, scaled to the size of
+/// C_p, to its column. All multipliers of a node whose displacements are all
+/// prescribed may be held, with D between them. The matrix that is left is
+/// indefinite.
+///
 /// All of it is of one rank alone: its slave nodes' constraints, in all nodes'
 /// displacements.
 class Prescribed
@@ -32,9 +49,11 @@ public:
   /// @param[in] free 1 at displacements that are not prescribed, else 0
   /// (shape=(num_local)).
   /// @param[in] gdim Geometric dimension.
-  /// @throws NotCondensable where the law does not give such a multiplier.
+  /// @param[in] holds Whether multipliers may be held.
+  /// @throws NotCondensable where the law does not give such a multiplier, and
+  /// it is not held.
   Prescribed(std::span<const Nodes> contacts, Blocks blocks,
-             std::span<const std::int8_t> free, int gdim);
+             std::span<const std::int8_t> free, int gdim, bool holds);
 
   /// @brief Contact blocks without these multipliers.
   const Blocks& blocks() const { return _blocks; }
@@ -42,6 +61,9 @@ public:
   /// @brief What these multipliers add to the stiffness, which has it already,
   /// (dof, dof).
   const Triplets& springs() const { return _springs; }
+
+  /// @brief Held multipliers.
+  const Held& held() const { return _held; }
 
   /// @brief 1 where a multiplier follows from a row of the bulk, else 0
   /// (shape=(num_multipliers)).
@@ -60,22 +82,29 @@ public:
   /// without these multipliers (shape=(num_multipliers)).
   /// @param[in,out] forces Right-hand side of all nodes' displacements, which
   /// it is added to (shape=(num_local)).
-  void right_hand_side(std::span<double> d, std::span<double> forces) const;
+  /// @param[out] held Right-hand side of held multipliers' rows (shape=(n)).
+  void right_hand_side(std::span<double> d, std::span<double> forces,
+                       std::vector<double>& held) const;
 
   /// @brief Add these multipliers.
   /// @param[in] d Right-hand side of the multipliers' rows
   /// (shape=(num_multipliers)).
-  /// @param[in] u Displacements of all nodes (shape=(num_local)).
+  /// @param[in] u Displacements of all nodes, held multipliers over their scale
+  /// in the place of theirs (shape=(num_local)).
   /// @param[in,out] multipliers The others, zero where these are to go
   /// (shape=(num_multipliers)).
   void recover(std::span<const double> d, std::span<const double> u,
                std::span<double> multipliers) const;
 
 private:
+  void hold();
   void take_out(std::size_t num_multipliers, std::size_t num_local);
 
   Blocks _blocks;
   Triplets _springs;
+  Held _held;
+  // The law's derivatives D between held multipliers, by their places
+  Triplets _held_law;
   std::vector<std::int8_t> _own;
   std::vector<std::vector<double>> _by_multiplier;
 

@@ -20,6 +20,9 @@ namespace
 // of the largest one
 constexpr double edge_of_cone = 1e-10;
 constexpr double left_by_solve = 1e-9;
+// The same of a node that has not moved in this step: it was left where Newton's
+// method ended, at its tolerance
+constexpr double left_by_step = 1e-6;
 // By how much more trial friction may exceed its bound where iterates go round
 constexpr double farther = 1e3;
 
@@ -42,11 +45,16 @@ std::vector<double> closable_gaps(const NodeState& nodes)
 }
 
 /// Part of the bound on friction that a node which slips may fall short of.
-double edge(double pressure, double highest)
+double edge(const NodeState& nodes, std::size_t i, double bound, double highest)
 {
-  return pressure > 0
-             ? std::min(edge_of_cone + left_by_solve * highest / pressure, 0.5)
-             : 0.5;
+  const std::size_t gdim = nodes.gdim();
+  double moved = 0;
+  for (std::size_t k = gdim * i; k < gdim * (i + 1); ++k)
+    moved += nodes.slip[k] * nodes.slip[k];
+  const bool is_still = nodes.c[i] * std::sqrt(moved) <= edge_of_cone * bound;
+  const double left = (is_still ? left_by_step : left_by_solve) * highest;
+  const double pressure = nodes.pressure(i);
+  return pressure > 0 ? std::min(edge_of_cone + left / pressure, 0.5) : 0.5;
 }
 
 /// Whether the trial friction of a node exceeds a bound.
@@ -217,7 +225,7 @@ std::int32_t Coulomb::set_status(NodeState& nodes, parallel::Ranks& ranks) const
     look();
   for (std::size_t i = 0; i < found.bound.size(); ++i)
     if (nodes.status[i] == slip)
-      found.bound[i] *= 1 - edge(nodes.pressure(i), highest);
+      found.bound[i] *= 1 - edge(nodes, i, found.bound[i], highest);
 
   const auto before = nodes.status;
   const auto gap = closable_gaps(nodes);

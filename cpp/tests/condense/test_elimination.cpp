@@ -16,9 +16,9 @@ namespace
 constexpr std::int8_t open = 0, stick = 1, slip = 2;
 
 /// Solve with random right-hand sides, whole and without multipliers
-void compare(Saddle& saddle)
+void compare(Saddle& saddle, bool holds = false)
 {
-  const Condensation condensation = saddle.condensed();
+  const Condensation condensation = saddle.condensed(holds);
   const Column b = saddle.column(saddle.n), d = saddle.column(saddle.m);
   const Column exact = saddle.solve(b, d);
   const Column found = saddle.solve_condensed(condensation, b, d);
@@ -216,6 +216,64 @@ TEST_P(Eliminated, APrescribedDisplacementWithoutALaw)
   saddle.contacts[0].by_multiplier[gdim + 1] = 0;
   EXPECT_EQ(reason(saddle),
             "a slave node with a prescribed displacement moves its master");
+}
+
+TEST_P(Eliminated, MultipliersOfPrescribedDisplacementsMayStayUnknowns)
+{
+  for (unsigned seed = 0; seed < 10; ++seed)
+  {
+    // Nodes 0 and 3 stick to what moves; of 2 and 7 the law gives a multiplier
+    Saddle saddle(
+        gdim, 9,
+        {{{0, 2, 3, 7}, {1, 5, 6}, gdim, {stick, slip, stick, stick}}},
+        along(gdim, {0, 2, 3, 7}, {1}), seed);
+    for (const int s : {0, 2})
+      for (int i = 0; i < gdim; ++i)
+        for (int j = 0; j < gdim; ++j)
+        {
+          const std::size_t first = saddle.n + std::size_t(s) * gdim;
+          saddle.contacts[0].by_multiplier[(s * gdim + i) * gdim + j] = 0;
+          saddle.contact(first + i, first + j) = 0;
+        }
+    EXPECT_EQ(reason(saddle),
+              "a slave node with a prescribed displacement moves its master");
+    const Condensation condensation = saddle.condensed(true);
+    EXPECT_EQ(condensation.held().dofs,
+              (std::vector<std::int32_t>{1, 3 * gdim + 1}));
+    EXPECT_EQ(condensation.held().multipliers,
+              (std::vector<std::int32_t>{1, 2 * gdim + 1}));
+    compare(saddle, true);
+  }
+}
+
+TEST_P(Eliminated, AllMultipliersOfANodeMayStayUnknowns)
+{
+  std::vector<int> axes{0, 1, 2};
+  axes.resize(gdim);
+  for (unsigned seed = 0; seed < 10; ++seed)
+  {
+    Saddle saddle(gdim, 7, {{{0, 4}, {1, 2, 3}, gdim, {slip, slip}}},
+                  along(gdim, {0}, axes), seed);
+    // Singular, but not zero
+    for (int j = 0; j < gdim; ++j)
+    {
+      saddle.contacts[0].by_multiplier[j] = 0;
+      saddle.contact(saddle.n, saddle.n + j) = 0;
+    }
+    EXPECT_NE(reason(saddle), "");
+    compare(saddle, true);
+    EXPECT_EQ(saddle.condensed(true).held().dofs.size(), std::size_t(gdim));
+  }
+}
+
+TEST_P(Eliminated, WhatNoFreeMasterHoldsIsNotHeld)
+{
+  std::vector<int> axes{0, 1, 2};
+  axes.resize(gdim);
+  Saddle saddle(gdim, 5, {{{0}, {1, 2}, gdim, {stick}}},
+                along(gdim, {0, 1, 2}, axes), 3);
+  saddle.contacts[0].by_multiplier.assign(gdim * gdim, 0);
+  EXPECT_THROW(saddle.condensed(true), NotCondensable);
 }
 
 TEST_P(Eliminated, ConstraintsThatDoNotHoldTheirNode)

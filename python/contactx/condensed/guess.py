@@ -105,8 +105,7 @@ class Guess:
         going_on = self._going_on(b)
         if going_on is not None:
             start, product = rhs.duplicate(), rhs.duplicate()
-            start.array[:] = going_on[: self._system.num_bulk]
-            start.array[operator.eliminated] = 0
+            start.array[:] = operator.unknowns(going_on, self._system.core.factors)
             operator.mult(start, product)
             product.aypx(-1.0, rhs)
             if product.norm() <= near:
@@ -146,10 +145,10 @@ class Guess:
         start.zeroEntries()
         # Orthonormal products of the matrix, each with its vector
         basis: list[tuple[PETSc.Vec, PETSc.Vec]] = []
+        factors = self._system.core.factors
         for step in self._steps[:_COMBINED]:
             vector, product = rhs.duplicate(), rhs.duplicate()
-            vector.array[:] = step.increment[: self._system.num_bulk]
-            vector.array[operator.eliminated] = 0
+            vector.array[:] = operator.unknowns(step.increment, factors)
             operator.mult(vector, product)
             size = product.norm()
             for other, of_other in basis:

@@ -138,7 +138,7 @@ class Multigrid:
     ) -> bool:
         ksp = self._ksp
         assert ksp is not None
-        start = _distance(operator, rhs, v)
+        start = operator.distance(rhs, v)
         goal = max(target, ROUNDING * rhs.norm())
         reduction = max(1.0, np.log(start / goal)) if start > goal > 0 else 1.0
         # Pressures on turning normals and bodies without support may leave a matrix indefinite
@@ -196,8 +196,8 @@ class Multigrid:
             ksp.setFromOptions()
             if pc.getType() != "gamg":
                 raise ValueError(
-                    f"option {self._prefix}pc_type: the condensed solver knows gamg alone, not "
-                    f"{pc.getType()}; for a direct solver of the whole set pc_type to lu"
+                    f"option {self._prefix}pc_type: the condensed solver knows gamg and bodies, "
+                    f"not {pc.getType()}; for a direct solver of the whole set pc_type to lu"
                 )
             with Quiet() as self._quiet:
                 ksp.setUp()
@@ -257,16 +257,6 @@ class Multigrid:
             coarser[-1].getPC().reset()
             for smoother, A in zip(coarser, matrices, strict=True):
                 smoother.setOperators(A, A)
-
-
-def _distance(operator: CondensedOperator, rhs: PETSc.Vec, v: PETSc.Vec) -> float:
-    """Norm of the residual."""
-    if v.norm() == 0:
-        return float(rhs.norm())
-    residual = rhs.duplicate()
-    operator.mult(v, residual)
-    residual.aypx(-1.0, rhs)
-    return float(residual.norm())
 
 
 def near_null_space(x: Array, prescribed: npt.NDArray[np.bool_], comm: MPI.Comm) -> PETSc.NullSpace:

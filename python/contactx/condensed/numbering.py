@@ -29,6 +29,7 @@ class Numbering:
         num_owned: Number of displacements that this rank owns.
         num_local: Number of displacements of all nodes.
         nodes: Nodes of this rank as the core sees them.
+        gdim: Geometric dimension.
     """
 
     def __init__(self, halo: Halo):
@@ -40,7 +41,7 @@ class Numbering:
         self._halo = halo
         self.comm = halo.comm
         self.nodes = halo.nodes
-        gdim = halo.gdim
+        self.gdim = gdim = halo.gdim
         self.num_owned = halo.num_owned * gdim
         self.num_local = halo.num_nodes * gdim
         self._numbers: Index | None = None

@@ -13,6 +13,7 @@ import numpy as np
 from contactx import cpp as core
 from contactx.bulk import Bulk
 from contactx.condensed.chains import Chains
+from contactx.condensed.diagonal_blocks import Transforms
 from contactx.condensed.numbering import Array, Index, Numbering, index_set
 from contactx.parallel import reduce
 
@@ -30,6 +31,8 @@ class CondensedOperator:
         eliminated: The eliminated displacements, shape (k,).
         slave_dofs: Displacements of all slave nodes, in order.
         is_symmetric: Whether the condensed matrix is symmetric.
+        held: Owned displacements in whose places multipliers are, shape (n,).
+        numbering: Displacements on this rank.
     """
 
     def __init__(
@@ -48,12 +51,13 @@ class CondensedOperator:
             springs: What is added to the diagonal, shape (num_owned,), on all ranks or on none.
         """
         self._bulk = bulk
-        self._numbering = numbering
+        self.numbering = numbering
         self._K = bulk.matrix()
         self._condensation = condensation
         self._springs = springs
         self.slave_dofs = condensation.slave_dofs
         self.eliminated = condensation.eliminated
+        self.held, self._held_multipliers, self._held_scale = condensation.held
         # Rows of the eliminated displacements alone
         self._right = numbering.matrix(condensation.right, rows=self.eliminated)
         self._some = self._right.createVecLeft()
@@ -77,6 +81,65 @@ class CondensedOperator:
         self.diagonal = np.abs(self._K.getDiagonal().array_r)[self.eliminated]
         self._z, self._w = self._K.createVecs()
         self._work = self._w.duplicate()
+
+    def unknowns(self, x: Array, factors: Array) -> Array:
+        """Unknowns of the condensed matrix.
+
+        Args:
+            x: Unknowns of the whole system, shape (num_owned + num_multipliers,).
+            factors: Multipliers over their unknowns, shape (num_multipliers,).
+
+        Returns:
+            Displacements, zero where eliminated, and multipliers in the places of prescribed ones,
+            shape (num_owned,).
+        """
+        n = self.numbering.num_owned
+        v = x[:n].copy()
+        v[self.eliminated] = 0
+        of_held = self._held_multipliers
+        v[self.held] = x[n + of_held] * factors[of_held] / self._held_scale
+        return v
+
+    def parts(self, bodies: core.Bodies) -> tuple[Index, Index]:
+        """Owned unknowns of soft bodies and of stiff ones, the same bodies on all ranks.
+
+        Args:
+            bodies: The bodies.
+        """
+        n = self.numbering.num_owned
+        diagonal = self._K.getDiagonal().array_r.copy()
+        diagonal[self._bulk.markers[:n] == 1] = 0
+        of_body = self._condensation.stiff_bodies(bodies, diagonal)
+        is_stiff = np.repeat(of_body[bodies.number] == 1, self.numbering.gdim)[:n]
+        # Where multipliers may be, whose rows are constraints of their masters
+        if np.any(of_body):
+            slaves = self.slave_dofs
+            is_stiff[slaves[self._bulk.markers[slaves] == 1]] = True
+        return np.flatnonzero(~is_stiff), np.flatnonzero(is_stiff)
+
+    def areas(self) -> Array:
+        """Contact area of each owned displacement, by its forces for a multiplier of one.
+
+        Zero where nothing is closed, shape (num_owned,).
+        """
+        traction = self._condensation.traction
+        areas = np.bincount(
+            traction.rows, np.abs(traction.values), minlength=self.numbering.num_local
+        )
+        return areas[: self.numbering.num_owned]
+
+    def distance(self, rhs: PETSc.Vec, v: PETSc.Vec) -> float:
+        """Norm of the residual rhs - K_c v; all ranks must take part."""
+        if v.norm() == 0:
+            return float(rhs.norm())
+        residual = rhs.duplicate()
+        self.mult(v, residual)
+        residual.aypx(-1.0, rhs)
+        return float(residual.norm())
+
+    def transforms(self) -> Transforms:
+        """What turns the bulk's matrix into the condensed one; all ranks must take part."""
+        return Transforms(self.numbering, self._condensation, self._springs)
 
     def bulk(self, z: PETSc.Vec, w: PETSc.Vec) -> None:
         """Multiply by the bulk, w = (K + S) z."""
@@ -150,7 +213,7 @@ class CondensedOperator:
         rows = self._bulk.rows(self.slave_dofs)
         places = np.searchsorted(self.slave_dofs, self.eliminated)
         block = rows.createSubMatrix(
-            index_set(places, rows), self._numbering.index_set(self.eliminated)
+            index_set(places, rows), self.numbering.index_set(self.eliminated)
         )
         springs = self._elastic()
         chains = None if self._of_right is None else self._of_right.C
@@ -161,13 +224,13 @@ class CondensedOperator:
         # The same on all ranks
         if self._springs is None and not self._condensation.is_soft:
             return None
-        numbering = self._numbering
+        numbering = self.numbering
         return numbering.matrix(self._condensation.elastic(numbering.nodes, self._springs))
 
     def _bound(self) -> PETSc.Vec:
         """Diagonal with which the condensed matrix has no larger eigenvalue than the bulk's."""
         bound = self._K.getDiagonal()
-        D = self._condensation.bound(self._numbering.nodes, np.abs(bound.array_r))
+        D = self._condensation.bound(self.numbering.nodes, np.abs(bound.array_r))
         if self._S is not None:
             indptr, _, values = self._S.getValuesCSR()
             rows = np.repeat(np.arange(len(D)), np.diff(indptr))

@@ -11,17 +11,22 @@ from petsc4py import PETSc
 import numpy as np
 
 from contactx import cpp as core
+from contactx.bodies import Bodies
 from contactx.bulk import Bulk
+from contactx.condensed.by_bodies import ByBodies
 from contactx.condensed.guess import Guess
 from contactx.condensed.multigrid import Multigrid
 from contactx.condensed.numbering import Array, Numbering, Surroundings
 from contactx.condensed.operator import CondensedOperator
 from contactx.factorised import FactorisedSolver
+from contactx.parallel import reduce
 from contactx.parallel.agreement import agreed
 from contactx.report import Report
 from contactx.system import SaddlePointSystem
 
 _SLOW = "multigrid is slow here"
+_ASKED = "condensed_pc_type asks for it"
+_HELD = "a slave node with a prescribed displacement moves its master"
 # What a guess may leave for each part that a solve would: Newton's method leaves as much
 _NEAR = 300.0
 
@@ -30,23 +35,26 @@ class CondensedSolver:
     """Solves the system of the Jacobian.
 
     The multipliers are eliminated and the displacements found by CG, or GMRES where friction slips,
-    with a multigrid hierarchy that is updated with the contact. What cannot be condensed, and
-    bodies on which multigrid is slow, go to a direct solver whose factors serve several Jacobians.
+    with a multigrid hierarchy that is updated with the contact. Bodies on which multigrid is slow,
+    and multipliers that no other equation gives, are solved by bodies: with factors of soft ones
+    and of stiff ones. What cannot be condensed goes to a direct solver whose factors serve several
+    Jacobians.
 
     Attributes:
         target: What the norm of the next solve's residual must fall below, a force.
         is_last: Whether it is to be the last one of the step.
         is_guessed: Whether the last solution was not solved for: it is what steps before tell.
+        by_bodies: Condensed solves without multigrid since ``begin_step``, and why.
         direct: Solves that were not condensed since ``begin_step``, and why.
     """
 
-    def __init__(self, bulk: Bulk, system: SaddlePointSystem, x: Array, prefix: str):
+    def __init__(self, bulk: Bulk, system: SaddlePointSystem, bodies: Bodies, prefix: str):
         """Create the solver.
 
         Args:
             bulk: The bulk.
             system: The coupled system.
-            x: Reference positions, those of owned nodes first, shape (num_nodes, gdim).
+            bodies: The bodies.
             prefix: Prefix of the options of the inner solver.
         """
         self._bulk = bulk
@@ -54,10 +62,14 @@ class CondensedSolver:
         self._surroundings = Surroundings(bulk, system)
         self._factorised = FactorisedSolver(system, prefix + "direct_")
         self._guess = Guess(bulk, system)
-        self._multigrid = Multigrid(bulk, x[: system.num_bulk // system.block], prefix)
+        owned = bodies.x[: system.num_bulk // system.block]
+        self._multigrid = Multigrid(bulk, owned, prefix)
+        self._by_bodies = ByBodies(bulk, bodies, prefix + "bodies_")
+        self._prefix = prefix
         self.target = 0.0
         self.is_last = self.is_guessed = False
-        self._failures = self._failures_before = 0
+        # Failures of multigrid, and of the solver by bodies
+        self._failures = self._failures_before = (0, 0)
         self.springs: Array | None = None
         self.begin_step(Report())
 
@@ -72,7 +84,9 @@ class CondensedSolver:
         self._guess.begin_step()
         self._multigrid.iterations = self._multigrid.hierarchies = 0
         self._factorised.iterations = self._factorised.factorisations = 0
+        self._by_bodies.iterations = self._by_bodies.factorisations = 0
         self.direct: list[str] = []
+        self.by_bodies: list[str] = []
         self._solves = 0
 
     def reset(self) -> None:
@@ -84,12 +98,14 @@ class CondensedSolver:
         self._surroundings.reset()
         self._guess.reset()
         self._multigrid.reset()
+        self._by_bodies.reset()
         self._factorised.reset()
 
     @property
     def iterations(self) -> int:
-        """Krylov iterations since ``begin_step``, with a hierarchy or with older factors."""
-        return self._multigrid.iterations + self._factorised.iterations
+        """Krylov iterations since ``begin_step``, by any of the solvers."""
+        solvers = (self._multigrid, self._by_bodies, self._factorised)
+        return sum(solver.iterations for solver in solvers)
 
     @property
     def hierarchies(self) -> int:
@@ -98,15 +114,16 @@ class CondensedSolver:
 
     @property
     def factorisations(self) -> int:
-        """Factorisations since ``begin_step``, where it could not be condensed."""
-        return self._factorised.factorisations
+        """Factorisations since ``begin_step``, of blocks or of the whole."""
+        return self._by_bodies.factorisations + self._factorised.factorisations
 
     def skipped(self) -> dict[str, int]:
         """Hierarchies and factorisations of solves that used an older one."""
         direct = len(self.direct)
+        others = direct + len(self.by_bodies)
         return {
-            "hierarchy": max(0, self._solves - direct - self.hierarchies),
-            "factorisation": max(0, direct - self.factorisations),
+            "hierarchy": max(0, self._solves - others - self.hierarchies),
+            "factorisation": max(0, direct - self._factorised.factorisations),
         }
 
     def solve(self, b: PETSc.Vec, x: PETSc.Vec) -> None:
@@ -119,7 +136,7 @@ class CondensedSolver:
         self._solves += 1
         self.is_guessed = False
         # What does not converge twice will not, and each attempt is dear
-        if self._failures == 2:
+        if self._failures[1] == 2:
             self._solve_directly(b, x, _SLOW)
             return
         try:
@@ -130,8 +147,29 @@ class CondensedSolver:
             self._solve_directly(b, x, str(reason))
             return
         if not is_solved:
-            self._failures += 1
             self._solve_directly(b, x, _SLOW)
+
+    def _solve_condensed(self, operator: CondensedOperator, rhs: PETSc.Vec, v: PETSc.Vec) -> bool:
+        """Solve the condensed system by multigrid, or by bodies; whether the iterations converged.
+
+        Args:
+            operator: The condensed matrix.
+            rhs: Right-hand side.
+            v: Start of the iterations, overwritten by the solution.
+        """
+        of_multigrid, of_bodies = self._failures
+        is_held = reduce.anywhere(operator.numbering.comm, len(operator.held) > 0)
+        is_asked = PETSc.Options(self._prefix).getString("pc_type", "gamg") == "bodies"
+        reason = _HELD if is_held else _ASKED if is_asked else _SLOW
+        if not (is_held or is_asked) and of_multigrid < 2:
+            if self._multigrid.solve(operator, rhs, v, self.target, self._report):
+                return True
+            of_multigrid += 1
+        is_solved = self._by_bodies.solve(operator, rhs, v, self.target, self._report)
+        if is_solved:
+            self.by_bodies.append(reason)
+        self._failures = of_multigrid, of_bodies + (not is_solved)
+        return is_solved
 
     def _condense(self, b: PETSc.Vec) -> _Condensed:
         """Eliminate the multipliers.
@@ -148,6 +186,7 @@ class CondensedSolver:
                 self._system.interfaces,
                 around.free,
                 self._system.block,
+                holds=True,
             )
         self._bulk.update()
         self._bulk.rows(condensation.slave_dofs)
@@ -177,10 +216,11 @@ class CondensedSolver:
         condensation = system.condensation
         n = numbering.num_owned
         given, constraints = np.split(b.array_r, [n])
-        forces, shift, extra, multipliers = condensation.right_hand_side(constraints)
+        forces, shift, extra, multipliers, held = condensation.right_hand_side(constraints)
         h, w = self._bulk.matrix().createVecs()
         rhs, v = w.duplicate(), h.duplicate()
         w.array[:] = given + numbering.scatter_reverse(forces)
+        w.array[operator.held] = held
         balance = w.duplicate()
         w.copy(balance)
         h.array[:] = operator.place(shift[:n])
@@ -197,7 +237,7 @@ class CondensedSolver:
         if guess is not None:
             x.array[:] = guess
             return True
-        if not self._multigrid.solve(operator, rhs, v, self.target, self._report):
+        if not self._solve_condensed(operator, rhs, v):
             return False
         operator.expand(v, work)
         h.axpy(1.0, work)

@@ -36,6 +36,8 @@ TRIED = (
     ("quadratic_triangles", "surface"),
     ("quadratic_tetrahedra", "node"),
     ("quadratic_condensed", "surface"),
+    ("by_bodies", "surface"),
+    ("by_bodies_held", "node"),
     ("axisymmetric", "node"),
     ("heat_across", "surface"),
 )

@@ -1,0 +1,351 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""FGMRES with factors of the soft bodies and of the stiff ones."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+
+from mpi4py import MPI
+from petsc4py import PETSc
+
+import numpy as np
+
+from contactx import cpp as core
+from contactx.bulk import Bulk
+from contactx.callback import Quiet, weakly
+from contactx.condensed.diagonal_blocks import Part, Transforms, exact_change, symmetric_change
+from contactx.condensed.numbering import Array, Index
+from contactx.condensed.operator import CondensedOperator
+from contactx.options import ROUNDING, block_options
+from contactx.parallel import reduce
+from contactx.report import Report
+
+_DIFFERENT = PETSc.Mat.Structure.DIFFERENT_NONZERO_PATTERN
+# Iterations after which the blocks are no use
+_MOST = 120
+_RESTART = 60
+# Change of the soft block and of the stiff one, to the size of what contact adds to them, below
+# which factors serve
+_SOFT_SERVES, _STIFF_SERVES = 0.03, 0.1
+# Iterations that cost what the factors of the stiff block cost, at 170,000 displacements
+_COST = 20
+
+
+class ByBodies:
+    """Solves with the unknowns of soft bodies and of stiff ones in turn.
+
+    Once the multipliers are eliminated contact couples the unknowns c of soft bodies and m of stiff
+    ones, which are their masters. With factors of A_cc the block triangular matrix
+
+        M = [A_cc A_cm; 0 S]
+
+    leaves A M^-1 with the eigenvalues of the Schur complement A_mm - A_mc A_cc^-1 A_cm times S^-1
+    alone. S is A_mm with springs in the place of the soft bodies: for each unit of contact area,
+    what they give back where all that follows masters is moved by one. Multipliers that stay
+    unknowns belong to m. Where no bodies differ all unknowns are in c.
+
+    Factors of c serve until contact has changed the block, those of m for as long as that costs
+    fewer iterations than new ones.
+
+    Attributes:
+        iterations: Krylov iterations.
+        factorisations: Factorisations of blocks.
+    """
+
+    def __init__(self, bulk: Bulk, bodies: core.Bodies, prefix: str):
+        """Create a solver.
+
+        Args:
+            bulk: The bulk.
+            bodies: The bodies.
+            prefix: Prefix of the PETSc options.
+        """
+        self._bulk = bulk
+        self._bodies = bodies
+        self._prefix = prefix
+        self._comm: MPI.Comm = bulk.comm
+        self.iterations = self.factorisations = 0
+        self._operator: CondensedOperator | None = None
+        self._quiet = Quiet()
+        self.reset()
+
+    def reset(self) -> None:
+        """Drop all factors."""
+        self._soft: _Block | None = None
+        self._stiff: _Block | None = None
+        self._built_at = -1
+        self._ksp: PETSc.KSP | None = None
+        self._updated_for: CondensedOperator | None = None
+        self._per_area: Array | None = None
+        # Whether the last factors are of this matrix, iterations for a reduction by e with such
+        # ones, and those lost since
+        self._is_new = False
+        self._rate = self._lost = 0.0
+
+    def solve(
+        self,
+        operator: CondensedOperator,
+        rhs: PETSc.Vec,
+        v: PETSc.Vec,
+        target: float,
+        report: Report,
+    ) -> bool:
+        """Solve operator v = rhs.
+
+        Args:
+            operator: The condensed matrix.
+            rhs: Right-hand side.
+            v: Start of the iterations, overwritten by the solution.
+            target: What the norm of the residual must fall below.
+            report: Report whose times are added to.
+
+        Returns:
+            Whether the iterations converged.
+        """
+        self._operator = operator
+        if self._updated_for is not operator:
+            self._update(operator, report)
+        if self._iterate(rhs, v, target, report):
+            return True
+        if not self._is_new:
+            self.reset()
+            self._update(operator, report)
+            if self._iterate(rhs, v, target, report):
+                return True
+        self.reset()
+        return False
+
+    def _iterate(self, rhs: PETSc.Vec, v: PETSc.Vec, target: float, report: Report) -> bool:
+        ksp, operator = self._ksp, self._operator
+        assert ksp is not None and operator is not None
+        most = _MOST if self._is_new else 2 * _COST
+        ksp.setTolerances(rtol=ROUNDING, atol=target, max_it=most)
+        ksp.setInitialGuessNonzero(v.norm() > 0)
+        start = operator.distance(rhs, v)
+        # Factors of a singular block are not finite
+        with report.timing("Krylov"), Quiet() as self._quiet, np.errstate(all="ignore"):
+            ksp.solve(rhs, v)
+        count = ksp.getIterationNumber()
+        self.iterations += count
+        reduction = max(1.0, np.log(start / target)) if start > target > 0 else 1.0
+        if self._is_new:
+            self._rate = count / reduction
+        else:
+            self._lost += max(0.0, count - self._rate * reduction)
+        if ksp.getConvergedReason() > 0:
+            return True
+        v.set(0.0)
+        return False
+
+    def _update(self, operator: CondensedOperator, report: Report) -> None:
+        """Bring the blocks up to what contact makes of the matrix; all ranks must take part."""
+        if self._ksp is None:
+            self._make(operator)
+        with report.timing("condensation"):
+            transforms = operator.transforms()
+            self._part(operator)
+            soft, stiff = self._soft, self._stiff
+            assert soft is not None
+            change, is_symmetric = exact_change(soft.part, transforms)
+            is_symmetric = is_symmetric and self._bulk.is_symmetric
+        is_new = soft.update(operator, change, is_symmetric, _SOFT_SERVES, report)
+        self.factorisations += is_new
+        if stiff is not None:
+            with report.timing("condensation"):
+                springs = self._springs(operator, transforms)
+                change = symmetric_change(stiff.part, soft.part, transforms, springs)
+            serves = _STIFF_SERVES if self._lost <= _COST else 0.0
+            is_new = stiff.update(operator, change, True, serves, report)
+            self.factorisations += is_new
+        self._is_new = is_new
+        if is_new:
+            self._lost = 0.0
+        self._updated_for = operator
+
+    def _part(self, operator: CondensedOperator) -> None:
+        """Part the unknowns, anew where the bodies or the bulk are others."""
+        dofs = operator.parts(self._bodies)
+        soft = self._soft
+        same = (
+            soft is not None
+            and self._built_at == self._bulk.assemblies
+            and np.array_equal(dofs[0], soft.part.dofs)
+        )
+        if reduce.everywhere(self._comm, same):
+            return
+        self._soft = self._stiff = self._per_area = None
+        K = self._bulk.copy()
+        numbering = operator.numbering
+        self._soft = _Block(Part(numbering, dofs[0], K), self._prefix + "soft_")
+        if reduce.anywhere(self._comm, len(dofs[1]) > 0):
+            self._stiff = _Block(Part(numbering, dofs[1], K), self._prefix + "stiff_")
+        K.destroy()
+        self._built_at = self._bulk.assemblies
+
+    def _springs(self, operator: CondensedOperator, transforms: Transforms) -> PETSc.Vec:
+        """What stands for soft bodies at the displacements that follow masters.
+
+        All ranks must take part.
+
+        Returns:
+            Springs at the displacements of the soft block.
+        """
+        soft, stiff = self._soft, self._stiff
+        assert soft is not None and stiff is not None
+        springs = soft.part.K.createVecRight()
+        dofs = soft.part.dofs
+        areas, axis = operator.areas()[dofs], dofs % operator.numbering.gdim
+        if self._per_area is None:
+            indptr, _, _ = soft.part.of(transforms.right, stiff.part).getValuesCSR()
+            follows = (np.diff(indptr) > 0) & (areas > 0)
+            if reduce.anywhere(self._comm, bool(np.any(follows))):
+                self._per_area = self._translate(operator, follows, areas)
+        springs.set(0.0)
+        if self._per_area is not None:
+            springs.array[:] = self._per_area[axis] * areas
+        return springs
+
+    def _translate(self, operator: CondensedOperator, follows: Index, areas: Array) -> Array:
+        """Force of the soft bodies for each unit of area when what follows masters moves by one.
+
+        Args:
+            operator: The condensed matrix.
+            follows: Whether a displacement of the soft block follows masters.
+            areas: Contact areas of these displacements.
+
+        Returns:
+            Force along each axis that moves, shape (gdim,).
+        """
+        soft = self._soft
+        assert soft is not None
+        K = soft.part.K
+        x, f = K.createVecs()
+        y = x.duplicate()
+        axis = soft.part.dofs % operator.numbering.gdim
+        eliminated = soft.part.places(operator.eliminated)
+        result = np.zeros(operator.numbering.gdim)
+        for k in range(len(result)):
+            moved = follows & (axis == k)
+            x.array[:] = moved
+            K.mult(x, f)
+            f.array[eliminated] = 0
+            soft.solve(f, y)
+            x.axpy(-1.0, y)
+            K.mult(x, f)
+            sums = np.array([f.array_r[moved].sum(), areas[moved].sum()])
+            force, area = reduce.total(self._comm, sums)
+            result[k] = max(force, 0.0) / area if area > 0 else 0.0
+        return result
+
+    def _make(self, operator: CondensedOperator) -> None:
+        size = (operator.numbering.num_owned, None)
+        called = SimpleNamespace(mult=weakly(self._multiply), apply=weakly(self._apply))
+        A = PETSc.Mat().createPython((size, size), called, comm=self._comm)
+        A.setUp()
+        ksp = PETSc.KSP().create(comm=self._comm)
+        ksp.setOptionsPrefix(self._prefix)
+        ksp.setType("fgmres")
+        ksp.setGMRESRestart(_RESTART)
+        ksp.setOperators(A)
+        pc = ksp.getPC()
+        pc.setType("python")
+        pc.setPythonContext(called)
+        self._w, self._t = A.createVecs()
+        self._ksp = ksp
+
+    def _multiply(self, mat: PETSc.Mat, v: PETSc.Vec, y: PETSc.Vec) -> None:
+        """Multiply by the condensed matrix; PETSc calls this."""
+        operator = self._operator
+        assert operator is not None
+        self._quiet.call(lambda: operator.mult(v, y), y)
+
+    def _apply(self, pc: PETSc.PC, r: PETSc.Vec, z: PETSc.Vec) -> None:
+        """Solve M z = r; PETSc calls this."""
+        self._quiet.call(lambda: self._precondition(r, z), z)
+
+    def _precondition(self, r: PETSc.Vec, z: PETSc.Vec) -> None:
+        operator, soft, stiff = self._operator, self._soft, self._stiff
+        assert operator is not None and soft is not None
+        z.set(0.0)
+        if stiff is None:
+            z.array[soft.part.dofs] = soft.at(r.array_r)
+            return
+        z_stiff = stiff.at(r.array_r)
+        z.array[stiff.part.dofs] = z_stiff
+        operator.mult(z, self._w)
+        self._w.aypx(-1.0, r)
+        z.array[soft.part.dofs] = soft.at(self._w.array_r)
+
+
+class _Block:
+    """Factors of a block.
+
+    Attributes:
+        part: Its displacements.
+    """
+
+    def __init__(self, part: Part, prefix: str):
+        self.part = part
+        self._prefix = prefix
+        self._change: PETSc.Mat | None = None
+        self._ksp: PETSc.KSP | None = None
+        self._b, self._x = part.K.createVecs()
+
+    def update(
+        self,
+        operator: CondensedOperator,
+        change: PETSc.Mat,
+        is_symmetric: bool,
+        serves: float,
+        report: Report,
+    ) -> bool:
+        """Factorise it where contact has changed it; all ranks must take part.
+
+        Args:
+            operator: The condensed matrix.
+            change: What contact adds to the bulk's block.
+            is_symmetric: Whether the block is symmetric.
+            serves: Part of that which may be other than in the factors.
+            report: Report whose times are added to.
+
+        Returns:
+            Whether it was factorised.
+        """
+        if self._change is not None:
+            difference = change.copy()
+            difference.axpy(-1.0, self._change, _DIFFERENT)
+            if difference.norm() <= serves * change.norm():
+                return False
+        with report.timing("condensation"):
+            A = self.part.block(change, operator.eliminated)
+        with report.timing("factorisation"):
+            if self._ksp is not None:
+                # Two factorisations at once would be the largest part of the memory
+                self._ksp.destroy()
+            options = block_options(self._prefix, is_symmetric=is_symmetric)
+            with options.in_database():
+                self._ksp = ksp = PETSc.KSP().create(comm=A.comm)
+                ksp.setOptionsPrefix(self._prefix)
+                ksp.setFromOptions()
+                if is_symmetric:
+                    A.setOption(PETSc.Mat.Option.SYMMETRIC, True)
+                ksp.setOperators(A)
+                ksp.setUp()
+            ksp.getPC().setReusePreconditioner(True)
+            # PETSc keeps the matrix, but nothing in it is used again
+            A.setPreallocationNNZ(0)
+        self._change = change
+        return True
+
+    def solve(self, b: PETSc.Vec, x: PETSc.Vec) -> None:
+        """Solve with the factors."""
+        assert self._ksp is not None
+        self._ksp.solve(b, x)
+
+    def at(self, values: Array) -> Array:
+        """Solve for the values of all displacements, shape (num_owned,), at those of the block."""
+        self._b.array[:] = values[self.part.dofs]
+        self.solve(self._b, self._x)
+        found: Array = self._x.array_r.copy()
+        return found

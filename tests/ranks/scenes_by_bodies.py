@@ -1,0 +1,49 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Soft bodies on stiff ones: factors of blocks that several ranks have parts of."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import contactx as cx
+from dolfinx.mesh import CellType
+
+from meshes import Tag
+from scenes import Blocks
+from story import fix
+
+
+def by_bodies() -> Iterator[cx.ContactProblem]:
+    yield from _dragged(1e3, friction=0.3)
+
+
+def by_bodies_alike() -> Iterator[cx.ContactProblem]:
+    yield from _dragged(1.0, tied=True)
+
+
+def by_bodies_held() -> Iterator[cx.ContactProblem]:
+    """Slave nodes along an edge are held along it, and their masters by them."""
+    yield from _dragged(1e3, edges=(Tag.UPPER_X0,), friction=0.6)
+
+
+def _dragged(
+    stiffness: float, edges: tuple[int, ...] = (), **options: Any
+) -> Iterator[cx.ContactProblem]:
+    scene = Blocks(CellType.hexahedron, n_upper=3, n_lower=4, stiffness=stiffness)
+    if edges:
+        scene.bcs += [fix(scene.u, scene.tags, 0, 0.0, *edges)]
+    else:
+        push = fix(scene.u, scene.tags, 1, 0.0, Tag.UPPER_TOP)
+        scene.bcs[scene.u.function_space.mesh.geometry.dim + 1] = push
+    problem = scene.problem(
+        scene.contact("small", **options),
+        petsc_options={"pc_type": "condensed", "condensed_pc_type": "bodies"},
+    )
+    for way in (0.05, 0.06):
+        if not edges:
+            push.g.value[...] = way - 0.05
+        scene.bcs[-2 if edges else -1].g.value[...] = -way
+        problem.solve()
+        yield problem
