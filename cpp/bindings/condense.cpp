@@ -125,10 +125,9 @@ void contactx_bindings::condense(py::module_& m)
            [](const Condensation& c, const Array<double>& d)
            {
              const auto result = c.right_hand_side(view(d));
-             return py::make_tuple(array(result.forces), array(result.shift),
-                                   array(result.extra),
-                                   array(result.multipliers),
-                                   array(result.held));
+             return py::make_tuple(
+                 array(result.forces), array(result.shift), array(result.extra),
+                 array(result.multipliers), array(result.held));
            })
       .def(
           "recover",

@@ -253,8 +253,8 @@ public:
     std::vector<condense::Nodes> nodes;
     for (const Contact& c : contacts)
       nodes.push_back(c.nodes());
-    return condense::Condensation({offsets, columns, values}, nodes, free,
-                                  gdim, holds);
+    return condense::Condensation({offsets, columns, values}, nodes, free, gdim,
+                                  holds);
   }
 
   /// @brief The same from the system without multipliers.
@@ -280,8 +280,8 @@ public:
     Column forces = b + given.forces;
     for (std::size_t i = 0; i < given.held.size(); ++i)
       forces[condensation.held().dofs[i]] = given.held[i];
-    Column rhs = left * (forces - K * given.shift) - law * given.shift
-                 + given.extra;
+    Column rhs
+        = left * (forces - K * given.shift) - law * given.shift + given.extra;
     for (const std::int32_t dof : elimination.eliminated())
     {
       for (std::size_t j = 0; j < n; ++j)

@@ -109,8 +109,8 @@ Elimination::Elimination(std::span<const Nodes> contacts,
         }
         continue;
       }
-      if (std::ranges::all_of(own, [](std::int8_t is_own)
-                              { return is_own == 0; }))
+      if (std::ranges::all_of(own,
+                              [](std::int8_t is_own) { return is_own == 0; }))
         continue;
 
       if (size == 1)

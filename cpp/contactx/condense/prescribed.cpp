@@ -235,8 +235,7 @@ void Prescribed::take_out(std::size_t num_multipliers, std::size_t num_local)
   _blocks = std::move(left);
 }
 
-void Prescribed::right_hand_side(std::span<double> d,
-                                 std::span<double> forces,
+void Prescribed::right_hand_side(std::span<double> d, std::span<double> forces,
                                  std::vector<double>& held) const
 {
   for (const std::int32_t i : _held.multipliers)

@@ -20,8 +20,8 @@ namespace
 // of the largest one
 constexpr double edge_of_cone = 1e-10;
 constexpr double left_by_solve = 1e-9;
-// The same of a node that has not moved in this step: it was left where Newton's
-// method ended, at its tolerance
+// The same of a node that has not moved in this step: it was left where
+// Newton's method ended, at its tolerance
 constexpr double left_by_step = 1e-6;
 // By how much more trial friction may exceed its bound where iterates go round
 constexpr double farther = 1e3;

@@ -224,8 +224,7 @@ TEST_P(Eliminated, MultipliersOfPrescribedDisplacementsMayStayUnknowns)
   {
     // Nodes 0 and 3 stick to what moves; of 2 and 7 the law gives a multiplier
     Saddle saddle(
-        gdim, 9,
-        {{{0, 2, 3, 7}, {1, 5, 6}, gdim, {stick, slip, stick, stick}}},
+        gdim, 9, {{{0, 2, 3, 7}, {1, 5, 6}, gdim, {stick, slip, stick, stick}}},
         along(gdim, {0, 2, 3, 7}, {1}), seed);
     for (const int s : {0, 2})
       for (int i = 0; i < gdim; ++i)
