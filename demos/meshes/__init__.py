@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from meshes.cap import hertz_cap
 from meshes.cylinder import hertz_cylinder
+from meshes.dam_face import DamFace, dam_face
 from meshes.face_slab import FACE_SLABS, FaceSlab, face_slab
 from meshes.half_cylinders import half_cylinders
 from meshes.half_spheres import half_spheres
@@ -19,10 +20,12 @@ from meshes.tags import Tag, block_tag
 
 __all__ = [
     "FACE_SLABS",
+    "DamFace",
     "FaceSlab",
     "Tag",
     "block_tag",
     "blocks",
+    "dam_face",
     "face_slab",
     "half_cylinders",
     "half_spheres",

@@ -1,0 +1,87 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""The mesh of a dam's face: slabs on the plane of the rockfill's face, in their valley."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import ufl
+from dolfinx import fem
+
+from meshes import DamFace, block_tag, dam_face
+
+MODEL = DamFace(slabs=3, rows=6, layers=2, rockfill_rows=5, joint_size=1.0)
+
+
+@pytest.fixture(scope="module")
+def data():
+    return dam_face(MODEL)
+
+
+def integral(data, measure, tag):
+    kinds = {"dx": data.cell_tags, "ds": data.facet_tags}
+    one = fem.Constant(data.mesh, 1.0)
+    where = ufl.Measure(measure, domain=data.mesh, subdomain_data=kinds[measure])(int(tag))
+    return fem.assemble_scalar(fem.form(one * where))
+
+
+def nodes_on(data, tag):
+    facets = data.facet_tags.find(tag)
+    V = fem.functionspace(data.mesh, ("Lagrange", 1))
+    return V.tabulate_dof_coordinates()[fem.locate_dofs_topological(V, 2, facets)]
+
+
+def test_slabs_lie_on_the_face_and_meet_at_joints(data):
+    assert np.allclose(nodes_on(data, block_tag(0, "top"))[:, 2], 0, atol=1e-9)
+    for i in range(1, 4):
+        assert np.allclose(nodes_on(data, block_tag(i, "bottom"))[:, 2], 0, atol=1e-9)
+        left, right = (nodes_on(data, block_tag(i, side))[:, 0] for side in ("x0", "x1"))
+        assert np.allclose(left, MODEL.edges[i - 1]) and np.allclose(right, MODEL.edges[i])
+    faces = [nodes_on(data, block_tag(1, "x1")), nodes_on(data, block_tag(2, "x0"))]
+    assert np.allclose(*(face[np.lexsort(face.T.round(6))] for face in faces))
+
+
+def test_slabs_cover_the_face(data):
+    areas = [integral(data, "ds", block_tag(i, "bottom")) for i in range(1, 4)]
+    assert sum(areas) == pytest.approx(integral(data, "ds", block_tag(0, "top")), rel=0.02)
+    # Up to the crest, from a level bed between two banks
+    length = (MODEL.height - MODEL.ground(np.linspace(-24, 24, 10_001)).mean()) / MODEL.up[1]
+    assert sum(areas) == pytest.approx(MODEL.length * length, rel=0.02)
+
+
+def test_slabs_get_thicker_downwards(data):
+    top = nodes_on(data, block_tag(2, "top"))
+    elevation = top[:, 1] * MODEL.up[1]
+    assert np.allclose(top[:, 2], MODEL.thickness_at(elevation))
+    assert MODEL.thickness_at(0.0) == pytest.approx(0.4 + 0.0035 * 178)
+
+
+def test_the_dam_is_a_trapezium_in_its_section(data):
+    """In the direction of the valley both slopes are 1:1.4, the crest is level."""
+    nodes = nodes_on(data, block_tag(0, "bottom"))
+    up, level = np.array([0, *MODEL.up[1:]]), np.array([0, MODEL.up[2], -MODEL.up[1]])
+    elevation, along = nodes @ up, nodes @ level
+    expected = MODEL.slope * MODEL.height + MODEL.crest + MODEL.slope * (MODEL.height - elevation)
+    assert np.allclose(along, expected)
+    assert elevation.max() == pytest.approx(MODEL.height)
+    assert elevation.min() == pytest.approx(0, abs=1e-9)
+
+
+def test_all_cells_have_a_volume(data):
+    for body in range(4):
+        assert integral(data, "dx", block_tag(body)) > 0
+    J = ufl.JacobianDeterminant(data.mesh)
+    points = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], dtype=float)
+    values = fem.Expression(J, points).eval(data.mesh, np.arange(len(data.cell_tags.indices)))
+    assert np.all(values > 0) or np.all(values < 0)
+
+
+def test_measures_that_are_none_are_refused():
+    with pytest.raises(ValueError, match=r"bed is 1\.5"):
+        replace(MODEL, bed=1.5)
+    with pytest.raises(ValueError, match="shortest"):
+        replace(MODEL, shortest=0.0)
+    with pytest.raises(TypeError, match="give a DamFace"):
+        dam_face(3)
