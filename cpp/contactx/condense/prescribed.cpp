@@ -16,12 +16,56 @@ namespace
 /// Determinant of D_pp over the area, from which on it has an inverse
 constexpr double least_determinant = 1e-8;
 
-/// Whether no multiplier is in the law of one, nor that in theirs
-bool is_without_law(int k, const Small& D, int i)
+/// Inverts D_pp over the area, zero elsewhere; false where it is singular
+bool inverted(int k, const Small& D, const std::array<bool, 3>& p, Small& G)
 {
-  for (int j = 0; j < k; ++j)
-    if (D[i][j] != 0 or D[j][i] != 0)
-      return false;
+  Small block{};
+  for (int i = 0; i < k; ++i)
+    for (int j = 0; j < k; ++j)
+      block[i][j] = p[i] and p[j] ? D[i][j] : (i == j and not p[i]);
+  if (std::abs(invert(k, block, G)) < least_determinant)
+    return false;
+  for (int i = 0; i < k; ++i)
+    for (int j = 0; j < k; ++j)
+      if (not(p[i] and p[j]))
+        G[i][j] = 0;
+  return true;
+}
+
+/// Diagonal entry over the area, from which on it is a pivot
+constexpr double least_pivot = 1e-6;
+/// Entries over the area that are zero but for rounding
+constexpr double nothing = 1e-12;
+
+/// Chooses which multipliers the law gives, of those that may: the others stay
+/// with no more than rounding errors in the law of those that neither give nor
+/// stay. False where there are more.
+bool choose(int k, Small D, std::array<bool, 3>& gives,
+            std::array<bool, 3>& stays)
+{
+  stays = std::exchange(gives, {});
+  const auto others = [&](int i) { return not gives[i] and not stays[i]; };
+  while (true)
+  {
+    int pivot = -1;
+    for (int i = 0; i < k; ++i)
+      if (stays[i] and std::abs(D[i][i]) > least_pivot
+          and (pivot < 0 or std::abs(D[i][i]) > std::abs(D[pivot][pivot])))
+        pivot = i;
+    if (pivot < 0)
+      break;
+    const Small before = D;
+    for (int i = 0; i < k; ++i)
+      for (int j = 0; j < k; ++j)
+        D[i][j] -= before[i][pivot] * before[pivot][j] / before[pivot][pivot];
+    gives[pivot] = true;
+    stays[pivot] = false;
+  }
+  for (int i = 0; i < k; ++i)
+    for (int j = 0; j < k; ++j)
+      if (stays[i] and others(j)
+          and std::max(std::abs(D[i][j]), std::abs(D[j][i])) > nothing)
+        return false;
   return true;
 }
 } // namespace
@@ -54,56 +98,43 @@ Prescribed::Prescribed(std::span<const Nodes> contacts, Blocks blocks,
         continue;
 
       double* d = by.data() + s * k * k;
-      Small D{}, block{}, G{};
+      Small D{}, G{};
       std::array<bool, 3> gives{}, stays{};
-      bool all_prescribed = true;
+      for (int i = 0; i < k; ++i)
+      {
+        gives[i] = own[i] == 0;
+        for (int j = 0; j < k; ++j)
+          D[i][j] = d[k * i + j] / nodes.area[s];
+      }
+      if (not inverted(k, D, gives, G)
+          and (not holds or k == 1 or not choose(k, D, gives, stays)
+               or not inverted(k, D, gives, G)))
+        throw NotCondensable(
+            "a slave node with a prescribed displacement moves its master");
       for (int i = 0; i < k; ++i)
         for (int j = 0; j < k; ++j)
         {
           D[i][j] = d[k * i + j];
-          // D_pp, and ones elsewhere on the diagonal
-          if (own[i] == 0 and own[j] == 0)
-            block[i][j] = D[i][j] / nodes.area[s];
-          else
-            block[i][j] = i == j and own[i] != 0;
+          G[i][j] /= nodes.area[s];
         }
-      for (int i = 0; i < k; ++i)
-      {
-        all_prescribed = all_prescribed and own[i] == 0;
-        stays[i] = holds and own[i] == 0 and is_without_law(k, D, i);
-        if (stays[i])
-          block[i][i] = 1;
-      }
-      if (std::abs(invert(k, block, G)) < least_determinant)
-      {
-        if (not(holds and all_prescribed))
-          throw NotCondensable(
-              "a slave node with a prescribed displacement moves its master");
-        stays.fill(true);
-      }
-      const auto first_held = static_cast<std::int32_t>(_held.dofs.size());
-      std::array<std::int32_t, 3> number{};
-      for (int i = 0, next = first_held; i < k; ++i)
-      {
-        gives[i] = own[i] == 0 and not stays[i];
-        if (stays[i])
-        {
-          number[i] = next++;
-          _held.multipliers.push_back(static_cast<std::int32_t>(first) + i);
-          _held.dofs.push_back(nodes.slaves[s] * gdim + i);
-        }
-      }
-      for (int i = 0; i < k; ++i)
-        for (int j = 0; j < k; ++j)
-          if (stays[i] and stays[j] and D[i][j] != 0)
-            _held_law.add(number[i], number[j], D[i][j]);
-      for (int i = 0; i < k; ++i)
-        for (int j = 0; j < k; ++j)
-          G[i][j] = gives[i] and gives[j] ? G[i][j] / nodes.area[s] : 0;
 
       const Small DG = product(k, D, G), GD = product(k, G, D),
                   DGD = product(k, DG, D);
       const auto place = static_cast<std::int32_t>(_multipliers.size());
+      std::array<std::int32_t, 3> number{};
+      for (int i = 0; i < k; ++i)
+      {
+        _is_given.push_back(gives[i]);
+        if (not stays[i])
+          continue;
+        number[i] = static_cast<std::int32_t>(_held.dofs.size());
+        _held.multipliers.push_back(static_cast<std::int32_t>(first) + i);
+        _held.dofs.push_back(nodes.slaves[s] * gdim + i);
+      }
+      for (int i = 0; i < k; ++i)
+        for (int j = 0; j < k; ++j)
+          if (stays[i] and stays[j])
+            _held_law.add(number[i], number[j], D[i][j] - DGD[i][j]);
       for (int i = 0; i < k; ++i)
       {
         _multipliers.push_back(static_cast<std::int32_t>(first) + i);
@@ -120,10 +151,10 @@ Prescribed::Prescribed(std::span<const Nodes> contacts, Blocks blocks,
       }
     }
   }
-  if (not _held.dofs.empty())
-    hold();
   if (not _multipliers.empty())
     take_out(count, free.size());
+  if (not _held.dofs.empty())
+    hold();
 }
 
 void Prescribed::hold()
@@ -200,8 +231,8 @@ void Prescribed::take_out(std::size_t num_multipliers, std::size_t num_local)
     else
       left.constraint.add(C.rows[e], C.columns[e], C.values[e]);
 
-  // Of the multipliers concerned only the others, f, are left
-  auto is_left = [this](std::int32_t i) { return _own[_multipliers[i]] != 0; };
+  // Of the multipliers concerned only the others are left
+  auto is_left = [this](std::int32_t i) { return _is_given[i] == 0; };
   Triplets rows, columns;
   for (std::size_t e = 0; e < _rows.size(); ++e)
   {
@@ -238,8 +269,6 @@ void Prescribed::take_out(std::size_t num_multipliers, std::size_t num_local)
 void Prescribed::right_hand_side(std::span<double> d, std::span<double> forces,
                                  std::vector<double>& held) const
 {
-  for (const std::int32_t i : _held.multipliers)
-    held.push_back(std::exchange(d[i], 0));
   const std::size_t m = _multipliers.size();
   std::vector<double> given(m), known(m, 0), change(m, 0);
   for (std::size_t i = 0; i < m; ++i)
@@ -247,9 +276,11 @@ void Prescribed::right_hand_side(std::span<double> d, std::span<double> forces,
   _inverse.multiply(given, known);
   _T.multiply(known, forces, -1);
   _rows.multiply(given, change);
-  // Nothing is left in the rows of p
+  // Nothing is left in the rows of what the law gives
   for (std::size_t i = 0; i < m; ++i)
-    d[_multipliers[i]] = _own[_multipliers[i]] != 0 ? given[i] + change[i] : 0;
+    d[_multipliers[i]] = _is_given[i] == 0 ? given[i] + change[i] : 0;
+  for (const std::int32_t i : _held.multipliers)
+    held.push_back(std::exchange(d[i], 0));
 }
 
 void Prescribed::recover(std::span<const double> d, std::span<const double> u,

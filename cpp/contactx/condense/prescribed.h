@@ -30,12 +30,11 @@ struct Held
 /// goes into the other rows: C - D G C, D - D G D and T - T G D take the place
 /// of C, D and T, and -T G C is added to the stiffness.
 ///
-/// Where D has neither a row nor a column of one, as where such a node sticks
-/// to a master that is free to move, it may be held: l_p stays an unknown, in
-/// the place of the prescribed displacement, whose row the bulk has no use for.
-/// C_p is added to that row of the stiffness, and T_p, scaled to the size of
-/// C_p, to its column. All multipliers of a node whose displacements are all
-/// prescribed may be held, with D between them. The matrix that is left is
+/// Where D_pp is singular, as where such a node sticks to a master that is free
+/// to move, a part h of p may be held: l_h stays an unknown, in the place of
+/// the prescribed displacement, whose row the bulk has no use for. What is left
+/// of C_h is added to that row of the stiffness, T_h, scaled to the size of
+/// C_h, to its column, and D between them. The matrix that is left is
 /// indefinite.
 ///
 /// All of it is of one rank alone: its slave nodes' constraints, in all nodes'
@@ -110,6 +109,8 @@ private:
 
   // Multipliers of the nodes concerned, which are numbered by their place here
   std::vector<std::int32_t> _multipliers;
+  // 1 for those that the law gives
+  std::vector<std::int8_t> _is_given;
   // D, G, -D G and -G D of these nodes
   Triplets _law, _inverse, _rows, _columns;
   // Columns of T and rows of C at their multipliers

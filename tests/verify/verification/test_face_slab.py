@@ -165,3 +165,30 @@ def test_pushed():
     assert 23 < stresses[peak] < 27
     assert 7.5 <= pushes[peak] <= 11
     assert np.all(np.diff(stresses)[:peak] > 0) and np.all(np.diff(stresses)[peak:] < 0)
+
+
+@pytest.mark.parametrize("sliding", ["small", "finite"])
+@pytest.mark.parametrize("axes", [(0, 1, 2), (1, 2, 0)])
+def test_slabs_in_space_are_solved_by_bodies(sliding, axes):
+    """However the dam lies in space, and with the answer of a direct solver."""
+    found = []
+    for options in ((), (("pc_type", "lu"),)):
+        reports = []
+        setting = Setting(
+            replace(FACE_SLABS["coarse"], rows=6), sliding=sliding, axes=axes, options=options
+        )
+        scene = scheme_1(
+            setting,
+            0.0734,
+            0.3,
+            steps=2,
+            each=lambda scene, keep=reports: keep.append(scene.problem.report),
+            progress=False,
+        )
+        found.append((scene.moved().copy(), reports))
+    (u, reports), (direct, _) = found
+    assert np.abs(u - direct).max() <= 1e-8 * np.abs(direct).max()
+    assert sum(len(report.uncondensed) for report in reports) == 0
+    assert len(reports[0].by_bodies) == reports[0].iterations
+    # A load that grows in proportion needs no more than a linear solve
+    assert sliding == "finite" or reports[1].iterations == 1
