@@ -16,13 +16,11 @@ from dolfinx.io.gmsh import MeshData
 
 from meshes.build import build_mesh
 from meshes.checks import check_divisions, check_positive
-from meshes.entities import group_body
+from meshes.entities import group_slabs, nodes_of_block
 from meshes.grids import Coordinates, add_grid, graded_between
-from meshes.tags import block_tag
 
-_FACES = {"z0": "bottom", "z1": "top"} | {side: side for side in ("x0", "x1", "y0", "y1")}
-# Places of the rockfill's layers of cells, parts of the way from the face to the other slope
-_LAYERS = (0.0, 0.03, 0.08, 0.15, 0.25, 0.38, 0.55, 0.75, 1.0)
+# Places of the layers of cells below the cushion zone, parts of the way to the other slope
+_LAYERS = (0.0, 0.04, 0.1, 0.19, 0.31, 0.5, 0.75, 1.0)
 # Sides of the boxes that gmsh draws along the slope and through the bodies, before they are shaped
 _UNIT = 100.0
 
@@ -43,6 +41,7 @@ class DamFace:
         shortest: Height of the dam at its ends, part of that above the river bed.
         slope: Horizontal length over the height of both faces.
         crest: Width of the crest.
+        cushion: Horizontal width of the cushion zone below the face, one layer of cells.
         thickness: Thickness of the slabs at the crest.
         thickening: Thickness that is added for each metre below the crest.
         layers: Cells through a slab.
@@ -61,6 +60,7 @@ class DamFace:
     shortest: float = 0.2
     slope: float = 1.4
     crest: float = 12.0
+    cushion: float = 3.0
     thickness: float = 0.4
     thickening: float = 0.0035
     layers: int = 4
@@ -89,6 +89,7 @@ class DamFace:
             height=self.height,
             slope=self.slope,
             crest=self.crest,
+            cushion=self.cushion,
             thickness=self.thickness,
             joint_size=self.joint_size,
             largest=self.largest,
@@ -97,6 +98,8 @@ class DamFace:
             value = getattr(self, name)
             if not 0 < value < 1:
                 raise ValueError(f"{name} is {value}; give a part between 0 and 1.")
+        if self.cushion >= self.crest:
+            raise ValueError(f"cushion is {self.cushion}; give less than the crest, {self.crest}.")
 
     @property
     def length(self) -> float:
@@ -124,6 +127,10 @@ class DamFace:
         """Thickness of the slabs at heights above the river bed."""
         return np.asarray(self.thickness + self.thickening * (self.height - elevation))
 
+    def depth(self, x: Coordinates) -> Coordinates:
+        """Horizontal distance of places in the rockfill from the face, shape (n,)."""
+        return np.asarray(-x[:, 2] / self.up[1])
+
     def grid(self, begin: float, end: float) -> Coordinates:
         """Places along x of a slab's cells, fine at both ends."""
         sizes = (self.joint_size, self.growth, self.largest)
@@ -132,8 +139,10 @@ class DamFace:
     def shape_rockfill(self, x: Coordinates) -> Coordinates:
         """Positions of the rockfill's nodes by those in its box, shape (n, 3)."""
         elevation = self._elevation(x)
-        part = 1 - x[:, 2] / _UNIT
-        level = part * (self.crest + 2 * self.slope * (self.height - elevation))
+        layers = len(_LAYERS) * (1 - x[:, 2] / _UNIT)
+        whole = self.crest + 2 * self.slope * (self.height - elevation)
+        part = np.interp(layers, 1 + np.arange(len(_LAYERS)), _LAYERS)
+        level = self.cushion * np.minimum(layers, 1) + part * (whole - self.cushion)
         # Horizontally into the dam, which is up the slope and off the face
         up, off = self.up[2], -self.up[1]
         y = elevation / self.up[1] + level * up
@@ -172,22 +181,18 @@ def dam_face(model: DamFace, comm: MPI.Comm = MPI.COMM_WORLD) -> MeshData:
     edges = model.edges
     rows, face_rows = (np.linspace(0, _UNIT, n + 1) for n in (model.rows, model.rockfill_rows))
     layers = np.linspace(0, _UNIT, model.layers + 1)
-    inside = _UNIT * (1 - np.array(_LAYERS[::-1]))
+    inside = np.linspace(0, _UNIT, 1 + len(_LAYERS))
     x_rockfill = np.linspace(edges[0], edges[-1], model.slabs * model.rockfill_cells + 1)
 
     def recipe(gmsh: ModuleType) -> None:
         bodies = [add_grid(gmsh, x_rockfill, face_rows, inside)]
         bodies += [add_grid(gmsh, model.grid(*ends), rows, layers) for ends in pairwise(edges)]
-        for i, body in enumerate(bodies):
-            name = f"slab_{i}" if i else "rockfill"
-            groups = {key: (block_tag(i, side), f"{name}_{side}") for key, side in _FACES.items()}
-            group_body(gmsh, 3, body, (block_tag(i), name), groups)
+        group_slabs(gmsh, bodies, "rockfill")
         gmsh.model.mesh.generate(3)
 
     data = build_mesh("dam_face", 3, recipe, comm)
     x = data.mesh.geometry.x
     for i in range(1 + model.slabs):
-        cells = data.cell_tags.find(block_tag(i))
-        nodes = np.unique(data.mesh.geometry.dofmaps[0][cells])
+        nodes = nodes_of_block(data, i)
         x[nodes] = (model.shape_slab if i else model.shape_rockfill)(x[nodes])
     return data

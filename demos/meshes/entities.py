@@ -8,8 +8,11 @@ from collections.abc import Mapping, Sequence
 from types import ModuleType
 
 import numpy as np
+import numpy.typing as npt
 
-from meshes.tags import Tag
+from dolfinx.io.gmsh import MeshData
+
+from meshes.tags import Tag, block_tag
 
 CURVED = "curved"
 _AXES = "xyz"
@@ -120,3 +123,29 @@ def group_body(
     found = sides(gmsh, dim, body)
     for side, (number, name) in faces.items():
         gmsh.model.addPhysicalGroup(dim - 1, found[side], number, name=name)
+
+
+def group_slabs(gmsh: ModuleType, bodies: Sequence[int], ground: str) -> None:
+    """Make physical groups of slabs in a row, of what they lie on, and of all their faces.
+
+    Args:
+        gmsh: The gmsh module with its current, synchronised model.
+        bodies: The gmsh tags of the bodies, the ground first; `block_tag` numbers them so.
+        ground: Name of what the slabs lie on.
+    """
+    sides_of = {"z0": "bottom", "z1": "top"} | {side: side for side in ("x0", "x1", "y0", "y1")}
+    for i, body in enumerate(bodies):
+        name = f"slab_{i}" if i else ground
+        groups = {key: (block_tag(i, side), f"{name}_{side}") for key, side in sides_of.items()}
+        group_body(gmsh, 3, body, (block_tag(i), name), groups)
+
+
+def nodes_of_block(data: MeshData, index: int) -> npt.NDArray[np.integer]:
+    """Nodes of the geometry of a block.
+
+    Args:
+        data: The mesh.
+        index: Number of the block, as `block_tag` takes it.
+    """
+    cells = data.cell_tags.find(block_tag(index))
+    return np.unique(data.mesh.geometry.dofmaps[0][cells])

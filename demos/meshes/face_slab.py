@@ -17,12 +17,8 @@ from dolfinx.io.gmsh import MeshData
 
 from meshes.build import build_mesh
 from meshes.checks import check_divisions, check_numbers, check_positive
-from meshes.entities import group_body
+from meshes.entities import group_slabs, nodes_of_block
 from meshes.grids import Coordinates, add_grid, graded_between
-from meshes.tags import block_tag
-
-# Names of the faces by the side of the box
-_FACES = {"z0": "bottom", "z1": "top"} | {side: side for side in ("x0", "x1", "y0", "y1")}
 
 
 @dataclass(frozen=True)
@@ -164,8 +160,7 @@ def _open_joints(data: MeshData, model: FaceSlab) -> None:
     """Give the slabs, which gmsh has made as boxes of height 1, their thickness and joints."""
     x, edges = data.mesh.geometry.x, model.edges
     for i in range(model.slabs):
-        cells = data.cell_tags.find(block_tag(1 + i))
-        nodes = np.unique(data.mesh.geometry.dofmaps[0][cells])
+        nodes = nodes_of_block(data, 1 + i)
         height = x[nodes, 2]
         shift = 0.5 * (model.opening[0] * height + model.opening[1] * (1 - height))
         across = (x[nodes, 0] - edges[i]) / model.width
@@ -208,10 +203,7 @@ def face_slab(model: FaceSlab, comm: MPI.Comm = MPI.COMM_WORLD) -> MeshData:
         bodies = [add_grid(gmsh, x_cushion, y_cushion, z_cushion)]
         for ends in pairwise(edges):
             bodies.append(add_grid(gmsh, model.grid(*ends), y, layers))
-        for i, body in enumerate(bodies):
-            name = f"slab_{i}" if i else "cushion"
-            groups = {key: (block_tag(i, side), f"{name}_{side}") for key, side in _FACES.items()}
-            group_body(gmsh, 3, body, (block_tag(i), name), groups)
+        group_slabs(gmsh, bodies, "cushion")
         gmsh.model.mesh.generate(3)
 
     data = build_mesh("face_slab", 3, recipe, comm)

@@ -124,14 +124,10 @@ void ContactBlock::add_up(std::span<const Tile> tiles,
                           bool keeps_zeros)
 {
   const std::size_t num_groups = widths.size();
-  std::vector<std::int32_t> firsts(num_groups + 1, 0), ends(num_groups + 1, 0);
+  std::vector<std::int32_t> firsts(num_groups + 1, 0), rows(tiles.size());
   std::partial_sum(widths.begin(), widths.end(), firsts.begin() + 1);
-  for (const Tile& tile : tiles)
-    ++ends[tile.row + 1];
-  std::partial_sum(ends.begin(), ends.end(), ends.begin());
-  std::vector<std::int32_t> order(tiles.size()), next(ends);
-  for (std::size_t t = 0; t < tiles.size(); ++t)
-    order[next[tiles[t].row]++] = static_cast<std::int32_t>(t);
+  std::ranges::transform(tiles, rows.begin(), &Tile::row);
+  const Groups by_row = grouped(rows, num_groups);
 
   const auto is_left_out = [prescribed](std::size_t i)
   { return i < prescribed.size() and prescribed[i] != 0; };
@@ -146,9 +142,9 @@ void ContactBlock::add_up(std::span<const Tile> tiles,
     found.clear();
     sums.clear();
     const int height = widths[i];
-    for (std::int32_t e = ends[i]; e < ends[i + 1]; ++e)
+    for (const std::int32_t t : by_row[i])
     {
-      const Tile& tile = tiles[order[e]];
+      const Tile& tile = tiles[t];
       std::int32_t& slot = slots[tile.column];
       if (slot < 0)
       {

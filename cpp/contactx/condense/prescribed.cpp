@@ -76,6 +76,8 @@ Prescribed::Prescribed(std::span<const Nodes> contacts, Blocks blocks,
 {
   const std::size_t count = num_multipliers(contacts);
   _own.assign(count, 1);
+  // D between held multipliers, by their places
+  Triplets held_law;
   std::size_t first = 0;
   for (const Nodes& nodes : contacts)
   {
@@ -134,7 +136,7 @@ Prescribed::Prescribed(std::span<const Nodes> contacts, Blocks blocks,
       for (int i = 0; i < k; ++i)
         for (int j = 0; j < k; ++j)
           if (stays[i] and stays[j])
-            _held_law.add(number[i], number[j], D[i][j] - DGD[i][j]);
+            held_law.add(number[i], number[j], D[i][j] - DGD[i][j]);
       for (int i = 0; i < k; ++i)
       {
         _multipliers.push_back(static_cast<std::int32_t>(first) + i);
@@ -154,10 +156,10 @@ Prescribed::Prescribed(std::span<const Nodes> contacts, Blocks blocks,
   if (not _multipliers.empty())
     take_out(count, free.size());
   if (not _held.dofs.empty())
-    hold();
+    hold(held_law);
 }
 
-void Prescribed::hold()
+void Prescribed::hold(const Triplets& law)
 {
   const std::size_t n = _held.dofs.size();
   std::vector<std::int32_t> place(_own.size(), -1);
@@ -204,10 +206,9 @@ void Prescribed::hold()
                          _held.scale[at] * T.values[e]);
     else
       left.traction.add(T.rows[e], T.columns[e], T.values[e]);
-  for (std::size_t e = 0; e < _held_law.size(); ++e)
-    left.stiffness.add(_held.dofs[_held_law.rows[e]],
-                       _held.dofs[_held_law.columns[e]],
-                       _held_law.values[e] * _held.scale[_held_law.columns[e]]);
+  for (std::size_t e = 0; e < law.size(); ++e)
+    left.stiffness.add(_held.dofs[law.rows[e]], _held.dofs[law.columns[e]],
+                       law.values[e] * _held.scale[law.columns[e]]);
   _blocks = std::move(left);
 }
 

@@ -96,14 +96,12 @@ public:
                std::span<double> multipliers) const;
 
 private:
-  void hold();
+  void hold(const Triplets& law);
   void take_out(std::size_t num_multipliers, std::size_t num_local);
 
   Blocks _blocks;
   Triplets _springs;
   Held _held;
-  // The law's derivatives D between held multipliers, by their places
-  Triplets _held_law;
   std::vector<std::int8_t> _own;
   std::vector<std::vector<double>> _by_multiplier;
 

@@ -15,13 +15,12 @@ from contactx import cpp as core
 from contactx.bulk import Bulk
 from contactx.callback import Quiet, weakly
 from contactx.condensed.diagonal_blocks import Part, Transforms, exact_change, symmetric_change
-from contactx.condensed.numbering import Array, Index
+from contactx.condensed.numbering import DIFFERENT, Array, Index
 from contactx.condensed.operator import CondensedOperator
 from contactx.options import ROUNDING, block_options
 from contactx.parallel import reduce
 from contactx.report import Report
 
-_DIFFERENT = PETSc.Mat.Structure.DIFFERENT_NONZERO_PATTERN
 # Iterations after which the blocks are no use
 _MOST = 120
 _RESTART = 60
@@ -122,13 +121,12 @@ class ByBodies:
         most = _MOST if self._is_new else 2 * _COST
         ksp.setTolerances(rtol=ROUNDING, atol=target, max_it=most)
         ksp.setInitialGuessNonzero(v.norm() > 0)
-        start = operator.distance(rhs, v)
+        reduction = operator.reduction(rhs, v, target)
         # Factors of a singular block are not finite
         with report.timing("Krylov"), Quiet() as self._quiet, np.errstate(all="ignore"):
             ksp.solve(rhs, v)
         count = ksp.getIterationNumber()
         self.iterations += count
-        reduction = max(1.0, np.log(start / target)) if start > target > 0 else 1.0
         if self._is_new:
             self._rate = count / reduction
         else:
@@ -251,7 +249,7 @@ class ByBodies:
         pc = ksp.getPC()
         pc.setType("python")
         pc.setPythonContext(called)
-        self._w, self._t = A.createVecs()
+        self._w = A.createVecLeft()
         self._ksp = ksp
 
     def _multiply(self, mat: PETSc.Mat, v: PETSc.Vec, y: PETSc.Vec) -> None:
@@ -271,8 +269,7 @@ class ByBodies:
         if stiff is None:
             z.array[soft.part.dofs] = soft.at(r.array_r)
             return
-        z_stiff = stiff.at(r.array_r)
-        z.array[stiff.part.dofs] = z_stiff
+        z.array[stiff.part.dofs] = stiff.at(r.array_r)
         operator.mult(z, self._w)
         self._w.aypx(-1.0, r)
         z.array[soft.part.dofs] = soft.at(self._w.array_r)
@@ -314,7 +311,7 @@ class _Block:
         """
         if self._change is not None:
             difference = change.copy()
-            difference.axpy(-1.0, self._change, _DIFFERENT)
+            difference.axpy(-1.0, self._change, DIFFERENT)
             if difference.norm() <= serves * change.norm():
                 return False
         with report.timing("condensation"):

@@ -7,8 +7,11 @@ from __future__ import annotations
 from petsc4py import PETSc
 
 from contactx import cpp as core
-from contactx.condensed.numbering import Array, Index, Numbering
+from contactx.condensed.numbering import DIFFERENT, Array, Index, Numbering
 from contactx.parallel import reduce
+
+# Terms of a series, beside the first one
+_TERMS = 2
 
 
 class Chains:
@@ -80,3 +83,17 @@ class Chains:
         if not reduce.anywhere(numbering.comm, len(entries) > 0):
             return None
         return cls(numbering, entries, dofs)
+
+
+def add_terms(X: PETSc.Mat, C: PETSc.Mat, *, is_left: bool = False) -> None:
+    """Make a matrix the first terms of (I - C)^-1 X; all ranks must take part.
+
+    Args:
+        X: The matrix, overwritten.
+        C: What eliminations need of one another.
+        is_left: Whether of X (I - C)^-1.
+    """
+    term = X
+    for _ in range(_TERMS):
+        term = term.matMult(C) if is_left else C.matMult(term)
+        X.axpy(1.0, term, DIFFERENT)

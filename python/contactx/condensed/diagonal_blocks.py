@@ -9,11 +9,8 @@ from petsc4py import PETSc
 import numpy as np
 
 from contactx import cpp as core
-from contactx.condensed.numbering import Array, Index, Numbering
-
-_DIFFERENT = PETSc.Mat.Structure.DIFFERENT_NONZERO_PATTERN
-# Terms of a series, beside the first one
-_TERMS = 2
+from contactx.condensed.chains import add_terms
+from contactx.condensed.numbering import DIFFERENT, Array, Index, Numbering
 
 
 class Transforms:
@@ -30,7 +27,11 @@ class Transforms:
     """
 
     def __init__(
-        self, numbering: Numbering, condensation: core.Condensation, springs: Array | None
+        self,
+        numbering: Numbering,
+        condensation: core.Condensation,
+        springs: Array | None,
+        chains: tuple[core.Triplets | None, core.Triplets | None],
     ):
         """Make the matrices; all ranks must take part.
 
@@ -38,20 +39,15 @@ class Transforms:
             numbering: Displacements on this rank.
             condensation: How the multipliers are eliminated.
             springs: What is added to the diagonal, shape (num_owned,); None if nothing is.
+            chains: What right and left need of one another; None on all ranks where nothing.
         """
-        of_right, of_left = condensation.chains(numbering.nodes)
+        of_right, of_left = chains
         self.right = numbering.matrix(condensation.right)
-        C = numbering.matrix(of_right)
-        term = self.right
-        for _ in range(_TERMS):
-            term = C.matMult(term)
-            self.right.axpy(1.0, term, _DIFFERENT)
+        if of_right is not None:
+            add_terms(self.right, numbering.matrix(of_right))
         self.left = numbering.matrix(condensation.left, condensation.rows)
-        C = numbering.matrix(of_left)
-        term = self.left
-        for _ in range(_TERMS):
-            term = term.matMult(C)
-            self.left.axpy(1.0, term, _DIFFERENT)
+        if of_left is not None:
+            add_terms(self.left, numbering.matrix(of_left), is_left=True)
         self.law = numbering.matrix(condensation.law)
         self.stiffness = numbering.matrix(condensation.stiffness)
         if springs is not None:
@@ -60,7 +56,7 @@ class Transforms:
             diagonal = PETSc.Mat().createAIJ(self.stiffness.getSizes(), comm=numbering.comm)
             diagonal.setPreallocationCOO(places, places)
             diagonal.setValuesCOO(springs)
-            self.stiffness.axpy(1.0, diagonal, _DIFFERENT)
+            self.stiffness.axpy(1.0, diagonal, DIFFERENT)
 
 
 class Part:
@@ -99,6 +95,12 @@ class Part:
         """
         return A.createSubMatrix(self._set, (columns or self)._set)
 
+    def with_added(self, change: PETSc.Mat) -> PETSc.Mat:
+        """K and what is added to it, a matrix of its own."""
+        A = self.K.copy()
+        A.axpy(1.0, change, DIFFERENT)
+        return A
+
     def block(self, change: PETSc.Mat, eliminated: Index) -> PETSc.Mat:
         """K and what contact adds to it, with ones for what is eliminated.
 
@@ -106,8 +108,7 @@ class Part:
             change: What contact adds.
             eliminated: Owned displacements that are eliminated.
         """
-        A = self.K.copy()
-        A.axpy(1.0, change, _DIFFERENT)
+        A = self.with_added(change)
         first, _ = A.getOwnershipRange()
         rows = (first + self.places(eliminated)).astype(PETSc.IntType)
         A.zeroRowsColumns(rows, diag=1.0)
@@ -128,22 +129,19 @@ def exact_change(part: Part, transforms: Transforms) -> tuple[PETSc.Mat, bool]:
         part.of(A)
         for A in (transforms.right, transforms.left, transforms.law, transforms.stiffness)
     )
-    K = part.K
-    if _has_entries(S):
-        K = K.copy()
-        K.axpy(1.0, S, _DIFFERENT)
+    K = part.with_added(S) if _has_entries(S) else part.K
     change = S
     # Rows and columns of what is eliminated are zeroed; a displacement itself is no other one
     is_symmetric = not (_has_entries(L) or _has_entries(law))
     if _has_entries(R):
-        change.axpy(1.0, K.matMult(R), _DIFFERENT)
+        change.axpy(1.0, K.matMult(R), DIFFERENT)
     if not is_symmetric:
         product = L.matMult(K)
         if _has_entries(R):
-            product.axpy(1.0, product.matMult(R), _DIFFERENT)
-            law.axpy(1.0, law.matMult(R), _DIFFERENT)
-        change.axpy(1.0, product, _DIFFERENT)
-        change.axpy(1.0, law, _DIFFERENT)
+            product.axpy(1.0, product.matMult(R), DIFFERENT)
+            law.axpy(1.0, law.matMult(R), DIFFERENT)
+        change.axpy(1.0, product, DIFFERENT)
+        change.axpy(1.0, law, DIFFERENT)
     return change, is_symmetric
 
 
@@ -162,20 +160,17 @@ def symmetric_change(
         (I + R)^T (K + S) (I + R) + R_c^T springs R_c - K, R_c being what soft bodies follow.
     """
     R, S = part.of(transforms.right), part.of(transforms.stiffness)
-    K = part.K
-    if _has_entries(S):
-        K = K.copy()
-        K.axpy(1.0, S, _DIFFERENT)
+    K = part.with_added(S) if _has_entries(S) else part.K
     change = S
     if _has_entries(R):
         B = K.matMult(R)
-        change.axpy(1.0, B, _DIFFERENT)
-        change.axpy(1.0, B.transpose(PETSc.Mat()), _DIFFERENT)
-        change.axpy(1.0, R.transposeMatMult(B), _DIFFERENT)
+        change.axpy(1.0, B, DIFFERENT)
+        change.axpy(1.0, B.transpose(PETSc.Mat()), DIFFERENT)
+        change.axpy(1.0, R.transposeMatMult(B), DIFFERENT)
     X = soft.of(transforms.right, part)
     Y = X.copy()
     Y.diagonalScale(springs)
-    change.axpy(1.0, X.transposeMatMult(Y), _DIFFERENT)
+    change.axpy(1.0, X.transposeMatMult(Y), DIFFERENT)
     return change
 
 

@@ -11,15 +11,13 @@ from petsc4py import PETSc
 
 import numpy as np
 
-from contactx.condensed.numbering import Index, index_set, own_columns
+from contactx.condensed.chains import add_terms
+from contactx.condensed.numbering import DIFFERENT, Index, index_set, own_columns
 from contactx.condensed.operator import Change
 from contactx.parallel import reduce
 
-_DIFFERENT = PETSc.Mat.Structure.DIFFERENT_NONZERO_PATTERN
 # Part of the eliminated displacements that may have changed for a hierarchy to serve as it is
 _FEW = 0.25
-# Terms of a series, beside the first one
-_TERMS = 2
 
 
 class Galerkin:
@@ -71,26 +69,17 @@ class Galerkin:
         for level, (Q, rows, A) in enumerate(levels):
             X = X.matMult(Q)
             if level == 0 and part.chains is not None:
-                X = _chained(part.chains, X)
+                add_terms(X, part.chains)
             Y = part.block.matMult(X)
             Y.scale(0.5)
-            Y.axpy(1.0, rows.createSubMatrix(chosen, own_columns(rows)), _DIFFERENT)
+            Y.axpy(1.0, rows.createSubMatrix(chosen, own_columns(rows)), DIFFERENT)
             change = X.transposeMatMult(Y)
-            change.axpy(1.0, change.transpose(PETSc.Mat()), _DIFFERENT)
+            change.axpy(1.0, change.transpose(PETSc.Mat()), DIFFERENT)
             if springs is not None:
                 springs = springs.ptap(Q)
-                change.axpy(1.0, springs, _DIFFERENT)
+                change.axpy(1.0, springs, DIFFERENT)
             before, self._added[level] = self._added[level], change.copy()
             if before is not None:
-                change.axpy(-1.0, before, _DIFFERENT)
-            A.axpy(1.0, change, _DIFFERENT)
+                change.axpy(-1.0, before, DIFFERENT)
+            A.axpy(1.0, change, DIFFERENT)
         self._eliminated = part.places
-
-
-def _chained(C: PETSc.Mat, X: PETSc.Mat) -> PETSc.Mat:
-    """First terms of (I - C)^-1 X."""
-    term = X
-    for _ in range(_TERMS):
-        term = C.matMult(term)
-        X.axpy(1.0, term, _DIFFERENT)
-    return X

@@ -138,9 +138,7 @@ class Multigrid:
     ) -> bool:
         ksp = self._ksp
         assert ksp is not None
-        start = operator.distance(rhs, v)
-        goal = max(target, ROUNDING * rhs.norm())
-        reduction = max(1.0, np.log(start / goal)) if start > goal > 0 else 1.0
+        reduction = operator.reduction(rhs, v, target)
         # Pressures on turning normals and bodies without support may leave a matrix indefinite
         for method in ("cg", "gmres") if operator.is_symmetric else ("gmres",):
             ksp.setType(method)

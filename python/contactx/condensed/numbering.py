@@ -17,6 +17,8 @@ from contactx.system import SaddlePointSystem
 type Array = npt.NDArray[np.float64]
 type Index = npt.NDArray[np.integer]
 
+DIFFERENT = PETSc.Mat.Structure.DIFFERENT_NONZERO_PATTERN
+
 
 class Numbering:
     """Where the displacements of a rank are in vectors and matrices of the bulk.

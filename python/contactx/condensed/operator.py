@@ -15,6 +15,7 @@ from contactx.bulk import Bulk
 from contactx.condensed.chains import Chains
 from contactx.condensed.diagonal_blocks import Transforms
 from contactx.condensed.numbering import Array, Index, Numbering, index_set
+from contactx.options import ROUNDING
 from contactx.parallel import reduce
 
 
@@ -72,7 +73,7 @@ class CondensedOperator:
             numbering.matrix(*parts) if is_needed else None
             for parts, is_needed in zip(others, needed, strict=True)
         )
-        of_right, of_left = condensation.chains(numbering.nodes)
+        self._chains = of_right, of_left = condensation.chains(numbering.nodes)
         self._of_right = Chains.of(numbering, of_right, self.eliminated)
         self._of_left, self._recovered = self._of_right, self.eliminated
         if not self._transposed:
@@ -128,18 +129,33 @@ class CondensedOperator:
         )
         return areas[: self.numbering.num_owned]
 
-    def distance(self, rhs: PETSc.Vec, v: PETSc.Vec) -> float:
-        """Norm of the residual rhs - K_c v; all ranks must take part."""
-        if v.norm() == 0:
-            return float(rhs.norm())
-        residual = rhs.duplicate()
-        self.mult(v, residual)
-        residual.aypx(-1.0, rhs)
-        return float(residual.norm())
+    def reduction(self, rhs: PETSc.Vec, v: PETSc.Vec, target: float) -> float:
+        """Logarithm of what iterations must reduce the residual by; all ranks must take part.
+
+        Args:
+            rhs: Right-hand side.
+            v: Start of the iterations.
+            target: What the norm of the residual must fall below.
+
+        Returns:
+            At least one.
+        """
+        start = size = float(rhs.norm())
+        if v.norm() > 0:
+            residual = rhs.duplicate()
+            self.mult(v, residual)
+            residual.aypx(-1.0, rhs)
+            start = float(residual.norm())
+        goal = max(target, ROUNDING * size)
+        return max(1.0, float(np.log(start / goal))) if start > goal > 0 else 1.0
 
     def transforms(self) -> Transforms:
         """What turns the bulk's matrix into the condensed one; all ranks must take part."""
-        return Transforms(self.numbering, self._condensation, self._springs)
+        of_right, of_left = (
+            entries if solver is not None else None
+            for entries, solver in zip(self._chains, (self._of_right, self._of_left), strict=True)
+        )
+        return Transforms(self.numbering, self._condensation, self._springs, (of_right, of_left))
 
     def bulk(self, z: PETSc.Vec, w: PETSc.Vec) -> None:
         """Multiply by the bulk, w = (K + S) z."""

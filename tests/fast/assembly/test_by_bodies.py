@@ -8,7 +8,7 @@ import pytest
 from dolfinx.mesh import CellType
 
 from meshes import Tag
-from scenes import CELLS, Blocks
+from scenes import CELLS, Blocks, blocks
 from scenes.covering import covering
 from story import fix
 
@@ -110,8 +110,6 @@ def test_constrained_slave_nodes_hold_their_masters(cell, stiffness):
 @pytest.mark.parametrize("stiffness", [1.0, 1e3])
 def test_units_do_not_matter(stiffness, monkeypatch):
     """Newtons and metres, or meganewtons: as many iterations."""
-    from scenes import blocks
-
     counts = []
     elasticity = blocks.elasticity
     for unit in (1.0, 1e6):
