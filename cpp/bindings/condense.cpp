@@ -5,6 +5,7 @@
 #include "parallel.h"
 #include <contactx/condense/condensation.h>
 #include <contactx/condense/coupled_rows.h>
+#include <contactx/condense/master_springs.h>
 #include <contactx/condense/multigrid.h>
 #include <contactx/condense/stiff_bodies.h>
 #include <optional>
@@ -164,6 +165,11 @@ void contactx_bindings::condense(py::module_& m)
              const Array<double>& diagonal)
           { return array(stiff_bodies(c, bodies, view(diagonal))); },
           py::arg("bodies"), py::arg("diagonal"))
+      .def(
+          "master_springs",
+          [](const Condensation& c, const Array<double>& stiffness)
+          { return array(master_springs(c, view(stiffness))); },
+          py::arg("stiffness"))
       .def("is_symmetric", [](const Condensation& c, const NodeMap& nodes)
            { return is_symmetric(c.elimination(), nodes); })
       .def("bound", [](const Condensation& c, const NodeMap& nodes,

@@ -43,6 +43,9 @@ public:
   Condensation(const CompressedRows& contact, std::span<const Nodes> contacts,
                std::span<const std::int8_t> free, int gdim, bool holds = false);
 
+  /// @brief Number of displacements of all nodes.
+  std::size_t num_local() const { return _num_local; }
+
   /// @brief Whether a contact is soft.
   bool is_soft() const { return _is_soft; }
 

@@ -14,8 +14,8 @@ import numpy as np
 from contactx import cpp as core
 from contactx.bulk import Bulk
 from contactx.callback import Quiet, weakly
-from contactx.condensed.diagonal_blocks import Part, Transforms, exact_change, symmetric_change
-from contactx.condensed.numbering import DIFFERENT, Array, Index
+from contactx.condensed.diagonal_blocks import Part, change_of
+from contactx.condensed.numbering import DIFFERENT, Array
 from contactx.condensed.operator import CondensedOperator
 from contactx.options import ROUNDING, block_options
 from contactx.parallel import reduce
@@ -27,6 +27,8 @@ _RESTART = 60
 # Change of the soft block and of the stiff one, to the size of what contact adds to them, below
 # which factors serve
 _SOFT_SERVES, _STIFF_SERVES = 0.03, 0.1
+# Least part of the largest movement under a uniform traction that counts for a spring
+_LEAST_MOVED = 1e-3
 # Iterations that cost what the factors of the stiff block cost, at 170,000 displacements
 _COST = 20
 
@@ -40,9 +42,9 @@ class ByBodies:
         M = [A_cc A_cm; 0 S]
 
     leaves A M^-1 with the eigenvalues of the Schur complement A_mm - A_mc A_cc^-1 A_cm times S^-1
-    alone. S is A_mm with springs in the place of the soft bodies: for each unit of contact area,
-    what they give back where all that follows masters is moved by one. Multipliers that stay
-    unknowns belong to m. Where no bodies differ all unknowns are in c.
+    alone. S is A_mm with springs in the place of the soft bodies: where a traction of one all over
+    the contact moves a node of theirs by u, its spring for each unit of area is 1 / u. Multipliers
+    that stay unknowns belong to m. Where no bodies differ all unknowns are in c.
 
     Factors of c serve until contact has changed the block, those of m for as long as that costs
     fewer iterations than new ones.
@@ -145,16 +147,17 @@ class ByBodies:
             self._part(operator)
             soft, stiff = self._soft, self._stiff
             assert soft is not None
-            change, is_symmetric = exact_change(soft.part, transforms)
+            change, is_symmetric = change_of(soft.part, transforms)
             is_symmetric = is_symmetric and self._bulk.is_symmetric
         is_new = soft.update(operator, change, is_symmetric, _SOFT_SERVES, report)
         self.factorisations += is_new
         if stiff is not None:
             with report.timing("condensation"):
-                springs = self._springs(operator, transforms)
-                change = symmetric_change(stiff.part, soft.part, transforms, springs)
+                change, is_symmetric = change_of(stiff.part, transforms)
+                is_symmetric = is_symmetric and self._bulk.is_symmetric
+                stiff.part.add_diagonal(change, self._springs(operator, report))
             serves = _STIFF_SERVES if self._lost <= _COST else 0.0
-            is_new = stiff.update(operator, change, True, serves, report)
+            is_new = stiff.update(operator, change, is_symmetric, serves, report)
             self.factorisations += is_new
         self._is_new = is_new
         if is_new:
@@ -165,14 +168,12 @@ class ByBodies:
         """Part the unknowns, anew where the bodies or the bulk are others."""
         dofs = operator.parts(self._bodies)
         soft = self._soft
-        same = (
-            soft is not None
-            and self._built_at == self._bulk.assemblies
-            and np.array_equal(dofs[0], soft.part.dofs)
-        )
-        if reduce.everywhere(self._comm, same):
+        same = soft is not None and np.array_equal(dofs[0], soft.part.dofs)
+        if not reduce.everywhere(self._comm, same):
+            self._per_area = None
+        elif self._built_at == self._bulk.assemblies:
             return
-        self._soft = self._stiff = self._per_area = None
+        self._soft = self._stiff = None
         K = self._bulk.copy()
         numbering = operator.numbering
         self._soft = _Block(Part(numbering, dofs[0], K), self._prefix + "soft_")
@@ -181,60 +182,54 @@ class ByBodies:
         K.destroy()
         self._built_at = self._bulk.assemblies
 
-    def _springs(self, operator: CondensedOperator, transforms: Transforms) -> PETSc.Vec:
-        """What stands for soft bodies at the displacements that follow masters.
-
-        All ranks must take part.
-
-        Returns:
-            Springs at the displacements of the soft block.
-        """
-        soft, stiff = self._soft, self._stiff
-        assert soft is not None and stiff is not None
-        springs = soft.part.K.createVecRight()
-        dofs = soft.part.dofs
-        areas, axis = operator.areas()[dofs], dofs % operator.numbering.gdim
-        if self._per_area is None:
-            indptr, _, _ = soft.part.of(transforms.right, stiff.part).getValuesCSR()
-            follows = (np.diff(indptr) > 0) & (areas > 0)
-            if reduce.anywhere(self._comm, bool(np.any(follows))):
-                self._per_area = self._translate(operator, follows, areas)
-        springs.set(0.0)
-        if self._per_area is not None:
-            springs.array[:] = self._per_area[axis] * areas
-        return springs
-
-    def _translate(self, operator: CondensedOperator, follows: Index, areas: Array) -> Array:
-        """Force of the soft bodies for each unit of area when what follows masters moves by one.
+    def _springs(self, operator: CondensedOperator, report: Report) -> Array:
+        """Springs that stand for soft bodies at their masters; all ranks must take part.
 
         Args:
             operator: The condensed matrix.
-            follows: Whether a displacement of the soft block follows masters.
-            areas: Contact areas of these displacements.
+            report: Report whose times are added to.
 
         Returns:
-            Force along each axis that moves, shape (gdim,).
+            Springs at owned displacements, shape (num_owned,).
         """
-        soft = self._soft
-        assert soft is not None
-        K = soft.part.K
-        x, f = K.createVecs()
-        y = x.duplicate()
-        axis = soft.part.dofs % operator.numbering.gdim
-        eliminated = soft.part.places(operator.eliminated)
-        result = np.zeros(operator.numbering.gdim)
-        for k in range(len(result)):
-            moved = follows & (axis == k)
-            x.array[:] = moved
-            K.mult(x, f)
-            f.array[eliminated] = 0
-            soft.solve(f, y)
-            x.axpy(-1.0, y)
-            K.mult(x, f)
-            sums = np.array([f.array_r[moved].sum(), areas[moved].sum()])
-            force, area = reduce.total(self._comm, sums)
-            result[k] = max(force, 0.0) / area if area > 0 else 0.0
-        return result
+        if self._per_area is None:
+            with report.timing("factorisation"):
+                self._per_area = self._soft_stiffness(operator)
+        return operator.master_springs(self._per_area)
+
+    def _soft_stiffness(self, operator: CondensedOperator) -> Array:
+        """Stiffness of soft bodies for each unit of area under a uniform traction.
+
+        All ranks must take part.
+
+        Args:
+            operator: The condensed matrix.
+
+        Returns:
+            Stiffness at owned displacements, zero in stiff bodies and where it is not known,
+            shape (num_owned,).
+        """
+        assert self._soft is not None
+        part = self._soft.part
+        areas = operator.areas()[part.dofs]
+        areas[self._bulk.markers[part.dofs] == 1] = 0
+        axis = part.dofs % operator.numbering.gdim
+        # PETSc may change what it factorises
+        ksp = _factorised(part.K.copy(), self._prefix + "soft_", self._bulk.is_symmetric)
+        f, u = part.K.createVecs()
+        stiffness = np.zeros(operator.numbering.num_owned)
+        for k in range(operator.numbering.gdim):
+            f.array[:] = np.where(axis == k, areas, 0.0)
+            with np.errstate(all="ignore"):
+                ksp.solve(f, u)
+            moved = np.where(axis == k, u.array_r, 0.0)
+            moved[~np.isfinite(moved)] = 0
+            most = reduce.largest(self._comm, float(moved.max(initial=0.0)))
+            # Beside supports it is no more than many times as stiff as elsewhere
+            known = moved > 0
+            stiffness[part.dofs[known]] = 1 / np.maximum(moved[known], _LEAST_MOVED * most)
+        ksp.destroy()
+        return stiffness
 
     def _make(self, operator: CondensedOperator) -> None:
         size = (operator.numbering.num_owned, None)
@@ -320,18 +315,7 @@ class _Block:
             if self._ksp is not None:
                 # Two factorisations at once would be the largest part of the memory
                 self._ksp.destroy()
-            options = block_options(self._prefix, is_symmetric=is_symmetric)
-            with options.in_database():
-                self._ksp = ksp = PETSc.KSP().create(comm=A.comm)
-                ksp.setOptionsPrefix(self._prefix)
-                ksp.setFromOptions()
-                if is_symmetric:
-                    A.setOption(PETSc.Mat.Option.SYMMETRIC, True)
-                ksp.setOperators(A)
-                ksp.setUp()
-            ksp.getPC().setReusePreconditioner(True)
-            # PETSc keeps the matrix, but nothing in it is used again
-            A.setPreallocationNNZ(0)
+            self._ksp = _factorised(A, self._prefix, is_symmetric)
         self._change = change
         return True
 
@@ -346,3 +330,25 @@ class _Block:
         self.solve(self._b, self._x)
         found: Array = self._x.array_r.copy()
         return found
+
+
+def _factorised(A: PETSc.Mat, prefix: str, is_symmetric: bool) -> PETSc.KSP:
+    """Factors of a matrix, whose entries are dropped; all ranks must take part.
+
+    Args:
+        A: The matrix.
+        prefix: Prefix of the options.
+        is_symmetric: Whether it is symmetric.
+    """
+    with block_options(prefix, is_symmetric=is_symmetric).in_database():
+        ksp = PETSc.KSP().create(comm=A.comm)
+        ksp.setOptionsPrefix(prefix)
+        ksp.setFromOptions()
+        if is_symmetric:
+            A.setOption(PETSc.Mat.Option.SYMMETRIC, True)
+        ksp.setOperators(A)
+        ksp.setUp()
+    ksp.getPC().setReusePreconditioner(True)
+    # PETSc keeps the matrix, but nothing in it is used again
+    A.setPreallocationNNZ(0)
+    return ksp

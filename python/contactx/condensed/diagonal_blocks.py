@@ -12,6 +12,9 @@ from contactx import cpp as core
 from contactx.condensed.chains import add_terms
 from contactx.condensed.numbering import DIFFERENT, Array, Index, Numbering
 
+# Difference of equal matrices that rounding leaves, relative
+_ROUNDED = 1e-12
+
 
 class Transforms:
     """What turns the bulk's matrix into the condensed one, as matrices over all displacements.
@@ -51,11 +54,7 @@ class Transforms:
         self.law = numbering.matrix(condensation.law)
         self.stiffness = numbering.matrix(condensation.stiffness)
         if springs is not None:
-            first, last = self.stiffness.getOwnershipRange()
-            places = np.arange(first, last, dtype=PETSc.IntType)
-            diagonal = PETSc.Mat().createAIJ(self.stiffness.getSizes(), comm=numbering.comm)
-            diagonal.setPreallocationCOO(places, places)
-            diagonal.setValuesCOO(springs)
+            diagonal = diagonal_matrix(self.stiffness, springs)
             self.stiffness.axpy(1.0, diagonal, DIFFERENT)
 
 
@@ -101,6 +100,15 @@ class Part:
         A.axpy(1.0, change, DIFFERENT)
         return A
 
+    def add_diagonal(self, A: PETSc.Mat, values: Array) -> None:
+        """Add to the diagonal of a block; all ranks must take part.
+
+        Args:
+            A: A matrix of these displacements.
+            values: What is added at all owned displacements, shape (num_owned,).
+        """
+        A.axpy(1.0, diagonal_matrix(A, values[self.dofs]), DIFFERENT)
+
     def block(self, change: PETSc.Mat, eliminated: Index) -> PETSc.Mat:
         """K and what contact adds to it, with ones for what is eliminated.
 
@@ -115,7 +123,22 @@ class Part:
         return A
 
 
-def exact_change(part: Part, transforms: Transforms) -> tuple[PETSc.Mat, bool]:
+def diagonal_matrix(A: PETSc.Mat, values: Array) -> PETSc.Mat:
+    """A matrix as large as another one with nothing but a diagonal; all ranks must take part.
+
+    Args:
+        A: The other matrix.
+        values: The diagonal in this rank's rows.
+    """
+    first, last = A.getOwnershipRange()
+    places = np.arange(first, last, dtype=PETSc.IntType)
+    diagonal = PETSc.Mat().createAIJ(A.getSizes(), comm=A.comm)
+    diagonal.setPreallocationCOO(places, places)
+    diagonal.setValuesCOO(values)
+    return diagonal
+
+
+def change_of(part: Part, transforms: Transforms) -> tuple[PETSc.Mat, bool]:
     """What contact adds to the bulk's block of a part; all ranks must take part.
 
     Args:
@@ -132,46 +155,29 @@ def exact_change(part: Part, transforms: Transforms) -> tuple[PETSc.Mat, bool]:
     K = part.with_added(S) if _has_entries(S) else part.K
     change = S
     # Rows and columns of what is eliminated are zeroed; a displacement itself is no other one
-    is_symmetric = not (_has_entries(L) or _has_entries(law))
+    is_symmetric = not _has_entries(law) and _is_transposed(L, R)
     if _has_entries(R):
         change.axpy(1.0, K.matMult(R), DIFFERENT)
-    if not is_symmetric:
+    if _has_entries(L):
         product = L.matMult(K)
         if _has_entries(R):
             product.axpy(1.0, product.matMult(R), DIFFERENT)
-            law.axpy(1.0, law.matMult(R), DIFFERENT)
         change.axpy(1.0, product, DIFFERENT)
+    if _has_entries(law):
+        if _has_entries(R):
+            law.axpy(1.0, law.matMult(R), DIFFERENT)
         change.axpy(1.0, law, DIFFERENT)
     return change, is_symmetric
 
 
-def symmetric_change(
-    part: Part, soft: Part, transforms: Transforms, springs: PETSc.Vec
-) -> PETSc.Mat:
-    """What contact adds to the bulk's block of stiff bodies; all ranks must take part.
-
-    Args:
-        part: Displacements of stiff bodies.
-        soft: Those of soft ones.
-        transforms: What contact does; what friction makes unsymmetric is left out.
-        springs: Diagonal that stands for the soft bodies.
-
-    Returns:
-        (I + R)^T (K + S) (I + R) + R_c^T springs R_c - K, R_c being what soft bodies follow.
-    """
-    R, S = part.of(transforms.right), part.of(transforms.stiffness)
-    K = part.with_added(S) if _has_entries(S) else part.K
-    change = S
-    if _has_entries(R):
-        B = K.matMult(R)
-        change.axpy(1.0, B, DIFFERENT)
-        change.axpy(1.0, B.transpose(PETSc.Mat()), DIFFERENT)
-        change.axpy(1.0, R.transposeMatMult(B), DIFFERENT)
-    X = soft.of(transforms.right, part)
-    Y = X.copy()
-    Y.diagonalScale(springs)
-    change.axpy(1.0, X.transposeMatMult(Y), DIFFERENT)
-    return change
+def _is_transposed(L: PETSc.Mat, R: PETSc.Mat) -> bool:
+    """Whether L = R^T but for rounding, or both are empty; the same on all ranks."""
+    if not (_has_entries(L) or _has_entries(R)):
+        return True
+    size = max(L.norm(), R.norm())
+    difference = R.transpose(PETSc.Mat())
+    difference.axpy(-1.0, L, DIFFERENT)
+    return bool(difference.norm() <= _ROUNDED * size)
 
 
 def _has_entries(A: PETSc.Mat) -> bool:

@@ -118,6 +118,19 @@ class CondensedOperator:
             is_stiff[slaves[self._bulk.markers[slaves] == 1]] = True
         return np.flatnonzero(~is_stiff), np.flatnonzero(is_stiff)
 
+    def master_springs(self, stiffness: Array) -> Array:
+        """Springs at masters that stand for the bodies of their slaves; all ranks must take part.
+
+        Args:
+            stiffness: Stiffness of these bodies for each unit of contact area at owned
+                displacements, zero where there is to be no spring, shape (num_owned,).
+
+        Returns:
+            Springs at owned displacements, shape (num_owned,).
+        """
+        every = self.numbering.scatter_forward(stiffness)
+        return self.numbering.scatter_reverse(self._condensation.master_springs(every))
+
     def areas(self) -> Array:
         """Contact area of each owned displacement, by its forces for a multiplier of one.
 
