@@ -75,8 +75,9 @@ struct Node
   Node(const FrictionalState& s, std::size_t i, bool is_closed)
       : lambda(vector_at<D>(s.traction, i)), n(vector_at<D>(s.normal, i)),
         slip(vector_at<D>(s.slip, i)), gap(s.gap[i]), c(s.c[i]),
-        p(dot(n, lambda)), p_hat(pressure_hat(p, c, gap, is_closed)),
-        t(lambda - p * n), t_hat(t - c * slip), size(norm(t_hat)),
+        c_t(s.along * c), p(dot(n, lambda)),
+        p_hat(pressure_hat(p, c, gap, is_closed)), t(lambda - p * n),
+        t_hat(t - c_t * slip), size(norm(t_hat)),
         bound(s.bound.empty() ? s.friction[i] * p_hat : s.bound[i])
   {
   }
@@ -98,7 +99,7 @@ struct Node
   }
 
   Vector<D> lambda, n, slip;
-  double gap, c, p, p_hat;
+  double gap, c, c_t, p, p_hat;
   Vector<D> t, t_hat;
   double size, bound;
 };
@@ -173,7 +174,7 @@ Terms<D> slip_terms(const Node<D>& a, double friction, double softening)
   r.value = a.t - a.bound * s;
   // See `pressure_hat`
   r.by_gap = a.gap > 0 ? Vector<D>{} : (a.c * friction) * s;
-  r.by_slip = scaled<D>(a.c, turn);
+  r.by_slip = scaled<D>(a.c_t, turn);
   if (const double length = norm(a.slip); softening != 0 and length > 0)
     r.by_slip = sum<D>(r.by_slip, outer<D>((-softening / length) * s, a.slip));
   const Mat<D> tangential = across<D>(a.n);

@@ -23,6 +23,8 @@ struct FrictionalState
   std::span<const double> bound = {};
   /// Its derivative by the length of the slip increment; zero if empty
   std::span<const double> bound_by_slip = {};
+  /// Complementarity factor along the surface, as a part of c
+  double along = 1;
 };
 
 /// @brief Complementarity function and its derivatives, forces: vectors and
@@ -38,7 +40,8 @@ struct FrictionalLaw
 
 /// @brief Status that Coulomb's law asks for.
 ///
-/// With p_hat of the normal law and t_hat = t - c ds: open where p_hat <= 0,
+/// With p_hat of the normal law and t_hat = t - c_t ds, c_t being c times
+/// `along`: open where p_hat <= 0,
 /// else stick where |t_hat| <= mu p_hat > 0, else slip (Alart & Curnier 1991;
 /// there p_hat = p - c g, see `pressure_hat`). A node
 /// whose trial friction opposes t sticks first, if t_hat is not too long; at a

@@ -26,9 +26,10 @@ struct Rubbing
   }
 
   int update() { return law.set_status(nodes, ranks); }
+  /// The factor along the surface is 8
   void set(std::size_t i, std::int8_t status, double p, double t, double slip)
   {
-    set_upright(nodes, i, p, t, 0, slip);
+    set_upright(nodes, i, p, t, 0, slip / law::Coulomb::along);
     nodes.status[i] = status;
   }
 
