@@ -5,7 +5,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from functools import cache
 from typing import Any
 
@@ -23,6 +22,7 @@ import meshes
 import story
 from meshes import Tag
 from published.drawing import curve, deformed, surface
+from published.grids import faces
 from published.record import Answer, Case, solve, steps
 from scenes.materials import of_bodies, st_venant_kirchhoff
 
@@ -49,14 +49,7 @@ def _plate() -> tuple[fem.Function, cx.Contact, list[int]]:
     )
     u = story.displacement(domain)
     V = u.function_space
-    marked = [
-        mesh.locate_entities_boundary(domain, 1, lambda x, i=i, at=at: np.isclose(x[i], at))
-        for i, at in ((1, 0.0), (1, side), (0, 0.0), (0, side))
-    ]
-    facets = np.concatenate(marked)
-    order = np.argsort(facets)
-    values = np.repeat(np.arange(1, 5, dtype=np.int32), [len(f) for f in marked])
-    tags = mesh.meshtags(domain, 1, facets[order], values[order])
+    tags = faces(domain, ((1, 0.0), (1, side), (0, 0.0), (0, side)))
     pressed = fem.Constant(domain, (0.0, 0.0))
     pushed = fem.Constant(domain, (0.0, 0.0))
     F = story.elasticity(u, 1.3e5, 0.2)
@@ -94,7 +87,7 @@ def _pad(share: float, springs: bool) -> tuple[fem.Function, cx.Contact, list[in
     domain = mesh.create_rectangle(
         MPI.COMM_WORLD, [[10, 7], [50, 27]], [8, 4], CellType.quadrilateral
     )
-    tags = _faces(domain, ((1, 7.0), (1, 27.0), (0, 10.0), (0, 50.0)))
+    tags = faces(domain, ((1, 7.0), (1, 27.0), (0, 10.0), (0, 50.0)))
     flat = domain.geometry.x[:, :2].copy()
     domain.geometry.x[:, :2] = flat[:, :1] * along + flat[:, 1:] * up
     u = story.displacement(domain)
@@ -118,18 +111,6 @@ def _pad(share: float, springs: bool) -> tuple[fem.Function, cx.Contact, list[in
     return u, contact, iterations, along
 
 
-def _faces(domain: mesh.Mesh, places: Sequence[tuple[int, float]]) -> mesh.MeshTags:
-    """Tags of faces across the axes, 1, 2, ... in the order of the places."""
-    marked = [
-        mesh.locate_entities_boundary(domain, 1, lambda x, i=i, at=at: np.isclose(x[i], at))
-        for i, at in places
-    ]
-    facets = np.concatenate(marked)
-    order = np.argsort(facets)
-    values = np.repeat(np.arange(1, len(marked) + 1, dtype=np.int32), [len(f) for f in marked])
-    return mesh.meshtags(domain, 1, facets[order], values[order])
-
-
 def ssnv503_sticks() -> Answer:
     """A free pad that friction alone holds: its force along the plane."""
     u, contact, iterations, along = _pad(0.99, False)
@@ -144,8 +125,12 @@ def ssnv503_slides() -> Answer:
 
 @cache
 def _hueeber(on_upper: bool) -> tuple[fem.Function, list[int]]:
-    """Two squares of 10 mm between rigid walls; both sides of the lower one, or one side of each,
-    are pulled down by 1 MPa and pressed in by 0.1 MPa."""
+    """Two squares of 10 mm between rigid walls.
+
+    Both sides of the lower square, or one side of each, are pulled down by 1 MPa and pressed in by
+    0.1 MPa. In the first test the upper wall goes down by 0.5 um. CalculiX loads each node by the
+    same force: the upper square, of 70 cells and not 60, has 70/60 of the traction.
+    """
     data = meshes.blocks(
         CellType.quadrilateral, (70, 70), (60, 60), size_upper=(10, 10), size_lower=(10, 10)
     )
@@ -153,10 +138,12 @@ def _hueeber(on_upper: bool) -> tuple[fem.Function, list[int]]:
     u = story.displacement(data.mesh)
     young, nu = of_bodies(data, 20e3, 15e3), of_bodies(data, 0.4, 0.2)
     F = story.elasticity(u, young, nu)
-    left = Tag.UPPER_X0 if on_upper else Tag.LOWER_X0
-    F += story.traction(u, tags, left, fem.Constant(data.mesh, (0.1, -1.0)))
+    left, share = (Tag.UPPER_X0, 70 / 60) if on_upper else (Tag.LOWER_X0, 1.0)
+    F += story.traction(u, tags, left, fem.Constant(data.mesh, (0.1 * share, -share)))
     F += story.traction(u, tags, Tag.LOWER_X1, fem.Constant(data.mesh, (-0.1, -1.0)))
-    bcs = [story.fix(u, tags, i, 0.0, Tag.UPPER_TOP, Tag.LOWER_BOTTOM) for i in range(2)]
+    bcs = [story.fix(u, tags, i, 0.0, Tag.LOWER_BOTTOM) for i in range(2)]
+    bcs.append(story.fix(u, tags, 0, 0.0, Tag.UPPER_TOP))
+    bcs.append(story.fix(u, tags, 1, 0.0 if on_upper else -5e-4, Tag.UPPER_TOP))
     contact = cx.Contact(cx.Surface(tags, Tag.UPPER_CONTACT), cx.Surface(tags, Tag.LOWER_CONTACT))
     problem = cx.ContactProblem(F, u, contacts=[contact], bcs=bcs, petsc_options_prefix="squares_")
     return u, solve(problem)

@@ -315,8 +315,8 @@ def mindlin_3d() -> Answer:
     """A rigid sphere, pressed without friction, then pushed sideways with it: how far it goes."""
     radius, friction, depth = 100.0, 0.2, 0.0064
     a = math.sqrt(radius * depth)
-    half = lines(1.25 * a, a / 8, 100 * a, 1.8)
-    grid = [np.concatenate([-half[:0:-1], half]), half, lines(a / 2, a / 8, 100 * a, 1.8)]
+    half = lines(1.25 * a, a / 8, 80 * a, 2.0)
+    grid = [np.concatenate([-half[:0:-1], half]), half, lines(a / 2, a / 8, 80 * a, 2.0)]
     scene = HalfSpace(
         grid, lambda place: cx.Sphere(place, radius), start=radius, symmetric=(1,), rubbed=True
     )
@@ -326,8 +326,9 @@ def mindlin_3d() -> Answer:
     scene.friction.value = friction
 
     def full() -> float:
-        """Way after which all of the contact slips."""
-        return 3 * friction * 2 * scene.force * (2 - NU) / (16 * a * shear)
+        """Way after which all of the contact slips, by the normal force."""
+        P = 2 * scene.force
+        return 3 * friction * P * (2 - NU) / (16 * np.cbrt(3 * P * radius / (4 * MODULUS)) * shear)
 
     way = 0.6 * full()
 
