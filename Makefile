@@ -42,8 +42,8 @@ endif
 PYTEST := exec $(RUN) $(BIN)/python -m pytest
 
 .DELETE_ON_ERROR:
-.PHONY: all demo test test-cpp test-fast verify stress leaks fuzz sanitize bench bench-core wheel \
-	distribution lint format clean help
+.PHONY: all demo test test-cpp test-fast verify gallery stress leaks fuzz sanitize bench bench-core \
+	wheel distribution lint format clean help
 
 all: $(INSTALLED)
 
@@ -52,6 +52,7 @@ help:
 	@echo "make demo     solve the Hertz sphere and the face slabs of demos/"
 	@echo "make test     lint, C++ tests, fast Python tests: less than five minutes"
 	@echo "make verify   all other tests that are not long"
+	@echo "make gallery  published benchmarks: docs/gallery.md and its pictures"
 	@echo "make stress   thousands of hard scenes: a map of what comes of them; 16 ranks"
 	@echo "make leaks    memory over 1,000 steps and 1,000 problems"
 	@echo "make bench    all benchmarks, up to a million displacements"
@@ -111,8 +112,12 @@ test-fast: $(INSTALLED)
 	$(PYTEST) tests/fast/parallel
 
 verify: $(INSTALLED)
-	$(PYTEST) -n $(JOBS) tests/verify --ignore tests/verify/parallel
+	$(PYTEST) -n $(JOBS) tests/verify tests/published --ignore tests/verify/parallel
 	$(PYTEST) tests/verify/parallel
+
+# Published benchmarks, those too that take more than 20 s: docs/gallery.md and pictures.
+gallery: $(INSTALLED)
+	$(RUN) $(BIN)/python tests/published/gallery.py
 
 # Tables and a picture come to build/stress; fails where a scene is wrong.
 stress: $(INSTALLED)

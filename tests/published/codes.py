@@ -6,7 +6,6 @@ from __future__ import annotations
 
 import math
 from functools import cache
-from typing import Any
 
 from mpi4py import MPI
 
@@ -21,7 +20,7 @@ from dolfinx.mesh import CellType
 import meshes
 import story
 from meshes import Tag
-from published.drawing import curve, deformed, surface
+from published.drawing import deformed, surface
 from published.grids import faces
 from published.record import Answer, Case, solve, steps
 from scenes.materials import of_bodies, st_venant_kirchhoff
@@ -167,7 +166,7 @@ def hueeber(on_upper: bool, x: float, lower: bool, component: int) -> Answer:
 
 
 def four_c() -> Answer:
-    """4C: a cube of one cell, turned by 45 degrees, on a block of 10 x 10 x 4; it goes down 0.14."""
+    """A cube of one cell, turned by 45 degrees, on a block of 10 x 10 x 4; it goes down by 0.14."""
     data = meshes.blocks(
         CellType.hexahedron,
         (1, 1, 1),

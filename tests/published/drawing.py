@@ -70,6 +70,8 @@ def curve(
             line = np.linspace(places[0], places[-1], 400)
             axes.plot(line, exact(line), color=INK, label="published")
         axes.plot(places, values, "o", color="#d1372c", markersize=2, label="contactx")
+        if values.min() >= 0:
+            axes.set_ylim(bottom=0)
         axes.set_xlabel(labels[0])
         axes.set_ylabel(labels[1])
         axes.legend(frameon=False)

@@ -10,6 +10,7 @@ from types import ModuleType
 from mpi4py import MPI
 
 import numpy as np
+import press_fit
 from scipy.optimize import brentq
 
 import contactx as cx
@@ -17,7 +18,6 @@ import ufl
 from dolfinx import fem
 from dolfinx.io.gmsh import MeshData
 
-import press_fit
 import story
 from meshes import Tag
 from meshes.build import build_mesh

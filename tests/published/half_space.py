@@ -15,6 +15,7 @@ from typing import Any
 
 from mpi4py import MPI
 
+import hertz_axisymmetric
 import numpy as np
 from scipy.optimize import brentq
 from scipy.special import ellipe, ellipk
@@ -23,7 +24,6 @@ import contactx as cx
 import ufl
 from dolfinx import fem, mesh
 
-import hertz_axisymmetric
 import story
 from meshes.grids import graded
 from published.drawing import curve, surface
@@ -86,9 +86,7 @@ class HalfSpace:
         n = [len(axis) - 1 for axis in grid]
         ends = [[0.0] * gdim, [float(count) for count in n]]
         if gdim == 2:
-            domain = mesh.create_rectangle(
-                MPI.COMM_WORLD, ends, n, mesh.CellType.quadrilateral
-            )
+            domain = mesh.create_rectangle(MPI.COMM_WORLD, ends, n, mesh.CellType.quadrilateral)
         else:
             domain = mesh.create_box(MPI.COMM_WORLD, ends, n, mesh.CellType.hexahedron)
         X = domain.geometry.x
@@ -231,9 +229,7 @@ def galin() -> Answer:
 
 def sadowsky() -> Answer:
     depth = 0.01
-    scene = HalfSpace(
-        _section(1.0, 0.02), lambda _: cx.Plane((0.0, -depth), (0.0, -1.0)), part=1.0
-    )
+    scene = HalfSpace(_section(1.0, 0.02), lambda _: cx.Plane((0.0, -depth), (0.0, -1.0)), part=1.0)
     iterations = solve(scene.problem)
     P, p = 2 * scene.force, scene.pressure
 

@@ -6,11 +6,11 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
-
 import cattaneo_mindlin
 import hertz_axisymmetric
 import hertz_cylinder
+import numpy as np
+
 import reference
 import story
 from published.drawing import curve
@@ -35,9 +35,7 @@ def point() -> Answer:
     problem, contact = hertz_axisymmetric.create(0.003)
     iterations = solve(problem)
     E, nu = hertz_axisymmetric.E, hertz_axisymmetric.NU
-    exact = reference.HertzSphere(
-        contact.force[1], 1.0, reference.contact_modulus(E, nu, E, nu)
-    )
+    exact = reference.HertzSphere(contact.force[1], 1.0, reference.contact_modulus(E, nu, E, nu))
     r = problem.u.function_space.tabulate_dof_coordinates()[contact.slave_nodes, 0]
     p = story.nodal_pressure(contact)
     drawn = curve(r, p, ("r / R", "pressure / E"), exact.pressure, 0.1)

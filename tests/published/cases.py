@@ -1,0 +1,18 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""All cases of the gallery, in the order of its page."""
+
+from __future__ import annotations
+
+from published import codes, fitted, half_space, hertz, nafems, slender, stacked
+from published.record import Case
+
+CASES: list[Case] = [
+    *nafems.CASES,
+    *fitted.CASES,
+    *codes.CASES,
+    *hertz.CASES,
+    *half_space.CASES,
+    *slender.CASES,
+    *stacked.CASES,
+]
