@@ -257,6 +257,28 @@ def wedge() -> Answer:
     return Answer(math.sqrt(6 * scene.moment()), iterations, drawn, a)
 
 
+def rounded() -> Answer:
+    """A flat punch of half-width 1/2 with edges of radius 100: how far it touches, by its force.
+
+    4 P R/(a^2 E*) = pi - 2 phi - sin(2 phi) with sin(phi) = b/a.
+    """
+    flat, radius, depth, h = 0.5, 100.0, 0.012, 0.02
+    scene = HalfSpace(
+        _section(1.4, h),
+        shaped(lambda x: ufl.max_value(x[0] - flat, 0) ** 2 / (2 * radius), depth),
+    )
+    iterations = solve(scene.problem)
+    P, x, p = 2 * scene.force, scene.x[:, 0], scene.pressure
+
+    def excess(a: float) -> float:
+        phi = math.asin(flat / a)
+        return math.pi - 2 * phi - math.sin(2 * phi) - 4 * P * radius / (a**2 * MODULUS)
+
+    drawn = curve(x, p, ("x", "pressure / E"), None, 1.4)
+    touched = float(x[p > 0].max()) + h / 2
+    return Answer(touched, iterations, drawn, brentq(excess, flat, 10))
+
+
 def westergaard() -> Answer:
     """A wavy rigid surface of wave length 2 on half of a wave; p(0) = 2 sqrt(mean p*)."""
     amplitude, depth = 0.005, 0.012
@@ -311,8 +333,8 @@ def mindlin_3d() -> Answer:
     """A rigid sphere, pressed without friction, then pushed sideways with it: how far it goes."""
     radius, friction, depth = 100.0, 0.2, 0.0064
     a = math.sqrt(radius * depth)
-    half = lines(1.25 * a, a / 8, 80 * a, 2.0)
-    grid = [np.concatenate([-half[:0:-1], half]), half, lines(a / 2, a / 8, 80 * a, 2.0)]
+    half = lines(1.2 * a, a / 10, 80 * a, 2.5)
+    grid = [np.concatenate([-half[:0:-1], half]), half, lines(0.4 * a, a / 10, 80 * a, 2.5)]
     scene = HalfSpace(
         grid, lambda place: cx.Sphere(place, radius), start=radius, symmetric=(1,), rubbed=True
     )
@@ -380,6 +402,13 @@ CASES = [
         f"{JOHNSON}, section 5.2",
         "half-width by force, P/(E* tan)",
         wedge,
+    ),
+    Case(
+        "rounded_punch",
+        "Flat punch with rounded edges on a half-plane",
+        "M. Ciavarella, D. A. Hills and G. Monno, J. Mech. Eng. Sci. 212, 1998, 319-327",
+        "half-width by force",
+        rounded,
     ),
     Case(
         "westergaard",
