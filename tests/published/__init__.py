@@ -11,5 +11,6 @@ all and writes docs/gallery.md, with a picture of each; ``test_gallery.py`` chec
 - ``slender``: beams, belts and layers.
 - ``stacked``: round bodies between plates.
 - ``nafems``: the contact benchmarks of NAFEMS R0094.
+- ``sheet``: the third of them, a plastic sheet.
 - ``codes``: tests that other codes ship.
 """

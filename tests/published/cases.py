@@ -4,11 +4,12 @@
 
 from __future__ import annotations
 
-from published import codes, fitted, half_space, hertz, nafems, slender, stacked
+from published import codes, fitted, half_space, hertz, nafems, sheet, slender, stacked
 from published.record import Case
 
 CASES: list[Case] = [
     *nafems.CASES,
+    *sheet.CASES,
     *fitted.CASES,
     *codes.CASES,
     *hertz.CASES,

@@ -26,69 +26,64 @@ from published.record import Answer, Case, solve
 from scenes.materials import st_venant_kirchhoff
 
 
-def pin_in_plate(h: float, far: float, *, order: int = 1) -> MeshData:
+def _pin(gmsh: ModuleType, radius: float) -> int:
+    """Draw and tag the upper half of a pin, and return its surface."""
+    occ, add = gmsh.model.occ, gmsh.model.addPhysicalGroup
+    middle = occ.addPoint(0, 0, 0)
+    p = [occ.addPoint(radius * x, radius * y, 0) for x, y in ((1, 0), (0, 1), (-1, 0))]
+    around = [occ.addCircleArc(p[0], middle, p[1]), occ.addCircleArc(p[1], middle, p[2])]
+    across = [occ.addLine(p[2], middle), occ.addLine(middle, p[0])]
+    pin = occ.addPlaneSurface([occ.addCurveLoop([*around, *across])])
+    occ.synchronize()
+    add(2, [pin], int(Tag.UPPER))
+    add(1, around, int(Tag.UPPER_CONTACT))
+    add(1, across, int(Tag.UPPER_Y0))
+    return int(pin)
+
+
+def _mesh(gmsh: ModuleType, radius: float, h: float, grow: float) -> None:
+    """Mesh with sizes that grow with the distance from the hole."""
+    size = gmsh.model.mesh.field.add("MathEval")
+    grown = f"{h} + {grow}*Abs(Sqrt(x*x + y*y) - {radius})"
+    gmsh.model.mesh.field.setString(size, "F", grown)
+    gmsh.model.mesh.field.setAsBackgroundMesh(size)
+    gmsh.model.mesh.generate(2)
+
+
+def pin_in_plate(h: float, far: float) -> MeshData:
     """Upper half of a pin of radius 1 and of a round plate with a hole that it just fills.
 
-    The load goes along x. Tags: the pin is the upper body, ``UPPER_Y0`` and ``LOWER_Y0`` are the
-    plane of symmetry, ``LOWER_BOTTOM`` is the rim.
+    The load goes along x. The pin is the upper body; ``UPPER_Y0`` and ``LOWER_Y0`` are the plane of
+    symmetry, ``LOWER_BOTTOM`` is the rim.
 
     Args:
         h: Size of cells at the hole.
         far: Radius of the plate.
-        order: Order of the cells.
     """
 
     def recipe(gmsh: ModuleType) -> None:
-        occ = gmsh.model.occ
-
-        def half(inner: float, outer: float) -> int:
-            centre = occ.addPoint(0, 0, 0)
-            arcs = []
-            ends = []
-            for radius in (inner, outer):
-                if radius == 0:
-                    continue
-                p = [
-                    occ.addPoint(radius * math.cos(t), radius * math.sin(t), 0)
-                    for t in (0, math.pi / 2, math.pi)
-                ]
-                arcs.append(
-                    [occ.addCircleArc(p[0], centre, p[1]), occ.addCircleArc(p[1], centre, p[2])]
-                )
-                ends.append((p[0], p[2]))
-            if inner == 0:
-                lines = [occ.addLine(ends[0][1], centre), occ.addLine(centre, ends[0][0])]
-                loop = [*arcs[0], *lines]
-            else:
-                right = occ.addLine(ends[0][0], ends[1][0])
-                left = occ.addLine(ends[1][1], ends[0][1])
-                loop = [right, *arcs[1], left, *arcs[0]]
-            return int(occ.addPlaneSurface([occ.addCurveLoop(loop)]))
-
-        pin, plate = half(0, 1.0), half(1.0, far)
+        occ, add = gmsh.model.occ, gmsh.model.addPhysicalGroup
+        centre = occ.addPoint(0, 0, 0)
+        hole, rim = (
+            [occ.addPoint(r * x, r * y, 0) for x, y in ((1, 0), (0, 1), (-1, 0))]
+            for r in (1.0, far)
+        )
+        loop = [
+            occ.addLine(hole[0], rim[0]),
+            occ.addCircleArc(rim[0], centre, rim[1]),
+            occ.addCircleArc(rim[1], centre, rim[2]),
+            occ.addLine(rim[2], hole[2]),
+            occ.addCircleArc(hole[2], centre, hole[1]),
+            occ.addCircleArc(hole[1], centre, hole[0]),
+        ]
+        plate = occ.addPlaneSurface([occ.addCurveLoop(loop)])
         occ.synchronize()
-        names = {
-            Tag.UPPER: (Tag.UPPER_CONTACT, Tag.UPPER_Y0),
-            Tag.LOWER: (Tag.LOWER_CONTACT, Tag.LOWER_Y0),
-        }
-        for body, tag in ((pin, Tag.UPPER), (plate, Tag.LOWER)):
-            gmsh.model.addPhysicalGroup(2, [body], int(tag))
-            contact, axis = names[tag]
-            faces: dict[Tag, list[int]] = {}
-            for _, edge in gmsh.model.getBoundary([(2, body)], oriented=False):
-                _, _, _, x1, y1, _ = gmsh.model.getBoundingBox(1, edge)
-                name = contact if max(x1, y1) < 1.001 else Tag.LOWER_BOTTOM
-                if y1 < 1e-3:
-                    name = axis
-                faces.setdefault(name, []).append(edge)
-            for name, edges in faces.items():
-                gmsh.model.addPhysicalGroup(1, edges, int(name))
-        size = gmsh.model.mesh.field.add("MathEval")
-        gmsh.model.mesh.field.setString(size, "F", f"{h} + 0.3*Abs(Sqrt(x*x + y*y) - 1)")
-        gmsh.model.mesh.field.setAsBackgroundMesh(size)
-        gmsh.model.mesh.generate(2)
-        if order > 1:
-            gmsh.model.mesh.setOrder(order)
+        add(2, [plate], int(Tag.LOWER))
+        add(1, loop[4:], int(Tag.LOWER_CONTACT))
+        add(1, [loop[0], loop[3]], int(Tag.LOWER_Y0))
+        add(1, loop[1:3], int(Tag.LOWER_BOTTOM))
+        _pin(gmsh, 1.0)
+        _mesh(gmsh, 1.0, h, 0.3)
 
     return build_mesh("pin", 2, recipe, MPI.COMM_WORLD)
 
@@ -146,9 +141,9 @@ def persson() -> Answer:
     return Answer(end, iterations, drawn, math.degrees(2 * math.atan(b)))
 
 
-def loaded_pin(h: float = 0.04, *, load: float = 10e3, degree: int = 2) -> Answer:
+def loaded_pin(h: float = 0.04) -> Answer:
     """NAFEMS' fourth problem as Code_Aster has it: in plane strain, upper half."""
-    radius, length, outer = 50.0, 200.0, 100.0
+    radius, length, outer, load = 50.0, 200.0, 100.0, 10e3
 
     def recipe(gmsh: ModuleType) -> None:
         occ = gmsh.model.occ
@@ -166,29 +161,18 @@ def loaded_pin(h: float = 0.04, *, load: float = 10e3, degree: int = 2) -> Answe
             occ.addCircleArc(hole[1], centre, hole[0]),
         ]
         sheet = occ.addPlaneSurface([occ.addCurveLoop(loop)])
-        p = [occ.addPoint(radius * x, radius * y, 0) for x, y in ((1, 0), (0, 1), (-1, 0))]
-        middle = occ.addPoint(0, 0, 0)
-        around = [occ.addCircleArc(p[0], middle, p[1]), occ.addCircleArc(p[1], middle, p[2])]
-        across = [occ.addLine(p[2], middle), occ.addLine(middle, p[0])]
-        pin = occ.addPlaneSurface([occ.addCurveLoop([*around, *across])])
         occ.synchronize()
         add = gmsh.model.addPhysicalGroup
-        add(2, [pin], int(Tag.UPPER))
         add(2, [sheet], int(Tag.LOWER))
-        add(1, around, int(Tag.UPPER_CONTACT))
-        add(1, across, int(Tag.UPPER_Y0))
         add(1, loop[5:], int(Tag.LOWER_CONTACT))
         add(1, [loop[0], loop[4]], int(Tag.LOWER_Y0))
         add(1, [loop[3]], int(Tag.LOWER_BOTTOM))
-        size = gmsh.model.mesh.field.add("MathEval")
-        grown = f"{h * radius} + 0.2*Abs(Sqrt(x*x + y*y) - {radius})"
-        gmsh.model.mesh.field.setString(size, "F", grown)
-        gmsh.model.mesh.field.setAsBackgroundMesh(size)
-        gmsh.model.mesh.generate(2)
+        _pin(gmsh, radius)
+        _mesh(gmsh, radius, h * radius, 0.2)
 
     data = build_mesh("loaded_pin", 2, recipe, MPI.COMM_WORLD)
     mesh, tags = data.mesh, data.facet_tags
-    u = story.displacement(mesh, degree)
+    u = story.displacement(mesh, 2)
     young = fem.Function(fem.functionspace(mesh, ("DG", 0)))
     for tag, value in ((Tag.UPPER, 210e3), (Tag.LOWER, 70e3)):
         young.x.array[data.cell_tags.find(tag)] = value
@@ -230,5 +214,7 @@ CASES = [
         "displacement of the hole's far end, mm",
         loaded_pin,
         published=0.73617,
+        note="Code_Aster loads the half by 10 kN per mm. Its other model, ssnp156a, gives 0.71799 "
+        "for the same problem.",
     ),
 ]
