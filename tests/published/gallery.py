@@ -43,8 +43,8 @@ _MISSING = """
 ## What is missing
 
 - **NAFEMS R0094 problem 3 with friction**: the sheet is bent, to 20.5 degrees for the published
-  21.84, but does not come loose by default options: the first step back, in which all slip turns,
-  does not converge however short it is.
+  21.84, but does not come loose by default options: after 0.06 of the 28.5 mm back Newton's method
+  finds no step that leads on.
 - **NAFEMS R0094 problem 4 in space**: curves alone are public; Code_Aster's plane model is above.
 - **NAFEMS R0094 problem 5**, a steel roller on rubber: no number of it was found in public.
 - **Ironing** (Puso and Laursen 2004): forces are public as curves; Kratos checks displacements of
