@@ -70,7 +70,7 @@ def lifted() -> Answer:
     x = V.tabulate_dof_coordinates()
     tip = np.argmin(np.linalg.norm(x - [length, thick / 2, 0], axis=1))
     height = weight * lift**4 / (24 * young * thick**3 / 12)
-    return Answer(float(u.x.array[2 * tip + 1]), iterations, deformed(u), height)
+    return Answer(float(u.x.array[2 * tip + 1]), iterations, deformed(u, scale=100), height)
 
 
 def receding_half_width() -> float:
