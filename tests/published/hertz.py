@@ -32,7 +32,7 @@ def line() -> Answer:
 
 
 def point() -> Answer:
-    problem, contact = hertz_axisymmetric.create(0.003)
+    problem, contact = hertz_axisymmetric.create(0.003, method="node-to-surface")
     iterations = solve(problem)
     E, nu = hertz_axisymmetric.E, hertz_axisymmetric.NU
     exact = reference.HertzSphere(contact.force[1], 1.0, reference.contact_modulus(E, nu, E, nu))
