@@ -33,8 +33,8 @@ MISSES = 3
 _INTRODUCTION = """# Published benchmarks
 
 Benchmarks of contact that others have published, each with the value, where it stands, and what
-contactx gives, within 3 % and by its default options unless the notes say otherwise. `make gallery` runs
-them all and writes this page; `make verify` checks those that take less than 20 s. The scenes are
+contactx gives, within 3 % and by its default options unless the notes say otherwise.
+`make gallery` runs them all and writes this page; `make verify` checks those that take less than 20 s. The scenes are
 in `tests/published`. A formula's value is that for the force or the depth that was computed.
 Iterations are linear solves.
 """
@@ -47,8 +47,8 @@ _MISSING = """
   finds no step that leads on.
 - **NAFEMS R0094 problem 4 in space**: curves alone are public; Code_Aster's plane model is above.
 - **NAFEMS R0094 problem 5**, a steel roller on rubber: no number of it was found in public.
-- **A cantilever bent over a round guide** (Timoshenko): tried in one step on 160 quadratic cells, it
-  does not converge; between clamp and lift-off its pressure is zero in theory.
+- **A cantilever bent over a round guide** (Timoshenko): tried in one step on 160 quadratic cells,
+  it does not converge; between clamp and lift-off its pressure is zero in theory.
 - **Ironing** (Puso and Laursen 2004): forces are public as curves; Kratos checks displacements of
   its own variant against a file that is not in its sources.
 """
