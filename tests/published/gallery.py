@@ -34,9 +34,9 @@ _INTRODUCTION = """# Published benchmarks
 
 Benchmarks of contact that others have published, each with the value, where it stands, and what
 contactx gives, within 3 % and by its default options unless the notes say otherwise.
-`make gallery` runs them all and writes this page; `make verify` checks those that take less than 20 s. The scenes are
-in `tests/published`. A formula's value is that for the force or the depth that was computed.
-Iterations are linear solves.
+`make gallery` runs them all and writes this page; `make verify` checks those that take less than
+20 s. The scenes are in `tests/published`. A formula's value is that for the force or the depth that
+was computed. Iterations are linear solves.
 """
 
 _MISSING = """

@@ -436,7 +436,8 @@ CASES = [
         "second moment of the shear by the forces",
         mindlin_3d,
         note="What was compared first, the tangential force by the way of the sphere, is 3.1 % "
-        "too large with these linear cells of an eighth of the contact radius, as the normal force by depth is by 2.4 %.",
+        "too large with these linear cells of an eighth of the contact radius, as the "
+        "normal force by depth is by 2.4 %.",
         slow=True,
     ),
 ]
