@@ -54,6 +54,7 @@ void search(py::module_& m);
 void node_state(py::module_& m);
 void deformable(py::module_& m);
 void law(py::module_& m);
+void dynamics(py::module_& m);
 void newton(py::module_& m);
 void kernel(py::module_& m);
 void audit(py::module_& m);

@@ -4,8 +4,8 @@
 
 A ``Contact`` couples a tagged ``Surface`` with another one or with a rigid obstacle: ``Plane``,
 ``Sphere``, ``Cylinder`` or ``LevelSet``. A ``ContactProblem`` solves the bodies with their
-contacts; ``LoadSteps`` solves it in steps and cuts back where one fails. ``VTKOutput`` writes the
-results. Import contactx before dolfinx.
+contacts, a ``ContactDynamics`` bodies with inertia; ``LoadSteps`` solves them in steps and cuts
+back where one fails. ``VTKOutput`` writes the results. Import contactx before dolfinx.
 """
 
 # First, because it loads the wheels' MPI and PETSc before DOLFINx
@@ -14,6 +14,7 @@ from contactx import compat as compat  # isort: skip
 from contactx.assembler import ContactAssembler
 from contactx.conductance import Conductance
 from contactx.contact import Contact
+from contactx.dynamics import ContactDynamics
 from contactx.errors import ConvergenceError
 from contactx.friction import FrictionLaw
 from contactx.obstacles import Cylinder, LevelSet, Plane, Sphere
@@ -29,6 +30,7 @@ __all__ = [
     "Conductance",
     "Contact",
     "ContactAssembler",
+    "ContactDynamics",
     "ContactProblem",
     "ConvergenceError",
     "Cylinder",

@@ -180,6 +180,7 @@ class ContactProblem:
                     interrupts.wait()
                 if not self.report.converged:
                     raise ConvergenceError(self.report.reason, self.report)
+                self._converged()
                 assembler.commit()
                 self._warn_of_options()
                 interrupts.come()
@@ -196,6 +197,17 @@ class ContactProblem:
                     error = ConvergenceError(self.report.reason, self.report)
                 raise error from error.__cause__
         return self.u
+
+    def set_interval(self, start: float, end: float) -> None:
+        """Take the t that the next step goes over; LoadSteps calls this.
+
+        Args:
+            start: t at its start.
+            end: t at its end.
+        """
+
+    def _converged(self) -> None:
+        """Called once a step has converged, before it is accepted; on all ranks."""
 
     def _run(self, report: Report) -> None:
         """Run the Newton loop once.

@@ -10,6 +10,7 @@ import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
@@ -17,6 +18,9 @@ from rich.console import Console
 from rich.table import Table
 
 from contactx.audit.findings import Findings
+
+if TYPE_CHECKING:
+    from contactx.dynamics.balance import Balance
 
 
 @dataclass(frozen=True)
@@ -83,6 +87,7 @@ class Report:
         skipped: What iterations did not do again because it still served, and how often: assembly
             of the bulk's Jacobian, hierarchies, factorisations, searches.
         audit: What the audit of the converged iterate found.
+        balance: Energy and momentum of a time step; None of bodies without inertia.
         unread: PETSc options of the user that nothing has read: misspelt, perhaps.
         times: Wall seconds of each part.
     """
@@ -116,6 +121,7 @@ class Report:
     recovery: list[float] = field(default_factory=list)
     skipped: dict[str, int] = field(default_factory=dict)
     audit: Findings = field(default_factory=Findings)
+    balance: Balance | None = None
     unread: list[str] = field(default_factory=list)
     times: dict[str, float] = field(default_factory=dict)
 
@@ -201,6 +207,8 @@ class Report:
             lines.append(
                 f"slip {self.slip:.6g} in this step, dissipation {self.dissipation:.6g} in all"
             )
+        if self.balance is not None:
+            lines += self.balance.lines()
         if self.force:
             lines.append(f"imbalance of contact forces: {np.linalg.norm(self.imbalance):.1e}")
         skips = ", ".join(f"{name} {count}x" for name, count in self.skipped.items() if count)

@@ -124,6 +124,11 @@ public:
   /// @brief Relative movement of each slave node and its master.
   virtual Weights weights() const = 0;
 
+  /// @brief How far a rigid obstacle has moved in this step, before each slave
+  /// node: along its normal, and with slip along its surface (shape=(n, gdim));
+  /// empty for none.
+  virtual std::vector<double> movement() const { return {}; }
+
   /// @brief Area that each slave node's multiplier acts on (shape=(n)).
   /// @param[in] whole Its part of the slave surface in front of the master
   /// (shape=(n)).

@@ -157,16 +157,40 @@ std::vector<double> ObstacleMaster::carried() const
   return _obstacle->carry(_start, _placed, _obstacle->placement(_gdim));
 }
 
+std::vector<double> ObstacleMaster::movement() const
+{
+  const std::size_t g = _gdim;
+  const std::vector<double> gap = _obstacle->evaluate(_x0, _gdim).gap;
+  const std::vector<double> to
+      = _measures_slip
+            ? _obstacle->carry(_x0, _placed, _obstacle->placement(_gdim))
+            : _x0;
+  std::vector<double> movement(size() * g);
+  for (std::size_t i = 0; i < size(); ++i)
+  {
+    const double* normal = &_data[i * kernel::rigid_size + kernel::rigid_normal];
+    double height = 0;
+    for (std::size_t k = 0; k < g; ++k)
+      height += normal[k] * (to[g * i + k] - _x0[g * i + k]);
+    // The obstacle comes nearer by what the gap of a place falls
+    for (std::size_t k = 0; k < g; ++k)
+      movement[g * i + k] = to[g * i + k] - _x0[g * i + k]
+                            + (_gap0[i] - gap[i] - height) * normal[k];
+  }
+  return movement;
+}
+
 void ObstacleMaster::accept(std::span<const double> x)
 {
-  if (not _measures_slip)
-    return;
   std::vector<double> x0 = at_slaves(x);
-  obstacle::Placement placed = _obstacle->placement(_gdim);
   std::vector<double> gap0 = _obstacle->evaluate(x0, _gdim).gap;
-  _parameters = _obstacle->parameters(_gdim);
+  if (_measures_slip)
+  {
+    obstacle::Placement placed = _obstacle->placement(_gdim);
+    _parameters = _obstacle->parameters(_gdim);
+    _placed = std::move(placed);
+  }
   _x0 = std::move(x0);
-  _placed = std::move(placed);
   _gap0 = std::move(gap0);
 }
 
@@ -316,13 +340,13 @@ std::vector<Saved> ObstacleMaster::save() const
   using enum RowKind;
   std::vector<Saved> saved{{"paired", slave, 0, _paired},
                            {"data", slave, kernel::rigid_size, _data},
-                           {"at", slave, _gdim, _at}};
+                           {"at", slave, _gdim, _at},
+                           {"x0", slave, _gdim, _x0},
+                           {"gap0", slave, 0, _gap0}};
   if (not _measures_slip)
     return saved;
   saved.push_back({"slip_data", slave, kernel::rigid_slip_size, _slip});
   saved.push_back({"start", slave, _gdim, _start});
-  saved.push_back({"x0", slave, _gdim, _x0});
-  saved.push_back({"gap0", slave, 0, _gap0});
   saved.push_back({"point", global, 0, _placed.point});
   if (not _placed.direction.empty())
     saved.push_back({"direction", global, 0, _placed.direction});
@@ -342,12 +366,12 @@ void ObstacleMaster::load(const std::vector<Saved>& saved)
   check::rows(paired.size(), n, 1, "paired", "slave node");
   auto data = values_of_size(saved, "data", n, kernel::rigid_size);
   auto at = values_of_size(saved, "at", n, _gdim);
+  auto x0 = values_of_size(saved, "x0", n, _gdim);
+  auto gap0 = values_of_size(saved, "gap0", n, 1);
   if (_measures_slip)
   {
     auto slip = values_of_size(saved, "slip_data", n, kernel::rigid_slip_size);
     auto start = values_of_size(saved, "start", n, _gdim);
-    auto x0 = values_of_size(saved, "x0", n, _gdim);
-    auto gap0 = values_of_size(saved, "gap0", n, 1);
     obstacle::Placement placed{values_of_size(saved, "point", 1, _gdim)};
     if (has(saved, "direction"))
       placed.direction = values_of_size(saved, "direction", 1, _gdim);
@@ -360,10 +384,10 @@ void ObstacleMaster::load(const std::vector<Saved>& saved)
                       : std::vector<double>{};
     _slip = std::move(slip);
     _start = std::move(start);
-    _x0 = std::move(x0);
-    _gap0 = std::move(gap0);
     _placed = std::move(placed);
   }
+  _x0 = std::move(x0);
+  _gap0 = std::move(gap0);
   _paired = paired;
   _data = std::move(data);
   _at = std::move(at);

@@ -75,6 +75,10 @@ public:
          std::span<const double> offset) override;
   std::vector<double> normals() const override;
   Weights weights() const override;
+
+  /// @copydoc Master::movement; of an obstacle that does not tell how it moves
+  /// the part along its normal is known from the gaps
+  std::vector<double> movement() const override;
   std::vector<double> compliance(std::span<const double> nodal) const override;
   Mobility mobility(std::span<const std::int8_t> free) const override;
   std::vector<Saved> save() const override;

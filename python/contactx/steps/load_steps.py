@@ -201,6 +201,7 @@ class LoadSteps:
                         show(self.t, text)
                         self._update(plan.next)
                     updated = True
+                    self._problem.set_interval(self.t, plan.next)
                     self._problem.solve()
                     interrupts.wait()
                     report = self._problem.report
