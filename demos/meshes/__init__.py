@@ -10,6 +10,7 @@ from meshes.dam_face import DamFace, dam_face
 from meshes.face_slab import FACE_SLABS, FaceSlab, face_slab
 from meshes.half_cylinders import half_cylinders
 from meshes.half_spheres import half_spheres
+from meshes.hoop import hoop
 from meshes.rings import rings
 from meshes.single import single
 from meshes.sphere import hertz_sphere
@@ -33,6 +34,7 @@ __all__ = [
     "hertz_cylinder",
     "hertz_grid",
     "hertz_sphere",
+    "hoop",
     "rings",
     "single",
     "stack",

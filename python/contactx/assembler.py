@@ -187,6 +187,8 @@ class ContactAssembler:
         self._found: Settled | None = None
         self._solves = self._skipped = 0
         self._has_modes = False
+        # Whether bodies may leave one another for good: no warning then
+        self.may_fly = False
         self._A: PETSc.Mat | None = None
         self._condensed: Condensed | None = None
         # What must be made anew where the Dirichlet conditions are others
@@ -560,7 +562,7 @@ class ContactAssembler:
         complete(report, self.contacts, self.halo)
         hidden = self.loop.active_set.hidden_gaps
         for name, interface, gap in zip(self._names, self.interfaces, hidden, strict=True):
-            self.say(warning_of(name, interface, gap, self.halo))
+            self.say(warning_of(name, interface, gap, self.halo, may_fly=self.may_fly))
         for text in report.audit.warnings:
             self.say(text)
         self._has_begun = False

@@ -51,7 +51,9 @@ def complete(report: Report, contacts: Sequence[Contact], halo: Halo) -> None:
     report.imbalance = np.sum([contact.fields.imbalance for contact in contacts], axis=0)
 
 
-def warning_of(name: str, interface: Interface, hidden: float, halo: Halo) -> str:
+def warning_of(
+    name: str, interface: Interface, hidden: float, halo: Halo, *, may_fly: bool = False
+) -> str:
     """What a converged solution may hide in a contact, such as a gap; empty if nothing.
 
     All ranks must take part.
@@ -61,9 +63,10 @@ def warning_of(name: str, interface: Interface, hidden: float, halo: Halo) -> st
         interface: Its discrete side.
         hidden: Smallest gap that frozen pairs hide.
         halo: Nodes of this rank.
+        may_fly: Whether it is nothing unusual that no slave node is in reach of the master.
     """
     comm, master = halo.comm, interface.master
-    if interface.active and not anywhere(comm, master.paired.any()):
+    if not may_fly and interface.active and not anywhere(comm, master.paired.any()):
         # Where its nodes were paired, or should have been
         small = interface.sliding == "small"
         x = halo.x if small else interface.positions()
