@@ -22,13 +22,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
+import moving
 import numpy as np
 
 import contactx as cx
 from dolfinx.mesh import CellType
 
 import meshes
-import moving
 import plot
 import story
 from meshes import Tag
@@ -74,6 +74,9 @@ class Block(moving.Run):
         """Velocity, friction and energy."""
         lost = self.totals[0] - self.totals[-1]
         return [
+            story.Result(
+                f"{name}: acceleration", ALONG - FRICTION * ACROSS, self.velocities(0)[-1] / TIME
+            ),
             story.Result(f"{name}: velocity after T", self.exact()[-1], self.velocities(0)[-1]),
             story.Result(
                 f"{name}: friction / normal impulse", FRICTION, -self.impulse[0] / self.impulse[1]
@@ -91,7 +94,9 @@ def draw(folder: Path, blocks: dict[str, Block]) -> list[Path]:
         # Lines of a point every tenth step
         plot.curves(
             {
-                **{f"{n}, along": (b.times[::10], b.velocities(0)[::10]) for n, b in blocks.items()},
+                **{
+                    f"{n}, along": (b.times[::10], b.velocities(0)[::10]) for n, b in blocks.items()
+                },
                 "bouncing, normal": (
                     blocks["bouncing"].times[::10],
                     blocks["bouncing"].velocities(1)[::10],

@@ -102,9 +102,7 @@ class Run:
             steps: Their number.
             end: Time at the end.
         """
-        for step in cx.LoadSteps(
-            self.dynamics, steps, lambda t: None, t_end=end, progress=False
-        ):
+        for step in cx.LoadSteps(self.dynamics, steps, lambda t: None, t_end=end, progress=False):
             balance = step.report.balance
             assert balance is not None
             self._work += balance.work_of_loads

@@ -32,12 +32,12 @@ void contactx_bindings::dynamics(py::module_& m)
                          });
           },
           py::arg("dt"), py::arg("velocity").noconvert(), py::arg("solve"))
-      .def("impulses",
+      .def("corrections",
            [](const Impact& self)
            {
              py::list all;
-             for (const auto& impulses : self.impulses())
-               all.append(array(impulses));
+             for (const auto& each : self.corrections())
+               all.append(array(each));
              return all;
            });
 }

@@ -15,6 +15,7 @@ from ranks import (
     scenes_by_bodies,
     scenes_coupled,
     scenes_elastic,
+    scenes_moving,
     scenes_quadratic,
     scenes_rigid,
     scenes_rubbing,
@@ -30,6 +31,7 @@ _MODULES = (
     scenes_coupled,
     scenes_quadratic,
     scenes_by_bodies,
+    scenes_moving,
 )
 
 # Functions that yield the problem after each step
@@ -40,7 +42,7 @@ SCENES: dict[str, Callable[[], Iterator[cx.ContactProblem]]] = {
     if inspect.isgeneratorfunction(function) and not name.startswith("_")
 }
 # What tests/fast runs on two ranks: friction, free bodies, ties, nodes in several
-# contacts, dragging over the parts of ranks, an obstacle, both solvers
+# contacts, dragging over the parts of ranks, an obstacle, inertia, both solvers
 QUICK = (
     ("friction_condensed", "node"),
     ("floating_3d", "surface"),
@@ -49,6 +51,7 @@ QUICK = (
     ("dragged_2d", "surface"),
     ("dragged_3d", "node"),
     ("plane", "node"),
+    ("flying_2d", "surface"),
 )
 
 

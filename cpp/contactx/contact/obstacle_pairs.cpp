@@ -168,7 +168,8 @@ std::vector<double> ObstacleMaster::movement() const
   std::vector<double> movement(size() * g);
   for (std::size_t i = 0; i < size(); ++i)
   {
-    const double* normal = &_data[i * kernel::rigid_size + kernel::rigid_normal];
+    const double* normal
+        = &_data[i * kernel::rigid_size + kernel::rigid_normal];
     double height = 0;
     for (std::size_t k = 0; k < g; ++k)
       height += normal[k] * (to[g * i + k] - _x0[g * i + k]);

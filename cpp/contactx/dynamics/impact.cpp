@@ -18,6 +18,7 @@ constexpr double tolerance = 1e-14;
 // Bounds of loops that end earlier but for redundant constraints
 constexpr int most_solves = 30;
 constexpr int most_iterations = 1000;
+constexpr int most_releases = 3;
 
 /// A closed slave node.
 struct Node
@@ -25,7 +26,8 @@ struct Node
   std::size_t contact, place; ///< which one of which contact
   bool is_normal;             ///< held along the normal alone
   bool pulls;                 ///< whether its impulse may have any sign
-  bool held;                  ///< whether its velocity is prescribed
+  bool held = true;           ///< whether its velocity is prescribed
+  int releases = 0;           ///< how often it was let go
   Vector<3> normal{}, mobile{}, target{};
   Vector<3> given{}; ///< impulse of the step's multipliers
   Vector<3> sum{};   ///< impulse so far
@@ -112,11 +114,13 @@ public:
     }
   }
 
-  /// Lets go of what would be pulled, and brings friction up to the normal
-  /// impulses; returns whether anything has changed.
-  bool release()
+  /// Lets go of what would be pulled, holds again what then approaches, and
+  /// brings friction up to the normal impulses; returns whether anything has
+  /// changed.
+  bool adjust()
   {
     Vectors more(_nodes.size());
+    const Vectors speed = relative(_velocity);
     bool changes = false;
     for (std::size_t i = 0; i < _nodes.size(); ++i)
     {
@@ -125,10 +129,15 @@ public:
       if (node.held and not node.pulls and p < 0)
       {
         node.held = false;
+        ++node.releases;
         changes = true;
         for (int k = 0; k < 3; ++k)
           more[i][k] = -node.sum[k];
       }
+      else if (not node.held and node.releases < most_releases
+               and node.normal_part(speed[i]) - node.normal_part(node.target)
+                       < -_small)
+        node.held = changes = true;
       else if (node.held and node.is_normal)
         for (int k = 0; k < 3; ++k)
         {
@@ -214,22 +223,21 @@ void add_nodes(const contact::Contact& contact, std::size_t number, double dt,
               .place = std::size_t(i),
               .is_normal = state.status[i] == law::slip,
               .pulls = is_tied,
-              .held = true,
               .weights = {}};
     for (int k = 0; k < g; ++k)
     {
       const std::size_t at = std::size_t(g) * i + k;
-      node.normal[k]
-          = state.is_vector() ? state.normal[at] : normals[3 * std::size_t(i) + k];
+      node.normal[k] = state.is_vector() ? state.normal[at]
+                                         : normals[3 * std::size_t(i) + k];
       node.mobile[k] = state.is_vector() ? state.mobile[at] : 1;
       node.target[k] = movement.empty() ? 0 : movement[at] / dt;
     }
     const double size = dt * state.area[i];
     for (int k = 0; k < g; ++k)
-      node.given[k] = size
-                      * (state.is_vector()
-                             ? state.multiplier[std::size_t(g) * i + k]
-                             : state.multiplier[i] * node.normal[k]);
+      node.given[k]
+          = size
+            * (state.is_vector() ? state.multiplier[std::size_t(g) * i + k]
+                                 : state.multiplier[i] * node.normal[k]);
     node.sum = node.given;
     const double p = node.normal_part(node.given);
     if (node.is_normal and state.is_vector() and p > 0)
@@ -249,8 +257,9 @@ void add_nodes(const contact::Contact& contact, std::size_t number, double dt,
 Impact::Impact(std::shared_ptr<parallel::Halo> halo, Contacts contacts)
     : _halo(std::move(halo)), _contacts(std::move(contacts))
 {
-  if (not _halo or std::ranges::any_of(_contacts, [](const auto& contact)
-                                       { return not contact; }))
+  if (not _halo
+      or std::ranges::any_of(_contacts,
+                             [](const auto& contact) { return not contact; }))
     throw std::invalid_argument("halo and contacts must not be empty");
 }
 
@@ -271,16 +280,21 @@ void Impact::correct(double dt, std::span<double> velocity,
                            0.0);
     add_nodes(*_contacts[c], c, dt, closed);
   }
+  _corrections = _impulses;
   if (not parallel::anywhere(_halo->ranks(), not closed.empty()))
     return;
   Velocities velocities(*_halo, std::move(closed), velocity, solve);
   for (int n = 0; n < most_solves; ++n)
   {
     velocities.hold();
-    if (not velocities.release())
+    if (not velocities.adjust())
       break;
   }
   for (const Node& node : velocities.nodes())
-    std::copy_n(node.sum.begin(), g,
-                _impulses[node.contact].begin() + g * node.place);
+    for (int k = 0; k < g; ++k)
+    {
+      const std::size_t at = std::size_t(g) * node.place + k;
+      _impulses[node.contact][at] = node.sum[k];
+      _corrections[node.contact][at] = node.sum[k] - node.given[k];
+    }
 }

@@ -61,9 +61,15 @@ public:
   /// force times a time, zero on open nodes (shape=(n, gdim)).
   const std::vector<std::vector<double>>& impulses() const { return _impulses; }
 
+  /// @brief The same less that of the step's multipliers, P - F.
+  const std::vector<std::vector<double>>& corrections() const
+  {
+    return _corrections;
+  }
+
 private:
   std::shared_ptr<parallel::Halo> _halo;
   Contacts _contacts;
-  std::vector<std::vector<double>> _impulses;
+  std::vector<std::vector<double>> _impulses, _corrections;
 };
 } // namespace contactx::dynamics

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from inspect import Parameter, signature
 from typing import Any
 
@@ -182,7 +183,7 @@ class ContactDynamics(ContactProblem):
         """
         if not self._has_dt:
             raise RuntimeError("no dt was set: set dynamics.dt, or take steps by cx.LoadSteps")
-        self._start.x.array[:] = self.u.x.array
+        self._start.x.array[:] = self.displacement.x.array
         bad = not np.isfinite(self.velocity.x.array).all()
         if reduce.anywhere(self.velocity.function_space.mesh.comm, bad):
             raise ValueError("velocity is not finite: set it to finite values")
@@ -190,10 +191,13 @@ class ContactDynamics(ContactProblem):
         self._next = None
         super().solve()
         assert self._next is not None
-        velocity, self.report.balance = self._next
+        velocity, balance = self._next
+        self._next = None
         self.velocity.x.array[: len(velocity)] = velocity
         self.velocity.x.scatter_forward()
-        self._next = None
+        forces = [self.dt * contact.force for contact in self.contacts]
+        impulse = [f + more for f, more in zip(forces, balance.impulse, strict=True)]
+        self.report.balance = replace(balance, impulse=impulse)
         return self.u
 
     def _converged(self) -> None:
@@ -201,7 +205,7 @@ class ContactDynamics(ContactProblem):
         assembler, n = self.assembler, self.assembler.bulk.num_dofs
         held = assembler.bulk.markers[:n] == 1
         self._mass.hold(assembler.bulk.markers[:n])
-        way = self.u.x.array[:n] - self._start.x.array[:n]
+        way = self.displacement.x.array[:n] - self._start.x.array[:n]
         before = self.velocity.x.array[:n]
         velocity = 2 * way / self.dt - before
         free = self._kinetic(velocity)
@@ -213,8 +217,9 @@ class ContactDynamics(ContactProblem):
         contact, supports = self._work(way, held)
         loads = 0.0 if self._loads is None else self._total(self._vector(self._loads) @ way)
         gdim = assembler.halo.gdim
+        # Those of the forces follow when they are known
         impulse = [
-            self._total(each.reshape(-1, gdim).sum(axis=0)) for each in self._impact.impulses()
+            self._total(each.reshape(-1, gdim).sum(axis=0)) for each in self._impact.corrections()
         ]
         self._next = (
             velocity,
@@ -266,7 +271,7 @@ class ContactDynamics(ContactProblem):
     ) -> float | npt.NDArray[np.float64]:
         halo = self.assembler.halo
         p = self._mass.product(velocity).reshape(-1, halo.gdim)
-        x = halo.x[: halo.num_owned] + self.u.x.array[: p.size].reshape(p.shape)
+        x = halo.x[: halo.num_owned] + self.displacement.x.array[: p.size].reshape(p.shape)
         if halo.gdim == 2:
             return float(self._total((x[:, 0] * p[:, 1] - x[:, 1] * p[:, 0]).sum()))
         moment: npt.NDArray[np.float64] = self._total(np.cross(x, p).sum(axis=0))
@@ -285,7 +290,7 @@ class ContactDynamics(ContactProblem):
         return -self._total(contact @ way), self._total(forces[held] @ way[held])
 
     def _vector(self, form: fem.Form) -> npt.NDArray[np.float64]:
-        V = self.u.function_space
+        V = self.displacement.function_space
         b = la.vector(V.dofmap.index_map, V.dofmap.index_map_bs)
         fem.assemble_vector(b.array, form)
         b.scatter_reverse(la.InsertMode.add)
@@ -293,7 +298,7 @@ class ContactDynamics(ContactProblem):
         return values
 
     def _total(self, value: npt.ArrayLike) -> Any:
-        return reduce.total(self.u.function_space.mesh.comm, value)
+        return reduce.total(self.displacement.function_space.mesh.comm, value)
 
 
 def _middle(forces: Callable[..., ufl.Form], start: fem.Function, end: fem.Function) -> ufl.Form:

@@ -4,6 +4,7 @@
 
 import bench_audit
 import bench_degrees
+import bench_dynamics
 import bench_friction
 import bench_growth
 import bench_hertz
@@ -195,3 +196,10 @@ def test_friction():
     assert {row["scene"] for row in rows} >= {"slice, 5 layers, slave slabs"}
     apart = [row for row in rows if "difference" in row]
     assert len(apart) > 8 and all(np.isfinite(row["difference"]) for row in apart)
+
+
+def test_dynamics():
+    rows = bench_dynamics.main(["20", "40"])
+    assert len(rows) == 24 + 4 + 16 + 2
+    assert all(np.isfinite(row.get("growth", 0.0)) for row in rows)
+    assert max(row["growth"] for row in rows if "method" in row) <= 1e-12

@@ -2,11 +2,13 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """The demos run, print what they should and leave their pictures."""
 
+import bouncing_block
 import finite_strain
 import heat_conductance
 import hertz_axisymmetric
 import hertz_cylinder
 import hertz_sphere
+import impact_bars
 import incompressible
 import level_set
 import numpy as np
@@ -17,6 +19,7 @@ import pyvista
 import rigid_cylinder
 import rigid_plane
 import rigid_sphere
+import rolling_ring
 from matplotlib import image
 
 
@@ -95,3 +98,30 @@ def test_patch_test(dim, sliding, tmp_path, capsys):
     for method in patch_test.METHODS:
         path = str(tmp_path / f"patch_test_{method}.pvd")
         assert "pressure" in pyvista.get_reader(path).read()[0].point_data
+
+
+@pytest.mark.parametrize(
+    ("demo", "options", "tolerances", "pictures"),
+    [
+        (impact_bars, ["--h", "0.01", "--courant", "1"], 2 * (1e-3, 0.02, 0.025, 0.01), ("",)),
+        (bouncing_block, ["--h", "0.25"], 2 * (0.01, 1e-3, 1e-3, 1e-6), ("", "_velocity")),
+        (
+            bouncing_block,
+            ["--h", "0.5", "--method", "surface-to-surface"],
+            2 * (0.01, 1e-3, 1e-3, 1e-6),
+            ("", "_velocity"),
+        ),
+        (rolling_ring, ["--h", "0.07"], (0.01, 0.03, 1e-6), ("", "_velocity")),
+    ],
+)
+def test_dynamics(demo, options, tolerances, pictures, tmp_path, capsys):
+    results = demo.main([*options, "--output", str(tmp_path)])
+    for result, tolerance in zip(results, tolerances, strict=True):
+        assert abs(result.error) <= tolerance, result
+    printed = capsys.readouterr().out
+    for text in ("expected", "computed", "error", "energy", "see "):
+        assert text in printed
+    for picture in pictures:
+        pixels = image.imread(tmp_path / f"{demo.__name__}{picture}.png")
+        assert pixels.shape[0] > 300
+        assert len(np.unique(pixels.reshape(-1, pixels.shape[-1]), axis=0)) > 50

@@ -1,0 +1,81 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""What ContactDynamics refuses."""
+
+import numpy as np
+import pytest
+
+import contactx as cx
+import ufl
+from dolfinx import fem
+
+from inputs.rows import Row, refused, scene, table
+
+
+def dynamics(**changed):
+    """Make a problem of which something is changed."""
+
+    def do():
+        blocks = scene()
+        u = changed.pop("u", blocks.u)
+        v = ufl.TestFunction(blocks.u.function_space)
+        given = {
+            "forces": lambda w: ufl.inner(ufl.grad(w), ufl.grad(v)) * ufl.dx,
+            "density": 1.0,
+            "contacts": [blocks.contact()],
+            "petsc_options_prefix": "never_",
+            **{k: make(blocks) if callable(make) else make for k, make in changed.items()},
+        }
+        cx.ContactDynamics(given.pop("forces"), u, **given)
+
+    return do
+
+
+def made(value):
+    """An argument that is a function itself."""
+    return lambda _: value
+
+
+def negative(blocks):
+    """A density that is negative in a part of the bodies."""
+    x = ufl.SpatialCoordinate(blocks.u.function_space.mesh)
+    return x[0] - 0.5
+
+
+def energy(blocks):
+    return ufl.inner(blocks.u, blocks.u) * ufl.dx
+
+
+ROWS = [
+    Row("displacement", dynamics(u=3), TypeError, "u must be a dolfinx.fem.Function"),
+    Row("no function", dynamics(forces=3), TypeError, "forces is int 3: give a function"),
+    Row("three", dynamics(forces=made(lambda a, b, c: a)), TypeError, "takes 3 arguments: give"),
+    Row("no form", dynamics(forces=made(lambda a: 3)), TypeError, "forces gives a int: let it"),
+    Row("zero", dynamics(density=0.0), ValueError, "density is 0.0: give a finite number above 0"),
+    Row("nan", dynamics(density=np.nan), ValueError, "density is nan: give a finite number"),
+    Row("text", dynamics(density="1"), TypeError, "density is str '1': give a number or"),
+    Row("negative", dynamics(density=negative), ValueError, "masses that are not positive"),
+    Row("loads", dynamics(loads=3.0), TypeError, "loads is float 3.0: give a UFL form"),
+    Row("no loads", dynamics(loads=energy), ValueError, "loads has 0 arguments: give a form"),
+    Row("strain", dynamics(strain_energy=1), TypeError, "strain_energy is int 1: give a function"),
+    Row("mass", dynamics(mass="none"), ValueError, "mass is str 'none': give \"lumped\" or"),
+]
+
+
+@table(ROWS)
+def test_refused(row):
+    refused(row)
+
+
+def test_lumped_masses_of_quadratic_elements_are_refused():
+    blocks = scene()
+    V = fem.functionspace(blocks.u.function_space.mesh, ("Lagrange", 2, (2,)))
+    with pytest.raises(ValueError, match="for linear elements, and u is of degree 2: leave"):
+        cx.ContactDynamics(
+            lambda w: ufl.inner(w, ufl.TestFunction(V)) * ufl.dx,
+            fem.Function(V),
+            density=1.0,
+            mass="lumped",
+            contacts=[blocks.contact()],
+            petsc_options_prefix="never_",
+        )
