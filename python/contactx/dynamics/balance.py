@@ -28,7 +28,8 @@ class Balance:
         work_of_loads: Work of ``loads`` in the step.
         work_of_supports: Work of Dirichlet conditions in the step.
         contact_loss: Energy that contact has taken in the step, by impact and friction; negative
-            where rigid obstacles that move have done work.
+            where rigid obstacles that move have done work, or nodes have slid over curved or
+            faceted surfaces, by what these turn in the step.
         impulse: Impulse on the slave side of each contact in the step, impacts included: a list
             of arrays of shape (gdim,). Over dt it is the mean force.
     """

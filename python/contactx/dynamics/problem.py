@@ -39,9 +39,11 @@ class ContactDynamics(ContactProblem):
     v_1 = 2 (u_1 - u_0) / dt - v_0 are corrected by the law of inelastic impact (Moreau 1988): a
     closed node that is pressed does not move along the normal any more, a sticking or tied one not
     at all. Without this a node that has arrived with -v goes on with up to v, and the contact force
-    swings for ever. Neither the multipliers nor the correction can raise the energy, whatever dt
-    is. An impact takes the kinetic energy of the surface's nodes, which vanishes with the size of
-    the cells; bodies bounce by their own waves. See ``dynamics/impact.h``.
+    swings for ever. With linear bodies and obstacles that are flat and at rest neither the
+    multipliers nor the correction can raise the energy, whatever dt is; where nodes slide over
+    curved or faceted surfaces they may, by what the surface turns in a step. An impact takes the
+    kinetic energy of the surface's nodes, which vanishes with the size of the cells; bodies bounce
+    by their own waves. See ``dynamics/impact.h``.
 
     Steps are those of ``LoadSteps``, which then count time::
 
