@@ -190,10 +190,10 @@ def bounce(steps: int, friction: float = 0.0) -> dict[str, Any]:
     return {
         "steps": steps,
         "friction": friction,
-        "bounces": bounces,
+        "bounces": int(bounces),
         "growth": float(np.diff(energies).max() / start),
         "whole": float(np.max(energies) / start - 1),
-        "loss": 1 - energies[-1] / start,
+        "loss": float(1 - energies[-1] / start),
     }
 
 
