@@ -52,16 +52,22 @@ void contactx_bindings::reference(py::module_& m)
       .def(py::init(
                [](bool is_mortar, bool is_small,
                   std::optional<double> search_distance,
-                  const Array<std::int8_t>& level)
+                  const Array<std::int8_t>& level, bool is_self,
+                  std::optional<double> excluded_distance)
                {
                  return MasterOptions{is_mortar ? Method::surface_to_surface
                                                 : Method::node_to_surface,
                                       is_small ? Sliding::small
                                                : Sliding::finite,
-                                      search_distance, copy(level)};
+                                      search_distance,
+                                      copy(level),
+                                      is_self,
+                                      excluded_distance};
                }),
            py::kw_only(), py::arg("is_mortar"), py::arg("is_small"),
-           py::arg("search_distance"), py::arg("level") = Array<std::int8_t>());
+           py::arg("search_distance"), py::arg("level") = Array<std::int8_t>(),
+           py::arg("is_self") = false,
+           py::arg("excluded_distance") = py::none());
   m.def(
       "make_surface_master",
       [](const Mesh& mesh, const std::shared_ptr<SlaveNodes>& slaves,

@@ -85,7 +85,7 @@ std::int32_t NodeToSurface::search(std::span<const double> x,
 std::int32_t NodeToSurface::drop_outside(std::span<const double> x,
                                          std::span<const std::int8_t> closed)
 {
-  if (not _outside->is_around())
+  if (_surface->sees_bodies() or not _outside->is_around())
     return 0;
   const int g = gdim();
   const std::size_t n = size();
@@ -113,6 +113,7 @@ std::int32_t NodeToSurface::drop_outside(std::span<const double> x,
 void NodeToSurface::accept(std::span<const double> x)
 {
   _x0.assign(x.begin(), x.end());
+  _surface->accept(x);
 }
 
 void NodeToSurface::begin_step()
@@ -359,6 +360,7 @@ NodeToSurface::update(std::span<const double>, bool, std::span<const double>)
 std::vector<double>
 NodeToSurface::compliance(std::span<const double> nodal) const
 {
+  _surface->take_compliance(nodal);
   const facet::FacetList facets = _surface->facets();
   std::vector<double> result(size(), _surface->mean(nodal));
   for (std::size_t i = 0; i < size(); ++i)
@@ -451,9 +453,10 @@ std::vector<Saved> NodeToSurface::save() const
   if (_options.measures_slip)
   {
     saved.push_back({"start", RowKind::slave, gdim(), _start});
-    saved.push_back({"before", RowKind::node, gdim(), _x0});
     saved.push_back({"at", RowKind::node, gdim(), _at});
   }
+  if (needs_before())
+    saved.push_back({"before", RowKind::node, gdim(), _x0});
   return saved;
 }
 
@@ -464,9 +467,10 @@ void NodeToSurface::load(const std::vector<Saved>& saved)
   if (_options.measures_slip)
   {
     _start = values_of<double>(saved, "start");
-    _x0 = spread(*_halo, values_of<double>(saved, "before"), gdim());
     _at = spread(*_halo, values_of<double>(saved, "at"), gdim());
   }
+  if (needs_before())
+    accept(spread(*_halo, values_of<double>(saved, "before"), gdim()));
 }
 
 double NodeToSurface::distance(std::span<const double> x) const
@@ -488,15 +492,16 @@ HiddenGap NodeToSurface::deepest_frozen_pair(std::span<const double> x) const
     return deepest;
   const std::vector<double> nodal
       = facet::nodal_normals(_slaves->facets(), x, g);
-  std::vector<double> points, normals;
+  std::vector<std::int32_t> nodes;
+  std::vector<double> normals;
   for (const std::int32_t i : frozen)
   {
-    const std::size_t at = std::size_t(_pairing.slaves()[i]) * g;
-    points.insert(points.end(), x.begin() + at, x.begin() + at + g);
+    nodes.push_back(_pairing.slaves()[i]);
+    const std::size_t at = std::size_t(nodes.back()) * g;
     normals.insert(normals.end(), nodal.begin() + at, nodal.begin() + at + g);
   }
   // What a search without memory finds for them
-  const auto found = _surface->find(x, points, normals, _options.reach);
+  const auto found = _surface->find_of_nodes(x, nodes, normals, _options.reach);
   const std::vector<double> now = _halo->positions();
   const facet::FacetList facets = _surface->facets();
   for (std::size_t i = 0; i < frozen.size(); ++i)
@@ -504,12 +509,12 @@ HiddenGap NodeToSurface::deepest_frozen_pair(std::span<const double> x) const
     // Less is rounding
     if (found.facet[i] < 0 or not(found.gap[i] < -1e-10 * _options.reach))
       continue;
-    const auto nodes = facets[found.facet[i]];
+    const auto ends = facets[found.facet[i]];
     double square = 0;
     for (int k = 0; k < g; ++k)
     {
-      const double d = now[std::size_t(nodes.back()) * g + k]
-                       - now[std::size_t(nodes.front()) * g + k];
+      const double d = now[std::size_t(ends.back()) * g + k]
+                       - now[std::size_t(ends.front()) * g + k];
       square += d * d;
     }
     deepest.gap = std::min(deepest.gap, found.gap[i]);

@@ -76,6 +76,11 @@ protected:
   const search::Pairing& pairing() const { return _pairing; }
 
 private:
+  // Whether what is searched for next depends on the step's start
+  bool needs_before() const
+  {
+    return _options.measures_slip or _surface->sees_bodies();
+  }
   std::int32_t drop_outside(std::span<const double> x,
                             std::span<const std::int8_t> closed);
   void restore(std::span<const std::int32_t> facet,

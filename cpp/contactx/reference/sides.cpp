@@ -8,6 +8,7 @@
 #include "../contact/obstacle_tie.h"
 #include "../contact/surface_to_surface.h"
 #include "../parallel/extent.h"
+#include "../search/self_surface.h"
 #include "../search/slave_facets.h"
 #include "../text.h"
 #include "facets.h"
@@ -43,6 +44,33 @@ void check_arguments(const Mesh& mesh, const contact::SlaveNodes* slaves,
   if (options.search_distance and not(*options.search_distance > 0))
     throw std::invalid_argument("search_distance must be larger than zero, not "
                                 + number_text(*options.search_distance, 6));
+}
+
+/// What a surface on itself is not made for.
+void check_self(const law::Law& law, const MasterOptions& options)
+{
+  if (not options.is_self)
+  {
+    check::require(not options.excluded_distance,
+                   "excluded_distance is for a surface on itself: leave it out "
+                   "where slave and master are different surfaces");
+    return;
+  }
+  check::require(
+      options.method == Method::node_to_surface,
+      "method must be node-to-surface where slave and master are the same "
+      "surface: one side is chosen a node at a time, which integrals over "
+      "facets cannot follow. For surface-to-surface give each side its own "
+      "surface");
+  check::require(options.sliding == contact::Sliding::finite,
+                 "sliding must be finite where slave and master are the same "
+                 "surface: what meets is found as it folds");
+  check::require(not law.is_tied(),
+                 "a surface cannot be tied to itself: give the two sides "
+                 "surfaces of their own");
+  if (options.excluded_distance and not(*options.excluded_distance >= 0))
+    throw std::invalid_argument("excluded_distance must be at least zero, not "
+                                + number_text(*options.excluded_distance, 6));
 }
 
 /// Largest distance of the nodes of a surface from their mean.
@@ -110,11 +138,13 @@ std::shared_ptr<contact::DeformableMaster> contactx::reference::make_master(
       {
         check_arguments(mesh, slaves.get(), options);
         check_facet_list(*halo, master.facets, "master_");
+        check_self(law, options);
       });
   const NamedSurface slave{slave_name, slaves->own()};
   check_facets(*halo, slave, "slave");
   check_facets(*halo, master, "master");
-  check_shared(*halo, slave, master);
+  if (not options.is_self)
+    check_shared(*halo, slave, master);
   check_nested(mesh, slave, master);
   // Where facets are folded a node has no normal to look along; facets have
   const bool is_mortar = options.method == Method::surface_to_surface;
@@ -128,8 +158,12 @@ std::shared_ptr<contact::DeformableMaster> contactx::reference::make_master(
       options.level};
   const facet::Facets own
       = search::in_order(*halo, master.facets.offsets, master.facets.nodes);
-  const auto surface = search::make_master_surface(halo, own.offsets, own.nodes,
-                                                   options.level);
+  const std::shared_ptr<search::MasterSurface> surface
+      = options.is_self ? std::make_shared<search::SelfSurface>(
+                              halo, own, mesh.bodies->of_node(),
+                              options.excluded_distance, options.level)
+                        : search::make_master_surface(halo, own.offsets,
+                                                      own.nodes, options.level);
   const auto outside
       = std::make_shared<search::Outside>(halo, own.offsets, own.nodes);
   const auto made

@@ -30,6 +30,11 @@ struct MasterOptions
   /// Where each node of this rank is on quadratic facets, see facet::Shares;
   /// empty where the displacement is linear
   std::vector<std::int8_t> level = {};
+  /// Whether slave and master are the same surface, see search::SelfSurface
+  bool is_self = false;
+  /// Distance along that surface up to which facets are no masters of a node,
+  /// see search::SelfSight
+  std::optional<double> excluded_distance = {};
 };
 
 /// @brief Slave nodes of a surface; all ranks must take part.
@@ -55,7 +60,8 @@ make_slave_nodes(const std::shared_ptr<parallel::Halo>& halo,
 /// @param[in] options How it is made.
 /// @throws std::invalid_argument on all ranks if facets of any rank are
 /// degenerate or the slave surface is folded, if the surfaces share nodes that
-/// are no crack's tip, or a body lies wholly inside the other one.
+/// are no crack's tip, or a body lies wholly inside the other one; of a surface
+/// on itself if sliding is small, the law is a tie, or facets are integrated.
 std::shared_ptr<contact::DeformableMaster>
 make_master(const Mesh& mesh, std::shared_ptr<const contact::SlaveNodes> slaves,
             const std::string& slave_name, const NamedSurface& master,

@@ -308,31 +308,40 @@ std::int32_t DistributedSurface::pair(Pairing& pairing,
   const std::vector<double> normals = facet::nodal_normals(slave, x, gdim);
   const Found found
       = find(x, rows(x, nodes, gdim), rows(normals, nodes, gdim), reach);
+  std::vector<std::optional<Projection>> places(left.size());
+  for (std::size_t k = 0; k < left.size(); ++k)
+    if (found.facet[k] >= 0)
+      places[k] = Projection{found.facet[k],
+                             found.feature[k],
+                             {found.xi[2 * k], found.xi[2 * k + 1]},
+                             {},
+                             {found.normal[3 * k], found.normal[3 * k + 1],
+                              found.normal[3 * k + 2]},
+                             0,
+                             0,
+                             0};
+  return settle(pairing, left, places, x, version, reach, closed);
+}
+
+std::int32_t
+DistributedSurface::settle(Pairing& pairing, std::span<const std::int32_t> left,
+                           std::span<const std::optional<Projection>> places,
+                           std::span<const double> x, int version, double reach,
+                           std::span<const std::int8_t> closed)
+{
   if (!same(pairing.master().facets(), facets()))
     pairing.set_master({facets().offsets.begin(), facets().offsets.end()},
                        {facets().nodes.begin(), facets().nodes.end()});
   std::vector<double> grown;
   if (version != _halo->version())
   {
-    grown = _halo->updated({x.begin(), x.end()}, gdim, version);
+    grown = _halo->updated({x.begin(), x.end()}, _halo->gdim(), version);
     x = grown;
   }
   std::int32_t changed = 0;
   for (std::size_t k = 0; k < left.size(); ++k)
-  {
-    std::optional<Projection> at;
-    if (found.facet[k] >= 0)
-      at = Projection{found.facet[k],
-                      found.feature[k],
-                      {found.xi[2 * k], found.xi[2 * k + 1]},
-                      {},
-                      {found.normal[3 * k], found.normal[3 * k + 1],
-                       found.normal[3 * k + 2]},
-                      0,
-                      0,
-                      0};
-    changed += pairing.settle(left[k], at, x, reach, closed[left[k]]);
-  }
+    changed
+        += pairing.settle(left[k], places[k], x, reach, closed[left[k]] != 0);
   return changed;
 }
 

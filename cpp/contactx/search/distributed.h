@@ -14,7 +14,7 @@ namespace contactx::search
 /// A rank asks others by points, and by slave facets, and gets the facets that
 /// matter to them. It keeps those until the step's end. Boxes of the ranks'
 /// facets say which to ask.
-class DistributedSurface final : public MasterSurface
+class DistributedSurface : public MasterSurface
 {
 public:
   /// @brief Take this rank's facets and those around them, whose nodes are
@@ -35,6 +35,26 @@ public:
   std::vector<std::int32_t> keep(std::span<const std::int32_t> used) override;
   std::vector<std::int32_t> named(std::span<const std::int64_t> names) override;
 
+protected:
+  /// @brief Numbers of facets among `facets`, to which new ones are appended;
+  /// collective.
+  std::vector<std::int32_t> learn(const FacetRecords& facets);
+
+  /// @brief Settle pairs with what was found for them; the halo may have grown
+  /// since `x` was taken.
+  /// @param[in,out] pairing Pairs with `facets`.
+  /// @param[in] left Slave nodes, by their place in the pairing.
+  /// @param[in] places Where each is, on facets of now; nothing without one.
+  /// @param[in] x Positions of all nodes (shape=(num_nodes, gdim)).
+  /// @param[in] version Version of the halo at which they were taken.
+  /// @param[in] reach Largest distance of a pair.
+  /// @param[in] closed Whether slave nodes are in contact (shape=(num_slaves)).
+  /// @return Number of this rank's nodes in contact that changed their facet.
+  std::int32_t settle(Pairing& pairing, std::span<const std::int32_t> left,
+                      std::span<const std::optional<Projection>> places,
+                      std::span<const double> x, int version, double reach,
+                      std::span<const std::int8_t> closed);
+
 private:
   struct Parts;
   class Best;
@@ -53,9 +73,6 @@ private:
                                 std::span<const double> points,
                                 std::span<const double> normals,
                                 std::span<double> bound) const;
-
-  // Numbers of facets among `facets`, to which new ones are appended
-  std::vector<std::int32_t> learn(const FacetRecords& facets);
 
   void set_known(FacetRecords known);
 

@@ -41,10 +41,11 @@ void Finder::refit(std::span<const double> x)
 
 FoundPlace Finder::find(std::span<const double> x, const Vector<3>& p,
                         const Vector<3>& normal, double reach,
-                        std::int32_t hint) const
+                        std::int32_t hint, const Accepts& accepts) const
 {
   FoundPlace found;
-  found.nearest = nearest_facet(_surface, *_tree, x, p, normal, reach, hint);
+  found.nearest
+      = nearest_facet(_surface, *_tree, x, p, normal, reach, hint, accepts);
   if (found.nearest)
     found.selected = select(_surface, x, p, *found.nearest);
   if (found.selected and found.selected->feature == facet::interior)

@@ -71,9 +71,10 @@ public:
   /// facet.
   /// @param[in] reach Largest distance.
   /// @param[in] hint A facet that may be near, -1 for none.
+  /// @param[in] accepts Facets that it refuses are passed over; empty for none.
   FoundPlace find(std::span<const double> x, const Vector<3>& p,
-                  const Vector<3>& normal, double reach,
-                  std::int32_t hint = -1) const;
+                  const Vector<3>& normal, double reach, std::int32_t hint = -1,
+                  const Accepts& accepts = {}) const;
 
   /// @brief Search for points.
   /// @param[in] x Node coordinates of the last `refit`.

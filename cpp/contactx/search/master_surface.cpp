@@ -55,6 +55,19 @@ Found MasterSurface::find(std::span<const double> x,
       std::vector<double>(points.size() / _halo->gdim(), reach));
 }
 
+Found MasterSurface::find_of_nodes(std::span<const double> x,
+                                   std::span<const std::int32_t> nodes,
+                                   std::span<const double> normals,
+                                   double reach)
+{
+  const std::size_t gdim = _halo->gdim();
+  std::vector<double> points;
+  for (const std::int32_t node : nodes)
+    points.insert(points.end(), x.begin() + std::size_t(node) * gdim,
+                  x.begin() + (std::size_t(node) + 1) * gdim);
+  return find(x, points, normals, reach);
+}
+
 std::int32_t MasterSurface::pair(Pairing& pairing, const facet::FacetList&,
                                  std::span<const double> x, double reach,
                                  std::span<const std::int8_t> closed)

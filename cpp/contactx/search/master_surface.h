@@ -43,6 +43,28 @@ public:
   virtual Found find(std::span<const double> x, std::span<const double> points,
                      std::span<const double> normals, double reach);
 
+  /// @brief Search for nodes as `pair` does, without memory. The halo and
+  /// `facets` may grow.
+  /// @param[in] x Positions of all nodes (shape=(num_nodes, gdim)), row-major.
+  /// @param[in] nodes Nodes that this rank owns.
+  /// @param[in] normals Outward normals there (shape=(nodes.size(), gdim)).
+  /// @param[in] reach Largest distance.
+  virtual Found find_of_nodes(std::span<const double> x,
+                              std::span<const std::int32_t> nodes,
+                              std::span<const double> normals, double reach);
+
+  /// @brief Take a converged configuration, the start of the next step; not
+  /// collective.
+  /// @param[in] x Positions of all nodes (shape=(num_nodes, gdim)), row-major.
+  virtual void accept(std::span<const double> /*x*/) {}
+
+  /// @brief Take the compliance of all nodes, length/force.
+  /// @param[in] nodal Values at all nodes (shape=(num_nodes)).
+  virtual void take_compliance(std::span<const double> /*nodal*/) {}
+
+  /// @brief Whether `pair` itself tells what lies behind all of a body.
+  virtual bool sees_bodies() const { return false; }
+
   /// @brief Pair slave nodes. The halo and `facets` may grow.
   /// @param[in,out] pairing Pairs with `facets`.
   /// @param[in] slave Facets around the slave nodes.

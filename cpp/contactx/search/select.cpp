@@ -66,20 +66,21 @@ std::optional<Projection>
 contactx::search::nearest_facet(const Surface& surface, const BoxTree& tree,
                                 std::span<const double> x, const Vector<3>& p,
                                 const Vector<3>& normal, double reach,
-                                std::int32_t hint)
+                                std::int32_t hint, const Accepts& accepts)
 {
   std::optional<Projection> best;
   double best_d = reach, bound2 = reach * reach;
   const bool any = dot(normal, normal) == 0;
-  const auto visit = [&best, &best_d, &bound2, &surface, &p, &normal, x, any,
-                      reach](std::int32_t f)
+  const auto visit = [&best, &best_d, &bound2, &surface, &p, &normal, &accepts,
+                      x, any, reach](std::int32_t f)
   {
     const auto q = closest_within(surface, f, x, p, bound2);
     if (!q or (!any and dot(q->normal, normal) >= 0))
       return;
     const double d = norm(q->d), tie = equal * (d + q->size);
-    if (d < best_d - tie
-        or (d <= best_d + tie and (!best or f < best->facet) and d <= reach))
+    if ((d < best_d - tie
+         or (d <= best_d + tie and (!best or f < best->facet) and d <= reach))
+        and (!accepts or accepts(*q)))
     {
       best = q;
       best_d = d;

@@ -5,12 +5,16 @@
 
 #include "box_tree.h"
 #include "surface.h"
+#include <functional>
 
 namespace contactx::search
 {
 /// @brief How far a facet reaches beyond its edges, in its local coordinates:
 /// 5 % of its width.
 inline constexpr double margin = 0.05;
+
+/// @brief Whether a closest point of a facet may be taken.
+using Accepts = std::function<bool(const Projection&)>;
 
 /// @brief Closest facet of a master surface that faces a point.
 /// @param[in] surface Master surface.
@@ -22,11 +26,13 @@ inline constexpr double margin = 0.05;
 /// @param[in] reach Largest distance.
 /// @param[in] hint A facet that may be near, -1 for none: the search is faster,
 /// its result the same.
+/// @param[in] accepts Facets that it refuses are passed over; empty for none.
 /// @return The closest point of that facet, nothing where none is in reach.
 std::optional<Projection>
 nearest_facet(const Surface& surface, const BoxTree& tree,
               std::span<const double> x, const Vector<3>& p,
-              const Vector<3>& normal, double reach, std::int32_t hint = -1);
+              const Vector<3>& normal, double reach, std::int32_t hint = -1,
+              const Accepts& accepts = {});
 
 /// @brief The projection that contact is measured with.
 ///
