@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 import numpy as np
@@ -26,7 +26,7 @@ from contactx.parallel.halo import Halo
 from contactx.refined import degree_of, node_levels
 from contactx.surface import Surface
 from contactx.weight import check_weight, nodal_weight
-from dolfinx import fem
+from dolfinx import fem, mesh
 
 _OPTIONS = (
     "slave",
@@ -36,6 +36,7 @@ _OPTIONS = (
     "method",
     "tied",
     "search_distance",
+    "excluded_distance",
     "offset",
     "weight",
 )
@@ -63,6 +64,7 @@ class Contact:
         method: str = "node-to-surface",
         tied: bool = False,
         search_distance: float | None = None,
+        excluded_distance: float | None = None,
         offset: float | fem.Constant | fem.Function = 0.0,
         weight: float | ufl.core.expr.Expr = 1.0,
     ):
@@ -72,7 +74,9 @@ class Contact:
             slave: Surface whose nodes must not penetrate the master; take the finer or the softer
                 of the two.
             master: Surface that they are measured against, or a rigid obstacle: Plane, Sphere,
-                Cylinder or LevelSet.
+                Cylinder or LevelSet. The same surface as the slave is self-contact: of two places
+                that face each other one is the slave, see ``search/self_order.h``, and what meets
+                is found as the surface folds. It takes node-to-surface and finite sliding.
             friction: Coulomb's coefficient: a number, a ``fem.Constant`` or a ``fem.Function`` of
                 a scalar Lagrange space, which may change from step to step. With the number 0
                 nothing along the surface is computed. Or a ``FrictionLaw`` of one's own.
@@ -91,6 +95,10 @@ class Contact:
                 gets longer.
             search_distance: Largest distance at which a slave node is paired; by default the
                 diameter of the larger surface, and unlimited for a rigid obstacle.
+            excluded_distance: In self-contact the length along the surface, in the reference
+                configuration, within which a node does not meet it; by default a node does not meet
+                its own facets and those that share a node with them. A node never meets what it
+                sees through its own body, however far that is along the surface.
             offset: Length that is taken off the gap: positive where the bodies interfere by it or
                 carry a layer of that thickness, negative where they are that much farther apart. A
                 number, a ``fem.Constant`` or a ``fem.Function`` of a scalar Lagrange space.
@@ -102,7 +110,8 @@ class Contact:
 
         Raises:
             TypeError: If an argument is of another kind.
-            ValueError: If the surfaces share facets, or an option is out of its range.
+            ValueError: If the surfaces share some of their facets, an option is out of its range,
+                or is none of self-contact.
         """
         _check_options(
             slave,
@@ -114,12 +123,17 @@ class Contact:
             search_distance=search_distance,
             offset=offset,
         )
+        is_self = _is_self(slave, master)
+        if is_self:
+            _check_self(sliding, method, tied)
+        _check_excluded(excluded_distance, is_self)
         check_weight(weight)
         self.slave = slave
         self.master = master
         self.sliding = sliding
         self.method = method
         self.search_distance = search_distance
+        self.excluded_distance = excluded_distance
         self.offset = offset
         self.weight = weight
         self.friction = friction
@@ -140,8 +154,38 @@ class Contact:
 
     def __repr__(self) -> str:
         """Name the surfaces."""
+        if self.is_self:
+            return f"Contact of {self.slave} with itself"
         master = self.master if isinstance(self.master, Surface) else type(self.master).__name__
         return f"Contact(slave={self.slave}, master={master}, sliding={self.sliding!r})"
+
+    @classmethod
+    def all(cls, facet_tags: mesh.MeshTags, *tags: int | Iterable[int], **options: Any) -> Contact:
+        """Contact of every pair of bodies, or parts of one, that can meet.
+
+        One contact has all pairs: self-contact of the surface that all tags make up. Bodies may
+        meet that are far apart at first, and each may fold onto itself. Of two bodies the softer
+        one, or the one of smaller facets, is the slave where they differ by a factor of 2 in the
+        product of stiffness and size; see ``search/self_order.h``.
+
+        Args:
+            facet_tags: The tags.
+            tags: Values that make up the surface; all that there are if none is given.
+            options: Options of a Contact: friction, search_distance and others.
+
+        Returns:
+            The contact.
+
+        Raises:
+            TypeError: If an argument is of another kind.
+            ValueError: As ``Surface`` and ``Contact`` do.
+        """
+        values: tuple[int | Iterable[int], ...] = tags
+        if not tags and isinstance(facet_tags, mesh.MeshTags):
+            present = facet_tags.topology.comm.allgather(np.unique(facet_tags.values).tolist())
+            values = (sorted({value for theirs in present for value in theirs}),)
+        surface = Surface(facet_tags, *values)
+        return cls(surface, surface, **options)
 
     def attach(self, halo: Halo, markers: npt.NDArray[np.int8], bodies: Bodies) -> Interface:
         """Make the contact's discrete side; ContactProblem calls this.
@@ -186,8 +230,9 @@ class Contact:
             offset=offset,
             markers=markers,
             shared=shared,
+            is_self=self.is_self,
         )
-        if isinstance(master, core.DeformableMaster):
+        if isinstance(master, core.DeformableMaster) and not self.is_self:
             core.check_facing(halo.nodes, slaves, str(self.slave), master, str(self.master))
         if slipped is not None:
             slipped.history = interface.history
@@ -220,6 +265,8 @@ class Contact:
             is_small=self.sliding == "small",
             search_distance=self.search_distance,
             level=node_levels(bodies.V),
+            is_self=self.is_self,
+            excluded_distance=self.excluded_distance,
         )
         name = str(self.slave)
         if isinstance(self.master, Obstacle):
@@ -229,7 +276,8 @@ class Contact:
         master = core.make_surface_master(
             mesh, slaves, name, *lists, str(self.master), law, options
         )
-        return master, core.shared_nodes(halo.nodes, slaves, *lists)
+        # What a surface shares with itself has gaps all the same
+        return master, None if self.is_self else core.shared_nodes(halo.nodes, slaves, *lists)
 
     def _is_mortar(self, V: fem.FunctionSpace) -> bool:
         """Whether facets are integrated: of a quadratic displacement not with obstacles."""
@@ -257,6 +305,11 @@ class Contact:
         if self.friction != 0:
             return core.Coulomb(), NodalValue(self.friction, "friction", V, slaves)
         return core.Frictionless(), None
+
+    @property
+    def is_self(self) -> bool:
+        """Whether the surface is in contact with itself."""
+        return _is_self(self.slave, self.master)
 
     @property
     def is_weighted(self) -> bool:
@@ -395,7 +448,10 @@ class Contact:
 
     @property
     def force(self) -> npt.NDArray[np.float64]:
-        """Total force on the slave side of all ranks, shape (gdim,)."""
+        """Total force on the slave side of all ranks, shape (gdim,).
+
+        In self-contact on the nodes that are slaves now.
+        """
         return self.fields.force
 
     def on_both(self, f: fem.Function, missing: float = 0.0) -> fem.Function:
@@ -517,7 +573,11 @@ def _check_options(
             f"master must be a contactx.Surface or a rigid obstacle, not {given}: write "
             "Surface(facet_tags, tag), or Plane, Sphere, Cylinder or LevelSet"
         )
-    if isinstance(master, Surface) and slave.facet_tags.topology is master.facet_tags.topology:
+    if (
+        isinstance(master, Surface)
+        and slave.facet_tags.topology is master.facet_tags.topology
+        and not _is_self(slave, master)
+    ):
         topology = slave.facet_tags.topology
         shared = np.intersect1d(slave.facets, master.facets)
         owned = shared < topology.index_map(slave.facet_tags.dim).size_local
@@ -525,7 +585,7 @@ def _check_options(
         if count > 0:
             raise ValueError(
                 f"slave and master overlap: {slave} and {master} have {count} facets in common. "
-                "Give each surface its own tags"
+                "Give each surface its own tags; for self-contact the same surface twice"
             )
     if not isinstance(sliding, str) or sliding not in _SLIDING:
         raise ValueError(f'sliding must be "finite" or "small", not {sliding!r}')
@@ -552,3 +612,58 @@ def _check_options(
             )
         if not search_distance > 0:
             raise ValueError(f"search_distance is {search_distance}: give a positive length")
+
+
+def _is_self(slave: Surface, master: Surface | Obstacle) -> bool:
+    """Whether slave and master are the same surface: the same tags."""
+    if not isinstance(master, Surface):
+        return False
+    return slave is master or (
+        slave.facet_tags is master.facet_tags and set(slave.tags) == set(master.tags)
+    )
+
+
+def _check_self(sliding: str, method: str, tied: bool) -> None:
+    """Check the options of self-contact.
+
+    Raises:
+        ValueError: If one of them is for two surfaces alone.
+    """
+    if method != "node-to-surface":
+        raise ValueError(
+            f'method is "{method}", but slave and master are the same surface: in self-contact '
+            "one side is chosen a node at a time, which integrals over facets cannot follow. Take "
+            '"node-to-surface", or give each side a surface of its own'
+        )
+    if sliding != "finite":
+        raise ValueError(
+            f'sliding is "{sliding}", but slave and master are the same surface: what meets is '
+            'found as it folds. Take "finite", or give each side a surface of its own'
+        )
+    if tied:
+        raise ValueError(
+            "tied is for two surfaces, but slave and master are the same: give each side a surface "
+            "of its own"
+        )
+
+
+def _check_excluded(distance: Any, is_self: bool) -> None:
+    """Check the distance along the surface within which nothing meets.
+
+    Raises:
+        TypeError: If it is no number.
+        ValueError: If it is negative or not finite, or slave and master are not the same surface.
+    """
+    if distance is None:
+        return
+    if not is_number(distance):
+        raise TypeError(
+            f"excluded_distance is {described(distance)}: give a length along the surface, or None"
+        )
+    if not (np.isfinite(distance) and distance >= 0):
+        raise ValueError(f"excluded_distance is {distance}: give a finite length of at least 0")
+    if not is_self:
+        raise ValueError(
+            f"excluded_distance is {distance}, but slave and master are not the same surface: "
+            "leave it out"
+        )

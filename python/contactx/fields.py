@@ -93,6 +93,9 @@ class Fields:
 
         forces = self._forces()
         on_slave = self._on_slave = forces[interface.slaves]
+        if interface.is_self:
+            # All nodes may be slaves: those that are, as no node is on both sides
+            on_slave[~nodes.closed] = 0
         self._at = interface.positions()[interface.slaves]
         comm = self._halo.comm
         self.force, sum_ = total(comm, np.stack([on_slave.sum(axis=0), forces.sum(axis=0)]))

@@ -49,6 +49,7 @@ class Interface(core.Contact):
         offset: NodalValue,
         markers: npt.NDArray[np.int8],
         shared: npt.NDArray[np.bool_] | None = None,
+        is_self: bool = False,
     ):
         """Pair the slave nodes in the reference configuration; all ranks must take part.
 
@@ -64,6 +65,7 @@ class Interface(core.Contact):
             markers: 1 at dofs of the bulk with a Dirichlet condition, shape (num_dofs,).
             shared: Which nodes of this rank the master surface has, too, owned ones first; None if
                 it has none.
+            is_self: Whether slave and master are the same surface.
 
         Raises:
             ValueError: If an obstacle's parameters do not fit.
@@ -79,6 +81,7 @@ class Interface(core.Contact):
             shared=None if shared is None else shared[: halo.num_owned],
         )
         self.halo = halo
+        self.is_self = is_self
         self.slaves, self.slave_nodes = slaves.owned, slaves
         self.num_others = len(slaves.around) - len(slaves.owned)
         self._offset, self._friction = offset, friction

@@ -66,7 +66,9 @@ def warning_of(
         may_fly: Whether it is nothing unusual that no slave node is in reach of the master.
     """
     comm, master = halo.comm, interface.master
-    if not may_fly and interface.active and not anywhere(comm, master.paired.any()):
+    # A surface need not meet itself
+    expected = interface.active and not may_fly and not interface.is_self
+    if expected and not anywhere(comm, master.paired.any()):
         # Where its nodes were paired, or should have been
         small = interface.sliding == "small"
         x = halo.x if small else interface.positions()

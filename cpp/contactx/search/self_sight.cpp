@@ -14,6 +14,10 @@ namespace
 /// Part of what a body measures through a node that it may be behind a facet
 /// and have come through that one
 constexpr double half = 0.5;
+/// Largest cosine between the normals of a node and of a facet on the far side
+/// of its body: so that a right angle that becomes less than one is no way
+/// through
+constexpr double far_side = 0.5;
 /// Of the size of a facet: what rounding, and the solution, leave of a gap
 constexpr double rounding = 1e-6;
 
@@ -81,13 +85,16 @@ void SelfSight::find_thickness()
   std::int32_t hint = -1;
   for (const std::int32_t node : _surface.owned())
   {
-    const auto is_far_side = [this, node](const Projection& q)
+    const Vector<3> normal = row(_normal, node, _gdim);
+    const auto is_far_side = [&](const Projection& q)
     {
-      return q.gap < 0 and _body[_surface.facets()[q.facet][0]] == _body[node]
+      return q.gap < 0 and dot(q.normal, normal) < far_side
+             and _body[_surface.facets()[q.facet][0]] == _body[node]
              and not std::ranges::binary_search(_neighbours[node], q.facet);
     };
+    // Facets of any normal
     const FoundPlace found = _finder.find(
-        _reference, row(_reference, node, _gdim), row(_normal, node, _gdim),
+        _reference, row(_reference, node, _gdim), {},
         std::numeric_limits<double>::infinity(), hint, is_far_side);
     if (not found.nearest)
       continue;
@@ -116,9 +123,10 @@ bool SelfSight::sees(std::int32_t node, const Vector<3>& normal,
   if (norm(q.d) <= half * _thickness[node])
     return true;
   const SurfacePoint foot = point_at(_finder.surface(), q.facet, _x0, q.xi);
-  const Vector<3> d0 = row(_x0, node, _gdim) - foot.x;
-  return dot(foot.normal, d0) >= -slack
-         and dot(row(_normal0, node, _gdim), d0) <= slack;
+  const Vector<3> d0 = row(_x0, node, _gdim) - foot.x,
+                  normal0 = row(_normal0, node, _gdim);
+  return dot(foot.normal, normal0) < 0 and dot(foot.normal, d0) >= -slack
+         and dot(normal0, d0) <= slack;
 }
 
 FoundPlace SelfSight::find(std::int32_t node, double reach,
