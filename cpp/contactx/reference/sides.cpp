@@ -158,12 +158,14 @@ std::shared_ptr<contact::DeformableMaster> contactx::reference::make_master(
       options.level};
   const facet::Facets own
       = search::in_order(*halo, master.facets.offsets, master.facets.nodes);
+  // The halo grows, and the bodies with it
+  const std::vector<std::int64_t> body = mesh.bodies->of_node();
   const std::shared_ptr<search::MasterSurface> surface
-      = options.is_self ? std::make_shared<search::SelfSurface>(
-                              halo, own, mesh.bodies->of_node(),
-                              options.excluded_distance, options.level)
-                        : search::make_master_surface(halo, own.offsets,
-                                                      own.nodes, options.level);
+      = options.is_self
+            ? std::make_shared<search::SelfSurface>(
+                  halo, own, body, options.excluded_distance, options.level)
+            : search::make_master_surface(halo, own.offsets, own.nodes,
+                                          options.level);
   const auto outside
       = std::make_shared<search::Outside>(halo, own.offsets, own.nodes);
   const auto made

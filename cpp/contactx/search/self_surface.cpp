@@ -21,7 +21,8 @@ static_assert(sizeof(Paired) == 2 * sizeof(std::int32_t) + sizeof(FacetKey));
 } // namespace
 
 SelfSurface::SelfSurface(std::shared_ptr<parallel::Halo> halo,
-                         facet::Facets own, std::span<const std::int64_t> body,
+                         facet::Facets own,
+                         const std::vector<std::int64_t>& body,
                          std::optional<double> excluded,
                          std::span<const std::int8_t> level)
     : DistributedSurface(halo, own, level),

@@ -25,7 +25,7 @@ public:
   /// @param[in] excluded See SelfSight.
   /// @param[in] level See make_master_surface.
   SelfSurface(std::shared_ptr<parallel::Halo> halo, facet::Facets own,
-              std::span<const std::int64_t> body,
+              const std::vector<std::int64_t>& body,
               std::optional<double> excluded,
               std::span<const std::int8_t> level = {});
 
