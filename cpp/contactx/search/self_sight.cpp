@@ -18,6 +18,9 @@ constexpr double half = 0.5;
 /// of its body: so that a right angle that becomes less than one is no way
 /// through
 constexpr double far_side = 0.5;
+/// How many times as far as the height is, the edge of a valley may be that a
+/// node is behind: it is no valley beyond the end of what the node sees
+constexpr double beside = 2;
 /// Of the size of a facet: what rounding, and the solution, leave of a gap
 constexpr double rounding = 1e-6;
 
@@ -90,7 +93,8 @@ void SelfSight::find_thickness()
     {
       return q.gap < 0 and dot(q.normal, normal) < far_side
              and _body[_surface.facets()[q.facet][0]] == _body[node]
-             and not std::ranges::binary_search(_neighbours[node], q.facet);
+             and std::ranges::find(_surface.facets()[q.facet], node)
+                     == _surface.facets()[q.facet].end();
     };
     // Facets of any normal
     const FoundPlace found = _finder.find(
@@ -133,8 +137,14 @@ FoundPlace SelfSight::find(std::int32_t node, double reach,
                            std::int32_t hint) const
 {
   const Vector<3> p = row(_x, node, _gdim), normal = row(_normal, node, _gdim);
-  return _finder.find(_x, p, normal, reach, hint, [&](const Projection& q)
-                      { return sees(node, normal, q); });
+  FoundPlace found
+      = _finder.find(_x, p, normal, reach, hint, [&](const Projection& q)
+                     { return sees(node, normal, q); });
+  if (found.selected and found.selected->excess > margin
+      and found.selected->feature == facet::interior
+      and norm(found.nearest->d) > beside * std::abs(found.selected->gap))
+    found.selected = std::nullopt;
+  return found;
 }
 
 bool SelfSight::is_slave(std::int32_t node, const Projection& at) const
