@@ -37,7 +37,7 @@ LENGTH, THICKNESS = 6.0, 0.06
 YOUNG, NU, FRICTION = 1.0, 0.3, 0.3
 # Share of the steps in which the ends turn upward; how far they are apart then, and turn back
 TURN, APART, BACK = 0.6, 0.1, np.radians(40)
-STEPS = 30
+STEPS = 20
 
 type Array = npt.NDArray[np.float64]
 
@@ -178,6 +178,7 @@ def draw(folder: Path, fold: Fold) -> list[Path]:
             files[0],
             title="A strip that is folded onto itself",
             label="contact pressure / E",
+            box=[[0.4 * LENGTH, -THICKNESS], [0.48 * LENGTH, THICKNESS]],
         )
     return files
 

@@ -77,6 +77,9 @@ class Findings:
             )
         advice = _UNPAIRED if interface.sliding == "small" else _FAR
         self._add_inside(name, "master, and have no pair with it", found, size, advice)
+        if interface.is_self:
+            self._add_depth(name, "surface", found, "at", "Refine it, or take smaller load steps")
+            return
         advice = "Swap slave and master, or refine the slave surface"
         self._add_depth(name, "master", found, "at", advice)
 

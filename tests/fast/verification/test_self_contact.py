@@ -1,0 +1,86 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""A surface in contact with itself, and all of several bodies with one another."""
+
+import numpy as np
+import pytest
+from closing_clip import CLOSING, SLIT, THICKNESS, Clip
+
+import contactx as cx
+
+from scenes.thin_sheets import PRESSURE, ThinSheets
+
+
+@pytest.mark.parametrize("steps", [1, 4, 16])
+def test_the_tips_of_a_clip_meet_and_stop(steps):
+    clip = Clip(0.1)
+    clip.run(2 * CLOSING, steps)
+    assert clip.penetration < 0.01 * THICKNESS
+    # Beam theory of a thin ring, of which this is none
+    assert clip.contact_force == pytest.approx(CLOSING, rel=0.06)
+    imbalance = np.linalg.norm(clip.problem.report.imbalance)
+    assert imbalance <= 1e-10 * clip.contact_force
+    # Tips that were open by much are still there: they have stopped
+    assert clip.gap() == pytest.approx(0, abs=0.01 * SLIT)
+
+
+def test_a_scene_that_is_turned_turns_its_answer():
+    straight, turned = Clip(0.1), Clip(0.1, angle=0.7)
+    for clip in (straight, turned):
+        clip.run(2 * CLOSING, 2)
+    assert turned.contact_force == pytest.approx(straight.contact_force, rel=1e-9)
+    assert turned.problem.report.iterations == straight.problem.report.iterations
+    c, s = np.cos(0.7), np.sin(0.7)
+    expected = straight.u.x.array.reshape(-1, 2) @ np.array([[c, s], [-s, c]])
+    assert turned.u.x.array == pytest.approx(expected.ravel(), abs=1e-9)
+
+
+def test_what_goes_through_itself_is_refused():
+    """The search does not reach what the tips go through: only the audit sees it."""
+    clip = Clip(0.1, search_distance=1e-4)
+    clip.press(2 * CLOSING)
+    with pytest.raises(cx.ConvergenceError, match="went through"):
+        clip.problem.solve()
+
+
+def test_the_condensed_solver_finds_the_same():
+    moved = []
+    for options in ({}, {"pc_type": "condensed"}):
+        sheets = ThinSheets(friction=0.3, petsc_options=options)
+        sheets.problem.solve()
+        moved.append(sheets.u.x.array.copy())
+    assert moved[1] == pytest.approx(moved[0], abs=1e-8 * np.abs(moved[0]).max())
+
+
+@pytest.mark.parametrize("friction", [0.0, 0.3])
+def test_thin_sheets_have_two_sides(friction):
+    """The middle one carries on both sides, thinner than its facets, tagged all around."""
+    sheets = ThinSheets(friction=friction)
+    sheets.problem.solve()
+    contact = sheets.contact
+    nodes = contact.interface.nodes
+    assert np.linalg.norm(sheets.problem.report.imbalance) <= 1e-10 * PRESSURE
+    # Two layers of contact carry the load
+    total = np.abs((nodes.area[:, None] * contact.multiplier.reshape(len(nodes.area), -1)).sum())
+    assert np.nanmax(np.abs(nodes.gap[nodes.closed])) < 1e-10
+    if friction == 0:
+        assert total == pytest.approx(2 * PRESSURE, rel=1e-9)
+    # No node is on both sides
+    slaves = set(contact.slave_nodes[nodes.closed].tolist())
+    for pairs in contact.interface.pairs:
+        for row in pairs.nodes:
+            if row[0] in slaves:
+                assert not slaves & set(row[1:].tolist())
+
+
+def test_sides_stay_what_they_are():
+    """Which nodes are slaves does not change while a load grows."""
+    clip = Clip(0.1)
+    clip.run(1.5 * CLOSING, 3)
+    before = clip.contact.interface.nodes.closed.copy()
+    assert before.any()
+    for load in (1.7, 2.0, 2.5):
+        clip.press(load * CLOSING)
+        clip.problem.solve()
+        after = clip.contact.interface.nodes.closed
+        assert (after | before).sum() == max(after.sum(), before.sum())

@@ -1,0 +1,92 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Sheets that are thinner than their facets, one on the other, pressed together."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from mpi4py import MPI
+
+import numpy as np
+
+import basix.ufl
+import contactx as cx
+import ufl
+from dolfinx import fem, mesh
+
+from story import displacement, elasticity
+
+BOUNDARY = 1
+PRESSURE = 1e-3
+
+
+class ThinSheets:
+    """Sheets under a uniform pressure, E = 1, nu = 0: their boundaries are one surface.
+
+    Attributes:
+        u: Displacement.
+        contact: Contact of all of them.
+        problem: The problem.
+    """
+
+    def __init__(
+        self,
+        cells: tuple[int, ...] = (10, 7, 10),
+        height: float = 0.02,
+        petsc_options: dict[str, Any] | None = None,
+        **options: Any,
+    ):
+        """Create them, one above the other with small gaps.
+
+        Args:
+            cells: Number of cells of each along its length of 1.
+            height: Thickness of each.
+            petsc_options: Options of PETSc.
+            options: Options of the contact.
+        """
+        gap = 0.01 * height
+        x, quadrilaterals, count = [], [], 0
+        for k, n in enumerate(cells):
+            low = k * (height + gap)
+            along = np.linspace(0, 1, n + 1)
+            x.append(np.stack([np.tile(along, 2), np.repeat([low, low + height], n + 1)], axis=1))
+            i = count + np.arange(n)
+            quadrilaterals.append(np.stack([i, i + 1, i + n + 1, i + n + 2], axis=1))
+            count += 2 * (n + 1)
+        element = basix.ufl.element("Lagrange", "quadrilateral", 1, shape=(2,))
+        is_first = MPI.COMM_WORLD.rank == 0
+        domain = mesh.create_mesh(
+            MPI.COMM_WORLD,
+            np.concatenate(quadrilaterals) if is_first else np.zeros((0, 4), dtype=np.int64),
+            element,
+            np.concatenate(x) if is_first else np.zeros((0, 2)),
+        )
+        domain.topology.create_connectivity(1, 2)
+        facets = mesh.exterior_facet_indices(domain.topology)
+        tags = mesh.meshtags(domain, 1, facets, np.full(len(facets), BOUNDARY, dtype=np.int32))
+        self.top = len(cells) * height + (len(cells) - 1) * gap
+        self.u = u = displacement(domain)
+        V = u.function_space
+        height_of = ufl.SpatialCoordinate(domain)[1]
+        on_top = ufl.conditional(ufl.gt(height_of, self.top - 1e-9), PRESSURE, 0.0)
+        F = elasticity(u, 1.0, 0.0) + on_top * ufl.TestFunction(u.function_space)[1] * ufl.ds
+        bcs = []
+        for component, where in (
+            (1, lambda x: x[1] < 1e-9),
+            (0, lambda x: x[0] < 1e-9),
+        ):
+            dofs = fem.locate_dofs_geometrical(
+                (V.sub(component), V.sub(component).collapse()[0]), where
+            )
+            zero = fem.Function(V.sub(component).collapse()[0])
+            bcs.append(fem.dirichletbc(zero, dofs, V.sub(component)))
+        self.contact = cx.Contact.all(tags, **options)
+        self.problem = cx.ContactProblem(
+            F,
+            u,
+            contacts=[self.contact],
+            bcs=bcs,
+            petsc_options_prefix="sheets_",
+            petsc_options=petsc_options,
+        )
