@@ -16,7 +16,7 @@ on each disc balance.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from mpi4py import MPI
@@ -84,6 +84,7 @@ class Box:
         columns: int = COLUMNS,
         angle: float = 0.0,
         seed: int = 1,
+        method: str = "node-to-surface",
     ):
         """Set the problem up.
 
@@ -93,6 +94,7 @@ class Box:
             columns: Number of discs in each.
             angle: By which the scene is turned.
             seed: Of radii, and of what discs are turned by.
+            method: Method of the contacts with the box.
         """
         c, s = np.cos(angle), np.sin(angle)
         turn = np.array([[c, -s], [s, c]])
@@ -110,11 +112,11 @@ class Box:
         self._load = fem.Constant(domain, -WEIGHT * self.up)
         v = ufl.TestFunction(u.function_space)
         self._F = neo_hookean(u, YOUNG, NU) - ufl.inner(self._load, v) * ufl.dx
-        self.discs = cx.Contact.all(tags, friction=FRICTION)
+        self.discs = cx.Contact.all(tags, friction=FRICTION, method="node-to-surface")
         rims = cx.Surface(tags, 1)
         sides = [((0.0, 0.0), (0.0, 1.0)), ((0.0, 0.0), (1.0, 0.0)), ((width, 0.0), (-1.0, 0.0))]
         self.walls = [
-            cx.Contact(rims, cx.Plane(turn @ point, turn @ normal), friction=FRICTION)
+            cx.Contact(rims, cx.Plane(turn @ point, turn @ normal), friction=FRICTION, method=method)
             for point, normal in sides
         ]
         self.problem = cx.ContactProblem(
@@ -156,8 +158,11 @@ class Box:
         )
         return domain, (2 * RADIUS + GAP) * (columns + 0.5) + GAP
 
-    def settle(self) -> None:
-        """Let the discs fall until they rest, and take the drag off.
+    def fall(self) -> Iterator[float]:
+        """Let the discs fall until they rest.
+
+        Yields:
+            Longest way of a node in each step that was taken.
 
         Raises:
             contactx.ConvergenceError: If they come to no rest.
@@ -176,11 +181,17 @@ class Box:
                 continue
             way = np.abs(self.u.x.array - self._before.x.array).max(initial=0.0)
             way = comm.allreduce(float(way), MPI.MAX)
+            yield way
             if way <= REST:
-                break
+                return
             # Not while they still fall
             if way < 0.5 * fall or fall < FALL:
                 fall *= LONGER
+
+    def settle(self) -> None:
+        """Let the discs fall until they rest, and take the drag off."""
+        for _ in self.fall():
+            pass
         self._drag.value = 0.0
         self.problem.solve()
 

@@ -19,6 +19,7 @@ from ranks import (
     scenes_quadratic,
     scenes_rigid,
     scenes_rubbing,
+    scenes_self,
     scenes_several,
 )
 
@@ -32,6 +33,7 @@ _MODULES = (
     scenes_quadratic,
     scenes_by_bodies,
     scenes_moving,
+    scenes_self,
 )
 
 # Functions that yield the problem after each step
@@ -42,7 +44,7 @@ SCENES: dict[str, Callable[[], Iterator[cx.ContactProblem]]] = {
     if inspect.isgeneratorfunction(function) and not name.startswith("_")
 }
 # What tests/fast runs on two ranks: friction, free bodies, ties, nodes in several
-# contacts, dragging over the parts of ranks, an obstacle, inertia, both solvers
+# contacts, dragging over the parts of ranks, an obstacle, inertia, self-contact, both solvers
 QUICK = (
     ("friction_condensed", "node"),
     ("floating_3d", "surface"),
@@ -52,6 +54,7 @@ QUICK = (
     ("dragged_3d", "node"),
     ("plane", "node"),
     ("flying_2d", "surface"),
+    ("clip", "node"),
 )
 
 
