@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """Self-contact: a strip is folded until its two halves touch, and on.
 
-A neo-Hookean strip, 6 long and 0.06 thick, E = 1, nu = 0.3, in plane strain, friction 0.3. Both ends
-are clamped: they turn upward by a right angle, then come together and turn back by 40 degrees,
+A neo-Hookean strip, 6 long and 0.06 thick, E = 1, nu = 0.3, in plane strain, friction 0.3. Both
+ends are clamped: they turn upward by a right angle, then come together and turn back by 40 degrees,
 which presses the halves of the strip onto each other. Its whole boundary is one surface, slave and
 master at once; a node never meets what it sees through the strip, which is thinner than the way to
 anything else.
@@ -25,13 +25,13 @@ from mpi4py import MPI
 
 import numpy as np
 import numpy.typing as npt
+from closing_clip import neo_hookean
 
 import contactx as cx
 from dolfinx import fem, mesh
 
 import plot
 import story
-from closing_clip import neo_hookean
 
 LENGTH, THICKNESS = 6.0, 0.06
 YOUNG, NU, FRICTION = 1.0, 0.3, 0.3
@@ -119,9 +119,7 @@ class Fold:
         V = u.function_space
         self._x = V.tabulate_dof_coordinates()[:, :2]
         self._ends = fem.Function(V)
-        self._dofs = fem.locate_dofs_geometrical(
-            V, lambda x: np.abs(x[0]) > (0.5 - 1e-9) * LENGTH
-        )
+        self._dofs = fem.locate_dofs_geometrical(V, lambda x: np.abs(x[0]) > (0.5 - 1e-9) * LENGTH)
         boundary = cx.Surface(tags, 1)
         self.contact = cx.Contact(slave=boundary, master=boundary, **options)
         self.problem = cx.ContactProblem(

@@ -23,6 +23,7 @@ from mpi4py import MPI
 
 import numpy as np
 import numpy.typing as npt
+from closing_clip import neo_hookean
 
 import basix.ufl
 import contactx as cx
@@ -31,7 +32,6 @@ from dolfinx import fem, la, mesh
 
 import plot
 import story
-from closing_clip import neo_hookean
 
 YOUNG, NU, FRICTION = 1.0, 0.3, 0.3
 # Largest radius and what radii are smaller by, gap between the discs, force per volume
@@ -116,7 +116,9 @@ class Box:
         rims = cx.Surface(tags, 1)
         sides = [((0.0, 0.0), (0.0, 1.0)), ((0.0, 0.0), (1.0, 0.0)), ((width, 0.0), (-1.0, 0.0))]
         self.walls = [
-            cx.Contact(rims, cx.Plane(turn @ point, turn @ normal), friction=FRICTION, method=method)
+            cx.Contact(
+                rims, cx.Plane(turn @ point, turn @ normal), friction=FRICTION, method=method
+            )
             for point, normal in sides
         ]
         self.problem = cx.ContactProblem(
@@ -130,9 +132,7 @@ class Box:
         self.steps = 0
 
     @staticmethod
-    def _mesh(
-        h: float, rows: int, columns: int, turn: Array, seed: int
-    ) -> tuple[mesh.Mesh, float]:
+    def _mesh(h: float, rows: int, columns: int, turn: Array, seed: int) -> tuple[mesh.Mesh, float]:
         """Mesh of the discs, every other row half a disc to the right, and width of the box."""
         random = np.random.default_rng(seed)
         n = round(np.pi / 2 * RADIUS / h)

@@ -838,6 +838,8 @@ class MasterOptions:
         is_small: bool,
         search_distance: float | None,
         level: NDArray[np.int8] = ...,
+        is_self: bool = False,
+        excluded_distance: float | None = None,
     ) -> None: ...
 
 def point_text(x: NDArray[np.float64] | Sequence[float], size: float) -> str: ...
