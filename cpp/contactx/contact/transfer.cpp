@@ -3,11 +3,24 @@
 
 #include "transfer.h"
 #include "../check.h"
+#include "deformable_master.h"
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 using namespace contactx;
 using namespace contactx::contact;
+
+namespace
+{
+/// Whether slave and master are the same surface.
+bool is_self(const Contact& contact)
+{
+  const auto* master
+      = dynamic_cast<const DeformableMaster*>(contact.master().get());
+  return master and master->surface()->sees_bodies();
+}
+} // namespace
 
 Transfer::Transfer(const Contact& contact)
     : _halo(contact.halo()), _weights(contact.master()->weights()),
@@ -25,8 +38,19 @@ Transfer::Transfer(const Contact& contact)
       _area[i] = 0;
   }
   _is_slave.assign(_halo.num_nodes(), 0);
-  for (const std::int32_t node : contact.slaves().around())
-    _is_slave[node] = 1;
+  if (not is_self(contact))
+  {
+    for (const std::int32_t node : contact.slaves().around())
+      _is_slave[node] = 1;
+    return;
+  }
+  // All nodes may be slaves: those that are now
+  std::vector<std::int64_t> marks(_halo.num_nodes(), 0);
+  const auto owned = contact.slaves().owned();
+  for (std::size_t i = 0; i < n; ++i)
+    marks[owned[i]] = _is_paired[i];
+  _halo.forward(std::span(marks), 1);
+  std::ranges::copy(marks, _is_slave.begin());
 }
 
 /// Calls f(slave, node, weight) for all entries of paired slave nodes.
