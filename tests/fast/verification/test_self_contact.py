@@ -7,8 +7,12 @@ import pytest
 from closing_clip import CLOSING, SLIT, THICKNESS, Clip
 
 import contactx as cx
+from dolfinx.mesh import CellType
 
+import meshes
+from meshes import Tag
 from scenes.thin_sheets import PRESSURE, ThinSheets
+from story import displacement, elasticity, fix
 
 
 @pytest.mark.parametrize("steps", [1, 4, 16])
@@ -84,3 +88,25 @@ def test_sides_stay_what_they_are():
         clip.problem.solve()
         after = clip.contact.interface.nodes.closed
         assert (after | before).sum() == max(after.sum(), before.sum())
+
+
+@pytest.mark.parametrize("cell", [CellType.hexahedron, CellType.tetrahedron], ids=lambda c: c.name)
+def test_blocks_that_nobody_pairs(cell):
+    """All faces of two blocks are one surface; the contact is that of the faces that meet."""
+    forces = []
+    for is_named in (True, False):
+        data = meshes.blocks(cell, [4, 4, 2], [3, 3, 2])
+        u, tags = displacement(data.mesh), data.facet_tags
+        if is_named:
+            faces = [cx.Surface(tags, face) for face in (Tag.LOWER_CONTACT, Tag.UPPER_CONTACT)]
+            contact = cx.Contact(*faces, friction=0.3)
+        else:
+            contact = cx.Contact.all(tags, friction=0.3)
+        bcs = [fix(u, tags, i, 0.0, Tag.LOWER_BOTTOM) for i in range(3)]
+        bcs += [fix(u, tags, i, -0.05 * (i == 2), Tag.UPPER_TOP) for i in range(3)]
+        problem = cx.ContactProblem(
+            elasticity(u, 1.0, 0.3), u, contacts=[contact], bcs=bcs, petsc_options_prefix="all_"
+        )
+        problem.solve()
+        forces.append(contact.force)
+    assert forces[1] == pytest.approx(forces[0], abs=1e-9)
