@@ -43,6 +43,12 @@ SCENES: dict[str, Callable[[], Iterator[cx.ContactProblem]]] = {
     for name, function in vars(module).items()
     if inspect.isgeneratorfunction(function) and not name.startswith("_")
 }
+# Scenes that name their method themselves: they are run by that one alone
+ONE_METHOD = {
+    name: "node"
+    for name, function in vars(scenes_self).items()
+    if inspect.isgeneratorfunction(function)
+}
 # What tests/fast runs on two ranks: friction, free bodies, ties, nodes in several
 # contacts, dragging over the parts of ranks, an obstacle, inertia, self-contact, both solvers
 QUICK = (

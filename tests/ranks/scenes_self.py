@@ -1,6 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""A surface on itself, and bodies that all may meet; node-to-surface whatever is asked for."""
+"""A surface on itself, and bodies that all may meet: node-to-surface alone."""
 
 from __future__ import annotations
 

@@ -4,7 +4,7 @@
 
 import pytest
 
-from ranks.cases import METHODS, QUICK, SCENES, Case
+from ranks.cases import METHODS, ONE_METHOD, QUICK, SCENES, Case
 from ranks.runs import Runs
 
 # Ranks without cells, without a body, without slave nodes or master facets; ghost cells; any
@@ -41,12 +41,23 @@ TRIED = (
     ("axisymmetric", "node"),
     ("heat_across", "surface"),
 )
-BOTH = list(METHODS)
+
+
+def methods(scene):
+    """Methods that a scene is solved by."""
+    return [ONE_METHOD[scene]] if scene in ONE_METHOD else list(METHODS)
+
+
+def half(scene, k):
+    """One of its methods."""
+    return methods(scene)[k % len(methods(scene))]
+
+
 CASES = [
     # Those of tests/fast are not run again
-    *((Case(scene, m), 2) for scene in SCENES for m in BOTH if (scene, m) not in QUICK),
+    *((Case(scene, m), 2) for scene in SCENES for m in methods(scene) if (scene, m) not in QUICK),
     # Ranks that share cores take long: each method on half of them
-    *((Case(scene, BOTH[(n + k) % 2]), n) for n in (3, 4) for k, scene in enumerate(SCENES)),
+    *((Case(scene, half(scene, n + k)), n) for n in (3, 4) for k, scene in enumerate(SCENES)),
     *(
         (Case(scene, method, partition), n)
         for partition, ranks in UNUSUAL.items()
