@@ -160,17 +160,25 @@ class Contact:
         return f"Contact(slave={self.slave}, master={master}, sliding={self.sliding!r})"
 
     @classmethod
-    def all(cls, facet_tags: mesh.MeshTags, *tags: int | Iterable[int], **options: Any) -> Contact:
+    def all(
+        cls,
+        where: mesh.MeshTags | Surface | Sequence[Surface],
+        *more: int | Iterable[int] | Surface,
+        **options: Any,
+    ) -> Contact:
         """Contact of every pair of bodies, or parts of one, that can meet.
 
-        One contact has all pairs: self-contact of the surface that all tags make up. Bodies may
-        meet that are far apart at first, and each may fold onto itself. Of two bodies the softer
-        one, or the one of smaller facets, is the slave where they differ by a factor of 2 in the
-        product of stiffness and size; see ``search/self_order.h``.
+        One contact has all pairs: self-contact of the surface that everything given makes up.
+        Bodies may meet that are far apart at first, and each may fold onto itself. Of two bodies
+        the softer one, or the one of smaller facets, is the slave where they differ by a factor of
+        2 in the product of stiffness and size; see ``search/self_order.h``. Write
+        ``Contact.all(facet_tags)`` for all tags, ``Contact.all(facet_tags, 1, 2)`` for some, or
+        ``Contact.all([arm, hook])`` for surfaces.
 
         Args:
-            facet_tags: The tags.
-            tags: Values that make up the surface; all that there are if none is given.
+            where: The facet tags, or a surface or several of the same facet tags.
+            more: Of facet tags the values that make up the surface, all that there are if none is
+                given; of surfaces further ones.
             options: Options of a Contact: friction, search_distance and others.
 
         Returns:
@@ -178,13 +186,9 @@ class Contact:
 
         Raises:
             TypeError: If an argument is of another kind.
-            ValueError: As ``Surface`` and ``Contact`` do.
+            ValueError: If surfaces have different facet tags; as ``Surface`` and ``Contact`` do.
         """
-        values: tuple[int | Iterable[int], ...] = tags
-        if not tags and isinstance(facet_tags, mesh.MeshTags):
-            present = facet_tags.topology.comm.allgather(np.unique(facet_tags.values).tolist())
-            values = (sorted({value for theirs in present for value in theirs}),)
-        surface = Surface(facet_tags, *values)
+        surface = _joined(where, more)
         return cls(surface, surface, **options)
 
     def attach(self, halo: Halo, markers: npt.NDArray[np.int8], bodies: Bodies) -> Interface:
@@ -612,6 +616,43 @@ def _check_options(
             )
         if not search_distance > 0:
             raise ValueError(f"search_distance is {search_distance}: give a positive length")
+
+
+def _joined(
+    where: mesh.MeshTags | Surface | Sequence[Surface],
+    more: tuple[int | Iterable[int] | Surface, ...],
+) -> Surface:
+    """The surface that ``Contact.all`` is of.
+
+    Raises:
+        TypeError: If an argument is of another kind.
+        ValueError: If there is no surface, or they have different facet tags.
+    """
+    if isinstance(where, Surface):
+        surfaces: list[Any] = [where, *more]
+    elif isinstance(where, Sequence):
+        surfaces = [*where, *more]
+    else:
+        values: tuple[Any, ...] = more
+        if not more and isinstance(where, mesh.MeshTags):
+            present = where.topology.comm.allgather(np.unique(where.values).tolist())
+            values = (sorted({value for theirs in present for value in theirs}),)
+        return Surface(where, *values)
+    if not surfaces:
+        raise ValueError("Contact.all has no surface: pass at least one")
+    for surface in surfaces:
+        if not isinstance(surface, Surface):
+            raise TypeError(
+                f"Contact.all takes surfaces alone or facet tags first, not {described(surface)} "
+                "among surfaces: write Contact.all([surface, other]) or Contact.all(facet_tags, 1)"
+            )
+        if surface.facet_tags is not surfaces[0].facet_tags:
+            raise ValueError(
+                f"{surfaces[0]} and {surface} have different facet tags: put the tags of all "
+                "surfaces into one dolfinx MeshTags"
+            )
+    tags = dict.fromkeys(tag for surface in surfaces for tag in surface.tags)
+    return Surface(surfaces[0].facet_tags, *tags)
 
 
 def _is_self(slave: Surface, master: Surface | Obstacle) -> bool:

@@ -60,3 +60,21 @@ def test_all_takes_all_tags(tags):
     assert cx.Contact.all(tags, 2).slave.tags == (2,)
     with pytest.raises(TypeError, match="facet_tags must be dolfinx MeshTags"):
         cx.Contact.all(None)
+
+
+def test_all_takes_surfaces(tags):
+    first, second = cx.Surface(tags, 1), cx.Surface(tags, 2)
+    for given in (([first, second],), (first, second), ((first, second, first),)):
+        contact = cx.Contact.all(*given, friction=0.3)
+        assert contact.is_self and contact.slave.tags == (1, 2)
+    assert cx.Contact.all(second).slave.tags == (2,)
+
+
+def test_all_refuses_what_is_no_surface(tags):
+    other = mesh.meshtags(tags.topology, 1, tags.indices, tags.values)
+    with pytest.raises(ValueError, match="have different facet tags: put the tags"):
+        cx.Contact.all([cx.Surface(tags, 1), cx.Surface(other, 2)])
+    with pytest.raises(TypeError, match="not int 2 among surfaces"):
+        cx.Contact.all(cx.Surface(tags, 1), 2)
+    with pytest.raises(ValueError, match="has no surface"):
+        cx.Contact.all([])
