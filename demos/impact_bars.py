@@ -56,6 +56,7 @@ class Bars:
         times: Ends of the time steps.
         forces: Mean contact forces of the time steps over rho c v A.
         energies: Energies at the start and at the end of each step.
+        iterations: Linear solves of each step.
         velocity: Mean velocity of the upper bar at the end.
     """
 
@@ -115,6 +116,7 @@ class Bars:
         self.times: list[float] = []
         self.forces: list[float] = []
         self.energies = [self._start]
+        self.iterations: list[int] = []
         self.impulse = 0.0
 
     def run(self) -> None:
@@ -129,6 +131,7 @@ class Bars:
             self.times.append(step.t)
             self.forces.append(float(balance.impulse[0][1]) / balance.dt / scale)
             self.energies.append(balance.energy)
+            self.iterations.append(step.iterations)
             self.impulse += float(balance.impulse[0][1])
 
     @property
@@ -157,14 +160,18 @@ class Bars:
         """Largest growth of energy in a step, over that of the start."""
         return float(np.diff(self.energies).max() / self._start)
 
-    def compare(self, scene: str) -> list[story.Result]:
-        """Force, time and velocity against the waves' theory."""
+    @property
+    def duration(self) -> float:
+        """Time of contact."""
         pressed = np.array(self.times)[np.array(self.forces) > 0]
         # An impact within a step is at its end for the forces
-        last = pressed[-1] - pressed[0] + self.dt
+        return float(pressed[-1] - pressed[0] + self.dt)
+
+    def compare(self, scene: str) -> list[story.Result]:
+        """Force, time and velocity against the waves' theory."""
         return [
             story.Result(f"{scene}: force / rho c v A", 1.0, float(self.steady.mean())),
-            story.Result(f"{scene}: time of contact c / L", 2.0, last),
+            story.Result(f"{scene}: time of contact c / L", 2.0, self.duration),
             story.Result(f"{scene}: velocity after / v", 1.0, self.velocity / VELOCITY),
             story.Result(f"{scene}: energy after / before", 1.0, 1 - self.loss),
         ]

@@ -10,6 +10,8 @@ all and writes docs/gallery.md, with a picture of each; ``test_gallery.py`` chec
 - ``fitted``: rings and pins in holes.
 - ``slender``: beams, belts and layers.
 - ``stacked``: round bodies between plates.
+- ``folded``: bodies that fold onto themselves.
+- ``impact``: bodies with inertia that hit something.
 - ``nafems``: the contact benchmarks of NAFEMS R0094.
 - ``sheet``: the third of them, a plastic sheet.
 - ``codes``: tests that other codes ship.

@@ -4,7 +4,18 @@
 
 from __future__ import annotations
 
-from published import codes, fitted, half_space, hertz, nafems, sheet, slender, stacked
+from published import (
+    codes,
+    fitted,
+    folded,
+    half_space,
+    hertz,
+    impact,
+    nafems,
+    sheet,
+    slender,
+    stacked,
+)
 from published.record import Case
 
 CASES: list[Case] = [
@@ -16,4 +27,6 @@ CASES: list[Case] = [
     *half_space.CASES,
     *slender.CASES,
     *stacked.CASES,
+    *folded.CASES,
+    *impact.CASES,
 ]
