@@ -71,7 +71,10 @@ def test_all_takes_surfaces(tags):
 
 
 def test_all_refuses_what_is_no_surface(tags):
-    other = mesh.meshtags(tags.topology, 1, tags.indices, tags.values)
+    domain = mesh.create_unit_square(MPI.COMM_SELF, 1, 1)
+    domain.topology.create_connectivity(1, 2)
+    facets = mesh.exterior_facet_indices(domain.topology)
+    other = mesh.meshtags(domain, 1, np.sort(facets), np.full(len(facets), 2, dtype=np.int32))
     with pytest.raises(ValueError, match="have different facet tags: put the tags"):
         cx.Contact.all([cx.Surface(tags, 1), cx.Surface(other, 2)])
     with pytest.raises(TypeError, match="not int 2 among surfaces"):
