@@ -199,7 +199,7 @@ def test_friction():
 
 
 def test_dynamics():
-    rows = bench_dynamics.main(["20", "40"])
+    rows = bench_dynamics.main(["8", "40"])
     assert len(rows) == 24 + 4 + 16 + 2
     assert all(np.isfinite(row.get("growth", 0.0)) for row in rows)
     assert max(row["growth"] for row in rows if "method" in row) <= 1e-12

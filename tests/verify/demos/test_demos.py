@@ -111,7 +111,7 @@ def test_patch_test(dim, sliding, tmp_path, capsys):
             2 * (0.01, 1e-3, 1e-3, 1e-6),
             ("", "_velocity"),
         ),
-        (rolling_ring, ["--h", "0.07"], (0.01, 0.03, 1e-6), ("", "_velocity")),
+        (rolling_ring, ["--h", "0.14"], (0.01, 0.03, 1e-6), ("", "_velocity")),
     ],
 )
 def test_dynamics(demo, options, tolerances, pictures, tmp_path, capsys):

@@ -15,7 +15,7 @@ from matplotlib import image
     [
         (closing_clip, "0.05", (0.02, 0.05, 0.05, 0.05)),
         (folding_strip, "0.06", (0.06, 0.01)),
-        (settling_discs, "0.13", (1e-8,)),
+        (settling_discs, "0.2", (1e-8,)),
     ],
     ids=lambda value: getattr(value, "__name__", None),
 )
