@@ -155,7 +155,7 @@ def show_rows(title: str, rows: Sequence[tuple[str, float, float, Measured]]) ->
             f"{m.surface_factor:.1f}",
         )
     # Wide enough for all columns where there is no terminal
-    console = story.console if story.console.width >= 120 else story.Console(width=120)
+    console = story.console if story.console.width >= 120 else story.wide_console()
     console.print(table)
 
 

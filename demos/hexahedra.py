@@ -19,7 +19,7 @@ import numpy.typing as npt
 
 import contactx  # noqa: F401 - before dolfinx
 import ufl
-from dolfinx import fem, mesh
+from dolfinx import fem, la, mesh
 
 # Two Gauss points and the middle of the unit interval
 _TWO = 0.5 + np.array([-0.5, 0.5]) / np.sqrt(3)
@@ -108,18 +108,26 @@ class NodalStress:
         # As many points as nodes: the values at the points determine a trilinear function
         at_points = Q.element.basix_element.tabulate(0, points)[0, :, :, 0]
         self._extrapolate = np.linalg.inv(at_points)
-        self._dofs = Q.dofmap.list
-        self._cells = np.arange(len(self._dofs), dtype=np.int32)
-        self._count = np.bincount(self._dofs.ravel(), minlength=len(self.values.x.array))
+        # Cells of other ranks are counted there
+        self._cells = np.arange(domain.topology.index_map(3).size_local, dtype=np.int32)
+        self._dofs = Q.dofmap.list[self._cells]
+        self._count = self._sums(np.ones(self._dofs.size))
 
     def update(self) -> npt.NDArray[np.float64]:
-        """Evaluate the stress now.
+        """Evaluate the stress now; all ranks must take part.
 
         Returns:
             The nodal values, shape (num_nodes,).
         """
         at_points = self._expression.eval(self.values.function_space.mesh, self._cells)
         nodal = at_points.reshape(len(self._dofs), -1) @ self._extrapolate.T
-        total = np.bincount(self._dofs.ravel(), nodal.ravel(), minlength=len(self._count))
-        self.values.x.array[:] = total / self._count
+        self.values.x.array[:] = self._sums(nodal.ravel()) / self._count
         return self.values.x.array
+
+    def _sums(self, values: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+        """Sums of what cells give at their nodes, over all ranks."""
+        x = self.values.x
+        x.array[:] = np.bincount(self._dofs.ravel(), values, minlength=len(x.array))
+        x.scatter_reverse(la.InsertMode.add)
+        x.scatter_forward()
+        return x.array.copy()

@@ -30,6 +30,11 @@ console = Console(quiet=MPI.COMM_WORLD.rank > 0)
 METHODS = ("node-to-surface", "surface-to-surface")
 
 
+def wide_console(width: int = 120) -> Console:
+    """A console for tables that do not fit into 80 columns, where there is no terminal."""
+    return Console(width=width, quiet=MPI.COMM_WORLD.rank > 0)
+
+
 @dataclass(frozen=True)
 class Result:
     """A number that a demo computes and a formula gives."""

@@ -7,10 +7,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
+from dam_scene import Dam, DamSetting
+
 import contactx as cx
 from dolfinx.mesh import CellType
 
-from meshes import Tag
+from meshes import DamFace, Tag
 from scenes import Blocks
 from story import fix
 
@@ -26,6 +28,25 @@ def by_bodies_alike() -> Iterator[cx.ContactProblem]:
 def by_bodies_held() -> Iterator[cx.ContactProblem]:
     """Slave nodes along an edge are held along it, and their masters by them."""
     yield from _dragged(1e3, edges=(Tag.UPPER_X0,), friction=0.6)
+
+
+def dam_face() -> Iterator[cx.ContactProblem]:
+    """Slabs on rockfill: nodes of corners are masters of two bodies and slaves of one."""
+    model = DamFace(
+        slabs=3,
+        height=16.0,
+        rows=6,
+        layers=2,
+        joint_size=1.5,
+        rockfill_cells=3,
+        rockfill_rows=5,
+    )
+    options = (("pc_type", "condensed"), ("condensed_pc_type", "bodies"))
+    dam = Dam(DamSetting(model, options=options))
+    for t in (1.0, 2.0, 3.0):
+        dam.update(t, 2)
+        dam.problem.solve()
+        yield dam.problem
 
 
 def _dragged(

@@ -12,7 +12,7 @@ using namespace contactx::condense;
 namespace
 {
 /// Stiffness of a stiff body over that of a soft one, at least
-constexpr double least_ratio = 30;
+constexpr double least_ratio = 10;
 
 /// Stiffness from which on a body is stiff, by the widest gap; infinite where
 /// it is too narrow

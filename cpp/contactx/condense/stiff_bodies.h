@@ -13,7 +13,7 @@ namespace contactx::condense
 ///
 /// Of each body this is the sum of the bulk's diagonal over the sum of the
 /// contact areas, over the nodes whose contacts are closed. The widest gap
-/// between the bodies' stiffnesses parts them, if it is a factor of 30 at
+/// between the bodies' stiffnesses parts them, if it is a factor of 10 at
 /// least. A body without closed contact counts as stiff.
 ///
 /// No body is stiff where that gap is too narrow, or a stiff body's node is

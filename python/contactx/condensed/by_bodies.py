@@ -84,6 +84,15 @@ class ByBodies:
         self._is_new = False
         self._rate = self._lost = 0.0
 
+    def tells_apart(self, operator: CondensedOperator) -> bool:
+        """Whether there are stiff bodies and soft ones; all ranks must take part.
+
+        Args:
+            operator: The condensed matrix.
+        """
+        _, stiff = operator.parts(self._bodies)
+        return reduce.anywhere(self._comm, len(stiff) > 0)
+
     def solve(
         self,
         operator: CondensedOperator,

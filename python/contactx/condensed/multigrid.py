@@ -25,7 +25,7 @@ from contactx.report import Report
 # Iterations that cost what a hierarchy costs, as measured from 7,000 to 160,000 displacements
 _COST = 40
 # Iterations for a reduction by e from which on a direct solver is faster: stiff thin bodies
-_SLOW = 12
+SLOW = 12
 # Preconditioned from where the norm of the residual itself is at hand
 _SIDES = {"cg": PETSc.PC.Side.LEFT, "gmres": PETSc.PC.Side.RIGHT}
 _INDEFINITE = (
@@ -73,6 +73,7 @@ class Multigrid:
         # What the hierarchy was brought up to, and whether without its coarser levels
         self._updated_for: CondensedOperator | None = None
         self._serves = False
+        self._slow = SLOW
         self._quiet = Quiet()
         called = SimpleNamespace(mult=weakly(self._multiply))
         self._A = PETSc.Mat().createPython((size, size), called, comm=self._comm)
@@ -85,6 +86,7 @@ class Multigrid:
         v: PETSc.Vec,
         target: float,
         report: Report,
+        slow: int = SLOW,
     ) -> bool:
         """Solve operator v = rhs.
 
@@ -94,11 +96,12 @@ class Multigrid:
             v: Start of the iterations, overwritten by the solution.
             target: What the norm of the residual must fall below.
             report: Report whose times are added to.
+            slow: Iterations for a reduction by e from which on another solver is faster.
 
         Returns:
             Whether the iterations converged.
         """
-        self._operator = operator
+        self._operator, self._slow = operator, slow
         if self._lost > _COST:
             self.reset()
         if self._ksp is None:
@@ -146,7 +149,7 @@ class Multigrid:
             ksp.setNormType(PETSc.KSP.NormType.UNPRECONDITIONED)
             # A start of zero costs no product
             ksp.setInitialGuessNonzero(v.norm() > 0)
-            ksp.setTolerances(rtol=ROUNDING, atol=target, max_it=20 + int(_SLOW * reduction))
+            ksp.setTolerances(rtol=ROUNDING, atol=target, max_it=20 + int(self._slow * reduction))
             with report.timing("Krylov"), Quiet() as self._quiet:
                 ksp.solve(rhs, v)
             count = ksp.getIterationNumber()

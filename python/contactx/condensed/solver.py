@@ -15,7 +15,7 @@ from contactx.bodies import Bodies
 from contactx.bulk import Bulk
 from contactx.condensed.by_bodies import ByBodies
 from contactx.condensed.guess import Guess
-from contactx.condensed.multigrid import Multigrid
+from contactx.condensed.multigrid import SLOW, Multigrid
 from contactx.condensed.numbering import Array, Numbering, Surroundings
 from contactx.condensed.operator import CondensedOperator
 from contactx.factorised import FactorisedSolver
@@ -29,6 +29,9 @@ _ASKED = "condensed_pc_type asks for it"
 _HELD = "a slave node with a prescribed displacement moves its master"
 # What a guess may leave for each part that a solve would: Newton's method leaves as much
 _NEAR = 300.0
+# Iterations of multigrid for a reduction by e from which on stiff bodies and soft ones are solved
+# in turn
+_SLOW_OF_MIXED = 6
 
 
 class CondensedSolver:
@@ -162,9 +165,12 @@ class CondensedSolver:
         is_asked = PETSc.Options(self._prefix).getString("pc_type", "gamg") == "bodies"
         reason = _HELD if is_held else _ASKED if is_asked else _SLOW
         if not (is_held or is_asked) and of_multigrid < 2:
-            if self._multigrid.solve(operator, rhs, v, self.target, self._report):
+            # Where bodies can be told apart the other solver is fast: one slow solve tells enough
+            is_mixed = self._by_bodies.tells_apart(operator)
+            slow = _SLOW_OF_MIXED if is_mixed else SLOW
+            if self._multigrid.solve(operator, rhs, v, self.target, self._report, slow):
                 return True
-            of_multigrid += 1
+            of_multigrid += 2 if is_mixed else 1
         is_solved = self._by_bodies.solve(operator, rhs, v, self.target, self._report)
         if is_solved:
             self.by_bodies.append(reason)

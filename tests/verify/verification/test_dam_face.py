@@ -1,0 +1,87 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""The face of a dam: balance of all slabs, laws of contact, restart, the demo."""
+
+import dam_face
+import numpy as np
+import pytest
+from dam_results import joints, laws
+from dam_scene import Dam, DamSetting, run
+from matplotlib import image
+
+from meshes import DamFace
+
+MODEL = DamFace(
+    slabs=4,
+    height=20.0,
+    rows=10,
+    layers=2,
+    joint_size=0.6,
+    rockfill_cells=3,
+    rockfill_rows=8,
+)
+STAGES = 2
+
+
+def solved(creep=False):
+    dam = Dam(DamSetting(MODEL))
+    found = []
+    run(dam, STAGES, creep=creep, each=lambda *_: found.append(laws(dam)), progress=False)
+    return dam, found
+
+
+def test_laws_hold_in_all_stages():
+    """Each slab balances, supports carry all loads, no joint overlaps, friction is Coulomb's."""
+    _, found = solved(creep=True)
+    assert len(found) == 1 + STAGES + 1
+    for stage in found:
+        assert stage.balance < 1e-7
+        assert stage.reactions < 1e-8
+        assert stage.penetration < 1e-9
+        assert stage.coulomb < 1e-8
+
+
+@pytest.fixture(scope="module")
+def dam():
+    return solved()[0]
+
+
+def test_slabs_of_the_river_bed_turn_towards_one_another(dam):
+    found = joints(dam, dam_face.Compression(dam).update())
+    assert found[1].x == 0
+    assert found[1].rotation > 0
+
+
+def test_a_restart_goes_on(dam, tmp_path):
+    """The same displacements from a checkpoint."""
+    file = tmp_path / "dam.npz"
+
+    class StopError(Exception):
+        pass
+
+    def stop(_, step):
+        if step.t == 2:
+            raise StopError
+
+    first = Dam(DamSetting(MODEL))
+    with pytest.raises(StopError):
+        run(first, STAGES, creep=False, each=stop, progress=False, checkpoint=file)
+    second = Dam(DamSetting(MODEL))
+    run(second, STAGES, creep=False, progress=False, restart=file)
+    difference = second.u.x.array - dam.u.x.array
+    assert np.abs(difference).max() <= 1e-9 * np.abs(dam.u.x.array).max()
+
+
+def test_the_solver_is_chosen_by_itself(dam):
+    assert "multigrid is slow here" in dam.problem.report.by_bodies
+
+
+def test_demo(tmp_path, capsys):
+    arguments = "--slabs 4 --rows 12 --layers 2 --rockfill-rows 8 --rockfill-cells 3 --stages 2"
+    found = dam_face.main([*arguments.split(), "--no-creep", "--output", str(tmp_path)])
+    assert len(found) == 3
+    printed = capsys.readouterr().out
+    for text in ("stage 3: water", "balance of each slab", "Where does the face crush?", "see "):
+        assert text in printed
+    pixels = image.imread(tmp_path / "dam_face.png")
+    assert pixels.shape[0] > 300
