@@ -22,16 +22,16 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
-import dam_figures
-from dam_results import Joint, Laws, joints, laws, total_water
-from dam_scene import Dam, DamSetting, run
 from hexahedra import NodalStress, stress
 from rich.table import Table
 
 import contactx as cx
 from dolfinx import fem
 
+import dam_figures
 import story
+from dam_results import Joint, Laws, joints, laws, total_water
+from dam_scene import Dam, DamSetting, run
 from meshes import FACE_SLABS, DamFace
 from slab_results import measure
 from slab_scene import Setting

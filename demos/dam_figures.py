@@ -9,12 +9,12 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from dam_results import Joint
-from dam_scene import Array, Dam, Nodes
 
 import contactx as cx
 from dolfinx import fem
 
+from dam_results import Joint
+from dam_scene import Array, Dam, Nodes
 from meshes import block_tag
 from plot.style import DOTS_PER_INCH, INK, import_plotter
 

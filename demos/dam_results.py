@@ -9,12 +9,12 @@ from dataclasses import dataclass
 from mpi4py import MPI
 
 import numpy as np
-from dam_scene import Dam, Nodes
 
 import contactx as cx
 import ufl
 from dolfinx import fem
 
+from dam_scene import Dam, Nodes
 from meshes import block_tag
 
 

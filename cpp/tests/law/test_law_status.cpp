@@ -274,6 +274,19 @@ TEST(CoulombLaw, SlipThatTurnsBackSticksFirst)
   EXPECT_EQ(a.nodes.turns[0], 1);
 }
 
+TEST(CoulombLaw, TakesASmallerFactorAlongTheSurface)
+{
+  // mu p = 1, and c = 8: trial friction is 1.1 or 0.9
+  for (const double length : {1.1, 0.9})
+  {
+    Rubbing a(1);
+    set_upright(a.nodes, 0, 2, 0, 0, length / (8 * law::Coulomb::along));
+    a.nodes.status[0] = stick;
+    a.update();
+    EXPECT_EQ(a.nodes.status[0], length > 1 ? slip : stick);
+  }
+}
+
 TEST(CoulombLaw, ReachesFartherWhereIteratesGoRound)
 {
   Rubbing a(1);

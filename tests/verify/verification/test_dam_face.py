@@ -2,13 +2,13 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """The face of a dam: balance of all slabs, laws of contact, restart, the demo."""
 
-import dam_face
 import numpy as np
 import pytest
-from dam_results import joints, laws
-from dam_scene import Dam, DamSetting, run
 from matplotlib import image
 
+import dam_face
+from dam_results import joints, laws
+from dam_scene import Dam, DamSetting, run
 from meshes import DamFace
 
 MODEL = DamFace(
