@@ -46,7 +46,7 @@ TEST_F(StiffBodies, AreThoseBeyondTheWidestGap)
   // A body without contact counts as stiff
   EXPECT_EQ(stiff({1, 1e3, 1}), (Stiff{0, 1, 1}));
   EXPECT_EQ(stiff({1e-9, 1e-6, 1}), (Stiff{0, 1, 1}));
-  EXPECT_EQ(stiff({1, 20, 1}), (Stiff{0, 1, 1}));
+  EXPECT_EQ(stiff({1, 40, 1}), (Stiff{0, 1, 1}));
 }
 
 TEST_F(StiffBodies, AreNoneWhereBodiesAreAlike)
