@@ -83,6 +83,8 @@ public:
   /// Compliance of a layer between the surfaces, over 1 / c; zero but on a soft
   /// path
   double softness = 0;
+  /// Complementarity factor along the surface, as a part of c
+  double along = 1;
 
   /// Complementarity function, a force (shape=(n, size))
   std::vector<double> value;

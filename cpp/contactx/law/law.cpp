@@ -52,7 +52,7 @@ double edge(const NodeState& nodes, std::size_t i, double bound, double highest)
   for (std::size_t k = gdim * i; k < gdim * (i + 1); ++k)
     moved += nodes.slip[k] * nodes.slip[k];
   const bool is_still
-      = Coulomb::along * nodes.c[i] * std::sqrt(moved) <= edge_of_cone * bound;
+      = nodes.along * nodes.c[i] * std::sqrt(moved) <= edge_of_cone * bound;
   const double left = (is_still ? left_by_step : left_by_solve) * highest;
   const double pressure = nodes.pressure(i);
   return pressure > 0 ? std::min(edge_of_cone + left / pressure, 0.5) : 0.5;
@@ -62,7 +62,7 @@ double edge(const NodeState& nodes, std::size_t i, double bound, double highest)
 bool exceeds(const NodeState& nodes, std::size_t i, double bound)
 {
   const std::size_t gdim = nodes.gdim();
-  const double p = nodes.pressure(i), c = Coulomb::along * nodes.c[i];
+  const double p = nodes.pressure(i), c = nodes.along * nodes.c[i];
   double size = 0;
   for (std::size_t k = gdim * i; k < gdim * (i + 1); ++k)
   {
@@ -239,7 +239,7 @@ std::int32_t Coulomb::set_status(NodeState& nodes, parallel::Ranks& ranks) const
                      found.by_pressure,
                      found.bound,
                      {},
-                     along},
+                     nodes.along},
                     _reach, nodes.status);
   std::int32_t changed = 0;
   for (std::size_t i = 0; i < before.size(); ++i)
@@ -269,7 +269,7 @@ void Coulomb::evaluate(NodeState& nodes) const
   const Bounds found = bounds(nodes, pressures_hat(nodes));
   frictional_complementarity(
       {nodes.gdim(), nodes.multiplier, nodes.gap, nodes.normal, nodes.slip,
-       nodes.c, found.by_pressure, found.bound, found.by_slip, along},
+       nodes.c, found.by_pressure, found.bound, found.by_slip, nodes.along},
       nodes.area, nodes.status, nodes.mobile,
       {nodes.value, nodes.by_multiplier, nodes.by_gap, nodes.by_slip,
        nodes.by_normal});

@@ -85,15 +85,6 @@ using BoundFunction = std::function<Bounds(std::span<const double> pressure,
 class Coulomb final : public Law
 {
 public:
-  /// @brief Complementarity factor along the surface, as a part of the c that
-  /// the normal law has.
-  ///
-  /// c is the stiffness of the cells at a node. Along the surface whole bodies
-  /// move, which give way far more: with c itself a node turns back long before
-  /// its body has come to rest, and iterates go round. Measured: 0.01 to 0.1
-  /// differ by little, with 0.3 thin slabs do not converge.
-  static constexpr double along = 0.05;
-
   Coulomb() = default;
 
   /// @brief Take another bound than Coulomb's.

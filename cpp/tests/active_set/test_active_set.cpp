@@ -439,7 +439,7 @@ TEST(ActiveSet, SlipTurnsBackFartherWhereIteratesGoRound)
   scene.add<NodeToSurface>(law);
   scene.set->begin_step();
   NodeState& nodes = *scene.contacts[0]->nodes();
-  std::ranges::fill(nodes.c, 1.0 / law::Coulomb::along);
+  std::ranges::fill(nodes.c, 1.0);
   scene.contacts[0]->update_gap();
   // Trial friction of 39.5 times its bound, against the traction
   const auto status = [&]

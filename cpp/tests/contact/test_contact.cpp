@@ -387,12 +387,12 @@ TYPED_TEST(Contacts, WhereNothingPressesYetNodesStick)
         contact->search();
         contact->update_gap();
         NodeState& nodes = *contact->nodes();
-        std::ranges::fill(nodes.c, 1.0 / law::Coulomb::along);
+        std::ranges::fill(nodes.c, 1.0);
         // Aside by more than friction takes
         for (std::int32_t i = 0; i < n; ++i)
         {
           (*scene.u)[dim * i] = 0.02;
-          (*scene.u)[dim * i + dim - 1] = -0.01 * law::Coulomb::along;
+          (*scene.u)[dim * i + dim - 1] = -0.01;
           nodes.multiplier[dim * i + dim - 1] = pressure;
         }
         contact->search();
