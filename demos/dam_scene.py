@@ -24,6 +24,8 @@ CONCRETE, CUSHION = 30_000.0, 144.0  # MPa
 NU, NU_ROCKFILL = 0.2, 0.3
 # Weight for each unit of volume, MN/m^3
 WATER, WEIGHT = 9.81e-3, 24.5e-3
+# Slabs are held by friction alone
+FACTOR = 0.05
 Array = npt.NDArray[np.float64]
 Nodes = npt.NDArray[np.int32]
 
@@ -176,6 +178,7 @@ class Dam:
             master=cx.Surface(tags, *(block_tag(i, "bottom") for i in self.slabs)),
             friction=s.cushion_friction,
             sliding="small",
+            tangential_factor=FACTOR,
             method=METHODS[1],
         )
         joints = [
@@ -185,6 +188,7 @@ class Dam:
                 friction=s.joint_friction,
                 sliding="small",
                 offset=-s.clearance,
+                tangential_factor=FACTOR,
             )
             for i in list(self.slabs)[:-1]
         ]

@@ -80,6 +80,7 @@ void contactx_bindings::node_state(py::module_& m)
         py::arg("gdim"), py::arg("is_vector"), py::arg("has_means") = false);
   c.def_property_readonly("size", &NodeState::size);
   c.def_readwrite("softness", &NodeState::softness);
+  c.def_readwrite("along", &NodeState::along);
   add(c, "multiplier", &NodeState::multiplier, nodal);
   add(c, "area", &NodeState::area, nodal);
   add(c, "status", &NodeState::status, nodal);

@@ -45,13 +45,6 @@ constexpr double hardly = 1e-9;
 /// rounding, by the size of the coordinates
 constexpr double apart = 1e-12;
 
-/// Complementarity factor along the surface in small sliding, as a part of c,
-/// which is the stiffness of the cells at a node. Along the surface whole
-/// bodies move, which give way far more: with c itself a node turns back long
-/// before its body has come to rest, and iterates go round. In finite sliding
-/// belts do not come around their drums with less than c.
-constexpr double along_in_small_sliding = 0.05;
-
 void require(bool fits, const char* what)
 {
   if (not fits)
@@ -77,8 +70,6 @@ Contact::Contact(std::shared_ptr<parallel::Halo> halo,
           "shared must have a value for each owned node");
   _nodes = std::make_shared<NodeState>(n, gdim(), _law->is_vector(),
                                        _options.has_means);
-  if (sliding() == Sliding::small)
-    _nodes->along = along_in_small_sliding;
   if (_law->is_vector() and not _law->is_tied())
     _history = std::make_shared<SlipHistory>(n, gdim());
   _touched.assign(n, 0);

@@ -102,6 +102,18 @@ ROWS = [
         r"friction is a constant of shape \(2,\): give one of a number",
     ),
     Row(
+        "tangential factor: zero",
+        option(tangential_factor=0.0),
+        ValueError,
+        r"tangential_factor is 0\.0: give a positive number",
+    ),
+    Row(
+        "tangential factor: a text",
+        option(tangential_factor="small"),
+        TypeError,
+        "tangential_factor is",
+    ),
+    Row(
         "search distance: negative",
         option(search_distance=-1),
         ValueError,

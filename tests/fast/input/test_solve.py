@@ -123,7 +123,8 @@ def test_failures_of_a_step(kind, straight):
     scene = Rubbing(**KINDS[kind])
     scene.update(0.25)
     scene.problem.solve()
-    first, second, u = straight[kind]
+    first = scene.state()
+    _, second, u = straight[kind]
     for name, (spoil, mend, error, message) in failures.items():
         scene.update(0.5)
         spoil(scene)
