@@ -16,6 +16,7 @@ from dolfinx import fem
 
 from dam_scene import Dam, Nodes
 from meshes import block_tag
+from slab_results import friction_excess
 
 
 @dataclass(frozen=True)
@@ -72,15 +73,13 @@ def _owned(dam: Dam, nodes: Nodes) -> Nodes:
 
 def laws(dam: Dam) -> Laws:
     """Check balance, reactions, penetration and Coulomb's law of a solved dam (collective)."""
-    V, comm = dam.u.function_space, dam.mesh.comm
-    force = fem.Function(V)
+    V, comm, halo = dam.u.function_space, dam.mesh.comm, dam.problem.assembler.halo
+    # Each rank has what its own slave nodes do to all nodes that it knows
+    known = np.zeros(halo.positions().size)
     for contact in dam.problem.contacts:
         if contact.active:
-            contact.interface.add_residual(force.x.array)
-    # Each rank has what its own slave nodes do to all nodes that it knows
-    known = force.x.array.copy()
-    halo = dam.problem.assembler.halo
-    forces = -halo.scatter_reverse(known.reshape(-1, 3)) if comm.size > 1 else -known.reshape(-1, 3)
+            contact.interface.add_residual(known)
+    forces = -halo.scatter_reverse(known.reshape(-1, 3))
     loads = dam.loads_on_nodes()
     balance = 0.0
     for i in dam.slabs:
@@ -104,17 +103,14 @@ def _contact_laws(dam: Dam) -> tuple[float, float]:
     for contact in dam.problem.contacts:
         is_cushion = contact is dam.cushion
         mu = dam.setting.cushion_friction if is_cushion else dam.setting.joint_friction
-        # Coulomb's law is one of the raw multipliers
-        p, traction = contact.interface.nodes.pressure, contact.multiplier
-        if len(p):
-            shear = np.sqrt(np.maximum(np.sum(traction**2, axis=1) - p**2, 0))
-            excess = max(excess, float(np.max(shear - mu * p)))
-            pressure = max(pressure, float(p.max()))
-            if contact.active and not is_cushion:
-                gaps = contact.gap.x.array[contact.slave_nodes]
-                gap = min(gap, float(np.nanmin(gaps, initial=0.0)))
-    found = dam.mesh.comm.allreduce(np.array([excess, pressure, -gap]), op=MPI.MAX)
-    return float(found[2]), max(float(found[0]), 0.0) / float(found[1])
+        beyond, highest = friction_excess(contact, mu)
+        excess, pressure = max(excess, beyond), max(pressure, highest)
+        if contact.active and not is_cushion:
+            gaps = contact.gap.x.array[contact.slave_nodes]
+            gap = min(gap, float(np.nanmin(gaps, initial=0.0)))
+    comm = dam.mesh.comm
+    excess, pressure, depth = (comm.allreduce(a, op=MPI.MAX) for a in (excess, pressure, -gap))
+    return depth, max(excess, 0.0) / pressure
 
 
 def joints(dam: Dam, compression: fem.Function) -> list[Joint]:

@@ -18,15 +18,14 @@ import ufl
 from dolfinx import fem, la, mesh
 
 from meshes import DamFace, block_tag, dam_face
+from slab_scene import CONCRETE, CUSHION, NU, Array
 from story import METHODS, displacement
 
-CONCRETE, CUSHION = 30_000.0, 144.0  # MPa
-NU, NU_ROCKFILL = 0.2, 0.3
+NU_ROCKFILL = 0.3
 # Weight for each unit of volume, MN/m^3
 WATER, WEIGHT = 9.81e-3, 24.5e-3
 # Slabs are held by friction alone
 FACTOR = 0.05
-Array = npt.NDArray[np.float64]
 Nodes = npt.NDArray[np.int32]
 
 

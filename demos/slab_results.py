@@ -160,6 +160,19 @@ def nodal_forces(scene: Scene, contacts: Sequence[cx.Contact]) -> Array:
     return -forces.reshape(-1, 3)[:, list(scene.setting.axes)]
 
 
+def friction_excess(contact: cx.Contact, mu: float) -> tuple[float, float]:
+    """Largest |t| - mu p of a contact's nodes on this rank, and its largest pressure, MPa.
+
+    Coulomb's law is one of the raw multipliers; without friction the excess is minus infinity.
+    """
+    p, traction = contact.interface.nodes.pressure, contact.multiplier
+    excess = -np.inf
+    if traction.ndim == 2:
+        shear = np.sqrt(np.maximum(np.sum(traction**2, axis=1) - p**2, 0))
+        excess = float(np.max(shear - mu * p, initial=-np.inf))
+    return excess, float(p.max(initial=0.0))
+
+
 def laws(scene: Scene) -> Laws:
     """Check balance, penetration and Coulomb's law of a solved scene."""
     forces = nodal_forces(scene, scene.problem.contacts)
@@ -174,11 +187,7 @@ def laws(scene: Scene) -> Laws:
         mu = scene.setting.joint_friction
         if contact in scene.cushion_contacts:
             mu = scene.setting.cushion_friction
-        # Coulomb's law is one of the raw multipliers
-        p, traction = contact.interface.nodes.pressure, contact.multiplier
-        if traction.ndim == 2:
-            shear = np.sqrt(np.maximum(np.sum(traction**2, axis=1) - p**2, 0))
-            excess = max(excess, float(np.max(shear - mu * p)))
-        pressure = max(pressure, float(p.max()))
+        beyond, highest = friction_excess(contact, mu)
+        excess, pressure = max(excess, beyond), max(pressure, highest)
         gap = min(gap, float(np.nanmin(contact.gap.x.array[contact.slave_nodes], initial=0.0)))
     return Laws(balance, -gap, max(excess, 0.0) / pressure)
