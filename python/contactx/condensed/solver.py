@@ -19,6 +19,7 @@ from contactx.condensed.multigrid import SLOW, Multigrid
 from contactx.condensed.numbering import Array, Numbering, Surroundings
 from contactx.condensed.operator import CondensedOperator
 from contactx.factorised import FactorisedSolver
+from contactx.options import reproducible_options
 from contactx.parallel import reduce
 from contactx.parallel.agreement import agreed
 from contactx.report import Report
@@ -136,6 +137,11 @@ class CondensedSolver:
             b: Right-hand side in all unknowns.
             x: Solution, overwritten.
         """
+        with reproducible_options().in_database():
+            self._solve_somehow(b, x)
+
+    def _solve_somehow(self, b: PETSc.Vec, x: PETSc.Vec) -> None:
+        """Solve J x = b, condensed where that serves."""
         self._solves += 1
         self.is_guessed = False
         # What does not converge twice will not, and each attempt is dear
