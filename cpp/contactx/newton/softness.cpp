@@ -51,9 +51,8 @@ double contactx::newton::softness(const contact::Bodies& bodies,
   {
     // Of a body that is prescribed as a whole nothing is to be found
     const double w
-        = sums[b] > 0
-              ? std::min(1.0, alike * softest * sums[b + 1] / sums[b])
-              : 1.0;
+        = sums[b] > 0 ? std::min(1.0, alike * softest * sums[b + 1] / sums[b])
+                      : 1.0;
     all += sums[b + 2];
     counted += w * w * sums[b + 2];
   }
