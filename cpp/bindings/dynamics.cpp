@@ -32,6 +32,13 @@ void contactx_bindings::dynamics(py::module_& m)
                          });
           },
           py::arg("dt"), py::arg("velocity").noconvert(), py::arg("solve"))
+      .def("begin_step", &Impact::begin_step)
+      .def(
+          "arrival",
+          [](const Impact& self, const Array<double>& way,
+             const Array<double>& cell_sizes)
+          { return self.arrival(view(way), view(cell_sizes)); },
+          py::arg("way"), py::arg("cell_sizes"))
       .def("corrections",
            [](const Impact& self)
            {

@@ -14,7 +14,7 @@ from scenes.flying import Flying
 
 def flying_2d() -> Iterator[cx.ContactProblem]:
     """A block hits another one askew, with friction, and bounces."""
-    yield from _fly(Flying(CellType.quadrilateral, friction=0.2))
+    yield from _fly(Flying(CellType.quadrilateral, friction=0.2, impact_travel=1.0))
 
 
 def flying_3d() -> Iterator[cx.ContactProblem]:

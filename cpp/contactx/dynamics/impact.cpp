@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "impact.h"
+#include "../check.h"
 #include "../vec.h"
 #include <algorithm>
 #include <cmath>
@@ -53,6 +54,23 @@ struct Node
 };
 
 using Vectors = std::vector<Vector<3>>;
+
+/// Velocities of nodes relative to their masters, or displacements.
+/// @param[in] values Those of all owned nodes (shape=(num_owned, gdim)).
+Vectors relative(const parallel::Halo& halo, const std::vector<Node>& nodes,
+                 std::span<const double> values)
+{
+  const int g = halo.gdim();
+  std::vector<double> every(std::size_t(halo.num_nodes()) * g, 0);
+  std::ranges::copy(values, every.begin());
+  halo.forward(every, g);
+  Vectors result(nodes.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    for (const auto& [node, weight] : nodes[i].weights)
+      for (int k = 0; k < g; ++k)
+        result[i][k] += weight * every[std::size_t(node) * g + k];
+  return result;
+}
 
 /// Closed nodes and what impulses on them do.
 class Velocities
@@ -183,18 +201,9 @@ private:
     return values;
   }
 
-  /// Relative velocities of the nodes.
   Vectors relative(std::span<const double> velocity) const
   {
-    std::vector<double> values(std::size_t(_halo.num_nodes()) * _g, 0);
-    std::ranges::copy(velocity, values.begin());
-    _halo.forward(values, _g);
-    Vectors result(_nodes.size());
-    for (std::size_t i = 0; i < _nodes.size(); ++i)
-      for (const auto& [node, weight] : _nodes[i].weights)
-        for (int k = 0; k < _g; ++k)
-          result[i][k] += weight * values[std::size_t(node) * _g + k];
-    return result;
+    return ::relative(_halo, _nodes, velocity);
   }
 
   const parallel::Halo& _halo;
@@ -297,4 +306,49 @@ void Impact::correct(double dt, std::span<double> velocity,
       _impulses[node.contact][at] = node.sum[k];
       _corrections[node.contact][at] = node.sum[k] - node.given[k];
     }
+}
+
+void Impact::begin_step()
+{
+  _was_closed.clear();
+  for (const auto& contact : _contacts)
+  {
+    const contact::NodeState& state = *contact->nodes();
+    std::vector<std::int8_t> closed(state.num_nodes());
+    for (std::int32_t i = 0; i < state.num_nodes(); ++i)
+      closed[i] = state.closed(i);
+    _was_closed.push_back(std::move(closed));
+  }
+}
+
+double Impact::arrival(std::span<const double> way,
+                       std::span<const double> cell_sizes) const
+{
+  const std::size_t n = _halo->num_owned();
+  _halo->ranks().agree(
+      [&]
+      {
+        check::rows(way.size(), n, _halo->gdim(), "way", "owned node");
+        check::rows(cell_sizes.size(), n, 1, "cell_sizes", "owned node");
+        check::require(_was_closed.size() == _contacts.size(),
+                       "begin_step must come before arrival");
+      });
+  std::vector<Node> closed, arrived;
+  for (std::size_t c = 0; c < _contacts.size(); ++c)
+    add_nodes(*_contacts[c], c, 1, closed);
+  for (Node& node : closed)
+    if (not _was_closed[node.contact][node.place])
+      arrived.push_back(std::move(node));
+  const Vectors moved = relative(*_halo, arrived, way);
+  double most = 0;
+  for (std::size_t i = 0; i < arrived.size(); ++i)
+  {
+    const Node& node = arrived[i];
+    const double travel
+        = node.normal_part(moved[i]) - node.normal_part(node.target);
+    const std::int32_t slave
+        = _contacts[node.contact]->slaves().owned()[node.place];
+    most = std::max(most, std::abs(travel) / cell_sizes[slave]);
+  }
+  return parallel::largest(_halo->ranks(), most);
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "../contact/contact.h"
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <span>
@@ -48,6 +49,24 @@ public:
   /// @throws std::invalid_argument if one is missing.
   Impact(std::shared_ptr<parallel::Halo> halo, Contacts contacts);
 
+  /// @brief Take note of the nodes that are closed before a step.
+  void begin_step();
+
+  /// @brief How far nodes that were open before the step have moved to what
+  /// they touch at its end; collective.
+  ///
+  /// Contact acts throughout a step, as if they had touched from its start: the
+  /// time of an impact is known as well as these distances are small.
+  /// @param[in] way Displacements of the step (shape=(num_owned, gdim)).
+  /// @param[in] cell_sizes Size of the largest cell around each node
+  /// (shape=(num_owned)).
+  /// @return Largest distance along the normal over the size of a cell at the
+  /// slave node, the same on all ranks; 0 if no node has arrived.
+  /// @throws std::invalid_argument on all ranks if an array does not fit on
+  /// one of them, or no step has begun.
+  double arrival(std::span<const double> way,
+                 std::span<const double> cell_sizes) const;
+
   /// @brief Correct velocities after a step that has converged, before it is
   /// accepted; all ranks must take part.
   /// @param[in] dt Length of the step, a time.
@@ -70,6 +89,7 @@ public:
 private:
   std::shared_ptr<parallel::Halo> _halo;
   Contacts _contacts;
+  std::vector<std::vector<std::int8_t>> _was_closed;
   std::vector<std::vector<double>> _impulses, _corrections;
 };
 } // namespace contactx::dynamics

@@ -280,3 +280,33 @@ TEST(ObstacleMaster, MovementIsThatOfTheObstacle)
     }
   }
 }
+
+TYPED_TEST(Impacts, ArrivalIsTheWayOfNodesThatWereOpen)
+{
+  for (const int dim : {2, 3})
+  {
+    MovingScene s(dim);
+    s.start<TypeParam>(std::make_shared<law::Frictionless>());
+    NodeState& nodes = *s.contact->nodes();
+    Impact impact(s.scene.halo, {s.contact});
+    const std::vector<double> sizes(s.scene.halo->num_owned(), 0.5);
+    EXPECT_THROW(impact.arrival(s.velocity, sizes), std::invalid_argument);
+    // Nothing arrives that was there
+    impact.begin_step();
+    EXPECT_EQ(impact.arrival(s.velocity, sizes), 0);
+
+    const std::vector<std::int8_t> closed = nodes.status;
+    std::int32_t first = 0;
+    while (not nodes.closed(first))
+      ++first;
+    nodes.status[first] = law::open;
+    impact.begin_step();
+    nodes.status = closed;
+    const double way
+        = along(s.relative(), s.contact->master()->normals(), dim, first);
+    EXPECT_NEAR(impact.arrival(s.velocity, sizes), std::abs(way) / 0.5, 1e-14);
+
+    EXPECT_THROW(impact.arrival(s.velocity, {}), std::invalid_argument);
+    EXPECT_THROW(impact.arrival({}, sizes), std::invalid_argument);
+  }
+}

@@ -19,6 +19,7 @@ from contactx.bulk_input import check_displacement
 from contactx.contact import Contact
 from contactx.dynamics.balance import Balance
 from contactx.dynamics.mass import Mass, mass_measure
+from contactx.errors import ConvergenceError
 from contactx.parallel import reduce
 from contactx.problem import ContactProblem
 from dolfinx import fem, la
@@ -72,6 +73,7 @@ class ContactDynamics(ContactProblem):
         loads: ufl.Form | None = None,
         strain_energy: Callable[[Any], ufl.Form] | None = None,
         mass: str | None = None,
+        impact_travel: float | None = None,
         bcs: Sequence[fem.DirichletBC] | None = None,
         petsc_options: Mapping[str, Any] | None = None,
         audit: str = "refuse",
@@ -98,6 +100,11 @@ class ContactDynamics(ContactProblem):
                 arguments; for ``report.balance`` alone.
             mass: "lumped", a diagonal matrix, the default for degree 1, where it is exact for
                 rigid translations; or "consistent", the default and only one for degree 2.
+            impact_travel: How far a node may move to what it hits in the step in which it arrives,
+                over the size of the cells there. Contact acts throughout that step, so that this is
+                how well the time of the impact is known. A step in which a node moves further
+                fails, and ``LoadSteps`` halves it: steps are short at impacts, and grow back. No
+                limit if None.
             bcs: Dirichlet conditions. Prescribed displacements move with their mean velocity of
                 a step.
             petsc_options: As of ``ContactProblem``.
@@ -113,6 +120,7 @@ class ContactDynamics(ContactProblem):
         V = u.function_space
         kind = _kind_of(mass, V.ufl_element().degree)
         _check(forces, density, loads, strain_energy)
+        self._impact_travel = _check_travel(impact_travel)
         self.velocity = fem.Function(V, name="velocity")
         self._start = fem.Function(V, name="start")
         self._dt = fem.Constant(V.mesh, 1.0)
@@ -191,6 +199,7 @@ class ContactDynamics(ContactProblem):
             raise ValueError("velocity is not finite: set it to finite values")
         self.velocity.x.scatter_forward()
         self._next = None
+        self._impact.begin_step()
         super().solve()
         assert self._next is not None
         velocity, balance = self._next
@@ -206,6 +215,7 @@ class ContactDynamics(ContactProblem):
         """Find velocities and balance of a step before it is accepted."""
         assembler, n = self.assembler, self.assembler.bulk.num_dofs
         held = assembler.bulk.markers[:n] == 1
+        self._check_arrival(self.displacement.x.array[:n] - self._start.x.array[:n])
         self._mass.hold(assembler.bulk.markers[:n])
         way = self.displacement.x.array[:n] - self._start.x.array[:n]
         before = self.velocity.x.array[:n]
@@ -237,6 +247,27 @@ class ContactDynamics(ContactProblem):
                 impulse=impulse,
             ),
         )
+
+    def _check_arrival(self, way: npt.NDArray[np.float64]) -> None:
+        """Refuse a step in which a node has come too far before it touches.
+
+        Args:
+            way: Displacements of the step.
+
+        Raises:
+            ConvergenceError: If one has; on all ranks.
+        """
+        if self._impact_travel is None:
+            return
+        travel = self._impact.arrival(way, self.assembler.bulk.cell_sizes())
+        if travel > self._impact_travel:
+            report = self.report
+            report.converged = False
+            report.reason = (
+                f"a node moved by {travel:.2g} of a cell to what it hits, further than "
+                f"impact_travel = {self._impact_travel:g}: take shorter steps"
+            )
+            raise ConvergenceError(report.reason, report)
 
     def kinetic_energy(self) -> float:
         """Kinetic energy now; all ranks must take part."""
@@ -341,6 +372,17 @@ def _kind_of(mass: Any, degree: int) -> str:
             "mass out"
         )
     return str(mass)
+
+
+def _check_travel(impact_travel: Any) -> float | None:
+    """Check the limit of what nodes move to what they hit."""
+    if impact_travel is None:
+        return None
+    if not is_number(impact_travel):
+        raise TypeError(f"impact_travel is {described(impact_travel)}: give a number or None")
+    if not impact_travel > 0:
+        raise ValueError(f"impact_travel is {impact_travel}: give a number above 0, or None")
+    return float(impact_travel)
 
 
 def _check(forces: Any, density: Any, loads: Any, strain_energy: Any) -> None:

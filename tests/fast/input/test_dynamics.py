@@ -58,6 +58,10 @@ ROWS = [
     Row("loads", dynamics(loads=3.0), TypeError, "loads is float 3.0: give a UFL form"),
     Row("no loads", dynamics(loads=energy), ValueError, "loads has 0 arguments: give a form"),
     Row("strain", dynamics(strain_energy=1), TypeError, "strain_energy is int 1: give a function"),
+    Row("travel", dynamics(impact_travel="0.1"), TypeError, "impact_travel is str '0.1': give a"),
+    Row(
+        "no travel", dynamics(impact_travel=0.0), ValueError, "impact_travel is 0.0: give a number"
+    ),
     Row("mass", dynamics(mass="none"), ValueError, "mass is str 'none': give \"lumped\" or"),
 ]
 

@@ -8,7 +8,7 @@ import pytest
 import contactx as cx
 from dolfinx.mesh import CellType
 
-from scenes.flying import Flying
+from scenes.flying import GAP, SPEED, Flying
 
 CELL = CellType.quadrilateral
 DT, STEPS = 0.01, 8
@@ -56,6 +56,38 @@ def test_load_steps_count_time_and_cut_it():
     assert t == pytest.approx(STEPS * DT)
     assert min(taken) < 0.6 * DT
     assert max(taken) <= DT * (1 + 1e-12)
+
+
+@pytest.mark.parametrize("obstacle", [None, cx.Plane((0, 0), (0, 1))], ids=["block", "plane"])
+def test_steps_are_short_at_an_impact(obstacle):
+    """The time of the first contact comes out by as much as the way of that step says."""
+    limit, cell = 0.005, np.sqrt(2) / 3
+    scene = Flying(CELL, obstacle=obstacle, impact_travel=limit)
+    given = GAP / SPEED
+    t, taken, hit = 0.0, [], None
+    for step in cx.LoadSteps(
+        scene.dynamics, 3, lambda t: None, t_end=0.12, max_cuts=8, progress=False
+    ):
+        taken.append(step.t - t)
+        if hit is None and np.any(scene.contact.status.x.array > 0):
+            hit = t, step.t
+        t = step.t
+    assert hit[0] <= given <= hit[1]
+    assert SPEED * (given - hit[0]) <= 1.01 * limit * cell
+    # They were long before it, and grow back
+    assert taken[-1] > 4 * min(taken)
+
+
+def test_a_step_that_arrives_too_fast_is_refused():
+    scene = Flying(CELL, impact_travel=1e-3)
+    before = states(scene)
+    with pytest.raises(cx.ConvergenceError, match=r"impact_travel = 0\.001: take shorter steps"):
+        for _ in range(STEPS):
+            before = states(scene)
+            scene.dynamics.solve()
+    for old, new in zip(before, states(scene), strict=True):
+        np.testing.assert_array_equal(new, old)
+    assert not scene.dynamics.report.converged
 
 
 def test_a_run_goes_on_from_its_file(tmp_path):
