@@ -318,12 +318,13 @@ class _Block:
             difference.axpy(-1.0, self._change, DIFFERENT)
             if difference.norm() <= serves * change.norm():
                 return False
+        if self._ksp is not None:
+            # Factors are the largest part of the memory: those of before go first
+            self._ksp.destroy()
+            self._ksp = self._change = None
         with report.timing("condensation"):
             A = self.part.block(change, operator.eliminated)
         with report.timing("factorisation"):
-            if self._ksp is not None:
-                # Two factorisations at once would be the largest part of the memory
-                self._ksp.destroy()
             self._ksp = _factorised(A, self._prefix, is_symmetric)
         self._change = change
         return True

@@ -152,14 +152,15 @@ def change_of(part: Part, transforms: Transforms) -> tuple[PETSc.Mat, bool]:
         part.of(A)
         for A in (transforms.right, transforms.left, transforms.law, transforms.stiffness)
     )
-    K = part.with_added(S) if _has_entries(S) else part.K
-    change = S
+    change = S.copy()
     # Rows and columns of what is eliminated are zeroed; a displacement itself is no other one
     is_symmetric = not _has_entries(law) and _is_transposed(L, R)
     if _has_entries(R):
-        change.axpy(1.0, K.matMult(R), DIFFERENT)
+        change.axpy(1.0, _sum_of_products(part.K, S, R), DIFFERENT)
     if _has_entries(L):
-        product = L.matMult(K)
+        product = L.matMult(part.K)
+        if _has_entries(S):
+            product.axpy(1.0, L.matMult(S), DIFFERENT)
         if _has_entries(R):
             product.axpy(1.0, product.matMult(R), DIFFERENT)
         change.axpy(1.0, product, DIFFERENT)
@@ -168,6 +169,14 @@ def change_of(part: Part, transforms: Transforms) -> tuple[PETSc.Mat, bool]:
             law.axpy(1.0, law.matMult(R), DIFFERENT)
         change.axpy(1.0, law, DIFFERENT)
     return change, is_symmetric
+
+
+def _sum_of_products(K: PETSc.Mat, S: PETSc.Mat, R: PETSc.Mat) -> PETSc.Mat:
+    """(K + S) R without the sum, which would be a second K; all ranks must take part."""
+    product = K.matMult(R)
+    if _has_entries(S):
+        product.axpy(1.0, S.matMult(R), DIFFERENT)
+    return product
 
 
 def _is_transposed(L: PETSc.Mat, R: PETSc.Mat) -> bool:
