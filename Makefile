@@ -43,7 +43,7 @@ PYTEST := exec $(RUN) $(BIN)/python -m pytest
 
 .DELETE_ON_ERROR:
 .PHONY: all demo test test-cpp test-fast verify gallery stress leaks fuzz sanitize bench bench-core \
-	wheel distribution docs lint format clean help
+	wheel distribution docs demo-pages lint format clean help
 
 all: $(INSTALLED)
 
@@ -54,6 +54,7 @@ help:
 	@echo "make verify   all other tests that are not long"
 	@echo "make gallery  published benchmarks: docs/gallery.md and its pictures"
 	@echo "make docs     the manual, in build/docs/index.html; needs no network once .venv is there"
+	@echo "make demo-pages  run the demos and write their pages of the manual"
 	@echo "make stress   thousands of hard scenes: a map of what comes of them; 16 ranks"
 	@echo "make leaks    memory over 1,000 steps and 1,000 problems"
 	@echo "make bench    all benchmarks, up to a million displacements"
@@ -126,6 +127,10 @@ docs: $(INSTALLED)
 		-d build/doctrees docs/manual build/docs
 	$(BIN)/python tools/check_manual.py build/docs
 	@echo "the manual is in build/docs/index.html"
+
+# Pages of the demos with what they print and draw, but for those that take long.
+demo-pages: $(INSTALLED)
+	$(RUN) $(BIN)/python tools/demo_pages.py
 
 # Tables and a picture come to build/stress; fails where a scene is wrong.
 stress: $(INSTALLED)
