@@ -22,7 +22,7 @@ from PIL import Image
 ROOT = Path(__file__).parents[1]
 DEMOS, PAGES = ROOT / "demos", ROOT / "docs" / "manual" / "demos"
 PICTURES = PAGES / "pictures"
-WIDTH, COLOURS = 900, 96
+WIDTH = 900
 
 # Demos by subject, each with what its line of the list says
 SUBJECTS = {
@@ -111,7 +111,9 @@ def keep_pictures(name: str, folder: Path) -> list[str]:
         if image.width > WIDTH:
             height = round(image.height * WIDTH / image.width)
             image = image.resize((WIDTH, height), Image.Resampling.LANCZOS)
-        image.quantize(COLOURS).save(PICTURES / path.name, optimize=True)
+        # A tree keeps rare colours, those of contact among much grey
+        image = image.quantize(256, Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE)
+        image.save(PICTURES / path.name, optimize=True)
         kept.append(path.name)
     return kept
 

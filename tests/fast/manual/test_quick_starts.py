@@ -1,19 +1,34 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""The quick starts of README and of the manual run as they stand."""
+"""The quick starts of README and of the manual run as they stand; the demos have pages."""
 
 import numpy as np
-import pytest
 
 import pages
 
 
-@pytest.mark.parametrize("path", [pages.ROOT / "README.md", pages.MANUAL / "index.md"])
-def test_quick_start(path, tmp_path, monkeypatch):
+def test_readme(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    names = pages.run(path)
+    names = pages.run(pages.ROOT / "README.md")
     contact = names["contact"]
     tangential, normal = np.abs(contact.force)
     # The block slides at the end: full friction
     assert normal > 0 and np.isclose(tangential, 0.3 * normal, rtol=1e-6)
     assert (contact.status.x.array == 2).any()
+    assert (tmp_path / "block.pvd").exists()
+
+
+def test_first_tutorial(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    names = pages.run(pages.MANUAL / "tutorials" / "elasticity.md")
+    assert np.allclose(names["floor"].force, (0, 0.01), atol=1e-9)
+
+
+def test_each_demo_has_a_page():
+    demos = {
+        path.stem
+        for path in (pages.ROOT / "demos").glob("*.py")
+        if "__main__" in path.read_text(encoding="utf-8")
+    }
+    written = {path.stem for path in (pages.MANUAL / "demos").glob("*.md")} - {"index"}
+    assert written == demos

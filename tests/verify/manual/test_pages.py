@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """The code of the manual's pages runs as it stands and prints what the pages say."""
 
-import matplotlib
 import pytest
+from matplotlib import pyplot as plt
 
 import pages
 
@@ -13,10 +13,10 @@ RUN = [path for path in sorted(pages.MANUAL.rglob("*.md")) if pages.runs(path)]
 @pytest.mark.parametrize("path", RUN, ids=lambda path: str(path.relative_to(pages.MANUAL)))
 def test_page(path, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(matplotlib, "use", lambda *_: None)
-    matplotlib.pyplot.switch_backend("agg")
+    # Where there is no display
+    plt.switch_backend("agg")
     pages.run(path)
-    matplotlib.pyplot.close("all")
+    plt.close("all")
 
 
 def test_tutorials_have_code():
