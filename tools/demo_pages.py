@@ -22,7 +22,7 @@ from PIL import Image
 ROOT = Path(__file__).parents[1]
 DEMOS, PAGES = ROOT / "demos", ROOT / "docs" / "manual" / "demos"
 PICTURES = PAGES / "pictures"
-WIDTH = 900
+WIDTH = 1200
 
 # Demos by subject, each with what its line of the list says
 SUBJECTS = {
