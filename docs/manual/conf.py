@@ -1,6 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""How Sphinx makes the manual: `make docs`. No network is needed, now or by a reader."""
+"""How Sphinx makes the manual, `make docs`, without a network for it or its readers."""
 
 import contactx
 
@@ -28,10 +28,19 @@ html_copy_source = False
 html_show_sourcelink = False
 html_theme_options = {
     "navigation_with_keys": True,
-    "light_css_variables": {"color-brand-primary": "#00597c", "color-brand-content": "#00597c"},
+    "light_css_variables": {
+        "color-brand-primary": "#00597c",
+        "color-brand-content": "#00597c",
+    },
 }
 
-myst_enable_extensions = ["amsmath", "attrs_inline", "colon_fence", "deflist", "dollarmath"]
+myst_enable_extensions = [
+    "amsmath",
+    "attrs_inline",
+    "colon_fence",
+    "deflist",
+    "dollarmath",
+]
 myst_heading_anchors = 4
 
 # A line of a console is copied without its prompt
