@@ -227,7 +227,9 @@ public:
     if (not std::isfinite(norm))
       throw std::runtime_error(
           "the Jacobian is not finite: it does not exist at this displacement, "
-          "or a coefficient of it is NaN or infinite");
+          "or a coefficient of it is NaN or infinite. Start from another "
+          "displacement, or repair the coefficient (manual: "
+          "errors/jacobian-not-finite)");
     _assembled_with = std::move(with);
     ++_assemblies;
     return A;

@@ -295,7 +295,8 @@ class ContactAssembler:
         if not is_finite:
             raise NotFiniteError(
                 "the residual is not finite: the material fails at the start of the step, or a "
-                "load or coefficient of F is NaN or infinite"
+                "load or coefficient of F is NaN or infinite. Take smaller load steps, or repair "
+                "what sets it (manual: errors/residual-not-finite)"
             )
         self._audit.begin_step()
         self._read_values()
@@ -328,7 +329,10 @@ class ContactAssembler:
         found = self.judge(rtol, atol)
         reason = found.failure
         if not (reason or found.converged) and found.number >= max_it:
-            reason = f"no convergence in {max_it} iterations: take smaller load steps"
+            reason = (
+                f"no convergence in {max_it} iterations: take smaller load steps, or raise max_it "
+                "(manual: errors/no-convergence)"
+            )
         if reason:
             self.report.reason = reason
             raise ConvergenceError(reason, self.report)
@@ -612,7 +616,8 @@ class ContactAssembler:
             self.say(
                 "all that F integrates over cells has a coordinate as a factor, as in an "
                 f"axisymmetric model, but {', '.join(plain)} has no weight: give Contact("
-                "..., weight=2 * ufl.pi * r), or that factor of F"
+                "..., weight=2 * ufl.pi * r), or leave that factor out of F (manual: "
+                "errors/missing-weight)"
             )
 
     def _enter(
@@ -649,10 +654,13 @@ class ContactAssembler:
                     "the same on all"
                 )
         if call != "begin_step" and not self._has_begun:
-            raise RuntimeError(f"{call}() before begin_step(): no step has begun")
+            raise RuntimeError(
+                f"{call}() before begin_step(): no step has begun, call begin_step() first"
+            )
         if call in ("set_up", "limit", "accept") and (self._has_moved or self._found is None):
             raise RuntimeError(
-                f"{call}() before settle(): pairs and active set are not those of the iterate"
+                f"{call}() before settle(): pairs and active set are not those of the iterate, "
+                "call settle() first"
             )
         if call == "accept" and not self.converged:
             raise RuntimeError(

@@ -278,7 +278,9 @@ class Bulk:
         if not np.isfinite(self._A.norm(PETSc.NormType.FROBENIUS)):
             raise NotFiniteError(
                 "the Jacobian of F is not finite: its derivative does not exist at this "
-                "displacement, or a coefficient of F, or of J, is NaN or infinite"
+                "displacement, or a coefficient of F, or of J, is NaN or infinite. Start from "
+                "another displacement, or repair the coefficient (manual: "
+                "errors/jacobian-not-finite)"
             )
         self._assembled_with = [values.copy() for values in parameters]
         self._symmetric = self._rows = None

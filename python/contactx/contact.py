@@ -554,7 +554,7 @@ def check_contacts(contacts: Any) -> None:
     if len(contacts) == 0:
         raise ValueError("contacts is empty: pass at least one Contact")
     if len(set(map(id, contacts))) < len(contacts):
-        raise ValueError("contacts lists the same Contact twice")
+        raise ValueError("contacts lists the same Contact twice: list each once")
 
 
 def _check_options(
@@ -617,7 +617,9 @@ def _check_options(
             raise ValueError(f"{name} is {value}: give {wanted}")
     check_switch("tied", tied)
     if tied and not (is_number(friction) and friction == 0):
-        raise ValueError("tied excludes friction: a tied slave node does not slip")
+        raise ValueError(
+            "tied excludes friction: a tied slave node does not slip. Leave friction out, or tied"
+        )
     if search_distance is not None:
         if not is_number(search_distance):
             raise TypeError(

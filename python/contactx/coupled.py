@@ -343,7 +343,9 @@ class CoupledBulk(Bulk):
                 if not np.isfinite(K.norm(PETSc.NormType.FROBENIUS)):
                     raise NotFiniteError(
                         "the Jacobian of F is not finite: its derivative does not exist at this "
-                        "displacement, or a coefficient of F, or of J, is NaN or infinite"
+                        "displacement, or a coefficient of F, or of J, is NaN or infinite. Start "
+                        "from another displacement, or repair the coefficient (manual: "
+                        "errors/jacobian-not-finite)"
                     )
         self._A.assemble()
         self._assembled_with = [values.copy() for values in parameters]

@@ -160,7 +160,10 @@ class Fields:
     def _empty(self, f: fem.Function) -> fem.Function:
         """A function of the space of these results, which f must be of as well."""
         if self._interface.master.is_rigid:
-            raise ValueError("the master is a rigid obstacle, which has no nodes")
+            raise ValueError(
+                "the master is a rigid obstacle, which has no nodes: take the "
+                "result itself, on the slave"
+            )
         Q = self.pressure.function_space
         element = f.function_space.ufl_element()
         if f.function_space.mesh is not Q.mesh or element != Q.ufl_element():

@@ -88,5 +88,8 @@ class NodalValue:
         else:
             value = float(self._value)
         if not np.all(np.isfinite(value)):
-            raise ValueError(f"{self._name} is not finite: give finite numbers")
+            raise ValueError(
+                f"{self._name} is not finite: give finite numbers (manual: "
+                "errors/values-not-finite)"
+            )
         return value

@@ -244,5 +244,5 @@ class ContactProblem:
         if names:
             self.assembler.say(
                 f"petsc_options has {names}, which nothing has read: check the spelling, leave out "
-                "the prefix"
+                "the prefix (manual: errors/unread-options)"
             )

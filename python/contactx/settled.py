@@ -12,18 +12,19 @@ from contactx.report import Iteration
 _FAILURES = {
     core.Verdict.hidden: "pairs went back and forth between facets and were frozen, and hide a "
     "penetration: refine the coarser surface there, swap slave and master where that is the slave, "
-    "or take smaller load steps",
+    "or take smaller load steps (manual: errors/frozen-pairs)",
     core.Verdict.ran_away: "a body that nothing holds has moved by {way:.3g}, more than the size "
     "of the scene: no place was found where the forces of contact balance. Support it. Where a "
     'ring can turn in another one, take method="surface-to-surface", or numbers of facets that are '
-    "no multiples of each other",
+    "no multiples of each other (manual: errors/body-ran-away)",
     core.Verdict.unbalanced: "the loads on a body cannot be balanced: it has no support and "
     "nothing is in its way, or friction barely could. Support it, or turn the loads so that they "
-    "press the bodies together",
+    "press the bodies together (manual: errors/unbalanced-loads)",
     core.Verdict.not_finite: "the residual is not finite: the material fails, or a body is free to "
-    "move without touching anything. Take smaller load steps, or support the body",
+    "move without touching anything. Take smaller load steps, or support the body "
+    "(manual: errors/residual-not-finite)",
     core.Verdict.stuck: "no step is short enough to lead on: cells would turn inside out, or the "
-    "residual does not fall. Take smaller load steps",
+    "residual does not fall. Take smaller load steps (manual: errors/no-step-leads-on)",
 }
 
 

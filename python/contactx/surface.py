@@ -135,7 +135,8 @@ class Surface:
         topology = domain.topology
         if self.facet_tags.topology is not topology._cpp_object:
             raise ValueError(
-                f"the facet tags of {self} belong to another mesh than the displacement"
+                f"the facet tags of {self} belong to another mesh than the displacement: make them "
+                "on u.function_space.mesh"
             )
         tdim = topology.dim
         topology.create_connectivity(tdim - 1, tdim)

@@ -135,10 +135,12 @@ def unknowns_of(u: Any, displacement: Any) -> Unknowns | None:
     if not functions:
         raise ValueError("u is an empty list: give the functions that are solved for")
     if len({id(function) for function in functions}) < len(functions):
-        raise ValueError("u lists the same function twice")
+        raise ValueError("u lists the same function twice: list each once")
     meshes = {id(function.function_space.mesh) for function in functions}
     if len(meshes) > 1:
-        raise ValueError("u has functions on several meshes: contact needs one that holds all")
+        raise ValueError(
+            "u has functions on several meshes: contact needs one that holds all, make one mesh"
+        )
     V = functions[0].function_space
     is_mixed = not is_list and isinstance(V.ufl_element(), basix.ufl._MixedElement)
     if not is_list and not is_mixed:

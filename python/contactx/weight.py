@@ -65,7 +65,10 @@ def nodal_weight(
         return np.full(len(nodes), float(weight))
     domains = extract_domains(weight)
     if any(domain is not V.mesh.ufl_domain() for domain in domains):
-        raise ValueError("weight is an expression on another mesh than the displacement's")
+        raise ValueError(
+            "weight is an expression on another mesh than the displacement's: write it with the "
+            "SpatialCoordinate of that one"
+        )
     if isinstance(weight, fem.Constant):
         return np.full(len(nodes), float(weight))
     Q = fem.functionspace(V.mesh, ("Lagrange", degree_of(V)))

@@ -87,9 +87,11 @@ class Audit:
         )
         if self._bulk.is_linear:
             findings.warnings.append(
-                text + "A linear material does not resist that: take one for large strains"
+                text + "A linear material does not resist that: take one for large strains "
+                "(manual: errors/cells-inside-out)"
             )
         else:
             findings.faults.append(
-                text + "Take smaller load steps, or a line search (snes_linesearch_type bt)"
+                text + "Take smaller load steps, or a line search (snes_linesearch_type bt) "
+                "(manual: errors/cells-inside-out)"
             )

@@ -64,7 +64,8 @@ class Findings:
             if found.passed.count > 0:
                 self.faults.append(
                     f"{name}: {found.passed.count} slave nodes and facets went through the {kind} "
-                    "within the step and are on its far side. Take smaller load steps"
+                    "within the step and are on its far side. Take smaller load steps (manual: "
+                    "errors/passed-through)"
                 )
             self._add_inside(name, f"{kind}, which they face away from", found, size, _FAR)
             self._add_depth(name, kind, found, "around", "Refine the slave surface")
@@ -73,7 +74,7 @@ class Findings:
             self.faults.append(
                 f"{name}: {found.passed.count} nodes went through the other surface within the "
                 f"step, the first is at {core.point_text(found.passed.at, found.facet_size)}. Take "
-                "smaller load steps"
+                "smaller load steps (manual: errors/passed-through)"
             )
         advice = _UNPAIRED if interface.sliding == "small" else _FAR
         self._add_inside(name, "master, and have no pair with it", found, size, advice)
@@ -92,7 +93,7 @@ class Findings:
             self.faults.append(
                 f"{name}: {inside.count} slave nodes are inside the {what}, first node "
                 f"{inside.first} of the mesh as it was made, at "
-                f"{core.point_text(inside.at, size)}: {advice}"
+                f"{core.point_text(inside.at, size)}: {advice} (manual: errors/nodes-inside)"
             )
 
     def _add_depth(
@@ -106,7 +107,8 @@ class Findings:
                 f"{worst.size:.3g} {place} {core.point_text(worst.at, worst.size)}, between its "
                 "nodes"
                 + ("" if worst.is_held else ", which are open")
-                + f": the slave surface is too coarse to see it. {advice}"
+                + f": the slave surface is too coarse to see it. {advice} (manual: "
+                "errors/slave-too-coarse)"
             )
 
     def __str__(self) -> str:

@@ -93,5 +93,5 @@ def check_cells(domain: mesh.Mesh) -> None:
             f"their Jacobian changes sign. The first is at {core.point_text(at, size)} and is cell "
             f"{number} of the mesh as it was made: repair the mesh there. The vertices of "
             "quadrilaterals and hexahedra may be in another order than DOLFINx has: row by row, "
-            "not round about"
+            "not round about (manual: errors/refused-mesh)"
         )

@@ -262,7 +262,10 @@ class LoadSteps:
             self._problem.find_rigid_modes()
             self._state.load(saved)
         except (KeyError, ValueError) as error:
-            raise ValueError(f"cannot restart from {path}: {error}") from error
+            raise ValueError(
+                f"cannot restart from {path}: {error}. Give a checkpoint of this problem, or leave "
+                "restart out (manual: errors/restart-refused)"
+            ) from error
         try:
             with agreed(self._comm):
                 self._update(plan.t)
