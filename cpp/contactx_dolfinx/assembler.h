@@ -252,7 +252,7 @@ public:
     _jacobian->assemble(A, _loop->free_bodies().springs());
   }
 
-  /// @brief How much of a step may be taken.
+  /// @brief Part of a step that may be taken.
   ///
   /// No cell may turn inside out. Zero means that contact becomes soft before
   /// the next solve, where a step would open many nodes of slender bodies.

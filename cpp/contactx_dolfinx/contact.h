@@ -19,7 +19,7 @@ namespace contactx::dolfinx
 using contact::Sliding;
 using reference::Method;
 
-/// @brief How a contact is.
+/// @brief Options of a contact.
 struct Options
 {
   /// Coulomb's coefficient; with nothing along the surface nothing is computed

@@ -64,7 +64,7 @@ public:
     _name = "Surface({" + _name + "}, " + std::to_string(count) + " facets)";
   }
 
-  /// @brief What messages call it.
+  /// @brief Name in messages.
   const std::string& name() const { return _name; }
 
   /// @brief Nodes of the surface's facets whose cells this rank owns, oriented:

@@ -53,7 +53,7 @@ from contactx.unknowns import unknowns_of
 from contactx.weight import is_axisymmetric
 from dolfinx import fem, la
 
-# What all ranks must call at the same time
+# Methods that all ranks must call at the same time
 _CALLS = ("begin_step", "settle", "residual", "jacobian", "set_up", "limit", "update", "accept")
 
 
@@ -77,9 +77,9 @@ class ContactAssembler:
 
     and ends with a ConvergenceError where no solution is to be expected any more. Contact is as
     safe so as with ``ContactProblem``: pairs and status change at accepted iterates alone, no step
-    turns cells inside out, and what has converged is looked at before it is accepted. What that one
-    has beyond this: where full steps do not converge it tries damped ones, and it tells what has
-    gone wrong if a loop comes to nothing.
+    turns cells inside out, and a converged iterate is audited before it is accepted. ``ContactProblem``
+    does two things beyond this: it tries damped steps where full ones do not converge, and it looks
+    for a wrong Jacobian and for rounding where a loop fails.
 
     All ranks must call all methods, in the same order.
 
@@ -87,7 +87,7 @@ class ContactAssembler:
         u: Displacement of the nodes; a copy where the user's function has more than that.
         functions: What is solved for: the displacement, or the functions that it is one of.
         contacts: Contacts.
-        conductances: What flows across them.
+        conductances: Conductances across the contacts.
         report: Report of the step.
     """
 
@@ -111,10 +111,10 @@ class ContactAssembler:
             F: Residual of the bulk, or of each function.
             u: Displacement; or a function of a mixed space, or functions, one of which has it.
             contacts: Contacts.
-            displacement: Which part or function is the displacement.
+            displacement: Number of the part or function that is the displacement.
             bcs: Dirichlet conditions.
             J: Jacobian of F; derived if None.
-            conductances: What flows across the contacts.
+            conductances: Conductances across the contacts, of heat for example.
             audit: "refuse" or "warn".
             form_compiler_options: Options of FFCx.
             jit_options: Options of the compilation.
@@ -191,16 +191,20 @@ class ContactAssembler:
         self.may_fly = False
         self._A: PETSc.Mat | None = None
         self._condensed: Condensed | None = None
-        # What must be made anew where the Dirichlet conditions are others
+        # Solvers that are reset where the Dirichlet conditions change
         self.solvers: list[Condensed | NewtonLoop] = []
         self._attached: NewtonLoop | None = None
 
     def create_vector(self) -> PETSc.Vec:
-        """A vector of all unknowns."""
+        """Create a vector of all unknowns: displacements, then multipliers over the factor c.
+
+        Returns:
+            A new vector, zero; both parts are lengths.
+        """
         return self.system.x.duplicate()
 
     def attach(self, snes: PETSc.SNES, *, condensed: bool = False) -> None:
-        """Have a SNES of one's own solve the system.
+        """Let a SNES of your own solve the system.
 
         In each step it is called between ``begin_step`` and ``accept``::
 
@@ -339,11 +343,14 @@ class ContactAssembler:
         return found
 
     def judge(self, rtol: float, atol: float) -> Settled:
-        """The same, without an error: for SNES.
+        """Do the same as ``settle`` without raising an error, for SNES.
 
         Args:
             rtol: Tolerance relative to the forces of the problem.
             atol: Absolute tolerance, a force.
+
+        Returns:
+            The iterate and its figures; ``failure`` says why the loop should end.
         """
         is_start = self._solves == 0
         if not is_start:
@@ -374,13 +381,13 @@ class ContactAssembler:
         return self._found
 
     def _look_anew(self) -> None:
-        """Take what a user may have changed since the last call: displacements, loads."""
+        """Read displacements and loads, which a user may have changed since the last call."""
         self.bulk.read()
         self.halo.update_ghosts()
         self.system.core.begin_step()
 
     def _read_values(self) -> None:
-        """Hand the core what users may change."""
+        """Hand the core friction, offsets and obstacles as they are now."""
         # Only all ranks together can free what they have dropped
         PETSc.garbage_cleanup(self._comm)
         for interface in self.interfaces:
@@ -388,7 +395,7 @@ class ContactAssembler:
 
     @property
     def converged(self) -> bool:
-        """Whether the iterate that has settled last is a solution."""
+        """True if the iterate of the last ``settle`` is a solution and no step was taken since."""
         return self._found is not None and self._found.converged and not self._has_moved
 
     def residual(self, b: PETSc.Vec) -> None:
@@ -430,11 +437,18 @@ class ContactAssembler:
         return self._A
 
     def blocks(self) -> dict[str, PETSc.Mat]:
-        """Blocks of the Jacobian by their names.
+        """Split the Jacobian into its blocks [[K, B], [C, D]].
 
-        "K" are the rows and columns of displacements, bulk and contact, "B" what multipliers do to
-        forces, "C" the derivatives of complementarity by displacements, "D" those by multipliers.
-        ``Contact.forms`` has those of contact as forms.
+        "K" has the rows and columns of the displacements, of bulk and contact; "B" the derivatives
+        of the forces by the multipliers; "C" the derivatives of the complementarity conditions by
+        the displacements, "D" those by the multipliers. ``Contact.forms`` has the parts of contact
+        as forms.
+
+        Returns:
+            The four blocks by their names.
+
+        Raises:
+            RuntimeError: If no step has begun.
         """
         J = self.jacobian()
         n, size = self.system.num_bulk, self.system.x.getLocalSize()
@@ -449,7 +463,7 @@ class ContactAssembler:
         }
 
     def set_up(self, ksp: PETSc.KSP, *, condensed: bool = False) -> None:
-        """Give a KSP of one's own the Jacobian of the iterate that has settled last.
+        """Give a KSP of your own the Jacobian of the iterate of the last ``settle``.
 
         Args:
             ksp: The solver.
@@ -482,11 +496,12 @@ class ContactAssembler:
             )
 
     def limit(self, dx: PETSc.Vec) -> float:
-        """How much of a step may be taken.
+        """Return the part of a step that may be taken.
 
-        No cell may turn inside out. Zero means that contact becomes soft before the next solve,
-        where a step would open many nodes of slender bodies: take none of it, and settle again.
-        What runs through something else in a step is seen once it has converged, and refused.
+        The part keeps each cell from turning inside out. Zero means that contact becomes soft
+        before the next solve, where the step would open many nodes of slender bodies: take no part
+        of it, and call ``settle`` again. A body that passes through another one is found by the
+        audit, once the step has converged.
 
         Args:
             dx: What is to be added to the unknowns.
@@ -553,7 +568,7 @@ class ContactAssembler:
         self.commit()
 
     def commit(self) -> None:
-        """The same, without the checks of the order of calls."""
+        """Do the same as ``accept`` without checking the order of calls."""
         report = self.report
         check_drag(self.interfaces, self.contacts)
         report.converged = True
@@ -604,7 +619,11 @@ class ContactAssembler:
         self.loop.find_rigid_modes()
 
     def say(self, text: str) -> None:
-        """Warn on rank 0, if there is something to say."""
+        """Warn on rank 0.
+
+        Args:
+            text: The warning; nothing happens if it is empty.
+        """
         if text and self._comm.rank == 0:
             # Of the user's line, whether that calls solve or a loop of steps does
             warnings.warn(text, skip_file_prefixes=(str(Path(__file__).parent),))

@@ -1,6 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""What a user gives for the bulk: displacement, forms and Dirichlet conditions, checked.
+"""Checks of the displacement, the forms and the Dirichlet conditions that a user gives.
 
 DOLFINx compiles and assembles forms of wrong spaces without a word, and writes beyond the arrays.
 """
@@ -274,7 +274,7 @@ def check_conditions(bcs: Any, functions: Sequence[fem.Function]) -> None:
 def have_changed(
     given: Sequence[fem.DirichletBC], taken: Sequence[fem.DirichletBC], comm: MPI.Comm
 ) -> bool:
-    """Whether the user's list of Dirichlet conditions is another one on any rank.
+    """True if the user's list of Dirichlet conditions has changed on any rank.
 
     Args:
         given: The list, as it is now.
@@ -285,7 +285,7 @@ def have_changed(
 
 
 class _Wrapped:
-    """What ``FunctionSpace.contains`` takes, of a space that DOLFINx gives without its cover."""
+    """A space of DOLFINx's C++ layer in the form that ``FunctionSpace.contains`` takes."""
 
     def __init__(self, space: Any):
         self._cpp_object = space

@@ -1,6 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""What flows from one side of a contact to the other: heat, charge, fluid."""
+"""Flow of heat, charge or fluid across a contact."""
 
 from __future__ import annotations
 
@@ -143,10 +143,14 @@ class Conductance:
         return float(reduce.total(self._halo.comm, flow.sum()))
 
     def residual(self) -> Array:
-        """What leaves each of the field's dofs that this rank owns, shape (num_owned,).
+        """Flow out of each of the field's dofs that this rank owns; all ranks must take part.
 
-        All ranks must take part. It belongs to the left-hand side of a balance: the residual of
-        UFL's ``inner(k * grad(T), grad(v)) * dx - Q * v * dx`` plus this is zero.
+        It belongs to the left-hand side of a balance: the residual of UFL's
+        ``inner(k * grad(T), grad(v)) * dx - Q * v * dx`` plus this is zero.
+
+        Returns:
+            Flow from the slave's dofs, negative into the master's, shape (num_owned,): the unit of
+            the coefficient times T times area.
         """
         transfer, h = self._evaluate()
         b = np.zeros(self._halo.num_nodes)
@@ -168,6 +172,9 @@ class Conductance:
             C = conductance.matrix()
             C.zeroRowsColumnsLocal(bc.dof_indices()[0], diag=0.0)
             A.axpy(1.0, C)
+
+        Returns:
+            A new matrix, flow per unit of T.
         """
         transfer, h = self._evaluate()
         dofs = self._numbers()
@@ -212,6 +219,9 @@ class Conductance:
 
         Args:
             values: Values, shape (at least num_owned,).
+
+        Returns:
+            Values of this rank's nodes, ghosts included, shape (num_nodes,).
         """
         assert self._nodes is not None
         own = np.ascontiguousarray(values[self._nodes[: self._halo.num_owned]])
@@ -328,7 +338,7 @@ def add_entries(A: PETSc.Mat, rows: Index, columns: Index, values: Array) -> Non
 def check_conductances(
     conductances: Any, contacts: list[Contact], functions: list[fem.Function], displacement: Any
 ) -> list[Conductance]:
-    """Check what a problem was given.
+    """Check the argument ``conductances`` of a problem.
 
     Args:
         conductances: Conductances.

@@ -99,7 +99,7 @@ class Fields:
         self._at = interface.positions()[interface.slaves]
         comm = self._halo.comm
         self.force, sum_ = total(comm, np.stack([on_slave.sum(axis=0), forces.sum(axis=0)]))
-        # What a rigid obstacle is pushed with goes to its support
+        # The force on a rigid obstacle goes to its support
         carried = self.force if interface.master.is_rigid else 0
         self.imbalance = sum_ - carried
         self._recover(on_slave)

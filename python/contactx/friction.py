@@ -1,6 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Laws of friction of the user's own."""
+"""Laws of friction that a user gives."""
 
 from __future__ import annotations
 
@@ -52,11 +52,14 @@ class FrictionLaw:
         self._ufl = UFLFunction(lambda x: f(x[0], x[1]), "FrictionLaw")
 
     def values(self, p: Array, s: Array) -> tuple[Array, Array, Array]:
-        """Bound and its derivatives by p and s, shape (n,) each.
+        """Evaluate the bound of the tangential traction and its derivatives.
 
         Args:
-            p: Pressures, shape (n,).
+            p: Pressures, force/area, shape (n,).
             s: Lengths of slip, shape (n,).
+
+        Returns:
+            The bound, force/area, and its derivatives by p and by s, shape (n,) each.
 
         Raises:
             ValueError: If the function is not of UFL and has no gradient, or a shape does not fit.

@@ -101,7 +101,7 @@ class Interface(core.Contact):
         return self.halo.positions()
 
     def offset(self) -> npt.NDArray[np.float64]:
-        """What is taken off the gap now, shape (n,)."""
+        """Current offset, the length that is taken off the gap, shape (n,)."""
         return np.broadcast_to(self._offset.now(), self.nodes.gap.shape)
 
     def read_values(self) -> None:

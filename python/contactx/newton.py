@@ -78,7 +78,7 @@ class NewtonLoop:
     """
 
     def __init__(self, assembler: ContactAssembler, snes: PETSc.SNES, *, condensed: bool):
-        """Have a solver call what belongs to the assembler.
+        """Set the callbacks of a solver.
 
         Args:
             assembler: The coupled system.
@@ -96,7 +96,7 @@ class NewtonLoop:
         )
         self._report = Report()
         self.error: BaseException | None = None
-        # What the Jacobian was made for
+        # Version of the state that the Jacobian was made for
         self._version = -1
         self._length = StepLength(self._loop)
         # Why the step has failed, and whether no other way may lead to a solution
@@ -144,7 +144,7 @@ class NewtonLoop:
         self._linear.end_step(report)
 
     def skipped(self) -> dict[str, int]:
-        """What linear solves have not done again in this step, and how often."""
+        """Names of the work that linear solves have skipped in this step, and how often."""
         return self._linear.skipped()
 
     def _why_slow(self, code: int) -> str:
@@ -175,7 +175,7 @@ class NewtonLoop:
 
     @property
     def damping_may_help(self) -> bool:
-        """Whether damped steps may converge where the last run has failed.
+        """True if damped steps may converge where the last run has failed.
 
         Not where steps solve what they solve exactly, nor on a user's own line search.
         """

@@ -70,7 +70,7 @@ class NodalValue:
 
     @property
     def is_number(self) -> bool:
-        """Whether it is a number, which never changes."""
+        """True if it is a number, which never changes."""
         return not isinstance(self._value, fem.Function | fem.Constant)
 
     def now(self) -> Any:

@@ -1,6 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""What an iterate is once pairs and active set are those of it."""
+"""An accepted iterate with its residual, its changes, and whether the loop may end."""
 
 from __future__ import annotations
 
@@ -30,15 +30,15 @@ _FAILURES = {
 
 @dataclass(frozen=True)
 class Settled(Iteration):
-    """An iterate with the pairs and the active set that are those of it.
+    """An accepted iterate after its pairs and its active set were updated.
 
     Attributes:
         scale: Forces of the problem, which ``tolerance`` is relative to: norm of the bulk's
             residual.
-        converged: Whether it is a solution: the residual is small, no node changes its pair or
-            status any more, and geometry finds nothing wrong.
-        failure: Why no solution is to be expected any more, and what to do; empty while there is.
-        is_final: Whether another way to the same place would fail, too.
+        converged: True if it is a solution: the residual of the updated pairs and status is below
+            the tolerance, and the audit has found no fault.
+        failure: Why no solution is to be expected any more, and what to do; empty while one is.
+        is_final: True if damped steps would fail as well.
     """
 
     scale: float
@@ -47,7 +47,7 @@ class Settled(Iteration):
     is_final: bool
 
     def row(self) -> Iteration:
-        """The part that reports have."""
+        """The row of a report."""
         return Iteration(**{f.name: getattr(self, f.name) for f in fields(Iteration)})
 
 

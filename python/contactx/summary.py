@@ -1,6 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""What a report says of an accepted step, and what users are warned of."""
+"""Totals of an accepted step for its report, and warnings of a contact."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ def complete(report: Report, contacts: Sequence[Contact], halo: Halo) -> None:
 def warning_of(
     name: str, interface: Interface, hidden: float, halo: Halo, *, may_fly: bool = False
 ) -> str:
-    """What a converged solution may hide in a contact, such as a gap; empty if nothing.
+    """Warning of a contact of a converged solution, such as a hidden gap; empty if there is none.
 
     All ranks must take part.
 

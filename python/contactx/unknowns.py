@@ -1,6 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Which functions a user solves for, and where the displacement is in them."""
+"""Functions that a problem solves for, and the place of the displacement in them."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ class Unknowns:
 
     @property
     def is_copy(self) -> bool:
-        """Whether u is a copy."""
+        """True if u is a copy."""
         return self._dofs is not None
 
     def read(self) -> None:
@@ -86,7 +86,7 @@ class Unknowns:
         return self._dofs[:owned]
 
     def fields(self) -> list[tuple[int, Index]]:
-        """What else there is: for each field the number of its function, and its owned dofs."""
+        """Other fields: for each the number of its function, and its owned dofs."""
         found = []
         for k, function in enumerate(self.functions):
             V = function.function_space

@@ -1,6 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""What an audit found."""
+"""Findings of an audit and their messages."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _UNPAIRED = (
 
 @dataclass
 class Findings:
-    """What an audit of a converged iterate found.
+    """Findings of the audit of a converged iterate.
 
     Attributes:
         far_side: Slave nodes inside their master, or on the far side of a rigid one.

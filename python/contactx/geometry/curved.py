@@ -73,7 +73,7 @@ def _check_surface(name: str, surface: Surface, domain: mesh.Mesh) -> None:
 def _deviations(
     surface: Surface, domain: mesh.Mesh
 ) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64], npt.NDArray[np.float64]]:
-    """How far nodes of the geometry are from where straight facets have them.
+    """Distances of the nodes of the geometry from where straight facets have them.
 
     Args:
         surface: Part of the boundary.

@@ -130,7 +130,11 @@ class LoadSteps:
         return self._plan.t
 
     def table(self) -> str:
-        """The accepted steps as a text table."""
+        """Make a table of the accepted steps.
+
+        Returns:
+            The table as plain text, a row a step.
+        """
         return table(self._rows)
 
     def save(self, path: str | Path) -> None:
