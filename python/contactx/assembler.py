@@ -75,11 +75,11 @@ class ContactAssembler:
             assembler.update(dx, assembler.limit(dx))
         assembler.accept()
 
-    and ends with a ConvergenceError where no solution is to be expected any more. Contact is as
-    safe so as with ``ContactProblem``: pairs and status change at accepted iterates alone, no step
-    turns cells inside out, and a converged iterate is audited before it is accepted. ``ContactProblem``
-    does two things beyond this: it tries damped steps where full ones do not converge, and it looks
-    for a wrong Jacobian and for rounding where a loop fails.
+    and ends with a ConvergenceError where no solution is to be expected any more. It is as safe as
+    ``ContactProblem``: pairs and status change at accepted iterates alone, no step turns cells
+    inside out, and a converged iterate is audited before it is accepted. ``ContactProblem`` does
+    two things beyond this: it tries damped steps where full ones do not converge, and it looks for
+    a wrong Jacobian and for rounding where a loop fails.
 
     All ranks must call all methods, in the same order.
 
