@@ -37,7 +37,8 @@ class Conductance:
     T is a scalar field such as a temperature, p the recovered contact pressure and g the gap. What
     leaves the slave arrives at the master, whether the meshes match or not: with the weights of the
     contact's pairs a node j has the flow sum_i w_ij A_i h_i sum_k w_ik T_k; see
-    ``contact/transfer.h``. Flows are integrals with the contact's weight, and over reference areas.
+    ``contact/transfer.h`` and theory/conductance of the manual. Flows are integrals with the
+    contact's weight, and over reference areas.
 
     Given to a ``ContactProblem`` that solves for displacement and T together, it is part of that
     system, with its derivatives by T, by the pressure and by the gap. Where T is solved for by

@@ -52,6 +52,7 @@ class Contact:
     not zero: g >= 0, p >= 0, p g = 0. With friction the traction t along the surface obeys
     |t| <= friction p, and only where they are equal the node slips, against t. The results below
     exist as soon as the contact belongs to a ContactProblem, and change when a step is accepted.
+    Equations and sources are in the manual, theory/gap and theory/friction.
     """
 
     def __init__(

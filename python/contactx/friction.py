@@ -20,7 +20,8 @@ class FrictionLaw:
     """Friction whose bound is no constant times the pressure: |t| <= f(p, s).
 
     p is the pressure, force/reference area, and s the length that a slave node has slipped, in all
-    accepted steps and this one. Slip goes against t, as with Coulomb's law. For example::
+    accepted steps and this one. Slip goes against t, as with Coulomb's law; see theory/friction of
+    the manual. For example::
 
         cx.FrictionLaw(lambda p, s: ufl.as_ufl(0.1))                       # Tresca
         cx.FrictionLaw(lambda p, s: ufl.min_value(0.3 * p, 0.1))           # up to a limit

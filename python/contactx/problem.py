@@ -30,7 +30,8 @@ class ContactProblem:
     under g_s >= 0, p_s >= 0, p_s g_s = 0 and Coulomb's law: |t_s| <= mu p_s, without slip where it
     is less, else against the slip. Without friction t_s = 0, and the multiplier is p_s alone. A tie
     has lambda_s of any direction. All this is solved by a semismooth Newton method on the saddle
-    point, the primal-dual active set strategy (Alart & Curnier 1991; Hueeber & Wohlmuth 2005).
+    point, the primal-dual active set strategy (Alart & Curnier 1991; Hueeber & Wohlmuth 2005); see
+    theory/newton of the manual.
 
     The displacement may be a part of a mixed space, as in Taylor and Hood's elements, or one of
     several functions that are solved for together, such as displacement and temperature.
