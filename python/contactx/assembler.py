@@ -85,7 +85,7 @@ class ContactAssembler:
 
     Attributes:
         u: Displacement of the nodes; a copy where the user's function has more than that.
-        functions: What is solved for: the displacement, or the functions that it is one of.
+        functions: Functions that are solved for, the displacement among them.
         contacts: Contacts.
         conductances: Conductances across the contacts.
         report: Report of the step.
@@ -252,7 +252,7 @@ class ContactAssembler:
             raise
 
     def prepare(self) -> None:
-        """Check what a step starts from, and remember it; ``begin_step`` does so."""
+        """Check the state that a step starts from, and save it; ``begin_step`` calls this."""
         self._before, self._has_begun = None, False
         if have_changed(self._bcs, self.bulk.bcs, self._comm):
             self._take_conditions()
@@ -313,7 +313,7 @@ class ContactAssembler:
         """Update pairs and active set at an accepted iterate, and judge its residual.
 
         The iterate may change by a little: where iterates go round, part of the last step is taken
-        back, and so is what free bodies have drifted by.
+        back, and so is the drift of free bodies.
 
         Args:
             rtol: Tolerance relative to the forces of the problem.
@@ -321,12 +321,12 @@ class ContactAssembler:
             max_it: Most linear solves of the step.
 
         Returns:
-            What the iterate is.
+            The iterate: its residual, its changes, and whether it is a solution.
 
         Raises:
             ConvergenceError: If no solution is to be expected any more.
             RuntimeError: If no step has begun.
-            ValueError: If friction, offset or an obstacle has become what it must not be.
+            ValueError: If friction, offset or an obstacle has a value out of its range.
         """
         self._enter("settle", rtol=rtol, atol=atol, max_it=max_it)
         self._look_anew()
@@ -401,7 +401,7 @@ class ContactAssembler:
     def residual(self, b: PETSc.Vec) -> None:
         """Assemble the residual of bulk and contacts at ``u`` and the contacts' multipliers.
 
-        Rows of Dirichlet conditions are displacements minus what is prescribed.
+        Rows of Dirichlet conditions are displacements minus prescribed ones.
 
         Args:
             b: Vector of ``create_vector``, overwritten.
@@ -418,7 +418,7 @@ class ContactAssembler:
         """Assemble the Jacobian of bulk and contacts: a saddle point.
 
         Args:
-            A: What the last call returned, to be written to; None for a new one.
+            A: Matrix that the last call returned, to be written to; None for a new one.
 
         Returns:
             The Jacobian: the same one if the pairs are the same, else a new one.
@@ -504,7 +504,7 @@ class ContactAssembler:
         audit, once the step has converged.
 
         Args:
-            dx: What is to be added to the unknowns.
+            dx: Increment of the unknowns, in the layout of ``create_vector``.
 
         Returns:
             Part of it, at most 1.
@@ -587,7 +587,7 @@ class ContactAssembler:
         self._has_begun = False
 
     def summarise(self) -> None:
-        """Write what was done so far into the report; all ranks must take part."""
+        """Write the figures of the step so far into the report; all ranks must take part."""
         report, active_set, bodies = self.report, self.loop.active_set, self.loop.free_bodies
         report.frozen_gap = min(active_set.hidden_gaps, default=0.0)
         report.soft = active_set.soft_iterations

@@ -42,7 +42,7 @@ class Conductance:
 
     Given to a ``ContactProblem`` that solves for displacement and T together, it is part of that
     system, with its derivatives by T, by the pressure and by the gap. Where T is solved for by
-    itself, after the contact, ``matrix`` and ``residual`` are what must be added to its system.
+    itself, after the contact, ``matrix`` and ``residual`` must be added to its system.
 
     Attributes:
         contact: The contact.
@@ -193,7 +193,7 @@ class Conductance:
         return C
 
     def derivatives(self) -> tuple[core.Triplets, core.Triplets, core.Triplets, Array]:
-        """Derivatives of what leaves the nodes; all ranks must take part.
+        """Derivatives of the flows out of the nodes; all ranks must take part.
 
         Returns:
             Those by the field, nodes by nodes; by the displacement, nodes by displacements; by the
@@ -344,7 +344,7 @@ def check_conductances(
     Args:
         conductances: Conductances.
         contacts: Contacts of the problem.
-        functions: What is solved for.
+        functions: Functions that are solved for.
         displacement: The displacement among that.
 
     Raises:

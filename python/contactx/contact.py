@@ -81,7 +81,7 @@ class Contact:
                 found as the surface folds. It takes node-to-surface and finite sliding.
             friction: Coulomb's coefficient: a number, a ``fem.Constant`` or a ``fem.Function`` of
                 a scalar Lagrange space, which may change from step to step. With the number 0
-                nothing along the surface is computed. Or a ``FrictionLaw`` of one's own.
+                nothing along the surface is computed. Or a ``FrictionLaw`` of your own.
             sliding: "finite": pairs, normals and projections follow the deformation. "small": they
                 are those of the reference configuration, which is linear and cheap, and right
                 where bodies neither slide nor turn by much.
@@ -111,7 +111,7 @@ class Contact:
                 integrals with it, pressures and tractions still force per true area.
             tangential_factor: With friction the complementarity factor along the surface, as a part
                 of that along the normal, which is the stiffness of the cells. It changes the way to
-                the solution alone, not what a solution is. Stiff thin bodies that nothing but
+                the solution alone, not the solution. Stiff thin bodies that nothing but
                 friction holds, such as slabs on soft ground, converge with 0.05 and not with 1.
 
         Raises:
@@ -305,7 +305,7 @@ class Contact:
         Args:
             V: Space of the displacement.
             slaves: Slave nodes of this rank, shape (n,).
-            own: Law of friction of the user's own.
+            own: Law of friction that the user has given.
 
         Raises:
             ValueError: If friction is a function of another space, or a constant that is no number.

@@ -37,7 +37,7 @@ class ContactProblem:
     several functions that are solved for together, such as displacement and temperature.
 
     Attributes:
-        u: What is solved for, as given.
+        u: Unknown, as given: a function, or a list of functions.
         displacement: Displacement of the nodes: u itself, or a copy where u has more than that.
         contacts: Contacts.
         report: Report of the last solve.
@@ -163,7 +163,7 @@ class ContactProblem:
             ConvergenceError: If the Newton loop fails. The displacement and the contacts are then
                 as they were before the call.
             ValueError: If a condition in ``bcs`` is of another space, ``u`` or a Dirichlet value is
-                not finite, friction, offset or an obstacle has become what it must not be, a
+                not finite, friction, offset or an obstacle has a value out of its range, a
                 LevelSet with friction moves while it is touched, Dirichlet conditions constrain a
                 slave node inside a rigid obstacle, or PETSc refuses an option.
         """

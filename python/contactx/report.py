@@ -30,7 +30,7 @@ class Iteration:
     Attributes:
         number: Number of linear solves so far.
         residual: Norm of the forces that are out of balance, and of the contact conditions.
-        tolerance: What the residual must fall below.
+        tolerance: Bound that the residual must fall below.
         closed: Slave nodes in contact.
         status_changes: Slave nodes that opened or closed.
         pair_changes: Slave nodes in contact that changed their facet.
@@ -67,7 +67,7 @@ class Report:
             slide without friction there, and of parallel contacts only the deepest counts.
         krylov: Iterations of the condensed solver.
         hierarchies: Multigrid hierarchies made for it.
-        factorisations: Factorisations, of the blocks of bodies or of what was not condensed.
+        factorisations: Factorisations, of the blocks of bodies or of systems not condensed.
         by_bodies: Why condensed solves were by bodies, without multigrid, one entry a solve.
         uncondensed: Why solves were not condensed, one entry a solve.
         soft: Linear solves on the path from soft to hard contact.

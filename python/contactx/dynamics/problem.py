@@ -41,7 +41,7 @@ class ContactDynamics(ContactProblem):
     at all. Without this a node that has arrived with -v goes on with up to v, and the contact force
     swings for ever. With linear bodies and obstacles that are flat and at rest neither the
     multipliers nor the correction can raise the energy, whatever dt is; where nodes slide over
-    curved or faceted surfaces they may, by what the surface turns in a step. An impact takes the
+    curved or faceted surfaces they may, as the surface turns in a step. An impact takes the
     kinetic energy of the surface's nodes, which vanishes with the size of the cells; bodies bounce
     by their own waves. See ``dynamics/impact.h``.
 
@@ -344,7 +344,7 @@ def _kind_of(mass: Any, degree: int) -> str:
     """Kind of the masses.
 
     Args:
-        mass: What the user has given.
+        mass: Kind that the user has given, or None.
         degree: Degree of the displacement.
     """
     if mass is None:
