@@ -12,7 +12,7 @@
 /// std::invalid_argument, which names the argument.
 namespace contactx::check
 {
-/// @brief What must hold.
+/// @brief Require a condition.
 /// @param[in] fits Whether it does.
 /// @param[in] message What is thrown if not.
 void require(bool fits, const char* message);

@@ -19,7 +19,7 @@ namespace contactx::dolfinx
 using contact::Sliding;
 using reference::Method;
 
-/// @brief How a contact is.
+/// @brief Options of a contact.
 struct Options
 {
   /// Coulomb's coefficient; with nothing along the surface nothing is computed
@@ -59,7 +59,8 @@ public:
   {
     if (_options.tied and _options.friction)
       throw std::invalid_argument(
-          "tied excludes friction: a tied slave node does not slip");
+          "tied excludes friction: a tied slave node does not slip. Leave "
+          "one of them out");
   }
 
   /// @brief Make the contact's discrete side; the Assembler does so. All ranks
@@ -76,7 +77,9 @@ public:
          const FunctionSpace& V)
   {
     if (_discrete)
-      throw std::logic_error("the contact belongs to an Assembler already");
+      throw std::logic_error(
+          "the contact belongs to an Assembler already: create one Contact an "
+          "Assembler");
     try
     {
       make(halo, bodies, bulk, V);
@@ -127,7 +130,8 @@ public:
     if (_is_read)
       return;
     if (not std::isfinite(_options.offset))
-      throw std::invalid_argument("the offset of a contact is not finite");
+      throw std::invalid_argument(
+          "the offset of a contact is not finite: give a finite length");
     const std::size_t n = discrete().nodes()->num_nodes();
     if (_coulomb)
       _coulomb->set_friction(std::vector<double>(n, *_options.friction));
@@ -141,7 +145,8 @@ public:
   {
     if (not _discrete)
       throw std::logic_error(
-          "a contact has no results before it belongs to an Assembler");
+          "a contact has no results before it belongs to an Assembler: pass it "
+          "to one first");
     return *_discrete;
   }
 

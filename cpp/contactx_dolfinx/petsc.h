@@ -39,7 +39,7 @@ public:
   /// @brief The object.
   T get() const { return _object; }
 
-  /// @brief Where a function that creates the object puts it.
+  /// @brief Pointer for a function that creates the object.
   T* put()
   {
     destroy(&_object);
@@ -78,7 +78,7 @@ private:
   std::size_t _size = 0;
 };
 
-/// @brief The same of a vector that does not change.
+/// @brief Values of a vector that does not change.
 class ConstValues
 {
 public:

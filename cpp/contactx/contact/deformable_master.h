@@ -14,7 +14,7 @@
 
 namespace contactx::contact
 {
-/// @brief How a contact pairs its slave nodes or facets.
+/// @brief Options of the pairing of slave nodes or facets.
 struct PairingOptions
 {
   double reach;       ///< largest distance of a pair

@@ -45,7 +45,8 @@ public:
   /// @param[in] area Areas of the slave nodes (shape=(n)).
   Mortar pairs(const Mortar& now, std::span<const double> area) const;
 
-  /// @brief What is taken off the movement in small sliding (shape=(n, gdim)).
+  /// @brief Vector that is taken off the movement in small sliding (shape=(n,
+  /// gdim)).
   const std::vector<double>& origin() const { return _origin; }
 
   /// @brief Master facets that slip is measured with.

@@ -53,7 +53,7 @@ public:
   HiddenGap deepest_frozen_pair(std::span<const double> x) const override;
 
 protected:
-  /// @brief What the kernels read of slip (shape=(n, kernel::slip_size)).
+  /// @brief Slip data that the kernels read (shape=(n, kernel::slip_size)).
   virtual std::vector<double> slip() const;
 
   /// @brief Number of owned slave nodes.

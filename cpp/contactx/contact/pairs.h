@@ -33,8 +33,8 @@ struct Pairs
   /// @brief Number of pairs.
   std::size_t size() const { return slaves.size() / num_slaves; }
 
-  /// @brief Whether others have the same nodes, so that forms of these serve
-  /// them, too.
+  /// @brief True if other pairs have the same nodes, so that forms of these
+  /// serve them, too.
   bool same(const Pairs& other) const
   {
     return is_movement == other.is_movement and slaves == other.slaves

@@ -56,7 +56,7 @@ public:
   std::vector<double> normals() const override;
   Weights weights() const override;
 
-  /// @brief What is in front of the master. A node that is pushed off within
+  /// @brief Area in front of the master. A node that is pushed off within
   /// an iteration keeps some until the next search.
   std::vector<double> area(std::span<const double> whole) const override;
   std::vector<double> origin() const override { return _slip.origin(); }
@@ -70,7 +70,7 @@ public:
   double distance(std::span<const double> x) const override;
 
 protected:
-  /// @brief Whether there was a search.
+  /// @brief True after the first search.
   bool is_found() const { return _found.has_value(); }
 
   /// @brief Both surfaces.

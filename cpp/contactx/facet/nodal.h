@@ -40,7 +40,7 @@ std::vector<double> nodal_areas(const FacetList& facets,
                                 std::span<const double> x, int gdim,
                                 std::span<const double> weight = {});
 
-/// @brief What the areas of a surface are shared out by, beside the shape
+/// @brief Weights of the nodes in the areas of a surface, beside the shape
 /// functions of its facets.
 struct Shares
 {

@@ -29,7 +29,7 @@ struct NodalArrays
   std::span<const double> gap_derivative, slip_derivative, normal_derivative;
 };
 
-/// @brief Whether a term of pairs has a kernel: it vanishes where there is
+/// @brief True if a term of pairs has a kernel: it vanishes where there is
 /// none. The stiffness does in small sliding, and for vector multipliers on a
 /// rigid obstacle; pairs that measure movement have "slip" and "constraint"
 /// alone.

@@ -23,7 +23,7 @@ enum class Law : std::int8_t
   tied          ///< vector multiplier that never opens
 };
 
-/// @brief What a coefficient's degrees of freedom belong to.
+/// @brief Entity that a coefficient's degrees of freedom belong to.
 enum class Site : std::int8_t
 {
   nodes, ///< the nodes of a pair: those of the slave, then those of the facet

@@ -80,7 +80,7 @@ Integrals integrals(const Side& slave, const Side& master,
                     std::span<const double> normal = {},
                     std::span<const double> weight = {});
 
-/// @brief The same of linear facets.
+/// @brief Integrals over pairs of linear facets.
 Integrals integrals(const facet::FacetList& slave,
                     const facet::FacetList& master, const FacetPairs& pairs,
                     std::span<const double> x,

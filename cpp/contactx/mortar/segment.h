@@ -157,7 +157,7 @@ void for_all_kinds(Function&& f)
   f(Quadrilateral{}, Quadrilateral{});
 }
 
-/// @brief The same of facets that are linear or quadratic, both alike.
+/// @brief Call a function with facets that are both linear, or both quadratic.
 template <class Function>
 void for_all_wholes(Function&& f)
 {

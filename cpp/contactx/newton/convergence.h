@@ -34,7 +34,7 @@ namespace contactx::newton
 class Convergence
 {
 public:
-  /// @brief How large a residual is.
+  /// @brief Residual and tolerance of an iterate.
   struct Result
   {
     double residual;  ///< its norm
@@ -69,11 +69,11 @@ public:
   /// @brief Size of the scene.
   double extent() const { return _extent; }
 
-  /// @brief How far bodies may have to move: the size of the scene, or the
-  /// largest Dirichlet value, which may take a body anywhere.
+  /// @brief Largest distance that bodies may have to move: the size of the
+  /// scene, or the largest Dirichlet value, which may take a body anywhere.
   double farthest();
 
-  /// @brief Whether a residual would deform bodies by less than anyone asks
+  /// @brief True if a residual would deform bodies by less than anyone asks
   /// for.
   bool may_be_rounding(double residual) const;
 

@@ -10,7 +10,7 @@
 
 namespace contactx::newton
 {
-/// @brief What an accepted iterate is.
+/// @brief Verdict on an accepted iterate.
 enum class Verdict : std::int8_t
 {
   goes_on,    ///< the Jacobian's turn
@@ -75,7 +75,8 @@ public:
   /// @brief Pairs and status.
   const active_set::ActiveSet& active_set() const { return _active_set; }
 
-  /// @brief What keeps bodies without supports solvable.
+  /// @brief Springs and closed nodes that keep bodies without supports
+  /// solvable.
   const active_set::FreeBodies& free_bodies() const { return *_bodies; }
 
   /// @brief When residuals are small.
@@ -108,7 +109,7 @@ public:
   /// displacements of linear solves apart.
   std::int64_t version() const { return _version; }
 
-  /// @brief Whether a step that is about to be taken shall not be: contact
+  /// @brief True if the next step shall not be taken: contact
   /// becomes soft instead, see active_set::SoftPath.
   ///
   /// The first step of all is taken: it brings the displacements that are

@@ -42,8 +42,8 @@ public:
   /// @brief The contacts.
   const Contacts& contacts() const { return _contacts; }
 
-  /// @brief Where the bulk and the multipliers of each contact begin among the
-  /// unknowns, and their number at the end (shape=(contacts + 2)).
+  /// @brief Offsets of the bulk and of the multipliers of each contact among
+  /// the unknowns, and their number at the end (shape=(contacts + 2)).
   const std::vector<std::size_t>& offsets() const { return _offsets; }
 
   /// @brief Number of unknowns of this rank.

@@ -21,8 +21,8 @@ struct BulkNodes
   std::vector<double> reference;      ///< positions (shape=(n, gdim))
 };
 
-/// @brief What a halo needs of whoever has the bulk. All ranks must take part
-/// in whatever has no const.
+/// @brief Functions that a halo needs of the owner of the bulk. All ranks must
+/// take part in whatever has no const.
 class HaloAdapter
 {
 public:

@@ -14,11 +14,11 @@
 #include <type_traits>
 #include <vector>
 
-/// @brief What the core needs of other ranks. An adapter provides it, by MPI
+/// @brief Communication that the core needs. An adapter provides it, by MPI
 /// or by whatever else it has.
 namespace contactx::parallel
 {
-/// @brief How numbers of all ranks become one.
+/// @brief Reductions of the numbers of all ranks to one.
 enum class Reduction : std::int8_t
 {
   sum,
@@ -117,13 +117,13 @@ T least(Ranks& ranks, T value)
   return reduced(ranks, value, Reduction::least);
 }
 
-/// @brief Whether something holds on any rank.
+/// @brief True on all ranks if a condition holds on any of them.
 inline bool anywhere(Ranks& ranks, bool value)
 {
   return largest<std::int64_t>(ranks, value) != 0;
 }
 
-/// @brief Whether something holds on all ranks.
+/// @brief True on all ranks if a condition holds on all of them.
 inline bool everywhere(Ranks& ranks, bool value)
 {
   return least<std::int64_t>(ranks, value) != 0;
@@ -165,7 +165,7 @@ std::vector<T> gathered(Ranks& ranks, std::span<const T> values)
   if (ranks.size() == 1)
     return all;
   Messages out;
-  // Whoever has nothing says nothing
+  // Ranks without values send nothing
   for (int r = 0; r < ranks.size() and not values.empty(); ++r)
     pack(out[r], values);
   all.clear();

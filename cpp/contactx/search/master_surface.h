@@ -62,7 +62,8 @@ public:
   /// @param[in] nodal Values at all nodes (shape=(num_nodes)).
   virtual void take_compliance(std::span<const double> /*nodal*/) {}
 
-  /// @brief Whether `pair` itself tells what lies behind all of a body.
+  /// @brief True if `pair` finds by itself the nodes that lie behind all of a
+  /// body.
   virtual bool sees_bodies() const { return false; }
 
   /// @brief Pair slave nodes. The halo and `facets` may grow.
@@ -101,7 +102,7 @@ public:
   /// @param[in] nodal Values at all nodes (shape=(num_nodes)).
   double mean(std::span<const double> nodal);
 
-  /// @brief What tells this surface from another one: the names of this rank's
+  /// @brief Identity of this surface: the names of this rank's
   /// facets (shape=(num_own, 4)).
   std::vector<std::int64_t> identity() const;
 
