@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """How Sphinx makes the manual, `make docs`, without a network for it or its readers."""
 
+import re
+
 import contactx
 
 project = "contactx"
@@ -59,14 +61,25 @@ napoleon_use_ivar = True
 napoleon_use_rtype = False
 
 
-def _escape_bars(app, what, name, obj, options, lines):
-    """Bars are absolute values in docstrings, not the names of substitutions."""
+# How docstrings and messages name pages of the manual
+_PAGE = re.compile(r"\b((?:theory|errors|numbers|howto|tutorials)/[\w-]+)")
+
+
+def _as_rst(app, what, name, obj, options, lines):
+    """Make docstrings those of Sphinx.
+
+    Bars are absolute values in them, not the names of substitutions, and pages of the
+    manual are links.
+    """
     for i, line in enumerate(lines):
         parts = line.split("``")
-        parts[::2] = [part.replace("|", r"\|") for part in parts[::2]]
+        parts[::2] = [
+            _PAGE.sub(r":doc:`\1 </\1>`", part.replace("|", r"\|"))
+            for part in parts[::2]
+        ]
         lines[i] = "``".join(parts)
 
 
 def setup(app):
     """Sphinx calls this."""
-    app.connect("autodoc-process-docstring", _escape_bars)
+    app.connect("autodoc-process-docstring", _as_rst)
