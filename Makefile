@@ -128,9 +128,10 @@ docs: $(INSTALLED)
 	$(BIN)/python tools/check_manual.py build/docs
 	@echo "the manual is in build/docs/index.html"
 
-# Pages of the demos with what they print and draw, but for those that take long.
+# Pages of the demos with what they print and draw, but for those that take long, and animations.
 demo-pages: $(INSTALLED)
 	$(RUN) $(BIN)/python tools/demo_pages.py
+	$(RUN) $(BIN)/python tools/animations.py
 
 # Tables and a picture come to build/stress; fails where a scene is wrong.
 stress: $(INSTALLED)

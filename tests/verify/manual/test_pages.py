@@ -28,5 +28,7 @@ def test_tutorials_have_code():
 
 def test_differences_are_seen():
     assert pages.compare("a 1.0", "a 1.0001") == ""
-    assert pages.compare("a 1.0", "a 1.01")
+    assert pages.compare("a 1.00", "a 1.01") == ""
+    assert pages.compare("a 1.00", "a 1.02")
+    assert pages.compare("7 nodes", "8 nodes")
     assert pages.compare("a 1.0", "b 1.0")
