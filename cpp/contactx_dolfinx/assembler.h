@@ -54,7 +54,7 @@ struct Settled : newton::Iterate
 ///
 /// and where a ConvergenceError ends it `restore` goes back to the step's
 /// start. Pairs and status change at accepted iterates alone, no step turns
-/// cells inside out, and what has converged is looked at before it is accepted.
+/// cells inside out, and a converged iterate is audited before it is accepted.
 ///
 /// All ranks must call all functions, in the same order.
 class Assembler
@@ -228,7 +228,7 @@ public:
   }
 
   /// @brief Assemble the residual of bulk and contacts. Rows of Dirichlet
-  /// conditions are displacements minus what is prescribed.
+  /// conditions are displacements minus prescribed ones.
   /// @param[in] x Unknowns: the state becomes this.
   /// @param[out] b Residual.
   void F(::Vec x, ::Vec b)
@@ -256,7 +256,7 @@ public:
   ///
   /// No cell may turn inside out. Zero means that contact becomes soft before
   /// the next solve, where a step would open many nodes of slender bodies.
-  /// @param[in] dx What is to be added to the unknowns.
+  /// @param[in] dx Increment of the unknowns.
   /// @return Part of it, at most 1.
   double limit(::Vec dx)
   {
@@ -369,7 +369,7 @@ private:
     }
   }
 
-  /// Take what a user may have changed since the last call.
+  /// Read what a user may have changed since the last call.
   void look_anew()
   {
     _adapter->update_ghosts();
@@ -418,7 +418,7 @@ private:
     }
   }
 
-  /// What the residual does not say, geometry does.
+  /// Look at the geometry, which the residual does not see.
   void look_at_solution()
   {
     const double size = [this]

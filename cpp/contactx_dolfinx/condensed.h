@@ -338,7 +338,7 @@ private:
     }
   }
 
-  /// Makes K_c, or what is near it.
+  /// Makes K_c, or a matrix near it.
   void make_matrix()
   {
     System& system = *_system;

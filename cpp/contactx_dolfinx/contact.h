@@ -25,8 +25,9 @@ struct Options
   /// Coulomb's coefficient; with nothing along the surface nothing is computed
   /// there, with zero it may become another one
   std::optional<double> friction = std::nullopt;
-  Method method = Method::node_to_surface; ///< what the gap is measured between
-  Sliding sliding = Sliding::finite;       ///< whether pairs follow the bodies
+  Method method
+      = Method::node_to_surface;     ///< node-to-surface or surface-to-surface
+  Sliding sliding = Sliding::finite; ///< whether pairs follow the bodies
   bool tied = false; ///< whether slave nodes keep their place on the master
   /// Largest distance of a pair; the diameter of the larger surface if not
   /// given, unlimited for an obstacle

@@ -17,7 +17,7 @@ static_assert(std::is_same_v<PetscScalar, double>,
               "contactx needs a PETSc of real numbers in double precision");
 
 /// @brief Throw what PETSc says of an error.
-/// @param[in] error What a function of PETSc has returned.
+/// @param[in] error Return value of a function of PETSc.
 /// @param[in] function Its name.
 inline void check(PetscErrorCode error, const char* function)
 {

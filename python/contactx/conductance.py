@@ -362,7 +362,8 @@ def check_conductances(
             raise TypeError(f"conductances[{k}] must be a Conductance, not {described(c)}")
         if not any(c.contact is contact for contact in contacts):
             raise ValueError(
-                f"conductances[{k}] is of {c.contact}, which is none of the problem's contacts"
+                f"conductances[{k}] is of {c.contact}, which is none of the problem's contacts: "
+                "list it in contacts"
             )
         if not any(c.field is w for w in functions) or c.field is displacement:
             raise ValueError(

@@ -464,7 +464,8 @@ class Contact:
     def _measured(self, field: fem.Function | None) -> fem.Function:
         if field is None:
             why = "measures no slip: give it friction (a fem.Constant of value 0 will do)"
-            raise RuntimeError(f"{self} {'is tied: its nodes do not slip' if self.tied else why}")
+            tied = "is tied: its nodes do not slip, leave slip and slip_total out"
+            raise RuntimeError(f"{self} {tied if self.tied else why}")
         return field
 
     @property

@@ -90,7 +90,7 @@ class Surface:
             for value in tag if isinstance(tag, Iterable) else (tag,):
                 if not isinstance(value, Integral):
                     raise TypeError(
-                        f"a tag is an integer, not {value!r}: Surface(facet_tags, 1, 2)"
+                        f"a tag is an integer, not {value!r}: write Surface(facet_tags, 1, 2)"
                     )
                 values.append(int(value))
         if not values:
@@ -101,7 +101,10 @@ class Surface:
         for tag in values:
             if tag not in present:
                 there = ", ".join(map(str, present)) if len(present) else "none"
-                raise ValueError(f"tag {tag} is not in the facet tags; there are: {there}")
+                raise ValueError(
+                    f"tag {tag} is not in the facet tags; there are: {there}. Give one that is, or "
+                    "tag its facets"
+                )
         self.facet_tags = facet_tags
         self.tags = tuple(values)
         self.facets = np.unique(np.concatenate([facet_tags.find(tag) for tag in values]))

@@ -26,7 +26,7 @@ struct Changes
 ///
 /// A Newton loop calls `settle` at each accepted iterate, evaluates the
 /// residual that belongs to it, and tells it by `note`. A small residual is a
-/// solution if `may_end` says so. All ranks must take part in whatever has no
+/// solution if `may_end` says so. All ranks must call its functions without
 /// const.
 class ActiveSet
 {

@@ -12,10 +12,10 @@
 
 namespace contactx::active_set
 {
-/// @brief Bodies without contact, as who looks for free ones sees them.
+/// @brief Bodies without contact, as the search for free ones needs them.
 ///
-/// An adapter provides it. What a function returns a view of stays until the
-/// function is called again. All ranks must take part in `diagonal` and
+/// An adapter provides it. Arrays that a function returns a view of stay until
+/// the function is called again. All ranks must take part in `diagonal` and
 /// `products`.
 class Bulk
 {

@@ -13,7 +13,7 @@ namespace contactx::active_set
 /// must be shorter. Residuals say little of slender bodies, whose stiffnesses
 /// differ by orders of magnitude.
 ///
-/// Whoever solves begins a step and tries parts of it while that is asked for:
+/// A solver begins a step and tries parts of it while that is asked for:
 ///
 ///     length.begin(size, within_cells);
 ///     while (length.has_trial())

@@ -24,12 +24,12 @@ enum class Sliding : std::int8_t
 
 /// @brief One contact: its slave nodes with their pairs, state and law.
 ///
-/// Whoever solves calls, for each load step, `begin_step`; at each accepted
+/// A solver calls, for each load step, `begin_step`; at each accepted
 /// iterate `search`, `update_gap` and `update_status` (`ActiveSet::settle` does
 /// so for all contacts of a problem); `update_gap` and the law's `evaluate`
 /// before terms are assembled over `pairs`; and `accept` at the end. Positions
 /// are those of the halo at each call; n is the number of owned slave nodes.
-/// All ranks must take part in whatever has no const.
+/// All ranks must call its functions without const.
 class Contact
 {
 public:
@@ -116,7 +116,7 @@ public:
   /// @brief Searches of this step that were not needed.
   int skipped_searches() const { return _skipped_searches; }
 
-  /// @brief Take what is taken off the gap from now on (shape=(n)).
+  /// @brief Take another offset of the gap from now on (shape=(n)).
   /// @throws std::invalid_argument if there are not as many.
   void set_offset(std::span<const double> offset);
 

@@ -88,7 +88,7 @@ public:
   /// @param[in] which 1 at those slave nodes, else 0 (shape=(n)).
   /// @param[in] x Positions at that iterate; at the one that closes them for
   /// what had no master at the start.
-  /// @param[in] offset What is taken off the gap (shape=(n)).
+  /// @param[in] offset Offset, a length that is taken off the gap (shape=(n)).
   virtual void touch(std::span<const std::int8_t> which,
                      std::span<const double> x, std::span<const double> offset)
       = 0;
@@ -111,7 +111,7 @@ public:
   /// @param[in] x Positions.
   /// @param[in] frozen Whether normals and projections stay those of the last
   /// search.
-  /// @param[in] offset What is taken off the gap (shape=(n)).
+  /// @param[in] offset Offset, a length that is taken off the gap (shape=(n)).
   /// @return The pairs, nothing where their data have not changed.
   virtual std::optional<std::vector<Pairs>>
   update(std::span<const double> x, bool frozen, std::span<const double> offset)

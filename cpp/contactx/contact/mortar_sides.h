@@ -151,7 +151,8 @@ public:
   std::vector<double> total(std::span<const double> values,
                             std::span<const std::int32_t> facets) const;
 
-  /// @brief Pairs with what the kernels read, by the kinds of both facets.
+  /// @brief Pairs with the data that the kernels read, by the kinds of both
+  /// facets.
   /// @param[in] mortar Pairs with their integrals.
   /// @param[in] dual Coefficients of the dual functions (shape=(num_facets,
   /// width, width)).

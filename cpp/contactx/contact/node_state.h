@@ -169,8 +169,8 @@ public:
   /// @brief Make slip of movements over several facets, which stand in its
   /// place: their part along the surface. Nothing where a node has a normal of
   /// its own.
-  /// @param[in] origin What is taken off them (shape=(n, gdim)); empty for
-  /// nothing.
+  /// @param[in] origin Vectors that are taken off them (shape=(n, gdim)); empty
+  /// for nothing.
   /// @throws std::invalid_argument if it is of another size.
   void project(std::span<const double> origin = {});
 

@@ -110,7 +110,7 @@ protected:
   obstacle::Placement _placed; ///< of the obstacle at the step's start
 
 private:
-  /// Kernels' data from what is seen of the obstacle.
+  /// Kernels' data from the geometry of the obstacle.
   std::vector<double> kernel_data(const obstacle::Geometry& seen) const;
 
   std::vector<Pairs> group(std::span<const double> data) const;

@@ -24,10 +24,10 @@ struct Pairs
   /// The slave nodes and those of the master facet among all nodes of this
   /// rank (shape=(num_pairs, num_slaves + num_nodes))
   std::vector<std::int32_t> nodes;
-  /// What the kernels read of a pair, see kernel/layout.h
+  /// Data of a pair that the kernels read, see kernel/layout.h
   /// (shape=(num_pairs, data_size))
   std::vector<double> data;
-  /// What they read of slip (shape=(num_pairs, slip_size))
+  /// Slip data that they read (shape=(num_pairs, slip_size))
   std::vector<double> slip;
 
   /// @brief Number of pairs.

@@ -22,7 +22,7 @@ public:
   /// @param[in] halo Nodes of this rank.
   /// @param[in] slaves Slave nodes.
   /// @param[in] surface Master surface.
-  /// @param[in] outside Tells what is outside of its body.
+  /// @param[in] outside Finds points outside of its body.
   /// @param[in] options How facets are paired.
   SurfaceToSurface(std::shared_ptr<parallel::Halo> halo,
                    std::shared_ptr<const SlaveNodes> slaves,
@@ -134,7 +134,7 @@ public:
   void begin_step() override {}
   std::vector<Pairs> pairs() const override;
 
-  /// @brief The offset is what a tie is longer by.
+  /// @brief The offset makes the tie longer.
   std::optional<std::vector<Pairs>>
   update(std::span<const double> x, bool frozen,
          std::span<const double> offset) override;

@@ -96,7 +96,7 @@ public:
 
   /// @copydoc Law::allow_larger_friction
   ///
-  /// What friction throws far may be what it deforms after all.
+  /// A node that friction moves far may have been deformed by it after all.
   void allow_larger_friction() override;
 
   /// @brief Take the coefficients of friction, which count from now on.

@@ -36,7 +36,7 @@ public:
 
   /// @brief Set the accuracy of the next solve.
   /// @param[in] residual Residual of the iterate.
-  /// @param[in] tolerance What it must fall below.
+  /// @param[in] tolerance Bound that it must fall below.
   /// @param[in] changing Part of the nodes in contact whose status or pair has
   /// changed.
   /// @param[in] has_cycled Whether an active set has come back in this step:

@@ -29,8 +29,8 @@ namespace contactx::newton
 ///
 /// Rows of other fields have units of their own. Those of each field are
 /// relative to the largest residual that the field has had in the step, and not
-/// below the rounding errors of their terms. All ranks must take part in
-/// whatever has no const.
+/// below the rounding errors of their terms. All ranks must call
+/// its functions without const.
 class Convergence
 {
 public:
@@ -38,7 +38,7 @@ public:
   struct Result
   {
     double residual;  ///< its norm
-    double tolerance; ///< what it must not exceed
+    double tolerance; ///< bound of the residual
     double defect;    ///< the largest difference from a Dirichlet value
   };
 

@@ -20,7 +20,7 @@ namespace contactx::newton
 /// stiffnesses, and pivots do not depend on the units. The factor is rounded to
 /// a power of two, which changes no digit of a multiplier.
 /// The state is the bulk's displacements and the multipliers of the
-/// contacts' nodes. All ranks must take part in whatever has no const.
+/// contacts' nodes. All ranks must call its functions without const.
 class System
 {
 public:

@@ -66,7 +66,7 @@ public:
   ///
   /// Other ranks than the first that throws get its message as a
   /// std::invalid_argument or std::runtime_error.
-  /// @param[in] work What is done; nothing inside may need other ranks.
+  /// @param[in] work Function to call; it must not communicate.
   virtual void agree(const std::function<void()>& work);
 };
 
@@ -213,12 +213,12 @@ public:
 
   /// @brief Call a function on all ranks whenever the nodes have changed.
   /// @param[in] observer The function.
-  /// @return What it is called for: nothing once this is gone.
+  /// @return The observer: it is not called any more once this is gone.
   [[nodiscard]] std::shared_ptr<const void>
   on_change(std::function<void()> observer) const;
 
 protected:
-  /// @brief Call whoever asked to know of changes, in order; collective.
+  /// @brief Call the observers of changes, in order; collective.
   void notify() const;
 
 private:

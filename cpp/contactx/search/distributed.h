@@ -40,8 +40,8 @@ protected:
   /// collective.
   std::vector<std::int32_t> learn(const FacetRecords& facets);
 
-  /// @brief Settle pairs with what was found for them; the halo may have grown
-  /// since `x` was taken.
+  /// @brief Settle pairs with the results of their search; the halo may have
+  /// grown since `x` was taken.
   /// @param[in,out] pairing Pairs with `facets`.
   /// @param[in] left Slave nodes, by their place in the pairing.
   /// @param[in] places Where each is, on facets of now; nothing without one.

@@ -10,7 +10,7 @@
 namespace contactx::search
 {
 /// @brief Facets of a master surface, as the slave nodes of a rank see them: on
-/// one rank all of them. All ranks must take part in whatever has no const.
+/// one rank all of them. All ranks must call its functions without const.
 class MasterSurface
 {
 public:
@@ -126,7 +126,7 @@ protected:
   /// @brief Take other facets that pairs are with.
   void set_facets(facet::Facets facets);
 
-  /// @brief Check what is searched for.
+  /// @brief Check the arguments of a search.
   void check_points(std::span<const double> x, std::span<const double> points,
                     std::span<const double> normals) const;
 

@@ -160,3 +160,31 @@ def test_a_refused_step_in_cpp_names_a_page():
     texts = ["".join(re.findall(r'"([^"]*)"', statement)) for statement in thrown]
     assert len(thrown) >= 4
     assert [text for text in texts if text and not NAMED.search(text)] == []
+
+
+# What a message asks for, where it does not say what an argument must be
+ASKS = re.compile(
+    r"\b(give|take|write|pass|call|leave|make|set|check|repair|use|correct|support|let|put|list|"
+    r"create|go on|interpolate|restart|pip install|refine|raise|must|needs?|return|"
+    r"is the disk full)\b",
+    re.I,
+)
+
+
+@pytest.mark.parametrize("path", PYTHON, ids=lambda path: path.name)
+def test_other_messages_say_what_to_do(path):
+    """Errors that are made of a text of their own; others hand on what was raised below."""
+    kinds = ("ValueError", "TypeError", "RuntimeError", "AttributeError", "OSError", "ImportError")
+    calls = [call for kind in kinds for call in calls_to(kind, path)]
+    # What checkpoints refuse is raised again by LoadSteps, which says what to do
+    handed_on = ("error.errno", "_INSTEAD", "advice", "type(theirs)")
+    if path.name in ("checkpoint.py", "plan.py"):
+        calls = [call for call in calls if not literals(call).startswith(("it ", " is"))]
+    silent = [
+        text
+        for text, call in ((literals(call), call) for call in calls)
+        if re.search(r"\w", text)
+        and not ASKS.search(text)
+        and not any(h in ast.unparse(call) for h in handed_on)
+    ]
+    assert silent == []
