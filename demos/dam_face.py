@@ -32,6 +32,7 @@ import dam_figures
 import story
 from dam_results import Joint, Laws, joints, laws, total_water
 from dam_scene import Dam, DamSetting, run
+from duncan_chang import DuncanChang
 from meshes import FACE_SLABS, DamFace
 from slab_results import measure
 from slab_scene import Setting
@@ -54,6 +55,7 @@ def arguments(argv: Sequence[str] | None) -> argparse.Namespace:
     add("--rows", type=int, default=40, help="cells along a slab")
     add("--rockfill-rows", type=int, default=28, help="cells of the rockfill up the slope")
     add("--rockfill-cells", type=int, default=5, help="cells of the rockfill across a slab")
+    add("--rockfill", choices=("linear", "E-B"), default="linear", help="law of the rockfill")
     add("--stages", type=int, default=10, help="stages of the water")
     add("--joint-friction", type=float, default=0.75, help="friction of slab and slab, a ratio")
     add("--cushion-friction", type=float, default=0.7, help="friction of slab and cushion, a ratio")
@@ -140,7 +142,8 @@ def submodel(joint: Joint) -> list[story.Result]:
         story.Result("rotation, degrees", wanted, found.rotation),
         story.Result("largest compression, MPa", joint.stress, found.stress),
     ]
-    story.show("Two slabs (computed) as the worst joint of the face (expected)", results)
+    title = f"Two slabs (computed) as joint {joint.number} of the face (expected)"
+    story.show(title, results)
     return results
 
 
@@ -158,6 +161,7 @@ def main(argv: Sequence[str] | None = None) -> list[Joint]:
     dam = Dam(
         DamSetting(
             model,
+            DuncanChang() if args.rockfill == "E-B" else DamSetting.rockfill,
             joint_friction=args.joint_friction,
             cushion_friction=args.cushion_friction,
         )
@@ -190,9 +194,10 @@ def main(argv: Sequence[str] | None = None) -> list[Joint]:
     with story.progress("drawing"):
         dam_figures.draw(dam, compression.update(), found, path)
     story.see([path])
-    worst = max(found, key=lambda j: j.stress)
-    if not args.no_submodel and dam.mesh.comm.size == 1 and worst.rotation > 0 and worst.water > 0:
-        submodel(worst)
+    # The two slabs are turned towards one another and pressed by the water
+    turned = [j for j in found if j.rotation > 0 and j.water > 0]
+    if turned and not args.no_submodel and dam.mesh.comm.size == 1:
+        submodel(max(turned, key=lambda j: j.stress))
     return found
 
 

@@ -11,12 +11,13 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from hexahedra import elasticity
+from hexahedra import elasticity, isotropic, strain
 
 import contactx as cx
 import ufl
 from dolfinx import fem, la, mesh
 
+from duncan_chang import DuncanChang, Rockfill
 from meshes import DamFace, block_tag, dam_face
 from slab_scene import CONCRETE, CUSHION, NU, Array
 from story import METHODS, displacement
@@ -35,7 +36,8 @@ class DamSetting:
 
     Attributes:
         model: Measures and cells.
-        rockfill: Young's modulus of the rockfill.
+        rockfill: Young's modulus of the rockfill, with that of the cushion zone by itself, or the
+            parameters of the E-B model of both.
         joint_friction: Coulomb's coefficient between slabs.
         cushion_friction: Coulomb's coefficient between slabs and cushion.
         clearance: Opening of the joints as they are built.
@@ -45,7 +47,7 @@ class DamSetting:
     """
 
     model: DamFace = field(default_factory=DamFace)
-    rockfill: float = 80.0
+    rockfill: float | DuncanChang = 80.0
     joint_friction: float = 0.75
     cushion_friction: float = 0.7
     clearance: float = 0.0
@@ -66,6 +68,7 @@ class Dam:
         creep: Part of the creep strain; a constant.
         cushion: Contact of rockfill and slabs.
         joints: Contacts of neighbouring slabs, along x.
+        increments: Stress of the rockfill where it follows the E-B model; else None.
         problem: The problem.
     """
 
@@ -86,9 +89,10 @@ class Dam:
         self.weight, self.creep = (fem.Constant(self.mesh, 0.0) for _ in range(2))
         self.level = fem.Constant(self.mesh, 0.0)
         self.young, self.nu = self._moduli()
+        self.increments: Rockfill | None = None
         loads = self._loads()
         self._load_form = fem.form(loads)
-        F = elasticity(self.u, self.young, self.nu) + loads + self._creep()
+        F = self._bodies() + loads
         self.cushion, self.joints = self._contacts()
         self.problem = cx.ContactProblem(
             F,
@@ -109,9 +113,34 @@ class Dam:
         middles = mesh.compute_midpoints(self.mesh, 3, rockfill)
         self.is_rockfill.x.array[rockfill] = 1
         is_cushion = self.model.depth(middles) < self.model.cushion
-        young.x.array[rockfill] = np.where(is_cushion, CUSHION, self.setting.rockfill)
-        nu.x.array[rockfill] = NU_ROCKFILL
+        if not isinstance(self.setting.rockfill, DuncanChang):
+            young.x.array[rockfill] = np.where(is_cushion, CUSHION, self.setting.rockfill)
+            nu.x.array[rockfill] = NU_ROCKFILL
         return young, nu
+
+    def _bodies(self) -> ufl.Form:
+        """Residual of the slabs and of the rockfill."""
+        if not isinstance(self.setting.rockfill, DuncanChang):
+            v = ufl.TestFunction(self.u.function_space)
+            crept = self.creep * isotropic(self._creep_strain(), self.young, self.nu)
+            creep = self.is_rockfill * ufl.inner(crept, strain(v)) * ufl.dx
+            return elasticity(self.u, self.young, self.nu) - creep
+        cells = self.mesh.topology.index_map(3)
+        every = np.arange(cells.size_local + cells.num_ghosts, dtype=np.int32)
+        depth = self.model.overburden(mesh.compute_midpoints(self.mesh, 3, every))
+        self.increments = Rockfill(
+            self.setting.rockfill,
+            self.u,
+            self.is_rockfill,
+            self.setting.rockfill.unit_weight * depth,
+            self.model.up,
+            self.young,
+            self.nu,
+            self.creep,
+            self._creep_strain(),
+        )
+        slabs = elasticity(self.u, (1 - self.is_rockfill) * self.young, self.nu)
+        return slabs + self.increments.residual()
 
     def _loads(self) -> ufl.Form:
         """Residual of the slabs' weight and of the water on their tops."""
@@ -144,18 +173,14 @@ class Dam:
         depth = self.level - ufl.dot(up, ufl.SpatialCoordinate(self.mesh))
         return WATER * ufl.max_value(depth, 0.0)
 
-    def _creep(self) -> ufl.Form:
-        """Residual of a strain of the rockfill along the dam that moves it to the middle.
+    def _creep_strain(self) -> Any:
+        """Strain of the rockfill along the dam that moves it to the middle, in UFL.
 
         The displacement by itself is proportional to xi^3 - xi, xi being -1 and 1 at the ends.
         """
-        v = ufl.TestFunction(self.u.function_space)
         xi = 2 * ufl.SpatialCoordinate(self.mesh)[0] / self.model.length
-        strain = self.creep * self.setting.creep / 2 * (3 * xi**2 - 1)
-        mu = self.young / (2 * (1 + self.nu))
-        lmbda = self.young * self.nu / ((1 + self.nu) * (1 - 2 * self.nu))
-        imposed = lmbda * ufl.div(v) + 2 * mu * v[0].dx(0)
-        return -self.is_rockfill * strain * imposed * ufl.dx
+        along = ufl.as_vector((1.0, 0.0, 0.0))
+        return self.setting.creep / 2 * (3 * xi**2 - 1) * ufl.outer(along, along)
 
     def _supports(self) -> list[fem.DirichletBC]:
         """Rock holds the rockfill, the plinth the slabs' lower ends along the slope."""
@@ -251,9 +276,12 @@ def run(
         count,
         t_end=float(count),
         update=lambda t: dam.update(t, stages),
+        history=dam.increments.history if dam.increments else (),
         progress=progress,
         checkpoint=checkpoint,
         restart=restart,
     )
     for step in steps:
+        if dam.increments:
+            dam.increments.commit()
         each(dam, step)

@@ -53,10 +53,15 @@ def strain(u: Any) -> Any:
     return ufl.sym(ufl.grad(u))
 
 
-def stress(u: Any, young: Any, nu: float) -> Any:
-    """Cauchy stress of linear elasticity, force/area."""
+def isotropic(e: Any, young: Any, nu: Any) -> Any:
+    """Stress of a linear strain in space, force/area."""
     mu, lmbda = young / (2 * (1 + nu)), young * nu / ((1 + nu) * (1 - 2 * nu))
-    return 2 * mu * strain(u) + lmbda * ufl.tr(strain(u)) * ufl.Identity(len(u))
+    return 2 * mu * e + lmbda * ufl.tr(e) * ufl.Identity(3)
+
+
+def stress(u: Any, young: Any, nu: Any) -> Any:
+    """Cauchy stress of linear elasticity, force/area."""
+    return isotropic(strain(u), young, nu)
 
 
 def elasticity(u: fem.Function, young: Any, nu: float) -> ufl.Form:

@@ -5,6 +5,7 @@
 #include "master.h"
 #include <contactx/newton/accuracy.h>
 #include <contactx/newton/loop.h>
+#include <contactx/newton/softness.h>
 #include <pybind11/stl.h>
 
 namespace py = pybind11;
@@ -160,4 +161,12 @@ void contactx_bindings::newton(py::module_& m)
       .def_property_readonly("target", &Accuracy::target)
       .def("skip", &Accuracy::skip)
       .def_property_readonly("is_last", &Accuracy::is_last);
+
+  m.def(
+      "softness",
+      [](const Bodies& bodies, const Array<double>& diagonal,
+         const Array<double>& residual, int gdim)
+      { return softness(bodies, view(diagonal), view(residual), gdim); },
+      py::arg("bodies"), py::arg("diagonal"), py::arg("residual"),
+      py::arg("gdim"));
 }

@@ -131,6 +131,15 @@ class DamFace:
         """Horizontal distance of places in the rockfill from the face, shape (n,)."""
         return np.asarray(-x[:, 2] / self.up[1])
 
+    def overburden(self, x: Coordinates) -> Coordinates:
+        """Vertical distance of places in the rockfill from the dam's surface, shape (n,)."""
+        elevation = x @ self.up
+        across = x[:, 1] * self.up[2] - x[:, 2] * self.up[1]
+        upstream = across / self.slope
+        downstream = self.height - (across - self.height * self.slope - self.crest) / self.slope
+        surface = np.minimum(np.minimum(upstream, downstream), self.height)
+        return np.asarray(np.maximum(surface - elevation, 0.0))
+
     def grid(self, begin: float, end: float) -> Coordinates:
         """Places along x of a slab's cells, fine at both ends."""
         sizes = (self.joint_size, self.growth, self.largest)

@@ -580,6 +580,10 @@ class Accuracy:
     @property
     def is_last(self) -> bool: ...
 
+def softness(
+    bodies: Bodies, diagonal: NDArray[np.float64], residual: NDArray[np.float64], gdim: int
+) -> float: ...
+
 class System:
     def __init__(self, halo: Halo, bulk: object, contacts: Sequence[Contact]) -> None: ...
     @property

@@ -116,6 +116,15 @@ def product_options() -> SolverOptions:
     return SolverOptions("", {}, {"matptap_via": "rap"})
 
 
+def reproducible_options() -> SolverOptions:
+    """Options that make solves the same to the last bit.
+
+    PETSc sums several products of vectors in another way where the vectors happen to lie evenly
+    spaced in memory.
+    """
+    return SolverOptions("", {}, {"vec_mdot_use_gemv": False})
+
+
 def newton_options(prefix: str, given: Mapping[str, Any], *, condensed: bool) -> SolverOptions:
     """Options of the Newton loop.
 

@@ -49,6 +49,7 @@ ONE_METHOD = {
     for name, function in vars(scenes_self).items()
     if inspect.isgeneratorfunction(function)
 }
+ONE_METHOD |= {"dam_face": "surface", "dam_face_in_increments": "surface"}
 # What tests/fast runs on two ranks: friction, free bodies, ties, nodes in several
 # contacts, dragging over the parts of ranks, an obstacle, inertia, self-contact, both solvers
 QUICK = (

@@ -10,7 +10,10 @@ from typing import Any
 import contactx as cx
 from dolfinx.mesh import CellType
 
+from dam_face import Compression
+from dam_results import joints, laws
 from dam_scene import Dam, DamSetting
+from duncan_chang import DuncanChang
 from meshes import DamFace, Tag
 from scenes import Blocks
 from story import fix
@@ -31,6 +34,15 @@ def by_bodies_held() -> Iterator[cx.ContactProblem]:
 
 def dam_face() -> Iterator[cx.ContactProblem]:
     """Slabs on rockfill: nodes of corners are masters of two bodies and slaves of one."""
+    yield from _dam(80.0)
+
+
+def dam_face_in_increments() -> Iterator[cx.ContactProblem]:
+    """The same with the E-B model, whose stress each rank has in its own cells."""
+    yield from _dam(DuncanChang())
+
+
+def _dam(rockfill: float | DuncanChang) -> Iterator[cx.ContactProblem]:
     model = DamFace(
         slabs=3,
         height=12.0,
@@ -44,10 +56,17 @@ def dam_face() -> Iterator[cx.ContactProblem]:
     )
     options = (("pc_type", "condensed"), ("condensed_pc_type", "bodies"))
     # With so few cells friction in the joints leaves a choice
-    dam = Dam(DamSetting(model, joint_friction=0.0, options=options))
+    dam = Dam(DamSetting(model, rockfill, joint_friction=0.0, options=options))
+    compression = Compression(dam)
     for t in (1.0, 2.0, 3.0):
         dam.update(t, 2)
         dam.problem.solve()
+        if dam.increments:
+            dam.increments.commit()
+        found = laws(dam)
+        assert found.balance < 1e-7 and found.reactions < 1e-8 and found.coulomb < 1e-8
+        assert found.penetration < 1e-9
+        assert len(joints(dam, compression.update())) == 2
         yield dam.problem
 
 

@@ -108,15 +108,28 @@ class CondensedOperator:
             bodies: The bodies.
         """
         n = self.numbering.num_owned
-        diagonal = self._K.getDiagonal().array_r.copy()
-        diagonal[self._bulk.markers[:n] == 1] = 0
-        of_body = self._condensation.stiff_bodies(bodies, diagonal)
+        of_body = self._condensation.stiff_bodies(bodies, self._free_diagonal())
         is_stiff = np.repeat(of_body[bodies.number] == 1, self.numbering.gdim)[:n]
         # Where multipliers may be, whose rows are constraints of their masters
         if np.any(of_body):
             slaves = self.slave_dofs
             is_stiff[slaves[self._bulk.markers[slaves] == 1]] = True
         return np.flatnonzero(~is_stiff), np.flatnonzero(is_stiff)
+
+    def softness(self, bodies: core.Bodies, residual: Array) -> float:
+        """Part of a residual that counts for the softest body; all ranks must take part.
+
+        Args:
+            bodies: The bodies.
+            residual: Residual of the owned displacements, shape (num_owned,).
+        """
+        return core.softness(bodies, self._free_diagonal(), residual, self.numbering.gdim)
+
+    def _free_diagonal(self) -> Array:
+        """The bulk's diagonal, zero where displacements are prescribed, shape (num_owned,)."""
+        diagonal: Array = self._K.getDiagonal().array_r.copy()
+        diagonal[self._bulk.markers[: len(diagonal)] == 1] = 0
+        return diagonal
 
     def master_springs(self, stiffness: Array) -> Array:
         """Springs at masters that stand for the bodies of their slaves; all ranks must take part.

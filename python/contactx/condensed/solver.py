@@ -19,6 +19,7 @@ from contactx.condensed.multigrid import SLOW, Multigrid
 from contactx.condensed.numbering import Array, Numbering, Surroundings
 from contactx.condensed.operator import CondensedOperator
 from contactx.factorised import FactorisedSolver
+from contactx.options import reproducible_options
 from contactx.parallel import reduce
 from contactx.parallel.agreement import agreed
 from contactx.report import Report
@@ -67,6 +68,7 @@ class CondensedSolver:
         self._guess = Guess(bulk, system)
         owned = bodies.x[: system.num_bulk // system.block]
         self._multigrid = Multigrid(bulk, owned, prefix)
+        self._bodies = bodies
         self._by_bodies = ByBodies(bulk, bodies, prefix + "bodies_")
         self._prefix = prefix
         self.target = 0.0
@@ -136,6 +138,11 @@ class CondensedSolver:
             b: Right-hand side in all unknowns.
             x: Solution, overwritten.
         """
+        with reproducible_options().in_database():
+            self._solve_somehow(b, x)
+
+    def _solve_somehow(self, b: PETSc.Vec, x: PETSc.Vec) -> None:
+        """Solve J x = b, condensed where that serves."""
         self._solves += 1
         self.is_guessed = False
         # What does not converge twice will not, and each attempt is dear
@@ -152,13 +159,16 @@ class CondensedSolver:
         if not is_solved:
             self._solve_directly(b, x, _SLOW)
 
-    def _solve_condensed(self, operator: CondensedOperator, rhs: PETSc.Vec, v: PETSc.Vec) -> bool:
+    def _solve_condensed(
+        self, operator: CondensedOperator, rhs: PETSc.Vec, v: PETSc.Vec, target: float
+    ) -> bool:
         """Solve the condensed system by multigrid, or by bodies; whether the iterations converged.
 
         Args:
             operator: The condensed matrix.
             rhs: Right-hand side.
             v: Start of the iterations, overwritten by the solution.
+            target: What the norm of the residual must fall below.
         """
         of_multigrid, of_bodies = self._failures
         is_held = reduce.anywhere(operator.numbering.comm, len(operator.held) > 0)
@@ -168,10 +178,10 @@ class CondensedSolver:
             # Where bodies can be told apart the other solver is fast: one slow solve tells enough
             is_mixed = self._by_bodies.tells_apart(operator)
             slow = _SLOW_OF_MIXED if is_mixed else SLOW
-            if self._multigrid.solve(operator, rhs, v, self.target, self._report, slow):
+            if self._multigrid.solve(operator, rhs, v, target, self._report, slow):
                 return True
             of_multigrid += 2 if is_mixed else 1
-        is_solved = self._by_bodies.solve(operator, rhs, v, self.target, self._report)
+        is_solved = self._by_bodies.solve(operator, rhs, v, target, self._report)
         if is_solved:
             self.by_bodies.append(reason)
         self._failures = of_multigrid, of_bodies + (not is_solved)
@@ -243,7 +253,11 @@ class CondensedSolver:
         if guess is not None:
             x.array[:] = guess
             return True
-        if not self._solve_condensed(operator, rhs, v):
+        target = self.target
+        if not self.is_last:
+            # A small part of what loads a stiff body is much for a soft one
+            target *= operator.softness(self._bodies, given)
+        if not self._solve_condensed(operator, rhs, v, target):
             return False
         operator.expand(v, work)
         h.axpy(1.0, work)
