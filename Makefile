@@ -7,7 +7,7 @@ PYTHON ?=
 # Processes that share the tests, and the scenes of the stress map.
 JOBS ?= $(shell nproc)
 
-EXTRAS := wheels test demo lint
+EXTRAS := wheels test demo docs lint
 VENV := .venv
 BIN := $(VENV)/bin
 
@@ -22,7 +22,7 @@ INSTALLED := $(VENV)/installed.stamp
 SOURCES := $(shell find cpp/contactx cpp/bindings python/contactx \
 	-name __pycache__ -prune -o -print)
 CPP_FILES = $(shell find cpp demos/cpp tests/dolfinx_cpp -name '*.h' -o -name '*.cpp')
-PY_FOLDERS := python tests demos tools
+PY_FOLDERS := python tests demos docs tools
 # What `make sanitize` runs in Python: both methods, friction, ties, obstacles,
 # finite and small sliding, the condensed solver.
 SANITIZED := tests/fast/property tests/fast/unit/core tests/fast/assembly/test_condensed.py \
@@ -43,7 +43,7 @@ PYTEST := exec $(RUN) $(BIN)/python -m pytest
 
 .DELETE_ON_ERROR:
 .PHONY: all demo test test-cpp test-fast verify gallery stress leaks fuzz sanitize bench bench-core \
-	wheel distribution lint format clean help
+	wheel distribution docs demo-pages lint format clean help
 
 all: $(INSTALLED)
 
@@ -53,6 +53,8 @@ help:
 	@echo "make test     lint, C++ tests, fast Python tests: less than five minutes"
 	@echo "make verify   all other tests that are not long"
 	@echo "make gallery  published benchmarks: docs/gallery.md and its pictures"
+	@echo "make docs     the manual, in build/docs/index.html; needs no network once .venv is there"
+	@echo "make demo-pages  run the demos and write their pages of the manual"
 	@echo "make stress   thousands of hard scenes: a map of what comes of them; 16 ranks"
 	@echo "make leaks    memory over 1,000 steps and 1,000 problems"
 	@echo "make bench    all benchmarks, up to a million displacements"
@@ -118,6 +120,18 @@ verify: $(INSTALLED)
 # Published benchmarks, those too that take more than 20 s: docs/gallery.md and pictures.
 gallery: $(INSTALLED)
 	$(RUN) $(BIN)/python tests/published/gallery.py
+
+# Warnings are errors, and links within the manual must lead somewhere. Nothing is solved.
+docs: $(INSTALLED)
+	$(RUN) $(BIN)/python -m sphinx --fresh-env --fail-on-warning --keep-going --quiet \
+		-d build/doctrees docs/manual build/docs
+	$(BIN)/python tools/check_manual.py build/docs
+	@echo "the manual is in build/docs/index.html"
+
+# Pages of the demos with what they print and draw, but for those that take long, and animations.
+demo-pages: $(INSTALLED)
+	$(RUN) $(BIN)/python tools/demo_pages.py
+	$(RUN) $(BIN)/python tools/animations.py
 
 # Tables and a picture come to build/stress; fails where a scene is wrong.
 stress: $(INSTALLED)

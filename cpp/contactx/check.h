@@ -12,9 +12,9 @@
 /// std::invalid_argument, which names the argument.
 namespace contactx::check
 {
-/// @brief What must hold.
+/// @brief Require a condition.
 /// @param[in] fits Whether it does.
-/// @param[in] message What is thrown if not.
+/// @param[in] message Message of the error if not.
 void require(bool fits, const char* message);
 
 /// @brief The geometric dimension, 2 or 3.
@@ -54,7 +54,7 @@ void surface(std::span<const std::int32_t> offsets,
 /// @param[in] rows Number of rows that it must have.
 /// @param[in] width Values a row.
 /// @param[in] name Name of the argument.
-/// @param[in] of What a row belongs to.
+/// @param[in] of Entity that a row belongs to.
 void rows(std::ptrdiff_t size, std::ptrdiff_t rows, int width,
           std::string_view name, std::string_view of = "row");
 
@@ -62,7 +62,7 @@ void rows(std::ptrdiff_t size, std::ptrdiff_t rows, int width,
 /// @param[in] values Numbers.
 /// @param[in] count Number of things.
 /// @param[in] name Name of the argument.
-/// @param[in] of What is numbered.
+/// @param[in] of Entities that are numbered.
 /// @param[in] first Lowest number: -1 where that is none of the things.
 void numbers(std::span<const std::int32_t> values, std::ptrdiff_t count,
              std::string_view name, std::string_view of, int first = 0);

@@ -88,7 +88,7 @@ Groups grouped(std::span<const std::int32_t> places, std::size_t count);
 Triplets product(const Triplets& A, const Triplets& B, std::size_t num_rows,
                  std::size_t num_inner, std::size_t num_columns);
 
-/// @brief The same matrix by one entry for each place, and none that are zero;
+/// @brief Make a matrix with one entry for each place, and none that are zero;
 /// row by row, columns in order.
 /// @param[in] A Matrix.
 /// @param[in] num_rows Number of its rows.

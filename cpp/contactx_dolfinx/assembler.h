@@ -54,7 +54,7 @@ struct Settled : newton::Iterate
 ///
 /// and where a ConvergenceError ends it `restore` goes back to the step's
 /// start. Pairs and status change at accepted iterates alone, no step turns
-/// cells inside out, and what has converged is looked at before it is accepted.
+/// cells inside out, and a converged iterate is audited before it is accepted.
 ///
 /// All ranks must call all functions, in the same order.
 class Assembler
@@ -75,7 +75,8 @@ public:
       : _u(std::move(u)), _contacts(std::move(contacts))
   {
     if (_contacts.empty())
-      throw std::invalid_argument("an Assembler needs at least one contact");
+      throw std::invalid_argument(
+          "an Assembler needs at least one contact: pass one");
     const FunctionSpace& V = *_u->function_space();
     check(V);
 
@@ -164,7 +165,9 @@ public:
       if (not _loop->begin_step(false))
         throw ConvergenceError("the residual is not finite at the start of the "
                                "step: the material fails, or a load is not "
-                               "finite");
+                               "finite. Take smaller load steps, or repair "
+                               "what sets it (manual: "
+                               "errors/residual-not-finite)");
       _audit->begin_step();
       _loop->settle_first();
     }
@@ -202,7 +205,7 @@ public:
   /// @throws ConvergenceError if no solution is to be expected any more.
   Settled settle(double rtol = 1e-11, double atol = 0, int max_it = 50)
   {
-    require(_has_begun, "settle() before begin_step()");
+    require(_has_begun, "settle() before begin_step(): call that first");
     look_anew();
     if (_number > 0)
       read_values();
@@ -217,18 +220,20 @@ public:
       look_at_solution();
     else if (_number >= max_it)
       throw ConvergenceError("no convergence in " + std::to_string(max_it)
-                             + " iterations: take smaller load steps");
+                             + " iterations: take smaller load steps, or "
+                               "raise max_it (manual: "
+                               "errors/no-convergence)");
     _is_settled = true;
     return {_loop->iterate(), _number, _is_solution};
   }
 
   /// @brief Assemble the residual of bulk and contacts. Rows of Dirichlet
-  /// conditions are displacements minus what is prescribed.
+  /// conditions are displacements minus prescribed ones.
   /// @param[in] x Unknowns: the state becomes this.
   /// @param[out] b Residual.
   void F(::Vec x, ::Vec b)
   {
-    require(_has_begun, "F() before begin_step()");
+    require(_has_begun, "F() before begin_step(): call that first");
     take(x);
     // Loads may be others, as in arc-length methods
     _system->begin_step();
@@ -242,20 +247,20 @@ public:
   /// @param[out] A Jacobian, a matrix of `create_matrix`.
   void J(::Vec x, ::Mat A)
   {
-    require(_has_begun, "J() before begin_step()");
+    require(_has_begun, "J() before begin_step(): call that first");
     take(x);
     _jacobian->assemble(A, _loop->free_bodies().springs());
   }
 
-  /// @brief How much of a step may be taken.
+  /// @brief Part of a step that may be taken.
   ///
   /// No cell may turn inside out. Zero means that contact becomes soft before
   /// the next solve, where a step would open many nodes of slender bodies.
-  /// @param[in] dx What is to be added to the unknowns.
+  /// @param[in] dx Increment of the unknowns.
   /// @return Part of it, at most 1.
   double limit(::Vec dx)
   {
-    require(_is_settled, "limit() before settle()");
+    require(_is_settled, "limit() before settle(): call that first");
     const petsc::ConstValues values(dx);
     std::vector<double> step(values.span().begin(), values.span().end());
     for (double& s : step)
@@ -273,7 +278,7 @@ public:
   /// @param[in] part Part of it.
   void update(::Vec dx, double part = 1)
   {
-    require(_has_begun, "update() before begin_step()");
+    require(_has_begun, "update() before begin_step(): call that first");
     petsc::check(VecAXPY(_x->get(), part, dx), "VecAXPY");
     take(_x->get());
     ++_number;
@@ -284,7 +289,8 @@ public:
   /// @throws std::logic_error if the iterate that has settled last is none.
   void accept()
   {
-    require(_is_solution, "accept() of an iterate that is no solution");
+    require(_is_solution, "accept() of an iterate that is no solution: go on "
+                          "until settle() says converged, or restore()");
     _loop->accept();
     for (const auto& contact : _system->contacts())
       contact->accept();
@@ -320,10 +326,12 @@ private:
                                   "solid ones in space");
     if (V.dofmap()->bs() != gdim or static_cast<int>(dofs.extent(1)) != vertices
         or V.element()->needs_dof_transformations())
-      throw std::invalid_argument("the displacement must be of a linear "
-                                  "Lagrange space of vectors");
+      throw std::invalid_argument(
+          "the displacement must be of a linear Lagrange space of vectors: "
+          "take degree 1 and as many components as the mesh has dimensions");
     if (mesh.geometry().cmaps().front().degree() != 1)
-      throw std::invalid_argument("contact needs cells with straight edges");
+      throw std::invalid_argument(
+          "contact needs cells with straight edges: make the mesh of order 1");
   }
 
   static void require(bool is_in_order, const char* what)
@@ -339,23 +347,29 @@ private:
     case newton::Verdict::hidden:
       return "pairs went back and forth between facets and were frozen, and "
              "hide a penetration: refine the coarser surface there, or take "
-             "smaller load steps";
+             "smaller load steps (manual: errors/frozen-pairs)";
     case newton::Verdict::ran_away:
-      return "a body that nothing holds has left the scene: support it";
+      return "a body that nothing holds has left the scene: support it "
+             "(manual: errors/body-ran-away)";
     case newton::Verdict::unbalanced:
       return "the loads on a body cannot be balanced: it has no support and "
-             "nothing is in its way, or friction barely could";
+             "nothing is in its way, or friction barely could. Support it, or "
+             "turn the loads so that they press the bodies together (manual: "
+             "errors/unbalanced-loads)";
     case newton::Verdict::not_finite:
       return "the residual is not finite: the material fails, or a body is "
-             "free to move without touching anything";
+             "free to move without touching anything. Take smaller load "
+             "steps, or support the body (manual: "
+             "errors/residual-not-finite)";
     case newton::Verdict::stuck:
-      return "no step is short enough to lead on: take smaller load steps";
+      return "no step is short enough to lead on: take smaller load steps "
+             "(manual: errors/no-step-leads-on)";
     default:
       return nullptr;
     }
   }
 
-  /// Take what a user may have changed since the last call.
+  /// Read what a user may have changed since the last call.
   void look_anew()
   {
     _adapter->update_ghosts();
@@ -400,11 +414,11 @@ private:
           + " slave nodes inside a rigid obstacle, the first at "
           + point_text(found.at, *std::ranges::max_element(size))
           + ": take them out of the slave surface, or prescribe values outside "
-            "of it");
+            "of it (manual: errors/over-constrained)");
     }
   }
 
-  /// What the residual does not say, geometry does.
+  /// Look at the geometry, which the residual does not see.
   void look_at_solution()
   {
     const double size = [this]
@@ -422,20 +436,32 @@ private:
       if (not found.is_fault())
         continue;
       std::string text = "contact " + std::to_string(k) + ": ";
+      std::string advice;
       if (found.passed.count > 0)
+      {
         text += std::to_string(found.passed.count)
                 + " nodes went through the other surface within the step";
+        advice = ". Take smaller load steps (manual: errors/passed-through)";
+      }
       else if (found.inside.count > 0)
+      {
         text += std::to_string(found.inside.count)
                 + " slave nodes are inside the master without a pair, the "
                   "first at "
                 + point_text(found.inside.at, size);
+        advice = ". Take smaller load steps, or start without the overlap "
+                 "(manual: errors/nodes-inside)";
+      }
       else
+      {
         text += "the master reaches " + number_text(found.deepest->depth, 3)
                 + " deep through a slave facet, between its nodes, at "
                 + point_text(found.deepest->at, found.deepest->size)
                 + ": the slave surface is too coarse to see it";
-      throw ConvergenceError(text + ". Take smaller load steps, or refine");
+        advice = ". Swap slave and master, or refine the slave surface "
+                 "(manual: errors/slave-too-coarse)";
+      }
+      throw ConvergenceError(text + advice);
     }
     if (_bulk->is_linear())
       return;
@@ -446,7 +472,7 @@ private:
         inverted > 0)
       throw ConvergenceError(std::to_string(inverted)
                              + " cells are turned inside out: take smaller "
-                               "load steps");
+                               "load steps (manual: errors/cells-inside-out)");
   }
 
   std::shared_ptr<Function> _u;

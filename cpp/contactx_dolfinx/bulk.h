@@ -227,13 +227,15 @@ public:
     if (not std::isfinite(norm))
       throw std::runtime_error(
           "the Jacobian is not finite: it does not exist at this displacement, "
-          "or a coefficient of it is NaN or infinite");
+          "or a coefficient of it is NaN or infinite. Start from another "
+          "displacement, or repair the coefficient (manual: "
+          "errors/jacobian-not-finite)");
     _assembled_with = std::move(with);
     ++_assemblies;
     return A;
   }
 
-  /// @brief How often the Jacobian was assembled.
+  /// @brief Number of assemblies of the Jacobian.
   int assemblies() const { return _assemblies; }
 
 private:
@@ -279,7 +281,7 @@ private:
   int _assemblies = 0;
   // Constants and coefficients of the Jacobian; nothing if it must be anew
   std::optional<std::vector<double>> _assembled_with;
-  // What functions have returned views of
+  // Arrays that functions return views of
   std::vector<double> _positions, _diagonal, _products, _residual, _defect,
       _lifted, _cell_sizes, _cell_forces;
 };

@@ -58,7 +58,7 @@ public:
     const newton::Iterate& now = loop.iterate();
     _accuracy.set(now.residual, now.tolerance, loop.changing(),
                   loop.active_set().cycles() > 0);
-    // What does not converge twice will not, and each attempt is dear
+    // A solver that has failed twice is not tried again: attempts are dear
     if (_failures < 2)
     {
       if (auto condensation = condense(b))
@@ -338,7 +338,7 @@ private:
     }
   }
 
-  /// Makes K_c, or what is near it.
+  /// Makes K_c, or a matrix near it.
   void make_matrix()
   {
     System& system = *_system;
@@ -470,7 +470,7 @@ private:
                  "KSPSolve");
     KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
     petsc::check(KSPGetConvergedReason(ksp, &reason), "KSPGetConvergedReason");
-    // What does not converge leaves no solution, and is seen by its residual
+    // A solve that fails leaves no solution, which its residual shows
     if (reason < 0)
       petsc::check(VecSet(x, std::numeric_limits<double>::quiet_NaN()),
                    "VecSet");

@@ -19,14 +19,15 @@ namespace contactx::dolfinx
 using contact::Sliding;
 using reference::Method;
 
-/// @brief How a contact is.
+/// @brief Options of a contact.
 struct Options
 {
   /// Coulomb's coefficient; with nothing along the surface nothing is computed
   /// there, with zero it may become another one
   std::optional<double> friction = std::nullopt;
-  Method method = Method::node_to_surface; ///< what the gap is measured between
-  Sliding sliding = Sliding::finite;       ///< whether pairs follow the bodies
+  Method method
+      = Method::node_to_surface;     ///< node-to-surface or surface-to-surface
+  Sliding sliding = Sliding::finite; ///< whether pairs follow the bodies
   bool tied = false; ///< whether slave nodes keep their place on the master
   /// Largest distance of a pair; the diameter of the larger surface if not
   /// given, unlimited for an obstacle
@@ -59,7 +60,8 @@ public:
   {
     if (_options.tied and _options.friction)
       throw std::invalid_argument(
-          "tied excludes friction: a tied slave node does not slip");
+          "tied excludes friction: a tied slave node does not slip. Leave "
+          "one of them out");
   }
 
   /// @brief Make the contact's discrete side; the Assembler does so. All ranks
@@ -76,7 +78,9 @@ public:
          const FunctionSpace& V)
   {
     if (_discrete)
-      throw std::logic_error("the contact belongs to an Assembler already");
+      throw std::logic_error(
+          "the contact belongs to an Assembler already: create one Contact an "
+          "Assembler");
     try
     {
       make(halo, bodies, bulk, V);
@@ -127,7 +131,8 @@ public:
     if (_is_read)
       return;
     if (not std::isfinite(_options.offset))
-      throw std::invalid_argument("the offset of a contact is not finite");
+      throw std::invalid_argument(
+          "the offset of a contact is not finite: give a finite length");
     const std::size_t n = discrete().nodes()->num_nodes();
     if (_coulomb)
       _coulomb->set_friction(std::vector<double>(n, *_options.friction));
@@ -141,7 +146,8 @@ public:
   {
     if (not _discrete)
       throw std::logic_error(
-          "a contact has no results before it belongs to an Assembler");
+          "a contact has no results before it belongs to an Assembler: pass it "
+          "to one first");
     return *_discrete;
   }
 

@@ -41,8 +41,8 @@ public:
   /// @brief Assemble the Jacobian at the state of now.
   /// @param[in] A Matrix of the system's sizes, as `Assembler::create_matrix`
   /// makes it: written to, with another pattern if pairs have changed.
-  /// @param[in] springs What is added to the diagonal of the displacements
-  /// (shape=(num_displacements)), or nothing.
+  /// @param[in] springs Stiffness that is added to the diagonal of the
+  /// displacements (shape=(num_displacements)), or nothing.
   void assemble(::Mat A, const std::optional<std::vector<double>>& springs)
   {
     const parallel::Halo& halo = *_system->halo();

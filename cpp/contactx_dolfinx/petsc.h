@@ -17,7 +17,7 @@ static_assert(std::is_same_v<PetscScalar, double>,
               "contactx needs a PETSc of real numbers in double precision");
 
 /// @brief Throw what PETSc says of an error.
-/// @param[in] error What a function of PETSc has returned.
+/// @param[in] error Return value of a function of PETSc.
 /// @param[in] function Its name.
 inline void check(PetscErrorCode error, const char* function)
 {
@@ -39,7 +39,7 @@ public:
   /// @brief The object.
   T get() const { return _object; }
 
-  /// @brief Where a function that creates the object puts it.
+  /// @brief Pointer for a function that creates the object.
   T* put()
   {
     destroy(&_object);
@@ -78,7 +78,7 @@ private:
   std::size_t _size = 0;
 };
 
-/// @brief The same of a vector that does not change.
+/// @brief Values of a vector that does not change.
 class ConstValues
 {
 public:

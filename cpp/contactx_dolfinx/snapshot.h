@@ -39,7 +39,7 @@ public:
 
   /// @brief Return to the state, bit for bit; all ranks must take part.
   /// @param[in,out] u The displacement.
-  /// @param[in,out] adapter What has it.
+  /// @param[in,out] adapter Owner of the displacement.
   void restore(Function& u, HaloAdapter& adapter) const
   {
     std::ranges::copy(_u, u.x()->array().begin());

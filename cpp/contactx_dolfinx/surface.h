@@ -32,9 +32,10 @@ public:
   {
     const auto& topology = *_tags->topology();
     if (_tags->dim() != topology.dim() - 1)
-      throw std::invalid_argument("a Surface needs tags of facets");
+      throw std::invalid_argument(
+          "a Surface needs tags of facets: pass those of dimension tdim - 1");
     if (_values.empty())
-      throw std::invalid_argument("a Surface needs at least one tag");
+      throw std::invalid_argument("a Surface needs at least one tag: pass one");
     const std::int32_t owned = topology.index_map(_tags->dim())->size_local();
     std::vector<std::int64_t> there;
     for (std::int32_t value : _values)
@@ -53,15 +54,17 @@ public:
     for (std::size_t i = 0; i < _values.size(); ++i)
     {
       if (there[i] == 0)
-        throw std::invalid_argument("tag " + std::to_string(_values[i])
-                                    + " is not in the facet tags");
+        throw std::invalid_argument(
+            "tag " + std::to_string(_values[i])
+            + " is not in the facet tags: give tags that "
+              "are there");
       _name += (i > 0 ? ", " : "") + std::to_string(_values[i]);
       count += there[i];
     }
     _name = "Surface({" + _name + "}, " + std::to_string(count) + " facets)";
   }
 
-  /// @brief What messages call it.
+  /// @brief Name in messages.
   const std::string& name() const { return _name; }
 
   /// @brief Nodes of the surface's facets whose cells this rank owns, oriented:
@@ -114,7 +117,7 @@ private:
     if (_tags->topology().get() != &topology)
       throw std::invalid_argument("the facet tags of " + _name
                                   + " belong to another mesh than the "
-                                    "displacement");
+                                    "displacement: make them on its mesh");
     std::vector<std::int32_t> between;
     // The cell on the other side may be on another rank
     if (::dolfinx::MPI::size(topology.comm()) > 1)

@@ -17,7 +17,7 @@ from contactx.files import check_path
 from contactx.parallel.agreement import agreed
 
 from plot.checks import check_labels
-from plot.style import DOTS_PER_INCH, INK, colour_map, import_plotter
+from plot.style import DOTS_PER_INCH, INK, colour_map, import_plotter, is_signed
 
 _KINDS = ("#c7ccd3", "#2b6cb0", "#d1372c", "#5e0d2a")
 STATUS_NAMES: Mapping[int, str] = MappingProxyType({0: "open", 1: "stick", 2: "slip"})
@@ -110,16 +110,21 @@ def _draw(
     if kinds is None:
         low, high = float(values.min()), float(values.max())
         levels = np.linspace(low, max(high, low + 1e-12), 65)
-        drawn = axis.tricontourf(*places.T, triangles, values, levels=levels, cmap=colour_map())
+        drawn = axis.tricontourf(
+            *places.T, triangles, values, levels=levels, cmap=colour_map((low, high))
+        )
         bar = figure.colorbar(drawn, ax=axis)
         bar.locator = import_plotter("matplotlib.ticker").MaxNLocator()
         bar.update_ticks()
         bar.set_label(label, color=INK)
-        axis.plot(*places.T, ".", color=INK, ms=1.0, alpha=0.4)
+        if is_signed((low, high)):
+            bar.ax.axhline(0, color=INK, lw=1.5)
     else:
         for (kind, name), colour in zip(kinds.items(), _KINDS, strict=False):
             which = np.asarray(values) == kind
             count = int(np.count_nonzero(which))
+            if count == 0:
+                continue
             axis.scatter(*places[which].T, s=9, color=colour, lw=0, label=f"{name} ({count})")
         figure.legend(frameon=False, loc="outside lower center", ncols=4, markerscale=2)
     axis.set_xlabel(labels[0])

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
-from plot.style import DOTS_PER_INCH, INK, colour_map, import_plotter
+from plot.style import DOTS_PER_INCH, INK, colour_map, import_plotter, is_signed
 
 
 def compose(
@@ -57,8 +57,10 @@ def compose(
     if note:
         figure.supxlabel(note, fontsize=9, color=INK)
     colour_bar = figure.colorbar(
-        cm.ScalarMappable(normalize, colour_map()), ax=list(axes), shrink=0.8, aspect=25
+        cm.ScalarMappable(normalize, colour_map(clim)), ax=list(axes), shrink=0.8, aspect=25
     )
     colour_bar.set_label(label, fontsize=12, color=INK, labelpad=10)
     colour_bar.outline.set_visible(False)
+    if is_signed(clim):
+        colour_bar.ax.axhline(0, color=INK, lw=1.5)
     figure.savefig(path, dpi=DOTS_PER_INCH, facecolor="white")

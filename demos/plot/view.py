@@ -70,7 +70,7 @@ class View:
         plotter.add_mesh(
             surface,
             scalars="scalar",
-            cmap=colour_map(),
+            cmap=colour_map(clim),
             clim=list(clim),
             show_scalar_bar=False,
             show_edges=True,

@@ -44,9 +44,9 @@ __all__ = [
     "VTKOutput",
 ]
 
-__version__ = "0.1.0"
+__version__ = "0.2.0"
 
 
 def __dir__() -> list[str]:
-    """What users call: the modules are there as well, but not for them."""
+    """List the public names; submodules are importable but not public."""
     return [*__all__, "__version__"]

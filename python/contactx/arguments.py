@@ -10,7 +10,7 @@ import numpy as np
 
 
 def is_number(value: Any) -> bool:
-    """Whether a value is a real number of Python or NumPy, which a truth value is not."""
+    """Return True for a real number of Python or NumPy; True and False are none."""
     array = value if isinstance(value, np.ndarray | np.generic) else None
     if array is not None:
         return array.ndim == 0 and array.dtype.kind in "iuf"
@@ -18,7 +18,7 @@ def is_number(value: Any) -> bool:
 
 
 def described(value: Any) -> str:
-    """A value for a message: short ones as they are, with their kind."""
+    """Describe a value in a message: its type, and the value itself if it is short."""
     text = repr(value)
     return f"{type(value).__name__} {text}" if len(text) <= 40 else type(value).__name__
 

@@ -53,7 +53,7 @@ from contactx.unknowns import unknowns_of
 from contactx.weight import is_axisymmetric
 from dolfinx import fem, la
 
-# What all ranks must call at the same time
+# Methods that all ranks must call at the same time
 _CALLS = ("begin_step", "settle", "residual", "jacobian", "set_up", "limit", "update", "accept")
 
 
@@ -75,19 +75,19 @@ class ContactAssembler:
             assembler.update(dx, assembler.limit(dx))
         assembler.accept()
 
-    and ends with a ConvergenceError where no solution is to be expected any more. Contact is as
-    safe so as with ``ContactProblem``: pairs and status change at accepted iterates alone, no step
-    turns cells inside out, and what has converged is looked at before it is accepted. What that one
-    has beyond this: where full steps do not converge it tries damped ones, and it tells what has
-    gone wrong if a loop comes to nothing.
+    and ends with a ConvergenceError where no solution is to be expected any more. It is as safe as
+    ``ContactProblem``: pairs and status change at accepted iterates alone, no step turns cells
+    inside out, and a converged iterate is audited before it is accepted. ``ContactProblem`` does
+    two things beyond this: it tries damped steps where full ones do not converge, and it looks for
+    a wrong Jacobian and for rounding where a loop fails.
 
     All ranks must call all methods, in the same order.
 
     Attributes:
         u: Displacement of the nodes; a copy where the user's function has more than that.
-        functions: What is solved for: the displacement, or the functions that it is one of.
+        functions: Functions that are solved for, the displacement among them.
         contacts: Contacts.
-        conductances: What flows across them.
+        conductances: Conductances across the contacts.
         report: Report of the step.
     """
 
@@ -111,10 +111,10 @@ class ContactAssembler:
             F: Residual of the bulk, or of each function.
             u: Displacement; or a function of a mixed space, or functions, one of which has it.
             contacts: Contacts.
-            displacement: Which part or function is the displacement.
+            displacement: Number of the part or function that is the displacement.
             bcs: Dirichlet conditions.
             J: Jacobian of F; derived if None.
-            conductances: What flows across the contacts.
+            conductances: Conductances across the contacts, of heat for example.
             audit: "refuse" or "warn".
             form_compiler_options: Options of FFCx.
             jit_options: Options of the compilation.
@@ -191,16 +191,20 @@ class ContactAssembler:
         self.may_fly = False
         self._A: PETSc.Mat | None = None
         self._condensed: Condensed | None = None
-        # What must be made anew where the Dirichlet conditions are others
+        # Solvers that are reset where the Dirichlet conditions change
         self.solvers: list[Condensed | NewtonLoop] = []
         self._attached: NewtonLoop | None = None
 
     def create_vector(self) -> PETSc.Vec:
-        """A vector of all unknowns."""
+        """Create a vector of all unknowns: displacements, then multipliers over the factor c.
+
+        Returns:
+            A new vector, zero; both parts are lengths.
+        """
         return self.system.x.duplicate()
 
     def attach(self, snes: PETSc.SNES, *, condensed: bool = False) -> None:
-        """Have a SNES of one's own solve the system.
+        """Let a SNES of your own solve the system.
 
         In each step it is called between ``begin_step`` and ``accept``::
 
@@ -248,7 +252,7 @@ class ContactAssembler:
             raise
 
     def prepare(self) -> None:
-        """Check what a step starts from, and remember it; ``begin_step`` does so."""
+        """Check the state that a step starts from, and save it; ``begin_step`` calls this."""
         self._before, self._has_begun = None, False
         if have_changed(self._bcs, self.bulk.bcs, self._comm):
             self._take_conditions()
@@ -295,7 +299,8 @@ class ContactAssembler:
         if not is_finite:
             raise NotFiniteError(
                 "the residual is not finite: the material fails at the start of the step, or a "
-                "load or coefficient of F is NaN or infinite"
+                "load or coefficient of F is NaN or infinite. Take smaller load steps, or repair "
+                "what sets it (manual: errors/residual-not-finite)"
             )
         self._audit.begin_step()
         self._read_values()
@@ -308,7 +313,7 @@ class ContactAssembler:
         """Update pairs and active set at an accepted iterate, and judge its residual.
 
         The iterate may change by a little: where iterates go round, part of the last step is taken
-        back, and so is what free bodies have drifted by.
+        back, and so is the drift of free bodies.
 
         Args:
             rtol: Tolerance relative to the forces of the problem.
@@ -316,30 +321,36 @@ class ContactAssembler:
             max_it: Most linear solves of the step.
 
         Returns:
-            What the iterate is.
+            The iterate: its residual, its changes, and whether it is a solution.
 
         Raises:
             ConvergenceError: If no solution is to be expected any more.
             RuntimeError: If no step has begun.
-            ValueError: If friction, offset or an obstacle has become what it must not be.
+            ValueError: If friction, offset or an obstacle has a value out of its range.
         """
         self._enter("settle", rtol=rtol, atol=atol, max_it=max_it)
         self._look_anew()
         found = self.judge(rtol, atol)
         reason = found.failure
         if not (reason or found.converged) and found.number >= max_it:
-            reason = f"no convergence in {max_it} iterations: take smaller load steps"
+            reason = (
+                f"no convergence in {max_it} iterations: take smaller load steps, or raise max_it "
+                "(manual: errors/no-convergence)"
+            )
         if reason:
             self.report.reason = reason
             raise ConvergenceError(reason, self.report)
         return found
 
     def judge(self, rtol: float, atol: float) -> Settled:
-        """The same, without an error: for SNES.
+        """Do the same as ``settle`` without raising an error, for SNES.
 
         Args:
             rtol: Tolerance relative to the forces of the problem.
             atol: Absolute tolerance, a force.
+
+        Returns:
+            The iterate and its figures; ``failure`` says why the loop should end.
         """
         is_start = self._solves == 0
         if not is_start:
@@ -370,13 +381,13 @@ class ContactAssembler:
         return self._found
 
     def _look_anew(self) -> None:
-        """Take what a user may have changed since the last call: displacements, loads."""
+        """Read displacements and loads, which a user may have changed since the last call."""
         self.bulk.read()
         self.halo.update_ghosts()
         self.system.core.begin_step()
 
     def _read_values(self) -> None:
-        """Hand the core what users may change."""
+        """Hand the core friction, offsets and obstacles as they are now."""
         # Only all ranks together can free what they have dropped
         PETSc.garbage_cleanup(self._comm)
         for interface in self.interfaces:
@@ -384,13 +395,13 @@ class ContactAssembler:
 
     @property
     def converged(self) -> bool:
-        """Whether the iterate that has settled last is a solution."""
+        """True if the iterate of the last ``settle`` is a solution and no step was taken since."""
         return self._found is not None and self._found.converged and not self._has_moved
 
     def residual(self, b: PETSc.Vec) -> None:
         """Assemble the residual of bulk and contacts at ``u`` and the contacts' multipliers.
 
-        Rows of Dirichlet conditions are displacements minus what is prescribed.
+        Rows of Dirichlet conditions are displacements minus prescribed ones.
 
         Args:
             b: Vector of ``create_vector``, overwritten.
@@ -407,7 +418,7 @@ class ContactAssembler:
         """Assemble the Jacobian of bulk and contacts: a saddle point.
 
         Args:
-            A: What the last call returned, to be written to; None for a new one.
+            A: Matrix that the last call returned, to be written to; None for a new one.
 
         Returns:
             The Jacobian: the same one if the pairs are the same, else a new one.
@@ -426,11 +437,18 @@ class ContactAssembler:
         return self._A
 
     def blocks(self) -> dict[str, PETSc.Mat]:
-        """Blocks of the Jacobian by their names.
+        """Split the Jacobian into its blocks [[K, B], [C, D]].
 
-        "K" are the rows and columns of displacements, bulk and contact, "B" what multipliers do to
-        forces, "C" the derivatives of complementarity by displacements, "D" those by multipliers.
-        ``Contact.forms`` has those of contact as forms.
+        "K" has the rows and columns of the displacements, of bulk and contact; "B" the derivatives
+        of the forces by the multipliers; "C" the derivatives of the complementarity conditions by
+        the displacements, "D" those by the multipliers. ``Contact.forms`` has the parts of contact
+        as forms.
+
+        Returns:
+            The four blocks by their names.
+
+        Raises:
+            RuntimeError: If no step has begun.
         """
         J = self.jacobian()
         n, size = self.system.num_bulk, self.system.x.getLocalSize()
@@ -445,7 +463,7 @@ class ContactAssembler:
         }
 
     def set_up(self, ksp: PETSc.KSP, *, condensed: bool = False) -> None:
-        """Give a KSP of one's own the Jacobian of the iterate that has settled last.
+        """Give a KSP of your own the Jacobian of the iterate of the last ``settle``.
 
         Args:
             ksp: The solver.
@@ -478,14 +496,15 @@ class ContactAssembler:
             )
 
     def limit(self, dx: PETSc.Vec) -> float:
-        """How much of a step may be taken.
+        """Return the part of a step that may be taken.
 
-        No cell may turn inside out. Zero means that contact becomes soft before the next solve,
-        where a step would open many nodes of slender bodies: take none of it, and settle again.
-        What runs through something else in a step is seen once it has converged, and refused.
+        The part keeps each cell from turning inside out. Zero means that contact becomes soft
+        before the next solve, where the step would open many nodes of slender bodies: take no part
+        of it, and call ``settle`` again. A body that passes through another one is found by the
+        audit, once the step has converged.
 
         Args:
-            dx: What is to be added to the unknowns.
+            dx: Increment of the unknowns, in the layout of ``create_vector``.
 
         Returns:
             Part of it, at most 1.
@@ -549,7 +568,7 @@ class ContactAssembler:
         self.commit()
 
     def commit(self) -> None:
-        """The same, without the checks of the order of calls."""
+        """Do the same as ``accept`` without checking the order of calls."""
         report = self.report
         check_drag(self.interfaces, self.contacts)
         report.converged = True
@@ -568,7 +587,7 @@ class ContactAssembler:
         self._has_begun = False
 
     def summarise(self) -> None:
-        """Write what was done so far into the report; all ranks must take part."""
+        """Write the figures of the step so far into the report; all ranks must take part."""
         report, active_set, bodies = self.report, self.loop.active_set, self.loop.free_bodies
         report.frozen_gap = min(active_set.hidden_gaps, default=0.0)
         report.soft = active_set.soft_iterations
@@ -600,7 +619,11 @@ class ContactAssembler:
         self.loop.find_rigid_modes()
 
     def say(self, text: str) -> None:
-        """Warn on rank 0, if there is something to say."""
+        """Warn on rank 0.
+
+        Args:
+            text: The warning; nothing happens if it is empty.
+        """
         if text and self._comm.rank == 0:
             # Of the user's line, whether that calls solve or a loop of steps does
             warnings.warn(text, skip_file_prefixes=(str(Path(__file__).parent),))
@@ -612,7 +635,8 @@ class ContactAssembler:
             self.say(
                 "all that F integrates over cells has a coordinate as a factor, as in an "
                 f"axisymmetric model, but {', '.join(plain)} has no weight: give Contact("
-                "..., weight=2 * ufl.pi * r), or that factor of F"
+                "..., weight=2 * ufl.pi * r), or leave that factor out of F (manual: "
+                "errors/missing-weight)"
             )
 
     def _enter(
@@ -649,10 +673,13 @@ class ContactAssembler:
                     "the same on all"
                 )
         if call != "begin_step" and not self._has_begun:
-            raise RuntimeError(f"{call}() before begin_step(): no step has begun")
+            raise RuntimeError(
+                f"{call}() before begin_step(): no step has begun, call begin_step() first"
+            )
         if call in ("set_up", "limit", "accept") and (self._has_moved or self._found is None):
             raise RuntimeError(
-                f"{call}() before settle(): pairs and active set are not those of the iterate"
+                f"{call}() before settle(): pairs and active set are not those of the iterate, "
+                "call settle() first"
             )
         if call == "accept" and not self.converged:
             raise RuntimeError(

@@ -136,7 +136,7 @@ class Bulk:
         return self._sums()
 
     def jacobian_error(self, way: npt.NDArray[np.float64], size: float) -> float:
-        """How far the Jacobian is from a difference quotient of the residual.
+        """Relative difference of the Jacobian from a difference quotient of the residual.
 
         All ranks must take part.
 
@@ -172,7 +172,7 @@ class Bulk:
         return float(sizes[0] / largest) if np.isfinite(sizes).all() and largest > 0 else 0.0
 
     def lifted(self) -> npt.NDArray[np.float64]:
-        """What Dirichlet values that the displacement does not have yet do to other rows.
+        """Residual of other rows from Dirichlet values that the displacement does not have yet.
 
         All ranks must take part.
         """
@@ -217,13 +217,13 @@ class Bulk:
         return A.copy() if self._is_whole else A.convert("aij", PETSc.Mat())
 
     def matrix(self) -> PETSc.Mat:
-        """The same for products, of whatever type it is kept as."""
+        """Jacobian for products, of whatever matrix type it is stored as."""
         self._assemble()
         return self._A
 
     @property
     def _is_whole(self) -> bool:
-        """Whether it is kept in rows, not as half of a symmetric one."""
+        """True if all entries are stored, not half of a symmetric matrix."""
         return self._A.getType() in ("seqaij", "mpiaij")
 
     def rows(self, dofs: npt.NDArray[np.integer]) -> PETSc.Mat:
@@ -242,7 +242,7 @@ class Bulk:
 
     @property
     def is_symmetric(self) -> bool:
-        """Whether the Jacobian is symmetric."""
+        """True if the Jacobian is symmetric."""
         self._assemble()
         if self._symmetric is None:
             self._symmetric = _is_symmetric(self._A)
@@ -278,7 +278,9 @@ class Bulk:
         if not np.isfinite(self._A.norm(PETSc.NormType.FROBENIUS)):
             raise NotFiniteError(
                 "the Jacobian of F is not finite: its derivative does not exist at this "
-                "displacement, or a coefficient of F, or of J, is NaN or infinite"
+                "displacement, or a coefficient of F, or of J, is NaN or infinite. Start from "
+                "another displacement, or repair the coefficient (manual: "
+                "errors/jacobian-not-finite)"
             )
         self._assembled_with = [values.copy() for values in parameters]
         self._symmetric = self._rows = None
@@ -297,7 +299,7 @@ class Bulk:
 
 
 def _is_symmetric(K: PETSc.Mat) -> bool:
-    """Whether x.Ky = y.Kx for two random vectors: any asymmetry shows, but for chance."""
+    """True if x.Ky = y.Kx for two random vectors, which an asymmetric K fails but for chance."""
     x, y = K.createVecs()
     work = y.duplicate()
     rng = np.random.default_rng(K.comm.rank)

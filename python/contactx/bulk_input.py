@@ -1,6 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""What a user gives for the bulk: displacement, forms and Dirichlet conditions, checked.
+"""Checks of the displacement, the forms and the Dirichlet conditions that a user gives.
 
 DOLFINx compiles and assembles forms of wrong spaces without a word, and writes beyond the arrays.
 """
@@ -43,7 +43,8 @@ def check_displacement(u: Any) -> None:
     if V.mesh.topology.dim != gdim or gdim not in (2, 3):
         raise ValueError(
             f"u is on a mesh of cells of dimension {V.mesh.topology.dim} in {gdim} dimensions; "
-            "contact needs plane cells in the plane or solid ones in space"
+            "contact needs plane cells in the plane or solid ones in space: give gmsh's "
+            "model_to_mesh gdim=2 for plane cells, and 3 for solid ones"
         )
     wanted = wanted_space(gdim)
     element = V.ufl_element()
@@ -91,7 +92,8 @@ def check_finite(comm: MPI.Comm, **vectors: la.Vector) -> None:
             if len(bad) > 0:
                 raise ValueError(
                     f"{name.replace('_', ' ')} not finite at {len(bad)} dofs, first at node "
-                    f"{bad[0] // vector.block_size}: repair the mesh or the initial guess"
+                    f"{bad[0] // vector.block_size}: repair the mesh or the initial guess "
+                    "(manual: errors/values-not-finite)"
                 )
 
 
@@ -113,7 +115,8 @@ def check_prescribed(
         if bad > 0:
             raise ValueError(
                 f"bcs prescribe displacements that are not finite, at {bad} dofs: give finite "
-                "numbers; the function that sets them, as update of LoadSteps, may be wrong"
+                "numbers; the function that sets them, as update of LoadSteps, may be wrong "
+                "(manual: errors/values-not-finite)"
             )
 
 
@@ -271,7 +274,7 @@ def check_conditions(bcs: Any, functions: Sequence[fem.Function]) -> None:
 def have_changed(
     given: Sequence[fem.DirichletBC], taken: Sequence[fem.DirichletBC], comm: MPI.Comm
 ) -> bool:
-    """Whether the user's list of Dirichlet conditions is another one on any rank.
+    """True if the user's list of Dirichlet conditions has changed on any rank.
 
     Args:
         given: The list, as it is now.
@@ -282,7 +285,7 @@ def have_changed(
 
 
 class _Wrapped:
-    """What ``FunctionSpace.contains`` takes, of a space that DOLFINx gives without its cover."""
+    """A space of DOLFINx's C++ layer in the form that ``FunctionSpace.contains`` takes."""
 
     def __init__(self, space: Any):
         self._cpp_object = space

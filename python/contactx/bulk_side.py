@@ -39,7 +39,7 @@ class BulkSide:
 
     @property
     def is_linear(self) -> bool:
-        """Whether the stiffness does not depend on the displacement."""
+        """True if the stiffness does not depend on the displacement."""
         return self._bulk.is_linear
 
     @property
@@ -79,7 +79,7 @@ class BulkSide:
         return self._bulk.dirichlet_defect()[: self._halo.num_owned * self.gdim]
 
     def lifted(self) -> Array:
-        """What Dirichlet values that displacements do not have yet do to other rows."""
+        """Residual of other rows from Dirichlet values that displacements do not have yet."""
         return self._bulk.lifted()
 
     def set_displacements(self, u: Array) -> None:

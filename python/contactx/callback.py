@@ -1,6 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Python that PETSc calls."""
+"""Python functions that PETSc calls."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from contactx.interrupts import Interrupts
 
 
 class Keeper(Protocol):
-    """Whoever has callbacks.
+    """Object with callbacks.
 
     Attributes:
         error: Error that one of them raised.
@@ -72,7 +72,7 @@ def weakly[**P, R](method: Callable[P, R]) -> Callable[P, R]:
 
 
 class Quiet:
-    """A with block for a solver of PETSc that calls Python: what is raised there comes at its end.
+    """With block around a PETSc solver that calls Python: errors raised there come at its end.
 
     An error that passes through a solver amid its iterations leaves it with pointers to what is no
     longer there, and destroying it ends the program.

@@ -1,6 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""What differs between builds of DOLFINx."""
+"""Differences between builds of DOLFINx."""
 
 import contextlib
 import gc
@@ -49,7 +49,7 @@ def require_real_double() -> None:
 
 
 def has_other_constraints(V: fem.FunctionSpace) -> bool:
-    """Whether a function space belongs to a constraint of dolfinx_mpc.
+    """True if a function space belongs to a constraint of dolfinx_mpc.
 
     Nothing in the space tells, but who has made one keeps the constraint.
 
@@ -76,7 +76,7 @@ def direct_solver() -> str | None:
 
 
 def forget_derivatives() -> None:
-    """Let go of forms whose derivatives UFL has expanded, and with them of their meshes.
+    """Clear UFL's cache of expanded derivatives, which keeps forms and their meshes alive.
 
     Methods of its traversers are dispatched by functools.singledispatchmethod, which in Python 3.12
     and 3.13 keeps each object that it has served for ever.

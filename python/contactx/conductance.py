@@ -1,6 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""What flows from one side of a contact to the other: heat, charge, fluid."""
+"""Flow of heat, charge or fluid across a contact."""
 
 from __future__ import annotations
 
@@ -37,11 +37,12 @@ class Conductance:
     T is a scalar field such as a temperature, p the recovered contact pressure and g the gap. What
     leaves the slave arrives at the master, whether the meshes match or not: with the weights of the
     contact's pairs a node j has the flow sum_i w_ij A_i h_i sum_k w_ik T_k; see
-    ``contact/transfer.h``. Flows are integrals with the contact's weight, and over reference areas.
+    ``contact/transfer.h`` and theory/conductance of the manual. Flows are integrals with the
+    contact's weight, and over reference areas.
 
     Given to a ``ContactProblem`` that solves for displacement and T together, it is part of that
     system, with its derivatives by T, by the pressure and by the gap. Where T is solved for by
-    itself, after the contact, ``matrix`` and ``residual`` are what must be added to its system.
+    itself, after the contact, ``matrix`` and ``residual`` must be added to its system.
 
     Attributes:
         contact: The contact.
@@ -143,10 +144,14 @@ class Conductance:
         return float(reduce.total(self._halo.comm, flow.sum()))
 
     def residual(self) -> Array:
-        """What leaves each of the field's dofs that this rank owns, shape (num_owned,).
+        """Flow out of each of the field's dofs that this rank owns; all ranks must take part.
 
-        All ranks must take part. It belongs to the left-hand side of a balance: the residual of
-        UFL's ``inner(k * grad(T), grad(v)) * dx - Q * v * dx`` plus this is zero.
+        It belongs to the left-hand side of a balance: the residual of UFL's
+        ``inner(k * grad(T), grad(v)) * dx - Q * v * dx`` plus this is zero.
+
+        Returns:
+            Flow from the slave's dofs, negative into the master's, shape (num_owned,): the unit of
+            the coefficient times T times area.
         """
         transfer, h = self._evaluate()
         b = np.zeros(self._halo.num_nodes)
@@ -168,6 +173,9 @@ class Conductance:
             C = conductance.matrix()
             C.zeroRowsColumnsLocal(bc.dof_indices()[0], diag=0.0)
             A.axpy(1.0, C)
+
+        Returns:
+            A new matrix, flow per unit of T.
         """
         transfer, h = self._evaluate()
         dofs = self._numbers()
@@ -185,7 +193,7 @@ class Conductance:
         return C
 
     def derivatives(self) -> tuple[core.Triplets, core.Triplets, core.Triplets, Array]:
-        """Derivatives of what leaves the nodes; all ranks must take part.
+        """Derivatives of the flows out of the nodes; all ranks must take part.
 
         Returns:
             Those by the field, nodes by nodes; by the displacement, nodes by displacements; by the
@@ -212,6 +220,9 @@ class Conductance:
 
         Args:
             values: Values, shape (at least num_owned,).
+
+        Returns:
+            Values of this rank's nodes, ghosts included, shape (num_nodes,).
         """
         assert self._nodes is not None
         own = np.ascontiguousarray(values[self._nodes[: self._halo.num_owned]])
@@ -328,12 +339,12 @@ def add_entries(A: PETSc.Mat, rows: Index, columns: Index, values: Array) -> Non
 def check_conductances(
     conductances: Any, contacts: list[Contact], functions: list[fem.Function], displacement: Any
 ) -> list[Conductance]:
-    """Check what a problem was given.
+    """Check the argument ``conductances`` of a problem.
 
     Args:
         conductances: Conductances.
         contacts: Contacts of the problem.
-        functions: What is solved for.
+        functions: Functions that are solved for.
         displacement: The displacement among that.
 
     Raises:
@@ -351,7 +362,8 @@ def check_conductances(
             raise TypeError(f"conductances[{k}] must be a Conductance, not {described(c)}")
         if not any(c.contact is contact for contact in contacts):
             raise ValueError(
-                f"conductances[{k}] is of {c.contact}, which is none of the problem's contacts"
+                f"conductances[{k}] is of {c.contact}, which is none of the problem's contacts: "
+                "list it in contacts"
             )
         if not any(c.field is w for w in functions) or c.field is displacement:
             raise ValueError(

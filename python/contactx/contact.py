@@ -1,6 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Contact between two surfaces, as the user sees it."""
+"""Contact between two surfaces: options and results."""
 
 from __future__ import annotations
 
@@ -52,6 +52,7 @@ class Contact:
     not zero: g >= 0, p >= 0, p g = 0. With friction the traction t along the surface obeys
     |t| <= friction p, and only where they are equal the node slips, against t. The results below
     exist as soon as the contact belongs to a ContactProblem, and change when a step is accepted.
+    Equations and sources are in the manual, theory/gap and theory/friction.
     """
 
     def __init__(
@@ -76,11 +77,11 @@ class Contact:
                 of the two.
             master: Surface that they are measured against, or a rigid obstacle: Plane, Sphere,
                 Cylinder or LevelSet. The same surface as the slave is self-contact: of two places
-                that face each other one is the slave, see ``search/self_order.h``, and what meets
-                is found as the surface folds. It takes node-to-surface and finite sliding.
+                that face each other one is the slave, see ``search/self_order.h``, and pairs are
+                found as the surface folds. It takes node-to-surface and finite sliding.
             friction: Coulomb's coefficient: a number, a ``fem.Constant`` or a ``fem.Function`` of
                 a scalar Lagrange space, which may change from step to step. With the number 0
-                nothing along the surface is computed. Or a ``FrictionLaw`` of one's own.
+                nothing along the surface is computed. Or a ``FrictionLaw`` of your own.
             sliding: "finite": pairs, normals and projections follow the deformation. "small": they
                 are those of the reference configuration, which is linear and cheap, and right
                 where bodies neither slide nor turn by much.
@@ -97,21 +98,20 @@ class Contact:
             search_distance: Largest distance at which a slave node is paired; by default the
                 diameter of the larger surface, and unlimited for a rigid obstacle.
             excluded_distance: In self-contact the length along the surface, in the reference
-                configuration, within which a node does not meet it; by default a node does not meet
-                its own facets and those that share a node with them. A node never meets what it
-                sees through its own body, however far that is along the surface.
+                configuration, within which a node is paired with no facet; by default its own
+                facets and those that share a node with them are left out. A node is never paired
+                with a facet that it sees through its own body.
             offset: Length that is taken off the gap: positive where the bodies interfere by it or
                 carry a layer of that thickness, negative where they are that much farther apart. A
                 number, a ``fem.Constant`` or a ``fem.Function`` of a scalar Lagrange space.
-            weight: What contact is integrated with, as the bulk's forms are: ``2 * pi * r`` in an
-                axisymmetric model, the thickness in a plane one. A number, or an expression of UFL
-                of the reference position; its values at the slave nodes are taken once, when the
-                problem is created, and interpolated between them. Forces then are integrals with
-                it, pressures and tractions still force per true area.
-
+            weight: Factor of contact's integrals, the same as in the bulk's forms: ``2 * pi * r``
+                in an axisymmetric model, the thickness in a plane one. A number, or a UFL
+                expression of the reference position; its values at the slave nodes are taken once,
+                when the problem is created, and interpolated between them. Forces then are
+                integrals with it, pressures and tractions still force per true area.
             tangential_factor: With friction the complementarity factor along the surface, as a part
                 of that along the normal, which is the stiffness of the cells. It changes the way to
-                the solution alone, not what a solution is. Stiff thin bodies that nothing but
+                the solution alone, not the solution. Stiff thin bodies that nothing but
                 friction holds, such as slabs on soft ground, converge with 0.05 and not with 1.
 
         Raises:
@@ -150,7 +150,7 @@ class Contact:
         self._fields: Fields | None = None
 
     def __setattr__(self, name: str, value: object) -> None:
-        """Refuse what would have no effect: a name misspelt, or an option that has been read."""
+        """Refuse names that do not exist, and options that have been read already."""
         if "_fields" in vars(self) and not (name in vars(self) or hasattr(type(self), name)):
             raise AttributeError(f"a Contact has no {name!r}: check the spelling")
         if name in _OPTIONS and vars(self).get("_interface") is not None:
@@ -289,11 +289,11 @@ class Contact:
         master = core.make_surface_master(
             mesh, slaves, name, *lists, str(self.master), law, options
         )
-        # What a surface shares with itself has gaps all the same
+        # Nodes that a surface shares with itself have gaps all the same
         return master, None if self.is_self else core.shared_nodes(halo.nodes, slaves, *lists)
 
     def _is_mortar(self, V: fem.FunctionSpace) -> bool:
-        """Whether facets are integrated: of a quadratic displacement not with obstacles."""
+        """True if facets are integrated; with a quadratic displacement not on obstacles."""
         is_nodal = isinstance(self.master, Obstacle) and degree_of(V) > 1
         return self.method == "surface-to-surface" and not is_nodal
 
@@ -305,7 +305,7 @@ class Contact:
         Args:
             V: Space of the displacement.
             slaves: Slave nodes of this rank, shape (n,).
-            own: Law of friction of the user's own.
+            own: Law of friction that the user has given.
 
         Raises:
             ValueError: If friction is a function of another space, or a constant that is no number.
@@ -321,12 +321,12 @@ class Contact:
 
     @property
     def is_self(self) -> bool:
-        """Whether the surface is in contact with itself."""
+        """True if the surface is in contact with itself."""
         return _is_self(self.slave, self.master)
 
     @property
     def is_weighted(self) -> bool:
-        """Whether contact is integrated with a weight other than 1."""
+        """True if contact is integrated with a weight other than 1."""
         return not (is_number(self.weight) and self.weight == 1)
 
     def detach(self) -> None:
@@ -340,7 +340,7 @@ class Contact:
 
     @property
     def active(self) -> bool:
-        """Whether the contact is switched on; may be set between steps."""
+        """True if the contact is switched on; may be set between steps."""
         return self.interface.active
 
     @active.setter
@@ -350,14 +350,22 @@ class Contact:
 
     @property
     def interface(self) -> Interface:
-        """Discrete side: for those who write a Newton loop of their own."""
+        """Discrete side of the contact, for a Newton loop of your own.
+
+        Raises:
+            RuntimeError: If the contact belongs to no problem yet.
+        """
         if self._interface is None:
             raise RuntimeError(f"{self} has no results yet: pass it to a ContactProblem first")
         return self._interface
 
     @property
     def fields(self) -> Fields:
-        """Results as functions."""
+        """Results as functions.
+
+        Raises:
+            RuntimeError: If the contact belongs to no problem yet.
+        """
         if self._fields is None:
             raise RuntimeError(f"{self} has no results yet: pass it to a ContactProblem first")
         return self._fields
@@ -456,7 +464,8 @@ class Contact:
     def _measured(self, field: fem.Function | None) -> fem.Function:
         if field is None:
             why = "measures no slip: give it friction (a fem.Constant of value 0 will do)"
-            raise RuntimeError(f"{self} {'is tied: its nodes do not slip' if self.tied else why}")
+            tied = "is tied: its nodes do not slip, leave slip and slip_total out"
+            raise RuntimeError(f"{self} {tied if self.tied else why}")
         return field
 
     @property
@@ -486,12 +495,12 @@ class Contact:
         return self.fields.on_both(f, missing)
 
     def across(self, f: fem.Function) -> fem.Function:
-        """What a field is on the other side: the temperature across, as a Robin condition needs.
+        """Value of a field on the opposite surface, such as the temperature of a Robin condition.
 
-        Slave nodes have the master's value in front of them, by their pairs. Nodes of the master
-        have the mean of the slave nodes in front of them; all others have f itself. Fluxes of forms
-        with it balance as the mesh is refined; those of a ``Conductance`` do so exactly. All ranks
-        must take part.
+        At slave nodes it is the master's value in front of them, by their pairs; at nodes of the
+        master the mean of the slave nodes in front of them; elsewhere f itself. Fluxes of forms
+        with it balance as the mesh is refined; those of a ``Conductance`` balance exactly. All
+        ranks must take part.
 
         Args:
             f: A function of the space of the contact's results.
@@ -554,7 +563,7 @@ def check_contacts(contacts: Any) -> None:
     if len(contacts) == 0:
         raise ValueError("contacts is empty: pass at least one Contact")
     if len(set(map(id, contacts))) < len(contacts):
-        raise ValueError("contacts lists the same Contact twice")
+        raise ValueError("contacts lists the same Contact twice: list each once")
 
 
 def _check_options(
@@ -617,7 +626,9 @@ def _check_options(
             raise ValueError(f"{name} is {value}: give {wanted}")
     check_switch("tied", tied)
     if tied and not (is_number(friction) and friction == 0):
-        raise ValueError("tied excludes friction: a tied slave node does not slip")
+        raise ValueError(
+            "tied excludes friction: a tied slave node does not slip. Leave friction out, or tied"
+        )
     if search_distance is not None:
         if not is_number(search_distance):
             raise TypeError(
@@ -638,7 +649,7 @@ def _joined(
     where: mesh.MeshTags | Surface | Sequence[Surface],
     more: tuple[int | Iterable[int] | Surface, ...],
 ) -> Surface:
-    """The surface that ``Contact.all`` is of.
+    """Join the surfaces that ``Contact.all`` is given.
 
     Raises:
         TypeError: If an argument is of another kind.
@@ -672,7 +683,7 @@ def _joined(
 
 
 def _is_self(slave: Surface, master: Surface | Obstacle) -> bool:
-    """Whether slave and master are the same surface: the same tags."""
+    """True if slave and master are the same surface: the same tags."""
     if not isinstance(master, Surface):
         return False
     return slave is master or (

@@ -97,6 +97,6 @@ def borrow(mesh: Any, index_map: Any, dofs: npt.NDArray[np.int32], block_size: i
     if widths != (width, width, width):
         raise RuntimeError(
             f"a borrowed space of width {width} came out with widths {widths} of dofmap, layout "
-            "and element: this DOLFINx is not one that contactx knows"
+            "and element: this DOLFINx is not one that contactx knows, take DOLFINx 0.11"
         )
     return cpp.fem.FunctionSpace_float64(mesh, element._cpp_object, dofmap)

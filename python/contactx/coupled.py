@@ -105,7 +105,7 @@ class CoupledBulk(Bulk):
         self._assembled_with = None
 
     def follow(self, conductances: Sequence[Conductance]) -> None:
-        """Take what flows across contacts, which is added to the residuals."""
+        """Take the conductances across contacts, whose flow is added to the residuals."""
         self.conductances = list(conductances)
         # Pairs, gaps and pressures decide on it
         self.is_linear = self.is_linear and not conductances
@@ -343,7 +343,9 @@ class CoupledBulk(Bulk):
                 if not np.isfinite(K.norm(PETSc.NormType.FROBENIUS)):
                     raise NotFiniteError(
                         "the Jacobian of F is not finite: its derivative does not exist at this "
-                        "displacement, or a coefficient of F, or of J, is NaN or infinite"
+                        "displacement, or a coefficient of F, or of J, is NaN or infinite. Start "
+                        "from another displacement, or repair the coefficient (manual: "
+                        "errors/jacobian-not-finite)"
                     )
         self._A.assemble()
         self._assembled_with = [values.copy() for values in parameters]
@@ -399,7 +401,7 @@ class Fields:
 
     @property
     def follow_contacts(self) -> bool:
-        """Whether their residuals depend on contacts."""
+        """True if their residuals depend on contacts."""
         return bool(self._bulk.conductances)
 
     def first_of(self, function: int) -> int:

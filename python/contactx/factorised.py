@@ -109,7 +109,7 @@ class FactorisedSolver:
             # Two factorisations at once would be the largest part of the memory
             self._ksp.destroy()
             self._ksp = None
-        # What the factors read from the database they read when they are made
+        # The options of factors are read from the database when they are made
         with direct_options(self._prefix).in_database():
             if self._ksp is None:
                 self._ksp = PETSc.KSP().create(comm=A.comm)

@@ -99,7 +99,7 @@ class Fields:
         self._at = interface.positions()[interface.slaves]
         comm = self._halo.comm
         self.force, sum_ = total(comm, np.stack([on_slave.sum(axis=0), forces.sum(axis=0)]))
-        # What a rigid obstacle is pushed with goes to its support
+        # The force on a rigid obstacle goes to its support
         carried = self.force if interface.master.is_rigid else 0
         self.imbalance = sum_ - carried
         self._recover(on_slave)
@@ -160,7 +160,10 @@ class Fields:
     def _empty(self, f: fem.Function) -> fem.Function:
         """A function of the space of these results, which f must be of as well."""
         if self._interface.master.is_rigid:
-            raise ValueError("the master is a rigid obstacle, which has no nodes")
+            raise ValueError(
+                "the master is a rigid obstacle, which has no nodes: take the "
+                "result itself, on the slave"
+            )
         Q = self.pressure.function_space
         element = f.function_space.ufl_element()
         if f.function_space.mesh is not Q.mesh or element != Q.ufl_element():

@@ -53,7 +53,7 @@ class State:
             return la.vector(slave_map, block)
 
         area = vector(1)
-        # What is divided by it goes nowhere for slave nodes of other ranks
+        # Quotients by the area of slave nodes of other ranks are not used
         area.array[:] = 1
         return State(
             multiplier=vector(gdim if is_vector else 1),

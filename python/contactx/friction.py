@@ -1,6 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Laws of friction of the user's own."""
+"""Laws of friction that a user gives."""
 
 from __future__ import annotations
 
@@ -20,7 +20,8 @@ class FrictionLaw:
     """Friction whose bound is no constant times the pressure: |t| <= f(p, s).
 
     p is the pressure, force/reference area, and s the length that a slave node has slipped, in all
-    accepted steps and this one. Slip goes against t, as with Coulomb's law. For example::
+    accepted steps and this one. Slip goes against t, as with Coulomb's law; see theory/friction of
+    the manual. For example::
 
         cx.FrictionLaw(lambda p, s: ufl.as_ufl(0.1))                       # Tresca
         cx.FrictionLaw(lambda p, s: ufl.min_value(0.3 * p, 0.1))           # up to a limit
@@ -52,11 +53,14 @@ class FrictionLaw:
         self._ufl = UFLFunction(lambda x: f(x[0], x[1]), "FrictionLaw")
 
     def values(self, p: Array, s: Array) -> tuple[Array, Array, Array]:
-        """Bound and its derivatives by p and s, shape (n,) each.
+        """Evaluate the bound of the tangential traction and its derivatives.
 
         Args:
-            p: Pressures, shape (n,).
+            p: Pressures, force/area, shape (n,).
             s: Lengths of slip, shape (n,).
+
+        Returns:
+            The bound, force/area, and its derivatives by p and by s, shape (n,) each.
 
         Raises:
             ValueError: If the function is not of UFL and has no gradient, or a shape does not fit.

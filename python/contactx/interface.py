@@ -101,7 +101,7 @@ class Interface(core.Contact):
         return self.halo.positions()
 
     def offset(self) -> npt.NDArray[np.float64]:
-        """What is taken off the gap now, shape (n,)."""
+        """Current offset, the length that is taken off the gap, shape (n,)."""
         return np.broadcast_to(self._offset.now(), self.nodes.gap.shape)
 
     def read_values(self) -> None:
@@ -183,7 +183,8 @@ def check_over_constrained(
                 f"contact {k} ({names[k]}) is over-constrained: Dirichlet conditions constrain "
                 f"{count} slave nodes inside the rigid obstacle, first node {first} of the mesh as "
                 f"it was made, at {core.point_text(at, size)}. Take them out of the slave surface, "
-                "release them along the obstacle's normal or prescribe values outside of it"
+                "release them along the obstacle's normal or prescribe values outside of it "
+                "(manual: errors/over-constrained)"
             )
 
 
@@ -204,5 +205,5 @@ def check_drag(interfaces: Sequence[Interface], names: Sequence[Any]) -> None:
                 "function does not tell how its material moves along its surface, which slip and "
                 "ties are measured from. Take a Sphere, Plane or Cylinder, which drag what touches "
                 "them, or give it a velocity, or friction=0; or let it come from where nothing "
-                "touches it to where it stays"
+                "touches it to where it stays (manual: errors/level-set-moves)"
             )

@@ -47,7 +47,7 @@ class Interrupts:
 
     @property
     def has_come(self) -> bool:
-        """Whether one waits."""
+        """True if an interrupt waits."""
         return bool(self._waits)
 
     def wait(self) -> None:

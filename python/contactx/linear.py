@@ -20,7 +20,7 @@ from contactx.system import SaddlePointSystem
 
 
 class LinearSolver(ABC):
-    """What gives SNES its Jacobian.
+    """Base of the solvers that give SNES its Jacobian.
 
     Attributes:
         error: Error that a callback raised.
@@ -57,7 +57,7 @@ class LinearSolver(ABC):
         """End a step: write what was done into the report."""
 
     def skipped(self) -> dict[str, int]:
-        """What was not done again in this step, and how often."""
+        """Names of the work that was skipped in this step, and how often."""
         return {}
 
     def reset(self) -> None:
@@ -65,7 +65,7 @@ class LinearSolver(ABC):
 
 
 class SaddlePoint(LinearSolver):
-    """The whole Jacobian as one matrix, for a direct solver or what the user chooses."""
+    """The whole Jacobian as one matrix, for a direct solver or the user's own."""
 
     def __init__(self, system: SaddlePointSystem):
         """Create the solver.
@@ -201,7 +201,7 @@ class Condensed(LinearSolver):
         A.assemble()
 
     def _called(self) -> SimpleNamespace:
-        """What PETSc calls as a matrix or a preconditioner."""
+        """Context of a matrix or preconditioner that PETSc calls."""
         return SimpleNamespace(apply=weakly(self.apply), mult=weakly(self.mult))
 
     @keeps_its_error

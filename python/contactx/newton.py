@@ -38,7 +38,7 @@ _WRONG = 1e-3
 _STAGNANT = 4
 _WRONG_JACOBIAN = (
     "the Jacobian is not the derivative of F: along the last step it differs by {:.2g} % from a "
-    "difference quotient of F. "
+    "difference quotient of F. {} (manual: errors/wrong-jacobian)"
 )
 _ADVICE = {
     True: "Correct J, or leave it out to have it derived",
@@ -47,20 +47,22 @@ _ADVICE = {
 _STAGNATES = (
     "the residual stagnates at {:.3g} while no node changes its status, and the tolerance is "
     "{:.3g}: forces that cancel may leave that much by rounding. Raise snes_rtol, or set snes_atol "
-    "to a force that may be neglected"
+    "to a force that may be neglected (manual: errors/residual-stagnates)"
 )
 _CODE = PETSc.SNES.ConvergedReason
 _REASONS = {
     _CODE.CONVERGED_FNORM_ABS: "the residual is below the tolerance",
     _CODE.DIVERGED_MAX_IT: "no convergence in snes_max_it iterations: take smaller load steps; "
     "where nodes still change their status at the end, refine the mesh in contact, else raise "
-    "snes_max_it",
+    "snes_max_it (manual: errors/no-convergence)",
     _CODE.DIVERGED_LINEAR_SOLVE: "the linear solver failed: is a body free to move without "
-    "touching anything? Support it; with a Krylov solver of your own try pc_type lu",
+    "touching anything? Support it; with a Krylov solver of your own try pc_type lu "
+    "(manual: errors/linear-solver-failed)",
     _CODE.DIVERGED_FUNCTION_NANORINF: "the residual is not finite: the material fails, or a body "
-    "is free to move without touching anything. Take smaller load steps, or support the body",
+    "is free to move without touching anything. Take smaller load steps, or support the body "
+    "(manual: errors/residual-not-finite)",
     _CODE.DIVERGED_LINE_SEARCH: "no step is short enough to lead on: cells would turn inside out, "
-    "or the residual does not fall. Take smaller load steps",
+    "or the residual does not fall. Take smaller load steps (manual: errors/no-step-leads-on)",
 }
 
 
@@ -76,7 +78,7 @@ class NewtonLoop:
     """
 
     def __init__(self, assembler: ContactAssembler, snes: PETSc.SNES, *, condensed: bool):
-        """Have a solver call what belongs to the assembler.
+        """Set the callbacks of a solver.
 
         Args:
             assembler: The coupled system.
@@ -94,7 +96,7 @@ class NewtonLoop:
         )
         self._report = Report()
         self.error: BaseException | None = None
-        # What the Jacobian was made for
+        # Version of the state that the Jacobian was made for
         self._version = -1
         self._length = StepLength(self._loop)
         # Why the step has failed, and whether no other way may lead to a solution
@@ -142,7 +144,7 @@ class NewtonLoop:
         self._linear.end_step(report)
 
     def skipped(self) -> dict[str, int]:
-        """What linear solves have not done again in this step, and how often."""
+        """Names of the work that linear solves have skipped in this step, and how often."""
         return self._linear.skipped()
 
     def _why_slow(self, code: int) -> str:
@@ -162,7 +164,7 @@ class NewtonLoop:
         sizes = [part * self._loop.convergence.extent for part in (1e-4, 1e-6, 1e-8)]
         error = min(self._bulk.jacobian_error(way, size) for size in sizes)
         if error > _WRONG:
-            return _WRONG_JACOBIAN.format(100 * error) + _ADVICE[self._bulk.has_own_jacobian]
+            return _WRONG_JACOBIAN.format(100 * error, _ADVICE[self._bulk.has_own_jacobian])
         last = self._report.history[-_STAGNANT:]
         residuals = [row.residual for row in last]
         changes = sum(row.status_changes + row.pair_changes for row in last)
@@ -173,7 +175,7 @@ class NewtonLoop:
 
     @property
     def damping_may_help(self) -> bool:
-        """Whether damped steps may converge where the last run has failed.
+        """True if damped steps may converge where the last run has failed.
 
         Not where steps solve what they solve exactly, nor on a user's own line search.
         """
@@ -247,5 +249,13 @@ def _reason_of(code: int, converged: bool) -> str:
         converged: Whether the contact has converged, too.
     """
     if code > 0 and not converged:
-        return f"SNES stopped by itself, with reason {code}, before the end"
-    return _REASONS.get(code, f"SNES stopped with reason {code}")
+        return (
+            f"SNES stopped by itself, with reason {code}, before contact and bulk were in "
+            "equilibrium: leave out the option that ends it early, such as a snes_type of another "
+            "method or a large snes_stol (manual: errors/snes-stopped)"
+        )
+    unknown = (
+        f"SNES stopped with reason {code}, a negative number of PETSc's SNESConvergedReason: check "
+        "the options of SNES, KSP and PC (manual: errors/snes-stopped)"
+    )
+    return _REASONS.get(code, unknown)

@@ -70,7 +70,7 @@ class NodalValue:
 
     @property
     def is_number(self) -> bool:
-        """Whether it is a number, which never changes."""
+        """True if it is a number, which never changes."""
         return not isinstance(self._value, fem.Function | fem.Constant)
 
     def now(self) -> Any:
@@ -88,5 +88,8 @@ class NodalValue:
         else:
             value = float(self._value)
         if not np.all(np.isfinite(value)):
-            raise ValueError(f"{self._name} is not finite: give finite numbers")
+            raise ValueError(
+                f"{self._name} is not finite: give finite numbers (manual: "
+                "errors/values-not-finite)"
+            )
         return value

@@ -53,7 +53,7 @@ class SolverOptions:
             for name in self._options
         }
         for name, value in self._options.items():
-            # What the user has put there, on the command line say, goes before a default
+            # The user's own values, such as those of the command line, go before a default
             if name in self._given or before[name] is None:
                 database[name] = value
         try:
@@ -141,7 +141,7 @@ def newton_options(prefix: str, given: Mapping[str, Any], *, condensed: bool) ->
 
 
 def is_condensed(given: Mapping[str, Any], num_dofs: int, gdim: int, *, has_friction: bool) -> bool:
-    """Whether the condensed solver is taken: where the user asks for it, or for nothing else.
+    """True if the condensed solver is taken: by the options, or by the size of the problem.
 
     Args:
         given: Options of the user, without the prefix.

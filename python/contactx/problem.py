@@ -30,13 +30,14 @@ class ContactProblem:
     under g_s >= 0, p_s >= 0, p_s g_s = 0 and Coulomb's law: |t_s| <= mu p_s, without slip where it
     is less, else against the slip. Without friction t_s = 0, and the multiplier is p_s alone. A tie
     has lambda_s of any direction. All this is solved by a semismooth Newton method on the saddle
-    point, the primal-dual active set strategy (Alart & Curnier 1991; Hueeber & Wohlmuth 2005).
+    point, the primal-dual active set strategy (Alart & Curnier 1991; Hueeber & Wohlmuth 2005); see
+    theory/newton of the manual.
 
     The displacement may be a part of a mixed space, as in Taylor and Hood's elements, or one of
     several functions that are solved for together, such as displacement and temperature.
 
     Attributes:
-        u: What is solved for, as given.
+        u: Unknown, as given: a function, or a list of functions.
         displacement: Displacement of the nodes: u itself, or a copy where u has more than that.
         contacts: Contacts.
         report: Report of the last solve.
@@ -70,22 +71,22 @@ class ContactProblem:
                 takes them.
             contacts: Contacts of surfaces of the mesh with each other or with rigid obstacles. A
                 node may be slave in several.
-            displacement: Number of the part of the mixed space, or of the function in the list,
-                that is the displacement. It may have bubbles inside of cells. What
-                else is solved for goes through the direct solver.
             petsc_options_prefix: Prefix of the PETSc options, unique in the program.
+            displacement: Number of the part of the mixed space, or of the function in the list,
+                that is the displacement. It may have bubbles inside of cells. Problems with further
+                fields are solved by the direct solver.
             bcs: Dirichlet conditions; none are needed where contact supports the bodies. The list
                 may change between solves.
             J: Jacobian of F; derived if None. Of a list of residuals, a list of rows, in which None
                 stands for zero.
-            conductances: What flows across contacts, where u is a list with its field in it: heat
-                by pressure and gap, for example.
+            conductances: Conductances across contacts, where u is a list that holds their field:
+                heat that depends on pressure and gap, for example.
             petsc_options: Options of SNES, its KSP and PC, without the prefix. ``snes_rtol``
                 (default 1e-11) is relative to the forces of the problem.
-            audit: What becomes of a converged iterate that geometry shows to be wrong: nodes that
-                went through the other side, a master that reaches through slave facets between
-                their nodes, cells turned inside out. "refuse" raises a ConvergenceError, "warn"
-                accepts it with a warning; ``report.audit`` has the figures.
+            audit: "refuse" or "warn". A converged iterate whose geometry is wrong (nodes that went
+                through the other side, a master that reaches through slave facets between their
+                nodes, cells turned inside out) raises a ConvergenceError, or is accepted with a
+                warning; ``report.audit`` has the figures.
             form_compiler_options: Options of FFCx.
             jit_options: Options of the compilation.
 
@@ -149,7 +150,7 @@ class ContactProblem:
 
     @property
     def beside(self) -> list[fem.Function]:
-        """What is solved for but the displacement, or with it in one function."""
+        """Functions that are solved for besides the displacement, or that hold it."""
         return [w for w in self.assembler.functions if w is not self.displacement]
 
     def solve(self) -> fem.Function | Sequence[fem.Function]:
@@ -162,7 +163,7 @@ class ContactProblem:
             ConvergenceError: If the Newton loop fails. The displacement and the contacts are then
                 as they were before the call.
             ValueError: If a condition in ``bcs`` is of another space, ``u`` or a Dirichlet value is
-                not finite, friction, offset or an obstacle has become what it must not be, a
+                not finite, friction, offset or an obstacle has a value out of its range, a
                 LevelSet with friction moves while it is touched, Dirichlet conditions constrain a
                 slave node inside a rigid obstacle, or PETSc refuses an option.
         """
@@ -244,5 +245,5 @@ class ContactProblem:
         if names:
             self.assembler.say(
                 f"petsc_options has {names}, which nothing has read: check the spelling, leave out "
-                "the prefix"
+                "the prefix (manual: errors/unread-options)"
             )

@@ -1,6 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""What a solve did: iterations, pairs, balance, times."""
+"""Report of a step: iterations, pairs, balance, times."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class Iteration:
     Attributes:
         number: Number of linear solves so far.
         residual: Norm of the forces that are out of balance, and of the contact conditions.
-        tolerance: What the residual must fall below.
+        tolerance: Bound that the residual must fall below.
         closed: Slave nodes in contact.
         status_changes: Slave nodes that opened or closed.
         pair_changes: Slave nodes in contact that changed their facet.
@@ -67,7 +67,7 @@ class Report:
             slide without friction there, and of parallel contacts only the deepest counts.
         krylov: Iterations of the condensed solver.
         hierarchies: Multigrid hierarchies made for it.
-        factorisations: Factorisations, of the blocks of bodies or of what was not condensed.
+        factorisations: Factorisations, of the blocks of bodies or of systems not condensed.
         by_bodies: Why condensed solves were by bodies, without multigrid, one entry a solve.
         uncondensed: Why solves were not condensed, one entry a solve.
         soft: Linear solves on the path from soft to hard contact.
@@ -83,12 +83,13 @@ class Report:
         imbalance: Sum of all contact forces on both sides, shape (gdim,): zero but for rounding.
         force: Force on the slave side of each contact, a list of arrays of shape (gdim,).
         recovery: By how much the recovered pressures and tractions of each contact change its
-            force, over the sum of its nodes' forces: nothing on plane surfaces, but for rounding.
-        skipped: What iterations did not do again because it still served, and how often: assembly
-            of the bulk's Jacobian, hierarchies, factorisations, searches.
-        audit: What the audit of the converged iterate found.
+            force, relative to the sum of its nodes' forces: zero on plane surfaces but for
+            rounding.
+        skipped: How often results of earlier iterations were used again: assembly of the bulk's
+            Jacobian, hierarchies, factorisations, searches.
+        audit: Findings of the audit of the converged iterate.
         balance: Energy and momentum of a time step; None of bodies without inertia.
-        unread: PETSc options of the user that nothing has read: misspelt, perhaps.
+        unread: PETSc options of the user that nothing has read, such as misspelt ones.
         times: Wall seconds of each part.
     """
 
@@ -132,7 +133,14 @@ class Report:
 
     @contextmanager
     def timing(self, part: str) -> Iterator[None]:
-        """Add the time of a block of code to a part."""
+        """Add the wall time of a with block to a part.
+
+        Args:
+            part: Name of the part in ``times``.
+
+        Yields:
+            Nothing.
+        """
         start = time.perf_counter()
         try:
             yield
@@ -140,7 +148,11 @@ class Report:
             self.times[part] = self.times.get(part, 0.0) + time.perf_counter() - start
 
     def table(self) -> str:
-        """The iterations as a text table."""
+        """Make a table of the iterations.
+
+        Returns:
+            The table as plain text, a row an iteration.
+        """
         table = Table("it", "residual", "tolerance", "closed", "status", "pairs", "Dirichlet")
         table.title = "changes of status and pairs since the iterate before"
         for row in self.history:

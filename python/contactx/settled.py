@@ -1,6 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""What an iterate is once pairs and active set are those of it."""
+"""An accepted iterate with its residual, its changes, and whether the loop may end."""
 
 from __future__ import annotations
 
@@ -12,32 +12,33 @@ from contactx.report import Iteration
 _FAILURES = {
     core.Verdict.hidden: "pairs went back and forth between facets and were frozen, and hide a "
     "penetration: refine the coarser surface there, swap slave and master where that is the slave, "
-    "or take smaller load steps",
+    "or take smaller load steps (manual: errors/frozen-pairs)",
     core.Verdict.ran_away: "a body that nothing holds has moved by {way:.3g}, more than the size "
     "of the scene: no place was found where the forces of contact balance. Support it. Where a "
     'ring can turn in another one, take method="surface-to-surface", or numbers of facets that are '
-    "no multiples of each other",
+    "no multiples of each other (manual: errors/body-ran-away)",
     core.Verdict.unbalanced: "the loads on a body cannot be balanced: it has no support and "
     "nothing is in its way, or friction barely could. Support it, or turn the loads so that they "
-    "press the bodies together",
+    "press the bodies together (manual: errors/unbalanced-loads)",
     core.Verdict.not_finite: "the residual is not finite: the material fails, or a body is free to "
-    "move without touching anything. Take smaller load steps, or support the body",
+    "move without touching anything. Take smaller load steps, or support the body "
+    "(manual: errors/residual-not-finite)",
     core.Verdict.stuck: "no step is short enough to lead on: cells would turn inside out, or the "
-    "residual does not fall. Take smaller load steps",
+    "residual does not fall. Take smaller load steps (manual: errors/no-step-leads-on)",
 }
 
 
 @dataclass(frozen=True)
 class Settled(Iteration):
-    """An iterate with the pairs and the active set that are those of it.
+    """An accepted iterate after its pairs and its active set were updated.
 
     Attributes:
         scale: Forces of the problem, which ``tolerance`` is relative to: norm of the bulk's
             residual.
-        converged: Whether it is a solution: the residual is small, no node changes its pair or
-            status any more, and geometry finds nothing wrong.
-        failure: Why no solution is to be expected any more, and what to do; empty while there is.
-        is_final: Whether another way to the same place would fail, too.
+        converged: True if it is a solution: the residual of the updated pairs and status is below
+            the tolerance, and the audit has found no fault.
+        failure: Why no solution is to be expected any more, and what to do; empty while one is.
+        is_final: True if damped steps would fail as well.
     """
 
     scale: float
@@ -46,7 +47,7 @@ class Settled(Iteration):
     is_final: bool
 
     def row(self) -> Iteration:
-        """The part that reports have."""
+        """The row of a report."""
         return Iteration(**{f.name: getattr(self, f.name) for f in fields(Iteration)})
 
 

@@ -23,7 +23,7 @@ from contactx.contact import Contact
 from contactx.interface import Interface
 from dolfinx import fem
 
-# What the rows of a saved array stand for: an owned slave node, an owned node of the bulk, or
+# Meaning of the rows of a saved array: an owned slave node, an owned node of the bulk, or
 # nothing where the array is the same on all ranks
 type RowKind = Literal["slave", "node", "global"]
 
@@ -34,7 +34,7 @@ _HISTORY = ("slip", "total", "dissipation")
 
 
 def state_rows(interface: Interface) -> dict[str, RowKind]:
-    """What the rows of arrays stand for that ``save_state`` may give.
+    """Meaning of the rows of each array that ``save_state`` may give.
 
     Args:
         interface: Discrete side of the contact.
@@ -49,7 +49,7 @@ def state_rows(interface: Interface) -> dict[str, RowKind]:
 
 
 def save_state(interface: Interface) -> dict[str, npt.NDArray[Any]]:
-    """Copy of all that the next step depends on.
+    """Copy all state that the next step depends on.
 
     Args:
         interface: Discrete side of the contact.

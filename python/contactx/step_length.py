@@ -1,6 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""How much of a Newton step is taken."""
+"""Length of Newton steps."""
 
 from __future__ import annotations
 

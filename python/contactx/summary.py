@@ -1,6 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""What a report says of an accepted step, and what users are warned of."""
+"""Totals of an accepted step for its report, and warnings of a contact."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ def complete(report: Report, contacts: Sequence[Contact], halo: Halo) -> None:
 def warning_of(
     name: str, interface: Interface, hidden: float, halo: Halo, *, may_fly: bool = False
 ) -> str:
-    """What a converged solution may hide in a contact, such as a gap; empty if nothing.
+    """Warning of a contact of a converged solution, such as a hidden gap; empty if there is none.
 
     All ranks must take part.
 
@@ -81,18 +81,21 @@ def warning_of(
                 f"search reaches {master.reach:.3g}"
             )
         else:
-            text += f"that faces its master, although the nearest is {distance:.3g} away"
+            text += (
+                f"that faces its master, although the nearest is {distance:.3g} away: check that "
+                "the tags are those of surfaces that face each other"
+            )
         if small and not master.is_rigid:
             text += (
                 '. sliding="small" pairs nodes in the reference configuration, once: give a '
                 'larger search_distance, or take sliding="finite"'
             )
-        return text
+        return f"{text} (manual: errors/no-force)"
     if hidden < 0:
         frozen = total(comm, len(master.frozen_pairs))
         return (
             f"{name}: {frozen} pairs went back and forth between facets and "
             f"were frozen; they hide a penetration of {-hidden:.3g}. Refine the coarser "
-            "surface there or take smaller steps"
+            "surface there or take smaller steps (manual: errors/frozen-pairs)"
         )
     return ""

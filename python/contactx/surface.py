@@ -90,7 +90,7 @@ class Surface:
             for value in tag if isinstance(tag, Iterable) else (tag,):
                 if not isinstance(value, Integral):
                     raise TypeError(
-                        f"a tag is an integer, not {value!r}: Surface(facet_tags, 1, 2)"
+                        f"a tag is an integer, not {value!r}: write Surface(facet_tags, 1, 2)"
                     )
                 values.append(int(value))
         if not values:
@@ -101,7 +101,10 @@ class Surface:
         for tag in values:
             if tag not in present:
                 there = ", ".join(map(str, present)) if len(present) else "none"
-                raise ValueError(f"tag {tag} is not in the facet tags; there are: {there}")
+                raise ValueError(
+                    f"tag {tag} is not in the facet tags; there are: {there}. Give one that is, or "
+                    "tag its facets"
+                )
         self.facet_tags = facet_tags
         self.tags = tuple(values)
         self.facets = np.unique(np.concatenate([facet_tags.find(tag) for tag in values]))
@@ -113,7 +116,17 @@ class Surface:
         return f"Surface(tags={self.tags}, {self.num_facets} facets)"
 
     def nodes(self, V: fem.FunctionSpace) -> npt.NDArray[np.int32]:
-        """Nodes of the facets below, sorted, numbered as the blocks of V's dofmap, shape (n,)."""
+        """Nodes of the surface's facets whose cells this rank owns.
+
+        Args:
+            V: Lagrange space of degree 1 or 2 whose dofs, block by block, are the nodes.
+
+        Returns:
+            Blocks of V's dofmap, sorted, shape (n,).
+
+        Raises:
+            ValueError: As ``facet_nodes`` does.
+        """
         return np.unique(self.facet_nodes(V).nodes)
 
     def facet_nodes(self, V: fem.FunctionSpace) -> FacetList:
@@ -135,7 +148,8 @@ class Surface:
         topology = domain.topology
         if self.facet_tags.topology is not topology._cpp_object:
             raise ValueError(
-                f"the facet tags of {self} belong to another mesh than the displacement"
+                f"the facet tags of {self} belong to another mesh than the displacement: make them "
+                "on u.function_space.mesh"
             )
         tdim = topology.dim
         topology.create_connectivity(tdim - 1, tdim)
@@ -185,7 +199,7 @@ class Surface:
 def _points_inward(
     x: npt.NDArray[np.float64], cell_midpoints: npt.NDArray[np.float64]
 ) -> npt.NDArray[np.bool_]:
-    """Whether the normals of facets point into their cells.
+    """Mark facets whose normals point into their cells.
 
     Args:
         x: Coordinates of the facets' vertices, shape (num_facets, num_vertices, 3).

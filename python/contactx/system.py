@@ -147,7 +147,7 @@ class SaddlePointSystem:
     def _add_conductance(
         self, A: PETSc.Mat, conductance: Conductance, places: npt.NDArray[np.int64]
     ) -> None:
-        """Add what flows across a contact; all ranks must take part.
+        """Add the derivatives of a conductance; all ranks must take part.
 
         Args:
             A: Jacobian, not scaled yet.
@@ -198,7 +198,7 @@ class SaddlePointSystem:
 
     @property
     def has_friction(self) -> bool:
-        """Whether a contact measures slip."""
+        """True if any contact measures slip."""
         return any(interface.history is not None for interface in self.interfaces)
 
     def contact_block(self, b: PETSc.Vec | None = None) -> core.ContactBlock:

@@ -61,7 +61,9 @@ class CSVOutput:
             raise ValueError("contacts is empty: pass at least one Contact")
         self._path = check_path("path", path)
         if self._path.suffix != ".csv":
-            raise ValueError(f"path ends in {self._path.suffix!r}: totals are written to .csv")
+            raise ValueError(
+                f"path ends in {self._path.suffix!r}: totals are written to .csv, give such a name"
+            )
         self._contacts = list(contacts)
         self._comm = contacts[0].interface.halo.comm
         self._names = [name for k in range(len(contacts)) for name in self._columns(k)]

@@ -114,7 +114,7 @@ class _Compiled:
         if others or ufl.algorithms.analysis.extract_type(value, ufl.classes.GeometricQuantity):
             raise ValueError(
                 f"the function of a {name} holds a function or the coordinates of a mesh: it may "
-                "hold its argument and fem.Constant alone"
+                "hold its argument and fem.Constant alone. Write it with these"
             )
         if is_field:
             parts = [value[i] for i in range(gdim)]

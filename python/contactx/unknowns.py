@@ -1,6 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Which functions a user solves for, and where the displacement is in them."""
+"""Functions that a problem solves for, and the place of the displacement in them."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ class Unknowns:
 
     @property
     def is_copy(self) -> bool:
-        """Whether u is a copy."""
+        """True if u is a copy."""
         return self._dofs is not None
 
     def read(self) -> None:
@@ -86,7 +86,7 @@ class Unknowns:
         return self._dofs[:owned]
 
     def fields(self) -> list[tuple[int, Index]]:
-        """What else there is: for each field the number of its function, and its owned dofs."""
+        """Other fields: for each the number of its function, and its owned dofs."""
         found = []
         for k, function in enumerate(self.functions):
             V = function.function_space
@@ -135,10 +135,12 @@ def unknowns_of(u: Any, displacement: Any) -> Unknowns | None:
     if not functions:
         raise ValueError("u is an empty list: give the functions that are solved for")
     if len({id(function) for function in functions}) < len(functions):
-        raise ValueError("u lists the same function twice")
+        raise ValueError("u lists the same function twice: list each once")
     meshes = {id(function.function_space.mesh) for function in functions}
     if len(meshes) > 1:
-        raise ValueError("u has functions on several meshes: contact needs one that holds all")
+        raise ValueError(
+            "u has functions on several meshes: contact needs one that holds all, make one mesh"
+        )
     V = functions[0].function_space
     is_mixed = not is_list and isinstance(V.ufl_element(), basix.ufl._MixedElement)
     if not is_list and not is_mixed:

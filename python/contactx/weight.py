@@ -1,6 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""What contact is integrated with: 2 pi r in axisymmetric models, a thickness in plane ones."""
+"""Factor of contact's integrals: 2 pi r in axisymmetric models, a thickness in plane ones."""
 
 from __future__ import annotations
 
@@ -65,7 +65,10 @@ def nodal_weight(
         return np.full(len(nodes), float(weight))
     domains = extract_domains(weight)
     if any(domain is not V.mesh.ufl_domain() for domain in domains):
-        raise ValueError("weight is an expression on another mesh than the displacement's")
+        raise ValueError(
+            "weight is an expression on another mesh than the displacement's: write it with the "
+            "SpatialCoordinate of that one"
+        )
     if isinstance(weight, fem.Constant):
         return np.full(len(nodes), float(weight))
     Q = fem.functionspace(V.mesh, ("Lagrange", degree_of(V)))
@@ -81,7 +84,7 @@ def nodal_weight(
 
 
 def is_axisymmetric(form: ufl.Form) -> bool:
-    """Whether all that a plane form integrates over cells has a coordinate as a factor: 2 pi r."""
+    """True if all cell integrals of a plane form have a coordinate as a factor, as with 2 pi r."""
     integrals = [i for i in form.integrals() if i.integral_type() == "cell"]
     is_plane = all(
         i.ufl_domain().ufl_coordinate_element().reference_value_shape == (2,) for i in integrals
@@ -94,7 +97,7 @@ def is_axisymmetric(form: ufl.Form) -> bool:
 
 
 def _terms_have_factor(expression: ufl.core.expr.Expr) -> bool:
-    """Whether a coordinate is a factor of each term of a sum."""
+    """True if a coordinate is a factor of each term of a sum."""
     if isinstance(expression, ufl.algebra.Sum):
         return all(_terms_have_factor(term) for term in expression.ufl_operands)
     if isinstance(expression, ufl.algebra.Product):

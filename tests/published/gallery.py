@@ -32,11 +32,11 @@ from published.record import Result  # noqa: E402
 MISSES = 3
 _INTRODUCTION = """# Published benchmarks
 
-Benchmarks of contact that others have published, each with the value, where it stands, and what
-contactx gives, within 3 % and by its default options unless the notes say otherwise.
+Benchmarks of contact that others have published, each with the published value, its source and the
+value of contactx. They agree within 3 %, by default options, unless the notes say otherwise.
 `make gallery` runs them all and writes this page; `make verify` checks those that take less than
-20 s. The scenes are in `tests/published`. A formula's value is that for the force or the depth that
-was computed. Iterations are linear solves.
+20 s. The scenes are in `tests/published`. Where the published value is a formula, it is evaluated
+at the force or depth that was computed. Iterations are linear solves.
 """
 
 _MISSING = """

@@ -130,8 +130,8 @@ Changes ActiveSet::settle(const Forces& forces, bool is_first, bool may_freeze)
   freeze(may_freeze and are_many(changes.status + changes.pairs));
   if (are_many(changes.status))
   {
-    // What flips on an active set that is far off says nothing of the solution,
-    // and no more does the residual of the pairs that were frozen for it
+    // While the active set is far from that of the solution, neither pairs that
+    // go back and forth nor the residual of pairs frozen for it mean anything
     const bool has_frozen = std::ranges::any_of(
         _contacts,
         [](const auto& c) { return not c->master()->frozen_pairs().empty(); });
@@ -172,7 +172,7 @@ void ActiveSet::share(bool is_first)
   std::vector<std::vector<double>> normals;
   for (const auto& c : _contacts)
   {
-    // What was ceded before may close again
+    // Nodes that were ceded before may close again
     std::ranges::fill(c->nodes()->ceded, 0);
     if (not c->law()->is_tied())
       closes.push_back(c->closing(is_first));

@@ -15,7 +15,7 @@ namespace contactx::active_set
 /// @brief A contact as free bodies see it.
 std::shared_ptr<Holding> holding(std::shared_ptr<contact::Contact> contact);
 
-/// @brief What an update of the active set has changed, on all ranks.
+/// @brief Changes that an update of the active set has made, on all ranks.
 struct Changes
 {
   std::int64_t status = 0; ///< nodes that changed their status
@@ -26,7 +26,7 @@ struct Changes
 ///
 /// A Newton loop calls `settle` at each accepted iterate, evaluates the
 /// residual that belongs to it, and tells it by `note`. A small residual is a
-/// solution if `may_end` says so. All ranks must take part in whatever has no
+/// solution if `may_end` says so. All ranks must call its functions without
 /// const.
 class ActiveSet
 {
@@ -56,20 +56,20 @@ public:
   /// @param[in] is_first Whether the iterate is the step's start.
   Changes settle(const Forces& forces, bool is_first = false);
 
-  /// @brief What the last `settle` has changed.
+  /// @brief Changes of the last `settle`.
   const Changes& changes() const { return _changes; }
 
   /// @brief Number of nodes in contact, on all ranks.
   std::int64_t num_closed() const;
 
-  /// @brief Whether kinematics are frozen.
+  /// @brief True if the kinematics are frozen.
   bool is_frozen() const { return _is_frozen; }
 
-  /// @brief Whether the conditions of the contacts are linear now, so that no
+  /// @brief True if the conditions of the contacts are linear now, so that no
   /// pressure turns with a body.
   bool is_linear() const;
 
-  /// @brief Whether a step that is about to be taken shall not be: contact
+  /// @brief True if the next step shall not be taken: contact
   /// becomes soft instead, see SoftPath.
   ///
   /// Friction must find stick and slip at the same time, which a soft layer
@@ -78,7 +78,7 @@ public:
   /// @param[in] step Changes of each contact's multipliers.
   bool softens(const std::vector<std::span<const double>>& step);
 
-  /// @brief Whether contact is soft now.
+  /// @brief True while contact is soft.
   bool is_soft() const { return _path.softness() > 0; }
 
   /// @brief Go on along the soft path after an iterate has settled.
@@ -88,14 +88,14 @@ public:
   /// @brief Make contact hard again, where soft contact has converged.
   void harden();
 
-  /// @brief Whether `CycleGuard::part` of the last step alone is to be taken,
+  /// @brief True if only `CycleGuard::part` of the last step is to be taken,
   /// because iterates go round. Asked once a step.
   bool shortens() { return _guard.shortens(); }
 
   /// @brief Remember the residual of an iterate.
   void note(double residual);
 
-  /// @brief Whether an iterate with a small residual is a solution.
+  /// @brief Decide if an iterate with a small residual is a solution.
   ///
   /// With frozen kinematics the residual is not the true one. The active set
   /// need not settle: nodes without force change their status by rounding for
@@ -112,7 +112,7 @@ public:
   /// @param[in] forces Forces at the iterate, which free bodies ask for.
   End may_end(const Forces& forces);
 
-  /// @brief How often a status has come back in this step.
+  /// @brief Number of times that a status has come back in this step.
   int cycles() const { return _guard.cycles(); }
 
   /// @brief Linear solves of this step with soft contact.

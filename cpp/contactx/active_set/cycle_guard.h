@@ -36,7 +36,7 @@ public:
   /// @brief Start a load step: nothing has been seen yet.
   void begin_step() { *this = {}; }
 
-  /// @brief Whether `part` of the last step alone is to be taken. Asked once a
+  /// @brief True if only `part` of the last step is to be taken. Asked once a
   /// step.
   bool shortens();
 
@@ -47,7 +47,7 @@ public:
   /// two at first, and one more each time.
   bool note(std::uint64_t status, double residual);
 
-  /// @brief How often a status has come back.
+  /// @brief Number of times that a status has come back.
   int cycles() const { return _cycles; }
 
 private:

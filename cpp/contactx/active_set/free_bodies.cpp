@@ -204,7 +204,7 @@ std::vector<FreeBodies::Rows> FreeBodies::rows(std::span<const double> x) const
               continue;
             rows.slaves.push_back(static_cast<std::int32_t>(i));
             rows.normal.push_back(vector_at(pairing.normals, i, 3));
-            // What is beyond the dimension counts for nothing
+            // Components beyond the dimension do not count
             for (int k = g; k < 3; ++k)
               rows.normal.back()[k] = 0;
             for (std::size_t k = first[i]; k < first[i + 1]; ++k)
@@ -580,7 +580,7 @@ std::int64_t FreeBodies::close_first(const std::vector<Rows>& rows,
   const double first = lowest(found);
   if (not std::isfinite(first) or first > within)
     return 0;
-  // What is closer than this touches at once
+  // Nodes that are closer than this touch at once
   const double margin = tie * _modes->size() / most;
   std::int64_t count = 0;
   for (const Found& some : found)
@@ -671,7 +671,7 @@ bool FreeBodies::stick_first(const std::vector<Rows>& rows,
       const std::int32_t slave = some.slaves[i];
       if (status[slave] != law::slip or rubbing.rubs[slave] == 0)
         continue;
-      // What the node has by Coulomb's law
+      // Traction of the node by Coulomb's law
       const Vector excess = along_surface(vector_at(rubbing.normal, slave, g),
                                           vector_at(rubbing.value, slave, g));
       Vector cone = vector_at(rubbing.traction, slave, g);

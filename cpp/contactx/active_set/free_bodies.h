@@ -37,11 +37,11 @@ class Holding
 public:
   virtual ~Holding() = default;
 
-  /// @brief Whether pairs and normals are those of the reference: sliding is
+  /// @brief True if pairs and normals are those of the reference: sliding is
   /// small.
   virtual bool is_small() const = 0;
 
-  /// @brief Whether there is Coulomb friction.
+  /// @brief True with Coulomb friction.
   virtual bool has_friction() const = 0;
 
   /// @brief The pairs.
@@ -118,7 +118,7 @@ public:
   /// @return Whether nodes have been closed or stick on any rank.
   bool stabilise(const Forces& forces);
 
-  /// @brief What the bodies have moved along their free modes since the last
+  /// @brief Movement of the bodies along their free modes since the last
   /// call of `stabilise`.
   ///
   /// Without friction, where the forces balance and kinematics are frozen,
@@ -138,7 +138,7 @@ public:
   /// @brief Number of nodes that were closed in this step to balance a body.
   std::int64_t closed_for_balance() const { return _closed_for_balance; }
 
-  /// @brief Whether the last iterate had forces that nothing in the way can
+  /// @brief True if the last iterate had forces that nothing in the way can
   /// balance.
   bool is_unbalanced() const { return _is_unbalanced; }
 

@@ -21,7 +21,7 @@ public:
   /// @brief Start a load step: pairs have not been released yet.
   void begin_step() { *this = {}; }
 
-  /// @brief Whether frozen pairs hide more penetration than the mesh explains;
+  /// @brief True if frozen pairs hide more penetration than the mesh explains;
   /// collective.
   /// @param[in] ranks The ranks.
   /// @param[in] found What those of each contact hide on this rank.

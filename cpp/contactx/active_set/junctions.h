@@ -21,7 +21,7 @@ struct Closing
                                        ///< without a pair (shape=(n, 3))
 };
 
-/// @brief What becomes of the slave nodes of one of several contacts.
+/// @brief Slave nodes of one of several contacts that share nodes.
 struct Shared
 {
   std::vector<std::int8_t> ceded;  ///< 1 where a node leaves it to others
@@ -51,7 +51,7 @@ public:
   /// @brief Nodes that are slave in several contacts, in order.
   const std::vector<std::int32_t>& shared() const { return _shared; }
 
-  /// @brief How many of them close several contacts at the last iterate.
+  /// @brief Number of nodes that close several contacts at the last iterate.
   std::int32_t corners() const { return _corners; }
 
   /// @brief Decide which contacts of shared nodes may close, and where friction

@@ -12,10 +12,10 @@
 
 namespace contactx::active_set
 {
-/// @brief Bodies without contact, as who looks for free ones sees them.
+/// @brief Bodies without contact, as the search for free ones needs them.
 ///
-/// An adapter provides it. What a function returns a view of stays until the
-/// function is called again. All ranks must take part in `diagonal` and
+/// An adapter provides it. Arrays that a function returns a view of stay until
+/// the function is called again. All ranks must take part in `diagonal` and
 /// `products`.
 class Bulk
 {
@@ -25,7 +25,7 @@ public:
   /// @brief Geometric dimension.
   virtual int gdim() const = 0;
 
-  /// @brief Whether the stiffness does not depend on the displacement.
+  /// @brief True if the stiffness does not depend on the displacement.
   virtual bool is_linear() const = 0;
 
   /// @brief Reference positions of all nodes (shape=(num_nodes, gdim)).
@@ -99,7 +99,7 @@ public:
   /// @brief Radius of the largest body.
   double size() const;
 
-  /// @brief Whether any body has a free mode, or one that little resists.
+  /// @brief True if any body has a rigid mode that nothing, or little, resists.
   bool any_free() const;
 
   /// @brief Body of each node (shape=(num_nodes)).

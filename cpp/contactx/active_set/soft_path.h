@@ -7,10 +7,10 @@
 #include <cstdint>
 #include <span>
 
-/// @brief How the set of closed nodes is found.
+/// @brief Search for the set of closed nodes.
 namespace contactx::active_set
 {
-/// @brief What a Newton step with hard contact is about to do to closed nodes.
+/// @brief Effect of a Newton step with hard contact on the closed nodes.
 /// Sums over them, those of several contacts and ranks add up.
 struct HardStep
 {

@@ -21,7 +21,7 @@ namespace contactx::active_set
 /// dofs (shape=(num_owned * gdim, k)).
 /// @param[in] prescribed 1 at dofs that are prescribed and take no spring
 /// (shape=(num_owned * gdim)).
-/// @param[in] diagonal What the springs have of, force/length
+/// @param[in] diagonal Stiffness that springs have a part of, force/length
 /// (shape=(num_owned * gdim)).
 /// @param[in] original Number of each node in the mesh as it was made, of which
 /// those of owned nodes count.

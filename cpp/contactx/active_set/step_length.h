@@ -5,7 +5,7 @@
 
 namespace contactx::active_set
 {
-/// @brief How much of a Newton step is taken.
+/// @brief Length of Newton steps.
 ///
 /// A step of a nonlinear bulk turns no cell inside out. Where steps are damped
 /// they also pass the natural monotonicity test (Deuflhard, Newton Methods for
@@ -13,7 +13,7 @@ namespace contactx::active_set
 /// must be shorter. Residuals say little of slender bodies, whose stiffnesses
 /// differ by orders of magnitude.
 ///
-/// Whoever solves begins a step and tries parts of it while that is asked for:
+/// A solver begins a step and tries parts of it while that is asked for:
 ///
 ///     length.begin(size, within_cells);
 ///     while (length.has_trial())
@@ -40,7 +40,7 @@ public:
   /// 1.
   void begin(double size, double within_cells);
 
-  /// @brief Whether `part` of the step must be tried.
+  /// @brief True if `part` of the step must be tried.
   bool has_trial() const { return _trials > 0; }
 
   /// @brief Judge the part that was tried.
@@ -57,7 +57,7 @@ public:
   /// @brief Number of steps of this load step that the test has shortened.
   int damped() const { return _damped; }
 
-  /// @brief Whether the last steps have led nowhere.
+  /// @brief True if the last steps were all too short to lead on.
   bool is_stuck() const;
 
 private:

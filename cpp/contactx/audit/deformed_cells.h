@@ -9,7 +9,7 @@
 
 namespace contactx::audit
 {
-/// @brief How far a displacement squeezes cells.
+/// @brief Smallest det F of cells, and how many are turned inside out.
 struct DeformedCells
 {
   /// Smallest det F, infinity where there is none

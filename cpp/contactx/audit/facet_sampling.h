@@ -48,8 +48,8 @@ public:
   /// (shape=(num_facets)).
   const std::vector<double>& gaps() const { return _gap; }
 
-  /// @brief Where that was, not a number if none (shape=(num_facets, gdim)),
-  /// row-major.
+  /// @brief Place of the largest depth, not a number if none
+  /// (shape=(num_facets, gdim)), row-major.
   const std::vector<double>& deepest() const { return _deepest; }
 
 private:

@@ -6,13 +6,13 @@
 #include "../parallel/found_nodes.h"
 #include <optional>
 
-/// @brief Whether a converged iterate is what it seems, by its geometry alone.
+/// @brief Checks of a converged iterate by its geometry alone.
 namespace contactx::audit
 {
 using parallel::found_nodes;
 using parallel::FoundNodes;
 
-/// @brief How deep a master is below a slave facet, between its nodes.
+/// @brief Depth of a master below a slave facet, between its nodes.
 struct Depth
 {
   double excess;          ///< ratio to what the mesh explains
@@ -22,7 +22,7 @@ struct Depth
   std::vector<double> at; ///< where that is (shape=(gdim))
 };
 
-/// @brief What was found of one contact; on each rank the same.
+/// @brief Findings of one contact, the same on each rank.
 struct Findings
 {
   /// Nodes that went through the other surface within the step; of an obstacle
@@ -39,7 +39,7 @@ struct Findings
   bool is_too_deep = false;
   double facet_size = 0; ///< size of the largest slave facet
 
-  /// @brief Whether the iterate is wrong.
+  /// @brief True if the iterate is wrong.
   bool is_fault() const
   {
     return passed.count > 0 or inside.count > 0 or is_too_deep;

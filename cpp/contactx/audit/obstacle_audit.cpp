@@ -263,7 +263,7 @@ std::optional<Depth> ObstacleAudit::look_between(
                            geometry.normal);
   for (std::size_t k = 0; k < deep.size(); ++k)
     curvature[deep[k]] = std::max(curvature[deep[k]], steep[k]);
-  // What is not in contact sees no more of the obstacle than that place
+  // Facets that are not in contact see no more of the obstacle than that place
   for (std::size_t f = 0; f < n; ++f)
     if (near[f] < 2 and curvature[f] * size[f] > 1)
       extent[f] = std::min(extent[f], 2 / curvature[f]);

@@ -19,7 +19,7 @@ std::vector<double> nodal_curvatures(const facet::FacetList& facets,
                                      std::span<const double> x,
                                      std::span<const double> normal, int gdim);
 
-/// @brief How much a field of normals turns along each facet, by the length of
+/// @brief Curvature of each facet: turn of a field of normals by the length of
 /// the way from node to node; the largest.
 /// @param[in] facets Facets.
 /// @param[in] x Positions (shape=(num_nodes, gdim)), row-major.
@@ -38,7 +38,7 @@ std::vector<double> facet_turns(const facet::FacetList& facets,
 std::vector<double> facet_sizes(const facet::FacetList& facets,
                                 std::span<const double> x, int gdim);
 
-/// @brief How deep a master may be below a slave facet of size h between its
+/// @brief Largest depth of a master below a slave facet of size h, between its
 /// nodes: what the mesh explains.
 ///
 /// Contact holds at slave nodes, or in the mean over their facets. In between

@@ -6,7 +6,7 @@
 #include "../facet/nodal.h"
 #include "../vec.h"
 
-/// @brief What a converged iterate must not be, before it is accepted.
+/// @brief Checks of a converged iterate before it is accepted.
 namespace contactx::audit
 {
 /// @brief Rotation and translation: x becomes after + rotation (x - before).

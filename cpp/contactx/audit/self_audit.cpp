@@ -92,7 +92,7 @@ FoundNodes SelfAudit::look_back(double size) const
         + overlap);
     least = std::min(least, tolerance.back());
   }
-  // What has not come that far is seen from where it is
+  // Nodes that have not come that far are seen from where they are
   if (not(2 * way > parallel::least(_halo->ranks(), least)))
     return {};
   const auto& owned = surface.owned();

@@ -148,7 +148,7 @@ void SurfacesAudit::look_back(std::span<const double> start,
   const int g = _halo->gdim();
   const auto slave = _contact->slaves().own(),
              master = _master->surface()->own();
-  // What has a pair faces what it is paired with, a master node has none: what
+  // A slave node with a pair faces its facet, a master node has no pair: what
   // the other looks see of them is within a facet's size
   std::array ways{longest_way_of(slave, start, x, g),
                   longest_way_of(master, start, x, g)};
@@ -203,7 +203,7 @@ std::vector<std::int8_t> SurfacesAudit::find_behind()
     return behind;
   const Configuration now = configuration();
   const auto size = facet_sizes(_master->surface()->own(), now.x, g);
-  // What the search may reach, but in small sliding nodes may have gone farther
+  // Reach of the search, but in small sliding nodes may have gone farther
   // since
   double reach = parallel::largest(ranks, largest_of(size));
   if (not is_small())
@@ -318,7 +318,7 @@ SurfacesAudit::look_from_master(std::span<const double> positions)
   std::vector<std::int8_t> near;
   for (std::size_t i = 0; i < n; ++i)
   {
-    // What overlaps the outer edge by less is not in contact
+    // Facets that overlap the outer edge by less are not in contact
     if (std::isnan(seen.gap[i]) or not(seen.margin[i] > overlap_of_edges)
         or outside[i])
       continue;

@@ -6,8 +6,9 @@
 #include "../parallel/ranks.h"
 #include "elimination.h"
 
-/// @brief What the eliminations of all ranks are together. All ranks must take
-/// part in each of these.
+/// @brief Chains of eliminations: displacements that are eliminated by others
+/// that are eliminated, too, over all ranks. All ranks must take part in each
+/// of these.
 namespace contactx::condense
 {
 /// @brief Mark some displacements wherever they are known.

@@ -45,8 +45,8 @@ public:
   std::vector<double> multiply(std::span<const double> x) const;
 
 private:
-  // What a pair has for the unknowns of one node by those of another: where it
-  // is among all values, and how far its rows are apart
+  // Entries of a pair for the unknowns of one node by those of another: their
+  // place among all values, and the distance of their rows
   struct Tile
   {
     std::int32_t row, column;

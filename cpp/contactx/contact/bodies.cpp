@@ -113,7 +113,7 @@ Bodies::Bodies(std::span<const std::int32_t> cells, int width,
 std::vector<std::int64_t>
 Bodies::across_ranks(std::span<const std::int64_t> here, std::int32_t num_bulk)
 {
-  // What a ghost belongs to here and on its owner is one body
+  // The bodies of a ghost here and on its owner are one
   std::vector<std::int64_t> theirs = _of_node;
   _map->forward(std::span<std::int64_t>(theirs), 1);
   std::vector<std::array<std::int64_t, 2>> links;

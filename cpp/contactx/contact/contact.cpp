@@ -366,7 +366,7 @@ std::int32_t Contact::pair(std::span<const double> x)
   for (std::size_t i = 0; i < closed.size(); ++i)
     closed[i] = _nodes->closed(i);
   std::int32_t changed = 0;
-  // What an obstacle's function throws comes to all ranks
+  // Errors of an obstacle's function are raised on all ranks
   if (_master->is_rigid())
     _halo->ranks().agree([&] { _master->search(x, closed); });
   else

@@ -24,16 +24,16 @@ enum class Sliding : std::int8_t
 
 /// @brief One contact: its slave nodes with their pairs, state and law.
 ///
-/// Whoever solves calls, for each load step, `begin_step`; at each accepted
+/// A solver calls, for each load step, `begin_step`; at each accepted
 /// iterate `search`, `update_gap` and `update_status` (`ActiveSet::settle` does
 /// so for all contacts of a problem); `update_gap` and the law's `evaluate`
 /// before terms are assembled over `pairs`; and `accept` at the end. Positions
 /// are those of the halo at each call; n is the number of owned slave nodes.
-/// All ranks must take part in whatever has no const.
+/// All ranks must call its functions without const.
 class Contact
 {
 public:
-  /// @brief How a contact is.
+  /// @brief Options of a contact.
   struct Options
   {
     Sliding sliding;
@@ -70,7 +70,7 @@ public:
   /// @brief State of the slave nodes.
   const std::shared_ptr<NodeState>& nodes() const { return _nodes; }
 
-  /// @brief What accepted steps have slipped; null where slip is not measured.
+  /// @brief Slip of the accepted steps; null where slip is not measured.
   const std::shared_ptr<SlipHistory>& history() const { return _history; }
 
   /// @brief Nodes of this rank.
@@ -86,7 +86,7 @@ public:
     return _is_frozen ? Sliding::small : Sliding::finite;
   }
 
-  /// @brief Whether pairs, normals and projections follow the iterates.
+  /// @brief True if pairs, normals and projections follow the iterates.
   bool updates_kinematics() const
   {
     return sliding() == Sliding::finite and not _law->is_tied();
@@ -107,7 +107,7 @@ public:
   /// (shape=(num_owned)); empty for none.
   const std::vector<std::int8_t>& shared() const { return _options.shared; }
 
-  /// @brief Whether the contact is switched on.
+  /// @brief True if the contact is switched on.
   bool is_active() const { return _is_active; }
 
   /// @brief Switch the contact on or off; for the next step.
@@ -116,11 +116,11 @@ public:
   /// @brief Searches of this step that were not needed.
   int skipped_searches() const { return _skipped_searches; }
 
-  /// @brief Take what is taken off the gap from now on (shape=(n)).
+  /// @brief Take another offset of the gap from now on (shape=(n)).
   /// @throws std::invalid_argument if there are not as many.
   void set_offset(std::span<const double> offset);
 
-  /// @brief What is taken off the gap (shape=(n)).
+  /// @brief Offset, the length that is taken off the gap (shape=(n)).
   const std::vector<double>& offset() const { return _offset; }
 
   /// @brief Take other Dirichlet conditions from now on.
@@ -154,7 +154,7 @@ public:
   /// num_owned, gdim)).
   std::vector<std::int32_t> kept_inside(std::span<const double> x);
 
-  /// @brief Whether an obstacle that is touched has moved since the step's
+  /// @brief True if an obstacle that is touched has moved since the step's
   /// start, and nothing tells how its material moves, which slip and ties are
   /// measured from.
   bool moves_untold();
@@ -179,7 +179,7 @@ public:
   /// @return Number of this rank's nodes that changed.
   std::int32_t update_status(bool is_first);
 
-  /// @brief Which nodes the complementarity closes.
+  /// @brief Mark the nodes that the complementarity closes.
   ///
   /// At a step's start also those that touch but for rounding errors: these
   /// must not decide which nodes carry a body that rests on another one.

@@ -14,7 +14,7 @@
 
 namespace contactx::contact
 {
-/// @brief How a contact pairs its slave nodes or facets.
+/// @brief Options of the pairing of slave nodes or facets.
 struct PairingOptions
 {
   double reach;       ///< largest distance of a pair
@@ -33,7 +33,7 @@ public:
   /// @param[in] halo Nodes of this rank.
   /// @param[in] slaves Slave nodes.
   /// @param[in] surface Master surface.
-  /// @param[in] outside Tells what is outside of its body.
+  /// @param[in] outside Finds points outside of its body.
   /// @param[in] options How pairs are made.
   /// @throws std::invalid_argument if the slave facets are none of the halo's
   /// dimension, or the reach is not larger than zero.
@@ -67,14 +67,14 @@ public:
     return _surface;
   }
 
-  /// @brief Tells what is outside of the master's body.
+  /// @brief Finds points outside of the master's body.
   const std::shared_ptr<search::Outside>& outside() const { return _outside; }
 
 protected:
   std::shared_ptr<parallel::Halo> _halo;           ///< Nodes of this rank
   std::shared_ptr<const SlaveNodes> _slaves;       ///< Slave nodes
   std::shared_ptr<search::MasterSurface> _surface; ///< Master surface
-  std::shared_ptr<search::Outside> _outside; ///< What is outside of the body
+  std::shared_ptr<search::Outside> _outside; ///< points outside of the body
   PairingOptions _options;                   ///< How pairs are made
 };
 } // namespace contactx::contact

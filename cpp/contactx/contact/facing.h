@@ -7,8 +7,8 @@
 
 namespace contactx::contact
 {
-/// @brief Which slave nodes face their master: their outward normal, averaged
-/// over their facets by area, opposes the master's.
+/// @brief Mark the slave nodes that face their master: their outward normal,
+/// averaged over their facets by area, opposes the master's.
 ///
 /// An obstacle has a closest point for every node, also for one on its far
 /// side, where it would press the body the wrong way.

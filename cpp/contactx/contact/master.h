@@ -10,7 +10,7 @@
 
 namespace contactx::contact
 {
-/// @brief How much of a relative movement Dirichlet conditions leave free:
+/// @brief Part of a relative movement that Dirichlet conditions leave free:
 /// norms of gradients over free displacements, zero where neither slave node
 /// nor master can move.
 struct Mobility
@@ -46,7 +46,7 @@ public:
   /// @brief Largest distance of a pair.
   virtual double reach() const = 0;
 
-  /// @brief Whether the master has no degrees of freedom.
+  /// @brief True if the master has no degrees of freedom.
   virtual bool is_rigid() const { return false; }
 
   /// @brief Take a converged configuration, the start of the next step;
@@ -65,14 +65,14 @@ public:
   /// collective.
   virtual void nodes_changed() {}
 
-  /// @brief How the master has turned under each slave node since the step
+  /// @brief Rotation of the master under each slave node since the step
   /// before was accepted.
   /// @return Rotations (shape=(n, gdim, gdim)); nothing where all is as it
   /// was.
   virtual std::optional<std::vector<double>>
   turn(std::span<const double> x) const = 0;
 
-  /// @brief The same from some positions to others.
+  /// @brief Rotation of the master from some positions to others.
   /// @param[in] before Positions.
   /// @param[in] x Positions.
   /// @return Rotations (shape=(n, gdim, gdim)); nothing where none is known.
@@ -88,7 +88,7 @@ public:
   /// @param[in] which 1 at those slave nodes, else 0 (shape=(n)).
   /// @param[in] x Positions at that iterate; at the one that closes them for
   /// what had no master at the start.
-  /// @param[in] offset What is taken off the gap (shape=(n)).
+  /// @param[in] offset Offset, a length that is taken off the gap (shape=(n)).
   virtual void touch(std::span<const std::int8_t> which,
                      std::span<const double> x, std::span<const double> offset)
       = 0;
@@ -111,7 +111,7 @@ public:
   /// @param[in] x Positions.
   /// @param[in] frozen Whether normals and projections stay those of the last
   /// search.
-  /// @param[in] offset What is taken off the gap (shape=(n)).
+  /// @param[in] offset Offset, a length that is taken off the gap (shape=(n)).
   /// @return The pairs, nothing where their data have not changed.
   virtual std::optional<std::vector<Pairs>>
   update(std::span<const double> x, bool frozen, std::span<const double> offset)
@@ -124,7 +124,7 @@ public:
   /// @brief Relative movement of each slave node and its master.
   virtual Weights weights() const = 0;
 
-  /// @brief How far a rigid obstacle has moved in this step, before each slave
+  /// @brief Movement of a rigid obstacle in this step, in front of each slave
   /// node: along its normal, and with slip along its surface (shape=(n, gdim));
   /// empty for none.
   virtual std::vector<double> movement() const { return {}; }
@@ -143,8 +143,8 @@ public:
   /// nodes.
   virtual void take_front(std::span<const std::int8_t> /*faces*/) {}
 
-  /// @brief What is taken off the movement that kernels measure (shape=(n,
-  /// gdim)); empty for nothing.
+  /// @brief Vector that is taken off the movement that kernels measure
+  /// (shape=(n, gdim)); empty for nothing.
   virtual std::vector<double> origin() const { return {}; }
 
   /// @brief Compliance of the master at each slave node (shape=(n));
@@ -154,7 +154,7 @@ public:
   virtual std::vector<double> compliance(std::span<const double> nodal) const
       = 0;
 
-  /// @brief How much of the relative movement is free.
+  /// @brief Part of the relative movement that is free.
   /// @param[in] free 1 at displacements that are not prescribed, else 0
   /// (shape=(num_nodes, gdim)).
   virtual Mobility mobility(std::span<const std::int8_t> free) const = 0;
@@ -163,8 +163,8 @@ public:
   /// would not fit, each row on one rank alone.
   virtual std::vector<Saved> identity() const { return {}; }
 
-  /// @brief What the next search remembers. Facets are saved by their nodes'
-  /// numbers in the mesh as it was made, -1 where there is none.
+  /// @brief State that the next search starts from. Facets are saved by their
+  /// nodes' numbers in the mesh as it was made, -1 where there is none.
   virtual std::vector<Saved> save() const = 0;
 
   /// @brief Take over what `save` gave for the same surfaces; collective.

@@ -56,7 +56,7 @@ void MeanNormal::normalise(std::span<double> normal,
     Vector<3> part{};
     for (int k = 0; k < _gdim; ++k)
       part[k] = n[k] * m[k];
-    // What has all of its normal in such directions has nothing that moves
+    // A node whose normal lies in such directions cannot move along it
     const bool leans = norm(part) > 0.5 * length_of(n, _gdim);
     for (int k = 0; k < _gdim; ++k)
     {

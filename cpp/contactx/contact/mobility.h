@@ -7,7 +7,7 @@
 
 namespace contactx::contact
 {
-/// @brief Whether no displacement of some nodes is prescribed.
+/// @brief True if no displacement of some nodes is prescribed.
 /// @param[in] nodes The nodes.
 /// @param[in] free 1 at displacements of all nodes that are not prescribed
 /// (shape=(num_nodes, gdim)).

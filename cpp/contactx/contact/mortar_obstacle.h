@@ -67,7 +67,7 @@ private:
   /// The kernels measure it by themselves.
   void update_slip(std::span<const double>, std::span<const double>) override {}
 
-  /// What the kernels read of facets (shape=(m, size)).
+  /// Data of facets that the kernels read (shape=(m, size)).
   std::vector<double> integrate(const Kind& kind, std::span<const double> x);
   std::vector<std::vector<double>> integrate(std::span<const double> x);
 

@@ -28,7 +28,7 @@ struct Mortar
   /// @brief Number of pairs.
   std::size_t size() const { return slave.size(); }
 
-  /// @brief Whether a pair has any weight.
+  /// @brief True if a pair has any weight.
   bool has_weight(std::size_t p) const;
 
   /// @brief Integrals of a slave node of a pair with the master's nodes.
@@ -66,10 +66,10 @@ public:
   /// @brief Places for the nodes of a facet.
   int width() const { return _slave.width; }
 
-  /// @brief Wholes of the slave facets.
+  /// @brief Quadratic facets that the slave facets are parts of.
   const facet::Wholes& slave_wholes() const { return _slave; }
 
-  /// @brief Wholes of the master facets.
+  /// @brief Quadratic facets that the master facets are parts of.
   const facet::Wholes& master_wholes() const { return _master; }
 
   /// @brief Number of owned slave nodes.
@@ -151,7 +151,8 @@ public:
   std::vector<double> total(std::span<const double> values,
                             std::span<const std::int32_t> facets) const;
 
-  /// @brief Pairs with what the kernels read, by the kinds of both facets.
+  /// @brief Pairs with the data that the kernels read, by the kinds of both
+  /// facets.
   /// @param[in] mortar Pairs with their integrals.
   /// @param[in] dual Coefficients of the dual functions (shape=(num_facets,
   /// width, width)).

@@ -65,7 +65,7 @@ void MortarSlip::touch(std::span<const std::int8_t> which, const Mortar& now,
   std::vector<double> part(n, 0), rest(n);
   for (std::size_t i = 0; i < n; ++i)
   {
-    // What had no master at the start is measured from here
+    // Nodes without a master at the start are measured from here
     if (which[i])
       part[i]
           = known[i] ? touching(_gap[i] - offset[i], gaps[i] - offset[i]) : 1.0;

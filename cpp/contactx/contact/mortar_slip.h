@@ -35,7 +35,7 @@ public:
   /// areas.
   /// @param[in] distances Means of x_slave - x_master there (shape=(n, gdim)).
   /// @param[in] normals Unit normals (shape=(n, 3)).
-  /// @param[in] offset What is taken off the gap (shape=(n)).
+  /// @param[in] offset Offset, a length that is taken off the gap (shape=(n)).
   void touch(std::span<const std::int8_t> which, const Mortar& now,
              std::span<const double> distances, std::span<const double> normals,
              std::span<const double> offset);
@@ -45,7 +45,8 @@ public:
   /// @param[in] area Areas of the slave nodes (shape=(n)).
   Mortar pairs(const Mortar& now, std::span<const double> area) const;
 
-  /// @brief What is taken off the movement in small sliding (shape=(n, gdim)).
+  /// @brief Vector that is taken off the movement in small sliding (shape=(n,
+  /// gdim)).
   const std::vector<double>& origin() const { return _origin; }
 
   /// @brief Master facets that slip is measured with.

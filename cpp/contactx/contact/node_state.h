@@ -47,7 +47,7 @@ public:
   /// @brief Components of the multiplier: 1, or the geometric dimension.
   int size() const { return _size; }
 
-  /// @brief Whether multipliers are vectors.
+  /// @brief True if multipliers are vectors.
   bool is_vector() const { return _is_vector; }
 
   /// Multiplier, force/area: pressure or traction (shape=(n, size))
@@ -101,10 +101,10 @@ public:
   /// own
   std::optional<MeanNormal> mean;
 
-  /// @brief Whether a node is in contact.
+  /// @brief True if a node is in contact.
   bool closed(std::size_t i) const { return status[i] != law::open; }
 
-  /// @brief Whether a node is in contact, or would be if another condition let
+  /// @brief True if a node is in contact, or would be if another condition let
   /// it.
   bool held(std::size_t i) const
   {
@@ -129,7 +129,7 @@ public:
     return p;
   }
 
-  /// @brief Whether the complementarity closes a node, or its gap is at most a
+  /// @brief True if the complementarity closes a node, or its gap is at most a
   /// tie; see `law::pressure_hat`.
   /// @param[in] i The node.
   /// @param[in] tie Gap, of either sign, up to which nodes touch; none if
@@ -169,8 +169,8 @@ public:
   /// @brief Make slip of movements over several facets, which stand in its
   /// place: their part along the surface. Nothing where a node has a normal of
   /// its own.
-  /// @param[in] origin What is taken off them (shape=(n, gdim)); empty for
-  /// nothing.
+  /// @param[in] origin Vectors that are taken off them (shape=(n, gdim)); empty
+  /// for nothing.
   /// @throws std::invalid_argument if it is of another size.
   void project(std::span<const double> origin = {});
 

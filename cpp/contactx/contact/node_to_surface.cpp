@@ -500,7 +500,7 @@ HiddenGap NodeToSurface::deepest_frozen_pair(std::span<const double> x) const
     const std::size_t at = std::size_t(nodes.back()) * g;
     normals.insert(normals.end(), nodal.begin() + at, nodal.begin() + at + g);
   }
-  // What a search without memory finds for them
+  // Facets that a search without memory finds for them
   const auto found = _surface->find_of_nodes(x, nodes, normals, _options.reach);
   const std::vector<double> now = _halo->positions();
   const facet::FacetList facets = _surface->facets();

@@ -18,7 +18,7 @@ public:
   /// @param[in] halo Nodes of this rank.
   /// @param[in] slaves Slave nodes.
   /// @param[in] surface Master surface.
-  /// @param[in] outside Tells what is outside of its body.
+  /// @param[in] outside Finds points outside of its body.
   /// @param[in] options How nodes are paired.
   NodeToSurface(std::shared_ptr<parallel::Halo> halo,
                 std::shared_ptr<const SlaveNodes> slaves,
@@ -53,7 +53,7 @@ public:
   HiddenGap deepest_frozen_pair(std::span<const double> x) const override;
 
 protected:
-  /// @brief What the kernels read of slip (shape=(n, kernel::slip_size)).
+  /// @brief Slip data that the kernels read (shape=(n, kernel::slip_size)).
   virtual std::vector<double> slip() const;
 
   /// @brief Number of owned slave nodes.
@@ -106,7 +106,7 @@ public:
   std::int32_t search(std::span<const double> x,
                       std::span<const std::int8_t> closed) override;
 
-  /// @brief The offset is what a tie is longer by.
+  /// @brief The offset makes the tie longer.
   std::optional<std::vector<Pairs>>
   update(std::span<const double> x, bool frozen,
          std::span<const double> offset) override;

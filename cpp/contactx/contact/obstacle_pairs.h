@@ -45,7 +45,7 @@ public:
   /// @param[in] x Positions, of which those of owned nodes count.
   std::vector<double> inside(std::span<const double> x) const;
 
-  /// @brief Whether the obstacle has moved since the step's start and nothing
+  /// @brief True if the obstacle has moved since the step's start and nothing
   /// tells how, so that slip cannot be measured on this rank.
   /// @param[in] tolerance Gap that counts as none.
   bool moves_untold(double tolerance) const;
@@ -110,7 +110,7 @@ protected:
   obstacle::Placement _placed; ///< of the obstacle at the step's start
 
 private:
-  /// Kernels' data from what is seen of the obstacle.
+  /// Kernels' data from the geometry of the obstacle.
   std::vector<double> kernel_data(const obstacle::Geometry& seen) const;
 
   std::vector<Pairs> group(std::span<const double> data) const;

@@ -22,7 +22,7 @@ public:
   std::int32_t search(std::span<const double> x,
                       std::span<const std::int8_t> closed) override;
 
-  /// @copydoc Master::update; the offset is what a tie is longer by
+  /// @copydoc Master::update; the offset makes the tie longer
   std::optional<std::vector<Pairs>>
   update(std::span<const double> x, bool frozen,
          std::span<const double> offset) override;

@@ -24,17 +24,17 @@ struct Pairs
   /// The slave nodes and those of the master facet among all nodes of this
   /// rank (shape=(num_pairs, num_slaves + num_nodes))
   std::vector<std::int32_t> nodes;
-  /// What the kernels read of a pair, see kernel/layout.h
+  /// Data of a pair that the kernels read, see kernel/layout.h
   /// (shape=(num_pairs, data_size))
   std::vector<double> data;
-  /// What they read of slip (shape=(num_pairs, slip_size))
+  /// Slip data that they read (shape=(num_pairs, slip_size))
   std::vector<double> slip;
 
   /// @brief Number of pairs.
   std::size_t size() const { return slaves.size() / num_slaves; }
 
-  /// @brief Whether others have the same nodes, so that forms of these serve
-  /// them, too.
+  /// @brief True if other pairs have the same nodes, so that forms of these
+  /// serve them, too.
   bool same(const Pairs& other) const
   {
     return is_movement == other.is_movement and slaves == other.slaves

@@ -95,7 +95,7 @@ public:
                       std::span<const double> area,
                       std::span<const std::int8_t> closed) const;
 
-  /// @brief What areas of slave nodes are to be multiplied with for forces of
+  /// @brief Factor of the areas of slave nodes in the forces of
   /// recovered tractions: one but on triangles of six nodes (shape=(n)).
   std::vector<double> ratio() const
   {

@@ -13,7 +13,7 @@
 
 namespace contactx::contact
 {
-/// @brief What the rows of a saved array stand for.
+/// @brief Meaning of the rows of a saved array.
 enum class RowKind : std::int8_t
 {
   slave, ///< an owned slave node
@@ -68,7 +68,7 @@ inline std::vector<double> values_of_size(const std::vector<Saved>& saved,
   return values;
 }
 
-/// @brief Whether an array was saved.
+/// @brief True if an array was saved.
 inline bool has(const std::vector<Saved>& saved, const char* name)
 {
   return std::ranges::any_of(saved,

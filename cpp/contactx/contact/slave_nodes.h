@@ -43,18 +43,18 @@ public:
   /// @param[in] is_mortar Whether facets are integrated, in facet::Basis.
   void set_level(std::span<const std::int8_t> level, bool is_mortar);
 
-  /// @brief Whether the facets are parts of quadratic ones.
+  /// @brief True if the facets are parts of quadratic ones.
   bool is_quadratic() const { return _is_quadratic; }
 
-  /// @brief Whether they are of quadratic facets that are integrated.
+  /// @brief True if they are parts of quadratic facets that are integrated.
   bool is_mortar() const { return _is_mortar; }
 
-  /// @brief What areas are shared out by, at all slave nodes.
+  /// @brief Weights of the nodes in the areas of facets, at all slave nodes.
   facet::Shares shares() const { return {_weight, _level}; }
 
-  /// @brief The same by the integrals of the shape functions, which are zero at
-  /// the vertices of triangles of six nodes; those of facet::Basis where facets
-  /// are integrated.
+  /// @brief These weights by the integrals of the shape functions, which are
+  /// zero at the vertices of triangles of six nodes; those of facet::Basis
+  /// where facets are integrated.
   facet::Shares pressure_shares() const
   {
     return {_weight, _level, _is_mortar};
@@ -117,7 +117,7 @@ public:
   std::vector<double> here(std::span<const double> values, int width,
                            const char* name) const;
 
-  /// @brief Which owned slave nodes face a master, see `facing_nodes`.
+  /// @brief Mark the owned slave nodes that face a master, see `facing_nodes`.
   /// @param[in] x Positions of all nodes (shape=(num_nodes, gdim)).
   /// @param[in] normal Unit normals of the master at the owned slave nodes
   /// (shape=(n, gdim)).
@@ -153,7 +153,7 @@ public:
   /// @return Values (shape=(num_facets)).
   std::vector<double> smallest(std::span<const double> values) const;
 
-  /// @brief How near facets are to some nodes; collective.
+  /// @brief Distance of the nearest facet to some nodes; collective.
   /// @param[in] which 1 at these among the owned slave nodes, else 0
   /// (shape=(n)).
   /// @return 2 where a node of the facet is among them, 1 where one of a

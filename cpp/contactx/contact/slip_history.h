@@ -8,8 +8,8 @@
 
 namespace contactx::contact
 {
-/// @brief What the accepted steps have slipped. n is the number of owned slave
-/// nodes; arrays are row-major.
+/// @brief Slip and work of friction of the accepted steps. n is the number of
+/// owned slave nodes; arrays are row-major.
 class SlipHistory
 {
 public:

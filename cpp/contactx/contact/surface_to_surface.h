@@ -22,7 +22,7 @@ public:
   /// @param[in] halo Nodes of this rank.
   /// @param[in] slaves Slave nodes.
   /// @param[in] surface Master surface.
-  /// @param[in] outside Tells what is outside of its body.
+  /// @param[in] outside Finds points outside of its body.
   /// @param[in] options How facets are paired.
   SurfaceToSurface(std::shared_ptr<parallel::Halo> halo,
                    std::shared_ptr<const SlaveNodes> slaves,
@@ -56,7 +56,7 @@ public:
   std::vector<double> normals() const override;
   Weights weights() const override;
 
-  /// @brief What is in front of the master. A node that is pushed off within
+  /// @brief Area in front of the master. A node that is pushed off within
   /// an iteration keeps some until the next search.
   std::vector<double> area(std::span<const double> whole) const override;
   std::vector<double> origin() const override { return _slip.origin(); }
@@ -70,7 +70,7 @@ public:
   double distance(std::span<const double> x) const override;
 
 protected:
-  /// @brief Whether there was a search.
+  /// @brief True after the first search.
   bool is_found() const { return _found.has_value(); }
 
   /// @brief Both surfaces.
@@ -134,7 +134,7 @@ public:
   void begin_step() override {}
   std::vector<Pairs> pairs() const override;
 
-  /// @brief The offset is what a tie is longer by.
+  /// @brief The offset makes the tie longer.
   std::optional<std::vector<Pairs>>
   update(std::span<const double> x, bool frozen,
          std::span<const double> offset) override;

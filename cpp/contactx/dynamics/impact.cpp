@@ -113,7 +113,7 @@ public:
       for (std::size_t i = 0; i < change.size(); ++i)
         change[i] = _nodes[i].constrained(change[i]);
       const double work = product(way, change);
-      // What prescribed displacements hold
+      // Held by prescribed displacements
       if (not(work > 0))
         return;
       const double part = size / work;

@@ -80,7 +80,7 @@ public:
   /// force times a time, zero on open nodes (shape=(n, gdim)).
   const std::vector<std::vector<double>>& impulses() const { return _impulses; }
 
-  /// @brief The same less that of the step's multipliers, P - F.
+  /// @brief Impulse P of the impact less that of the step's multipliers, P - F.
   const std::vector<std::vector<double>>& corrections() const
   {
     return _corrections;

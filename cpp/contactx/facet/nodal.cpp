@@ -191,7 +191,7 @@ contactx::facet::unit_normals(std::span<const double> vector,
     double l2 = 0;
     for (double c : n)
       l2 += c * c;
-    // What rounding leaves of normals that cancel has no direction
+    // Normals that cancel leave rounding errors, which have no direction
     const double length = std::sqrt(l2);
     for (double& c : n)
       c = length > 1e-12 * area[i] ? c / length : 0;

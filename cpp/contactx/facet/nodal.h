@@ -33,18 +33,18 @@ struct FacetList
 /// @param[in] facets Facets of the surface.
 /// @param[in] x Node coordinates (shape=(num_nodes, gdim)), row-major.
 /// @param[in] gdim Geometric dimension, 2 or 3.
-/// @param[in] weight What is integrated with: values at the nodes, between
+/// @param[in] weight Weight of the integrals: values at the nodes, between
 /// which the shape functions interpolate (shape=(num_nodes)); 1 if empty.
 /// @return Areas (shape=(num_nodes)), zero off the surface.
 std::vector<double> nodal_areas(const FacetList& facets,
                                 std::span<const double> x, int gdim,
                                 std::span<const double> weight = {});
 
-/// @brief What the areas of a surface are shared out by, beside the shape
+/// @brief Weights of the nodes in the areas of a surface, beside the shape
 /// functions of its facets.
 struct Shares
 {
-  /// What is integrated with at each node, see nodal_areas; 1 if empty
+  /// Weight of the integrals at each node, see nodal_areas; 1 if empty
   std::span<const double> weight = {};
   /// Where each node is on the quadratic facets that these are parts of, which
   /// share their nodes: 0 at their vertices, 1 on their edges, 2 inside; empty

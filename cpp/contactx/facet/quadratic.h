@@ -136,7 +136,7 @@ struct PartOf<F>
 template <class F>
 using Part = typename detail::PartOf<F>::type;
 
-/// @brief Whether a facet is linear.
+/// @brief True if a facet is linear.
 template <class F>
 inline constexpr bool is_linear = std::is_same_v<Part<F>, F>;
 
@@ -223,7 +223,7 @@ struct Basis
     }
   }
 
-  /// @brief What w_s is of values at the nodes.
+  /// @brief Evaluate w_s of values at the nodes.
   template <class T>
   static constexpr T coefficient(int s, const std::array<T, F::nodes>& u)
   {

@@ -40,7 +40,7 @@ struct Segment
     return {{{-1, 1}}};
   }
 
-  /// @brief How far `xi` lies outside the facet; not positive inside.
+  /// @brief Distance of `xi` outside the facet; not positive inside.
   static constexpr double excess(const Vector<1>& xi)
   {
     return std::max(-xi[0], xi[0] - 1);

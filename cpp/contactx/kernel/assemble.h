@@ -29,7 +29,7 @@ struct NodalArrays
   std::span<const double> gap_derivative, slip_derivative, normal_derivative;
 };
 
-/// @brief Whether a term of pairs has a kernel: it vanishes where there is
+/// @brief True if a term of pairs has a kernel: it vanishes where there is
 /// none. The stiffness does in small sliding, and for vector multipliers on a
 /// rigid obstacle; pairs that measure movement have "slip" and "constraint"
 /// alone.
@@ -53,7 +53,7 @@ bool has_term(Law law, std::string_view sliding, std::string_view term,
 /// @param[in] term "gap" (one row a slave node), "normal", "slip" (a row of
 /// gdim values) or "residual" (gdim values a node): the forces of the pairs.
 /// @param[in] pairs Pairs.
-/// @param[in] arrays What the kernels read.
+/// @param[in] arrays Nodal arrays that the kernels read.
 /// @param[in] gdim Geometric dimension, 2 or 3.
 /// @param[in,out] b Vector. One over slave nodes may end before the last of
 /// them: what is assembled for those beyond, of other ranks, is left out.
@@ -89,7 +89,7 @@ void for_each_pair(Law law, std::string_view sliding, std::string_view term,
 /// @param[in] term "stiffness" (nodes by nodes), "traction" (nodes by
 /// multipliers) or "constraint" (multipliers by nodes).
 /// @param[in] pairs Pairs.
-/// @param[in] arrays What the kernels read.
+/// @param[in] arrays Nodal arrays that the kernels read.
 /// @param[in] gdim Geometric dimension, 2 or 3.
 /// @param[in] which 1 at slave nodes of which all pairs are assembled, the
 /// others having none; empty for all pairs. It may end before the last slave

@@ -23,7 +23,7 @@ enum class Law : std::int8_t
   tied          ///< vector multiplier that never opens
 };
 
-/// @brief What a coefficient's degrees of freedom belong to.
+/// @brief Entity that a coefficient's degrees of freedom belong to.
 enum class Site : std::int8_t
 {
   nodes, ///< the nodes of a pair: those of the slave, then those of the facet
@@ -91,7 +91,7 @@ inline constexpr int rigid_slip_size = 12;
 /// @brief Places of the values a pair of two facets, with `s` slave and `m`
 /// master nodes: integrals of the dual basis functions with the master's shape
 /// functions, the dual functions' coefficients, integrals of the gap, the
-/// unit normal that the search found, what is integrated with at the slave
+/// unit normal that the search found, weight of the integrals at the slave
 /// part's nodes, and the places of the nodes of both parts among those of the
 /// facets.
 struct MortarLayout

@@ -89,7 +89,7 @@ struct MortarPair
     return data[layout.dual + S::nodes * s + t];
   }
 
-  /// @brief What is integrated with, at the nodes of the slave facet's part.
+  /// @brief Weight of the integrals, at the nodes of the slave facet's part.
   Vector<SlavePart::nodes> factor() const
   {
     Vector<SlavePart::nodes> f;

@@ -32,7 +32,7 @@ public:
   using Row = Vector<num_dofs>;
   using Local = facet::Local<S>;
 
-  /// @brief What multiplies the variations of r_j, of the nodes of the master
+  /// @brief Factors of the variations of r_j, of the nodes of the master
   /// facet's part, and c.
   struct Factors
   {

@@ -8,7 +8,7 @@
 
 namespace contactx::kernel
 {
-/// @brief What the kernels of a vector multiplier read at a slave node.
+/// @brief State of a slave node that the kernels of a vector multiplier read.
 template <class F>
 struct NodeState
 {

@@ -14,7 +14,7 @@ struct Entry
 {
   Law law;
   std::string_view sliding; ///< "finite" or "small"
-  std::string_view term;    ///< what is assembled
+  std::string_view term;    ///< term that is assembled
   int num_nodes;            ///< nodes of the facet, 0 for a rigid obstacle
   int gdim;                 ///< geometric dimension
   Kernel* function;
@@ -22,7 +22,8 @@ struct Entry
   int num_slaves = 1; ///< slave nodes: one, or those of a slave facet
 };
 
-/// @brief Numbers of rows and columns of what a kernel adds to, row-major.
+/// @brief Numbers of rows and columns of the array that a kernel adds to,
+/// row-major.
 struct Shape
 {
   int rows, columns;

@@ -134,7 +134,8 @@ void Coulomb::set_friction(std::span<const double> friction)
     char text[32];
     const auto end = std::to_chars(text, text + sizeof(text), *bad).ptr;
     throw std::invalid_argument("friction is " + std::string(text, end)
-                                + ": give numbers of at least 0");
+                                + ": give numbers of at least 0 (manual: "
+                                  "errors/friction-values)");
   }
   _friction.assign(friction.begin(), friction.end());
 }
@@ -174,7 +175,8 @@ Bounds Coulomb::bounds(const NodeState& nodes,
             + std::to_string(pressed[i]) + ", with the derivatives "
             + std::to_string(found.by_pressure[i]) + " and "
             + std::to_string(found.by_slip[i])
-            + ": it must be at least 0, and all of them finite");
+            + ": it must be at least 0, and all of them finite (manual: "
+              "errors/friction-values)");
       if (pressure[i] < 0)
         found.by_pressure[i] = 0;
     }

@@ -22,10 +22,10 @@ public:
   /// @brief Name of the kernels.
   virtual std::string_view name() const = 0;
 
-  /// @brief Whether the multiplier is a vector, and slip is measured.
+  /// @brief True if the multiplier is a vector, and slip is measured.
   virtual bool is_vector() const { return true; }
 
-  /// @brief Whether pairs are those of the reference for ever.
+  /// @brief True if pairs are always those of the reference configuration.
   virtual bool is_tied() const { return false; }
 
   /// @brief Start a step: what iterates of the last one have shown does not
@@ -49,7 +49,7 @@ public:
   /// @throws std::invalid_argument if the multipliers are not those of the law.
   virtual void evaluate(contact::NodeState& nodes) const = 0;
 
-  /// @brief Whether it calls a user's function, which may throw on one rank
+  /// @brief True if it calls a user's function, which may throw on one rank
   /// alone.
   virtual bool may_throw() const { return false; }
 };
@@ -96,7 +96,7 @@ public:
 
   /// @copydoc Law::allow_larger_friction
   ///
-  /// What friction throws far may be what it deforms after all.
+  /// A node that friction moves far may have been deformed by it after all.
   void allow_larger_friction() override;
 
   /// @brief Take the coefficients of friction, which count from now on.
@@ -112,7 +112,8 @@ public:
   /// or a function of the bound gives what is none.
   std::vector<double> friction(const contact::NodeState& nodes) const;
 
-  /// @brief Which nodes friction acts on: their bound is not zero (shape=(n)).
+  /// @brief Mark the nodes that friction acts on: their bound is not zero
+  /// (shape=(n)).
   /// @param[in] nodes Slave nodes.
   /// @throws std::invalid_argument as above.
   std::vector<std::int8_t> rubs(const contact::NodeState& nodes) const;

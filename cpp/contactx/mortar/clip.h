@@ -56,7 +56,7 @@ Overlap<F::tdim> outline(const Flat<F>& r)
   return p;
 }
 
-/// @brief Whether a facet is convex in a plane. A quadrilateral that is not has
+/// @brief True if a facet is convex in a plane. A quadrilateral that is not has
 /// no inverse map: it is folded, if only as seen along the projection.
 /// @param[in] r Nodes in the plane.
 template <class F>
@@ -81,7 +81,7 @@ bool is_convex(const Flat<F>& r)
   return true;
 }
 
-/// @brief What two intervals share.
+/// @brief Intersection of two intervals.
 inline Overlap<1> clip(const Overlap<1>& a, const Overlap<1>& b)
 {
   Overlap<1> c;
@@ -150,8 +150,8 @@ private:
   int _size;
 };
 
-/// @brief What two convex polygons share: the one is cut with each edge of the
-/// other. I. E. Sutherland and G. W. Hodgman, Commun. ACM 17, 1974.
+/// @brief Intersection of two convex polygons: the one is cut with each edge of
+/// the other. I. E. Sutherland and G. W. Hodgman, Commun. ACM 17, 1974.
 inline Overlap<2> clip(Overlap<2> a, const Overlap<2>& b)
 {
   int edges = 0;

@@ -59,7 +59,7 @@ private:
   std::optional<search::BoxTree> _tree;
 };
 
-/// @brief Whether all pairs of a part are among others.
+/// @brief True if all pairs of a part are among others.
 /// @param[in] all Pairs, ascending by slave and then by master facet.
 /// @param[in] part Others, in the same order.
 bool contains(const FacetPairs& all, const FacetPairs& part);

@@ -57,8 +57,8 @@ inline constexpr double least_cover = 1e-3;
 /// @brief Facets of one side: linear ones, and those that they are parts of.
 struct Side
 {
-  facet::FacetList facets;     ///< what is paired
-  const facet::Wholes* wholes; ///< what they are parts of
+  facet::FacetList facets;     ///< facets that are paired
+  const facet::Wholes* wholes; ///< whole facets that they are parts of
 };
 
 /// @brief Compute the integrals. Those of parts are of the shape functions of
@@ -72,7 +72,7 @@ struct Side
 /// @param[in] gdim Geometric dimension, 2 or 3.
 /// @param[in] normal Unit normals of the master to project along, one a slave
 /// facet (shape=(num_facets, 3)); those against the slave facets' own if empty.
-/// @param[in] weight What is integrated with, at the corners of the slave
+/// @param[in] weight Weight of the integrals, at the corners of the slave
 /// facets (shape=(slave.nodes.size())); 1 if empty.
 Integrals integrals(const Side& slave, const Side& master,
                     const FacetPairs& pairs, std::span<const double> x,
@@ -80,7 +80,7 @@ Integrals integrals(const Side& slave, const Side& master,
                     std::span<const double> normal = {},
                     std::span<const double> weight = {});
 
-/// @brief The same of linear facets.
+/// @brief Integrals over pairs of linear facets.
 Integrals integrals(const facet::FacetList& slave,
                     const facet::FacetList& master, const FacetPairs& pairs,
                     std::span<const double> x,

@@ -59,9 +59,9 @@ public:
     }
   }
 
-  /// @brief Whether there is an inverse, none of rounding's: not where the
-  /// facet has no area in the plane, nor where it is so long that its area is
-  /// lost.
+  /// @brief True if there is an inverse that is not one of rounding: not where
+  /// the facet has no area in the plane, nor where it is so long that its area
+  /// is lost.
   bool exists() const
   {
     double size;

@@ -15,7 +15,7 @@ struct SlaveFacet
   /// @brief Project the facet.
   /// @param[in] x Its nodes.
   /// @param[in] reference Its nodes in the reference configuration.
-  /// @param[in] weight What is integrated with, at its nodes.
+  /// @param[in] weight Weight of the integrals, at its nodes.
   SlaveFacet(const facet::Nodes<S>& x, const facet::Nodes<S>& reference,
              const Vector<S::nodes>& weight = ones())
       : SlaveFacet(Plane<S>(x), x, reference, weight)
@@ -26,7 +26,7 @@ struct SlaveFacet
   /// @param[in] plane The plane.
   /// @param[in] x Its nodes.
   /// @param[in] reference Its nodes in the reference configuration.
-  /// @param[in] weight What is integrated with, at its nodes.
+  /// @param[in] weight Weight of the integrals, at its nodes.
   SlaveFacet(const Plane<S>& plane, const facet::Nodes<S>& x,
              const facet::Nodes<S>& reference,
              const Vector<S::nodes>& weight = ones())
@@ -157,7 +157,7 @@ void for_all_kinds(Function&& f)
   f(Quadrilateral{}, Quadrilateral{});
 }
 
-/// @brief The same of facets that are linear or quadratic, both alike.
+/// @brief Call a function with facets that are both linear, or both quadratic.
 template <class Function>
 void for_all_wholes(Function&& f)
 {

@@ -32,7 +32,7 @@ void Accuracy::set(double residual, double tolerance, double changing,
   if (settled and _before > 0)
   {
     const double seen = residual / (_before * _before);
-    // What the solve itself has left says no more than that it is not larger
+    // A residual as small as the linear solve leaves is an upper bound only
     const bool shown = residual > 10 * _target;
     _curvature = shown ? seen : std::min(seen, _curvature);
   }

@@ -5,7 +5,7 @@
 
 namespace contactx::newton
 {
-/// @brief How accurate linear solves must be: no more than the next residual
+/// @brief Accuracy of linear solves: no more than the next residual
 /// will show.
 ///
 /// While the active set changes, its change dominates the next residual. Once
@@ -36,7 +36,7 @@ public:
 
   /// @brief Set the accuracy of the next solve.
   /// @param[in] residual Residual of the iterate.
-  /// @param[in] tolerance What it must fall below.
+  /// @param[in] tolerance Bound that it must fall below.
   /// @param[in] changing Part of the nodes in contact whose status or pair has
   /// changed.
   /// @param[in] has_cycled Whether an active set has come back in this step:
@@ -47,7 +47,7 @@ public:
   /// @brief Residual that the next solve may leave; zero before `set`.
   double target() const { return _target; }
 
-  /// @brief Whether the next residual shall be below the tolerance.
+  /// @brief True if the next residual shall be below the tolerance.
   bool is_last() const { return _is_last; }
 
 private:

@@ -117,7 +117,7 @@ double Convergence::excess_of_fields(std::span<const double> b, double rtol)
         largest[2 * f] = std::max(largest[2 * f], std::abs(b[i]));
       else
         residual[f] += b[i] * b[i];
-      // What is prescribed may be the first that is not zero
+      // A prescribed value may be the first that is not zero
       const double defect = markers[i] == 1 ? std::abs(b[i]) : 0;
       largest[2 * f + 1]
           = std::max({largest[2 * f + 1], std::abs(values[i]), defect});

@@ -29,16 +29,16 @@ namespace contactx::newton
 ///
 /// Rows of other fields have units of their own. Those of each field are
 /// relative to the largest residual that the field has had in the step, and not
-/// below the rounding errors of their terms. All ranks must take part in
-/// whatever has no const.
+/// below the rounding errors of their terms. All ranks must call
+/// its functions without const.
 class Convergence
 {
 public:
-  /// @brief How large a residual is.
+  /// @brief Residual and tolerance of an iterate.
   struct Result
   {
     double residual;  ///< its norm
-    double tolerance; ///< what it must not exceed
+    double tolerance; ///< bound of the residual
     double defect;    ///< the largest difference from a Dirichlet value
   };
 
@@ -69,11 +69,11 @@ public:
   /// @brief Size of the scene.
   double extent() const { return _extent; }
 
-  /// @brief How far bodies may have to move: the size of the scene, or the
-  /// largest Dirichlet value, which may take a body anywhere.
+  /// @brief Largest distance that bodies may have to move: the size of the
+  /// scene, or the largest Dirichlet value, which may take a body anywhere.
   double farthest();
 
-  /// @brief Whether a residual would deform bodies by less than anyone asks
+  /// @brief True if a residual would deform bodies by less than anyone asks
   /// for.
   bool may_be_rounding(double residual) const;
 

@@ -10,7 +10,7 @@
 
 namespace contactx::newton
 {
-/// @brief What a bulk has for unknowns beside displacements: pressures of mixed
+/// @brief Unknowns of a bulk beside displacements: pressures of mixed
 /// spaces, temperatures of coupled problems, bubbles.
 ///
 /// Contact does not change them; they are solved for together. Values are those
@@ -20,7 +20,7 @@ class Fields
 public:
   virtual ~Fields() = default;
 
-  /// @brief Where each field begins, and the end of the last one.
+  /// @brief Offsets of the fields, and the end of the last one.
   virtual std::vector<std::size_t> offsets() const = 0;
 
   /// @brief Values of now.
@@ -33,8 +33,9 @@ public:
   /// @brief Their rows of what `Bulk::residual` has assembled last.
   virtual std::span<const double> residual() = 0;
 
-  /// @brief Whether these depend on pairs, gaps and pressures, as what flows
-  /// across a contact does: they are asked for anew where those have changed.
+  /// @brief True if these depend on pairs, gaps and pressures, as the heat that
+  /// flows across a contact does: they are asked for anew where those have
+  /// changed.
   virtual bool follow_contacts() const { return false; }
 
   /// @brief Values minus Dirichlet values where these are prescribed, else

@@ -103,7 +103,7 @@ void Loop::set_factors(std::span<const double> stiffness)
 void Loop::settle_first()
 {
   settle(true);
-  // What asks for the Jacobian before it asks for the residual
+  // For callers that ask for the Jacobian before the residual
   for (const auto& c : _system->contacts())
     System::evaluate(*c);
 }

@@ -10,7 +10,7 @@
 
 namespace contactx::newton
 {
-/// @brief What an accepted iterate is.
+/// @brief Verdict on an accepted iterate.
 enum class Verdict : std::int8_t
 {
   goes_on,    ///< the Jacobian's turn
@@ -27,7 +27,7 @@ enum class Verdict : std::int8_t
 struct Iterate
 {
   double residual = 0;           ///< norm of the residual
-  double tolerance = 0;          ///< what it must not exceed
+  double tolerance = 0;          ///< bound of the residual
   double defect = 0;             ///< largest difference from a Dirichlet value
   std::int64_t closed = 0;       ///< slave nodes in contact
   active_set::Changes changes{}; ///< of the last update
@@ -42,7 +42,7 @@ struct Iterate
 /// residual that is compared is that of the new pairs and the new active set.
 /// So a small residual means equilibrium and complementarity at once.
 ///
-/// Whoever solves calls, in each load step,
+/// A solver calls, in each load step,
 ///
 ///     loop.begin_step(damped);
 ///     loop.settle_first();
@@ -56,7 +56,7 @@ struct Iterate
 ///     }
 ///     contacts accept; loop.accept();
 ///
-/// All ranks must take part in whatever has no const.
+/// All ranks must call its functions without const.
 class Loop
 {
 public:
@@ -75,7 +75,8 @@ public:
   /// @brief Pairs and status.
   const active_set::ActiveSet& active_set() const { return _active_set; }
 
-  /// @brief What keeps bodies without supports solvable.
+  /// @brief Springs and closed nodes that keep bodies without supports
+  /// solvable.
   const active_set::FreeBodies& free_bodies() const { return *_bodies; }
 
   /// @brief When residuals are small.
@@ -108,16 +109,16 @@ public:
   /// displacements of linear solves apart.
   std::int64_t version() const { return _version; }
 
-  /// @brief Whether a step that is about to be taken shall not be: contact
+  /// @brief True if the next step shall not be taken: contact
   /// becomes soft instead, see active_set::SoftPath.
   ///
   /// The first step of all is taken: it brings the displacements that are
   /// prescribed, and what it opens says nothing.
-  /// @param[in] dx What is to be taken off the unknowns (shape=(size)).
+  /// @param[in] dx Step, which is taken off the unknowns (shape=(size)).
   bool softens(std::span<const double> dx);
 
   /// @brief Largest part of a step, at most 1, that turns no cell inside out.
-  /// @param[in] dx What is to be taken off the unknowns (shape=(size)).
+  /// @param[in] dx Step, which is taken off the unknowns (shape=(size)).
   double within_cells(std::span<const double> dx) const;
 
   /// @brief The rule of the part of a step that is taken.

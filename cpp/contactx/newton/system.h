@@ -20,7 +20,7 @@ namespace contactx::newton
 /// stiffnesses, and pivots do not depend on the units. The factor is rounded to
 /// a power of two, which changes no digit of a multiplier.
 /// The state is the bulk's displacements and the multipliers of the
-/// contacts' nodes. All ranks must take part in whatever has no const.
+/// contacts' nodes. All ranks must call its functions without const.
 class System
 {
 public:
@@ -42,8 +42,8 @@ public:
   /// @brief The contacts.
   const Contacts& contacts() const { return _contacts; }
 
-  /// @brief Where the bulk and the multipliers of each contact begin among the
-  /// unknowns, and their number at the end (shape=(contacts + 2)).
+  /// @brief Offsets of the bulk and of the multipliers of each contact among
+  /// the unknowns, and their number at the end (shape=(contacts + 2)).
   const std::vector<std::size_t>& offsets() const { return _offsets; }
 
   /// @brief Number of unknowns of this rank.

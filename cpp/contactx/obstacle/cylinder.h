@@ -25,7 +25,7 @@ public:
   Cylinder(std::vector<double> point, std::vector<double> axis, double radius,
            bool hollow = false);
 
-  /// @brief Move it; what does not fit is found where it is used.
+  /// @brief Move it; parameters that do not fit are refused at their next use.
   /// @param[in] point A point of the axis (shape=(3)).
   /// @param[in] axis Direction of the axis, of any length (shape=(3)).
   /// @param[in] radius Radius.

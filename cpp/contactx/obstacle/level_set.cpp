@@ -136,7 +136,8 @@ void LevelSet::evaluate(std::span<const double> x, int gdim, Geometry& at)
         "gradient zero, at "
         + std::to_string(bad) + " slave nodes, first at "
         + text(x.subspan(gdim * first, gdim))
-        + ": the gradient must point outward wherever a slave node may come");
+        + ": the gradient must point outward wherever a slave node may come "
+          "(manual: errors/level-set-values)");
   for (std::size_t i = 0; i < n; ++i)
   {
     const double* H = &f.hessian[gdim * gdim * i];
@@ -167,7 +168,9 @@ Placement LevelSet::placement(int gdim)
   if (_velocity)
     now.time = _velocity->time();
   if (not std::isfinite(now.time))
-    throw std::invalid_argument("the time of a LevelSet is not finite");
+    throw std::invalid_argument(
+        "the time of a LevelSet is not finite: give a finite number "
+        "(manual: errors/level-set-values)");
   return now;
 }
 
@@ -181,7 +184,8 @@ std::vector<double> LevelSet::velocity(std::span<const double> x,
   if (bad != v.end())
     throw std::invalid_argument(
         "the velocity of a LevelSet is not finite at "
-        + text(x.subspan((bad - v.begin()) / gdim * gdim, gdim)));
+        + text(x.subspan((bad - v.begin()) / gdim * gdim, gdim))
+        + ": let it return finite numbers (manual: errors/level-set-values)");
   return v;
 }
 

@@ -48,7 +48,7 @@ public:
   };
 
   /// @brief Create an obstacle.
-  /// @param[in] f The function; what it throws comes through.
+  /// @param[in] f The function; its errors are passed on.
   /// @param[in] parameters Tells whether the function has changed.
   /// @param[in] velocity Tells how its material moves.
   explicit LevelSet(Function f, Parameters parameters = {},

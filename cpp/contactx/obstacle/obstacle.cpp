@@ -66,7 +66,7 @@ std::vector<double> Placement::turn(const Placement& to) const
   if (cosine <= -1 + 1e-12)
     throw std::invalid_argument(
         "an obstacle turns by 180 degrees within a step, which has no shortest "
-        "way: take smaller steps");
+        "way: take smaller steps (manual: errors/obstacle-turns)");
   for (std::size_t i = 0; i < gdim; ++i)
     for (std::size_t j = 0; j < gdim; ++j)
     {

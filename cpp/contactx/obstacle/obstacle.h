@@ -27,7 +27,7 @@ struct Geometry
   void resize(std::size_t n, int gdim);
 };
 
-/// @brief Where a rigid obstacle is.
+/// @brief Position and direction of a rigid obstacle.
 struct Placement
 {
   std::vector<double> point; ///< moves with it (shape=(gdim))
@@ -73,7 +73,7 @@ public:
   /// @brief See the obstacle from points.
   virtual void evaluate(std::span<const double> x, int gdim, Geometry& at) = 0;
 
-  /// @brief The same.
+  /// @brief See the obstacle from points.
   Geometry evaluate(std::span<const double> x, int gdim)
   {
     Geometry at;
@@ -81,8 +81,8 @@ public:
     return at;
   }
 
-  /// @brief Where the obstacle is: its movement enters the slip of what touches
-  /// it.
+  /// @brief Placement of the obstacle: its movement enters the slip of what
+  /// touches it.
   virtual Placement placement(int gdim) = 0;
 
   /// @brief Carry points of its material from one placement to another one.
@@ -110,19 +110,19 @@ public:
   /// no normal (shape=(n)).
   virtual std::vector<double> level(std::span<const double> x, int gdim);
 
-  /// @brief Whether `placement` says how its material moves.
+  /// @brief True if `placement` says how its material moves.
   virtual bool tells_movement() const { return true; }
 
   /// @brief Current values of what moves it although `placement` does not tell.
   virtual std::vector<double> parameters(int /*gdim*/) { return {}; }
 
-  /// @brief Whether its gap is linear in the position, as that of a plane.
+  /// @brief True if its gap is linear in the position, as that of a plane.
   virtual bool is_flat() const { return false; }
 
-  /// @brief What messages call its kind.
+  /// @brief Name of its kind in messages.
   virtual std::string name() const { return "obstacle"; }
 
-  /// @brief What is probably wrong where a whole body is inside: a sentence
+  /// @brief Advice where a whole body is inside: a sentence
   /// without its full stop.
   virtual std::string usual_mistake() const
   {

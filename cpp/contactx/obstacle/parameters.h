@@ -28,7 +28,7 @@ Vector<3> vector(std::span<const double> value, int gdim, const char* name);
 /// @param[in] name Name of the parameter.
 Vector<3> direction(std::span<const double> value, int gdim, const char* name);
 
-/// @brief How far something has spun, in radians.
+/// @brief Angle that an obstacle has spun by, in radians.
 /// @param[in] value Angle, or rotation vector; empty if it does not.
 /// @param[in] size Numbers that there must be, if there are any.
 /// @param[in] name Name of the parameter.

@@ -20,7 +20,7 @@ public:
   /// @param[in] normal Outward normal of any length (shape=(gdim)).
   Plane(std::vector<double> point, std::vector<double> normal);
 
-  /// @brief Move it; what does not fit is found where it is used.
+  /// @brief Move it; parameters that do not fit are refused at their next use.
   void place(std::vector<double> point, std::vector<double> normal);
 
   using Obstacle::evaluate;

@@ -37,7 +37,7 @@ struct Radial
   }
 };
 
-/// @brief What is probably wrong where a whole body is inside.
+/// @brief Advice where a whole body is inside.
 inline constexpr const char* usual_mistake_of_radial
     = "Perhaps hollow is the wrong way round: bodies within need hollow=True";
 } // namespace contactx::obstacle

@@ -21,7 +21,7 @@ public:
   /// @param[in] hollow Whether bodies are inside.
   Sphere(std::vector<double> centre, double radius, bool hollow = false);
 
-  /// @brief Move it; what does not fit is found where it is used.
+  /// @brief Move it; parameters that do not fit are refused at their next use.
   /// @param[in] centre Centre (shape=(gdim)).
   /// @param[in] radius Radius.
   /// @param[in] angle How far it has spun, see Placement; empty if it does not.

@@ -17,7 +17,7 @@ namespace contactx::parallel
 /// points.
 Vector<3> extent(Ranks& ranks, std::span<const double> x, int gdim);
 
-/// @brief The same of some nodes.
+/// @brief Size of the box around some nodes.
 /// @param[in] ranks The ranks.
 /// @param[in] nodes Nodes of this rank.
 /// @param[in] x Positions of all nodes (shape=(num_nodes, gdim)), row-major.

@@ -21,8 +21,8 @@ struct BulkNodes
   std::vector<double> reference;      ///< positions (shape=(n, gdim))
 };
 
-/// @brief What a halo needs of whoever has the bulk. All ranks must take part
-/// in whatever has no const.
+/// @brief Functions that a halo needs of the owner of the bulk. All ranks must
+/// call its functions without const.
 class HaloAdapter
 {
 public:
@@ -66,7 +66,7 @@ class Halo : public NodeMap
 public:
   /// @brief Start with the bulk's nodes alone; all ranks must take part.
   /// @param[in] bulk Nodes of the bulk.
-  /// @param[in] adapter What has the bulk, with no nodes added to its own.
+  /// @param[in] adapter Owner of the bulk, with no nodes added to its own.
   /// @throws std::invalid_argument if the bulk's arrays do not fit together.
   Halo(BulkNodes bulk, std::unique_ptr<HaloAdapter> adapter);
 
@@ -119,11 +119,12 @@ public:
   /// must take part.
   /// @param[in] numbers Numbers, in any order and more than once.
   /// @param[in] owners Ranks that own them.
-  /// @param[in] for_good Whether what is here now stays when the halo shrinks.
+  /// @param[in] for_good Whether the nodes of now stay when the halo shrinks.
   void grow(std::span<const std::int64_t> numbers,
             std::span<const std::int32_t> owners, bool for_good = false);
 
-  /// @brief Drop what was not appended for good; all ranks must take part.
+  /// @brief Drop nodes that were not appended for good; all ranks must take
+  /// part.
   void shrink();
 
   /// @brief Values of all nodes that were made before the halo changed, for its

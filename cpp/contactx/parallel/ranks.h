@@ -14,11 +14,11 @@
 #include <type_traits>
 #include <vector>
 
-/// @brief What the core needs of other ranks. An adapter provides it, by MPI
+/// @brief Communication that the core needs. An adapter provides it, by MPI
 /// or by whatever else it has.
 namespace contactx::parallel
 {
-/// @brief How numbers of all ranks become one.
+/// @brief Reductions of the numbers of all ranks to one.
 enum class Reduction : std::int8_t
 {
   sum,
@@ -66,7 +66,7 @@ public:
   ///
   /// Other ranks than the first that throws get its message as a
   /// std::invalid_argument or std::runtime_error.
-  /// @param[in] work What is done; nothing inside may need other ranks.
+  /// @param[in] work Function to call; it must not communicate.
   virtual void agree(const std::function<void()>& work);
 };
 
@@ -117,13 +117,13 @@ T least(Ranks& ranks, T value)
   return reduced(ranks, value, Reduction::least);
 }
 
-/// @brief Whether something holds on any rank.
+/// @brief True on all ranks if a condition holds on any of them.
 inline bool anywhere(Ranks& ranks, bool value)
 {
   return largest<std::int64_t>(ranks, value) != 0;
 }
 
-/// @brief Whether something holds on all ranks.
+/// @brief True on all ranks if a condition holds on all of them.
 inline bool everywhere(Ranks& ranks, bool value)
 {
   return least<std::int64_t>(ranks, value) != 0;
@@ -165,7 +165,7 @@ std::vector<T> gathered(Ranks& ranks, std::span<const T> values)
   if (ranks.size() == 1)
     return all;
   Messages out;
-  // Whoever has nothing says nothing
+  // Ranks without values send nothing
   for (int r = 0; r < ranks.size() and not values.empty(); ++r)
     pack(out[r], values);
   all.clear();
@@ -213,12 +213,12 @@ public:
 
   /// @brief Call a function on all ranks whenever the nodes have changed.
   /// @param[in] observer The function.
-  /// @return What it is called for: nothing once this is gone.
+  /// @return The observer: it is not called any more once this is gone.
   [[nodiscard]] std::shared_ptr<const void>
   on_change(std::function<void()> observer) const;
 
 protected:
-  /// @brief Call whoever asked to know of changes, in order; collective.
+  /// @brief Call the observers of changes, in order; collective.
   void notify() const;
 
 private:

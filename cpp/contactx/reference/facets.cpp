@@ -93,7 +93,8 @@ void contactx::reference::check_facets(const parallel::Halo& halo,
         "Jacobian changes sign. The first is at "
       + point_text(std::span(at.middle).first(gdim), length)
       + " and has the nodes " + nodes
-      + " of the mesh as it was made: repair the mesh there");
+      + " of the mesh as it was made: repair the mesh there "
+        "(manual: errors/refused-mesh)");
 }
 
 void contactx::reference::check_folds(const parallel::Halo& halo,
@@ -129,5 +130,5 @@ void contactx::reference::check_folds(const parallel::Halo& halo,
       + " nodes, where the normals of its facets cancel, first at "
       + point_text(found.at, size) + ", node " + std::to_string(found.first)
       + " of the mesh as it was made: take the facets of one side out of the "
-        "surface");
+        "surface (manual: errors/refused-mesh)");
 }

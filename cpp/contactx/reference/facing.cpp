@@ -44,5 +44,6 @@ void contactx::reference::check_facing(const parallel::Halo& halo,
           "within the search distance "
         + number_text(master.reach(), 3) + ", although the nearest is "
         + number_text(distance, 3)
-        + " away. Check the tags: the surfaces must face each other");
+        + " away. Check the tags: the surfaces must face each other (manual: "
+          "errors/refused-mesh)");
 }

@@ -22,7 +22,7 @@ public:
   /// @throws std::invalid_argument if these do not fit.
   Hull(int num_vertices, int gdim);
 
-  /// @brief Whether a point is in the hull of a cell, the boundary included.
+  /// @brief True if a point is in the hull of a cell, the boundary included.
   /// @param[in] point Point (shape=(gdim)).
   /// @param[in] vertices Nodes of the cell's vertices (shape=(num_vertices)).
   /// @param[in] x Positions of all nodes (shape=(num_nodes, gdim)), row-major.

@@ -204,7 +204,7 @@ void contactx::reference::check_nested(const Mesh& mesh,
               + " lies wholly inside the body of the " + outer_name
               + ": all its " + std::to_string(bodies.count(inner[i]))
               + " nodes are in cells of the other. Move the bodies apart; they "
-                "may overlap in part");
+                "may overlap in part (manual: errors/refused-mesh)");
   };
   check(slaves, slave_boxes, slave_name, masters, master_boxes, master_name);
   check(masters, master_boxes, master_name, slaves, slave_boxes, slave_name);
@@ -260,6 +260,7 @@ void contactx::reference::check_outside(const Mesh& mesh,
           + " lies wholly inside the rigid obstacle: all its "
           + std::to_string(bodies.count(names[b])) + " nodes are inside the "
           + obstacle.name() + ". " + obstacle.usual_mistake()
-          + ", or the body is in the wrong place");
+          + ", or the body is in the wrong place (manual: "
+            "errors/refused-mesh)");
   }
 }

@@ -26,7 +26,7 @@ void check_nested(const Mesh& mesh, const NamedSurface& slave,
 /// @param[in] slaves Slave nodes.
 /// @param[in] name What messages call the slave surface.
 /// @param[in] gap Gaps of the owned slave nodes (shape=(n)).
-/// @param[in] obstacle The obstacle; what it throws on any rank is thrown on
+/// @param[in] obstacle The obstacle; an error of it on any rank is thrown on
 /// all of them.
 /// @throws std::invalid_argument on all ranks if one does.
 void check_outside(const Mesh& mesh, const contact::SlaveNodes& slaves,

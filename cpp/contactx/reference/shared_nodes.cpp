@@ -91,5 +91,6 @@ void contactx::reference::check_shared(const parallel::Halo& halo,
       + " share " + std::to_string(count)
       + " nodes. Give each body its own nodes and each surface its own facets: "
         "in gmsh do not fragment the bodies. Faces of a crack may share the "
-        "nodes of its tip, at the edge of both, and no others");
+        "nodes of its tip, at the edge of both, and no others (manual: "
+        "errors/refused-mesh)");
 }

@@ -7,7 +7,7 @@
 
 namespace contactx::reference
 {
-/// @brief Which nodes two surfaces have; their facets there may be on
+/// @brief Nodes that two surfaces share; their facets there may be on
 /// different ranks. All ranks must take part.
 /// @param[in] nodes Nodes of this rank.
 /// @param[in] slave Slave facets of this rank.
@@ -17,7 +17,7 @@ std::vector<std::int8_t> shared_nodes(const parallel::NodeMap& nodes,
                                       const facet::FacetList& slave,
                                       const facet::FacetList& master);
 
-/// @brief Which owned nodes are at the edge of a surface; all ranks must take
+/// @brief Owned nodes that are at the edge of a surface; all ranks must take
 /// part.
 /// @param[in] halo Nodes of this rank.
 /// @param[in] facets Facets of this rank, each on one rank alone.

@@ -12,14 +12,14 @@
 
 namespace contactx::reference
 {
-/// @brief What a contact is measured between.
+/// @brief Method of a contact.
 enum class Method : std::int8_t
 {
   node_to_surface,   ///< slave nodes and the facets that they project on
   surface_to_surface ///< parts of slave facets and the facets in front of them
 };
 
-/// @brief How the master side of a contact is made.
+/// @brief Options of the master side of a contact.
 struct MasterOptions
 {
   Method method = Method::node_to_surface;

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <limits>
 
-/// @brief Which master facet a slave node belongs to.
+/// @brief Search for the master facet of each slave node.
 namespace contactx::search
 {
 /// @brief Axis-aligned box in three dimensions; a plane problem leaves the

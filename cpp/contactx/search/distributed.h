@@ -40,8 +40,8 @@ protected:
   /// collective.
   std::vector<std::int32_t> learn(const FacetRecords& facets);
 
-  /// @brief Settle pairs with what was found for them; the halo may have grown
-  /// since `x` was taken.
+  /// @brief Settle pairs with the results of their search; the halo may have
+  /// grown since `x` was taken.
   /// @param[in,out] pairing Pairs with `facets`.
   /// @param[in] left Slave nodes, by their place in the pairing.
   /// @param[in] places Where each is, on facets of now; nothing without one.
@@ -66,7 +66,7 @@ private:
            std::span<const double> normals,
            const std::map<int, std::vector<std::int32_t>>& wanted, Best& best);
 
-  // What this rank's facets are to points. A nearest facet that is only around
+  // View of points on this rank's facets. A nearest facet that is only around
   // them is left to the rank that has it, and all that is around that one; the
   // bound may be lowered to its distance.
   std::vector<std::byte> answer(std::span<const double> x,

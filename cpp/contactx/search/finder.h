@@ -7,14 +7,14 @@
 
 namespace contactx::search
 {
-/// @brief What a search finds for a point.
+/// @brief Result of a search for a point.
 struct FoundPlace
 {
   std::optional<Projection> nearest;  ///< closest point that faces it
   std::optional<Projection> selected; ///< what contact is measured with
 };
 
-/// @brief What a search finds for points, a row a point.
+/// @brief Results of a search for points, a row a point.
 struct Found
 {
   /// @brief Nothing found yet.
@@ -35,7 +35,7 @@ struct Found
   std::vector<double> normal;        ///< unit normals (shape=(n, 3))
 };
 
-/// @brief What a search finds for points, with the nearest facet of each.
+/// @brief Results of a search for points, with the nearest facet of each.
 struct FoundNearest : Found
 {
   /// @copydoc Found::Found

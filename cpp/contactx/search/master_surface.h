@@ -10,7 +10,7 @@
 namespace contactx::search
 {
 /// @brief Facets of a master surface, as the slave nodes of a rank see them: on
-/// one rank all of them. All ranks must take part in whatever has no const.
+/// one rank all of them. All ranks must call its functions without const.
 class MasterSurface
 {
 public:
@@ -62,7 +62,8 @@ public:
   /// @param[in] nodal Values at all nodes (shape=(num_nodes)).
   virtual void take_compliance(std::span<const double> /*nodal*/) {}
 
-  /// @brief Whether `pair` itself tells what lies behind all of a body.
+  /// @brief True if `pair` finds by itself the nodes that lie behind all of a
+  /// body.
   virtual bool sees_bodies() const { return false; }
 
   /// @brief Pair slave nodes. The halo and `facets` may grow.
@@ -101,7 +102,7 @@ public:
   /// @param[in] nodal Values at all nodes (shape=(num_nodes)).
   double mean(std::span<const double> nodal);
 
-  /// @brief What tells this surface from another one: the names of this rank's
+  /// @brief Identity of this surface: the names of this rank's
   /// facets (shape=(num_own, 4)).
   std::vector<std::int64_t> identity() const;
 
@@ -125,7 +126,7 @@ protected:
   /// @brief Take other facets that pairs are with.
   void set_facets(facet::Facets facets);
 
-  /// @brief Check what is searched for.
+  /// @brief Check the arguments of a search.
   void check_points(std::span<const double> x, std::span<const double> points,
                     std::span<const double> normals) const;
 

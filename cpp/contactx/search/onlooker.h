@@ -11,7 +11,7 @@
 
 namespace contactx::search
 {
-/// @brief What points see of a surface, a row a point.
+/// @brief View of points on a surface, a row a point.
 struct Seen
 {
   /// @brief Nothing seen.
@@ -78,7 +78,7 @@ public:
             const std::optional<Ways>& ways = std::nullopt);
 
 private:
-  // What this rank's facets are to points that move on by their ways
+  // View of points on this rank's facets, the points moving on by their ways
   Seen see(std::span<const double> x, std::span<const double> points,
            std::span<const double> normals, double reach,
            std::span<const double> values, int width,

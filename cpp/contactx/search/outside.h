@@ -24,7 +24,7 @@ public:
           std::span<const std::int32_t> offsets,
           std::span<const std::int32_t> nodes);
 
-  /// @brief Whether it does; else no point is outside.
+  /// @brief True if the surface encloses a volume; else no point is outside.
   bool is_around() const { return _is_around; }
 
   /// @brief Find which points are outside; all ranks must take part.

@@ -50,7 +50,7 @@ public:
   void set_master(std::vector<std::int32_t> offsets,
                   std::vector<std::int32_t> nodes);
 
-  /// @brief Forget what was learnt in the last step: nothing is frozen.
+  /// @brief Forget the returns of the last step: nothing is frozen.
   void begin_step();
 
   /// @brief Search.
@@ -71,7 +71,7 @@ public:
 
   /// @brief Second half of `update` for one slave node that `seek` has named.
   /// @param[in] i Slave node by its place in `slaves`.
-  /// @param[in] found What was found for it.
+  /// @param[in] found Result of the search for it.
   /// @param[in] x Node coordinates (shape=(num_nodes, gdim)), row-major.
   /// @param[in] reach Largest distance of a pair.
   /// @param[in] closed Whether the slave node is in contact.

@@ -78,7 +78,7 @@ Reach::Reach(parallel::Ranks& ranks, const facet::FacetList& own,
   for (const std::int32_t node : own.nodes)
   {
     const auto p = x.subspan(node * g, g);
-    // What is nowhere is not within reach either
+    // Points that are not finite are not within reach
     if (not std::ranges::all_of(p, [](double c) { return std::isfinite(c); }))
       continue;
     for (std::size_t k = 0; k < g; ++k)

@@ -8,8 +8,8 @@
 
 namespace contactx::search
 {
-/// @brief Which ranks have facets within reach: boxes of the ranks' facets, and
-/// cones around their normals.
+/// @brief Ranks that have facets within reach, by boxes of the ranks' facets,
+/// and cones around their normals.
 class Reach
 {
 public:
@@ -39,7 +39,7 @@ public:
                    std::span<const double> normals,
                    std::span<const double> bound) const;
 
-  /// @brief Whether boxes may meet the prisms over slave facets.
+  /// @brief True if boxes may meet the prisms over slave facets.
   /// @param[in] x Node coordinates (shape=(num_nodes, gdim)), row-major.
   /// @param[in] slave Slave facets.
   /// @param[in] reach Half the height of the prisms.

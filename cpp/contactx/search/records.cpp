@@ -148,7 +148,7 @@ contactx::search::around_nodes(parallel::Ranks& ranks,
 FacetRecords contactx::search::around_facets(parallel::Ranks& ranks,
                                              const FacetRecords& facets)
 {
-  // Who owns a node knows all facets there, and who has them
+  // The owner of a node knows all facets there, and their ranks
   const auto at_nodes = around_nodes(ranks, facets);
   FacetRecords every;
   for (const auto& [rank, theirs] : at_nodes)

@@ -32,7 +32,7 @@ struct FacetRecord
   /// @brief Number of nodes; zero of what stands for no facet.
   int size() const;
 
-  /// @brief What tells it from others.
+  /// @brief Key that identifies the facet.
   FacetKey key() const;
 
   /// @brief No facet.

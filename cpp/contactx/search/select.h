@@ -9,11 +9,11 @@
 
 namespace contactx::search
 {
-/// @brief How far a facet reaches beyond its edges, in its local coordinates:
+/// @brief Margin of a facet beyond its edges, in its local coordinates:
 /// 5 % of its width.
 inline constexpr double margin = 0.05;
 
-/// @brief Whether a closest point of a facet may be taken.
+/// @brief Decides if a closest point of a facet may be taken.
 using Accepts = std::function<bool(const Projection&)>;
 
 /// @brief Closest facet of a master surface that faces a point.

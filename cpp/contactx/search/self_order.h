@@ -38,7 +38,7 @@ public:
   /// @param[in] compliance Compliance of the nodes, length/force (shape=(n)).
   void take_compliance(std::span<const double> compliance);
 
-  /// @brief Whether a node comes after a place of a facet.
+  /// @brief True if a node comes after a place of a facet.
   /// @param[in] node The node.
   /// @param[in] facet The facet's nodes.
   /// @param[in] weights Values of its shape functions at the place.

@@ -9,7 +9,7 @@
 
 namespace contactx::search
 {
-/// @brief What the nodes of a surface see of the surface itself.
+/// @brief Visibility of a surface from its own nodes.
 ///
 /// Of the facets that face a node, and whose normals oppose its own, it does
 /// not see
@@ -42,7 +42,7 @@ public:
   /// @brief The surface.
   const WholeSurface& surface() const { return _surface; }
 
-  /// @brief Which of two places is the slave.
+  /// @brief Order that decides which of two places is the slave.
   SelfOrder& order() { return _order; }
 
   /// @copydoc order
@@ -67,14 +67,14 @@ public:
   /// @brief Outward unit normals now (shape=(n, gdim)).
   const std::vector<double>& normals() const { return _normal; }
 
-  /// @brief What a node sees, and contact is measured with.
+  /// @brief Facet that a node sees, with which contact is measured.
   /// @param[in] node A node that this rank owns.
   /// @param[in] reach Largest distance.
   /// @param[in] hint A facet that may be near, -1 for none.
   FoundPlace find(std::int32_t node, double reach,
                   std::int32_t hint = -1) const;
 
-  /// @brief Whether the node is the slave where it faces a place of a facet.
+  /// @brief True if the node is the slave where it faces a place of a facet.
   bool is_slave(std::int32_t node, const Projection& at) const;
 
   /// @brief Distance from a node that this rank owns through its body to the

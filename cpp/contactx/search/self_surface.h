@@ -29,7 +29,7 @@ public:
               std::optional<double> excluded,
               std::span<const std::int8_t> level = {});
 
-  /// @brief What nodes see.
+  /// @brief Visibility of the surface from its nodes.
   SelfSight& sight() { return _sight; }
 
   Found find_of_nodes(std::span<const double> x,

@@ -49,7 +49,7 @@ public:
   /// @brief Facets that `for_each_around` visits.
   std::vector<std::int32_t> star(std::int32_t f, int feature) const;
 
-  /// @brief Whether a feature of facet `f` lies on the outer edge of the
+  /// @brief True if a feature of facet `f` lies on the outer edge of the
   /// surface.
   bool on_boundary(std::int32_t f, int feature) const;
 

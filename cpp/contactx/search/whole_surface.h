@@ -26,7 +26,7 @@ public:
   /// @brief Facets, with the surface's own numbers of nodes.
   facet::FacetList facets() const { return _facets.list(); }
 
-  /// @brief The same by numbers that all ranks know.
+  /// @brief The facets by node numbers that all ranks know.
   const FacetRecords& records() const { return _records; }
 
   /// @brief Number of nodes.
@@ -42,7 +42,7 @@ public:
   /// @brief Nodes that this rank owns.
   const std::vector<std::int32_t>& owned() const { return _owned; }
 
-  /// @brief The same nodes by their numbers on this rank.
+  /// @brief The owned nodes by their numbers on this rank.
   const std::vector<std::int32_t>& owned_here() const { return _owned_here; }
 
   /// @brief Node by its number on this rank, -1 where it is none of the

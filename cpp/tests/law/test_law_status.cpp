@@ -104,7 +104,9 @@ TEST(CoulombLaw, ChecksItsCoefficients)
   }
   catch (const std::invalid_argument& e)
   {
-    EXPECT_STREQ(e.what(), "friction is -0.25: give numbers of at least 0");
+    EXPECT_STREQ(e.what(),
+                 "friction is -0.25: give numbers of at least 0 (manual: "
+                 "errors/friction-values)");
   }
 }
 

@@ -146,7 +146,8 @@ TEST(LevelSet, WhereItMeansNothingNothingIsNear)
         std::string(e.what()),
         "the function of a LevelSet or its gradient is not finite, or the "
         "gradient zero, at 4 slave nodes, first at [0.25, 1]: the "
-        "gradient must point outward wherever a slave node may come");
+        "gradient must point outward wherever a slave node may come "
+        "(manual: errors/level-set-values)");
   }
 }
 

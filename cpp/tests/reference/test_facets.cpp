@@ -118,7 +118,7 @@ TEST(ReferenceFacets, DegenerateOnes)
           << text;
       EXPECT_TRUE(text.ends_with(" and has the nodes " + nodes
                                  + " of the mesh as it was made: repair the "
-                                   "mesh there"))
+                                   "mesh there (manual: errors/refused-mesh)"))
           << text;
     }
     for (const Points& facet :
@@ -177,7 +177,8 @@ TEST(ReferenceFacets, AFoldedSurfaceHasNoNormal)
   EXPECT_EQ(folded(1e-8), "the slave surface S is folded at 1 nodes, where the "
                           "normals of its facets cancel, first at (1, 0), node "
                           "1 of the mesh as it was made: take the facets of "
-                          "one side out of the surface");
+                          "one side out of the surface (manual: "
+                          "errors/refused-mesh)");
   EXPECT_EQ(folded(1e-5), "");
   EXPECT_EQ(folded(0.5), "");
 }

@@ -88,7 +88,7 @@ TEST_P(FacingMaster, AwayIsRefused)
               "node has a normal that opposes that of a master facet "
               "within the search distance 5, although the nearest is "
               "0.288 away. Check the tags: the surfaces must face each "
-              "other");
+              "other (manual: errors/refused-mesh)");
     // The far side of a body
     EXPECT_NE(said_of(two.blocks, GetParam(), two.upper(gdim - 1, true),
                       two.lower(gdim - 1, true), 5),

@@ -89,13 +89,13 @@ TEST_P(Inside, ABodyWhollyInAnotherOneIsRefused)
               "the master surface B: all its "
                   + nodes
                   + " nodes are in cells of the other. Move the bodies apart; "
-                    "they may overlap in part");
+                    "they may overlap in part (manual: errors/refused-mesh)");
     EXPECT_EQ(nested.said(GetParam(), false),
               "the body of the master surface A lies wholly inside the body of "
               "the slave surface B: all its "
                   + nodes
                   + " nodes are in cells of the other. Move the bodies apart; "
-                    "they may overlap in part");
+                    "they may overlap in part (manual: errors/refused-mesh)");
   }
 }
 
@@ -223,7 +223,8 @@ TEST_P(Inside, ABodyInAnObstacleIsRefused)
               "the body of the slave surface S lies wholly inside the rigid "
               "obstacle: all its 27 nodes are inside the "
                   + kind + ". " + obstacle.usual_mistake()
-                  + ", or the body is in the wrong place");
+                  + ", or the body is in the wrong place (manual: "
+                    "errors/refused-mesh)");
   };
   // Its bottom touches the plane from within
   obstacle::Plane touching({0, 0, 0}, down), deep({0, 0, -3}, down);

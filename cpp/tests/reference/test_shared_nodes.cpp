@@ -125,7 +125,7 @@ TEST_P(SharedNodes, OthersMayNot)
                   + " nodes. Give each body its own nodes and each surface its "
                     "own facets: in gmsh do not fragment the bodies. Faces of "
                     "a crack may share the nodes of its tip, at the edge of "
-                    "both, and no others");
+                    "both, and no others (manual: errors/refused-mesh)");
     EXPECT_EQ(said(blocks, GetParam(), look(part(blocks, top, 0, 0.5), half)),
               "");
     EXPECT_NE(said(blocks, GetParam(), look(top, half)), "");

@@ -17,7 +17,7 @@ from contactx.parallel.reduce import extent
 
 
 class Audit:
-    """Looks at a converged iterate as nothing in the Newton loop does.
+    """Checks a converged iterate by its geometry, which the residual does not see.
 
     The residual says that the constraints hold which contact has set up. Whether they were the
     right ones is seen from geometry alone: of contacts by the core, see ``audit/audit.h``, and in
@@ -51,7 +51,7 @@ class Audit:
         self._contacts.begin_step()
 
     def _read_offsets(self) -> None:
-        """Hand the core what is taken off the gaps now, which nodes may be behind the master by."""
+        """Hand the core the current offsets: nodes may be behind the master by as much."""
         with agreed(self._halo.comm):
             for interface in self._interfaces:
                 interface.set_offset(interface.offset())
@@ -87,9 +87,11 @@ class Audit:
         )
         if self._bulk.is_linear:
             findings.warnings.append(
-                text + "A linear material does not resist that: take one for large strains"
+                text + "A linear material does not resist that: take one for large strains "
+                "(manual: errors/cells-inside-out)"
             )
         else:
             findings.faults.append(
-                text + "Take smaller load steps, or a line search (snes_linesearch_type bt)"
+                text + "Take smaller load steps, or a line search (snes_linesearch_type bt) "
+                "(manual: errors/cells-inside-out)"
             )

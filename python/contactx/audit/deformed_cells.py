@@ -16,7 +16,7 @@ from dolfinx import fem
 
 
 class Squeezed(NamedTuple):
-    """How far a displacement squeezes the cells of all ranks.
+    """Smallest det F of the cells of all ranks, and the number of cells turned inside out.
 
     Attributes:
         smallest: Smallest det F, at the points that ``deformed_cells.h`` names.

@@ -1,6 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""What an audit found."""
+"""Findings of an audit and their messages."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _UNPAIRED = (
 
 @dataclass
 class Findings:
-    """What an audit of a converged iterate found.
+    """Findings of the audit of a converged iterate.
 
     Attributes:
         far_side: Slave nodes inside their master, or on the far side of a rigid one.
@@ -64,7 +64,8 @@ class Findings:
             if found.passed.count > 0:
                 self.faults.append(
                     f"{name}: {found.passed.count} slave nodes and facets went through the {kind} "
-                    "within the step and are on its far side. Take smaller load steps"
+                    "within the step and are on its far side. Take smaller load steps (manual: "
+                    "errors/passed-through)"
                 )
             self._add_inside(name, f"{kind}, which they face away from", found, size, _FAR)
             self._add_depth(name, kind, found, "around", "Refine the slave surface")
@@ -73,7 +74,7 @@ class Findings:
             self.faults.append(
                 f"{name}: {found.passed.count} nodes went through the other surface within the "
                 f"step, the first is at {core.point_text(found.passed.at, found.facet_size)}. Take "
-                "smaller load steps"
+                "smaller load steps (manual: errors/passed-through)"
             )
         advice = _UNPAIRED if interface.sliding == "small" else _FAR
         self._add_inside(name, "master, and have no pair with it", found, size, advice)
@@ -92,7 +93,7 @@ class Findings:
             self.faults.append(
                 f"{name}: {inside.count} slave nodes are inside the {what}, first node "
                 f"{inside.first} of the mesh as it was made, at "
-                f"{core.point_text(inside.at, size)}: {advice}"
+                f"{core.point_text(inside.at, size)}: {advice} (manual: errors/nodes-inside)"
             )
 
     def _add_depth(
@@ -106,7 +107,8 @@ class Findings:
                 f"{worst.size:.3g} {place} {core.point_text(worst.at, worst.size)}, between its "
                 "nodes"
                 + ("" if worst.is_held else ", which are open")
-                + f": the slave surface is too coarse to see it. {advice}"
+                + f": the slave surface is too coarse to see it. {advice} (manual: "
+                "errors/slave-too-coarse)"
             )
 
     def __str__(self) -> str:

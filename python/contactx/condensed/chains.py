@@ -1,6 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Eliminations that need one another."""
+"""Eliminated displacements that depend on one another."""
 
 from __future__ import annotations
 
@@ -79,7 +79,7 @@ class Chains:
 
     @classmethod
     def of(cls, numbering: Numbering, entries: core.Triplets, dofs: Index) -> Chains | None:
-        """The same, None on all ranks where there are no entries; all ranks must take part."""
+        """Make a solver of the chains, or None where no rank has entries; collective."""
         if not reduce.anywhere(numbering.comm, len(entries) > 0):
             return None
         return cls(numbering, entries, dofs)

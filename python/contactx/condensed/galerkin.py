@@ -1,6 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""What contact changes in the bulk's matrix, on every level of a hierarchy."""
+"""Galerkin products of the change that contact makes to the bulk's matrix, on every level."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ class Galerkin:
         self._eliminated: Index = np.zeros(0, dtype=np.int64)
 
     def nearly_serves(self, part: Change) -> bool:
-        """Whether the matrices are those of nearly the same eliminated displacements.
+        """True if the eliminated displacements of both states are nearly the same.
 
         All ranks must take part, and have the same answer.
         """

@@ -31,7 +31,7 @@ _EVEN = 0.1
 
 @dataclass(frozen=True)
 class _Step:
-    """What a step has taken from all unknowns, and the first residual, which tells its load."""
+    """Increment of all unknowns over a step, and its first residual, which tells its load."""
 
     increment: Array
     load: PETSc.Vec

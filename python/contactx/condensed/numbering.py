@@ -113,7 +113,7 @@ class Numbering:
 
 
 class Surroundings:
-    """What a rank must know of the nodes of others to eliminate its multipliers.
+    """Data of other ranks' nodes that a rank needs to eliminate its multipliers.
 
     Attributes:
         numbering: Where the displacements are in the bulk's matrix.

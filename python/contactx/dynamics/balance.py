@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 @dataclass(frozen=True)
 class Balance:
-    """Energy and momentum at the end of a time step, and what has changed them in it.
+    """Energy and momentum at the end of a time step, and the work done in it.
 
     For linear elastic bodies energy is balanced to rounding: kinetic and strain energy grow by
     ``work_of_loads + work_of_supports - contact_loss``. In a nonlinear body the rest is the error
@@ -29,7 +29,7 @@ class Balance:
         work_of_supports: Work of Dirichlet conditions in the step.
         contact_loss: Energy that contact has taken in the step, by impact and friction; negative
             where rigid obstacles that move have done work, or nodes have slid over curved or
-            faceted surfaces, by what these turn in the step.
+            faceted surfaces, which turn in the step.
         impulse: Impulse on the slave side of each contact in the step, impacts included: a list
             of arrays of shape (gdim,). Over dt it is the mean force.
     """

@@ -42,7 +42,7 @@ class ContactDynamics(ContactProblem):
     at all. Without this a node that has arrived with -v goes on with up to v, and the contact force
     swings for ever. With linear bodies and obstacles that are flat and at rest neither the
     multipliers nor the correction can raise the energy, whatever dt is; where nodes slide over
-    curved or faceted surfaces they may, by what the surface turns in a step. An impact takes the
+    curved or faceted surfaces they may, as the surface turns in a step. An impact takes the
     kinetic energy of the surface's nodes, which vanishes with the size of the cells; bodies bounce
     by their own waves. See ``dynamics/impact.h``.
 
@@ -270,21 +270,37 @@ class ContactDynamics(ContactProblem):
             raise ConvergenceError(report.reason, report)
 
     def kinetic_energy(self) -> float:
-        """Kinetic energy now; all ranks must take part."""
+        """Kinetic energy of the current velocity; all ranks must take part.
+
+        Returns:
+            1/2 v . M v, an energy.
+        """
         return self._kinetic(self._owned_velocity())
 
     def strain_energy(self) -> float | None:
-        """Strain energy now, None where none was given; all ranks must take part."""
+        """Strain energy of the current displacement; all ranks must take part.
+
+        Returns:
+            The energy, or None where no ``strain_energy`` was given.
+        """
         if self._strain is None:
             return None
         return float(self._total(fem.assemble_scalar(self._strain)))
 
     def momentum(self) -> npt.NDArray[np.float64]:
-        """Momentum now, shape (gdim,); all ranks must take part."""
+        """Momentum of the current velocity; all ranks must take part.
+
+        Returns:
+            Mass times velocity, shape (gdim,).
+        """
         return self._momentum(self._owned_velocity())
 
     def angular_momentum(self) -> float | npt.NDArray[np.float64]:
-        """Moment of momentum about the origin now, a number in 2D; all ranks must take part."""
+        """Moment of momentum about the origin; all ranks must take part.
+
+        Returns:
+            A number in 2D, positive counter-clockwise; in 3D shape (3,).
+        """
         return self._angular_momentum(self._owned_velocity())
 
     def _owned_velocity(self) -> npt.NDArray[np.float64]:
@@ -359,7 +375,7 @@ def _kind_of(mass: Any, degree: int) -> str:
     """Kind of the masses.
 
     Args:
-        mass: What the user has given.
+        mass: Kind that the user has given, or None.
         degree: Degree of the displacement.
     """
     if mass is None:

@@ -54,7 +54,7 @@ def jacobians(x: npt.NDArray[np.float64], cell_type: CellType) -> npt.NDArray[np
 
 
 def _degenerate(nodes: npt.NDArray[np.int32], domain: mesh.Mesh) -> npt.NDArray[np.bool_]:
-    """Which cells are, shape (n,), of the nodes of their vertices, shape (n, num_vertices)."""
+    """Mark degenerate cells, shape (n,), given by their vertices, shape (n, num_vertices)."""
     x = domain.geometry.x[nodes, : domain.geometry.dim]
     found = jacobians(x, domain.topology.cell_type)
     low, high = found.min(axis=1), found.max(axis=1)
@@ -93,5 +93,5 @@ def check_cells(domain: mesh.Mesh) -> None:
             f"their Jacobian changes sign. The first is at {core.point_text(at, size)} and is cell "
             f"{number} of the mesh as it was made: repair the mesh there. The vertices of "
             "quadrilaterals and hexahedra may be in another order than DOLFINx has: row by row, "
-            "not round about"
+            "not round about (manual: errors/refused-mesh)"
         )

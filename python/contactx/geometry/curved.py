@@ -65,14 +65,15 @@ def _check_surface(name: str, surface: Surface, domain: mesh.Mesh) -> None:
         f"these facets have nodes up to {most:.3g} away from where straight ones have them, first "
         f"at {core.point_text(place, extent)}. Contact and the displacement take facets as "
         "straight: make the mesh of order 1, in gmsh by gmsh.model.mesh.setOrder(1), and finer "
-        "where it is round; or of order 2 with a displacement of degree 2"
+        "where it is round; or of order 2 with a displacement of degree 2 "
+        "(manual: errors/refused-mesh)"
     )
 
 
 def _deviations(
     surface: Surface, domain: mesh.Mesh
 ) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64], npt.NDArray[np.float64]]:
-    """How far nodes of the geometry are from where straight facets have them.
+    """Distances of the nodes of the geometry from where straight facets have them.
 
     Args:
         surface: Part of the boundary.

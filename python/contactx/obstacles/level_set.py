@@ -146,7 +146,7 @@ class _Clock:
 
 
 def _real(values: npt.NDArray[Any]) -> npt.NDArray[np.float64]:
-    """What a Python function gave, shape as it is."""
+    """Convert the values of a Python function to real numbers, their shape unchanged."""
     if values.dtype.kind not in "biuf":
         raise TypeError(
             f"the function of a LevelSet or its gradient gave values of type {values.dtype}: they "

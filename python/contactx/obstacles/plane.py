@@ -26,7 +26,15 @@ class Plane(core.Plane):
         self.normal = normal
 
     def refresh(self, gdim: int) -> None:
-        """Hand the current parameters to the core, which calls this before it uses them."""
+        """Hand the current parameters to the core, which calls this before it uses them.
+
+        Args:
+            gdim: Geometric dimension, 2 or 3.
+
+        Raises:
+            TypeError: If a parameter is no number, vector or ``fem.Constant``.
+            ValueError: If a parameter is not finite or of another shape, or out of its range.
+        """
         self.place(
             vector(self.point, gdim, "point of a Plane"),
             vector(self.normal, gdim, "normal of a Plane"),

@@ -1,3 +1,3 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""What contact needs of MPI: nodes of other ranks, few messages, one answer on all ranks."""
+"""Communication of contact: nodes of other ranks, sparse messages, errors of all ranks."""

@@ -1,6 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""What the core asks of other ranks."""
+"""Communication that the core asks for."""
 
 from __future__ import annotations
 

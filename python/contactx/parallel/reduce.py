@@ -1,6 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Numbers of all ranks together; on every rank the same, and nothing to do on one."""
+"""Reductions of numbers over the ranks, with the same result on each."""
 
 from __future__ import annotations
 
@@ -30,12 +30,12 @@ def least(comm: MPI.Comm, value: npt.ArrayLike) -> Any:
 
 
 def anywhere(comm: MPI.Comm, value: bool | np.bool_) -> bool:
-    """Whether something holds on any rank."""
+    """True on all ranks if a condition holds on any of them."""
     return bool(_reduced(comm, int(value), MPI.MAX))
 
 
 def everywhere(comm: MPI.Comm, value: bool | np.bool_) -> bool:
-    """Whether something holds on all ranks."""
+    """True on all ranks if a condition holds on all of them."""
     return bool(_reduced(comm, int(value), MPI.MIN))
 
 

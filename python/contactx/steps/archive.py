@@ -17,6 +17,8 @@ import numpy.typing as npt
 # Says what the file is, and the version of its format
 _MARK = "contactx_checkpoint"
 _VERSION = 2
+# Advice where a file cannot be read
+_INSTEAD = ". Give another file, or leave restart out (manual: errors/restart-refused)"
 
 
 def write(path: Path, arrays: Mapping[str, npt.NDArray[Any]]) -> None:
@@ -70,7 +72,7 @@ def read(path: Path) -> dict[str, npt.NDArray[Any]]:
     if path.is_dir():
         raise ValueError(f"{path} is a folder, not a checkpoint: give the name of a file")
     if not path.is_file():
-        raise FileNotFoundError(f"there is no checkpoint {path}")
+        raise FileNotFoundError(f"there is no checkpoint {path}{_INSTEAD}")
     try:
         with open(path, "rb") as file:
             is_archive = zipfile.is_zipfile(file)
@@ -78,16 +80,20 @@ def read(path: Path) -> dict[str, npt.NDArray[Any]]:
         text = f"cannot read the checkpoint {path}: {error.strerror}"
         raise OSError(error.errno, text) from error
     if not is_archive:
-        raise ValueError(f"{path} is truncated, or no checkpoint at all")
+        raise ValueError(f"{path} is truncated, or no checkpoint at all{_INSTEAD}")
     try:
         with np.load(path, allow_pickle=False) as file:
             arrays = {name: file[name] for name in file.files}
     except Exception as error:
         # Damage may look like anything: encryption, or a place before the file's start
-        raise ValueError(f"{path} is damaged, or no checkpoint at all: {error}") from error
+        raise ValueError(
+            f"{path} is damaged, or no checkpoint at all: {error}{_INSTEAD}"
+        ) from error
     version = arrays.pop(_MARK, None)
     if version is None:
-        raise ValueError(f"{path} holds arrays, but is no checkpoint of contactx")
+        raise ValueError(f"{path} holds arrays, but is no checkpoint of contactx{_INSTEAD}")
     if version != _VERSION:
-        raise ValueError(f"{path} has format {version}, but this contactx reads {_VERSION}")
+        raise ValueError(
+            f"{path} has format {version}, but this contactx reads {_VERSION}{_INSTEAD}"
+        )
     return arrays

@@ -130,7 +130,11 @@ class LoadSteps:
         return self._plan.t
 
     def table(self) -> str:
-        """The accepted steps as a text table."""
+        """Make a table of the accepted steps.
+
+        Returns:
+            The table as plain text, a row a step.
+        """
         return table(self._rows)
 
     def save(self, path: str | Path) -> None:
@@ -262,7 +266,10 @@ class LoadSteps:
             self._problem.find_rigid_modes()
             self._state.load(saved)
         except (KeyError, ValueError) as error:
-            raise ValueError(f"cannot restart from {path}: {error}") from error
+            raise ValueError(
+                f"cannot restart from {path}: {error}. Give a checkpoint of this problem, or leave "
+                "restart out (manual: errors/restart-refused)"
+            ) from error
         try:
             with agreed(self._comm):
                 self._update(plan.t)

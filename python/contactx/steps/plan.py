@@ -1,6 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Which t comes next: given steps, halved where one fails and doubled where they are easy."""
+"""The next t: given steps, halved where one fails and doubled where they are easy."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ class Plan:
 
     @property
     def finished(self) -> bool:
-        """Whether the last given t has been reached."""
+        """True if the last given t has been reached."""
         return self.number == len(self.given)
 
     @property

@@ -110,7 +110,7 @@ ROWS = [
         "tag 98 is not in the facet tags; there are: 11, 12",
     ),
     Row("a huge tag", lambda: surface(2**40), ValueError, "tag 1099511627776 is not in"),
-    Row("a float", lambda: surface(11.0), TypeError, r"a tag is an integer, not 11\.0: Surface"),
+    Row("a float", lambda: surface(11.0), TypeError, r"a tag is an integer, not 11\.0: write"),
     Row("NaN", lambda: surface(float("nan")), TypeError, "a tag is an integer, not nan"),
     Row("a text", lambda: surface("11"), TypeError, "a tag is an integer, not '1'"),
     Row("None", lambda: surface(None), TypeError, "a tag is an integer, not None"),

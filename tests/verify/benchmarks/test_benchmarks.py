@@ -118,7 +118,8 @@ def test_methods(monkeypatch):
     for row in rows:
         assert 0 < row["p_l2_best"] < 3 and row["gap"] < 1e-9
     assert all(row["ratio"] > 0 for row in rows if "cells" in row)
-    assert image.imread(runner.OUTPUT / "methods.png").shape[0] > 300
+    for name in ("methods", "error_time"):
+        assert image.imread(runner.OUTPUT / f"{name}.png").shape[0] > 300
     lines = (runner.OUTPUT / "methods.md").read_text().splitlines()
     assert len(lines) == 2 + sum("cells" in row for row in rows)
 

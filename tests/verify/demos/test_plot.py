@@ -188,6 +188,11 @@ def test_map(tmp_path: Path) -> None:
     path = tmp_path / "values.png"
     nodal_map(places, places[:, 0], path, label="p", triangles=triangles, **options)
     assert len(np.unique(colours(path), axis=0)) > 200
+    # Of a signed quantity what is below zero is blue
+    nodal_map(places, places[:, 0] - 2, path, label="p", triangles=triangles, **options)
+    pixels = colours(path).astype(int)
+    blue, red = (((pixels[:, k] - pixels[:, 2 - k]) > 60).sum() for k in (2, 0))
+    assert 0.5 < blue / red < 2
     status = (places[:, 0] > 2).astype(int)
     nodal_map(places, status, tmp_path / "kinds.png", kinds=STATUS_NAMES, **options)
     pixels = colours(tmp_path / "kinds.png")

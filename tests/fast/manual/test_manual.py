@@ -1,0 +1,55 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""The quick starts of README and manual run as they stand; names and demos have their pages."""
+
+import re
+import tomllib
+
+import numpy as np
+
+import contactx as cx
+
+import pages
+
+
+def test_readme(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    names = pages.run(pages.ROOT / "README.md")
+    contact = names["contact"]
+    tangential, normal = np.abs(contact.force)
+    # The block slides at the end: full friction
+    assert normal > 0 and np.isclose(tangential, 0.3 * normal, rtol=1e-6)
+    assert (contact.status.x.array == 2).any()
+    assert (tmp_path / "block.pvd").exists()
+
+
+def test_first_tutorial(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    names = pages.run(pages.MANUAL / "tutorials" / "elasticity.md")
+    assert np.allclose(names["floor"].force, (0, 0.01), atol=1e-9)
+
+
+def test_each_demo_has_a_page():
+    demos = {
+        path.stem
+        for path in (pages.ROOT / "demos").glob("*.py")
+        if "__main__" in path.read_text(encoding="utf-8")
+    }
+    written = {path.stem for path in (pages.MANUAL / "demos").glob("*.md")} - {"index"}
+    assert written == demos
+
+
+def test_each_public_name_is_in_the_reference():
+    text = (pages.MANUAL / "reference" / "python.md").read_text(encoding="utf-8")
+    written = {word.rpartition(".")[2] for word in re.findall(r"::\s+(contactx\S+)", text)}
+    assert set(cx.__all__) <= written
+
+
+def test_versions_are_one():
+    pyproject = tomllib.loads((pages.ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+    version = pyproject["project"]["version"]
+    assert cx.__version__ == version
+    citation = (pages.ROOT / "CITATION.cff").read_text(encoding="utf-8")
+    assert f"\nversion: {version}\n" in citation
+    changes = (pages.ROOT / "CHANGELOG.md").read_text(encoding="utf-8")
+    assert re.search(r"^## (\S+)", changes, re.MULTILINE)[1] == version

@@ -1,0 +1,100 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Code blocks of the manual's pages, run as a reader would run them.
+
+The blocks of a page that begin with three backticks and ``python`` are one script, from the top to
+the bottom. A block of ``text`` behind one of them is what that one prints: the same words, and
+numbers that differ by rounding at most. What cannot run by itself is a ``{code-block}``.
+"""
+
+import contextlib
+import io
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+ROOT = Path(__file__).parents[1]
+MANUAL = ROOT / "docs" / "manual"
+# Iterates differ a little between machines
+RTOL, ATOL = 1e-3, 1e-9
+
+_NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
+
+
+@dataclass(frozen=True)
+class Block:
+    """A block of code: its language, its lines, and the line of the page where they begin."""
+
+    language: str
+    code: str
+    line: int
+
+
+def blocks(path: Path) -> list[Block]:
+    """Blocks of a page, in order."""
+    found, fence, language, start = [], "", "", 0
+    lines = path.read_text(encoding="utf-8").splitlines()
+    for number, line in enumerate(lines):
+        opened = re.match(r"(`{3,})\s*(.*)$", line)
+        if not fence and opened:
+            fence, language, start = opened[1], opened[2].strip(), number + 1
+        elif fence and line.rstrip() == fence:
+            found.append(Block(language, "\n".join(lines[start:number]), start))
+            fence = ""
+    assert not fence, f"{path}: the block of line {start} has no end"
+    return found
+
+
+def script(path: Path) -> str:
+    """What is run of a page, with each block in its place so that errors name the page's lines."""
+    text = ""
+    for block in blocks(path):
+        if block.language == "python":
+            text += "\n" * (block.line - text.count("\n")) + block.code + "\n"
+    return text
+
+
+def runs(path: Path) -> bool:
+    """Whether a page has anything to run."""
+    return any(block.language == "python" for block in blocks(path))
+
+
+def run(path: Path) -> dict:
+    """Run a page in the current folder and check what it prints.
+
+    Returns:
+        Its names.
+    """
+    names: dict = {"__name__": "page"}
+    found = blocks(path)
+    for block, after in zip(found, [*found[1:], None], strict=True):
+        if block.language != "python":
+            continue
+        printed = io.StringIO()
+        code = compile("\n" * block.line + block.code, str(path), "exec")
+        with contextlib.redirect_stdout(printed):
+            exec(code, names)
+        if after is not None and after.language == "text":
+            difference = compare(after.code, printed.getvalue())
+            assert not difference, f"{path}, line {after.line}: {difference}"
+    return names
+
+
+def compare(expected: str, printed: str) -> str:
+    """What is different between the text of a page and what was printed; empty if nothing is."""
+    say = f"the page has\n{expected}\nprinted was\n{printed}"
+    if _NUMBER.sub("#", expected).split() != _NUMBER.sub("#", printed).split():
+        return say
+    tokens = [_NUMBER.findall(text) for text in (expected, printed)]
+    wanted, got = (np.array(found, dtype=float) for found in tokens)
+    allowed = ATOL + RTOL * np.abs(wanted) + [1.01 * last_digit(token) for token in tokens[0]]
+    return "" if np.all(np.abs(got - wanted) <= allowed) else say
+
+
+def last_digit(token: str) -> float:
+    """What one in the last digit of a number is worth; nothing of a whole number, which counts."""
+    digits, _, power = token.lower().partition("e")
+    decimals = len(digits.partition(".")[2])
+    return 10.0 ** (int(power or 0) - decimals) if decimals else 0.0
