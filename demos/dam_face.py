@@ -11,6 +11,7 @@ tell which joint that is; its rotation and its water then load the two slabs of 
 cells are finer.
 
     python demos/dam_face.py                 # 10 slabs
+    python demos/dam_face.py --rockfill E-B  # on rockfill of the E-B model of Duncan and Chang
     python demos/dam_face.py --slabs 20 --rows 104 --rockfill-rows 70
     mpiexec -n 2 python demos/dam_face.py    # the same
 """

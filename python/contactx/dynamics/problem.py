@@ -265,7 +265,8 @@ class ContactDynamics(ContactProblem):
             report.converged = False
             report.reason = (
                 f"a node moved by {travel:.2g} of a cell to what it hits, further than "
-                f"impact_travel = {self._impact_travel:g}: take shorter steps"
+                f"impact_travel = {self._impact_travel:g}: take shorter steps "
+                "(manual: errors/impact-travel)"
             )
             raise ConvergenceError(report.reason, report)
 
