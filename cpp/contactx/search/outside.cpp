@@ -5,6 +5,7 @@
 #include "../check.h"
 #include "../facet/middle.h"
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 using namespace contactx;
@@ -13,8 +14,9 @@ using namespace contactx::search;
 namespace
 {
 /// Cosine of the angle between the mean normal of a surface and any other one
-/// from which on it goes around a body
-constexpr double around = 0.5;
+/// from which on it goes around a body: a ramp on the far side is enough, as
+/// upright facets face it from in front of the near one
+constexpr double around = 0.99;
 
 /// Depth below a facet, by its size, up to which a point counts as on it: pairs
 /// may stay with a facet beyond its edges, and a point may stand for all of a
@@ -76,8 +78,11 @@ std::vector<std::int8_t> Outside::find(std::span<const double> x,
   for (std::size_t k = 0; k < which.size(); ++k)
   {
     const std::size_t i = which[k];
-    result[i] = seen.gap[k] > 0
-                and not(within_depth and seen.distance[k] >= depth[i]);
+    const bool is_nearer = seen.distance[k] < depth[i];
+    // Beside the end of a surface that is nearer than the facet below
+    result[i] = std::isnan(seen.gap[k])
+                    ? is_nearer
+                    : seen.gap[k] > 0 and (is_nearer or not within_depth);
   }
   return result;
 }

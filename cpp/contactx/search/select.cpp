@@ -42,13 +42,40 @@ struct Around
   }
 };
 
+/// Whether a facet around a feature is nearer to a point than the feature: it
+/// was passed over because it does not face the point.
+bool is_passed_over(const Surface& surface, std::span<const double> x,
+                    const Vector<3>& p, const Projection& nearest)
+{
+  const double distance = norm(nearest.d);
+  const double near = distance - equal * (distance + nearest.size);
+  bool found = false;
+  surface.for_each_around(
+      nearest.facet, nearest.feature,
+      [&found, &surface, x, &p, near](std::int32_t f)
+      {
+        const auto q = closest_within(surface, f, x, p, near * near);
+        found = found or (q and norm(q->d) < near);
+      });
+  return found;
+}
+
 /// Beyond the edge or vertex of all facets around it: a ridge or a valley.
-Projection beyond_edge(const Around& around, Projection nearest)
+/// Nothing behind a ridge where what faces the point ends: how deep it is below
+/// facets that are extended as far as to it says nothing.
+std::optional<Projection> beyond_edge(const Surface& surface,
+                                      std::span<const double> x,
+                                      const Vector<3>& p, const Around& around,
+                                      Projection nearest)
 {
   const double distance = norm(nearest.d);
   const bool touching = distance <= 1e-10 * nearest.size;
   if (!touching and dot(nearest.d, around.mean) <= 0)
-    return *around.deepest;
+  {
+    if (is_passed_over(surface, x, p, nearest))
+      return std::nullopt;
+    return around.deepest;
+  }
 
   // On the ridge every normal of the cone is as good: take the middle, or the
   // facet's own where the surface is folded on itself and has none
@@ -114,7 +141,7 @@ std::optional<Projection> contactx::search::select(const Surface& surface,
     return around.penetrated ? around.deepest_inside : around.inside;
   if (!around.any or surface.on_boundary(nearest.facet, nearest.feature))
     return std::nullopt;
-  return beyond_edge(around, nearest);
+  return beyond_edge(surface, x, p, around, nearest);
 }
 
 Vector<3> contactx::search::cone_components(const Surface& surface,

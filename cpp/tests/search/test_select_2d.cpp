@@ -100,4 +100,14 @@ TEST(Facing, PassesOverFacetsThatDoNotOpposeTheNormal)
   EXPECT_EQ(any->facet, 1);
   EXPECT_FALSE(paired(scene, p, {1, 0})); // across: does not oppose
 }
+
+TEST(Facing, ARidgeWhereFacingFacetsEndIsNoPairFromFarBehind)
+{
+  // A crest: the flat top does not face a point to the left of it, whose normal
+  // points left; the ramp on the right does
+  const Scene scene = fold_2d(0.2);
+  EXPECT_FALSE(paired(scene, {-3, -0.2}, {-1, 0}));
+  // Just beside the ridge it still counts
+  EXPECT_TRUE(paired(scene, {-1e-3, -1e-3}, {-1, 0}));
+}
 } // namespace
