@@ -13,6 +13,7 @@ from meshes.half_spheres import half_spheres
 from meshes.hoop import hoop
 from meshes.rings import rings
 from meshes.single import single
+from meshes.snap_hook import SnapHook, nose_path, snap_hook
 from meshes.sphere import hertz_sphere
 from meshes.sphere_grid import hertz_grid
 from meshes.stack import stack
@@ -23,6 +24,7 @@ __all__ = [
     "FACE_SLABS",
     "DamFace",
     "FaceSlab",
+    "SnapHook",
     "Tag",
     "block_tag",
     "blocks",
@@ -35,7 +37,9 @@ __all__ = [
     "hertz_grid",
     "hertz_sphere",
     "hoop",
+    "nose_path",
     "rings",
     "single",
+    "snap_hook",
     "stack",
 ]

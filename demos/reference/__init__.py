@@ -9,5 +9,13 @@ from reference.hertz_cylinder import HertzCylinder
 from reference.hertz_sphere import HertzSphere
 from reference.modulus import contact_modulus
 from reference.press_fit import PressFit
+from reference.snap_fit import SnapFit
 
-__all__ = ["CattaneoMindlin", "HertzCylinder", "HertzSphere", "PressFit", "contact_modulus"]
+__all__ = [
+    "CattaneoMindlin",
+    "HertzCylinder",
+    "HertzSphere",
+    "PressFit",
+    "SnapFit",
+    "contact_modulus",
+]
