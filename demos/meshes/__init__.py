@@ -8,6 +8,7 @@ from meshes.cap import hertz_cap
 from meshes.cylinder import hertz_cylinder
 from meshes.dam_face import DamFace, dam_face
 from meshes.face_slab import FACE_SLABS, FaceSlab, face_slab
+from meshes.gears import Gear, contact_ratio, gears
 from meshes.half_cylinders import half_cylinders
 from meshes.half_spheres import half_spheres
 from meshes.hoop import hoop
@@ -24,12 +25,15 @@ __all__ = [
     "FACE_SLABS",
     "DamFace",
     "FaceSlab",
+    "Gear",
     "SnapHook",
     "Tag",
     "block_tag",
     "blocks",
+    "contact_ratio",
     "dam_face",
     "face_slab",
+    "gears",
     "half_cylinders",
     "half_spheres",
     "hertz_cap",

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """The demos of large rolling and sliding run by both methods, agree and leave their pictures."""
 
+import gear_pair
 import pyvista
 import snap_fit
 from matplotlib import image
@@ -27,3 +28,10 @@ def test_snap_fit(tmp_path, capsys):
     tolerances = (0.25, 0.1, 0.2, 1e-9) * 2
     pictures = ("snap_fit.png", "snap_fit_force.png")
     check(snap_fit, ("--h", "0.12"), tolerances, pictures, tmp_path, capsys)
+
+
+def test_gear_pair(tmp_path, capsys):
+    # Torques, their swing, angles, contact ratio
+    tolerances = (0.01, 0.03, 1e-3, 0.08)
+    pictures = ("gear_pair.png", "gear_pair_error.png")
+    check(gear_pair, ("--h", "0.3"), tolerances, pictures, tmp_path, capsys)
