@@ -2,14 +2,15 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """Gear pair: an involute gear of 20 teeth drives one of 30 teeth against a torque.
 
-Sectors of both gears, module 1, pressure angle 20 degrees, neo-Hookean, E = 1000, nu = 0.3, in plane
-strain. The hub of the first one is turned by an angle; that of the second one runs in a stiff
-bearing, in which it turns freely, and carries a constant torque that turns with it. Contact without
-friction: one pair of teeth or two carry it, and hand it over. Involutes transmit evenly: rigid
-gears have the ratio of torques and that of angles z_1/z_2 at any time, elastic ones in the mean of a
-pitch. On the way a pair of teeth more or less changes the angle by little; the polygons that
-the flanks are meshed with swing the torque, as one is the slope of the other. The share of time with
-two pairs makes the contact ratio, less what the relief of the tips takes. Both methods run.
+Sectors of both gears, module 1, pressure angle 20 degrees, neo-Hookean, E = 1000, nu = 0.3, in
+plane strain, with a little relief at the tips. The hub of the first one is turned by an angle; that
+of the second one runs in a stiff bearing, in which it turns freely, and carries a constant torque
+that turns with it. Contact without friction: one pair of teeth or two carry it, and hand it over.
+Involutes transmit evenly: rigid gears have the ratio of torques and that of angles z_1/z_2 at any
+time, elastic ones in the mean of a pitch. On the way a pair of teeth more or less changes the angle
+by little; the polygons that the flanks are meshed with swing the torque, as one is the slope of the
+other. The share of time with two pairs makes the contact ratio, less what the relief takes. Both
+methods run.
 
     python demos/gear_pair.py --h 0.3
 """

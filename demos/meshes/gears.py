@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from itertools import pairwise
 from types import ModuleType
 
 from mpi4py import MPI
@@ -177,8 +178,8 @@ def _add_sector(
     begin, end = point(gear.root, first, 3 * h), point(gear.root, last, 3 * h)
     hub = [point(gear.hub, phi, coarse) for phi in np.linspace(last, first, 2 * number + 1)]
     outer = [begin, *chain, end]
-    teeth_lines = [geo.addLine(a, b) for a, b in zip(outer[:-1], outer[1:], strict=True)]
-    hub_lines = [geo.addLine(a, b) for a, b in zip(hub[:-1], hub[1:], strict=True)]
+    teeth_lines = [geo.addLine(a, b) for a, b in pairwise(outer)]
+    hub_lines = [geo.addLine(a, b) for a, b in pairwise(hub)]
     sides = [geo.addLine(end, hub[0]), geo.addLine(hub[-1], begin)]
     loop = geo.addCurveLoop([*teeth_lines, sides[0], *hub_lines, sides[1]])
     surface = int(geo.addPlaneSurface([loop]))
