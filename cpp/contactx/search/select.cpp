@@ -50,13 +50,13 @@ bool is_passed_over(const Surface& surface, std::span<const double> x,
   const double distance = norm(nearest.d);
   const double near = distance - equal * (distance + nearest.size);
   bool found = false;
-  surface.for_each_around(
-      nearest.facet, nearest.feature,
-      [&found, &surface, x, &p, near](std::int32_t f)
-      {
-        const auto q = closest_within(surface, f, x, p, near * near);
-        found = found or (q and norm(q->d) < near);
-      });
+  surface.for_each_around(nearest.facet, nearest.feature,
+                          [&found, &surface, x, &p, near](std::int32_t f)
+                          {
+                            const auto q
+                                = closest_within(surface, f, x, p, near * near);
+                            found = found or (q and norm(q->d) < near);
+                          });
   return found;
 }
 
