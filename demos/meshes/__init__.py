@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from meshes.belt import belt
 from meshes.cap import hertz_cap
 from meshes.cylinder import hertz_cylinder
 from meshes.dam_face import DamFace, dam_face
@@ -28,6 +29,7 @@ __all__ = [
     "Gear",
     "SnapHook",
     "Tag",
+    "belt",
     "block_tag",
     "blocks",
     "contact_ratio",

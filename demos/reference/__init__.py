@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from reference.cattaneo_mindlin import CattaneoMindlin
+from reference.euler_belt import belt_ratio
 from reference.hertz_cylinder import HertzCylinder
 from reference.hertz_sphere import HertzSphere
 from reference.modulus import contact_modulus
@@ -17,5 +18,6 @@ __all__ = [
     "HertzSphere",
     "PressFit",
     "SnapFit",
+    "belt_ratio",
     "contact_modulus",
 ]

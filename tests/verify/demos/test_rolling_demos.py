@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """The demos of large rolling and sliding run by both methods, agree and leave their pictures."""
 
+import belt_drum
 import gear_pair
 import pyvista
 import snap_fit
@@ -35,3 +36,9 @@ def test_gear_pair(tmp_path, capsys):
     tolerances = (0.01, 0.03, 1e-3, 0.08)
     pictures = ("gear_pair.png", "gear_pair_error.png")
     check(gear_pair, ("--h", "0.3"), tolerances, pictures, tmp_path, capsys)
+
+
+def test_belt_drum(tmp_path, capsys):
+    # Ratio of the tensions of a thin belt, and of this one
+    pictures = ("belt_drum.png", "belt_drum_ratio.png")
+    check(belt_drum, ("--h", "0.015"), (0.05, 0.04), pictures, tmp_path, capsys)
