@@ -17,12 +17,15 @@ constexpr int stuck = 3;
 /// By how much a damped step is at least and at most shorter than the one
 /// before
 constexpr double shortest = 0.1, longest = 0.5;
+/// Size of a step over that of the scene which rounding errors may have made
+constexpr double rounding = 1e-10;
 } // namespace
 
-void StepLength::begin_step(bool damped)
+void StepLength::begin_step(bool damped, double extent)
 {
   *this = {};
   _is_damped = damped;
+  _extent = extent;
 }
 
 void StepLength::begin(double size, double within_cells)
@@ -34,7 +37,7 @@ void StepLength::begin(double size, double within_cells)
   _size = size;
   _part = _within_cells = within_cells;
   _limited += within_cells < 1;
-  if (_is_damped)
+  if (_is_damped and size > rounding * _extent)
     _trials = trials;
   else
     end();

@@ -11,7 +11,8 @@ namespace contactx::active_set
 /// they also pass the natural monotonicity test (Deuflhard, Newton Methods for
 /// Nonlinear Problems, 2004, ch. 3): the next correction, by the same Jacobian,
 /// must be shorter. Residuals say little of slender bodies, whose stiffnesses
-/// differ by orders of magnitude.
+/// differ by orders of magnitude. Steps as short as rounding errors make them
+/// are not tested: the next one is no shorter.
 ///
 /// A solver begins a step and tries parts of it while that is asked for:
 ///
@@ -31,7 +32,8 @@ public:
 
   /// @brief Start a load step.
   /// @param[in] damped Whether steps are damped.
-  void begin_step(bool damped);
+  /// @param[in] extent Size of the scene, a length.
+  void begin_step(bool damped, double extent);
 
   /// @brief Begin a Newton step.
   /// @param[in] size Its size. One that is not finite is taken in full: the
@@ -64,6 +66,7 @@ private:
   void end();
 
   bool _is_damped = false;
+  double _extent = 0;
   double _size = 0, _within_cells = 1, _part = 1;
   int _trials = 0; // that are left
   int _limited = 0, _damped = 0;
