@@ -91,8 +91,10 @@ class FactorisedSolver:
                 if self._iterate(b, x, target, _AT_ONCE if last else _COST):
                     return
         with report.timing("factorisation"):
-            self._factorise(A)
-            self._iterate(b, x, target, _COST)
+            if self._factorise(A):
+                self._iterate(b, x, target, _COST)
+            else:
+                x.set(np.inf)
 
     def _iterate(self, b: PETSc.Vec, x: PETSc.Vec, target: float, most: int) -> bool:
         ksp = self._ksp
@@ -104,7 +106,8 @@ class FactorisedSolver:
         self.iterations += count
         return bool(ksp.getConvergedReason() > 0)
 
-    def _factorise(self, A: PETSc.Mat) -> None:
+    def _factorise(self, A: PETSc.Mat) -> bool:
+        """Factorise a matrix; whether it has factors. All ranks must take part."""
         if self._ksp is not None and self._factorised != self._pattern:
             # Two factorisations at once would be the largest part of the memory
             self._ksp.destroy()
@@ -121,6 +124,12 @@ class FactorisedSolver:
             self._ksp.setOperators(A)
             self._ksp.setUp()
             pc.setReusePreconditioner(True)
+        self.factorisations += 1
+        if reduce.anywhere(A.comm.tompi4py(), pc.getFailedReason() != 0):
+            # PETSc would keep the failure for every matrix of this pattern, or solve without factors
+            self._ksp.destroy()
+            self._ksp = None
+            return False
         self._factorised = self._pattern
         self._lost = 0
-        self.factorisations += 1
+        return True

@@ -10,6 +10,8 @@ from pathlib import Path
 from typing import Any
 from unittest import mock
 
+from mpi4py import MPI
+
 import numpy as np
 
 import contactx as cx
@@ -23,6 +25,7 @@ from scenes import NU, Blocks
 from scenes.held_sheet import HeldSheet
 from scenes.materials import st_venant_kirchhoff
 from scenes.punched_block import PunchedBlock
+from scenes.refilled import sizes
 from scenes.steps import SlidingBlocks
 from scenes.two_tips import TwoTips
 from story import elasticity, traction
@@ -47,6 +50,12 @@ def _raised(comm: Any, call: Callable[[], object]) -> list[str]:
 def _last_with_slaves(contact: cx.Contact, comm: Any) -> int:
     """The highest rank that owns a slave node."""
     return max(comm.allgather(comm.rank if len(contact.slave_nodes) else -1))
+
+
+def factors_fail(folder: Path) -> dict[str, Any]:
+    """Twice in turn for the same pattern, and not afterwards."""
+    found = sizes([False, True, True, False])
+    return {"sizes": MPI.COMM_WORLD.allgather(found)}
 
 
 def update_throws(folder: Path) -> dict[str, Any]:

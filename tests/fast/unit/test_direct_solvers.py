@@ -1,6 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Direct solvers of builds of PETSc without MUMPS."""
+"""Direct solvers: those of builds of PETSc without MUMPS, and factors that there are not."""
 
 from petsc4py import PETSc
 
@@ -11,6 +11,7 @@ from contactx import compat
 from dolfinx.mesh import CellType
 
 from scenes.driven import DrivenBlock
+from scenes.refilled import LARGEST, sizes
 
 
 @pytest.mark.skipif(not PETSc.Sys.hasExternalPackage("superlu_dist"), reason="not in this PETSc")
@@ -24,3 +25,9 @@ def test_superlu_dist_goes_on_at_a_zero_pivot(monkeypatch, method):
         angle = np.pi / 6 * k
         scene.step(0.3 * (np.cos(angle) - 1), 0.3 * np.sin(angle), -0.02)
     assert scene.normal > 0
+
+
+def test_a_matrix_without_factors_leaves_nothing_behind():
+    """PETSc once raised that MUMPS was asked to solve without them, or had none ever after."""
+    assert sizes([False, True, True, False]) == pytest.approx([LARGEST, np.inf, np.inf, LARGEST])
+    assert sizes([True, True, False]) == pytest.approx([np.inf, np.inf, LARGEST])

@@ -4,10 +4,12 @@
 
 import json
 
+import numpy as np
 import pytest
 
 from ranks.launch import SCRIPTS
 from ranks.together import launch_together
+from scenes.refilled import LARGEST
 
 SCRIPT = SCRIPTS / "run_errors.py"
 # What each function of scenes_errors.py must say
@@ -42,7 +44,7 @@ def found(request, tmp_path_factory):
     def file(name):
         return folder / f"{name}-{ranks}.json"
 
-    names = [*RAISED, "nothing_in_reach", "calls_differ", "arguments_differ"]
+    names = [*RAISED, "factors_fail", "nothing_in_reach", "calls_differ", "arguments_differ"]
     wrong = launch_together(SCRIPT, ranks, folder, names, file)
     for text in wrong.values():
         print(text)
@@ -56,6 +58,14 @@ def test_all_ranks_raise(found, name):
     assert len(errors) == ranks
     assert len(set(errors)) == 1
     assert RAISED[name] in errors[0]
+
+
+def test_a_matrix_without_factors(found):
+    ranks, outcomes = found
+    of_ranks = outcomes["factors_fail"]["sizes"]
+    assert len(of_ranks) == ranks
+    for sizes in of_ranks:
+        assert sizes == pytest.approx([LARGEST, np.inf, np.inf, LARGEST])
 
 
 def test_ranks_that_call_different_methods(found):
