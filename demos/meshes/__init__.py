@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from meshes.belt import belt
 from meshes.cap import hertz_cap
+from meshes.cord import cord
 from meshes.cylinder import hertz_cylinder
 from meshes.dam_face import DamFace, dam_face
 from meshes.face_slab import FACE_SLABS, FaceSlab, face_slab
@@ -33,6 +34,7 @@ __all__ = [
     "block_tag",
     "blocks",
     "contact_ratio",
+    "cord",
     "dam_face",
     "face_slab",
     "gears",

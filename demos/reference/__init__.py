@@ -9,6 +9,7 @@ from reference.euler_belt import belt_ratio
 from reference.hertz_cylinder import HertzCylinder
 from reference.hertz_sphere import HertzSphere
 from reference.modulus import contact_modulus
+from reference.o_ring import SqueezedCord
 from reference.press_fit import PressFit
 from reference.snap_fit import SnapFit
 
@@ -18,6 +19,7 @@ __all__ = [
     "HertzSphere",
     "PressFit",
     "SnapFit",
+    "SqueezedCord",
     "belt_ratio",
     "contact_modulus",
 ]
