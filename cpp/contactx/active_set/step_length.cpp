@@ -37,7 +37,7 @@ void StepLength::begin(double size, double within_cells)
   _size = size;
   _part = _within_cells = within_cells;
   _limited += within_cells < 1;
-  if (_is_damped and size > rounding * _extent)
+  if (_is_damped and (_changes or size > rounding * _extent))
     _trials = trials;
   else
     end();

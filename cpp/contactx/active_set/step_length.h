@@ -12,7 +12,7 @@ namespace contactx::active_set
 /// Nonlinear Problems, 2004, ch. 3): the next correction, by the same Jacobian,
 /// must be shorter. Residuals say little of slender bodies, whose stiffnesses
 /// differ by orders of magnitude. Steps as short as rounding errors make them
-/// are not tested: the next one is no shorter.
+/// are not tested, as the next one is no shorter, unless contacts still change.
 ///
 /// A solver begins a step and tries parts of it while that is asked for:
 ///
@@ -34,6 +34,10 @@ public:
   /// @param[in] damped Whether steps are damped.
   /// @param[in] extent Size of the scene, a length.
   void begin_step(bool damped, double extent);
+
+  /// @brief Take note of an iterate.
+  /// @param[in] changes Whether its contacts are others than those before.
+  void note(bool changes) { _changes = changes; }
 
   /// @brief Begin a Newton step.
   /// @param[in] size Its size. One that is not finite is taken in full: the
@@ -65,7 +69,7 @@ public:
 private:
   void end();
 
-  bool _is_damped = false;
+  bool _is_damped = false, _changes = false;
   double _extent = 0;
   double _size = 0, _within_cells = 1, _part = 1;
   int _trials = 0; // that are left

@@ -143,6 +143,7 @@ Verdict Loop::judge(bool is_start, double rtol, double atol,
     is_small = compare(rtol, atol, b);
   }
   _active_set.note(_iterate.residual);
+  _length.note(_iterate.changes.status > 0 or _iterate.changes.pairs > 0);
   if (not _active_set.is_soft())
   {
     _last.emplace(_system->size());

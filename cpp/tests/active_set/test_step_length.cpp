@@ -120,6 +120,13 @@ TEST(StepLength, StepsOfRoundingErrorsAreTakenInFull)
   EXPECT_EQ(length.part(), 1);
   length.begin(1.1e-7, 1);
   EXPECT_TRUE(length.has_trial());
+  // While contacts change, multipliers may move where displacements do not
+  length.note(true);
+  length.begin(0.9e-7, 1);
+  EXPECT_TRUE(length.has_trial());
+  length.note(false);
+  length.begin(0.9e-7, 1);
+  EXPECT_FALSE(length.has_trial());
 }
 
 TEST(StepLength, OfNothingIsWhole)
