@@ -6,6 +6,7 @@
 #include "../facet/middle.h"
 #include "../parallel/spread.h"
 #include "mobility.h"
+#include "slip_weights.h"
 #include <cmath>
 #include <limits>
 
@@ -345,7 +346,15 @@ void SurfaceToSurface::begin_step()
     pair(_x0);
   }
   if (_options.measures_slip)
-    _slip.begin_step(normalised(), distances(_x0));
+    _slip.begin_step(of_slip(_x0), distances(_x0));
+}
+
+/// Pairs divided by the areas, with what slip is measured by.
+Mortar SurfaceToSurface::of_slip(std::span<const double> x) const
+{
+  if (_options.is_small or not _slaves->is_quadratic())
+    return normalised();
+  return slip_weights(normalised(), _sides, distances(x), normals(), x, gdim());
 }
 
 /// Pairs divided by the slave nodes' areas.
@@ -361,7 +370,7 @@ void SurfaceToSurface::touch(std::span<const std::int8_t> which,
                              std::span<const double> x,
                              std::span<const double> offset)
 {
-  _slip.touch(which, normalised(), distances(x), normals(), offset);
+  _slip.touch(which, of_slip(x), distances(x), normals(), offset);
 }
 
 std::optional<std::vector<double>>

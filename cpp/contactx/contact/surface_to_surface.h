@@ -99,6 +99,7 @@ private:
                                      mortar::FacetPairs found) const;
   void integrate(std::span<const double> x);
   Mortar normalised() const;
+  Mortar of_slip(std::span<const double> x) const;
   std::vector<double> distances(std::span<const double> x) const;
 
   MortarSides _sides;
