@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from meshes.belt import belt
+from meshes.bolt import BoltMeasures, BoltTag, bolt
 from meshes.cap import hertz_cap
 from meshes.cord import cord
 from meshes.cylinder import hertz_cylinder
@@ -25,6 +26,8 @@ from meshes.tags import Tag, block_tag
 
 __all__ = [
     "FACE_SLABS",
+    "BoltMeasures",
+    "BoltTag",
     "DamFace",
     "FaceSlab",
     "Gear",
@@ -33,6 +36,7 @@ __all__ = [
     "belt",
     "block_tag",
     "blocks",
+    "bolt",
     "contact_ratio",
     "cord",
     "dam_face",

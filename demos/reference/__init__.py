@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from reference.bolted_joint import BoltedJoint
 from reference.cattaneo_mindlin import CattaneoMindlin
 from reference.euler_belt import belt_ratio
 from reference.hertz_cylinder import HertzCylinder
@@ -14,6 +15,7 @@ from reference.press_fit import PressFit
 from reference.snap_fit import SnapFit
 
 __all__ = [
+    "BoltedJoint",
     "CattaneoMindlin",
     "HertzCylinder",
     "HertzSphere",

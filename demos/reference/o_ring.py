@@ -36,7 +36,7 @@ class SqueezedCord:
         Args:
             squeeze: Change of height over the diameter.
         """
-        return self.modulus * self.diameter * (1.25 * squeeze**1.5 + 50 * squeeze**6)
+        return self.modulus * self.diameter * (1.25 * math.pow(squeeze, 1.5) + 50 * squeeze**6)
 
     def width(self, force: float) -> float:
         """Width of Hertz's line contact for a force per length."""

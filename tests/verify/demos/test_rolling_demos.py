@@ -3,6 +3,7 @@
 """The demos of large rolling and sliding run by both methods, agree and leave their pictures."""
 
 import belt_drum
+import bolt
 import gear_pair
 import numpy as np
 import o_ring
@@ -64,3 +65,10 @@ def test_o_rings_converge_and_seal():
     # Force of the large squeeze against Lindley, of the fluid on the height of the groove
     for k in (1, 3):
         assert abs(fine[k]) < 0.6 * abs(coarse[k])
+
+
+def test_bolt(tmp_path, capsys):
+    # Pre-tension by VDI 2230, share, opening, open, after, friction
+    tolerances = (0.16, 0.1, 0.06, 1e-6, 0.02, 0.03)
+    pictures = ("bolt.png", "bolt_forces.png")
+    check(bolt, ("--h", "0.8"), tolerances, pictures, tmp_path, capsys)
