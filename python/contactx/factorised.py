@@ -126,7 +126,7 @@ class FactorisedSolver:
             pc.setReusePreconditioner(True)
         self.factorisations += 1
         if reduce.anywhere(A.comm.tompi4py(), pc.getFailedReason() != 0):
-            # PETSc would keep the failure for all matrices of this pattern, or solve without factors
+            # PETSc would keep the failure for matrices of this pattern, or solve without factors
             self._ksp.destroy()
             self._ksp = None
             return False
