@@ -53,7 +53,8 @@ class VTKWriter(Writer):
         """Open the file."""
         self._rank, self._path = comm.rank, path
         self._count = 0
-        self._file = io.VTKFile(comm, path, "w")
+        # It writes once more when it is destroyed, wherever the program has gone by then
+        self._file = io.VTKFile(comm, path.absolute(), "w")
 
     def write(self, functions: Sequence[fem.Function], t: float) -> None:
         """See ``Writer``."""

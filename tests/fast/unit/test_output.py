@@ -47,6 +47,22 @@ def test_paraview_output(tmp_path: Path, contacts):
     assert set(data["status" + suffix]) <= {-1, 0, 2}
 
 
+def test_a_program_that_goes_to_another_folder(tmp_path: Path, monkeypatch):
+    """DOLFINx writes once more when its file is destroyed."""
+    scene = Blocks(CellType.quadrilateral)
+    folders = [tmp_path / name for name in ("here", "there")]
+    for folder in folders:
+        folder.mkdir()
+    monkeypatch.chdir(folders[0])
+    output = cx.VTKOutput("blocks.pvd", scene.u, [scene.contact()])
+    output.write(0.0)
+    monkeypatch.chdir(folders[1])
+    output.close()
+    del output
+    assert (folders[0] / "blocks.pvd").exists()
+    assert not any(folders[1].iterdir())
+
+
 @pytest.mark.parametrize("suffix", [".xdmf", ".bp"])
 def test_other_formats(tmp_path: Path, suffix):
     scene = Blocks(CellType.tetrahedron)
