@@ -49,6 +49,13 @@ SUBJECTS = {
         "folding_strip": "a strip that is folded onto itself, against an elastica",
         "settling_discs": "twenty loose discs that settle in a box",
     },
+    "Rolling, sliding and machine parts": {
+        "snap_fit": "a hook that snaps over a catch and out again, against beam theory",
+        "gear_pair": "an involute gear drives another one through more than a pitch",
+        "belt_drum": "a belt that slides on a drum, against Euler",
+        "bolt": "a bolt with pre-tension, whose joint opens and slips, against VDI 2230",
+        "o_ring": "a rubber cord in its groove, squeezed and pressed by a fluid",
+    },
     "Elements and coupled fields": {
         "patch_test": "uniform pressure on meshes that do not match, by both methods",
         "incompressible": "elements for a material that keeps its volume",
