@@ -7,6 +7,7 @@ all and writes docs/gallery.md, with a picture of each; ``test_gallery.py`` chec
 
 - ``half_space``: rigid indenters on an elastic half-space, with closed formulas.
 - ``hertz``: two bodies that touch in a line or a point.
+- ``rolling``: a roller with traction.
 - ``fitted``: rings and pins in holes.
 - ``slender``: beams, belts and layers.
 - ``stacked``: round bodies between plates.
