@@ -46,8 +46,8 @@ _MISSING = """
   21.84, but does not come loose by default options: after 0.06 of the 28.5 mm back Newton's method
   finds no step that leads on.
 - **NAFEMS R0094 problem 4 in space**: curves alone are public; Code_Aster's plane model is above.
-- **NAFEMS R0094 problem 5**, a steel roller on rubber: no number of it was found in public, in
-  Code_Aster, OptiStruct or elsewhere; Carter's roller on rubber, above, stands for it.
+- **NAFEMS R0094 problem 5**, a steel roller on rubber: no number of it was found in public;
+  Code_Aster's tests have problems 1, 2 and 4. Carter's roller on rubber, above, stands for it.
 - **A cantilever bent over a round guide** (Timoshenko): tried in one step on 160 quadratic cells,
   it does not converge; between clamp and lift-off its pressure is zero in theory.
 - **Ironing** (Puso and Laursen 2004): the scene is described in public, in the examples of
