@@ -212,8 +212,8 @@ CASES = [
         "J. E. Flaherty, J. B. Keller and S. I. Rubinow, SIAM J. Appl. Math. 23, 1972, 446-455",
         "force between opposite points under the load 8 E I/R^3, in E I/R^2",
         torus,
-        note="Their equations are solved here for middle lines that stay a thickness apart, 0.04 R. "
-        "On the way the load is a little larger where the torus will touch, so that it buckles "
+        note="Their equations are solved here for middle lines that stay a thickness apart. On "
+        "the way the load is a little larger where the torus will touch, so that it buckles "
         "there. With half as many cells around it the force is 7.1 % too small.",
         slow=True,
     ),
