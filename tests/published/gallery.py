@@ -46,11 +46,16 @@ _MISSING = """
   21.84, but does not come loose by default options: after 0.06 of the 28.5 mm back Newton's method
   finds no step that leads on.
 - **NAFEMS R0094 problem 4 in space**: curves alone are public; Code_Aster's plane model is above.
-- **NAFEMS R0094 problem 5**, a steel roller on rubber: no number of it was found in public.
+- **NAFEMS R0094 problem 5**, a steel roller on rubber: no number of it was found in public;
+  Code_Aster's tests have problems 1, 2 and 4. Carter's roller on rubber, above, stands for it.
 - **A cantilever bent over a round guide** (Timoshenko): tried in one step on 160 quadratic cells,
   it does not converge; between clamp and lift-off its pressure is zero in theory.
-- **Ironing** (Puso and Laursen 2004): forces are public as curves; Kratos checks displacements of
-  its own variant against a file that is not in its sources.
+- **Ironing** (Puso and Laursen 2004): the scene is described in public, in the examples of
+  Livermore's Smith, its forces as curves alone. Kratos checks displacements of its own variant
+  against a file that is not in its sources; MOOSE's test pdass_problems/ironing.i ends with a
+  single node in contact, whose pressure is that of its mesh.
+- **Torus on itself**: no number of the papers on self-contact was found; the torus above is
+  compared with the ring's equations.
 """
 
 
