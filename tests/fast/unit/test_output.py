@@ -53,8 +53,10 @@ def test_a_program_that_goes_to_another_folder(tmp_path: Path, monkeypatch):
     folders = [tmp_path / name for name in ("here", "there")]
     for folder in folders:
         folder.mkdir()
+    contact = scene.contact()
+    scene.problem(contact)
     monkeypatch.chdir(folders[0])
-    output = cx.VTKOutput("blocks.pvd", scene.u, [scene.contact()])
+    output = cx.VTKOutput("blocks.pvd", scene.u, [contact])
     output.write(0.0)
     monkeypatch.chdir(folders[1])
     output.close()
