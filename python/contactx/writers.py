@@ -51,10 +51,10 @@ class VTKWriter(Writer):
 
     def __init__(self, comm: MPI.Comm, path: Path):
         """Open the file."""
-        self._rank, self._path = comm.rank, path
+        # DOLFINx writes once more when the file is destroyed, wherever the program has gone by then
+        self._rank, self._path = comm.rank, path.absolute()
         self._count = 0
-        # It writes once more when it is destroyed, wherever the program has gone by then
-        self._file = io.VTKFile(comm, path.absolute(), "w")
+        self._file = io.VTKFile(comm, self._path, "w")
 
     def write(self, functions: Sequence[fem.Function], t: float) -> None:
         """See ``Writer``."""
