@@ -11,15 +11,8 @@ from dam_results import joints, laws
 from dam_scene import Dam, DamSetting, run
 from meshes import DamFace
 
-MODEL = DamFace(
-    slabs=4,
-    height=20.0,
-    rows=10,
-    layers=2,
-    joint_size=0.6,
-    rockfill_cells=3,
-    rockfill_rows=8,
-)
+# With fewer cells, or wider ones at the joints, nodes near the plinth stick and open in turn
+MODEL = DamFace(slabs=4, height=20.0, rows=14, layers=2, rockfill_cells=4, rockfill_rows=10)
 STAGES = 2
 
 
