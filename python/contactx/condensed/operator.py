@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 from petsc4py import PETSc
 
@@ -108,7 +109,7 @@ class CondensedOperator:
             bodies: The bodies.
         """
         n = self.numbering.num_owned
-        of_body = self._condensation.stiff_bodies(bodies, self._free_diagonal())
+        of_body = self._condensation.stiff_bodies(bodies, self._free_diagonal)
         is_stiff = np.repeat(of_body[bodies.number] == 1, self.numbering.gdim)[:n]
         # Where multipliers may be, whose rows are constraints of their masters
         if np.any(of_body):
@@ -123,8 +124,9 @@ class CondensedOperator:
             bodies: The bodies.
             residual: Residual of the owned displacements, shape (num_owned,).
         """
-        return core.softness(bodies, self._free_diagonal(), residual, self.numbering.gdim)
+        return core.softness(bodies, self._free_diagonal, residual, self.numbering.gdim)
 
+    @cached_property
     def _free_diagonal(self) -> Array:
         """The bulk's diagonal, zero where displacements are prescribed, shape (num_owned,)."""
         diagonal: Array = self._K.getDiagonal().array_r.copy()

@@ -215,9 +215,9 @@ class ContactDynamics(ContactProblem):
         """Find velocities and balance of a step before it is accepted."""
         assembler, n = self.assembler, self.assembler.bulk.num_dofs
         held = assembler.bulk.markers[:n] == 1
-        self._check_arrival(self.displacement.x.array[:n] - self._start.x.array[:n])
-        self._mass.hold(assembler.bulk.markers[:n])
         way = self.displacement.x.array[:n] - self._start.x.array[:n]
+        self._check_arrival(way)
+        self._mass.hold(assembler.bulk.markers[:n])
         before = self.velocity.x.array[:n]
         velocity = 2 * way / self.dt - before
         free = self._kinetic(velocity)
