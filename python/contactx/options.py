@@ -108,6 +108,23 @@ def multigrid_options(prefix: str) -> SolverOptions:
     return SolverOptions(prefix, {}, {"mg_levels_ksp_max_it": 1, "pc_use_amat": True})
 
 
+def aggregation_options(prefix: str, num_unknowns: int) -> SolverOptions:
+    """Options of PETSc's multigrid where its first coarser level is wanted, and nothing else.
+
+    Args:
+        prefix: Prefix of the options in PETSc's database.
+        num_unknowns: Number of unknowns of the finest level.
+    """
+    options = {
+        "pc_type": "gamg",
+        "pc_gamg_coarse_eq_limit": max(1, num_unknowns - 1),
+        "mg_levels_ksp_type": "richardson",
+        "mg_levels_pc_type": "jacobi",
+        "mg_coarse_pc_type": "jacobi",
+    }
+    return SolverOptions(prefix, {}, options)
+
+
 def product_options() -> SolverOptions:
     """Options of the products of three matrices that a hierarchy of one rank is made of.
 

@@ -6,8 +6,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from typing import Any
+from unittest.mock import patch
 
 import contactx as cx
+from contactx.condensed import by_bodies as solver
 from dolfinx.mesh import CellType
 
 from dam_face import Compression
@@ -25,6 +27,12 @@ def by_bodies() -> Iterator[cx.ContactProblem]:
 
 def by_bodies_alike() -> Iterator[cx.ContactProblem]:
     yield from _dragged(1.0, tied=True)
+
+
+def by_bodies_coarse_model() -> Iterator[cx.ContactProblem]:
+    """A coarse model stands for the soft body from the second solve on."""
+    with patch.object(solver, "_SLOW", 0.0), patch.object(solver, "_COST", 0):
+        yield from _dragged(1e3, friction=0.3)
 
 
 def by_bodies_held() -> Iterator[cx.ContactProblem]:

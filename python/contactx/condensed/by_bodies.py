@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from types import SimpleNamespace
 
 from mpi4py import MPI
@@ -11,10 +12,11 @@ from petsc4py import PETSc
 
 import numpy as np
 
-from contactx import cpp as core
+from contactx.bodies import Bodies
 from contactx.bulk import Bulk
 from contactx.callback import Quiet, weakly
-from contactx.condensed.diagonal_blocks import Part, change_of
+from contactx.condensed.coarse_model import CoarseModel
+from contactx.condensed.diagonal_blocks import Part, Transforms, change_of
 from contactx.condensed.numbering import DIFFERENT, Array
 from contactx.condensed.operator import CondensedOperator
 from contactx.options import ROUNDING, block_options
@@ -29,6 +31,8 @@ _RESTART = 60
 _SOFT_SERVES, _STIFF_SERVES = 0.03, 0.1
 # Least part of the largest movement under a uniform traction that counts for a spring
 _LEAST_MOVED = 1e-3
+# Iterations for a reduction by e from which on springs do not do for soft bodies
+_SLOW = 4.5
 # Iterations that cost what the factors of the stiff block cost, at 170,000 displacements
 _COST = 20
 
@@ -43,8 +47,11 @@ class ByBodies:
 
     leaves A M^-1 with the eigenvalues of the Schur complement A_mm - A_mc A_cc^-1 A_cm times S^-1
     alone. S is A_mm with springs in the place of the soft bodies: where a traction of one all over
-    the contact moves a node of theirs by u, its spring for each unit of area is 1 / u. Multipliers
-    that stay unknowns belong to m. Where no bodies differ all unknowns are in c.
+    the contact moves a node of theirs by u, its spring for each unit of area is 1 / u. The larger
+    the contact the more a long wave differs from a short one, and the more iterations that takes:
+    once they are slow, a coarse model of the soft bodies takes the place of the ground.
+
+    Multipliers that stay unknowns belong to m. Where no bodies differ all unknowns are in c.
 
     Factors of c serve until contact has changed the block, those of m for as long as that costs
     fewer iterations than new ones.
@@ -54,7 +61,7 @@ class ByBodies:
         factorisations: Factorisations of blocks.
     """
 
-    def __init__(self, bulk: Bulk, bodies: core.Bodies, prefix: str):
+    def __init__(self, bulk: Bulk, bodies: Bodies, prefix: str):
         """Create a solver.
 
         Args:
@@ -69,6 +76,7 @@ class ByBodies:
         self.iterations = self.factorisations = 0
         self._operator: CondensedOperator | None = None
         self._quiet = Quiet()
+        self._has_model = False
         self.reset()
 
     def reset(self) -> None:
@@ -79,10 +87,13 @@ class ByBodies:
         self._ksp: PETSc.KSP | None = None
         self._updated_for: CondensedOperator | None = None
         self._per_area: Array | None = None
+        self._model: CoarseModel | None = None
         # Whether the last factors are of this matrix, iterations for a reduction by e with such
         # ones, and those lost since
         self._is_new = False
         self._rate = self._lost = 0.0
+        # Change of the stiff block below which its factors serve
+        self._serves = _STIFF_SERVES
 
     def tells_apart(self, operator: CondensedOperator) -> bool:
         """Whether there are stiff bodies and soft ones; all ranks must take part.
@@ -118,9 +129,10 @@ class ByBodies:
             self._update(operator, report)
         if self._iterate(rhs, v, target, report):
             return True
-        if not self._is_new:
-            self.reset()
-            self._update(operator, report)
+        if not self._is_new or self._updated_for is None:
+            if not self._is_new:
+                self._serves /= 2
+            self._update(operator, report, exact=True)
             if self._iterate(rhs, v, target, report):
                 return True
         self.reset()
@@ -140,6 +152,7 @@ class ByBodies:
         self.iterations += count
         if self._is_new:
             self._rate = count / reduction
+            self._judge(count)
         else:
             self._lost += max(0.0, count - self._rate * reduction)
         if ksp.getConvergedReason() > 0:
@@ -147,8 +160,14 @@ class ByBodies:
         v.set(0.0)
         return False
 
-    def _update(self, operator: CondensedOperator, report: Report) -> None:
-        """Bring the blocks up to what contact makes of the matrix; all ranks must take part."""
+    def _update(self, operator: CondensedOperator, report: Report, *, exact: bool = False) -> None:
+        """Bring the blocks up to what contact makes of the matrix; all ranks must take part.
+
+        Args:
+            operator: The condensed matrix.
+            report: Report whose times are added to.
+            exact: Whether no other factors serve.
+        """
         if self._ksp is None:
             self._make(operator)
         with report.timing("condensation"):
@@ -158,20 +177,76 @@ class ByBodies:
             assert soft is not None
             change, is_symmetric = change_of(soft.part, transforms)
             is_symmetric = is_symmetric and self._bulk.is_symmetric
-        is_new = soft.update(operator, change, is_symmetric, _SOFT_SERVES, report)
+        is_new = soft.update(
+            change,
+            lambda: soft.part.block(change, operator.eliminated),
+            is_symmetric,
+            0.0 if exact else _SOFT_SERVES,
+            report,
+        )
         self.factorisations += is_new
         if stiff is not None:
-            with report.timing("condensation"):
-                change, is_symmetric = change_of(stiff.part, transforms)
-                is_symmetric = is_symmetric and self._bulk.is_symmetric
-                stiff.part.add_diagonal(change, self._springs(operator, report))
-            serves = _STIFF_SERVES if self._lost <= _COST else 0.0
-            is_new = stiff.update(operator, change, is_symmetric, serves, report)
+            serves = None if exact else 0.0 if self._lost > _COST else self._serves
+            is_new = self._update_stiff(operator, stiff, transforms, serves, report)
             self.factorisations += is_new
-        self._is_new = is_new
-        if is_new:
+        self._is_new = is_new or exact
+        if self._is_new:
             self._lost = 0.0
         self._updated_for = operator
+
+    def _update_stiff(
+        self,
+        operator: CondensedOperator,
+        block: _Block,
+        transforms: Transforms,
+        serves: float | None,
+        report: Report,
+    ) -> bool:
+        """Bring the stiff block up to date; whether it was factorised."""
+        part = block.part
+        with report.timing("condensation"):
+            change, is_symmetric = change_of(part, transforms)
+            is_symmetric = is_symmetric and self._bulk.is_symmetric
+            model = self._model_of(operator)
+            if model is None:
+                part.add_diagonal(change, self._springs(operator, report))
+            else:
+                follow = model.follow(transforms.right, part)
+
+        def make() -> PETSc.Mat:
+            A = part.block(change, operator.eliminated)
+            if model is None:
+                return A
+            return model.block(A, follow, part.places(operator.eliminated))
+
+        return block.update(change, make, is_symmetric, serves, report)
+
+    def _judge(self, count: int) -> None:
+        """Take a coarse model from now on, where springs have been slow.
+
+        Args:
+            count: Iterations with new factors.
+        """
+        is_slow = self._rate > _SLOW and count > 2 * _COST
+        if self._stiff is not None and not self._has_model and is_slow:
+            self._has_model = True
+            self._stiff.drop()
+            self._updated_for = None
+
+    def _model_of(self, operator: CondensedOperator) -> CoarseModel | None:
+        """The coarse model, if there is to be one; all ranks must take part."""
+        if self._has_model and self._model is None:
+            assert self._soft is not None
+            self._model = CoarseModel.of(
+                operator.numbering,
+                self._bulk,
+                self._bodies.x[: operator.numbering.num_owned // operator.numbering.gdim],
+                self._soft.part,
+                operator.slave_dofs,
+                self._prefix + "model_",
+            )
+            self._has_model = self._model is not None
+        return self._model
 
     def _part(self, operator: CondensedOperator) -> None:
         """Part the unknowns, anew where the bodies or the bulk are others."""
@@ -182,7 +257,7 @@ class ByBodies:
             self._per_area = None
         elif self._built_at == self._bulk.assemblies:
             return
-        self._soft = self._stiff = None
+        self._soft = self._stiff = self._model = None
         K = self._bulk.copy()
         numbering = operator.numbering
         self._soft = _Block(Part(numbering, dofs[0], K), self._prefix + "soft_")
@@ -291,54 +366,56 @@ class _Block:
         self._prefix = prefix
         self._change: PETSc.Mat | None = None
         self._ksp: PETSc.KSP | None = None
-        self._b, self._x = part.K.createVecs()
+
+    def drop(self) -> None:
+        """Drop the factors."""
+        if self._ksp is not None:
+            self._ksp.destroy()
+        self._ksp = self._change = None
 
     def update(
         self,
-        operator: CondensedOperator,
         change: PETSc.Mat,
+        make: Callable[[], PETSc.Mat],
         is_symmetric: bool,
-        serves: float,
+        serves: float | None,
         report: Report,
     ) -> bool:
         """Factorise it where contact has changed it; all ranks must take part.
 
         Args:
-            operator: The condensed matrix.
             change: What contact adds to the bulk's block.
+            make: Makes the whole block; its first unknowns are those of the part.
             is_symmetric: Whether the block is symmetric.
-            serves: Part of that which may be other than in the factors.
+            serves: Part of the change that may be other than in the factors; None if none serve.
             report: Report whose times are added to.
 
         Returns:
             Whether it was factorised.
         """
-        if self._change is not None:
+        if self._change is not None and serves is not None:
             difference = change.copy()
             difference.axpy(-1.0, self._change, DIFFERENT)
             if difference.norm() <= serves * change.norm():
                 return False
-        if self._ksp is not None:
-            # Factors are the largest part of the memory: those of before go first
-            self._ksp.destroy()
-            self._ksp = self._change = None
+        # Factors are the largest part of the memory: those of before go first
+        self.drop()
         with report.timing("condensation"):
-            A = self.part.block(change, operator.eliminated)
+            A = make()
+            self._b, self._x = A.createVecs()
         with report.timing("factorisation"):
             self._ksp = _factorised(A, self._prefix, is_symmetric)
         self._change = change
         return True
 
-    def solve(self, b: PETSc.Vec, x: PETSc.Vec) -> None:
-        """Solve with the factors."""
-        assert self._ksp is not None
-        self._ksp.solve(b, x)
-
     def at(self, values: Array) -> Array:
         """Solve for the values of all displacements, shape (num_owned,), at those of the block."""
-        self._b.array[:] = values[self.part.dofs]
-        self.solve(self._b, self._x)
-        found: Array = self._x.array_r.copy()
+        assert self._ksp is not None
+        n = len(self.part.dofs)
+        self._b.array[:n] = values[self.part.dofs]
+        self._b.array[n:] = 0
+        self._ksp.solve(self._b, self._x)
+        found: Array = self._x.array_r[:n].copy()
         return found
 
 

@@ -33,10 +33,7 @@ class Chains:
             entries: Entries of C in local numbers.
             dofs: Owned displacements that its rows and columns stand for, in order.
         """
-        wide = numbering.matrix(entries, rows=dofs)
-        first, last = wide.getOwnershipRange()
-        rows = PETSc.IS().createStride(last - first, first, comm=numbering.comm)
-        self.C = wide.createSubMatrix(rows, numbering.index_set(dofs))
+        self.C = numbering.matrix(entries, rows=dofs, is_square=True)
         A = self.C.copy()
         A.scale(-1.0)
         A.shift(1.0)

@@ -63,6 +63,7 @@ class Part:
 
     Attributes:
         dofs: Owned displacements, ascending, shape (n,).
+        index_set: The same in PETSc's numbers.
         K: The bulk's block.
     """
 
@@ -75,8 +76,8 @@ class Part:
             K: The bulk's matrix in rows.
         """
         self.dofs = dofs
-        self._set = numbering.index_set(dofs)
-        self.K = K.createSubMatrix(self._set, self._set)
+        self.index_set = numbering.index_set(dofs)
+        self.K = K.createSubMatrix(self.index_set, self.index_set)
         self._places = np.full(numbering.num_owned, -1)
         self._places[dofs] = np.arange(len(dofs))
 
@@ -92,7 +93,7 @@ class Part:
             A: The matrix.
             columns: Displacements of the columns; those of the rows if None.
         """
-        return A.createSubMatrix(self._set, (columns or self)._set)
+        return A.createSubMatrix(self.index_set, (columns or self).index_set)
 
     def with_added(self, change: PETSc.Mat) -> PETSc.Mat:
         """K and what is added to it, a matrix of its own."""
@@ -110,16 +111,21 @@ class Part:
         A.axpy(1.0, diagonal_matrix(A, values[self.dofs]), DIFFERENT)
 
     def block(self, change: PETSc.Mat, eliminated: Index) -> PETSc.Mat:
-        """K and what contact adds to it, with ones for what is eliminated.
+        """K and what contact adds to it, with K's own diagonal for what is eliminated.
+
+        So factors serve where displacements are no longer eliminated.
 
         Args:
             change: What contact adds.
             eliminated: Owned displacements that are eliminated.
         """
         A = self.with_added(change)
+        places = self.places(eliminated)
         first, _ = A.getOwnershipRange()
-        rows = (first + self.places(eliminated)).astype(PETSc.IntType)
-        A.zeroRowsColumns(rows, diag=1.0)
+        A.zeroRowsColumns((first + places).astype(PETSc.IntType), diag=1.0)
+        diagonal = A.getDiagonal()
+        diagonal.array[places] = np.abs(self.K.getDiagonal().array_r[places])
+        A.setDiagonal(diagonal)
         return A
 
 

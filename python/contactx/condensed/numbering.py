@@ -84,8 +84,10 @@ class Numbering:
         """Owned displacements as an index set of the bulk's matrix."""
         return PETSc.IS().createGeneral(_integers(self.numbers(dofs)), comm=self.comm)
 
-    def matrix(self, *entries: core.Triplets, rows: Index | None = None) -> PETSc.Mat:
-        """Matrix with the bulk's columns; entries of one place are added, over all ranks.
+    def matrix(
+        self, *entries: core.Triplets, rows: Index | None = None, is_square: bool = False
+    ) -> PETSc.Mat:
+        """Matrix of contact entries; those of one place are added, over all ranks.
 
         All ranks must take part.
 
@@ -93,21 +95,27 @@ class Numbering:
             *entries: Entries in local numbers.
             rows: Owned displacements that its rows stand for, in order, when on no rank other
                 rows have entries; all displacements of all ranks if None.
+            is_square: Whether its columns stand for the same displacements, and entries in others
+                are left out; for all displacements if False.
         """
         size = self.num_owned
         places = np.concatenate([part.rows for part in entries])
         columns = np.concatenate([part.columns for part in entries])
         if rows is None:
-            places = self.numbers(places)
+            places, columns = self.numbers(places), self.numbers(columns)
         else:
             size = len(rows)
             first, _ = PETSc.Vec().createMPI((size, None), comm=self.comm).getOwnershipRange()
-            row = np.zeros(self.num_owned, dtype=np.int64)
+            # PETSc leaves out negative numbers
+            row = np.full(self.num_owned, -1)
             row[rows] = first + np.arange(size)
             # A row of a master may be another rank's
-            places = self.scatter_forward(row)[places]
-        A = PETSc.Mat().createAIJ(((size, None), (self.num_owned, None)), comm=self.comm)
-        A.setPreallocationCOO(_integers(places), _integers(self.numbers(columns)))
+            every = self.scatter_forward(row)
+            places = every[places]
+            columns = every[columns] if is_square else self.numbers(columns)
+        num_columns = size if is_square else self.num_owned
+        A = PETSc.Mat().createAIJ(((size, None), (num_columns, None)), comm=self.comm)
+        A.setPreallocationCOO(_integers(places), _integers(columns))
         A.setValuesCOO(np.concatenate([part.values for part in entries]), PETSc.InsertMode.ADD)
         return A
 

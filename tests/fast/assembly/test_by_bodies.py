@@ -5,6 +5,7 @@
 import numpy as np
 import pytest
 
+from contactx.condensed import by_bodies
 from dolfinx.mesh import CellType
 
 from meshes import Tag
@@ -79,6 +80,28 @@ def test_stiff_masters_cost_few_iterations():
         _, found = both(dragged(CellType.hexahedron, stiffness, "small", tied=True))
         counts.append(found[2][0].krylov / found[2][0].iterations)
     assert max(counts) <= 12
+
+
+@pytest.fixture
+def with_model(monkeypatch):
+    """Take the coarse model of soft bodies after the first solve with springs."""
+    monkeypatch.setattr(by_bodies, "_SLOW", 0.0)
+    monkeypatch.setattr(by_bodies, "_COST", 0)
+    made = []
+    of = by_bodies.CoarseModel.of
+    monkeypatch.setattr(
+        by_bodies.CoarseModel, "of", lambda *args: made.append(of(*args)) or made[-1]
+    )
+    return made
+
+
+@covering(cell=CELLS, law=LAWS, sliding=("finite", "small"))
+def test_a_coarse_model_has_the_same_answer(cell, law, sliding, with_model):
+    direct, found = both(dragged(cell, 1e4, sliding, **law))
+    assert with_model and with_model[0] is not None
+    for a, b in zip(direct[:2], found[:2], strict=True):
+        assert np.abs(a - b).max() <= 1e-8 * np.abs(a).max()
+    assert not any(report.uncondensed for report in found[2])
 
 
 def test_factors_serve_where_nothing_changes():

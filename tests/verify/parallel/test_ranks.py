@@ -37,6 +37,7 @@ TRIED = (
     ("quadratic_tetrahedra", "node"),
     ("quadratic_condensed", "surface"),
     ("by_bodies", "surface"),
+    ("by_bodies_coarse_model", "surface"),
     ("by_bodies_held", "node"),
     ("axisymmetric", "node"),
     ("heat_across", "surface"),

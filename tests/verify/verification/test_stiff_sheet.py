@@ -1,0 +1,82 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""A stiff sheet tied to soft ground: iterations of the solver by bodies as both grow."""
+
+import pytest
+
+import contactx as cx
+import ufl
+from contactx.condensed import by_bodies
+from dolfinx import fem
+from dolfinx.mesh import CellType
+
+import meshes
+from meshes import Tag
+from story import displacement, elasticity, fix
+
+BY_BODIES = {"pc_type": "condensed", "condensed_pc_type": "bodies"}
+CELL, THICK, STIFF = 0.5, 0.5, 1e4
+
+
+def iterations(length):
+    """Krylov iterations of a solve with factors of this matrix, under a load at the end."""
+    n = round(length / CELL)
+    data = meshes.blocks(
+        CellType.quadrilateral,
+        (n, n // 2),
+        (2 * n, 2),
+        size_upper=(length, length / 2),
+        size_lower=(length, THICK),
+    )
+    tags = data.facet_tags
+    u = displacement(data.mesh, 1)
+    young = fem.Function(fem.functionspace(data.mesh, ("DG", 0)))
+    young.x.array[:] = 1.0
+    young.x.array[data.cell_tags.find(Tag.LOWER)] = STIFF
+    load = 1e-4 * ufl.exp(-(ufl.SpatialCoordinate(data.mesh)[0] ** 2))
+    ds = ufl.Measure("ds", domain=data.mesh, subdomain_data=tags)
+    F = elasticity(u, young, 0.3) - load * ufl.TestFunction(u.function_space)[1] * ds(
+        Tag.LOWER_BOTTOM
+    )
+    contact = cx.Contact(
+        cx.Surface(tags, Tag.UPPER_CONTACT),
+        cx.Surface(tags, Tag.LOWER_CONTACT),
+        tied=True,
+        sliding="small",
+    )
+    problem = cx.ContactProblem(
+        F,
+        u,
+        contacts=[contact],
+        bcs=[fix(u, tags, axis, 0.0, Tag.UPPER_TOP) for axis in range(2)],
+        petsc_options=BY_BODIES,
+        petsc_options_prefix="sheet_",
+    )
+    problem.solve()
+    # The first solve may have been with springs
+    u.x.array[:] = 0.0
+    problem.solve()
+    assert not problem.report.uncondensed
+    return problem.report.krylov / problem.report.iterations
+
+
+@pytest.fixture
+def springs(monkeypatch):
+    """Springs alone."""
+    monkeypatch.setattr(by_bodies, "_SLOW", float("inf"))
+
+
+@pytest.fixture
+def model(monkeypatch):
+    """The coarse model after the first solve."""
+    monkeypatch.setattr(by_bodies, "_SLOW", 0.0)
+    monkeypatch.setattr(by_bodies, "_COST", 0)
+
+
+def test_iterations_with_springs_grow(springs):
+    """What the coarse model is for."""
+    assert iterations(128) > 2 * iterations(8)
+
+
+def test_iterations_with_the_coarse_model_hardly_grow(model):
+    assert iterations(128) <= 1.5 * iterations(8)
