@@ -58,8 +58,8 @@ class Inclusion:
 def inclusions(path: Path) -> list[Inclusion]:
     """What a page shows of files, as Sphinx's ``literalinclude`` takes it.
 
-    Its first and its last line must be marked by what stands in one line of the file alone, so that a
-    change of the file cannot move them unseen.
+    Its first and its last line must be marked by what stands in one line of the file alone, so that
+    a change of the file cannot move them unseen.
     """
     found = []
     for block in blocks(path):

@@ -30,8 +30,8 @@ class Sphere(core.Sphere):
             centre: Centre, shape (gdim,), numbers or a ``fem.Constant``.
             radius: Radius, a number or a ``fem.Constant``.
             hollow: False: bodies may be outside of the sphere. True: inside, as in a bowl.
-            angle: Rotation in radians, which drags what touches it by friction or ties: in the plane
-                counter-clockwise, a number or a ``fem.Constant``; in space a rotation vector,
+            angle: Rotation in radians, which drags what touches it by friction or ties: in the
+                plane counter-clockwise, a number or a ``fem.Constant``; in space a rotation vector,
                 shape (3,). Turn it by less than a right angle in a step.
 
         Raises:
