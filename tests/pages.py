@@ -47,6 +47,41 @@ def blocks(path: Path) -> list[Block]:
     return found
 
 
+@dataclass(frozen=True)
+class Inclusion:
+    """A part of a file that a page shows: the file, and the lines as they stand there."""
+
+    file: Path
+    code: str
+
+
+def inclusions(path: Path) -> list[Inclusion]:
+    """What a page shows of files, as Sphinx's ``literalinclude`` takes it.
+
+    Its first and its last line must be marked by what stands in one line of the file alone, so that
+    a change of the file cannot move them unseen.
+    """
+    found = []
+    for block in blocks(path):
+        name = re.match(r"\{literalinclude\}\s+(\S+)$", block.language)
+        if name is None:
+            continue
+        options = dict(re.findall(r"^:([\w-]+):\s*\"?(.*?)\"?$", block.code, re.MULTILINE))
+        file = (path.parent / name[1]).resolve()
+        lines = file.read_text(encoding="utf-8").splitlines()
+        first, last = 0, len(lines) - 1
+        if "lines" in options:
+            start, _, end = options["lines"].partition("-")
+            first, last = int(start) - 1, int(end) - 1 if end else last
+        if "start-at" in options:
+            (first,) = (k for k, line in enumerate(lines) if options["start-at"] in line)
+        if "end-at" in options:
+            (last,) = (k for k, line in enumerate(lines) if options["end-at"] in line)
+        assert first <= last < len(lines), f"{path}, line {block.line}: nothing of {file}"
+        found.append(Inclusion(file, "\n".join(lines[first : last + 1])))
+    return found
+
+
 def script(path: Path) -> str:
     """What is run of a page, with each block in its place so that errors name the page's lines."""
     text = ""

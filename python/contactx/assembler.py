@@ -58,11 +58,11 @@ _CALLS = ("begin_step", "settle", "residual", "jacobian", "set_up", "limit", "up
 
 
 class ContactAssembler:
-    """The system of a bulk and its contacts, for whoever has a Newton loop of their own.
+    """The system of a bulk and its contacts, for a Newton loop of your own.
 
     The unknowns of a rank are the displacements of its nodes, as ``u`` has them, followed by the
-    multipliers of its slave nodes, one contact after the other, divided by each node's factor c of
-    the complementarity to be lengths, too. A loop reads::
+    multipliers of its slave nodes, one contact after the other, divided by each node's
+    complementarity factor c so that they are lengths, too. A loop reads::
 
         assembler = cx.ContactAssembler(F, u, contacts=[contact], bcs=bcs)
         b, dx = assembler.create_vector(), assembler.create_vector()
@@ -76,10 +76,10 @@ class ContactAssembler:
         assembler.accept()
 
     and ends with a ConvergenceError where no solution is to be expected any more. It is as safe as
-    ``ContactProblem``: pairs and status change at accepted iterates alone, no step turns cells
+    ``ContactProblem``: pairs and status change at accepted iterates only, no step turns cells
     inside out, and a converged iterate is audited before it is accepted. ``ContactProblem`` does
-    two things beyond this: it tries damped steps where full ones do not converge, and it looks for
-    a wrong Jacobian and for rounding where a loop fails.
+    two more things: it tries damped steps where full ones do not converge, and where a loop fails
+    it checks for a wrong Jacobian and for rounding errors.
 
     All ranks must call all methods, in the same order.
 
@@ -231,7 +231,7 @@ class ContactAssembler:
         return self.system.x
 
     def begin_step(self) -> None:
-        """Start a load step from ``u``, with the loads and Dirichlet values of now.
+        """Start a load step from ``u``, with the current loads and Dirichlet values.
 
         Raises:
             ConvergenceError: If the residual is not finite.
@@ -312,8 +312,8 @@ class ContactAssembler:
     def settle(self, rtol: float = 1e-11, atol: float = 0.0, max_it: int = 50) -> Settled:
         """Update pairs and active set at an accepted iterate, and judge its residual.
 
-        The iterate may change by a little: where iterates go round, part of the last step is taken
-        back, and so is the drift of free bodies.
+        The iterate may change a little: where iterates cycle, part of the last step is taken back,
+        and the drift of free bodies is subtracted.
 
         Args:
             rtol: Tolerance relative to the forces of the problem.
@@ -498,10 +498,10 @@ class ContactAssembler:
     def limit(self, dx: PETSc.Vec) -> float:
         """Return the part of a step that may be taken.
 
-        The part keeps each cell from turning inside out. Zero means that contact becomes soft
-        before the next solve, where the step would open many nodes of slender bodies: take no part
-        of it, and call ``settle`` again. A body that passes through another one is found by the
-        audit, once the step has converged.
+        It keeps each cell from turning inside out. It is zero where the step would open many nodes
+        of slender bodies and contact becomes soft before the next solve: ``update`` by this part
+        leaves the iterate as it is, then call ``settle`` again. Bodies that pass through each other
+        are found by the audit, once the step has converged.
 
         Args:
             dx: Increment of the unknowns, in the layout of ``create_vector``.

@@ -74,7 +74,7 @@ class Contact:
 
         Args:
             slave: Surface whose nodes must not penetrate the master; take the finer or the softer
-                of the two.
+                one of the two.
             master: Surface that they are measured against, or a rigid obstacle: Plane, Sphere,
                 Cylinder or LevelSet. The same surface as the slave is self-contact: of two places
                 that face each other one is the slave, see ``search/self_order.h``, and pairs are
@@ -86,21 +86,21 @@ class Contact:
                 are those of the reference configuration, which is linear and cheap, and right
                 where bodies neither slide nor turn by much.
             method: "node-to-surface": each slave node is measured against the master facet that it
-                projects on. It is cheap and exact in its forces, its pressures scatter where meshes
-                do not match. "surface-to-surface": the gap is integrated over the parts of the
-                slave facets in front of each master facet, with dual multipliers (Popp et al.,
-                2010). It gives a uniform pressure exactly and smooth pressures.
+                projects on. It is cheap and its forces are exact, but pressures scatter where
+                meshes do not match. "surface-to-surface": the gap is integrated over the parts of
+                the slave facets in front of each master facet, with dual multipliers (Popp et al.,
+                2010). Pressures are smooth, and a uniform pressure is exact.
             tied: Whether the slave nodes keep their place on the master, in compression and
-                tension: each keeps the vector from its projection on the master in the reference
-                configuration, in the frame of the facet, which turns (with small sliding it does
-                not). It has no friction, and no offset changes its sign: positive where the tie
-                gets longer.
+                tension: each keeps its position relative to its projection on the master in the
+                reference configuration, in the frame of the facet, which turns with the facet
+                (with small sliding it does not). A tie has no friction; a positive offset makes
+                it longer.
             search_distance: Largest distance at which a slave node is paired; by default the
                 diameter of the larger surface, and unlimited for a rigid obstacle.
             excluded_distance: In self-contact the length along the surface, in the reference
-                configuration, within which a node is paired with no facet; by default its own
+                configuration, within which a node is not paired with a facet; by default its own
                 facets and those that share a node with them are left out. A node is never paired
-                with a facet that it sees through its own body.
+                with a facet that lies behind its own body.
             offset: Length that is taken off the gap: positive where the bodies interfere by it or
                 carry a layer of that thickness, negative where they are that much farther apart. A
                 number, a ``fem.Constant`` or a ``fem.Function`` of a scalar Lagrange space.
@@ -109,10 +109,10 @@ class Contact:
                 expression of the reference position; its values at the slave nodes are taken once,
                 when the problem is created, and interpolated between them. Forces then are
                 integrals with it, pressures and tractions still force per true area.
-            tangential_factor: With friction the complementarity factor along the surface, as a part
-                of that along the normal, which is the stiffness of the cells. It changes the way to
-                the solution alone, not the solution. Stiff thin bodies that nothing but
-                friction holds, such as slabs on soft ground, converge with 0.05 and not with 1.
+            tangential_factor: Ratio of the tangential complementarity factor to the normal one,
+                which is the stiffness of the cells; with friction only. It changes the iterations,
+                not the solution. Stiff thin bodies that are held by friction alone, such as slabs
+                on soft ground, converge with 0.05 and not with 1.
 
         Raises:
             TypeError: If an argument is of another kind.
@@ -396,8 +396,8 @@ class Contact:
         """Multiplier of each slave node of this rank, force/reference area, as it was solved for.
 
         Without friction its pressure, shape (n,); with friction, or tied, the traction that the
-        master exerts on it, shape (n, gdim). Laws and balance hold for it; it scatters more than
-        ``pressure`` and ``traction``.
+        master exerts on it, shape (n, gdim). The contact laws and equilibrium hold for it; it
+        scatters more than ``pressure`` and ``traction``.
         """
         nodes = self.interface.nodes
         return nodes.multiplier if nodes.size == 1 else nodes.multiplier.reshape(-1, nodes.size)
@@ -415,8 +415,8 @@ class Contact:
     def master_pressure(self) -> fem.Function:
         """Contact pressure at the nodes of the master surface, zero elsewhere, for forms over it.
 
-        Each has the mean of the slave nodes in front of it, by the areas in which they meet. Of a
-        rigid obstacle it is zero.
+        The value of a node is the mean over the slave nodes in front of it, weighted by the areas
+        in contact with it. With a rigid obstacle it is zero.
         """
         return self.fields.master_pressure
 
@@ -425,8 +425,8 @@ class Contact:
         """Traction that the master exerts on the slave, force/area, zero off the slave surface.
 
         It is p n + t with the pressure above, the master's normal n and the tangential traction t,
-        recovered likewise: |t| <= friction p holds where the coefficient is uniform. Where normals
-        turn from node to node the total force changes by a little, which the report states.
+        recovered in the same way: |t| <= friction p holds where the coefficient is uniform. Where
+        normals differ from node to node the total force changes a little, which the report states.
         """
         return self.fields.traction
 
@@ -444,8 +444,9 @@ class Contact:
     def slip(self) -> fem.Function:
         """Slip increment of the last step, a length; zero off the slave surface.
 
-        A node that touches first within a step slips from where the straight way between the
-        step's start and the iterate that first closes it, seen from the master, meets the master.
+        For a node that comes into contact in the first iterate of a step, slip is counted from
+        where the straight line between its positions at the step's start and in that iterate, both
+        relative to the master, crosses the master's surface; for all others from the step's start.
 
         Raises:
             RuntimeError: If the contact has no friction, or is tied.
@@ -472,7 +473,7 @@ class Contact:
     def force(self) -> npt.NDArray[np.float64]:
         """Total force on the slave side of all ranks, shape (gdim,).
 
-        In self-contact on the nodes that are slaves now.
+        In self-contact it is that on the nodes that are slaves at present.
         """
         return self.fields.force
 

@@ -17,11 +17,11 @@ type Array = npt.NDArray[np.float64]
 
 
 class FrictionLaw:
-    """Friction whose bound is no constant times the pressure: |t| <= f(p, s).
+    """Friction with any bound of the tangential traction: |t| <= f(p, s).
 
-    p is the pressure, force/reference area, and s the length that a slave node has slipped, in all
-    accepted steps and this one. Slip goes against t, as with Coulomb's law; see theory/friction of
-    the manual. For example::
+    p is the pressure, force/reference area, and s the accumulated slip of a slave node, a length,
+    over all accepted steps and this one. Slip is opposite to t, as with Coulomb's law; see
+    theory/friction of the manual. For example::
 
         cx.FrictionLaw(lambda p, s: ufl.as_ufl(0.1))                       # Tresca
         cx.FrictionLaw(lambda p, s: ufl.min_value(0.3 * p, 0.1))           # up to a limit

@@ -22,7 +22,7 @@ from dolfinx import fem
 
 
 class VTKOutput:
-    """Writes the displacement and the fields of contacts, one set a time, for ParaView.
+    """Writes the displacement and the fields of contacts for ParaView, a set for each time.
 
     The suffix of the path says how: ``.pvd`` is VTK's format with a file of each rank and time,
     ``.xdmf`` one file with its data in ``.h5`` beside it, and ``.bp`` ADIOS2's for VTX, scalars and
@@ -48,8 +48,8 @@ class VTKOutput:
         """Open the file.
 
         Args:
-            path: File with one of the suffixes; the data go into files beside it. Its folder is
-                made.
+            path: File with one of the suffixes; the data go into files beside it. Files of these
+                names are replaced; the folder is made.
             u: Displacement.
             contacts: Contacts of a ContactProblem.
             fields: Other functions of linear Lagrange spaces to write, such as stresses.

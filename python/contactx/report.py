@@ -54,10 +54,10 @@ class Report:
     """Report of a step.
 
     Attributes:
-        history: One row an iteration, the start first.
+        history: One row for each iteration, the start first.
         discarded: Linear solves of the attempts at this step that failed: that without damping, and
             those that LoadSteps cut.
-        damped: Whether Newton steps were damped, as others did not converge.
+        damped: Whether Newton steps were damped, since full ones did not converge.
         converged: Whether the step converged.
         reason: Why the Newton loop ended.
         slaves: Number of slave nodes of all contacts.
@@ -68,14 +68,14 @@ class Report:
         krylov: Iterations of the condensed solver.
         hierarchies: Multigrid hierarchies made for it.
         factorisations: Factorisations, of the blocks of bodies or of systems not condensed.
-        by_bodies: Why condensed solves were by bodies, without multigrid, one entry a solve.
-        uncondensed: Why solves were not condensed, one entry a solve.
+        by_bodies: Why condensed solves were by bodies, without multigrid; an entry for each solve.
+        uncondensed: Why solves were not condensed; an entry for each solve.
         soft: Linear solves on the path from soft to hard contact.
         limited: Newton steps that were shortened so as not to turn a cell inside out.
         shortened: Newton steps that were damped.
-        cycles: How often the status of an iterate came back and steps were shortened.
+        cycles: How often the active set cycled and steps were shortened.
         free_modes: Rigid modes of free bodies, at the end; the forces along them balance.
-        closed_for_balance: Nodes that were closed because a free body would have met them first.
+        closed_for_balance: Nodes that were closed since a free body would touch there first.
         slip: Sum over the slave nodes of their slip in this step, a length.
         dissipation: Work of friction in all steps so far.
         frozen_pairs: Pairs that went back and forth between facets and were frozen.

@@ -20,7 +20,7 @@ from contactx.parallel.agreement import agreed
 
 
 class CSVOutput:
-    """Writes the totals of contacts, one line a time, as a ``.csv`` file.
+    """Writes the totals of contacts to a ``.csv`` file, a line for each time.
 
     Example::
 

@@ -38,7 +38,11 @@ def lines(
         words: Name of each key's axis.
         title: Title of the whole.
     """
-    figure = Figure(figsize=(max(11.0, 6.4 * len(axes)), 6.6), layout="constrained")
+    # Words of a picture with one pair of axes can be read on a phone, where it is 350 pixels wide
+    alone = len(axes) == 1
+    size = (7.0, 8.6) if alone else (6.4 * len(axes), 6.6)
+    words_size, names_size = (13, 11.5) if alone else (10, 9)
+    figure = Figure(figsize=size, layout="constrained")
     handles: dict[str, Any] = {}
     families = list(dict.fromkeys(name.split(",")[0] for name in list(groups)[ours:]))
     for axis, (x, y) in zip(figure.subplots(1, len(axes), squeeze=False)[0], axes, strict=True):
@@ -50,8 +54,9 @@ def lines(
             (handles[name],) = axis.plot(*zip(*points, strict=True), mec="white", mew=0.6, **style)
         axis.set_xscale("log")
         axis.set_yscale("log")
-        axis.set_xlabel(words[x])
-        axis.set_ylabel(words[y])
+        axis.set_xlabel(words[x], fontsize=words_size)
+        axis.set_ylabel(words[y], fontsize=words_size)
+        axis.tick_params(labelsize=words_size)
         for side in (axis.xaxis, axis.yaxis):
             side.set_major_locator(LogLocator(subs=(1, 2, 5)))
             side.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,.10g}"))
@@ -60,7 +65,12 @@ def lines(
         axis.spines[["top", "right"]].set_visible(False)
     figure.suptitle(title, fontsize=14, color=INK)
     figure.legend(
-        handles.values(), handles, frameon=False, loc="outside lower center", ncols=2, fontsize=9
+        handles.values(),
+        handles,
+        frameon=False,
+        loc="outside lower center",
+        ncols=1 if alone else 2,
+        fontsize=names_size,
     )
     path.parent.mkdir(parents=True, exist_ok=True)
     figure.savefig(path, dpi=DOTS_PER_INCH, facecolor="white")

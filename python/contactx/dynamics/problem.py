@@ -28,25 +28,25 @@ _MASSES = ("lumped", "consistent")
 
 
 class ContactDynamics(ContactProblem):
-    """Bodies with inertia and contact, by a time step that contact does not excite.
+    """Bodies with inertia and contact, by a time step without spurious oscillations of the contact.
 
     A step of length dt from u_0, v_0 ends at u_1 with the multipliers lambda of::
 
         density (2 (u_1 - u_0) / dt^2 - 2 v_0 / dt) . v + forces((u_0 + u_1) / 2; v) - loads(v)
             - sum_s A_s lambda_s . (v_s - sum_l N_l v_l) = 0  for all v
 
-    that is Newmark's method (1/4, 1/2) for linear bodies, where contact acts throughout the step
-    and obeys its laws at the end (Kane, Repetto, Ortiz and Marsden 1999). Then velocities
-    v_1 = 2 (u_1 - u_0) / dt - v_0 are corrected by the law of inelastic impact (Moreau 1988): a
-    closed node that is pressed does not move along the normal any more, a sticking or tied one not
-    at all. Without this a node that has arrived with -v goes on with up to v, and the contact force
-    swings for ever. With linear bodies and obstacles that are flat and at rest neither the
-    multipliers nor the correction can raise the energy, whatever dt is; where nodes slide over
-    curved or faceted surfaces they may, as the surface turns in a step. An impact takes the
-    kinetic energy of the surface's nodes, which vanishes with the size of the cells; bodies bounce
-    by their own waves. See ``dynamics/impact.h``.
+    that is Newmark's method (1/4, 1/2) for linear bodies, where the contact force is constant over
+    the step and the contact laws hold at its end (Kane, Repetto, Ortiz and Marsden 1999). Then the
+    velocities v_1 = 2 (u_1 - u_0) / dt - v_0 are corrected by the law of inelastic impact (Moreau
+    1988): a closed node under pressure has no relative velocity along the normal any more, a
+    sticking or tied one none at all. Without this a node that arrives with -v would leave with up
+    to v, and the contact force would oscillate. With linear bodies and obstacles that are flat and
+    at rest neither the multipliers nor the correction can raise the energy, whatever dt is; where
+    nodes slide over curved or faceted surfaces they may, since the normals turn within a step. An
+    impact dissipates the kinetic energy of the surface's nodes, which vanishes with the size of
+    the cells; bodies rebound by their own elastic waves. See ``dynamics/impact.h``.
 
-    Steps are those of ``LoadSteps``, which then count time::
+    Steps are those of ``LoadSteps``, in which t is the time::
 
         dynamics = cx.ContactDynamics(forces, u, density=rho, contacts=[contact],
                                       petsc_options_prefix="bar_")
@@ -100,11 +100,11 @@ class ContactDynamics(ContactProblem):
                 arguments; for ``report.balance`` alone.
             mass: "lumped", a diagonal matrix, the default for degree 1, where it is exact for
                 rigid translations; or "consistent", the default and only one for degree 2.
-            impact_travel: How far a node may move to what it hits in the step in which it arrives,
-                over the size of the cells there. Contact acts throughout that step, so that this is
-                how well the time of the impact is known. A step in which a node moves further
-                fails, and ``LoadSteps`` halves it: steps are short at impacts, and grow back. No
-                limit if None.
+            impact_travel: How far a node may travel before it touches within a step, over the size
+                of the cells there. Contact acts throughout that step, so that this distance is
+                the error of the time of the impact. A step in which a node travels farther fails,
+                and ``LoadSteps`` halves it: steps are short at impacts, and grow back. No limit if
+                None.
             bcs: Dirichlet conditions. Prescribed displacements move with their mean velocity of
                 a step.
             petsc_options: As of ``ContactProblem``.
@@ -180,7 +180,7 @@ class ContactDynamics(ContactProblem):
         return [*super().beside, self.velocity]
 
     def solve(self) -> fem.Function | Sequence[fem.Function]:
-        """Take a step of length ``dt`` from ``u`` and ``velocity``, under the loads of now.
+        """Take a step of length ``dt`` from ``u`` and ``velocity``, with the current loads.
 
         Returns:
             ``u``.

@@ -11,7 +11,7 @@ from dolfinx import fem
 
 
 class Cylinder(core.Cylinder):
-    """Endless circular cylinder, or with ``hollow`` all that is outside of one.
+    """Infinite circular cylinder, or with ``hollow`` the space around one, as of a pipe.
 
     Changing the value of a ``fem.Constant`` moves it.
     """
@@ -32,8 +32,8 @@ class Cylinder(core.Cylinder):
             axis: Direction of the axis, of any length, shape (3,), numbers or a ``fem.Constant``.
             radius: Radius, a number or a ``fem.Constant``.
             hollow: False: bodies may be outside of the cylinder. True: inside, as in a pipe.
-            angle: How far it has spun about its axis, right-handed, in radians, which drags what
-                touches it by friction or ties. Spin by less than a right angle a step.
+            angle: Rotation about its axis, right-handed, in radians, which drags what touches it by
+                friction or ties. Turn it by less than a right angle in a step.
 
         Raises:
             TypeError: If hollow is neither True nor False.

@@ -17,12 +17,13 @@ from dolfinx import fem
 
 
 class LevelSet(core.LevelSet):
-    """Body where a function is negative; bodies may be where it is positive.
+    """Rigid body where a function is negative; deformable bodies may be where it is positive.
 
     The function need not be a distance: its zero is the surface, and g = f / |grad f| is the
-    distance to first order. A function that changes tells of no movement along its surface: for
-    friction its material is at rest, and a step in which it changes while it is touched is refused,
-    unless it has a velocity. Plane, Sphere and Cylinder drag what touches them.
+    distance to first order. A change of the function does not tell how the material moves along the
+    surface. For friction the material is at rest, and a step in which the function changes while
+    the obstacle is touched is refused, unless it has a velocity. Plane, Sphere and Cylinder drag
+    what touches them.
     """
 
     def __init__(
@@ -41,11 +42,11 @@ class LevelSet(core.LevelSet):
                 differentiated by UFL. Or of Python: it takes an array of shape (gdim, n), as in
                 ``Function.interpolate``, and returns one of shape (n,).
             gradient: Gradient of a Python function, from (gdim, n) to (gdim, n).
-            velocity: Velocity of its material, which drags what touches it by friction or ties: a
-                belt's, for example. A function of the position, of UFL with a vector for its value
-                where f is one of UFL, else of arrays as the gradient. It must fit to how f changes.
-            time: Time of the velocity, a number or a ``fem.Constant``: between two steps the
-                material goes with the velocity for as long as the time has changed.
+            velocity: Velocity of its material, such as that of a belt, which drags what touches it
+                by friction or ties. A function of the position: in UFL with a vector as its value
+                if f is in UFL, else of arrays as the gradient. It must agree with the change of f.
+            time: Time, a number or a ``fem.Constant``: in a step the material moves with the
+                velocity for the change of this time.
 
         Raises:
             TypeError: If f, gradient or velocity is not callable, or the time no number.

@@ -44,14 +44,15 @@ class LoadSteps:
     A step that does not converge is halved. Halved steps grow back: after an easy one the next is
     twice as long, but no given t is passed over. The loop sees accepted steps only; its body runs
     between them, so it may update a material's history. A failed attempt leaves u, contacts and
-    history as they were, bit for bit. After a break, or an error that was dealt with, another loop
-    goes on behind the last accepted step; one that the body has not seen comes first.
+    history as they were, bit for bit. After a break, or an error that was caught, another loop over
+    the same object goes on after the last accepted step. An accepted step that the body was not
+    given, since ``output`` failed, comes first.
 
     On several ranks all of them run the loop. What ``update``, ``output`` or the solve raises on
-    one rank is raised on all of them. Two errors of a single rank leave the others waiting, which
-    nothing can prevent: one of the loop's body, and one of ``update`` or ``output`` while the
-    others are inside a collective call that it makes. Rank 0 writes checkpoints and shows progress;
-    a checkpoint of some ranks can be gone on from on any other number of them.
+    one rank is raised on all of them. There are two errors on a single rank that leave the others
+    waiting, which cannot be prevented: one in the loop's body, and one in ``update`` or ``output``
+    while the others are inside a collective call of that function. Rank 0 writes checkpoints and
+    shows progress; a run can be restarted on any other number of ranks.
     """
 
     def __init__(

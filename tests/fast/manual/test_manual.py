@@ -29,6 +29,31 @@ def test_first_tutorial(tmp_path, monkeypatch):
     assert np.allclose(names["floor"].force, (0, 0.01), atol=1e-9)
 
 
+def test_cpp_tutorial_shows_the_demo():
+    """What the page shows is the demo's source; what it says of its parts is in them."""
+    page = pages.MANUAL / "tutorials" / "cpp.md"
+    demo = pages.ROOT / "demos" / "cpp" / "sliding_block"
+    shown = pages.inclusions(page)
+    assert [part.file.relative_to(demo).name for part in shown] == [
+        "CMakeLists.txt",
+        "sliding_block.py",
+        "main.cpp",
+        "main.cpp",
+    ]
+    project, forms, contact, loop = (part.code for part in shown)
+    assert project.startswith("cmake_minimum_required") and "COMPONENTS dolfinx" in project
+    assert forms.startswith('"""Forms of linear elasticity') and "forms = [F, J]" in forms
+    assert "cx::Contact" in contact and contact.rstrip().endswith(";")
+    calls = ("begin_step", "settle", "limit", "accept")
+    assert all(loop.count(f"assembler.{call}(") == 1 for call in calls)
+    # Code of the page's own would be code that nothing compiles
+    languages = {block.language.split()[0] for block in pages.blocks(page)}
+    assert languages == {"{literalinclude}", "{code-block}"}
+    commands = [block.code for block in pages.blocks(page) if block.language.endswith("console")]
+    for path in re.findall(r"demos/\S+", "\n".join(commands)):
+        assert (pages.ROOT / path).exists()
+
+
 def test_each_demo_has_a_page():
     demos = {
         path.stem
