@@ -42,9 +42,6 @@ at the force or depth that was computed. Iterations are linear solves.
 _MISSING = """
 ## What is missing
 
-- **NAFEMS R0094 problem 3 with friction**: the sheet is bent, to 20.5 degrees for the published
-  21.84, but does not come loose by default options: after 0.06 of the 28.5 mm back Newton's method
-  finds no step that leads on.
 - **NAFEMS R0094 problem 4 in space**: curves alone are public; Code_Aster's plane model is above.
 - **NAFEMS R0094 problem 5**, a steel roller on rubber: no number of it was found in public;
   Code_Aster's tests have problems 1, 2 and 4. Carter's roller on rubber, above, stands for it.
