@@ -210,14 +210,12 @@ class ByBodies:
             model = self._model_of(operator)
             if model is None:
                 part.add_diagonal(change, self._springs(operator, report))
-            else:
-                follow = model.follow(transforms.right, part)
 
         def make() -> PETSc.Mat:
             A = part.block(change, operator.eliminated)
             if model is None:
                 return A
-            return model.block(A, follow, part.places(operator.eliminated))
+            return model.block(A, transforms.right, part, operator.eliminated)
 
         return block.update(change, make, is_symmetric, serves, report)
 

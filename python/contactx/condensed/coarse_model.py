@@ -101,43 +101,27 @@ class CoarseModel:
         stiffness.setDiagonal(diagonal)
         return cls(numbering, stiffness, at_slaves, soft, slaves)
 
-    def follow(self, right: PETSc.Mat, stiff: Part) -> PETSc.Mat:
-        """What eliminated soft displacements follow, times the roots of their springs.
-
-        All ranks must take part.
-
-        Args:
-            right: Eliminated displacements by the others, (num_dofs, num_dofs).
-            stiff: Displacements of the stiff bodies.
-
-        Returns:
-            A row for each displacement of a soft slave node, zero where it is not eliminated.
-        """
-        R = right.createSubMatrix(self._rows, stiff.index_set)
-        roots = R.createVecLeft()
-        roots.array[:] = np.sqrt(self._springs)
-        R.diagonalScale(roots)
-        return R
-
-    def block(self, A: PETSc.Mat, follow: PETSc.Mat, eliminated: Index) -> PETSc.Mat:
+    def block(self, A: PETSc.Mat, right: PETSc.Mat, stiff: Part, eliminated: Index) -> PETSc.Mat:
         """The matrix of stiff bodies, the model and the springs; all ranks must take part.
 
         Args:
             A: A_mm, without couplings of what is eliminated; its unknowns come first.
-            follow: What ``follow`` gave.
-            eliminated: Places of eliminated displacements in A_mm.
+            right: Eliminated displacements by the others, (num_dofs, num_dofs).
+            stiff: Displacements of the stiff bodies.
+            eliminated: Owned displacements that are eliminated.
         """
-        indptr = follow.getValuesCSR()[0]
-        active = index_set(np.flatnonzero(np.diff(indptr) > 0), follow)
-        R = follow.createSubMatrix(active, own_columns(follow))
-        kept = R.createVecRight()
-        kept.set(1.0)
-        kept.array[eliminated] = 0
-        R.diagonalScale(None, kept)
+        R = right.createSubMatrix(self._rows, stiff.index_set)
+        is_active = np.diff(R.getValuesCSR()[0]) > 0
+        active = index_set(np.flatnonzero(is_active), R)
+        R = R.createSubMatrix(active, own_columns(R))
         P = self._P.createSubMatrix(active, own_columns(self._P))
-        roots = P.createVecLeft()
-        roots.array[:] = -np.sqrt(self._springs[np.diff(indptr) > 0])
+        roots, kept = R.createVecLeft(), R.createVecRight()
+        roots.array[:] = np.sqrt(self._springs[is_active])
+        kept.set(1.0)
+        kept.array[stiff.places(eliminated)] = 0
+        R.diagonalScale(roots, kept)
         P.diagonalScale(roots)
+        P.scale(-1.0)
         n = P.getSizes()[0]
         forces = PETSc.Mat().createAIJ((n, n), nnz=1, comm=self._comm)
         forces.assemble()
