@@ -210,18 +210,22 @@ def direct_options(prefix: str) -> SolverOptions:
     return SolverOptions(prefix, {}, {**_direct(), **krylov})
 
 
-def block_options(prefix: str, *, is_symmetric: bool) -> SolverOptions:
+def block_options(prefix: str, *, is_symmetric: bool, group: int = 1) -> SolverOptions:
     """Options of a direct solver of a block, in single precision where the solver has it.
 
     Args:
         prefix: Prefix of the options in PETSc's database.
         is_symmetric: Whether the block is symmetric.
+        group: Number of successive unknowns that are coupled to the same others, those of a node.
+            The solver orders groups.
     """
     options = {"ksp_type": "preonly", **_direct()}
     if compat.direct_solver() == "mumps":
         # Iterations correct for what rounding leaves
         options["pc_precision"] = "single"
         options["mat_mumps_icntl_14"] = 30
+        if group > 1:
+            options["mat_mumps_icntl_15"] = -group
         if is_symmetric:
             options["pc_type"] = "cholesky"
     return SolverOptions(prefix, {}, options)

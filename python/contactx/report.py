@@ -172,8 +172,9 @@ class Report:
         frozen = f", {self.frozen_pairs} frozen (hiding a gap of {self.frozen_gap:.1e})"
         discarded = f" ({self.discarded} more in attempts that failed)"
         lines = [
-            f"{'converged' if self.converged else 'NOT converged'} after {self.iterations} "
-            f"iterations{discarded if self.discarded else ''}: {self.reason}",
+            f"{'converged' if self.converged else 'NOT converged'} after "
+            f"{_counted(self.iterations, 'iteration')}{discarded if self.discarded else ''}: "
+            f"{self.reason}",
             self.table().rstrip(),
             f"{self.pairs} of {self.slaves} slave nodes have a pair"
             + (f", {self.immobile} immobile" if self.immobile else "")
@@ -187,13 +188,18 @@ class Report:
             )
         if self.krylov:
             lines.append(
-                f"linear solves: {self.krylov} Krylov iterations, {self.hierarchies} hierarchies, "
-                f"{self.factorisations} factorisations"
+                f"linear solves: {_counted(self.krylov, 'Krylov iteration')}, "
+                f"{_counted(self.hierarchies, 'hierarchy', 'hierarchies')}, "
+                f"{_counted(self.factorisations, 'factorisation')}"
             )
         for reason in sorted(set(self.by_bodies)):
-            lines.append(f"solved by bodies {self.by_bodies.count(reason)} times: {reason}")
+            lines.append(
+                f"solved by bodies {_counted(self.by_bodies.count(reason), 'time')}: {reason}"
+            )
         for reason in sorted(set(self.uncondensed)):
-            lines.append(f"solved directly {self.uncondensed.count(reason)} times: {reason}")
+            lines.append(
+                f"solved directly {_counted(self.uncondensed.count(reason), 'time')}: {reason}"
+            )
         acted = [
             f"{self.soft} solves with soft contact" if self.soft else "",
             f"{self.limited} steps shortened to keep cells from turning inside out"
@@ -238,3 +244,8 @@ def render(table: Table) -> str:
     text = io.StringIO()
     Console(file=text, width=80).print(table)
     return text.getvalue()
+
+
+def _counted(number: int, one: str, many: str = "") -> str:
+    """A number of things: "1 iteration", "2 iterations"."""
+    return f"{number} {one if number == 1 else many or one + 's'}"

@@ -26,9 +26,11 @@ from contactx.report import Report
 # Iterations after which the blocks are no use
 _MOST = 120
 _RESTART = 60
-# Change of the soft block and of the stiff one, to the size of what contact adds to them, below
-# which factors serve
-_SOFT_SERVES, _STIFF_SERVES = 0.03, 0.1
+# Change of the soft block, to the size of what contact adds to it, below which its factors serve
+_SOFT_SERVES = 0.03
+# The same of the stiff block times the reduction that a solve asks for, as a power of e: so many
+# iterations are lost
+_STIFF_SERVES = 0.25
 # Least part of the largest movement under a uniform traction that counts for a spring
 _LEAST_MOVED = 1e-3
 # Iterations for a reduction by e from which on springs do not do for soft bodies
@@ -89,10 +91,10 @@ class ByBodies:
         self._per_area: Array | None = None
         self._model: CoarseModel | None = None
         # Whether the last factors are of this matrix, iterations for a reduction by e with such
-        # ones, and those lost since
+        # ones, last and at most, and those lost since
         self._is_new = False
-        self._rate = self._lost = 0.0
-        # Change of the stiff block below which its factors serve
+        self._rate = self._slowest = self._lost = 0.0
+        # Change of the stiff block below which its factors serve, times the reduction
         self._serves = _STIFF_SERVES
 
     def tells_apart(self, operator: CondensedOperator) -> bool:
@@ -125,14 +127,15 @@ class ByBodies:
             Whether the iterations converged.
         """
         self._operator = operator
+        reduction = operator.reduction(rhs, v, target)
         if self._updated_for is not operator:
-            self._update(operator, report)
+            self._update(operator, reduction, report)
         if self._iterate(rhs, v, target, report):
             return True
         if not self._is_new or self._updated_for is None:
             if not self._is_new:
                 self._serves /= 2
-            self._update(operator, report, exact=True)
+            self._update(operator, reduction, report, exact=True)
             if self._iterate(rhs, v, target, report):
                 return True
         self.reset()
@@ -141,10 +144,11 @@ class ByBodies:
     def _iterate(self, rhs: PETSc.Vec, v: PETSc.Vec, target: float, report: Report) -> bool:
         ksp, operator = self._ksp, self._operator
         assert ksp is not None and operator is not None
-        most = _MOST if self._is_new else 2 * _COST
-        ksp.setTolerances(rtol=ROUNDING, atol=target, max_it=most)
-        ksp.setInitialGuessNonzero(v.norm() > 0)
         reduction = operator.reduction(rhs, v, target)
+        # With old factors no more are lost than new ones cost
+        most = _MOST if self._is_new else _COST + int(self._slowest * reduction)
+        ksp.setTolerances(rtol=ROUNDING, atol=target, max_it=min(most, _MOST))
+        ksp.setInitialGuessNonzero(v.norm() > 0)
         # Factors of a singular block are not finite
         with report.timing("Krylov"), Quiet() as self._quiet, np.errstate(all="ignore"):
             ksp.solve(rhs, v)
@@ -152,6 +156,7 @@ class ByBodies:
         self.iterations += count
         if self._is_new:
             self._rate = count / reduction
+            self._slowest = max(self._slowest, self._rate)
             self._judge(count)
         else:
             self._lost += max(0.0, count - self._rate * reduction)
@@ -160,11 +165,19 @@ class ByBodies:
         v.set(0.0)
         return False
 
-    def _update(self, operator: CondensedOperator, report: Report, *, exact: bool = False) -> None:
+    def _update(
+        self,
+        operator: CondensedOperator,
+        reduction: float,
+        report: Report,
+        *,
+        exact: bool = False,
+    ) -> None:
         """Bring the blocks up to what contact makes of the matrix; all ranks must take part.
 
         Args:
             operator: The condensed matrix.
+            reduction: Logarithm of what the residual is to be reduced by.
             report: Report whose times are added to.
             exact: Whether no other factors serve.
         """
@@ -181,12 +194,13 @@ class ByBodies:
             change,
             lambda: soft.part.block(change, operator.eliminated),
             is_symmetric,
+            soft.part.group,
             0.0 if exact else _SOFT_SERVES,
             report,
         )
         self.factorisations += is_new
         if stiff is not None:
-            serves = None if exact else 0.0 if self._lost > _COST else self._serves
+            serves = None if exact else 0.0 if self._lost > _COST else self._serves / reduction
             is_new = self._update_stiff(operator, stiff, transforms, serves, report)
             self.factorisations += is_new
         self._is_new = is_new or exact
@@ -217,7 +231,8 @@ class ByBodies:
                 return A
             return model.block(A, transforms.right, part, operator.eliminated)
 
-        return block.update(change, make, is_symmetric, serves, report)
+        group = part.group if model is None else min(part.group, model.group)
+        return block.update(change, make, is_symmetric, group, serves, report)
 
     def _judge(self, count: int) -> None:
         """Take a coarse model from now on, where springs have been slow.
@@ -230,6 +245,7 @@ class ByBodies:
             self._has_model = True
             self._stiff.drop()
             self._updated_for = None
+            self._slowest = 0.0
 
     def _model_of(self, operator: CondensedOperator) -> CoarseModel | None:
         """The coarse model, if there is to be one; all ranks must take part."""
@@ -297,7 +313,8 @@ class ByBodies:
         areas[self._bulk.markers[part.dofs] == 1] = 0
         axis = part.dofs % operator.numbering.gdim
         # PETSc may change what it factorises
-        ksp = _factorised(part.K.copy(), self._prefix + "soft_", self._bulk.is_symmetric)
+        prefix = self._prefix + "soft_"
+        ksp = _factorised(part.K.copy(), prefix, self._bulk.is_symmetric, part.group)
         f, u = part.K.createVecs()
         stiffness = np.zeros(operator.numbering.num_owned)
         for k in range(operator.numbering.gdim):
@@ -376,6 +393,7 @@ class _Block:
         change: PETSc.Mat,
         make: Callable[[], PETSc.Mat],
         is_symmetric: bool,
+        group: int,
         serves: float | None,
         report: Report,
     ) -> bool:
@@ -385,6 +403,7 @@ class _Block:
             change: What contact adds to the bulk's block.
             make: Makes the whole block; its first unknowns are those of the part.
             is_symmetric: Whether the block is symmetric.
+            group: Number of successive unknowns that belong together.
             serves: Part of the change that may be other than in the factors; None if none serve.
             report: Report whose times are added to.
 
@@ -402,7 +421,7 @@ class _Block:
             A = make()
             self._b, self._x = A.createVecs()
         with report.timing("factorisation"):
-            self._ksp = _factorised(A, self._prefix, is_symmetric)
+            self._ksp = _factorised(A, self._prefix, is_symmetric, group)
         self._change = change
         return True
 
@@ -417,15 +436,16 @@ class _Block:
         return found
 
 
-def _factorised(A: PETSc.Mat, prefix: str, is_symmetric: bool) -> PETSc.KSP:
+def _factorised(A: PETSc.Mat, prefix: str, is_symmetric: bool, group: int) -> PETSc.KSP:
     """Factors of a matrix, whose entries are dropped; all ranks must take part.
 
     Args:
         A: The matrix.
         prefix: Prefix of the options.
         is_symmetric: Whether it is symmetric.
+        group: Number of successive unknowns that belong together.
     """
-    with block_options(prefix, is_symmetric=is_symmetric).in_database():
+    with block_options(prefix, is_symmetric=is_symmetric, group=group).in_database():
         ksp = PETSc.KSP().create(comm=A.comm)
         ksp.setOptionsPrefix(prefix)
         ksp.setFromOptions()

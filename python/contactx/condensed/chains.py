@@ -6,8 +6,10 @@ from __future__ import annotations
 
 from petsc4py import PETSc
 
+import numpy as np
+
 from contactx import cpp as core
-from contactx.condensed.numbering import DIFFERENT, Array, Index, Numbering
+from contactx.condensed.numbering import DIFFERENT, Array, Index, Numbering, diagonal_matrix
 from contactx.parallel import reduce
 
 # Terms of a series, beside the first one
@@ -34,9 +36,8 @@ class Chains:
             dofs: Owned displacements that its rows and columns stand for, in order.
         """
         self.C = numbering.matrix(entries, rows=dofs, is_square=True)
-        A = self.C.copy()
-        A.scale(-1.0)
-        A.shift(1.0)
+        A = diagonal_matrix(np.ones(len(dofs)), numbering.comm)
+        A.axpy(-1.0, self.C, DIFFERENT)
         self._ksp = PETSc.KSP().create(comm=numbering.comm)
         self._ksp.setOperators(A)
         self._ksp.setType("preonly")

@@ -11,8 +11,16 @@ import numpy as np
 from contactx.bulk import Bulk
 from contactx.condensed.diagonal_blocks import Part
 from contactx.condensed.multigrid import near_null_space
-from contactx.condensed.numbering import Array, Index, Numbering, index_set, own_columns
+from contactx.condensed.numbering import (
+    Array,
+    Index,
+    Numbering,
+    diagonal_matrix,
+    index_set,
+    own_columns,
+)
 from contactx.options import aggregation_options
+from contactx.parallel import reduce
 
 # Stiffness of a spring over the diagonal of the soft body where it acts, whose other nodes do not
 # move: of 0.02, 0.05, 0.1 and 0.3 the one with the fewest iterations on slabs of a dam's face
@@ -33,6 +41,10 @@ class CoarseModel:
         [  R    -P   -D^-1  ]
 
     has few entries, where R^T D R would couple all masters of a slave node.
+
+    Attributes:
+        group: Number of successive unknowns that belong together, those of a node or of an
+            aggregate; one if there are none such.
     """
 
     def __init__(
@@ -54,6 +66,8 @@ class CoarseModel:
         diagonal = np.zeros(numbering.num_owned)
         diagonal[soft.dofs] = np.abs(soft.K.getDiagonal().array_r)
         self._springs: Array = _SPRING * diagonal[slaves]
+        is_grouped = stiffness.getLocalSize()[0] % soft.group == 0
+        self.group = soft.group if reduce.everywhere(numbering.comm, is_grouped) else 1
 
     @classmethod
     def of(
@@ -112,20 +126,19 @@ class CoarseModel:
         """
         R = right.createSubMatrix(self._rows, stiff.index_set)
         is_active = np.diff(R.getValuesCSR()[0]) > 0
-        active = index_set(np.flatnonzero(is_active), R)
-        R = R.createSubMatrix(active, own_columns(R))
-        P = self._P.createSubMatrix(active, own_columns(self._P))
+        # A group of which one is active is taken as a whole
+        is_taken = np.repeat(is_active.reshape(-1, self.group).any(axis=1), self.group)
+        taken = index_set(np.flatnonzero(is_taken), R)
+        R = R.createSubMatrix(taken, own_columns(R))
+        P = self._P.createSubMatrix(taken, own_columns(self._P))
         roots, kept = R.createVecLeft(), R.createVecRight()
-        roots.array[:] = np.sqrt(self._springs[is_active])
+        roots.array[:] = np.sqrt(np.where(is_active, self._springs, 0.0)[is_taken])
         kept.set(1.0)
         kept.array[stiff.places(eliminated)] = 0
         R.diagonalScale(roots, kept)
         P.diagonalScale(roots)
         P.scale(-1.0)
-        n = P.getSizes()[0]
-        forces = PETSc.Mat().createAIJ((n, n), nnz=1, comm=self._comm)
-        forces.assemble()
-        forces.shift(-1.0)
+        forces = diagonal_matrix(-np.ones(P.getLocalSize()[0]), self._comm)
         of_R, of_P = R.transpose(PETSc.Mat()), P.transpose(PETSc.Mat())
         rows = [[A, None, of_R], [None, self._K, of_P], [R, P, forces]]
         return PETSc.Mat().createNest(rows, comm=self._comm).convert("aij", PETSc.Mat())

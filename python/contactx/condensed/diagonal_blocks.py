@@ -10,7 +10,8 @@ import numpy as np
 
 from contactx import cpp as core
 from contactx.condensed.chains import add_terms
-from contactx.condensed.numbering import DIFFERENT, Array, Index, Numbering
+from contactx.condensed.numbering import DIFFERENT, Array, Index, Numbering, diagonal_matrix
+from contactx.parallel import reduce
 
 # Difference of equal matrices that rounding leaves, relative
 _ROUNDED = 1e-12
@@ -54,7 +55,7 @@ class Transforms:
         self.law = numbering.matrix(condensation.law)
         self.stiffness = numbering.matrix(condensation.stiffness)
         if springs is not None:
-            diagonal = diagonal_matrix(self.stiffness, springs)
+            diagonal = diagonal_matrix(springs, numbering.comm)
             self.stiffness.axpy(1.0, diagonal, DIFFERENT)
 
 
@@ -65,6 +66,7 @@ class Part:
         dofs: Owned displacements, ascending, shape (n,).
         index_set: The same in PETSc's numbers.
         K: The bulk's block.
+        group: Number of displacements of a node if they are of whole nodes on all ranks, else one.
     """
 
     def __init__(self, numbering: Numbering, dofs: Index, K: PETSc.Mat):
@@ -80,6 +82,10 @@ class Part:
         self.K = K.createSubMatrix(self.index_set, self.index_set)
         self._places = np.full(numbering.num_owned, -1)
         self._places[dofs] = np.arange(len(dofs))
+        gdim = numbering.gdim
+        is_whole = np.array_equal(dofs, (dofs[::gdim, None] + np.arange(gdim)).ravel())
+        is_whole = is_whole and not np.any(dofs[::gdim] % gdim)
+        self.group = gdim if reduce.everywhere(numbering.comm, is_whole) else 1
 
     def places(self, dofs: Index) -> Index:
         """Places of owned displacements among these, of those that are there."""
@@ -108,7 +114,7 @@ class Part:
             A: A matrix of these displacements.
             values: What is added at all owned displacements, shape (num_owned,).
         """
-        A.axpy(1.0, diagonal_matrix(A, values[self.dofs]), DIFFERENT)
+        A.axpy(1.0, diagonal_matrix(values[self.dofs], A.comm), DIFFERENT)
 
     def block(self, change: PETSc.Mat, eliminated: Index) -> PETSc.Mat:
         """K and what contact adds to it, with K's own diagonal for what is eliminated.
@@ -127,21 +133,6 @@ class Part:
         diagonal.array[places] = np.abs(self.K.getDiagonal().array_r[places])
         A.setDiagonal(diagonal)
         return A
-
-
-def diagonal_matrix(A: PETSc.Mat, values: Array) -> PETSc.Mat:
-    """A matrix as large as another one with nothing but a diagonal; all ranks must take part.
-
-    Args:
-        A: The other matrix.
-        values: The diagonal in this rank's rows.
-    """
-    first, last = A.getOwnershipRange()
-    places = np.arange(first, last, dtype=PETSc.IntType)
-    diagonal = PETSc.Mat().createAIJ(A.getSizes(), comm=A.comm)
-    diagonal.setPreallocationCOO(places, places)
-    diagonal.setValuesCOO(values)
-    return diagonal
 
 
 def change_of(part: Part, transforms: Transforms) -> tuple[PETSc.Mat, bool]:

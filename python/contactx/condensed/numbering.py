@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from mpi4py import MPI
 from petsc4py import PETSc
 
 import numpy as np
@@ -159,6 +160,24 @@ class Surroundings:
 def index_set(places: Index, A: PETSc.Mat) -> PETSc.IS:
     """Some of this rank's rows of a matrix, by their places among them."""
     return PETSc.IS().createGeneral(_integers(A.getOwnershipRange()[0] + places), comm=A.comm)
+
+
+def diagonal_matrix(values: Array, comm: MPI.Comm) -> PETSc.Mat:
+    """A matrix with nothing but a diagonal; all ranks must take part.
+
+    PETSc's own shift moves all entries behind each one that it adds.
+
+    Args:
+        values: The diagonal in this rank's rows.
+        comm: Communicator.
+    """
+    size = (len(values), None)
+    diagonal = PETSc.Mat().createAIJ((size, size), comm=comm)
+    first, last = diagonal.getOwnershipRange()
+    places = _integers(np.arange(first, last))
+    diagonal.setPreallocationCOO(places, places)
+    diagonal.setValuesCOO(values)
+    return diagonal
 
 
 def own_columns(A: PETSc.Mat) -> PETSc.IS:

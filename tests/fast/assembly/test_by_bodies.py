@@ -5,6 +5,7 @@
 import numpy as np
 import pytest
 
+from contactx import compat
 from contactx.condensed import by_bodies
 from dolfinx.mesh import CellType
 
@@ -107,6 +108,31 @@ def test_a_coarse_model_has_the_same_answer(cell, law, sliding, with_model):
 def test_factors_serve_where_nothing_changes():
     _, found = both(dragged(CellType.hexahedron, 1e4, "small", tied=True))
     assert [report.factorisations for report in found[2]] == [2, 0, 0]
+
+
+@pytest.mark.skipif(compat.direct_solver() != "mumps", reason="an option of MUMPS")
+@pytest.mark.parametrize("is_held", [False, True])
+def test_nodes_are_ordered_as_groups(is_held, monkeypatch):
+    """Not where a node is partly in a block."""
+    groups = []
+    factorised = by_bodies._factorised
+
+    def note(*args):
+        ksp = factorised(*args)
+        groups.append((args[-1], -ksp.getPC().getFactorMatrix().getMumpsIcntl(15)))
+        return ksp
+
+    monkeypatch.setattr(by_bodies, "_factorised", note)
+
+    def create(options):
+        scene = Blocks(CellType.hexahedron, n_upper=3, n_lower=4, gap=1e-9, stiffness=1e4)
+        if is_held:
+            scene.bcs.append(fix(scene.u, scene.tags, 0, 0.0, Tag.UPPER_CONTACT))
+        contact = scene.contact(friction=0.3)
+        return scene.problem(contact, petsc_options=options), contact, lambda k: None
+
+    both(create)
+    assert set(groups) == ({(3, 3), (1, 0)} if is_held else {(3, 3)})
 
 
 @pytest.mark.parametrize("stiffness", [1.0, 1e3])

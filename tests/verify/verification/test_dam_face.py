@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 from matplotlib import image
 
+from contactx.condensed import by_bodies
+
 import dam_face
 from dam_results import joints, laws
 from dam_scene import Dam, DamSetting, run
@@ -67,6 +69,39 @@ def test_a_restart_goes_on(dam, tmp_path):
 
 def test_the_solver_is_chosen_by_itself(dam):
     assert "multigrid is slow here" in dam.problem.report.by_bodies
+
+
+def count_factorisations(dam):
+    """Factorisations of a run that must give a dam's displacements."""
+    other, counts = Dam(DamSetting(MODEL)), []
+    run(
+        other,
+        STAGES,
+        creep=False,
+        each=lambda d, _: counts.append(d.problem.report.factorisations),
+        progress=False,
+    )
+    difference = other.u.x.array - dam.u.x.array
+    assert np.abs(difference).max() <= 1e-8 * np.abs(dam.u.x.array).max()
+    return sum(counts)
+
+
+def test_factors_serve_the_less_the_more_a_solve_is_to_reduce(dam, monkeypatch):
+    """With a hundredth of the reduction old factors serve longer."""
+    many = count_factorisations(dam)
+    reduction = by_bodies.CondensedOperator.reduction
+    monkeypatch.setattr(
+        by_bodies.CondensedOperator, "reduction", lambda *args: 0.01 * reduction(*args)
+    )
+    assert count_factorisations(dam) < many
+
+
+def test_old_factors_that_cost_more_than_new_ones_are_renewed(dam, monkeypatch):
+    """However large the change for which they are to serve."""
+    monkeypatch.setattr(by_bodies, "_STIFF_SERVES", 1e9)
+    few = count_factorisations(dam)
+    monkeypatch.setattr(by_bodies, "_COST", 0)
+    assert count_factorisations(dam) > few
 
 
 def test_demo(tmp_path, capsys):
