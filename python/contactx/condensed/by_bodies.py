@@ -28,8 +28,8 @@ _MOST = 120
 _RESTART = 60
 # Change of the soft block, to the size of what contact adds to it, below which its factors serve
 _SOFT_SERVES = 0.03
-# The same of the stiff block times the reduction that a solve asks for, as a power of e: so many
-# iterations are lost
+# The same of the stiff block, times the reduction that a solve asks for as a power of e: iterations
+# that old factors cost grow with both
 _STIFF_SERVES = 0.25
 # Least part of the largest movement under a uniform traction that counts for a spring
 _LEAST_MOVED = 1e-3
@@ -129,22 +129,25 @@ class ByBodies:
         self._operator = operator
         reduction = operator.reduction(rhs, v, target)
         if self._updated_for is not operator:
-            self._update(operator, reduction, report)
-        if self._iterate(rhs, v, target, report):
+            self._update(operator, report, reduction)
+        if self._iterate(rhs, v, target, reduction, report):
             return True
         if not self._is_new or self._updated_for is None:
             if not self._is_new:
                 self._serves /= 2
-            self._update(operator, reduction, report, exact=True)
-            if self._iterate(rhs, v, target, report):
+            self._update(operator, report)
+            # From zero now
+            reduction = operator.reduction(rhs, v, target)
+            if self._iterate(rhs, v, target, reduction, report):
                 return True
         self.reset()
         return False
 
-    def _iterate(self, rhs: PETSc.Vec, v: PETSc.Vec, target: float, report: Report) -> bool:
-        ksp, operator = self._ksp, self._operator
-        assert ksp is not None and operator is not None
-        reduction = operator.reduction(rhs, v, target)
+    def _iterate(
+        self, rhs: PETSc.Vec, v: PETSc.Vec, target: float, reduction: float, report: Report
+    ) -> bool:
+        ksp = self._ksp
+        assert ksp is not None
         # With old factors no more are lost than new ones cost
         most = _MOST if self._is_new else _COST + int(self._slowest * reduction)
         ksp.setTolerances(rtol=ROUNDING, atol=target, max_it=min(most, _MOST))
@@ -166,20 +169,15 @@ class ByBodies:
         return False
 
     def _update(
-        self,
-        operator: CondensedOperator,
-        reduction: float,
-        report: Report,
-        *,
-        exact: bool = False,
+        self, operator: CondensedOperator, report: Report, reduction: float | None = None
     ) -> None:
         """Bring the blocks up to what contact makes of the matrix; all ranks must take part.
 
         Args:
             operator: The condensed matrix.
-            reduction: Logarithm of what the residual is to be reduced by.
             report: Report whose times are added to.
-            exact: Whether no other factors serve.
+            reduction: Logarithm of what the residual is to be reduced by; None if no old factors
+                are to serve.
         """
         if self._ksp is None:
             self._make(operator)
@@ -195,15 +193,17 @@ class ByBodies:
             lambda: soft.part.block(change, operator.eliminated),
             is_symmetric,
             soft.part.group,
-            0.0 if exact else _SOFT_SERVES,
+            0.0 if reduction is None else _SOFT_SERVES,
             report,
         )
         self.factorisations += is_new
         if stiff is not None:
-            serves = None if exact else 0.0 if self._lost > _COST else self._serves / reduction
+            serves = None
+            if reduction is not None:
+                serves = 0.0 if self._lost > _COST else self._serves / reduction
             is_new = self._update_stiff(operator, stiff, transforms, serves, report)
             self.factorisations += is_new
-        self._is_new = is_new or exact
+        self._is_new = is_new or reduction is None
         if self._is_new:
             self._lost = 0.0
         self._updated_for = operator

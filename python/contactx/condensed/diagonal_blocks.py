@@ -83,8 +83,7 @@ class Part:
         self._places = np.full(numbering.num_owned, -1)
         self._places[dofs] = np.arange(len(dofs))
         gdim = numbering.gdim
-        is_whole = np.array_equal(dofs, (dofs[::gdim, None] + np.arange(gdim)).ravel())
-        is_whole = is_whole and not np.any(dofs[::gdim] % gdim)
+        is_whole = len(dofs) == gdim * len(np.unique(dofs // gdim))
         self.group = gdim if reduce.everywhere(numbering.comm, is_whole) else 1
 
     def places(self, dofs: Index) -> Index:
