@@ -25,13 +25,16 @@ struct ContactScene
   /// 1 at displacements with a Dirichlet condition, in the order of this rank
   std::vector<std::int8_t> prescribed;
 
+  /// @param[in] away Added to all coordinates.
   explicit ContactScene(int dim, double height = 0.05,
                         Cells cells = Cells::mixed,
-                        parallel::Ranks* ranks = nullptr)
+                        parallel::Ranks* ranks = nullptr, double away = 0)
       : sheets(dim, height, cells), mesh(sheets.num_nodes(), ranks),
         u(std::make_shared<std::vector<double>>(sheets.x.size(), 0.0)),
         prescribed(u->size(), 0)
   {
+    for (double& x : sheets.x)
+      x += away;
     halo = mesh.halo(sheets.x, dim, u);
     const auto around = mesh.here(sheets.slave, true);
     const auto own = mesh.here(sheets.slave, false);

@@ -59,6 +59,14 @@ struct TwoSheets
     return y;
   }
 
+  /// @brief Displacements that lead to some positions.
+  std::vector<double> moved_by(const std::vector<double>& y) const
+  {
+    std::vector<double> u(x.size());
+    std::ranges::transform(y, x, u.begin(), std::minus());
+    return u;
+  }
+
   /// @brief Pairs of these surfaces, searched for.
   template <class M>
   std::shared_ptr<M> pairs(bool is_small = false, bool measures_slip = true)

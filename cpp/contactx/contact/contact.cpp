@@ -82,7 +82,8 @@ Contact::Contact(std::shared_ptr<parallel::Halo> halo,
   leave_out_empty();
   nodes_changed();
   _observer = _halo->on_change([this] { nodes_changed(); });
-  _halo->ranks().agree([&] { _master->accept(_halo->positions()); });
+  _halo->ranks().agree(
+      [&] { _master->accept(_halo->positions(), _halo->displacement()); });
   const auto reference = _halo->reference();
   const std::vector<double> x(reference.begin(), reference.end());
   const std::vector<std::int8_t> open(n, 0);
@@ -224,8 +225,8 @@ void Contact::turn_tractions()
 
 void Contact::accept()
 {
-  const std::vector<double> x = _halo->positions();
-  _halo->ranks().agree([&] { _master->accept(x); });
+  _halo->ranks().agree(
+      [&] { _master->accept(_halo->positions(), _halo->displacement()); });
   const std::vector<double> front = _front, area = _nodes->area;
   find_front();
   if (parallel::anywhere(_halo->ranks(), front != _front))
@@ -594,7 +595,7 @@ void Contact::measure_from_touching(std::span<const std::int8_t> which)
       {
         if (std::ranges::none_of(which, [](std::int8_t w) { return w != 0; }))
           return;
-        _master->touch(which, x, _offset);
+        _master->touch(which, x, _halo->displacement(), _offset);
         for (std::size_t i = 0; i < which.size(); ++i)
           _touched[i] = _touched[i] or which[i];
         auto fresh = _master->update(x, _is_frozen, _offset);

@@ -5,10 +5,12 @@
 
 #include "../check.h"
 #include "../parallel/halo.h"
+#include "../parallel/spread.h"
 #include "../search/master_surface.h"
 #include "../search/outside.h"
 #include "master.h"
 #include "slave_nodes.h"
+#include "slip_origin.h"
 #include <memory>
 #include <stdexcept>
 
@@ -52,6 +54,7 @@ public:
     check::facets(facets.offsets, facets.nodes, _halo->gdim());
     if (not(options.reach > 0))
       throw std::invalid_argument("the reach of pairs is not larger than zero");
+    start_from(std::vector<double>(_halo->reference().size(), 0));
   }
 
   int gdim() const override { return _halo->gdim(); }
@@ -71,10 +74,61 @@ public:
   const std::shared_ptr<search::Outside>& outside() const { return _outside; }
 
 protected:
+  /// @brief Take displacements of all nodes as those of the step's start.
+  void start_from(std::vector<double> u)
+  {
+    _u0 = std::move(u);
+    _x0 = _u0;
+    const auto reference = _halo->reference();
+    for (std::size_t k = 0; k < _x0.size(); ++k)
+      _x0[k] += reference[k];
+  }
+
+  /// @brief Displacements of the step's start, as `load_start` takes them.
+  Saved save_start() const
+  {
+    return {"displacement", RowKind::node, gdim(), _u0};
+  }
+
+  /// @brief Take what `save_start` gave; all ranks must take part.
+  void load_start(const std::vector<Saved>& saved)
+  {
+    start_from(parallel::spread(
+        *_halo, values_of<double>(saved, "displacement"), gdim()));
+  }
+
+  /// @brief Way from the master to each slave node, the mean of x_slave -
+  /// x_master.
+  ///
+  /// Positions are taken from that of the slave node, as kernels do, so that
+  /// rounding errors do not grow with its distance from the origin.
+  /// @param[in] u Displacements (shape=(num_nodes, gdim)).
+  /// @return Shape=(n, gdim).
+  std::vector<double> way(std::span<const double> u) const
+  {
+    const std::size_t g = gdim();
+    const auto owned = _slaves->owned();
+    const auto reference = _halo->reference();
+    const Weights w = weights();
+    std::vector<double> way(owned.size() * g, 0);
+    for (std::size_t e = 0; e < w.values.size(); ++e)
+      for (std::size_t k = 0; k < g; ++k)
+      {
+        const std::size_t at = g * w.nodes[e] + k;
+        const double apart
+            = reference[at] - reference[g * owned[w.slaves[e]] + k];
+        way[g * w.slaves[e] + k] += w.values[e] * (apart + u[at]);
+      }
+    return way;
+  }
+
   std::shared_ptr<parallel::Halo> _halo;           ///< Nodes of this rank
   std::shared_ptr<const SlaveNodes> _slaves;       ///< Slave nodes
   std::shared_ptr<search::MasterSurface> _surface; ///< Master surface
   std::shared_ptr<search::Outside> _outside; ///< points outside of the body
   PairingOptions _options;                   ///< How pairs are made
+  /// Displacements and positions of all nodes at the step's start
+  std::vector<double> _u0, _x0;
+  SlipOrigin _origin; ///< where slip starts in small sliding
 };
 } // namespace contactx::contact

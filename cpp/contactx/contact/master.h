@@ -51,7 +51,9 @@ public:
 
   /// @brief Take a converged configuration, the start of the next step;
   /// collective.
-  virtual void accept(std::span<const double> x) = 0;
+  /// @param[in] x Its positions.
+  /// @param[in] u Displacements that led there.
+  virtual void accept(std::span<const double> x, std::span<const double> u) = 0;
 
   /// @brief Start a step: slip is measured from its start, and pairs may move
   /// again; collective.
@@ -88,10 +90,11 @@ public:
   /// @param[in] which 1 at those slave nodes, else 0 (shape=(n)).
   /// @param[in] x Positions at that iterate; at the one that closes them for
   /// what had no master at the start.
+  /// @param[in] u Displacements that led there.
   /// @param[in] offset Offset, a length that is taken off the gap (shape=(n)).
   virtual void touch(std::span<const std::int8_t> which,
-                     std::span<const double> x, std::span<const double> offset)
-      = 0;
+                     std::span<const double> x, std::span<const double> u,
+                     std::span<const double> offset) = 0;
 
   /// @brief Pair the slave nodes; collective.
   /// @param[in] x Positions.

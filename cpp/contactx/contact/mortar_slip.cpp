@@ -7,50 +7,16 @@
 
 using namespace contactx::contact;
 
-MortarSlip::MortarSlip(const MortarSides& sides, int gdim, bool is_small)
-    : _sides(&sides), _gdim(gdim), _is_small(is_small),
-      _origin(sides.size() * gdim, 0)
+void MortarSlip::begin_step(Mortar now)
 {
-}
-
-void MortarSlip::begin_step(Mortar now, std::vector<double> distances)
-{
-  if (_is_small)
-  {
-    _origin = std::move(distances);
-    return;
-  }
   _gap = _sides->total(now.gap, now.slave);
   _start = std::move(now);
 }
 
 void MortarSlip::touch(std::span<const std::int8_t> which, const Mortar& now,
-                       std::span<const double> distances,
-                       std::span<const double> normals,
                        std::span<const double> offset)
 {
   const std::size_t n = _sides->size();
-  if (_is_small)
-  {
-    for (std::size_t i = 0; i < n; ++i)
-    {
-      if (not which[i])
-        continue;
-      double before = 0, after = 0;
-      for (int k = 0; k < _gdim; ++k)
-      {
-        before += normals[3 * i + k] * _origin[_gdim * i + k];
-        after += normals[3 * i + k] * distances[_gdim * i + k];
-      }
-      const double part = touching(before - offset[i], after - offset[i]);
-      for (int k = 0; k < _gdim; ++k)
-      {
-        double& origin = _origin[_gdim * i + k];
-        origin += part * (distances[_gdim * i + k] - origin);
-      }
-    }
-    return;
-  }
   if (not _start)
     throw std::logic_error("slip is measured before a step has begun");
   const std::vector<double> gaps = _sides->total(now.gap, now.slave);
@@ -75,14 +41,8 @@ void MortarSlip::touch(std::span<const std::int8_t> which, const Mortar& now,
                .joined(now.scaled(_sides->at_corners(part, now.slave)));
 }
 
-Mortar MortarSlip::pairs(const Mortar& now, std::span<const double> area) const
+Mortar MortarSlip::pairs(std::span<const double> area) const
 {
-  if (_is_small)
-  {
-    Mortar result = now;
-    std::ranges::fill(result.gap, 0.0);
-    return result;
-  }
   if (not _start)
     throw std::logic_error("slip is measured before a step has begun");
   return _start->scaled(_sides->at_corners(area, _start->slave));

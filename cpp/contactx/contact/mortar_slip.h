@@ -9,7 +9,7 @@
 namespace contactx::contact
 {
 /// @brief Weights with which slave nodes are measured against points of the
-/// master.
+/// master in finite sliding.
 ///
 /// They are those of the step's start: what was in front of a slave node then
 /// stays what its movement is relative to. A node that touches first within a
@@ -18,36 +18,25 @@ namespace contactx::contact
 class MortarSlip
 {
 public:
-  /// @brief Create it for slave nodes that have not moved.
+  /// @brief Create it before the first step.
   /// @param[in] sides Both surfaces, which outlive this.
-  /// @param[in] gdim Geometric dimension.
-  /// @param[in] is_small Whether weights never change.
-  MortarSlip(const MortarSides& sides, int gdim, bool is_small);
+  explicit MortarSlip(const MortarSides& sides) : _sides(&sides) {}
 
   /// @brief Start a step.
   /// @param[in] now Pairs at its start, divided by the slave nodes' areas.
-  /// @param[in] distances Means of x_slave - x_master there (shape=(n, gdim)).
-  void begin_step(Mortar now, std::vector<double> distances);
+  void begin_step(Mortar now);
 
   /// @brief Measure from where nodes touch.
   /// @param[in] which 1 at those slave nodes (shape=(n)).
   /// @param[in] now Pairs at the iterate that closes them, divided by the
   /// areas.
-  /// @param[in] distances Means of x_slave - x_master there (shape=(n, gdim)).
-  /// @param[in] normals Unit normals (shape=(n, 3)).
   /// @param[in] offset Offset, a length that is taken off the gap (shape=(n)).
   void touch(std::span<const std::int8_t> which, const Mortar& now,
-             std::span<const double> distances, std::span<const double> normals,
              std::span<const double> offset);
 
   /// @brief Pairs that the movement is measured with.
-  /// @param[in] now Current pairs.
   /// @param[in] area Areas of the slave nodes (shape=(n)).
-  Mortar pairs(const Mortar& now, std::span<const double> area) const;
-
-  /// @brief Vector that is taken off the movement in small sliding (shape=(n,
-  /// gdim)).
-  const std::vector<double>& origin() const { return _origin; }
+  Mortar pairs(std::span<const double> area) const;
 
   /// @brief Master facets that slip is measured with.
   std::span<const std::int32_t> masters() const;
@@ -57,9 +46,7 @@ public:
 
 private:
   const MortarSides* _sides;
-  int _gdim;
-  bool _is_small;
-  std::vector<double> _origin, _gap;
+  std::vector<double> _gap;
   std::optional<Mortar> _start;
 };
 } // namespace contactx::contact

@@ -41,8 +41,6 @@ NodeToSurface::NodeToSurface(std::shared_ptr<parallel::Halo> halo,
                copy(_surface->facets().offsets), copy(_surface->facets().nodes),
                _halo->gdim(), _halo->num_owned())
 {
-  const auto x = _halo->reference();
-  _x0.assign(x.begin(), x.end());
   _at = _x0;
 }
 
@@ -110,16 +108,19 @@ std::int32_t NodeToSurface::drop_outside(std::span<const double> x,
   return changed;
 }
 
-void NodeToSurface::accept(std::span<const double> x)
+void NodeToSurface::accept(std::span<const double> x, std::span<const double> u)
 {
-  _x0.assign(x.begin(), x.end());
+  start_from({u.begin(), u.end()});
   _surface->accept(x);
 }
 
 void NodeToSurface::begin_step()
 {
   reset_flips();
-  _start = at_slaves(_x0);
+  if (_options.is_small)
+    _origin.begin_step(way(_u0));
+  else
+    _start = at_slaves(_x0);
 }
 
 void NodeToSurface::rebuild()
@@ -151,7 +152,7 @@ std::vector<Saved> NodeToSurface::saved_pairs() const
 
 void NodeToSurface::nodes_changed()
 {
-  _x0 = spread(*_halo, _x0, gdim());
+  start_from(spread(*_halo, _u0, gdim()));
   _at = spread(*_halo, _at, gdim());
 }
 
@@ -224,11 +225,9 @@ std::vector<double> NodeToSurface::slip() const
   };
   if (_options.is_small)
   {
-    const auto foot = places(_x0, _pairing.xi()).x;
     for (std::size_t i = 0; i < size(); ++i)
-      for (int k = 0; k < g; ++k)
-        data[slip_size * i + slip_origin + k]
-            = _start[g * i + k] - foot[g * i + k];
+      std::copy_n(_origin.way().begin() + g * i, g,
+                  data.begin() + slip_size * i + slip_origin);
     put_xi(_pairing.xi());
     return data;
   }
@@ -303,34 +302,16 @@ std::vector<double> NodeToSurface::frames(std::span<const double> x) const
 }
 
 void NodeToSurface::touch(std::span<const std::int8_t> which,
-                          std::span<const double> x,
+                          std::span<const double> x, std::span<const double> u,
                           std::span<const double> offset)
 {
-  const int g = gdim();
-  const std::vector<double> points = at_slaves(x);
   if (_options.is_small)
   {
-    const auto [foot0, normal] = places(_x0, _pairing.xi());
-    const auto foot = places(x, _pairing.xi()).x;
-    for (std::size_t i = 0; i < size(); ++i)
-    {
-      if (not which[i])
-        continue;
-      Vector<3> before{}, after{};
-      for (int k = 0; k < g; ++k)
-      {
-        before[k] = _start[g * i + k] - foot0[g * i + k];
-        after[k] = points[g * i + k] - foot[g * i + k];
-      }
-      const double* n = normal.data() + g * i;
-      const double part = touching(product(n, before.data(), g) - offset[i],
-                                   product(n, after.data(), g) - offset[i]);
-      for (int k = 0; k < g; ++k)
-        _start[g * i + k]
-            = foot0[g * i + k] + before[k] + part * (after[k] - before[k]);
-    }
+    _origin.touch(which, way(u), normals(), offset);
     return;
   }
+  const int g = gdim();
+  const std::vector<double> points = at_slaves(x);
   auto [xi0, gap0] = feet(_x0, _start);
   const auto [xi1, gap1] = feet(x, points);
   std::vector<double> part(size());
@@ -452,11 +433,12 @@ std::vector<Saved> NodeToSurface::save() const
     saved.push_back(std::move(s));
   if (_options.measures_slip)
   {
-    saved.push_back({"start", RowKind::slave, gdim(), _start});
+    saved.push_back({"start", RowKind::slave, gdim(),
+                     _options.is_small ? _origin.way() : _start});
     saved.push_back({"at", RowKind::node, gdim(), _at});
   }
   if (needs_before())
-    saved.push_back({"before", RowKind::node, gdim(), _x0});
+    saved.push_back(save_start());
   return saved;
 }
 
@@ -466,11 +448,18 @@ void NodeToSurface::load(const std::vector<Saved>& saved)
           saved);
   if (_options.measures_slip)
   {
-    _start = values_of<double>(saved, "start");
+    auto start = values_of<double>(saved, "start");
+    if (_options.is_small)
+      _origin.restore(std::move(start));
+    else
+      _start = std::move(start);
     _at = spread(*_halo, values_of<double>(saved, "at"), gdim());
   }
   if (needs_before())
-    accept(spread(*_halo, values_of<double>(saved, "before"), gdim()));
+  {
+    load_start(saved);
+    _surface->accept(_x0);
+  }
 }
 
 double NodeToSurface::distance(std::span<const double> x) const

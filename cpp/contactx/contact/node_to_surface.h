@@ -26,13 +26,14 @@ public:
                 std::shared_ptr<search::Outside> outside,
                 const PairingOptions& options);
 
-  void accept(std::span<const double> x) override;
+  void accept(std::span<const double> x, std::span<const double> u) override;
   void begin_step() override;
   void rebuild() override;
   void nodes_changed() override;
   std::optional<std::vector<double>>
   turn(std::span<const double> x) const override;
   void touch(std::span<const std::int8_t> which, std::span<const double> x,
+             std::span<const double> u,
              std::span<const double> offset) override;
   std::int32_t search(std::span<const double> x,
                       std::span<const std::int8_t> closed) override;
@@ -89,10 +90,10 @@ private:
   std::vector<double> frames(std::span<const double> x) const;
 
   search::Pairing _pairing;
-  // Positions of all nodes at the step's start and at the last search, and
-  // where the slip of each slave node starts, as a place in the configuration
-  // of the step's start
-  std::vector<double> _x0, _at, _start;
+  // Positions of all nodes at the last search, and where the slip of each slave
+  // node starts in finite sliding, as a place in the configuration of the
+  // step's start
+  std::vector<double> _at, _start;
 };
 
 /// @brief Slave nodes tied to the facets that they project on in the reference

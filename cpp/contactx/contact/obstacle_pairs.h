@@ -50,7 +50,7 @@ public:
   /// @param[in] tolerance Gap that counts as none.
   bool moves_untold(double tolerance) const;
 
-  void accept(std::span<const double> x) override;
+  void accept(std::span<const double> x, std::span<const double> u) override;
   void begin_step() override;
 
   /// @copydoc Master::turn; all of it turns as one
@@ -60,6 +60,7 @@ public:
   /// @copydoc Master::touch; the way is seen from the obstacle as it was at the
   /// step's start
   void touch(std::span<const std::int8_t> which, std::span<const double> x,
+             std::span<const double> u,
              std::span<const double> offset) override;
 
   /// @copydoc Master::search; there are no facets to change between

@@ -40,15 +40,12 @@ SurfaceToSurface::SurfaceToSurface(
     std::shared_ptr<search::Outside> outside, const PairingOptions& options)
     : DeformableMaster(std::move(halo), std::move(slaves), std::move(surface),
                        std::move(outside), options),
-      _sides(*_slaves, _halo->reference(), _halo->gdim()),
-      _slip(_sides, _halo->gdim(), options.is_small),
+      _sides(*_slaves, _halo->reference(), _halo->gdim()), _slip(_sides),
       _nodes(nodes_of_both(_slaves->facets(), _surface->own())),
       _area(_sides.size(), 0), _paired(_sides.size(), 0),
       _weight(_slaves->corner_weight())
 {
   _inradius = parallel::least(_halo->ranks(), _sides.inradius());
-  const auto x = _halo->reference();
-  _x0.assign(x.begin(), x.end());
   _at = _x0;
   meet();
   _place.resize(_sides.size());
@@ -57,7 +54,7 @@ SurfaceToSurface::SurfaceToSurface(
       if (const std::size_t i = _sides.numbers(f)[s]; i < _sides.size())
         _place[i] = {f, s};
   _whole = _slaves->sums(facet::corner_areas(_slaves->local(),
-                                             _slaves->here(x, gdim(), "x"),
+                                             _slaves->here(_x0, gdim(), "x"),
                                              gdim(), _slaves->shares()));
 }
 
@@ -226,9 +223,19 @@ std::vector<Pairs> SurfaceToSurface::pairs() const
 {
   std::vector<Pairs> result = groups(_mortar);
   if (_options.measures_slip)
-    for (Pairs& p : groups(_slip.pairs(_mortar, area(_whole)), true))
+    for (Pairs& p : groups(slip_pairs(), true))
       result.push_back(std::move(p));
   return result;
+}
+
+/// Pairs that slip is measured with.
+Mortar SurfaceToSurface::slip_pairs() const
+{
+  if (not _options.is_small)
+    return _slip.pairs(area(_whole));
+  Mortar movement = _mortar;
+  std::ranges::fill(movement.gap, 0.0);
+  return movement;
 }
 
 void SurfaceToSurface::rebuild()
@@ -255,7 +262,7 @@ void SurfaceToSurface::rebuild()
 
 void SurfaceToSurface::nodes_changed()
 {
-  _x0 = spread(*_halo, _x0, gdim());
+  start_from(spread(*_halo, _u0, gdim()));
   _at = spread(*_halo, _at, gdim());
 }
 
@@ -331,9 +338,10 @@ std::vector<double> SurfaceToSurface::distances(std::span<const double> x) const
   return distances;
 }
 
-void SurfaceToSurface::accept(std::span<const double> x)
+void SurfaceToSurface::accept(std::span<const double>,
+                              std::span<const double> u)
 {
-  _x0.assign(x.begin(), x.end());
+  start_from({u.begin(), u.end()});
 }
 
 void SurfaceToSurface::begin_step()
@@ -345,14 +353,16 @@ void SurfaceToSurface::begin_step()
     _found.reset();
     pair(_x0);
   }
-  if (_options.measures_slip)
-    _slip.begin_step(of_slip(_x0), distances(_x0));
+  if (_options.measures_slip and _options.is_small)
+    _origin.begin_step(way(_u0));
+  else if (_options.measures_slip)
+    _slip.begin_step(of_slip(_x0));
 }
 
 /// Pairs divided by the areas, with what slip is measured by.
 Mortar SurfaceToSurface::of_slip(std::span<const double> x) const
 {
-  if (_options.is_small or not _slaves->is_quadratic())
+  if (not _slaves->is_quadratic())
     return normalised();
   return slip_weights(normalised(), _sides, distances(x), normals(), x, gdim());
 }
@@ -368,9 +378,13 @@ Mortar SurfaceToSurface::normalised() const
 
 void SurfaceToSurface::touch(std::span<const std::int8_t> which,
                              std::span<const double> x,
+                             std::span<const double> u,
                              std::span<const double> offset)
 {
-  _slip.touch(which, of_slip(x), distances(x), normals(), offset);
+  if (_options.is_small)
+    _origin.touch(which, way(u), normals(), offset);
+  else
+    _slip.touch(which, of_slip(x), offset);
 }
 
 std::optional<std::vector<double>>
@@ -463,8 +477,7 @@ Mobility SurfaceToSurface::mobility(std::span<const std::int8_t> free) const
 std::vector<Saved> SurfaceToSurface::save() const
 {
   // Pairs follow from the positions
-  return {{"paired", RowKind::slave, 0, _paired},
-          {"before", RowKind::node, gdim(), _x0}};
+  return {{"paired", RowKind::slave, 0, _paired}, save_start()};
 }
 
 void SurfaceToSurface::load(const std::vector<Saved>& saved)
@@ -472,11 +485,6 @@ void SurfaceToSurface::load(const std::vector<Saved>& saved)
   _paired = values_of<std::int8_t>(saved, "paired");
   load_start(saved);
   begin_step();
-}
-
-void SurfaceToSurface::load_start(const std::vector<Saved>& saved)
-{
-  _x0 = spread(*_halo, values_of<double>(saved, "before"), gdim());
 }
 
 double SurfaceToSurface::distance(std::span<const double> x) const

@@ -32,7 +32,7 @@ public:
   SurfaceToSurface(const SurfaceToSurface&) = delete;
   SurfaceToSurface& operator=(const SurfaceToSurface&) = delete;
 
-  void accept(std::span<const double> x) override;
+  void accept(std::span<const double> x, std::span<const double> u) override;
 
   /// @brief Pairs are then those of the start alone, whatever has been before.
   void begin_step() override;
@@ -43,6 +43,7 @@ public:
   std::vector<double> rotations(std::span<const double> before,
                                 std::span<const double> x) const override;
   void touch(std::span<const std::int8_t> which, std::span<const double> x,
+             std::span<const double> u,
              std::span<const double> offset) override;
 
   /// @brief As integrals change continuously no node changes its facet.
@@ -59,7 +60,7 @@ public:
   /// @brief Area in front of the master. A node that is pushed off within
   /// an iteration keeps some until the next search.
   std::vector<double> area(std::span<const double> whole) const override;
-  std::vector<double> origin() const override { return _slip.origin(); }
+  std::vector<double> origin() const override { return _origin.way(); }
   std::vector<double> compliance(std::span<const double> nodal) const override;
 
   /// @brief On a plane of symmetry nothing moves across it: only half of what
@@ -86,9 +87,6 @@ protected:
     return _sides.pairs(mortar, _dual, _normal, is_movement);
   }
 
-  /// @brief Take positions at the step's start; all ranks must take part.
-  void load_start(const std::vector<Saved>& saved);
-
 private:
   void meet();
   void pair(std::span<const double> x);
@@ -98,6 +96,7 @@ private:
   mortar::FacetPairs without_outside(std::span<const double> x,
                                      mortar::FacetPairs found) const;
   void integrate(std::span<const double> x);
+  Mortar slip_pairs() const;
   Mortar normalised() const;
   Mortar of_slip(std::span<const double> x) const;
   std::vector<double> distances(std::span<const double> x) const;
@@ -106,9 +105,9 @@ private:
   MortarSlip _slip;
   std::optional<mortar::FacetSearch> _search;
   double _inradius;
-  std::vector<std::int32_t> _nodes;        // of both surfaces here
-  std::vector<double> _x0, _at, _searched; // positions; those of _nodes
-  std::vector<double> _whole, _area;       // of the slave nodes
+  std::vector<std::int32_t> _nodes;   // of both surfaces here
+  std::vector<double> _at, _searched; // positions; those of _nodes
+  std::vector<double> _whole, _area;  // of the slave nodes
   std::vector<std::int8_t> _paired;
   // A facet of each slave node, and its number there
   std::vector<std::pair<std::int32_t, int>> _place;

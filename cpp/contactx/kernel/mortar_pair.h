@@ -11,6 +11,10 @@ namespace contactx::kernel
 {
 /// @brief A pair of a slave and a master facet, or of a part of each, as the
 /// kernels see it.
+///
+/// Positions are those relative to the first slave node's in the reference
+/// configuration, so that rounding errors do not grow with its distance from
+/// the origin.
 template <class S, class M>
 struct MortarPair
 {
@@ -39,14 +43,14 @@ struct MortarPair
       for (int k = 0; k < gdim; ++k)
       {
         const int i = gdim * s + k;
-        reference[s][k] = x[i];
-        slave[s][k] = x[i] + u[i];
+        reference[s][k] = x[i] - x[k];
+        slave[s][k] = reference[s][k] + u[i];
       }
     for (int l = 0; l < M::nodes; ++l)
       for (int k = 0; k < gdim; ++k)
       {
         const int i = gdim * (S::nodes + l) + k;
-        master[l][k] = x[i] + u[i];
+        master[l][k] = (x[i] - x[k]) + u[i];
       }
     if constexpr (!facet::is_linear<S>)
       for (int j = 0; j < SlavePart::nodes; ++j)

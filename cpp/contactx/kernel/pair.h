@@ -10,6 +10,10 @@
 namespace contactx::kernel
 {
 /// @brief A pair as the kernels see it.
+///
+/// Positions are those relative to the slave node's in the reference
+/// configuration, so that rounding errors do not grow with its distance from
+/// the origin.
 template <class F>
 struct Pair
 {
@@ -32,13 +36,12 @@ struct Pair
         = w + offset(law, Coefficient::displacement, F::nodes, F::gdim);
     const double* x = w + offset(law, Coefficient::position, F::nodes, F::gdim);
     const double* p = w + offset(law, Coefficient::pair, F::nodes, F::gdim);
-    for (int k = 0; k < F::gdim; ++k)
-      slave[k] = x[k] + u[k];
+    std::copy_n(u, F::gdim, slave.begin());
     for (int l = 0; l < F::nodes; ++l)
       for (int k = 0; k < F::gdim; ++k)
       {
         const int i = F::gdim * (l + 1) + k;
-        master[l][k] = x[i] + u[i];
+        master[l][k] = (x[i] - x[k]) + u[i];
       }
     feature = static_cast<int>(p[pair_feature]);
     std::copy_n(p + pair_xi, F::tdim, xi.begin());

@@ -23,11 +23,13 @@ constexpr double tiny = 1e-8;
 /// Part of the forces that rounding errors may excuse at most
 constexpr double excusable = 1e-6;
 
+double square(double value) { return value * value; }
+
 double square(std::span<const double> values)
 {
   double sum = 0;
   for (const double value : values)
-    sum += value * value;
+    sum += square(value);
   return sum;
 }
 
@@ -198,11 +200,13 @@ Convergence::Result Convergence::compare_forces(std::span<const double> b,
   // what they leave is small against the forces: a body that has run away is no
   // solution
   const std::vector<double> u = sizes();
-  const double most = _farthest + parallel::largest(ranks(), largest_of(u));
+  const double moved = parallel::largest(ranks(), largest_of(u));
+  const std::vector<double> lengths = gap_lengths();
   double weights = 0;
-  for (const auto& c : _system->contacts())
+  for (std::size_t k = 0; k < lengths.size(); ++k)
   {
-    const contact::NodeState& nodes = *c->nodes();
+    const contact::NodeState& nodes = *_system->contacts()[k]->nodes();
+    const double most = lengths[k] + moved;
     for (std::size_t i = 0; i < nodes.status.size(); ++i)
       if (nodes.closed(i))
         weights += std::pow(nodes.area[i] * nodes.c[i] * most, 2);
@@ -237,6 +241,40 @@ Convergence::Result Convergence::compare_forces(std::span<const double> b,
   if (residual <= tolerance)
     return {rest, strict, defect};
   return {residual, tolerance, defect};
+}
+
+/// Lengths whose rounding errors the gaps of each contact have.
+///
+/// Kernels measure from the slave node. In small sliding nothing but that
+/// varies; in finite sliding projections and integrals are those of positions.
+std::vector<double> Convergence::gap_lengths() const
+{
+  const std::span<const double> x = _system->halo()->reference();
+  const int g = _system->halo()->gdim();
+  std::vector<double> lengths;
+  for (const auto& c : _system->contacts())
+  {
+    const bool is_local = c->sliding() == contact::Sliding::small
+                          and not c->master()->is_rigid();
+    double most = is_local ? 0 : square(_farthest);
+    if (is_local)
+      for (const contact::Pairs& pairs : c->master()->pairs())
+      {
+        const std::size_t n = pairs.num_slaves + pairs.num_nodes;
+        for (std::size_t i = 0; i < pairs.nodes.size(); ++i)
+        {
+          const double* first = &x[g * pairs.nodes[i / n * n]];
+          const double* other = &x[g * pairs.nodes[i]];
+          double apart = 0;
+          for (int k = 0; k < g; ++k)
+            apart += square(other[k] - first[k]);
+          most = std::max(most, apart);
+        }
+      }
+    lengths.push_back(std::sqrt(most));
+  }
+  ranks().reduce(std::span(lengths), parallel::Reduction::largest);
+  return lengths;
 }
 
 /// Rounding errors of forces that cancel, at each owned node; nothing where

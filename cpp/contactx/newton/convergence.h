@@ -89,6 +89,7 @@ private:
   bool has_run_away();
   double scale_of_accepted();
   Result compare_forces(std::span<const double> b, double rtol, double atol);
+  std::vector<double> gap_lengths() const;
   double excess_of_fields(std::span<const double> b, double rtol);
 
   std::shared_ptr<System> _system;

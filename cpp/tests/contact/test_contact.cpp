@@ -112,6 +112,25 @@ TYPED_TEST(Contacts, TheJacobianIsTheDerivativeOfTheResidual)
       }
 }
 
+TYPED_TEST(Contacts, NothingHasSlippedInSmallSlidingAtAStepsStart)
+{
+  constexpr double away = 1 << 20;
+  constexpr double eps = std::numeric_limits<double>::epsilon();
+  std::mt19937 random(6);
+  for (int dim : {2, 3})
+  {
+    ContactScene scene(dim, 0.05, Cells::mixed, nullptr, away);
+    const auto contact = scene.template contact<TypeParam>(
+        coulomb(scene.sheets.num_slaves, 0.4), Sliding::small);
+    scene.shake(random, 0.01);
+    contact->accept();
+    contact->begin_step();
+    contact->update_gap();
+    for (const double slip : contact->nodes()->slip)
+      EXPECT_LE(std::abs(slip), 16 * eps);
+  }
+}
+
 TEST(Ties, TheJacobianIsTheDerivativeOfTheResidual)
 {
   std::mt19937 random(4);

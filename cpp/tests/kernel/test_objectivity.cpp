@@ -125,4 +125,27 @@ TEST(KernelsUnderRigidMotion, ATranslationChangesNothingInSmallSliding)
             expect_close(moved("small", term), s("small", term), 1e-12, 1);
       });
 }
+
+TEST(KernelsUnderRigidMotion, DigitsDoNotDependOnTheDistanceFromTheOrigin)
+{
+  for_all_samples(
+      [](const Sample& s)
+      {
+        if (s.kind.is_rigid())
+          return;
+        constexpr double far = 1 << 20;
+        Sample near = s, moved = s;
+        for (std::size_t i = 0; i < s.positions().size(); ++i)
+        {
+          double& x = moved.at(Coefficient::position)[i];
+          x += far;
+          near.at(Coefficient::position)[i] = x - far;
+        }
+        for (const std::string_view sliding : {"small", "finite"})
+          for (const std::string_view term :
+               {"gap", "normal", "slip", "residual", "stiffness"})
+            if (s.has(sliding, term))
+              EXPECT_EQ(moved(sliding, term), near(sliding, term));
+      });
+}
 } // namespace

@@ -328,6 +328,41 @@ TEST(Convergence, GapsOfClosedNodesHaveTheRoundingOfPositions)
   }
 }
 
+TEST(Convergence, GapsOfSmallSlidingHaveTheRoundingOfPairs)
+{
+  SpringBodies bodies(2);
+  bodies.add<contact::NodeToSurface>(bodies.law(0), contact::Sliding::small);
+  const auto system = bodies.system();
+  newton::Convergence convergence(system);
+  contact::Contact& contact = *bodies.contacts[0];
+  contact.nodes()->c[1] = 1e6;
+  contact.nodes()->status[1] = law::slip;
+  convergence.begin_step(std::vector<double>(bodies.scene.sheets.num_nodes()));
+  bodies.bulk->load[0] = 1e-3;
+  (*bodies.scene.u)[0] = -0.25;
+  // A slave node and the two nodes of its segment
+  const std::span<const double> x = bodies.scene.halo->reference();
+  double apart = 0;
+  for (const contact::Pairs& pairs : contact.master()->pairs())
+    for (std::size_t i = 0; i < pairs.nodes.size(); ++i)
+    {
+      const double* first = &x[2 * pairs.nodes[i / 3 * 3]];
+      const double* other = &x[2 * pairs.nodes[i]];
+      apart = std::max(apart,
+                       std::hypot(other[0] - first[0], other[1] - first[1]));
+    }
+  EXPECT_GT(apart, 0);
+  EXPECT_LT(apart, 2);
+  const double rounding = eps * contact.nodes()->area[1] * 1e6 * (apart + 0.25);
+  std::vector<double> b(system->size());
+  for (const double part : {0.99, 1.01})
+  {
+    b[system->num_displacements() + 1] = part * rounding;
+    const auto found = convergence.compare(b, 1e-12, 0);
+    EXPECT_EQ(found.residual <= found.tolerance, part < 1) << part;
+  }
+}
+
 TEST(Convergence, DoesNotDependOnUnits)
 {
   // Powers of two: the same digits

@@ -141,7 +141,7 @@ TEST_P(Sides, SlipIsMeasuredAsLawAndSlidingNeedIt)
               // As a contact does where the search brings nodes of other ranks
               const auto observer
                   = mine.halo->on_change([&] { master->nodes_changed(); });
-              master->accept(mine.halo->positions());
+              master->accept(mine.halo->positions(), mine.halo->displacement());
               master->search(mine.halo->positions(),
                              std::vector<std::int8_t>(n, 0));
               master->begin_step();
