@@ -16,4 +16,5 @@ all and writes docs/gallery.md, with a picture of each; ``test_gallery.py`` chec
 - ``nafems``: the contact benchmarks of NAFEMS R0094.
 - ``sheet``: the third of them, a plastic sheet.
 - ``codes``: tests that other codes ship.
+- ``ironed``: one of Code_Aster's, a die that moves along a block.
 """

@@ -47,10 +47,11 @@ _MISSING = """
   Code_Aster's tests have problems 1, 2 and 4. Carter's roller on rubber, above, stands for it.
 - **A cantilever bent over a round guide** (Timoshenko): tried in one step on 160 quadratic cells,
   it does not converge; between clamp and lift-off its pressure is zero in theory.
-- **Ironing** (Puso and Laursen 2004): the scene is described in public, in the examples of
-  Livermore's Smith, its forces as curves alone. Kratos checks displacements of its own variant
-  against a file that is not in its sources; MOOSE's test pdass_problems/ironing.i ends with a
-  single node in contact, whose pressure is that of its mesh.
+- **Ironing in space** (Puso and Laursen 2004): the scene is described in public, in the examples of
+  Livermore's Smith, its forces as curves alone; the shallow ironing above is in plane strain.
+  Kratos checks displacements of its own variant against a file that is not in its sources; MOOSE's
+  test pdass_problems/ironing.i ends with a single node in contact, whose pressure is that of its
+  mesh.
 - **Torus on itself**: no number of the papers on self-contact was found; the torus above is
   compared with the ring's equations.
 """
