@@ -351,6 +351,10 @@ private:
     case newton::Verdict::ran_away:
       return "a body that nothing holds has left the scene: support it "
              "(manual: errors/body-ran-away)";
+    case newton::Verdict::turned:
+      return "a body that nothing holds has turned so far that linear strains "
+             "take it for a stretch: support it, or take a material with "
+             "finite strains (manual: errors/body-turned)";
     case newton::Verdict::unbalanced:
       return "the loads on a body cannot be balanced: it has no support and "
              "nothing is in its way, or friction barely could. Support it, or "

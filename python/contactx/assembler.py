@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import math
 import warnings
 from collections import Counter
 from collections.abc import Sequence
@@ -372,13 +373,19 @@ class ContactAssembler:
             verdict,
             self.loop.iterate,
             scale=self.loop.convergence.scale(),
-            way=self.loop.way() if verdict == core.Verdict.ran_away else 0.0,
+            moved=self._moved(verdict),
             faults=faults,
         )
         if verdict != core.Verdict.hidden:
             self.report.history.append(self._found.row())
         self._has_moved = False
         return self._found
+
+    def _moved(self, verdict: core.Verdict) -> float:
+        """What a body that nothing holds has moved by, as the verdict counts it."""
+        if verdict == core.Verdict.ran_away:
+            return self.loop.way()
+        return math.degrees(self.loop.turned()) if verdict == core.Verdict.turned else 0.0
 
     def _look_anew(self) -> None:
         """Read displacements and loads, which a user may have changed since the last call."""

@@ -13,10 +13,13 @@ _FAILURES = {
     core.Verdict.hidden: "pairs went back and forth between facets and were frozen, and hide a "
     "penetration: refine the coarser surface there, swap slave and master where that is the slave, "
     "or take smaller load steps (manual: errors/frozen-pairs)",
-    core.Verdict.ran_away: "a body that nothing holds has moved by {way:.3g}, more than the size "
+    core.Verdict.ran_away: "a body that nothing holds has moved by {moved:.3g}, more than the size "
     "of the scene: no place was found where the forces of contact balance. Support it. Where a "
     'ring can turn in another one, take method="surface-to-surface", or numbers of facets that are '
     "no multiples of each other (manual: errors/body-ran-away)",
+    core.Verdict.turned: "a body that nothing holds has turned by {moved:.3g} degrees, which "
+    "linear strains take for a stretch. Support it, or take a material with finite strains "
+    "(manual: errors/body-turned)",
     core.Verdict.unbalanced: "the loads on a body cannot be balanced: it has no support and "
     "nothing is in its way, or friction barely could. Support it, or turn the loads so that they "
     "press the bodies together (manual: errors/unbalanced-loads)",
@@ -57,7 +60,7 @@ def settled(
     iterate: core.Iterate,
     *,
     scale: float,
-    way: float,
+    moved: float,
     faults: str,
 ) -> Settled:
     """Describe an iterate.
@@ -67,10 +70,10 @@ def settled(
         verdict: What the core says of it.
         iterate: Its figures.
         scale: Forces of the problem.
-        way: Farthest that any node has moved in this step.
+        moved: Length or degrees that a body which nothing holds has moved by.
         faults: What the audit has found, if it was a solution for the core.
     """
-    failure = faults or _FAILURES.get(verdict, "").format(way=way)
+    failure = faults or _FAILURES.get(verdict, "").format(moved=moved)
     slow = verdict in (core.Verdict.not_finite, core.Verdict.stuck)
     return Settled(
         number=number,

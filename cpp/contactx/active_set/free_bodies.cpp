@@ -441,6 +441,48 @@ std::optional<std::vector<double>> FreeBodies::drift()
   return dense::product(motions, dense::solve(std::move(gram), work));
 }
 
+double FreeBodies::turned() const
+{
+  if (not _modes or not _bulk->is_linear())
+    return 0;
+  const std::size_t g = _modes->gdim(), m = _modes->modes_per_body();
+  const std::size_t width = m * (m + 1);
+  const auto x = _bulk->reference(), u = _bulk->displacements();
+  const auto body = _modes->body();
+  // Of each body modes by modes, and modes by displacements
+  std::vector<double> sums(_modes->count() * width);
+  std::array<double, 18> modes;
+  for (std::size_t i = 0; i < u.size() / g; ++i)
+  {
+    _modes->at(static_cast<std::int32_t>(i), x, modes.data());
+    double* sum = &sums[body[i] * width];
+    for (std::size_t k = 0; k < g; ++k)
+      for (std::size_t p = 0; p < m; ++p)
+      {
+        for (std::size_t q = 0; q < m; ++q)
+          sum[p * m + q] += modes[k * m + p] * modes[k * m + q];
+        sum[m * m + p] += modes[k * m + p] * u[g * i + k];
+      }
+  }
+  if (ranks().size() > 1)
+    ranks().reduce(std::span(sums), Reduction::sum);
+  double most = 0;
+  for (std::size_t b = 0; b < _modes->count(); ++b)
+  {
+    if (_modes->free()[b].cols == 0)
+      continue;
+    dense::Matrix gram(m, m);
+    std::copy_n(&sums[b * width], m * m, gram.values.begin());
+    const std::vector<double> motion
+        = dense::solve(std::move(gram), std::span(&sums[b * width + m * m], m));
+    double square = 0;
+    for (std::size_t p = g; p < m; ++p)
+      square += motion[p] * motion[p];
+    most = std::max(most, std::sqrt(square) / _modes->radius(b));
+  }
+  return most;
+}
+
 /// Close the nodes that bodies on weak springs meet before these stop them: a
 /// Newton step would carry the bodies past what they meet.
 bool FreeBodies::close_before_springs(const std::vector<Rows>& rows,

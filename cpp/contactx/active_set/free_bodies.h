@@ -128,6 +128,14 @@ public:
   /// no mode was free, or something asked for a motion.
   std::optional<std::vector<double>> drift();
 
+  /// @brief Largest angle that a body with free modes has turned by, radians;
+  /// zero where strains are not linear. Collective.
+  ///
+  /// Linear strains take a rotation by the angle w for a stretch by
+  /// sqrt(1 + w^2) that costs nothing. A body that is held keeps its place in
+  /// spite of that; a loose one can become larger until nothing touches it.
+  double turned() const;
+
   /// @brief Stiffness to add to the Jacobian's diagonal at owned dofs,
   /// force/length (shape=(num_owned, gdim)); nothing if there are none.
   const std::optional<std::vector<double>>& springs() const { return _springs; }

@@ -99,6 +99,9 @@ public:
   /// @brief Radius of the largest body.
   double size() const;
 
+  /// @brief Radius of a body.
+  double radius(std::size_t body) const { return _radius[body]; }
+
   /// @brief True if any body has a rigid mode that nothing, or little, resists.
   bool any_free() const;
 

@@ -14,6 +14,8 @@ namespace
 {
 /// Difference from a Dirichlet value over the largest displacement
 constexpr double defect_allowed = 1e-10;
+/// Rotation of a loose body that linear strains take for a stretch by 1 %
+constexpr double turned_most = 0.14;
 
 std::vector<std::shared_ptr<active_set::Holding>>
 holdings(const System::Contacts& contacts)
@@ -155,9 +157,12 @@ Verdict Loop::judge(bool is_start, double rtol, double atol,
     return Verdict::not_finite;
   if (is_small)
   {
-    const bool is_loose = _bodies->free_modes() > 0;
-    return is_loose and way() > _convergence.farthest() ? Verdict::ran_away
-                                                        : Verdict::solution;
+    if (_bodies->free_modes() == 0)
+      return Verdict::solution;
+    if (way() > _convergence.farthest())
+      return Verdict::ran_away;
+    return _bodies->turned() > turned_most ? Verdict::turned
+                                           : Verdict::solution;
   }
   if (_length.is_stuck())
     return Verdict::stuck;

@@ -19,6 +19,8 @@ enum class Verdict : std::int8_t
   hidden,     ///< frozen pairs hide a penetration, and cannot be released
   ran_away,   ///< it would be, but for a body that nothing holds and that has
               ///< left the scene
+  turned,     ///< it would be, but for a body that nothing holds and that has
+              ///< turned farther than its linear strains allow
   unbalanced, ///< nothing can balance the loads on a body
   stuck       ///< the last steps have led nowhere
 };
@@ -130,6 +132,10 @@ public:
 
   /// @brief Largest component of what any node has moved by in this step.
   double way();
+
+  /// @brief Angle that a body without supports has turned by, radians, see
+  /// active_set::FreeBodies::turned.
+  double turned() const { return _bodies->turned(); }
 
   /// @brief Part of the nodes in contact whose status or pair has changed.
   double changing() const;

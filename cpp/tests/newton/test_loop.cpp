@@ -434,6 +434,26 @@ TEST(Loop, ALooseBodyThatHasLeftTheSceneIsNoSolution)
     }
 }
 
+TEST(Loop, ALooseBodyThatHasTurnedIsNoSolution)
+{
+  for (const double angle : {0.13, -0.15})
+    for (const bool is_linear : {true, false})
+    {
+      Loose found;
+      found.bulk->bar = 0;
+      found.bulk->linear = is_linear;
+      found.add<NodeToSurface>(found.law(0));
+      found.atol = 1e-6;
+      found.begin();
+      found.shift(1, 0.5);
+      for (std::int32_t i = 0; i < found.scene.sheets.num_slaves; ++i)
+        (*found.scene.u)[2 * i + 1] += angle * found.scene.sheets.x[2 * i];
+      EXPECT_NEAR(found.loop->turned(), is_linear ? std::abs(angle) : 0, 1e-12);
+      EXPECT_EQ(found.judge(),
+                is_linear and angle < 0 ? Verdict::turned : Verdict::solution);
+    }
+}
+
 TEST(Loop, LoadsThatNothingBalancesEndIt)
 {
   Loose found;

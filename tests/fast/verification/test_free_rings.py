@@ -154,3 +154,12 @@ def test_a_ring_that_has_run_away_is_no_solution(turned):
     with pytest.raises(cx.ConvergenceError, match=r"nothing holds has moved by .* than the size"):
         rings.problem.solve()
     assert not rings.u.x.array.any()
+
+
+@pytest.mark.parametrize("turned", [0.004432, 0.005085, 0.007, 0.0115])
+def test_a_ring_that_has_grown_in_a_turn_is_no_solution(turned):
+    """Linear strains let the outer one turn until it is too large to be pressed."""
+    rings = FreeRings(31, 31, fixed=False, offset=0.04, turned=turned, layers=4)
+    with pytest.raises(cx.ConvergenceError, match=r"nothing holds has (turned|moved) by"):
+        rings.problem.solve()
+    assert not rings.u.x.array.any()
