@@ -41,6 +41,8 @@ from slab_schemes import scheme_1, try_supports
 
 # Height of the dam over its length
 ASPECT = 0.3
+# Rotation of the slabs at a joint, degrees, from which the two slabs of the paper stand for it
+TURNED = 0.01
 
 
 def arguments(argv: Sequence[str] | None) -> argparse.Namespace:
@@ -196,7 +198,7 @@ def main(argv: Sequence[str] | None = None) -> list[Joint]:
         dam_figures.draw(dam, compression.update(), found, path)
     story.see([path])
     # The two slabs are turned towards one another and pressed by the water
-    turned = [j for j in found if j.rotation > 0 and j.water > 0]
+    turned = [j for j in found if j.rotation > TURNED and j.water > 0]
     if turned and not args.no_submodel and dam.mesh.comm.size == 1:
         submodel(max(turned, key=lambda j: j.stress))
     return found
