@@ -446,35 +446,31 @@ double FreeBodies::turned() const
   if (not _modes or not _bulk->is_linear())
     return 0;
   const std::size_t g = _modes->gdim(), m = _modes->modes_per_body();
-  const std::size_t width = m * (m + 1);
   const auto x = _bulk->reference(), u = _bulk->displacements();
   const auto body = _modes->body();
-  // Of each body modes by modes, and modes by displacements
-  std::vector<double> sums(_modes->count() * width);
+  const std::vector<double> work = along(x, u, 1);
+  std::vector<double> grams(_modes->count() * m * m);
   std::array<double, 18> modes;
   for (std::size_t i = 0; i < u.size() / g; ++i)
   {
     _modes->at(static_cast<std::int32_t>(i), x, modes.data());
-    double* sum = &sums[body[i] * width];
+    double* gram = &grams[body[i] * m * m];
     for (std::size_t k = 0; k < g; ++k)
       for (std::size_t p = 0; p < m; ++p)
-      {
         for (std::size_t q = 0; q < m; ++q)
-          sum[p * m + q] += modes[k * m + p] * modes[k * m + q];
-        sum[m * m + p] += modes[k * m + p] * u[g * i + k];
-      }
+          gram[p * m + q] += modes[k * m + p] * modes[k * m + q];
   }
   if (ranks().size() > 1)
-    ranks().reduce(std::span(sums), Reduction::sum);
+    ranks().reduce(std::span(grams), Reduction::sum);
   double most = 0;
   for (std::size_t b = 0; b < _modes->count(); ++b)
   {
     if (_modes->free()[b].cols == 0)
       continue;
     dense::Matrix gram(m, m);
-    std::copy_n(&sums[b * width], m * m, gram.values.begin());
+    std::copy_n(&grams[b * m * m], m * m, gram.values.begin());
     const std::vector<double> motion
-        = dense::solve(std::move(gram), std::span(&sums[b * width + m * m], m));
+        = dense::solve(std::move(gram), std::span(work).subspan(b * m, m));
     double square = 0;
     for (std::size_t p = g; p < m; ++p)
       square += motion[p] * motion[p];

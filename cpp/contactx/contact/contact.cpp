@@ -595,12 +595,13 @@ void Contact::measure_from_touching(std::span<const std::int8_t> which)
       {
         if (std::ranges::none_of(which, [](std::int8_t w) { return w != 0; }))
           return;
-        _master->touch(which, x, _halo->displacement(), _offset);
+        const std::vector<double> u = _halo->displacement();
+        _master->touch(which, x, u, _offset);
         for (std::size_t i = 0; i < which.size(); ++i)
           _touched[i] = _touched[i] or which[i];
         auto fresh = _master->update(x, _is_frozen, _offset);
         take(fresh ? std::move(*fresh) : _master->pairs());
-        measure_slip(_halo->displacement());
+        measure_slip(u);
         _evaluated_version = _version;
       });
 }

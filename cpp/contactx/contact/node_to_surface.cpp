@@ -117,8 +117,10 @@ void NodeToSurface::accept(std::span<const double> x, std::span<const double> u)
 void NodeToSurface::begin_step()
 {
   reset_flips();
+  if (not _options.measures_slip)
+    return;
   if (_options.is_small)
-    _origin.begin_step(way(_u0));
+    _origin.start(way(_u0));
   else
     _start = at_slaves(_x0);
 }
@@ -450,7 +452,7 @@ void NodeToSurface::load(const std::vector<Saved>& saved)
   {
     auto start = values_of<double>(saved, "start");
     if (_options.is_small)
-      _origin.restore(std::move(start));
+      _origin.start(std::move(start));
     else
       _start = std::move(start);
     _at = spread(*_halo, values_of<double>(saved, "at"), gdim());

@@ -16,9 +16,9 @@ namespace contactx::contact
 class SlipOrigin
 {
 public:
-  /// @brief Start a step.
-  /// @param[in] way Means of x_slave - x_master at its start (shape=(n, gdim)).
-  void begin_step(std::vector<double> way) { _way = std::move(way); }
+  /// @brief Measure from a way on, at a step's start or as it was saved.
+  /// @param[in] way Means of x_slave - x_master (shape=(n, gdim)).
+  void start(std::vector<double> way) { _way = std::move(way); }
 
   /// @brief Measure from where nodes touch.
   /// @param[in] which 1 at those slave nodes (shape=(n)).
@@ -50,9 +50,6 @@ public:
 
   /// @brief The way (shape=(n, gdim)); empty before the first step.
   const std::vector<double>& way() const { return _way; }
-
-  /// @brief Go on from a way that was saved.
-  void restore(std::vector<double> way) { _way = std::move(way); }
 
 private:
   std::vector<double> _way;

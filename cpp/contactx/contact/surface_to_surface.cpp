@@ -325,19 +325,6 @@ Weights SurfaceToSurface::weights() const
   return weights;
 }
 
-/// Mean of x_slave - x_master before each slave node.
-std::vector<double> SurfaceToSurface::distances(std::span<const double> x) const
-{
-  const int g = gdim();
-  const Weights w = weights();
-  std::vector<double> distances(_sides.size() * g, 0);
-  for (std::size_t e = 0; e < w.values.size(); ++e)
-    for (int k = 0; k < g; ++k)
-      distances[std::size_t(w.slaves[e]) * g + k]
-          += w.values[e] * x[std::size_t(w.nodes[e]) * g + k];
-  return distances;
-}
-
 void SurfaceToSurface::accept(std::span<const double>,
                               std::span<const double> u)
 {
@@ -354,17 +341,18 @@ void SurfaceToSurface::begin_step()
     pair(_x0);
   }
   if (_options.measures_slip and _options.is_small)
-    _origin.begin_step(way(_u0));
+    _origin.start(way(_u0));
   else if (_options.measures_slip)
-    _slip.begin_step(of_slip(_x0));
+    _slip.begin_step(of_slip(_x0, _u0));
 }
 
 /// Pairs divided by the areas, with what slip is measured by.
-Mortar SurfaceToSurface::of_slip(std::span<const double> x) const
+Mortar SurfaceToSurface::of_slip(std::span<const double> x,
+                                 std::span<const double> u) const
 {
   if (not _slaves->is_quadratic())
     return normalised();
-  return slip_weights(normalised(), _sides, distances(x), normals(), x, gdim());
+  return slip_weights(normalised(), _sides, way(u), normals(), x, gdim());
 }
 
 /// Pairs divided by the slave nodes' areas.
@@ -384,7 +372,7 @@ void SurfaceToSurface::touch(std::span<const std::int8_t> which,
   if (_options.is_small)
     _origin.touch(which, way(u), normals(), offset);
   else
-    _slip.touch(which, of_slip(x), offset);
+    _slip.touch(which, of_slip(x, u), offset);
 }
 
 std::optional<std::vector<double>>

@@ -98,8 +98,7 @@ private:
   void integrate(std::span<const double> x);
   Mortar slip_pairs() const;
   Mortar normalised() const;
-  Mortar of_slip(std::span<const double> x) const;
-  std::vector<double> distances(std::span<const double> x) const;
+  Mortar of_slip(std::span<const double> x, std::span<const double> u) const;
 
   MortarSides _sides;
   MortarSlip _slip;

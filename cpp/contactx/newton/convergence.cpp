@@ -258,13 +258,13 @@ std::vector<double> Convergence::gap_lengths() const
                           and not c->master()->is_rigid();
     double most = is_local ? 0 : square(_farthest);
     if (is_local)
-      for (const contact::Pairs& pairs : c->master()->pairs())
+      for (const auto& pairs : c->pairs())
       {
-        const std::size_t n = pairs.num_slaves + pairs.num_nodes;
-        for (std::size_t i = 0; i < pairs.nodes.size(); ++i)
+        const std::size_t n = pairs->num_slaves + pairs->num_nodes;
+        for (std::size_t i = 0; i < pairs->nodes.size(); ++i)
         {
-          const double* first = &x[g * pairs.nodes[i / n * n]];
-          const double* other = &x[g * pairs.nodes[i]];
+          const double* first = &x[g * pairs->nodes[i / n * n]];
+          const double* other = &x[g * pairs->nodes[i]];
           double apart = 0;
           for (int k = 0; k < g; ++k)
             apart += square(other[k] - first[k]);
