@@ -407,7 +407,7 @@ void Contact::update_gap()
         if (auto fresh
             = _master->update(_halo->positions(), _is_frozen, _offset))
           take(std::move(*fresh));
-        assemble("gap", displacement, _nodes->gap);
+        measure_gap(displacement);
         if (_nodes->is_vector())
         {
           assemble("normal", displacement, _nodes->normal);
@@ -424,9 +424,29 @@ void Contact::update_gap()
       });
 }
 
+void Contact::measure_gap(std::span<const double> displacement)
+{
+  if (not measures_displacements())
+  {
+    assemble("gap", displacement, _nodes->gap);
+    return;
+  }
+  // Rounding errors of the first part are the same at all iterates
+  const std::vector<double> still(displacement.size(), 0);
+  assemble("gap", still, _nodes->gap);
+  std::vector<double> moved(_nodes->gap.size());
+  assemble("gap", displacement, moved, still);
+  for (std::size_t i = 0; i < moved.size(); ++i)
+    _nodes->gap[i] += moved[i];
+}
+
 void Contact::measure_slip(std::span<const double> displacement)
 {
-  assemble("slip", displacement, _nodes->slip);
+  if (measures_displacements())
+    assemble("slip", displacement, _nodes->slip,
+             std::vector<double>(displacement.size(), 0));
+  else
+    assemble("slip", displacement, _nodes->slip);
   if (not _law->is_tied())
     _nodes->project(_master->origin());
   if (_rest.empty())
@@ -453,13 +473,15 @@ void Contact::measure_slip(std::span<const double> displacement)
 
 /// Arrays that kernels read. Slave nodes of other ranks have no multipliers
 /// here, and areas of one: what is divided by them goes nowhere.
-kernel::NodalArrays
-Contact::arrays(std::span<const double> displacement,
-                std::array<std::vector<double>, 5>& padded) const
+kernel::NodalArrays Contact::arrays(std::span<const double> displacement,
+                                    std::array<std::vector<double>, 5>& padded,
+                                    std::span<const double> position) const
 {
   kernel::NodalArrays a{
-      displacement,   _halo->reference(), _nodes->multiplier, _nodes->area,
-      _nodes->by_gap, _nodes->by_slip,    _nodes->by_normal};
+      displacement,       position.empty() ? _halo->reference() : position,
+      _nodes->multiplier, _nodes->area,
+      _nodes->by_gap,     _nodes->by_slip,
+      _nodes->by_normal};
   const std::size_t n = _slaves->owned().size(), m = _slaves->around().size();
   if (n == m)
     return a;
@@ -477,13 +499,15 @@ Contact::arrays(std::span<const double> displacement,
 }
 
 /// Values of the owned slave nodes; those of others are of their own ranks.
+/// The reference configuration is the halo's where no positions are given.
 void Contact::assemble(std::string_view term,
                        std::span<const double> displacement,
-                       std::span<double> values) const
+                       std::span<double> values,
+                       std::span<const double> position) const
 {
   std::ranges::fill(values, 0.0);
   std::array<std::vector<double>, 5> padded;
-  const kernel::NodalArrays read = arrays(displacement, padded);
+  const kernel::NodalArrays read = arrays(displacement, padded, position);
   for (const auto& pairs : _pairs)
     kernel::add_vector(kind_of(*_law), name_of(kinematics()), term, *pairs,
                        read, gdim(), values);

@@ -92,6 +92,14 @@ public:
     return sliding() == Sliding::finite and not _law->is_tied();
   }
 
+  /// @brief True if gaps and slip are linear in the displacements, with
+  /// constants of the reference configuration: small sliding on a body.
+  bool measures_displacements() const
+  {
+    return sliding() == Sliding::small and not _law->is_tied()
+           and not _master->is_rigid();
+  }
+
   /// @brief Pairs by the kinds of their facets, with their data of now.
   const std::vector<std::shared_ptr<Pairs>>& pairs() const { return _pairs; }
 
@@ -224,9 +232,12 @@ private:
                                     bool is_first);
   void measure_from_touching(std::span<const std::int8_t> which);
   kernel::NodalArrays arrays(std::span<const double> displacement,
-                             std::array<std::vector<double>, 5>& padded) const;
+                             std::array<std::vector<double>, 5>& padded,
+                             std::span<const double> position = {}) const;
   void assemble(std::string_view term, std::span<const double> displacement,
-                std::span<double> values) const;
+                std::span<double> values,
+                std::span<const double> position = {}) const;
+  void measure_gap(std::span<const double> displacement);
   void measure_slip(std::span<const double> displacement);
 
   std::shared_ptr<parallel::Halo> _halo;

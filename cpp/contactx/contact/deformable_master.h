@@ -97,28 +97,40 @@ protected:
         *_halo, values_of<double>(saved, "displacement"), gdim()));
   }
 
-  /// @brief Way from the master to each slave node, the mean of x_slave -
-  /// x_master.
+  /// @brief Distance of each slave node from the master in the reference
+  /// configuration, the mean of X_slave - X_master.
   ///
   /// Positions are taken from that of the slave node, as kernels do, so that
   /// rounding errors do not grow with its distance from the origin.
-  /// @param[in] u Displacements (shape=(num_nodes, gdim)).
   /// @return Shape=(n, gdim).
-  std::vector<double> way(std::span<const double> u) const
+  std::vector<double> apart() const
   {
     const std::size_t g = gdim();
     const auto owned = _slaves->owned();
-    const auto reference = _halo->reference();
-    const Weights w = weights();
-    std::vector<double> way(owned.size() * g, 0);
-    for (std::size_t e = 0; e < w.values.size(); ++e)
-      for (std::size_t k = 0; k < g; ++k)
-      {
-        const std::size_t at = g * w.nodes[e] + k;
-        const double apart
-            = reference[at] - reference[g * owned[w.slaves[e]] + k];
-        way[g * w.slaves[e] + k] += w.values[e] * (apart + u[at]);
-      }
+    const auto x = _halo->reference();
+    return means([&](std::int32_t i, std::int32_t node, std::size_t k)
+                 { return x[g * node + k] - x[g * owned[i] + k]; });
+  }
+
+  /// @brief Movement of each slave node relative to the master, the mean of
+  /// u_slave - u_master.
+  /// @param[in] u Displacements (shape=(num_nodes, gdim)).
+  /// @return Shape=(n, gdim).
+  std::vector<double> moved(std::span<const double> u) const
+  {
+    const std::size_t g = gdim();
+    return means([&](std::int32_t, std::int32_t node, std::size_t k)
+                 { return u[g * node + k]; });
+  }
+
+  /// @brief Mean of x_slave - x_master (shape=(n, gdim)).
+  /// @param[in] u Displacements (shape=(num_nodes, gdim)).
+  std::vector<double> way(std::span<const double> u) const
+  {
+    std::vector<double> way = apart();
+    const std::vector<double> by = moved(u);
+    for (std::size_t k = 0; k < way.size(); ++k)
+      way[k] += by[k];
     return way;
   }
 
@@ -130,5 +142,20 @@ protected:
   /// Displacements and positions of all nodes at the step's start
   std::vector<double> _u0, _x0;
   SlipOrigin _origin; ///< where slip starts in small sliding
+
+private:
+  /// Weighted sums, for each slave node i, of value(i, node, k).
+  template <class Value>
+  std::vector<double> means(Value&& value) const
+  {
+    const std::size_t g = gdim();
+    const Weights w = weights();
+    std::vector<double> sums(_slaves->owned().size() * g, 0);
+    for (std::size_t e = 0; e < w.values.size(); ++e)
+      for (std::size_t k = 0; k < g; ++k)
+        sums[g * w.slaves[e] + k]
+            += w.values[e] * value(w.slaves[e], w.nodes[e], k);
+    return sums;
+  }
 };
 } // namespace contactx::contact

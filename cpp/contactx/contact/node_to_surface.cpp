@@ -120,7 +120,7 @@ void NodeToSurface::begin_step()
   if (not _options.measures_slip)
     return;
   if (_options.is_small)
-    _origin.start(way(_u0));
+    _origin.start(moved(_u0));
   else
     _start = at_slaves(_x0);
 }
@@ -228,7 +228,7 @@ std::vector<double> NodeToSurface::slip() const
   if (_options.is_small)
   {
     for (std::size_t i = 0; i < size(); ++i)
-      std::copy_n(_origin.way().begin() + g * i, g,
+      std::copy_n(_origin.moved().begin() + g * i, g,
                   data.begin() + slip_size * i + slip_origin);
     put_xi(_pairing.xi());
     return data;
@@ -309,7 +309,7 @@ void NodeToSurface::touch(std::span<const std::int8_t> which,
 {
   if (_options.is_small)
   {
-    _origin.touch(which, way(u), normals(), offset);
+    _origin.touch(which, apart(), moved(u), normals(), offset);
     return;
   }
   const int g = gdim();
@@ -435,8 +435,10 @@ std::vector<Saved> NodeToSurface::save() const
     saved.push_back(std::move(s));
   if (_options.measures_slip)
   {
-    saved.push_back({"start", RowKind::slave, gdim(),
-                     _options.is_small ? _origin.way() : _start});
+    saved.push_back(
+        _options.is_small
+            ? Saved{"moved", RowKind::slave, gdim(), _origin.moved()}
+            : Saved{"start", RowKind::slave, gdim(), _start});
     saved.push_back({"at", RowKind::node, gdim(), _at});
   }
   if (needs_before())
@@ -450,11 +452,10 @@ void NodeToSurface::load(const std::vector<Saved>& saved)
           saved);
   if (_options.measures_slip)
   {
-    auto start = values_of<double>(saved, "start");
     if (_options.is_small)
-      _origin.start(std::move(start));
+      _origin.start(values_of<double>(saved, "moved"));
     else
-      _start = std::move(start);
+      _start = values_of<double>(saved, "start");
     _at = spread(*_halo, values_of<double>(saved, "at"), gdim());
   }
   if (needs_before())

@@ -341,7 +341,7 @@ void SurfaceToSurface::begin_step()
     pair(_x0);
   }
   if (_options.measures_slip and _options.is_small)
-    _origin.start(way(_u0));
+    _origin.start(moved(_u0));
   else if (_options.measures_slip)
     _slip.begin_step(of_slip(_x0, _u0));
 }
@@ -370,7 +370,7 @@ void SurfaceToSurface::touch(std::span<const std::int8_t> which,
                              std::span<const double> offset)
 {
   if (_options.is_small)
-    _origin.touch(which, way(u), normals(), offset);
+    _origin.touch(which, apart(), moved(u), normals(), offset);
   else
     _slip.touch(which, of_slip(x, u), offset);
 }

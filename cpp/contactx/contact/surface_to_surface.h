@@ -60,7 +60,7 @@ public:
   /// @brief Area in front of the master. A node that is pushed off within
   /// an iteration keeps some until the next search.
   std::vector<double> area(std::span<const double> whole) const override;
-  std::vector<double> origin() const override { return _origin.way(); }
+  std::vector<double> origin() const override { return _origin.moved(); }
   std::vector<double> compliance(std::span<const double> nodal) const override;
 
   /// @brief On a plane of symmetry nothing moves across it: only half of what

@@ -243,36 +243,18 @@ Convergence::Result Convergence::compare_forces(std::span<const double> b,
   return {residual, tolerance, defect};
 }
 
-/// Lengths whose rounding errors the gaps of each contact have.
+/// Lengths whose rounding errors the gaps of each contact have, besides
+/// displacements.
 ///
-/// Kernels measure from the slave node. In small sliding nothing but that
-/// varies; in finite sliding projections and integrals are those of positions.
+/// In small sliding what the reference configuration has in a gap is a
+/// constant, from which the offset is taken; in finite sliding projections and
+/// integrals are those of positions.
 std::vector<double> Convergence::gap_lengths() const
 {
-  const std::span<const double> x = _system->halo()->reference();
-  const int g = _system->halo()->gdim();
   std::vector<double> lengths;
   for (const auto& c : _system->contacts())
-  {
-    const bool is_local = c->sliding() == contact::Sliding::small
-                          and not c->master()->is_rigid();
-    double most = is_local ? 0 : square(_farthest);
-    if (is_local)
-      for (const auto& pairs : c->pairs())
-      {
-        const std::size_t n = pairs->num_slaves + pairs->num_nodes;
-        for (std::size_t i = 0; i < pairs->nodes.size(); ++i)
-        {
-          const double* first = &x[g * pairs->nodes[i / n * n]];
-          const double* other = &x[g * pairs->nodes[i]];
-          double apart = 0;
-          for (int k = 0; k < g; ++k)
-            apart += square(other[k] - first[k]);
-          most = std::max(most, apart);
-        }
-      }
-    lengths.push_back(std::sqrt(most));
-  }
+    lengths.push_back(c->measures_displacements() ? largest_of(c->offset())
+                                                  : _farthest);
   ranks().reduce(std::span(lengths), parallel::Reduction::largest);
   return lengths;
 }
