@@ -442,11 +442,9 @@ void Contact::measure_gap(std::span<const double> displacement)
 
 void Contact::measure_slip(std::span<const double> displacement)
 {
-  if (measures_displacements())
-    assemble("slip", displacement, _nodes->slip,
-             std::vector<double>(displacement.size(), 0));
-  else
-    assemble("slip", displacement, _nodes->slip);
+  // What starts in the reference configuration has no part in slip
+  const std::size_t n = measures_displacements() ? displacement.size() : 0;
+  assemble("slip", displacement, _nodes->slip, std::vector<double>(n, 0));
   if (not _law->is_tied())
     _nodes->project(_master->origin());
   if (_rest.empty())
