@@ -442,7 +442,7 @@ void Contact::measure_gap(std::span<const double> displacement)
 
 void Contact::measure_slip(std::span<const double> displacement)
 {
-  // What starts in the reference configuration has no part in slip
+  // Where it is a difference of displacements, positions are left out
   const std::size_t n = measures_displacements() ? displacement.size() : 0;
   assemble("slip", displacement, _nodes->slip, std::vector<double>(n, 0));
   if (not _law->is_tied())

@@ -39,7 +39,8 @@ facet_normal_derivative(const facet::Frame<F>& frame, const facet::Local<F>& xi)
 ///
 /// The point has constant local coordinates xi_0 and a constant gap g_0 over
 /// them: w = x_s - sum_l N_l(xi_0) x_l - g_0 n(xi_0). Frozen kinematics do not
-/// turn: the point keeps its place `origin` relative to sum_l N_l(xi_0) x_l.
+/// turn: the point keeps its place `origin` relative to sum_l N_l(xi_0) x_l. In
+/// small sliding with friction all of these are displacements, for positions.
 template <class Kinematics>
 struct Relative
 {
