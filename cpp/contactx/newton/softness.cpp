@@ -50,9 +50,8 @@ double contactx::newton::softness(const contact::Bodies& bodies,
   for (std::size_t b = 0; b < sums.size(); b += 3)
   {
     // Of a body that is prescribed as a whole nothing is to be found
-    const double w
-        = sums[b] > 0 ? std::min(1.0, alike * softest * sums[b + 1] / sums[b])
-                      : 1.0;
+    const double part = sums[b] > 0 ? softest * sums[b + 1] / sums[b] : 1.0;
+    const double w = alike * part < 1 ? part : 1.0;
     all += sums[b + 2];
     counted += w * w * sums[b + 2];
   }

@@ -15,9 +15,11 @@ namespace contactx::newton
 /// residual is a large force for a soft one. So a linear solve may leave a part
 /// of
 ///
-///     sqrt(sum_b (w_b |r_b|)^2),  w_b = min(1, 10 min_a k_a / k_b)
+///     sqrt(sum_b (w_b |r_b|)^2),  w_b = min_a k_a / k_b
 ///
-/// over the bodies b, k_b the mean of the bulk's diagonal in a body.
+/// over the bodies b, k_b the mean of the bulk's diagonal in a body, and w_b
+/// one where that is at least 0.1. Ten times as much in stiff slabs left soft
+/// ground between stick and slip for half as many iterations more.
 ///
 /// @param[in] bodies The bodies.
 /// @param[in] diagonal The bulk's diagonal at the owned nodes' displacements,
