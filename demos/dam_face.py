@@ -22,6 +22,7 @@ import argparse
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 from hexahedra import NodalStress, stress
 from rich.table import Table
@@ -70,7 +71,7 @@ def arguments(argv: Sequence[str] | None) -> argparse.Namespace:
     return parser.parse_args(argv)
 
 
-def model_of(slabs: int, height: float | None = None, **cells: int) -> DamFace:
+def model_of(slabs: int, height: float | None = None, **cells: Any) -> DamFace:
     """Measures of a dam of a number of slabs; its height follows from its length if None."""
     high = height or min(ASPECT * slabs * DamFace.width, DamFace.height)
     return DamFace(slabs=slabs, height=high, **cells)

@@ -199,7 +199,7 @@ def dam_face(model: DamFace, comm: MPI.Comm = MPI.COMM_WORLD) -> MeshData:
         group_slabs(gmsh, bodies, "rockfill")
         gmsh.model.mesh.generate(3)
 
-    data = build_mesh("dam_face", 3, recipe, comm)
+    data = build_mesh("dam_face", 3, recipe, comm, in_strips=True)
     x = data.mesh.geometry.x
     for i in range(1 + model.slabs):
         nodes = nodes_of_block(data, i)
