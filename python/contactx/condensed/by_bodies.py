@@ -23,20 +23,21 @@ from contactx.options import ROUNDING, block_options
 from contactx.parallel import reduce
 from contactx.report import Report
 
-# Iterations after which the blocks are no use
-_MOST = 120
-_RESTART = 60
+# Iterations after which the blocks are no use, and those after which springs are none
+_MOST = _MOST_OF_SPRINGS = 120
 # Change of the soft block, to the size of what contact adds to it, below which its factors serve
 _SOFT_SERVES = 0.03
 # The same of the stiff block, times the reduction that a solve asks for as a power of e: iterations
 # that old factors cost grow with both
 _STIFF_SERVES = 0.25
+# Change below which factors are as good as new ones
+_SAME = 2e-3
+# Iterations that cost what the factors of a block cost, at 200,000 to 400,000 displacements
+_COST = 20
+# Iterations whose reduction tells what those that follow will reach
+_SEEN = 10
 # Least part of the largest movement under a uniform traction that counts for a spring
 _LEAST_MOVED = 1e-3
-# Iterations for a reduction by e from which on springs do not do for soft bodies
-_SLOW = 4.5
-# Iterations that cost what the factors of the stiff block cost, at 170,000 displacements
-_COST = 20
 
 
 class ByBodies:
@@ -51,12 +52,13 @@ class ByBodies:
     alone. S is A_mm with springs in the place of the soft bodies: where a traction of one all over
     the contact moves a node of theirs by u, its spring for each unit of area is 1 / u. The larger
     the contact the more a long wave differs from a short one, and the more iterations that takes:
-    once they are slow, a coarse model of the soft bodies takes the place of the ground.
+    once these are too many, a coarse model of the soft bodies takes the place of the ground. It
+    takes fewer, but its factors and each iteration cost more.
 
     Multipliers that stay unknowns belong to m. Where no bodies differ all unknowns are in c.
 
-    Factors of c serve until contact has changed the block, those of m for as long as that costs
-    fewer iterations than new ones.
+    Factors serve until contact has changed their block much, and for as long as that costs fewer
+    iterations than new ones.
 
     Attributes:
         iterations: Krylov iterations.
@@ -90,12 +92,16 @@ class ByBodies:
         self._updated_for: CondensedOperator | None = None
         self._per_area: Array | None = None
         self._model: CoarseModel | None = None
-        # Whether the last factors are of this matrix, iterations for a reduction by e with such
-        # ones, last and at most, and those lost since
-        self._is_new = False
-        self._rate = self._slowest = self._lost = 0.0
-        # Change of the stiff block below which its factors serve, times the reduction
-        self._serves = _STIFF_SERVES
+        # Iterations that new factors cost where those at hand are of another matrix, else zero, and
+        # those lost since they were new
+        self._renewal = 0
+        self._lost = 0.0
+        # Iterations with new factors, and what they have reduced residuals by as a power of e
+        self._count = self._reduced = 0.0
+        # Residual that the iterations must fall below, what new factors would take to it, and
+        # residuals of these iterations
+        self._goal = self._otherwise = 0.0
+        self._residuals: list[float] = []
 
     def tells_apart(self, operator: CondensedOperator) -> bool:
         """Whether there are stiff bodies and soft ones; all ranks must take part.
@@ -129,55 +135,82 @@ class ByBodies:
         self._operator = operator
         reduction = operator.reduction(rhs, v, target)
         if self._updated_for is not operator:
-            self._update(operator, report, reduction)
-        if self._iterate(rhs, v, target, reduction, report):
-            return True
-        if not self._is_new or self._updated_for is None:
-            if not self._is_new:
-                self._serves /= 2
-            self._update(operator, report)
-            # From zero now
+            self._update(operator, reduction, report)
+        while not self._iterate(rhs, v, target, reduction, report):
+            # What the iterations have reached is a start for those that follow
             reduction = operator.reduction(rhs, v, target)
-            if self._iterate(rhs, v, target, reduction, report):
-                return True
-        self.reset()
-        return False
+            if self._renewal > 0:
+                self._update(operator, None, report)
+            elif self._stiff is not None and not self._has_model:
+                self._has_model = True
+                self._stiff.drop()
+                self._count = self._reduced = 0.0
+                self._update(operator, None, report)
+            else:
+                self.reset()
+                v.set(0.0)
+                return False
+        return True
 
     def _iterate(
         self, rhs: PETSc.Vec, v: PETSc.Vec, target: float, reduction: float, report: Report
     ) -> bool:
         ksp = self._ksp
         assert ksp is not None
-        # With old factors no more are lost than new ones cost
-        most = _MOST if self._is_new else _COST + int(self._slowest * reduction)
-        ksp.setTolerances(rtol=ROUNDING, atol=target, max_it=min(most, _MOST))
+        most = _MOST if self._stiff is None or self._model else _MOST_OF_SPRINGS
+        self._goal = max(target, ROUNDING * rhs.norm())
+        self._otherwise = self._renewal + self._rate * reduction
+        self._residuals = []
+        ksp.setTolerances(max_it=most)
         ksp.setInitialGuessNonzero(v.norm() > 0)
         # Factors of a singular block are not finite
         with report.timing("Krylov"), Quiet() as self._quiet, np.errstate(all="ignore"):
             ksp.solve(rhs, v)
         count = ksp.getIterationNumber()
         self.iterations += count
-        if self._is_new:
-            self._rate = count / reduction
-            self._slowest = max(self._slowest, self._rate)
-            self._judge(count)
-        else:
-            self._lost += max(0.0, count - self._rate * reduction)
         if ksp.getConvergedReason() > 0:
+            if self._renewal == 0:
+                self._count += count
+                self._reduced += reduction
+            else:
+                self._lost += max(0.0, count - self._rate * reduction)
             return True
-        v.set(0.0)
+        if not np.isfinite(v.norm()):
+            v.set(0.0)
         return False
 
-    def _update(
-        self, operator: CondensedOperator, report: Report, reduction: float | None = None
-    ) -> None:
+    @property
+    def _rate(self) -> float:
+        """Iterations for a reduction of the residual by e with new factors."""
+        return self._count / self._reduced if self._reduced > 0 else 0.0
+
+    def _judge(self, ksp: PETSc.KSP, count: int, residual: float) -> PETSc.KSP.ConvergedReason:
+        """Whether iterations have converged, or are to go on; PETSc calls this.
+
+        With old factors they end where those that are left by their last ones are more than new
+        factors cost and take: what is left then are the slow parts.
+        """
+        reason = PETSc.KSP.ConvergedReason
+        if not np.isfinite(residual):
+            return reason.DIVERGED_NANORINF
+        if residual <= self._goal:
+            return reason.CONVERGED_ATOL
+        self._residuals.append(residual)
+        if self._renewal > 0 and count >= _SEEN:
+            left = np.log(residual / self._goal)
+            reached = np.log(self._residuals[-1 - _SEEN] / residual) / _SEEN
+            if left > reached * self._otherwise:
+                return reason.DIVERGED_DTOL
+        return reason.ITERATING
+
+    def _update(self, operator: CondensedOperator, reduction: float | None, report: Report) -> None:
         """Bring the blocks up to what contact makes of the matrix; all ranks must take part.
 
         Args:
             operator: The condensed matrix.
+            reduction: Logarithm of what the residual is to be reduced by; None if no factors of
+                another matrix are to serve.
             report: Report whose times are added to.
-            reduction: Logarithm of what the residual is to be reduced by; None if no old factors
-                are to serve.
         """
         if self._ksp is None:
             self._make(operator)
@@ -188,23 +221,27 @@ class ByBodies:
             assert soft is not None
             change, is_symmetric = change_of(soft.part, transforms)
             is_symmetric = is_symmetric and self._bulk.is_symmetric
+        if reduction is None or self._lost > max(self._renewal, _COST):
+            of_soft = of_stiff = 0.0
+            self._lost = 0.0
+        else:
+            of_soft, of_stiff = _SOFT_SERVES, _STIFF_SERVES / reduction
         is_new = soft.update(
             change,
             lambda: soft.part.block(change, operator.eliminated),
             is_symmetric,
             soft.part.group,
-            0.0 if reduction is None else _SOFT_SERVES,
+            of_soft,
             report,
         )
         self.factorisations += is_new
+        blocks = [soft]
         if stiff is not None:
-            serves = None
-            if reduction is not None:
-                serves = 0.0 if self._lost > _COST else self._serves / reduction
-            is_new = self._update_stiff(operator, stiff, transforms, serves, report)
+            blocks.append(stiff)
+            is_new = self._update_stiff(operator, stiff, transforms, of_stiff, report)
             self.factorisations += is_new
-        self._is_new = is_new or reduction is None
-        if self._is_new:
+        self._renewal = _COST * sum(block.is_old for block in blocks)
+        if self._renewal == 0:
             self._lost = 0.0
         self._updated_for = operator
 
@@ -213,7 +250,7 @@ class ByBodies:
         operator: CondensedOperator,
         block: _Block,
         transforms: Transforms,
-        serves: float | None,
+        serves: float,
         report: Report,
     ) -> bool:
         """Bring the stiff block up to date; whether it was factorised."""
@@ -234,19 +271,6 @@ class ByBodies:
         group = part.group if model is None else min(part.group, model.group)
         return block.update(change, make, is_symmetric, group, serves, report)
 
-    def _judge(self, count: int) -> None:
-        """Take a coarse model from now on, where springs have been slow.
-
-        Args:
-            count: Iterations with new factors.
-        """
-        is_slow = self._rate > _SLOW and count > 2 * _COST
-        if self._stiff is not None and not self._has_model and is_slow:
-            self._has_model = True
-            self._stiff.drop()
-            self._updated_for = None
-            self._slowest = 0.0
-
     def _model_of(self, operator: CondensedOperator) -> CoarseModel | None:
         """The coarse model, if there is to be one; all ranks must take part."""
         if self._has_model and self._model is None:
@@ -259,7 +283,6 @@ class ByBodies:
                 operator.slave_dofs,
                 self._prefix + "model_",
             )
-            self._has_model = self._model is not None
         return self._model
 
     def _part(self, operator: CondensedOperator) -> None:
@@ -338,7 +361,8 @@ class ByBodies:
         ksp = PETSc.KSP().create(comm=self._comm)
         ksp.setOptionsPrefix(self._prefix)
         ksp.setType("fgmres")
-        ksp.setGMRESRestart(_RESTART)
+        ksp.setGMRESRestart(_MOST)
+        ksp.setConvergenceTest(weakly(self._judge))
         ksp.setOperators(A)
         pc = ksp.getPC()
         pc.setType("python")
@@ -374,10 +398,12 @@ class _Block:
 
     Attributes:
         part: Its displacements.
+        is_old: Whether they are of another matrix.
     """
 
     def __init__(self, part: Part, prefix: str):
         self.part = part
+        self.is_old = False
         self._prefix = prefix
         self._change: PETSc.Mat | None = None
         self._ksp: PETSc.KSP | None = None
@@ -394,7 +420,7 @@ class _Block:
         make: Callable[[], PETSc.Mat],
         is_symmetric: bool,
         group: int,
-        serves: float | None,
+        serves: float,
         report: Report,
     ) -> bool:
         """Factorise it where contact has changed it; all ranks must take part.
@@ -404,17 +430,21 @@ class _Block:
             make: Makes the whole block; its first unknowns are those of the part.
             is_symmetric: Whether the block is symmetric.
             group: Number of successive unknowns that belong together.
-            serves: Part of the change that may be other than in the factors; None if none serve.
+            serves: Part of the change that may be other than in the factors.
             report: Report whose times are added to.
 
         Returns:
             Whether it was factorised.
         """
-        if self._change is not None and serves is not None:
+        if self._change is not None:
             difference = change.copy()
             difference.axpy(-1.0, self._change, DIFFERENT)
-            if difference.norm() <= serves * change.norm():
+            size = change.norm()
+            other = float(difference.norm())
+            self.is_old = other > _SAME * size
+            if other <= max(serves, _SAME) * size:
                 return False
+        self.is_old = False
         # Factors are the largest part of the memory: those of before go first
         self.drop()
         with report.timing("condensation"):

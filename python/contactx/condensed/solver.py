@@ -30,6 +30,8 @@ _ASKED = "condensed_pc_type asks for it"
 _HELD = "a slave node with a prescribed displacement moves its master"
 # What a guess may leave for each part that a solve would: Newton's method leaves as much
 _NEAR = 300.0
+# Part of the right-hand side that no iterate needs a residual below
+_EXACT = 1e-11
 # Iterations of multigrid for a reduction by e from which on stiff bodies and soft ones are solved
 # in turn
 _SLOW_OF_MIXED = 6
@@ -256,7 +258,8 @@ class CondensedSolver:
         target = self.target
         if not self.is_last:
             # A small part of what loads a stiff body is much for a soft one
-            target *= operator.softness(self._bodies, given)
+            softness = operator.softness(self._bodies, given)
+            target = min(target, max(target * softness, _EXACT * rhs.norm()))
         if not self._solve_condensed(operator, rhs, v, target):
             return False
         operator.expand(v, work)

@@ -85,9 +85,8 @@ def test_stiff_masters_cost_few_iterations():
 
 @pytest.fixture
 def with_model(monkeypatch):
-    """Take the coarse model of soft bodies after the first solve with springs."""
-    monkeypatch.setattr(by_bodies, "_SLOW", 0.0)
-    monkeypatch.setattr(by_bodies, "_COST", 0)
+    """Take the coarse model of soft bodies at once."""
+    monkeypatch.setattr(by_bodies, "_MOST_OF_SPRINGS", 0)
     made = []
     of = by_bodies.CoarseModel.of
     monkeypatch.setattr(
@@ -103,6 +102,20 @@ def test_a_coarse_model_has_the_same_answer(cell, law, sliding, with_model):
     for a, b in zip(direct[:2], found[:2], strict=True):
         assert np.abs(a - b).max() <= 1e-8 * np.abs(a).max()
     assert not any(report.uncondensed for report in found[2])
+
+
+def test_no_solve_is_finer_than_an_iterate_needs(monkeypatch):
+    """However soft the softest body is, in the first solve of a step with friction."""
+    reductions = []
+    iterate = by_bodies.ByBodies._iterate
+
+    def note(self, rhs, v, target, reduction, report):
+        reductions.append(reduction)
+        return iterate(self, rhs, v, target, reduction, report)
+
+    monkeypatch.setattr(by_bodies.ByBodies, "_iterate", note)
+    both(dragged(CellType.hexahedron, 1e4, "small", friction=0.3))
+    assert 24 < max(reductions) < np.log(1.01e11)
 
 
 def test_factors_serve_where_nothing_changes():

@@ -100,7 +100,7 @@ def test_old_factors_that_cost_more_than_new_ones_are_renewed(dam, monkeypatch):
     """However large the change for which they are to serve."""
     monkeypatch.setattr(by_bodies, "_STIFF_SERVES", 1e9)
     few = count_factorisations(dam)
-    monkeypatch.setattr(by_bodies, "_COST", 0)
+    monkeypatch.setattr(by_bodies, "_COST", 1)
     assert count_factorisations(dam) > few
 
 
