@@ -6,7 +6,7 @@ Lengths in mm, stresses in MPa; half of the section, in plane strain. The sheet,
 aluminium, lies on the shoulders of the die, of radius 4; between them the die is a trough of radius
 25. The punch, of radius 23.5, goes down by 28.5 and presses the sheet on the trough's bottom.
 Strains are a few per cent and rotations large: plasticity of von Mises in the reference
-configuration, with Hollomon's hardening K eps^n.
+configuration; the yield stress is 194 until Hollomon's K eps^n, of the plastic strain, is more.
 
 The tools are thin rings of held and of driven nodes, which are the slaves: their nodes stand close,
 and the sheet, the master, slides over them. Slave nodes of the sheet, half a millimetre apart,
@@ -44,8 +44,9 @@ from published.record import Answer, Case
 E, NU, YIELD, K, N = 70.5e3, 0.342, 194.0, 550.4, 0.223
 HALF, THICK = 60.0, 1.0
 DIE, SHOULDER, PUNCH, STROKE = 25.0, 4.0, 23.5, 28.5
-# Plastic strains at which straight pieces of the hardening touch Hollomon's curve
-_PIECES = (0.0, 0.002, 0.006, 0.012, 0.02, 0.03, 0.045, 0.07)
+# Plastic strains at which straight pieces of the hardening touch Hollomon's curve, beyond that at
+# which it reaches the initial yield stress
+_PIECES = (0.0, 0.002, 0.006, 0.012, 0.02, 0.035, 0.06, 0.09)
 _SHEET, _DIE, _PUNCH = 1, 2, 3
 _BOTTOM, _TOP, _MIDDLE, _HOLLOW, _ROUND = 11, 12, 13, 14, 15
 _RING = 0.4
@@ -53,17 +54,16 @@ _FRICTION, _TANGENTIAL, _FINE = 0.1342, 0.1, 180
 
 
 def hardening() -> list[tuple[float, float]]:
-    """Straight pieces of the yield stress, which is the least of them.
+    """Straight pieces of Hollomon's curve: the yield stress where they are above the initial one.
 
-    Each has its value at no plastic strain, and its slope. Hollomon's curve reaches the initial
-    yield stress at a total strain of (YIELD/K)^(1/N).
+    Each has its value at no plastic strain, and its slope; the least of them counts.
     """
     start = (YIELD / K) ** (1 / N)
     pieces = []
-    for strain in _PIECES:
-        total = start + strain
-        slope = K * N * total ** (N - 1)
-        pieces.append((K * total**N - slope * strain, slope))
+    for beyond in _PIECES:
+        strain = start + beyond
+        slope = K * N * strain ** (N - 1)
+        pieces.append((K * strain**N - slope * strain, slope))
     return pieces
 
 
@@ -102,9 +102,11 @@ class Plastic:
         trial = 2 * mu * elastic + lmbda * ufl.tr(elastic) * ufl.Identity(3)
         s = ufl.dev(trial)
         mises = ufl.sqrt(1.5 * ufl.inner(s, s) + 1e-8)
-        rate: Any = 0.0
+        hardened: Any = 0.0
         for value, slope in hardening():
-            rate = ufl.max_value(rate, (mises - value - slope * length) / (3 * mu + slope))
+            piece = (mises - value - slope * length) / (3 * mu + slope)
+            hardened = ufl.max_value(hardened, piece)
+        rate = ufl.max_value(ufl.min_value(hardened, (mises - YIELD) / (3 * mu)), 0.0)
         flow = 1.5 * rate * s / mises
         test = in_space(ufl.grad(ufl.TestFunction(u.function_space)))
         self.integrand = ufl.inner(F * (trial - 2 * mu * flow), test)
@@ -258,30 +260,28 @@ _SOURCE = (
     "verification problems, OS-V: 0250"
 )
 _FORMED = (
-    "With 60 cells along the sheet 20.536, with 90 20.541 degrees. A straight leg that touches the "
+    "With 60 cells along the sheet 20.61, with 90 20.63 degrees. A straight leg that touches the "
     "sheet's bend around the punch and the shoulder, two circles of radii 24.5 and 4 whose centres "
-    "are 29 apart, is at 2 acos(28.5/29) = 21.3 degrees; the legs bend a little, and where the "
-    "sheet leaves the punch they are at 21.7. OptiStruct gives 20.50 for the same 21.88."
+    "are 29 apart, is at 2 acos(28.5/29) = 21.3 degrees, and the legs bend a little. OptiStruct gives 20.50 for the same 21.88."
 )
 _RELEASED = (
-    "With 60 cells along the sheet 50.7, with 90 50.2, with 120 50.5 degrees; in a quarter of the "
-    "steps' length with 90 50.4 and with 120 50.5. OptiStruct gives 45.53 for the same 48.38. It "
-    "depends on how hard the sheet is pressed on the trough's bottom, which the punch "
-    "clears by half a millimetre more than the sheet's thickness: without that bottom the sheet "
-    "opens to 67 degrees."
+    "With 60 cells along the sheet 47.94, with 90 47.88 degrees; with 120 cells the default steps "
+    "do not form it. OptiStruct gives 45.53 for the same 48.38. The source gives the initial yield "
+    "stress, K and n: the yield stress is the larger of the first and of K eps^n, eps being the "
+    "plastic strain as in Hollomon's equation. With K eps^n shifted to begin at the initial yield "
+    "stress, which the source does not say, it is 50.2 degrees. The angle depends on how hard the "
+    "sheet is pressed on the trough's bottom, which the punch clears by half a millimetre more "
+    "than the sheet's thickness: without that bottom, and with that curve, it opened to 67."
 )
 _WITH_FRICTION = (
     "180 cells along the sheet and tangential_factor=0.1. By default options it is formed, but the "
-    "way back ends after 0.7 mm; with max_cuts=8 it goes on, to 56.7 degrees. With 90 cells it "
-    "does not begin, see the scene. "
+    "way back ends at once. With 90 cells it does not begin, see the scene. "
 )
 _FORMED_WITH_FRICTION = _WITH_FRICTION + (
     "Above without friction says why it is less than published; OptiStruct gives 22.437 for the "
     "same 21.84."
 )
-_RELEASED_WITH_FRICTION = _WITH_FRICTION + (
-    "With 150 cells 56.9, with 180 56.8 degrees; OptiStruct gives 43.22 for the same 54.45."
-)
+_RELEASED_WITH_FRICTION = _WITH_FRICTION + ("OptiStruct gives 43.22 for the same 54.45.")
 CASES = [
     Case(
         "r0094_3_formed",
@@ -301,7 +301,7 @@ CASES = [
         "angle between the legs, degrees",
         lambda: _answer(0.0, True),
         published=48.38,
-        tolerance=0.05,
+        tolerance=0.03,
         note=_RELEASED,
         slow=True,
     ),
@@ -323,7 +323,7 @@ CASES = [
         "angle between the legs, degrees",
         lambda: _answer(_FRICTION, True),
         published=54.45,
-        tolerance=0.05,
+        tolerance=0.03,
         note=_RELEASED_WITH_FRICTION,
         slow=True,
     ),
