@@ -29,11 +29,11 @@ _MOST = _MOST_OF_SPRINGS = 120
 _SOFT_SERVES = 0.03
 # The same of the stiff block, times the reduction that a solve asks for as a power of e: iterations
 # that old factors cost grow with both
-_STIFF_SERVES = 0.25
+_STIFF_SERVES = 0.15
 # Change below which factors are as good as new ones
 _SAME = 2e-3
 # Iterations that cost what the factors of a block cost, at 200,000 to 400,000 displacements
-_COST = 20
+_COST = 15
 # Iterations whose reduction tells what those that follow will reach
 _SEEN = 10
 # Least part of the largest movement under a uniform traction that counts for a spring
@@ -96,8 +96,8 @@ class ByBodies:
         # those lost since they were new
         self._renewal = 0
         self._lost = 0.0
-        # Iterations with new factors, and what they have reduced residuals by as a power of e
-        self._count = self._reduced = 0.0
+        # Iterations for a reduction of the residual by e with new factors, the last ones most
+        self._rate = 0.0
         # Residual that the iterations must fall below, what new factors would take to it, and
         # residuals of these iterations
         self._goal = self._otherwise = 0.0
@@ -144,7 +144,7 @@ class ByBodies:
             elif self._stiff is not None and not self._has_model:
                 self._has_model = True
                 self._stiff.drop()
-                self._count = self._reduced = 0.0
+                self._rate = 0.0
                 self._update(operator, None, report)
             else:
                 self.reset()
@@ -170,19 +170,14 @@ class ByBodies:
         self.iterations += count
         if ksp.getConvergedReason() > 0:
             if self._renewal == 0:
-                self._count += count
-                self._reduced += reduction
+                rate = count / reduction
+                self._rate = (self._rate + rate) / 2 if self._rate > 0 else rate
             else:
                 self._lost += max(0.0, count - self._rate * reduction)
             return True
         if not np.isfinite(v.norm()):
             v.set(0.0)
         return False
-
-    @property
-    def _rate(self) -> float:
-        """Iterations for a reduction of the residual by e with new factors."""
-        return self._count / self._reduced if self._reduced > 0 else 0.0
 
     def _judge(self, ksp: PETSc.KSP, count: int, residual: float) -> PETSc.KSP.ConvergedReason:
         """Whether iterations have converged, or are to go on; PETSc calls this.

@@ -87,12 +87,15 @@ def count_factorisations(dam):
 
 
 def test_factors_serve_the_less_the_more_a_solve_is_to_reduce(dam, monkeypatch):
-    """With a hundredth of the reduction old factors serve longer."""
+    """With a hundredth of the reduction old factors serve longer, were they never dear."""
+    monkeypatch.setattr(by_bodies, "_COST", 10**6)
     many = count_factorisations(dam)
-    reduction = by_bodies.CondensedOperator.reduction
-    monkeypatch.setattr(
-        by_bodies.CondensedOperator, "reduction", lambda *args: 0.01 * reduction(*args)
-    )
+    update = by_bodies.ByBodies._update
+
+    def rougher(self, operator, reduction, report):
+        update(self, operator, reduction and 0.01 * reduction, report)
+
+    monkeypatch.setattr(by_bodies.ByBodies, "_update", rougher)
     assert count_factorisations(dam) < many
 
 
