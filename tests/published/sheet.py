@@ -262,7 +262,8 @@ _SOURCE = (
 _FORMED = (
     "With 60 cells along the sheet 20.61, with 90 20.63 degrees. A straight leg that touches the "
     "sheet's bend around the punch and the shoulder, two circles of radii 24.5 and 4 whose centres "
-    "are 29 apart, is at 2 acos(28.5/29) = 21.3 degrees, and the legs bend a little. OptiStruct gives 20.50 for the same 21.88."
+    "are 29 apart, is at 2 acos(28.5/29) = 21.3 degrees, and the legs bend a little. "
+    "OptiStruct gives 20.50 for the same 21.88."
 )
 _RELEASED = (
     "With 60 cells along the sheet 47.94, with 90 47.88 degrees; with 120 cells the default steps "

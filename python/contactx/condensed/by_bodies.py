@@ -30,8 +30,8 @@ _SOFT_SERVES = 0.03
 # The same of the stiff block, times the reduction that a solve asks for as a power of e: iterations
 # that old factors cost grow with both
 _STIFF_SERVES = 0.15
-# Change below which factors are as good as new ones
-_SAME = 2e-3
+# Change that rounding leaves: one node that slips where it stuck makes more, and costs iterations
+_SAME = 1e-6
 # Iterations that cost what the factors of a block cost, at 200,000 to 400,000 displacements
 _COST = 15
 # Iterations whose reduction tells what those that follow will reach
