@@ -141,17 +141,22 @@ def test_tubes(sliding, fixed, counts):
 
 @pytest.mark.parametrize("turned", [1e-3, 0.01, 0.1])
 def test_pairs_far_beyond_their_facets_are_no_solution(turned):
-    """A facet for each node, turned by a part of a facet: no place balances their moment."""
+    """A facet for each node, turned by a part of a facet: no place balances their moment.
+
+    Rounding decides whether the iterations or the length of their steps come to an end.
+    """
     rings = FreeRings(63, 63, fixed=True, offset=0.01, turned=turned)
-    with pytest.raises(cx.ConvergenceError, match="no convergence"):
+    with pytest.raises(cx.ConvergenceError, match="no convergence|no step is short enough"):
         rings.problem.solve()
     assert not rings.u.x.array.any()
 
 
 @pytest.mark.parametrize("turned", [1e-3, 0.01])
 def test_a_ring_that_has_run_away_is_no_solution(turned):
+    """Rounding decides whether it is seen to have moved, or to have turned."""
     rings = FreeRings(31, 31, fixed=False, offset=0.04, turned=turned, layers=4)
-    with pytest.raises(cx.ConvergenceError, match=r"nothing holds has moved by .* than the size"):
+    gone = r"nothing holds has (moved by .* than the size|turned by)"
+    with pytest.raises(cx.ConvergenceError, match=gone):
         rings.problem.solve()
     assert not rings.u.x.array.any()
 
