@@ -72,8 +72,9 @@ def partitioned(name: str) -> Iterator[None]:
         build.model_to_mesh = before
 
 
-def _distributed(name: str, model: Any, comm: Any, rank: int, gdim: int) -> MeshData:
-    partitioner = None
+def _distributed(
+    name: str, model: Any, comm: Any, rank: int, gdim: int, partitioner: Any = None
+) -> MeshData:
     if name == GHOSTED and comm.size > 1:
         partitioner = mesh.create_cell_partitioner(mesh.GhostMode.shared_facet, 2)
     elif name in CUSTOM and comm.size > 1:
