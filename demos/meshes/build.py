@@ -7,18 +7,16 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from contextlib import ExitStack
 from types import ModuleType
-from typing import Any
 
 from mpi4py import MPI
 
 import numpy as np
 
 from contactx.parallel.agreement import agreed
-from dolfinx.cpp.mesh import cell_num_vertices
-from dolfinx.graph import adjacencylist
 from dolfinx.io.gmsh import MeshData, extract_geometry, model_to_mesh
 
 from meshes.gmsh_session import gmsh_session
+from meshes.partition import by_middles, strips
 
 MODEL_RANK = 0
 
@@ -57,24 +55,8 @@ def build_mesh(
                 gmsh = stack.enter_context(gmsh_session(name, options))
                 recipe(gmsh)
         model = None if gmsh is None else gmsh.model
-        partitioner = _strips(model) if in_strips else None
+        partitioner = None
+        if in_strips:
+            x = np.zeros((0, 3)) if model is None else extract_geometry(model)
+            partitioner = by_middles(strips, x)
         return model_to_mesh(model, comm, MODEL_RANK, gdim=dim, partitioner=partitioner)
-
-
-def _strips(model: Any) -> Callable[..., Any]:
-    """A partitioner that gives each rank as many cells, in the order of their places along x.
-
-    Args:
-        model: Model of gmsh on the rank that has it, else None.
-    """
-    x = np.empty(0) if model is None else extract_geometry(model)[:, 0]
-
-    def partition(comm: MPI.Comm, parts: int, kinds: Any, cells: list[Any]) -> Any:
-        (vertices,) = cells
-        places = x[vertices.reshape(-1, cell_num_vertices(kinds[0]))].mean(axis=1)
-        order = np.argsort(places, kind="stable")
-        destination = np.empty(len(order), dtype=np.int32)
-        destination[order] = np.arange(len(order)) * parts // max(len(order), 1)
-        return adjacencylist(destination[:, None])._cpp_object
-
-    return partition

@@ -24,6 +24,7 @@ import tables
 import dam_face
 from dam_results import laws
 from dam_scene import Dam, DamSetting, run
+from meshes import DamFace
 
 COARSE: dict[str, Any] = {"layers": 3, "rows": 40, "rockfill_rows": 28, "rockfill_cells": 5}
 FINE: dict[str, Any] = {"layers": 3, "rows": 104, "rockfill_rows": 70, "rockfill_cells": 5}
@@ -92,7 +93,9 @@ def main(argv: Sequence[str]) -> list[dict[str, Any]]:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("slabs", type=int, nargs="*", default=[5, 10])
     parser.add_argument("--fine", action="store_true", help="cells of half a million displacements")
-    parser.add_argument("--growth", type=float, default=1.8, help="of slabs' cells off a joint")
+    parser.add_argument(
+        "--growth", type=float, default=DamFace.growth, help="of slabs' cells off a joint"
+    )
     parser.add_argument("--stages", type=int, default=10, help="stages of the water that are run")
     parser.add_argument("--of", type=int, default=10, help="stages of the full reservoir")
     parser.add_argument("--ranks", type=int, nargs="+", default=[1])

@@ -282,7 +282,7 @@ _FORMED_WITH_FRICTION = _WITH_FRICTION + (
     "Above without friction says why it is less than published; OptiStruct gives 22.437 for the "
     "same 21.84."
 )
-_RELEASED_WITH_FRICTION = _WITH_FRICTION + ("OptiStruct gives 43.22 for the same 54.45.")
+_RELEASED_WITH_FRICTION = _WITH_FRICTION + "OptiStruct gives 43.22 for the same 54.45."
 CASES = [
     Case(
         "r0094_3_formed",

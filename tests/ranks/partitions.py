@@ -10,15 +10,12 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
-from dolfinx import graph, mesh
+from dolfinx import mesh
 from dolfinx.io.gmsh import MeshData, extract_geometry, model_to_mesh
 
 from meshes import build
-
-type Points = npt.NDArray[np.float64]
-type Ranks = npt.NDArray[np.int32]
+from meshes.partition import Points, Ranks, by_middles, parts, strips
 
 
 def first(x: Points, size: int) -> Ranks:
@@ -33,13 +30,13 @@ def bodies(x: Points, size: int) -> Ranks:
 
 def opposed(x: Points, size: int) -> Ranks:
     """Strips, in the upper body from left to right and in the lower one the other way round."""
-    strip = _parts(x[:, 0], size)
+    strip = strips(x, size)
     return np.where(x[:, -1] > 0, strip, size - 1 - strip).astype(np.int32)
 
 
 def layers(x: Points, size: int) -> Ranks:
     """Layers by the distance from height zero: the last rank is far from any contact there."""
-    return _parts(np.abs(x[:, -1]), size)
+    return parts(np.abs(x[:, -1]), size)
 
 
 def scattered(x: Points, size: int) -> Ranks:
@@ -79,29 +76,7 @@ def _distributed(
         partitioner = mesh.create_cell_partitioner(mesh.GhostMode.shared_facet, 2)
     elif name in CUSTOM and comm.size > 1:
         x = extract_geometry(model)[:, :gdim] if comm.rank == rank else np.zeros((0, gdim))
-        partitioner = _partitioner(CUSTOM[name], x)
+        partitioner = by_middles(CUSTOM[name], x)
     elif name not in (DEFAULT, GHOSTED, *CUSTOM):
         raise ValueError(f"no partition {name}")
     return model_to_mesh(model, comm, rank, gdim=gdim, partitioner=partitioner)
-
-
-def _partitioner(ranks_of: Callable[[Points, int], Ranks], x: Points) -> Callable[..., Any]:
-    """A partitioner by the middles of cells, all of which are on one rank."""
-
-    def partitioner(comm: Any, size: int, cell_types: Any, cells: Any) -> Any:
-        nodes = np.asarray(cells[0], dtype=np.int64).reshape(-1, _vertices(cell_types[0]))
-        ranks = ranks_of(x[nodes].mean(axis=1), size) if len(nodes) else np.zeros(0, np.int32)
-        return graph.adjacencylist(ranks.reshape(-1, 1))._cpp_object
-
-    return partitioner
-
-
-def _vertices(cell: mesh.CellType) -> int:
-    return {"triangle": 3, "quadrilateral": 4, "tetrahedron": 4, "hexahedron": 8}[cell.name]
-
-
-def _parts(value: npt.NDArray[np.float64], size: int) -> Ranks:
-    """Parts of about as many cells each, in the order of a value."""
-    ranks = np.empty(len(value), dtype=np.int32)
-    ranks[np.argsort(value, kind="stable")] = np.arange(len(value)) * size // len(value)
-    return ranks

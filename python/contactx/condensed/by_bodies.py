@@ -139,17 +139,15 @@ class ByBodies:
         while not self._iterate(rhs, v, target, reduction, report):
             # What the iterations have reached is a start for those that follow
             reduction = operator.reduction(rhs, v, target)
-            if self._renewal > 0:
-                self._update(operator, None, report)
-            elif self._stiff is not None and not self._has_model:
+            if self._renewal == 0:
+                if self._stiff is None or self._has_model:
+                    self.reset()
+                    v.set(0.0)
+                    return False
                 self._has_model = True
                 self._stiff.drop()
                 self._rate = 0.0
-                self._update(operator, None, report)
-            else:
-                self.reset()
-                v.set(0.0)
-                return False
+            self._update(operator, None, report)
         return True
 
     def _iterate(
@@ -216,9 +214,8 @@ class ByBodies:
             assert soft is not None
             change, is_symmetric = change_of(soft.part, transforms)
             is_symmetric = is_symmetric and self._bulk.is_symmetric
-        if reduction is None or self._lost > max(self._renewal, _COST):
+        if reduction is None or self._lost > self._renewal:
             of_soft = of_stiff = 0.0
-            self._lost = 0.0
         else:
             of_soft, of_stiff = _SOFT_SERVES, _STIFF_SERVES / reduction
         is_new = soft.update(
