@@ -16,6 +16,8 @@ from meshes import DamFace
 # With fewer cells, or wider ones at the joints, nodes near the plinth stick and open in turn
 MODEL = DamFace(slabs=4, height=20.0, rows=14, layers=2, rockfill_cells=4, rockfill_rows=10)
 STAGES = 2
+MANY = DamFace(rows=24, layers=1, rockfill_cells=3, rockfill_rows=16)
+BY_BODIES = (("condensed_pc_type", "bodies"),)
 
 
 def solved(creep=False):
@@ -105,6 +107,34 @@ def test_old_factors_that_cost_more_than_new_ones_are_renewed(dam, monkeypatch):
     few = count_factorisations(dam)
     monkeypatch.setattr(by_bodies, "_COST", 1)
     assert count_factorisations(dam) > few
+
+
+def count_iterations():
+    """Krylov iterations under the weight of twenty slabs, each of which moves on its own."""
+    dam = Dam(DamSetting(MANY, options=BY_BODIES))
+    dam.update(1.0, STAGES)
+    dam.problem.solve()
+    return dam.problem.report.krylov
+
+
+@pytest.fixture(scope="module")
+def with_springs():
+    """Iterations with springs."""
+    return count_iterations()
+
+
+@pytest.mark.parametrize("short_waves, saved", [(0.0, 0.1), (1.0, 0.2)])
+def test_springs_lie_between_those_for_long_waves_and_for_short_ones(
+    short_waves, saved, with_springs, monkeypatch
+):
+    monkeypatch.setattr(by_bodies, "_SHORT_WAVES", short_waves)
+    assert with_springs <= (1 - saved) * count_iterations()
+
+
+def test_a_coarse_model_takes_fewer_iterations(with_springs, monkeypatch):
+    """What it is for where springs take too many."""
+    monkeypatch.setattr(by_bodies, "_MOST_OF_SPRINGS", 0)
+    assert count_iterations() <= 0.8 * with_springs
 
 
 def test_demo(tmp_path, capsys):

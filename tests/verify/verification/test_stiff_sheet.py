@@ -58,20 +58,9 @@ def iterations(length):
 
 
 @pytest.fixture
-def springs(monkeypatch):
-    """Springs alone."""
-    monkeypatch.setattr(by_bodies, "_MOST_OF_SPRINGS", 1000)
-
-
-@pytest.fixture
 def model(monkeypatch):
     """The coarse model."""
     monkeypatch.setattr(by_bodies, "_MOST_OF_SPRINGS", 0)
-
-
-def test_iterations_with_springs_grow(springs):
-    """What the coarse model is for."""
-    assert iterations(128) > 2 * iterations(8)
 
 
 def test_iterations_with_the_coarse_model_hardly_grow(model):
