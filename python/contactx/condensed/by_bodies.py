@@ -211,8 +211,9 @@ class ByBodies:
                 another matrix are to serve.
             report: Report whose times are added to.
         """
-        if self._ksp is None:
-            self._make(operator)
+        # Vectors of the iterations before go first: factors are made where memory is fullest
+        if self._ksp is not None:
+            self._ksp.destroy()
         with report.timing("condensation"):
             transforms = operator.transforms()
             self._part(operator)
@@ -242,6 +243,7 @@ class ByBodies:
         if self._renewal == 0:
             self._lost = 0.0
         self._updated_for = operator
+        self._make(operator)
 
     def _update_stiff(
         self,
