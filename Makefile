@@ -7,16 +7,19 @@ PYTHON ?=
 # Processes that share the tests, and the scenes of the stress map.
 JOBS ?= $(shell nproc)
 
-EXTRAS := wheels test demo docs lint
 VENV := .venv
 BIN := $(VENV)/bin
 
 # Stamps. An edit during a step must not be lost, so that a stamp bears the time
 # at which its step began.
-SYSTEM := build/system.stamp
 CREATED := $(VENV)/created.stamp
-DEPENDENCIES := $(VENV)/dependencies.stamp
+# What builds contactx, what runs it and its demos, what tests and documents it
+BUILDER := $(VENV)/builder.stamp
+RUNNER := $(VENV)/runner.stamp
+TESTER := $(VENV)/tester.stamp
+WHEEL := build/wheelhouse/built.stamp
 INSTALLED := $(VENV)/installed.stamp
+TESTABLE := $(INSTALLED) $(TESTER)
 
 # Folders too, so that a removed file counts as a change.
 SOURCES := $(shell find cpp/contactx cpp/bindings python/contactx \
@@ -68,78 +71,115 @@ help:
 	@echo "make clean    remove everything that make made"
 	@echo "make PYTHON=/path/to/python  use this Python (>= 3.12)"
 
-$(SYSTEM): tools/find_python.sh tools/missing.sh tools/require.sh
-	@mkdir -p $(@D)
-	@python=$$(tools/find_python.sh "$(PYTHON)") && tools/require.sh "$$python"
-	@touch $@
+SAY := @printf 'contactx: %s\n'
+# Byte code is compiled for what is imported, when it is: all of it takes longer
+# than the packages do
+PIP := $(BIN)/python -m pip install --quiet --no-compile
 
-$(CREATED): | $(SYSTEM)
-	python=$$(tools/find_python.sh "$(PYTHON)") && "$$python" -m venv $(VENV)
-	@touch $@
-
-$(DEPENDENCIES): pyproject.toml tools/requirements.py $(CREATED)
+# $(call packages,EXTRAS): what pyproject.toml lists there, and what it always needs
+define packages
 	@touch $@.began
-	$(BIN)/python tools/requirements.py $(EXTRAS) > $(VENV)/requirements.txt
-	$(BIN)/python -m pip install --quiet -r $(VENV)/requirements.txt
+	@$(BIN)/python tools/requirements.py $(1) > $@.txt
+	@$(PIP) -r $@.txt
+	@mv $@.began $@
+endef
+
+$(CREATED): tools/find_python.sh tools/missing.sh tools/require.sh
+	$(SAY) "an environment in $(VENV)"
+	@python=$$(tools/find_python.sh "$(PYTHON)") && \
+		tools/require.sh "$$python" compiler headers venv graphics && \
+		"$$python" -m venv $(VENV)
+	@touch $@
+
+$(BUILDER): pyproject.toml tools/requirements.py $(CREATED)
+	$(call packages,build)
+
+$(RUNNER): pyproject.toml tools/requirements.py $(CREATED)
+	$(SAY) "DOLFINx, gmsh and PyVista from wheels"
+	$(call packages,wheels demo)
+	$(SAY) "... they are there"
+
+$(TESTER): pyproject.toml tools/requirements.py $(CREATED)
+	$(SAY) "what tests, checks and documents it"
+	@tools/require.sh $(BIN)/python googletest
+	$(call packages,wheels test demo docs lint)
+
+# Without isolation the build folder, build/package, stays valid from one build
+# to the next.
+$(WHEEL): $(BUILDER) CMakeLists.txt README.md $(SOURCES)
+	$(SAY) "compiling contactx, about a minute and a half on two cores"
+	@mkdir -p $(@D)
+	@touch $@.began
+	@rm -f $(@D)/*.whl
+	@$(RUN) $(BIN)/python -m pip wheel --quiet --no-deps --no-build-isolation \
+		--wheel-dir $(@D) .
 	@mv $@.began $@
 
-# Without isolation the build folder stays valid from one build to the next; the
-# C++ tests link the core that is built for the package there.
-$(INSTALLED): $(DEPENDENCIES) CMakeLists.txt README.md $(SOURCES)
+# Packages come while the compiler works
+$(INSTALLED): $(BUILDER) CMakeLists.txt README.md $(SOURCES)
 	@touch $@.began
-	$(BIN)/python -m pip install --quiet --no-deps --no-build-isolation --force-reinstall \
-		--config-settings=cmake.define.CONTACTX_TESTS=ON .
+	@$(MAKE) --no-print-directory -j 2 $(RUNNER) $(WHEEL)
+	@$(PIP) --no-deps --force-reinstall $(dir $(WHEEL))*.whl
 	@mv $@.began $@
 
 demo: $(INSTALLED)
-	$(RUN) $(BIN)/python demos/hertz_sphere.py
-	$(RUN) $(BIN)/python demos/face_slab.py
-	$(RUN) $(BIN)/python demos/face_slab.py --scheme 2
+	$(SAY) "an elastic sphere on a block, compared with Hertz"
+	@$(RUN) $(BIN)/python demos/hertz_sphere.py
+	$(SAY) "face slabs of a dam that press on each other as the support gives way, and as it is pushed"
+	@$(RUN) $(BIN)/python demos/face_slab.py --scheme 2 > build/face_slab_2.log 2>&1 & soft=$$!; \
+		$(RUN) $(BIN)/python demos/face_slab.py; status=$$?; \
+		wait $$soft || status=1; cat build/face_slab_2.log; exit $$status
 
 test: lint test-cpp test-fast
 
-test-cpp: $(INSTALLED)
-	$(RUN) cmake --build build/package --target contactx_tests
-	build/package/contactx_tests --gtest_brief=1
-	rm -rf build/outside
-	$(RUN) cmake --install build/package --component development --prefix build/outside/package
-	$(RUN) cmake -S cpp/tests/outside -B build/outside/build -G Ninja \
-		-DCMAKE_PREFIX_PATH="$(CURDIR)/build/outside/package"
-	$(RUN) cmake --build build/outside/build
+# The tests link the core that was built for the package.
+test-cpp: $(TESTABLE)
+	$(SAY) "C++ tests"
+	@$(RUN) cmake -DCONTACTX_TESTS=ON build/package > build/configure.log
+	@$(RUN) cmake --build build/package --target contactx_tests
+	@for shard in 0 1; do \
+		GTEST_TOTAL_SHARDS=2 GTEST_SHARD_INDEX=$$shard build/package/contactx_tests --gtest_brief=1 & \
+		pids="$$pids $$!"; \
+	done; for pid in $$pids; do wait $$pid || exit 1; done
+	@rm -rf build/outside
+	@$(RUN) cmake --install build/package --component development --prefix build/outside/package > build/install.log
+	@$(RUN) cmake -S cpp/tests/outside -B build/outside/build -G Ninja \
+		-DCMAKE_PREFIX_PATH="$(CURDIR)/build/outside/package" > build/outside.log
+	@$(RUN) cmake --build build/outside/build
 	build/outside/build/outside
 
 # Scripts on several ranks take all cores: they come by themselves.
-test-fast: $(INSTALLED)
+test-fast: $(TESTABLE)
 	$(PYTEST) -n $(JOBS) tests/fast --ignore tests/fast/parallel
 	$(PYTEST) tests/fast/parallel
 
-verify: $(INSTALLED)
+verify: $(TESTABLE)
 	$(PYTEST) -n $(JOBS) tests/verify tests/published --ignore tests/verify/parallel
 	$(PYTEST) tests/verify/parallel
 
 # Published benchmarks, those too that take more than 20 s: docs/gallery.md and pictures.
-gallery: $(INSTALLED)
+gallery: $(TESTABLE)
 	$(RUN) $(BIN)/python tests/published/gallery.py
 
 # Warnings are errors, and links within the manual must lead somewhere. Nothing is solved.
-docs: $(INSTALLED)
+docs: $(TESTABLE)
 	$(RUN) $(BIN)/python -m sphinx --fresh-env --fail-on-warning --keep-going --quiet \
 		-d build/doctrees docs/manual build/docs
 	$(BIN)/python tools/check_manual.py build/docs
 	@echo "the manual is in build/docs/index.html"
 
 # Pages of the demos with what they print and draw, but for those that take long, and animations.
-demo-pages: $(INSTALLED)
+demo-pages: $(TESTABLE)
 	$(RUN) $(BIN)/python tools/demo_pages.py
 	$(RUN) $(BIN)/python tools/animations.py
 
 # Tables and a picture come to build/stress; fails where a scene is wrong.
-stress: $(INSTALLED)
+stress: $(TESTABLE)
 	$(RUN) $(BIN)/python tests/stress/stress_map.py --workers $(JOBS)
 	$(PYTEST) tests/stress
 
 # In build/wheel; the environment there is made anew.
-wheel: $(DEPENDENCIES)
+wheel: $(TESTER)
 	tools/wheel.sh $(BIN)/python
 
 # Debian sid in build/distribution: 5 GB, gone at the end (KEEP=1 keeps it)
@@ -147,11 +187,11 @@ distribution:
 	tools/distribution.sh build/distribution
 
 # Memory of a process per run, every fiftieth step; fails where it grows.
-leaks: $(INSTALLED)
+leaks: $(TESTABLE)
 	$(RUN) $(BIN)/python tests/stress/leaks.py
 
 # Kernels and search on one core: tables, and the same as CSV files.
-bench-core: $(DEPENDENCIES)
+bench-core: $(TESTER)
 	$(RUN) cmake -S . -B build/bench -G Ninja -DCONTACTX_BENCHMARKS=ON -DCONTACTX_PYTHON=OFF
 	$(RUN) cmake --build build/bench
 	build/bench/bench_kernels build/bench
@@ -159,7 +199,7 @@ bench-core: $(DEPENDENCIES)
 
 # Each script takes sizes, so that a part can be run alone. Tables, CSV files and
 # pictures come to build/bench.
-bench: bench-core $(INSTALLED)
+bench: bench-core $(TESTABLE)
 	status=0; for name in $(BENCHES); do \
 		$(RUN) $(BIN)/python tests/benchmarks/bench_$$name.py || status=1; \
 	done; \
@@ -167,7 +207,7 @@ bench: bench-core $(INSTALLED)
 
 # The same inputs in each run, as long as build/fuzz/corpus is the same: what
 # was new stays there, and what fails comes to build/fuzz.
-fuzz: $(DEPENDENCIES)
+fuzz: $(TESTER)
 	@command -v $(CLANG) >/dev/null || { echo "contactx: make fuzz needs Clang with libFuzzer, and there is no $(CLANG): install it or name it with 'make fuzz CLANG=...'" >&2; exit 1; }
 	$(RUN) cmake -S . -B build/fuzz -G Ninja -DCONTACTX_FUZZ=ON -DCONTACTX_PYTHON=OFF \
 		-DCMAKE_CXX_COMPILER=$(CLANG)
@@ -181,8 +221,8 @@ fuzz: $(DEPENDENCIES)
 
 # Python's own allocations are never all given back: leaks are looked for in
 # the C++ tests alone.
-sanitize: $(DEPENDENCIES)
-	$(RUN) cmake -S . -B build/sanitize -G Ninja -DCONTACTX_SANITIZE=ON -DCONTACTX_TESTS=ON -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON \
+sanitize: $(TESTER)
+	$(RUN) cmake -S . -B build/sanitize -G Ninja -DCONTACTX_SANITIZE=ON -DCONTACTX_TESTS=ON -DCONTACTX_UNITY=OFF -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON \
 		-DPython_EXECUTABLE="$(CURDIR)/$(BIN)/python" \
 		-Dpybind11_DIR="$$($(BIN)/python -m pybind11 --cmakedir)"
 	$(RUN) cmake --build build/sanitize --target all contactx_tests
@@ -196,13 +236,13 @@ sanitize: $(DEPENDENCIES)
 		ASAN_OPTIONS=detect_leaks=0 PYTHONPATH="$(CURDIR)/build/sanitize/site" \
 		$(BIN)/python -m pytest -q $(SANITIZED)
 
-lint: $(DEPENDENCIES)
+lint: $(TESTER)
 	$(BIN)/clang-format --dry-run --Werror $(CPP_FILES)
 	$(BIN)/ruff check $(PY_FOLDERS)
 	$(BIN)/ruff format --check $(PY_FOLDERS)
 	$(BIN)/python -m mypy
 
-format: $(DEPENDENCIES)
+format: $(TESTER)
 	$(BIN)/clang-format -i $(CPP_FILES)
 	$(BIN)/ruff check --fix-only $(PY_FOLDERS)
 	$(BIN)/ruff format $(PY_FOLDERS)

@@ -4,10 +4,11 @@
 #
 # Print, one word a line, what contactx needs of the system and does not find.
 # Each thing is tried, not looked up by its name.
-# Usage: missing.sh PYTHON
+# Usage: missing.sh PYTHON NEED...   (compiler, headers, venv, googletest, graphics)
 set -eu
 
 python=$1
+shift
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
@@ -70,6 +71,6 @@ for name in (
 EOF
 }
 
-for need in compiler headers venv googletest graphics; do
+for need; do
     $need >/dev/null 2>&1 || echo $need
 done

@@ -4,13 +4,14 @@
 #
 # See to it that the system has what contactx needs of it: install what is
 # missing where that is allowed, else say in one line how to.
-# Usage: require.sh PYTHON
+# Usage: require.sh PYTHON NEED...   (as in missing.sh)
 set -eu
 
 python=$1
+shift
 tools=$(dirname "$0")
 
-missing=$("$tools/missing.sh" "$python")
+missing=$("$tools/missing.sh" "$python" "$@")
 [ -n "$missing" ] || exit 0
 
 # Say what is missing, and how to get it where that is known, and give up.
@@ -63,5 +64,5 @@ else
     $as_root dnf -q install -y $packages || give_up "$how"
 fi
 
-missing=$("$tools/missing.sh" "$python")
+missing=$("$tools/missing.sh" "$python" "$@")
 [ -z "$missing" ] || give_up "$how"

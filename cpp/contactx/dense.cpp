@@ -13,7 +13,7 @@ using namespace contactx::dense;
 
 namespace
 {
-void check(bool fits)
+void check_square(bool fits)
 {
   if (not fits)
     throw std::invalid_argument("the sizes of matrices do not fit");
@@ -183,7 +183,7 @@ void diagonalise(Matrix& V, std::vector<double>& d, std::vector<double>& e)
 
 Matrix dense::product(const Matrix& A, const Matrix& B)
 {
-  check(A.cols == B.rows);
+  check_square(A.cols == B.rows);
   Matrix C(A.rows, B.cols);
   for (std::size_t i = 0; i < A.rows; ++i)
     for (std::size_t k = 0; k < A.cols; ++k)
@@ -195,7 +195,7 @@ Matrix dense::product(const Matrix& A, const Matrix& B)
 
 Matrix dense::product_transposed(const Matrix& A, const Matrix& B)
 {
-  check(A.rows == B.rows);
+  check_square(A.rows == B.rows);
   Matrix C(A.cols, B.cols);
   for (std::size_t k = 0; k < A.rows; ++k)
     for (std::size_t i = 0; i < A.cols; ++i)
@@ -207,7 +207,7 @@ Matrix dense::product_transposed(const Matrix& A, const Matrix& B)
 
 std::vector<double> dense::product(const Matrix& A, std::span<const double> x)
 {
-  check(A.cols == x.size());
+  check_square(A.cols == x.size());
   std::vector<double> y(A.rows);
   for (std::size_t i = 0; i < A.rows; ++i)
     for (std::size_t j = 0; j < A.cols; ++j)
@@ -218,7 +218,7 @@ std::vector<double> dense::product(const Matrix& A, std::span<const double> x)
 std::vector<double> dense::product_transposed(const Matrix& A,
                                               std::span<const double> x)
 {
-  check(A.rows == x.size());
+  check_square(A.rows == x.size());
   std::vector<double> y(A.cols);
   for (std::size_t i = 0; i < A.rows; ++i)
     for (std::size_t j = 0; j < A.cols; ++j)
@@ -229,7 +229,7 @@ std::vector<double> dense::product_transposed(const Matrix& A,
 Matrix dense::columns(const Matrix& A, std::span<const std::size_t> which)
 {
   for (const std::size_t k : which)
-    check(k < A.cols);
+    check_square(k < A.cols);
   Matrix B(A.rows, which.size());
   for (std::size_t i = 0; i < A.rows; ++i)
     for (std::size_t k = 0; k < which.size(); ++k)
@@ -244,7 +244,7 @@ double dense::norm(std::span<const double> x)
 
 Eigen dense::symmetric_eigen(const Matrix& A)
 {
-  check(A.rows == A.cols);
+  check_square(A.rows == A.cols);
   const std::size_t n = A.rows;
   if (not std::ranges::all_of(A.values,
                               [](double a) { return std::isfinite(a); }))
@@ -270,7 +270,7 @@ Eigen dense::symmetric_eigen(const Matrix& A)
 std::vector<double> dense::solve(Matrix A, std::span<const double> b)
 {
   const std::size_t n = A.rows;
-  check(A.cols == n and b.size() == n);
+  check_square(A.cols == n and b.size() == n);
   std::vector<double> x(b.begin(), b.end());
   for (std::size_t k = 0; k < n; ++k)
   {

@@ -6,6 +6,9 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
 
 /// @brief Contact from node or surface to surface, free of DOLFINx and PETSc.
 ///
@@ -60,6 +63,30 @@ double norm(const std::array<double, D>& a)
 {
   return std::sqrt(dot(a, a));
 }
+
+/// @brief Product of `gdim` components.
+inline double dot(const double* a, const double* b, int gdim)
+{
+  double s = 0;
+  for (int k = 0; k < gdim; ++k)
+    s += a[k] * b[k];
+  return s;
+}
+
+/// @brief Row of an array, zero behind its `gdim` components.
+/// @param[in] values Rows (shape=(n, gdim)).
+/// @param[in] i The row.
+/// @param[in] gdim Its components.
+inline Vector<3> vector_at(std::span<const double> values, std::size_t i,
+                           int gdim)
+{
+  Vector<3> v{};
+  for (int k = 0; k < gdim; ++k)
+    v[k] = values[i * gdim + k];
+  return v;
+}
+
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
 constexpr Vector<3> cross(const Vector<3>& a, const Vector<3>& b)
 {

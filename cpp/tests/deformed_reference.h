@@ -98,7 +98,7 @@ struct Cube
 
 /// @brief Cells, each with nodes of its own, and their displacements.
 template <class C>
-struct Cells
+struct SampledCells
 {
   std::vector<double> X, u;
 

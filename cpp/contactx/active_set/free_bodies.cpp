@@ -3,6 +3,7 @@
 
 #include "free_bodies.h"
 #include "../law/normal.h"
+#include "../vec.h"
 #include "springs.h"
 #include <algorithm>
 #include <array>
@@ -31,29 +32,12 @@ constexpr double tie = 1e-9;
 // Movement, relative to the largest, that counts as one
 constexpr double moves = 1e-6;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-using Vector = std::array<double, 3>;
-
-double dot(const Vector& a, const Vector& b)
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 /// Part of a vector along the surface.
-Vector along_surface(const Vector& normal, const Vector& v)
+Vector<3> along_surface(const Vector<3>& normal, const Vector<3>& v)
 {
   const double height = dot(normal, v);
   return {v[0] - height * normal[0], v[1] - height * normal[1],
           v[2] - height * normal[2]};
-}
-
-Vector vector_at(std::span<const double> values, std::size_t i, int gdim)
-{
-  Vector v{};
-  for (int k = 0; k < gdim; ++k)
-    v[k] = values[i * gdim + k];
-  return v;
 }
 
 double largest_of(std::span<const double> way)
@@ -78,7 +62,7 @@ struct FreeBodies::Rows
   Holding* contact;
   int gdim, m;
   std::vector<std::int32_t> slaves; ///< by their number in the contact
-  std::vector<Vector> normal;
+  std::vector<Vector<3>> normal;
   /// Bodies that move a node, and its relative movement by their modes: those
   /// of slave i from offsets[i] on (shape=(offsets.back()), (offsets.back(),
   /// gdim, m))
@@ -89,9 +73,9 @@ struct FreeBodies::Rows
   std::size_t size() const { return slaves.size(); }
 
   /// Relative movement of a slave node by a motion.
-  Vector by(std::span<const double> way, std::size_t i) const
+  Vector<3> by(std::span<const double> way, std::size_t i) const
   {
-    Vector u{};
+    Vector<3> u{};
     for (std::size_t e = offsets[i]; e < offsets[i + 1]; ++e)
       for (int c = 0; c < gdim; ++c)
         for (int p = 0; p < m; ++p)
@@ -101,7 +85,7 @@ struct FreeBodies::Rows
 
   /// Rows in a direction by the modes of each body that moves the node
   /// (shape=(number of bodies, m)).
-  void in_direction(const Vector& direction, std::size_t i,
+  void in_direction(const Vector<3>& direction, std::size_t i,
                     std::vector<double>& row) const
   {
     row.assign((offsets[i + 1] - offsets[i]) * m, 0.0);
@@ -526,7 +510,8 @@ dense::Matrix FreeBodies::free_basis(const std::vector<Rows>& rows,
   // A row of what resists, by the columns where it is not zero
   std::vector<std::size_t> where;
   std::vector<double> of_body, row;
-  const auto add = [&](const Rows& some, const Vector& direction, std::size_t i)
+  const auto add
+      = [&](const Rows& some, const Vector<3>& direction, std::size_t i)
   {
     some.in_direction(direction, i, of_body);
     where.clear();
@@ -561,7 +546,7 @@ dense::Matrix FreeBodies::free_basis(const std::vector<Rows>& rows,
         if (kind == law::stick)
           for (int k = 0; k < some.gdim; ++k)
           {
-            Vector axis{};
+            Vector<3> axis{};
             axis[k] = 1;
             add(some, axis, i);
           }
@@ -673,7 +658,7 @@ std::vector<double> FreeBodies::lacking(const std::vector<Rows>& rows) const
       const std::int32_t slave = some.slaves[i];
       if (status[slave] != law::slip)
         continue;
-      const Vector force = along_surface(
+      const Vector<3> force = along_surface(
           some.normal[i], vector_at(rubbing.value, slave, some.gdim));
       some.in_direction(force, i, row);
       for (std::size_t e = some.offsets[i]; e < some.offsets[i + 1]; ++e)
@@ -710,17 +695,18 @@ bool FreeBodies::stick_first(const std::vector<Rows>& rows,
       if (status[slave] != law::slip or rubbing.rubs[slave] == 0)
         continue;
       // Traction of the node by Coulomb's law
-      const Vector excess = along_surface(vector_at(rubbing.normal, slave, g),
-                                          vector_at(rubbing.value, slave, g));
-      Vector cone = vector_at(rubbing.traction, slave, g);
+      const Vector<3> excess
+          = along_surface(vector_at(rubbing.normal, slave, g),
+                          vector_at(rubbing.value, slave, g));
+      Vector<3> cone = vector_at(rubbing.traction, slave, g);
       for (int k = 0; k < g; ++k)
         cone[k] -= excess[k] / rubbing.area[slave];
-      const Vector movement = along_surface(some.normal[i], some.by(way, i));
+      const Vector<3> movement = along_surface(some.normal[i], some.by(way, i));
       const double speed = std::sqrt(dot(movement, movement));
       // Slip goes against the traction, also where it has only just begun
       if (not(dot(cone, movement) > 0 and speed > moves * most))
         continue;
-      const Vector slip = vector_at(rubbing.slip, slave, g);
+      const Vector<3> slip = vector_at(rubbing.slip, slave, g);
       able.slaves.push_back(slave);
       able.times.push_back(std::sqrt(dot(slip, slip)) / speed);
       able.tractions.insert(able.tractions.end(), cone.begin(),

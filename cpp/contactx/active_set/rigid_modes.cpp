@@ -19,7 +19,7 @@ namespace
 // a support: rounding leaves less than 1e-15
 constexpr double supported = 1e-13;
 // And one that lets a body move so far that it may meet others on the way
-constexpr double little = 1e-3;
+constexpr double soft = 1e-3;
 
 /// Orthonormal basis of the null space of a matrix of so many rows, from the
 /// matrix times its transpose from the left.
@@ -219,7 +219,7 @@ void RigidModes::update(Bulk& bulk, std::span<const double> x)
         const double size = std::abs(r.found.values[k]);
         if (size <= supported * r.scale)
           none.push_back(k);
-        else if (size <= little * r.scale)
+        else if (size <= soft * r.scale)
         {
           some.push_back(k);
           yields.push_back(size);

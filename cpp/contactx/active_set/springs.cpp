@@ -12,7 +12,7 @@ using namespace contactx;
 namespace
 {
 // Relative difference of what is equal but for rounding
-constexpr double tie = 1e-9;
+constexpr double equal = 1e-9;
 
 double square(std::span<const double> row)
 {
@@ -59,7 +59,7 @@ std::vector<double> active_set::independent_springs(
     std::int64_t mine = std::numeric_limits<std::int64_t>::max();
     std::size_t dof = n;
     for (std::size_t i = 0; i < n; ++i)
-      if (size[i] >= (1 - tie) * most)
+      if (size[i] >= (1 - equal) * most)
       {
         const auto number
             = static_cast<std::int64_t>(original[i / gdim] * gdim + i % gdim);

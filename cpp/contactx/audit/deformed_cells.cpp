@@ -373,8 +373,8 @@ double shortest(std::span<const std::int32_t> cells, std::span<const double> X,
   throw std::invalid_argument(message);
 }
 
-void check(std::span<const std::int32_t> cells, int nodes_per_cell,
-           std::span<const double> X, std::span<const double> u, int gdim)
+void check_cells(std::span<const std::int32_t> cells, int nodes_per_cell,
+                 std::span<const double> X, std::span<const double> u, int gdim)
 {
   const auto text = [](auto number) { return std::to_string(number); };
   if (gdim != 2 and gdim != 3)
@@ -408,7 +408,7 @@ contactx::audit::deformed_cells(std::span<const std::int32_t> cells,
                                 int nodes_per_cell, std::span<const double> X,
                                 std::span<const double> u, int gdim)
 {
-  check(cells, nodes_per_cell, X, u, gdim);
+  check_cells(cells, nodes_per_cell, X, u, gdim);
   if (gdim == 2)
     return nodes_per_cell == 3 ? find<Triangle>(cells, X, u)
                                : find<Quadrilateral>(cells, X, u);
@@ -423,7 +423,7 @@ double contactx::audit::longest_way(std::span<const std::int32_t> cells,
                                     std::span<const double> du, int gdim,
                                     double part)
 {
-  check(cells, nodes_per_cell, X, u, gdim);
+  check_cells(cells, nodes_per_cell, X, u, gdim);
   if (du.size() < u.size())
     fail("du must be as long as u: it has " + std::to_string(du.size())
          + " values for " + std::to_string(u.size()));

@@ -20,9 +20,9 @@ constexpr std::array resolved{0.5, 1., 1.};
 constexpr double chord = 1. / 8, chords = 2;
 /// Depth by the size of a facet from which on it is too coarse for what it
 /// touches
-constexpr double deepest = 0.15;
+constexpr double coarse_from = 0.15;
 /// Depths by the size of a facet: away from contact, beside it and in it
-constexpr std::array by_contact{1. / 256, deepest / 2, deepest};
+constexpr std::array by_contact{1. / 256, coarse_from / 2, coarse_from};
 
 double distance(std::span<const double> x, std::int32_t a, std::int32_t b,
                 int gdim)
@@ -103,8 +103,8 @@ std::vector<double> contactx::audit::explained_depths(
     const double h = size[i], turn = curvature[i] * h;
     depth[i] = std::min(h, extent[i]) * by_contact.at(contact[i]);
     if (turn <= resolved[contact[i]])
-      depth[i]
-          = std::max(depth[i], std::min(chords * chord * turn, deepest) * h);
+      depth[i] = std::max(depth[i],
+                          std::min(chords * chord * turn, coarse_from) * h);
   }
   return depth;
 }

@@ -7,6 +7,9 @@
 
 namespace contactx::audit
 {
+/// Part of a facet's size that a node may be behind it and still be in contact
+inline constexpr double in_contact_by = 1. / 8;
+
 /// @brief Curvature of a surface at its nodes: how much the nodal normal turns
 /// on the way to a neighbour, by the length of the way; the largest.
 /// @param[in] facets Facets of the surface.

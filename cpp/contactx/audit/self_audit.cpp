@@ -16,9 +16,9 @@ using namespace contactx::audit;
 
 namespace
 {
-/// Part of a facet's size, and of what a body measures through a node, that
-/// the node may be behind a facet and still be in contact
-constexpr double in_contact_by = 1. / 8, through_by = 1. / 4;
+/// Part of what a body measures through a node that it may be behind a facet
+/// and still be in contact
+constexpr double through_by = 1. / 4;
 } // namespace
 
 SelfAudit::SelfAudit(std::shared_ptr<parallel::Halo> halo,

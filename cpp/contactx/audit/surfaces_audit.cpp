@@ -22,8 +22,6 @@ namespace
 constexpr double overlap_of_edges = 1. / 16;
 // Part of a facet's size that a node without a pair may be behind it
 constexpr double behind_by = 1. / 32;
-// Part of a facet's size that a node may be behind it and still be in contact
-constexpr double in_contact_by = 1. / 8;
 
 double largest_of(std::span<const double> values)
 {

@@ -23,7 +23,7 @@ void check_size(std::size_t size, std::size_t least, std::size_t most,
 Blocks checked(const CompressedRows& contact, std::span<const Nodes> contacts,
                std::span<const std::int8_t> free, int gdim)
 {
-  check(contacts, free.size() / std::max(gdim, 1), gdim);
+  condense::check(contacts, free.size() / std::max(gdim, 1), gdim);
   const std::size_t num_local = free.size();
   check_size(num_local, num_local / gdim * gdim, num_local / gdim * gdim,
              "free");

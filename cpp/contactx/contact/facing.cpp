@@ -18,16 +18,7 @@ namespace
 /// facets of a round body's polygon are
 constexpr double in_front = 0.5;
 
-double product(std::span<const double> a, std::span<const double> b,
-               std::size_t row, std::size_t of, int gdim)
-{
-  double sum = 0;
-  for (int k = 0; k < gdim; ++k)
-    sum += a[row * gdim + k] * b[of * gdim + k];
-  return sum;
-}
-
-void check(std::span<const double> x, std::span<const double> normal)
+void check_rows(std::span<const double> x, std::span<const double> normal)
 {
   if (x.size() != normal.size())
     throw std::invalid_argument("normals of another number of nodes");
@@ -39,11 +30,11 @@ contactx::contact::facing_nodes(const facet::FacetList& facets,
                                 std::span<const double> x,
                                 std::span<const double> normal, int gdim)
 {
-  check(x, normal);
+  check_rows(x, normal);
   const std::vector<double> own = facet::nodal_normals(facets, x, gdim);
   std::vector<std::int8_t> faces(x.size() / gdim);
   for (std::size_t i = 0; i < faces.size(); ++i)
-    faces[i] = product(own, normal, i, i, gdim) < 0;
+    faces[i] = dot(&own[i * gdim], &normal[i * gdim], gdim) < 0;
   return faces;
 }
 
@@ -52,8 +43,8 @@ std::vector<double> contactx::contact::facing_areas(
     std::span<const double> x, std::span<const double> normal, int gdim,
     const facet::Shares& shares)
 {
-  check(x, normal);
-  check(x, reference);
+  check_rows(x, normal);
+  check_rows(x, reference);
   const std::size_t n = facets.nodes.size();
   std::vector<std::int32_t> own(n);
   std::iota(own.begin(), own.end(), 0);
@@ -68,7 +59,7 @@ std::vector<double> contactx::contact::facing_areas(
   for (std::size_t c = 0; c < n; ++c)
   {
     const auto node = static_cast<std::size_t>(facets.nodes[c]);
-    cosine[c] = -product(turned, normal, c, node, gdim);
+    cosine[c] = -dot(&turned[c * gdim], &normal[node * gdim], gdim);
     most[node] = std::max(most[node], cosine[c]);
   }
   for (std::size_t c = 0; c < n; ++c)

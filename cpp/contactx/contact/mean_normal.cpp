@@ -11,17 +11,9 @@ using namespace contactx::contact;
 
 namespace
 {
-double product(const double* a, const double* b, int gdim)
-{
-  double s = 0;
-  for (int k = 0; k < gdim; ++k)
-    s += a[k] * b[k];
-  return s;
-}
-
 double length_of(const double* a, int gdim)
 {
-  return std::sqrt(product(a, a, gdim));
+  return std::sqrt(dot(a, a, gdim));
 }
 
 /// For each row of a matrix minus (row . n) n.
@@ -31,7 +23,7 @@ void drop_along(double* matrix, const double* n, double* along, int gdim)
   for (int i = 0; i < gdim; ++i)
   {
     double* row = matrix + gdim * i;
-    along[i] = product(row, n, gdim);
+    along[i] = dot(row, n, gdim);
     for (int j = 0; j < gdim; ++j)
       row[j] -= along[i] * n[j];
   }
@@ -79,7 +71,7 @@ void MeanNormal::project(std::span<const double> normal, std::span<double> slip,
   {
     const double* n = normal.data() + _gdim * i;
     double* s = slip.data() + _gdim * i;
-    const double height = product(n, s, _gdim);
+    const double height = dot(n, s, _gdim);
     for (int k = 0; k < _gdim; ++k)
       s[k] = (s[k] - height * n[k]) * _mobile[_gdim * i + k];
   }
@@ -96,13 +88,13 @@ void MeanNormal::chain(std::span<const double> normal,
     const double* w = _movement.data() + g * i;
     double* S = by_slip.data() + g * g * i;
     double* N = by_normal.data() + g * g * i;
-    const double height = product(n, w, g);
+    const double height = dot(n, w, g);
     Vector<3> along;
     for (int r = 0; r < g; ++r)
     {
       for (int k = 0; k < g; ++k)
         S[g * r + k] *= _mobile[g * i + k];
-      along[r] = product(S + g * r, n, g);
+      along[r] = dot(S + g * r, n, g);
       // Of (I - n n^T) w by n: -(n . w) I - n w^T
       for (int k = 0; k < g; ++k)
         N[g * r + k] -= height * S[g * r + k] + along[r] * w[k];

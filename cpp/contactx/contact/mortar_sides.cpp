@@ -11,16 +11,6 @@
 using namespace contactx;
 using namespace contactx::contact;
 
-namespace
-{
-Vector<3> position(std::span<const double> x, std::int32_t node, int gdim)
-{
-  Vector<3> p{};
-  std::copy_n(x.begin() + std::size_t(node) * gdim, gdim, p.begin());
-  return p;
-}
-} // namespace
-
 void contactx::contact::normalise(std::span<double> vectors)
 {
   for (std::size_t i = 0; i < vectors.size(); i += 3)
@@ -88,8 +78,8 @@ MortarSides::MortarSides(const SlaveNodes& slaves,
   {
     std::array<Vector<3>, 4> p;
     for (std::size_t k = 0; k < 4; ++k)
-      p[k] = position(reference, slave[f][std::min(k, slave[f].size() - 1)],
-                      gdim);
+      p[k] = vector_at(reference, slave[f][std::min(k, slave[f].size() - 1)],
+                       gdim);
     double longest = 0;
     for (int k = 0; k < 4; ++k)
       longest = std::max(longest, norm(p[k] - p[(k + 3) % 4]));
@@ -206,7 +196,7 @@ std::vector<double> MortarSides::frames(std::span<const double> x) const
   {
     std::array<Vector<3>, 3> p;
     for (int k = 0; k < 3; ++k)
-      p[k] = position(x, slave_nodes(facet[i])[k], g);
+      p[k] = vector_at(x, slave_nodes(facet[i])[k], g);
     Vector<3> along = p[1] - p[0];
     along = (1 / norm(along)) * along;
     Vector<3> n{along[1], -along[0], 0};
@@ -252,7 +242,7 @@ std::array<double, 3> MortarSides::master_normal(std::span<const double> x,
 {
   std::array<Vector<3>, 4> p;
   for (int k = 0; k < 4; ++k)
-    p[k] = position(x, master_nodes(facet)[k], _gdim);
+    p[k] = vector_at(x, master_nodes(facet)[k], _gdim);
   const Vector<3> first = p[1] - p[0];
   Vector<3> n{first[1], -first[0], 0};
   if (_gdim == 3)

@@ -20,14 +20,6 @@ std::vector<std::int32_t> copy(std::span<const std::int32_t> values)
 {
   return {values.begin(), values.end()};
 }
-
-double product(const double* a, const double* b, int gdim)
-{
-  double s = 0;
-  for (int k = 0; k < gdim; ++k)
-    s += a[k] * b[k];
-  return s;
-}
 } // namespace
 
 NodeToSurface::NodeToSurface(std::shared_ptr<parallel::Halo> halo,
@@ -266,8 +258,8 @@ NodeToSurface::turn(std::span<const double> x) const
         if (_pairing.facet()[i] < 0)
           value = r == c;
         else
-          value = product(now.data() + g * (g * i + r),
-                          before.data() + g * (g * i + c), g);
+          value = dot(now.data() + g * (g * i + r),
+                      before.data() + g * (g * i + c), g);
       }
   return turn;
 }

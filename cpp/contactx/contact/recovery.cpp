@@ -14,14 +14,6 @@
 using namespace contactx;
 using namespace contactx::contact;
 
-namespace
-{
-double product(const double* a, const double* b, int gdim)
-{
-  return std::inner_product(a, a + gdim, b, 0.0);
-}
-} // namespace
-
 Recovery::Recovery(std::shared_ptr<const SlaveNodes> slaves,
                    std::span<const double> x, int gdim)
     : _slaves(std::move(slaves)), _gdim(gdim)
@@ -190,9 +182,9 @@ std::vector<double> Recovery::shear(std::span<const double> t,
       const double *a = &normals[j], *b = &normals[i];
       // Turned on the shortest way from a to b. Opposite vectors have none; t
       // is normal to both of them
-      const double cosine = product(a, b, _gdim);
+      const double cosine = dot(a, b, _gdim);
       const double factor
-          = 1 + cosine > 0 ? product(b, &every[j], _gdim) / (1 + cosine) : 0;
+          = 1 + cosine > 0 ? dot(b, &every[j], _gdim) / (1 + cosine) : 0;
       for (int k = 0; k < _gdim; ++k)
         sum[i + k]
             += rate * (every[j + k] - factor * (a[k] + b[k]) - every[i + k]);
@@ -214,7 +206,7 @@ Recovered Recovery::tractions(std::span<const double> multiplier,
   for (std::size_t i = 0; i < n; ++i)
   {
     const double* at = &normal[i * _gdim];
-    p[i] = product(at, &t[i * _gdim], _gdim);
+    p[i] = dot(at, &t[i * _gdim], _gdim);
     for (int k = 0; k < _gdim; ++k)
       t[i * _gdim + k] -= p[i] * at[k];
   }
@@ -240,11 +232,10 @@ double contactx::contact::recovery_change(parallel::Ranks& ranks,
   {
     for (int k = 0; k < gdim; ++k)
       sums[k] += recovered[i + k] - forces[i + k];
-    sums.back() += std::sqrt(product(&forces[i], &forces[i], gdim));
+    sums.back() += std::sqrt(dot(&forces[i], &forces[i], gdim));
   }
   if (ranks.size() > 1)
     ranks.reduce(std::span(sums), parallel::Reduction::sum);
   const double size = sums.back();
-  return size > 0 ? std::sqrt(product(sums.data(), sums.data(), gdim)) / size
-                  : 0;
+  return size > 0 ? std::sqrt(dot(sums.data(), sums.data(), gdim)) / size : 0;
 }

@@ -15,7 +15,7 @@ using namespace contactx::reference;
 namespace
 {
 /// Relative to the size of a cell, or of a body
-constexpr double small = 1e-8;
+constexpr double skin = 1e-8;
 /// Points that are looked for at once
 constexpr std::int64_t per_look = 256;
 
@@ -50,7 +50,7 @@ public:
   /// Whether a box is in one of others.
   bool is_in(std::size_t body, const Boxes& others, std::size_t other) const
   {
-    const double room = small * others.size(other);
+    const double room = skin * others.size(other);
     for (int k = 0; k < _gdim; ++k)
       if (not(low(body, k) >= others.low(other, k) - room
               and high(body, k) <= others.high(other, k) + room))
@@ -85,7 +85,7 @@ public:
                    {
                      is_in = is_in
                              or _hull.contains(point, nodes(_mesh, _cells[i]),
-                                               _mesh.halo->reference(), small);
+                                               _mesh.halo->reference(), skin);
                    });
     return is_in;
   }
@@ -156,7 +156,7 @@ bool lies_inside(const Mesh& mesh, std::int64_t inner, std::int64_t outer,
 {
   parallel::Ranks& ranks = mesh.halo->ranks();
   const std::vector<Vector<3>> points = points_of(mesh, inner);
-  BodyCells cells(mesh, outer, small * size);
+  BodyCells cells(mesh, outer, skin * size);
   // A few at a time, from everywhere: bodies that are not inside show it soon
   const std::int64_t looks
       = (parallel::total(ranks, std::ssize(points)) + per_look - 1) / per_look;
@@ -234,7 +234,7 @@ void contactx::reference::check_outside(const Mesh& mesh,
   ranks.reduce(std::span(highest), parallel::Reduction::largest);
   for (std::size_t b = 0; b < names.size(); ++b)
   {
-    if (not(highest[b] <= small * boxes.size(b)))
+    if (not(highest[b] <= skin * boxes.size(b)))
       continue;
     std::vector<double> level;
     ranks.agree(
@@ -253,7 +253,7 @@ void contactx::reference::check_outside(const Mesh& mesh,
     size = parallel::largest(ranks, size);
     // A body that touches the surface from within has nodes at zero
     const bool is_within = std::ranges::all_of(
-        level, [room = small * size](double value) { return value <= room; });
+        level, [room = skin * size](double value) { return value <= room; });
     if (parallel::everywhere(ranks, is_within))
       throw std::invalid_argument(
           "the body of the slave surface " + name

@@ -13,7 +13,7 @@ using namespace contactx::search;
 namespace
 {
 /// Difference of distances that only rounding makes, as in the search itself
-constexpr double equal = 1e-12;
+constexpr double equal_over_ranks = 1e-12;
 
 /// So that rounding hides no rank with a facet that is as near as another one
 constexpr double wider = 1 + 1e-9;
@@ -21,10 +21,8 @@ constexpr double wider = 1 + 1e-9;
 /// Distance up to which another facet may be as near as one of this distance
 double tie_bound(double distance, double size)
 {
-  return distance + 10 * equal * (distance + size);
+  return distance + 10 * equal_over_ranks * (distance + size);
 }
-
-constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /// What a rank has for a point. It is sent as it lies in memory.
 struct Answer
@@ -97,7 +95,7 @@ public:
     {
       const std::int32_t i = which[a.point];
       const double before = found.distance[i];
-      const double tie = equal * (a.distance + a.size);
+      const double tie = equal_over_ranks * (a.distance + a.size);
       if (not(a.distance < before - tie)
           and not(a.distance <= before + tie and a.key < _key[i]))
         continue;
@@ -169,12 +167,12 @@ Found DistributedSurface::find(std::span<const double> x,
     const std::span row = std::span(near.distance).subspan(i * m, m);
     for (std::size_t j = 0; j < m; ++j)
       if (near.ranks[j] == _halo->ranks().rank())
-        row[j] = infinite;
+        row[j] = infinity;
     const auto first = std::ranges::min_element(row);
-    if (first == row.end() or *first == infinite)
+    if (first == row.end() or *first == infinity)
       continue;
     wanted[near.ranks[first - row.begin()]].push_back(i);
-    *first = infinite;
+    *first = infinity;
   }
   ask(x, points, normals, wanted, best);
   wanted.clear();
@@ -182,7 +180,7 @@ Found DistributedSurface::find(std::span<const double> x,
     for (std::size_t j = 0; j < m; ++j)
     {
       const double distance = near.distance[i * m + j];
-      if (distance < infinite and distance <= best.bound[i] * wider)
+      if (distance < infinity and distance <= best.bound[i] * wider)
         wanted[near.ranks[j]].push_back(i);
     }
   ask(x, points, normals, wanted, best);

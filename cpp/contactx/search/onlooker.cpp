@@ -13,8 +13,6 @@ using namespace contactx::search;
 
 namespace
 {
-constexpr double infinite = std::numeric_limits<double>::infinity();
-
 /// What a rank sees from a point. It is sent as it lies in memory, and the
 /// values of the facets after all of them.
 struct Sight
@@ -62,7 +60,7 @@ void take(Seen& seen, std::size_t i, const Sight& s,
 } // namespace
 
 Seen::Seen(std::size_t n, int width)
-    : width(width), distance(n, infinite),
+    : width(width), distance(n, infinity),
       gap(n, std::numeric_limits<double>::quiet_NaN()), height(gap),
       inside(n, 0), margin(n, 1), way(n, 0), values(n * width, 0)
 {
@@ -108,7 +106,7 @@ Seen Onlooker::look(std::span<const double> x, std::span<const double> points,
   const std::size_t m = near.ranks.size();
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = 0; j < m; ++j)
-      if (near.distance[i * m + j] < infinite)
+      if (near.distance[i * m + j] < infinity)
         asked[near.ranks[j]].push_back(static_cast<std::int32_t>(i));
   parallel::Messages questions;
   for (const auto& [rank, which] : asked)
@@ -132,7 +130,7 @@ Seen Onlooker::look(std::span<const double> x, std::span<const double> points,
     std::vector<double> rows;
     for (std::size_t i = 0; i < seen.distance.size(); ++i)
     {
-      if (not(seen.distance[i] < infinite))
+      if (not(seen.distance[i] < infinity))
         continue;
       sights.push_back({static_cast<std::int32_t>(i), seen.inside[i],
                         seen.distance[i], seen.gap[i], seen.height[i],

@@ -18,14 +18,6 @@ constexpr std::int8_t max_returns = 2;
 
 /// Marks a slave node that has not changed its facet in this step
 constexpr std::int32_t never = -2;
-
-Vector<3> padded(std::span<const double> x, std::int32_t node, int gdim)
-{
-  Vector<3> p{};
-  for (int k = 0; k < gdim; ++k)
-    p[k] = x[static_cast<std::size_t>(node) * gdim + k];
-  return p;
-}
 } // namespace
 
 Pairing::Pairing(std::vector<std::int32_t> slave_offsets,
@@ -96,7 +88,7 @@ std::optional<Projection> Pairing::keep(std::span<const double> x,
   if (_facet[i] < 0 or _feature[i] != facet::interior)
     return std::nullopt;
   const auto q = extended(master(), _facet[i], x,
-                          padded(x, _slaves[i], master().gdim()));
+                          vector_at(x, _slaves[i], master().gdim()));
   // Away from its facet a node may have come close to another one
   if (q
       and (_returns[i] >= max_returns
@@ -192,8 +184,8 @@ std::int32_t Pairing::update(std::span<const double> x, double reach,
     if (_facet[i] >= 0)
       hint = _facet[i];
     const auto found = _finder.find(
-        x, padded(x, _slaves[i], master().gdim()),
-        padded(normals, _slaves[i], master().gdim()), reach, hint);
+        x, vector_at(x, _slaves[i], master().gdim()),
+        vector_at(normals, _slaves[i], master().gdim()), reach, hint);
     if (found.nearest)
       hint = found.nearest->facet;
     changed += settle(i, found.selected, x, reach, closed[i]);

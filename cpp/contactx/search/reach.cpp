@@ -13,8 +13,6 @@ using namespace contactx::search;
 namespace
 {
 constexpr double rounding = 1e-9;
-constexpr double infinite = std::numeric_limits<double>::infinity();
-
 /// What no angle has: all normals are in the cone
 constexpr double whole = 2;
 
@@ -73,8 +71,8 @@ Reach::Reach(parallel::Ranks& ranks, const facet::FacetList& own,
   const std::size_t g = gdim;
   std::vector<double> box(3 * g + 1, 0);
   const std::span mine(box);
-  std::ranges::fill(mine.first(g), infinite);
-  std::ranges::fill(mine.subspan(g, g), -infinite);
+  std::ranges::fill(mine.first(g), infinity);
+  std::ranges::fill(mine.subspan(g, g), -infinity);
   for (const std::int32_t node : own.nodes)
   {
     const auto p = x.subspan(node * g, g);
@@ -128,7 +126,7 @@ Reach::Near Reach::from_points(std::span<const double> points,
   const std::size_t n = bound.size(), g = _gdim;
   if (n == 0)
     return near;
-  std::vector<double> from(g, infinite), to(g, -infinite);
+  std::vector<double> from(g, infinity), to(g, -infinity);
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t k = 0; k < g; ++k)
     {
@@ -140,7 +138,7 @@ Reach::Near Reach::from_points(std::span<const double> points,
     if (there(r) and distance(low(r), high(r), from, to) - _slack <= most)
       near.ranks.push_back(r);
   const std::size_t m = near.ranks.size();
-  near.distance.assign(n * m, infinite);
+  near.distance.assign(n * m, infinity);
   for (std::size_t i = 0; i < n; ++i)
   {
     const auto p = points.subspan(i * g, g), normal = normals.subspan(i * g, g);

@@ -13,7 +13,7 @@ namespace
 /// Difference of distances, relative to distance and facet, that only rounding
 /// makes: the order of the facets decides, not the units or the place of the
 /// scene
-constexpr double equal = 1e-12;
+constexpr double equal_distance = 1e-12;
 
 /// What the facets around a feature are to a point.
 struct Around
@@ -48,7 +48,7 @@ bool is_passed_over(const Surface& surface, std::span<const double> x,
                     const Vector<3>& p, const Projection& nearest)
 {
   const double distance = norm(nearest.d);
-  const double near = distance - equal * (distance + nearest.size);
+  const double near = distance - equal_distance * (distance + nearest.size);
   bool found = false;
   surface.for_each_around(nearest.facet, nearest.feature,
                           [&found, &surface, x, &p, near](std::int32_t f)
@@ -104,7 +104,7 @@ contactx::search::nearest_facet(const Surface& surface, const BoxTree& tree,
     const auto q = closest_within(surface, f, x, p, bound2);
     if (!q or (!any and dot(q->normal, normal) >= 0))
       return;
-    const double d = norm(q->d), tie = equal * (d + q->size);
+    const double d = norm(q->d), tie = equal_distance * (d + q->size);
     if ((d < best_d - tie
          or (d <= best_d + tie and (!best or f < best->facet) and d <= reach))
         and (!accepts or accepts(*q)))

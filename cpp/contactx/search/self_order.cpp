@@ -16,18 +16,9 @@ namespace
 {
 /// Difference of distances, by their size, that only rounding makes: the
 /// number of a node decides then
-constexpr double equal = 1e-6;
+constexpr double alike_distance = 1e-6;
 /// Parts whose facets differ by less than this factor are alike
 constexpr double alike = 2;
-
-constexpr double infinite = std::numeric_limits<double>::infinity();
-
-Vector<3> row(std::span<const double> x, std::int32_t node, int gdim)
-{
-  Vector<3> p{};
-  std::copy_n(x.begin() + std::ptrdiff_t(node) * gdim, gdim, p.begin());
-  return p;
-}
 
 /// First of the nodes with the largest value, but for rounding.
 std::int32_t farthest(std::span<const std::int32_t> nodes,
@@ -35,10 +26,10 @@ std::int32_t farthest(std::span<const std::int32_t> nodes,
 {
   double most = 0;
   for (const std::int32_t node : nodes)
-    if (value[node] < infinite)
+    if (value[node] < infinity)
       most = std::max(most, value[node]);
   for (const std::int32_t node : nodes)
-    if (value[node] < infinite and value[node] >= (1 - equal) * most)
+    if (value[node] < infinity and value[node] >= (1 - alike_distance) * most)
       return node;
   return nodes.front();
 }
@@ -50,9 +41,9 @@ void set_distances(std::span<const std::int32_t> nodes,
 {
   Vector<3> middle{};
   for (const std::int32_t node : nodes)
-    middle = middle + (1.0 / double(nodes.size())) * row(x, node, gdim);
+    middle = middle + (1.0 / double(nodes.size())) * vector_at(x, node, gdim);
   for (const std::int32_t node : nodes)
-    distance[node] = norm(row(x, node, gdim) - middle);
+    distance[node] = norm(vector_at(x, node, gdim) - middle);
 }
 } // namespace
 
@@ -62,7 +53,7 @@ EdgeWays::EdgeWays(const facet::FacetList& facets, std::span<const double> x,
 {
   const auto add = [&](std::int32_t a, std::int32_t b)
   {
-    const double length = norm(row(x, a, gdim) - row(x, b, gdim));
+    const double length = norm(vector_at(x, a, gdim) - vector_at(x, b, gdim));
     _edges[a].emplace_back(length, b);
     _edges[b].emplace_back(length, a);
   };
@@ -122,7 +113,7 @@ SelfOrder::SelfOrder(const facet::FacetList& facets, std::span<const double> x,
     if (_part[first] >= 0)
       continue;
     auto& nodes = parts.emplace_back();
-    for (const auto& [way, node] : ways.from(first, infinite))
+    for (const auto& [way, node] : ways.from(first, infinity))
     {
       nodes.push_back(node);
       _part[node] = static_cast<std::int32_t>(parts.size()) - 1;
@@ -137,8 +128,8 @@ SelfOrder::SelfOrder(const facet::FacetList& facets, std::span<const double> x,
     double size = 0;
     for (std::size_t i = 0; i < nodes.size(); ++i)
       for (std::size_t j = 0; j < i; ++j)
-        size = std::max(size,
-                        norm(row(x, nodes[i], gdim) - row(x, nodes[j], gdim)));
+        size = std::max(size, norm(vector_at(x, nodes[i], gdim)
+                                   - vector_at(x, nodes[j], gdim)));
     _size[_part[nodes[0]]] += size;
     ++count[_part[nodes[0]]];
   }
@@ -168,22 +159,23 @@ SelfOrder::SelfOrder(const facet::FacetList& facets, std::span<const double> x,
       {
         _along[node] = along;
         if (next[node] >= 0)
-          along += norm(row(x, next[node], gdim) - row(x, node, gdim));
+          along += norm(vector_at(x, next[node], gdim)
+                        - vector_at(x, node, gdim));
         node = next[node];
       }
       continue;
     }
-    std::vector<double> beside(n, infinite);
+    std::vector<double> beside(n, infinity);
     std::int32_t opposite = start;
-    for (const auto& [way, node] : ways.from(start, infinite))
+    for (const auto& [way, node] : ways.from(start, infinity))
     {
       _along[node] = way;
       beside[node] = way;
       opposite = node;
     }
-    for (const auto& [way, node] : ways.from(opposite, infinite))
+    for (const auto& [way, node] : ways.from(opposite, infinity))
       beside[node] = std::min(beside[node], way);
-    for (const auto& [way, node] : ways.from(farthest(nodes, beside), infinite))
+    for (const auto& [way, node] : ways.from(farthest(nodes, beside), infinity))
       _along[node] += 0.5 * way;
   }
   std::vector<double> score(_size);
@@ -210,7 +202,7 @@ void SelfOrder::take_compliance(std::span<const double> compliance)
 /// Puts parts of larger scores behind those of smaller ones.
 void SelfOrder::set_ranks(std::span<const double> score)
 {
-  double least = infinite;
+  double least = infinity;
   for (const double s : score)
     if (s > 0)
       least = std::min(least, s);

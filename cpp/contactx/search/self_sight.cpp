@@ -22,14 +22,7 @@ constexpr double far_side = 0.5;
 /// node is behind: it is no valley beyond the end of what the node sees
 constexpr double beside = 2;
 /// Of the size of a facet: what rounding, and the solution, leave of a gap
-constexpr double rounding = 1e-6;
-
-Vector<3> row(std::span<const double> x, std::int32_t node, int gdim)
-{
-  Vector<3> p{};
-  std::copy_n(x.begin() + std::ptrdiff_t(node) * gdim, gdim, p.begin());
-  return p;
-}
+constexpr double left_of_gap = 1e-6;
 
 std::vector<std::int32_t> copy(std::span<const std::int32_t> values)
 {
@@ -88,7 +81,7 @@ void SelfSight::find_thickness()
   std::int32_t hint = -1;
   for (const std::int32_t node : _surface.owned())
   {
-    const Vector<3> normal = row(_normal, node, _gdim);
+    const Vector<3> normal = vector_at(_normal, node, _gdim);
     const auto is_far_side = [&](const Projection& q)
     {
       return q.gap < 0 and dot(q.normal, normal) < far_side
@@ -98,7 +91,7 @@ void SelfSight::find_thickness()
     };
     // Facets of any normal
     const FoundPlace found = _finder.find(
-        _reference, row(_reference, node, _gdim), {},
+        _reference, vector_at(_reference, node, _gdim), {},
         std::numeric_limits<double>::infinity(), hint, is_far_side);
     if (not found.nearest)
       continue;
@@ -121,14 +114,14 @@ bool SelfSight::sees(std::int32_t node, const Vector<3>& normal,
 {
   if (std::ranges::binary_search(_neighbours[node], q.facet))
     return false;
-  const double slack = rounding * q.size;
+  const double slack = left_of_gap * q.size;
   if (q.gap >= 0)
     return dot(normal, q.d) <= slack;
   if (norm(q.d) <= half * _thickness[node])
     return true;
   const SurfacePoint foot = point_at(_finder.surface(), q.facet, _x0, q.xi);
-  const Vector<3> d0 = row(_x0, node, _gdim) - foot.x,
-                  normal0 = row(_normal0, node, _gdim);
+  const Vector<3> d0 = vector_at(_x0, node, _gdim) - foot.x,
+                  normal0 = vector_at(_normal0, node, _gdim);
   return dot(foot.normal, normal0) < 0 and dot(foot.normal, d0) >= -slack
          and dot(normal0, d0) <= slack;
 }
@@ -136,7 +129,8 @@ bool SelfSight::sees(std::int32_t node, const Vector<3>& normal,
 FoundPlace SelfSight::find(std::int32_t node, double reach,
                            std::int32_t hint) const
 {
-  const Vector<3> p = row(_x, node, _gdim), normal = row(_normal, node, _gdim);
+  const Vector<3> p = vector_at(_x, node, _gdim),
+                  normal = vector_at(_normal, node, _gdim);
   FoundPlace found
       = _finder.find(_x, p, normal, reach, hint, [&](const Projection& q)
                      { return sees(node, normal, q); });

@@ -21,7 +21,7 @@ using CellTypes = ::testing::Types<Simplex<2>, Cube<2>, Simplex<3>, Cube<3>>;
 TYPED_TEST_SUITE(DeformedCellsOf, CellTypes);
 
 template <class C>
-DeformedCells look(const Cells<C>& cells)
+DeformedCells look(const SampledCells<C>& cells)
 {
   return deformed_cells(cells.nodes(), C::nodes, cells.X, cells.u, C::gdim);
 }
@@ -30,9 +30,10 @@ DeformedCells look(const Cells<C>& cells)
 /// one numbered the other way round.
 /// @param[in] displacement Called as displacement(X, node).
 template <class C, class Displacement>
-Cells<C> scattered(Generator& random, int count, Displacement displacement)
+SampledCells<C> scattered(Generator& random, int count,
+                          Displacement displacement)
 {
-  Cells<C> cells;
+  SampledCells<C> cells;
   for (int c = 0; c < count; ++c)
   {
     const Motion<C::gdim> motion(random, 3);
@@ -186,7 +187,7 @@ TYPED_TEST(DeformedCellsOf, TheWorstOfSeveral)
 {
   using C = TypeParam;
   const std::array stretches{0.9, -0.3, 0.5, -0.7, 0.0, -0.2, 2.0};
-  Cells<C> cells;
+  SampledCells<C> cells;
   for (const double s : stretches)
     cells.add([](const auto& v) { return v; },
               [s](const auto& X, int)
@@ -243,7 +244,7 @@ TYPED_TEST(DeformedCellsOf, SmallDisplacementsFarFromTheOrigin)
 {
   using C = TypeParam;
   // Of u = 1e-9 X, X + u would keep seven digits at X = 1000
-  Cells<C> cells;
+  SampledCells<C> cells;
   cells.add(
       [](auto v)
       {
@@ -261,7 +262,7 @@ TYPED_TEST(DeformedCellsOf, NoNumbers)
   for (const double bad : {std::nan(""), infinity, -infinity})
     for (int at = 0; at < C::nodes * C::gdim; ++at)
     {
-      Cells<C> cells;
+      SampledCells<C> cells;
       for (int c = 0; c < 3; ++c)
         cells.add([](const auto& v) { return v; },
                   [](const auto&, int) { return Vector<C::gdim>{}; });
@@ -276,7 +277,7 @@ TYPED_TEST(DeformedCellsOf, NoNumbers)
 TYPED_TEST(DeformedCellsOf, ReferenceWithoutVolume)
 {
   using C = TypeParam;
-  Cells<C> cells;
+  SampledCells<C> cells;
   const auto add = [&cells](double height)
   {
     cells.add(
@@ -315,9 +316,9 @@ TYPED_TEST(DeformedCellsOf, NoCells)
 }
 
 /// A unit cube with displacements in eighths.
-Cells<Cube<3>> cube(const std::array<int, 24>& eighths)
+SampledCells<Cube<3>> cube(const std::array<int, 24>& eighths)
 {
-  Cells<Cube<3>> cells;
+  SampledCells<Cube<3>> cells;
   cells.add([](const auto& v) { return v; },
             [&eighths](const auto&, int i)
             {

@@ -22,9 +22,9 @@ TYPED_TEST_SUITE(LongestWay, CellTypes);
 
 /// A cell that is somewhat out of shape, numbered either way round.
 template <class C>
-Cells<C> some_cell(Generator& random, double strain, double side)
+SampledCells<C> some_cell(Generator& random, double strain, double side)
 {
-  Cells<C> cells;
+  SampledCells<C> cells;
   cells.add(
       [&](Vector<C::gdim> v)
       {
@@ -58,9 +58,10 @@ std::vector<Vector<C::gdim>> points()
 
 /// Least of det F(t) less its bound, over the points of all cells.
 template <class C>
-double least(const Cells<C>& cells, const std::vector<double>& way, double t)
+double least(const SampledCells<C>& cells, const std::vector<double>& way,
+             double t)
 {
-  Cells<C> moved = cells;
+  SampledCells<C> moved = cells;
   for (std::size_t i = 0; i < way.size(); ++i)
     moved.u[i] += t * way[i];
   double least = std::numeric_limits<double>::infinity();
@@ -77,7 +78,7 @@ double least(const Cells<C>& cells, const std::vector<double>& way, double t)
 }
 
 template <class C>
-double longest(const Cells<C>& cells, const std::vector<double>& way)
+double longest(const SampledCells<C>& cells, const std::vector<double>& way)
 {
   return longest_way(cells.nodes(), C::nodes, cells.X, cells.u, way, C::gdim,
                      part);
@@ -135,8 +136,8 @@ TYPED_TEST(LongestWay, IsThatOfTheWorstCell)
 {
   using C = TypeParam;
   Generator random(3);
-  Cells<C> both = some_cell<C>(random, 0.1, 1);
-  const Cells<C> other = some_cell<C>(random, 0.1, 1);
+  SampledCells<C> both = some_cell<C>(random, 0.1, 1);
+  const SampledCells<C> other = some_cell<C>(random, 0.1, 1);
   std::vector<double> shrunk(both.u.size()), more(both.u.size());
   for (std::size_t i = 0; i < shrunk.size(); ++i)
   {
@@ -155,7 +156,7 @@ TYPED_TEST(LongestWay, LeavesOutWhatIsInsideOut)
 {
   using C = TypeParam;
   Generator random(4);
-  Cells<C> cells = some_cell<C>(random, 0, 1);
+  SampledCells<C> cells = some_cell<C>(random, 0, 1);
   std::vector<double> way(cells.u.size());
   for (std::size_t i = 0; i < way.size(); i += C::gdim)
   {

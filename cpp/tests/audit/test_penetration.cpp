@@ -13,7 +13,7 @@ using namespace contactx::tests;
 
 namespace
 {
-Scene circle(int n, double radius)
+Scene polygon(int n, double radius)
 {
   Scene scene(2);
   for (int i = 0; i < n; ++i)
@@ -45,7 +45,7 @@ TEST(NodalCurvatures, OfACircle)
 {
   for (double radius : {0.01, 1., 300.})
   {
-    const Scene scene = circle(48, radius);
+    const Scene scene = polygon(48, radius);
     for (double k : curvatures(scene))
       EXPECT_NEAR(k * radius, 1, 1e-12);
   }

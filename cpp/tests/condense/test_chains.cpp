@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "dense.h"
+#include "status.h"
 #include "thread_ranks.h"
 
 using namespace contactx;
@@ -15,8 +16,6 @@ using namespace contactx::tests;
 
 namespace
 {
-constexpr std::int8_t open = 0, stick = 1, slip = 2;
-
 /// One contact without friction whose constraints and forces are the same
 Saddle symmetric(int gdim)
 {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "dense.h"
+#include "status.h"
 
 using namespace contactx;
 using namespace contactx::condense;
@@ -13,8 +14,6 @@ using namespace contactx::tests;
 
 namespace
 {
-constexpr std::int8_t open = 0, stick = 1, slip = 2;
-
 /// Solve with random right-hand sides, whole and without multipliers
 void compare(Saddle& saddle, bool holds = false)
 {

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "dense.h"
+#include "status.h"
 
 using namespace contactx;
 using namespace contactx::condense;
@@ -13,8 +14,6 @@ using namespace contactx::tests;
 
 namespace
 {
-constexpr std::int8_t open = 0, stick = 1, slip = 2;
-
 /// Nodes 0, 1, 2 are slaves, 4, 5, 6 their masters
 class MasterSprings : public testing::TestWithParam<int>
 {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "dense.h"
+#include "status.h"
 
 using namespace contactx;
 using namespace contactx::condense;
@@ -12,7 +13,6 @@ using namespace contactx::tests;
 
 namespace
 {
-constexpr std::int8_t stick = 1;
 using Stiff = std::vector<std::int8_t>;
 
 /// Three bodies of four nodes each; the first is slave of the second

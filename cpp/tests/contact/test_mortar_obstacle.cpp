@@ -16,8 +16,6 @@ using namespace contactx::tests;
 
 namespace
 {
-const double unlimited = std::numeric_limits<double>::infinity();
-
 /// A surface whose outward normal points up, warped by a height; in 2D a line.
 Scene surface(int gdim, Cells cells, double height)
 {
@@ -59,7 +57,7 @@ struct Front
         std::move(o),
         std::make_shared<SlaveNodes>(std::make_shared<parallel::SerialNodes>(n),
                                      scene.facets(), scene.facets()),
-        scene.x, scene.gdim, unlimited, measures_slip);
+        scene.x, scene.gdim, infinity, measures_slip);
     master->search(scene.x, std::vector<std::int8_t>(n));
   }
 
@@ -328,7 +326,7 @@ TEST(MortarObstacle, FacetsBelongToWhereTheirNodesAreOwned)
       ceiling(2, 0.5),
       std::make_shared<SlaveNodes>(std::make_shared<PartOfNodes>(2, 5),
                                    scene.facets(), scene.facets()),
-      scene.x, 2, unlimited, true);
+      scene.x, 2, infinity, true);
   master.search(scene.x, std::vector<std::int8_t>(2));
   const auto groups = master.pairs();
   // Owned slave nodes come first, then the others in order

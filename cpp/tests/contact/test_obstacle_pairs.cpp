@@ -14,12 +14,10 @@ using namespace contactx::tests;
 
 namespace
 {
-const double unlimited = std::numeric_limits<double>::infinity();
-
 std::unique_ptr<ObstacleMaster> make(const FacingNodes& scene,
                                      std::shared_ptr<obstacle::Obstacle> o,
                                      bool measures_slip = true,
-                                     double reach = unlimited)
+                                     double reach = infinity)
 {
   auto master = std::make_unique<ObstacleMaster>(
       std::move(o), scene.slaves, scene.x, scene.gdim, reach, measures_slip);
@@ -468,13 +466,13 @@ TEST(ObstacleMaster, RefusesWhatDoesNotFit)
   const auto o = make_obstacle(Kind::plane, 2);
   const FacingNodes s(*o, 2);
   const auto made = [&](std::vector<double> x, int gdim)
-  { ObstacleMaster(o, s.slaves, x, gdim, unlimited, true); };
+  { ObstacleMaster(o, s.slaves, x, gdim, infinity, true); };
   EXPECT_NO_THROW(made(s.x, 2));
   EXPECT_THROW(made({0, 1}, 2), std::invalid_argument);
   // Facets of two nodes are none in 3D
   EXPECT_THROW(made(s.x, 3), std::invalid_argument);
   EXPECT_THROW(made(s.x, 4), std::invalid_argument);
-  EXPECT_THROW(ObstacleMaster(o, nullptr, s.x, 2, unlimited, true),
+  EXPECT_THROW(ObstacleMaster(o, nullptr, s.x, 2, infinity, true),
                std::invalid_argument);
   EXPECT_THROW(make(s, o)->search(std::vector<double>{0, 1}, {}),
                std::invalid_argument);
@@ -484,7 +482,7 @@ std::unique_ptr<ObstacleTie> tied(const FacingNodes& scene,
                                   std::shared_ptr<obstacle::Obstacle> o)
 {
   auto tie = std::make_unique<ObstacleTie>(std::move(o), scene.slaves, scene.x,
-                                           scene.gdim, unlimited);
+                                           scene.gdim, infinity);
   tie->search(scene.x, std::vector<std::int8_t>(scene.n));
   return tie;
 }

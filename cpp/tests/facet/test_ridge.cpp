@@ -17,7 +17,7 @@ class Ridge : public ::testing::Test
 TYPED_TEST_SUITE(Ridge, FacetTypes);
 
 template <class F>
-constexpr int num_features = 1 + F::num_edges + F::nodes;
+constexpr int all_features = 1 + F::num_edges + F::nodes;
 
 /// A point on a feature.
 template <class F>
@@ -34,7 +34,7 @@ TYPED_TEST(Ridge, AxesAreOrthonormal)
   using F = TypeParam;
   Generator random(1);
   for (int i = 0; i < 50; ++i)
-    for (int feature = 1; feature < num_features<F>; ++feature)
+    for (int feature = 1; feature < all_features<F>; ++feature)
     {
       const auto x = random_facet<F>(random);
       const auto axes
@@ -49,7 +49,7 @@ TYPED_TEST(Ridge, FirstAxisRunsAlongTheEdgeAndTheLastIsTheNormal)
 {
   using F = TypeParam;
   Generator random(2);
-  for (int feature = 1; feature < num_features<F>; ++feature)
+  for (int feature = 1; feature < all_features<F>; ++feature)
   {
     const auto x = random_facet<F>(random);
     const Local<F> xi = on_feature<F>(feature, 0.3);
@@ -94,7 +94,7 @@ TYPED_TEST(Ridge, AxesTurnWithTheFacet)
 {
   using F = TypeParam;
   Generator random(4);
-  for (int feature = 1; feature < num_features<F>; ++feature)
+  for (int feature = 1; feature < all_features<F>; ++feature)
   {
     const auto x = random_facet<F>(random);
     const Motion<F::gdim> motion(random, 3);

@@ -19,8 +19,6 @@ using Dimensions = ::testing::Types<std::integral_constant<int, 2>,
                                     std::integral_constant<int, 3>>;
 TYPED_TEST_SUITE(Coulomb, Dimensions);
 
-const double nan = std::nan("");
-
 TYPED_TEST(Coulomb, HasTheValuesOfItsStatus)
 {
   constexpr int D = TypeParam::value;
@@ -144,7 +142,7 @@ TYPED_TEST(Coulomb, SlipsWithoutADirection)
 TYPED_TEST(Coulomb, DoesNotReadTheGapOfAnOpenNode)
 {
   constexpr int D = TypeParam::value;
-  const auto r = upright<D>(1, 2, nan, 0.5, 0.5).terms(open);
+  const auto r = upright<D>(1, 2, NAN, 0.5, 0.5).terms(open);
   EXPECT_EQ(r.value, (upright<D>(1, 2, 0, 0, 0).traction));
   EXPECT_EQ(r.by_gap, Vector<D>{});
   for (int i = 0; i < D; ++i)

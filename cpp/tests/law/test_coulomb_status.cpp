@@ -20,8 +20,6 @@ using Dimensions = ::testing::Types<std::integral_constant<int, 2>,
                                     std::integral_constant<int, 3>>;
 TYPED_TEST_SUITE(CoulombStatus, Dimensions);
 
-const double nan = std::nan("");
-
 TYPED_TEST(CoulombStatus, IsOpenWhereTheTrialPressureIsNotPositive)
 {
   constexpr int D = TypeParam::value;
@@ -46,15 +44,15 @@ TYPED_TEST(CoulombStatus, AClosedNodeOpensOnlyWithoutPressure)
     EXPECT_EQ((upright<D>(-1, 0, 0.25, 0, 0.5).status(closed)), open);
     EXPECT_EQ((upright<D>(-1, 0, -0.25, 0, 0.5).status(closed)), stick);
     EXPECT_EQ((upright<D>(-3, 0, -0.25, 0, 0.5).status(closed)), open);
-    EXPECT_EQ((upright<D>(1, 0, nan, 0, 0.5).status(closed)), open);
+    EXPECT_EQ((upright<D>(1, 0, NAN, 0, 0.5).status(closed)), open);
   }
 }
 
 TYPED_TEST(CoulombStatus, IsOpenWithoutAPair)
 {
   constexpr int D = TypeParam::value;
-  EXPECT_EQ((upright<D>(1, 0, nan, 0, 0.5).status()), open);
-  EXPECT_EQ((upright<D>(nan, 0, -1, 0, 0.5).status()), open);
+  EXPECT_EQ((upright<D>(1, 0, NAN, 0, 0.5).status()), open);
+  EXPECT_EQ((upright<D>(NAN, 0, -1, 0, 0.5).status()), open);
 }
 
 TYPED_TEST(CoulombStatus, SticksUpToTheBound)

@@ -13,8 +13,6 @@ using contactx::contact::NodeState;
 
 namespace
 {
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
 /// Nodes with friction 0.5, upright.
 struct Rubbing
 {
@@ -41,7 +39,7 @@ TEST(FrictionlessLaw, ClosesUnderPressureOrPenetration)
 {
   NodeState nodes(4, 3, false);
   nodes.multiplier = {1, 0, -1, 1};
-  nodes.gap = {0, -0.1, 0, nan};
+  nodes.gap = {0, -0.1, 0, NAN};
   parallel::OneRank ranks;
   const Frictionless law;
   EXPECT_EQ(law.set_status(nodes, ranks), 2);
@@ -81,7 +79,7 @@ TEST(FrictionlessLaw, ASoftLayerAddsItsCompliance)
   EXPECT_EQ(nodes.by_gap, (std::vector{8.0, 0.0}));
   nodes.softness = -1;
   EXPECT_THROW(law.evaluate(nodes), std::invalid_argument);
-  nodes.softness = nan;
+  nodes.softness = NAN;
   EXPECT_THROW(law.evaluate(nodes), std::invalid_argument);
 }
 
@@ -89,7 +87,8 @@ TEST(CoulombLaw, ChecksItsCoefficients)
 {
   law::Coulomb law;
   const NodeState nodes(2, 3, true);
-  for (double bad : {-0.5, nan, std::numeric_limits<double>::infinity()})
+  for (double bad :
+       {-0.5, double(NAN), std::numeric_limits<double>::infinity()})
     EXPECT_THROW(law.set_friction(std::vector{0.3, bad}),
                  std::invalid_argument);
   EXPECT_THROW(law.friction(nodes), std::invalid_argument);
@@ -126,9 +125,9 @@ TEST(CoulombLaw, ChecksTheBoundsOfAFunction)
   EXPECT_THROW(gives({{0.5}, ok, ok}), std::invalid_argument);
   EXPECT_THROW(gives({ok, ok, {0, 0, 0}}), std::invalid_argument);
   EXPECT_THROW(gives({{0.5, -0.5}, ok, ok}), std::invalid_argument);
-  EXPECT_THROW(gives({{0.5, nan}, ok, ok}), std::invalid_argument);
-  EXPECT_THROW(gives({ok, {0, nan}, ok}), std::invalid_argument);
-  EXPECT_THROW(gives({ok, ok, {nan, 0}}), std::invalid_argument);
+  EXPECT_THROW(gives({{0.5, NAN}, ok, ok}), std::invalid_argument);
+  EXPECT_THROW(gives({ok, {0, NAN}, ok}), std::invalid_argument);
+  EXPECT_THROW(gives({ok, ok, {NAN, 0}}), std::invalid_argument);
 }
 
 TEST(CoulombLaw, ABoundOfTrescaDoesNotDependOnThePressure)
@@ -318,7 +317,7 @@ TEST(CoulombLaw, CountsTheNodesThatChangeInTheEnd)
 TEST(TiedLaw, TiesWhatHasAPair)
 {
   NodeState nodes(4, 2, true);
-  nodes.gap = {1, nan, -1, -1};
+  nodes.gap = {1, NAN, -1, -1};
   nodes.status[1] = stick;
   nodes.ceded[2] = 1;
   // Its multiplier is another one's matter

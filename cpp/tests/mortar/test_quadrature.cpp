@@ -24,7 +24,7 @@ double integral(const Overlap<D>& o, int degree, auto&& f)
   return sum;
 }
 
-Overlap<2> overlap(const Polygon<2>& p)
+Overlap<2> region(const Polygon<2>& p)
 {
   Overlap<2> o;
   for (const auto& corner : p)
@@ -98,7 +98,7 @@ TEST(Integrate, IsExactOverAnInterval)
 
 TEST(Integrate, IsExactOverATriangle)
 {
-  const auto o = overlap({{0, 0}, {1, 0}, {0, 1}});
+  const auto o = region({{0, 0}, {1, 0}, {0, 1}});
   for (int degree = 0; degree <= 2 * max_points - 2; ++degree)
     for (int a = 0; a <= degree; ++a)
       for (int b = 0; a + b <= degree; ++b)
@@ -138,7 +138,7 @@ TEST(Integrate, IsExactOverPolygons)
       }
       const auto f = [a, b](const Vector<2>& p)
       { return std::pow(p[0], a) * std::pow(p[1], b); };
-      EXPECT_NEAR(integral(overlap(points), degree, f), expected, 1e-14);
+      EXPECT_NEAR(integral(region(points), degree, f), expected, 1e-14);
     }
   }
 }
@@ -147,7 +147,7 @@ TEST(Integrate, HasPointsInsideAndPositiveWeights)
 {
   const Polygon<2> p{{0, 0}, {2, 0}, {3, 1}, {1, 2}};
   for (int degree = 0; degree <= 40; ++degree)
-    integrate(overlap(p), degree,
+    integrate(region(p), degree,
               [&p](const Vector<2>& q, double w)
               {
                 EXPECT_GT(w, 0);
@@ -157,7 +157,7 @@ TEST(Integrate, HasPointsInsideAndPositiveWeights)
 
 TEST(Integrate, TakesTheLargestRuleForAHighDegree)
 {
-  const auto o = overlap({{0, 0}, {1, 0}, {0, 1}});
+  const auto o = region({{0, 0}, {1, 0}, {0, 1}});
   const auto f = [](const Vector<2>& p) { return std::exp(p[0] + p[1]); };
   EXPECT_NEAR(integral(o, 1000, f), 1, 1e-15); // int s e^s ds
   Overlap<1> line;
@@ -173,6 +173,6 @@ TEST(Integrate, GivesNothingWhereThereIsNothing)
   const auto one = [](const auto&) { return 1.; };
   EXPECT_EQ(integral(Overlap<1>{}, 3, one), 0);
   EXPECT_EQ(integral(Overlap<2>{}, 3, one), 0);
-  EXPECT_EQ(integral(overlap({{0, 0}, {1, 1}, {2, 2}}), 3, one), 0);
+  EXPECT_EQ(integral(region({{0, 0}, {1, 1}, {2, 2}}), 3, one), 0);
 }
 } // namespace

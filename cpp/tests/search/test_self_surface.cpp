@@ -11,25 +11,25 @@ using namespace contactx::tests;
 namespace
 {
 /// A surface on itself, and its pairs.
-struct Scene
+struct StripScene
 {
   std::vector<double> x;
   std::shared_ptr<parallel::Halo> halo;
   SelfSurface surface;
   Pairing pairing;
 
-  Scene(const std::vector<double>& x, const facet::Facets& facets,
-        const std::vector<std::int64_t>& body,
-        std::optional<double> excluded = {})
+  StripScene(const std::vector<double>& x, const facet::Facets& facets,
+             const std::vector<std::int64_t>& body,
+             std::optional<double> excluded = {})
       : x(x), halo(parallel::serial_halo(x, 2)),
         surface(halo, facets, body, excluded),
         pairing(facets.offsets, facets.nodes, {0}, {}, 2)
   {
   }
 
-  explicit Scene(const Strip& strip, std::optional<double> excluded = {})
-      : Scene(strip.x, strip.facets,
-              std::vector<std::int64_t>(strip.x.size() / 2, 0), excluded)
+  explicit StripScene(const Strip& strip, std::optional<double> excluded = {})
+      : StripScene(strip.x, strip.facets,
+                   std::vector<std::int64_t>(strip.x.size() / 2, 0), excluded)
   {
   }
 
@@ -75,7 +75,7 @@ TEST(SelfSurface, NodesDoNotSeeThroughTheirBody)
 {
   for (const double thickness : {0.02, 0.2, 1.0})
   {
-    Scene scene(Strip(20, 4, thickness));
+    StripScene scene(Strip(20, 4, thickness));
     scene.pair(scene.x);
     EXPECT_EQ(scene.num_paired(), 0) << thickness;
   }
@@ -86,7 +86,7 @@ TEST(SelfSurface, WhatFoldsIsPairedOnOneSide)
   const Strip strip(80, 4, 0.05);
   for (const double distance : {0.02, 0.001, -0.001})
   {
-    Scene scene(strip);
+    StripScene scene(strip);
     const auto at = scene.moved(strip.folded(distance));
     // Through an open fold, from which facets are seen
     scene.surface.accept(scene.moved(strip.folded(0.1)));
@@ -114,7 +114,7 @@ TEST(SelfSurface, WhatFoldsIsPairedOnOneSide)
 TEST(SelfSurface, ShallowPenetrationIsSeenWhateverTheStart)
 {
   const Strip strip(80, 4, 0.05);
-  Scene scene(strip);
+  StripScene scene(strip);
   const auto at = scene.moved(strip.folded(-0.02));
   scene.surface.accept(at);
   scene.pair(at);
@@ -124,12 +124,12 @@ TEST(SelfSurface, ShallowPenetrationIsSeenWhateverTheStart)
 TEST(SelfSurface, DeepPenetrationIsSeenFromInFrontAlone)
 {
   const Strip strip(80, 4, 0.05);
-  Scene scene(strip);
+  StripScene scene(strip);
   const auto at = scene.moved(strip.folded(-0.04));
   scene.surface.accept(at);
   scene.pair(at);
   EXPECT_EQ(scene.num_on_legs(strip), 0);
-  Scene other(strip);
+  StripScene other(strip);
   other.surface.accept(other.moved(strip.folded(0.01)));
   other.pair(at);
   EXPECT_EQ(other.num_on_legs(strip), 24);
@@ -138,7 +138,7 @@ TEST(SelfSurface, DeepPenetrationIsSeenFromInFrontAlone)
 TEST(SelfSurface, NeighboursAreExcludedWithinADistance)
 {
   const Strip strip(80, 4, 0.05);
-  Scene near(strip), far(strip, 1.0);
+  StripScene near(strip), far(strip, 1.0);
   const auto at = near.moved(strip.folded(0.02));
   near.pair(at);
   far.pair(at);
@@ -160,7 +160,7 @@ TEST(SelfSurface, AThinBodyHasTwoSides)
   const Strip sheet(10, 1, 0.01);
   for (int k = 0; k < 3; ++k)
     all.add(sheet, 0, 0.012 * k, 22 * k);
-  Scene scene(all.x, all.facets, all.body);
+  StripScene scene(all.x, all.facets, all.body);
   scene.pair(all.x);
   EXPECT_GT(scene.num_paired(), 0);
   for (std::size_t i = 0; i < all.x.size() / 2; ++i)
@@ -189,7 +189,7 @@ TEST(SelfSurface, SofterPartsBecomeSlaves)
   both.add(Strip(20, 1, 0.1), 0.01, 0.11, 42);
   for (const bool is_upper : {false, true})
   {
-    Scene scene(both.x, both.facets, both.body);
+    StripScene scene(both.x, both.facets, both.body);
     scene.pair(both.x);
     std::vector<double> compliance(both.x.size() / 2, 1);
     for (std::size_t i = 0; i < compliance.size(); ++i)
