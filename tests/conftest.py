@@ -14,6 +14,8 @@ from tether import tether
 
 # One process may wait for a form that another one compiles
 os.environ["XDG_CONFIG_HOME"] = str(Path(__file__).parent / "settings")
+# Forms are compiled once and kept from one run to the next, until `make clean`
+os.environ["XDG_CACHE_HOME"] = str(Path(__file__).parents[1] / "build" / "cache")
 
 
 def pytest_configure(config):

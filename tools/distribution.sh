@@ -6,9 +6,10 @@
 # of it would, and run the quick start, the C++ programs and the Python tests
 # there, on one rank and on two.
 #
-# It needs root, debootstrap, 5 GB of disk and 15 minutes. Packages come from
-# where this machine's own come from. What it mounts it unmounts, and the folder
-# is removed at the end: KEEP=1 keeps it for the next run.
+# It needs root, debootstrap, 5 GB of disk and half an hour. Packages come from
+# where this machine's own come from. What it mounts it mounts in a namespace of
+# its own, where it may, and the folder is removed at the end: KEEP=1 keeps it for
+# the next run.
 #
 # Usage: tools/distribution.sh FOLDER
 set -eu
@@ -32,35 +33,81 @@ mkdir -p "$folder"
 folder=$(cd "$folder" && pwd)
 root=$folder/sid
 
-clean() {
-	for at in dev/shm dev/pts dev sys proc; do
-		if mountpoint -q "$root/$at"; then umount "$root/$at"; fi
-	done
-	# Nothing of this machine may be below it any more
-	if [ -z "${KEEP:-}" ] && ! grep -q " $root/" /proc/mounts; then rm -rf "$root"; fi
+# Nothing of this machine may be below the folder when that is removed
+remove() {
+	if [ -n "${KEEP:-}" ]; then return; fi
+	if grep -q " $root/" /proc/mounts; then
+		say "mounts below $root stay: it is not removed" >&2
+		return
+	fi
+	rm -rf --one-file-system "$root"
 }
-trap clean EXIT
-trap 'exit 1' INT TERM HUP
+
+# Outside: processes and mounts are those of namespaces, which end with the first
+# process in them, however this one ends
+if [ -z "${CONTACTX_NAMESPACE:-}" ] \
+	&& unshare --mount --propagation private --mount-proc --pid --fork --kill-child=KILL true 2> /dev/null; then
+	CONTACTX_NAMESPACE=1 unshare --mount --propagation private --mount-proc --pid --fork --kill-child=KILL \
+		"$0" "$folder" &
+	inner=$!
+	end() {
+		trap - EXIT
+		kill -KILL $inner 2> /dev/null || true
+		wait $inner 2> /dev/null || true
+		remove
+		say "ended by a signal" >&2
+		exit 1
+	}
+	trap end INT TERM HUP
+	status=0
+	wait $inner || status=$?
+	remove
+	exit $status
+fi
+
+# Where no namespace may be made mounts are this machine's: they go, and with them
+# what runs there, on every way out
+clean() {
+	for process in /proc/[0-9]*; do
+		if [ "$(readlink "$process/root" 2> /dev/null)" = "$root" ]; then
+			kill -KILL "${process#/proc/}" 2> /dev/null || true
+		fi
+	done
+	for at in dev/shm dev/pts dev sys proc; do
+		if mountpoint -q "$root/$at"; then umount -l "$root/$at"; fi
+	done
+	remove
+}
+if [ -z "${CONTACTX_NAMESPACE:-}" ]; then
+	say "no namespace of its own: mounts are this machine's until the end"
+	trap clean EXIT
+	trap 'exit 1' INT TERM HUP
+fi
+
+# In the background, as a signal then ends the waiting
+wait_for() {
+	"$@" &
+	wait $!
+}
 
 inside() {
-	chroot "$root" /usr/bin/env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin LC_ALL=C.UTF-8 \
+	wait_for chroot "$root" /usr/bin/env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin LC_ALL=C.UTF-8 \
 		DEBIAN_FRONTEND=noninteractive OMP_NUM_THREADS=1 OMPI_ALLOW_RUN_AS_ROOT=1 \
 		OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 PRTE_MCA_mapby=:oversubscribe NO_COLOR=1 \
 		"$@"
 }
 
 if [ ! -e "$root/etc/debian_version" ]; then
-	mirror=$(awk '/^URIs:/ { print $2; exit } $1 == "deb" { print $2; exit }' \
-		/etc/apt/sources.list.d/debian.sources /etc/apt/sources.list 2> /dev/null)
-	test -n "$mirror" || fail "finds no Debian archive in this machine's apt sources"
+	mirror=$(tools/debian.sh) || fail "$mirror"
 	say "sid into $root"
-	rm -rf "$root"
-	debootstrap --variant=minbase sid "$root" "$mirror" > "$folder/debootstrap.log" 2>&1 \
+	rm -rf --one-file-system "$root"
+	wait_for debootstrap --variant=minbase sid "$root" "$mirror" > "$folder/debootstrap.log" 2>&1 \
 		|| fail "debootstrap failed, see $folder/debootstrap.log"
 	# The archive may be a copy that is past its date
 	echo 'Acquire::Check-Valid-Until "false";' > "$root/etc/apt/apt.conf.d/99valid"
 fi
-for at in proc sys dev dev/pts; do
+mountpoint -q "$root/proc" || mount -t proc proc "$root/proc"
+for at in sys dev dev/pts; do
 	mountpoint -q "$root/$at" || mount --bind "/$at" "$root/$at"
 done
 mountpoint -q "$root/dev/shm" || mount -t tmpfs tmpfs "$root/dev/shm"
@@ -85,7 +132,12 @@ mkdir -p "$root/root/contactx"
 git ls-files -z | xargs -0 tar c | tar x -C "$root/root/contactx"
 inside python3 -m venv --system-site-packages /root/venv
 inside sh -c 'cd /root/contactx && /root/venv/bin/pip install --quiet --no-deps \
-	--no-build-isolation . && rm -rf build'
+	--no-build-isolation . \
+	&& cmake --install build/package --component development --prefix /root/cpp/installed \
+	&& rm -rf build' > "$folder/pip.log" 2>&1 || {
+	tail -n 40 "$folder/pip.log"
+	fail "contactx does not install, see $folder/pip.log"
+}
 
 say "quick start"
 awk '/^## Quick start/ { here = 1 } here && /^```$/ { exit } inside { print }
@@ -106,9 +158,6 @@ say "C++ on the distribution's DOLFINx"
 inside sh -c 'set -e
 	cd /root/contactx
 	build() { cmake --build "$1" -j "$(nproc)"; }
-	cmake -S . -B /root/cpp/core -G Ninja -DCONTACTX_PYTHON=OFF
-	build /root/cpp/core
-	cmake --install /root/cpp/core --prefix /root/cpp/installed
 	for project in demos/cpp/hertz demos/cpp/sliding_block tests/dolfinx_cpp; do
 		cmake -S $project -B /root/cpp/$project -G Ninja -DCMAKE_BUILD_TYPE=Release \
 			-DCMAKE_PREFIX_PATH=/root/cpp/installed

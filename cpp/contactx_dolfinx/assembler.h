@@ -67,18 +67,26 @@ public:
   /// @param[in] bcs Dirichlet conditions, whose values may change from step to
   /// step.
   /// @param[in] contacts Contacts, at least one.
-  /// @throws std::invalid_argument on all ranks if they do not fit.
+  /// @throws std::invalid_argument on all ranks if they do not fit: a form is
+  /// null, of another space or does not depend on u, a condition is of another
+  /// space, a surface is none of the boundary.
   Assembler(std::shared_ptr<const Form> F, std::shared_ptr<const Form> J,
             std::shared_ptr<Function> u,
             std::vector<std::shared_ptr<const DirichletBC>> bcs,
             std::vector<std::shared_ptr<Contact>> contacts)
       : _u(std::move(u)), _contacts(std::move(contacts))
   {
+    input::check_displacement(_u.get());
+    input::check_forms(F.get(), J.get(), *_u);
+    input::check_conditions(bcs, *_u);
     if (_contacts.empty())
       throw std::invalid_argument(
           "an Assembler needs at least one contact: pass one");
+    for (std::size_t k = 0; k < _contacts.size(); ++k)
+      if (_contacts[k] == nullptr)
+        throw std::invalid_argument("contacts[" + std::to_string(k)
+                                    + "] is null: give a Contact");
     const FunctionSpace& V = *_u->function_space();
-    check(V);
 
     auto adapter = std::make_unique<HaloAdapter>(_u);
     _adapter = adapter.get();
@@ -313,26 +321,6 @@ public:
 
 private:
   MPI_Comm comm() const { return _u->function_space()->mesh()->comm(); }
-
-  static void check(const FunctionSpace& V)
-  {
-    const auto& mesh = *V.mesh();
-    const int gdim = mesh.geometry().dim(), tdim = mesh.topology()->dim();
-    const auto dofs = V.dofmap()->map();
-    const int vertices
-        = ::dolfinx::mesh::cell_num_entities(mesh.topology()->cell_type(), 0);
-    if (gdim != tdim or gdim < 2)
-      throw std::invalid_argument("contact needs plane cells in the plane or "
-                                  "solid ones in space");
-    if (V.dofmap()->bs() != gdim or static_cast<int>(dofs.extent(1)) != vertices
-        or V.element()->needs_dof_transformations())
-      throw std::invalid_argument(
-          "the displacement must be of a linear Lagrange space of vectors: "
-          "take degree 1 and as many components as the mesh has dimensions");
-    if (mesh.geometry().cmaps().front().degree() != 1)
-      throw std::invalid_argument(
-          "contact needs cells with straight edges: make the mesh of order 1");
-  }
 
   static void require(bool is_in_order, const char* what)
   {

@@ -17,11 +17,6 @@
 
 namespace contactx::dolfinx
 {
-/// Forms of the bulk
-using Form = ::dolfinx::fem::Form<double>;
-/// Dirichlet conditions
-using DirichletBC = ::dolfinx::fem::DirichletBC<double>;
-
 /// @brief Bodies without contact: forms of DOLFINx, as the core's Newton loop
 /// sees them.
 class Bulk final : public newton::Bulk

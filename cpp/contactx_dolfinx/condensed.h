@@ -496,9 +496,9 @@ private:
 
     // Right-hand side
     const petsc::ConstValues given(b);
-    auto [forces, shift, extra, multipliers]
+    condense::Condensation::RightHandSide right
         = condensation.right_hand_side(given.span().subspan(n));
-    halo().reverse(forces, g);
+    halo().reverse(right.forces, g);
     petsc::OwnVec w, h, work, rhs, v, balance;
     for (auto* vector : {&w, &h, &work, &rhs, &v})
       petsc::check(MatCreateVecs(K, vector->put(), nullptr), "MatCreateVecs");
@@ -506,8 +506,8 @@ private:
       const petsc::Values force(w.get()), start(h.get());
       for (std::size_t i = 0; i < n; ++i)
       {
-        force.span()[i] = given.span()[i] + forces[i];
-        start.span()[i] = shift[i];
+        force.span()[i] = given.span()[i] + right.forces[i];
+        start.span()[i] = right.shift[i];
       }
     }
     solve(system.of_right, h.get(), false);
@@ -524,7 +524,7 @@ private:
     {
       const petsc::Values values(rhs.get());
       for (std::size_t i = 0; i < n; ++i)
-        values.span()[i] += extra[i];
+        values.span()[i] += right.extra[i];
     }
     clear_eliminated(rhs.get());
     if (not iterate(rhs.get(), v.get(), target))
@@ -541,12 +541,12 @@ private:
     halo().forward(std::span(u), g);
     condensation.recover(given.span().subspan(n),
                          petsc::ConstValues(balance.get()).span(), u,
-                         multipliers);
+                         right.multipliers);
     const petsc::Values x(dx);
     for (std::size_t i = 0; i < n; ++i)
       x.span()[i] = _free[i] ? u[i] : given.span()[i];
-    for (std::size_t i = 0; i < multipliers.size(); ++i)
-      x.span()[n + i] = multipliers[i] / this->system().factors()[i];
+    for (std::size_t i = 0; i < right.multipliers.size(); ++i)
+      x.span()[n + i] = right.multipliers[i] / this->system().factors()[i];
     return true;
   }
 

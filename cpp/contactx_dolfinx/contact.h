@@ -33,12 +33,17 @@ struct Options
   /// given, unlimited for an obstacle
   std::optional<double> search_distance = std::nullopt;
   double offset = 0; ///< length that is taken off the gap
+  /// In self-contact the length along the surface, in the reference
+  /// configuration, up to which facets are no masters of a node; see
+  /// search::SelfSight for what it is if not given
+  std::optional<double> excluded_distance = std::nullopt;
   /// What contact is integrated with, at reference positions, as the bulk's
   /// forms are: 2 pi r in axisymmetric models, a thickness; 1 if empty
   std::function<double(const Vector<3>&)> weight = {};
 };
 
-/// @brief Contact of a slave surface with a master surface or a rigid obstacle.
+/// @brief Contact of a slave surface with a master surface or a rigid obstacle,
+/// or of a surface with itself, where slave and master are the same.
 ///
 /// Gaps g >= 0 are positive where it is open, pressures p >= 0 in compression.
 /// What it has of slave nodes are rows of those that this rank owns; it exists
@@ -54,7 +59,8 @@ public:
   /// finer or the softer one.
   /// @param[in] master Surface or obstacle that they are measured against.
   /// @param[in] options How it is.
-  /// @throws std::invalid_argument if it is tied and has friction.
+  /// @throws std::invalid_argument if it is tied and has friction, or the
+  /// obstacle is null.
   Contact(Surface slave, Master master, Options options = {})
       : _slave(std::move(slave)), _master(std::move(master)), _options(options)
   {
@@ -62,6 +68,11 @@ public:
       throw std::invalid_argument(
           "tied excludes friction: a tied slave node does not slip. Leave "
           "one of them out");
+    const auto* obstacle
+        = std::get_if<std::shared_ptr<obstacle::Obstacle>>(&_master);
+    if (obstacle and *obstacle == nullptr)
+      throw std::invalid_argument("the obstacle of a Contact is null: give a "
+                                  "Plane, Sphere, Cylinder or LevelSet");
   }
 
   /// @brief Make the contact's discrete side; the Assembler does so. All ranks
@@ -151,6 +162,13 @@ public:
     return *_discrete;
   }
 
+  /// @brief Whether it is a contact of a surface with itself.
+  bool is_self() const
+  {
+    const auto* master = std::get_if<Surface>(&_master);
+    return master and master->is(_slave);
+  }
+
   /// @brief Slave nodes, as the blocks of the displacement's dofs (shape=(n)).
   std::span<const std::int32_t> slave_nodes() const
   {
@@ -203,9 +221,13 @@ public:
     discrete().add_residual(forces);
     halo.reverse(forces, gdim);
     Vector<3> sum{};
-    for (std::int32_t node : slave_nodes())
-      for (int k = 0; k < gdim; ++k)
-        sum[k] -= forces[gdim * node + k];
+    const std::span<const std::int32_t> slaves = slave_nodes();
+    // In self-contact all nodes may be slaves: those that are in contact, as no
+    // node is on both sides
+    for (std::size_t i = 0; i < slaves.size(); ++i)
+      if (not is_self() or discrete().nodes()->closed(i))
+        for (int k = 0; k < gdim; ++k)
+          sum[k] -= forces[gdim * slaves[i] + k];
     halo.ranks().reduce(std::span<double>(sum), parallel::Reduction::sum);
     return sum;
   }
@@ -229,8 +251,12 @@ private:
 
     const reference::Mesh mesh{halo, bodies, bulk.all_cells(),
                                bulk.nodes_per_cell()};
-    const reference::MasterOptions how{_options.method, _options.sliding,
-                                       _options.search_distance};
+    const reference::MasterOptions how{
+        .method = _options.method,
+        .sliding = _options.sliding,
+        .search_distance = _options.search_distance,
+        .is_self = is_self(),
+        .excluded_distance = _options.excluded_distance};
     contact::Contact::Options options{
         .sliding = _options.sliding,
         .has_means = _options.method == Method::surface_to_surface,
@@ -251,13 +277,17 @@ private:
       const auto master
           = reference::make_master(mesh, slaves, _slave.name(),
                                    {surface.name(), facets.list()}, *law, how);
-      options.shared
-          = reference::shared_nodes(*halo, slaves->own(), facets.list());
-      options.shared.resize(halo->num_owned());
+      if (not is_self())
+      {
+        options.shared
+            = reference::shared_nodes(*halo, slaves->own(), facets.list());
+        options.shared.resize(halo->num_owned());
+      }
       _discrete = std::make_shared<contact::Contact>(halo, slaves, master, law,
                                                      std::move(options));
-      reference::check_facing(*halo, *slaves, _slave.name(), *master,
-                              surface.name());
+      if (not is_self())
+        reference::check_facing(*halo, *slaves, _slave.name(), *master,
+                                surface.name());
     }
     _recovery = std::make_unique<contact::Recovery>(slaves, halo->reference(),
                                                     halo->gdim());

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "input.h"
 #include "ranks.h"
 #include <contactx/parallel/halo.h>
 #include <dolfinx/common/IndexMap.h>
@@ -19,11 +20,6 @@
 
 namespace contactx::dolfinx
 {
-/// Functions of the displacement's kind
-using Function = ::dolfinx::fem::Function<double>;
-/// Their spaces
-using FunctionSpace = ::dolfinx::fem::FunctionSpace<double>;
-
 /// @brief Number of this rank's nodes of a space, ghosts included.
 inline std::int32_t num_nodes(const FunctionSpace& V)
 {

@@ -64,6 +64,12 @@ public:
     _name = "Surface({" + _name + "}, " + std::to_string(count) + " facets)";
   }
 
+  /// @brief Whether another surface is the same part of the same tags.
+  bool is(const Surface& other) const
+  {
+    return _tags == other._tags and _facets == other._facets;
+  }
+
   /// @brief Name in messages.
   const std::string& name() const { return _name; }
 

@@ -160,6 +160,53 @@ int main(int argc, char* argv[])
               const auto w = std::make_shared<fem::Function<T>>(space(mesh, 2));
               cx::Assembler(F, J, w, {}, {make(bottom, plane_at(0))});
             });
+    const auto one = [&] { return std::vector{make(bottom, plane_at(0))}; };
+    const std::vector<std::shared_ptr<const fem::DirichletBC<T>>> none;
+    refuses("F is null", [&] { cx::Assembler(nullptr, J, u, none, one()); });
+    refuses("J is null", [&] { cx::Assembler(F, nullptr, u, none, one()); });
+    refuses("u is null", [&] { cx::Assembler(F, J, nullptr, none, one()); });
+    refuses("F has 2 arguments", [&] { cx::Assembler(J, F, u, none, one()); });
+    refuses("J has 1 arguments", [&] { cx::Assembler(F, F, u, none, one()); });
+    refuses("bcs[1] is null",
+            [&] { cx::Assembler(F, J, u, {fixed, nullptr}, one()); });
+    refuses("contacts[0] is null",
+            [&] { cx::Assembler(F, J, u, none, {nullptr}); });
+    refuses("obstacle of a Contact is null", [&]
+            { make(bottom, std::shared_ptr<contactx::obstacle::Plane>()); });
+    // Forms of another function than the displacement, and of its space
+    refuses("F does not depend on u",
+            [&]
+            {
+              const auto w = std::make_shared<fem::Function<T>>(V);
+              cx::Assembler(F, J, w, none, one());
+            });
+    const auto W = space(mesh, 1);
+    refuses("F has an argument that is not of the function space of u",
+            [&]
+            {
+              const auto w = std::make_shared<fem::Function<T>>(W);
+              cx::Assembler(F, J, w, none, one());
+            });
+    refuses("bcs[0] is a condition on another function space",
+            [&]
+            {
+              const auto other = std::make_shared<const fem::DirichletBC<T>>(
+                  std::vector<T>{0, 0},
+                  fem::locate_dofs_topological(*mesh->topology_mutable(),
+                                               *W->dofmap(), 1, tags->find(12)),
+                  W);
+              cx::Assembler(F, J, u, {other}, one());
+            });
+    // Contact of a surface with itself has no integrals over facets
+    refuses(
+        "method must be node-to-surface where slave and master are the same",
+        [&]
+        {
+          couple(
+              make(bottom, bottom, {.method = cx::Method::surface_to_surface}));
+        });
+    refuses("excluded_distance is for a surface on itself",
+            [&] { couple(make(bottom, top, {.excluded_distance = 0.1})); });
     refuses("inside a rigid obstacle",
             [&]
             {

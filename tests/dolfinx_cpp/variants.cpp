@@ -76,8 +76,9 @@ void solve(const Scene& scene, const char* name, const cx::Contact::Master& to,
   fix(0, 22);
   fix(1, 22);
   auto push = fix(0, 12);
-  auto contact
-      = std::make_shared<cx::Contact>(cx::Surface(tags, {11}), to, options);
+  const auto slave = std::string(name) == "self" ? std::get<cx::Surface>(to)
+                                                 : cx::Surface(tags, {11});
+  auto contact = std::make_shared<cx::Contact>(slave, to, options);
   cx::Assembler assembler(F, J, u, bcs, {contact});
   cx::petsc::OwnVec b(assembler.create_vector()), dx(assembler.create_vector());
   cx::petsc::OwnMat A(assembler.create_matrix());
@@ -186,6 +187,9 @@ int main(int argc, char* argv[])
     solve(scene, "mortar friction", base,
           {.friction = 0.3, .method = mortar, .offset = offset});
     solve(scene, "mortar tied", base, {.method = mortar, .tied = true});
+    // Lower and upper side at once, and what is beside them on their facets
+    solve(scene, "self", cx::Surface(scene.tags, {11, 21}),
+          {.friction = 0.3, .offset = offset, .excluded_distance = 0.01});
     const std::vector<double> point{0, 0}, up{0, 1}, middle{1.5, -4};
     solve(scene, "plane", std::make_shared<obstacle::Plane>(point, up),
           {.friction = 0.3, .offset = offset});

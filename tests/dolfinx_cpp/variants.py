@@ -52,7 +52,8 @@ def solve(
     F += story.traction(u, tags, 12, load)
     push = story.fix(u, tags, 0, 0.0, 12)
     bcs = [*(story.fix(u, tags, i, 0.0, 22) for i in range(2)), push]
-    contact = cx.Contact(slave=cx.Surface(tags, 11), master=master, **options)
+    slave = master if name == "self" else cx.Surface(tags, 11)
+    contact = cx.Contact(slave=slave, master=master, **options)
     problem = cx.ContactProblem(
         F,
         u,
@@ -96,6 +97,7 @@ def main() -> None:
     solve("mortar", tags, V, base, **mortar, **little)
     solve("mortar friction", tags, V, base, **mortar, **rubs)
     solve("mortar tied", tags, V, base, **mortar, tied=True)
+    solve("self", tags, V, cx.Surface(tags, [11, 21]), **rubs, excluded_distance=0.01)
     solve("plane", tags, V, plane, **rubs)
     solve("mortar plane", tags, V, plane, **mortar, **rubs)
     solve("disc", tags, V, disc, friction=0.1, **little)
