@@ -142,15 +142,22 @@ inside sh -c 'cd /root/contactx && /root/venv/bin/pip install --quiet --no-deps 
 say "quick start"
 awk '/^## Quick start/ { here = 1 } here && /^```$/ { exit } inside { print }
 	here && /^```python$/ { inside = 1 }' README.md > "$root/root/quick_start.py"
+# Its lines: time, iterations, force
 for ranks in 1 2; do
-	inside sh -c "cd /root && mpiexec -n $ranks venv/bin/python quick_start.py > quick.log &&
-		grep 'contact 0: force' quick.log || tail -20 quick.log"
+	inside sh -c "cd /root && mpiexec -n $ranks venv/bin/python quick_start.py > quick.log 2>&1" || {
+		tail -n 20 "$root/root/quick.log"
+		fail "the quick start fails on $ranks ranks"
+	}
+	grep -ao '[01][.][0-9] [0-9]* [[].*[]]' "$root/root/quick.log" | sort -u > "$folder/quick.$ranks"
 done
+[ "$(wc -l < "$folder/quick.1")" = 10 ] || fail "the quick start does not print ten steps"
+diff "$folder/quick.1" "$folder/quick.2" || fail "the quick start is another one on two ranks"
+tail -n 1 "$folder/quick.1"
 
 say "loops of one's own, on one rank and on two"
 for demo in own_newton own_snes arc_length; do
 	inside sh -c "cd /root/contactx/demos && /root/venv/bin/python $demo.py > /root/1.log &&
-		mpiexec -n 2 /root/venv/bin/python $demo.py > /root/2.log && tail -1 /root/1.log"
+		mpiexec -n 2 /root/venv/bin/python $demo.py > /root/2.log && tail -n 1 /root/1.log"
 	inside diff /root/1.log /root/2.log || fail "$demo is another one on two ranks"
 done
 
@@ -163,7 +170,7 @@ inside sh -c 'set -e
 			-DCMAKE_PREFIX_PATH=/root/cpp/installed
 		build /root/cpp/$project
 	done' > "$folder/cpp.log" 2>&1 || {
-	tail -40 "$folder/cpp.log"
+	tail -n 40 "$folder/cpp.log"
 	fail "the C++ layer does not build, see $folder/cpp.log"
 }
 # The same lines as Python's, on the same mesh files
@@ -188,8 +195,8 @@ inside sh -c 'set -e
 say "tests"
 inside sh -c "cd /root/contactx && /root/venv/bin/python -m pytest -q -n $(nproc) tests/fast \
 	--ignore tests/fast/parallel --ignore tests/fast/demos" > "$folder/tests.log" 2>&1 || {
-	tail -60 "$folder/tests.log"
+	tail -n 60 "$folder/tests.log"
 	fail "tests failed, see $folder/tests.log"
 }
-tail -1 "$folder/tests.log"
+tail -n 1 "$folder/tests.log"
 say "passed on DOLFINx $version"

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "facing.h"
+#include "../vec.h"
 #include <algorithm>
 #include <cmath>
 #include <numeric>

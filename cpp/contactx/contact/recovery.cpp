@@ -3,6 +3,7 @@
 
 #include "recovery.h"
 #include "../check.h"
+#include "../vec.h"
 #include <algorithm>
 #include <cmath>
 #include <functional>
