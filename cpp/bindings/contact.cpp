@@ -22,7 +22,8 @@ void contactx_bindings::contact(py::module_& m)
                  std::shared_ptr<Master> master, std::shared_ptr<Law> law,
                  bool is_small, bool has_means,
                  const Array<std::int8_t>& prescribed,
-                 const std::optional<Array<bool>>& shared)
+                 const std::optional<Array<bool>>& shared,
+                 std::optional<double> adjust)
               {
                 return std::make_shared<Contact>(
                     std::move(halo), std::move(slaves), std::move(master),
@@ -30,11 +31,13 @@ void contactx_bindings::contact(py::module_& m)
                     Contact::Options{
                         is_small ? Sliding::small : Sliding::finite, has_means,
                         copy(prescribed),
-                        shared ? truths(*shared) : std::vector<std::int8_t>()});
+                        shared ? truths(*shared) : std::vector<std::int8_t>(),
+                        adjust});
               }),
           py::arg("halo"), py::arg("slaves"), py::arg("master"), py::arg("law"),
           py::kw_only(), py::arg("is_small"), py::arg("has_means"),
-          py::arg("prescribed"), py::arg("shared") = py::none())
+          py::arg("prescribed"), py::arg("shared") = py::none(),
+          py::arg("adjust") = py::none())
       .def_property_readonly("master", &Contact::master)
       .def_property_readonly("law", &Contact::law)
       .def_property_readonly("nodes", &Contact::nodes)
@@ -53,6 +56,8 @@ void contactx_bindings::contact(py::module_& m)
       .def(
           "set_offset", [](Contact& self, const Array<double>& offset)
           { self.set_offset(view(offset)); }, py::arg("offset"))
+      .def_property_readonly("adjusted", [](const Contact& self)
+                             { return array(self.adjusted()); })
       .def(
           "set_prescribed",
           [](Contact& self, const Array<std::int8_t>& prescribed)

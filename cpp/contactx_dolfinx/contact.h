@@ -33,6 +33,9 @@ struct Options
   /// given, unlimited for an obstacle
   std::optional<double> search_distance = std::nullopt;
   double offset = 0; ///< length that is taken off the gap
+  /// Gaps and overlaps of the reference configuration that count as none if
+  /// they are at most so large, see contact::Contact::Options::adjust
+  std::optional<double> adjust = std::nullopt;
   /// In self-contact the length along the surface, in the reference
   /// configuration, up to which facets are no masters of a node; see
   /// search::SelfSight for what it is if not given
@@ -261,7 +264,8 @@ private:
         .sliding = _options.sliding,
         .has_means = _options.method == Method::surface_to_surface,
         .prescribed = bulk.all_markers(),
-        .shared = {}};
+        .shared = {},
+        .adjust = _options.adjust};
     if (const auto* obstacle
         = std::get_if<std::shared_ptr<obstacle::Obstacle>>(&_master))
     {

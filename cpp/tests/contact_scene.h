@@ -62,13 +62,14 @@ struct ContactScene
   std::shared_ptr<contact::Contact>
   contact(std::shared_ptr<law::Law> law,
           contact::Sliding sliding = contact::Sliding::finite,
-          std::vector<std::int8_t> shared = {}) const
+          std::vector<std::int8_t> shared = {},
+          std::optional<double> adjust = std::nullopt) const
   {
     constexpr bool has_means = std::is_base_of_v<contact::SurfaceToSurface, M>;
     return std::make_shared<contact::Contact>(
         halo, slaves, master<M>(*law, sliding), law,
         contact::Contact::Options{sliding, has_means, prescribed,
-                                  std::move(shared)});
+                                  std::move(shared), adjust});
   }
 
   /// @brief Move all nodes by random numbers up to a size.

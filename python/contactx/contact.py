@@ -38,6 +38,7 @@ _OPTIONS = (
     "search_distance",
     "excluded_distance",
     "offset",
+    "adjust",
     "weight",
 )
 _SLIDING = ("finite", "small")
@@ -67,6 +68,7 @@ class Contact:
         search_distance: float | None = None,
         excluded_distance: float | None = None,
         offset: float | fem.Constant | fem.Function = 0.0,
+        adjust: float | None = None,
         weight: float | ufl.core.expr.Expr = 1.0,
         tangential_factor: float = 1.0,
     ):
@@ -104,6 +106,10 @@ class Contact:
             offset: Length that is taken off the gap: positive where the bodies interfere by it or
                 carry a layer of that thickness, negative where they are that much farther apart. A
                 number, a ``fem.Constant`` or a ``fem.Function`` of a scalar Lagrange space.
+            adjust: Gaps and overlaps of the reference configuration that are at most this length
+                count as none, which puts no strain on the bodies: those that chords of round
+                surfaces make, and small ones of the mesh. They are taken off the gap of each slave
+                node for good; ``offset`` comes on top of that. Not for ties and self-contact.
             weight: Factor of contact's integrals, the same as in the bulk's forms: ``2 * pi * r``
                 in an axisymmetric model, the thickness in a plane one. A number, or a UFL
                 expression of the reference position; its values at the slave nodes are taken once,
@@ -132,6 +138,7 @@ class Contact:
         is_self = _is_self(slave, master)
         if is_self:
             _check_self(sliding, method, tied)
+        _check_adjust(adjust, is_self=is_self, tied=tied)
         _check_excluded(excluded_distance, is_self)
         check_weight(weight)
         _check_factor(tangential_factor)
@@ -142,6 +149,7 @@ class Contact:
         self.search_distance = search_distance
         self.excluded_distance = excluded_distance
         self.offset = offset
+        self.adjust = adjust
         self.weight = weight
         self.tangential_factor = tangential_factor
         self.friction = friction
@@ -242,6 +250,7 @@ class Contact:
             offset=offset,
             markers=markers,
             shared=shared,
+            adjust=self.adjust,
             is_self=self.is_self,
         )
         if isinstance(master, core.DeformableMaster) and not self.is_self:
@@ -714,6 +723,28 @@ def _check_self(sliding: str, method: str, tied: bool) -> None:
             "tied is for two surfaces, but slave and master are the same: give each side a surface "
             "of its own"
         )
+
+
+def _check_adjust(adjust: Any, *, is_self: bool, tied: bool) -> None:
+    """Check the length up to which gaps of the reference configuration count as none.
+
+    Raises:
+        TypeError: If it is no number.
+        ValueError: If it is negative or not finite, or the contact has no such gaps.
+    """
+    if adjust is None:
+        return
+    if not is_number(adjust):
+        raise TypeError(f"adjust is {described(adjust)}: give a length, or None")
+    if not (np.isfinite(adjust) and adjust >= 0):
+        raise ValueError(f"adjust is {adjust}: give a finite length of at least 0")
+    if is_self or tied:
+        why = (
+            "a tie keeps the gaps of the reference configuration as they are"
+            if tied
+            else "in self-contact the master of a node is another one as the surface folds"
+        )
+        raise ValueError(f"adjust is {adjust}, but {why}: leave it out")
 
 
 def _check_excluded(distance: Any, is_self: bool) -> None:

@@ -49,6 +49,7 @@ class Interface(core.Contact):
         offset: NodalValue,
         markers: npt.NDArray[np.int8],
         shared: npt.NDArray[np.bool_] | None = None,
+        adjust: float | None = None,
         is_self: bool = False,
     ):
         """Pair the slave nodes in the reference configuration; all ranks must take part.
@@ -65,6 +66,7 @@ class Interface(core.Contact):
             markers: 1 at dofs of the bulk with a Dirichlet condition, shape (num_dofs,).
             shared: Which nodes of this rank the master surface has, too, owned ones first; None if
                 it has none.
+            adjust: Gaps and overlaps of the reference configuration that count as none.
             is_self: Whether slave and master are the same surface.
 
         Raises:
@@ -79,6 +81,7 @@ class Interface(core.Contact):
             has_means=has_means,
             prescribed=markers,
             shared=None if shared is None else shared[: halo.num_owned],
+            adjust=adjust,
         )
         self.halo = halo
         self.is_self = is_self

@@ -152,6 +152,11 @@ int main(int argc, char* argv[])
             { couple(make(cx::Surface(tags_of(*other), {11}), plane_at(0))); });
     refuses("at least 0",
             [&] { couple(make(bottom, plane_at(0), {.friction = -1})); });
+    refuses("adjust must be a finite length",
+            [&] { couple(make(bottom, plane_at(0), {.adjust = -1})); });
+    refuses(
+        "adjust is not for ties", [&]
+        { couple(make(bottom, plane_at(0), {.tied = true, .adjust = 0.1})); });
     refuses("offset of a contact is not finite",
             [&] { couple(make(bottom, plane_at(0), {.offset = NAN})); });
     refuses("linear Lagrange space",

@@ -197,6 +197,9 @@ int main(int argc, char* argv[])
           {.friction = 0.3, .method = mortar, .offset = offset});
     solve(scene, "disc", std::make_shared<obstacle::Sphere>(middle, 4.0),
           {.friction = 0.1, .offset = offset});
+    solve(scene, "adjusted disc",
+          std::make_shared<obstacle::Sphere>(middle, 4.0),
+          {.friction = 0.1, .offset = offset, .adjust = 0.1});
     solve(scene, "neo-Hooke", base, {.friction = 0.3, .offset = offset},
           form_neo_hooke_F, form_neo_hooke_J);
     const auto weight = [](const auto& x) { return 1 + x[0] / 2; };

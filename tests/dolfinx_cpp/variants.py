@@ -101,6 +101,7 @@ def main() -> None:
     solve("plane", tags, V, plane, **rubs)
     solve("mortar plane", tags, V, plane, **mortar, **rubs)
     solve("disc", tags, V, disc, friction=0.1, **little)
+    solve("adjusted disc", tags, V, disc, friction=0.1, **little, adjust=0.1)
     solve("neo-Hooke", tags, V, base, **rubs)
     weight: Any = {"weight": 1 + ufl.SpatialCoordinate(mesh)[0] / 2, **little}
     solve("weight", tags, V, base, **weight)

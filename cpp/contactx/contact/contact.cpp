@@ -74,7 +74,8 @@ Contact::Contact(std::shared_ptr<parallel::Halo> halo,
     _history = std::make_shared<SlipHistory>(n, gdim());
   _touched.assign(n, 0);
   _had_master.assign(n, 0);
-  _offset.assign(n, 0);
+  for (auto* values : {&_given, &_adjusted, &_offset})
+    values->assign(n, 0);
   _is_left_out.assign(n, 0);
   if (not _options.shared.empty())
     for (std::int32_t i = 0; i < n; ++i)
@@ -96,6 +97,8 @@ Contact::Contact(std::shared_ptr<parallel::Halo> halo,
   take(_master->pairs());
   find_immobile();
   find_rest();
+  if (_options.adjust)
+    find_adjusted(*_options.adjust);
 }
 
 /// Finds what ties measure as movement where nothing has moved: integration
@@ -133,10 +136,32 @@ void Contact::set_offset(std::span<const double> offset)
 {
   require(offset.size() == _offset.size(),
           "offset must have a value for each slave node");
-  if (std::ranges::equal(offset, _offset))
+  if (std::ranges::equal(offset, _given))
     return;
-  _offset.assign(offset.begin(), offset.end());
+  _given.assign(offset.begin(), offset.end());
+  std::ranges::transform(_given, _adjusted, _offset.begin(), std::plus());
   _evaluated_version = -1;
+}
+
+/// Finds the gaps and overlaps that count as none.
+void Contact::find_adjusted(double length)
+{
+  _halo->ranks().agree(
+      [&]
+      {
+        require(std::isfinite(length) and length >= 0,
+                "adjust must be a finite length of at least 0");
+        require(not _law->is_tied(),
+                "adjust is not for ties, which keep the gaps of the reference "
+                "configuration as they are: leave it out");
+        const auto reference = _halo->reference();
+        std::vector<double> gap(_offset.size());
+        assemble("gap", std::vector<double>(reference.size(), 0), gap);
+        const std::vector<std::int8_t> paired = _master->paired();
+        for (std::size_t i = 0; i < gap.size(); ++i)
+          _adjusted[i] = paired[i] and std::abs(gap[i]) <= length ? gap[i] : 0;
+      });
+  _offset = _adjusted;
 }
 
 void Contact::set_active(bool is_active)

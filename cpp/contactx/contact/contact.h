@@ -12,6 +12,7 @@
 #include "slip_history.h"
 #include <array>
 #include <memory>
+#include <optional>
 
 namespace contactx::contact
 {
@@ -44,6 +45,10 @@ public:
     /// 1 at owned nodes that the master surface has, too: those of a crack's
     /// tip, which have no gap (shape=(num_owned)); empty for none
     std::vector<std::int8_t> shared;
+    /// Gaps and overlaps of the reference configuration that are at most so
+    /// large count as none, for good: a length that is taken off the gap of
+    /// each slave node, which puts no strain on the bodies
+    std::optional<double> adjust = {};
   };
 
   /// @brief Pair the slave nodes in the reference configuration.
@@ -52,7 +57,8 @@ public:
   /// @param[in] master Master, without pairs yet.
   /// @param[in] law Contact law.
   /// @param[in] options How the contact is.
-  /// @throws std::invalid_argument if sizes do not fit.
+  /// @throws std::invalid_argument if sizes do not fit, or `adjust` is
+  /// negative, not finite, or given for a tie.
   Contact(std::shared_ptr<parallel::Halo> halo,
           std::shared_ptr<const SlaveNodes> slaves,
           std::shared_ptr<Master> master, std::shared_ptr<law::Law> law,
@@ -128,7 +134,12 @@ public:
   /// @throws std::invalid_argument if there are not as many.
   void set_offset(std::span<const double> offset);
 
-  /// @brief Offset, the length that is taken off the gap (shape=(n)).
+  /// @brief Gaps of the reference configuration that count as none, see
+  /// Options::adjust (shape=(n)).
+  const std::vector<double>& adjusted() const { return _adjusted; }
+
+  /// @brief Offset and the gaps that count as none, the length that is taken
+  /// off the gap (shape=(n)).
   const std::vector<double>& offset() const { return _offset; }
 
   /// @brief Take other Dirichlet conditions from now on.
@@ -225,6 +236,7 @@ private:
   void find_front();
   void leave_out_empty();
   void find_rest();
+  void find_adjusted(double length);
   void take(std::vector<Pairs> pairs);
   std::int32_t pair(std::span<const double> x);
   void find_immobile();
@@ -253,7 +265,8 @@ private:
   std::vector<std::shared_ptr<Pairs>> _pairs;
   std::int64_t _version = 0;
   int _skipped_searches = 0;
-  std::vector<double> _offset, _front;
+  std::vector<double> _given, _adjusted, _offset; // the last is their sum
+  std::vector<double> _front;
   std::vector<double> _rest;      // (n, gdim), in the reference configuration
   std::vector<std::int8_t> _free; // displacements of all nodes
   std::vector<std::int8_t> _touched, _had_master, _is_left_out;

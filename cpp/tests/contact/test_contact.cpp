@@ -227,6 +227,48 @@ TYPED_TEST(Contacts, GapsAreHeightsLessWhatIsTakenOff)
   }
 }
 
+TYPED_TEST(Contacts, AdjustedGapsCountAsNone)
+{
+  for (const int dim : {2, 3})
+    for (const Sliding sliding : {Sliding::finite, Sliding::small})
+    {
+      // Slave nodes are 0.05 above the master
+      const ContactScene scene(dim);
+      const auto contact = [&](std::shared_ptr<law::Law> law, double adjust)
+      {
+        return scene.template contact<TypeParam>(std::move(law), sliding, {},
+                                                 adjust);
+      };
+      const auto frictionless = std::make_shared<law::Frictionless>();
+      const std::int32_t n = scene.sheets.num_slaves;
+      for (const double adjust : {0.06, 0.04})
+      {
+        const double taken = adjust > 0.05 ? 0.05 : 0;
+        const auto one = contact(frictionless, adjust);
+        const auto expect = [&](double gap)
+        {
+          one->update_gap();
+          for (std::int32_t i = 0; i < n; ++i)
+          {
+            EXPECT_NEAR(one->adjusted()[i], taken, 1e-14);
+            EXPECT_NEAR(one->nodes()->gap[i], gap, 1e-14);
+          }
+        };
+        expect(0.05 - taken);
+        // An offset comes on top
+        one->set_offset(std::vector<double>(n, 0.01));
+        expect(0.04 - taken);
+        // What the bodies move by is a gap
+        for (std::int32_t i = 0; i < n; ++i)
+          (*scene.u)[dim * i + dim - 1] = 0.02;
+        expect(0.06 - taken);
+        std::ranges::fill(*scene.u, 0);
+      }
+      EXPECT_THROW(contact(frictionless, -1), std::invalid_argument);
+      EXPECT_THROW(contact(frictionless, INFINITY), std::invalid_argument);
+    }
+}
+
 TYPED_TEST(Contacts, FrozenKinematicsAreLinear)
 {
   std::mt19937 random(6);

@@ -145,7 +145,9 @@ TEST(KernelsUnderRigidMotion, DigitsDoNotDependOnTheDistanceFromTheOrigin)
           for (const std::string_view term :
                {"gap", "normal", "slip", "residual", "stiffness"})
             if (s.has(sliding, term))
+            {
               EXPECT_EQ(moved(sliding, term), near(sliding, term));
+            }
       });
 }
 } // namespace

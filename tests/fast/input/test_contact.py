@@ -57,6 +57,10 @@ def numbers(name, finite, some=None):
 
 
 ROWS = [
+    Row("adjust: a text", option(adjust="0.1"), TypeError, "adjust is str '0.1': give a length"),
+    Row("adjust: -1", option(adjust=-1.0), ValueError, "adjust is -1.0: give a finite length"),
+    Row("adjust: nan", option(adjust=float("nan")), ValueError, "adjust is nan: give a finite"),
+    Row("adjust: a tie", option(adjust=0.1, tied=True), ValueError, "a tie keeps the gaps"),
     *numbers("friction", [-0.1, float("nan"), float("inf"), -float("inf")]),
     *numbers("offset", [float("nan")], some=["a text"]),
     Row(
