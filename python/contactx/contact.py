@@ -25,7 +25,7 @@ from contactx.parallel.agreement import agreed
 from contactx.parallel.halo import Halo
 from contactx.refined import degree_of, node_levels
 from contactx.surface import Surface
-from contactx.weight import check_weight, nodal_weight
+from contactx.weight import check_weight, is_circumference, nodal_weight
 from dolfinx import fem, mesh
 
 _OPTIONS = (
@@ -154,6 +154,7 @@ class Contact:
         self.tangential_factor = tangential_factor
         self.friction = friction
         self.tied = bool(tied)
+        self._is_axisymmetric = False
         self._interface: Interface | None = None
         self._fields: Fields | None = None
 
@@ -232,7 +233,10 @@ class Contact:
         if degree_of(V) > 1:
             slaves.set_level(level[slaves.owned], self._is_mortar(V))
         if self.is_weighted:
-            slaves.set_weight(nodal_weight(self.weight, V, slaves.owned))
+            values = nodal_weight(self.weight, V, slaves.owned)
+            slaves.set_weight(values)
+            radius = halo.x.reshape(-1, halo.gdim)[slaves.owned, 0]
+            self._is_axisymmetric = halo.gdim == 2 and is_circumference(values, radius, halo.comm)
         with agreed(halo.comm):
             offset = NodalValue(self.offset, "offset", V, slaves.owned)
             own = self.friction
@@ -538,8 +542,15 @@ class Contact:
         Raises:
             TypeError: If the point is not of real numbers.
             ValueError: If it has another shape, or is not finite.
+            RuntimeError: If the model is axisymmetric: forces on a ring have no moment about a
+                point in the plane of the mesh.
         """
         gdim = len(self.force)
+        if self._is_axisymmetric:
+            raise RuntimeError(
+                f"{self} has a weight in proportion to the radius, as in an axisymmetric model, "
+                "where the forces around the axis have no moment: leave it out"
+            )
         try:
             at = np.asarray(point, dtype=np.float64)
         except (TypeError, ValueError):

@@ -19,6 +19,11 @@ from contactx.parallel.reduce import anywhere, total
 from contactx.refined import facet_parts
 from dolfinx import cpp, fem, mesh
 
+_CELLS = tuple(
+    getattr(mesh.CellType, name)
+    for name in ("triangle", "quadrilateral", "tetrahedron", "hexahedron")
+)
+
 
 @dataclass(frozen=True)
 class FacetList:
@@ -60,7 +65,7 @@ class Surface:
         Raises:
             TypeError: If the arguments are of another kind.
             ValueError: If the tags are not of facets or of facets that do not exist, no tag is
-                given, or a tag is not there.
+                given, a tag is not there, or the cells are wedges or pyramids.
         """
         if not isinstance(facet_tags, mesh.MeshTags):
             raise TypeError(
@@ -74,6 +79,12 @@ class Surface:
                 f"of this mesh have dimension {tdim - 1}: pass the facet tags"
             )
         topology = facet_tags.topology
+        if topology.cell_type not in _CELLS:
+            raise ValueError(
+                f"the mesh has cells of the kind {topology.cell_type.name}, whose facets DOLFINx "
+                "0.11 does not integrate over: contact needs triangles, quadrilaterals, tetrahedra "
+                "or hexahedra"
+            )
         comm: MPI.Comm = topology.comm
         facets = topology.index_map(tdim - 1)
         count = facets.size_local + facets.num_ghosts

@@ -41,7 +41,7 @@ class Mass:
             options: Options of the compilation.
 
         Raises:
-            ValueError: If a mass is not positive and finite.
+            ValueError: If a mass is not positive and finite, or lumping leaves none.
         """
         self._form = fem.form(form, **options)
         self._kind = kind
@@ -49,8 +49,15 @@ class Mass:
         self._A.assemble()
         self._comm = self._A.comm.tompi4py()
         self._diagonal: npt.NDArray[np.float64] = self._A.getDiagonal().array.copy()
-        good = np.isfinite(self._diagonal) & (self._diagonal > 0)
-        if not reduce.everywhere(self._comm, bool(good.all())):
+        none = reduce.total(self._comm, int((self._diagonal == 0).sum()))
+        some = reduce.anywhere(self._comm, bool((self._diagonal > 0).any()))
+        if kind == "lumped" and none > 0 and some and self._all(self._diagonal >= 0):
+            raise ValueError(
+                f'mass "lumped" leaves {none} dofs without a mass: it takes density, with factors '
+                "such as 2 pi r, at vertices, and it is zero at some, as on the axis of an "
+                'axisymmetric model. Give mass="consistent"'
+            )
+        if not self._all(np.isfinite(self._diagonal) & (self._diagonal > 0)):
             raise ValueError(
                 "density gives masses that are not positive and finite: give a density above 0 "
                 "everywhere"
@@ -58,6 +65,9 @@ class Mass:
         self._markers: npt.NDArray[np.bool_] | None = None
         self._inverse = np.zeros(0)
         self._ksp: PETSc.KSP | None = None
+
+    def _all(self, are: npt.NDArray[np.bool_]) -> bool:
+        return reduce.everywhere(self._comm, bool(are.all()))
 
     def product(self, values: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
         """Multiply by the masses; all ranks must take part.

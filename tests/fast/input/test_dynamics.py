@@ -42,6 +42,11 @@ def negative(blocks):
     return x[0] - 0.5
 
 
+def around(blocks):
+    """A density of an axisymmetric model whose mesh touches the axis."""
+    return 2 * ufl.pi * ufl.SpatialCoordinate(blocks.u.function_space.mesh)[0]
+
+
 def energy(blocks):
     return ufl.inner(blocks.u, blocks.u) * ufl.dx
 
@@ -55,6 +60,7 @@ ROWS = [
     Row("nan", dynamics(density=np.nan), ValueError, "density is nan: give a finite number"),
     Row("text", dynamics(density="1"), TypeError, "density is str '1': give a number or"),
     Row("negative", dynamics(density=negative), ValueError, "masses that are not positive"),
+    Row("axis", dynamics(density=around), ValueError, 'without a mass: .* Give mass="consistent"'),
     Row("loads", dynamics(loads=3.0), TypeError, "loads is float 3.0: give a UFL form"),
     Row("no loads", dynamics(loads=energy), ValueError, "loads has 0 arguments: give a form"),
     Row("strain", dynamics(strain_energy=1), TypeError, "strain_energy is int 1: give a function"),
@@ -69,6 +75,10 @@ ROWS = [
 @table(ROWS)
 def test_refused(row):
     refused(row)
+
+
+def test_a_consistent_mass_may_touch_the_axis():
+    dynamics(density=around, mass="consistent")()
 
 
 def test_lumped_masses_of_quadratic_elements_are_refused():

@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """Surfaces and tags."""
 
+from mpi4py import MPI
+
 import numpy as np
 
 import contactx as cx
@@ -18,6 +20,13 @@ from story import displacement
 
 def surface(*tags):
     return cx.Surface(scene().tags, *tags)
+
+
+def wedges():
+    """Facets of a mesh of wedges."""
+    domain = mesh.create_box(MPI.COMM_WORLD, [[0, 0, 0], [1, 1, 1]], [1, 1, 1], CellType.prism)
+    facets = np.arange(5, dtype=np.int32)
+    cx.Surface(mesh.meshtags(domain, 2, facets, np.full(5, 1, dtype=np.int32)), 1)
 
 
 def tagged(dim, entities, value=5):
@@ -95,6 +104,7 @@ INSIDE = (
 )
 OTHER = r"facet tags of Surface\(tags=\({},\).* belong to another mesh than the displacement"
 ROWS = [
+    Row("wedges", wedges, ValueError, "cells of the kind prism, .* triangles, quadrilaterals"),
     Row("no tags", lambda: surface(), ValueError, "at least one tag: its surface is empty"),
     Row("an empty list", lambda: surface([]), ValueError, "at least one tag: its surface is empty"),
     Row(

@@ -55,6 +55,25 @@ def test_a_thickness_scales_forces_alone(options, method):
     assert contacts[1].force == pytest.approx(0.25 * contacts[0].force, abs=1e-12)
 
 
+def test_forces_around_an_axis_have_no_moment():
+    """But those of a thickness have one, even where it grows in proportion to a coordinate less 1."""
+    for weight, is_around in (
+        (lambda x: 2 * ufl.pi * x[0], True),
+        (lambda x: 0.5 * x[0], True),
+        (lambda x: 1 + x[0], False),
+        (lambda x: 0.25, False),
+    ):
+        blocks = Blocks(CellType.quadrilateral)
+        x = ufl.SpatialCoordinate(blocks.u.function_space.mesh)
+        contact = blocks.contact(weight=weight(x))
+        blocks.problem(contact)
+        if is_around:
+            with pytest.raises(RuntimeError, match="the forces around the axis have no moment"):
+                contact.moment((0.0, 0.0))
+        else:
+            assert contact.moment((0.0, 0.0)) == 0
+
+
 def wedge(cell: CellType, master: cx.Plane | None = None, **options) -> cx.Contact:
     """Blocks without Poisson's effect whose thickness grows along the interface, pressed by 0.01.
 
