@@ -56,7 +56,7 @@ def test_a_thickness_scales_forces_alone(options, method):
 
 
 def test_forces_around_an_axis_have_no_moment():
-    """But those of a thickness have one, even where it grows in proportion to a coordinate less 1."""
+    """But those of a thickness have one, even where it grows along a coordinate."""
     for weight, is_around in (
         (lambda x: 2 * ufl.pi * x[0], True),
         (lambda x: 0.5 * x[0], True),
