@@ -12,6 +12,7 @@ import contactx as cx
 
 from ranks import (
     partitions,
+    scenes_adjusted,
     scenes_by_bodies,
     scenes_coupled,
     scenes_elastic,
@@ -34,6 +35,7 @@ _MODULES = (
     scenes_by_bodies,
     scenes_moving,
     scenes_self,
+    scenes_adjusted,
 )
 
 # Functions that yield the problem after each step

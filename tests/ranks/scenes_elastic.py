@@ -54,14 +54,6 @@ def hertz_condensed() -> Iterator[cx.ContactProblem]:
         yield scene.problem
 
 
-def adjusted() -> Iterator[cx.ContactProblem]:
-    """Blocks that overlap in the mesh, which counts as none."""
-    scene = Blocks(CellType.quadrilateral, gap=-0.02, n_upper=7, n_lower=8)
-    problem = scene.problem(scene.contact(friction=0.1, adjust=0.03))
-    problem.solve()
-    yield problem
-
-
 def hexahedra() -> Iterator[cx.ContactProblem]:
     """Facets that warp; the outer ring of slave nodes hangs over."""
     scene = Blocks(CellType.hexahedron, down=0.1, n_upper=4, n_lower=5)

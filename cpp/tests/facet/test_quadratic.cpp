@@ -207,7 +207,7 @@ TEST(CornerAreas, OfPartsAreTheIntegralsOfQuadraticShapeFunctions)
   const Parts p = two_triangles();
   // The middles are those of straight edges
   std::vector<double> x{0, 0, 0, 2, 0, 0, 0, 1, 0, 2, 1, 0};
-  for (const auto [a, b] : {std::pair{1, 2}, {0, 2}, {0, 1}, {2, 3}, {1, 3}})
+  for (const auto& [a, b] : {std::pair{1, 2}, {0, 2}, {0, 1}, {2, 3}, {1, 3}})
     for (int k = 0; k < 3; ++k)
       x.push_back(0.5 * (x[3 * a + k] + x[3 * b + k]));
   for (const bool of_basis : {false, true})
