@@ -227,8 +227,9 @@ public:
     const std::span<const std::int32_t> slaves = slave_nodes();
     // In self-contact all nodes may be slaves: those that are in contact, as no
     // node is on both sides
+    const bool each_counts = not is_self();
     for (std::size_t i = 0; i < slaves.size(); ++i)
-      if (not is_self() or discrete().nodes()->closed(i))
+      if (each_counts or discrete().nodes()->closed(i))
         for (int k = 0; k < gdim; ++k)
           sum[k] -= forces[gdim * slaves[i] + k];
     halo.ranks().reduce(std::span<double>(sum), parallel::Reduction::sum);

@@ -14,15 +14,11 @@ import numpy as np
 import numpy.typing as npt
 
 import basix
+from contactx.geometry.cells import KINDS
 from contactx.parallel.agreement import agreed
 from contactx.parallel.reduce import anywhere, total
 from contactx.refined import facet_parts
 from dolfinx import cpp, fem, mesh
-
-_CELLS = tuple(
-    getattr(mesh.CellType, name)
-    for name in ("triangle", "quadrilateral", "tetrahedron", "hexahedron")
-)
 
 
 @dataclass(frozen=True)
@@ -79,7 +75,7 @@ class Surface:
                 f"of this mesh have dimension {tdim - 1}: pass the facet tags"
             )
         topology = facet_tags.topology
-        if topology.cell_type not in _CELLS:
+        if topology.cell_type not in KINDS:
             raise ValueError(
                 f"the mesh has cells of the kind {topology.cell_type.name}, whose facets DOLFINx "
                 "0.11 does not integrate over: contact needs triangles, quadrilaterals, tetrahedra "

@@ -18,6 +18,8 @@ _ROUNDING = 1e-12
 # Cells, for which memory for their corners is enough
 _AT_ONCE = 1 << 16
 _SIMPLICES = (CellType.triangle, CellType.tetrahedron)
+# Kinds of cells that contact is made for
+KINDS = (*_SIMPLICES, CellType.quadrilateral, CellType.hexahedron)
 
 
 def _corners(cell_type: CellType, gdim: int) -> npt.NDArray[np.int64]:
@@ -74,7 +76,7 @@ def check_cells(domain: mesh.Mesh) -> None:
         ValueError: If a cell of any rank is degenerate, on all ranks.
     """
     topology, geometry = domain.topology, domain.geometry
-    if topology.cell_type not in (*_SIMPLICES, CellType.quadrilateral, CellType.hexahedron):
+    if topology.cell_type not in KINDS:
         return
     owned = topology.index_map(topology.dim).size_local
     # Vertices come first in the geometry of a cell

@@ -123,8 +123,8 @@ def with_springs():
     return count_iterations()
 
 
-# How much fewer they are than with either end depends on the builds of PETSc and BLAS: 3 to 25 %
-# in place of those for short waves
+# In place of those for short waves: 217 for 307 by OpenBLAS's kernels for Haswell, but 217 for 224 by
+# those for newer processors
 @pytest.mark.parametrize("short_waves, saved", [(0.0, 0.1), (1.0, 0.0)])
 def test_springs_lie_between_those_for_long_waves_and_for_short_ones(
     short_waves, saved, with_springs, monkeypatch
