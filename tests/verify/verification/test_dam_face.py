@@ -123,8 +123,8 @@ def with_springs():
     return count_iterations()
 
 
-# In place of those for short waves: 217 for 307 by OpenBLAS's kernels for Haswell, 217 for 224 by those
-# that it chooses on an AMD EPYC
+# In place of those for short waves: 217 for 307 by OpenBLAS's kernels for Haswell, 217 for 224 by
+# those of its own choice on an AMD EPYC
 @pytest.mark.parametrize("short_waves, saved", [(0.0, 0.1), (1.0, 0.0)])
 def test_springs_lie_between_those_for_long_waves_and_for_short_ones(
     short_waves, saved, with_springs, monkeypatch
