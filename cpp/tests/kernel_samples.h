@@ -93,6 +93,14 @@ struct Sample
       renew(*this);
   }
 
+  /// @brief Whether the pair keeps the normal that the search found.
+  bool keeps_normal() const
+  {
+    const kernel::MortarLayout layout(kind.num_slaves, kind.num_nodes);
+    return kind.is_mortar() and !kind.is_rigid()
+           and at(Coefficient::pair)[layout.keeps] != 0;
+  }
+
   bool has(std::string_view sliding, std::string_view term) const
   {
     return find_if_any(kind.law, sliding, term, kind.num_nodes, kind.gdim,
@@ -209,8 +217,11 @@ inline void integrate_facets(Sample& sample)
   double* p = sample.at(Coefficient::pair);
   const kernel::MortarLayout at(n, m);
   const std::vector<double> weight(p + at.factor, p + at.factor + n);
+  std::vector<double> kept;
+  if (p[at.keeps] != 0)
+    kept.assign(p + at.normal, p + at.normal + 3);
   const auto all = mortar::integrals(search.slave(), search.master(), pairs, x,
-                                     reference, gdim, {}, weight);
+                                     reference, gdim, kept, weight);
   for (int s = 0; s < n; ++s)
   {
     std::copy_n(&all.weight[mortar::most_nodes * s], m, p + at.weight + m * s);
@@ -222,7 +233,8 @@ inline void integrate_facets(Sample& sample)
 
 /// @brief Put a slave facet before a master facet, within it or not; the pairs
 /// of ties keep their integrals.
-inline void place_facets(Sample& s, Generator& random, bool within)
+/// @param[in] keeps Whether the pair keeps a normal, that is not the facet's.
+inline void place_facets(Sample& s, Generator& random, bool within, bool keeps)
 {
   const auto [law, m, gdim, n] = s.kind;
   std::vector<double> x;
@@ -264,9 +276,21 @@ inline void place_facets(Sample& s, Generator& random, bool within)
   for (std::size_t i = 0; i < x.size(); ++i)
     s.at(Coefficient::position)[i] = x[i] - u[i];
   s.covers = within;
-  double* factor = s.at(Coefficient::pair) + kernel::MortarLayout(n, m).factor;
-  std::generate_n(factor, n, [&random] { return random(0.3, 2); });
+  const kernel::MortarLayout at(n, m);
+  double* pair = s.at(Coefficient::pair);
+  std::generate_n(pair + at.factor, n, [&random] { return random(0.3, 2); });
+  pair[at.keeps] = 0;
   integrate_facets(s);
+  if (keeps)
+  {
+    Vector<3> normal{};
+    for (int k = 0; k < gdim; ++k)
+      normal[k] = pair[at.normal + k] + random(-0.2, 0.2);
+    normal = (1 / norm(normal)) * normal;
+    std::ranges::copy(normal, pair + at.normal);
+    pair[at.keeps] = 1;
+    integrate_facets(s);
+  }
   if (law != Law::tied)
     s.renew = integrate_facets;
 }
@@ -434,7 +458,7 @@ inline std::vector<Sample> samples(const Kind& kind)
     if (kind.is_mortar() and kind.is_rigid())
       place_facet_before_obstacle(s, random);
     else if (kind.is_mortar())
-      place_facets(s, random, i < 2);
+      place_facets(s, random, i < 2, kind.law != Law::tied and i % 2 == 1);
     else if (kind.is_rigid())
       place_before_obstacle(s, random);
     else

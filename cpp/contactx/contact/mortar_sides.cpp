@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "mortar_sides.h"
+#include "../facet/middle.h"
 #include "../kernel/layout.h"
 #include "../search/surface.h"
 #include <cmath>
@@ -10,6 +11,13 @@
 
 using namespace contactx;
 using namespace contactx::contact;
+
+namespace
+{
+/// Cosine of the angle between facets of a node from which on they make an
+/// edge: meshes with less than seven facets round a circle have such nodes, too
+constexpr double cosine_at_edges = 0.64;
+} // namespace
 
 void contactx::contact::normalise(std::span<double> vectors)
 {
@@ -133,6 +141,7 @@ MortarSides::total(std::span<const double> values,
 std::vector<Pairs> MortarSides::pairs(const Mortar& mortar,
                                       std::span<const double> dual,
                                       std::span<const double> normal,
+                                      std::span<const std::int8_t> keeps,
                                       bool is_movement) const
 {
   std::vector<Pairs> groups;
@@ -170,6 +179,7 @@ std::vector<Pairs> MortarSides::pairs(const Mortar& mortar,
         }
         for (int k = 0; k < 3; ++k)
           data[at.normal + k] = normal[3 * std::size_t(e) + k];
+        data[at.keeps] = keeps[e];
         const std::vector<double>& weight = _slaves->weight();
         for (int k = 0; k < 4; ++k)
         {
@@ -213,12 +223,12 @@ std::vector<double> MortarSides::frames(std::span<const double> x) const
   return frames;
 }
 
-std::vector<double> MortarSides::between(std::span<const double> x,
-                                         const mortar::FacetPairs& pairs,
-                                         std::span<const double> weight,
-                                         std::span<const double> normal) const
+std::vector<double>
+MortarSides::master_normals(std::span<const double> x,
+                            const mortar::FacetPairs& pairs,
+                            std::span<const double> weight) const
 {
-  std::vector<double> mean(normal.size(), 0);
+  std::vector<double> mean(3 * std::size_t(num_slave_facets()), 0);
   for (std::size_t p = 0; p < pairs.size(); ++p)
   {
     double share = 0;
@@ -230,6 +240,46 @@ std::vector<double> MortarSides::between(std::span<const double> x,
       mean[3 * std::size_t(pairs.slave[p]) + k] += share * theirs[k];
   }
   normalise(mean);
+  return mean;
+}
+
+std::vector<std::int8_t> MortarSides::at_edges(std::span<const double> x) const
+{
+  const facet::FacetList facets = _slaves->local();
+  const std::vector<double> here
+      = _slaves->here({x.begin(), x.end()}, _gdim, "x");
+  const std::vector<double> normals
+      = facet::middles(facets, here, _gdim).normals;
+  std::vector<std::vector<std::int32_t>> around(size());
+  for (std::int32_t f = 0; f < facets.size(); ++f)
+    for (const std::int32_t node : facets[f])
+      if (node < std::int32_t(size()))
+        around[node].push_back(f);
+  const auto cosine = [&](std::int32_t e, std::int32_t f)
+  {
+    double c = 0;
+    for (int k = 0; k < _gdim; ++k)
+      c += normals[_gdim * e + k] * normals[_gdim * f + k];
+    return c;
+  };
+  std::vector<std::int8_t> is_edge(size(), 0);
+  for (std::size_t i = 0; i < size(); ++i)
+    for (const std::int32_t e : around[i])
+      for (const std::int32_t f : around[i])
+        if (cosine(e, f) < cosine_at_edges)
+          is_edge[i] = 1;
+  const auto marks = _slaves->scatter_forward(std::span(is_edge));
+  const std::vector<double> values(marks.begin(), marks.end());
+  const std::vector<double> most = _slaves->largest(values);
+  return {most.begin(), most.end()};
+}
+
+std::vector<double> MortarSides::between(std::span<const double> x,
+                                         const mortar::FacetPairs& pairs,
+                                         std::span<const double> weight,
+                                         std::span<const double> normal) const
+{
+  std::vector<double> mean = master_normals(x, pairs, weight);
   for (std::size_t k = 0; k < mean.size(); ++k)
     mean[k] += normal[k];
   normalise(mean);

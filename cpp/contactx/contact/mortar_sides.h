@@ -158,14 +158,33 @@ public:
   /// width, width)).
   /// @param[in] normal Normals of the slave facets, those of the master
   /// (shape=(num_facets, 3)).
+  /// @param[in] keeps 1 where finite sliding keeps the normal, 0 where it is
+  /// against the slave facet's (shape=(num_facets)).
   /// @param[in] is_movement Whether they measure slip alone.
   std::vector<Pairs> pairs(const Mortar& mortar, std::span<const double> dual,
                            std::span<const double> normal,
+                           std::span<const std::int8_t> keeps,
                            bool is_movement = false) const;
 
   /// @brief Unit normal and directions along one facet of each owned slave
   /// node, in columns (shape=(n, gdim, gdim)).
   std::vector<double> frames(std::span<const double> x) const;
+
+  /// @brief Mean unit normal of the master facets in front of each slave facet,
+  /// zero where there are none (shape=(num_facets, 3)).
+  /// @param[in] x Positions.
+  /// @param[in] pairs Pairs of facets.
+  /// @param[in] weight Integrals of the pairs (shape=(num_pairs, width,
+  /// width)).
+  std::vector<double> master_normals(std::span<const double> x,
+                                     const mortar::FacetPairs& pairs,
+                                     std::span<const double> weight) const;
+
+  /// @brief 1 at slave facets that have a node on an edge of the surface, where
+  /// facets meet at an angle that no mesh of a smooth surface has, else 0;
+  /// collective.
+  /// @param[in] x Positions.
+  std::vector<std::int8_t> at_edges(std::span<const double> x) const;
 
   /// @brief Normals midway between those of each slave facet and its master
   /// (shape=(num_facets, 3)): small sliding keeps those of the reference, and

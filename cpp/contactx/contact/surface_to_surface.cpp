@@ -19,6 +19,9 @@ namespace
 // How far beyond a slave facet's edges pairs are found in advance, as a part of
 // its size
 constexpr double margin_ahead = 0.1;
+// Part of the best cosine of the angle between a slave facet and the facets in
+// front of it and its neighbours, below which a facet looks past it
+constexpr double facing_part = 0.5;
 // Part of a slave node's area that must be covered for it to be paired, and to
 // stay so
 constexpr double enter = 0.06;
@@ -45,6 +48,9 @@ SurfaceToSurface::SurfaceToSurface(
       _area(_sides.size(), 0), _paired(_sides.size(), 0),
       _weight(_slaves->corner_weight())
 {
+  if (not _options.is_small)
+    _edges = _sides.at_edges(_x0);
+  _keeps.assign(_sides.num_slave_facets(), 0);
   _inradius = parallel::least(_halo->ranks(), _sides.inradius());
   _at = _x0;
   meet();
@@ -99,13 +105,14 @@ void SurfaceToSurface::pair(std::span<const double> x)
     const double margin = _options.is_small ? 0.0 : margin_ahead;
     look(now, margin);
     update();
-    _found = without_outside(now, _search->find(now, _options.reach, margin));
+    _found = find(now, margin);
     _searched.clear();
     for (const std::int32_t node : _nodes)
       _searched.insert(_searched.end(), now.begin() + std::size_t(node) * g,
                        now.begin() + std::size_t(node + 1) * g);
   }
   update();
+  take_normals(now);
   integrate(now);
   for (std::size_t i = 0; i < _paired.size(); ++i)
     _paired[i] = _area[i] > (_paired[i] ? leave : enter) * _whole[i];
@@ -126,8 +133,7 @@ bool SurfaceToSurface::lacks(std::span<const double> x)
   look(x, 0.0);
   const std::vector<double> now
       = _halo->updated({x.begin(), x.end()}, gdim(), version);
-  const mortar::FacetPairs found
-      = without_outside(now, _search->find(now, _options.reach, 0.0));
+  const mortar::FacetPairs found = find(now, 0.0);
   return parallel::anywhere(_halo->ranks(),
                             not mortar::contains(*_found, found));
 }
@@ -149,6 +155,49 @@ bool SurfaceToSurface::has_moved(std::span<const double> x) const
   // Both sides may have moved
   return parallel::largest(_halo->ranks(), way)
          > 0.25 * margin_ahead * _inradius;
+}
+
+mortar::FacetPairs SurfaceToSurface::find(std::span<const double> x,
+                                          double margin)
+{
+  return facing(
+      x, without_outside(x, _search->find(x, _options.reach, margin)));
+}
+
+/// Pairs but for those with facets that look past the slave facet, when others
+/// around it look at it: beyond an edge of the master, its sides are in front
+/// of slave facets that touch the edge, far off, and would count in the mean.
+mortar::FacetPairs
+SurfaceToSurface::facing(std::span<const double> x,
+                         const mortar::FacetPairs& found) const
+{
+  const int g = gdim();
+  const std::vector<double> ours
+      = facet::middles(_slaves->facets(), x, g).normals;
+  const std::vector<double> theirs
+      = facet::middles(_surface->facets(), x, g).normals;
+  std::vector<double> cosine(found.size(), 0);
+  for (std::size_t p = 0; p < found.size(); ++p)
+    for (int k = 0; k < g; ++k)
+      cosine[p] -= ours[std::size_t(found.slave[p]) * g + k]
+                   * theirs[std::size_t(found.master[p]) * g + k];
+  const facet::FacetList local = _slaves->local();
+  std::vector<double> best(_sides.size(), 0);
+  for (std::size_t p = 0; p < found.size(); ++p)
+    for (const std::int32_t i : local[found.slave[p]])
+      if (i < std::int32_t(best.size()))
+        best[i] = std::max(best[i], cosine[p]);
+  const std::vector<double> around
+      = _slaves->largest(_slaves->scatter_forward(std::span<const double>(best)));
+  mortar::FacetPairs kept;
+  for (std::size_t p = 0; p < found.size(); ++p)
+    if (is_at_edge(found.slave[p])
+        or cosine[p] >= facing_part * around[found.slave[p]])
+    {
+      kept.slave.push_back(found.slave[p]);
+      kept.master.push_back(found.master[p]);
+    }
+  return kept;
 }
 
 /// Pairs but for those with facets behind all of the master's body.
@@ -190,18 +239,39 @@ SurfaceToSurface::without_outside(std::span<const double> x,
   return kept;
 }
 
+mortar::Integrals
+SurfaceToSurface::integrals(std::span<const double> x,
+                            std::span<const double> normal) const
+{
+  return mortar::integrals({_slaves->facets(), &_sides.slave_wholes()},
+                           {_surface->facets(), &_sides.master_wholes()},
+                           *_found, x, _halo->reference(), gdim(), normal,
+                           _weight);
+}
+
+/// At an edge of the slave no facet has the normal of what touches it: its
+/// facets take the master's, until the next search.
+void SurfaceToSurface::take_normals(std::span<const double> x)
+{
+  _kept.clear();
+  std::ranges::fill(_keeps, 0);
+  if (std::ranges::none_of(_found->slave, [this](std::int32_t f)
+                           { return is_at_edge(f); }))
+    return;
+  _kept = _sides.master_normals(x, *_found, integrals(x, {}).weight);
+  for (std::size_t f = 0; f < _keeps.size(); ++f)
+    for (int k = 0; k < 3; ++k)
+    {
+      _kept[3 * f + k] *= _edges[f];
+      _keeps[f] = _keeps[f] or _kept[3 * f + k] != 0;
+    }
+}
+
 void SurfaceToSurface::integrate(std::span<const double> x)
 {
-  const auto reference = _halo->reference();
-  const auto integrate = [&](std::span<const double> normal)
-  {
-    return mortar::integrals({_slaves->facets(), &_sides.slave_wholes()},
-                             {_surface->facets(), &_sides.master_wholes()},
-                             *_found, x, reference, gdim(), normal, _weight);
-  };
-  mortar::Integrals all = integrate({});
+  mortar::Integrals all = integrals(x, _kept);
   if (_options.is_small)
-    all = integrate(_sides.between(x, *_found, all.weight, all.normal));
+    all = integrals(x, _sides.between(x, *_found, all.weight, all.normal));
   _at.assign(x.begin(), x.end());
   _area = _sides.total(all.area);
   _dual = std::move(all.dual);
@@ -495,6 +565,8 @@ SurfaceTie::SurfaceTie(std::shared_ptr<parallel::Halo> halo,
                        {options.reach, options.is_small, false, options.level}),
       _offset(sides().size(), 0)
 {
+  // Pairs for good must turn with the facets
+  take_own_normals();
 }
 
 std::int32_t SurfaceTie::search(std::span<const double> x,

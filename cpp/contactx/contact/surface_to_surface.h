@@ -74,6 +74,9 @@ protected:
   /// @brief True after the first search.
   bool is_found() const { return _found.has_value(); }
 
+  /// @brief Measure along the slave facets' own normals at edges, too.
+  void take_own_normals() { _edges.clear(); }
+
   /// @brief Both surfaces.
   const MortarSides& sides() const { return _sides; }
 
@@ -84,7 +87,7 @@ protected:
   std::vector<Pairs> groups(const Mortar& mortar,
                             bool is_movement = false) const
   {
-    return _sides.pairs(mortar, _dual, _normal, is_movement);
+    return _sides.pairs(mortar, _dual, _normal, _keeps, is_movement);
   }
 
 private:
@@ -93,9 +96,19 @@ private:
   void look(std::span<const double> x, double margin);
   bool lacks(std::span<const double> x);
   bool has_moved(std::span<const double> x) const;
+  mortar::FacetPairs find(std::span<const double> x, double margin);
+  mortar::FacetPairs facing(std::span<const double> x,
+                            const mortar::FacetPairs& found) const;
   mortar::FacetPairs without_outside(std::span<const double> x,
                                      mortar::FacetPairs found) const;
   void integrate(std::span<const double> x);
+  mortar::Integrals integrals(std::span<const double> x,
+                              std::span<const double> normal) const;
+  void take_normals(std::span<const double> x);
+  bool is_at_edge(std::int32_t facet) const
+  {
+    return not _edges.empty() and _edges[facet];
+  }
   Mortar slip_pairs() const;
   Mortar normalised() const;
   Mortar of_slip(std::span<const double> x, std::span<const double> u) const;
@@ -113,6 +126,9 @@ private:
   std::vector<double> _weight; // at the corners of the slave facets
   std::optional<mortar::FacetPairs> _found;
   std::vector<double> _dual, _normal;
+  // Slave facets at edges; those whose direction is kept, and the directions
+  std::vector<std::int8_t> _edges, _keeps;
+  std::vector<double> _kept;
   Mortar _mortar;
 };
 

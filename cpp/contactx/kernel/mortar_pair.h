@@ -104,13 +104,16 @@ struct MortarPair
   /// @brief int Phi_s gap when the integrals were taken.
   double gap(int s) const { return data[layout.gap + s]; }
 
+  /// @brief Whether the normal stays that which the search found.
+  bool keeps_normal() const { return data[layout.keeps] != 0; }
+
   /// @brief Unit normal of the master, against the slave facet's: now, or that
   /// the search found.
   template <bool Turning>
   Vector<gdim> normal() const
   {
     Vector<gdim> n;
-    if constexpr (Turning)
+    if (Turning and not keeps_normal())
       n = -1. * facet::frame<S>(slave, mortar::normal_place<S>()).n;
     else
       std::copy_n(data + layout.normal, gdim, n.begin());

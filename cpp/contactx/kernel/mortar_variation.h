@@ -45,7 +45,7 @@ public:
   explicit MortarVariation(const MortarPair<S, M>& pair)
       : _pair(pair), _normal(pair.slave),
         _master(facet::part_of<M>(pair.master, pair.master_places)),
-        _slave(mortar::part_plane<S>(pair.slave_part(), _normal.frame.n),
+        _slave(plane_of(pair, _normal.frame.n),
                pair.slave_part(),
                facet::part_of<S>(pair.reference, pair.slave_places),
                pair.factor()),
@@ -76,6 +76,8 @@ public:
   std::array<Row, gdim> normal() const
   {
     std::array<Row, gdim> dn{};
+    if (_pair.keeps_normal())
+      return dn;
     for (int i = 0; i < gdim; ++i)
       for (int t = 0; t < S::nodes; ++t)
         for (int k = 0; k < gdim; ++k)
@@ -171,12 +173,12 @@ public:
       for (int k = 0; k < gdim; ++k)
       {
         // A part turns with the facet, a facet itself as its plane does
-        double d = facet::is_linear<S> ? along[t] * plane.n[k] : 0;
+        double d = turns_with_plane() ? along[t] * plane.n[k] : 0;
         for (int a = 0; a < tdim; ++a)
           d += across[a][t] * plane.dual[a][k];
         row[slave_dof(t) + k] += d;
       }
-    if constexpr (!facet::is_linear<S>)
+    if (not turns_with_plane() and not _pair.keeps_normal())
     {
       Vector<gdim> by_normal{};
       for (int a = 0; a < tdim; ++a)
@@ -200,6 +202,20 @@ private:
   static constexpr int distortion = -1;
 
   static Local& at(Factors& f, int j) { return j < 0 ? f.c : f.r[j]; }
+
+  static mortar::Plane<P> plane_of(const MortarPair<S, M>& pair,
+                                   const Vector<gdim>& normal)
+  {
+    if (pair.keeps_normal())
+      return {pair.slave_part(), -1. * pair.template normal<false>()};
+    return mortar::part_plane<S>(pair.slave_part(), normal);
+  }
+
+  // Whether the direction of the projection is the normal of the facet's plane
+  bool turns_with_plane() const
+  {
+    return facet::is_linear<S> and not _pair.keeps_normal();
+  }
 
   // First displacement of a node of the slave facet's part
   int slave_dof(int t) const { return gdim * _pair.slave_places[t]; }

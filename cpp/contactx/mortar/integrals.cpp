@@ -68,20 +68,21 @@ double facet_area(const facet::Nodes<S>& x)
 }
 
 /// Plane of a part of a slave facet, along the mean of given normals of the
-/// master, or along that of the facet.
+/// master unless it is zero, or along that of the facet.
 template <class S>
 Plane<facet::Part<S>>
 plane_of(const facet::Nodes<facet::Part<S>>& part, const facet::Nodes<S>& whole,
          std::span<const std::int32_t> parts, std::span<const double> normal)
 {
-  if (normal.empty())
+  Vector<S::gdim> n{};
+  if (not normal.empty())
+    for (const std::int32_t f : parts)
+      for (int k = 0; k < S::gdim; ++k)
+        n[k] -= normal[3 * f + k];
+  if (n == Vector<S::gdim>{})
     return part_plane<S>(part, facet::is_linear<S>
                                    ? Vector<S::gdim>{}
                                    : FacetNormal<S>(whole).frame.n);
-  Vector<S::gdim> n{};
-  for (const std::int32_t f : parts)
-    for (int k = 0; k < S::gdim; ++k)
-      n[k] -= normal[3 * f + k];
   return {part, parts.size() == 1 ? n : (1 / norm(n)) * n};
 }
 

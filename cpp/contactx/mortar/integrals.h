@@ -71,7 +71,8 @@ struct Side
 /// @param[in] reference Node coordinates in the reference configuration.
 /// @param[in] gdim Geometric dimension, 2 or 3.
 /// @param[in] normal Unit normals of the master to project along, one a slave
-/// facet (shape=(num_facets, 3)); those against the slave facets' own if empty.
+/// facet (shape=(num_facets, 3)); where it is zero, or if empty, that against
+/// the slave facet's own.
 /// @param[in] weight Weight of the integrals, at the corners of the slave
 /// facets (shape=(slave.nodes.size())); 1 if empty.
 Integrals integrals(const Side& slave, const Side& master,

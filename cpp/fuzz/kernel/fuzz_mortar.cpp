@@ -84,6 +84,7 @@ bool fill_pair(Input& in, const Entry& e, Coefficients& w)
     w.at(Coefficient::area)[s] = all.area[s];
   }
   std::copy_n(all.normal.begin(), 3, pair + at.normal);
+  pair[at.keeps] = in.flag();
   return std::all_of(all.area.begin(), all.area.begin() + n,
                      [](double a) { return a > 0; });
 }
