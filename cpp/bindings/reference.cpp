@@ -53,7 +53,7 @@ void contactx_bindings::reference(py::module_& m)
                [](bool is_mortar, bool is_small,
                   std::optional<double> search_distance,
                   const Array<std::int8_t>& level, bool is_self,
-                  std::optional<double> excluded_distance)
+                  std::optional<double> excluded_distance, bool is_smooth)
                {
                  return MasterOptions{is_mortar ? Method::surface_to_surface
                                                 : Method::node_to_surface,
@@ -62,12 +62,14 @@ void contactx_bindings::reference(py::module_& m)
                                       search_distance,
                                       copy(level),
                                       is_self,
-                                      excluded_distance};
+                                      excluded_distance,
+                                      is_smooth};
                }),
            py::kw_only(), py::arg("is_mortar"), py::arg("is_small"),
            py::arg("search_distance"), py::arg("level") = Array<std::int8_t>(),
            py::arg("is_self") = false,
-           py::arg("excluded_distance") = py::none());
+           py::arg("excluded_distance") = py::none(),
+           py::arg("is_smooth") = false);
   m.def(
       "make_surface_master",
       [](const Mesh& mesh, const std::shared_ptr<SlaveNodes>& slaves,

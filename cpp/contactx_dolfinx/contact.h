@@ -40,6 +40,9 @@ struct Options
   /// configuration, up to which facets are no masters of a node; see
   /// search::SelfSight for what it is if not given
   std::optional<double> excluded_distance = std::nullopt;
+  /// Whether linear facets stand for smooth surfaces through their nodes, see
+  /// facet::SmoothFacet
+  bool smooth = false;
   /// What contact is integrated with, at reference positions, as the bulk's
   /// forms are: 2 pi r in axisymmetric models, a thickness; 1 if empty
   std::function<double(const Vector<3>&)> weight = {};
@@ -260,7 +263,8 @@ private:
         .sliding = _options.sliding,
         .search_distance = _options.search_distance,
         .is_self = is_self(),
-        .excluded_distance = _options.excluded_distance};
+        .excluded_distance = _options.excluded_distance,
+        .is_smooth = _options.smooth};
     contact::Contact::Options options{
         .sliding = _options.sliding,
         .has_means = _options.method == Method::surface_to_surface,

@@ -852,6 +852,7 @@ class MasterOptions:
         level: NDArray[np.int8] = ...,
         is_self: bool = False,
         excluded_distance: float | None = None,
+        is_smooth: bool = False,
     ) -> None: ...
 
 def point_text(x: NDArray[np.float64] | Sequence[float], size: float) -> str: ...

@@ -139,8 +139,16 @@ void Contact::set_offset(std::span<const double> offset)
   if (std::ranges::equal(offset, _given))
     return;
   _given.assign(offset.begin(), offset.end());
-  std::ranges::transform(_given, _adjusted, _offset.begin(), std::plus());
+  sum_offset();
   _evaluated_version = -1;
+}
+
+void Contact::sum_offset()
+{
+  std::ranges::transform(_given, _adjusted, _offset.begin(), std::plus());
+  const std::vector<double> rise = _master->rise();
+  if (not rise.empty())
+    std::ranges::transform(_offset, rise, _offset.begin(), std::plus());
 }
 
 /// Finds the gaps and overlaps that count as none.
@@ -159,9 +167,12 @@ void Contact::find_adjusted(double length)
         assemble("gap", std::vector<double>(reference.size(), 0), gap);
         const std::vector<std::int8_t> paired = _master->paired();
         for (std::size_t i = 0; i < gap.size(); ++i)
-          _adjusted[i] = paired[i] and std::abs(gap[i]) <= length ? gap[i] : 0;
+        {
+          const double left = gap[i] - _offset[i];
+          _adjusted[i] = paired[i] and std::abs(left) <= length ? left : 0;
+        }
       });
-  _offset = _adjusted;
+  sum_offset();
 }
 
 void Contact::set_active(bool is_active)
@@ -321,6 +332,7 @@ void Contact::take(std::vector<Pairs> pairs)
   for (std::size_t i = 0; i < _filler.size(); ++i)
     if (_filler[i] > 0)
       _nodes->area[i] = _filler[i];
+  sum_offset();
   _pairs.clear();
   for (Pairs& p : pairs)
     _pairs.push_back(std::make_shared<Pairs>(std::move(p)));

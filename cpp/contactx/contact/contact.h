@@ -138,8 +138,8 @@ public:
   /// Options::adjust (shape=(n)).
   const std::vector<double>& adjusted() const { return _adjusted; }
 
-  /// @brief Offset and the gaps that count as none, the length that is taken
-  /// off the gap (shape=(n)).
+  /// @brief The length that is taken off the gap: offset, the gaps that count
+  /// as none, and what smooth surfaces rise over their facets (shape=(n)).
   const std::vector<double>& offset() const { return _offset; }
 
   /// @brief Take other Dirichlet conditions from now on.
@@ -237,6 +237,7 @@ private:
   void leave_out_empty();
   void find_rest();
   void find_adjusted(double length);
+  void sum_offset();
   void take(std::vector<Pairs> pairs);
   std::int32_t pair(std::span<const double> x);
   void find_immobile();
@@ -265,7 +266,8 @@ private:
   std::vector<std::shared_ptr<Pairs>> _pairs;
   std::int64_t _version = 0;
   int _skipped_searches = 0;
-  std::vector<double> _given, _adjusted, _offset; // the last is their sum
+  // The last is the sum of these and of what smooth surfaces rise
+  std::vector<double> _given, _adjusted, _offset;
   std::vector<double> _front;
   std::vector<double> _rest;      // (n, gdim), in the reference configuration
   std::vector<std::int8_t> _free; // displacements of all nodes

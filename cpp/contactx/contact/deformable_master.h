@@ -25,6 +25,7 @@ struct PairingOptions
   /// Where each node is on quadratic facets, see facet::Shares; empty where
   /// facets are linear
   std::vector<std::int8_t> level = {};
+  bool is_smooth = false; ///< whether linear facets stand for smooth surfaces
 };
 
 /// @brief Pairs with the facets of a deformable body.

@@ -132,6 +132,11 @@ public:
   /// empty for none.
   virtual std::vector<double> movement() const { return {}; }
 
+  /// @brief Length that is taken off the gap of each slave node, as the last
+  /// search found it: how far smooth surfaces rise over their facets (shape=(n));
+  /// empty for nothing.
+  virtual std::vector<double> rise() const { return {}; }
+
   /// @brief Area that each slave node's multiplier acts on (shape=(n)).
   /// @param[in] whole Its part of the slave surface in front of the master
   /// (shape=(n)).

@@ -3,6 +3,7 @@
 
 #include "mortar_sides.h"
 #include "../facet/middle.h"
+#include "../facet/smooth.h"
 #include "../kernel/layout.h"
 #include "../search/surface.h"
 #include <cmath>
@@ -11,13 +12,6 @@
 
 using namespace contactx;
 using namespace contactx::contact;
-
-namespace
-{
-/// Cosine of the angle between facets of a node from which on they make an
-/// edge: meshes with less than seven facets round a circle have such nodes, too
-constexpr double cosine_at_edges = 0.64;
-} // namespace
 
 void contactx::contact::normalise(std::span<double> vectors)
 {
@@ -266,7 +260,7 @@ std::vector<std::int8_t> MortarSides::at_edges(std::span<const double> x) const
   for (std::size_t i = 0; i < size(); ++i)
     for (const std::int32_t e : around[i])
       for (const std::int32_t f : around[i])
-        if (cosine(e, f) < cosine_at_edges)
+        if (cosine(e, f) < facet::cosine_at_edges)
           is_edge[i] = 1;
   const auto marks = _slaves->scatter_forward(std::span(is_edge));
   const std::vector<double> values(marks.begin(), marks.end());

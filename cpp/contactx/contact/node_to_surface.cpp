@@ -3,6 +3,7 @@
 
 #include "node_to_surface.h"
 #include "../audit/penetration.h"
+#include "../facet/gather.h"
 #include "../kernel/layout.h"
 #include "../parallel/spread.h"
 #include "mobility.h"
@@ -34,6 +35,9 @@ NodeToSurface::NodeToSurface(std::shared_ptr<parallel::Halo> halo,
                _halo->gdim(), _halo->num_owned())
 {
   _at = _x0;
+  if (_options.is_smooth)
+    _smooth.emplace(*_halo, _surface->own());
+  find_places();
 }
 
 std::vector<double> NodeToSurface::at_slaves(std::span<const double> x) const
@@ -68,7 +72,50 @@ std::int32_t NodeToSurface::search(std::span<const double> x,
   std::int32_t changed
       = _surface->pair(_pairing, _slaves->facets(), at, _options.reach, closed);
   _at = _halo->updated(std::move(at), gdim(), version);
-  return changed + drop_outside(_at, closed);
+  changed += drop_outside(_at, closed);
+  find_places();
+  return changed;
+}
+
+/// Finds where slave nodes are measured: where the search found them, or on the
+/// smooth surface but for its edges.
+void NodeToSurface::find_places()
+{
+  _places = {_pairing.feature(), _pairing.xi(), _pairing.cone(),
+             _pairing.normal(), {}};
+  if (not _smooth)
+    return;
+  _places.rise.assign(size(), 0);
+  const auto reference = _halo->reference();
+  const facet::FacetList facets = _surface->facets();
+  for (std::size_t i = 0; i < size(); ++i)
+  {
+    const std::int32_t f = _pairing.facet()[i];
+    if (f < 0)
+      continue;
+    const facet::SmoothFacet& smooth = _smooth->of(*_halo, facets[f]);
+    const int feature = _pairing.feature()[i];
+    if (feature != facet::interior and smooth.sharp >> (feature - 1) & 1)
+      continue;
+    facet::visit(
+        static_cast<int>(facets[f].size()),
+        [&]<class F>(F)
+        {
+          if (F::gdim != gdim())
+            return;
+          facet::Local<F> xi;
+          std::copy_n(_pairing.xi().begin() + 2 * i, F::tdim, xi.begin());
+          const auto at = facet::smooth_projection<F>(
+              facet::gather<F>(facets[f], reference),
+              facet::gather<F>(facets[f], _at), smooth,
+              facet::point<F::gdim>(_pairing.slaves()[i], _at), xi);
+          _places.feature[i] = facet::kept;
+          std::ranges::copy(at.xi, _places.xi.begin() + 2 * i);
+          std::ranges::copy(at.cone, _places.cone.begin() + 3 * i);
+          std::ranges::copy(at.normal, _places.normal.begin() + 3 * i);
+          _places.rise[i] = at.rise;
+        });
+  }
 }
 
 /// Drops pairs with facets behind all of the master's body.
@@ -160,7 +207,7 @@ std::vector<std::int8_t> NodeToSurface::paired() const
 
 std::vector<double> NodeToSurface::normals() const
 {
-  std::vector<double> normals = _pairing.normal();
+  std::vector<double> normals = _places.normal;
   for (std::size_t i = 0; i < size(); ++i)
     if (_pairing.facet()[i] < 0)
       std::fill_n(normals.begin() + 3 * i, 3, 0.0);
@@ -191,10 +238,10 @@ std::vector<Pairs> NodeToSurface::pairs() const
       const std::size_t at = group.data.size();
       group.data.resize(at + pair_size);
       double* data = group.data.data() + at;
-      data[pair_feature] = _pairing.feature()[i];
-      std::copy_n(_pairing.xi().begin() + 2 * i, 2, data + pair_xi);
-      std::copy_n(_pairing.cone().begin() + 3 * i, 3, data + pair_cone);
-      std::copy_n(_pairing.normal().begin() + 3 * i, 3, data + pair_normal);
+      data[pair_feature] = _places.feature[i];
+      std::copy_n(_places.xi.begin() + 2 * i, 2, data + pair_xi);
+      std::copy_n(_places.cone.begin() + 3 * i, 3, data + pair_cone);
+      std::copy_n(_places.normal.begin() + 3 * i, 3, data + pair_normal);
       if (_options.measures_slip)
         group.slip.insert(group.slip.end(), slips.begin() + slip_size * i,
                           slips.begin() + slip_size * (i + 1));
@@ -222,7 +269,7 @@ std::vector<double> NodeToSurface::slip() const
     for (std::size_t i = 0; i < size(); ++i)
       std::copy_n(_origin.moved().begin() + g * i, g,
                   data.begin() + slip_size * i + slip_origin);
-    put_xi(_pairing.xi());
+    put_xi(_places.xi);
     return data;
   }
   auto [xi, gap] = feet(_x0, _start);
@@ -232,7 +279,7 @@ std::vector<double> NodeToSurface::slip() const
     const std::int32_t f = _pairing.facet()[i];
     const std::size_t nodes = f < 0 ? 0 : facets[f].size();
     // It has no part across the normal of a flat facet
-    if (_pairing.feature()[i] == facet::interior and nodes < 4)
+    if (_places.feature[i] == facet::interior and nodes < 4)
       gap[i] = 0;
     data[slip_size * i + slip_gap] = gap[i];
     for (int k = 0; k < g; ++k)
@@ -413,7 +460,7 @@ Weights NodeToSurface::weights() const
                            facets[f].end());
       const std::size_t at = weights.values.size();
       weights.values.resize(at + 1 + num_nodes);
-      pair_weights(static_cast<int>(num_nodes), _pairing.xi().data() + 2 * i,
+      pair_weights(static_cast<int>(num_nodes), _places.xi.data() + 2 * i,
                    weights.values.data() + at);
     }
   return weights;
@@ -425,6 +472,13 @@ std::vector<Saved> NodeToSurface::save() const
       {"facet_nodes", RowKind::slave, 4, _surface->names(_pairing.facet())}};
   for (Saved& s : saved_pairs())
     saved.push_back(std::move(s));
+  if (_smooth)
+    saved.insert(saved.end(),
+                 {{"smooth_feature", RowKind::slave, 0, _places.feature},
+                  {"smooth_xi", RowKind::slave, 2, _places.xi},
+                  {"smooth_cone", RowKind::slave, 3, _places.cone},
+                  {"smooth_normal", RowKind::slave, 3, _places.normal},
+                  {"rise", RowKind::slave, 0, _places.rise}});
   if (_options.measures_slip)
   {
     saved.push_back(
@@ -442,6 +496,7 @@ void NodeToSurface::load(const std::vector<Saved>& saved)
 {
   restore(_surface->named(values_of<std::int64_t>(saved, "facet_nodes")),
           saved);
+  load_places(saved);
   if (_options.measures_slip)
   {
     if (_options.is_small)
@@ -455,6 +510,19 @@ void NodeToSurface::load(const std::vector<Saved>& saved)
     load_start(saved);
     _surface->accept(_x0);
   }
+}
+
+/// Takes where slave nodes are measured from what `save` gave, or as pairs are.
+void NodeToSurface::load_places(const std::vector<Saved>& saved)
+{
+  _places = {_pairing.feature(), _pairing.xi(), _pairing.cone(),
+             _pairing.normal(), {}};
+  if (_smooth)
+    _places = {values_of<std::int32_t>(saved, "smooth_feature"),
+               values_of<double>(saved, "smooth_xi"),
+               values_of<double>(saved, "smooth_cone"),
+               values_of<double>(saved, "smooth_normal"),
+               values_of<double>(saved, "rise")};
 }
 
 double NodeToSurface::distance(std::span<const double> x) const

@@ -5,6 +5,7 @@
 
 #include "../search/foot.h"
 #include "../search/pairing.h"
+#include "../search/smooth_surface.h"
 #include "deformable_master.h"
 
 namespace contactx::contact
@@ -52,6 +53,7 @@ public:
   std::vector<std::int32_t> frozen_pairs() const override;
   void reset_flips() override { _pairing.begin_step(); }
   HiddenGap deepest_frozen_pair(std::span<const double> x) const override;
+  std::vector<double> rise() const override { return _places.rise; }
 
 protected:
   /// @brief Slip data that the kernels read (shape=(n, kernel::slip_size)).
@@ -77,6 +79,17 @@ protected:
   const search::Pairing& pairing() const { return _pairing; }
 
 private:
+  /// Where slave nodes are measured against their facets, as `search::Pairing`
+  /// names it
+  struct MeasuredPlaces
+  {
+    std::vector<std::int32_t> feature;
+    std::vector<double> xi, cone, normal;
+    std::vector<double> rise; ///< see `Master::rise`
+  };
+
+  void find_places();
+  void load_places(const std::vector<Saved>& saved);
   // Whether what is searched for next depends on the step's start
   bool needs_before() const
   {
@@ -90,6 +103,8 @@ private:
   std::vector<double> frames(std::span<const double> x) const;
 
   search::Pairing _pairing;
+  MeasuredPlaces _places;
+  std::optional<search::SmoothSurface> _smooth;
   // Positions of all nodes at the last search, and where the slip of each slave
   // node starts in finite sliding, as a place in the configuration of the
   // step's start

@@ -8,10 +8,12 @@
 namespace contactx::facet
 {
 /// @brief Vertices of the edge that gives a feature its direction: the edge
-/// itself, or at a vertex the edge that starts there.
+/// itself, at a vertex the edge that starts there, else the first one.
 template <class F>
 constexpr std::pair<int, int> feature_edge(int feature)
 {
+  if (feature <= interior)
+    return F::edges[0];
   if constexpr (F::num_edges > 0)
     if (feature <= F::num_edges)
       return F::edges[feature - 1];
@@ -27,7 +29,7 @@ constexpr std::pair<int, int> feature_edge(int feature)
 /// normal n. They turn with the facet, so constant components give a normal
 /// that is indifferent to the motion of the observer.
 /// @param[in] x Node coordinates.
-/// @param[in] feature An edge or a vertex.
+/// @param[in] feature A feature, but not the interior.
 /// @param[in] xi Local coordinates of the point on the feature.
 template <class F>
 std::array<Vector<F::gdim>, F::gdim> ridge_axes(const Nodes<F>& x, int feature,

@@ -14,6 +14,10 @@ namespace contactx::facet
 /// (3D only), then its vertices.
 inline constexpr int interior = 0;
 
+/// @brief Beside those: the interior, at local coordinates and with a normal,
+/// by its components, that a pair keeps.
+inline constexpr int kept = -1;
+
 /// @brief Two-node segment, the facet of a plane problem.
 ///
 /// Local coordinate in [0, 1]. Traversed with the body on its left, so that

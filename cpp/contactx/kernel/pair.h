@@ -21,7 +21,7 @@ struct Pair
 
   Vector<F::gdim> slave;  ///< position of the slave node
   facet::Nodes<F> master; ///< positions of the facet's nodes
-  int feature;            ///< interior, edge or vertex
+  int feature;            ///< interior, kept, edge or vertex
   facet::Local<F> xi;     ///< local coordinates that the search found
   Vector<3> cone;         ///< components of a ridge's normal
   Vector<F::gdim> normal; ///< unit normal that the search found
@@ -93,13 +93,15 @@ ContactPoint<F> contact_point(const Pair<F>& pair, const facet::Local<F>& xi,
 }
 
 /// @brief Project the slave node on the pair's feature: the facet's extended
-/// surface, the line of an edge, or a vertex.
+/// surface, the line of an edge, or a vertex; what is kept stays.
 template <class F>
 ContactPoint<F> project(const Pair<F>& pair)
 {
   facet::Local<F> xi = pair.xi;
   if (pair.feature == facet::interior)
     facet::project<F>(pair.master, pair.slave, xi);
+  else if (pair.feature == facet::kept)
+    ;
   else if (F::num_edges > 0 and pair.feature <= F::num_edges)
   {
     const auto [i, j] = facet::feature_edge<F>(pair.feature);

@@ -36,8 +36,9 @@ struct Variation
 
     // Feature data; unused in the facet's interior
     const bool interior = pair.feature == facet::interior;
-    const bool on_edge = !interior and pair.feature <= F::num_edges;
-    const auto [i, j] = facet::feature_edge<F>(interior ? 1 : pair.feature);
+    const bool on_edge
+        = pair.feature > facet::interior and pair.feature <= F::num_edges;
+    const auto [i, j] = facet::feature_edge<F>(pair.feature);
     const auto edge = pair.master[j] - pair.master[i];
     const double length = norm(edge);
     const auto e = (1 / length) * edge;

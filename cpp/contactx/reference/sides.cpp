@@ -46,6 +46,23 @@ void check_arguments(const Mesh& mesh, const contact::SlaveNodes* slaves,
                                 + number_text(*options.search_distance, 6));
 }
 
+/// What smooth surfaces are not made for.
+void check_smooth(const law::Law& law, const MasterOptions& options)
+{
+  if (not options.is_smooth)
+    return;
+  check::require(options.level.empty(),
+                 "smooth is for linear facets: quadratic ones are curved as the "
+                 "mesh is; leave it out, and curve the mesh");
+  check::require(not law.is_tied(),
+                 "smooth is not for ties, whose places on the facets stay as "
+                 "they are: leave it out");
+  check::require(not options.is_self,
+                 "smooth is not for a surface on itself, of which one side is "
+                 "chosen a node at a time: leave it out, or give each side a "
+                 "surface of its own");
+}
+
 /// What a surface on itself is not made for.
 void check_self(const law::Law& law, const MasterOptions& options)
 {
@@ -139,6 +156,7 @@ std::shared_ptr<contact::DeformableMaster> contactx::reference::make_master(
         check_arguments(mesh, slaves.get(), options);
         check_facet_list(*halo, master.facets, "master_");
         check_self(law, options);
+        check_smooth(law, options);
       });
   const NamedSurface slave{slave_name, slaves->own()};
   check_facets(*halo, slave, "slave");
@@ -155,7 +173,7 @@ std::shared_ptr<contact::DeformableMaster> contactx::reference::make_master(
           ? *options.search_distance
           : default_reach(*halo, slaves->facets(), master.facets),
       options.sliding == contact::Sliding::small, law.is_vector(),
-      options.level};
+      options.level, options.is_smooth};
   const facet::Facets own
       = search::in_order(*halo, master.facets.offsets, master.facets.nodes);
   // The halo grows, and the bodies with it
@@ -192,6 +210,9 @@ std::shared_ptr<contact::ObstacleMaster> contactx::reference::make_master(
       {
         check_arguments(mesh, slaves.get(), options);
         check::require(obstacle != nullptr, "obstacle must not be empty");
+        check::require(not options.is_smooth,
+                       "smooth is for surfaces of facets; an obstacle is smooth "
+                       "as it is: leave it out");
       });
   check_facets(halo, {slave_name, slaves->own()}, "slave");
   const auto x = halo.reference();
