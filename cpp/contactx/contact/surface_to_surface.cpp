@@ -53,6 +53,12 @@ SurfaceToSurface::SurfaceToSurface(
   _keeps.assign(_sides.num_slave_facets(), 0);
   _inradius = parallel::least(_halo->ranks(), _sides.inradius());
   _at = _x0;
+  if (_options.is_smooth)
+  {
+    _smooth_slave.emplace(*_halo, _slaves->own());
+    _smooth_master.emplace(*_halo, _surface->own());
+    _slave_patches = _smooth_slave->of(*_halo, _slaves->facets());
+  }
   meet();
   _place.resize(_sides.size());
   for (std::int32_t f = _sides.num_slave_facets(); f-- > 0;)
@@ -80,6 +86,8 @@ void SurfaceToSurface::meet()
     level.assign(every.begin(), every.end());
   }
   _sides.meet(_surface->facets(), level);
+  if (_smooth_master)
+    _master_patches = _smooth_master->of(*_halo, _surface->facets());
 }
 
 std::int32_t SurfaceToSurface::search(std::span<const double> x,
@@ -113,7 +121,7 @@ void SurfaceToSurface::pair(std::span<const double> x)
   }
   update();
   take_normals(now);
-  integrate(now);
+  find_rise(integrate(now));
   for (std::size_t i = 0; i < _paired.size(); ++i)
     _paired[i] = _area[i] > (_paired[i] ? leave : enter) * _whole[i];
 }
@@ -243,8 +251,10 @@ mortar::Integrals
 SurfaceToSurface::integrals(std::span<const double> x,
                             std::span<const double> normal) const
 {
-  return mortar::integrals({_slaves->facets(), &_sides.slave_wholes()},
-                           {_surface->facets(), &_sides.master_wholes()},
+  return mortar::integrals({_slaves->facets(), &_sides.slave_wholes(),
+                            _slave_patches},
+                           {_surface->facets(), &_sides.master_wholes(),
+                            _master_patches},
                            *_found, x, _halo->reference(), gdim(), normal,
                            _weight);
 }
@@ -267,7 +277,17 @@ void SurfaceToSurface::take_normals(std::span<const double> x)
     }
 }
 
-void SurfaceToSurface::integrate(std::span<const double> x)
+void SurfaceToSurface::find_rise(std::span<const double> of_pairs)
+{
+  _rise.clear();
+  if (_smooth_slave)
+    _rise = _sides.total(of_pairs, _found->slave);
+  for (std::size_t i = 0; i < _rise.size(); ++i)
+    _rise[i] = _area[i] > 0 ? _rise[i] / _area[i] : 0;
+}
+
+/// @return Integrals of what smooth patches rise.
+std::vector<double> SurfaceToSurface::integrate(std::span<const double> x)
 {
   mortar::Integrals all = integrals(x, _kept);
   if (_options.is_small)
@@ -278,6 +298,7 @@ void SurfaceToSurface::integrate(std::span<const double> x)
   _normal = std::move(all.normal);
   _mortar = {all.width, _found->slave, _found->master, std::move(all.weight),
              std::move(all.gap)};
+  return std::move(all.rise);
 }
 
 std::vector<double> SurfaceToSurface::area(std::span<const double> whole) const

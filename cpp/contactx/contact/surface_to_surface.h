@@ -4,6 +4,7 @@
 #pragma once
 
 #include "../mortar/facet_search.h"
+#include "../search/smooth_surface.h"
 #include "deformable_master.h"
 #include "mortar_slip.h"
 
@@ -60,6 +61,7 @@ public:
   /// @brief Area in front of the master. A node that is pushed off within
   /// an iteration keeps some until the next search.
   std::vector<double> area(std::span<const double> whole) const override;
+  std::vector<double> rise() const override { return _rise; }
   std::vector<double> origin() const override { return _origin.moved(); }
   std::vector<double> compliance(std::span<const double> nodal) const override;
 
@@ -101,9 +103,10 @@ private:
                             const mortar::FacetPairs& found) const;
   mortar::FacetPairs without_outside(std::span<const double> x,
                                      mortar::FacetPairs found) const;
-  void integrate(std::span<const double> x);
+  std::vector<double> integrate(std::span<const double> x);
   mortar::Integrals integrals(std::span<const double> x,
                               std::span<const double> normal) const;
+  void find_rise(std::span<const double> of_pairs);
   void take_normals(std::span<const double> x);
   bool is_at_edge(std::int32_t facet) const
   {
@@ -129,6 +132,10 @@ private:
   // Slave facets at edges; those whose direction is kept, and the directions
   std::vector<std::int8_t> _edges, _keeps;
   std::vector<double> _kept;
+  // Smooth surfaces of both sides and their patches, by facets
+  std::optional<search::SmoothSurface> _smooth_slave, _smooth_master;
+  std::vector<facet::SmoothFacet> _slave_patches, _master_patches;
+  std::vector<double> _rise;
   Mortar _mortar;
 };
 

@@ -30,6 +30,25 @@ struct SlavePart
   Vector<S::nodes> height; ///< of the nodes w of the basis, over its plane
 };
 
+/// Add int M_t rise of a pair of smooth patches.
+template <class S, class M>
+void add_rise(const SlavePart<S>& slave, const facet::Nodes<S>& own,
+              const facet::SmoothFacet& slave_patch,
+              const facet::Nodes<M>& master, const facet::Nodes<M>& other,
+              const facet::SmoothFacet& master_patch, double* rise)
+{
+  integrate<S, M>(slave.projected, master,
+                  [&](const auto& s, const auto& m, double w)
+                  {
+                    const auto basis = facet::Basis<S>::functions(s.N);
+                    const double up
+                        = facet::rise<S>(own, slave_patch, s.xi)
+                          + facet::rise<M>(other, master_patch, m.xi);
+                    for (int t = 0; t < S::nodes; ++t)
+                      rise[t] += w * basis[t] * up;
+                  });
+}
+
 /// Add int M_t N_l and int M_t gap of a pair, and int M_t.
 template <class S, class M>
 void add_pair(const SlavePart<S>& slave, const facet::Nodes<M>& xm,
@@ -172,6 +191,13 @@ void integrate_whole(const Given& given, std::span<const std::int32_t> parts,
                              places_of<M>(*given.master.wholes, m),
                              static_cast<int>(n), cover, &all.area[n * f],
                              &all.weight[i * n * n], &all.gap[i * n]);
+            if constexpr (M::gdim == S::gdim and facet::is_linear<M>
+                          and facet::is_linear<S>)
+              if (not all.rise.empty())
+                add_rise<S, M>(part, X, given.slave.smooth[f],
+                               facet::gather<M>(others, given.x),
+                               facet::gather<M>(others, given.reference),
+                               given.master.smooth[m], &all.rise[i * n]);
           });
     }
   }
@@ -197,6 +223,8 @@ void integrate_whole(const Given& given, std::span<const std::int32_t> parts,
       combine_rows<S>(dual, &all.weight[i * n * n], static_cast<int>(n),
                       static_cast<int>(n));
       combine_rows<S>(dual, &all.gap[i * n], 1, 1);
+      if (not all.rise.empty())
+        combine_rows<S>(dual, &all.rise[i * n], 1, 1);
     }
   }
 }
@@ -215,6 +243,8 @@ Integrals contactx::mortar::integrals(const Side& slave, const Side& master,
   const std::size_t n = all.width, count = slave.facets.size();
   all.weight.assign(pairs.size() * n * n, 0);
   all.gap.assign(pairs.size() * n, 0);
+  if (not slave.smooth.empty())
+    all.rise.assign(pairs.size() * n, 0);
   all.dual.assign(count * n * n, 0);
   all.area.assign(count * n, 0);
   all.normal.assign(count * 3, 0);

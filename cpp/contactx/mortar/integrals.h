@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "../facet/smooth.h"
 #include "../facet/wholes.h"
 #include "../vec.h"
 #include <cstdint>
@@ -42,6 +43,9 @@ struct Integrals
   /// int Phi_s gap of each pair, the gap measured along the direction of the
   /// projection (shape=(num_pairs, n))
   std::vector<double> gap;
+  /// int Phi_s (rise of both facets' patches) of each pair, where facets are
+  /// smooth (shape=(num_pairs, n)); else empty
+  std::vector<double> rise;
   /// Coefficients a_st of each slave facet (shape=(num_facets, n, n))
   std::vector<double> dual;
   /// int Phi_s = int M_s over the covered part (shape=(num_facets, n))
@@ -59,12 +63,14 @@ struct Side
 {
   facet::FacetList facets;     ///< facets that are paired
   const facet::Wholes* wholes; ///< whole facets that they are parts of
+  /// Smooth patches that linear facets stand for; empty for none
+  std::span<const facet::SmoothFacet> smooth = {};
 };
 
 /// @brief Compute the integrals. Those of parts are of the shape functions of
 /// the whole facets, in the order of their nodes.
 /// @param[in] slave Slave facets.
-/// @param[in] master Master facets.
+/// @param[in] master Master facets, smooth if the slave's are.
 /// @param[in] pairs Pairs, ascending by slave facet. Those that share nothing
 /// get zeros.
 /// @param[in] x Node coordinates (shape=(num_nodes, gdim)), row-major.

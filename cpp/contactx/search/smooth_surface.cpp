@@ -81,3 +81,13 @@ SmoothSurface::of(const parallel::Halo& halo,
 {
   return _facets.at(key_of(name_of(halo, nodes)));
 }
+
+std::vector<facet::SmoothFacet>
+SmoothSurface::of(const parallel::Halo& halo,
+                  const facet::FacetList& facets) const
+{
+  std::vector<facet::SmoothFacet> all;
+  for (std::int32_t f = 0; f < facets.size(); ++f)
+    all.push_back(of(halo, facets[f]));
+  return all;
+}

@@ -28,6 +28,10 @@ public:
   const facet::SmoothFacet& of(const parallel::Halo& halo,
                                std::span<const std::int32_t> nodes) const;
 
+  /// @brief The patches that some facets stand for.
+  std::vector<facet::SmoothFacet> of(const parallel::Halo& halo,
+                                     const facet::FacetList& facets) const;
+
 private:
   std::map<FacetKey, facet::SmoothFacet> _facets;
 };
