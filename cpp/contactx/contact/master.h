@@ -133,8 +133,8 @@ public:
   virtual std::vector<double> movement() const { return {}; }
 
   /// @brief Length that is taken off the gap of each slave node, as the last
-  /// search found it: how far smooth surfaces rise over their facets (shape=(n));
-  /// empty for nothing.
+  /// search found it: how far smooth surfaces rise over their facets
+  /// (shape=(n)); empty for nothing.
   virtual std::vector<double> rise() const { return {}; }
 
   /// @brief Area that each slave node's multiplier acts on (shape=(n)).

@@ -135,7 +135,8 @@ MortarSides::total(std::span<const double> values,
 std::vector<Pairs> MortarSides::pairs(const Mortar& mortar,
                                       std::span<const double> dual,
                                       std::span<const double> normal,
-                                      std::span<const std::int8_t> keeps,
+                                      std::span<const kernel::Keeps> keeps,
+                                      std::span<const double> corner,
                                       bool is_movement) const
 {
   std::vector<Pairs> groups;
@@ -173,7 +174,10 @@ std::vector<Pairs> MortarSides::pairs(const Mortar& mortar,
         }
         for (int k = 0; k < 3; ++k)
           data[at.normal + k] = normal[3 * std::size_t(e) + k];
-        data[at.keeps] = keeps[e];
+        data[at.keeps] = static_cast<double>(keeps[e]);
+        if (not corner.empty())
+          std::copy_n(corner.begin() + 12 * std::size_t(e), 3 * n,
+                      data + at.normals);
         const std::vector<double>& weight = _slaves->weight();
         for (int k = 0; k < 4; ++k)
         {

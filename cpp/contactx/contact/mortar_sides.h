@@ -5,6 +5,7 @@
 
 #include "../facet/quadratic.h"
 #include "../facet/wholes.h"
+#include "../kernel/layout.h"
 #include "../mortar/integrals.h"
 #include "pairs.h"
 #include "slave_nodes.h"
@@ -158,12 +159,15 @@ public:
   /// width, width)).
   /// @param[in] normal Normals of the slave facets, those of the master
   /// (shape=(num_facets, 3)).
-  /// @param[in] keeps 1 where finite sliding keeps the normal, 0 where it is
-  /// against the slave facet's (shape=(num_facets)).
+  /// @param[in] keeps What finite sliding keeps of each slave facet's pairs
+  /// (shape=(num_facets)).
+  /// @param[in] corner Normals of the master at the nodes of the slave facets
+  /// that keep all (shape=(num_facets, 4, 3)); empty if none does.
   /// @param[in] is_movement Whether they measure slip alone.
   std::vector<Pairs> pairs(const Mortar& mortar, std::span<const double> dual,
                            std::span<const double> normal,
-                           std::span<const std::int8_t> keeps,
+                           std::span<const kernel::Keeps> keeps,
+                           std::span<const double> corner,
                            bool is_movement = false) const;
 
   /// @brief Unit normal and directions along one facet of each owned slave

@@ -81,8 +81,11 @@ std::int32_t NodeToSurface::search(std::span<const double> x,
 /// smooth surface but for its edges.
 void NodeToSurface::find_places()
 {
-  _places = {_pairing.feature(), _pairing.xi(), _pairing.cone(),
-             _pairing.normal(), {}};
+  _places = {_pairing.feature(),
+             _pairing.xi(),
+             _pairing.cone(),
+             _pairing.normal(),
+             {}};
   if (not _smooth)
     return;
   _places.rise.assign(size(), 0);
@@ -97,24 +100,24 @@ void NodeToSurface::find_places()
     const int feature = _pairing.feature()[i];
     if (feature != facet::interior and smooth.sharp >> (feature - 1) & 1)
       continue;
-    facet::visit(
-        static_cast<int>(facets[f].size()),
-        [&]<class F>(F)
-        {
-          if (F::gdim != gdim())
-            return;
-          facet::Local<F> xi;
-          std::copy_n(_pairing.xi().begin() + 2 * i, F::tdim, xi.begin());
-          const auto at = facet::smooth_projection<F>(
-              facet::gather<F>(facets[f], reference),
-              facet::gather<F>(facets[f], _at), smooth,
-              facet::point<F::gdim>(_pairing.slaves()[i], _at), xi);
-          _places.feature[i] = facet::kept;
-          std::ranges::copy(at.xi, _places.xi.begin() + 2 * i);
-          std::ranges::copy(at.cone, _places.cone.begin() + 3 * i);
-          std::ranges::copy(at.normal, _places.normal.begin() + 3 * i);
-          _places.rise[i] = at.rise;
-        });
+    facet::visit(static_cast<int>(facets[f].size()),
+                 [&]<class F>(F)
+                 {
+                   if (F::gdim != gdim())
+                     return;
+                   facet::Local<F> xi;
+                   std::copy_n(_pairing.xi().begin() + 2 * i, F::tdim,
+                               xi.begin());
+                   const auto at = facet::smooth_projection<F>(
+                       facet::gather<F>(facets[f], reference),
+                       facet::gather<F>(facets[f], _at), smooth,
+                       facet::point<F::gdim>(_pairing.slaves()[i], _at), xi);
+                   _places.feature[i] = facet::kept;
+                   std::ranges::copy(at.xi, _places.xi.begin() + 2 * i);
+                   std::ranges::copy(at.cone, _places.cone.begin() + 3 * i);
+                   std::ranges::copy(at.normal, _places.normal.begin() + 3 * i);
+                   _places.rise[i] = at.rise;
+                 });
   }
 }
 
@@ -515,8 +518,11 @@ void NodeToSurface::load(const std::vector<Saved>& saved)
 /// Takes where slave nodes are measured from what `save` gave, or as pairs are.
 void NodeToSurface::load_places(const std::vector<Saved>& saved)
 {
-  _places = {_pairing.feature(), _pairing.xi(), _pairing.cone(),
-             _pairing.normal(), {}};
+  _places = {_pairing.feature(),
+             _pairing.xi(),
+             _pairing.cone(),
+             _pairing.normal(),
+             {}};
   if (_smooth)
     _places = {values_of<std::int32_t>(saved, "smooth_feature"),
                values_of<double>(saved, "smooth_xi"),

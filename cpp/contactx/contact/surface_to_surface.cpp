@@ -3,6 +3,7 @@
 
 #include "surface_to_surface.h"
 #include "../audit/penetration.h"
+#include "../facet/gather.h"
 #include "../facet/middle.h"
 #include "../parallel/spread.h"
 #include "mobility.h"
@@ -50,7 +51,9 @@ SurfaceToSurface::SurfaceToSurface(
 {
   if (not _options.is_small)
     _edges = _sides.at_edges(_x0);
-  _keeps.assign(_sides.num_slave_facets(), 0);
+  _keeps.assign(_sides.num_slave_facets(), _options.is_smooth
+                                               ? kernel::Keeps::all
+                                               : kernel::Keeps::nothing);
   _inradius = parallel::least(_halo->ranks(), _sides.inradius());
   _at = _x0;
   if (_options.is_smooth)
@@ -122,6 +125,7 @@ void SurfaceToSurface::pair(std::span<const double> x)
   update();
   take_normals(now);
   find_rise(integrate(now));
+  find_corners(now);
   for (std::size_t i = 0; i < _paired.size(); ++i)
     _paired[i] = _area[i] > (_paired[i] ? leave : enter) * _whole[i];
 }
@@ -168,8 +172,8 @@ bool SurfaceToSurface::has_moved(std::span<const double> x) const
 mortar::FacetPairs SurfaceToSurface::find(std::span<const double> x,
                                           double margin)
 {
-  return facing(
-      x, without_outside(x, _search->find(x, _options.reach, margin)));
+  return facing(x,
+                without_outside(x, _search->find(x, _options.reach, margin)));
 }
 
 /// Pairs but for those with facets that look past the slave facet, when others
@@ -195,8 +199,8 @@ SurfaceToSurface::facing(std::span<const double> x,
     for (const std::int32_t i : local[found.slave[p]])
       if (i < std::int32_t(best.size()))
         best[i] = std::max(best[i], cosine[p]);
-  const std::vector<double> around
-      = _slaves->largest(_slaves->scatter_forward(std::span<const double>(best)));
+  const std::vector<double> around = _slaves->largest(
+      _slaves->scatter_forward(std::span<const double>(best)));
   mortar::FacetPairs kept;
   for (std::size_t p = 0; p < found.size(); ++p)
     if (is_at_edge(found.slave[p])
@@ -251,12 +255,10 @@ mortar::Integrals
 SurfaceToSurface::integrals(std::span<const double> x,
                             std::span<const double> normal) const
 {
-  return mortar::integrals({_slaves->facets(), &_sides.slave_wholes(),
-                            _slave_patches},
-                           {_surface->facets(), &_sides.master_wholes(),
-                            _master_patches},
-                           *_found, x, _halo->reference(), gdim(), normal,
-                           _weight);
+  return mortar::integrals(
+      {_slaves->facets(), &_sides.slave_wholes(), _slave_patches},
+      {_surface->facets(), &_sides.master_wholes(), _master_patches}, *_found,
+      x, _halo->reference(), gdim(), normal, _weight);
 }
 
 /// At an edge of the slave no facet has the normal of what touches it: its
@@ -264,17 +266,46 @@ SurfaceToSurface::integrals(std::span<const double> x,
 void SurfaceToSurface::take_normals(std::span<const double> x)
 {
   _kept.clear();
-  std::ranges::fill(_keeps, 0);
-  if (std::ranges::none_of(_found->slave, [this](std::int32_t f)
-                           { return is_at_edge(f); }))
+  std::ranges::replace(_keeps, kernel::Keeps::normal, kernel::Keeps::nothing);
+  if (std::ranges::none_of(_found->slave,
+                           [this](std::int32_t f) { return is_at_edge(f); }))
     return;
   _kept = _sides.master_normals(x, *_found, integrals(x, {}).weight);
   for (std::size_t f = 0; f < _keeps.size(); ++f)
     for (int k = 0; k < 3; ++k)
     {
       _kept[3 * f + k] *= _edges[f];
-      _keeps[f] = _keeps[f] or _kept[3 * f + k] != 0;
+      if (_kept[3 * f + k] != 0 and _keeps[f] == kernel::Keeps::nothing)
+        _keeps[f] = kernel::Keeps::normal;
     }
+}
+
+/// Finds the normals of the slave's patches, against which the master's are, at
+/// the nodes of each facet.
+void SurfaceToSurface::find_corners(std::span<const double> x)
+{
+  if (not _smooth_slave)
+    return;
+  const auto reference = _halo->reference();
+  const facet::FacetList facets = _slaves->facets();
+  _corner.assign(12 * std::size_t(facets.size()), 0);
+  for (std::int32_t f = 0; f < facets.size(); ++f)
+    facet::visit(static_cast<int>(facets[f].size()),
+                 [&]<class F>(F)
+                 {
+                   if (F::gdim != gdim())
+                     return;
+                   for (int l = 0; l < F::nodes; ++l)
+                   {
+                     const auto n = facet::smooth_point<F>(
+                                        facet::gather<F>(facets[f], reference),
+                                        facet::gather<F>(facets[f], x),
+                                        _slave_patches[f], F::vertices[l])
+                                        .normal;
+                     for (int k = 0; k < F::gdim; ++k)
+                       _corner[12 * std::size_t(f) + 3 * l + k] = -n[k];
+                   }
+                 });
 }
 
 void SurfaceToSurface::find_rise(std::span<const double> of_pairs)
@@ -361,7 +392,10 @@ std::optional<std::vector<Pairs>>
 SurfaceToSurface::update(std::span<const double> x, bool frozen,
                          std::span<const double>)
 {
-  if (frozen or _options.is_small or std::ranges::equal(x, _at))
+  // Patches have no slope to one another that facets had: what changes their
+  // gap as they slide is curvature, which each search finds
+  if (frozen or _options.is_small or _options.is_smooth
+      or std::ranges::equal(x, _at))
     return std::nullopt;
   integrate(x);
   return pairs();
@@ -379,9 +413,11 @@ std::vector<double> SurfaceToSurface::normals() const
       double share = 0;
       for (const double w : _mortar.row(p, s))
         share += w;
+      const auto f = static_cast<std::size_t>(_mortar.slave[p]);
+      const double* n
+          = _corner.empty() ? &_normal[3 * f] : &_corner[12 * f + 3 * s];
       for (int k = 0; k < 3; ++k)
-        normals[3 * i + k]
-            += share * _normal[3 * std::size_t(_mortar.slave[p]) + k];
+        normals[3 * i + k] += share * n[k];
     }
   normalise(normals);
   return normals;

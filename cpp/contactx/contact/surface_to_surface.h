@@ -89,7 +89,7 @@ protected:
   std::vector<Pairs> groups(const Mortar& mortar,
                             bool is_movement = false) const
   {
-    return _sides.pairs(mortar, _dual, _normal, _keeps, is_movement);
+    return _sides.pairs(mortar, _dual, _normal, _keeps, _corner, is_movement);
   }
 
 private:
@@ -107,6 +107,7 @@ private:
   mortar::Integrals integrals(std::span<const double> x,
                               std::span<const double> normal) const;
   void find_rise(std::span<const double> of_pairs);
+  void find_corners(std::span<const double> x);
   void take_normals(std::span<const double> x);
   bool is_at_edge(std::int32_t facet) const
   {
@@ -130,12 +131,14 @@ private:
   std::optional<mortar::FacetPairs> _found;
   std::vector<double> _dual, _normal;
   // Slave facets at edges; those whose direction is kept, and the directions
-  std::vector<std::int8_t> _edges, _keeps;
+  std::vector<std::int8_t> _edges;
+  std::vector<kernel::Keeps> _keeps;
   std::vector<double> _kept;
   // Smooth surfaces of both sides and their patches, by facets
   std::optional<search::SmoothSurface> _smooth_slave, _smooth_master;
   std::vector<facet::SmoothFacet> _slave_patches, _master_patches;
-  std::vector<double> _rise;
+  std::vector<double> _rise,
+      _corner; // the latter: normals at the facets' nodes
   Mortar _mortar;
 };
 

@@ -87,8 +87,8 @@ class Fit
 {
 public:
   Fit(const FacetList& facets, std::span<const double> x, int gdim)
-      : _facets(facets), _x(x), _gdim(gdim),
-        _middles(middles(facets, x, gdim)), _of_corner(facets.nodes.size(), -1)
+      : _facets(facets), _x(x), _gdim(gdim), _middles(middles(facets, x, gdim)),
+        _of_corner(facets.nodes.size(), -1)
   {
     find_sheets();
     // Where facets are all around, the nodes alone tell
@@ -149,8 +149,7 @@ private:
   bool has_neighbour(std::int32_t f, std::size_t corner,
                      std::int32_t other) const
   {
-    return std::ranges::any_of(sheet_at(corner).facets,
-                               [&](std::int32_t e)
+    return std::ranges::any_of(sheet_at(corner).facets, [&](std::int32_t e)
                                { return e != f and has(e, other); });
   }
 
@@ -294,8 +293,7 @@ private:
     {
       const auto nodes = _facets[f];
       for (std::size_t l = 0; l < nodes.size(); ++l)
-        if (nodes[l] == node
-            and sheet_at(_facets.offsets[f] + l).is_known)
+        if (nodes[l] == node and sheet_at(_facets.offsets[f] + l).is_known)
           return &sheet_at(_facets.offsets[f] + l);
     }
     return nullptr;

@@ -88,21 +88,32 @@ inline constexpr int rigid_slip = 0;
 inline constexpr int rigid_slip_derivative = 3;
 inline constexpr int rigid_slip_size = 12;
 
+/// @brief What a pair of two facets keeps from one search to the next in finite
+/// sliding.
+enum class Keeps : std::int8_t
+{
+  nothing, ///< the normal is that of the slave facet, now
+  normal,  ///< the normal that the search found
+  all      ///< normals at the slave nodes and the integrals
+};
+
 /// @brief Places of the values a pair of two facets, with `s` slave and `m`
 /// master nodes: integrals of the dual basis functions with the master's shape
 /// functions, the dual functions' coefficients, integrals of the gap, the
-/// unit normal that the search found and whether finite sliding keeps it or
-/// takes that of the slave facet, weight of the integrals at the slave
-/// part's nodes, and the places of the nodes of both parts among those of the
-/// facets.
+/// unit normal that the search found, what finite sliding keeps of it, a
+/// `Keeps`, unit normals at the slave nodes where it keeps all, weight of the
+/// integrals at the slave part's nodes, and the places of the nodes of both
+/// parts among those of the facets.
 struct MortarLayout
 {
-  int weight, dual, gap, normal, keeps, factor, slave_places, master_places, size;
+  int weight, dual, gap, normal, keeps, normals, factor, slave_places,
+      master_places, size;
 
   constexpr MortarLayout(int s, int m)
       : weight(0), dual(s * m), gap(dual + s * s), normal(gap + s),
-        keeps(normal + 3), factor(keeps + 1), slave_places(factor + 4),
-        master_places(slave_places + 4), size(master_places + 4)
+        keeps(normal + 3), normals(keeps + 1), factor(normals + 3 * s),
+        slave_places(factor + 4), master_places(slave_places + 4),
+        size(master_places + 4)
   {
   }
 };

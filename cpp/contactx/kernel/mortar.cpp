@@ -22,7 +22,7 @@ struct Mortar
   static constexpr int width = size * slaves; ///< multipliers
 
   explicit Mortar(const double* w)
-      : pair(w), normal(pair.template normal<Turning>()),
+      : pair(w), normals(pair.template normals<Turning>()),
         multiplier(at(w, Coefficient::multiplier)),
         area(at(w, Coefficient::area)),
         gap_derivative(at(w, Coefficient::gap_derivative))
@@ -34,18 +34,18 @@ struct Mortar
     return MortarPair<S, M>::at(w, L, c);
   }
 
-  /// Direction of a component of the multiplier.
-  Vector<gdim> direction(int i) const
+  /// Direction of a component of a slave node's multiplier.
+  Vector<gdim> direction(int s, int i) const
   {
     if constexpr (L == Law::frictionless)
-      return normal;
+      return normals[s];
     Vector<gdim> e{};
     e[i] = 1;
     return e;
   }
 
   MortarPair<S, M> pair;
-  Vector<gdim> normal;
+  std::array<Vector<gdim>, slaves> normals;
   const double *multiplier, *area, *gap_derivative;
 };
 
@@ -63,7 +63,7 @@ void residual(double* b, const double* w, const double*, const double*,
         for (int i = 0; i < K::size; ++i)
         {
           const double force = weight * k.multiplier[K::size * s + i];
-          const auto d = k.direction(i);
+          const auto d = k.direction(s, i);
           for (int q = 0; q < K::gdim; ++q)
             b[K::gdim * a + q] -= force * d[q];
         }
@@ -80,7 +80,7 @@ void traction(double* A, const double* w, const double*, const double*,
       {
         for (int i = 0; i < K::size; ++i)
         {
-          const auto d = k.direction(i);
+          const auto d = k.direction(s, i);
           for (int q = 0; q < K::gdim; ++q)
             A[K::width * (K::gdim * a + q) + K::size * s + i] -= weight * d[q];
         }
@@ -97,6 +97,8 @@ void stiffness(double* A, const double* w, const double*, const double*,
   if (std::all_of(k.multiplier, k.multiplier + K::width,
                   [](double t) { return t == 0; }))
     return;
+  if (k.pair.keeps() == Keeps::all)
+    return;
   const MortarVariation<S, M> d(k.pair);
   std::array<Vector<S::nodes>, K::size> q;
   for (int i = 0; i < K::size; ++i)
@@ -105,7 +107,7 @@ void stiffness(double* A, const double* w, const double*, const double*,
   const auto weights = d.weights(q);
   for (int i = 0; i < K::size; ++i)
   {
-    const auto direction = k.direction(i);
+    const auto direction = k.direction(0, i);
     for (int l = 0; l < M::nodes; ++l)
     {
       Vector<n> row{};
@@ -153,10 +155,10 @@ void constraint(double* A, const double* w, const double*, const double*,
       [&](int a, int s, double weight)
       {
         for (int q = 0; q < gdim; ++q)
-          dg[s][gdim * a + q] += weight * k.normal[q];
+          dg[s][gdim * a + q] += weight * k.normals[s][q];
       });
   std::array<Vector<n>, gdim> dn{};
-  if constexpr (Turning)
+  if (Turning and k.pair.keeps() != Keeps::all)
   {
     const MortarVariation<S, M> d(k.pair);
     const auto factors = d.gap();

@@ -104,8 +104,11 @@ struct MortarPair
   /// @brief int Phi_s gap when the integrals were taken.
   double gap(int s) const { return data[layout.gap + s]; }
 
-  /// @brief Whether the normal stays that which the search found.
-  bool keeps_normal() const { return data[layout.keeps] != 0; }
+  /// @brief What stays as the search found it.
+  Keeps keeps() const { return static_cast<Keeps>(data[layout.keeps]); }
+
+  /// @brief Whether the normal does.
+  bool keeps_normal() const { return keeps() != Keeps::nothing; }
 
   /// @brief Unit normal of the master, against the slave facet's: now, or that
   /// the search found.
@@ -117,6 +120,18 @@ struct MortarPair
       n = -1. * facet::frame<S>(slave, mortar::normal_place<S>()).n;
     else
       std::copy_n(data + layout.normal, gdim, n.begin());
+    return n;
+  }
+
+  /// @brief Unit normals of the master at the slave nodes.
+  template <bool Turning>
+  std::array<Vector<gdim>, S::nodes> normals() const
+  {
+    std::array<Vector<gdim>, S::nodes> n;
+    n.fill(normal<Turning>());
+    if (keeps() == Keeps::all)
+      for (int s = 0; s < S::nodes; ++s)
+        std::copy_n(data + layout.normals + 3 * s, gdim, n[s].begin());
     return n;
   }
 

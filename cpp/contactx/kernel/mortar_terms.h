@@ -15,7 +15,7 @@ void mortar_gap(double* b, const double* w, const double*, const double*,
 {
   const K k(w);
   for (int s = 0; s < K::slaves; ++s)
-    b[s] += dot(k.normal, k.pair.distance(s)) / k.area[s];
+    b[s] += dot(k.normals[s], k.pair.distance(s)) / k.area[s];
 }
 
 /// @brief Share of the pair in the mean normal of each slave node, which is
@@ -27,6 +27,6 @@ void mortar_normal(double* b, const double* w, const double*, const double*,
   const K k(w);
   for (int s = 0; s < K::slaves; ++s)
     for (int i = 0; i < K::gdim; ++i)
-      b[K::gdim * s + i] += k.pair.area(s) / k.area[s] * k.normal[i];
+      b[K::gdim * s + i] += k.pair.area(s) / k.area[s] * k.normals[s][i];
 }
 } // namespace contactx::kernel

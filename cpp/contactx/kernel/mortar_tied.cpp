@@ -25,7 +25,7 @@ struct Tie
   using Master = M;
 
   explicit Tie(const double* w)
-      : pair(w), normal(pair.template normal<Turning>()),
+      : pair(w), normals(pair.template normals<Turning>()),
         multiplier(at(w, Coefficient::multiplier)),
         area(at(w, Coefficient::area))
   {
@@ -65,7 +65,7 @@ struct Tie
   }
 
   MortarPair<S, M> pair;
-  Vector<gdim> normal;
+  std::array<Vector<gdim>, slaves> normals;
   const double *multiplier, *area;
 };
 
@@ -76,7 +76,7 @@ void slip(double* b, const double* w, const double*, const double*, const int*,
   const K k(w);
   for (int s = 0; s < K::slaves; ++s)
   {
-    const auto d = k.pair.distance(s) - k.pair.gap(s) * k.normal;
+    const auto d = k.pair.distance(s) - k.pair.gap(s) * k.normals[s];
     for (int i = 0; i < K::gdim; ++i)
       b[K::gdim * s + i] += d[i] / k.area[s];
   }

@@ -45,8 +45,7 @@ public:
   explicit MortarVariation(const MortarPair<S, M>& pair)
       : _pair(pair), _normal(pair.slave),
         _master(facet::part_of<M>(pair.master, pair.master_places)),
-        _slave(plane_of(pair, _normal.frame.n),
-               pair.slave_part(),
+        _slave(plane_of(pair, _normal.frame.n), pair.slave_part(),
                facet::part_of<S>(pair.reference, pair.slave_places),
                pair.factor()),
         _r(mortar::project<Q>(_slave.plane, _master)),

@@ -37,16 +37,17 @@ void add_rise(const SlavePart<S>& slave, const facet::Nodes<S>& own,
               const facet::Nodes<M>& master, const facet::Nodes<M>& other,
               const facet::SmoothFacet& master_patch, double* rise)
 {
-  integrate<S, M>(slave.projected, master,
-                  [&](const auto& s, const auto& m, double w)
-                  {
-                    const auto basis = facet::Basis<S>::functions(s.N);
-                    const double up
-                        = facet::rise<S>(own, slave_patch, s.xi)
+  integrate<S, M>(
+      slave.projected, master,
+      [&](const auto& s, const auto& m, double w)
+      {
+        const auto basis = facet::Basis<S>::functions(s.N);
+        const double up = facet::rise<S>(own, slave_patch, s.xi)
                           + facet::rise<M>(other, master_patch, m.xi);
-                    for (int t = 0; t < S::nodes; ++t)
-                      rise[t] += w * basis[t] * up;
-                  });
+        for (int t = 0; t < S::nodes; ++t)
+          rise[t] += w * basis[t] * up;
+      },
+      1);
 }
 
 /// Add int M_t N_l and int M_t gap of a pair, and int M_t.
@@ -191,8 +192,8 @@ void integrate_whole(const Given& given, std::span<const std::int32_t> parts,
                              places_of<M>(*given.master.wholes, m),
                              static_cast<int>(n), cover, &all.area[n * f],
                              &all.weight[i * n * n], &all.gap[i * n]);
-            if constexpr (M::gdim == S::gdim and facet::is_linear<M>
-                          and facet::is_linear<S>)
+            if constexpr (M::gdim == S::gdim
+                          and facet::is_linear<M> and facet::is_linear<S>)
               if (not all.rise.empty())
                 add_rise<S, M>(part, X, given.slave.smooth[f],
                                facet::gather<M>(others, given.x),

@@ -113,10 +113,12 @@ int rule_degree(double distortion, bool is_weighted = false)
 /// @param[in] master Nodes of the part of the master facet.
 /// @param[in] f Called as f(slave's shape, master's shape, weight), the shapes
 /// being those of the parts.
+/// @param[in] more By how much the degree of f is above that of a shape
+/// function of each facet.
 template <class SlaveWhole, class MasterWhole, class Function>
 void integrate(const SlaveFacet<facet::Part<SlaveWhole>>& slave,
                const facet::Nodes<facet::Part<MasterWhole>>& master,
-               Function&& f)
+               Function&& f, int more = 0)
 {
   using S = facet::Part<SlaveWhole>;
   using M = facet::Part<MasterWhole>;
@@ -129,8 +131,10 @@ void integrate(const SlaveFacet<facet::Part<SlaveWhole>>& slave,
   const InverseMap<M> map(r);
   if (!map.exists())
     return;
-  const int degree = rule_degree<SlaveWhole, MasterWhole>(
-      std::max(slave.bend, map.distortion()), slave.is_weighted);
+  const int degree
+      = more
+        + rule_degree<SlaveWhole, MasterWhole>(
+            std::max(slave.bend, map.distortion()), slave.is_weighted);
   integrate(overlap, degree,
             [&](const facet::Local<S>& p, double weight)
             {

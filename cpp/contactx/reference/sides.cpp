@@ -51,9 +51,10 @@ void check_smooth(const law::Law& law, const MasterOptions& options)
 {
   if (not options.is_smooth)
     return;
-  check::require(options.level.empty(),
-                 "smooth is for linear facets: quadratic ones are curved as the "
-                 "mesh is; leave it out, and curve the mesh");
+  check::require(
+      options.level.empty(),
+      "smooth is for linear facets: quadratic ones are curved as the "
+      "mesh is; leave it out, and curve the mesh");
   check::require(not law.is_tied(),
                  "smooth is not for ties, whose places on the facets stay as "
                  "they are: leave it out");
@@ -210,9 +211,10 @@ std::shared_ptr<contact::ObstacleMaster> contactx::reference::make_master(
       {
         check_arguments(mesh, slaves.get(), options);
         check::require(obstacle != nullptr, "obstacle must not be empty");
-        check::require(not options.is_smooth,
-                       "smooth is for surfaces of facets; an obstacle is smooth "
-                       "as it is: leave it out");
+        check::require(
+            not options.is_smooth,
+            "smooth is for surfaces of facets; an obstacle is smooth "
+            "as it is: leave it out");
       });
   check_facets(halo, {slave_name, slaves->own()}, "slave");
   const auto x = halo.reference();

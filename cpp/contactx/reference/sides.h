@@ -64,8 +64,8 @@ make_slave_nodes(const std::shared_ptr<parallel::Halo>& halo,
 /// @throws std::invalid_argument on all ranks if facets of any rank are
 /// degenerate or the slave surface is folded, if the surfaces share nodes that
 /// are no crack's tip, or a body lies wholly inside the other one; of a surface
-/// on itself if sliding is small, the law is a tie, or facets are integrated; of
-/// smooth surfaces if it is one on itself, the law is a tie, or facets are
+/// on itself if sliding is small, the law is a tie, or facets are integrated;
+/// of smooth surfaces if it is one on itself, the law is a tie, or facets are
 /// quadratic.
 std::shared_ptr<contact::DeformableMaster>
 make_master(const Mesh& mesh, std::shared_ptr<const contact::SlaveNodes> slaves,

@@ -33,10 +33,9 @@ SmoothSurface::SmoothSurface(const parallel::Halo& halo,
     names.insert(names.end(), name.begin(), name.end());
     for (int l = 0; l < most_nodes; ++l)
       for (int k = 0; k < g; ++k)
-        corners.push_back(
-            l < std::ssize(own[f])
-                ? halo.reference()[std::size_t(own[f][l]) * g + k]
-                : 0);
+        corners.push_back(l < std::ssize(own[f])
+                              ? halo.reference()[std::size_t(own[f][l]) * g + k]
+                              : 0);
   }
   names = parallel::gathered<std::int64_t>(halo.ranks(), names);
   corners = parallel::gathered<double>(halo.ranks(), corners);

@@ -84,7 +84,7 @@ bool fill_pair(Input& in, const Entry& e, Coefficients& w)
     w.at(Coefficient::area)[s] = all.area[s];
   }
   std::copy_n(all.normal.begin(), 3, pair + at.normal);
-  pair[at.keeps] = in.flag();
+  pair[at.keeps] = in.below(3);
   return std::all_of(all.area.begin(), all.area.begin() + n,
                      [](double a) { return a > 0; });
 }

@@ -51,10 +51,10 @@ TEST(KernelsUnderRigidMotion, TurnEverythingAndChangeNothing)
         Sample moved = s;
         if (s.keeps_normal())
         {
-          double* n = moved.at(Coefficient::pair)
-                      + kernel::MortarLayout(s.kind.num_slaves,
-                                             s.kind.num_nodes)
-                            .normal;
+          double* n
+              = moved.at(Coefficient::pair)
+                + kernel::MortarLayout(s.kind.num_slaves, s.kind.num_nodes)
+                      .normal;
           const Values before(n, n + gdim);
           std::ranges::copy(turned(motion, before, gdim, false), n);
         }
