@@ -12,7 +12,8 @@ namespace contactx::search
 /// next so that they reach a fixed point.
 ///
 /// A slave node keeps its facet while its projection stays inside the facet
-/// extended by the margin. A pair that still returns twice to the facet it has
+/// extended by the margin; where it is farther away than the facet is long, as
+/// long as no other one is nearer by more than that margin. A pair that still returns twice to the facet it has
 /// left is frozen until the step's end.
 class Pairing
 {
@@ -107,6 +108,8 @@ public:
   std::vector<std::int32_t> frozen() const;
 
 private:
+  std::optional<Projection> in_margin(std::span<const double> x, std::size_t i,
+                                      double reach) const;
   std::optional<Projection> keep(std::span<const double> x, std::size_t i,
                                  double reach) const;
   void set(std::size_t i, const std::optional<Projection>& q,
