@@ -23,6 +23,7 @@ from typing import TYPE_CHECKING
 from petsc4py import PETSc
 
 import numpy as np
+import numpy.typing as npt
 
 from contactx.callback import keeps_its_error, weakly
 from contactx.linear import Condensed, LinearSolver, SaddlePoint
@@ -34,6 +35,8 @@ if TYPE_CHECKING:
 
 # Difference of a Jacobian from a difference quotient that is no rounding
 _WRONG = 1e-3
+# Displacements of difference quotients, over the size of the scene
+_SIZES = (1e-4, 1e-6, 1e-8)
 # Iterates in turn with about the same residual that the bulk alone leaves
 _STAGNANT = 4
 _WRONG_JACOBIAN = (
@@ -160,9 +163,7 @@ class NewtonLoop:
         update = self.snes.getSolutionUpdate()
         way = update.array_r[: self._system.num_displacements].reshape(-1, self._system.block)
         way = self._halo.scatter_forward(way).ravel()[: len(self._bulk.u.x.array)]
-        # One size may be too large where the material is about to fail, or too small for rounding
-        sizes = [part * self._loop.convergence.extent for part in (1e-4, 1e-6, 1e-8)]
-        error = min(self._bulk.jacobian_error(way, size) for size in sizes)
+        error = self._jacobian_error(way)
         if error > _WRONG:
             return _WRONG_JACOBIAN.format(100 * error, _ADVICE[self._bulk.has_own_jacobian])
         last = self._report.history[-_STAGNANT:]
@@ -172,6 +173,24 @@ class NewtonLoop:
         if stagnant and changes == 0 and self._loop.convergence.may_be_rounding(min(residuals)):
             return _STAGNATES.format(min(residuals), last[-1].tolerance)
         return ""
+
+    def _jacobian_error(self, way: npt.NDArray[np.float64]) -> float:
+        """Smallest of some relative differences of the Jacobian from a difference quotient.
+
+        Args:
+            way: Direction, ghosts included.
+        """
+        extent = self._loop.convergence.extent
+        # One size may be too large where the material is about to fail, or too small for rounding
+        places = [(part * extent, 0.0) for part in _SIZES]
+        # An iterate may lie on kinks of F, such as where bodies begin to yield: one of its
+        # derivatives there is as right as another, but none is a quotient across the kink
+        places += [(part * extent, _SIZES[0] * extent) for part in _SIZES[1:]]
+        error = np.inf
+        for size, ahead in places:
+            if error > _WRONG:
+                error = min(error, self._bulk.jacobian_error(way, size, ahead))
+        return error
 
     @property
     def damping_may_help(self) -> bool:

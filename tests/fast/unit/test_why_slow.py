@@ -13,6 +13,7 @@ from dolfinx.mesh import CellType
 
 from scenes import NU, Blocks
 from scenes.materials import neo_hookean
+from scenes.plasticity import Plastic
 from story import elasticity
 
 QUOTIENT = "the Jacobian is not the derivative of F: along the last step it differs by"
@@ -54,6 +55,30 @@ def test_a_right_jacobian_is_not_blamed():
     said = failure(scene, petsc_options={"snes_max_it": 1})
     assert "no convergence in snes_max_it iterations" in said
     assert "Jacobian" not in said
+
+
+@pytest.mark.parametrize("wrong", [False, True])
+def test_a_kink_of_the_material_is_not_blamed(wrong):
+    """Where an accepted step has ended plastic bodies are about to yield, or to unload."""
+    scene = Blocks(CellType.hexahedron)
+    u = scene.u
+    material = Plastic(u)
+    J = ufl.derivative(material.F, u)
+    if wrong:
+        w, v = ufl.TrialFunction(u.function_space), ufl.TestFunction(u.function_space)
+        J += 0.1 * ufl.inner(ufl.grad(w), ufl.grad(v)) * ufl.dx
+    scene.F = material.F
+    problem = scene.problem(scene.contact(), J=J)
+    u.interpolate(lambda x: (0.01 * x[0], 0 * x[0], -0.02 * x[2]))
+    material.commit()
+    way = u.x.array.copy()
+    bulk, newton = problem.assembler.bulk, problem._newton
+    # Half of each side's derivative
+    assert bulk.jacobian_error(way, 1e-6) > 0.1
+    error = newton._jacobian_error(way)
+    print(error)
+    assert error > 1e-3 if wrong else error < 1e-6
+    assert (u.x.array == way).all()
 
 
 @pytest.mark.parametrize("wrong", [False, True])
