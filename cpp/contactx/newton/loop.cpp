@@ -166,7 +166,10 @@ Verdict Loop::judge(bool is_start, double rtol, double atol,
   }
   if (_length.is_stuck())
     return Verdict::stuck;
-  return is_unbalanced ? Verdict::unbalanced : Verdict::goes_on;
+  if (not is_unbalanced)
+    return Verdict::goes_on;
+  // What balances a body may have been lost on the way
+  return _balance.has_gone_astray() ? Verdict::stuck : Verdict::unbalanced;
 }
 
 /// Takes back a part of the last step, if iterates go round in a circle.

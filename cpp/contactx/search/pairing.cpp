@@ -108,6 +108,23 @@ std::optional<Projection> Pairing::keep(std::span<const double> x,
   return std::nullopt;
 }
 
+/// Projection of a node on its facet where this is as near as another one but
+/// for the margin. Far in front of the edge of two facets either will do, but
+/// what flows across the gap must not jump from iterate to iterate.
+std::optional<Projection> Pairing::as_near(std::span<const double> x,
+                                           std::size_t i, std::int32_t other,
+                                           double reach) const
+{
+  const auto mine = in_margin(x, i, reach);
+  if (!mine or mine->gap <= 0)
+    return std::nullopt;
+  const auto theirs = closest(master(), other, x,
+                              vector_at(x, _slaves[i], master().gdim()));
+  if (theirs and mine->gap > norm(theirs->d) + margin * mine->size)
+    return std::nullopt;
+  return mine;
+}
+
 void Pairing::set(std::size_t i, const std::optional<Projection>& q,
                   std::span<const double> x)
 {
@@ -156,12 +173,8 @@ bool Pairing::settle(std::int32_t i, const std::optional<Projection>& q,
                      std::span<const double> x, double reach, bool closed)
 {
   const std::int32_t now = q ? q->facet : -1;
-  // Far in front of the edge of two facets either is as near: what flows across
-  // the gap must not jump from iterate to iterate
-  if (q and now != _facet[i])
-    if (const auto mine = in_margin(x, i, reach);
-        mine and mine->gap > 0
-        and mine->gap <= norm(q->d) + margin * mine->size)
+  if (now >= 0 and now != _facet[i])
+    if (const auto mine = as_near(x, i, now, reach))
     {
       set(i, mine, x);
       return false;

@@ -112,6 +112,8 @@ private:
                                       double reach) const;
   std::optional<Projection> keep(std::span<const double> x, std::size_t i,
                                  double reach) const;
+  std::optional<Projection> as_near(std::span<const double> x, std::size_t i,
+                                    std::int32_t other, double reach) const;
   void set(std::size_t i, const std::optional<Projection>& q,
            std::span<const double> x);
   bool is_on_ridge(std::size_t i, const Projection& q,
