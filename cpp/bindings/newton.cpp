@@ -123,6 +123,9 @@ void contactx_bindings::newton(py::module_& m)
           "softens", [](Loop& self, const Array<double>& dx)
           { return self.softens(view(dx)); }, py::arg("dx"))
       .def(
+          "foresee", [](Loop& self, const Array<double>& dx)
+          { self.foresee(view(dx)); }, py::arg("dx"))
+      .def(
           "within_cells", [](const Loop& self, const Array<double>& dx)
           { return self.within_cells(view(dx)); }, py::arg("dx"))
       .def(

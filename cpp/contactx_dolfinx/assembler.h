@@ -275,6 +275,7 @@ public:
       s = -s;
     if (_loop->softens(step))
       return 0;
+    _loop->foresee(step);
     const double size = _loop->size_of(step);
     _loop->length().begin(size,
                           std::isfinite(size) ? _loop->within_cells(step) : 1);

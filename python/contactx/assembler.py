@@ -524,6 +524,7 @@ class ContactAssembler:
         step = -dx.array_r
         if self.loop.softens(step):
             return 0.0
+        self.loop.foresee(step)
         size = self.loop.size_of(step)
         self.loop.length.begin(size, self.loop.within_cells(step) if np.isfinite(size) else 1.0)
         return self.loop.length.part

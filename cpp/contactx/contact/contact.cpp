@@ -613,6 +613,12 @@ std::int32_t Contact::update_status(bool is_first)
   return changed;
 }
 
+void Contact::foresee()
+{
+  if (_history)
+    measure_from_touching(touching(closing(false), false));
+}
+
 /// Slave nodes whose slip is to be counted from where this iterate touches.
 /// That is the step's first one, as later ones depend on more than the loads:
 /// what closes later slips from the step's start, unless it had no master then.

@@ -198,6 +198,11 @@ public:
   /// @return Number of this rank's nodes that changed.
   std::int32_t update_status(bool is_first);
 
+  /// @brief Measure slip from where nodes touch on the way to this iterate,
+  /// which need not be one that is taken: that of the step's first Newton step
+  /// in full. It has been searched, and its gap updated; no status changes.
+  void foresee();
+
   /// @brief Mark the nodes that the complementarity closes.
   ///
   /// At a step's start also those that touch but for rounding errors: these

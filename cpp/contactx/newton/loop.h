@@ -119,6 +119,14 @@ public:
   /// @param[in] dx Step, which is taken off the unknowns (shape=(size)).
   bool softens(std::span<const double> dx);
 
+  /// @brief Take a Newton step in full, before a part of it is taken.
+  ///
+  /// Slip of nodes that touch within a load step is measured from where they do
+  /// on the way of its first Newton step, however much of that is taken: else
+  /// the solution would depend on what shortens it. Only that one counts.
+  /// @param[in] dx Step, which is taken off the unknowns (shape=(size)).
+  void foresee(std::span<const double> dx);
+
   /// @brief Largest part of a step, at most 1, that turns no cell inside out.
   /// @param[in] dx Step, which is taken off the unknowns (shape=(size)).
   double within_cells(std::span<const double> dx) const;
@@ -152,6 +160,7 @@ public:
 
 private:
   void settle(bool is_first);
+  void look_ahead();
   void take_back();
   void take_off_drift();
   bool compare(double rtol, double atol, std::span<double> b);
@@ -170,6 +179,8 @@ private:
   bool _has_stepped = false;
   // Displacements at the step's start
   std::vector<double> _start;
+  // Where the first Newton step would lead in full
+  std::vector<double> _ahead;
   // The iterate before with hard contact
   std::optional<std::vector<double>> _last;
 };
