@@ -28,6 +28,7 @@ import numpy.typing as npt
 from contactx.callback import keeps_its_error, weakly
 from contactx.linear import Condensed, LinearSolver, SaddlePoint
 from contactx.report import Report
+from contactx.settled import no_convergence
 from contactx.step_length import StepLength
 
 if TYPE_CHECKING:
@@ -55,9 +56,6 @@ _STAGNATES = (
 _CODE = PETSc.SNES.ConvergedReason
 _REASONS = {
     _CODE.CONVERGED_FNORM_ABS: "the residual is below the tolerance",
-    _CODE.DIVERGED_MAX_IT: "no convergence in snes_max_it iterations: take smaller load steps; "
-    "where nodes still change their status at the end, refine the mesh in contact, else raise "
-    "snes_max_it (manual: errors/no-convergence)",
     _CODE.DIVERGED_LINEAR_SOLVE: "the linear solver failed: is a body free to move without "
     "touching anything? Support it; with a Krylov solver of your own try pc_type lu "
     "(manual: errors/linear-solver-failed)",
@@ -143,7 +141,7 @@ class NewtonLoop:
             self._failure = self._why_slow(code)
             self._is_final = bool(self._failure)
         report.converged = converged
-        report.reason = self._failure or _reason_of(code, converged)
+        report.reason = self._failure or self._reason_of(code, converged)
         self._linear.end_step(report)
 
     def skipped(self) -> dict[str, int]:
@@ -260,8 +258,21 @@ class NewtonLoop:
         return True
 
 
+    def _reason_of(self, code: int, converged: bool) -> str:
+        """Why SNES ended.
+
+        Args:
+            code: Its reason.
+            converged: Whether the contact has converged, too.
+        """
+        if code == _CODE.DIVERGED_MAX_IT:
+            limit = "snes_max_it"
+            return no_convergence(limit, limit, is_homogeneous=self._loop.is_homogeneous)
+        return _reason_of(code, converged)
+
+
 def _reason_of(code: int, converged: bool) -> str:
-    """Why SNES ended.
+    """Why SNES ended, if not for the number of iterations.
 
     Args:
         code: Its reason.

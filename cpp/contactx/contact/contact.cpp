@@ -584,6 +584,15 @@ void Contact::for_each_pair(std::string_view term,
                           read, gdim(), which, use);
 }
 
+bool Contact::is_without_gaps() const
+{
+  const double tie = touching_gap(_halo->ranks(),
+                                  at_slaves(_halo->positions()), gdim());
+  const bool any = std::ranges::any_of(
+      _nodes->gap, [tie](double gap) { return std::abs(gap) > tie; });
+  return not parallel::anywhere(_halo->ranks(), any);
+}
+
 std::int32_t Contact::update_status(bool is_first)
 {
   const std::vector<std::int8_t> before = _nodes->status;

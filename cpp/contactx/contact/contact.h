@@ -193,6 +193,10 @@ public:
   /// those of these positions, pairs and offsets already.
   void update_gap();
 
+  /// @brief True if no slave node of any rank that has a pair has a gap, or an
+  /// overlap, but for rounding; collective.
+  bool is_without_gaps() const;
+
   /// @brief Set each slave node's status from its multiplier, gap and slip.
   /// @param[in] is_first Whether the iterate is the step's start.
   /// @return Number of this rank's nodes that changed.

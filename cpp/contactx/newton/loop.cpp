@@ -113,6 +113,23 @@ void Loop::settle_first()
     c->update_gap();
     System::evaluate(*c);
   }
+  _is_homogeneous = find_homogeneous();
+}
+
+bool Loop::find_homogeneous()
+{
+  const auto& contacts = _system->contacts();
+  const auto scales = [](const auto& c)
+  { return not c->updates_kinematics() and not c->law()->may_throw(); };
+  if (not _system->bulk()->is_linear() or _system->bulk()->fields()
+      or not std::ranges::all_of(contacts, scales))
+    return false;
+  const bool moved
+      = std::ranges::any_of(_start, [](double u) { return u != 0; });
+  if (parallel::anywhere(_system->halo()->ranks(), moved))
+    return false;
+  return std::ranges::all_of(contacts, [](const auto& c)
+                             { return c->is_without_gaps(); });
 }
 
 void Loop::settle(bool is_first)

@@ -107,6 +107,11 @@ public:
   /// @brief The iterate that was judged.
   const Iterate& iterate() const { return _iterate; }
 
+  /// @brief True if a smaller load is the same problem, scaled: from a start
+  /// without displacements and gaps, with linear bodies, small sliding and no
+  /// other law of friction than Coulomb's. Known once `settle_first` was called.
+  bool is_homogeneous() const { return _is_homogeneous; }
+
   /// @brief Counts how often what the Jacobian depends on has changed, the
   /// displacements of linear solves apart.
   std::int64_t version() const { return _version; }
@@ -161,6 +166,7 @@ public:
 private:
   void settle(bool is_first);
   void look_ahead();
+  bool find_homogeneous();
   void take_back();
   void take_off_drift();
   bool compare(double rtol, double atol, std::span<double> b);
@@ -176,7 +182,7 @@ private:
   active_set::BalanceGuard _balance;
   Iterate _iterate;
   std::int64_t _version = 0;
-  bool _has_stepped = false;
+  bool _has_stepped = false, _is_homogeneous = false;
   // Displacements at the step's start
   std::vector<double> _start;
   // Where the first Newton step would lead in full
