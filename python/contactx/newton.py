@@ -257,7 +257,6 @@ class NewtonLoop:
             self._length.shorten(self.snes, x, step, self._function)
         return True
 
-
     def _reason_of(self, code: int, converged: bool) -> str:
         """Why SNES ended.
 

@@ -586,10 +586,10 @@ void Contact::for_each_pair(std::string_view term,
 
 bool Contact::is_without_gaps() const
 {
-  const double tie = touching_gap(_halo->ranks(),
-                                  at_slaves(_halo->positions()), gdim());
-  const bool any = std::ranges::any_of(
-      _nodes->gap, [tie](double gap) { return std::abs(gap) > tie; });
+  const double tie
+      = touching_gap(_halo->ranks(), at_slaves(_halo->positions()), gdim());
+  const bool any = std::ranges::any_of(_nodes->gap, [tie](double gap)
+                                       { return std::abs(gap) > tie; });
   return not parallel::anywhere(_halo->ranks(), any);
 }
 

@@ -109,7 +109,8 @@ public:
 
   /// @brief True if a smaller load is the same problem, scaled: from a start
   /// without displacements and gaps, with linear bodies, small sliding and no
-  /// other law of friction than Coulomb's. Known once `settle_first` was called.
+  /// other law of friction than Coulomb's. Known once `settle_first` was
+  /// called.
   bool is_homogeneous() const { return _is_homogeneous; }
 
   /// @brief Counts how often what the Jacobian depends on has changed, the

@@ -118,8 +118,8 @@ std::optional<Projection> Pairing::as_near(std::span<const double> x,
   const auto mine = in_margin(x, i, reach);
   if (!mine or mine->gap <= 0)
     return std::nullopt;
-  const auto theirs = closest(master(), other, x,
-                              vector_at(x, _slaves[i], master().gdim()));
+  const auto theirs
+      = closest(master(), other, x, vector_at(x, _slaves[i], master().gdim()));
   if (theirs and mine->gap > norm(theirs->d) + margin * mine->size)
     return std::nullopt;
   return mine;

@@ -13,8 +13,8 @@ namespace contactx::search
 ///
 /// A slave node keeps its facet while its projection stays inside the facet
 /// extended by the margin; where it is farther away than the facet is long, as
-/// long as no other one is nearer by more than that margin. A pair that still returns twice to the facet it has
-/// left is frozen until the step's end.
+/// long as no other one is nearer by more than that margin. A pair that still
+/// returns twice to the facet it has left is frozen until the step's end.
 class Pairing
 {
 public:
