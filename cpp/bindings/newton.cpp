@@ -110,6 +110,7 @@ void contactx_bindings::newton(py::module_& m)
       .def_property_readonly("iterate", &Loop::iterate,
                              py::return_value_policy::reference_internal)
       .def_property_readonly("version", &Loop::version)
+      .def_property_readonly("is_homogeneous", &Loop::is_homogeneous)
       .def("begin_step", &Loop::begin_step, py::arg("damped"))
       .def("settle_first", &Loop::settle_first)
       .def(
@@ -122,6 +123,9 @@ void contactx_bindings::newton(py::module_& m)
       .def(
           "softens", [](Loop& self, const Array<double>& dx)
           { return self.softens(view(dx)); }, py::arg("dx"))
+      .def(
+          "foresee", [](Loop& self, const Array<double>& dx)
+          { self.foresee(view(dx)); }, py::arg("dx"))
       .def(
           "within_cells", [](const Loop& self, const Array<double>& dx)
           { return self.within_cells(view(dx)); }, py::arg("dx"))

@@ -227,10 +227,17 @@ public:
     if (_is_solution)
       look_at_solution();
     else if (_number >= max_it)
-      throw ConvergenceError("no convergence in " + std::to_string(max_it)
-                             + " iterations: take smaller load steps, or "
-                               "raise max_it (manual: "
-                               "errors/no-convergence)");
+      throw ConvergenceError(
+          "no convergence in " + std::to_string(max_it) + " iterations: "
+          + (_loop->is_homogeneous()
+                 ? "smaller load steps would not help, as this step from "
+                   "rest, of linear bodies without gaps, is the same for any "
+                   "size of its load: take what presses the bodies together "
+                   "first and what shears them afterwards, swap slave and "
+                   "master, take the other method, or meshes that match or "
+                   "are finer, or"
+                 : "take smaller load steps, or")
+          + " raise max_it (manual: errors/no-convergence)");
     _is_settled = true;
     return {_loop->iterate(), _number, _is_solution};
   }
@@ -275,6 +282,7 @@ public:
       s = -s;
     if (_loop->softens(step))
       return 0;
+    _loop->foresee(step);
     const double size = _loop->size_of(step);
     _loop->length().begin(size,
                           std::isfinite(size) ? _loop->within_cells(step) : 1);

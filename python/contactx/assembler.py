@@ -46,7 +46,7 @@ from contactx.parallel.agreement import agreed
 from contactx.parallel.halo import Halo
 from contactx.refined import reference_positions
 from contactx.report import Report
-from contactx.settled import Settled, settled
+from contactx.settled import Settled, no_convergence, settled
 from contactx.state import Snapshot
 from contactx.summary import complete, warning_of
 from contactx.system import SaddlePointSystem
@@ -334,10 +334,8 @@ class ContactAssembler:
         found = self.judge(rtol, atol)
         reason = found.failure
         if not (reason or found.converged) and found.number >= max_it:
-            reason = (
-                f"no convergence in {max_it} iterations: take smaller load steps, or raise max_it "
-                "(manual: errors/no-convergence)"
-            )
+            is_homogeneous = self.loop.is_homogeneous
+            reason = no_convergence(str(max_it), "max_it", is_homogeneous=is_homogeneous)
         if reason:
             self.report.reason = reason
             raise ConvergenceError(reason, self.report)
@@ -524,6 +522,7 @@ class ContactAssembler:
         step = -dx.array_r
         if self.loop.softens(step):
             return 0.0
+        self.loop.foresee(step)
         size = self.loop.size_of(step)
         self.loop.length.begin(size, self.loop.within_cells(step) if np.isfinite(size) else 1.0)
         return self.loop.length.part

@@ -467,29 +467,34 @@ class Contact:
     def slip(self) -> fem.Function:
         """Slip increment of the last step, a length; zero off the slave surface.
 
-        For a node that comes into contact in the first iterate of a step, slip is counted from
-        where the straight line between its positions at the step's start and in that iterate, both
+        For a node that comes into contact in the first Newton step of a load step, slip is counted
+        from where the straight line between its positions at its start and at its end, both
         relative to the master, crosses the master's surface; for all others from the step's start.
 
+        Slip is measured with friction only. With ``friction=0.0`` this is zero although nodes
+        slide; a ``fem.Constant`` of value 0 measures slip without a force along the surface.
+
         Raises:
-            RuntimeError: If the contact has no friction, or is tied.
+            RuntimeError: If the contact is tied.
         """
         return self._measured(self.fields.slip)
 
     @property
     def slip_total(self) -> fem.Function:
-        """Accumulated length of slip, zero off the slave surface.
+        """Accumulated length of slip, zero off the slave surface, and with ``friction=0.0``.
+
+        Slip is measured with friction only, a ``fem.Constant`` of value 0 among it: see ``slip``.
 
         Raises:
-            RuntimeError: If the contact has no friction, or is tied.
+            RuntimeError: If the contact is tied.
         """
         return self._measured(self.fields.slip_total)
 
     def _measured(self, field: fem.Function | None) -> fem.Function:
         if field is None:
-            why = "measures no slip: give it friction (a fem.Constant of value 0 will do)"
-            tied = "is tied: its nodes do not slip, leave slip and slip_total out"
-            raise RuntimeError(f"{self} {tied if self.tied else why}")
+            raise RuntimeError(
+                f"{self} is tied: its nodes do not slip, leave slip and slip_total out"
+            )
         return field
 
     @property

@@ -155,28 +155,6 @@ class CoupledBulk(Bulk):
         forces: Array = self._b[self.unknowns.index].array[self._own]
         return forces
 
-    def jacobian_error(self, way: Array, size: float) -> float:
-        """See ``Bulk``: along a direction of the displacement, in all rows."""
-        way = np.where(self.markers == 1, 0.0, way)
-        most = reduce.largest(self.comm, float(np.abs(way).max(initial=0.0)))
-        if not (np.isfinite(most) and most > 0):
-            return 0.0
-        product = self.products(way[None, : self.num_dofs])[0]
-        u, quotient = self.u.x.array.copy(), np.zeros(self.num_dofs)
-        step = size / most
-        for sign in (1, -1):
-            self.u.x.array[:] = u + sign * step * way
-            self.write()
-            quotient += sign * self.residual() / (2 * step)
-        self.u.x.array[:] = u
-        self.write()
-        free = self.markers[: self.num_dofs] == 0
-        noise = 1e-6 * way[: self.num_dofs][free] * self.diagonal()[free]
-        product, quotient = product[free], quotient[free]
-        sizes = [reduce.norm(self.comm, a) for a in (product - quotient, product, quotient, noise)]
-        largest = max(sizes[1:])
-        return float(sizes[0] / largest) if np.isfinite(sizes).all() and largest > 0 else 0.0
-
     def all_defects(self) -> list[Array]:
         """Values minus Dirichlet values of each function, zero elsewhere, ghosts included."""
         defects = []

@@ -31,8 +31,8 @@ class Fields:
         traction: Traction that the master exerts on the slave, recovered.
         gap: Gap.
         status: Status.
-        slip: Slip increment of the last step; None without friction.
-        slip_total: Its accumulated length; None without friction.
+        slip: Slip increment of the last step, zero without friction; None of a tie.
+        slip_total: Its accumulated length; the same.
         force: Total force on the slave side, shape (gdim,).
         imbalance: Sum of the contact's forces on both sides, shape (gdim,).
         recovery_change: By how much the recovered tractions change the force, over the sum of the
@@ -63,9 +63,9 @@ class Fields:
         self.traction = fem.Function(V, name="traction")
         self.gap = fem.Function(Q, name="gap")
         self.status = fem.Function(Q, name="status")
-        measured = interface.history is not None
-        self.slip = fem.Function(V, name="slip") if measured else None
-        self.slip_total = fem.Function(Q, name="slip_total") if measured else None
+        tied = interface.law.is_tied
+        self.slip = None if tied else fem.Function(V, name="slip")
+        self.slip_total = None if tied else fem.Function(Q, name="slip_total")
         self.force = np.zeros(self._gdim)
         # Forces on the slave nodes and where they act
         self._on_slave = self._at = np.zeros((len(interface.slaves), self._gdim))

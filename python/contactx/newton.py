@@ -23,10 +23,12 @@ from typing import TYPE_CHECKING
 from petsc4py import PETSc
 
 import numpy as np
+import numpy.typing as npt
 
 from contactx.callback import keeps_its_error, weakly
 from contactx.linear import Condensed, LinearSolver, SaddlePoint
 from contactx.report import Report
+from contactx.settled import no_convergence
 from contactx.step_length import StepLength
 
 if TYPE_CHECKING:
@@ -34,6 +36,8 @@ if TYPE_CHECKING:
 
 # Difference of a Jacobian from a difference quotient that is no rounding
 _WRONG = 1e-3
+# Displacements of difference quotients, over the size of the scene
+_SIZES = (1e-4, 1e-6, 1e-8)
 # Iterates in turn with about the same residual that the bulk alone leaves
 _STAGNANT = 4
 _WRONG_JACOBIAN = (
@@ -52,9 +56,6 @@ _STAGNATES = (
 _CODE = PETSc.SNES.ConvergedReason
 _REASONS = {
     _CODE.CONVERGED_FNORM_ABS: "the residual is below the tolerance",
-    _CODE.DIVERGED_MAX_IT: "no convergence in snes_max_it iterations: take smaller load steps; "
-    "where nodes still change their status at the end, refine the mesh in contact, else raise "
-    "snes_max_it (manual: errors/no-convergence)",
     _CODE.DIVERGED_LINEAR_SOLVE: "the linear solver failed: is a body free to move without "
     "touching anything? Support it; with a Krylov solver of your own try pc_type lu "
     "(manual: errors/linear-solver-failed)",
@@ -140,7 +141,7 @@ class NewtonLoop:
             self._failure = self._why_slow(code)
             self._is_final = bool(self._failure)
         report.converged = converged
-        report.reason = self._failure or _reason_of(code, converged)
+        report.reason = self._failure or self._reason_of(code, converged)
         self._linear.end_step(report)
 
     def skipped(self) -> dict[str, int]:
@@ -160,9 +161,7 @@ class NewtonLoop:
         update = self.snes.getSolutionUpdate()
         way = update.array_r[: self._system.num_displacements].reshape(-1, self._system.block)
         way = self._halo.scatter_forward(way).ravel()[: len(self._bulk.u.x.array)]
-        # One size may be too large where the material is about to fail, or too small for rounding
-        sizes = [part * self._loop.convergence.extent for part in (1e-4, 1e-6, 1e-8)]
-        error = min(self._bulk.jacobian_error(way, size) for size in sizes)
+        error = self._jacobian_error(way)
         if error > _WRONG:
             return _WRONG_JACOBIAN.format(100 * error, _ADVICE[self._bulk.has_own_jacobian])
         last = self._report.history[-_STAGNANT:]
@@ -172,6 +171,24 @@ class NewtonLoop:
         if stagnant and changes == 0 and self._loop.convergence.may_be_rounding(min(residuals)):
             return _STAGNATES.format(min(residuals), last[-1].tolerance)
         return ""
+
+    def _jacobian_error(self, way: npt.NDArray[np.float64]) -> float:
+        """Smallest of some relative differences of the Jacobian from a difference quotient.
+
+        Args:
+            way: Direction, ghosts included.
+        """
+        extent = self._loop.convergence.extent
+        # One size may be too large where the material is about to fail, or too small for rounding
+        places = [(part * extent, 0.0) for part in _SIZES]
+        # An iterate may lie on kinks of F, such as where bodies begin to yield: one of its
+        # derivatives there is as right as another, but none is a quotient across the kink
+        places += [(part * extent, _SIZES[0] * extent) for part in _SIZES[1:]]
+        error = np.inf
+        for size, ahead in places:
+            if error > _WRONG:
+                error = min(error, self._bulk.jacobian_error(way, size, ahead))
+        return error
 
     @property
     def damping_may_help(self) -> bool:
@@ -240,9 +257,21 @@ class NewtonLoop:
             self._length.shorten(self.snes, x, step, self._function)
         return True
 
+    def _reason_of(self, code: int, converged: bool) -> str:
+        """Why SNES ended.
+
+        Args:
+            code: Its reason.
+            converged: Whether the contact has converged, too.
+        """
+        if code == _CODE.DIVERGED_MAX_IT:
+            limit = "snes_max_it"
+            return no_convergence(limit, limit, is_homogeneous=self._loop.is_homogeneous)
+        return _reason_of(code, converged)
+
 
 def _reason_of(code: int, converged: bool) -> str:
-    """Why SNES ended.
+    """Why SNES ended, if not for the number of iterations.
 
     Args:
         code: Its reason.

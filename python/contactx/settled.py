@@ -30,6 +30,16 @@ _FAILURES = {
     "residual does not fall. Take smaller load steps (manual: errors/no-step-leads-on)",
 }
 
+# What may help where iterations do not converge: where loads scale, and else
+_MORE = {
+    True: "smaller load steps would not help, as this step from rest, of linear bodies without "
+    "gaps, is the same for any size of its load: take what presses the bodies together first and "
+    "what shears them afterwards, swap slave and master, take the other method, or meshes that "
+    "match or are finer where nodes still change their status at the end; else raise {limit}",
+    False: "take smaller load steps; where nodes still change their status at the end, refine the "
+    "mesh in contact, else raise {limit}",
+}
+
 
 @dataclass(frozen=True)
 class Settled(Iteration):
@@ -52,6 +62,18 @@ class Settled(Iteration):
     def row(self) -> Iteration:
         """The row of a report."""
         return Iteration(**{f.name: getattr(self, f.name) for f in fields(Iteration)})
+
+
+def no_convergence(count: str, limit: str, *, is_homogeneous: bool) -> str:
+    """Say that iterations did not converge, and what may help.
+
+    Args:
+        count: Number of iterations, or what limits it.
+        limit: Name of the limit.
+        is_homogeneous: Whether a smaller load is the same problem, scaled.
+    """
+    more = _MORE[is_homogeneous].format(limit=limit)
+    return f"no convergence in {count} iterations: {more} (manual: errors/no-convergence)"
 
 
 def settled(

@@ -52,6 +52,7 @@ class StepLength:
             step: What is to be taken off it, changed in place.
             residual: Evaluates the residual at an iterate.
         """
+        self._loop.foresee(step.array_r)
         size = self._loop.size_of(step.array_r)
         self._rule.begin(size, self._within_cells(step) if np.isfinite(size) else 1.0)
         if self._rule.has_trial:

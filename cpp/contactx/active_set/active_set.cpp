@@ -163,6 +163,19 @@ Changes ActiveSet::update(bool is_first)
   return {sums[0], sums[1]};
 }
 
+void ActiveSet::foresee()
+{
+  for (const auto& c : _contacts)
+    c->search();
+  for (const auto& c : _contacts)
+  {
+    c->update_gap();
+    c->foresee();
+  }
+  // What it has changed was no return
+  reset_flips();
+}
+
 /// Decides which contacts of shared nodes may close, and where friction counts.
 void ActiveSet::share(bool is_first)
 {

@@ -121,6 +121,10 @@ public:
   /// @brief Number of nodes that close several contacts, on all ranks.
   std::int64_t num_corners() const;
 
+  /// @brief Take what slip is measured from of an iterate that is not taken,
+  /// see contact::Contact::foresee; collective.
+  void foresee();
+
   /// @brief Smallest gap that frozen pairs of each contact hide, when last
   /// looked for.
   const std::vector<double>& hidden_gaps() const { return _frozen.gaps(); }

@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 
@@ -16,6 +18,10 @@ public:
   /// gives up.
   static constexpr int most = 10;
 
+  /// @brief Largest residual of these over that of the step's start above which
+  /// they have gone astray.
+  static constexpr double astray = 10;
+
   /// @brief Start a step.
   void begin_step() { *this = {}; }
 
@@ -28,16 +34,23 @@ public:
   bool note(bool is_unbalanced, std::int64_t changes, double residual)
   {
     const bool falls = residual < 0.7 * _before;
+    if (std::isinf(_before))
+      _first = residual;
     _before = residual;
     if (not is_unbalanced)
-      _count = 0;
+      _count = 0, _largest = 0;
     else if (changes == 0)
-      ++_count;
+      ++_count, _largest = std::max(_largest, residual);
     return _count >= most and not falls;
   }
 
+  /// @brief True if steps have led away from a solution: that nothing balances
+  /// a body where they have led to says nothing of its loads.
+  bool has_gone_astray() const { return _largest > astray * _first; }
+
 private:
   int _count = 0;
+  double _first = 0, _largest = 0;
   double _before = std::numeric_limits<double>::infinity();
 };
 } // namespace contactx::active_set

@@ -105,6 +105,9 @@ public:
              std::vector<std::shared_ptr<Holding>> contacts,
              std::span<const std::int64_t> original);
 
+  /// @brief True if any contact has Coulomb friction.
+  bool has_friction() const;
+
   /// @brief Find the free modes of the bodies.
   void begin_step();
 
@@ -164,7 +167,6 @@ private:
   };
 
   parallel::Ranks& ranks() const { return _bodies->map().ranks(); }
-  bool has_friction() const;
   bool is_linear() const;
   std::vector<Rows> rows(std::span<const double> x) const;
   std::vector<double> along(std::span<const double> x,

@@ -596,6 +596,15 @@ void Contact::for_each_pair(std::string_view term,
                           read, gdim(), which, use);
 }
 
+bool Contact::is_without_gaps() const
+{
+  const double tie
+      = touching_gap(_halo->ranks(), at_slaves(_halo->positions()), gdim());
+  const bool any = std::ranges::any_of(_nodes->gap, [tie](double gap)
+                                       { return std::abs(gap) > tie; });
+  return not parallel::anywhere(_halo->ranks(), any);
+}
+
 std::int32_t Contact::update_status(bool is_first)
 {
   const std::vector<std::int8_t> before = _nodes->status;
@@ -623,6 +632,12 @@ std::int32_t Contact::update_status(bool is_first)
   for (std::size_t i = 0; i < before.size(); ++i)
     changed += before[i] != _nodes->status[i];
   return changed;
+}
+
+void Contact::foresee()
+{
+  if (_history)
+    measure_from_touching(touching(closing(false), false));
 }
 
 /// Slave nodes whose slip is to be counted from where this iterate touches.

@@ -193,10 +193,19 @@ public:
   /// those of these positions, pairs and offsets already.
   void update_gap();
 
+  /// @brief True if no slave node of any rank that has a pair has a gap, or an
+  /// overlap, but for rounding; collective.
+  bool is_without_gaps() const;
+
   /// @brief Set each slave node's status from its multiplier, gap and slip.
   /// @param[in] is_first Whether the iterate is the step's start.
   /// @return Number of this rank's nodes that changed.
   std::int32_t update_status(bool is_first);
+
+  /// @brief Measure slip from where nodes touch on the way to this iterate,
+  /// which need not be one that is taken: that of the step's first Newton step
+  /// in full. It has been searched, and its gap updated; no status changes.
+  void foresee();
 
   /// @brief Mark the nodes that the complementarity closes.
   ///

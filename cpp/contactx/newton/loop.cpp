@@ -52,6 +52,7 @@ bool Loop::begin_step(bool damped)
   const std::span<const double> u = _system->bulk()->displacements();
   _start.assign(u.begin(), u.end());
   _last.reset();
+  _ahead.clear();
   _balance.begin_step();
   _has_stepped = false;
   _iterate = {};
@@ -105,9 +106,30 @@ void Loop::set_factors(std::span<const double> stiffness)
 void Loop::settle_first()
 {
   settle(true);
-  // For callers that ask for the Jacobian before the residual
+  // For callers that ask for the Jacobian before the residual: freezing the
+  // kinematics has changed the pairs
   for (const auto& c : _system->contacts())
+  {
+    c->update_gap();
     System::evaluate(*c);
+  }
+  _is_homogeneous = find_homogeneous();
+}
+
+bool Loop::find_homogeneous()
+{
+  const auto& contacts = _system->contacts();
+  const auto scales = [](const auto& c)
+  { return not c->updates_kinematics() and not c->law()->may_throw(); };
+  if (not _system->bulk()->is_linear() or _system->bulk()->fields()
+      or not std::ranges::all_of(contacts, scales))
+    return false;
+  const bool moved
+      = std::ranges::any_of(_start, [](double u) { return u != 0; });
+  if (parallel::anywhere(_system->halo()->ranks(), moved))
+    return false;
+  return std::ranges::all_of(contacts, [](const auto& c)
+                             { return c->is_without_gaps(); });
 }
 
 void Loop::settle(bool is_first)
@@ -121,6 +143,8 @@ Verdict Loop::judge(bool is_start, double rtol, double atol,
 {
   if (not is_start)
   {
+    if (not _has_stepped)
+      look_ahead();
     _has_stepped = true;
     take_back();
     take_off_drift();
@@ -166,7 +190,37 @@ Verdict Loop::judge(bool is_start, double rtol, double atol,
   }
   if (_length.is_stuck())
     return Verdict::stuck;
-  return is_unbalanced ? Verdict::unbalanced : Verdict::goes_on;
+  if (not is_unbalanced)
+    return Verdict::goes_on;
+  // What balances a body may have been lost on the way
+  return _balance.has_gone_astray() ? Verdict::stuck : Verdict::unbalanced;
+}
+
+void Loop::foresee(std::span<const double> dx)
+{
+  if (_has_stepped or not _bodies->has_friction())
+    return;
+  _ahead.resize(_system->size());
+  _system->unknowns(_ahead);
+  for (std::size_t i = 0; i < _ahead.size(); ++i)
+    _ahead[i] -= dx[i];
+}
+
+/// Measures slip from where nodes touch on the way of the first Newton step, if
+/// only a part of it was taken.
+void Loop::look_ahead()
+{
+  std::vector<double> x(_system->size());
+  _system->unknowns(x);
+  parallel::Ranks& ranks = _system->halo()->ranks();
+  const bool is_known = std::ranges::all_of(_ahead, [](double value)
+                                            { return std::isfinite(value); });
+  if (not parallel::anywhere(ranks, not _ahead.empty() and x != _ahead)
+      or parallel::anywhere(ranks, not is_known))
+    return;
+  _system->take(_ahead);
+  _active_set.foresee();
+  _system->take(x);
 }
 
 /// Takes back a part of the last step, if iterates go round in a circle.

@@ -107,6 +107,12 @@ public:
   /// @brief The iterate that was judged.
   const Iterate& iterate() const { return _iterate; }
 
+  /// @brief True if a smaller load is the same problem, scaled: from a start
+  /// without displacements and gaps, with linear bodies, small sliding and no
+  /// other law of friction than Coulomb's. Known once `settle_first` was
+  /// called.
+  bool is_homogeneous() const { return _is_homogeneous; }
+
   /// @brief Counts how often what the Jacobian depends on has changed, the
   /// displacements of linear solves apart.
   std::int64_t version() const { return _version; }
@@ -118,6 +124,14 @@ public:
   /// prescribed, and what it opens says nothing.
   /// @param[in] dx Step, which is taken off the unknowns (shape=(size)).
   bool softens(std::span<const double> dx);
+
+  /// @brief Take a Newton step in full, before a part of it is taken.
+  ///
+  /// Slip of nodes that touch within a load step is measured from where they do
+  /// on the way of its first Newton step, however much of that is taken: else
+  /// the solution would depend on what shortens it. Only that one counts.
+  /// @param[in] dx Step, which is taken off the unknowns (shape=(size)).
+  void foresee(std::span<const double> dx);
 
   /// @brief Largest part of a step, at most 1, that turns no cell inside out.
   /// @param[in] dx Step, which is taken off the unknowns (shape=(size)).
@@ -152,6 +166,8 @@ public:
 
 private:
   void settle(bool is_first);
+  void look_ahead();
+  bool find_homogeneous();
   void take_back();
   void take_off_drift();
   bool compare(double rtol, double atol, std::span<double> b);
@@ -167,9 +183,11 @@ private:
   active_set::BalanceGuard _balance;
   Iterate _iterate;
   std::int64_t _version = 0;
-  bool _has_stepped = false;
+  bool _has_stepped = false, _is_homogeneous = false;
   // Displacements at the step's start
   std::vector<double> _start;
+  // Where the first Newton step would lead in full
+  std::vector<double> _ahead;
   // The iterate before with hard contact
   std::optional<std::vector<double>> _last;
 };

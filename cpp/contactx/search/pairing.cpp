@@ -82,20 +82,47 @@ void Pairing::set_master(std::vector<std::int32_t> offsets,
   _finder = Finder(std::move(offsets), std::move(nodes), master().gdim());
 }
 
-std::optional<Projection> Pairing::keep(std::span<const double> x,
-                                        std::size_t i, double reach) const
+/// Projection of a node on its facet, if the facet extended by the margin, and
+/// no farther away than the reach, holds it or the pair is frozen.
+std::optional<Projection> Pairing::in_margin(std::span<const double> x,
+                                             std::size_t i, double reach) const
 {
   if (_facet[i] < 0 or _feature[i] != facet::interior)
     return std::nullopt;
   const auto q = extended(master(), _facet[i], x,
                           vector_at(x, _slaves[i], master().gdim()));
-  // Away from its facet a node may have come close to another one
   if (q
       and (_returns[i] >= max_returns
-           or (q->excess <= margin
-               and std::abs(q->gap) <= std::min(q->size, reach))))
+           or (q->excess <= margin and std::abs(q->gap) <= reach)))
     return q;
   return std::nullopt;
+}
+
+std::optional<Projection> Pairing::keep(std::span<const double> x,
+                                        std::size_t i, double reach) const
+{
+  const auto q = in_margin(x, i, reach);
+  // Away from its facet a node may have come close to another one
+  if (q and (_returns[i] >= max_returns or std::abs(q->gap) <= q->size))
+    return q;
+  return std::nullopt;
+}
+
+/// Projection of a node on its facet where this is as near as another one but
+/// for the margin. Far in front of the edge of two facets either will do, but
+/// what flows across the gap must not jump from iterate to iterate.
+std::optional<Projection> Pairing::as_near(std::span<const double> x,
+                                           std::size_t i, std::int32_t other,
+                                           double reach) const
+{
+  const auto mine = in_margin(x, i, reach);
+  if (!mine or mine->gap <= 0)
+    return std::nullopt;
+  const auto theirs
+      = closest(master(), other, x, vector_at(x, _slaves[i], master().gdim()));
+  if (theirs and mine->gap > norm(theirs->d) + margin * mine->size)
+    return std::nullopt;
+  return mine;
 }
 
 void Pairing::set(std::size_t i, const std::optional<Projection>& q,
@@ -146,6 +173,12 @@ bool Pairing::settle(std::int32_t i, const std::optional<Projection>& q,
                      std::span<const double> x, double reach, bool closed)
 {
   const std::int32_t now = q ? q->facet : -1;
+  if (now >= 0 and now != _facet[i])
+    if (const auto mine = as_near(x, i, now, reach))
+    {
+      set(i, mine, x);
+      return false;
+    }
   const bool same = now == _facet[i] and (!q or q->feature == _feature[i]);
   // On a ridge any normal of the cone will do, but it must not wander
   if (same and closed and q and q->feature != facet::interior

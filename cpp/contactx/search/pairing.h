@@ -12,8 +12,9 @@ namespace contactx::search
 /// next so that they reach a fixed point.
 ///
 /// A slave node keeps its facet while its projection stays inside the facet
-/// extended by the margin. A pair that still returns twice to the facet it has
-/// left is frozen until the step's end.
+/// extended by the margin; where it is farther away than the facet is long, as
+/// long as no other one is nearer by more than that margin. A pair that still
+/// returns twice to the facet it has left is frozen until the step's end.
 class Pairing
 {
 public:
@@ -107,8 +108,12 @@ public:
   std::vector<std::int32_t> frozen() const;
 
 private:
+  std::optional<Projection> in_margin(std::span<const double> x, std::size_t i,
+                                      double reach) const;
   std::optional<Projection> keep(std::span<const double> x, std::size_t i,
                                  double reach) const;
+  std::optional<Projection> as_near(std::span<const double> x, std::size_t i,
+                                    std::int32_t other, double reach) const;
   void set(std::size_t i, const std::optional<Projection>& q,
            std::span<const double> x);
   bool is_on_ridge(std::size_t i, const Projection& q,

@@ -47,3 +47,20 @@ TEST(BalanceGuard, WaitsWhileTheResidualFalls)
   EXPECT_FALSE(guard.note(true, 0, 0.69 * 0.69));
   EXPECT_TRUE(guard.note(true, 0, 0.71 * 0.69 * 0.69));
 }
+
+TEST(BalanceGuard, IteratesFarAboveTheFirstResidualHaveGoneAstray)
+{
+  for (const double factor : {0.99, 1.01})
+  {
+    BalanceGuard guard = after(1);
+    // Where forces balance, or nodes change, a residual may be anything
+    EXPECT_FALSE(guard.note(false, 0, 1e3));
+    EXPECT_FALSE(guard.note(true, 1, 1e3));
+    EXPECT_FALSE(guard.has_gone_astray());
+    guard.note(true, 0, factor * BalanceGuard::astray);
+    guard.note(true, 0, 1);
+    EXPECT_EQ(guard.has_gone_astray(), factor > 1);
+    guard.begin_step();
+    EXPECT_FALSE(guard.has_gone_astray());
+  }
+}

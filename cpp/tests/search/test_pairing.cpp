@@ -72,6 +72,21 @@ TEST(Pairing, LetsGoOfAFacetThatIsFarAway)
   EXPECT_EQ(s.facet(), 1);
 }
 
+TEST(Pairing, FarFromAnEdgeOfTwoFacetsItKeepsTheOneThatItHas)
+{
+  SlidingSegment s(flat);
+  const double far = 1.5; // longer than a facet
+  s.search_at({0.99, far}, false);
+  EXPECT_EQ(s.facet(), 0);
+  s.search_at({1 + 0.9 * margin, far}, false);
+  EXPECT_EQ(s.facet(), 0);
+  EXPECT_NEAR(s.pairing.xi()[0], -0.9 * margin, 1e-15);
+  s.search_at({1 + 1.1 * margin, far}, false);
+  EXPECT_EQ(s.facet(), 1);
+  s.search_at({1 - 0.9 * margin, far}, false);
+  EXPECT_EQ(s.facet(), 1);
+}
+
 TEST(Pairing, LooksNoFartherThanItsReach)
 {
   SlidingSegment s(flat);

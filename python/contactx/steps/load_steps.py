@@ -41,6 +41,10 @@ class LoadSteps:
         for step in cx.LoadSteps(problem, 10, update=update):
             material.commit()
 
+    With friction the answer depends on the steps, to first order: half the step has about half the
+    error, so compare with a run of twice as many. A step has one direction of slip: end one where
+    the path turns; see theory/friction of the manual.
+
     A step that does not converge is halved. Halved steps grow back: after an easy one the next is
     twice as long, but no given t is passed over. The loop sees accepted steps only; its body runs
     between them, so it may update a material's history. A failed attempt leaves u, contacts and

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """What is said of iterations that come to nothing, though no contact is to blame."""
 
+import numpy as np
 import pytest
 
 import contactx as cx
@@ -13,16 +14,17 @@ from dolfinx.mesh import CellType
 
 from scenes import NU, Blocks
 from scenes.materials import neo_hookean
+from scenes.plasticity import Plastic
 from story import elasticity
 
 QUOTIENT = "the Jacobian is not the derivative of F: along the last step it differs by"
 
 
-def failure(scene, **options):
-    problem = scene.problem(scene.contact(), **options)
+def failure(scene, contact=None, start=0.0, **options):
+    problem = scene.problem(contact or scene.contact(), **options)
     with pytest.raises(cx.ConvergenceError) as caught:
         problem.solve()
-    assert not scene.u.x.array.any()
+    assert (scene.u.x.array == start).all()
     return str(caught.value)
 
 
@@ -54,6 +56,67 @@ def test_a_right_jacobian_is_not_blamed():
     said = failure(scene, petsc_options={"snes_max_it": 1})
     assert "no convergence in snes_max_it iterations" in said
     assert "Jacobian" not in said
+
+
+def test_smaller_steps_are_not_advised_where_they_cannot_help():
+    """Half the load is the same problem, scaled: the same iterates, of half the residual."""
+    residuals, status = [], []
+    for down in (0.05, 0.025):
+        scene = Blocks(CellType.triangle, down=down)
+        contact = scene.contact("small", friction=0.05)
+        problem = scene.problem(contact)
+        problem.solve()
+        residuals.append([row.residual / down for row in problem.report.history[:-1]])
+        assert problem.report.iterations > 1
+        status.append(contact.status.x.array)
+    assert residuals[0] == pytest.approx(residuals[1], rel=1e-9)
+    assert (status[0] == status[1]).all()
+    scene = Blocks(CellType.triangle)
+    contact = scene.contact("small", friction=0.05)
+    said = failure(scene, contact, petsc_options={"snes_max_it": 1})
+    assert "smaller load steps would not help" in said
+    assert "take smaller load steps" not in said
+
+
+@pytest.mark.parametrize("what", ["gap", "finite", "law", "material", "start"])
+def test_smaller_steps_are_advised_else(what):
+    scene = Blocks(CellType.triangle, gap=1e-3 if what == "gap" else 0.0)
+    if what == "material":
+        scene.F = neo_hookean(scene.u, 1.0, NU, degree=2)
+    law = cx.FrictionLaw(lambda p, s: 1e-3 + 0 * p)
+    contact = scene.contact(
+        "finite" if what == "finite" else "small", friction=law if what == "law" else 0.05
+    )
+    start = np.zeros_like(scene.u.x.array)
+    if what == "start":
+        start[:] = 1e-3 * np.sin(np.arange(len(start)))
+        scene.u.x.array[:] = start
+    said = failure(scene, contact, start, petsc_options={"snes_max_it": 1})
+    assert "in snes_max_it iterations: take smaller load steps" in said
+
+
+@pytest.mark.parametrize("wrong", [False, True])
+def test_a_kink_of_the_material_is_not_blamed(wrong):
+    """Where an accepted step has ended plastic bodies are about to yield, or to unload."""
+    scene = Blocks(CellType.hexahedron)
+    u = scene.u
+    material = Plastic(u)
+    J = ufl.derivative(material.F, u)
+    if wrong:
+        w, v = ufl.TrialFunction(u.function_space), ufl.TestFunction(u.function_space)
+        J += 0.1 * ufl.inner(ufl.grad(w), ufl.grad(v)) * ufl.dx
+    scene.F = material.F
+    problem = scene.problem(scene.contact(), J=J)
+    u.interpolate(lambda x: (0.01 * x[0], 0 * x[0], -0.02 * x[2]))
+    material.commit()
+    way = u.x.array.copy()
+    bulk, newton = problem.assembler.bulk, problem._newton
+    # Half of each side's derivative
+    assert bulk.jacobian_error(way, 1e-6) > 0.1
+    error = newton._jacobian_error(way)
+    print(error)
+    assert error > 1e-3 if wrong else error < 1e-6
+    assert (u.x.array == way).all()
 
 
 @pytest.mark.parametrize("wrong", [False, True])

@@ -1,16 +1,26 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""A node that touches first within a step slips only from where it touches."""
+"""A node that touches first within a step slips only from where it touches.
+
+Where that is does not depend on how much of a Newton step is taken.
+"""
+
+from functools import partial
+
+from mpi4py import MPI
+from petsc4py import PETSc
 
 import numpy as np
 import pytest
 
 import contactx as cx
 from contactx import cpp as core
+from dolfinx.mesh import CellType
 
 from scenes import CELLS, dimension
 from scenes.covering import BOTH, covering
 from scenes.driven import DrivenBlock
+from scenes.materials import neo_hookean
 
 pytestmark = pytest.mark.usefixtures("method")
 
@@ -67,3 +77,58 @@ def test_sticks_where_it_touches(steps, cell, base, sliding, method):
     bends = (method, base, sliding) == ("surface-to-surface", "elastic", "finite")
     assert aside[stick] == pytest.approx(0.5, abs=0.05 if bends else 1e-8)
     assert np.abs(interface.history.slip[stick]).max() < 1e-9
+
+
+class PressedBlock(DrivenBlock):
+    """A neo-Hookean block, and a rigid ball that is to move up and aside in one step."""
+
+    def __init__(self):
+        ball = cx.Sphere((0.5, 0.5, -0.405), radius=0.4)
+        super().__init__(
+            CellType.hexahedron,
+            plane=ball,
+            friction=0.2,
+            n_upper=6,
+            shift=0.0,
+            material=partial(neo_hookean, degree=3),
+        )
+        ball.centre = 0.65, 0.5, -0.255
+
+    def run(self, first):
+        """Newton steps by hand, of the first one a part."""
+        assembler = self.problem.assembler
+        ksp = PETSc.KSP().create(MPI.COMM_WORLD)
+        ksp.setType("preonly")
+        ksp.getPC().setType("lu")
+        ksp.getPC().setFactorSolverType("mumps")
+        b, dx = assembler.create_vector(), assembler.create_vector()
+        assembler.begin_step()
+        part = first
+        while not assembler.settle().converged:
+            assembler.residual(b)
+            assembler.set_up(ksp)
+            ksp.solve(b, dx)
+            dx.scale(-1)
+            assembler.update(dx, part * assembler.limit(dx))
+            part = 1.0
+        assembler.accept()
+        return assembler.report
+
+
+def test_no_matter_who_takes_the_steps_and_how_long_the_first_one_is():
+    one = PressedBlock()
+    one.problem.solve()
+    report = one.problem.report
+    nodes = one.contact.interface.nodes
+    assert report.limited > 0
+    assert (nodes.status == 2).sum() >= 7
+    forces = [one.contact.force]
+    for first in (1.0, 0.4):
+        other = PressedBlock()
+        other.run(first)
+        forces.append(other.contact.force)
+        assert (other.contact.interface.nodes.status == nodes.status).all()
+        error = np.abs(other.u.x.array - one.u.x.array).max()
+        print(first, error, forces[-1])
+        assert error <= 1e-10 * np.abs(one.u.x.array).max()
+    assert np.ptp(forces, axis=0).max() <= 1e-10 * np.abs(forces).max()

@@ -6,15 +6,19 @@ import numpy as np
 import pytest
 
 import contactx as cx
+import ufl
 from contactx import cpp as core
 from contactx.newton import NewtonLoop
 from contactx.step_length import StepLength
+from dolfinx import fem
 from dolfinx.mesh import CellType
 
 from scenes import Blocks, slender
-from scenes.materials import st_venant_kirchhoff
+from scenes.materials import neo_hookean, st_venant_kirchhoff
 from scenes.roller import Roller
 from story import METHODS, elasticity
+from stress.grids import even, grid
+from stress.parts import Parts
 
 
 def answer(strip):
@@ -181,6 +185,40 @@ def test_steps_that_lead_nowhere_end_the_loop(monkeypatch):
     with pytest.raises(cx.ConvergenceError, match="no step is short enough to lead on"):
         problem.solve()
     assert problem.report.iterations == 0
+
+
+@pytest.mark.parametrize("degree", [3, 8])
+def test_a_shell_that_iterates_have_thrown_off_is_still_held(degree):
+    """Full steps from an inner shell's coarse polygon lead far off, where it meets nothing.
+
+    That nothing balances its load there is no property of the load: it is pressed against the
+    outer shell. Which iterates go astray is a matter of the last digits of the material.
+    """
+
+    def arc(a, r):
+        return r * np.cos(a), r * np.sin(a)
+
+    radii, cells = (1.0, 1.3, 1.6), (4, 7)
+    bodies = [
+        grid(even(0, np.pi / 2, cells[k]), even(radii[k], radii[k + 1], 2), shape=arc)
+        for k in (0, 1)
+    ]
+    shells = Parts(*bodies, material="neo-hooke")
+    u = shells.u
+    F = neo_hookean(u, 1.0, 0.3, degree=degree)
+    x, n = (kind(shells.mesh) for kind in (ufl.SpatialCoordinate, ufl.FacetNormal))
+    bore = ufl.ds(subdomain_data=shells.tags)(shells.tag(0, "y0"))
+    pressure = 0.03 * (1 + 0.8 * x[0])
+    F += pressure * ufl.inner(n, ufl.TestFunction(u.function_space)) * bore
+    shells.hold(1, "y1")
+    slave, master = shells.surface(0, "y1"), shells.surface(1, "y0")
+    contact = cx.Contact(slave, master, method="surface-to-surface", friction=0.2)
+    options = {"contacts": [contact], "bcs": shells.bcs, "petsc_options_prefix": "shells_"}
+    problem = cx.ContactProblem(F, u, **options)
+    problem.solve()
+    print(problem.report.iterations, problem.report.discarded)
+    load = [fem.assemble_scalar(fem.form(pressure * n[k] * bore)) for k in (0, 1)]
+    assert contact.force == pytest.approx(load, abs=1e-11)
 
 
 def test_a_line_search_of_ones_own_is_not_replaced():
