@@ -431,6 +431,7 @@ class Contact:
 
         For either method, tied or not, it is recovered from the multipliers: nodes in contact
         exchange force with their neighbours, which keeps its sum; see ``contact/recovery.h``.
+        Where it rises towards an edge of the contact it goes on as a line, up to the edge.
         """
         return self.fields.pressure
 

@@ -34,6 +34,7 @@ class PunchedBlock:
         ball: float | None = None,
         punch: int = 0,
         width: float = 0.2,
+        lean: float = 0.0,
         x0: float = 0.0,
         down: float = 0.02,
         swapped: bool = False,
@@ -49,6 +50,7 @@ class PunchedBlock:
             ball: Radius of a rigid ball, or
             punch: cells along a deformable punch, in the plane.
             width: Width of the punch.
+            lean: By how much its head is wider, over its foot: its sides lean outward.
             x0: Place of the ball or the middle of the punch along the top.
             down: How far they are pushed down.
             swapped: Whether the punch is the slave.
@@ -60,6 +62,8 @@ class PunchedBlock:
         if punch:
             foot = [x0 - width / 2, 0]
             parts.append(_grid(foot, [foot[0] + width, width], [punch, punch]))
+            x = parts[-1][0]
+            x[:, 0] = x0 + (x[:, 0] - x0) * (1 + lean * x[:, 1] / width)
         first = np.cumsum([0, *(len(x) for x, _ in parts)])
         x = unit * np.concatenate([x for x, _ in parts])
         cells = np.concatenate([c + first[k] for k, (_, c) in enumerate(parts)])

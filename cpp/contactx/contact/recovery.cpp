@@ -6,7 +6,6 @@
 #include "../vec.h"
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <numeric>
 #include <stdexcept>
 #include <string>
@@ -24,8 +23,8 @@ Recovery::Recovery(std::shared_ptr<const SlaveNodes> slaves,
   check::dimension(gdim);
   _passes = _slaves->is_quadratic() and _slaves->is_mortar() ? 1 : 2;
   const facet::FacetList facets = _slaves->local();
-  const std::vector<double> here = _slaves->here(x, gdim, "x");
-  const std::vector<double> parts
+  std::vector<double> here = _slaves->here(x, gdim, "x");
+  std::vector<double> parts
       = facet::corner_areas(facets, here, gdim, _slaves->pressure_shares());
   _area = _slaves->sums(parts);
   if (_slaves->is_quadratic())
@@ -46,27 +45,28 @@ Recovery::Recovery(std::shared_ptr<const SlaveNodes> slaves,
         if (i != j and nodes[i] < n)
         {
           if (part[i] > 0 and part[j] > 0)
-            _flows.push_back({nodes[i], nodes[j], part[i] * part[j] / whole});
+            _pairs.push_back({nodes[i], nodes[j], part[i] * part[j] / whole,
+                              static_cast<int>(nodes.size())});
           else if (_area[nodes[i]] == 0 and part[j] > 0)
             _beside.push_back({nodes[i], nodes[j]});
           else if (part[j] == 0)
             _given.push_back({nodes[i], nodes[j]});
         }
   }
+  _most.assign(_area.size(), 0);
+  for (const Pair& pair : _pairs)
+    _most[pair.to] += pair.weight / _area[pair.to];
+  _trend.emplace(_slaves, std::move(here), std::move(parts), gdim);
 }
 
-std::vector<Recovery::Flow>
-Recovery::flows(std::span<const double> area,
-                std::span<const std::int8_t> closed) const
+std::vector<Flow> Recovery::flows(std::span<const double> area,
+                                  std::span<const std::int8_t> is_closed) const
 {
   const std::size_t n = _area.size();
-  check::rows(area.size(), n, 1, "area");
-  check::rows(closed.size(), n, 1, "closed");
-  const std::vector<std::int8_t> is_closed = _slaves->scatter_forward(closed);
   std::vector<double> inside(n, 0), covered(n), own(n);
-  for (const Flow& flow : _flows)
-    if (not is_closed[flow.from])
-      inside[flow.to] += flow.rate;
+  for (const Pair& pair : _pairs)
+    if (not is_closed[pair.from])
+      inside[pair.to] += pair.weight;
   for (std::size_t i = 0; i < n; ++i)
   {
     own[i] = area[i] * (_ratio.empty() ? 1 : _ratio[i]);
@@ -78,16 +78,19 @@ Recovery::flows(std::span<const double> area,
   covered = _slaves->scatter_forward(covered);
 
   std::vector<Flow> flows;
-  flows.reserve(_flows.size());
-  for (const auto& [to, from, weight] : _flows)
+  flows.reserve(_pairs.size());
+  for (const auto& [to, from, weight, corners] : _pairs)
   {
     if (not is_closed[to] or not is_closed[from])
       continue;
     const auto [less, more] = std::minmax(inside[to], inside[from]);
     const double r = less / more;
-    flows.push_back(
-        {to, from,
-         weight * std::min(covered[to], covered[from]) * (r * r) / own[to]});
+    const double rate = weight * std::min(covered[to], covered[from]) / own[to];
+    // As the centre of a shape function is nearer to its node than the middle
+    // of the facet is
+    const double moment
+        = _slaves->is_quadratic() ? 0 : (corners == 3 ? 3. / 4 : 2. / 3) * rate;
+    flows.push_back({to, from, weight, corners, rate * (r * r), moment});
   }
   return flows;
 }
@@ -143,56 +146,111 @@ std::vector<double> Recovery::filled(std::span<const double> values,
   return result;
 }
 
-std::vector<double>
-Recovery::pressure(std::span<const double> p, std::span<const double> area,
-                   std::span<const std::int8_t> closed) const
+std::vector<Recovery::Exchange> Recovery::exchange(std::span<const Flow> flows,
+                                                   const Slope& slope,
+                                                   std::span<const double> p,
+                                                   bool averages) const
 {
-  check::rows(p.size(), _area.size(), 1, "p");
-  const std::vector<Flow> flows = this->flows(area, closed);
-  std::vector<double> result = consistent(p, 1, area, closed), sum(p.size());
-  for (int pass = 0; pass < _passes; ++pass)
+  const std::vector<double>& x = _trend->x();
+  std::vector<Exchange> result;
+  result.reserve(flows.size());
+  // What nodes give beyond averages, of their own and to others
+  std::vector<double> beyond(flows.size(), 0), room(_most), asked(_most.size());
+  for (std::size_t f = 0; f < flows.size(); ++f)
   {
-    const std::vector<double> every = _slaves->scatter_forward(result);
-    std::ranges::fill(sum, 0);
-    for (const auto& [to, from, rate] : flows)
-      sum[to] += rate * (every[from] - every[to]);
-    std::ranges::transform(result, sum, result.begin(), std::plus());
+    const auto [to, from, weight, corners, rate, moment] = flows[f];
+    const double average = averages ? rate : 0;
+    double gets = average, gives = average;
+    // Forces in tension, those of ties, are averaged alone
+    if (p[to] > 0 and p[from] > 0)
+    {
+      const double mean = average * (p[from] - p[to]);
+      double trend = 0;
+      for (int k = 0; k < _gdim; ++k)
+        trend
+            += 0.5
+               * (slope.values[to * _gdim + k] + slope.values[from * _gdim + k])
+               * (x[from * _gdim + k] - x[to * _gdim + k]);
+      double flow = mean - (averages ? rate : moment) * trend;
+      // Averages take nothing from an edge of which half of the slope counts
+      if (averages)
+        flow *= std::max(1 - 2 * slope.share[flow < 0 ? to : from], 0.);
+      // First, less is given the other way
+      const double more = flow - mean, back = more > 0 ? p[to] : p[from];
+      const double less = std::min(std::abs(more), average * back);
+      (more > 0 ? gives : gets) -= less / back;
+      beyond[f] = std::copysign(std::abs(more) - less, more);
+    }
+    room[to] -= gives;
+    if (beyond[f] < 0)
+      asked[to] -= beyond[f] / p[to];
+    result.push_back({to, from, gets, gives});
+  }
+  // No node gives more than if its neighbours had no pressure
+  for (std::size_t i = 0; i < room.size(); ++i)
+    room[i] = asked[i] > room[i] ? std::max(room[i], 0.) / asked[i] : 1;
+  const std::vector<double> part = _slaves->scatter_forward(room);
+  for (std::size_t f = 0; f < flows.size(); ++f)
+  {
+    auto& [to, from, gets, gives] = result[f];
+    if (beyond[f] > 0)
+      gets += part[from] * beyond[f] / p[from];
+    else if (beyond[f] < 0)
+      gives -= part[to] * beyond[f] / p[to];
   }
   return result;
 }
 
-std::vector<double> Recovery::shear(std::span<const double> t,
-                                    std::span<const double> normal,
-                                    std::span<const double> area,
-                                    std::span<const std::int8_t> closed) const
+std::vector<std::vector<Recovery::Exchange>>
+Recovery::exchanges(std::vector<double>& p, std::span<const double> area,
+                    std::span<const std::int8_t> closed) const
 {
-  check::rows(t.size(), _area.size(), _gdim, "t");
-  check::rows(normal.size(), _area.size(), _gdim, "normal");
-  const std::vector<Flow> flows = this->flows(area, closed);
-  const std::vector<double> normals = _slaves->scatter_forward(normal, _gdim);
-  std::vector<double> result = consistent(t, _gdim, area, closed);
-  std::vector<double> sum(t.size());
-  for (int pass = 0; pass < _passes; ++pass)
+  const std::vector<std::int8_t> is_closed = _slaves->scatter_forward(closed);
+  const std::vector<Flow> flows = this->flows(area, is_closed);
+  const Slope slope = _trend->find(flows, p, is_closed);
+  std::vector<std::vector<Exchange>> result;
+  // First from the centres of the shape functions to the nodes
+  for (int step = 0; step <= _passes; ++step)
   {
-    const std::vector<double> every = _slaves->scatter_forward(result, _gdim);
-    std::ranges::fill(sum, 0);
-    for (const auto& [to, from, rate] : flows)
-    {
-      const std::size_t i = static_cast<std::size_t>(to) * _gdim;
-      const std::size_t j = static_cast<std::size_t>(from) * _gdim;
-      const double *a = &normals[j], *b = &normals[i];
-      // Turned on the shortest way from a to b. Opposite vectors have none; t
-      // is normal to both of them
-      const double cosine = dot(a, b, _gdim);
-      const double factor
-          = 1 + cosine > 0 ? dot(b, &every[j], _gdim) / (1 + cosine) : 0;
-      for (int k = 0; k < _gdim; ++k)
-        sum[i + k]
-            += rate * (every[j + k] - factor * (a[k] + b[k]) - every[i + k]);
-    }
-    std::ranges::transform(result, sum, result.begin(), std::plus());
+    const std::vector<double> every = _slaves->scatter_forward(p);
+    result.push_back(exchange(flows, slope, every, step > 0));
+    for (const auto& [to, from, gets, gives] : result.back())
+      p[to] += gets * every[from] - gives * every[to];
   }
   return result;
+}
+
+std::vector<double>
+Recovery::pressure(std::span<const double> p, std::span<const double> area,
+                   std::span<const std::int8_t> closed) const
+{
+  const std::size_t n = _area.size();
+  check::rows(p.size(), n, 1, "p");
+  check::rows(area.size(), n, 1, "area");
+  check::rows(closed.size(), n, 1, "closed");
+  std::vector<double> result = consistent(p, 1, area, closed);
+  exchanges(result, area, closed);
+  return result;
+}
+
+void Recovery::carry(std::vector<double>& t, std::span<const double> normals,
+                     std::span<const Exchange> exchange) const
+{
+  const std::vector<double> every = _slaves->scatter_forward(t, _gdim);
+  for (const auto& [to, from, gets, gives] : exchange)
+  {
+    const std::size_t i = static_cast<std::size_t>(to) * _gdim;
+    const std::size_t j = static_cast<std::size_t>(from) * _gdim;
+    const double *a = &normals[j], *b = &normals[i];
+    // Turned on the shortest way from a to b. Opposite vectors have none; t
+    // is normal to both of them
+    const double cosine = dot(a, b, _gdim);
+    const double factor
+        = 1 + cosine > 0 ? dot(b, &every[j], _gdim) / (1 + cosine) : 0;
+    for (int k = 0; k < _gdim; ++k)
+      t[i + k] += gets * (every[j + k] - factor * (a[k] + b[k]))
+                  - gives * every[i + k];
+  }
 }
 
 Recovered Recovery::tractions(std::span<const double> multiplier,
@@ -203,6 +261,8 @@ Recovered Recovery::tractions(std::span<const double> multiplier,
   const std::size_t n = _area.size();
   check::rows(multiplier.size(), n, _gdim, "multiplier");
   check::rows(normal.size(), n, _gdim, "normal");
+  check::rows(area.size(), n, 1, "area");
+  check::rows(closed.size(), n, 1, "closed");
   std::vector<double> p(n), t(multiplier.begin(), multiplier.end());
   for (std::size_t i = 0; i < n; ++i)
   {
@@ -211,7 +271,11 @@ Recovered Recovery::tractions(std::span<const double> multiplier,
     for (int k = 0; k < _gdim; ++k)
       t[i * _gdim + k] -= p[i] * at[k];
   }
-  Recovered result{pressure(p, area, closed), shear(t, normal, area, closed)};
+  Recovered result{consistent(p, 1, area, closed),
+                   consistent(t, _gdim, area, closed)};
+  const std::vector<double> normals = _slaves->scatter_forward(normal, _gdim);
+  for (const auto& exchange : exchanges(result.pressure, area, closed))
+    carry(result.traction, normals, exchange);
   for (std::size_t i = 0; i < n; ++i)
     for (int k = 0; k < _gdim; ++k)
       result.traction[i * _gdim + k]

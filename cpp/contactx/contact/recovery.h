@@ -3,7 +3,8 @@
 
 #pragma once
 
-#include "slave_nodes.h"
+#include "trend.h"
+#include <optional>
 
 namespace contactx::contact
 {
@@ -22,28 +23,43 @@ struct Recovered
 /// closed nodes i and j that share a facet, in two passes (one where quadratic
 /// multipliers are integrated, which scatter less) of
 ///
-///     p_i <- p_i + 1/A_i sum_j m_ij (p_j - p_i),
+///     p_i <- p_i + 1/A_i sum_j m_ij (p_j - p_i - s_ij (x_j - x_i)),
 ///     m_ij = (A_fi A_fj / A_f) r_ij^2
 ///
 /// with the parts A_fi of a facet's area A_f. Inside the contact, where r = 1,
-/// a pass takes the means of the facets, and of them those of the nodes. At its
-/// edge the pressure falls like a root and says little of what is inside:
-/// r_ij < 1 is the ratio of the closed parts of the two nodes' surroundings.
-/// Where the master covers a node's facets in part m_ij is that part of it, the
-/// smaller one of the two nodes. All of this was chosen by measurement on
-/// Hertz's point and line contacts, the same for both methods; these properties
-/// are exact but for rounding:
+/// a pass takes the means of the facets, and of them those of the nodes. Where
+/// the pressure falls towards the edge of the contact it does so like a root,
+/// and says little of what is inside: r_ij < 1 is the ratio of the closed parts
+/// of the two nodes' surroundings. Where the master covers a node's facets in
+/// part m_ij is that part of it, the smaller one of the two nodes. This was
+/// chosen by measurement on Hertz's point and line contacts, the same for both
+/// methods.
+///
+/// s_ij is the mean of the two nodes' Slope, which is zero but where the
+/// pressure rises towards an edge of the contact: what is averaged is the
+/// pressure without it, as an average from one side would lower it, and nothing
+/// is taken from the edge. Before the passes
+///
+///     p_i <- p_i - 1/A_i sum_j M_ij s_ij (x_j - x_i),
+///
+/// M_ij the integrals of the products of the shape functions: a multiplier at
+/// an edge is the pressure at the centre of its shape function, a third of a
+/// facet inside. These properties are exact but for rounding:
 ///
 /// - the sum of the pressures' forces stays, as what one node loses another one
 ///   gains;
 /// - a uniform traction stays, on any mesh and next to any edge;
-/// - signs and the friction cone stay: averages have positive weights, the same
-///   for p and t;
+/// - at an edge that it rises to, a linear pressure is what is recovered, if
+///   facets are affine and the rows that the slope goes inside closed;
+/// - at such an edge the pressure is not below the multiplier where half of the
+///   slope, or more, counts;
+/// - signs and the friction cone stay: each step is one of forces that nodes
+///   give to others, no more than they have, the same parts of p and t;
 /// - open nodes stay at zero, and no rigid motion changes anything.
 ///
-/// Peaks that are not much wider than a facet get lower: with 3, 6 and 12 nodes
-/// in the half-width of a line contact by 3, 0.9 and 0.3 %, at the corner of a
-/// flat punch by a fifth.
+/// Peaks inside the contact that are not much wider than a facet get lower:
+/// with 3, 6 and 12 nodes in the half-width of a line contact by 3, 0.9 and 0.3
+/// %.
 ///
 /// Arrays are those of the owned slave nodes, of which there are n, row-major.
 /// All ranks must take part in what is not static but the constructor;
@@ -68,23 +84,11 @@ public:
                                std::span<const double> area,
                                std::span<const std::int8_t> closed) const;
 
-  /// @brief Average tractions along the surface.
+  /// @brief Average vector multipliers: pressures, and what is along the
+  /// surface as they are.
   ///
-  /// From node to node they turn with the normal, so that they keep their sizes
-  /// on a curved surface.
-  /// @param[in] t Tractions normal to the normals, zero on open nodes
-  /// (shape=(n, gdim)).
-  /// @param[in] normal Unit normals (shape=(n, gdim)).
-  /// @param[in] area Areas of the slave nodes (shape=(n)).
-  /// @param[in] closed 1 at nodes in contact, else 0 (shape=(n)).
-  /// @return Averages, normal to the normals (shape=(n, gdim)).
-  std::vector<double> shear(std::span<const double> t,
-                            std::span<const double> normal,
-                            std::span<const double> area,
-                            std::span<const std::int8_t> closed) const;
-
-  /// @brief Average vector multipliers: pressures and what is along the
-  /// surface, each for itself.
+  /// From node to node it turns with the normal, so that it keeps its size on a
+  /// curved surface.
   /// @param[in] multiplier Tractions that the master exerts, zero on open nodes
   /// (shape=(n, gdim)).
   /// @param[in] normal Unit normals (shape=(n, gdim)).
@@ -117,22 +121,40 @@ private:
                                  std::span<const double> area,
                                  std::span<const std::int8_t> closed) const;
 
-  // Force that goes from one node to another one over the difference of their
-  // tractions, and over the area of the one that it goes to
-  struct Flow
+  // Force that goes from one node to another one and back over the tractions
+  // there, and over the area of `to`
+  struct Exchange
   {
     std::int32_t to, from;
-    double rate;
+    double gets, gives;
   };
 
+  // Pairs of closed nodes, of which all slave nodes are given
   std::vector<Flow> flows(std::span<const double> area,
-                          std::span<const std::int8_t> closed) const;
+                          std::span<const std::int8_t> is_closed) const;
+
+  // One step, for pressures at all slave nodes: a pass of averages, or the one
+  // from the centres of shape functions to the nodes
+  std::vector<Exchange> exchange(std::span<const Flow> flows,
+                                 const Slope& slope, std::span<const double> p,
+                                 bool averages) const;
+
+  // Take all steps for pressures
+  std::vector<std::vector<Exchange>>
+  exchanges(std::vector<double>& p, std::span<const double> area,
+            std::span<const std::int8_t> closed) const;
+
+  // Take one for tractions along the surface, with the normals of all nodes
+  void carry(std::vector<double>& t, std::span<const double> normals,
+             std::span<const Exchange> exchange) const;
 
   std::shared_ptr<const SlaveNodes> _slaves;
   int _gdim, _passes;
-  // Of all pairs of neighbours, with m_ij of nodes inside the contact
-  std::vector<Flow> _flows;
+  std::vector<Pair> _pairs; // neighbours
+  std::optional<Trend> _trend;
   std::vector<double> _area; // of all of a node's facets
+  // Part of its force that a node gives in a pass if neighbours have none
+  std::vector<double> _most;
   // Areas that multipliers are of over those above
   std::vector<double> _ratio;
   // Nodes without such an area, and their neighbours; these, and such nodes

@@ -96,7 +96,54 @@ void expect_near(const Values& a, const Values& b, double tolerance)
     EXPECT_NEAR(a[i], b[i], tolerance) << "at " << i;
 }
 
-/// Two passes as dense matrices, from the formulas of recovery.h.
+/// Tractions along the surface as recovered under a pressure that is uniform.
+Values shear(const State& s, const Values& t)
+{
+  Values lambda = t;
+  for (std::size_t i = 0; i < t.size(); ++i)
+    if (s.closed[i / s.gdim()])
+      lambda[i] += s.normal[i];
+  const Recovered found
+      = s.recovery().tractions(lambda, s.normal, s.area, s.closed);
+  Values result = found.traction;
+  for (std::size_t i = 0; i < t.size(); ++i)
+    result[i] -= found.pressure[i / s.gdim()] * s.normal[i];
+  return result;
+}
+
+/// Values of the multipliers for a pressure that is linear between nodes: its
+/// forces over the areas.
+Values multipliers(const State& s, const Values& p)
+{
+  const auto facets = s.scene.facets();
+  Values forces(s.size(), 0);
+  for (std::int32_t f = 0; f < facets.size(); ++f)
+  {
+    const auto nodes = facets[f];
+    const std::vector<std::int32_t> ends{
+        0, static_cast<std::int32_t>(nodes.size())};
+    const Values parts = facet::nodal_areas({ends, nodes}, s.scene.x, s.gdim());
+    const double area = std::accumulate(parts.begin(), parts.end(), 0.0);
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      for (std::size_t j = 0; j < nodes.size(); ++j)
+      {
+        // Simplices, and the squares whose corners are in rows
+        double product = nodes.size() == 2   ? 1. / 6
+                         : nodes.size() == 3 ? 1. / 12
+                         : i + j == 3        ? 1. / 36
+                                             : 1. / 18;
+        if (i == j)
+          product = nodes.size() == 4 ? 1. / 9 : 2 * product;
+        forces[nodes[i]] += area * product * p[nodes[j]];
+      }
+  }
+  for (std::size_t i = 0; i < s.size(); ++i)
+    forces[i] /= s.area[i];
+  return forces;
+}
+
+/// Two passes as dense matrices, from the formulas of recovery.h without a
+/// slope.
 Values dense(const State& s, Values p)
 {
   const std::size_t n = s.size();
@@ -146,7 +193,10 @@ TEST(Recovery, IsWhatItsFormulasSay)
   for (Facets kind : all_facets)
   {
     const State s(kind, random);
-    const Values p = s.pressures(random);
+    Values p = s.pressures(random);
+    // Tension, as of ties, has no edges that it rises to
+    for (double& value : p)
+      value *= -1;
     expect_near(s.recovery().pressure(p, s.area, s.closed), dense(s, p), 1e-14);
   }
 }
@@ -192,14 +242,14 @@ TEST(Recovery, ForceSignsAndOpenNodesStay)
       const Values q = s.recovery().pressure(p, s.area, s.closed);
       EXPECT_NEAR(product(s.area, q), product(s.area, p),
                   1e-13 * product(s.area, p));
-      EXPECT_LE(std::ranges::max(q), std::ranges::max(p));
       double change = 0;
       for (std::size_t i = 0; i < q.size(); ++i)
       {
         EXPECT_TRUE(s.closed[i] ? q[i] > 0 : q[i] == 0);
         change = std::max(change, std::abs(q[i] - p[i]));
       }
-      EXPECT_GT(change, 0.1 * std::ranges::max(p));
+      // Least where the largest one is at an edge
+      EXPECT_GT(change, 0.01 * std::ranges::max(p));
     }
 }
 
@@ -216,14 +266,17 @@ TEST(Recovery, TheFrictionConeIsKept)
     for (double q : p)
       sizes.push_back(mu * q * (random(0, 1) < 0.5 ? 1 : random(0, 1)));
     const Values t = s.along(sizes, random);
-    const Recovery recovery = s.recovery();
-    const Values q = recovery.pressure(p, s.area, s.closed);
-    const Values u = recovery.shear(t, s.normal, s.area, s.closed);
+    Values lambda = t;
+    for (std::size_t i = 0; i < t.size(); ++i)
+      lambda[i] += p[i / s.gdim()] * s.normal[i];
+    const Recovered found
+        = s.recovery().tractions(lambda, s.normal, s.area, s.closed);
     for (std::size_t i = 0; i < s.size(); ++i)
     {
-      const Vector<3> v = s.vector(u, i);
-      EXPECT_LE(norm(v), mu * q[i] * (1 + 1e-13));
-      EXPECT_NEAR(dot(v, s.vector(s.normal, i)), 0, 1e-15);
+      const Vector<3> n = s.vector(s.normal, i);
+      const Vector<3> v = s.vector(found.traction, i) - found.pressure[i] * n;
+      EXPECT_LE(norm(v), mu * found.pressure[i] * (1 + 1e-12));
+      EXPECT_NEAR(dot(v, n), 0, 1e-15);
       if (not s.closed[i])
       {
         EXPECT_EQ(norm(v), 0);
@@ -251,7 +304,7 @@ TEST(Recovery, ShearKeepsItsSizeWhereTheSurfaceIsCurved)
       std::copy_n(n.begin(), s.gdim(), s.normal.begin() + i * s.gdim());
       along[i * s.gdim()] = -n[last];
       along[i * s.gdim() + last] = n[0];
-      sizes.push_back(s.closed[i] ? random(-1, 1) : 0);
+      sizes.push_back(s.closed[i] ? random(-1, 0) : 0);
     }
     const auto times = [&](const Values& factors)
     {
@@ -260,9 +313,8 @@ TEST(Recovery, ShearKeepsItsSizeWhereTheSurfaceIsCurved)
         v[i] *= factors[i / s.gdim()];
       return v;
     };
-    const Recovery recovery = s.recovery();
-    expect_near(recovery.shear(times(sizes), s.normal, s.area, s.closed),
-                times(recovery.pressure(sizes, s.area, s.closed)), 1e-14);
+    expect_near(shear(s, times(sizes)),
+                times(s.recovery().pressure(sizes, s.area, s.closed)), 1e-14);
   }
 }
 
@@ -294,8 +346,8 @@ void expect_no_change_by_a_motion(Facets kind, Generator& random)
   const Recovery there(slave_nodes(s.scene), moved(s.scene.x, true), D);
   const Recovered turned = there.tractions(
       moved(lambda, false), moved(s.normal, false), s.area, s.closed);
-  expect_near(turned.pressure, found.pressure, 1e-13);
-  expect_near(turned.traction, moved(found.traction, false), 1e-13);
+  expect_near(turned.pressure, found.pressure, 1e-11);
+  expect_near(turned.traction, moved(found.traction, false), 1e-11);
 }
 } // namespace
 
@@ -324,7 +376,7 @@ TEST(Recovery, AlternatingScatterGoesAndALinearPressureStays)
       const int sum = static_cast<int>(std::lround(x[0] + x[1]));
       linear.push_back(3 + 0.2 * x[0] - 0.1 * x[1]);
       p.push_back(linear.back() + (sum % 2 ? 1 : -1));
-      const auto is_inside = [](double c) { return c > 1.5 and c < 9.5; };
+      const auto is_inside = [](double c) { return c > 2.5 and c < 8.5; };
       inside.push_back(is_inside(x[0]) and (s.gdim() == 2 or is_inside(x[1])));
     }
     const Values q = s.recovery().pressure(p, whole, s.closed);
@@ -336,13 +388,125 @@ TEST(Recovery, AlternatingScatterGoesAndALinearPressureStays)
   }
 }
 
+TEST(Recovery, ALinearPressureStaysAtTheEdgeThatItRisesTo)
+{
+  Generator random(14);
+  const int n = 12;
+  for (Facets kind : all_facets)
+  {
+    // Segments of any length, but affine quadrilaterals
+    State s(kind, random, n, false, 1.1, kind ? 0 : 0.25);
+    s.area = facet::nodal_areas(s.scene.facets(), s.scene.x, s.gdim());
+    Values p;
+    for (std::size_t i = 0; i < s.size(); ++i)
+      p.push_back(1 + s.scene.point(static_cast<std::int32_t>(i))[0]);
+    const Values raw = multipliers(s, p);
+    const Values q = s.recovery().pressure(raw, s.area, s.closed);
+    EXPECT_NEAR(product(s.area, q), product(s.area, raw), 1e-14);
+    const double width = 1. / n;
+    int at_edge = 0;
+    for (std::size_t i = 0; i < s.size(); ++i)
+    {
+      const auto x = s.scene.point(static_cast<std::int32_t>(i));
+      if (x[0] > 1 - 2.5 * width)
+      {
+        EXPECT_NEAR(q[i], p[i], 1e-12);
+      }
+      if (x[0] > 1 - 0.5 * width)
+      {
+        ++at_edge;
+        EXPECT_GT(p[i] - raw[i], 0.15 * width);
+      }
+    }
+    EXPECT_EQ(at_edge, kind ? n + 1 : 1);
+  }
+}
+
+TEST(Recovery, APressureRisesToWhereTheContactEndsOnTheSurface)
+{
+  // Pressed by what ends with facets, in the middle of a line
+  Generator random(15);
+  const int n = 20, first = 4, last = 12;
+  State s(std::nullopt, random, n, false, 1.1, 0);
+  Values exact(n + 1, 0), raw(n + 1, 0);
+  for (int i = 0; i <= n; ++i)
+  {
+    s.closed[i] = first <= i and i <= last;
+    exact[i] = 1 + s.scene.point(i)[0];
+    if (s.closed[i])
+      raw[i] = exact[i];
+    s.area[i] = 1. / n;
+  }
+  // Half of the facets around the last nodes is covered
+  for (int i : {first, last})
+  {
+    raw[i] += (i == first ? 1. : -1.) / (3 * n);
+    s.area[i] /= 2;
+  }
+  const Values q = s.recovery().pressure(raw, s.area, s.closed);
+  EXPECT_NEAR(product(s.area, q), product(s.area, raw), 1e-14);
+  EXPECT_GT(q[last], raw[last]);
+  EXPECT_NEAR(q[last], exact[last], 0.3 / n);
+}
+
+TEST(Recovery, APeakAtAnEdgeIsNotBelowItsMultipliers)
+{
+  // As at the corner of a punch, and as in a joint of which few rows are closed
+  for (int rows : {2, 3, 8})
+  {
+    Generator random(16);
+    State s(std::nullopt, random, 10, false, 1.1, 0);
+    Values raw(s.size(), 0);
+    for (int i = 0; i < std::ssize(raw); ++i)
+    {
+      s.closed[i] = 10 - i < rows;
+      if (s.closed[i])
+        raw[i] = 1 / std::sqrt(10 - i + 1. / 3);
+    }
+    s.area = facet::nodal_areas(s.scene.facets(), s.scene.x, 2);
+    const Values q = s.recovery().pressure(raw, s.area, s.closed);
+    EXPECT_GE(q[10], raw[10]);
+    EXPECT_LE(q[10], 1.5 * raw[10]);
+    EXPECT_GT(q[11 - rows], 0);
+    EXPECT_NEAR(product(s.area, q), product(s.area, raw), 1e-14);
+  }
+}
+
+TEST(Recovery, APlaneOfSymmetryIsNoEdge)
+{
+  // A half of a pressure that is even: its mirror image gives the same
+  Generator random(17);
+  const State whole(std::nullopt, random, 16, false, 1.1, 0);
+  const State half(std::nullopt, random, 8, false, 1.1, 0);
+  const auto recovered = [](const State& s, double middle, double size)
+  {
+    Values p;
+    for (std::size_t i = 0; i < s.size(); ++i)
+    {
+      const double x
+          = size * (s.scene.point(static_cast<std::int32_t>(i))[0] - middle);
+      p.push_back(2 - x * x);
+    }
+    const Values area
+        = facet::nodal_areas(s.scene.facets(), s.scene.x, s.gdim());
+    State exact = s;
+    exact.area = area;
+    return s.recovery().pressure(multipliers(exact, p), area, s.closed);
+  };
+  const Values all = recovered(whole, 0.5, 2), part = recovered(half, 0, 1);
+  // A line from the two rows at the plane would be 0.03 higher
+  for (int i = 0; i < 4; ++i)
+    EXPECT_NEAR(part[i], all[8 + i], 0.012);
+  EXPECT_LT(std::abs(part[0] - 2), std::abs(all[8] - 2));
+}
+
 TEST(Recovery, NormalsThatOpposeEachOtherDoNoHarm)
 {
   Generator random(9);
   State s(std::nullopt, random, 2, false, 1.1);
   s.normal[3] *= -1;
   const Values t{1, 0, 0.5, 0, -1, 0};
-  const Values u = s.recovery().shear(t, s.normal, s.area, s.closed);
+  const Values u = shear(s, t);
   for (std::size_t i = 0; i < 3; ++i)
   {
     EXPECT_LE(std::abs(u[2 * i]), 1);
@@ -355,7 +519,7 @@ TEST(Recovery, TractionsArePressureAndShear)
   Generator random(10);
   for (Facets kind : all_facets)
   {
-    const State s(kind, random);
+    const State s(kind, random, 8, false);
     const Values p = s.pressures(random), t = s.along(p, random);
     const auto sum = [&](const Values& pressure, const Values& shear)
     {
@@ -369,8 +533,19 @@ TEST(Recovery, TractionsArePressureAndShear)
         = recovery.tractions(sum(p, t), s.normal, s.area, s.closed);
     const Values q = recovery.pressure(p, s.area, s.closed);
     expect_near(found.pressure, q, 1e-14);
-    expect_near(found.traction,
-                sum(q, recovery.shear(t, s.normal, s.area, s.closed)), 1e-14);
+    // The sum of the forces along a plane stays
+    const Values along = sum(q, Values(t.size(), 0));
+    for (int k = 0; k < s.gdim(); ++k)
+    {
+      double before = 0, after = 0;
+      for (std::size_t i = 0; i < s.size(); ++i)
+      {
+        const std::size_t at = i * s.gdim() + k;
+        before += s.area[i] * t[at];
+        after += s.area[i] * (found.traction[at] - along[at]);
+      }
+      EXPECT_NEAR(after, before, 1e-14);
+    }
   }
 }
 
@@ -444,8 +619,6 @@ TEST(Recovery, RefusesWhatDoesNotFit)
   const Values few(2);
   EXPECT_THROW(recovery.pressure(few, s.area, s.closed), std::invalid_argument);
   EXPECT_THROW(recovery.pressure(s.area, few, s.closed), std::invalid_argument);
-  EXPECT_THROW(recovery.shear(few, s.normal, s.area, s.closed),
-               std::invalid_argument);
   EXPECT_THROW(recovery.tractions(s.normal, few, s.area, s.closed),
                std::invalid_argument);
   EXPECT_THROW(Recovery(slave_nodes(s.scene), few, 3), std::invalid_argument);
