@@ -24,6 +24,37 @@ type Values = tuple[
 _MOST_COMPILED = 3
 
 
+def faces(f: ufl.core.expr.Expr) -> list[ufl.core.expr.Expr]:
+    """Split a function with kinks into functions of which it is the largest.
+
+    Args:
+        f: Scalar expression: what is seen are ``max_value`` and ``abs`` in it, in sums, and times or
+            over positive numbers.
+
+    Returns:
+        The functions, f alone if it has no such kink.
+    """
+    if isinstance(f, ufl.classes.MaxValue):
+        return [face for operand in f.ufl_operands for face in faces(operand)]
+    if isinstance(f, ufl.classes.Abs):
+        (operand,) = f.ufl_operands
+        return [*faces(operand), *faces(-operand)]
+    if isinstance(f, ufl.classes.Sum):
+        a, b = f.ufl_operands
+        return [p + q for p in faces(a) for q in faces(b)]
+    if isinstance(f, ufl.classes.Product | ufl.classes.Division):
+        a, b = f.ufl_operands
+        if _is_positive(b):
+            return [p * b if isinstance(f, ufl.classes.Product) else p / b for p in faces(a)]
+        if isinstance(f, ufl.classes.Product) and _is_positive(a):
+            return [a * p for p in faces(b)]
+    return [f]
+
+
+def _is_positive(f: ufl.core.expr.Expr) -> bool:
+    return isinstance(f, ufl.classes.RealValue) and float(f) > 0
+
+
 class UFLFunction:
     """A UFL function of a vector, compiled for as many points as it is asked about."""
 
@@ -38,7 +69,9 @@ class UFLFunction:
         self._compiled: dict[tuple[int, ...], _Compiled] = {}
 
     def values(self, x: npt.NDArray[np.float64], order: int) -> Values:
-        """Value, gradient and second derivative, shapes (n,), (n, gdim), (n, gdim, gdim).
+        """Value, gradient and second derivative of each of its faces.
+
+        Shapes (faces, n), (faces, n, gdim), (faces, n, gdim, gdim).
 
         Raises:
             ValueError: If it is not one of UFL, no scalar, or holds what it may not.
@@ -119,10 +152,12 @@ class _Compiled:
         if is_field:
             parts = [value[i] for i in range(gdim)]
         else:
-            gradient = ufl.diff(value, X)
-            second = ufl.diff(gradient, X)
-            parts = [value, *(gradient[i] for i in range(gdim))]
-            parts += [second[i, j] for i in range(gdim) for j in range(gdim)]
+            parts = []
+            for face in faces(value):
+                gradient = ufl.diff(face, X)
+                second = ufl.diff(gradient, X)
+                parts += [face, *(gradient[i] for i in range(gdim))]
+                parts += [second[i, j] for i in range(gdim) for j in range(gdim)]
         # The last is not read; what does not depend on the position needs a mesh all the same
         values = ufl.as_vector([*parts, self._position[0]])
         # The user's constants live on another mesh
@@ -149,8 +184,8 @@ class _Compiled:
     def __call__(
         self, x: npt.NDArray[np.float64]
     ) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64], npt.NDArray[np.float64]]:
-        """Value, gradient and second derivative, shapes (n,), (n, gdim), (n, gdim, gdim)."""
+        """Of each face: shapes (faces, n), (faces, n, gdim), (faces, n, gdim, gdim)."""
         n, gdim = x.shape
-        table = self.table(x)
-        second = table[:, 1 + gdim : -1].reshape(n, gdim, gdim)
-        return table[:, 0], table[:, 1 : 1 + gdim], second
+        table = self.table(x)[:, :-1].reshape(n, -1, 1 + gdim + gdim**2).swapaxes(0, 1)
+        second = table[:, :, 1 + gdim :].reshape(-1, n, gdim, gdim)
+        return table[:, :, 0], table[:, :, 1 : 1 + gdim], second

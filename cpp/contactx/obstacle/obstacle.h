@@ -133,6 +133,10 @@ public:
   /// ranks; zero if none is known
   double extent = 0;
 
+  /// Size of the smallest facet that is measured against it, the same on all
+  /// ranks; zero if none is known
+  double facet = 0;
+
 protected:
   /// @brief Called before the parameters are read. Who gets them from
   /// elsewhere hands their current values over here.
