@@ -116,8 +116,8 @@ Nearest nearest(const Faces& faces, double width, int gdim)
   const auto& distance = faces.distance;
   if (distance.size() == 1)
     return {distance[0], faces.normal[0], 0};
-  const auto first = static_cast<std::size_t>(
-      std::ranges::max_element(distance) - distance.begin());
+  const auto first = static_cast<std::size_t>(std::ranges::max_element(distance)
+                                              - distance.begin());
   if (distance[first] > width)
   {
     const auto found = meeting(faces.normal, distance, gdim);
@@ -184,9 +184,9 @@ Turn turn_of_face(const Nearest& at, const Matrix3& H)
 }
 
 /// Derivative of the way d = sum m_i n_i that has the distances c_i = n_i . d
-/// from planes. With the dual vectors b_i of the n_i, whose derivatives are N_i,
-/// S = sum m_i N_i and Q = sum b_i n_i^T it is
-/// d' = (1 - Q) S + sum b_i (c_i' - N_i^T d).
+/// from planes. With the dual vectors b_i of the n_i, whose derivatives are
+/// N_i, S = sum m_i N_i and Q = sum b_i n_i^T it is d' = (1 - Q) S + sum b_i
+/// (c_i' - N_i^T d).
 /// @param[in] N Derivatives of the planes' normals.
 /// @param[in] distance Derivatives of the distances.
 Matrix3 way_turns(const Meeting& at, std::span<const Vector<3>> normal,
@@ -202,8 +202,7 @@ Matrix3 way_turns(const Meeting& at, std::span<const Vector<3>> normal,
   {
     Vector<3> along = distance[i];
     for (int j = 0; j < 3; ++j)
-      along
-          = along - at.way[j] * N[i][j] - normal[at.plane[i]][j] * S[j];
+      along = along - at.way[j] * N[i][j] - normal[at.plane[i]][j] * S[j];
     for (int j = 0; j < 3; ++j)
       way[j] = way[j] + at.dual[i][j] * along;
   }
@@ -237,9 +236,8 @@ Turn turn_of_axis(const Nearest& at, std::span<const Matrix3> H,
                 * (n - faces.distance[cone.plane[i]] * times(H[i], n));
   }
   const std::array<Vector<3>, 3> none{};
-  turn.curvature
-      = direction_turns(way_turns(cone, faces.normal, N, none), at.normal,
-                        norm(cone.way));
+  turn.curvature = direction_turns(way_turns(cone, faces.normal, N, none),
+                                   at.normal, norm(cone.way));
   return turn;
 }
 
@@ -306,7 +304,8 @@ double LevelSet::scene_size(std::span<const double> x, int gdim) const
 
 double LevelSet::ridge_width(std::span<const double> x, int gdim) const
 {
-  return std::max(search::margin * facet, rounding_of_ridge * scene_size(x, gdim));
+  return std::max(search::margin * facet,
+                  rounding_of_ridge * scene_size(x, gdim));
 }
 
 std::vector<double> LevelSet::differences(std::span<const double> x,

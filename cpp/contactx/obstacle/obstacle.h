@@ -25,6 +25,9 @@ struct Geometry
 
   /// @brief Make room for values at `n` points.
   void resize(std::size_t n, int gdim);
+
+  /// @brief Largest size of a principal curvature at each point (shape=(n)).
+  std::vector<double> largest_curvatures(int gdim) const;
 };
 
 /// @brief Position and direction of a rigid obstacle.

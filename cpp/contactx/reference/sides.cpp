@@ -204,8 +204,8 @@ std::shared_ptr<contact::ObstacleMaster> contactx::reference::make_master(
   for (const double size : audit::facet_sizes(slaves->own(), x, gdim))
     smallest = std::min(smallest, size);
   smallest = -parallel::largest(halo.ranks(), -smallest);
-  obstacle->facet = obstacle->facet > 0 ? std::min(obstacle->facet, smallest)
-                                        : smallest;
+  obstacle->facet
+      = obstacle->facet > 0 ? std::min(obstacle->facet, smallest) : smallest;
   const double reach = options.search_distance.value_or(
       std::numeric_limits<double>::infinity());
   std::shared_ptr<contact::ObstacleMaster> master;

@@ -153,10 +153,10 @@ TEST(LevelSet, BeyondARidgeDerivativesAreThoseOfDifferences)
                       (a.gap[i] - b.gap[i]) / (2 * h), 1e-7);
           const double size = 1 + 1 / std::abs(at.gap[i]);
           for (int j = 0; j < gdim; ++j)
-            EXPECT_NEAR(
-                at.curvature[gdim * (gdim * i + j) + k],
-                (a.normal[gdim * i + j] - b.normal[gdim * i + j]) / (2 * h),
-                1e-7 * size)
+            EXPECT_NEAR(at.curvature[gdim * (gdim * i + j) + k],
+                        (a.normal[gdim * i + j] - b.normal[gdim * i + j])
+                            / (2 * h),
+                        1e-7 * size)
                 << gdim << " " << at.gap[i];
         }
       }
@@ -172,8 +172,8 @@ TEST(LevelSet, AlongARidgeTheAxisOfItsConeTurnsAsDifferencesSay)
         LevelValues at;
         for (const double c : {-1., 1.})
         {
-          at.value.push_back(x[0] * x[0] + x[1] * x[1]
-                             + (x[2] - c) * (x[2] - c) - 2);
+          at.value.push_back(x[0] * x[0] + x[1] * x[1] + (x[2] - c) * (x[2] - c)
+                             - 2);
           at.gradient.insert(at.gradient.end(),
                              {2 * x[0], 2 * x[1], 2 * (x[2] - c)});
           at.hessian.insert(at.hessian.end(), {2, 0, 0, 0, 2, 0, 0, 0, 2});
@@ -198,11 +198,13 @@ TEST(LevelSet, AlongARidgeTheAxisOfItsConeTurnsAsDifferencesSay)
 TEST(LevelSet, FacesThatBoundNothingOrFaceAwayFromOneAnotherHaveNoRidge)
 {
   // A plate about z = 0, and a constant
-  LevelSet plate([](std::span<const double> x, int, int) {
-    return LevelValues{{x[2] - 1, -x[2] - 1, -3},
-                       {0, 0, 1, 0, 0, -1, 0, 0, 0},
-                       std::vector<double>(27, 0.0)};
-  });
+  LevelSet plate(
+      [](std::span<const double> x, int, int)
+      {
+        return LevelValues{{x[2] - 1, -x[2] - 1, -3},
+                           {0, 0, 1, 0, 0, -1, 0, 0, 0},
+                           std::vector<double>(27, 0.0)};
+      });
   plate.extent = 1;
   const Geometry middle = plate.evaluate(std::vector<double>{0, 0, 0}, 3);
   EXPECT_EQ(middle.gap[0], -1);
