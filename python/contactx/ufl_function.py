@@ -28,8 +28,8 @@ def faces(f: ufl.core.expr.Expr) -> list[ufl.core.expr.Expr]:
     """Split a function with kinks into functions of which it is the largest.
 
     Args:
-        f: Scalar expression: what is seen are ``max_value`` and ``abs`` in it, in sums, and times or
-            over positive numbers.
+        f: Scalar expression: what is seen are ``max_value`` and ``abs`` in it, in sums, and times
+            or over positive numbers.
 
     Returns:
         The functions, f alone if it has no such kink.

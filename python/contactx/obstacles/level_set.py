@@ -21,10 +21,10 @@ class LevelSet(core.LevelSet):
 
     The function need not be a distance: its zero is the surface, and g = f / |grad f| is the
     distance to first order. Beyond a ridge or an apex, as of ``max_value``, the closest point is on
-    it; there the normal is the axis of the cone of normals. A change of the function does not tell how the material moves along the
-    surface. For friction the material is at rest, and a step in which the function changes while
-    the obstacle is touched is refused, unless it has a velocity. Plane, Sphere and Cylinder drag
-    what touches them.
+    it; there the normal is the axis of the cone of normals. A change of the function does not tell
+    how the material moves along the surface. For friction the material is at rest, and a step in
+    which the function changes while the obstacle is touched is refused, unless it has a velocity.
+    Plane, Sphere and Cylinder drag what touches them.
     """
 
     def __init__(
