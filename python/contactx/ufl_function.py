@@ -58,18 +58,19 @@ def _is_positive(f: ufl.core.expr.Expr) -> bool:
 class UFLFunction:
     """A UFL function of a vector, compiled for as many points as it is asked about."""
 
-    def __init__(self, f: Callable[[Any], Any], name: str):
+    def __init__(self, f: Callable[[Any], Any], name: str, *, in_faces: bool = False):
         """Take the function; nothing is compiled before it is asked for.
 
         Args:
             f: From a UFL vector to a scalar expression.
             name: Class that it was given to, for messages.
+            in_faces: Whether kinks split it into the functions of which it is the largest.
         """
-        self._f, self._name = f, name
+        self._f, self._name, self._in_faces = f, name, in_faces
         self._compiled: dict[tuple[int, ...], _Compiled] = {}
 
     def values(self, x: npt.NDArray[np.float64], order: int) -> Values:
-        """Value, gradient and second derivative of each of its faces.
+        """Value, gradient and second derivative of each of its faces, one if it is not split.
 
         Shapes (faces, n), (faces, n, gdim), (faces, n, gdim, gdim).
 
@@ -78,7 +79,7 @@ class UFLFunction:
         """
         if order == 0:
             # Of all nodes of a body, once
-            return (self._compiled.get(x.shape) or _Compiled(self._f, self._name, *x.shape))(x)
+            return (self._compiled.get(x.shape) or self._compile(x.shape))(x)
         return self._compiled_for(x.shape)(x)
 
     def parameters(self, gdim: int) -> npt.NDArray[np.float64]:
@@ -91,8 +92,11 @@ class UFLFunction:
             # Slave nodes, points of slave facets, and what the audit looks at
             while len(self._compiled) >= _MOST_COMPILED:
                 del self._compiled[next(iter(self._compiled))]
-            self._compiled[shape] = _Compiled(self._f, self._name, *shape)
+            self._compiled[shape] = self._compile(shape)
         return self._compiled[shape]
+
+    def _compile(self, shape: tuple[int, ...]) -> _Compiled:
+        return _Compiled(self._f, self._name, *shape, in_faces=self._in_faces)
 
 
 class UFLField:
@@ -126,7 +130,14 @@ class _Compiled:
     """
 
     def __init__(
-        self, f: Callable[[Any], Any], name: str, n: int, gdim: int, *, is_field: bool = False
+        self,
+        f: Callable[[Any], Any],
+        name: str,
+        n: int,
+        gdim: int,
+        *,
+        is_field: bool = False,
+        in_faces: bool = False,
     ):
         self.shape = n, gdim
         chain = mesh.create_interval(MPI.COMM_SELF, n, [0.0, 1.0])
@@ -153,7 +164,7 @@ class _Compiled:
             parts = [value[i] for i in range(gdim)]
         else:
             parts = []
-            for face in faces(value):
+            for face in faces(value) if in_faces else [value]:
                 gradient = ufl.diff(face, X)
                 second = ufl.diff(gradient, X)
                 parts += [face, *(gradient[i] for i in range(gdim))]

@@ -65,7 +65,7 @@ class Findings:
         if found.roundness is not None:
             self.radius_in_facets = min(self.radius_in_facets, found.roundness.facets)
         if found.warning:
-            self.warnings.append(f"{name}: {found.warning}")
+            self.warnings.append(f"{name}: {found.warning} (manual: errors/slave-too-coarse)")
         if isinstance(master, core.ObstacleMaster):
             kind = f"rigid {type(master.obstacle).__name__}"
             if found.passed.count > 0:

@@ -72,7 +72,11 @@ class LevelSet(core.LevelSet):
                 "needs both"
             )
         # Not methods of this object: what the core keeps must not keep the obstacle
-        function = UFLFunction(f, "LevelSet") if gradient is None else _OfPython(f, gradient)
+        function = (
+            UFLFunction(f, "LevelSet", in_faces=True)
+            if gradient is None
+            else _OfPython(f, gradient)
+        )
         if velocity is None:
             super().__init__(function.values, function.parameters)
             return

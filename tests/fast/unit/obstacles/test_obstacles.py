@@ -128,7 +128,7 @@ def pyramid(x):
     ],
 )
 def test_kinks_of_ufl_are_faces(f, normals):
-    level_set = UFLFunction(f, "LevelSet")
+    level_set = UFLFunction(f, "LevelSet", in_faces=True)
     x = np.random.default_rng(2).uniform(-1, 1, (7, 3))
     value, gradient, second = level_set.values(x, 2)
     count = len(normals or [0])
