@@ -14,6 +14,7 @@ using contactx::audit::Audit;
 using contactx::audit::Depth;
 using contactx::audit::Findings;
 using contactx::audit::FoundNodes;
+using contactx::audit::Roundness;
 using contactx::contact::Contact;
 using contactx::parallel::Halo;
 
@@ -31,12 +32,20 @@ void contactx_bindings::audit(py::module_& m)
       .def_readonly("is_held", &Depth::is_held)
       .def_property_readonly("at",
                              [](const Depth& self) { return array(self.at); });
+  py::class_<Roundness>(m, "Roundness", "How round an obstacle is for facets")
+      .def_readonly("radius", &Roundness::radius)
+      .def_readonly("size", &Roundness::size)
+      .def_property_readonly("facets", &Roundness::facets)
+      .def_property_readonly("at", [](const Roundness& self)
+                             { return array(self.at); });
   py::class_<Findings>(m, "ContactFindings", "What was found of one contact")
       .def_readonly("passed", &Findings::passed)
       .def_readonly("inside", &Findings::inside)
       .def_readonly("deepest", &Findings::deepest)
       .def_readonly("is_too_deep", &Findings::is_too_deep)
-      .def_readonly("facet_size", &Findings::facet_size);
+      .def_readonly("facet_size", &Findings::facet_size)
+      .def_readonly("roundness", &Findings::roundness)
+      .def_readonly("warning", &Findings::warning);
   py::class_<Audit>(m, "Audit", "Looks at the contacts of converged iterates")
       .def(py::init<std::shared_ptr<Halo>,
                     std::vector<std::shared_ptr<Contact>>>(),

@@ -315,6 +315,10 @@ public:
     _has_accepted = true;
   }
 
+  /// @brief What the last solution is warned of, a sentence each, the same on
+  /// all ranks: a slave that is coarse for an obstacle's radius, once.
+  const std::vector<std::string>& warnings() const { return _warnings; }
+
   /// @brief The core's loop.
   const newton::Loop& loop() const { return *_loop; }
 
@@ -430,9 +434,14 @@ private:
       return *std::ranges::max_element(sizes);
     }();
     const auto looks = _audit->look();
+    _warnings.clear();
     for (std::size_t k = 0; k < looks.size(); ++k)
     {
       const audit::Findings& found = looks[k];
+      if (not found.warning.empty())
+        _warnings.push_back("contact " + std::to_string(k) + ": "
+                            + found.warning
+                            + " (manual: errors/slave-too-coarse)");
       if (not found.is_fault())
         continue;
       std::string text = "contact " + std::to_string(k) + ": ";
@@ -483,6 +492,7 @@ private:
   std::shared_ptr<Bulk> _bulk;
   std::shared_ptr<newton::System> _system;
   std::unique_ptr<audit::Audit> _audit;
+  std::vector<std::string> _warnings;
   std::unique_ptr<newton::Loop> _loop;
   std::unique_ptr<Jacobian> _jacobian;
   std::unique_ptr<petsc::OwnVec> _x;

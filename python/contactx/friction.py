@@ -69,7 +69,7 @@ class FrictionLaw:
             return p, p, p
         if self._gradient is None:
             bound, gradient, _ = self._ufl.values(np.column_stack([p, s]), 1)
-            return bound, gradient[:, 0].copy(), gradient[:, 1].copy()
+            return bound[0], gradient[0, :, 0].copy(), gradient[0, :, 1].copy()
         given = (self._f(p, s), *self._gradient(p, s))
         found = [np.asarray(values, dtype=np.float64) for values in given]
         for name, values in zip(

@@ -24,28 +24,62 @@ type Values = tuple[
 _MOST_COMPILED = 3
 
 
+def faces(f: ufl.core.expr.Expr) -> list[ufl.core.expr.Expr]:
+    """Split a function with kinks into functions of which it is the largest.
+
+    Args:
+        f: Scalar expression: what is seen are ``max_value`` and ``abs`` in it, in sums, and times
+            or over positive numbers.
+
+    Returns:
+        The functions, f alone if it has no such kink.
+    """
+    if isinstance(f, ufl.classes.MaxValue):
+        return [face for operand in f.ufl_operands for face in faces(operand)]
+    if isinstance(f, ufl.classes.Abs):
+        (operand,) = f.ufl_operands
+        return [*faces(operand), *faces(-operand)]
+    if isinstance(f, ufl.classes.Sum):
+        a, b = f.ufl_operands
+        return [p + q for p in faces(a) for q in faces(b)]
+    if isinstance(f, ufl.classes.Product | ufl.classes.Division):
+        a, b = f.ufl_operands
+        if _is_positive(b):
+            return [p * b if isinstance(f, ufl.classes.Product) else p / b for p in faces(a)]
+        if isinstance(f, ufl.classes.Product) and _is_positive(a):
+            return [a * p for p in faces(b)]
+    return [f]
+
+
+def _is_positive(f: ufl.core.expr.Expr) -> bool:
+    return isinstance(f, ufl.classes.RealValue) and float(f) > 0
+
+
 class UFLFunction:
     """A UFL function of a vector, compiled for as many points as it is asked about."""
 
-    def __init__(self, f: Callable[[Any], Any], name: str):
+    def __init__(self, f: Callable[[Any], Any], name: str, *, in_faces: bool = False):
         """Take the function; nothing is compiled before it is asked for.
 
         Args:
             f: From a UFL vector to a scalar expression.
             name: Class that it was given to, for messages.
+            in_faces: Whether kinks split it into the functions of which it is the largest.
         """
-        self._f, self._name = f, name
+        self._f, self._name, self._in_faces = f, name, in_faces
         self._compiled: dict[tuple[int, ...], _Compiled] = {}
 
     def values(self, x: npt.NDArray[np.float64], order: int) -> Values:
-        """Value, gradient and second derivative, shapes (n,), (n, gdim), (n, gdim, gdim).
+        """Value, gradient and second derivative of each of its faces, one if it is not split.
+
+        Shapes (faces, n), (faces, n, gdim), (faces, n, gdim, gdim).
 
         Raises:
             ValueError: If it is not one of UFL, no scalar, or holds what it may not.
         """
         if order == 0:
             # Of all nodes of a body, once
-            return (self._compiled.get(x.shape) or _Compiled(self._f, self._name, *x.shape))(x)
+            return (self._compiled.get(x.shape) or self._compile(x.shape))(x)
         return self._compiled_for(x.shape)(x)
 
     def parameters(self, gdim: int) -> npt.NDArray[np.float64]:
@@ -58,8 +92,11 @@ class UFLFunction:
             # Slave nodes, points of slave facets, and what the audit looks at
             while len(self._compiled) >= _MOST_COMPILED:
                 del self._compiled[next(iter(self._compiled))]
-            self._compiled[shape] = _Compiled(self._f, self._name, *shape)
+            self._compiled[shape] = self._compile(shape)
         return self._compiled[shape]
+
+    def _compile(self, shape: tuple[int, ...]) -> _Compiled:
+        return _Compiled(self._f, self._name, *shape, in_faces=self._in_faces)
 
 
 class UFLField:
@@ -93,7 +130,14 @@ class _Compiled:
     """
 
     def __init__(
-        self, f: Callable[[Any], Any], name: str, n: int, gdim: int, *, is_field: bool = False
+        self,
+        f: Callable[[Any], Any],
+        name: str,
+        n: int,
+        gdim: int,
+        *,
+        is_field: bool = False,
+        in_faces: bool = False,
     ):
         self.shape = n, gdim
         chain = mesh.create_interval(MPI.COMM_SELF, n, [0.0, 1.0])
@@ -119,10 +163,12 @@ class _Compiled:
         if is_field:
             parts = [value[i] for i in range(gdim)]
         else:
-            gradient = ufl.diff(value, X)
-            second = ufl.diff(gradient, X)
-            parts = [value, *(gradient[i] for i in range(gdim))]
-            parts += [second[i, j] for i in range(gdim) for j in range(gdim)]
+            parts = []
+            for face in faces(value) if in_faces else [value]:
+                gradient = ufl.diff(face, X)
+                second = ufl.diff(gradient, X)
+                parts += [face, *(gradient[i] for i in range(gdim))]
+                parts += [second[i, j] for i in range(gdim) for j in range(gdim)]
         # The last is not read; what does not depend on the position needs a mesh all the same
         values = ufl.as_vector([*parts, self._position[0]])
         # The user's constants live on another mesh
@@ -149,8 +195,8 @@ class _Compiled:
     def __call__(
         self, x: npt.NDArray[np.float64]
     ) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64], npt.NDArray[np.float64]]:
-        """Value, gradient and second derivative, shapes (n,), (n, gdim), (n, gdim, gdim)."""
+        """Of each face: shapes (faces, n), (faces, n, gdim), (faces, n, gdim, gdim)."""
         n, gdim = x.shape
-        table = self.table(x)
-        second = table[:, 1 + gdim : -1].reshape(n, gdim, gdim)
-        return table[:, 0], table[:, 1 : 1 + gdim], second
+        table = self.table(x)[:, :-1].reshape(n, -1, 1 + gdim + gdim**2).swapaxes(0, 1)
+        second = table[:, :, 1 + gdim :].reshape(-1, n, gdim, gdim)
+        return table[:, :, 0], table[:, :, 1 : 1 + gdim], second

@@ -24,6 +24,7 @@ class PunchedBlock:
 
     Attributes:
         contact: Contact of its top with what presses it.
+        centre: Centre of the ball, if it is one.
     """
 
     def __init__(
@@ -87,9 +88,9 @@ class PunchedBlock:
             sides = (foot_of_punch, top) if swapped else (top, foot_of_punch)
             self.contact = cx.Contact(*sides, **options)
         else:
-            centre = np.full(gdim, unit * x0)
-            centre[-1] = unit * (ball - down)
-            self.contact = cx.Contact(top, cx.Sphere(centre, unit * ball), **options)
+            self.centre = fem.Constant(domain, np.full(gdim, unit * x0))
+            self.centre.value[-1] = unit * (ball - down)
+            self.contact = cx.Contact(top, cx.Sphere(self.centre, unit * ball), **options)
         self.problem = cx.ContactProblem(
             elasticity(u, 1.0, 0.3), u, contacts=[self.contact], bcs=bcs,
             petsc_options_prefix="punched_", audit=audit,

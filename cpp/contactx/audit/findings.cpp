@@ -2,11 +2,33 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "findings.h"
+#include "../text.h"
 #include <array>
 #include <limits>
 
 using namespace contactx;
 using namespace contactx::audit;
+
+namespace
+{
+/// Facets that a radius needs. A tool that slides over the nodes of 2, 3, 4 and
+/// 8 facets a radius had a tangential force that was off by 5, 1.6, 1 and 0.7 %
+/// of the normal one.
+constexpr double facets_of_radius = 4;
+} // namespace
+
+bool Roundness::is_coarse() const { return facets() < facets_of_radius; }
+
+std::string Roundness::words() const
+{
+  return "the obstacle's radius of curvature, " + number_text(radius, 3)
+         + ", is " + number_text(facets(), 2)
+         + " slave facets long at the node in contact at "
+         + point_text(at, size)
+         + ": the force along the surface swings by percents of the normal "
+           "force as nodes move past it. Refine the slave surface to at least "
+         + number_text(facets_of_radius, 1) + " facets a radius";
+}
 
 std::vector<double>
 contactx::audit::rows_of(std::span<const double> values,
@@ -36,6 +58,27 @@ std::optional<Depth> contactx::audit::deepest(parallel::Ranks& ranks,
   for (auto r = all.begin(); r != all.end(); r += row.size())
     if (r[0] > 0 and (not found or r[1] > found->excess))
       found = Depth{r[1], r[2], r[3], r[4] > 0, {r + 5, r + 5 + gdim}};
+  return found;
+}
+
+std::optional<Roundness>
+contactx::audit::sharpest(parallel::Ranks& ranks,
+                          const std::optional<Roundness>& mine, int gdim)
+{
+  if (ranks.size() == 1)
+    return mine;
+  std::array<double, 6> row{};
+  if (mine)
+  {
+    row = {1, mine->radius, mine->size};
+    std::ranges::copy(mine->at, row.begin() + 3);
+  }
+  const std::vector<double> all = ranks.gather(row);
+  std::optional<Roundness> found;
+  for (auto r = all.begin(); r != all.end(); r += row.size())
+    if (Roundness its{r[1], r[2], {r + 3, r + 3 + gdim}};
+        r[0] > 0 and (not found or its.facets() < found->facets()))
+      found = std::move(its);
   return found;
 }
 

@@ -5,6 +5,7 @@
 
 #include "../parallel/found_nodes.h"
 #include <optional>
+#include <string>
 
 /// @brief Checks of a converged iterate by its geometry alone.
 namespace contactx::audit
@@ -20,6 +21,26 @@ struct Depth
   double size;            ///< size of the facet
   bool is_held;           ///< whether a node of the facet is in contact
   std::vector<double> at; ///< where that is (shape=(gdim))
+};
+
+/// @brief A rigid surface that touches slave facets, by its radius of
+/// curvature: where that is smallest by the facets' size.
+struct Roundness
+{
+  double radius;          ///< 1 / curvature
+  double size;            ///< size of the largest facet around the node
+  std::vector<double> at; ///< the node in contact (shape=(gdim))
+
+  /// @brief How many facets the radius has.
+  double facets() const { return radius / size; }
+
+  /// @brief True if that are too few for the direction of the force: it swings
+  /// with the place of the nodes.
+  bool is_coarse() const;
+
+  /// @brief What that means and what to do: one sentence, which the name of the
+  /// contact goes before.
+  std::string words() const;
 };
 
 /// @brief Findings of one contact, the same on each rank.
@@ -38,6 +59,10 @@ struct Findings
   /// where nodes are inside the master their facets are, too
   bool is_too_deep = false;
   double facet_size = 0; ///< size of the largest slave facet
+  /// Of an obstacle that is curved where nodes touch it; nothing of others
+  std::optional<Roundness> roundness{};
+  /// What to warn of, of one contact once; empty for nothing
+  std::string warning{};
 
   /// @brief True if the iterate is wrong.
   bool is_fault() const
@@ -76,6 +101,15 @@ std::vector<double> rows_of(std::span<const double> values,
 /// @param[in] gdim Geometric dimension, 2 or 3.
 std::optional<Depth> deepest(parallel::Ranks& ranks,
                              const std::optional<Depth>& mine, int gdim);
+
+/// @brief The roundness of all ranks with the fewest facets; all ranks must
+/// take part.
+/// @param[in] ranks The ranks.
+/// @param[in] mine That of this rank, if it has one.
+/// @param[in] gdim Geometric dimension, 2 or 3.
+std::optional<Roundness> sharpest(parallel::Ranks& ranks,
+                                  const std::optional<Roundness>& mine,
+                                  int gdim);
 
 /// @brief Number of the value that is the largest one and more than minus
 /// infinity; the first of equal ones, -1 for none.

@@ -20,8 +20,6 @@ namespace
 constexpr int levels = 7;
 // Points on the way of a node that may have gone through
 constexpr int points_of_way = 64;
-// Rounding and what is no matter, by the size of a facet
-constexpr double negligible = 4e-3;
 
 std::shared_ptr<contact::ObstacleMaster> rigid(const contact::Contact& contact)
 {
@@ -30,22 +28,6 @@ std::shared_ptr<contact::ObstacleMaster> rigid(const contact::Contact& contact)
   if (not master)
     throw std::invalid_argument("the contact's master must be an obstacle");
   return master;
-}
-
-/// Sum of the absolute values of each row of each node's matrix; the largest.
-std::vector<double> largest_row_sums(std::span<const double> matrices, int gdim)
-{
-  const std::size_t g = gdim;
-  std::vector<double> largest(matrices.size() / (g * g), 0);
-  for (std::size_t i = 0; i < largest.size(); ++i)
-    for (std::size_t r = 0; r < g; ++r)
-    {
-      double sum = 0;
-      for (std::size_t c = 0; c < g; ++c)
-        sum += std::abs(matrices[(i * g + r) * g + c]);
-      largest[i] = std::max(largest[i], sum);
-    }
-  return largest;
 }
 
 /// Distance of a row of one table from a row of another one.
@@ -93,6 +75,7 @@ void ObstacleAudit::accept()
         _normals = _master->obstacle()->evaluate(now.points, gdim()).normal;
         _before = std::move(now);
       });
+  _has_warned = _has_warned or _is_coarse;
 }
 
 Findings ObstacleAudit::look(std::span<const double> /*start*/)
@@ -124,7 +107,17 @@ Findings ObstacleAudit::look(std::span<const double> /*start*/)
       });
   const auto how_near = near(gap, small);
   std::optional<Depth> mine;
-  ranks.agree([&] { mine = look_between(around, size, how_near, offset); });
+  std::optional<Roundness> round;
+  ranks.agree(
+      [&]
+      {
+        mine = look_between(around, size, how_near, offset);
+        round = roundness(around, size, gap, small);
+      });
+  findings.roundness = sharpest(ranks, round, gdim());
+  _is_coarse = findings.roundness and findings.roundness->is_coarse();
+  if (_is_coarse and not _has_warned)
+    findings.warning = findings.roundness->words();
   findings.passed.count = parallel::total(ranks, passed);
   if (findings.passed.count == 0)
     findings.inside = found_nodes(*_halo, bad, x);
@@ -199,6 +192,47 @@ std::vector<std::int32_t> ObstacleAudit::inside(std::span<const double> gap,
   return nodes;
 }
 
+/// Whether an owned slave node is in contact and at the obstacle: a gap that is
+/// a mean may be closed although the node is beside it.
+bool ObstacleAudit::touches(std::size_t i, double gap, double small) const
+{
+  return _contact->nodes()->held(i)
+         and not(gap - _contact->offset()[i] > small);
+}
+
+/// Where the obstacle is roundest by the facets around a node that touches it.
+/// @param[in] x Positions of the slave nodes around.
+/// @param[in] size Sizes of the facets around the owned ones.
+/// @param[in] gap Gaps of the owned slave nodes.
+/// @param[in] small What is no matter.
+std::optional<Roundness> ObstacleAudit::roundness(std::span<const double> x,
+                                                  std::span<const double> size,
+                                                  std::span<const double> gap,
+                                                  double small) const
+{
+  const facet::FacetList local = _contact->slaves().local();
+  const std::size_t n = gap.size();
+  std::vector<double> largest(n, 0);
+  for (std::int32_t f = 0; f < local.size(); ++f)
+    for (const std::int32_t node : local[f])
+      if (static_cast<std::size_t>(node) < n)
+        largest[node] = std::max(largest[node], size[f]);
+  const auto curvature = _master->obstacle()
+                             ->evaluate(x.first(n * gdim()), gdim())
+                             .largest_curvatures(gdim());
+  std::vector<double> turn(n, 0);
+  for (std::size_t i = 0; i < n; ++i)
+    if (touches(i, gap[i], small))
+      turn[i] = curvature[i] * largest[i];
+  const auto worst = worst_of(turn);
+  if (worst < 0 or not(turn[worst] > 0))
+    return std::nullopt;
+  return Roundness{
+      1 / curvature[worst],
+      largest[worst],
+      {x.begin() + worst * gdim(), x.begin() + (worst + 1) * gdim()}};
+}
+
 /// How near each slave facet is to contact; collective.
 std::vector<std::int8_t> ObstacleAudit::near(std::span<const double> gap,
                                              double small) const
@@ -209,9 +243,7 @@ std::vector<std::int8_t> ObstacleAudit::near(std::span<const double> gap,
   for (std::size_t i = 0; i < gap.size(); ++i)
   {
     held[i] = state.held(i);
-    // A gap that is a mean may be closed although the node is beside the
-    // obstacle
-    touching[i] = held[i] and not(gap[i] - _contact->offset()[i] > small);
+    touching[i] = touches(i, gap[i], small);
   }
   auto result = slaves.near(held);
   const auto touches = slaves.near(touching);
@@ -241,8 +273,7 @@ std::optional<Depth> ObstacleAudit::look_between(
   std::vector<double> extent(n, obstacle.size(gdim()));
   const obstacle::Geometry geometry = obstacle.evaluate(x, gdim());
   auto curvature = facet_turns(local, x, geometry.normal, gdim());
-  const auto at_nodes
-      = slaves.largest(largest_row_sums(geometry.curvature, gdim()));
+  const auto at_nodes = slaves.largest(geometry.largest_curvatures(gdim()));
   for (std::size_t f = 0; f < n; ++f)
     curvature[f] = std::max(curvature[f], at_nodes[f]);
   FacetSampling sampling(local, x, gdim(),

@@ -49,6 +49,11 @@ private:
   std::vector<std::int32_t> inside(std::span<const double> gap,
                                    double small) const;
   std::int64_t count_passed(std::span<const double> x, double small) const;
+  bool touches(std::size_t i, double gap, double small) const;
+  std::optional<Roundness> roundness(std::span<const double> x,
+                                     std::span<const double> size,
+                                     std::span<const double> gap,
+                                     double small) const;
   std::vector<std::int8_t> near(std::span<const double> gap,
                                 double small) const;
   std::optional<Depth> look_between(std::span<const double> x,
@@ -67,5 +72,8 @@ private:
   std::optional<Places> _before;
   std::vector<double> _normals;
   obstacle::Placement _placed;
+  // Whether the last look found facets that are too coarse for a radius, and
+  // whether that was accepted before
+  bool _is_coarse = false, _has_warned = false;
 };
 } // namespace contactx::audit

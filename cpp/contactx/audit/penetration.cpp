@@ -3,7 +3,6 @@
 
 #include "penetration.h"
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <stdexcept>
 
@@ -12,17 +11,18 @@ using namespace contactx::audit;
 
 namespace
 {
-/// Turn over a facet up to which it resolves a curvature, away from contact,
-/// beside it and in it: 29 and 57 degrees
-constexpr std::array resolved{0.5, 1., 1.};
-/// Depth of a chord of a circle, by curvature and squared length, and how often
-/// that is allowed
-constexpr double chord = 1. / 8, chords = 2;
-/// Depth by the size of a facet from which on it is too coarse for what it
-/// touches
-constexpr double coarse_from = 0.15;
-/// Depths by the size of a facet: away from contact, beside it and in it
-constexpr std::array by_contact{1. / 256, coarse_from / 2, coarse_from};
+/// Depth by the size of a facet that is harm, whatever a facet sees
+constexpr double harm = 0.15;
+/// How often the depth of the chord of a curvature is allowed: both sides are
+/// curved
+constexpr double chords = 2;
+
+/// Depth of a chord in a circle, by the chord's length.
+/// @param[in] turn Length of the chord by the radius.
+double chord(double turn)
+{
+  return turn < 2 ? turn / (4 + 2 * std::sqrt(4 - turn * turn)) : infinity;
+}
 
 double distance(std::span<const double> x, std::int32_t a, std::int32_t b,
                 int gdim)
@@ -100,11 +100,11 @@ std::vector<double> contactx::audit::explained_depths(
   std::vector<double> depth(size.size());
   for (std::size_t i = 0; i < depth.size(); ++i)
   {
-    const double h = size[i], turn = curvature[i] * h;
-    depth[i] = std::min(h, extent[i]) * by_contact.at(contact[i]);
-    if (turn <= resolved[contact[i]])
-      depth[i] = std::max(depth[i],
-                          std::min(chords * chord * turn, coarse_from) * h);
+    const double h = size[i];
+    const bool is_seen = contact[i] > 0;
+    depth[i] = std::min(h, extent[i]) * (is_seen ? harm : negligible);
+    if (const double its = chord(curvature[i] * h); its <= harm)
+      depth[i] = std::max(depth[i], std::min(chords * its, harm) * h);
   }
   return depth;
 }

@@ -10,6 +10,9 @@ namespace contactx::audit
 /// Part of a facet's size that a node may be behind it and still be in contact
 inline constexpr double in_contact_by = 1. / 8;
 
+/// Depth by the size of a facet that is rounding or no matter
+inline constexpr double negligible = 1. / 256;
+
 /// @brief Curvature of a surface at its nodes: how much the nodal normal turns
 /// on the way to a neighbour, by the length of the way; the largest.
 /// @param[in] facets Facets of the surface.
@@ -44,28 +47,30 @@ std::vector<double> facet_sizes(const facet::FacetList& facets,
 /// @brief Largest depth of a master below a slave facet of size h, between its
 /// nodes: what the mesh explains.
 ///
-/// Contact holds at slave nodes, or in the mean over their facets. In between
-/// - a surface of curvature k is k h^2 / 8 beside its chord; twice that is
-///   allowed, as both surfaces are curved. That is so where the mesh resolves
-///   the curvature, k h <= 1/2, and in and beside contact k h <= 1; the edge of
-///   a punch, or a ball smaller than a facet, is no curvature that it sees;
-///   beyond 0.15 h the facet is too coarse, whatever the curvature;
-/// - a facet of which a node is in contact spans what its other nodes do not
-///   touch, as over the edge of a punch: 0.15 h;
-/// - beside that, where a neighbour of the facet is in contact, pressure bends
-///   the master's surface: half of that;
-/// - h / 256 is no matter.
+/// Contact holds at slave nodes, or in the mean over their facets. A depth is
+/// harm where the master is nearer to the far side of what a facet resolves
+/// than to its nodes: 0.15 h. That one length decides for all facets that see
+/// the master, whether
+/// - a node of the facet or of a neighbour is in contact, and the facet spans
+///   what its other nodes do not touch, as over the edge of a punch; or
+/// - the master is so round that it meets a node before it is as deep: the
+/// chord
+///   of its curvature k is no harm, k h <= 1.1. Then twice the chord is
+///   allowed, as both surfaces are curved, and so no verdict hangs on whether a
+///   step ends before the first node touches or after it.
 ///
-/// Where the master is smaller than the facet its size takes the place of h in
-/// the last three.
+/// A facet that sees nothing is harmed by any depth: the edge of a punch, or a
+/// ball smaller than the facet, may go on without a force; h / 256 is no
+/// matter.
+///
+/// Where the master is smaller than the facet its size takes the place of h.
 /// @param[in] size Sizes of the facets.
 /// @param[in] curvature Curvatures of the master in front of them.
-/// @param[in] contact 2 where a node of the facet is in contact, 1 where one of
-/// a neighbour is, else 0.
+/// @param[in] contact More than 0 where a node of the facet or of a neighbour
+/// is in contact.
 /// @param[in] extent Sizes of the master there, which may be infinite.
 /// @return Depths.
 /// @throws std::invalid_argument If the arrays are of different sizes.
-/// @throws std::out_of_range If contact is something else.
 std::vector<double> explained_depths(std::span<const double> size,
                                      std::span<const double> curvature,
                                      std::span<const std::int8_t> contact,

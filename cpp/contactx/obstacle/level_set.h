@@ -9,13 +9,14 @@
 
 namespace contactx::obstacle
 {
-/// @brief A function of the position at n points.
+/// @brief A function of the position at n points, or several, one for each face
+/// of a body with ridges: the largest of them counts.
 struct LevelValues
 {
-  std::vector<double> value;    ///< (shape=(n))
-  std::vector<double> gradient; ///< (shape=(n, gdim))
-  /// Second derivatives (shape=(n, gdim, gdim)); empty where the function has
-  /// none, and differences of the gradient serve
+  std::vector<double> value;    ///< (shape=(faces, n))
+  std::vector<double> gradient; ///< (shape=(faces, n, gdim))
+  /// Second derivatives (shape=(faces, n, gdim, gdim)); empty where the
+  /// function has none, and differences of the gradient serve
   std::vector<double> hessian;
 };
 
@@ -26,6 +27,10 @@ struct LevelValues
 /// |grad f| is the distance to first order. A function that changes tells of no
 /// movement along its surface: for friction its material is at rest, unless it
 /// has a velocity.
+///
+/// Where the body is what several faces have in common, a point beyond a ridge
+/// or an apex sees the point there that is nearest, along the way from it; on
+/// it the normal is the axis of the cone of normals.
 class LevelSet : public Obstacle
 {
 public:
@@ -84,6 +89,11 @@ public:
 private:
   std::vector<double> velocity(std::span<const double> x, int gdim) const;
   LevelValues values(std::span<const double> x, int gdim, int order) const;
+  double scene_size(std::span<const double> x, int gdim) const;
+
+  /// Distance from a ridge within which a point is on it: a facet that it cuts
+  /// there is on both of its sides.
+  double ridge_width(std::span<const double> x, int gdim) const;
 
   /// Central differences of the gradient, symmetric. They only serve the
   /// tangent: the solution does not depend on them.

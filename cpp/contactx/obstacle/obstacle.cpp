@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "obstacle.h"
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -13,6 +14,35 @@ void Geometry::resize(std::size_t n, int gdim)
   gradient.resize(n * gdim);
   normal.resize(n * gdim);
   curvature.resize(n * gdim * gdim);
+}
+
+/// Of the derivative of the normal that part which is along the surface is
+/// symmetric, with two eigenvalues or one.
+std::vector<double> Geometry::largest_curvatures(int gdim) const
+{
+  const std::size_t g = gdim;
+  std::vector<double> largest(gap.size());
+  for (std::size_t i = 0; i < largest.size(); ++i)
+  {
+    const double* n = &normal[g * i];
+    double sum = 0, squares = 0;
+    for (std::size_t j = 0; j < g; ++j)
+    {
+      const double* row = &curvature[g * (g * i + j)];
+      double along = 0;
+      for (std::size_t k = 0; k < g; ++k)
+        along += row[k] * n[k];
+      for (std::size_t k = 0; k < g; ++k)
+      {
+        const double turn = row[k] - along * n[k];
+        squares += turn * turn;
+        sum += j == k ? turn : 0;
+      }
+    }
+    const double apart = std::max(2 * squares - sum * sum, 0.);
+    largest[i] = (std::abs(sum) + std::sqrt(apart)) / 2;
+  }
+  return largest;
 }
 
 namespace

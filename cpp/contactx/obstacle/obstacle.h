@@ -25,6 +25,9 @@ struct Geometry
 
   /// @brief Make room for values at `n` points.
   void resize(std::size_t n, int gdim);
+
+  /// @brief Largest size of a principal curvature at each point (shape=(n)).
+  std::vector<double> largest_curvatures(int gdim) const;
 };
 
 /// @brief Position and direction of a rigid obstacle.
@@ -132,6 +135,10 @@ public:
   /// Size of the largest surface that is measured against it, the same on all
   /// ranks; zero if none is known
   double extent = 0;
+
+  /// Size of the smallest facet that is measured against it, the same on all
+  /// ranks; zero if none is known
+  double facet = 0;
 
 protected:
   /// @brief Called before the parameters are read. Who gets them from

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "sides.h"
+#include "../audit/penetration.h"
 #include "../check.h"
 #include "../contact/mortar_obstacle.h"
 #include "../contact/node_to_surface.h"
@@ -222,6 +223,12 @@ std::shared_ptr<contact::ObstacleMaster> contactx::reference::make_master(
   obstacle->extent = std::max(obstacle->extent,
                               std::ranges::max(parallel::extent(
                                   halo.ranks(), slaves->owned(), x, gdim)));
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const double size : audit::facet_sizes(slaves->own(), x, gdim))
+    smallest = std::min(smallest, size);
+  smallest = -parallel::largest(halo.ranks(), -smallest);
+  obstacle->facet
+      = obstacle->facet > 0 ? std::min(obstacle->facet, smallest) : smallest;
   const double reach = options.search_distance.value_or(
       std::numeric_limits<double>::infinity());
   std::shared_ptr<contact::ObstacleMaster> master;

@@ -91,10 +91,9 @@ TEST(AuditOfObstacles, IsSeenHoweverNarrow)
   EXPECT_GE(found.deepest->depth, 0.6 * depth);
 }
 
-TEST(AuditOfObstacles, WhatIsInContactMayBeDeeper)
+TEST(AuditOfObstacles, WhereAStepEndsBeforeANodeTouchesOrAfterItIsTheSame)
 {
-  // The facet between nodes in contact that touch: 0.15 of its size, but of no
-  // more than the disc
+  // An arc that the facet resolves, as deep as until it meets the nodes
   const double radius = 0.4, h = 1. / 3,
                low = std::sqrt(radius * radius - h * h / 4);
   MovedContact c(segments(0), disc(0.5, -low, radius));
@@ -103,7 +102,7 @@ TEST(AuditOfObstacles, WhatIsInContactMayBeDeeper)
   const double depth = radius - low;
   const Findings open = audit.look({});
   ASSERT_TRUE(open.deepest.has_value());
-  EXPECT_TRUE(open.is_too_deep);
+  EXPECT_FALSE(open.is_fault());
   EXPECT_FALSE(open.deepest->is_held);
   c.contact->nodes()->close(std::vector<std::int32_t>{1, 2});
   const Findings held = audit.look({});
@@ -111,10 +110,42 @@ TEST(AuditOfObstacles, WhatIsInContactMayBeDeeper)
   EXPECT_TRUE(held.deepest->is_held);
   EXPECT_FALSE(held.is_fault());
   EXPECT_NEAR(held.deepest->depth, depth, 1e-14);
-  EXPECT_LE(held.deepest->excess, depth / (0.15 * h) + 1e-12);
+  EXPECT_NEAR(held.deepest->excess, depth / (0.15 * h), 1e-12);
+  EXPECT_EQ(open.deepest->excess, held.deepest->excess);
   // A gap that is closed in the mean while the node is beside the obstacle
   c.move(0, 4, 0.01);
   EXPECT_FALSE(audit.look({}).deepest->is_held);
+}
+
+TEST(AuditOfObstacles, AFewFacetsARadiusAreWarnedOfOnceWhereNodesTouch)
+{
+  const double h = 1. / 3;
+  for (const double facets : {2., 3.9, 4.1})
+  {
+    const double radius = facets * h;
+    MovedContact c(segments(0), disc(h, -radius, radius));
+    ObstacleAudit audit(c.halo, c.contact);
+    audit.accept();
+    EXPECT_FALSE(audit.look({}).roundness) << "no node is in contact";
+    c.contact->nodes()->close(std::vector<std::int32_t>{1});
+    const Findings found = audit.look({});
+    ASSERT_TRUE(found.roundness);
+    EXPECT_NEAR(found.roundness->radius, radius, 1e-13);
+    EXPECT_NEAR(found.roundness->size, h, 1e-14);
+    EXPECT_NEAR(found.roundness->facets(), facets, 1e-12);
+    EXPECT_NEAR(found.roundness->at[0], h, 1e-14);
+    EXPECT_EQ(found.warning.empty(), facets > 4);
+    if (facets == 2)
+      EXPECT_NE(found.warning.find("0.667, is 2 slave facets long at the node "
+                                   "in contact at (0.333333, 0)"),
+                std::string::npos)
+          << found.warning;
+    // Until the step is accepted, as an iterate may be none
+    EXPECT_EQ(audit.look({}).warning, found.warning);
+    audit.accept();
+    EXPECT_TRUE(audit.look({}).warning.empty());
+    EXPECT_TRUE(audit.look({}).roundness);
+  }
 }
 
 TEST(AuditOfObstacles, APlaneIsDeepestAtANode)

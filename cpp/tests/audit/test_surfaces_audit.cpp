@@ -53,7 +53,8 @@ double explained(const MovedContact& c, const TwoSheets& s, std::int32_t node,
   const auto k = nodal_curvatures(
       list, x, facet::nodal_normals(list, x, s.gdim), s.gdim)[node];
   EXPECT_LT(k * h, 0.5);
-  return std::max(h * (held ? 0.15 : 1. / 256), k * h * h / 4);
+  const double chord = (1 - std::sqrt(1 - k * k * h * h / 4)) / k;
+  return std::max(h * (held ? 0.15 : 1. / 256), 2 * chord);
 }
 } // namespace
 

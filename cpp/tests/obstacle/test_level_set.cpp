@@ -40,6 +40,179 @@ LevelSet round_set(double r, double factor, bool has_hessian = true)
       });
 }
 
+/// Faces b_i . x - d_i + |x|^2 / 2 * bend of a body, each times another factor.
+LevelSet faced(std::vector<Vector<3>> normal, double bend,
+               bool has_hessian = true)
+{
+  return LevelSet(
+      [=](std::span<const double> x, int gdim, int)
+      {
+        LevelValues at;
+        for (std::size_t f = 0; f < normal.size(); ++f)
+          for (std::size_t i = 0; i < x.size(); i += gdim)
+          {
+            const double factor = 1.0 + f;
+            double value = 0;
+            for (int k = 0; k < gdim; ++k)
+            {
+              const double c = x[i + k];
+              value += normal[f][k] * c + bend * c * c / 2;
+              at.gradient.push_back(factor * (normal[f][k] + bend * c));
+              for (int j = 0; has_hessian and j < gdim; ++j)
+                at.hessian.push_back(factor * bend * (j == k));
+            }
+            at.value.push_back(factor * value);
+          }
+        return at;
+      });
+}
+
+/// Of a pyramid whose apex is the origin: its slope is 1 : 2.
+std::vector<Vector<3>> pyramid()
+{
+  return {{1, 0, 2}, {0, 1, 2}, {-1, 0, 2}, {0, -1, 2}};
+}
+
+TEST(LevelSet, OnAnApexTheNormalIsTheAxisOfTheConeOfNormals)
+{
+  LevelSet set = faced(pyramid(), 0.3);
+  set.extent = 1;
+  // On the apex but for rounding, and inside below it
+  for (const double height : {0., 1e-12, -1e-12, -0.1})
+  {
+    const Geometry at = set.evaluate(std::vector<double>{1e-14, 0, height}, 3);
+    EXPECT_NEAR(at.normal[0], 0, 1e-12);
+    EXPECT_NEAR(at.normal[1], 0, 1e-12);
+    EXPECT_NEAR(at.normal[2], 1, 1e-12);
+  }
+  // Three faces at unequal angles: the narrowest cone, whose axis is as far
+  // from each of those that bound it
+  const std::vector<Vector<3>> sharp{{1, 0, 1}, {-1, 0.3, 1}, {0, -1, 0.5}};
+  LevelSet odd = faced(sharp, 0);
+  odd.extent = 1;
+  const auto n = odd.evaluate(std::vector<double>{0, 0, 0}, 3).normal;
+  std::vector<double> cosine;
+  for (const Vector<3>& b : sharp)
+    cosine.push_back(dot(b, Vector<3>{n[0], n[1], n[2]}) / norm(b));
+  EXPECT_NEAR(cosine[0], cosine[1], 1e-14);
+  EXPECT_NEAR(cosine[0], cosine[2], 1e-14);
+  EXPECT_GT(cosine[0], 0);
+}
+
+TEST(LevelSet, BeyondARidgeTheNormalIsAlongTheWayFromIt)
+{
+  LevelSet set = faced(pyramid(), 0);
+  // In the cone of normals above the apex, above a ridge, beside a face
+  const std::vector<double> x{0.02, -0.03, 0.4, 0.3, 0.3, 0, 0.5, 0.1, 0};
+  const Geometry at = set.evaluate(x, 3);
+  const double way = std::sqrt(0.02 * 0.02 + 0.03 * 0.03 + 0.4 * 0.4);
+  EXPECT_NEAR(at.gap[0], way, 1e-15);
+  EXPECT_NEAR(at.normal[0], 0.02 / way, 1e-14);
+  EXPECT_NEAR(at.normal[1], -0.03 / way, 1e-14);
+  // The ridge z = -x / 2, x = y has a direction (2, 2, -1) / 3
+  EXPECT_NEAR(at.normal[3], at.normal[4], 1e-15);
+  EXPECT_NEAR(2 * at.normal[3] + 2 * at.normal[4] - at.normal[5], 0, 1e-14);
+  EXPECT_NEAR(at.gap[1], std::sqrt(0.18 - 0.4 * 0.4), 1e-14);
+  EXPECT_NEAR(at.gap[2], 0.5 / std::sqrt(5), 1e-15);
+  EXPECT_EQ(set.distance(x, 3), at.gap);
+  EXPECT_EQ(set.normals(x, 3), at.normal);
+}
+
+TEST(LevelSet, BeyondARidgeDerivativesAreThoseOfDifferences)
+{
+  Generator random(5);
+  for (int gdim : {2, 3})
+    for (bool has_hessian : {true, false})
+    {
+      std::vector<Vector<3>> normal = pyramid();
+      if (gdim == 2)
+        normal = {{1, 2, 0}, {-1, 1, 0}};
+      LevelSet set = faced(normal, 0.4, has_hessian);
+      set.extent = 1;
+      std::vector<double> x;
+      for (int i = 0; i < 40; ++i)
+      {
+        for (int k = 0; k + 1 < gdim; ++k)
+          x.push_back(random(-0.1, 0.1));
+        x.push_back(random(-0.02, 0.3));
+      }
+      const Geometry at = set.evaluate(x, gdim);
+      const double h = 1e-6;
+      for (int k = 0; k < gdim; ++k)
+      {
+        std::vector<double> up = x, down = x;
+        for (std::size_t i = k; i < x.size(); i += gdim)
+        {
+          up[i] += h;
+          down[i] -= h;
+        }
+        const Geometry a = set.evaluate(up, gdim), b = set.evaluate(down, gdim);
+        for (std::size_t i = 0; i < at.gap.size(); ++i)
+        {
+          EXPECT_NEAR(at.gradient[gdim * i + k],
+                      (a.gap[i] - b.gap[i]) / (2 * h), 1e-7);
+          const double size = 1 + 1 / std::abs(at.gap[i]);
+          for (int j = 0; j < gdim; ++j)
+            EXPECT_NEAR(at.curvature[gdim * (gdim * i + j) + k],
+                        (a.normal[gdim * i + j] - b.normal[gdim * i + j])
+                            / (2 * h),
+                        1e-7 * size)
+                << gdim << " " << at.gap[i];
+        }
+      }
+    }
+}
+
+TEST(LevelSet, AlongARidgeTheAxisOfItsConeTurnsAsDifferencesSay)
+{
+  // A lens: two balls about (0, 0, -1) and (0, 0, 1), cut by a cylinder
+  LevelSet lens(
+      [](std::span<const double> x, int, int)
+      {
+        LevelValues at;
+        for (const double c : {-1., 1.})
+        {
+          at.value.push_back(x[0] * x[0] + x[1] * x[1] + (x[2] - c) * (x[2] - c)
+                             - 2);
+          at.gradient.insert(at.gradient.end(),
+                             {2 * x[0], 2 * x[1], 2 * (x[2] - c)});
+          at.hessian.insert(at.hessian.end(), {2, 0, 0, 0, 2, 0, 0, 0, 2});
+        }
+        return at;
+      });
+  lens.extent = 1;
+  const double a = 0.4, h = 1e-5;
+  const auto rim = [&](double angle)
+  {
+    return lens.evaluate(
+        std::vector<double>{std::cos(angle), std::sin(angle), 0}, 3);
+  };
+  const Geometry at = rim(a), up = rim(a + h), down = rim(a - h);
+  const Vector<3> along{-std::sin(a), std::cos(a), 0};
+  EXPECT_NEAR(at.normal[0], std::cos(a), 1e-14);
+  for (int j = 0; j < 3; ++j)
+    EXPECT_NEAR(dot(vector_at(at.curvature, j, 3), along),
+                (up.normal[j] - down.normal[j]) / (2 * h), 1e-9);
+}
+
+TEST(LevelSet, FacesThatBoundNothingOrFaceAwayFromOneAnotherHaveNoRidge)
+{
+  // A plate about z = 0, and a constant
+  LevelSet plate(
+      [](std::span<const double> x, int, int)
+      {
+        return LevelValues{{x[2] - 1, -x[2] - 1, -3},
+                           {0, 0, 1, 0, 0, -1, 0, 0, 0},
+                           std::vector<double>(27, 0.0)};
+      });
+  plate.extent = 1;
+  const Geometry middle = plate.evaluate(std::vector<double>{0, 0, 0}, 3);
+  EXPECT_EQ(middle.gap[0], -1);
+  EXPECT_EQ(middle.normal[2], 1);
+  EXPECT_EQ(plate.distance(std::vector<double>{0, 0, -4}, 3)[0], 3);
+  EXPECT_EQ(plate.level(std::vector<double>{0, 0, -4}, 3)[0], 3);
+}
+
 TEST(LevelSet, OfADistanceIsASphere)
 {
   Generator random(2);
@@ -134,7 +307,7 @@ TEST(LevelSet, WhereItMeansNothingNothingIsNear)
   EXPECT_EQ(set.distance(x, 2),
             (std::vector<double>{0.5, inf, -inf, inf, inf}));
   EXPECT_EQ(set.normals(x, 2),
-            (std::vector<double>{1, 0, 0, 0, 0, 0, 1, 0, 0, 0}));
+            (std::vector<double>{1, 0, 0, 0, 0, 0, 0, 0, 0, 0}));
   try
   {
     set.evaluate(x, 2);
@@ -154,8 +327,9 @@ TEST(LevelSet, WhereItMeansNothingNothingIsNear)
 TEST(LevelSet, RefusesValuesOfAnotherNumber)
 {
   LevelSet set([](std::span<const double>, int, int)
-               { return LevelValues{{1, 2}, {1, 0}, {}}; });
-  EXPECT_THROW(set.level(std::vector<double>{1, 2}, 2), std::invalid_argument);
+               { return LevelValues{{1, 2, 3}, {1, 0}, {}}; });
+  EXPECT_THROW(set.level(std::vector<double>{1, 2, 3, 4}, 2),
+               std::invalid_argument);
 }
 
 TEST(LevelSet, TellsItsParameters)

@@ -44,6 +44,45 @@ std::string error_of(O&& obstacle, std::vector<double> x, int gdim)
   return "none";
 }
 
+TEST(Geometry, LargestCurvaturesArePrincipalOnes)
+{
+  // z = (a x^2 + b y^2) / 2 + c x y at the origin, and turned out of the axes
+  const auto at = [](double a, double b, double c, Vector<3> n)
+  {
+    Geometry seen;
+    seen.resize(1, 3);
+    const double length = norm(n);
+    n = (1 / length) * n;
+    const Vector<3> t = std::abs(n[0]) < 0.9
+                            ? (1 / norm(cross(n, Vector<3>{1, 0, 0})))
+                                  * cross(n, Vector<3>{1, 0, 0})
+                            : Vector<3>{0, 1, 0};
+    const Vector<3> s = cross(n, t), more{0.3, -2, 5};
+    for (int j = 0; j < 3; ++j)
+    {
+      seen.normal[j] = n[j];
+      // What is along the normal is no curvature
+      for (int k = 0; k < 3; ++k)
+        seen.curvature[3 * j + k] = a * t[j] * t[k] + b * s[j] * s[k]
+                                    + c * (t[j] * s[k] + s[j] * t[k])
+                                    + dot(more, t) * t[j] * n[k];
+    }
+    return seen.largest_curvatures(3)[0];
+  };
+  for (const Vector<3>& n :
+       {Vector<3>{0, 0, 1}, Vector<3>{1, 1, 1}, Vector<3>{0.2, -0.5, 0.8}})
+  {
+    EXPECT_NEAR(at(2, 2, 0, n), 2, 1e-14);
+    EXPECT_NEAR(at(-3, 1, 0, n), 3, 1e-14);
+    EXPECT_NEAR(at(0, 0, 1.5, n), 1.5, 1e-14);
+    EXPECT_NEAR(at(1, 1, 1, n), 2, 1e-14);
+  }
+  Sphere sphere({0, 0}, 0.5);
+  EXPECT_NEAR(sphere.evaluate(std::vector<double>{0.3, 0.4}, 2)
+                  .largest_curvatures(2)[0],
+              2, 1e-14);
+}
+
 TEST(Obstacles, DerivativesAreThoseByDifferences)
 {
   for (int gdim : {2, 3})

@@ -28,6 +28,8 @@ class Findings:
         passed: Nodes that went through the other surface within the step.
         depth: Largest depth of a master below a slave facet, between its nodes, a length.
         excess: Largest ratio of such a depth to what the mesh explains; more than 1 is a fault.
+        radius_in_facets: Smallest radius of curvature of an obstacle where slave nodes touch it, by
+            the size of the facets there; infinite where none is curved. Below 4 there is a warning.
         inverted: Cells that are turned inside out.
         smallest_det: Smallest det F of the cells; NaN where none was looked at.
         faults: What is wrong and what to do about it, a text each.
@@ -38,6 +40,7 @@ class Findings:
     passed: int = 0
     depth: float = 0.0
     excess: float = 0.0
+    radius_in_facets: float = float("inf")
     inverted: int = 0
     smallest_det: float = float("nan")
     faults: list[str] = field(default_factory=list)
@@ -59,6 +62,10 @@ class Findings:
         self.far_side += found.inside.count
         if deepest is not None and deepest.excess > self.excess:
             self.excess, self.depth = deepest.excess, max(deepest.depth, 0.0)
+        if found.roundness is not None:
+            self.radius_in_facets = min(self.radius_in_facets, found.roundness.facets)
+        if found.warning:
+            self.warnings.append(f"{name}: {found.warning} (manual: errors/slave-too-coarse)")
         if isinstance(master, core.ObstacleMaster):
             kind = f"rigid {type(master.obstacle).__name__}"
             if found.passed.count > 0:
@@ -118,6 +125,8 @@ class Findings:
             f"master between slave nodes at {self.excess:.2g} of what the mesh explains "
             f"({self.depth:.2g} deep)",
         ]
+        if self.radius_in_facets < float("inf"):
+            parts.append(f"smallest radius of an obstacle {self.radius_in_facets:.3g} facets")
         if self.smallest_det == self.smallest_det:
             parts.append(
                 f"{self.inverted} cells inside out, smallest det F {self.smallest_det:.3g}"

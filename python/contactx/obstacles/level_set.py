@@ -20,10 +20,11 @@ class LevelSet(core.LevelSet):
     """Rigid body where a function is negative; deformable bodies may be where it is positive.
 
     The function need not be a distance: its zero is the surface, and g = f / |grad f| is the
-    distance to first order. A change of the function does not tell how the material moves along the
-    surface. For friction the material is at rest, and a step in which the function changes while
-    the obstacle is touched is refused, unless it has a velocity. Plane, Sphere and Cylinder drag
-    what touches them.
+    distance to first order. Beyond a ridge or an apex, as of ``max_value``, the closest point is on
+    it; there the normal is the axis of the cone of normals. A change of the function does not tell
+    how the material moves along the surface. For friction the material is at rest, and a step in
+    which the function changes while the obstacle is touched is refused, unless it has a velocity.
+    Plane, Sphere and Cylinder drag what touches them.
     """
 
     def __init__(
@@ -40,8 +41,10 @@ class LevelSet(core.LevelSet):
             f: Function of the position. Either of UFL: it takes a UFL vector of shape (gdim,)
                 and returns a scalar expression, which may hold ``fem.Constant`` and is
                 differentiated by UFL. Or of Python: it takes an array of shape (gdim, n), as in
-                ``Function.interpolate``, and returns one of shape (n,).
-            gradient: Gradient of a Python function, from (gdim, n) to (gdim, n).
+                ``Function.interpolate``, and returns one of shape (n,), or for a convex body with
+                ridges one of shape (m, n): a function for each of its m faces, of which the
+                largest counts. ``max_value`` and ``abs`` of UFL tell these by themselves.
+            gradient: Gradient of a Python function, from (gdim, n) to (gdim, n) or (m, gdim, n).
             velocity: Velocity of its material, such as that of a belt, which drags what touches it
                 by friction or ties. A function of the position: in UFL with a vector as its value
                 if f is in UFL, else of arrays as the gradient. It must agree with the change of f.
@@ -69,7 +72,11 @@ class LevelSet(core.LevelSet):
                 "needs both"
             )
         # Not methods of this object: what the core keeps must not keep the obstacle
-        function = UFLFunction(f, "LevelSet") if gradient is None else _OfPython(f, gradient)
+        function = (
+            UFLFunction(f, "LevelSet", in_faces=True)
+            if gradient is None
+            else _OfPython(f, gradient)
+        )
         if velocity is None:
             super().__init__(function.values, function.parameters)
             return
@@ -90,19 +97,23 @@ class _OfPython:
         self._f, self._gradient = f, gradient
 
     def values(self, x: npt.NDArray[np.float64], order: int) -> Values:
-        """Value and gradient, shapes (n,) and (n, gdim); the core makes differences of them.
+        """Value and gradient of each face, shapes (faces, n) and (faces, n, gdim).
+
+        The core makes differences of them.
 
         Raises:
             TypeError: If they are no real numbers.
             ValueError: If a shape does not fit.
         """
         f, g = (_real(np.asarray(function(x.T))) for function in (self._f, self._gradient))
-        if f.shape != (len(x),) or g.shape != x.T.shape:
+        several = f.shape[:-1]
+        if len(several) > 1 or f.shape[-1:] != (len(x),) or g.shape != (*several, *x.T.shape):
             raise ValueError(
                 f"for points of shape {x.T.shape} the function of a LevelSet gave shape {f.shape} "
-                f"and its gradient {g.shape}; they must be ({len(x)},) and {x.T.shape}"
+                f"and its gradient {g.shape}; they must be ({len(x)},) and {x.T.shape}, or, of m "
+                f"faces, (m, {len(x)}) and (m, {x.shape[1]}, {len(x)})"
             )
-        return f, g.T, None
+        return np.atleast_2d(f), np.moveaxis(g, -2, -1), None
 
     def parameters(self, gdim: int) -> npt.NDArray[np.float64]:
         """None that are known, shape (0,)."""

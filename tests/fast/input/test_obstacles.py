@@ -193,7 +193,7 @@ ROWS = [
         "level set: a wrong shape",
         level(lambda x: x, up),
         ValueError,
-        r"gave shape \(2, 3\) and its gradient \(2, 3\); they must be \(3,\)",
+        r"gave shape \(2, 3\) and its gradient \(2, 3\); they must be \(3,\).* faces, \(m, 3\) and",
     ),
     Row(
         "level set: a gradient of wrong shape",

@@ -9,6 +9,7 @@ import pytest
 
 import contactx as cx
 import ufl
+from contactx.ufl_function import UFLFunction
 from dolfinx import fem, mesh
 
 
@@ -107,3 +108,56 @@ def test_constants_are_told_without_points():
     level_set.evaluate(np.ones((4, 2)))
     height.value[1] = 3
     assert level_set.parameters(2).tolist() == [0, 3]
+
+
+def pyramid(x):
+    return ufl.max_value(abs(x[0]), 2.0 * abs(x[1])) / 2 + x[2]
+
+
+@pytest.mark.parametrize(
+    ("f", "normals"),
+    [
+        (pyramid, [(0.5, 0, 1), (-0.5, 0, 1), (0, 1, 1), (0, -1, 1)]),
+        (lambda x: abs(x[0]) + abs(x[1]) + x[2], [(1, 1, 1), (1, -1, 1), (-1, 1, 1), (-1, -1, 1)]),
+        (lambda x: 3 * ufl.max_value(x[2], x[0]), [(0, 0, 1), (1, 0, 0)]),
+        (lambda x: ufl.max_value(x[2], -x[2]), [(0, 0, 1), (0, 0, -1)]),
+        # In a valley, and behind what tells nothing, one face is as good as none
+        (lambda x: ufl.min_value(x[2], x[0]), None),
+        (lambda x: -abs(x[0]) + x[2], None),
+        (lambda x: x[2], None),
+    ],
+)
+def test_kinks_of_ufl_are_faces(f, normals):
+    level_set = UFLFunction(f, "LevelSet", in_faces=True)
+    x = np.random.default_rng(2).uniform(-1, 1, (7, 3))
+    value, gradient, second = level_set.values(x, 2)
+    count = len(normals or [0])
+    assert value.shape == (count, 7)
+    assert gradient.shape == (count, 7, 3)
+    assert second.shape == (count, 7, 3, 3)
+    assert np.abs(second).max() == 0
+    assert cx.LevelSet(f).level(x) == pytest.approx(value.max(axis=0), abs=1e-15)
+    if normals is not None:
+        found = gradient / np.linalg.norm(gradient, axis=2)[:, :, None]
+        expected = np.array(normals) / np.linalg.norm(normals, axis=1)[:, None]
+        assert {tuple(n) for n in found[:, 0].round(12) + 0.0} == {
+            tuple(n) for n in expected.round(12) + 0.0
+        }
+
+
+def test_faces_of_python_are_those_of_ufl():
+    def value(x):
+        return np.stack([s * x[k] * (1 + k) / 2 + x[2] for k in (0, 1) for s in (1, -1)])
+
+    def slope(x):
+        g = np.zeros((4, *x.shape))
+        for face, (k, s) in enumerate([(0, 1), (0, -1), (1, 1), (1, -1)]):
+            g[face, k], g[face, 2] = s * (1 + k) / 2, 1
+        return g
+
+    x = np.random.default_rng(3).uniform(-0.3, 0.3, (50, 3))
+    ours, theirs = cx.LevelSet(pyramid).evaluate(x), cx.LevelSet(value, slope).evaluate(x)
+    for part in ("gap", "normal", "gradient", "curvature"):
+        assert getattr(ours, part) == pytest.approx(getattr(theirs, part), abs=1e-7)
+    on_apex = cx.LevelSet(pyramid).evaluate(np.zeros((2, 3)))
+    assert on_apex.normal[0] == pytest.approx([0, 0, 1], abs=1e-15)
