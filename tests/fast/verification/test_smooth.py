@@ -1,0 +1,108 @@
+# Copyright (C) 2026 contactx authors
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Round surfaces of chords that stay round: Contact(..., smooth=True)."""
+
+import numpy as np
+import pytest
+
+import contactx as cx
+import ufl
+from dolfinx.mesh import CellType
+
+from scenes import Blocks
+from scenes.free_rings import FreeRings
+from story import elasticity
+
+pytestmark = pytest.mark.usefixtures("method")
+
+
+@pytest.mark.parametrize("swapped", [False, True])
+@pytest.mark.parametrize("n,n_outer", [(24, 36), (63, 95)])
+def test_a_perfect_fit_of_chords_is_one(n, n_outer, swapped):
+    """Chords of 24 and 36 are up to 0.9 % of the radius off the circle, on either side."""
+    rings = FreeRings(n, n_outer, fixed=True, swapped=swapped, smooth=True, friction=0.1)
+    rings.problem.solve()
+    sagitta = 1.5 * (1 - np.cos(np.pi / n))
+    assert np.abs(rings.u.x.array).max() < 0.003 * sagitta
+
+
+@pytest.mark.parametrize("turned", [0.0, 0.3])
+@pytest.mark.parametrize("swapped", [False, True])
+@pytest.mark.parametrize("height", [0, 2])
+def test_a_shrink_fit_of_chords_is_that_of_circles(height, swapped, turned):
+    """Pressure of Lame's thick rings, in plane strain; short tubes are but near to it."""
+    a, b, c, nu, interference = 1.0, 1.5, 2.0, 0.3, 0.005
+    rings = FreeRings(
+        24,
+        36,
+        fixed=False,
+        layers=6 if height == 0 else 3,
+        height=height,
+        swapped=swapped,
+        turned=turned,
+        smooth=True,
+        offset=interference,
+        friction=0.1,
+    )
+    rings.problem.solve()
+    outer = (c**2 + b**2) / (c**2 - b**2)
+    inner = (b**2 + a**2) / (b**2 - a**2)
+    pressure = interference / (b * (1 - nu**2) * (outer + inner))
+    assert rings.mean_pressure == pytest.approx(pressure, rel=0.02 if height == 0 else 0.12)
+    nodes = rings.contact.interface.nodes
+    # By chords as they are it would be from zero to five times the mean
+    spread = 0.01 if height == 0 else 0.15
+    assert np.abs(nodes.pressure / rings.mean_pressure - 1).max() < spread
+
+
+def loaded(n, n_outer):
+    """Pressures of an inner ring that is pulled to one side."""
+    rings = FreeRings(
+        n, n_outer, fixed=True, friction=0.05, smooth=True, adjust=0.02, material=pulled
+    )
+    rings.problem.solve()
+    return rings.contact.interface.nodes.pressure
+
+
+def pulled(u, young, nu):
+    """Linear elasticity of a ring that is pulled along x near its inner rim."""
+    x = ufl.SpatialCoordinate(u.function_space.mesh)
+    r = ufl.sqrt(ufl.inner(x, x))
+    pull = ufl.conditional(ufl.lt(r, 1.3), 1e-3, 0.0)
+    return elasticity(u, young, nu) - pull * ufl.TestFunction(u.function_space)[0] * ufl.dx
+
+
+def test_a_ring_that_is_pulled_aside_in_a_perfect_fit():
+    """Coarse chords that do not match, next to fine ones that do."""
+    fine, coarse = loaded(192, 192), loaded(48, 80)
+    assert coarse.max() == pytest.approx(fine.max(), rel=0.06)
+    assert (coarse > 0).mean() == pytest.approx((fine > 0).mean(), abs=0.06)
+
+
+@pytest.mark.parametrize("cell", [CellType.quadrilateral, CellType.tetrahedron])
+def test_flat_surfaces_are_as_they_were(cell):
+    results = []
+    for smooth in (False, True):
+        blocks = Blocks(cell)
+        contact = blocks.contact(friction=0.2, smooth=smooth)
+        blocks.problem(contact).solve()
+        results.append(blocks.u.x.array.copy())
+    np.testing.assert_allclose(*results, rtol=0, atol=1e-9 * np.abs(results[0]).max())
+
+
+@pytest.mark.parametrize("options,why", [({"tied": True}, "ties"), ({}, "obstacle")])
+def test_what_it_is_not_for(options, why):
+    blocks = Blocks(CellType.quadrilateral)
+    contact = blocks.contact(smooth=True, **options)
+    if not options:
+        contact = cx.Contact(contact.slave, cx.Plane([0, 0], [0, 1]), smooth=True)
+    with pytest.raises(ValueError, match=f"smooth .*{why}"):
+        cx.ContactProblem(
+            blocks.F, blocks.u, contacts=[contact], bcs=blocks.bcs, petsc_options_prefix="s_"
+        )
+
+
+def test_it_is_a_switch():
+    blocks = Blocks(CellType.quadrilateral)
+    with pytest.raises(TypeError, match="smooth"):
+        blocks.contact(smooth=0.1)
