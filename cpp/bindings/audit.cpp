@@ -11,6 +11,7 @@
 namespace py = pybind11;
 using namespace contactx_bindings;
 using contactx::audit::Audit;
+using contactx::audit::Chords;
 using contactx::audit::Depth;
 using contactx::audit::Findings;
 using contactx::audit::FoundNodes;
@@ -38,6 +39,11 @@ void contactx_bindings::audit(py::module_& m)
       .def_property_readonly("facets", &Roundness::facets)
       .def_property_readonly("at", [](const Roundness& self)
                              { return array(self.at); });
+  py::class_<Chords>(m, "Chords", "How round surfaces that fit are for facets")
+      .def_readonly("off", &Chords::off)
+      .def_readonly("sagitta", &Chords::sagitta)
+      .def_readonly("pressed", &Chords::pressed)
+      .def_property_readonly("ratio", &Chords::ratio);
   py::class_<Findings>(m, "ContactFindings", "What was found of one contact")
       .def_readonly("passed", &Findings::passed)
       .def_readonly("inside", &Findings::inside)
@@ -45,6 +51,7 @@ void contactx_bindings::audit(py::module_& m)
       .def_readonly("is_too_deep", &Findings::is_too_deep)
       .def_readonly("facet_size", &Findings::facet_size)
       .def_readonly("roundness", &Findings::roundness)
+      .def_readonly("chords", &Findings::chords)
       .def_readonly("warning", &Findings::warning);
   py::class_<Audit>(m, "Audit", "Looks at the contacts of converged iterates")
       .def(py::init<std::shared_ptr<Halo>,

@@ -440,8 +440,7 @@ private:
       const audit::Findings& found = looks[k];
       if (not found.warning.empty())
         _warnings.push_back("contact " + std::to_string(k) + ": "
-                            + found.warning
-                            + " (manual: errors/slave-too-coarse)");
+                            + found.warning);
       if (not found.is_fault())
         continue;
       std::string text = "contact " + std::to_string(k) + ": ";

@@ -27,7 +27,8 @@ std::string Roundness::words() const
          + point_text(at, size)
          + ": the force along the surface swings by percents of the normal "
            "force as nodes move past it. Refine the slave surface to at least "
-         + number_text(facets_of_radius, 1) + " facets a radius";
+         + number_text(facets_of_radius, 1)
+         + " facets a radius (manual: errors/slave-too-coarse)";
 }
 
 std::vector<double>

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "../parallel/found_nodes.h"
+#include "chords.h"
 #include <optional>
 #include <string>
 
@@ -61,6 +62,8 @@ struct Findings
   double facet_size = 0; ///< size of the largest slave facet
   /// Of an obstacle that is curved where nodes touch it; nothing of others
   std::optional<Roundness> roundness{};
+  /// Of two bodies whose round surfaces fit each other; nothing of others
+  std::optional<Chords> chords{};
   /// What to warn of, of one contact once; empty for nothing
   std::string warning{};
 

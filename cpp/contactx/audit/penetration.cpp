@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "penetration.h"
+#include "../vec.h"
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -15,7 +16,7 @@ namespace
 constexpr double harm = 0.15;
 /// How often the depth of the chord of a curvature is allowed: both sides are
 /// curved
-constexpr double chords = 2;
+constexpr double both_sides = 2;
 
 /// Depth of a chord in a circle, by the chord's length.
 /// @param[in] turn Length of the chord by the radius.
@@ -104,7 +105,7 @@ std::vector<double> contactx::audit::explained_depths(
     const bool is_seen = contact[i] > 0;
     depth[i] = std::min(h, extent[i]) * (is_seen ? harm : negligible);
     if (const double its = chord(curvature[i] * h); its <= harm)
-      depth[i] = std::max(depth[i], std::min(chords * its, harm) * h);
+      depth[i] = std::max(depth[i], std::min(both_sides * its, harm) * h);
   }
   return depth;
 }

@@ -90,7 +90,11 @@ SurfacesAudit::SurfacesAudit(std::shared_ptr<parallel::Halo> halo,
       _owned_master.push_back(i);
 }
 
-void SurfacesAudit::accept() { _behind = find_behind(); }
+void SurfacesAudit::accept()
+{
+  _behind = find_behind();
+  _has_warned = _has_warned or _is_coarse;
+}
 
 Findings SurfacesAudit::look(std::span<const double> start)
 {
@@ -102,6 +106,10 @@ Findings SurfacesAudit::look(std::span<const double> start)
   if (findings.passed.count == 0)
     findings.inside = look_from_slave(x);
   findings.deepest = look_from_master(x);
+  findings.chords = chords(*_halo, *_contact);
+  _is_coarse = findings.chords and findings.chords->is_coarse();
+  if (_is_coarse and not _has_warned)
+    findings.warning = findings.chords->words();
   findings.is_too_deep = not findings.is_fault() and findings.deepest
                          and findings.deepest->excess > 1;
   return findings;
@@ -322,7 +330,8 @@ SurfacesAudit::look_from_master(std::span<const double> positions)
       continue;
     there.push_back(i);
     size.push_back(sizes[i]);
-    near.push_back(static_cast<std::int8_t>(seen.values[4 * i + 1]));
+    near.push_back(
+        _master->is_smooth() ? 2 : static_cast<std::int8_t>(seen.values[4 * i + 1]));
     turn.push_back(curvature[_points[i]]);
   }
   auto explained = explained_depths(size, turn, near,

@@ -60,6 +60,10 @@ public:
 
   int gdim() const override { return _halo->gdim(); }
   double reach() const override { return _options.reach; }
+
+  /// @brief True if linear facets stand for smooth surfaces.
+  bool is_smooth() const { return _options.is_smooth; }
+
   std::vector<Saved> identity() const override
   {
     return {{"facets", RowKind::global, 4, _surface->identity()}};

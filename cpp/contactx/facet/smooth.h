@@ -39,6 +39,29 @@ std::vector<SmoothFacet> smooth_facets(const FacetList& facets,
 /// edge: a circle of less than seven chords has such nodes, too
 inline constexpr double cosine_at_edges = 0.64;
 
+/// @brief Rise over a facet whose edges rise by k_ij s (1 - s).
+/// @param[in] xi Local coordinates.
+/// @param[in] k k(i, j) of the edge from node i to node j.
+template <class F, class Edges>
+double rise_over(const Local<F>& xi, Edges&& k)
+{
+  if constexpr (F::flat)
+  {
+    const auto N = F::shape(xi);
+    double sum = 0;
+    for (int i = 0; i < F::nodes; ++i)
+      for (int j = 0; j < i; ++j)
+        sum += N[i] * N[j] * k(j, i);
+    return sum;
+  }
+  else
+  {
+    const double s = xi[0], t = xi[1];
+    return s * (1 - s) * ((1 - t) * k(0, 1) + t * k(2, 3))
+           + t * (1 - t) * ((1 - s) * k(0, 2) + s * k(1, 3));
+  }
+}
+
 /// @brief Rise of a patch over its facet.
 /// @param[in] x Nodes of the facet in the reference configuration.
 /// @param[in] smooth What makes it smooth.
@@ -46,29 +69,15 @@ inline constexpr double cosine_at_edges = 0.64;
 template <class F>
 double rise(const Nodes<F>& x, const SmoothFacet& smooth, const Local<F>& xi)
 {
-  const auto of_edge = [&](int i, int j)
-  {
-    double k = 0;
-    for (int c = 0; c < F::gdim; ++c)
-      k += 0.5 * (smooth.normal[j][c] - smooth.normal[i][c])
-           * (x[j][c] - x[i][c]);
-    return k;
-  };
-  if constexpr (F::flat)
-  {
-    const auto N = F::shape(xi);
-    double sum = 0;
-    for (int i = 0; i < F::nodes; ++i)
-      for (int j = 0; j < i; ++j)
-        sum += N[i] * N[j] * of_edge(j, i);
-    return sum;
-  }
-  else
-  {
-    const double s = xi[0], t = xi[1];
-    return s * (1 - s) * ((1 - t) * of_edge(0, 1) + t * of_edge(2, 3))
-           + t * (1 - t) * ((1 - s) * of_edge(0, 2) + s * of_edge(1, 3));
-  }
+  return rise_over<F>(xi,
+                      [&](int i, int j)
+                      {
+                        double k = 0;
+                        for (int c = 0; c < F::gdim; ++c)
+                          k += 0.5 * (smooth.normal[j][c] - smooth.normal[i][c])
+                               * (x[j][c] - x[i][c]);
+                        return k;
+                      });
 }
 
 /// @brief A point of a smooth patch.

@@ -30,6 +30,9 @@ class Findings:
         excess: Largest ratio of such a depth to what the mesh explains; more than 1 is a fault.
         radius_in_facets: Smallest radius of curvature of an obstacle where slave nodes touch it, by
             the size of the facets there; infinite where none is curved. Below 4 there is a warning.
+        chords: Where round surfaces fit each other, how far gaps are off because facets are chords,
+            over how far the pressures there press in; 0 where none fit. Above 0.5 there is a
+            warning.
         inverted: Cells that are turned inside out.
         smallest_det: Smallest det F of the cells; NaN where none was looked at.
         faults: What is wrong and what to do about it, a text each.
@@ -41,6 +44,7 @@ class Findings:
     depth: float = 0.0
     excess: float = 0.0
     radius_in_facets: float = float("inf")
+    chords: float = 0.0
     inverted: int = 0
     smallest_det: float = float("nan")
     faults: list[str] = field(default_factory=list)
@@ -64,8 +68,10 @@ class Findings:
             self.excess, self.depth = deepest.excess, max(deepest.depth, 0.0)
         if found.roundness is not None:
             self.radius_in_facets = min(self.radius_in_facets, found.roundness.facets)
+        if found.chords is not None:
+            self.chords = max(self.chords, found.chords.ratio)
         if found.warning:
-            self.warnings.append(f"{name}: {found.warning} (manual: errors/slave-too-coarse)")
+            self.warnings.append(f"{name}: {found.warning}")
         if isinstance(master, core.ObstacleMaster):
             kind = f"rigid {type(master.obstacle).__name__}"
             if found.passed.count > 0:
@@ -127,6 +133,8 @@ class Findings:
         ]
         if self.radius_in_facets < float("inf"):
             parts.append(f"smallest radius of an obstacle {self.radius_in_facets:.3g} facets")
+        if self.chords > 0:
+            parts.append(f"gaps off by chords: {self.chords:.2g} of what is pressed in")
         if self.smallest_det == self.smallest_det:
             parts.append(
                 f"{self.inverted} cells inside out, smallest det F {self.smallest_det:.3g}"

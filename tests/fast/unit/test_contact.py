@@ -49,7 +49,9 @@ def test_fields(cell):
     assert np.all(np.isnan(contact.gap.x.array[off]))
     pressure = contact.pressure.x.array[nodes]
     assert contact.area @ pressure == pytest.approx(contact.area @ contact.multiplier, rel=1e-13)
-    assert np.ptp(pressure) < np.ptp(contact.multiplier)
+    # Recovered: other than the multipliers, and near them
+    change = np.abs(pressure - contact.multiplier).max() / contact.multiplier.max()
+    assert 0.01 < change < 0.2
     closed = contact.status.x.array == 2
     assert np.all((contact.pressure.x.array > 0) == closed)
     assert np.abs(contact.gap.x.array[closed]).max() <= 1e-12

@@ -10,7 +10,7 @@ import ufl
 from dolfinx.mesh import CellType
 
 from scenes import Blocks
-from scenes.free_rings import FreeRings
+from scenes.free_rings import RADII, FreeRings
 from story import elasticity
 
 pytestmark = pytest.mark.usefixtures("method")
@@ -31,11 +31,11 @@ def test_a_perfect_fit_of_chords_is_one(n, n_outer, swapped):
 @pytest.mark.parametrize("height", [0, 2])
 def test_a_shrink_fit_of_chords_is_that_of_circles(height, swapped, turned):
     """Pressure of Lame's thick rings, in plane strain; short tubes are but near to it."""
-    a, b, c, nu, interference = 1.0, 1.5, 2.0, 0.3, 0.005
+    interference = 0.005
     rings = FreeRings(
         24,
         36,
-        fixed=False,
+        fixed=True,
         layers=6 if height == 0 else 3,
         height=height,
         swapped=swapped,
@@ -45,14 +45,20 @@ def test_a_shrink_fit_of_chords_is_that_of_circles(height, swapped, turned):
         friction=0.1,
     )
     rings.problem.solve()
-    outer = (c**2 + b**2) / (c**2 - b**2)
-    inner = (b**2 + a**2) / (b**2 - a**2)
-    pressure = interference / (b * (1 - nu**2) * (outer + inner))
-    assert rings.mean_pressure == pytest.approx(pressure, rel=0.02 if height == 0 else 0.12)
-    nodes = rings.contact.interface.nodes
+    pressure = interference / gap_of_lame(*RADII, 0.3)
+    assert rings.mean_pressure == pytest.approx(pressure, rel=0.02 if height == 0 else 0.15)
     # By chords as they are it would be from zero to five times the mean
-    spread = 0.01 if height == 0 else 0.15
-    assert np.abs(nodes.pressure / rings.mean_pressure - 1).max() < spread
+    recovered = rings.contact.pressure.x.array
+    closed = rings.contact.status.x.array > 0
+    assert np.abs(recovered[closed] / rings.mean_pressure - 1).max() < 0.01
+    assert rings.contact.interface.nodes.closed.all()
+
+
+def gap_of_lame(a, b, c, nu):
+    """What a unit pressure, by E = 1, opens between a ring and one that is fixed at its rim."""
+    inner = b * (1 + nu) * ((1 - 2 * nu) * b**2 + a**2) / (b**2 - a**2)
+    outer = (1 + nu) * (1 - 2 * nu) / (1 + (1 - 2 * nu) * (c / b) ** 2) * (c**2 - b**2) / b
+    return inner + outer
 
 
 def loaded(n, n_outer):
@@ -75,7 +81,7 @@ def pulled(u, young, nu):
 def test_a_ring_that_is_pulled_aside_in_a_perfect_fit():
     """Coarse chords that do not match, next to fine ones that do."""
     fine, coarse = loaded(192, 192), loaded(48, 80)
-    assert coarse.max() == pytest.approx(fine.max(), rel=0.06)
+    assert coarse.max() == pytest.approx(fine.max(), rel=0.08)
     assert (coarse > 0).mean() == pytest.approx((fine > 0).mean(), abs=0.06)
 
 

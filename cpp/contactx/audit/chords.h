@@ -1,0 +1,48 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#pragma once
+
+#include "../contact/contact.h"
+#include <optional>
+#include <string>
+
+namespace contactx::audit
+{
+/// @brief How far two round surfaces that fit each other are off the shapes
+/// that their linear facets stand for, beside what presses there.
+struct Chords
+{
+  double off;     ///< what chords take off, or add to, the gap, in the mean
+  double sagitta; ///< largest distance of such a chord from its arc
+  /// How far the pressures press a facet's nodes in, in the mean over the force
+  double pressed;
+
+  /// @brief The one over the other.
+  double ratio() const { return off / pressed; }
+
+  /// @brief True if pressures are those of chords.
+  bool is_coarse() const;
+
+  /// @brief What that means and what to do: one sentence, which the name of the
+  /// contact goes before.
+  std::string words() const;
+};
+
+/// @brief Look at the facets in contact of two deformable bodies; collective.
+///
+/// Where an edge of a facet leads from one node to another one, the surface
+/// rises over it by k s (1 - s) at the part s of the edge, see
+/// `facet::SmoothFacet`. Its k follows from the nodes' mean normals; it is the
+/// smaller one of what either of them tells, so that a flat facet beside a
+/// round one stays flat, and zero where facets of a node make an edge. Surfaces
+/// fit where one is hollow and the other is not: where bodies touch in a point
+/// or along a line, chords matter as cells do.
+/// @param[in] halo Nodes of this rank.
+/// @param[in] contact A contact of two deformable bodies, with the gaps, pairs
+/// and multipliers of now.
+/// @return Nothing where nothing is pressed, surfaces are not round or do not
+/// fit, or facets are parts of quadratic ones.
+std::optional<Chords> chords(parallel::Halo& halo,
+                             const contact::Contact& contact);
+} // namespace contactx::audit
