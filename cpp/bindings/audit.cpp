@@ -40,7 +40,8 @@ void contactx_bindings::audit(py::module_& m)
       .def_property_readonly("at", [](const Roundness& self)
                              { return array(self.at); });
   py::class_<Chords>(m, "Chords", "How round surfaces that fit are for facets")
-      .def_readonly("off", &Chords::off)
+      .def_readonly("mean", &Chords::mean)
+      .def_readonly("scatter", &Chords::scatter)
       .def_readonly("sagitta", &Chords::sagitta)
       .def_readonly("pressed", &Chords::pressed)
       .def_property_readonly("ratio", &Chords::ratio);

@@ -18,9 +18,13 @@ using namespace contactx::audit;
 
 namespace
 {
-/// What chords are off over what pressures press in, from which on pressures
-/// are those of chords
-constexpr double off_allowed = 0.5;
+/// What chords change gaps by over what presses there, from which on pressures
+/// are those of chords. By a half of it, raw pressures of a shrink fit scatter
+/// no more than those of flat meshes that do not match; by twice of it, nodes
+/// open.
+constexpr double ratio_allowed = 0.25;
+/// Part of what chords change gaps by that is more than the patches' own error
+constexpr double beyond_patches = 0.1;
 /// Length of the mean of the unit normals of a node's facets, by area: that of
 /// two facets that meet at facet::cosine_at_edges
 const double even_enough = std::sqrt((1 + facet::cosine_at_edges) / 2);
@@ -78,6 +82,7 @@ double mean_rise(const Edges<F>& k)
 struct Bend
 {
   double curvature = 0; ///< of its edge that is bent most
+  double turn = 0;      ///< of the normal along that edge
   double sagitta = 0;   ///< the largest one of an edge, without a sign
 };
 
@@ -93,7 +98,10 @@ Bend bend(const Edges<F>& k)
         const auto way = k.x[i] - k.x[j];
         const double rise = k(j, i), curvature = 2 * rise / dot(way, way);
         if (std::abs(curvature) > std::abs(found.curvature))
+        {
           found.curvature = curvature;
+          found.turn = std::abs(curvature) * norm(way);
+        }
         found.sagitta = std::max(found.sagitta, std::abs(rise) / 4);
       }
   return found;
@@ -127,19 +135,23 @@ struct Sides
   }
 };
 
-/// What chords take off the gap of each owned slave node whose facets fit those
-/// of its master, in the mean over its pairs; NaN for others, and for those of
-/// facets without a node in contact.
+/// What chords change at owned slave nodes whose facets fit those of their
+/// master.
+struct Changes
+{
+  std::vector<double> off;  // taken off the gap, in the mean over pairs, or NaN
+  std::vector<double> turn; // of the normal along a facet
+  double sagitta = 0;       // the largest one of a facet that fits
+};
+
 template <int D>
-std::vector<double> off_nodes(const contact::Contact& contact,
-                              std::span<const std::int8_t> near,
-                              const Sides& sides, double& sagitta)
+Changes changes(const contact::Contact& contact, const Sides& sides)
 {
   const contact::SlaveNodes& slaves = contact.slaves();
   const std::size_t n = slaves.owned().size();
+  Changes found{std::vector<double>(n, 0), std::vector<double>(n, 0)};
   // Of the facets around each slave node, that which is bent most
   std::vector<double> curvature(n, 0);
-  std::vector<std::int8_t> is_near(n, 0);
   const facet::FacetList facets = slaves.facets(), local = slaves.local();
   for (std::int32_t f = 0; f < facets.size(); ++f)
     Sides::visit<D>(facets[f], sides.x, sides.of_slave,
@@ -148,14 +160,14 @@ std::vector<double> off_nodes(const contact::Contact& contact,
                       const Bend its = bend(edges);
                       for (const std::int32_t i : local[f])
                       {
-                        if (i >= static_cast<std::int32_t>(n))
+                        if (i >= static_cast<std::int32_t>(n)
+                            or std::abs(its.curvature)
+                                   <= std::abs(curvature[i]))
                           continue;
-                        is_near[i] |= near[f] == 2;
-                        if (std::abs(its.curvature) > std::abs(curvature[i]))
-                          curvature[i] = its.curvature;
+                        curvature[i] = its.curvature;
+                        found.turn[i] = its.turn;
                       }
                     });
-  std::vector<double> off(n, 0);
   std::vector<int> count(n, 0);
   for (const auto& pairs : contact.pairs())
     for (std::size_t p = 0; p < pairs->size() and not pairs->is_movement; ++p)
@@ -189,34 +201,44 @@ std::vector<double> off_nodes(const contact::Contact& contact,
       for (std::size_t k = 0; k < m; ++k)
       {
         const std::int32_t i = pairs->slaves[p * m + k];
-        if (i >= static_cast<std::int32_t>(n) or not is_near[i]
+        if (i >= static_cast<std::int32_t>(n)
             or not do_fit(curvature[i], there.curvature))
           continue;
-        off[i] += rise;
+        found.off[i] += rise;
         ++count[i];
-        sagitta = std::max({sagitta, here.sagitta, there.sagitta});
+        found.sagitta = std::max({found.sagitta, here.sagitta, there.sagitta});
       }
     }
   for (std::size_t i = 0; i < n; ++i)
-    off[i] = count[i] > 0 ? std::abs(off[i]) / count[i]
-                          : std::numeric_limits<double>::quiet_NaN();
-  return off;
+    found.off[i] = count[i] > 0 ? found.off[i] / count[i]
+                                : std::numeric_limits<double>::quiet_NaN();
+  return found;
 }
 } // namespace
 
-bool Chords::is_coarse() const { return ratio() > off_allowed; }
+double Chords::ratio() const
+{
+  const double change = scatter + mean * turn;
+  return change > 0 ? change / pressed : 0;
+}
+
+bool Chords::is_coarse() const { return ratio() > ratio_allowed; }
 
 std::string Chords::words() const
 {
   return "facets are chords, up to " + number_text(sagitta, 2)
-         + " off the round surfaces that they stand for: gaps are off by "
-         + number_text(off, 2) + " in the mean, " + number_text(ratio(), 2)
-         + " times as much as what presses there presses in, "
-         + number_text(pressed, 2)
-         + ", and pressures are those of chords. Take smooth=True, with "
-           "adjust=length for a fit without clearance, or a finer mesh, or a "
-           "curved one with quadratic displacements (manual: "
-           "errors/chords)";
+         + " off the round surfaces that they stand for. Gaps are off by "
+         + number_text(mean, 2) + " in the mean"
+         + (scatter > 0.01 * mean
+                ? " and by " + number_text(scatter, 2) + " from node to node, "
+                : ", ")
+         + (pressed > 0 ? "where pressures press nodes in by "
+                              + number_text(pressed, 2)
+                              + ": pressures are those of chords"
+                        : std::string("and keep nodes from touching"))
+         + ". Take smooth=True, with adjust=length for a fit without "
+           "clearance, or a finer mesh, or a curved one with quadratic "
+           "displacements (manual: errors/chords)";
 }
 
 std::optional<Chords> contactx::audit::chords(parallel::Halo& halo,
@@ -228,27 +250,41 @@ std::optional<Chords> contactx::audit::chords(parallel::Halo& halo,
   // The same on all ranks
   if (not master or slaves.is_quadratic() or master->is_smooth())
     return {};
-  const contact::NodeState& state = *contact.nodes();
-  std::vector<std::int8_t> held(slaves.owned().size());
-  for (std::size_t i = 0; i < held.size(); ++i)
-    held[i] = state.held(i) and not contact.is_left_out()[i];
-  const auto near = slaves.near(held);
   const Sides sides{halo.reference(), even_normals(halo, slaves.own()),
                     even_normals(halo, master->surface()->own())};
-  double sagitta = 0;
-  const auto off = halo.gdim() == 2
-                       ? off_nodes<2>(contact, near, sides, sagitta)
-                       : off_nodes<3>(contact, near, sides, sagitta);
-  // Force, force times how far it presses in; area, and area times what is off
-  std::array<double, 4> sums{};
+  const Changes found = halo.gdim() == 2 ? changes<2>(contact, sides)
+                                         : changes<3>(contact, sides);
+  const contact::NodeState& state = *contact.nodes();
+  const std::size_t n = slaves.owned().size();
+  // Those in contact, and those that chords keep from it
+  std::vector<std::int8_t> which(n), is_near(n, 0);
+  for (std::size_t i = 0; i < n; ++i)
+    which[i] = not contact.is_left_out()[i]
+               and (state.held(i)
+                    or state.gap[i] < found.off[i]
+                                          - beyond_patches
+                                                * std::abs(found.off[i]));
+  // All nodes of facets that have one of these
+  const auto near = slaves.near(which);
+  const facet::FacetList local = slaves.local();
+  for (std::int32_t f = 0; f < local.size(); ++f)
+    for (const std::int32_t i : local[f])
+      if (near[f] == 2 and i < static_cast<std::int32_t>(n)
+          and not std::isnan(found.off[i]))
+        is_near[i] = 1;
+
+  // Force, and force times how far it presses in; area, and area times what is
+  // off and turns
+  std::array<double, 5> sums{};
   const int width = state.size();
-  for (std::size_t i = 0; i < off.size(); ++i)
+  for (std::size_t i = 0; i < n; ++i)
   {
-    if (std::isnan(off[i]))
+    if (not is_near[i])
       continue;
     sums[2] += state.area[i];
-    sums[3] += state.area[i] * off[i];
-    if (not held[i])
+    sums[3] += state.area[i] * found.off[i];
+    sums[4] += state.area[i] * found.turn[i];
+    if (not state.held(i))
       continue;
     const double* value = &state.multiplier[i * width];
     const double p
@@ -256,9 +292,18 @@ std::optional<Chords> contactx::audit::chords(parallel::Halo& halo,
     sums[0] += p * state.area[i];
     sums[1] += p * state.area[i] * p / state.c[i];
   }
-  halo.ranks().reduce(std::span<double>(sums), parallel::Reduction::sum);
-  sagitta = parallel::largest(halo.ranks(), sagitta);
-  if (not(sums[1] > 0 and sums[2] > 0))
+  parallel::Ranks& ranks = halo.ranks();
+  ranks.reduce(std::span<double>(sums), parallel::Reduction::sum);
+  const auto [force, work, area, off, turn] = sums;
+  if (not(area > 0))
     return {};
-  return Chords{sums[3] / sums[2], sagitta, sums[1] / sums[0]};
+  double scatter = 0;
+  for (std::size_t i = 0; i < n; ++i)
+    if (is_near[i])
+      scatter += state.area[i] * std::abs(found.off[i] - off / area);
+  return Chords{.mean = std::abs(off) / area,
+                .scatter = parallel::total(ranks, scatter) / area,
+                .turn = turn / area,
+                .sagitta = parallel::largest(ranks, found.sagitta),
+                .pressed = force > 0 ? work / force : 0};
 }

@@ -13,13 +13,19 @@ namespace contactx::audit
 /// that their linear facets stand for, beside what presses there.
 struct Chords
 {
-  double off;     ///< what chords take off, or add to, the gap, in the mean
-  double sagitta; ///< largest distance of such a chord from its arc
-  /// How far the pressures press a facet's nodes in, in the mean over the force
+  double mean;    ///< what chords take off the gap, or add to it, in the mean
+  double scatter; ///< in the mean, by how much that differs from node to node
+  double turn;    ///< angle of a facet, by the radius
+  double sagitta; ///< largest distance of a chord from its arc
+  /// How far pressures press nodes in if others stay, in the mean over the
+  /// force: pressure over the factor of the complementarity
   double pressed;
 
-  /// @brief The one over the other.
-  double ratio() const { return off / pressed; }
+  /// @brief What chords change over what is pressed in.
+  ///
+  /// What differs from node to node is pressed in facet by facet, the mean by
+  /// the bodies as a whole, which yield more by the radius over the facet.
+  double ratio() const;
 
   /// @brief True if pressures are those of chords.
   bool is_coarse() const;
@@ -41,8 +47,8 @@ struct Chords
 /// @param[in] halo Nodes of this rank.
 /// @param[in] contact A contact of two deformable bodies, with the gaps, pairs
 /// and multipliers of now.
-/// @return Nothing where nothing is pressed, surfaces are not round or do not
-/// fit, or facets are parts of quadratic ones.
+/// @return Nothing where nothing is pressed, nor kept from it by chords, where
+/// surfaces do not fit, are smooth or of quadratic facets.
 std::optional<Chords> chords(parallel::Halo& halo,
                              const contact::Contact& contact);
 } // namespace contactx::audit

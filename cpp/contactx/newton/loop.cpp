@@ -14,8 +14,8 @@ namespace
 {
 /// Difference from a Dirichlet value over the largest displacement
 constexpr double defect_allowed = 1e-10;
-/// Rotation of a loose body that linear strains take for a stretch by 1 %
-constexpr double turned_most = 0.14;
+/// Rotation of a loose body that linear strains take for a stretch by 1e-4
+constexpr double turned_most = 0.014;
 
 std::vector<std::shared_ptr<active_set::Holding>>
 holdings(const System::Contacts& contacts)
