@@ -127,3 +127,12 @@ class FreeRings:
         """Of all slave nodes, by their areas."""
         nodes = self.contact.interface.nodes
         return float(np.average(nodes.pressure, weights=nodes.area))
+
+
+def lame_pressure(interference: float) -> float:
+    """Pressure between the rings if the outer one is fixed at its rim: Lame's, in plane strain."""
+    a, b, c = RADII
+    nu = 0.3
+    inner = b * (1 + nu) * ((1 - 2 * nu) * b**2 + a**2) / (b**2 - a**2)
+    outer = (1 + nu) * (1 - 2 * nu) / (1 + (1 - 2 * nu) * (c / b) ** 2) * (c**2 - b**2) / b
+    return interference / (inner + outer)

@@ -12,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 
 using namespace contactx;
 using namespace contactx::audit;
@@ -25,6 +26,8 @@ namespace
 constexpr double ratio_allowed = 0.25;
 /// Part of what chords change gaps by that is more than the patches' own error
 constexpr double beyond_patches = 0.1;
+/// Part of a sagitta that is a change, not rounding
+constexpr double noticed = 1e-6;
 /// Length of the mean of the unit normals of a node's facets, by area: that of
 /// two facets that meet at facet::cosine_at_edges
 const double even_enough = std::sqrt((1 + facet::cosine_at_edges) / 2);
@@ -65,18 +68,6 @@ struct Edges
     return a * b > 0 ? std::copysign(std::min(std::abs(a), std::abs(b)), a) : 0;
   }
 };
-
-/// Mean of the rise over a facet.
-template <class F>
-double mean_rise(const Edges<F>& k)
-{
-  if constexpr (F::nodes == 2)
-    return k(0, 1) / 6;
-  else if constexpr (F::nodes == 3)
-    return (k(0, 1) + k(1, 2) + k(0, 2)) / 12;
-  else
-    return (k(0, 1) + k(2, 3) + k(0, 2) + k(1, 3)) / 12;
-}
 
 /// How a facet is bent.
 struct Bend
@@ -144,6 +135,68 @@ struct Changes
   double sagitta = 0;       // the largest one of a facet that fits
 };
 
+/// A point of a slave facet, or a slave node, and the master in front of it.
+template <int D>
+struct Sample
+{
+  Vector<D> at{};
+  double rise = 0;                // of the slave
+  std::array<double, 4> weight{}; // of the facet's nodes, by their dual functions
+  double distance = infinity;     // of the nearest master facet that fits
+  double master = 0;              // its rise there
+};
+
+/// Points along a facet, in each direction: at the middles of parts.
+constexpr int parts = 4;
+
+/// Points of a slave facet; the sum of their weights is the facet's size.
+template <int D, class F>
+std::vector<Sample<D>> sampled(const Edges<F>& edges)
+{
+  std::vector<Sample<D>> samples;
+  const auto add = [&](const facet::Local<F>& xi)
+  {
+    const auto N = F::shape(xi);
+    Sample<D> sample{facet::combine<F>(N, edges.x),
+                     facet::rise_over<F>(xi, edges)};
+    for (int l = 0; l < F::nodes; ++l)
+    {
+      if constexpr (F::flat)
+        sample.weight[l] = (F::nodes + 1) * N[l] - 1;
+      else
+        sample.weight[l] = (l % 2 ? 3 * xi[0] - 1 : 2 - 3 * xi[0])
+                           * (l / 2 ? 3 * xi[1] - 1 : 2 - 3 * xi[1]);
+    }
+    samples.push_back(sample);
+  };
+  for (int i = 0; i < parts; ++i)
+  {
+    const double s = (i + 0.5) / parts;
+    if constexpr (F::tdim == 1)
+      add({s});
+    else if constexpr (F::flat)
+      // Centres of smaller triangles, of both orientations
+      for (int j = 0; i + j < parts; ++j)
+      {
+        add({(i + 1. / 3) / parts, (j + 1. / 3) / parts});
+        if (i + j + 1 < parts)
+          add({(i + 2. / 3) / parts, (j + 2. / 3) / parts});
+      }
+    else
+      for (int j = 0; j < parts; ++j)
+        add({s, (j + 0.5) / parts});
+  }
+  double size = 0;
+  if constexpr (F::tdim == 1)
+    size = norm(edges.x[1] - edges.x[0]);
+  else
+    size = norm(cross(edges.x[1] - edges.x[0], edges.x[2] - edges.x[0]));
+  for (auto& sample : samples)
+    for (double& weight : sample.weight)
+      weight *= size / static_cast<double>(samples.size());
+  return samples;
+}
+
 template <int D>
 Changes changes(const contact::Contact& contact, const Sides& sides)
 {
@@ -153,12 +206,16 @@ Changes changes(const contact::Contact& contact, const Sides& sides)
   // Of the facets around each slave node, that which is bent most
   std::vector<double> curvature(n, 0);
   const facet::FacetList facets = slaves.facets(), local = slaves.local();
+  std::map<std::vector<std::int32_t>, Bend> bent;
   for (std::int32_t f = 0; f < facets.size(); ++f)
     Sides::visit<D>(facets[f], sides.x, sides.of_slave,
                     [&](const auto& edges)
                     {
                       const Bend its = bend(edges);
-                      for (const std::int32_t i : local[f])
+                      const auto corners = local[f];
+                      if (its.curvature != 0)
+                        bent[{corners.begin(), corners.end()}] = its;
+                      for (const std::int32_t i : corners)
                       {
                         if (i >= static_cast<std::int32_t>(n)
                             or std::abs(its.curvature)
@@ -168,50 +225,59 @@ Changes changes(const contact::Contact& contact, const Sides& sides)
                         found.turn[i] = its.turn;
                       }
                     });
-  std::vector<int> count(n, 0);
+  // Of slave facets, or slave nodes, that something fits
+  std::map<std::vector<std::int32_t>, std::vector<Sample<D>>> samples;
   for (const auto& pairs : contact.pairs())
     for (std::size_t p = 0; p < pairs->size() and not pairs->is_movement; ++p)
     {
       const auto m = std::size_t(pairs->num_slaves),
                  size = m + std::size_t(pairs->num_nodes);
       const auto nodes = std::span(pairs->nodes).subspan(p * size, size);
-      double rise = 0;
-      Bend here, there;
-      Sides::visit<D>(nodes.subspan(m), sides.x, sides.of_master,
-                      [&]<class F>(const Edges<F>& edges)
-                      {
-                        there = bend(edges);
-                        if (m > 1)
-                          rise = mean_rise(edges);
-                        else
-                        {
-                          // The slave node itself is on its surface
-                          const auto foot = facet::closest_point<F>(
-                              edges.x, facet::point<D>(nodes[0], sides.x));
-                          rise = facet::rise_over<F>(foot.xi, edges);
-                        }
-                      });
-      if (m > 1)
-        Sides::visit<D>(nodes.first(m), sides.x, sides.of_slave,
-                        [&](const auto& edges)
-                        {
-                          here = bend(edges);
-                          rise += mean_rise(edges);
-                        });
-      for (std::size_t k = 0; k < m; ++k)
-      {
-        const std::int32_t i = pairs->slaves[p * m + k];
-        if (i >= static_cast<std::int32_t>(n)
-            or not do_fit(curvature[i], there.curvature))
-          continue;
-        found.off[i] += rise;
-        ++count[i];
-        found.sagitta = std::max({found.sagitta, here.sagitta, there.sagitta});
-      }
+      const auto places = std::span(pairs->slaves).subspan(p * m, m);
+      const std::vector<std::int32_t> key(places.begin(), places.end());
+      Bend here;
+      if (m == 1)
+        here.curvature = curvature[key[0]];
+      else if (const auto its = bent.find(key); its != bent.end())
+        here = its->second;
+      Sides::visit<D>(
+          nodes.subspan(m), sides.x, sides.of_master,
+          [&]<class F>(const Edges<F>& edges)
+          {
+            const Bend there = bend(edges);
+            if (not do_fit(here.curvature, there.curvature))
+              return;
+            found.sagitta
+                = std::max({found.sagitta, here.sagitta, there.sagitta});
+            auto& its = samples[key];
+            if (its.empty() and m == 1)
+              // The slave node itself is on its surface
+              its.push_back({facet::point<D>(nodes[0], sides.x), 0, {1}});
+            else if (its.empty())
+              Sides::visit<D>(nodes.first(m), sides.x, sides.of_slave,
+                              [&](const auto& slave)
+                              { its = sampled<D>(slave); });
+            for (Sample<D>& sample : its)
+              if (const auto foot = facet::closest_point<F>(edges.x, sample.at);
+                  foot.distance2 < sample.distance)
+              {
+                sample.distance = foot.distance2;
+                sample.master = facet::rise_over<F>(foot.xi, edges);
+              }
+          });
     }
+  std::vector<double> weight(n, 0);
+  for (const auto& [places, its] : samples)
+    for (std::size_t k = 0; k < places.size(); ++k)
+      for (const Sample<D>& sample : its)
+        if (const std::int32_t i = places[k]; i < static_cast<std::int32_t>(n))
+        {
+          found.off[i] += sample.weight[k] * (sample.rise + sample.master);
+          weight[i] += sample.weight[k];
+        }
   for (std::size_t i = 0; i < n; ++i)
-    found.off[i] = count[i] > 0 ? found.off[i] / count[i]
-                                : std::numeric_limits<double>::quiet_NaN();
+    found.off[i] = weight[i] > 0 ? found.off[i] / weight[i]
+                                 : std::numeric_limits<double>::quiet_NaN();
   return found;
 }
 } // namespace
@@ -219,7 +285,7 @@ Changes changes(const contact::Contact& contact, const Sides& sides)
 double Chords::ratio() const
 {
   const double change = scatter + mean * turn;
-  return change > 0 ? change / pressed : 0;
+  return change > noticed * sagitta ? change / pressed : 0;
 }
 
 bool Chords::is_coarse() const { return ratio() > ratio_allowed; }
@@ -258,12 +324,17 @@ std::optional<Chords> contactx::audit::chords(parallel::Halo& halo,
   const std::size_t n = slaves.owned().size();
   // Those in contact, and those that chords keep from it
   std::vector<std::int8_t> which(n), is_near(n, 0);
+  bool is_kept = false;
   for (std::size_t i = 0; i < n; ++i)
-    which[i] = not contact.is_left_out()[i]
-               and (state.held(i)
-                    or state.gap[i] < found.off[i]
-                                          - beyond_patches
-                                                * std::abs(found.off[i]));
+  {
+    const double off = found.off[i], change = std::abs(off);
+    // What was counted as none is not kept from touching
+    const bool is_hidden = change > noticed * found.sagitta
+                           and state.gap[i] + contact.adjusted()[i]
+                                   < off - beyond_patches * change;
+    which[i] = not contact.is_left_out()[i] and (state.held(i) or is_hidden);
+    is_kept = is_kept or (which[i] and not state.held(i));
+  }
   // All nodes of facets that have one of these
   const auto near = slaves.near(which);
   const facet::FacetList local = slaves.local();
@@ -295,7 +366,7 @@ std::optional<Chords> contactx::audit::chords(parallel::Halo& halo,
   parallel::Ranks& ranks = halo.ranks();
   ranks.reduce(std::span<double>(sums), parallel::Reduction::sum);
   const auto [force, work, area, off, turn] = sums;
-  if (not(area > 0))
+  if (not(area > 0) or (force == 0 and not parallel::anywhere(ranks, is_kept)))
     return {};
   double scatter = 0;
   for (std::size_t i = 0; i < n; ++i)

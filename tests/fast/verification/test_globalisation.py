@@ -167,14 +167,14 @@ def test_damped_steps_take_over(monkeypatch):
     """Where steps go too far for other reasons than cells."""
     roller = ("svk", "surface-to-surface", 0.1)
     monkeypatch.setattr(StepLength, "_within_cells", lambda self, step: 1.0)
-    report = Roller(*roller, n=10).press(0.5)
+    report = Roller(*roller, n=10).press(0.6)
     assert report.damped
     assert report.shortened > 0
     assert report.discarded == 50
     assert "steps damped, as others did not converge" in str(report)
     monkeypatch.setattr(NewtonLoop, "damping_may_help", False)
     with pytest.raises(cx.ConvergenceError, match="no convergence"):
-        Roller(*roller, n=10).press(0.5)
+        Roller(*roller, n=10).press(0.6)
 
 
 def test_steps_that_lead_nowhere_end_the_loop(monkeypatch):

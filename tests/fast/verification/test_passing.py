@@ -36,7 +36,9 @@ def test_whole_boundaries_are_the_same_in_steps(method, overlap):
     whole = TwoTips(method=method, overlap=overlap, whole=True)
     for _ in cx.LoadSteps(whole.problem, 24, update=lambda t: whole.push(DOWN * t), progress=False):
         pass
-    assert whole.contact.force == pytest.approx(face.contact.force, rel=1e-6)
+    # By surface-to-surface facets at the ends of a face have an edge beside them in the whole
+    near = 1e-6 if method == "node-to-surface" else 3e-4
+    assert whole.contact.force == pytest.approx(face.contact.force, rel=near)
 
 
 @METHODS
