@@ -200,6 +200,8 @@ int main(int argc, char* argv[])
     solve(scene, "adjusted disc",
           std::make_shared<obstacle::Sphere>(middle, 4.0),
           {.friction = 0.1, .offset = offset, .adjust = 0.1});
+    solve(scene, "smooth", base,
+          {.friction = 0.3, .offset = offset, .smooth = true});
     solve(scene, "neo-Hooke", base, {.friction = 0.3, .offset = offset},
           form_neo_hooke_F, form_neo_hooke_J);
     const auto weight = [](const auto& x) { return 1 + x[0] / 2; };

@@ -102,6 +102,7 @@ def main() -> None:
     solve("mortar plane", tags, V, plane, **mortar, **rubs)
     solve("disc", tags, V, disc, friction=0.1, **little)
     solve("adjusted disc", tags, V, disc, friction=0.1, **little, adjust=0.1)
+    solve("smooth", tags, V, base, **rubs, smooth=True)
     solve("neo-Hooke", tags, V, base, **rubs)
     weight: Any = {"weight": 1 + ufl.SpatialCoordinate(mesh)[0] / 2, **little}
     solve("weight", tags, V, base, **weight)

@@ -41,6 +41,7 @@ class Outcome:
                 "force": [contact.force for contact in problem.contacts],
                 "slip": report.slip,
                 "dissipation": report.dissipation,
+                "chords": report.audit.chords,
             }
         )
 

@@ -89,7 +89,9 @@ class FreeRings:
         kind = "quadrilateral" if gdim == 2 else "hexahedron"
         element = basix.ufl.element("Lagrange", kind, 1, shape=(gdim,))
         both = np.concatenate([cells, others + len(x)])
-        domain = mesh.create_mesh(MPI.COMM_WORLD, both, element, np.concatenate([x, y]))
+        comm = MPI.COMM_WORLD
+        mine = slice(None if comm.rank == 0 else 0)
+        domain = mesh.create_mesh(comm, both[mine], element, np.concatenate([x, y])[mine])
         self.u = displacement(domain)
         F = material(self.u, 1.0, 0.3)
         tags = self._tags(domain, len(x), n, n_outer, layers)
@@ -127,6 +129,13 @@ class FreeRings:
         """Of all slave nodes, by their areas."""
         nodes = self.contact.interface.nodes
         return float(np.average(nodes.pressure, weights=nodes.area))
+
+
+def pulled(u: fem.Function, young: float, nu: float) -> ufl.Form:
+    """Linear elasticity of rings of which the inner one is pulled along x near its inner rim."""
+    x = ufl.SpatialCoordinate(u.function_space.mesh)
+    pull = ufl.conditional(ufl.lt(x[0] ** 2 + x[1] ** 2, 1.3**2), 1e-3, 0.0)
+    return elasticity(u, young, nu) - pull * ufl.TestFunction(u.function_space)[0] * ufl.dx
 
 
 def lame_pressure(interference: float) -> float:

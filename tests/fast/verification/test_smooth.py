@@ -6,12 +6,10 @@ import numpy as np
 import pytest
 
 import contactx as cx
-import ufl
 from dolfinx.mesh import CellType
 
 from scenes import Blocks
-from scenes.free_rings import FreeRings, lame_pressure
-from story import elasticity
+from scenes.free_rings import FreeRings, lame_pressure, pulled
 
 pytestmark = pytest.mark.usefixtures("method")
 
@@ -61,14 +59,6 @@ def loaded(n, n_outer):
     )
     rings.problem.solve()
     return rings.contact.interface.nodes.pressure
-
-
-def pulled(u, young, nu):
-    """Linear elasticity of a ring that is pulled along x near its inner rim."""
-    x = ufl.SpatialCoordinate(u.function_space.mesh)
-    r = ufl.sqrt(ufl.inner(x, x))
-    pull = ufl.conditional(ufl.lt(r, 1.3), 1e-3, 0.0)
-    return elasticity(u, young, nu) - pull * ufl.TestFunction(u.function_space)[0] * ufl.dx
 
 
 def test_a_ring_that_is_pulled_aside_in_a_perfect_fit():
