@@ -140,10 +140,11 @@ template <int D>
 struct Sample
 {
   Vector<D> at{};
-  double rise = 0;                // of the slave
-  std::array<double, 4> weight{}; // of the facet's nodes, by their dual functions
-  double distance = infinity;     // of the nearest master facet that fits
-  double master = 0;              // its rise there
+  double rise = 0; // of the slave
+  std::array<double, 4>
+      weight{};               // of the facet's nodes, by their dual functions
+  double distance = infinity; // of the nearest master facet that fits
+  double master = 0;          // its rise there
 };
 
 /// Points along a facet, in each direction: at the middles of parts.
@@ -298,10 +299,10 @@ std::string Chords::words() const
          + (scatter > 0.01 * mean
                 ? " and by " + number_text(scatter, 2) + " from node to node, "
                 : ", ")
-         + (pressed > 0 ? "where pressures press nodes in by "
-                              + number_text(pressed, 2)
-                              + ": pressures are those of chords"
-                        : std::string("and keep nodes from touching"))
+         + (pressed > 0
+                ? "where pressures press nodes in by " + number_text(pressed, 2)
+                      + ": pressures are those of chords"
+                : std::string("and keep nodes from touching"))
          + ". Take smooth=True, with adjust=length for a fit without "
            "clearance, or a finer mesh, or a curved one with quadratic "
            "displacements (manual: errors/chords)";

@@ -330,8 +330,9 @@ SurfacesAudit::look_from_master(std::span<const double> positions)
       continue;
     there.push_back(i);
     size.push_back(sizes[i]);
-    near.push_back(
-        _master->is_smooth() ? 2 : static_cast<std::int8_t>(seen.values[4 * i + 1]));
+    near.push_back(_master->is_smooth()
+                       ? 2
+                       : static_cast<std::int8_t>(seen.values[4 * i + 1]));
     turn.push_back(curvature[_points[i]]);
   }
   auto explained = explained_depths(size, turn, near,

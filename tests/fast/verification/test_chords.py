@@ -21,9 +21,7 @@ def sagitta(n):
 
 
 def shrunk(n, n_outer, method="node-to-surface", offset=0.005, **options):
-    rings = FreeRings(
-        n, n_outer, fixed=True, method=method, offset=offset, friction=0.1, **options
-    )
+    rings = FreeRings(n, n_outer, fixed=True, method=method, offset=offset, friction=0.1, **options)
     rings.problem.solve()
     return rings.problem.report.audit
 
