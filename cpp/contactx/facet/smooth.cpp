@@ -91,19 +91,18 @@ public:
         _of_corner(facets.nodes.size(), -1)
   {
     find_sheets();
-    // Where facets are all around, the nodes alone tell
-    for (const bool is_closed : {true, false})
+    // Where facets are all around, the nodes alone tell; then those beside what
+    // is known, from row to row, and in the end those that nothing is beside of
+    take([](const Sheet& sheet) { return sheet.is_closed; });
+    while (take(
+        [this](const Sheet& sheet)
+        {
+          return std::ranges::any_of(sheet.others, [&](std::int32_t other)
+                                     { return known(sheet, other); });
+        }))
     {
-      std::vector<std::pair<std::size_t, Vector<3>>> found;
-      for (std::size_t s = 0; s < _sheets.size(); ++s)
-        if (_sheets[s].is_closed == is_closed)
-          found.emplace_back(s, normal_of(_sheets[s]));
-      for (const auto& [s, n] : found)
-      {
-        _sheets[s].normal = n;
-        _sheets[s].is_known = true;
-      }
     }
+    take([](const Sheet&) { return true; });
   }
 
   SmoothFacet of(std::int32_t f) const
@@ -130,6 +129,23 @@ public:
   }
 
 private:
+  /// Finds the normals of sheets that have none and are chosen; whether there
+  /// are any.
+  template <class Choose>
+  bool take(Choose&& is_chosen)
+  {
+    std::vector<std::pair<std::size_t, Vector<3>>> found;
+    for (std::size_t s = 0; s < _sheets.size(); ++s)
+      if (not _sheets[s].is_known and is_chosen(_sheets[s]))
+        found.emplace_back(s, normal_of(_sheets[s]));
+    for (const auto& [s, n] : found)
+    {
+      _sheets[s].normal = n;
+      _sheets[s].is_known = true;
+    }
+    return not found.empty();
+  }
+
   const Sheet& sheet_at(std::size_t corner) const
   {
     return _sheets[_of_corner[corner]];

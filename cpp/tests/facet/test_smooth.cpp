@@ -79,7 +79,7 @@ struct Mantle
   std::vector<double> x;
 };
 
-double error_of(const Vector<3>& normal, std::span<const double> x, int gdim)
+double error_of(const Vector<3>& normal, const double* x, int gdim)
 {
   return std::hypot(normal[0] - x[0], normal[1] - x[1],
                     gdim == 3 ? normal[2] : 0.0);

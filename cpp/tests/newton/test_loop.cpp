@@ -436,7 +436,7 @@ TEST(Loop, ALooseBodyThatHasLeftTheSceneIsNoSolution)
 
 TEST(Loop, ALooseBodyThatHasTurnedIsNoSolution)
 {
-  for (const double angle : {0.13, -0.15})
+  for (const double angle : {0.013, -0.015})
     for (const bool is_linear : {true, false})
     {
       Loose found;
