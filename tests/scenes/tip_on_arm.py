@@ -15,9 +15,8 @@ import contactx as cx
 import ufl
 from dolfinx import fem, la, mesh
 
-from story import displacement
-
 from scenes.materials import neo_hookean
+from story import displacement
 
 THICKNESS, AT, SIDE = 0.1, 0.8, 0.2
 ARM, TIP, FIXED, HEAD = 1, 2, 3, 4

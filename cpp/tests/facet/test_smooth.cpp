@@ -133,8 +133,7 @@ TEST(SmoothFacets, OfAMantleAreThoseOfTheCylinder)
                 const auto x = gather<F>(nodes, mantle.x);
                 const Local<F> xi{0.3, 0.45};
                 const auto p = combine<F>(F::shape(xi), x);
-                EXPECT_NEAR(std::hypot(p[0], p[1])
-                                + rise<F>(x, smooth[f], xi),
+                EXPECT_NEAR(std::hypot(p[0], p[1]) + rise<F>(x, smooth[f], xi),
                             1, 5e-4);
               }
             });
@@ -145,8 +144,8 @@ TEST(SmoothFacets, OfAMantleAreThoseOfTheCylinder)
 TEST(SmoothFacets, OfFlatOnesAreThemselvesAndEdgesStay)
 {
   // Two squares that meet at a right angle
-  const std::vector<double> x{0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 1, 0, -1, 1,
-                              1, -1};
+  const std::vector<double> x{0, 0, 0, 1, 0, 0,  0, 1, 0,
+                              1, 1, 0, 1, 0, -1, 1, 1, -1};
   const Facets facets{{0, 4, 8}, {0, 1, 2, 3, 1, 4, 3, 5}};
   const auto smooth = smooth_facets(facets.list(), x, 3);
   for (int l = 0; l < 4; ++l)
