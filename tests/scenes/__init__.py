@@ -21,6 +21,8 @@ Others:
 - ``cracked``: a block with a closed crack, whose faces share the nodes of its tip.
 - ``hertz``: ``HertzSphere``, the common Hertz problem, and its error against Hertz.
 - ``two_spheres``: ``TwoSpheres``, a soft one and a stiff one, pressed by a force.
+- ``ball_at_edge``: ``BallAtEdge``, a ball that is pushed on the edge of a plate.
+- ``fits``: ``PinInHole`` and ``Taper``, round things that exactly fill their holes.
 - ``steps``: scenes of several load steps, with all that may fail, and the state that they leave.
 
 What they are made of:

@@ -7,14 +7,16 @@
 
 using namespace contactx::contact;
 
-void MortarSlip::begin_step(Mortar now)
+void MortarSlip::begin_step(Mortar now, std::vector<double> origin)
 {
+  _origin = std::move(origin);
   _gap = _sides->total(now.gap, now.slave);
   _start = std::move(now);
 }
 
 void MortarSlip::touch(std::span<const std::int8_t> which, const Mortar& now,
-                       std::span<const double> offset)
+                       std::span<const double> offset,
+                       std::span<const double> origin)
 {
   const std::size_t n = _sides->size();
   if (not _start)
@@ -37,6 +39,9 @@ void MortarSlip::touch(std::span<const std::int8_t> which, const Mortar& now,
           = known[i] ? touching(_gap[i] - offset[i], gaps[i] - offset[i]) : 1.0;
     rest[i] = 1 - part[i];
   }
+  const std::size_t g = n > 0 ? _origin.size() / n : 0;
+  for (std::size_t k = 0; k < _origin.size(); ++k)
+    _origin[k] = rest[k / g] * _origin[k] + part[k / g] * origin[k];
   _start = _start->scaled(_sides->at_corners(rest, _start->slave))
                .joined(now.scaled(_sides->at_corners(part, now.slave)));
 }

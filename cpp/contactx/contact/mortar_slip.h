@@ -24,15 +24,22 @@ public:
 
   /// @brief Start a step.
   /// @param[in] now Pairs at its start, divided by the slave nodes' areas.
-  void begin_step(Mortar now);
+  /// @param[in] origin What they measure at the start although nothing has
+  /// moved, a vector a slave node; nothing if empty.
+  void begin_step(Mortar now, std::vector<double> origin = {});
 
   /// @brief Measure from where nodes touch.
   /// @param[in] which 1 at those slave nodes (shape=(n)).
   /// @param[in] now Pairs at the iterate that closes them, divided by the
   /// areas.
   /// @param[in] offset Offset, a length that is taken off the gap (shape=(n)).
+  /// @param[in] origin What these pairs measure there, as in a step's start.
   void touch(std::span<const std::int8_t> which, const Mortar& now,
-             std::span<const double> offset);
+             std::span<const double> offset,
+             std::span<const double> origin = {});
+
+  /// @brief What the pairs measure where nothing has moved; empty for nothing.
+  const std::vector<double>& origin() const { return _origin; }
 
   /// @brief Pairs that the movement is measured with.
   /// @param[in] area Areas of the slave nodes (shape=(n)).
@@ -46,7 +53,7 @@ public:
 
 private:
   const MortarSides* _sides;
-  std::vector<double> _gap;
+  std::vector<double> _gap, _origin;
   std::optional<Mortar> _start;
 };
 } // namespace contactx::contact

@@ -470,7 +470,28 @@ void SurfaceToSurface::begin_step()
   if (_options.measures_slip and _options.is_small)
     _origin.start(moved(_u0));
   else if (_options.measures_slip)
-    _slip.begin_step(of_slip(_x0, _u0));
+    _slip.begin_step(of_slip(_x0, _u0), along(_u0));
+}
+
+/// How far slave nodes are from what is in front of them, along the surface,
+/// where patches are smooth: facets are projected along their own normals, and
+/// slip is measured across those of the patches. No slip has made it.
+std::vector<double> SurfaceToSurface::along(std::span<const double> u) const
+{
+  if (not _smooth_slave)
+    return {};
+  const std::size_t g = gdim();
+  std::vector<double> apart = way(u);
+  const std::vector<double> normal = normals();
+  for (std::size_t i = 0; i < _sides.size(); ++i)
+  {
+    double across = 0;
+    for (std::size_t k = 0; k < g; ++k)
+      across += apart[g * i + k] * normal[3 * i + k];
+    for (std::size_t k = 0; k < g; ++k)
+      apart[g * i + k] -= across * normal[3 * i + k];
+  }
+  return apart;
 }
 
 /// Pairs divided by the areas, with what slip is measured by.
@@ -499,7 +520,7 @@ void SurfaceToSurface::touch(std::span<const std::int8_t> which,
   if (_options.is_small)
     _origin.touch(which, apart(), moved(u), normals(), offset);
   else
-    _slip.touch(which, of_slip(x, u), offset);
+    _slip.touch(which, of_slip(x, u), offset, along(u));
 }
 
 std::optional<std::vector<double>>

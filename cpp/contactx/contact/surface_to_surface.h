@@ -62,7 +62,10 @@ public:
   /// an iteration keeps some until the next search.
   std::vector<double> area(std::span<const double> whole) const override;
   std::vector<double> rise() const override { return _rise; }
-  std::vector<double> origin() const override { return _origin.moved(); }
+  std::vector<double> origin() const override
+  {
+    return _options.is_small ? _origin.moved() : _slip.origin();
+  }
   std::vector<double> compliance(std::span<const double> nodal) const override;
 
   /// @brief On a plane of symmetry nothing moves across it: only half of what
@@ -116,6 +119,7 @@ private:
   Mortar slip_pairs() const;
   Mortar normalised() const;
   Mortar of_slip(std::span<const double> x, std::span<const double> u) const;
+  std::vector<double> along(std::span<const double> u) const;
 
   MortarSides _sides;
   MortarSlip _slip;

@@ -25,6 +25,14 @@ def test_a_perfect_fit_of_chords_is_one(n, n_outer, swapped):
 
 
 @pytest.mark.parametrize("turned", [0.0, 0.3])
+def test_nothing_has_slipped_where_nothing_has_moved(turned):
+    """Facets are projected along their normals, and slip is across those of patches."""
+    rings = FreeRings(60, 36, fixed=True, turned=turned, smooth=True, adjust=0.02, friction=0.1)
+    rings.problem.solve()
+    assert np.abs(rings.u.x.array).max() < 1e-12
+
+
+@pytest.mark.parametrize("turned", [0.0, 0.3])
 @pytest.mark.parametrize("swapped", [False, True])
 @pytest.mark.parametrize("height", [0, 2])
 def test_a_shrink_fit_of_chords_is_that_of_circles(height, swapped, turned):

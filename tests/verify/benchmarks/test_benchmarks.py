@@ -5,6 +5,8 @@
 import bench_audit
 import bench_degrees
 import bench_dynamics
+import bench_edges
+import bench_fits
 import bench_friction
 import bench_growth
 import bench_hertz
@@ -204,3 +206,24 @@ def test_dynamics():
     assert len(rows) == 24 + 4 + 16 + 2
     assert all(np.isfinite(row.get("growth", 0.0)) for row in rows)
     assert max(row["growth"] for row in rows if "method" in row) <= 1e-12
+
+
+def test_edges():
+    rows = bench_edges.main(["tip"], sizes=[10])
+    rows += bench_edges.main(["ball"], sizes=[0.5])
+    assert [row["method"] for row in rows] == [m for m in METHODS for _ in range(2)] * 2
+    # On arms as coarse as this nothing is refused
+    assert all(abs(row["lost"]) < 0.2 for row in rows[:4])
+    assert all(0 < row["ratio"] < 1 for row in rows[4:])
+
+
+def test_fits():
+    rows = bench_fits.main(["pin"], sizes=[(40, 24)])
+    assert len(rows) == len(bench_fits.OPTIONS) * len(METHODS)
+    for row in rows:
+        is_adjusted = row["options"] != "chords"
+        assert (row["stress"] < 1e-9) == is_adjusted
+        assert (row["peak"] < 1.5 * row["right_peak"]) == is_adjusted
+    rows = bench_fits.main(["taper"], sizes=[4.0])
+    assert len(rows) == (len(bench_fits.OPTIONS) + 1) * len(METHODS)
+    assert all(row["push_in"] > 0 > row["pull_out"] for row in rows)
