@@ -29,8 +29,9 @@ _EDGE = np.cos(np.radians(50))
 # What rounding leaves of an angle
 _ANGLE = 1e-6
 # How far off a facet or its plane is touched, too, how far beside a facet it still counts as in
-# front of a point, and how far off facets are in front of a slave facet; in sizes of facets
-_HIDDEN, _BESIDE, _FRONT = 0.04, 0.05, 0.5
+# front of a point, and how far off facets are in front of a slave facet, at first and where nothing
+# is so near; in sizes of facets
+_HIDDEN, _BESIDE, _FRONT, _APART = 0.04, 0.05, 0.5, 2.0
 
 
 def oriented(domain: mesh.Mesh, surface: cx.Surface) -> Numbers:
@@ -70,7 +71,7 @@ class Directions:
         self._sizes = np.linalg.norm(np.ptp(self._corners, axis=1), axis=1)
         self._own = normals(x[self._slave])
         self._edge = np.isin(self._slave, edges(self._slave, self._own)).any(axis=1)
-        self._seen: dict[int, Array] = {}
+        self._seen: dict[tuple[int, float], Array] = {}
         size = np.linalg.norm(forces, axis=1)
         worst = 0.0
         for node in np.setdiff1d(self._slave, self._both):
@@ -94,36 +95,41 @@ class Directions:
 
     def _of_facets(self, node: int) -> tuple[float, Array]:
         """What is allowed of a node's facets, and normals of the master's in front of them."""
-        rows = []
-        allowed = 0.0
-        for f in np.flatnonzero((self._slave == node).any(axis=1)):
-            if f not in self._seen:
-                self._seen[f] = self._in_front(int(f))
-            rows.append(self._seen[f])
-            if len(rows[-1]) and not self._edge[f]:
-                allowed = max(allowed, *(beside(-n, rows[-1]) for n in self._own[f]))
+        facets = np.flatnonzero((self._slave == node).any(axis=1)).tolist()
+        rows = [self._in_front(f) for f in facets]
+        if not any(map(len, rows)):
+            # Offsets keep both apart
+            rows = [self._in_front(f, _APART) for f in facets]
+        allowed = [
+            beside(-n, row)
+            for f, row in zip(facets, rows, strict=True)
+            if len(row) and not self._edge[f]
+            for n in self._own[f]
+        ]
         # A mean of two directions is shorter than either
-        return 1.2 * allowed, np.concatenate(rows)
+        return 1.2 * max(allowed, default=0.0), np.concatenate(rows)
 
-    def _in_front(self, facet: int) -> Array:
+    def _in_front(self, facet: int, front: float = _FRONT) -> Array:
         """Normals of the master's facets in front of a slave facet.
 
         At an edge a facet is tilted against what it touches, and all that face it count.
         """
+        if (facet, front) in self._seen:
+            return self._seen[facet, front]
         corners = self._x[self._slave[facet]]
         h = float(np.linalg.norm(np.ptp(corners, axis=0)))
-        reach = h if self._edge[facet] else _FRONT * h
+        reach = h * (max(front, 1.0) if self._edge[facet] else front)
         near, distance, over = self._near(_samples(corners), reach)
-        if near.size == 0:
-            return self._flat(near)
+        hit = distance <= reach
         if self._edge[facet]:
-            facing = self._normals[near].mean(axis=1) @ self._own[facet].mean(axis=0) < 0
-            return self._flat(near[(distance <= reach).any(axis=0) & facing])
-        nearest = distance.min(axis=1, keepdims=True)
-        hit = distance <= np.minimum(nearest + _HIDDEN * self._sizes[near], reach)
-        if (hit & over).any():
-            hit &= over
-        return self._flat(near[hit.any(axis=0)])
+            hit &= self._normals[near].mean(axis=1) @ self._own[facet].mean(axis=0) < 0
+        elif near.size:
+            nearest = distance.min(axis=1, keepdims=True)
+            hit &= distance <= nearest + _HIDDEN * self._sizes[near]
+            if (hit & over).any():
+                hit &= over
+        self._seen[facet, front] = self._flat(near[hit.any(axis=0)])
+        return self._seen[facet, front]
 
     def _near(self, points: Array, reach: float) -> tuple[Numbers, Array, Array]:
         """Master's facets within reach, their distances, and whether points are over them."""
