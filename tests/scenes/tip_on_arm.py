@@ -28,6 +28,7 @@ class TipOnArm:
     Attributes:
         contact: Contact of the block's lower sides with the arm's top; frictionless.
         problem: The problem.
+        bcs: Conditions on the arm's end and on the block's upper sides.
         way: Movement of the block's upper sides.
     """
 
@@ -75,12 +76,15 @@ class TipOnArm:
         self.way = fem.Constant(domain, np.zeros(2))
         self._head = fem.locate_dofs_topological(V, 1, tags.find(HEAD))
         fixed = fem.locate_dofs_topological(V, 1, tags.find(FIXED))
-        bcs = [fem.dirichletbc(self.way, self._head, V), fem.dirichletbc(np.zeros(2), fixed, V)]
+        self.bcs = [
+            fem.dirichletbc(self.way, self._head, V),
+            fem.dirichletbc(np.zeros(2), fixed, V),
+        ]
         tip, arm = cx.Surface(tags, TIP), cx.Surface(tags, ARM)
         slave, master = (arm, tip) if swapped else (tip, arm)
         self.contact = cx.Contact(slave, master, **options)
         self.problem = cx.ContactProblem(
-            self.F, u, contacts=[self.contact], bcs=bcs, petsc_options_prefix="tip_"
+            self.F, u, contacts=[self.contact], bcs=self.bcs, petsc_options_prefix="tip_"
         )
 
     def pushed(self, depth: float = 0.3, steps: int = 30) -> tuple[np.ndarray, float]:

@@ -114,7 +114,7 @@ class Blocks:
         data = self.data = self._mesh()
         domain, tags = data.mesh, data.facet_tags
         dim = domain.geometry.dim
-        rng = np.random.default_rng(self.turn)
+        rng = np.random.default_rng(self.turn or 0)
         Q = np.eye(dim) if self.turn is None else transforms.rotation(rng, dim)
         direction = rng.standard_normal(dim)
         where = self.away * direction / np.linalg.norm(direction)

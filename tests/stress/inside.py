@@ -36,7 +36,15 @@ def boundary(domain: mesh.Mesh, tags: mesh.MeshTags, connected_to: int) -> Facet
     cells = _body(domain, to_cell.links(tags.find(connected_to)[0])[0])
     facets = mesh.exterior_facet_indices(domain.topology)
     owner = np.array([to_cell.links(f)[0] for f in facets])
-    facets, owner = facets[cells[owner]], owner[cells[owner]]
+    return outwards(domain, facets[cells[owner]])
+
+
+def outwards(domain: mesh.Mesh, facets: npt.NDArray[np.integer]) -> Facets:
+    """Nodes of the geometry of exterior facets, oriented outwards, shape (m, k)."""
+    tdim = domain.topology.dim
+    domain.topology.create_connectivity(tdim - 1, tdim)
+    to_cell = domain.topology.connectivity(tdim - 1, tdim)
+    owner = np.array([to_cell.links(f)[0] for f in facets])
     nodes = mesh.entities_to_geometry(domain, tdim - 1, facets)
     x = domain.geometry.x
     middle = x[domain.geometry.dofmaps[0][owner]].mean(axis=1)
@@ -54,7 +62,7 @@ def boundary(domain: mesh.Mesh, tags: mesh.MeshTags, connected_to: int) -> Facet
     return parts
 
 
-def _triangles(corners: Array) -> Array:
+def triangles(corners: Array) -> Array:
     """Triangles that bilinear facets are split into, shape (num_triangles, 3, 3)."""
     s = np.linspace(0, 1, _SPLIT + 1)
     grid = (
@@ -94,7 +102,7 @@ def depth(points: Array, x: Array, parts: Facets) -> Array:
         parts: Its boundary, oriented outwards, shape (m, k).
     """
     result = np.zeros(len(points))
-    corners = x[parts] if parts.shape[1] < 4 else _triangles(x[parts])
+    corners = x[parts] if parts.shape[1] < 4 else triangles(x[parts])
     low, high = corners.min(axis=(0, 1)), corners.max(axis=(0, 1))
     near = np.flatnonzero(((points > low) & (points < high)).all(axis=1))
     turns, distance = (_turns_2d, _distance_2d) if x.shape[1] == 2 else (_turns_3d, _distance_3d)

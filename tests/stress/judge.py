@@ -3,8 +3,10 @@
 """Whether a state that was reported as converged is one.
 
 The bulk's forces are assembled anew, without contactx, and penetration is looked for in the
-deformed bodies. Gaps, slip and multipliers are what contactx says; that they are right follows from
-the forces and the bodies, and from what its own tests prove.
+deformed bodies. Without friction the directions of forces are compared with the deformed faces, and
+the work of what moves the bodies with the energy that they store. Gaps, slip and multipliers are
+what contactx says; that they are right follows from the forces and the bodies, and from what its
+own tests prove.
 """
 
 from __future__ import annotations
@@ -16,10 +18,10 @@ import numpy as np
 import contactx as cx
 import ufl
 from dolfinx import fem
-from dolfinx.mesh import entities_to_geometry
 
-from stress import inside
-from stress.degree import split, vertex_nodes
+from stress import inside, work
+from stress.degree import DEGREE, split, vertex_nodes
+from stress.directions import Directions
 from stress.scene import Case, Check
 from stress.sides import DEEP
 
@@ -56,12 +58,19 @@ class Judge:
             None if parts is None else self._of_slave(contact)
             for contact, parts in zip(case.contacts, self._bodies, strict=False)
         ]
+        self._directions = [
+            Directions(contact, V.mesh, self._node_of) if self._is_smooth(contact) else None
+            for contact in case.contacts
+        ]
+        self._work = work.Work(case, self._form) if work.decidable(case) else None
         # Largest force of the state before: of a load that is taken off a part may be left
         self._before = 0.0
 
     def __call__(self) -> list[Check]:
         """What is violated in the present state."""
-        checks = [*self._balance(), *self._penetration()]
+        checks = [*self._balance(), *self._penetration(), *self._along()]
+        if self._work is not None:
+            checks.append(self._work())
         for contact in self._case.contacts:
             checks += self._conditions(contact)
             if contact.interface.law.is_vector and not contact.tied:
@@ -139,6 +148,29 @@ class Judge:
                     allowed,
                 )
 
+    @staticmethod
+    def _is_smooth(contact: cx.Contact) -> bool:
+        """Whether its forces are along the normals of deformed faces whose facets are flat."""
+        return (
+            isinstance(contact.master, cx.Surface)
+            and contact.sliding == "finite"
+            and not contact.tied
+            and not contact.interface.law.is_vector
+            and DEGREE == 1
+        )
+
+    def _along(self) -> Iterator[Check]:
+        """Directions of forces without friction."""
+        for contact, look in zip(self._case.contacts, self._directions, strict=True):
+            if look is None:
+                continue
+            forces = np.zeros_like(self._x)
+            contact.interface.add_residual(forces.ravel())
+            size = np.linalg.norm(forces, axis=1).max()
+            small = _ALLOWED * size + np.linalg.norm(self._rounding_of_forces(), axis=1)
+            beside = look(self._positions(), -forces, small)
+            yield Check("forces without friction are along normals", beside, 1.0)
+
     def _least(self, contact: cx.Contact) -> float:
         """Traction that is much larger than rounding."""
         force = np.linalg.norm(self._rounding_of_forces()[contact.slave_nodes], axis=1)
@@ -203,19 +235,10 @@ class Judge:
 
     def _of_slave(self, contact: cx.Contact) -> tuple[np.ndarray, float]:
         """Boundary of the slave's body, and the length of its longest facet in contact."""
-        mesh = self._case.problem.u.function_space.mesh
-        slave = contact.slave
-        parts = inside.boundary(mesh, slave.facet_tags, slave.tags[0])
-        facets = entities_to_geometry(
-            mesh,
-            mesh.topology.dim - 1,
-            np.concatenate([slave.facet_tags.find(t) for t in slave.tags]),
-        )
-        x = mesh.geometry.x[facets]
-        # The longest distance of two nodes: the same however the scene is turned
-        ways = np.linalg.norm(x[:, :, None] - x[:, None], axis=3)
         V = self._u.function_space
-        return split(self._node_of[parts], V), float(ways.max())
+        slave = contact.slave
+        parts = inside.boundary(V.mesh, slave.facet_tags, slave.tags[0])
+        return split(self._node_of[parts], V), work.longest(slave, V.mesh)
 
     def _penetration(self) -> Iterator[Check]:
         for k, into in enumerate(self._case.into):

@@ -99,7 +99,7 @@ def taken(case: Case) -> Iterator[float]:
     """Take the steps of a case as far as they go rightly; yields each t that was reached."""
     judge = Judge(case)
     try:
-        for t in _steps(case, Outcome("", "", "")):
+        for t in steps_of(case, Outcome("", "", "")):
             if judge() or [c for c in case.step_answers(t) if not c.holds]:
                 return
             yield t
@@ -123,7 +123,7 @@ def _refused(scene: Scene, text: str) -> Kind:
     return Kind.RIGHTLY
 
 
-def _steps(case: Case, outcome: Outcome) -> Iterator[float]:
+def steps_of(case: Case, outcome: Outcome) -> Iterator[float]:
     """Take the steps, and count what they cost; yields each t."""
     if case.cut:
         steps = cx.LoadSteps(case.problem, case.steps, update=case.update, progress=False)
@@ -146,7 +146,7 @@ def _solve(scene: Scene, outcome: Outcome) -> None:
     case = scene.make()
     judge = Judge(case)
     violated = []
-    for t in _steps(case, outcome):
+    for t in steps_of(case, outcome):
         violated += [*judge(), *(c for c in case.step_answers(t) if not c.holds)]
         if violated:
             break

@@ -38,6 +38,8 @@ class Chains:
         self.C = numbering.matrix(entries, rows=dofs, is_square=True)
         A = diagonal_matrix(np.ones(len(dofs)), numbering.comm)
         A.axpy(-1.0, self.C, DIFFERENT)
+        # Of a matrix whose pattern has grown PETSc's LU reads sizes of inodes that were never set
+        A = A.copy()
         self._ksp = PETSc.KSP().create(comm=numbering.comm)
         self._ksp.setOperators(A)
         self._ksp.setType("preonly")

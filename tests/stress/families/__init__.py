@@ -48,6 +48,7 @@ FAMILIES = (
     places.on_vertices,
     edges.off_an_edge,
     edges.over_a_ridge,
+    edges.with_an_edge,
     free.pressed,
     free.rocking,
     rolling.rolling,

@@ -12,7 +12,7 @@ import numpy as np
 
 import contactx as cx
 
-from stress.families.grid import label, variants
+from stress.families.grid import SWAP, label, variants
 from stress.grids import disc, even, grid
 from stress.outcome import rightly
 from stress.parts import Parts
@@ -24,7 +24,6 @@ _RATIOS = (2, 5, 10, 20, 50)
 # Where the middle of what presses lies, in facets from a node
 _PLACES = {"node": 0.0, "beside": 0.1, "quarter": 0.25, "middle": 0.5}
 # What a message must name for its advice to count
-_ADVICE_SWAP = r"(?i)(swap|exchange)|the other way round|(take|make) [^.;:]* (as )?the slave"
 _ADVICE_REFINE = r"(?i)(refine|finer)[^.;:]* slave|slave[^.;:]* (refine|finer)"
 
 
@@ -188,5 +187,5 @@ def soft() -> Iterator[Scene]:
                         label(row),
                         partial(_soft, steps=steps, cut=cut, swapped=swapped, **options),
                         helps,
-                        {} if swapped else {_ADVICE_SWAP: helps},
+                        {} if swapped else {SWAP: helps},
                     )

@@ -1,18 +1,29 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Sliding off an edge, and over a ridge or a valley."""
+"""Sliding off an edge, over a ridge or a valley, and with an edge."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import partial
 
 import numpy as np
 
 from dolfinx.mesh import CellType
 
 from scenes import dimension
-from stress.blocks import Blocks
-from stress.families.grid import ALL_CELLS, CELLS, divisions, scenes, variants
+from scenes.tip_on_arm import SIDE, TipOnArm
+from stress.blocks import INTO, Blocks
+from stress.families.grid import (
+    ALL_CELLS,
+    CELLS,
+    SWAP,
+    divisions,
+    label,
+    scenes,
+    variants,
+)
+from stress.outcome import rightly
 from stress.scene import METHODS, Case, Check, Scene
 
 
@@ -110,3 +121,38 @@ def over_a_ridge() -> Iterator[Scene]:
         return _pressed_first(blocks)
 
     yield from scenes("over a ridge (+) or valley (-)", slopes, options, make)
+
+
+def with_an_edge() -> Iterator[Scene]:
+    """The edge of a block pushes an arm down and slides along it as it bends."""
+    rows = variants(
+        steps=(1, 5, 10, 20), method=METHODS, slave=("block", "arm"), depth=(0.1, 0.2, 0.3)
+    )
+    for own in rows:
+        steps = own.pop("steps")
+        swapped = partial(_edge, steps, **{**own, "slave": "block"})
+        yield Scene(
+            "with an edge along an arm, steps",
+            str(steps),
+            label(own),
+            partial(_edge, steps, **own),
+            advice={SWAP: lambda swapped=swapped: rightly(swapped())},
+        )
+
+
+def _edge(steps: int, method: str, slave: str, depth: float) -> Case:
+    scene = TipOnArm(method=method, swapped=slave == "arm")
+
+    def update(t: float) -> None:
+        scene.way.value[1] = -depth * t
+
+    return Case(
+        scene.problem,
+        [scene.contact],
+        scene.F,
+        scene.bcs,
+        update,
+        size=SIDE,
+        steps=steps,
+        into=[INTO[method]],
+    )

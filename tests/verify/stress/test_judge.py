@@ -5,13 +5,19 @@
 import numpy as np
 import pytest
 
+from dolfinx import fem
 from dolfinx.mesh import CellType
 
 import meshes
 from meshes import Tag
+from scenes.tip_on_arm import TipOnArm
 from stress import inside
 from stress.blocks import Blocks
+from stress.directions import Directions
 from stress.judge import Judge
+from stress.outcome import Outcome, steps_of
+from stress.scene import METHODS
+from stress.work import Work
 
 CELLS = [CellType.triangle, CellType.quadrilateral, CellType.tetrahedron, CellType.hexahedron]
 
@@ -105,6 +111,91 @@ def test_a_body_inside_the_other_one(solved):
     upper &= ~np.isin(np.arange(len(upper)), judge._master_nodes(blocks.contact))
     blocks.u.x.array.reshape(-1, dim)[upper, dim - 1] -= 0.1
     assert "no node is inside the other body" in violated(judge)
+
+
+def forces(contact, V):
+    """What pushes each node."""
+    x = V.tabulate_dof_coordinates()[:, : V.dofmap.index_map_bs]
+    pushed = np.zeros_like(x)
+    contact.interface.add_residual(pushed.ravel())
+    return -pushed
+
+
+def tilted(forces, angle):
+    """Forces that are turned in the plane of the first and the last axis."""
+    turned = forces.copy()
+    turned[:, 0] = np.cos(angle) * forces[:, 0] - np.sin(angle) * forces[:, -1]
+    turned[:, -1] = np.sin(angle) * forces[:, 0] + np.cos(angle) * forces[:, -1]
+    return turned
+
+
+@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("cell", CELLS, ids=lambda cell: cell.name)
+def test_forces_that_are_not_along_the_normal(cell, method):
+    blocks = Blocks(cell=cell, method=method, young=(1.0, 1e9))
+    case = blocks.case()
+    judge = Judge(case)
+    case.update(1.0)
+    case.problem.solve()
+    assert judge() == []
+    V = blocks.u.function_space
+    look, x = Directions(blocks.contact, V.mesh, judge._node_of), judge._positions()
+    pushed = forces(blocks.contact, V)
+    small = np.full(len(x), 1e-7 * np.abs(pushed).max())
+    assert look(x, pushed, small) < 1
+    # Facets of the soft body are not quite plane, and by surface-to-surface forces are along these
+    for angle in (-0.1, 0.1):
+        assert look(x, tilted(pushed, angle), small) > 1.2
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_forces_of_an_edge_that_are_not_along_the_normal_of_what_it_touches(method):
+    scene = TipOnArm(method=method)
+    scene.pushed(0.1, 1)
+    V = scene.u.function_space
+    node_of = np.empty(len(V.mesh.geometry.x), dtype=int)
+    node_of[V.mesh.geometry.dofmaps[0]] = V.dofmap.list
+    look = Directions(scene.contact, V.mesh, node_of)
+    x = V.tabulate_dof_coordinates()[:, :2] + scene.u.x.array.reshape(-1, 2)
+    pushed = forces(scene.contact, V)
+    small = np.full(len(x), 1e-7 * np.abs(pushed).max())
+    assert look(x, pushed, small) < 1
+    for angle in (-np.pi / 4, -0.01, 0.01, np.pi / 4):
+        assert look(x, tilted(pushed, angle), small) > 100
+
+
+def test_a_force_on_an_edge_of_the_master_is_within_its_cone():
+    """The node of the block's edge, as that of a slave that lies on it."""
+    scene = TipOnArm(swapped=True)
+    V = scene.u.function_space
+    node_of = np.empty(len(V.mesh.geometry.x), dtype=int)
+    node_of[V.mesh.geometry.dofmaps[0]] = V.dofmap.list
+    look = Directions(scene.contact, V.mesh, node_of)
+    x = V.tabulate_dof_coordinates()[:, :2].copy()
+    edge = min(look._master.ravel(), key=lambda node: x[node, 1])
+    node = look._slave[0, 0]
+    x[node] = x[edge]
+    small = np.full(len(x), 1e-9)
+    for angle, right in ((0.0, True), (0.78, True), (-0.78, True), (0.8, False), (-0.8, False)):
+        pushed = np.zeros_like(x)
+        pushed[node] = np.sin(angle), -np.cos(angle)
+        assert (look(x, pushed, small) < 1) == right
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_work_that_is_not_stored(method):
+    """What friction takes is lost, whether it is small or not."""
+    lost = []
+    for friction in (0.0, 0.1):
+        blocks = Blocks(
+            method=method, friction=friction, n_lower=(5, 2), down=0.02, side=0.4, steps=20
+        )
+        case = blocks.case()
+        work = Work(case, fem.form(case.F))
+        checks = [work() for _ in steps_of(case, Outcome("", "", ""))]
+        lost.append(checks[-1].error / checks[-1].allowed)
+    assert lost[0] < 0.5
+    assert lost[1] > 1
 
 
 @pytest.mark.parametrize("cell", CELLS, ids=lambda cell: cell.name)
