@@ -84,7 +84,9 @@ Findings ObstacleAudit::look(std::span<const double> /*start*/)
   const contact::SlaveNodes& slaves = _contact->slaves();
   const std::vector<double> x = _halo->positions();
   const auto around = rows_of(x, slaves.around(), gdim());
-  const auto size = facet_sizes(slaves.local(), around, gdim());
+  const auto size = unstretched_sizes(
+      slaves.local(), around,
+      rows_of(_halo->reference(), slaves.around(), gdim()), gdim());
   Findings findings;
   for (const double h : size)
     findings.facet_size = std::max(findings.facet_size, h);

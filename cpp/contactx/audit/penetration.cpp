@@ -90,6 +90,18 @@ std::vector<double> contactx::audit::facet_sizes(const facet::FacetList& facets,
   return size;
 }
 
+std::vector<double>
+contactx::audit::unstretched_sizes(const facet::FacetList& facets,
+                                   std::span<const double> x,
+                                   std::span<const double> reference, int gdim)
+{
+  std::vector<double> size = facet_sizes(facets, x, gdim);
+  const std::vector<double> before = facet_sizes(facets, reference, gdim);
+  for (std::size_t f = 0; f < size.size(); ++f)
+    size[f] = std::min(size[f], before[f]);
+  return size;
+}
+
 std::vector<double> contactx::audit::explained_depths(
     std::span<const double> size, std::span<const double> curvature,
     std::span<const std::int8_t> contact, std::span<const double> extent)
@@ -102,8 +114,11 @@ std::vector<double> contactx::audit::explained_depths(
   for (std::size_t i = 0; i < depth.size(); ++i)
   {
     const double h = size[i];
-    const bool is_seen = contact[i] > 0;
-    depth[i] = std::min(h, extent[i]) * (is_seen ? harm : negligible);
+    // Beside a facet in contact one end is free
+    const double part = contact[i] > 1   ? harm
+                        : contact[i] > 0 ? harm / 2
+                                         : negligible;
+    depth[i] = std::min(h, extent[i]) * part;
     if (const double its = chord(curvature[i] * h); its <= harm)
       depth[i] = std::max(depth[i], std::min(both_sides * its, harm) * h);
   }

@@ -44,20 +44,30 @@ std::vector<double> facet_turns(const facet::FacetList& facets,
 std::vector<double> facet_sizes(const facet::FacetList& facets,
                                 std::span<const double> x, int gdim);
 
+/// @brief The same, but no more than it was in the reference configuration: a
+/// facet that has been stretched resolves no more than before.
+/// @param[in] facets Facets.
+/// @param[in] x Positions (shape=(num_nodes, gdim)), row-major.
+/// @param[in] reference Reference positions of the same nodes.
+/// @param[in] gdim Geometric dimension, 2 or 3.
+std::vector<double> unstretched_sizes(const facet::FacetList& facets,
+                                      std::span<const double> x,
+                                      std::span<const double> reference,
+                                      int gdim);
+
 /// @brief Largest depth of a master below a slave facet of size h, between its
 /// nodes: what the mesh explains.
 ///
 /// Contact holds at slave nodes, or in the mean over their facets. A depth is
 /// harm where the master is nearer to the far side of what a facet resolves
-/// than to its nodes: 0.15 h. That one length decides for all facets that see
-/// the master, whether
-/// - a node of the facet or of a neighbour is in contact, and the facet spans
-///   what its other nodes do not touch, as over the edge of a punch; or
-/// - the master is so round that it meets a node before it is as deep: the
-/// chord
-///   of its curvature k is no harm, k h <= 1.1. Then twice the chord is
-///   allowed, as both surfaces are curved, and so no verdict hangs on whether a
-///   step ends before the first node touches or after it.
+/// than to its nodes: 0.15 h. Up to that,
+/// - a facet of which a node is in contact may span what its other nodes do not
+///   touch, as over the edge of a punch; one beside it, half of that: further
+///   in the master may sink between nodes while its force fades;
+/// - twice the chord of the master's curvature k is allowed, as both surfaces
+///   are curved, where the chord itself is no harm, k h <= 1.1: so round a
+///   master meets a node before it is as deep, and no verdict hangs on whether
+///   a step ends before the first node touches or after it.
 ///
 /// A facet that sees nothing is harmed by any depth: the edge of a punch, or a
 /// ball smaller than the facet, may go on without a force; h / 256 is no
@@ -66,8 +76,8 @@ std::vector<double> facet_sizes(const facet::FacetList& facets,
 /// Where the master is smaller than the facet its size takes the place of h.
 /// @param[in] size Sizes of the facets.
 /// @param[in] curvature Curvatures of the master in front of them.
-/// @param[in] contact More than 0 where a node of the facet or of a neighbour
-/// is in contact.
+/// @param[in] contact 2 where a node of the facet is in contact, 1 where one of
+/// a neighbour is, else 0.
 /// @param[in] extent Sizes of the master there, which may be infinite.
 /// @return Depths.
 /// @throws std::invalid_argument If the arrays are of different sizes.

@@ -273,8 +273,9 @@ search::Seen SurfacesAudit::see_slave(const Configuration& now,
   const int g = _halo->gdim();
   const contact::SlaveNodes& slaves = _contact->slaves();
   const contact::NodeState& state = *_contact->nodes();
-  const auto size = facet_sizes(slaves.facets(), now.x, g);
-  const double reach = parallel::largest(_halo->ranks(), largest_of(size));
+  const auto size
+      = unstretched_sizes(slaves.facets(), now.x, _halo->reference(), g);
+  const double reach = facet_size(slaves.facets(), now.x);
   std::vector<std::int8_t> held(slaves.owned().size());
   for (std::size_t i = 0; i < held.size(); ++i)
     held[i] = state.held(i);

@@ -116,11 +116,15 @@ TEST(ExplainedDepths, ScaleWithTheUnits)
   }
 }
 
-TEST(ExplainedDepths, AreThoseOfContactBesideIt)
+TEST(ExplainedDepths, AreHalfBesideContact)
 {
-  for (double curvature : {0., 0.5, 1.1, 100.})
-    EXPECT_EQ(explained(1, curvature, 1), explained(1, curvature, 2));
-  EXPECT_EQ(explained(1, 0, 1), 0.15);
+  for (double curvature : {0., 1.12, 100.})
+  {
+    EXPECT_EQ(explained(1, curvature, 1), 0.075);
+    EXPECT_EQ(explained(1, curvature, 2), 0.15);
+  }
+  // But an arc meets a node there, too
+  EXPECT_EQ(explained(1, 1, 1), 0.15);
 }
 
 TEST(ExplainedDepths, CoverAnArcUntilItMeetsANodeWhereverAStepEnds)
