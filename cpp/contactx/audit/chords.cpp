@@ -304,8 +304,8 @@ std::string Chords::words() const
                       + ": pressures are those of chords"
                 : std::string("and keep nodes from touching"))
          + ". Take smooth=True, with adjust=length for a fit without "
-           "clearance, or a finer mesh, or a curved one with quadratic "
-           "displacements (manual: errors/chords)";
+           "clearance, or a finer mesh, or surface-to-surface contact of a "
+           "curved one with quadratic displacements (manual: errors/chords)";
 }
 
 std::optional<Chords> contactx::audit::chords(parallel::Halo& halo,
@@ -314,8 +314,9 @@ std::optional<Chords> contactx::audit::chords(parallel::Halo& halo,
   const auto* master
       = dynamic_cast<const contact::DeformableMaster*>(contact.master().get());
   const contact::SlaveNodes& slaves = contact.slaves();
-  // The same on all ranks
-  if (not master or slaves.is_quadratic() or master->is_smooth())
+  // The same on all ranks. Quadratic facets that are integrated are curved, by
+  // node-to-surface linear parts of them stand for them
+  if (not master or slaves.is_mortar() or master->is_smooth())
     return {};
   const Sides sides{halo.reference(), even_normals(halo, slaves.own()),
                     even_normals(halo, master->surface()->own())};

@@ -48,7 +48,7 @@ struct Chords
 /// @param[in] contact A contact of two deformable bodies, with the gaps, pairs
 /// and multipliers of now.
 /// @return Nothing where nothing is pressed, nor kept from it by chords, where
-/// surfaces do not fit, are smooth or of quadratic facets.
+/// surfaces do not fit, are smooth or of quadratic facets that are integrated.
 std::optional<Chords> chords(parallel::Halo& halo,
                              const contact::Contact& contact);
 } // namespace contactx::audit
