@@ -18,6 +18,7 @@ All objects that take part in a solve, from contacts to linear solvers, have the
 from __future__ import annotations
 
 import weakref
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from petsc4py import PETSc
@@ -167,7 +168,9 @@ class NewtonLoop:
         last = self._report.history[-_STAGNANT:]
         residuals = [row.residual for row in last]
         changes = sum(row.status_changes + row.pair_changes for row in last)
-        stagnant = len(last) == _STAGNANT and max(residuals) <= 4 * min(residuals)
+        # What falls all the time, if slowly, is not rounding
+        falls = all(b < a for a, b in pairwise(residuals))
+        stagnant = len(last) == _STAGNANT and max(residuals) <= 4 * min(residuals) and not falls
         if stagnant and changes == 0 and self._loop.convergence.may_be_rounding(min(residuals)):
             return _STAGNATES.format(min(residuals), last[-1].tolerance)
         return ""
