@@ -24,7 +24,7 @@ def adjusted() -> Iterator[cx.ContactProblem]:
 
 def smooth_rings() -> Iterator[cx.ContactProblem]:
     """A ring of chords that stand for circles is pulled aside in another one."""
-    rings = FreeRings(48, 80, fixed=True, smooth=True, adjust=0.02, friction=0.05, material=pulled)
+    rings = FreeRings(50, 80, fixed=True, smooth=True, adjust=0.02, friction=0.05, material=pulled)
     rings.problem.solve()
     yield rings.problem
 
