@@ -20,10 +20,10 @@ using namespace contactx::audit;
 namespace
 {
 /// What chords change gaps by over what presses there, from which on pressures
-/// are those of chords. By a half of it, raw pressures of a shrink fit scatter
-/// no more than those of flat meshes that do not match; by twice of it, nodes
-/// open.
-constexpr double ratio_allowed = 0.25;
+/// are those of chords. In shrink fits of rings 0.35 leaves recovered pressures
+/// within 1 %, by 0.8 nodes open, and by 0.5 surface-to-surface contact loses a
+/// quarter of the mean pressure.
+constexpr double ratio_allowed = 0.4;
 /// Part of what chords change gaps by that is more than the patches' own error
 constexpr double beyond_patches = 0.1;
 /// Part of a sagitta that is a change, not rounding

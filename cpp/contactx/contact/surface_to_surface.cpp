@@ -22,7 +22,7 @@ namespace
 constexpr double margin_ahead = 0.1;
 // Part of the best cosine of the angle between a slave facet and the facets in
 // front of it and its neighbours, below which a facet looks past it
-constexpr double facing_part = 0.5;
+constexpr double facing_part = 0.4;
 // Part of a slave node's area that must be covered for it to be paired, and to
 // stay so
 constexpr double enter = 0.06;

@@ -31,7 +31,7 @@ class Findings:
         radius_in_facets: Smallest radius of curvature of an obstacle where slave nodes touch it, by
             the size of the facets there; infinite where none is curved. Below 4 there is a warning.
         chords: Where round surfaces fit each other, what gaps are off because facets are chords,
-            over what pressures there press in; 0 where none fit. Above 0.25 there is a warning.
+            over what pressures there press in; 0 where none fit. Above 0.4 there is a warning.
         inverted: Cells that are turned inside out.
         smallest_det: Smallest det F of the cells; NaN where none was looked at.
         faults: What is wrong and what to do about it, a text each.
