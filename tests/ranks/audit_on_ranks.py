@@ -78,7 +78,7 @@ def check_audit(one, scene):
     ball = cx.Sphere([0.65] * (dim - 1) + [-0.35], 0.38)
     *_, is_too_deep = same(audited(ball), lambda x: x)
     assert not is_too_deep
-    *_, is_too_deep = same(audited(ball), down(lambda x: 0.1 + 0 * x))
+    *_, is_too_deep = same(audited(ball), down(lambda x: 0.15 + 0 * x))
     assert is_too_deep
     (passed, _), *_ = same(audited(ball), down(lambda x: 1.2 + 0 * x))
     assert passed > 0
