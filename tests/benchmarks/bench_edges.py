@@ -14,7 +14,7 @@ from the edge to the ball's middle.
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
@@ -97,8 +97,7 @@ def balls(h: Sequence[float]) -> Iterator[dict[str, Any]]:
                 yield {"slave": slave, **row}
 
 
-PARTS: dict[str, tuple[list[tables.Column], Callable[[Any], Iterator[dict[str, Any]]], Any, str]]
-PARTS = {
+PARTS: dict[str, tables.Part] = {
     "tip": (TIP, tips, CELLS, "A corner slides along a bent arm, over Young's modulus"),
     "ball": (BALL, balls, SIZES, "A ball on the edge of a plate, over Young's modulus"),
 }
@@ -111,13 +110,7 @@ def main(argv: Sequence[str], sizes: Sequence[float] | None = None) -> list[dict
         argv: Names of ``PARTS``; all if empty.
         sizes: In place of those of each part.
     """
-    every = []
-    for name in argv or PARTS:
-        columns, measured, usual, title = PARTS[name]
-        rows = list(measured(usual if sizes is None else sizes))
-        tables.show(title, columns, rows, runner.OUTPUT / f"edges_{name}.csv")
-        every += rows
-    return every
+    return tables.show_parts(PARTS, argv, runner.OUTPUT / "edges", sizes)
 
 
 if __name__ == "__main__":

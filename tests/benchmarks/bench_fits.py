@@ -13,7 +13,7 @@ closed ring has none, peak over mean pressure; beside curved quadratic elements.
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import runner
@@ -107,8 +107,7 @@ def tapers(sizes: Sequence[float]) -> Iterator[dict[str, Any]]:
                 yield runner.alone("bench_fits:taper", h=h, options=options, method=method)
 
 
-PARTS: dict[str, tuple[list[tables.Column], Callable[[Any], Iterator[dict[str, Any]]], Any, str]]
-PARTS = {
+PARTS: dict[str, tables.Part] = {
     "pin": (PIN, pins, CHORDS, "A steel pin in its own hole, MPa and degrees"),
     "taper": (TAPER, tapers, SIZES, "A taper 1:10, pushed in by 0.3 mm and pulled out"),
 }
@@ -121,13 +120,7 @@ def main(argv: Sequence[str], sizes: Sequence[Any] | None = None) -> list[dict[s
         argv: Names of ``PARTS``; all if empty.
         sizes: In place of those of each part.
     """
-    every = []
-    for name in argv or PARTS:
-        columns, measured, usual, title = PARTS[name]
-        rows = list(measured(usual if sizes is None else sizes))
-        tables.show(title, columns, rows, runner.OUTPUT / f"fits_{name}.csv")
-        every += rows
-    return every
+    return tables.show_parts(PARTS, argv, runner.OUTPUT / "fits", sizes)
 
 
 if __name__ == "__main__":

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import csv
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -33,6 +33,33 @@ COST: list[Column] = [
 ]
 DIFFERENCE: list[Column] = [("du", "u_difference", ".1e"), ("dF", "force_difference", ".1e")]
 console = Console(width=150, highlight=False)
+
+
+# Columns, rows by sizes, the usual sizes and the title of a table
+Part = tuple[Sequence[Column], Callable[[Any], Iterator[dict[str, Any]]], Sequence[Any], str]
+
+
+def show_parts(
+    parts: Mapping[str, Part], names: Sequence[str], stem: Path, sizes: Sequence[Any] | None
+) -> list[dict[str, Any]]:
+    """Measure and print the parts of a benchmark.
+
+    Args:
+        parts: Parts by their names.
+        names: Those to measure; all if empty.
+        stem: Files of the tables, to which the names of the parts are added.
+        sizes: In place of those of each part.
+
+    Returns:
+        Rows of all tables.
+    """
+    every = []
+    for name in names or parts:
+        columns, measured, usual, title = parts[name]
+        rows = list(measured(usual if sizes is None else sizes))
+        show(title, columns, rows, stem.with_name(f"{stem.name}_{name}.csv"))
+        every += rows
+    return every
 
 
 def show(title: str, columns: Sequence[Column], rows: Sequence[dict[str, Any]], path: Path) -> None:

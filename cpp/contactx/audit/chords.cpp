@@ -6,8 +6,10 @@
 #include "../facet/closest_point.h"
 #include "../facet/gather.h"
 #include "../facet/smooth.h"
+#include "../parallel/spread.h"
 #include "../text.h"
 #include "../vec.h"
+#include "passed_nodes.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -38,21 +40,16 @@ std::vector<double> even_normals(parallel::Halo& halo,
                                  const facet::FacetList& own)
 {
   const int g = halo.gdim();
-  const auto x = halo.reference();
-  std::vector<double> normal = facet::nodal_area_vectors(own, x, g);
-  std::vector<double> area = facet::nodal_areas(own, x, g);
-  halo.reverse(std::span(normal), g);
-  halo.reverse(std::span(area), 1);
-  for (std::int32_t i = 0; i < halo.num_owned(); ++i)
+  auto [normal, area] = area_vectors_of_all(halo, own, halo.reference());
+  for (std::size_t i = 0; i < area.size(); ++i)
   {
-    double* n = &normal[std::size_t(i) * g];
+    double* n = &normal[i * g];
     const double size = std::sqrt(dot(n, n, g));
     const bool is_even = size > 0 and size >= even_enough * area[i];
     for (int k = 0; k < g; ++k)
       n[k] = is_even ? n[k] / size : 0;
   }
-  halo.forward(std::span(normal), g);
-  return normal;
+  return parallel::spread(halo, normal, g);
 }
 
 /// Rise of the edge between two nodes of a facet, see facet::rise_over.
@@ -104,26 +101,25 @@ bool do_fit(double a, double b)
   return std::abs(a + b) < 0.5 * std::max(std::abs(a), std::abs(b));
 }
 
+/// f(edges) of a facet.
+template <int D, class Function>
+void visit_edges(std::span<const std::int32_t> nodes, std::span<const double> x,
+                 std::span<const double> normals, Function&& f)
+{
+  facet::visit(static_cast<int>(nodes.size()),
+               [&]<class F>(F)
+               {
+                 if constexpr (F::gdim == D)
+                   f(Edges<F>{facet::gather<F>(nodes, x),
+                              facet::gather<F>(nodes, normals)});
+               });
+}
+
 /// The surfaces of a contact.
 struct Sides
 {
   std::span<const double> x;
   std::vector<double> of_slave, of_master; // normals
-
-  // f(edges) of a facet
-  template <int D, class Function>
-  static void visit(std::span<const std::int32_t> nodes,
-                    std::span<const double> x, std::span<const double> normals,
-                    Function&& f)
-  {
-    facet::visit(static_cast<int>(nodes.size()),
-                 [&]<class F>(F)
-                 {
-                   if constexpr (F::gdim == D)
-                     f(Edges<F>{facet::gather<F>(nodes, x),
-                                facet::gather<F>(nodes, normals)});
-                 });
-  }
 };
 
 /// What chords change at owned slave nodes whose facets fit those of their
@@ -209,23 +205,22 @@ Changes changes(const contact::Contact& contact, const Sides& sides)
   const facet::FacetList facets = slaves.facets(), local = slaves.local();
   std::map<std::vector<std::int32_t>, Bend> bent;
   for (std::int32_t f = 0; f < facets.size(); ++f)
-    Sides::visit<D>(facets[f], sides.x, sides.of_slave,
-                    [&](const auto& edges)
-                    {
-                      const Bend its = bend(edges);
-                      const auto corners = local[f];
-                      if (its.curvature != 0)
-                        bent[{corners.begin(), corners.end()}] = its;
-                      for (const std::int32_t i : corners)
-                      {
-                        if (i >= static_cast<std::int32_t>(n)
-                            or std::abs(its.curvature)
-                                   <= std::abs(curvature[i]))
-                          continue;
-                        curvature[i] = its.curvature;
-                        found.turn[i] = its.turn;
-                      }
-                    });
+    visit_edges<D>(facets[f], sides.x, sides.of_slave,
+                   [&](const auto& edges)
+                   {
+                     const Bend its = bend(edges);
+                     const auto corners = local[f];
+                     if (its.curvature != 0)
+                       bent[{corners.begin(), corners.end()}] = its;
+                     for (const std::int32_t i : corners)
+                     {
+                       if (i >= static_cast<std::int32_t>(n)
+                           or std::abs(its.curvature) <= std::abs(curvature[i]))
+                         continue;
+                       curvature[i] = its.curvature;
+                       found.turn[i] = its.turn;
+                     }
+                   });
   // Of slave facets, or slave nodes, that something fits
   std::map<std::vector<std::int32_t>, std::vector<Sample<D>>> samples;
   for (const auto& pairs : contact.pairs())
@@ -241,7 +236,7 @@ Changes changes(const contact::Contact& contact, const Sides& sides)
         here.curvature = curvature[key[0]];
       else if (const auto its = bent.find(key); its != bent.end())
         here = its->second;
-      Sides::visit<D>(
+      visit_edges<D>(
           nodes.subspan(m), sides.x, sides.of_master,
           [&]<class F>(const Edges<F>& edges)
           {
@@ -255,9 +250,9 @@ Changes changes(const contact::Contact& contact, const Sides& sides)
               // The slave node itself is on its surface
               its.push_back({facet::point<D>(nodes[0], sides.x), 0, {1}});
             else if (its.empty())
-              Sides::visit<D>(nodes.first(m), sides.x, sides.of_slave,
-                              [&](const auto& slave)
-                              { its = sampled<D>(slave); });
+              visit_edges<D>(nodes.first(m), sides.x, sides.of_slave,
+                             [&](const auto& slave)
+                             { its = sampled<D>(slave); });
             for (Sample<D>& sample : its)
               if (const auto foot = facet::closest_point<F>(edges.x, sample.at);
                   foot.distance2 < sample.distance)
@@ -349,7 +344,6 @@ std::optional<Chords> contactx::audit::chords(parallel::Halo& halo,
   // Force, and force times how far it presses in; area, and area times what is
   // off and turns
   std::array<double, 5> sums{};
-  const int width = state.size();
   for (std::size_t i = 0; i < n; ++i)
   {
     if (not is_near[i])
@@ -359,9 +353,7 @@ std::optional<Chords> contactx::audit::chords(parallel::Halo& halo,
     sums[4] += state.area[i] * found.turn[i];
     if (not state.held(i))
       continue;
-    const double* value = &state.multiplier[i * width];
-    const double p
-        = width == 1 ? value[0] : dot(value, &state.normal[i * width], width);
+    const double p = state.pressure(i);
     sums[0] += p * state.area[i];
     sums[1] += p * state.area[i] * p / state.c[i];
   }

@@ -87,6 +87,25 @@ public:
   /// @param[in] start Positions of all nodes when the step started
   /// (shape=(num_nodes, gdim)), row-major.
   virtual Findings look(std::span<const double> start) = 0;
+
+protected:
+  /// @brief Warn of the state of now, if no state that was accepted was warned
+  /// of.
+  /// @param[in,out] findings What was found.
+  /// @param[in] about What to warn of, if it is coarse.
+  template <class Coarse>
+  void warn(Findings& findings, const std::optional<Coarse>& about)
+  {
+    _is_coarse = about and about->is_coarse();
+    if (_is_coarse and not _has_warned)
+      findings.warning = about->words();
+  }
+
+  /// @brief The state of now is accepted.
+  void accept_warning() { _has_warned = _has_warned or _is_coarse; }
+
+private:
+  bool _is_coarse = false, _has_warned = false;
 };
 
 /// @brief Rows of some nodes.

@@ -75,7 +75,7 @@ void ObstacleAudit::accept()
         _normals = _master->obstacle()->evaluate(now.points, gdim()).normal;
         _before = std::move(now);
       });
-  _has_warned = _has_warned or _is_coarse;
+  accept_warning();
 }
 
 Findings ObstacleAudit::look(std::span<const double> /*start*/)
@@ -117,9 +117,7 @@ Findings ObstacleAudit::look(std::span<const double> /*start*/)
         round = roundness(around, size, gap, small);
       });
   findings.roundness = sharpest(ranks, round, gdim());
-  _is_coarse = findings.roundness and findings.roundness->is_coarse();
-  if (_is_coarse and not _has_warned)
-    findings.warning = findings.roundness->words();
+  warn(findings, findings.roundness);
   findings.passed.count = parallel::total(ranks, passed);
   if (findings.passed.count == 0)
     findings.inside = found_nodes(*_halo, bad, x);

@@ -73,7 +73,5 @@ private:
   std::vector<double> _normals;
   obstacle::Placement _placed;
   // Whether the last look found facets that are too coarse for a radius, and
-  // whether that was accepted before
-  bool _is_coarse = false, _has_warned = false;
 };
 } // namespace contactx::audit

@@ -120,18 +120,27 @@ std::vector<std::int32_t> here(const parallel::Halo& halo,
 }
 } // namespace
 
+AreaVectors contactx::audit::area_vectors_of_all(const parallel::Halo& halo,
+                                                 const facet::FacetList& own,
+                                                 std::span<const double> x)
+{
+  const int g = halo.gdim();
+  AreaVectors found{facet::nodal_area_vectors(own, x, g),
+                    facet::nodal_areas(own, x, g)};
+  halo.reverse(std::span(found.vectors), g);
+  halo.reverse(std::span(found.areas), 1);
+  const auto n = std::size_t(halo.num_owned());
+  found.vectors.resize(n * g);
+  found.areas.resize(n);
+  return found;
+}
+
 std::vector<double> contactx::audit::normals_of_all(const parallel::Halo& halo,
                                                     const facet::FacetList& own,
                                                     std::span<const double> x)
 {
-  const int g = halo.gdim();
-  std::vector<double> vectors = facet::nodal_area_vectors(own, x, g);
-  std::vector<double> areas = facet::nodal_areas(own, x, g);
-  halo.reverse(std::span(vectors), g);
-  halo.reverse(std::span(areas), 1);
-  const auto n = std::size_t(halo.num_owned());
-  return facet::unit_normals(std::span(vectors).first(n * g),
-                             std::span(areas).first(n), g);
+  const auto [vectors, areas] = area_vectors_of_all(halo, own, x);
+  return facet::unit_normals(vectors, areas, halo.gdim());
 }
 
 FoundNodes contactx::audit::passed_nodes(

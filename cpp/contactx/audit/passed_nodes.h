@@ -30,6 +30,23 @@ FoundNodes passed_nodes(const parallel::Halo& halo, const facet::FacetList& own,
                         std::span<const std::int32_t> candidates,
                         double tolerance);
 
+/// @brief Area times normal, and area, of the owned nodes.
+struct AreaVectors
+{
+  std::vector<double> vectors; ///< shape=(num_owned, gdim)
+  std::vector<double> areas;   ///< shape=(num_owned)
+};
+
+/// @brief Area vectors of a surface at owned nodes, to which the facets that
+/// other ranks have around them count; all ranks must take part.
+/// @param[in] halo Nodes of this rank.
+/// @param[in] own Facets that this rank has.
+/// @param[in] x Positions of all nodes (shape=(num_nodes, gdim)), row-major.
+/// @return Area vectors and areas, zero off the surface.
+AreaVectors area_vectors_of_all(const parallel::Halo& halo,
+                                const facet::FacetList& own,
+                                std::span<const double> x);
+
 /// @brief Unit normals of a surface at owned nodes, to which the facets that
 /// other ranks have around them count; all ranks must take part.
 /// @param[in] halo Nodes of this rank.

@@ -93,7 +93,7 @@ SurfacesAudit::SurfacesAudit(std::shared_ptr<parallel::Halo> halo,
 void SurfacesAudit::accept()
 {
   _behind = find_behind();
-  _has_warned = _has_warned or _is_coarse;
+  accept_warning();
 }
 
 Findings SurfacesAudit::look(std::span<const double> start)
@@ -107,9 +107,7 @@ Findings SurfacesAudit::look(std::span<const double> start)
     findings.inside = look_from_slave(x);
   findings.deepest = look_from_master(x);
   findings.chords = chords(*_halo, *_contact);
-  _is_coarse = findings.chords and findings.chords->is_coarse();
-  if (_is_coarse and not _has_warned)
-    findings.warning = findings.chords->words();
+  warn(findings, findings.chords);
   findings.is_too_deep = not findings.is_fault() and findings.deepest
                          and findings.deepest->excess > 1;
   return findings;

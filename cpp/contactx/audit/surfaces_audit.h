@@ -66,7 +66,5 @@ private:
   std::vector<std::int32_t> _points, _owned_master;
   double _extent; // of the master surface
   std::vector<std::int8_t> _behind;
-  // Whether the last state, and one that was accepted, was warned of
-  bool _is_coarse = false, _has_warned = false;
 };
 } // namespace contactx::audit
