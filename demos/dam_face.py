@@ -32,7 +32,7 @@ from dolfinx import fem
 
 import dam_figures
 import story
-from dam_results import Joint, Laws, joints, laws, total_water
+from dam_results import HEIGHTS, Joint, Laws, joints, laws, total_water
 from dam_scene import Dam, DamSetting, run
 from duncan_chang import DuncanChang
 from meshes import FACE_SLABS, DamFace
@@ -92,7 +92,7 @@ class Compression:
         return self.values
 
 
-def show_joints(found: Sequence[Joint], title: str, most: int = 6) -> None:
+def show_joints(found: Sequence[Joint], title: str, most: int = 12) -> None:
     """Print the joints of the largest compression."""
     table = Table(title=title)
     for name in (
@@ -105,6 +105,7 @@ def show_joints(found: Sequence[Joint], title: str, most: int = 6) -> None:
         "closed",
         "opening\nmm",
         "rotation\ndegrees",
+        *(f"at {part:g}\nof the rise" for part in HEIGHTS),
     ):
         table.add_column(name, justify="right")
     for j in sorted(found, key=lambda j: -j.stress)[:most]:
@@ -118,9 +119,10 @@ def show_joints(found: Sequence[Joint], title: str, most: int = 6) -> None:
             f"{j.closed:.2f}",
             f"{1000 * j.opening:.2f}",
             f"{j.rotation:.4f}",
+            *(f"{angle:.4f}" for angle in j.rotations),
         )
     # Wide enough for all columns where there is no terminal
-    console = story.console if story.console.width >= 100 else story.wide_console()
+    console = story.console if story.console.width >= 120 else story.wide_console()
     console.print(table)
 
 

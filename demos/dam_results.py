@@ -18,6 +18,9 @@ from dam_scene import Dam, Nodes
 from meshes import block_tag
 from slab_results import friction_excess
 
+# Where rotations are read, as parts of a joint's height above its foot
+HEIGHTS = (0.1, 0.3, 0.6, 0.9)
+
 
 @dataclass(frozen=True)
 class Joint:
@@ -34,6 +37,7 @@ class Joint:
         height: Where that is through the slab, as a part of its thickness: 1 at the top.
         rotation: Mean rotation of its two slabs about the slope there, towards one another at
             their tops, degrees.
+        rotations: The same at ``HEIGHTS`` of the joint's height.
         water: Pressure of the water there, MPa.
     """
 
@@ -46,6 +50,7 @@ class Joint:
     slope: float
     height: float
     rotation: float
+    rotations: tuple[float, ...]
     water: float
 
 
@@ -142,7 +147,13 @@ def _joint(dam: Dam, contact: cx.Contact, left: int, compression: fem.Function) 
     x = float(model.edges[left])
     elevation = y * float(model.up[1])
     ground = float(model.ground(np.array([x]))[0])
-    angles = [rotation(dam, body, y) for body in (left, left + 1)]
+
+    def turned(y: float) -> float:
+        """How far the two slabs are turned towards one another."""
+        angles = [rotation(dam, body, y) for body in (left, left + 1)]
+        return 0.5 * (angles[1] - angles[0])
+
+    rises = [(ground + part * (model.height - ground)) / float(model.up[1]) for part in HEIGHTS]
     return Joint(
         number=left,
         x=x,
@@ -152,7 +163,8 @@ def _joint(dam: Dam, contact: cx.Contact, left: int, compression: fem.Function) 
         stress=stress,
         slope=(elevation - ground) / (model.height - ground),
         height=z / float(model.thickness_at(np.array([elevation]))[0]),
-        rotation=0.5 * (angles[1] - angles[0]),
+        rotation=turned(y),
+        rotations=tuple(map(turned, rises)),
         water=dam.water_at(elevation),
     )
 

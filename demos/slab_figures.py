@@ -13,7 +13,7 @@ import contactx as cx
 from dolfinx import fem
 
 import plot
-from slab_results import faces_of_joint, middle_joint, opening
+from slab_results import faces_of_joint, middle_joint, opening, profile
 from slab_scene import CONCRETE, CUSHION, Array, Scene
 
 PEAK = (10.0, 25.0)  # the paper's peak of scheme 2: mm, MPa
@@ -99,35 +99,34 @@ def joint_opening(scene: Scene, stem: Path) -> list[Path]:
     return files
 
 
-def joint_pressure(scene: Scene, path: Path) -> None:
-    """Draw the pressure in the middle joint: over the thickness, or as a map."""
-    contact = scene.joints[middle_joint(scene) - 1]
-    nodes, pressure = contact.slave_nodes, contact.pressure.x.array
-    title, label = "Contact pressure in the joint", "contact pressure / MPa"
-    if scene.model.rows > 1:
-        places = scene.x[nodes][:, 1:]
-        ((_, facets),) = contact.slave.facet_nodes(scene.u.function_space).groups()
-        halves = facets[:, [[0, 1, 2], [1, 3, 2]]].reshape(-1, 3)
-        labels = ("distance up the slope / m", "height above the slab's bottom / m")
-        plot.nodal_map(
-            places,
-            pressure[nodes],
-            path,
-            labels=labels,
-            title=title,
-            label=label,
-            triangles=np.searchsorted(nodes, halves),
-        )
-        return
-    left, _ = faces_of_joint(scene, scene.section())
+def joint_pressure(scene: Scene, stem: Path) -> list[Path]:
+    """Draw what presses the middle joint: over the thickness at mid length, and as a map."""
+    label, height = "pressure, compression / MPa", "height above the slab's bottom / m"
+    files = [stem.with_name(stem.name + "_pressure.png")]
     plot.curves(
-        {"computed": (pressure[left], scene.x[left, 2])},
+        profile(scene),
         {},
-        path,
-        labels=(label, "height above the slab's bottom / m"),
-        title=title,
+        files[0],
+        labels=(label, height),
+        title="What presses the joint at mid length",
         joined=True,
     )
+    if scene.model.rows > 1:
+        files.append(stem.with_name(stem.name + "_band.png"))
+        contact = scene.joints[middle_joint(scene) - 1]
+        nodes = contact.slave_nodes
+        ((_, facets),) = contact.slave.facet_nodes(scene.u.function_space).groups()
+        halves = facets[:, [[0, 1, 2], [1, 3, 2]]].reshape(-1, 3)
+        plot.nodal_map(
+            scene.x[nodes][:, 1:],
+            contact.pressure.x.array[nodes],
+            files[1],
+            labels=("distance up the slope / m", height),
+            title="Contact pressure in the joint",
+            label="contact.pressure / MPa",
+            triangles=np.searchsorted(nodes, halves),
+        )
+    return files
 
 
 def top_stress(scene: Scene, path: Path) -> None:
@@ -213,7 +212,7 @@ def draw(scene: Scene, stem: Path) -> list[Path]:
     statuses(scene, named("_status.png"))
     write(scene, named(".pvd"))
     if scene.joints:
-        joint_pressure(scene, named("_pressure.png"))
         top_stress(scene, named("_stress.png"))
+        files += joint_pressure(scene, stem)
         files += joint_opening(scene, stem)
     return files

@@ -4,8 +4,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from types import MappingProxyType
 
 import numpy as np
 
@@ -19,35 +20,34 @@ from slab_scene import Array, Scene
 
 @dataclass(frozen=True)
 class Measured:
-    """Results at the joint nearest to the middle of the row; stresses are compression positive.
+    """Results at the joint nearest to the middle of the row; compression is positive.
 
     Attributes:
         rotation: Mean rotation of the two slabs at mid length, degrees.
+        settled: Difference of the normal displacements of a slab's two sides there, their mean, m.
         opening: Distance of the slabs' bottom edges at mid length, m.
+        widest: Largest distance of the joint's faces, m.
         stress: Largest stress along the dam of the section at mid length, MPa.
-        lower: The same at the lower end, MPa.
         largest: The same of all slabs, MPa.
-        section: Mean stress of the section through the middle of a slab at mid length, MPa.
-        surface: Mean stress of the top at mid length, of the half slabs beside the joint, MPa.
+        pressure: Largest contact pressure of the joint at mid length, MPa.
+        multiplier: Largest multiplier there, MPa.
+        means: Mean stresses at mid length that the largest one may be compared with, MPa, by name.
     """
 
     rotation: float
+    settled: float
     opening: float
+    widest: float
     stress: float
-    lower: float
     largest: float
-    section: float
-    surface: float
+    pressure: float
+    multiplier: float
+    means: Mapping[str, float]
 
     @property
-    def section_factor(self) -> float:
-        """Largest stress over the mean stress of the slab's middle section."""
-        return self.stress / self.section
-
-    @property
-    def surface_factor(self) -> float:
-        """Largest stress over the mean stress of the top beside the joint."""
-        return self.stress / self.surface
+    def factors(self) -> dict[str, float]:
+        """Largest stress of the section at mid length over each of the means."""
+        return {name: self.stress / mean for name, mean in self.means.items()}
 
 
 @dataclass(frozen=True)
@@ -86,13 +86,18 @@ def middle_joint(scene: Scene) -> int:
 
 def rotation(scene: Scene) -> float:
     """Mean rotation at mid length of the slabs beside the middle joint, degrees."""
+    return float(np.degrees(np.mean(np.arctan(_settled(scene) / scene.model.width))))
+
+
+def _settled(scene: Scene) -> Array:
+    """How much farther the slabs beside the middle joint have settled there than outside, m."""
     left = middle_joint(scene)
     edges, y, w = scene.model.edges, scene.section(), scene.moved()[:, 2]
-    angles = []
+    lower = []
     for body, joint, outer in ((left, left, left - 1), (left + 1, left, left + 1)):
         inner, far = (scene.at(body, x=edges[i], y=y, top=True) for i in (joint, outer))
-        angles.append(np.arctan((w[far] - w[inner]).item() / scene.model.width))
-    return float(np.degrees(np.mean(angles)))
+        lower.append((w[far] - w[inner]).item())
+    return np.array(lower)
 
 
 def opening(scene: Scene, left: Array, right: Array) -> Array:
@@ -112,44 +117,75 @@ def faces_of_joint(scene: Scene, y: float | None = None) -> tuple[Array, Array]:
     return pair[0], pair[1]
 
 
+def profile(scene: Scene, y: float | None = None) -> dict[str, tuple[Array, Array]]:
+    """What presses the middle joint, MPa, and height above the slab's bottom, m, by name.
+
+    Args:
+        scene: A solved scene of at least two slabs.
+        y: Place along the slope, m; None for mid length.
+    """
+    contact = scene.joints[middle_joint(scene) - 1]
+    left, _ = faces_of_joint(scene, scene.section() if y is None else y)
+    multiplier = np.zeros(len(scene.x))
+    multiplier[contact.slave_nodes] = contact.interface.nodes.pressure
+    height = scene.x[left, 2]
+    return {
+        "multiplier": (multiplier[left], height),
+        "contact.pressure": (contact.pressure.x.array[left], height),
+        "compression beside it": (-scene.sigma.update()[left], height),
+    }
+
+
 def measure(scene: Scene) -> Measured:
     """Read the results off a solved scene; of one slab alone what needs a joint is NaN."""
     stress, y = -scene.sigma.update(), scene.section()
     nodes = scene.nodes_of_slabs()
     here = nodes[np.isclose(scene.x[nodes, 1], y, atol=1e-6)]
-    low = nodes[np.isclose(scene.x[nodes, 1], 0, atol=1e-6)]
-    angle = wide = section = surface = np.nan
+    angle = settled = wide = widest = pressure = multiplier = np.nan
+    means: dict[str, float] = {}
     if scene.model.slabs > 1:
-        angle = rotation(scene)
+        angle, settled = rotation(scene), float(np.mean(_settled(scene)))
         wide = float(opening(scene, *(face[0] for face in faces_of_joint(scene, y))))
-        section, surface = _means(scene, stress)
+        widest = float(opening(scene, *faces_of_joint(scene)).max())
+        pressed = {name: values.max() for name, (values, _) in profile(scene).items()}
+        pressure, multiplier = float(pressed["contact.pressure"]), float(pressed["multiplier"])
+        means = _means(scene, stress)
     return Measured(
         rotation=angle,
+        settled=settled,
         opening=wide,
+        widest=widest,
         stress=float(stress[here].max()),
-        lower=float(stress[low].max()),
         largest=float(stress[nodes].max()),
-        section=section,
-        surface=surface,
+        pressure=pressure,
+        multiplier=multiplier,
+        means=MappingProxyType(means),
     )
 
 
-def _means(scene: Scene, stress: Array) -> tuple[float, float]:
-    """Mean stress of slabs' middle sections, and of the top beside the joint, at mid length."""
+def _means(scene: Scene, stress: Array) -> dict[str, float]:
+    """Mean compressions of slabs at mid length, by their places."""
     left, y = middle_joint(scene), scene.section()
     edge, half = scene.model.edges[left], scene.model.width / 2
-    section, surface = [], []
+    found: dict[str, list[float]] = {}
     for body, sign in ((left, -1), (left + 1, 1)):
         own = scene.nodes_of(body)
         own = own[np.isclose(scene.x[own, 1], y, atol=1e-6)]
         off = np.abs(scene.x[own, 0] - edge - sign * half)
         # Cells at a joint that gapes lean by its opening at most
-        through = own[off < off.min() + 1e-9 + max(scene.model.opening)]
-        section.append(_mean(stress[through], scene.x[through, 2]))
+        middle = own[off < off.min() + 1e-9 + max(scene.model.opening)]
         top = scene.at(body, y=y, top=True)
-        top = top[np.abs(scene.x[top, 0] - edge) <= half]
-        surface.append(_mean(stress[top], scene.x[top, 0]))
-    return float(np.mean(section)), float(np.mean(surface))
+        near = top[np.abs(scene.x[top, 0] - edge) <= half]
+        pressed = top[stress[top] > 0]
+        for name, nodes, k in (
+            ("section through its middle", middle, 2),
+            ("half of its top beside the joint", near, 0),
+            ("part of its top under compression", pressed, 0),
+        ):
+            found.setdefault(name, []).append(_mean(stress[nodes], scene.x[nodes, k]))
+    pressure, height = profile(scene)["contact.pressure"]
+    found["face at the joint"] = [_mean(pressure, height)]
+    return {name: float(np.mean(values)) for name, values in found.items()}
 
 
 def nodal_forces(scene: Scene, contacts: Sequence[cx.Contact]) -> Array:

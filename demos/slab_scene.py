@@ -33,6 +33,8 @@ class Setting:
         sliding: Kinematics of contact.
         method: Method of contact.
         cushion_is_slave: Whether the cushion's nodes are the slaves, not the slabs'.
+        support: Exponent and base of the support's softness (1 - |x| / W)^exponent + base, W being
+            half the width of the row.
         axes: Which coordinate is along the dam, up the slope, and normal to the face.
         options: PETSc options.
     """
@@ -43,6 +45,7 @@ class Setting:
     sliding: str = "small"
     method: str = METHODS[0]
     cushion_is_slave: bool = True
+    support: tuple[float, float] = (2.5, 0.055)
     axes: tuple[int, int, int] = (0, 1, 2)
     options: tuple[tuple[str, Any], ...] = ()
 
@@ -116,7 +119,8 @@ class Scene:
         v = ufl.TestFunction(self.u.function_space)
         x = ufl.SpatialCoordinate(self.mesh)[self.setting.axes[0]]
         half = self.model.slabs * self.model.width / 2
-        softness = self.compliance * ((1 - abs(x) / half) ** 2 + 0.03)
+        exponent, base = self.setting.support
+        softness = self.compliance * ((1 - abs(x) / half) ** exponent + base)
         ds = ufl.Measure("ds", domain=self.mesh, subdomain_data=self.tags)
         # The softness is no polynomial
         below = ds(block_tag(0, "bottom"), metadata={"quadrature_degree": 6})

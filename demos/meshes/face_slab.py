@@ -65,9 +65,9 @@ class FaceSlab:
     joint_size: float | None = None
     growth: float = 1.2
     largest: float = 2.5
-    cushion_thickness: float = 3.0
+    cushion_thickness: float = 3.5
     cushion_layers: int = 4
-    matching: bool = False
+    matching: bool = True
     cushion_size: float = 0.9
     cushion_rows: int | None = None
 

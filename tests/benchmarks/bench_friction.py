@@ -84,7 +84,11 @@ def slab(layers: int, cushion_is_slave: bool, method: str) -> dict[str, Any]:
             ("rotation, degrees", None, found.rotation),
             ("largest stress, MPa", None, found.stress),
             ("opening below, mm", None, 1000 * found.opening),
-            ("stress of the top beside the joint, MPa", None, found.surface),
+            (
+                "stress of the top beside the joint, MPa",
+                None,
+                found.means["half of its top beside the joint"],
+            ),
         ]
     }
 

@@ -35,7 +35,7 @@ def test_presets(measures: Any, name: str, wanted: int) -> None:
     assert model.thickness_at(0.0) == pytest.approx(0.4 + 0.0035 * 60, abs=1e-4)
     assert model.thickness_at(model.length) == pytest.approx(0.4)
     volume = 16 * 103.2 * float(model.thickness_at(51.6))
-    sizes = {block_tag(0): 32 * 103.2 * 3, block_tag(1): volume, block_tag(2): volume}
+    sizes = {block_tag(0): 32 * 103.2 * 3.5, block_tag(1): volume, block_tag(2): volume}
     assert measured.bodies() == pytest.approx(sizes)
     faces = measured.faces()
     assert set(faces) == {block_tag(i, side) for i, side in product(range(3), SIDES)}
