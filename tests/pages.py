@@ -2,16 +2,18 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """Code blocks of the manual's pages, run as a reader would run them.
 
-The blocks of a page that begin with three backticks and ``python`` are one script, from the top to
-the bottom. A block of ``text`` behind one of them is what that one prints: the same words, and
-numbers that differ by rounding at most. What cannot run by itself is a ``{code-block}``.
+The ``python`` blocks of a page, copied one below the other into an empty file, are a program. A
+block of ``text`` behind one of them is what that one prints: the same words, and numbers that
+differ by rounding at most.
 """
 
+import ast
 import contextlib
 import io
 import re
 from dataclasses import dataclass
 from pathlib import Path
+from textwrap import dedent
 
 import numpy as np
 
@@ -31,20 +33,36 @@ class Block:
     code: str
     line: int
 
+    @property
+    def lines(self) -> range:
+        """Its lines in the page, which are counted from 1."""
+        return range(self.line + 1, self.line + self.code.count("\n") + 2)
+
 
 def blocks(path: Path) -> list[Block]:
-    """Blocks of a page, in order."""
+    """Blocks of a page, in order, those too that are indented with the items of a list."""
     found, fence, language, start = [], "", "", 0
     lines = path.read_text(encoding="utf-8").splitlines()
     for number, line in enumerate(lines):
-        opened = re.match(r"(`{3,})\s*(.*)$", line)
+        opened = re.match(r"\s*([`~:]{3,})\s*(.*)$", line)
         if not fence and opened:
             fence, language, start = opened[1], opened[2].strip(), number + 1
-        elif fence and line.rstrip() == fence:
-            found.append(Block(language, "\n".join(lines[start:number]), start))
+        elif fence and line.strip() == fence:
+            found.append(Block(language, dedent("\n".join(lines[start:number])), start))
             fence = ""
     assert not fence, f"{path}: the block of line {start} has no end"
     return found
+
+
+def indented(path: Path) -> list[str]:
+    """First lines of what Markdown takes for code because it is indented by four or more."""
+    fenced = {number for block in blocks(path) for number in block.lines}
+    lines = ["", *path.read_text(encoding="utf-8").splitlines()]
+    return [
+        line
+        for number, line in enumerate(lines)
+        if re.match(r" {4,}\S", line) and not lines[number - 1].strip() and number not in fenced
+    ]
 
 
 @dataclass(frozen=True)
@@ -83,7 +101,7 @@ def inclusions(path: Path) -> list[Inclusion]:
 
 
 def script(path: Path) -> str:
-    """What is run of a page, with each block in its place so that errors name the page's lines."""
+    """The program of a page, with each block in its place so that errors name the page's lines."""
     text = ""
     for block in blocks(path):
         if block.language == "python":
@@ -96,24 +114,30 @@ def runs(path: Path) -> bool:
     return any(block.language == "python" for block in blocks(path))
 
 
-def run(path: Path) -> dict:
-    """Run a page in the current folder and check what it prints.
+def run(path: Path, *, silent: bool = False) -> dict:
+    """Run the program of a page in the current folder and check what it prints.
+
+    Args:
+        path: The page.
+        silent: Whether a block may print what the page does not show.
 
     Returns:
         Its names.
     """
-    names: dict = {"__name__": "page"}
-    found = blocks(path)
+    names: dict = {"__name__": "__main__"}
+    found, program = blocks(path), ast.parse(script(path), str(path))
     for block, after in zip(found, [*found[1:], None], strict=True):
         if block.language != "python":
             continue
+        statements = [statement for statement in program.body if statement.lineno in block.lines]
         printed = io.StringIO()
-        code = compile("\n" * block.line + block.code, str(path), "exec")
         with contextlib.redirect_stdout(printed):
-            exec(code, names)
+            exec(compile(ast.Module(statements, []), str(path), "exec"), names)
         if after is not None and after.language == "text":
             difference = compare(after.code, printed.getvalue())
             assert not difference, f"{path}, line {after.line}: {difference}"
+        elif not silent:
+            assert not printed.getvalue(), f"{path}, line {block.line}: not shown is what it prints"
     return names
 
 

@@ -11,10 +11,14 @@ import contactx as cx
 
 import pages
 
+# What a page may have beside Python, which runs: other languages, parts of files, what Sphinx makes
+SHOWN = r"text|\{code-block\} (console|diff|text)|\{literalinclude\} \S+"
+MADE = r"\{(toctree|eval-rst)\}|\{include\} \S+"
+
 
 def test_readme(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    names = pages.run(pages.ROOT / "README.md")
+    names = pages.run(pages.ROOT / "README.md", silent=True)
     contact = names["contact"]
     tangential, normal = np.abs(contact.force)
     # The block slides at the end: full friction
@@ -27,6 +31,18 @@ def test_first_tutorial(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     names = pages.run(pages.MANUAL / "tutorials" / "elasticity.md")
     assert np.allclose(names["floor"].force, (0, 0.01), atol=1e-9)
+
+
+def test_no_python_is_shown_without_being_run():
+    """A reader cannot tell apart what is a part of the program and what is not."""
+    readme, demos = pages.ROOT / "README.md", pages.MANUAL / "demos"
+    for path in [readme, *sorted(pages.MANUAL.rglob("*.md"))]:
+        for block in pages.blocks(path):
+            is_known = re.fullmatch(rf"python|{SHOWN}|{MADE}", block.language)
+            assert is_known, f"{path}, line {block.line}: {block.language}"
+        # Four blanks make code, too: commands of the README, formulas of the demos' docstrings
+        if path != readme and path.parent != demos:
+            assert not pages.indented(path), f"{path}: {pages.indented(path)}"
 
 
 def test_cpp_tutorial_shows_the_demo():
