@@ -162,8 +162,15 @@ class Tractions:
             story.Result("half-width", exact.half_width, self.half_width(self.status > 0)),
             story.Result("peak pressure", exact.peak_pressure, self.p.max()),
             story.Result("half-width that sticks", exact.stick_half_width, stick),
-            story.Deviation.of("pressure, L2", self.area, self.p, exact.pressure(self.x)),
-            story.Deviation.of("shear, L2", self.area, self.q, exact.shear(self.x)),
+            story.Result.of_curves(
+                "pressure's difference / formula's, L2",
+                self.area,
+                self.p,
+                exact.pressure(self.x),
+            ),
+            story.Result.of_curves(
+                "shear's difference / formula's, L2", self.area, self.q, exact.shear(self.x)
+            ),
         ]
 
 

@@ -9,8 +9,11 @@ that turns with it. Contact without friction: one pair of teeth or two carry it,
 Involutes transmit evenly: rigid gears have the ratio of torques and that of angles z_1/z_2 at any
 time, elastic ones in the mean of a pitch. On the way a pair of teeth more or less changes the angle
 by little; the polygons that the flanks are meshed with swing the torque, as one is the slope of the
-other. The share of time with two pairs makes the contact ratio, less what the relief takes. Both
-methods run.
+other. The share of time with two pairs makes the contact ratio, which is compared with that of
+rigid gears without relief, 1.61. Relief takes of it what the load does not press back: at h = 0.3
+node to surface has 1.50, at h = 0.15 1.52, there with half the relief 1.62, with a third of the
+torque 1.33 and with twice the torque 1.68. Surface to surface has 1.63 and 1.61. Pairs are counted
+in steps of a thirtieth of a pitch. Both methods run.
 
     python demos/gear_pair.py --h 0.3
 """
@@ -155,10 +158,10 @@ class GearPair:
             story.Result(
                 f"{name}: ratio of the torques, mean of a pitch", ratio, float(ratios[once].mean())
             ),
-            story.Deviation(
-                f"{name}: ratio of the torques, mean swing",
-                ratio,
-                float(np.abs(ratios[once] - ratio).mean()),
+            story.Result(
+                f"{name}: the same, mean swing / ratio",
+                0.0,
+                float(np.abs(ratios[once] / ratio - 1).mean()),
             ),
             story.Result(
                 f"{name}: ratio of the angles over a pitch", -ratio, float(over_pitch.mean())

@@ -172,8 +172,8 @@ def compare(runs: dict[tuple[float, str], Ironing]) -> list[story.Result]:
                 story.Result(f"{name}: force along over vertical", friction, along / down)
             )
         results += [
-            story.Deviation(f"{name}: swing of the force along", down, run.swing(0)),
-            story.Deviation(f"{name}: swing of the vertical force", down, run.swing(-1)),
+            story.Result(f"{name}: swing along / vertical force", 0.0, run.swing(0) / down),
+            story.Result(f"{name}: swing down / vertical force", 0.0, run.swing(-1) / down),
         ]
     return results
 

@@ -17,6 +17,10 @@ it pushes the ring over the floor, mu = 0.1, to the wall. Known is
   comes on top of that of squeezing, and the peak exceeds the fluid's (A. Karaszkiewicz, Industrial
   and Engineering Chemistry Research 29, 1990, pages 2134 to 2137).
 
+The width of the contact is the sum of the areas of nodes in contact, and goes in steps of a facet
+at either end: beside Hertz's it is +2.6 % at h = 0.1, -6.1 % at h = 0.05 and -1.6 % at h = 0.025,
+while the force of the large squeeze is within 0.4 % of Lindley's at each.
+
 Against rigid planes both methods of contact come to the same.
 
     python demos/o_ring.py --h 0.05

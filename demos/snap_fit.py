@@ -14,7 +14,10 @@ W, which compresses the beam while it is bent and acts below its axis, and with 
 the round nose meets the rounded corners of the catch: so ``reference.SnapFit`` gives the force over
 the whole way. Behind the catch, and outside, there is no force. One node or facet of the nose
 touches at a time, so that angles, and with them forces, come in the steps of the polygons that the
-round corners are meshed with. Both methods run.
+round corners are meshed with. The force is largest where the ramp ends: with h = 0.04 the step
+there has a node on the first facet of the corner, by node to surface. That is at 28.1 degrees where
+the ramp has 30, and the largest force 7.9 % below beam theory's; with h = 0.02 it is at 29.9
+degrees, and 1.0 % below. On the ramp the forces are 0.5 % less at both sizes. Both methods run.
 
     python demos/snap_fit.py --h 0.04
 """
@@ -177,8 +180,15 @@ class SnapFit:
                     steps_exact[np.abs(steps_exact).argmax()],
                     push[peak],
                 ),
-                story.Deviation.of(f"{name}, {side}: force history", ones, push, steps_exact),
-                story.Result(f"{name}, {side}: 1 + force at its end", 1.0, 1.0 + push[-1]),
+                story.Result.of_curves(
+                    f"{name}, {side}: force's difference / theory's, L2",
+                    ones,
+                    push,
+                    steps_exact,
+                ),
+                story.Result(
+                    f"{name}, {side}: force at the end / largest", 0.0, push[-1] / push[peak]
+                ),
             ]
         return results
 

@@ -37,7 +37,11 @@ def wide_console(width: int = 120) -> Console:
 
 @dataclass(frozen=True)
 class Result:
-    """A number that a demo computes and a formula gives."""
+    """A number that a demo computes and a formula gives.
+
+    Where 0 is expected, there is nothing that an error could be relative to: what is computed is
+    taken over something of its kind already, and the name says over what.
+    """
 
     name: str
     expected: float
@@ -45,29 +49,23 @@ class Result:
 
     @property
     def error(self) -> float:
-        """Relative error."""
-        return self.computed / self.expected - 1
-
-
-@dataclass(frozen=True)
-class Deviation(Result):
-    """How far a computed curve is from a formula's, both by their L2 norms.
-
-    ``expected`` is the norm of the formula's curve, ``computed`` that of the difference.
-    """
-
-    @property
-    def error(self) -> float:
-        """Norm of the difference relative to that of the formula's curve."""
-        return self.computed / self.expected
+        """Relative error; what is computed itself where 0 is expected."""
+        return self.computed / self.expected - 1 if self.expected != 0 else self.computed
 
     @classmethod
-    def of(
+    def of_curves(
         cls, name: str, weights: np.ndarray, computed: np.ndarray, exact: np.ndarray
-    ) -> Deviation:
-        """Compare nodal values, each with the weight of its area."""
-        norms = (float(np.sqrt(weights @ y**2)) for y in (exact, computed - exact))
-        return cls(name, *norms)
+    ) -> Result:
+        """L2 norm of the difference of two curves over that of the exact one.
+
+        Args:
+            name: Of what is compared.
+            weights: Areas of the nodes, shape (n,).
+            computed: Nodal values, shape (n,).
+            exact: Those of a formula, shape (n,).
+        """
+        norm, difference = (float(np.sqrt(weights @ y**2)) for y in (exact, computed - exact))
+        return cls(name, 0.0, difference / norm)
 
 
 def displacement(domain: mesh.Mesh, degree: int = 1) -> fem.Function:
