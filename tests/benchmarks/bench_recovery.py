@@ -35,7 +35,7 @@ from slab_schemes import scheme_1
 
 LAYERS = (5, 10, 20, 40)
 # The demo's slice at 0.17 degrees and 0.3 MPa
-SETTLEMENT, PRESSURE = 0.07339, 0.3
+SETTLEMENT, PRESSURE = 0.09092, 0.3
 # Cells along the block and along the punch, which is a fifth of it
 PUNCHES = ((40, 8), (80, 16), (80, 13), (80, 23))
 SIZES = {"tetrahedra": (0.04, 0.02, 0.01, 0.005), "hexahedra": (0.04, 0.02, 0.01)}
