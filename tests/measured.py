@@ -132,4 +132,6 @@ def _command(argv: Sequence[str]) -> list[str]:
 
 
 def _rounded(value: Any) -> Any:
+    # Numbers of NumPy are none of JSON's
+    value = value.item() if hasattr(value, "item") else value
     return float(f"{value:.{_DIGITS}g}") if isinstance(value, float) else value

@@ -48,13 +48,15 @@ def test_another_figure_in_a_page_is_found(sections):
     assert "0.3 s" in found[0] and old in found[0]
 
 
-def test_rewritten_pages_are_the_same(sections, monkeypatch, tmp_path):
+@pytest.mark.parametrize("since", ["", "One more sentence. And another one."])
+def test_rewritten_pages_are_the_same(since, sections, monkeypatch, tmp_path):
     """Of another record, pages can be made that have its figures."""
     other = json.loads(json.dumps(sections))
     for row in other["methods"]["rows"]:
         row.update(cpu=10 * row["cpu"], p_l2_best=row["p_l2_best"] / 2)
-    other["stress_map"].update(date="2030-01-01", since="One more sentence.")
-    other["stress_map"]["rows"][0]["WRONG"] += 1
+    other["stress_map"].update(date="2030-01-01", since=since)
+    for row in other["stress_map"]["rows"]:
+        row.update(scenes=row["of"], WRONG=0)
     pages = {name for name, _ in figures.said()} | {table.page for table in figures.TABLES}
     for name in pages:
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
