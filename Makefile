@@ -33,7 +33,7 @@ SANITIZED := tests/fast/property tests/fast/unit/core tests/fast/assembly/test_c
 # Executions of each fuzz target, and the compiler that has libFuzzer
 RUNS ?= 1000000
 CLANG ?= clang++
-BENCHES := audit dynamics globalisation hertz methods recovery edges fits degrees rates locking solvers limit many spheres ironing friction scenes skips steps growth scaling dam_face
+BENCHES := audit dynamics globalisation hertz methods nafems recovery edges fits degrees rates locking solvers limit many spheres ironing friction scenes skips steps growth scaling dam_face
 
 # Threads: MPI and the tests' machine decide, not OpenMP. Without a display,
 # VTK need not look for one.
@@ -45,7 +45,7 @@ endif
 PYTEST := exec $(RUN) $(BIN)/python -m pytest
 
 .DELETE_ON_ERROR:
-.PHONY: all demo test test-cpp test-fast gate verify gallery stress leaks fuzz sanitize bench bench-core \
+.PHONY: all demo test test-cpp test-fast gate verify gallery stress record figures leaks fuzz sanitize bench bench-core \
 	wheel distribution docs demo-pages lint format clean help
 
 all: $(INSTALLED)
@@ -60,6 +60,8 @@ help:
 	@echo "make docs     the manual, in build/docs/index.html; needs no network once .venv is there"
 	@echo "make demo-pages  run the demos and write their pages of the manual"
 	@echo "make stress   thousands of hard scenes: a map of what comes of them; 16 ranks"
+	@echo "make record   measure again what README and manual say, and write it there: hours"
+	@echo "make figures  write docs/measured.json into README, manual and pictures"
 	@echo "make leaks    memory over 1,000 steps and 1,000 problems"
 	@echo "make bench    all benchmarks, up to a million displacements"
 	@echo "make bench-core  time the kernels and the search"
@@ -71,6 +73,9 @@ help:
 	@echo "make format   format C++ and Python"
 	@echo "make clean    remove everything that make made"
 	@echo "make PYTHON=/path/to/python  use this Python (>= 3.12)"
+
+# Those whose results README and manual have from docs/measured.json
+RECORDED := methods hertz growth limit degrees edges nafems
 
 SAY := @printf 'contactx: %s\n'
 # Byte code is compiled for what is imported, when it is: all of it takes longer
@@ -167,7 +172,7 @@ verify: gate
 
 # Published benchmarks, those too that take more than 20 s: docs/gallery.md and pictures.
 gallery: $(TESTABLE)
-	$(RUN) $(BIN)/python tests/published/gallery.py
+	$(RUN) $(BIN)/python tests/published/gallery.py --record
 
 # Warnings are errors, and links within the manual must lead somewhere. Nothing is solved.
 docs: $(TESTABLE)
@@ -185,6 +190,19 @@ demo-pages: $(TESTABLE)
 stress: $(TESTABLE)
 	$(RUN) $(BIN)/python tests/stress/stress_map.py --workers $(JOBS)
 	$(PYTEST) tests/stress
+
+# What pages say on speed, on a machine with nothing else to do, on the gallery and the stress map
+record: $(TESTABLE)
+	status=0; for name in $(RECORDED); do \
+		$(RUN) $(BIN)/python tests/benchmarks/bench_$$name.py --record || status=1; \
+	done; \
+	$(RUN) $(BIN)/python tests/published/gallery.py --record || status=1; \
+	$(RUN) $(BIN)/python tests/stress/stress_map.py --record --workers $(JOBS) || status=1; \
+	$(RUN) $(BIN)/python tools/figures.py || status=1; exit $$status
+
+# Nothing is solved
+figures: $(TESTABLE)
+	$(RUN) $(BIN)/python tools/figures.py
 
 # In build/wheel; the environment there is made anew.
 wheel: $(TESTER)

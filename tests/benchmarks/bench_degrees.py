@@ -20,6 +20,7 @@ import pictures
 import runner
 import tables
 
+import measured
 import scenes
 import story
 
@@ -92,4 +93,4 @@ def main(argv: Sequence[str]) -> list[dict[str, Any]]:
 
 
 if __name__ == "__main__":
-    sys.exit(tables.failures(main(sys.argv[1:])))
+    sys.exit(measured.run("degrees", main, sys.argv[1:]))

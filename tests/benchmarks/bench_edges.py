@@ -23,6 +23,7 @@ import tables
 
 import contactx as cx
 
+import measured
 import story
 from scenes import ball_at_edge
 from scenes.tip_on_arm import TipOnArm
@@ -114,4 +115,4 @@ def main(argv: Sequence[str], sizes: Sequence[float] | None = None) -> list[dict
 
 
 if __name__ == "__main__":
-    sys.exit(tables.failures(main(sys.argv[1:])))
+    sys.exit(measured.run("edges", main, sys.argv[1:]))

@@ -19,6 +19,8 @@ import pictures
 import runner
 import tables
 
+import measured
+
 SIZES = (0.0165, 0.0098, 0.0065, 0.0046, 0.0034, 0.0026)
 SLIDING = "small"
 FROM = 30_000
@@ -105,4 +107,4 @@ def main(argv: Sequence[str]) -> list[dict[str, Any]]:
 
 
 if __name__ == "__main__":
-    sys.exit(tables.failures(main(sys.argv[1:])))
+    sys.exit(measured.run("growth", main, sys.argv[1:]))

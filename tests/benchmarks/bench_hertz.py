@@ -24,6 +24,7 @@ import pictures
 import runner
 import tables
 
+import measured
 import scenes
 
 SIZES = (0.04, 0.02, 0.01, 0.005)
@@ -125,7 +126,7 @@ def draw(rows: Sequence[dict[str, Any]], path: Path) -> None:
         groups.setdefault(name, []).append(row)
     ours = len(groups)
     for row in tables.read(PEERS):
-        groups.setdefault(f"{row['peer']}, {row['setting']}", []).append(row)
+        groups.setdefault(tables.peer(row), []).append(row)
     pictures.lines(
         groups,
         path,
@@ -162,4 +163,4 @@ def warm_up() -> None:
 
 
 if __name__ == "__main__":
-    sys.exit(tables.failures(main(sys.argv[1:])))
+    sys.exit(measured.run("hertz", main, sys.argv[1:]))

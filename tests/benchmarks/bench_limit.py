@@ -28,6 +28,7 @@ import ufl
 from dolfinx import fem
 from dolfinx.fem.petsc import apply_lifting, assemble_matrix, assemble_vector, set_bc
 
+import measured
 import scenes
 import story
 from meshes import Tag
@@ -148,7 +149,7 @@ def draw(rows: Sequence[dict[str, Any]], path: Path) -> None:
     for friction, file in PEERS.items():
         for row in tables.read(file):
             if "cpu" in row:
-                name = f"{row['peer']}, {row['setting']}"
+                name = tables.peer(row)
                 groups.setdefault(name + ", friction" * (friction > 0), []).append(row)
     pictures.lines(
         groups,
@@ -175,4 +176,4 @@ def main(argv: Sequence[str]) -> list[dict[str, Any]]:
 
 
 if __name__ == "__main__":
-    sys.exit(tables.failures(main(sys.argv[1:])))
+    sys.exit(measured.run("limit", main, sys.argv[1:]))

@@ -24,6 +24,7 @@ import pictures
 import runner
 import tables
 
+import measured
 import scenes
 import story
 from meshes import Tag
@@ -122,12 +123,18 @@ def _run(**job: Any) -> dict[str, Any]:
     return row
 
 
-def draw(rows: Sequence[dict[str, Any]], path: Path) -> None:
-    """Picture of the errors in finite sliding over time and size, raw ones with thin lines."""
+def draw(rows: Sequence[dict[str, Any]], path: Path, **words: str) -> None:
+    """Picture of the errors in finite sliding over time and size, raw ones with thin lines.
+
+    Args:
+        rows: What was measured.
+        path: The image file.
+        words: Note and source of the picture.
+    """
     groups: dict[str, list[dict[str, Any]]] = {}
     raw: dict[str, list[dict[str, Any]]] = {}
     for row in rows:
-        if row["sliding"] == SLIDINGS[0] and "cpu" in row:
+        if "cells" in row and row["sliding"] == SLIDINGS[0] and "cpu" in row:
             name = f"{row['method']}, {row['cells']}"
             groups.setdefault(name, []).append(row)
             multipliers = {"p_l2_best": row["p_l2"], "p0_best": row["p0_err"]}
@@ -144,20 +151,28 @@ def draw(rows: Sequence[dict[str, Any]], path: Path) -> None:
             "p0_best": "relative error of the peak pressure",
         },
         title="The common Hertz problem by both methods",
+        **words,
     )
     tables.note(f"see {path}")
 
 
-def draw_beside(rows: Sequence[dict[str, Any]], path: Path) -> None:
-    """Picture of the error in finite sliding over time, beside what peers measured."""
+def draw_beside(rows: Sequence[dict[str, Any]], path: Path, **words: str) -> None:
+    """Picture of the error in finite sliding over time, beside what peers measured.
+
+    Args:
+        rows: What was measured.
+        path: The image file.
+        words: Note and source of the picture.
+    """
     groups: dict[str, list[dict[str, Any]]] = {}
     for row in rows:
-        if (row["cells"], row["sliding"]) == ("tetrahedra", SLIDINGS[0]) and "cpu" in row:
+        kind = row.get("cells"), row["sliding"]
+        if kind == ("tetrahedra", SLIDINGS[0]) and "cpu" in row:
             groups.setdefault(f"contactx, {row['method']}", []).append(row)
     ours = len(groups)
     for row in tables.read(PEERS):
         if "cpu" in row and "p_l2" in row:
-            name = f"{row['peer']}, {row['setting']}"
+            name = tables.peer(row)
             groups.setdefault(name, []).append({**row, "p_l2_best": row["p_l2"]})
     pictures.lines(
         groups,
@@ -169,6 +184,7 @@ def draw_beside(rows: Sequence[dict[str, Any]], path: Path) -> None:
             "p_l2_best": "relative L2 error of the contact pressure",
         },
         title="An elastic sphere on an elastic block: error against time",
+        **words,
     )
     tables.note(f"see {path}")
 
@@ -197,4 +213,4 @@ def warm_up() -> None:
 
 
 if __name__ == "__main__":
-    sys.exit(tables.failures(main(sys.argv[1:])))
+    sys.exit(measured.run("methods", main, sys.argv[1:]))

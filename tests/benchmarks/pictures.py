@@ -26,6 +26,8 @@ def lines(
     axes: Sequence[tuple[str, str]],
     words: Mapping[str, str],
     title: str,
+    note: str = "",
+    source: str = "",
 ) -> None:
     """Draw a line for each group in each of several pairs of logarithmic axes.
 
@@ -37,6 +39,8 @@ def lines(
         axes: Keys of abscissa and ordinate of each picture.
         words: Name of each key's axis.
         title: Title of the whole.
+        note: Small print, such as what was measured where and when.
+        source: What the file says of what it was drawn from.
     """
     # Words of a picture with one pair of axes can be read on a phone, where it is 350 pixels wide
     alone = len(axes) == 1
@@ -71,9 +75,12 @@ def lines(
         loc="outside lower center",
         ncols=1 if alone else 2,
         fontsize=names_size,
+        title=note or None,
+        title_fontsize=names_size - 1.5,
     )
     path.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(path, dpi=DOTS_PER_INCH, facecolor="white")
+    metadata = {"Source": source} if source else None
+    figure.savefig(path, dpi=DOTS_PER_INCH, facecolor="white", metadata=metadata)
 
 
 def _style(k: int, name: str, ours: int, families: Sequence[str]) -> dict[str, Any]:

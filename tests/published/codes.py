@@ -215,6 +215,7 @@ CASES: list[Case] = [
             f"displacement along the plane of point {point}, mm",
             lambda place=place: ssnv128(place),
             published=value,
+            problem="ssnv128",
         )
         for point, place, value in (
             ("A", 0.0, 2.86e-2),
@@ -264,5 +265,6 @@ CASES: list[Case] = [
         note="By surface-to-surface, 4C's own method, which is not the default. Node-to-surface "
         "refuses: the slave is one facet of four nodes over a hundred.",
         published=-0.00372699924569964806,
+        options="surface-to-surface",
     ),
 ]

@@ -61,6 +61,7 @@ CASES = [
         f"to {impact_bars.BETWEEN[1]} L/c",
         force,
         published=1.0,
+        problem="bar",
     ),
     Case(
         "bar_time",
@@ -69,6 +70,7 @@ CASES = [
         "time of contact over L/c",
         duration,
         published=2.0,
+        problem="bar",
     ),
     Case(
         "bars_velocity",

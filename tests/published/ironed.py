@@ -215,6 +215,7 @@ CASES = [
         lambda: _answer(first(), 1.0, 1),
         published=-3.2989817982847e8,
         note=_PRESSED,
+        problem="ssnp153a",
     ),
     Case(
         "ssnp153a_moves",
@@ -223,6 +224,7 @@ CASES = [
         "horizontal force at t = 1.01, N/m",
         lambda: _answer(first(), 1.01, 0),
         published=8.7442524098204e7,
+        problem="ssnp153a",
     ),
     Case(
         "ssnp153b_pressed",
@@ -232,6 +234,8 @@ CASES = [
         lambda: _answer(second(), 1.0, 1),
         published=-330670402.75192857,
         note=_METHOD + _STEPS,
+        problem="ssnp153b",
+        options="surface-to-surface",
     ),
     Case(
         "ssnp153b_down",
@@ -241,6 +245,8 @@ CASES = [
         lambda: _answer(second(), 1.2, 1),
         published=-416287037.19393307,
         note=_METHOD + _QUADRATIC,
+        problem="ssnp153b",
+        options="surface-to-surface",
     ),
     Case(
         "ssnp153b_along",
@@ -250,5 +256,7 @@ CASES = [
         lambda: _answer(second(), 1.2, 0),
         published=127586831.83378169,
         note=_METHOD + _CORNER,
+        problem="ssnp153b",
+        options="surface-to-surface",
     ),
 ]

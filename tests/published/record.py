@@ -12,6 +12,9 @@ import contactx as cx
 
 # Largest relative error of a case that names no other
 TOLERANCE = 0.03
+# Where published values come from
+TEXTBOOKS, NAFEMS, CODES = "textbooks and papers", "NAFEMS R0094", "tests of other codes"
+_TESTED = ("Code_Aster", "CalculiX", "4C", "MOOSE")
 
 
 @dataclass
@@ -46,6 +49,9 @@ class Case:
         tolerance: Largest relative error.
         note: What should be known beside it; of a miss, why it is one.
         slow: Whether it takes more than 20 s.
+        problem: What all cases have in common that compare values of one problem; the name if
+            empty.
+        options: Options that are not the default ones.
     """
 
     name: str
@@ -57,6 +63,15 @@ class Case:
     tolerance: float = TOLERANCE
     note: str = ""
     slow: bool = False
+    problem: str = ""
+    options: str = ""
+
+    @property
+    def origin(self) -> str:
+        """Where the value comes from."""
+        if self.source.startswith(_TESTED):
+            return CODES
+        return NAFEMS if NAFEMS in self.source else TEXTBOOKS
 
 
 @dataclass
@@ -81,11 +96,17 @@ class Result:
         return self.answer.value / self.published - 1
 
     @property
-    def iterations(self) -> str:
-        """Linear solves, and of how many load steps."""
-        steps = self.answer.iterations
-        total = str(sum(steps))
-        return total if len(steps) == 1 else f"{total} in {len(steps)} steps"
+    def row(self) -> dict[str, Any]:
+        """What is recorded of it."""
+        return {
+            "name": self.case.name,
+            "published": self.published,
+            "contactx": self.answer.value,
+            "error": self.error,
+            "iterations": sum(self.answer.iterations),
+            "steps": len(self.answer.iterations),
+            "seconds": self.seconds,
+        }
 
 
 def solve(problem: cx.ContactProblem) -> list[int]:

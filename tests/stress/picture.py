@@ -1,11 +1,12 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""The map as a picture: a field for each scene, its colour says what came of it."""
+"""The map as pictures: a field for each scene, or a bar for each family."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from matplotlib.colors import ListedColormap
@@ -45,6 +46,38 @@ def draw(rows: Sequence[Outcome], path: Path) -> None:
     figure.legend(handles=handles, loc="outside lower center", ncols=len(handles), frameon=False)
     figure.suptitle(f"Stress map: {len(rows):,} scenes", fontsize=15, color=INK)
     figure.savefig(path, dpi=DOTS_PER_INCH, facecolor="white")
+
+
+def draw_families(rows: Sequence[Mapping[str, Any]], path: Path, note: str, source: str) -> None:
+    """Draw a bar for each family: how many of a hundred scenes came to what.
+
+    Args:
+        rows: What is recorded of families, see ``sheet.families``.
+        path: The image file.
+        note: Small print.
+        source: What the file says of what it was drawn from.
+    """
+    figure = Figure(figsize=(7.0, 0.27 * len(rows) + 1.6), layout="constrained")
+    axis = figure.subplots()
+    begins = np.zeros(len(rows))
+    for kind, colour in _COLOURS.items():
+        part = np.array([100 * (row[kind] or 0) / row["scenes"] for row in rows])
+        total = sum(row[kind] or 0 for row in rows)
+        label = f"{kind}: {total:,}"
+        axis.barh(range(len(rows)), part, 0.78, begins, color=colour, label=label)
+        begins += part
+    names = [f"{row['family']} ({row['scenes']:,})" for row in rows]
+    axis.set_yticks(range(len(rows)), names, fontsize=9)
+    axis.set_xlim(0, 100)
+    axis.set_ylim(len(rows) - 0.5, -0.5)
+    axis.set_xlabel("of a hundred scenes", fontsize=10)
+    axis.tick_params(axis="y", length=0)
+    axis.spines[:].set_visible(False)
+    total = sum(row["scenes"] for row in rows)
+    figure.suptitle(f"Stress map: {total:,} scenes", fontsize=14, color=INK)
+    words = {"title": note, "title_fontsize": 9, "fontsize": 10}
+    figure.legend(loc="outside lower center", ncols=3, frameon=False, **words)
+    figure.savefig(path, dpi=DOTS_PER_INCH, facecolor="white", metadata={"Source": source})
 
 
 def _panel(axis, family: str, rows: Sequence[Outcome]) -> None:

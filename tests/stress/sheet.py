@@ -8,6 +8,7 @@ import csv
 from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 from rich.console import Console
 from rich.table import Table
@@ -53,6 +54,26 @@ def counts(rows: Sequence[Outcome]) -> list[list[str]]:
             ]
         )
     return lines
+
+
+def families(rows: Sequence[Outcome]) -> list[dict[str, Any]]:
+    """What is recorded of each family; ``of`` is how many scenes it has, run or not."""
+    found = []
+    for family in dict.fromkeys(row.family for row in rows):
+        own = [row for row in rows if row.family == family]
+        kinds = Counter(row.kind for row in own)
+        found.append(
+            {
+                "family": family,
+                "of": len(own),
+                "scenes": len(own),
+                **{kind: kinds[kind] for kind in Kind},
+                "steps": sum(row.steps for row in own),
+                "iterations": sum(row.iterations for row in own),
+                "most": max(row.iterations / max(row.steps, 1) for row in own),
+            }
+        )
+    return found
 
 
 def show(rows: Sequence[Outcome], console: Console, path: Path) -> None:

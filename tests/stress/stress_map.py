@@ -3,9 +3,10 @@
 """The stress map: where contactx holds and where it fails.
 
 It runs all scenes, prints a table of what came of each family, and writes every scene to a CSV
-file and to a picture. The exit code is 1 if a scene is wrong.
+file and to a picture; with ``--record`` what came of each family goes to docs/measured.json, too.
+The exit code is 1 if a scene is wrong.
 
-    python tests/stress/stress_map.py
+    python tests/stress/stress_map.py --record
     python tests/stress/stress_map.py --family "stiffness" --every 10
 """
 
@@ -26,6 +27,7 @@ import contactx  # noqa: E402, F401  # it comes first
 from rich.console import Console  # noqa: E402
 from rich.progress import Progress  # noqa: E402
 
+import measured  # noqa: E402
 from stress import picture, pool, sheet  # noqa: E402
 from stress.degree import VARIABLE  # noqa: E402
 from stress.families import all_scenes  # noqa: E402
@@ -42,7 +44,10 @@ def main() -> int:
     parser.add_argument("--degree", type=int, default=1, help="of the displacement of blocks")
     parser.add_argument("--workers", type=int, default=len(os.sched_getaffinity(0)))
     parser.add_argument("--output", type=Path, default=OUTPUT)
+    parser.add_argument(measured.OPTION, action="store_true", help="record what came of it")
     args = parser.parse_args()
+    if args.record and (args.family or args.every > 1 or args.degree > 1):
+        parser.error("all scenes with linear displacements are recorded, or none")
     os.environ[VARIABLE] = str(args.degree)
     scenes = all_scenes()
     numbers = [i for i, s in enumerate(scenes) if re.search(args.family, s.family)]
@@ -67,6 +72,8 @@ def main() -> int:
     sheet.show(rows, console, args.output / "map.md")
     picture.draw(rows, args.output / "map.png")
     console.print(f"see {args.output}/map.csv, map.md and map.png", soft_wrap=True)
+    if args.record:
+        measured.record("stress_map", sheet.families(rows))
     return int(any(row.kind == Kind.WRONG for row in rows))
 
 

@@ -15,6 +15,7 @@ import bench_limit
 import bench_locking
 import bench_many
 import bench_methods
+import bench_nafems
 import bench_rates
 import bench_scenes
 import bench_skips
@@ -124,6 +125,13 @@ def test_methods(monkeypatch):
         assert image.imread(runner.OUTPUT / f"{name}.png").shape[0] > 300
     lines = (runner.OUTPUT / "methods.md").read_text().splitlines()
     assert len(lines) == 2 + sum("cells" in row for row in rows)
+
+
+def test_nafems():
+    rows = bench_nafems.main(["4"])
+    assert len(rows) == 14
+    # The quarter is coarse
+    assert all(abs(row["error"]) < 0.2 for row in rows)
 
 
 def test_degrees(monkeypatch):

@@ -74,3 +74,8 @@ def test_tables_and_picture(tmp_path):
     assert "refused: b: 1, : too much" in text
     picture.draw(rows, tmp_path / "map.png")
     assert (tmp_path / "map.png").stat().st_size > 5000
+    first, other = sheet.families(rows)
+    assert (first["scenes"], first["converged"], first["after cut-back"]) == (2, 1, 1)
+    assert (other["refused"], other["WRONG"], other["most"]) == (1, 1, 0)
+    picture.draw_families([first, other], tmp_path / "families.png", "a note", "a source")
+    assert (tmp_path / "families.png").stat().st_size > 5000
