@@ -23,6 +23,7 @@ import hertz_case
 import pictures
 import runner
 import tables
+from peers import table
 
 import scenes
 import story
@@ -33,7 +34,6 @@ SLIDINGS = ("finite", "small")
 RUNS = 3
 # Young's modulus of the stiff body over that of the soft one, and the size
 STIFFER, STIFF_SIZE = 1e4, 0.02
-PEERS = Path(__file__).with_name("peers.csv")
 BODIES = {"sphere": Tag.UPPER, "block": Tag.LOWER}
 
 ERRORS: list[tables.Column] = [
@@ -155,10 +155,8 @@ def draw_beside(rows: Sequence[dict[str, Any]], path: Path) -> None:
         if (row["cells"], row["sliding"]) == ("tetrahedra", SLIDINGS[0]) and "cpu" in row:
             groups.setdefault(f"contactx, {row['method']}", []).append(row)
     ours = len(groups)
-    for row in tables.read(PEERS):
-        if "cpu" in row and "p_l2" in row:
-            name = f"{row['peer']}, {row['setting']}"
-            groups.setdefault(name, []).append({**row, "p_l2_best": row["p_l2"]})
+    for name, of_peer in table.others().items():
+        groups[name] = [{**row, "p_l2_best": row["p_l2"]} for row in of_peer if "p_l2" in row]
     pictures.lines(
         groups,
         path,

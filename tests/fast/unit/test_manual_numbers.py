@@ -23,7 +23,7 @@ def test_the_peers_are_those_of_the_benchmark():
         time = row["cpu"] or f"({row['wall']})"
         values = [row["h"], f"{int(row['dofs']):,}", row["iterations"], time, row["memory"]]
         values += [row["p_l2"], row["pen"]]
-        line = f"| {row['peer']}, {row['setting']} | {' | '.join(values)} |"
+        line = f"| {row['peer']} {row['version']}, {row['setting']} | {' | '.join(values)} |"
         assert line in text
 
 
