@@ -30,7 +30,8 @@ SETTINGS = {
         "PRESSURE-OVERCLOSURE=LINEAR\n50.",
         "SPOOLES",
     ),
-    "mortar, hard": ("TYPE=MORTAR", "PRESSURE-OVERCLOSURE=HARD", "SPOOLES"),
+    # Hard is what it is without a behaviour: with HARD it is as soft as 50 E
+    "mortar, hard": ("TYPE=MORTAR", None, "SPOOLES"),
 }
 # Stiffness of springs in place of supports, where E h is 0.01
 SPRING = 1e3
@@ -67,7 +68,8 @@ def deck(mesh: Mesh, setting: str) -> str:
     lines += ["*NSET, NSET=TOP", *(f"{node + 1}," for node in mesh.nodes(TOP))]
     lines += ["*MATERIAL, NAME=M", "*ELASTIC", f"{common.YOUNG}, {common.NU}"]
     lines += ["*SOLID SECTION, ELSET=BODIES, MATERIAL=M"]
-    lines += ["*SURFACE INTERACTION, NAME=I", f"*SURFACE BEHAVIOR, {behaviour}"]
+    lines += ["*SURFACE INTERACTION, NAME=I"]
+    lines += [f"*SURFACE BEHAVIOR, {behaviour}"] if behaviour else []
     lines += [f"*CONTACT PAIR, INTERACTION=I, {pair}", "SLAVE, MASTER"]
     # The mortar pair's matrix is singular where a slave node has two supports: springs hold them
     slaves = mesh.nodes(SLAVE) if "MORTAR" in pair else []
