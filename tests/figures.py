@@ -9,7 +9,6 @@ the recorded figures in the place of others. Pictures bear a digest of what they
 
 from __future__ import annotations
 
-import csv
 import hashlib
 import json
 import re
@@ -21,12 +20,13 @@ from pathlib import Path
 from typing import Any
 
 import tables
+from peers import table as peers_table
 
 ROOT = Path(__file__).parents[1]
 SAID = ROOT / "docs" / "said.toml"
-PEERS = ROOT / "tests" / "benchmarks" / "peers.csv"
+PEERS = peers_table.FILE
 # Pictures that are drawn from the record, and the sections that they show
-PICTURES = {"error_time": ("methods",), "methods": ("methods",), "stress_map": ("stress_map",)}
+PICTURES = {"error_time": (), "methods": ("methods",), "stress_map": ("stress_map",)}
 METHODS = {"n2s": "node-to-surface", "s2s": "surface-to-surface"}
 # Sizes of the common Hertz problem that the pages speak of
 SIZES = (0.02, 0.01, 0.005)
@@ -77,11 +77,18 @@ def values(sections: Sections) -> dict[str, Any]:
         key: tables.power_law([row["dofs"] for row in large], [row[key] for row in large])[0]
         for key in ("cpu", "memory")
     }
+    known["beside"] = {
+        f"{short} {row['h']:g}": row
+        for short, method in METHODS.items()
+        for name, rows in peers_table.numbers(PEERS).items()
+        for row in rows
+        if name.startswith(peers_table.OURS) and name.endswith(method)
+    }
     known["fastest"] = {f"{h:g}": peer for h in SIZES if (peer := _fastest(h))}
     known["map"] = _of_map(sections["stress_map"])
     known["gallery"] = _of_gallery(sections["gallery"])
     known["case"] = {row["name"]: 100 * row["error"] for row in sections["gallery"]["rows"]}
-    known["peers"] = of_peers(sections["methods"])
+    known["peers"] = of_peers()
     known["where"] = {name: where(section) for name, section in sections.items()}
     return known
 
@@ -92,18 +99,16 @@ def where(section: Mapping[str, Any]) -> str:
     return f"{version}commit {section['commit']}, {section['machine']}, {section['date']}"
 
 
-def of_peers(ours: Mapping[str, Any]) -> str:
-    """Where and when other codes were measured, as far as their file says."""
-    rows = tables.read(PEERS)
-    known = [row for row in rows if "date" in row and "machine" in row]
-    unknown = "on another day and a machine that was not recorded"
-    if not known:
-        return unknown
-    days = sorted(str(row["date"]) for row in known)
-    machines = dict.fromkeys(str(row["machine"]) for row in known)
-    names = ["the same machine" if name == ours["machine"] else name for name in machines]
-    text = f"on {' to '.join(dict.fromkeys((days[0], days[-1])))} on {' and '.join(names)}"
-    return text if len(known) == len(rows) else f"{text}, some {unknown}"
+def of_peers() -> str:
+    """Where and when the codes of the comparison were measured, as far as their file says."""
+    rows = peers_table.rows(PEERS)
+    known = [row for row in rows if row["machine"]]
+    days = sorted({row["date"] for row in known})
+    text = f"on {' to '.join(dict.fromkeys((days[0], days[-1])))} on {known[0]['machine']}"
+    codes = dict.fromkeys(f"{row['peer']} {row['version']}" for row in rows if not row["machine"])
+    if not codes:
+        return text
+    return f"{text}, but for rows of {', '.join(codes)}, of an earlier day"
 
 
 def digest(sections: Sections, picture: str) -> str:
@@ -121,7 +126,7 @@ def hertz(sections: Sections) -> Iterator[Sequence[str]]:
     """Node-to-surface on the common Hertz problem: what it takes."""
     yield (
         *("h", "displacements", "sliding", "iterations, Krylov", "CPU s", "MB"),
-        *("MUMPS on the saddle point takes", "fastest peer, CPU s"),
+        "MUMPS on the saddle point takes",
     )
     known = values(sections)
     for h in SIZES:
@@ -134,12 +139,11 @@ def hertz(sections: Sections) -> Iterator[Sequence[str]]:
             " / ".join(seconds(row["cpu"]) for row in rows),
             " / ".join(f"{row['memory']:,.0f}" for row in rows),
             f"{' / '.join(times)} times as long" if times else "",
-            known["fastest"].get(f"{h:g}", {}).get("seconds", ""),
         )
     row = known["million"]
     yield (
         *(f"{row['h']:g}", f"{row['dofs']:,}", "small", f"{row['iterations']}, {row['krylov']}"),
-        *(seconds(row["cpu"]), f"{row['memory']:,.0f}", "", ""),
+        *(seconds(row["cpu"]), f"{row['memory']:,.0f}", ""),
     )
 
 
@@ -149,12 +153,11 @@ def peers(sections: Sections) -> Iterator[Sequence[str]]:
         *("code and setting", "h", "displacements", "iterations", "CPU s (wall)", "MB"),
         *("p_l2", "depth"),
     )
-    with PEERS.open(newline="") as file:
-        for row in csv.DictReader(file):
-            yield (
-                *(tables.peer(row), row["h"], f"{int(row['dofs']):,}", row["iterations"]),
-                *(row["cpu"] or f"({row['wall']})", row["memory"], row["p_l2"], row["pen"]),
-            )
+    for row in peers_table.rows(PEERS):
+        yield (
+            *(peers_table.name(row), row["h"], f"{int(row['dofs']):,}", row["iterations"]),
+            *(row["cpu"] or f"({row['wall']})", row["memory"], row["p_l2"], row["pen"]),
+        )
 
 
 def limit(sections: Sections) -> Iterator[Sequence[str]]:
@@ -440,11 +443,13 @@ def _compared(sections: Sections, h: float) -> list[Row]:
 
 
 def _fastest(h: float) -> Row | None:
-    rows = [row for row in tables.read(PEERS) if row["h"] == h and "cpu" in row]
-    if not rows:
-        return None
-    row = min(rows, key=lambda row: row["cpu"])
-    return {**row, "name": tables.peer(row).partition(",")[0], "seconds": seconds(row["cpu"])}
+    rows = [
+        {**row, "name": name.partition(",")[0], "seconds": seconds(row["cpu"])}
+        for name, of_peer in peers_table.others(PEERS).items()
+        for row in of_peer
+        if row["h"] == h and "cpu" in row
+    ]
+    return min(rows, key=lambda row: row["cpu"], default=None)
 
 
 def _of_map(section: Mapping[str, Any]) -> dict[str, Any]:

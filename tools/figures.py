@@ -18,6 +18,7 @@ import contactx  # noqa: E402, F401  # it comes first
 
 # isort: split
 import bench_methods  # noqa: E402
+import bench_peers  # noqa: E402
 
 import figures  # noqa: E402
 import measured  # noqa: E402
@@ -37,9 +38,11 @@ def main() -> None:
     )
     methods, families = sections["methods"], sections["stress_map"]
     ours = figures.where(methods)
-    beside = f"{ours}\nothers: {figures.of_peers(methods)}"
+    note = f"measured {figures.of_peers()}"
+    bench_peers.draw(
+        DOCS / "error_time.png", note=note, source=figures.digest(sections, "error_time")
+    )
     for name, draw, rows, note in (
-        ("error_time", bench_methods.draw_beside, methods["rows"], beside),
         ("methods", bench_methods.draw, methods["rows"], ours),
         ("stress_map", picture.draw_families, families["rows"], figures.where(families)),
     ):

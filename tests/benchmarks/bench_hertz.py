@@ -23,6 +23,7 @@ import numpy as np
 import pictures
 import runner
 import tables
+from peers import table
 
 import measured
 import scenes
@@ -30,7 +31,6 @@ import scenes
 SIZES = (0.04, 0.02, 0.01, 0.005)
 # MUMPS takes minutes and gigabytes below
 SMALLEST_COMPARED = 0.01
-PEERS = Path(__file__).with_name("peers.csv")
 
 # Marks the solver that contactx takes by itself
 DEFAULT = " *"
@@ -125,8 +125,7 @@ def draw(rows: Sequence[dict[str, Any]], path: Path) -> None:
         name = f"contactx, {row['sliding']} sliding, {row['took']}"
         groups.setdefault(name, []).append(row)
     ours = len(groups)
-    for row in tables.read(PEERS):
-        groups.setdefault(tables.peer(row), []).append(row)
+    groups |= table.others()
     pictures.lines(
         groups,
         path,

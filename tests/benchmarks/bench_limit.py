@@ -22,6 +22,7 @@ import hertz_case
 import pictures
 import runner
 import tables
+from peers import table
 
 import contactx as cx
 import ufl
@@ -36,7 +37,7 @@ from meshes import Tag
 SIZES = (0.02, 0.01, 0.005)
 FRICTION, RUNS = (0.0, 0.3), 5
 PEERS = {
-    0.0: Path(__file__).with_name("peers.csv"),
+    0.0: table.FILE,
     0.3: Path(__file__).with_name("peers_friction.csv"),
 }
 LIMIT = "one linear solve"
@@ -147,10 +148,8 @@ def draw(rows: Sequence[dict[str, Any]], path: Path) -> None:
         groups.setdefault(name, []).append(row)
     ours = len(groups)
     for friction, file in PEERS.items():
-        for row in tables.read(file):
-            if "cpu" in row:
-                name = tables.peer(row)
-                groups.setdefault(name + ", friction" * (friction > 0), []).append(row)
+        for name, of_peer in table.others(file).items():
+            groups[name + ", friction" * (friction > 0)] = of_peer
     pictures.lines(
         groups,
         path,

@@ -7,8 +7,6 @@ thread from the read mesh to the converged solution, the least of some runs, eac
 its own; the methods take turns, so that both see the same machine. Errors are those of the raw
 multipliers and of contact.pressure. Last, one body is 1e4 times stiffer than the other.
 
-A second picture has the tetrahedra beside what peers measured on the same problem.
-
     python tests/benchmarks/bench_methods.py 0.02 0.01
 """
 
@@ -34,7 +32,6 @@ SLIDINGS = ("finite", "small")
 RUNS = 3
 # Young's modulus of the stiff body over that of the soft one, and the size
 STIFFER, STIFF_SIZE = 1e4, 0.02
-PEERS = Path(__file__).with_name("peers.csv")
 BODIES = {"sphere": Tag.UPPER, "block": Tag.LOWER}
 
 ERRORS: list[tables.Column] = [
@@ -156,39 +153,6 @@ def draw(rows: Sequence[dict[str, Any]], path: Path, **words: str) -> None:
     tables.note(f"see {path}")
 
 
-def draw_beside(rows: Sequence[dict[str, Any]], path: Path, **words: str) -> None:
-    """Picture of the error in finite sliding over time, beside what peers measured.
-
-    Args:
-        rows: What was measured.
-        path: The image file.
-        words: Note and source of the picture.
-    """
-    groups: dict[str, list[dict[str, Any]]] = {}
-    for row in rows:
-        kind = row.get("cells"), row["sliding"]
-        if kind == ("tetrahedra", SLIDINGS[0]) and "cpu" in row:
-            groups.setdefault(f"contactx, {row['method']}", []).append(row)
-    ours = len(groups)
-    for row in tables.read(PEERS):
-        if "cpu" in row and "p_l2" in row:
-            name = tables.peer(row)
-            groups.setdefault(name, []).append({**row, "p_l2_best": row["p_l2"]})
-    pictures.lines(
-        groups,
-        path,
-        ours=ours,
-        axes=(("cpu", "p_l2_best"),),
-        words={
-            "cpu": "process CPU seconds, one thread",
-            "p_l2_best": "relative L2 error of the contact pressure",
-        },
-        title="An elastic sphere on an elastic block: error against time",
-        **words,
-    )
-    tables.note(f"see {path}")
-
-
 def main(argv: Sequence[str]) -> list[dict[str, Any]]:
     """Measure, print and draw."""
     given = [float(h) for h in argv]
@@ -198,7 +162,6 @@ def main(argv: Sequence[str]) -> list[dict[str, Any]]:
     title = "Common Hertz problem, raw multipliers and contact.pressure"
     tables.show(title, COLUMNS, rows, runner.OUTPUT / "methods.csv")
     draw(rows, runner.OUTPUT / "methods.png")
-    draw_beside(rows, runner.OUTPUT / "error_time.png")
     stiff = list(unlike(given[0] if given else STIFF_SIZE))
     title = f"One body {STIFFER:g} times stiffer, finite sliding"
     tables.show(title, STIFF_COLUMNS, stiff, runner.OUTPUT / "methods_stiff.csv")

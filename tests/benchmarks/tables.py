@@ -107,13 +107,6 @@ def read(path: Path) -> list[dict[str, Any]]:
         return [{k: _value(v) for k, v in row.items() if v != ""} for row in csv.DictReader(file)]
 
 
-def peer(row: Mapping[str, Any]) -> str:
-    """Name of another code with its version, and its setting."""
-    name, version = str(row["peer"]), str(row.get("version") or "")
-    known = not version or version in name or any(c.isdigit() for c in name.partition(" ")[2])
-    return f"{name if known else f'{name} {version}'}, {row['setting']}"
-
-
 def power_law(x: npt.ArrayLike, y: npt.ArrayLike) -> tuple[float, float]:
     """Fit y = factor x^exponent by least squares in logarithms.
 

@@ -10,6 +10,7 @@ import json
 import re
 
 import pytest
+from peers import table
 from PIL import Image
 
 import figures
@@ -115,28 +116,23 @@ def test_no_part_of_a_benchmark_is_recorded(monkeypatch):
         measured.run("hertz", lambda argv: rows, ["--record", "0.02"])
 
 
-def test_further_columns_of_the_peers(sections, monkeypatch, tmp_path):
-    """Versions, days and machines are told where the file has them."""
-    with figures.PEERS.open(newline="") as file:
-        rows = list(csv.DictReader(file))
-    ours = sections["methods"]
-    before = list(figures.peers(sections))
+def test_where_the_peers_were_measured(monkeypatch, tmp_path):
+    """The days and the machine of the run, and which rows are older."""
+    rows = table.rows()
     monkeypatch.setattr(figures, "PEERS", tmp_path / "peers.csv")
 
     def write(known):
         for number, row in enumerate(rows):
-            day = "2030-01-01" if number < known else ""
-            row.update(date=day, machine=ours["machine"] if day else "")
-            name, _, version = row["peer"].rpartition(" ")
-            if name and number < known:
-                row.update(peer=name, version=version)
+            is_new = number < known
+            row.update(date="2030-01-01", machine="a machine" if is_new else "", version="1")
         with figures.PEERS.open("w", newline="") as file:
-            writer = csv.DictWriter(file, list(dict.fromkeys(k for row in rows for k in row)))
+            writer = csv.DictWriter(file, table.COLUMNS)
             writer.writeheader()
             writer.writerows(rows)
 
-    write(2)
-    assert list(figures.peers(sections)) == before
-    assert figures.of_peers(ours).startswith("on 2030-01-01 on the same machine, some on another")
+    write(len(rows) - 1)
+    last = f"{rows[-1]['peer']} 1"
+    expected = f"on 2030-01-01 on a machine, but for rows of {last}, of an earlier day"
+    assert figures.of_peers() == expected
     write(len(rows))
-    assert figures.of_peers(ours) == "on 2030-01-01 on the same machine"
+    assert figures.of_peers() == "on 2030-01-01 on a machine"
