@@ -30,7 +30,8 @@ class Measured:
         stress: Largest stress along the dam of the section at mid length, MPa.
         largest: The same of all slabs, MPa.
         pressure: Largest contact pressure of the joint at mid length, MPa.
-        multiplier: Largest multiplier there, MPa.
+        crushed: The same of the whole joint, MPa.
+        multiplier: Largest multiplier at mid length, MPa.
         means: Mean stresses at mid length that the largest one may be compared with, MPa, by name.
     """
 
@@ -41,6 +42,7 @@ class Measured:
     stress: float
     largest: float
     pressure: float
+    crushed: float
     multiplier: float
     means: Mapping[str, float]
 
@@ -141,7 +143,7 @@ def measure(scene: Scene) -> Measured:
     stress, y = -scene.sigma.update(), scene.section()
     nodes = scene.nodes_of_slabs()
     here = nodes[np.isclose(scene.x[nodes, 1], y, atol=1e-6)]
-    angle = settled = wide = widest = pressure = multiplier = np.nan
+    angle = settled = wide = widest = pressure = crushed = multiplier = np.nan
     means: dict[str, float] = {}
     if scene.model.slabs > 1:
         angle, settled = rotation(scene), float(np.mean(_settled(scene)))
@@ -149,6 +151,7 @@ def measure(scene: Scene) -> Measured:
         widest = float(opening(scene, *faces_of_joint(scene)).max())
         pressed = {name: values.max() for name, (values, _) in profile(scene).items()}
         pressure, multiplier = float(pressed["contact.pressure"]), float(pressed["multiplier"])
+        crushed = float(scene.joints[middle_joint(scene) - 1].pressure.x.array.max())
         means = _means(scene, stress)
     return Measured(
         rotation=angle,
@@ -158,6 +161,7 @@ def measure(scene: Scene) -> Measured:
         stress=float(stress[here].max()),
         largest=float(stress[nodes].max()),
         pressure=pressure,
+        crushed=crushed,
         multiplier=multiplier,
         means=MappingProxyType(means),
     )
@@ -226,4 +230,4 @@ def laws(scene: Scene) -> Laws:
         beyond, highest = friction_excess(contact, mu)
         excess, pressure = max(excess, beyond), max(pressure, highest)
         gap = min(gap, float(np.nanmin(contact.gap.x.array[contact.slave_nodes], initial=0.0)))
-    return Laws(balance, -gap, max(excess, 0.0) / pressure)
+    return Laws(balance, max(0.0, -gap), max(excess, 0.0) / pressure)

@@ -24,14 +24,13 @@ sys.path.insert(0, str(Path(__file__).parents[2] / "demos"))
 
 import face_slab
 import numpy as np
-from face_slab import CUSHION_2
 from rich.console import Console
 from rich.table import Table
 
 from meshes import FACE_SLABS, FaceSlab
 from slab_results import laws, measure
 from slab_scene import Scene, Setting
-from slab_schemes import Try, scheme_1, scheme_2, try_supports
+from slab_schemes import Try, scheme_1, scheme_2, slice_of, try_supports
 from story import METHODS
 
 SLICE = replace(FACE_SLABS["slice"], layers=10)
@@ -103,19 +102,25 @@ def preset(name: str) -> Iterator[list[str]]:
 
 
 def push() -> None:
-    """Scheme 2 in steps of half a millimetre: the peak, and where rows of joint nodes close."""
+    """Scheme 2 in steps of half a millimetre: the peak, and where rows of joint nodes close.
+
+    By layers; then by the cushion's thickness and by the largest cells, those at the pushed sides.
+    """
+    for layers in (5, 10, 20):
+        for method in METHODS:
+            pushed(f"{layers} layers, {method}", replace(SLICE, layers=layers), method, 40)
     for thickness in (1.0, 2.0, 3.5):
-        for layers in (5, 10, 20) if thickness == CUSHION_2 else (5,):
-            model = replace(SLICE, layers=layers, cushion_thickness=thickness)
+        for largest in (2.5, 0.5, 0.2):
+            model = replace(
+                slice_of(FACE_SLABS["paper"]), cushion_thickness=thickness, largest=largest
+            )
             for method in METHODS:
-                pushed(f"{layers} layers, {thickness:g} m, {method}", model, method, 40)
+                pushed(f"{thickness:g} m, cells of {largest:g} m, {method}", model, method, 40)
 
 
 def push_paper() -> None:
-    """Scheme 2 in 3D on the paper's number of nodes, on both cushions."""
-    for thickness in (CUSHION_2, 3.5):
-        model = replace(FACE_SLABS["paper"], cushion_thickness=thickness)
-        pushed(f"{thickness:g} m", model, METHODS[1], 20)
+    """Scheme 2 in 3D on the paper's number of nodes."""
+    pushed("paper", FACE_SLABS["paper"], METHODS[1], 20)
 
 
 def pushed(name: str, model: FaceSlab, method: str, steps: int) -> None:
@@ -129,7 +134,7 @@ def pushed(name: str, model: FaceSlab, method: str, steps: int) -> None:
         found.append((1000 * float(scene.push[0].value), m.stress, m.largest, len(rows)))
 
     begin = time.process_time()
-    setting = Setting(replace(model, opening=(0.0, 2e-3)), method=method, cushion_is_slave=False)
+    setting = Setting(replace(model, opening=(0.0, 2e-3)), method=method)
     scheme_2(setting, PRESSURE, 0.02, steps=steps, each=each, progress=False)
     pushes, middle, whole, rows = (np.array(values) for values in zip(*found, strict=True))
     words = [

@@ -73,7 +73,7 @@ def block(h: float, dim: int, base: str, method: str) -> dict[str, Any]:
 
 def slab(layers: int, cushion_is_slave: bool, method: str) -> dict[str, Any]:
     """Turn the slabs of a slice towards each other."""
-    model = replace(bench_face_slab.SLICE, layers=layers)
+    model = replace(bench_face_slab.SLICE, layers=layers, matching=False)
     setting = slab_scene.Setting(model, method=method, cushion_is_slave=cushion_is_slave)
     scene = slab_schemes.scheme_1(
         setting, bench_face_slab.SETTLEMENT, bench_face_slab.PRESSURE, steps=1, progress=False
