@@ -105,7 +105,7 @@ def show_joints(found: Sequence[Joint], title: str, most: int = 12) -> None:
         "closed",
         "opening\nmm",
         "rotation\ndegrees",
-        *(f"at {part:g}\nof the rise" for part in HEIGHTS),
+        *(f"at\n{part:g} up" for part in HEIGHTS),
     ):
         table.add_column(name, justify="right")
     for j in sorted(found, key=lambda j: -j.stress)[:most]:
@@ -122,7 +122,7 @@ def show_joints(found: Sequence[Joint], title: str, most: int = 12) -> None:
             *(f"{angle:.4f}" for angle in j.rotations),
         )
     # Wide enough for all columns where there is no terminal
-    console = story.console if story.console.width >= 120 else story.wide_console()
+    console = story.console if story.console.width >= 130 else story.wide_console(130)
     console.print(table)
 
 

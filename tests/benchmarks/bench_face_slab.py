@@ -130,7 +130,8 @@ def pushed(name: str, model: FaceSlab, method: str, steps: int) -> None:
     def each(scene: Scene) -> None:
         joint, m = scene.joints[0], measure(scene)
         closed = joint.interface.nodes.closed
-        rows = np.unique(scene.x[joint.slave_nodes[closed], 2].round(6)) if closed.any() else ()
+        x = scene.x[joint.slave_nodes[closed]]
+        rows = np.unique((x[:, 2] / scene.model.thickness_at(x[:, 1])).round(6))
         found.append((1000 * float(scene.push[0].value), m.stress, m.largest, len(rows)))
 
     begin = time.process_time()
