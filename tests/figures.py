@@ -14,6 +14,7 @@ import json
 import re
 import string
 import tomllib
+from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -105,10 +106,17 @@ def of_peers() -> str:
     known = [row for row in rows if row["machine"]]
     days = sorted({row["date"] for row in known})
     text = f"on {' to '.join(dict.fromkeys((days[0], days[-1])))} on {known[0]['machine']}"
-    codes = dict.fromkeys(f"{row['peer']} {row['version']}" for row in rows if not row["machine"])
-    if not codes:
+    every, older = (
+        Counter(f"{row['peer']} {row['version']}" for row in of)
+        for of in (rows, [row for row in rows if not row["machine"]])
+    )
+    if not older:
         return text
-    return f"{text}, but for rows of {', '.join(codes)}, of an earlier day"
+    left = [
+        name if older[name] == every[name] else f"{n} row{'s' * (n > 1)} of {name}"
+        for name, n in older.items()
+    ]
+    return f"{text}, but for {', '.join(left)}, of an earlier day"
 
 
 def digest(sections: Sections, picture: str) -> str:
