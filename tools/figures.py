@@ -9,6 +9,7 @@ Nothing is solved. What is recorded comes from benchmarks, gallery and stress ma
 """
 
 import sys
+import textwrap
 from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
