@@ -39,10 +39,9 @@ def main() -> None:
     )
     methods, families = sections["methods"], sections["stress_map"]
     ours = figures.where(methods)
-    note = f"measured {figures.of_peers()}"
-    bench_peers.draw(
-        DOCS / "error_time.png", note=note, source=figures.digest(sections, "error_time")
-    )
+    beside = textwrap.fill(f"measured {figures.of_peers()}", 80)
+    digest = figures.digest(sections, "error_time")
+    bench_peers.draw(DOCS / "error_time.png", note=beside, source=digest)
     for name, draw, rows, note in (
         ("methods", bench_methods.draw, methods["rows"], ours),
         ("stress_map", picture.draw_families, families["rows"], figures.where(families)),
