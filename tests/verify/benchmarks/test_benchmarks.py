@@ -16,6 +16,7 @@ import bench_locking
 import bench_many
 import bench_methods
 import bench_nafems
+import bench_peers
 import bench_rates
 import bench_scenes
 import bench_skips
@@ -27,6 +28,7 @@ import pytest
 import runner
 import tables
 from matplotlib import image
+from peers import table
 
 from story import METHODS
 
@@ -121,10 +123,20 @@ def test_methods(monkeypatch):
     for row in rows:
         assert 0 < row["p_l2_best"] < 3 and row["gap"] < 1e-9
     assert all(row["ratio"] > 0 for row in rows if "cells" in row)
-    for name in ("methods", "error_time"):
-        assert image.imread(runner.OUTPUT / f"{name}.png").shape[0] > 300
+    assert image.imread(runner.OUTPUT / "methods.png").shape[0] > 300
     lines = (runner.OUTPUT / "methods.md").read_text().splitlines()
     assert len(lines) == 2 + sum("cells" in row for row in rows)
+
+
+def test_peers(tmp_path):
+    """contactx alone, as on a machine without the others; their rows stay as they are."""
+    before = table.FILE.read_bytes()
+    rows = bench_peers.main(["0.2", "--only", table.OURS, "--runs", "1", "--keep"])
+    assert [row["setting"] for row in rows] == list(METHODS)
+    assert all(0 < row["p_l2"] < 3 for row in rows)
+    assert table.FILE.read_bytes() == before
+    bench_peers.draw(tmp_path / "picture.png")
+    assert image.imread(tmp_path / "picture.png").shape[0] > 300
 
 
 def test_nafems():
