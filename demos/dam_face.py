@@ -25,7 +25,6 @@ from pathlib import Path
 from typing import Any
 
 from hexahedra import NodalStress, stress
-from rich.table import Table
 
 import contactx as cx
 from dolfinx import fem
@@ -94,8 +93,7 @@ class Compression:
 
 def show_joints(found: Sequence[Joint], title: str, most: int = 12) -> None:
     """Print the joints of the largest compression."""
-    table = Table(title=title)
-    for name in (
+    names = (
         "joint",
         "x\nm",
         "stress\nMPa",
@@ -106,10 +104,9 @@ def show_joints(found: Sequence[Joint], title: str, most: int = 12) -> None:
         "opening\nmm",
         "rotation\ndegrees",
         *(f"at\n{part:g} up" for part in HEIGHTS),
-    ):
-        table.add_column(name, justify="right")
-    for j in sorted(found, key=lambda j: -j.stress)[:most]:
-        table.add_row(
+    )
+    rows = [
+        (
             f"{j.number}",
             f"{j.x:.0f}",
             f"{j.stress:.2f}",
@@ -121,9 +118,9 @@ def show_joints(found: Sequence[Joint], title: str, most: int = 12) -> None:
             f"{j.rotation:.4f}",
             *(f"{angle:.4f}" for angle in j.rotations),
         )
-    # Wide enough for all columns where there is no terminal
-    console = story.console if story.console.width >= 130 else story.wide_console(130)
-    console.print(table)
+        for j in sorted(found, key=lambda j: -j.stress)[:most]
+    ]
+    story.show_table(title, names, rows, width=130)
 
 
 def show_laws(found: Laws) -> None:

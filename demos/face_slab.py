@@ -43,7 +43,6 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-from rich.table import Table
 
 import slab_figures
 import story
@@ -146,17 +145,6 @@ def show_laws(found: Laws) -> None:
     )
 
 
-def show_table(title: str, names: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
-    """Print a table, wide enough for all columns where there is no terminal."""
-    table = Table(title=title)
-    for name in names:
-        table.add_column(name, justify="right")
-    for row in rows:
-        table.add_row(*row)
-    console = story.console if story.console.width >= 120 else story.wide_console()
-    console.print(table)
-
-
 def differs(computed: float, paper: float) -> str:
     """Difference from the paper, in percent."""
     return f"{100 * (computed / paper - 1):+.1f} %"
@@ -173,7 +161,7 @@ def show_rows(rows: Sequence[tuple[str, float, float, Measured]]) -> None:
         of_both += [f"{1000 * m.opening:.3f}", f"{1000 * m.widest:.3f}"]
         stresses.append([*case, f"{m.rotation:.4f}", f"{stress:.1f}", *of_both])
         factors.append([*case, f"{factor:.1f}", *(f"{f:.1f}" for f in m.factors.values())])
-    show_table(
+    story.show_table(
         "Slabs turned: largest compression along the dam",
         (
             "mesh",
@@ -192,7 +180,7 @@ def show_rows(rows: Sequence[tuple[str, float, float, Measured]]) -> None:
     )
     if any(m.factors for *_, m in rows):
         places = next(m.factors for *_, m in rows if m.factors)
-        show_table(
+        story.show_table(
             "Largest compression at mid length over the mean of ...",
             ("mesh", "wanted\ndegrees", "p\nMPa", "paper", *places),
             factors,
@@ -204,46 +192,37 @@ def show_rows(rows: Sequence[tuple[str, float, float, Measured]]) -> None:
 
 def show_others(name: str, m: Measured) -> None:
     """Print the numbers of the paper that are not in its tables."""
-    settled, wide, widest = (1000 * a for a in (m.settled, m.opening, m.widest))
-    show_table(
-        f"The paper's other numbers, {name}",
-        ("", "paper", "mid length", "", "whole slab", ""),
-        [
-            ["rotation, degrees", f"{ROW[0]:g}", f"{m.rotation:.4f}", "", "", ""],
-            [
-                "difference of a slab's normal displacements, mm",
-                f"{SETTLED:g}",
-                f"{settled:.1f}",
-                differs(settled, SETTLED),
-                "",
-                "",
-            ],
-            [
-                "largest opening of the joint, mm",
-                f"{OPENING:g}",
-                f"{wide:.3f}",
-                differs(wide, OPENING),
-                f"{widest:.3f}",
-                differs(widest, OPENING),
-            ],
-            [
-                "largest compression, text and figure 8, MPa",
-                f"{TEXT_STRESS:.1f}",
-                f"{m.stress:.2f}",
-                differs(m.stress, TEXT_STRESS),
-                f"{m.largest:.2f}",
-                differs(m.largest, TEXT_STRESS),
-            ],
-            [
-                "contact.pressure of the joint, figure 8, MPa",
-                f"{TEXT_STRESS:.1f}",
-                f"{m.pressure:.2f}",
-                differs(m.pressure, TEXT_STRESS),
-                f"{m.crushed:.2f}",
-                differs(m.crushed, TEXT_STRESS),
-            ],
-        ],
-    )
+    rows = [["rotation, degrees", f"{ROW[0]:g}", f"{m.rotation:.4f}", "", "", ""]]
+    for what, paper, form, computed in (
+        (
+            "difference of a slab's normal displacements, mm",
+            SETTLED,
+            ("g", ".1f"),
+            (1000 * m.settled,),
+        ),
+        (
+            "largest opening of the joint, mm",
+            OPENING,
+            ("g", ".3f"),
+            (1000 * m.opening, 1000 * m.widest),
+        ),
+        (
+            "largest compression, text and figure 8, MPa",
+            TEXT_STRESS,
+            (".1f", ".2f"),
+            (m.stress, m.largest),
+        ),
+        (
+            "contact.pressure of the joint, figure 8, MPa",
+            TEXT_STRESS,
+            (".1f", ".2f"),
+            (m.pressure, m.crushed),
+        ),
+    ):
+        cells = [text for a in computed for text in (format(a, form[1]), differs(a, paper))]
+        rows.append([what, format(paper, form[0]), *cells])
+    names = ("", "paper", "mid length", "", "whole slab", "")
+    story.show_table(f"The paper's other numbers, {name}", names, rows)
 
 
 def run_1(args: argparse.Namespace) -> list[story.Result]:

@@ -104,7 +104,7 @@ def joint_pressure(scene: Scene, stem: Path) -> list[Path]:
     label, height = "pressure, compression / MPa", "height above the slab's bottom / m"
     files = [stem.with_name(stem.name + "_pressure.png")]
     plot.curves(
-        profile(scene),
+        profile(scene, -scene.sigma.update()),
         {},
         files[0],
         labels=(label, height),

@@ -88,7 +88,12 @@ def middle_joint(scene: Scene) -> int:
 
 def rotation(scene: Scene) -> float:
     """Mean rotation at mid length of the slabs beside the middle joint, degrees."""
-    return float(np.degrees(np.mean(np.arctan(_settled(scene) / scene.model.width))))
+    return _turned(scene, _settled(scene))
+
+
+def _turned(scene: Scene, settled: Array) -> float:
+    """Mean rotation, degrees, of slabs whose sides have settled apart, m."""
+    return float(np.degrees(np.mean(np.arctan(settled / scene.model.width))))
 
 
 def _settled(scene: Scene) -> Array:
@@ -119,22 +124,22 @@ def faces_of_joint(scene: Scene, y: float | None = None) -> tuple[Array, Array]:
     return pair[0], pair[1]
 
 
-def profile(scene: Scene, y: float | None = None) -> dict[str, tuple[Array, Array]]:
-    """What presses the middle joint, MPa, and height above the slab's bottom, m, by name.
+def profile(scene: Scene, stress: Array) -> dict[str, tuple[Array, Array]]:
+    """What presses the middle joint at mid length, MPa, and height above the bottom, m, by name.
 
     Args:
         scene: A solved scene of at least two slabs.
-        y: Place along the slope, m; None for mid length.
+        stress: Compression along the dam at the nodes, MPa, shape (num_nodes,).
     """
     contact = scene.joints[middle_joint(scene) - 1]
-    left, _ = faces_of_joint(scene, scene.section() if y is None else y)
+    left, _ = faces_of_joint(scene, scene.section())
     multiplier = np.zeros(len(scene.x))
     multiplier[contact.slave_nodes] = contact.interface.nodes.pressure
     height = scene.x[left, 2]
     return {
         "multiplier": (multiplier[left], height),
         "contact.pressure": (contact.pressure.x.array[left], height),
-        "compression beside it": (-scene.sigma.update()[left], height),
+        "compression beside it": (stress[left], height),
     }
 
 
@@ -146,13 +151,16 @@ def measure(scene: Scene) -> Measured:
     angle = settled = wide = widest = pressure = crushed = multiplier = np.nan
     means: dict[str, float] = {}
     if scene.model.slabs > 1:
-        angle, settled = rotation(scene), float(np.mean(_settled(scene)))
+        of_both = _settled(scene)
+        angle, settled = _turned(scene, of_both), float(np.mean(of_both))
         wide = float(opening(scene, *(face[0] for face in faces_of_joint(scene, y))))
         widest = float(opening(scene, *faces_of_joint(scene)).max())
-        pressed = {name: values.max() for name, (values, _) in profile(scene).items()}
-        pressure, multiplier = float(pressed["contact.pressure"]), float(pressed["multiplier"])
+        pressing = profile(scene, stress)
+        pressure = float(pressing["contact.pressure"][0].max())
+        multiplier = float(pressing["multiplier"][0].max())
         crushed = float(scene.joints[middle_joint(scene) - 1].pressure.x.array.max())
         means = _means(scene, stress)
+        means["face at the joint"] = _mean(*pressing["contact.pressure"])
     return Measured(
         rotation=angle,
         settled=settled,
@@ -168,7 +176,7 @@ def measure(scene: Scene) -> Measured:
 
 
 def _means(scene: Scene, stress: Array) -> dict[str, float]:
-    """Mean compressions of slabs at mid length, by their places."""
+    """Mean compressions of the slabs beside the joint at mid length, by their places."""
     left, y = middle_joint(scene), scene.section()
     edge, half = scene.model.edges[left], scene.model.width / 2
     found: dict[str, list[float]] = {}
@@ -187,8 +195,6 @@ def _means(scene: Scene, stress: Array) -> dict[str, float]:
             ("part of its top under compression", pressed, 0),
         ):
             found.setdefault(name, []).append(_mean(stress[nodes], scene.x[nodes, k]))
-    pressure, height = profile(scene)["contact.pressure"]
-    found["face at the joint"] = [_mean(pressure, height)]
     return {name: float(np.mean(values)) for name, values in found.items()}
 
 

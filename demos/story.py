@@ -35,6 +35,18 @@ def wide_console(width: int = 120) -> Console:
     return Console(width=width, quiet=MPI.COMM_WORLD.rank > 0)
 
 
+def show_table(
+    title: str, names: Sequence[str], rows: Sequence[Sequence[str]], width: int = 120
+) -> None:
+    """Print a table that needs a width; where there is no terminal it has that."""
+    table = Table(title=title)
+    for name in names:
+        table.add_column(name, justify="right")
+    for row in rows:
+        table.add_row(*row)
+    (console if console.width >= width else wide_console(width)).print(table)
+
+
 @dataclass(frozen=True)
 class Result:
     """A number that a demo computes and a formula gives.

@@ -162,10 +162,7 @@ def peers(sections: Sections) -> Iterator[Sequence[str]]:
         *("p_l2", "depth"),
     )
     for row in peers_table.rows(PEERS):
-        yield (
-            *(peers_table.name(row), row["h"], f"{int(row['dofs']):,}", row["iterations"]),
-            *(row["cpu"] or f"({row['wall']})", row["memory"], row["p_l2"], row["pen"]),
-        )
+        yield tuple(peers_table.shown(row).values())
 
 
 def limit(sections: Sections) -> Iterator[Sequence[str]]:

@@ -276,12 +276,6 @@ def written(row: dict[str, Any]) -> table.Row:
     return {"wall": "", "commit": "", **text}
 
 
-def shown(row: table.Row) -> dict[str, Any]:
-    """A row of ``peers.csv`` as the manual has it."""
-    time = row["cpu"] or f"({row['wall']})"
-    return {**row, "name": table.name(row), "size": f"{int(row['dofs']):,}", "time": time}
-
-
 def draw(path: Path, **words: str) -> None:
     """Picture of the error over time of all that ``peers.csv`` has.
 
@@ -327,7 +321,7 @@ def main(argv: Sequence[str]) -> list[dict[str, Any]]:
             tables.note(f"failed: {row['peer']}, {row['setting']}, {row['h']:g}: {row['failed']}")
     every = good if given.keep else table.update(good)
     title = "Common Hertz problem, peers and contactx"
-    tables.show(title, COLUMNS, [shown(row) for row in every], runner.OUTPUT / "peers.csv")
+    tables.show(title, COLUMNS, [table.shown(row) for row in every], runner.OUTPUT / "peers.csv")
     draw(runner.OUTPUT / "error_time.png")
     return rows
 

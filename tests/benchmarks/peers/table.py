@@ -32,6 +32,18 @@ def name(row: Row) -> str:
     return f"{' '.join(filter(None, (row['peer'], row.get('version'))))}, {row['setting']}"
 
 
+def shown(row: Row) -> dict[str, str]:
+    """What tables have of a row, in their order; wall seconds where there are no others."""
+    return {
+        "name": name(row),
+        "h": row["h"],
+        "size": f"{int(row['dofs']):,}",
+        "iterations": row["iterations"],
+        "time": row["cpu"] or f"({row['wall']})",
+        **{key: row[key] for key in ("memory", "p_l2", "pen")},
+    }
+
+
 def numbers(path: Path = FILE) -> dict[str, list[dict[str, Any]]]:
     """Numbers of all codes, by the name of code and setting; contactx is first."""
     groups: dict[str, list[dict[str, Any]]] = {}
