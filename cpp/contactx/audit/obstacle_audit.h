@@ -72,6 +72,5 @@ private:
   std::optional<Places> _before;
   std::vector<double> _normals;
   obstacle::Placement _placed;
-  // Whether the last look found facets that are too coarse for a radius, and
 };
 } // namespace contactx::audit
