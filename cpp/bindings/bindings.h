@@ -56,6 +56,7 @@ void deformable(py::module_& m);
 void law(py::module_& m);
 void dynamics(py::module_& m);
 void newton(py::module_& m);
+void problem(py::module_& m);
 void kernel(py::module_& m);
 void audit(py::module_& m);
 void mortar(py::module_& m);

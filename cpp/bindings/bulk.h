@@ -5,6 +5,7 @@
 
 #include "bindings.h"
 #include <contactx/newton/bulk.h>
+#include <contactx/newton/not_finite.h>
 #include <optional>
 #include <pybind11/stl.h>
 
@@ -81,6 +82,11 @@ public:
       _fields.emplace(fields);
   }
 
+  void read() override { _adapter.attr("read")(); }
+  bool has_own_jacobian() const override
+  {
+    return _adapter.attr("has_own_jacobian").cast<bool>();
+  }
   int gdim() const override { return _adapter.attr("gdim").cast<int>(); }
   bool is_linear() const override
   {
@@ -104,7 +110,7 @@ public:
   }
   std::span<const double> diagonal() override
   {
-    return keep(_diagonal, _adapter.attr("diagonal")());
+    return keep(_diagonal, finite("diagonal"));
   }
   std::span<const double> products(std::span<const double> fields,
                                    int count) override
@@ -115,7 +121,7 @@ public:
     py::array_t<double> given({static_cast<py::ssize_t>(count), size},
                               fields.data(), py::none());
     given.attr("flags").attr("writeable") = false;
-    return keep(_products, _adapter.attr("products")(given));
+    return keep(_products, finite("products", given));
   }
   std::span<const double> residual() override
   {
@@ -156,6 +162,24 @@ public:
   }
 
 private:
+  /// Calls what asks for the Jacobian, which may not be finite.
+  template <class... Given>
+  py::object finite(const char* name, Given&&... given)
+  {
+    try
+    {
+      return _adapter.attr(name)(std::forward<Given>(given)...);
+    }
+    catch (const py::error_already_set& error)
+    {
+      const py::object kind
+          = py::module_::import("contactx.cpp").attr("NotFiniteError");
+      if (error.matches(kind))
+        throw contactx::newton::NotFinite(py::str(error.value()));
+      throw;
+    }
+  }
+
   py::object _adapter;
   std::optional<PythonFields> _fields;
   Array<double> _reference, _positions, _displacements, _diagonal, _products,

@@ -3,6 +3,7 @@
 
 #include "master.h"
 #include "parallel.h"
+#include <contactx/contact/contact_state.h>
 #include <contactx/contact/transfer.h>
 #include <pybind11/stl.h>
 
@@ -64,6 +65,13 @@ void contactx_bindings::contact(py::module_& m)
           { self.set_prescribed(view(prescribed)); }, py::arg("prescribed"))
       .def("begin_step", &Contact::begin_step)
       .def("accept", &Contact::accept)
+      .def_property_readonly("is_self", &Contact::is_self)
+      .def_property_readonly("saved_rows", [](const Contact& self)
+                             { return rows_of(save(self)); })
+      .def("save", [](const Contact& self) { return to_dict(save(self)); })
+      .def(
+          "load", [](Contact& self, const py::dict& saved)
+          { load(self, from_dict(saved)); }, py::arg("saved"))
       .def("rebuild", &Contact::rebuild)
       .def(
           "set_factor", [](Contact& self, const Array<double>& compliance)

@@ -85,6 +85,14 @@ py::dict contactx_bindings::to_dict(const std::vector<Saved>& saved)
   return result;
 }
 
+py::dict contactx_bindings::rows_of(const std::vector<Saved>& saved)
+{
+  py::dict kinds;
+  for (const Saved& s : saved)
+    kinds[py::str(s.name)] = name_of(s.rows);
+  return kinds;
+}
+
 std::vector<Saved> contactx_bindings::from_dict(const py::dict& saved)
 {
   std::vector<Saved> result;
@@ -211,14 +219,6 @@ void contactx_bindings::master(py::module_& m)
       m, "Master", "Pairs of the slave nodes of a contact with its master")
       .def_property_readonly("reach", &Master::reach)
       .def_property_readonly("is_rigid", &Master::is_rigid)
-      .def_property_readonly("saved_rows",
-                             [](const Master& self)
-                             {
-                               py::dict kinds;
-                               for (const Saved& s : self.save())
-                                 kinds[py::str(s.name)] = name_of(s.rows);
-                               return kinds;
-                             })
       .def("turn",
            [](const Master& self, const Array<double>& x) -> py::object
            {
@@ -252,9 +252,6 @@ void contactx_bindings::master(py::module_& m)
            { return array(self.area(view(whole))); })
       .def("identity",
            [](const Master& self) { return to_dict(self.identity()); })
-      .def("save", [](const Master& self) { return to_dict(self.save()); })
-      .def("load", [](Master& self, const py::dict& saved)
-           { self.load(from_dict(saved)); })
       .def("distance", [](const Master& self, const Array<double>& x)
            { return self.distance(view(x)); })
       .def_property_readonly("frozen_pairs", [](const Master& self)

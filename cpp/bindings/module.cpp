@@ -24,4 +24,5 @@ PYBIND11_MODULE(cpp, m)
   contactx_bindings::mortar(m);
   contactx_bindings::kernel(m);
   contactx_bindings::audit(m);
+  contactx_bindings::problem(m);
 }

@@ -4,8 +4,11 @@
 #include "bulk.h"
 #include "master.h"
 #include <contactx/newton/accuracy.h>
+#include <contactx/newton/derivative_check.h>
 #include <contactx/newton/loop.h>
+#include <contactx/newton/not_finite.h>
 #include <contactx/newton/softness.h>
+#include <pybind11/functional.h>
 #include <pybind11/stl.h>
 
 namespace py = pybind11;
@@ -20,6 +23,7 @@ using contactx::parallel::Halo;
 
 void contactx_bindings::newton(py::module_& m)
 {
+  py::register_exception<NotFinite>(m, "NotFiniteError", PyExc_ArithmeticError);
   py::class_<System, std::shared_ptr<System>>(m, "System",
                                               "Coupled bulk and contacts")
       .def(py::init(
@@ -59,16 +63,6 @@ void contactx_bindings::newton(py::module_& m)
           { self.multiply(contact, view(x), mutable_view(y)); },
           py::arg("contact"), py::arg("x"), py::arg("y").noconvert());
 
-  py::enum_<Verdict>(m, "Verdict", "What an accepted iterate is")
-      .value("goes_on", Verdict::goes_on)
-      .value("solution", Verdict::solution)
-      .value("not_finite", Verdict::not_finite)
-      .value("hidden", Verdict::hidden)
-      .value("ran_away", Verdict::ran_away)
-      .value("turned", Verdict::turned)
-      .value("unbalanced", Verdict::unbalanced)
-      .value("stuck", Verdict::stuck);
-
   py::class_<Iterate>(m, "Iterate", "An accepted iterate")
       .def_readonly("residual", &Iterate::residual)
       .def_readonly("tolerance", &Iterate::tolerance)
@@ -97,8 +91,6 @@ void contactx_bindings::newton(py::module_& m)
            py::arg("residual"));
 
   py::class_<Loop>(m, "Loop", "Newton's method but for the linear solves")
-      .def(py::init<std::shared_ptr<System>, std::shared_ptr<Bodies>>(),
-           py::arg("system"), py::arg("bodies"))
       .def_property_readonly("active_set", &Loop::active_set,
                              py::return_value_policy::reference_internal)
       .def_property_readonly("free_bodies", &Loop::free_bodies,
@@ -110,34 +102,19 @@ void contactx_bindings::newton(py::module_& m)
       .def_property_readonly("iterate", &Loop::iterate,
                              py::return_value_policy::reference_internal)
       .def_property_readonly("version", &Loop::version)
-      .def_property_readonly("is_homogeneous", &Loop::is_homogeneous)
-      .def("begin_step", &Loop::begin_step, py::arg("damped"))
-      .def("settle_first", &Loop::settle_first)
-      .def(
-          "judge",
-          [](Loop& self, bool is_start, double rtol, double atol,
-             Array<double> b)
-          { return self.judge(is_start, rtol, atol, mutable_view(b)); },
-          py::arg("is_start"), py::arg("rtol"), py::arg("atol"),
-          py::arg("b").noconvert())
       .def(
           "softens", [](Loop& self, const Array<double>& dx)
           { return self.softens(view(dx)); }, py::arg("dx"))
       .def(
-          "foresee", [](Loop& self, const Array<double>& dx)
-          { self.foresee(view(dx)); }, py::arg("dx"))
-      .def(
-          "within_cells", [](const Loop& self, const Array<double>& dx)
-          { return self.within_cells(view(dx)); }, py::arg("dx"))
+          "limit",
+          [](Loop& self, const Array<double>& dx,
+             const Loop::Correction& correction)
+          { return self.limit(view(dx), correction); },
+          py::arg("dx"), py::arg("correction") = Loop::Correction())
       .def(
           "size_of", [](const Loop& self, const Array<double>& dx)
           { return self.size_of(view(dx)); }, py::arg("dx"))
-      .def("way", &Loop::way)
-      .def("turned", &Loop::turned)
-      .def("changing", &Loop::changing)
-      .def("accept", &Loop::accept)
-      .def("find_rigid_modes", &Loop::find_rigid_modes)
-      .def("reset", &Loop::reset);
+      .def("changing", &Loop::changing);
 
   py::class_<ActiveSet>(m, "ActiveSet", "Pairs and status of all contacts")
       .def("num_closed", &ActiveSet::num_closed)
@@ -168,6 +145,18 @@ void contactx_bindings::newton(py::module_& m)
       .def("skip", &Accuracy::skip)
       .def_property_readonly("is_last", &Accuracy::is_last);
 
+  m.def(
+      "derivative_error",
+      [](System& system, const Array<double>& direction, double size,
+         double ahead)
+      { return derivative_error(system, view(direction), size, ahead); },
+      py::arg("system"), py::arg("direction"), py::arg("size"),
+      py::arg("ahead") = 0.0);
+  m.def(
+      "least_derivative_error",
+      [](System& system, const Array<double>& direction, double extent)
+      { return least_derivative_error(system, view(direction), extent); },
+      py::arg("system"), py::arg("direction"), py::arg("extent"));
   m.def(
       "softness",
       [](const Bodies& bodies, const Array<double>& diagonal,

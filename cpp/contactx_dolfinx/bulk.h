@@ -7,6 +7,7 @@
 #include "petsc.h"
 #include <cmath>
 #include <contactx/newton/bulk.h>
+#include <contactx/newton/not_finite.h>
 #include <dolfinx/fem/DirichletBC.h>
 #include <dolfinx/fem/Form.h>
 #include <dolfinx/fem/assembler.h>
@@ -46,6 +47,13 @@ public:
     _is_linear = std::ranges::none_of(in, [this](const auto& c)
                                       { return c.get() == _u.get(); });
   }
+
+  void read() override { _adapter->update_ghosts(); }
+
+  /// @copydoc newton::Bulk::has_own_jacobian
+  ///
+  /// A program always gives it.
+  bool has_own_jacobian() const override { return true; }
 
   int gdim() const override { return _halo->gdim(); }
   bool is_linear() const override { return _is_linear; }
@@ -107,17 +115,6 @@ public:
   std::span<const double> defect() override
   {
     return std::span<const double>(all_defects()).first(_size);
-  }
-
-  /// @brief Displacements with the values of the Dirichlet conditions, ghosts
-  /// included (shape=(num_bulk, gdim)).
-  std::vector<double> prescribed()
-  {
-    std::vector<double> u = _u->x()->array();
-    const std::vector<double>& defect = all_defects();
-    for (std::size_t i = 0; i < u.size(); ++i)
-      u[i] -= defect[i];
-    return u;
   }
 
   std::span<const double> lifted() override
@@ -192,7 +189,7 @@ public:
   /// @brief Jacobian, with unit rows and columns at Dirichlet conditions,
   /// assembled anew where a coefficient or a constant of its form has changed:
   /// that of a linear bulk once. All ranks must take part.
-  /// @throws std::runtime_error on all ranks if it is not finite.
+  /// @throws newton::NotFinite on all ranks if it is not finite.
   ::Mat matrix()
   {
     std::vector<double> with = ::dolfinx::fem::pack_constants(*_J);
@@ -220,7 +217,7 @@ public:
     PetscReal norm = 0;
     petsc::check(MatNorm(A, NORM_FROBENIUS, &norm), "MatNorm");
     if (not std::isfinite(norm))
-      throw std::runtime_error(
+      throw newton::NotFinite(
           "the Jacobian is not finite: it does not exist at this displacement, "
           "or a coefficient of it is NaN or infinite. Start from another "
           "displacement, or repair the coefficient (manual: "

@@ -34,7 +34,7 @@ namespace contactx::dolfinx
 /// condensed goes to a direct solver of the saddle point: multipliers without
 /// an equation of their own, and what multigrid does not converge for. All
 /// ranks must take part in everything.
-class Condensed
+class Condensed final : public problem::LinearSolver
 {
 public:
   /// @brief Create the solver.
@@ -72,6 +72,17 @@ public:
       }
     }
     solve_directly(b, dx);
+  }
+
+  void update() override {}
+
+  void solve(std::span<const double> b, std::span<double> x) override
+  {
+    const petsc::OwnVec right(_assembler->create_vector()),
+        found(_assembler->create_vector());
+    std::ranges::copy(b, petsc::Values(right.get()).span().begin());
+    solve(right.get(), found.get());
+    std::ranges::copy(petsc::ConstValues(found.get()).span(), x.begin());
   }
 
   /// @brief Krylov iterations so far.

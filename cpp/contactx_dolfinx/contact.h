@@ -7,6 +7,7 @@
 #include "surface.h"
 #include <contactx/contact/recovery.h>
 #include <contactx/obstacle/obstacle.h>
+#include <contactx/problem/values.h>
 #include <contactx/reference/facing.h>
 #include <contactx/reference/shared_nodes.h>
 #include <contactx/reference/sides.h>
@@ -48,6 +49,29 @@ struct Options
   std::function<double(const Vector<3>&)> weight = {};
 };
 
+/// @brief Friction and offset of a contact, the same at all nodes.
+struct Values final : problem::Values
+{
+  bool vary() const override { return true; }
+  std::optional<std::vector<double>> friction() override
+  {
+    if (not coefficient)
+      return std::nullopt;
+    return std::vector<double>(num_nodes, *coefficient);
+  }
+  std::vector<double> offset() override
+  {
+    if (not std::isfinite(length))
+      throw std::invalid_argument(
+          "the offset of a contact is not finite: give a finite length");
+    return std::vector<double>(num_nodes, length);
+  }
+
+  std::size_t num_nodes = 0;         ///< slave nodes of this rank
+  std::optional<double> coefficient; ///< Coulomb's, if there is one
+  double length = 0;                 ///< that is taken off the gap
+};
+
 /// @brief Contact of a slave surface with a master surface or a rigid obstacle,
 /// or of a surface with itself, where slave and master are the same.
 ///
@@ -68,8 +92,11 @@ public:
   /// @throws std::invalid_argument if it is tied and has friction, or the
   /// obstacle is null.
   Contact(Surface slave, Master master, Options options = {})
-      : _slave(std::move(slave)), _master(std::move(master)), _options(options)
+      : _slave(std::move(slave)), _master(std::move(master)), _options(options),
+        _values(std::make_shared<Values>())
   {
+    _values->coefficient = options.friction;
+    _values->length = options.offset;
     if (_options.tied and _options.friction)
       throw std::invalid_argument(
           "tied excludes friction: a tied slave node does not slip. Leave "
@@ -115,8 +142,6 @@ public:
   {
     _discrete.reset();
     _recovery.reset();
-    _coulomb.reset();
-    _is_read = false;
   }
 
   /// @brief Take another coefficient of friction, on all ranks, from the next
@@ -127,35 +152,30 @@ public:
     if (not _options.friction)
       throw std::invalid_argument(
           "the contact has no friction: create it with one, zero will do");
-    _options.friction = friction;
-    _is_read = false;
+    _values->coefficient = friction;
   }
 
   /// @brief Take another length off the gap, on all ranks, from the next
   /// iterate on.
-  void set_offset(double offset)
+  void set_offset(double offset) { _values->length = offset; }
+
+  /// @brief Name in messages.
+  std::string name() const
   {
-    _options.offset = offset;
-    _is_read = false;
+    if (is_self())
+      return "Contact of " + _slave.name() + " with itself";
+    const auto* surface = std::get_if<Surface>(&_master);
+    const std::string master
+        = surface
+              ? surface->name()
+              : std::get<std::shared_ptr<obstacle::Obstacle>>(_master)->name();
+    const bool is_small = _options.sliding == Sliding::small;
+    return "Contact(slave=" + _slave.name() + ", master=" + master
+           + ", sliding='" + (is_small ? "small" : "finite") + "')";
   }
 
-  /// @brief Hand the core friction and offset as they are now; the Assembler
-  /// does so.
-  /// @throws std::invalid_argument if the coefficient is negative, or one of
-  /// them is not finite.
-  void read_values()
-  {
-    if (_is_read)
-      return;
-    if (not std::isfinite(_options.offset))
-      throw std::invalid_argument(
-          "the offset of a contact is not finite: give a finite length");
-    const std::size_t n = discrete().nodes()->num_nodes();
-    if (_coulomb)
-      _coulomb->set_friction(std::vector<double>(n, *_options.friction));
-    discrete().set_offset(std::vector<double>(n, _options.offset));
-    _is_read = true;
-  }
+  /// @brief Friction and offset, as the core reads them.
+  const std::shared_ptr<Values>& values() const { return _values; }
 
   /// @brief The core's side.
   /// @throws std::logic_error if it does not exist yet.
@@ -252,7 +272,7 @@ private:
     if (_options.tied)
       law = std::make_shared<law::Tied>();
     else if (_options.friction)
-      law = _coulomb = std::make_shared<law::Coulomb>();
+      law = std::make_shared<law::Coulomb>();
     else
       law = std::make_shared<law::Frictionless>();
 
@@ -300,8 +320,7 @@ private:
     }
     _recovery = std::make_unique<contact::Recovery>(slaves, halo->reference(),
                                                     halo->gdim());
-    // A rank without slave nodes finds nothing wrong
-    halo->ranks().agree([this] { read_values(); });
+    _values->num_nodes = slaves->owned().size();
   }
 
   std::vector<double> weights(const parallel::Halo& halo,
@@ -321,8 +340,7 @@ private:
   Surface _slave;
   Master _master;
   Options _options;
-  bool _is_read = false;
-  std::shared_ptr<law::Coulomb> _coulomb;
+  std::shared_ptr<Values> _values;
   std::shared_ptr<contact::Contact> _discrete;
   std::unique_ptr<contact::Recovery> _recovery;
 };

@@ -95,6 +95,8 @@ public:
         _own.insert(_own.end(), &_cells[c], &_cells[c] + width);
   }
 
+  void read() override { _halo->forward(std::span(*u), gdim()); }
+  bool has_own_jacobian() const override { return false; }
   int gdim() const override { return _halo->gdim(); }
   bool is_linear() const override { return linear; }
   std::span<const double> reference() override { return _halo->reference(); }

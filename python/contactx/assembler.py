@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-import math
 import warnings
 from collections import Counter
 from collections.abc import Sequence
@@ -19,7 +18,6 @@ import ufl
 from contactx import compat
 from contactx import cpp as core
 from contactx.arguments import is_number
-from contactx.audit.audit import Audit
 from contactx.bodies import Bodies
 from contactx.bulk import Bulk
 from contactx.bulk_input import (
@@ -30,7 +28,6 @@ from contactx.bulk_input import (
     check_displacement,
     check_finite,
     check_forms,
-    check_prescribed,
     have_changed,
 )
 from contactx.conductance import Conductance, check_conductances
@@ -39,23 +36,17 @@ from contactx.coupled import CoupledBulk
 from contactx.errors import ConvergenceError, NotFiniteError
 from contactx.geometry.cells import check_cells
 from contactx.geometry.curved import check_straight
-from contactx.interface import check_drag, check_over_constrained
 from contactx.linear import Condensed
 from contactx.newton import NewtonLoop
 from contactx.parallel.agreement import agreed
 from contactx.parallel.halo import Halo
 from contactx.refined import reference_positions
-from contactx.report import Report
-from contactx.settled import Settled, no_convergence, settled
-from contactx.state import Snapshot
-from contactx.summary import complete, warning_of
+from contactx.report import Iteration, Report
+from contactx.state import FunctionValues
 from contactx.system import SaddlePointSystem
 from contactx.unknowns import unknowns_of
 from contactx.weight import is_axisymmetric
 from dolfinx import fem, la
-
-# Methods that all ranks must call at the same time
-_CALLS = ("begin_step", "settle", "residual", "jacobian", "set_up", "limit", "update", "accept")
 
 
 class ContactAssembler:
@@ -152,7 +143,6 @@ class ContactAssembler:
         self.contacts = list(contacts)
         self.report = Report()
         self._bcs: Sequence[fem.DirichletBC] = [] if bcs is None else bcs
-        self._refuses = audit == "refuse"
         options = form_compiler_options, jit_options
         residuals, jacobians = as_blocks(F, J)
         self.bulk = (
@@ -173,23 +163,18 @@ class ContactAssembler:
             if isinstance(self.bulk, CoupledBulk):
                 self.bulk.follow(self.conductances)
             self.system = SaddlePointSystem(self.bulk, self.interfaces, self.halo)
-            self.loop = core.Loop(self.system.core, self.bodies)
-            self._audit = Audit(self.bulk, self.interfaces, self.halo)
+            names = (f"contact {k} ({contact})" for k, contact in enumerate(self.contacts))
+            parts = [(n, i.values) for n, i in zip(names, self.interfaces, strict=True)]
+            refuses = audit == "refuse"
+            self.core = core.Problem(self.system.core, self.bodies, parts, refuses=refuses)
         except BaseException:
             for contact in self.contacts[: len(self.interfaces)]:
                 contact.detach()
             raise
         self._warn_of_weights(residuals[unknowns.index if unknowns else 0])
-        self._names = [f"contact {k} ({contact})" for k, contact in enumerate(self.contacts)]
-        self._before: Snapshot | None = None
-        # Whether a step has begun, whether a part of it was taken since the last iterate settled,
-        # and what that one was
-        self._has_begun = self._has_moved = False
-        self._found: Settled | None = None
-        self._solves = self._skipped = 0
-        self._has_modes = False
-        # Whether bodies may leave one another for good: no warning then
-        self.may_fly = False
+        self.loop = self.core.loop
+        self._before: FunctionValues | None = None
+        self._skipped = 0
         self._A: PETSc.Mat | None = None
         self._condensed: Condensed | None = None
         # Solvers that are reset where the Dirichlet conditions change
@@ -254,21 +239,14 @@ class ContactAssembler:
 
     def prepare(self) -> None:
         """Check the state that a step starts from, and save it; ``begin_step`` calls this."""
-        self._before, self._has_begun = None, False
+        self._before = None
         if have_changed(self._bcs, self.bulk.bcs, self._comm):
             self._take_conditions()
-        self.bulk.read()
-        check_finite(self._comm, the_displacement_u_is=self.u.x)
+        self._collect()
+        self.core.prepare()
         for function in self.functions:
             check_finite(self._comm, the_start_of_the_solve_is=function.x)
-        prescribed = self.bulk.prescribed()
-        check_prescribed(prescribed, self.bulk.markers, self._comm)
-        check_over_constrained(self.interfaces, self.contacts, prescribed, self.halo)
-        check_drag(self.interfaces, self.contacts)
-        self._before = Snapshot(
-            self.u, self.contacts, self.halo.update_ghosts, history=self.functions
-        )
-        self.halo.update_ghosts()
+        self._before = FunctionValues(self)
 
     def _take_conditions(self) -> None:
         """Take the Dirichlet conditions that the user's list has now."""
@@ -278,6 +256,10 @@ class ContactAssembler:
             interface.set_prescribed(self.bulk.markers)
         for solver in self.solvers:
             solver.reset()
+
+    def _collect(self) -> None:
+        """Free PETSc's objects that were dropped, which only all ranks together can."""
+        PETSc.garbage_cleanup(self._comm)
 
     def start(self, report: Report) -> None:
         """Start a step that was prepared; ``begin_step`` does so.
@@ -289,28 +271,14 @@ class ContactAssembler:
             NotFiniteError: If the residual is not finite.
         """
         self.report = report
-        self._has_begun = self._has_moved = False
-        self._found = None
-        self._solves, self._skipped = 0, self.bulk.skipped
+        self._skipped = self.bulk.skipped
         self.system.begin_step()
         if self._condensed is not None:
             self._condensed.start(report)
-        with report.timing("bulk stiffness"):
-            is_finite = self.loop.begin_step(damped=report.damped)
-        if not is_finite:
-            raise NotFiniteError(
-                "the residual is not finite: the material fails at the start of the step, or a "
-                "load or coefficient of F is NaN or infinite. Take smaller load steps, or repair "
-                "what sets it (manual: errors/residual-not-finite)"
-            )
-        self._audit.begin_step()
-        self._read_values()
-        with report.timing("settle"):
-            self.loop.settle_first()
+        self.core.start(damped=report.damped)
         self.system.pack()
-        self._has_begun = True
 
-    def settle(self, rtol: float = 1e-11, atol: float = 0.0, max_it: int = 50) -> Settled:
+    def settle(self, rtol: float = 1e-11, atol: float = 0.0, max_it: int = 50) -> core.Settled:
         """Update pairs and active set at an accepted iterate, and judge its residual.
 
         The iterate may change a little: where iterates cycle, part of the last step is taken back,
@@ -330,18 +298,14 @@ class ContactAssembler:
             ValueError: If friction, offset or an obstacle has a value out of its range.
         """
         self._enter("settle", rtol=rtol, atol=atol, max_it=max_it)
-        self._look_anew()
-        found = self.judge(rtol, atol)
-        reason = found.failure
-        if not (reason or found.converged) and found.number >= max_it:
-            is_homogeneous = self.loop.is_homogeneous
-            reason = no_convergence(str(max_it), "max_it", is_homogeneous=is_homogeneous)
-        if reason:
-            self.report.reason = reason
-            raise ConvergenceError(reason, self.report)
+        self._collect()
+        found = self._settled(self.core.settle(rtol, atol, int(max_it)))
+        if found.failure:
+            self.report.reason = found.failure
+            raise ConvergenceError(found.failure, self.report)
         return found
 
-    def judge(self, rtol: float, atol: float) -> Settled:
+    def judge(self, rtol: float, atol: float) -> core.Settled:
         """Do the same as ``settle`` without raising an error, for SNES.
 
         Args:
@@ -351,57 +315,20 @@ class ContactAssembler:
         Returns:
             The iterate and its figures; ``failure`` says why the loop should end.
         """
-        is_start = self._solves == 0
-        if not is_start:
-            self._read_values()
-        with self.report.timing("settle"):
-            verdict = self.loop.judge(is_start, rtol, atol, self.system.b.array)
-            # Iterates may have been taken back
-            self.system.pack()
-        faults = ""
-        if verdict == core.Verdict.solution:
-            with self.report.timing("audit"):
-                self.report.audit = findings = self._audit(self._names)
-            if self._refuses:
-                faults = "; ".join(findings.faults)
-            else:
-                findings.warnings += findings.faults
-        self._found = settled(
-            self._solves,
-            verdict,
-            self.loop.iterate,
-            scale=self.loop.convergence.scale(),
-            moved=self._moved(verdict),
-            faults=faults,
-        )
-        if verdict != core.Verdict.hidden:
-            self.report.history.append(self._found.row())
-        self._has_moved = False
-        return self._found
+        self._collect()
+        return self._settled(self.core.judge(rtol, atol, self.system.b.array))
 
-    def _moved(self, verdict: core.Verdict) -> float:
-        """What a body that nothing holds has moved by, as the verdict counts it."""
-        if verdict == core.Verdict.ran_away:
-            return self.loop.way()
-        return math.degrees(self.loop.turned()) if verdict == core.Verdict.turned else 0.0
-
-    def _look_anew(self) -> None:
-        """Read displacements and loads, which a user may have changed since the last call."""
-        self.bulk.read()
-        self.halo.update_ghosts()
-        self.system.core.begin_step()
-
-    def _read_values(self) -> None:
-        """Hand the core friction, offsets and obstacles as they are now."""
-        # Only all ranks together can free what they have dropped
-        PETSc.garbage_cleanup(self._comm)
-        for interface in self.interfaces:
-            interface.read_values()
+    def _settled(self, found: core.Settled) -> core.Settled:
+        """Take note of an iterate that was judged, which may have been taken back."""
+        self.system.pack()
+        self.report.history.append(Iteration.of(found))
+        self.report.take(self.core.report)
+        return found
 
     @property
     def converged(self) -> bool:
         """True if the iterate of the last ``settle`` is a solution and no step was taken since."""
-        return self._found is not None and self._found.converged and not self._has_moved
+        return self.core.converged
 
     def residual(self, b: PETSc.Vec) -> None:
         """Assemble the residual of bulk and contacts at ``u`` and the contacts' multipliers.
@@ -416,7 +343,7 @@ class ContactAssembler:
             ValueError: If the vector is of another layout.
         """
         self._enter("residual", b)
-        self._look_anew()
+        self.core.read()
         self.system.residual(b)
 
     def jacobian(self, A: PETSc.Mat | None = None) -> PETSc.Mat:
@@ -519,13 +446,7 @@ class ContactAssembler:
             ValueError: If the vector is of another layout.
         """
         self._enter("limit", dx)
-        step = -dx.array_r
-        if self.loop.softens(step):
-            return 0.0
-        self.loop.foresee(step)
-        size = self.loop.size_of(step)
-        self.loop.length.begin(size, self.loop.within_cells(step) if np.isfinite(size) else 1.0)
-        return self.loop.length.part
+        return self.core.limit(dx.array_r)
 
     def update(self, dx: PETSc.Vec, part: float = 1.0) -> None:
         """Add a step to the unknowns: to ``u`` and the contacts' multipliers.
@@ -539,17 +460,8 @@ class ContactAssembler:
             ValueError: If the vector is of another layout, or the part no number.
         """
         self._enter("update", dx, part=part)
-        if not np.isfinite(part):
-            raise ValueError(f"part is {part}: give a number of at most 1")
+        self.core.update(dx.array_r, part)
         self.system.pack()
-        self.system.x.axpy(part, dx)
-        self.system.unpack(self.system.x)
-        self.moved()
-
-    def moved(self) -> None:
-        """Count a linear solve, after which the state is another one; SNES does so."""
-        self._has_moved = True
-        self._solves += 1
 
     def accept(self) -> None:
         """Take the solution as the start of the next step: history is committed.
@@ -560,7 +472,7 @@ class ContactAssembler:
             RuntimeError: If no iterate has settled and converged.
             ValueError: If a LevelSet with friction has moved while it is touched.
         """
-        if self._attached is not None and self._has_begun:
+        if self._attached is not None and self.core.has_begun:
             self._attached.end(self.report)
             if not self.converged:
                 reason = self.report.reason
@@ -576,35 +488,30 @@ class ContactAssembler:
     def commit(self) -> None:
         """Do the same as ``accept`` without checking the order of calls."""
         report = self.report
-        check_drag(self.interfaces, self.contacts)
+        self.core.accept()
         report.converged = True
-        self.loop.accept()
-        self._has_modes = True
         for contact in self.contacts:
-            contact.accept()
-        with report.timing("audit"):
-            self._audit.accept()
-        complete(report, self.contacts, self.halo)
-        hidden = self.loop.active_set.hidden_gaps
-        for name, interface, gap in zip(self._names, self.interfaces, hidden, strict=True):
-            self.say(warning_of(name, interface, gap, self.halo, may_fly=self.may_fly))
-        for text in report.audit.warnings:
+            contact.fields.update()
+        found = self.core.report
+        report.take(found)
+        report.force = [contact.force for contact in self.contacts]
+        report.recovery = [contact.fields.recovery_change for contact in self.contacts]
+        report.imbalance = np.sum([contact.fields.imbalance for contact in self.contacts], axis=0)
+        for text in found.warnings:
             self.say(text)
-        self._has_begun = False
 
     def summarise(self) -> None:
         """Write the figures of the step so far into the report; all ranks must take part."""
-        report, active_set, bodies = self.report, self.loop.active_set, self.loop.free_bodies
-        report.frozen_gap = min(active_set.hidden_gaps, default=0.0)
-        report.soft = active_set.soft_iterations
-        report.limited, report.shortened = self.loop.length.limited, self.loop.length.damped
-        report.cycles = active_set.cycles
-        report.corners = active_set.num_corners()
-        report.free_modes = bodies.free_modes
-        report.closed_for_balance = bodies.closed_for_balance
-        report.skipped = Counter({"bulk Jacobian assembly": self.bulk.skipped - self._skipped})
-        for interface in self.interfaces:
-            report.skipped.update({"search": interface.skipped_searches})
+        report = self.report
+        self.core.summarise()
+        found = self.core.report
+        report.take(found)
+        report.skipped = Counter(
+            {
+                "bulk Jacobian assembly": self.bulk.skipped - self._skipped,
+                "search": found.skipped_searches,
+            }
+        )
         if self._condensed is not None:
             self._condensed.end_step(report)
 
@@ -612,17 +519,9 @@ class ContactAssembler:
         """Return to where the last step began, bit for bit, with all contacts."""
         if self._before is not None:
             self._before.restore()
-        self._has_begun = False
-        self._found = None
+        self.core.restore()
         if self._condensed is not None:
             self._condensed.reset()
-        if not self._has_modes:
-            self.loop.reset()
-
-    def find_rigid_modes(self) -> None:
-        """Find the free rigid modes of the bodies as they are, as the first step does."""
-        self._has_modes = True
-        self.loop.find_rigid_modes()
 
     def say(self, text: str) -> None:
         """Warn on rank 0.
@@ -661,43 +560,15 @@ class ContactAssembler:
             ValueError: If a vector or matrix is of another layout, or arguments differ.
         """
         wrong = ", ".join(f"{k}={v!r}" for k, v in numbers.items() if not is_number(v))
-        values = [] if wrong else [float(value) for value in numbers.values()]
-        calls = self._comm.allgather((_CALLS.index(call), wrong, values))
-        if len({k for k, _, _ in calls}) > 1:
-            names = ", ".join(f"{_CALLS[k]}() on rank {r}" for r, (k, _, _) in enumerate(calls))
-            raise RuntimeError(
-                f"all ranks must call the same method of a ContactAssembler: {names}"
-            )
-        wrong = next((text for _, text, _ in calls if text), "")
-        if wrong:
-            raise TypeError(f"{call}() was given {wrong}: give a number")
-        for name, *each in zip(numbers, *(theirs for _, _, theirs in calls), strict=True):
-            # NaN is unlike itself
-            if len(set(map(str, each))) > 1:
-                raise ValueError(
-                    f"{name} of {call}() differs between ranks, {', '.join(map(str, each))}: give "
-                    "the same on all"
-                )
-        if call != "begin_step" and not self._has_begun:
-            raise RuntimeError(
-                f"{call}() before begin_step(): no step has begun, call begin_step() first"
-            )
-        if call in ("set_up", "limit", "accept") and (self._has_moved or self._found is None):
-            raise RuntimeError(
-                f"{call}() before settle(): pairs and active set are not those of the iterate, "
-                "call settle() first"
-            )
-        if call == "accept" and not self.converged:
-            raise RuntimeError(
-                "accept() of an iterate that is no solution: go on until settle() says converged, "
-                "or restore()"
-            )
-        if given is None:
-            return
+        values = [] if wrong else [(name, float(value)) for name, value in numbers.items()]
+        wanted = self.system.x.getSizes()
+        got = wanted if given is None else given.getSizes()
+        if isinstance(given, PETSc.Mat):
+            wanted = (wanted, wanted)
+        self.core.enter(call, values or [(name, np.nan) for name in numbers])
         with agreed(self._comm):
-            wanted, got = self.system.x.getSizes(), given.getSizes()
-            if isinstance(given, PETSc.Mat):
-                wanted = (wanted, wanted)
+            if wrong:
+                raise TypeError(f"{call}() was given {wrong}: give a number")
             if got != wanted:
                 raise ValueError(
                     f"{call}() was given a {type(given).__name__} of the sizes {got} (local, "

@@ -20,9 +20,6 @@ from contactx.parallel import reduce
 from contactx.quadrature import by_rule
 from dolfinx import fem, la
 
-# Digits of a force that rounding of displacements takes, relative to the terms of its sum
-_LOST = 64 * np.finfo(np.float64).eps
-
 
 class Bulk:
     """Residual and Jacobian of the bodies without contact.
@@ -138,58 +135,6 @@ class Bulk:
             fem.assemble_vector(self._b.array, part)
         return self._sums()
 
-    def jacobian_error(
-        self, way: npt.NDArray[np.float64], size: float, ahead: float = 0.0
-    ) -> float:
-        """Relative difference of the Jacobian from a difference quotient of the residual.
-
-        All ranks must take part.
-
-        Args:
-            way: Direction, ghosts included, shape (num_dofs + num_ghosts,).
-            size: Displacement up to which the residual is as good as linear.
-            ahead: Displacement along the direction after which both are taken: a residual with
-                kinks, such as that of plastic bodies, has no derivative where they are.
-
-        Returns:
-            Norm of the difference of both products with the direction over the larger of their
-            norms, in free dofs; 0 where there is none, or it is not finite, and small where the
-            direction is a rigid motion.
-        """
-        way = np.where(self.markers == 1, 0.0, way)
-        most = reduce.largest(self.comm, float(np.abs(way).max(initial=0.0)))
-        if not (np.isfinite(most) and most > 0):
-            return 0.0
-        u, quotient = self.u.x.array.copy(), np.zeros(self.num_dofs)
-        way /= most
-        own = way[: self.num_dofs]
-        try:
-            self._place(u + ahead * way)
-            product = self.products(own[None])[0]
-            # Of rigid motions both are rounding
-            noise = 1e-6 * own * self.diagonal()
-            # Far away from where it was modelled, a body's forces have no digits left
-            rounding = _LOST * np.abs(u[: self.num_dofs]) * self.diagonal() / size
-            for sign in (1, -1):
-                self._place(u + (ahead + sign * size) * way)
-                quotient += sign * self.residual() / (2 * size)
-        except NotFiniteError:
-            return 0.0
-        finally:
-            self._place(u)
-        free = self.markers[: self.num_dofs] == 0
-        vectors = (product - quotient, rounding, product, quotient, noise)
-        sizes = [reduce.norm(self.comm, a[free]) for a in vectors]
-        largest = max(sizes[2:])
-        if not np.isfinite(sizes).all() or largest == 0:
-            return 0.0
-        return float(max(sizes[0] - sizes[1], 0.0) / largest)
-
-    def _place(self, u: npt.NDArray[np.float64]) -> None:
-        """Set the displacement, ghosts included."""
-        self.u.x.array[:] = u
-        self.write()
-
     def lifted(self) -> npt.NDArray[np.float64]:
         """Residual of other rows from Dirichlet values that the displacement does not have yet.
 
@@ -211,11 +156,6 @@ class Bulk:
         for bc in self.bcs:
             bc.set(defect, self.u.x.array, alpha=-1.0)
         return defect
-
-    def prescribed(self) -> npt.NDArray[np.float64]:
-        """Displacement with the values of the Dirichlet conditions, ghosts included."""
-        displacement: npt.NDArray[np.float64] = self.u.x.array - self.dirichlet_defect()
-        return displacement
 
     def update(self) -> None:
         """Assemble the Jacobian where a coefficient or a constant of the form has changed.

@@ -37,6 +37,16 @@ class BulkSide:
             cells = CellForces(bulk.residual_form, bulk.u, halo, bulk.form_options)
             self._cell_forces = cells.magnitudes
 
+    def read(self) -> None:
+        """Take what the user's functions have now, and give ghosts the owners' displacements."""
+        self._bulk.read()
+        self._halo.update_ghosts()
+
+    @property
+    def has_own_jacobian(self) -> bool:
+        """True if the user gave the Jacobian."""
+        return self._bulk.has_own_jacobian
+
     @property
     def is_linear(self) -> bool:
         """True if the stiffness does not depend on the displacement."""

@@ -16,9 +16,9 @@ from contactx.arguments import check_switch, described, is_number
 from contactx.bodies import Bodies
 from contactx.fields import Fields
 from contactx.forms import ContactForms
-from contactx.friction import AccumulatedSlip, FrictionLaw
+from contactx.friction import FrictionLaw
 from contactx.interface import Interface
-from contactx.nodal import NodalValue
+from contactx.nodal import ContactValues, NodalValue
 from contactx.obstacles import Obstacle
 from contactx.parallel import reduce
 from contactx.parallel.agreement import agreed
@@ -247,30 +247,25 @@ class Contact:
             radius = halo.x.reshape(-1, halo.gdim)[slaves.owned, 0]
             self._is_axisymmetric = halo.gdim == 2 and is_circumference(values, radius, halo.comm)
         with agreed(halo.comm):
+            law, friction = self._law(V, slaves.owned)
             offset = NodalValue(self.offset, "offset", V, slaves.owned)
-            own = self.friction
-            slipped = AccumulatedSlip(own) if isinstance(own, FrictionLaw) else None
-            law, friction = self._law(V, slaves.owned, slipped)
+            given = ContactValues(friction, offset, len(slaves.owned))
         master, shared = self._make_master(slaves, law, halo, bodies)
         interface = Interface(
             slaves,
             master,
             halo,
             law=law,
-            friction=friction,
+            values=given,
             sliding=self.sliding,
             has_means=self._is_mortar(V),
-            offset=offset,
             markers=markers,
             shared=shared,
             adjust=self.adjust,
-            is_self=self.is_self,
         )
         if isinstance(master, core.DeformableMaster) and not self.is_self:
             core.check_facing(halo.nodes, slaves, str(self.slave), master, str(self.master))
         interface.nodes.along = float(self.tangential_factor)
-        if slipped is not None:
-            slipped.history = interface.history
         self._fields = Fields(interface, V, slaves, halo)
         self._interface = interface
         return interface
@@ -321,22 +316,21 @@ class Contact:
         return self.method == "surface-to-surface" and not is_nodal
 
     def _law(
-        self, V: fem.FunctionSpace, slaves: npt.NDArray[np.int32], own: AccumulatedSlip | None
+        self, V: fem.FunctionSpace, slaves: npt.NDArray[np.int32]
     ) -> tuple[core.Law, NodalValue | None]:
         """Law of the contact, and the coefficient of friction that it is handed.
 
         Args:
             V: Space of the displacement.
             slaves: Slave nodes of this rank, shape (n,).
-            own: Law of friction that the user has given.
 
         Raises:
             ValueError: If friction is a function of another space, or a constant that is no number.
         """
         if self.tied:
             return core.Tied(), None
-        if own is not None:
-            return core.Coulomb(own), None
+        if isinstance(self.friction, FrictionLaw):
+            return core.Coulomb(self.friction.values), None
         # A constant of the value 0 may become another one
         if self.friction != 0:
             return core.Coulomb(), NodalValue(self.friction, "friction", V, slaves)
@@ -355,11 +349,6 @@ class Contact:
     def detach(self) -> None:
         """Free the contact for another problem; ContactProblem calls this if it is refused."""
         self._interface = self._fields = None
-
-    def accept(self) -> None:
-        """Take over the results of an accepted step; ContactProblem calls this."""
-        self.interface.accept()
-        self.fields.update()
 
     @property
     def active(self) -> bool:

@@ -6,12 +6,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from contactx import cpp as core
+
 if TYPE_CHECKING:
     from contactx.report import Report
 
 
-class NotFiniteError(ArithmeticError):
-    """Residual or Jacobian of the bodies are not finite: the step does not converge."""
+# Residual or Jacobian of the bodies are not finite: the step does not converge
+NotFiniteError = core.NotFiniteError
 
 
 class ConvergenceError(RuntimeError):

@@ -10,7 +10,6 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from contactx import cpp as core
 from contactx.ufl_function import UFLFunction
 
 type Array = npt.NDArray[np.float64]
@@ -82,27 +81,3 @@ class FrictionLaw:
                 )
         bound, by_p, by_s = (np.broadcast_to(values, p.shape).copy() for values in found)
         return bound, by_p, by_s
-
-
-class AccumulatedSlip:
-    """A law of friction with the slip of all accepted steps, as the core calls it.
-
-    Attributes:
-        history: What accepted steps have slipped; None before there is any.
-    """
-
-    history: core.SlipHistory | None = None
-
-    def __init__(self, law: FrictionLaw):
-        """Take the law."""
-        self._law = law
-
-    def __call__(self, p: Array, slip: Array) -> tuple[Array, Array, Array]:
-        """Bound and derivatives.
-
-        Args:
-            p: Pressures, shape (n,).
-            slip: Lengths of slip in this step, shape (n,).
-        """
-        total = 0.0 if self.history is None else self.history.total
-        return self._law.values(p, total + slip)

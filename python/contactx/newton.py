@@ -18,42 +18,19 @@ All objects that take part in a solve, from contacts to linear solvers, have the
 from __future__ import annotations
 
 import weakref
-from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from petsc4py import PETSc
 
 import numpy as np
-import numpy.typing as npt
 
 from contactx.callback import keeps_its_error, weakly
 from contactx.linear import Condensed, LinearSolver, SaddlePoint
 from contactx.report import Report
-from contactx.settled import no_convergence
-from contactx.step_length import StepLength
 
 if TYPE_CHECKING:
     from contactx.assembler import ContactAssembler
 
-# Difference of a Jacobian from a difference quotient that is no rounding
-_WRONG = 1e-3
-# Displacements of difference quotients, over the size of the scene
-_SIZES = (1e-4, 1e-6, 1e-8)
-# Iterates in turn with about the same residual that the bulk alone leaves
-_STAGNANT = 4
-_WRONG_JACOBIAN = (
-    "the Jacobian is not the derivative of F: along the last step it differs by {:.2g} % from a "
-    "difference quotient of F. {} (manual: errors/wrong-jacobian)"
-)
-_ADVICE = {
-    True: "Correct J, or leave it out to have it derived",
-    False: "F has what ufl.derivative cannot see, such as a coefficient that depends on u: give J",
-}
-_STAGNATES = (
-    "the residual stagnates at {:.3g} while no node changes its status, and the tolerance is "
-    "{:.3g}: forces that cancel may leave that much by rounding. Raise snes_rtol, or set snes_atol "
-    "to a force that may be neglected (manual: errors/residual-stagnates)"
-)
 _CODE = PETSc.SNES.ConvergedReason
 _REASONS = {
     _CODE.CONVERGED_FNORM_ABS: "the residual is below the tolerance",
@@ -100,10 +77,11 @@ class NewtonLoop:
         self.error: BaseException | None = None
         # Version of the state that the Jacobian was made for
         self._version = -1
-        self._length = StepLength(self._loop)
         # Why the step has failed, and whether no other way may lead to a solution
         self._failure, self._is_final = "", False
         self._has_full_steps = False
+        # Vectors of the parts of a step that are tried
+        self._trial: tuple[PETSc.Vec, ...] | None = None
         self.snes = snes
         self.snes.setConvergenceTest(weakly(self._test))
         self.snes.setLineSearchPreCheck(weakly(self._shorten))
@@ -159,39 +137,7 @@ class NewtonLoop:
         """
         if code not in (_CODE.DIVERGED_MAX_IT, _CODE.DIVERGED_LINE_SEARCH):
             return ""
-        update = self.snes.getSolutionUpdate()
-        way = update.array_r[: self._system.num_displacements].reshape(-1, self._system.block)
-        way = self._halo.scatter_forward(way).ravel()[: len(self._bulk.u.x.array)]
-        error = self._jacobian_error(way)
-        if error > _WRONG:
-            return _WRONG_JACOBIAN.format(100 * error, _ADVICE[self._bulk.has_own_jacobian])
-        last = self._report.history[-_STAGNANT:]
-        residuals = [row.residual for row in last]
-        changes = sum(row.status_changes + row.pair_changes for row in last)
-        # What falls all the time, if slowly, is not rounding
-        falls = all(b < a for a, b in pairwise(residuals))
-        stagnant = len(last) == _STAGNANT and max(residuals) <= 4 * min(residuals) and not falls
-        if stagnant and changes == 0 and self._loop.convergence.may_be_rounding(min(residuals)):
-            return _STAGNATES.format(min(residuals), last[-1].tolerance)
-        return ""
-
-    def _jacobian_error(self, way: npt.NDArray[np.float64]) -> float:
-        """Smallest of some relative differences of the Jacobian from a difference quotient.
-
-        Args:
-            way: Direction, ghosts included.
-        """
-        extent = self._loop.convergence.extent
-        # One size may be too large where the material is about to fail, or too small for rounding
-        places = [(part * extent, 0.0) for part in _SIZES]
-        # An iterate may lie on kinks of F, such as where bodies begin to yield: one of its
-        # derivatives there is as right as another, but none is a quotient across the kink
-        places += [(part * extent, _SIZES[0] * extent) for part in _SIZES[1:]]
-        error = np.inf
-        for size, ahead in places:
-            if error > _WRONG:
-                error = min(error, self._bulk.jacobian_error(way, size, ahead))
-        return error
+        return self.assembler.core.why_slow(self.snes.getSolutionUpdate().array_r)
 
     @property
     def damping_may_help(self) -> bool:
@@ -199,10 +145,8 @@ class NewtonLoop:
 
         Not where steps solve what they solve exactly, nor on a user's own line search.
         """
-        is_curved = not self._bulk.is_linear or any(
-            i.updates_kinematics for i in self.assembler.interfaces
-        )
-        return is_curved and not self._is_final and self._has_full_steps
+        may_help = self.assembler.core.damping_may_help
+        return may_help and not self._is_final and self._has_full_steps
 
     def take_error(self) -> BaseException | None:
         """Error that a callback raised, once."""
@@ -229,7 +173,7 @@ class NewtonLoop:
         if not np.isfinite(norms[2]):
             return _CODE.DIVERGED_FUNCTION_NANORINF
         if number > 0:
-            self.assembler.moved()
+            self.assembler.core.moved()
         rtol, atol, _, _ = snes.getTolerances()
         found = self.assembler.judge(rtol, atol)
         if found.is_final:
@@ -257,8 +201,31 @@ class NewtonLoop:
         if self._has_full_steps and self._loop.softens(step.array_r):
             step.zeroEntries()
         else:
-            self._length.shorten(self.snes, x, step, self._function)
+            part = self._loop.limit(step.array_r, lambda part: self._next_size(x, step, part))
+            if part < 1:
+                step.scale(part)
+            if self._trial is not None:
+                self._function(self.snes, x, self._system.b)
+                self._trial = None
         return True
+
+    def _next_size(self, x: PETSc.Vec, step: PETSc.Vec, part: float) -> float:
+        """Size of the correction, by the same Jacobian, after a part of a step.
+
+        Args:
+            x: The iterate.
+            step: What is taken off it.
+            part: Part of it.
+        """
+        if self._trial is None:
+            self._trial = tuple(x.duplicate() for _ in range(3))
+        there, force, correction = self._trial
+        there.waxpy(-part, step, x)
+        self._function(self.snes, there, force)
+        if not np.isfinite(force.norm()):
+            return np.inf
+        self.snes.getKSP().solve(force, correction)
+        return self._loop.size_of(correction.array_r)
 
     def _reason_of(self, code: int, converged: bool) -> str:
         """Why SNES ended.
@@ -269,7 +236,7 @@ class NewtonLoop:
         """
         if code == _CODE.DIVERGED_MAX_IT:
             limit = "snes_max_it"
-            return no_convergence(limit, limit, is_homogeneous=self._loop.is_homogeneous)
+            return self.assembler.core.no_convergence(limit, limit)
         return _reason_of(code, converged)
 
 

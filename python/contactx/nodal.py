@@ -93,3 +93,33 @@ class NodalValue:
                 "errors/values-not-finite)"
             )
         return value
+
+
+class ContactValues:
+    """Friction and offset of a contact as they are now: the core's ``problem::Values``.
+
+    Attributes:
+        vary: Whether they may change.
+    """
+
+    def __init__(self, friction: NodalValue | None, offset: NodalValue, num_nodes: int):
+        """Take the values.
+
+        Args:
+            friction: Coefficient of friction; None of laws that take none.
+            offset: What is taken off the gap.
+            num_nodes: Number of slave nodes of this rank.
+        """
+        self._friction, self._offset, self._num_nodes = friction, offset, num_nodes
+        self.vary = not all(v is None or v.is_number for v in (friction, offset))
+
+    def friction(self) -> npt.NDArray[np.float64] | None:
+        """Coefficients of friction, shape (n,)."""
+        return None if self._friction is None else self._full(self._friction)
+
+    def offset(self) -> npt.NDArray[np.float64]:
+        """Lengths that are taken off the gap, shape (n,)."""
+        return self._full(self._offset)
+
+    def _full(self, value: NodalValue) -> npt.NDArray[np.float64]:
+        return np.array(np.broadcast_to(value.now(), self._num_nodes), dtype=np.float64)

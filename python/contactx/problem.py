@@ -142,7 +142,7 @@ class ContactProblem:
 
         They must be those of bodies without stress, as the first solve finds them.
         """
-        self.assembler.find_rigid_modes()
+        self.assembler.core.find_rigid_modes()
 
     def update_ghosts(self) -> None:
         """Give ghosts the owners' displacements, after these were set; all ranks must take part."""

@@ -9,7 +9,7 @@ import textwrap
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -17,10 +17,28 @@ import numpy.typing as npt
 from rich.console import Console
 from rich.table import Table
 
-from contactx.audit.findings import Findings
+from contactx import cpp as core
 
 if TYPE_CHECKING:
     from contactx.dynamics.balance import Balance
+
+# What the core counts
+_OF_CORE = (
+    "slaves",
+    "pairs",
+    "immobile",
+    "frozen_pairs",
+    "frozen_gap",
+    "slip",
+    "dissipation",
+    "soft",
+    "limited",
+    "shortened",
+    "cycles",
+    "corners",
+    "free_modes",
+    "closed_for_balance",
+)
 
 
 @dataclass(frozen=True)
@@ -47,6 +65,63 @@ class Iteration:
     pair_changes: int
     frozen_kinematics: bool
     dirichlet_defect: float
+
+    @classmethod
+    def of(cls, found: core.Settled) -> Iteration:
+        """The row of an iterate that was judged.
+
+        Args:
+            found: The iterate.
+        """
+        return cls(**{f.name: getattr(found, f.name) for f in fields(cls)})
+
+
+@dataclass
+class Findings:
+    """Findings of the audit of a converged iterate.
+
+    Attributes:
+        far_side: Slave nodes inside their master, or on the far side of a rigid one.
+        passed: Nodes that went through the other surface within the step.
+        depth: Largest depth of a master below a slave facet, between its nodes, a length.
+        excess: Largest ratio of such a depth to what the mesh explains; more than 1 is a fault.
+        radius_in_facets: Smallest radius of curvature of an obstacle where slave nodes touch it, by
+            the size of the facets there; infinite where none is curved. Below 4 there is a warning.
+        chords: Where round surfaces fit each other, what gaps are off because facets are chords,
+            over what pressures there press in; 0 where none fit. Above 0.4 there is a warning.
+        inverted: Cells that are turned inside out.
+        smallest_det: Smallest det F of the cells; NaN where none was looked at.
+        faults: What is wrong and what to do about it, a text each.
+        warnings: The same of what is only warned of.
+    """
+
+    far_side: int = 0
+    passed: int = 0
+    depth: float = 0.0
+    excess: float = 0.0
+    radius_in_facets: float = float("inf")
+    chords: float = 0.0
+    inverted: int = 0
+    smallest_det: float = float("nan")
+    faults: list[str] = field(default_factory=list)
+    warnings: list[str] = field(default_factory=list)
+
+    def __str__(self) -> str:
+        """One line."""
+        parts = [
+            f"{self.far_side} slave nodes on the far side, {self.passed} passed through",
+            f"master between slave nodes at {self.excess:.2g} of what the mesh explains "
+            f"({self.depth:.2g} deep)",
+        ]
+        if self.radius_in_facets < float("inf"):
+            parts.append(f"smallest radius of an obstacle {self.radius_in_facets:.3g} facets")
+        if self.chords > 0:
+            parts.append(f"gaps off by chords: {self.chords:.2g} of what is pressed in")
+        if self.smallest_det == self.smallest_det:
+            parts.append(
+                f"{self.inverted} cells inside out, smallest det F {self.smallest_det:.3g}"
+            )
+        return "audit: " + "; ".join(parts)
 
 
 @dataclass
@@ -125,6 +200,18 @@ class Report:
     balance: Balance | None = None
     unread: list[str] = field(default_factory=list)
     times: dict[str, float] = field(default_factory=dict)
+
+    def take(self, found: core.StepReport) -> None:
+        """Take the figures that the core has of the step.
+
+        Args:
+            found: The core's report.
+        """
+        for name in _OF_CORE:
+            setattr(self, name, getattr(found, name))
+        self.times |= found.seconds
+        names = (f.name for f in fields(Findings))
+        self.audit = Findings(**{name: getattr(found.audit, name) for name in names})
 
     @property
     def iterations(self) -> int:

@@ -87,7 +87,7 @@ def newmark(n: int, courant: float) -> dict[str, Any]:
     F += ufl.inner(ufl.sym(ufl.grad(u)), ufl.grad(test)) * ufl.dx
     contact = cx.Contact(cx.Surface(tags, Tag.UPPER_CONTACT), cx.Plane((0, 0), (0, 1)))
     problem = cx.ContactProblem(F, u, contacts=[contact], petsc_options_prefix="newmark_")
-    problem.assembler.may_fly = True
+    problem.assembler.core.allow_flight()
     kinetic = fem.form(0.5 * ufl.inner(velocity, velocity) * ufl.dx)
     strain = fem.form(impact_bars.strain_energy(u))
     momentum = fem.form(velocity[1] * ufl.dx)

@@ -174,7 +174,7 @@ def _search_anew() -> Iterator[None]:
 
     So pairs and iterations stay the same; the search that the library does comes on top.
     """
-    read_values = ContactAssembler._read_values
+    collect = ContactAssembler._collect
 
     def search_too(self: ContactAssembler) -> None:
         with self.report.timing("settle"):
@@ -184,9 +184,9 @@ def _search_anew() -> Iterator[None]:
                     x, closed = interface.positions(), interface.nodes.closed.astype(np.int8)
                     lists = (*slave, *master.surface.facets)
                     core.Pairing(*lists, x.shape[1]).update(x, master.reach, closed)
-        read_values(self)
+        collect(self)
 
-    with _replaced(ContactAssembler, _read_values=search_too):
+    with _replaced(ContactAssembler, _collect=search_too):
         yield
 
 

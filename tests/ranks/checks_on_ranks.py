@@ -6,8 +6,9 @@ import numpy as np
 
 import contactx as cx
 from contactx import cpp as core
-from contactx.interface import Interface, check_over_constrained
-from contactx.nodal import NodalValue
+from contactx.interface import Interface
+from contactx.nodal import ContactValues, NodalValue
+from contactx.system import SaddlePointSystem
 
 from scenes.numbered_blocks import TwoBlocks
 
@@ -83,15 +84,15 @@ def over_constrained(scene):
         pairs,
         halo,
         law=core.Frictionless(),
-        friction=None,
+        values=ContactValues(None, NodalValue(0.0, "offset", V, slaves.owned), len(slaves.owned)),
         sliding="finite",
         has_means=False,
-        offset=NodalValue(0.0, "offset", V, slaves.owned),
         markers=np.ones(halo.num_bulk * halo.gdim, dtype=np.int8),
     )
     interface.nodes.immobile[:] = True
-    u = np.zeros(halo.num_bulk * halo.gdim)
-    return said(scene, check_over_constrained, [interface], ["name"], u, halo)
+    system = SaddlePointSystem(scene.bulk, [interface], halo).core
+    problem = core.Problem(system, scene.bodies, [("name", interface.values)], refuses=True)
+    return said(scene, problem.prepare)
 
 
 def facing(scene):

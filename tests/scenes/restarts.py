@@ -10,7 +10,6 @@ from typing import Any
 import numpy as np
 
 import contactx as cx
-from contactx.state import save_state
 from dolfinx.mesh import CellType
 
 from scenes.steps import DentedBlock, LooseBlock, SlidingBlocks
@@ -48,7 +47,7 @@ def run(scene: Any, until: int | None = None, **options: Any) -> tuple[list[byte
             break
     interface = scene.contact.interface
     arrays = [scene.u.x.array, *(f.x.array for f in scene.history)]
-    arrays += [*save_state(interface).values(), scene.contact.force]
+    arrays += [*interface.save().values(), scene.contact.force]
     return [a.tobytes() for a in arrays], steps
 
 

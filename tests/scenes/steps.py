@@ -10,7 +10,6 @@ import numpy as np
 
 import contactx as cx
 import ufl
-from contactx.state import save_state
 from dolfinx import fem
 from dolfinx.mesh import CellType
 
@@ -26,7 +25,7 @@ def state(problem: cx.ContactProblem, *history: fem.Function) -> list[bytes]:
     """Bits of all that a failed step must leave as it was."""
     arrays = [problem.u.x.array, *(f.x.array for f in history)]
     for contact in problem.contacts:
-        arrays += save_state(contact.interface).values()
+        arrays += contact.interface.save().values()
         for value in vars(contact.fields).values():
             if isinstance(value, fem.Function):
                 arrays.append(value.x.array)

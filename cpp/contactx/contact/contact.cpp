@@ -71,7 +71,11 @@ Contact::Contact(std::shared_ptr<parallel::Halo> halo,
   _nodes = std::make_shared<NodeState>(n, gdim(), _law->is_vector(),
                                        _options.has_means);
   if (_law->is_vector() and not _law->is_tied())
+  {
     _history = std::make_shared<SlipHistory>(n, gdim());
+    if (auto* coulomb = dynamic_cast<law::Coulomb*>(_law.get()))
+      coulomb->follow(_history);
+  }
   _touched.assign(n, 0);
   _had_master.assign(n, 0);
   for (auto* values : {&_given, &_adjusted, &_offset})

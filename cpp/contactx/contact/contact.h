@@ -82,6 +82,9 @@ public:
   /// @brief Nodes of this rank.
   const parallel::Halo& halo() const { return *_halo; }
 
+  /// @brief True if slave and master are the same surface.
+  bool is_self() const { return _master->is_self(); }
+
   /// @brief Kinematics.
   Sliding sliding() const { return _options.sliding; }
 

@@ -60,6 +60,7 @@ public:
 
   int gdim() const override { return _halo->gdim(); }
   double reach() const override { return _options.reach; }
+  bool is_self() const override { return _surface->is_self(); }
 
   /// @brief True if linear facets stand for smooth surfaces.
   bool is_smooth() const { return _options.is_smooth; }

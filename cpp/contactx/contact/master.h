@@ -49,6 +49,9 @@ public:
   /// @brief True if the master has no degrees of freedom.
   virtual bool is_rigid() const { return false; }
 
+  /// @brief True if it is the slave surface itself.
+  virtual bool is_self() const { return false; }
+
   /// @brief Take a converged configuration, the start of the next step;
   /// collective.
   /// @param[in] x Its positions.

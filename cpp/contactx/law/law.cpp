@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "law.h"
+#include "../contact/slip_history.h"
 #include "coulomb.h"
 #include <algorithm>
 #include <charconv>
@@ -154,7 +155,8 @@ Bounds Coulomb::bounds(const NodeState& nodes,
     {
       // False for NaN, too
       pressed[i] = pressure[i] > 0 ? pressure[i] : 0;
-      slipped[i] = length_of_slip(nodes, i);
+      slipped[i]
+          = length_of_slip(nodes, i) + (_history ? _history->total()[i] : 0);
     }
     found = _bound(pressed, slipped);
     for (const auto* values :

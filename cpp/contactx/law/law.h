@@ -7,9 +7,15 @@
 #include "../parallel/ranks.h"
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <span>
 #include <string_view>
 #include <vector>
+
+namespace contactx::contact
+{
+class SlipHistory;
+}
 
 namespace contactx::law
 {
@@ -74,8 +80,8 @@ struct Bounds
   std::vector<double> by_slip;     ///< derivative by the length of the slip
 };
 
-/// @brief Bounds of friction from pressures of at least 0 and lengths of slip
-/// in this step (shape=(n)).
+/// @brief Bounds of friction from pressures of at least 0 and accumulated
+/// lengths of slip, of all accepted steps and this one (shape=(n)).
 using BoundFunction = std::function<Bounds(std::span<const double> pressure,
                                            std::span<const double> slip)>;
 
@@ -93,6 +99,12 @@ public:
 
   std::string_view name() const override { return "frictional"; }
   void begin_step() override;
+
+  /// @brief Take what accepted steps have slipped, which a bound counts, too.
+  void follow(std::shared_ptr<const contact::SlipHistory> history)
+  {
+    _history = std::move(history);
+  }
 
   /// @copydoc Law::allow_larger_friction
   ///
@@ -140,6 +152,7 @@ private:
   static constexpr double _usual_reach = 10;
 
   BoundFunction _bound;
+  std::shared_ptr<const contact::SlipHistory> _history;
   std::vector<double> _friction;
   double _reach = _usual_reach;
 };

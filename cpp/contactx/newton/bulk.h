@@ -15,6 +15,14 @@ namespace contactx::newton
 class Bulk : public active_set::Bulk
 {
 public:
+  /// @brief Take the displacements that the user's functions have now, and give
+  /// other ranks those of their nodes.
+  virtual void read() = 0;
+
+  /// @brief True if the Jacobian was given by the user, not derived from the
+  /// residual.
+  virtual bool has_own_jacobian() const = 0;
+
   /// @brief Forces at the displacements of now, internal ones less loads,
   /// without Dirichlet conditions (shape=(num_owned, gdim)).
   virtual std::span<const double> residual() = 0;

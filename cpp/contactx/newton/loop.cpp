@@ -196,6 +196,21 @@ Verdict Loop::judge(bool is_start, double rtol, double atol,
   return _balance.has_gone_astray() ? Verdict::stuck : Verdict::unbalanced;
 }
 
+double Loop::limit(std::span<const double> dx, const Correction& correction)
+{
+  foresee(dx);
+  const double size = size_of(dx);
+  _length.begin(size, std::isfinite(size) ? within_cells(dx) : 1);
+  while (correction and _length.has_trial())
+    _length.judge(correction(_length.part()));
+  return _length.part();
+}
+
+/// Remembers a Newton step in full, before a part of it is taken.
+///
+/// Slip of nodes that touch within a load step is measured from where they do
+/// on the way of its first Newton step, however much of that is taken: else the
+/// solution would depend on what shortens it. Only that one counts.
 void Loop::foresee(std::span<const double> dx)
 {
   if (_has_stepped or not _bodies->has_friction())

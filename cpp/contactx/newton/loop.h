@@ -7,6 +7,7 @@
 #include "../active_set/balance_guard.h"
 #include "../active_set/step_length.h"
 #include "convergence.h"
+#include <functional>
 
 namespace contactx::newton
 {
@@ -52,9 +53,7 @@ struct Iterate
 ///     {
 ///       // solve J dx = b, with loop.springs() on J's diagonal
 ///       if (loop.softens(dx)) continue;       // contact is soft from now on
-///       loop.length().begin(loop.size_of(dx), loop.within_cells(dx));
-///       // try parts while loop.length() asks for it, see StepLength
-///       system.take(x - loop.length().part() * dx);
+///       system.take(x - loop.limit(dx, correction) * dx);
 ///     }
 ///     contacts accept; loop.accept();
 ///
@@ -125,13 +124,16 @@ public:
   /// @param[in] dx Step, which is taken off the unknowns (shape=(size)).
   bool softens(std::span<const double> dx);
 
-  /// @brief Take a Newton step in full, before a part of it is taken.
-  ///
-  /// Slip of nodes that touch within a load step is measured from where they do
-  /// on the way of its first Newton step, however much of that is taken: else
-  /// the solution would depend on what shortens it. Only that one counts.
+  /// @brief Size of the next correction, by the same Jacobian, after a part of
+  /// a step, see `size_of`; infinite if the residual is not finite there.
+  using Correction = std::function<double(double part)>;
+
+  /// @brief Part of a step that is to be taken, at most 1: no cell turns inside
+  /// out, and where steps are damped corrections become shorter.
   /// @param[in] dx Step, which is taken off the unknowns (shape=(size)).
-  void foresee(std::span<const double> dx);
+  /// @param[in] correction Called where steps are damped; steps are not if it
+  /// is empty.
+  double limit(std::span<const double> dx, const Correction& correction = {});
 
   /// @brief Largest part of a step, at most 1, that turns no cell inside out.
   /// @param[in] dx Step, which is taken off the unknowns (shape=(size)).
@@ -166,6 +168,7 @@ public:
 
 private:
   void settle(bool is_first);
+  void foresee(std::span<const double> dx);
   void look_ahead();
   bool find_homogeneous();
   void take_back();

@@ -62,6 +62,9 @@ public:
   /// @param[in] nodal Values at all nodes (shape=(num_nodes)).
   virtual void take_compliance(std::span<const double> /*nodal*/) {}
 
+  /// @brief True if it is the slave surface, too.
+  virtual bool is_self() const { return false; }
+
   /// @brief True if `pair` finds by itself the nodes that lie behind all of a
   /// body.
   virtual bool sees_bodies() const { return false; }

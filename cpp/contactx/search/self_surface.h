@@ -41,6 +41,7 @@ public:
   void accept(std::span<const double> x) override;
   void take_compliance(std::span<const double> nodal) override;
   bool sees_bodies() const override { return true; }
+  bool is_self() const override { return true; }
 
 private:
   std::vector<std::optional<Projection>>

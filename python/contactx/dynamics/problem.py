@@ -142,7 +142,7 @@ class ContactDynamics(ContactProblem):
             form_compiler_options=form_compiler_options,
             jit_options=jit_options,
         )
-        self.assembler.may_fly = True
+        self.assembler.core.allow_flight()
         options = {"form_compiler_options": form_compiler_options, "jit_options": jit_options}
         self._mass = Mass(density * ufl.inner(w, v) * measure, kind, options)
         self._loads = None if loads is None else fem.form(loads, **options)

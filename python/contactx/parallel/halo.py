@@ -14,7 +14,6 @@ import numpy as np
 import numpy.typing as npt
 
 from contactx import cpp as core
-from contactx.parallel import reduce
 from contactx.parallel.adapter import Adapter
 from dolfinx import fem, la
 
@@ -178,23 +177,3 @@ class Halo:
             observer = reference()
             if observer is not None:
                 observer()
-
-
-def first_node(
-    halo: Halo, nodes: npt.NDArray[np.integer], x: Array
-) -> tuple[int, npt.NDArray[np.float64]]:
-    """The first of some nodes of any rank in the mesh as it was made; all ranks must take part.
-
-    Args:
-        halo: Nodes of this rank.
-        nodes: Nodes on this rank; some rank has one.
-        x: Positions of all nodes, shape (num_nodes, gdim).
-
-    Returns:
-        Its number there, and its position, shape (gdim,).
-    """
-    numbers = halo.original[nodes].tolist()
-    first: tuple[int, npt.NDArray[np.float64]] = reduce.first(
-        halo.comm, numbers, list(zip(numbers, x[nodes], strict=True))
-    )
-    return first

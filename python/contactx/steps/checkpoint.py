@@ -12,12 +12,13 @@ from mpi4py import MPI
 import numpy as np
 import numpy.typing as npt
 
+from contactx import cpp as core
 from contactx.interface import Interface
 from contactx.parallel.adapter import original_nodes
 from contactx.parallel.agreement import agreed
 from contactx.problem import ContactProblem
 from contactx.refined import reference_positions
-from contactx.state import RowKind, Snapshot, load_state, save_state, state_rows
+from contactx.state import Snapshot
 from contactx.steps.function_rows import FunctionRows, cell_nodes
 from contactx.steps.rows import Rows
 from dolfinx import fem
@@ -61,8 +62,8 @@ class Checkpoint:
         """
         arrays = self._identity() | {"u": self._u.gather()}
         for k, interface in enumerate(self._interfaces):
-            kinds = state_rows(interface)
-            for name, values in save_state(interface).items():
+            kinds = interface.saved_rows
+            for name, values in interface.save().items():
                 arrays[f"contact {k}: {name}"] = self._gather(kinds[name], k, values)
         arrays |= {f"history {k}": f.gather() for k, f in enumerate(self._functions)}
         return {n: a for n, a in arrays.items() if a is not None and self._comm.rank == 0}
@@ -82,22 +83,19 @@ class Checkpoint:
         with agreed(self._comm):
             if self._comm.rank == 0:
                 _check_fit(saved, present)
-        problem = self._problem
-        before = Snapshot(
-            problem.displacement, problem.contacts, problem.update_ghosts, self._history
-        )
+        before = Snapshot(self._problem.assembler, self._history)
         try:
             self._u.scatter(saved.get("u"))
             self._problem.update_ghosts()
             for k, function in enumerate(self._functions):
                 function.scatter(saved.get(f"history {k}"))
             for k, interface in enumerate(self._interfaces):
-                kinds = state_rows(interface)
-                mine = {
-                    name: self._scatter(kinds[name], k, saved.get(f"contact {k}: {name}"))
-                    for name in save_state(interface)
-                }
-                load_state(interface, mine)
+                interface.load(
+                    {
+                        name: self._scatter(kind, k, saved.get(f"contact {k}: {name}"))
+                        for name, kind in interface.saved_rows.items()
+                    }
+                )
                 self._problem.contacts[k].fields.update()
         except BaseException:
             before.restore()
@@ -117,7 +115,7 @@ class Checkpoint:
         return arrays
 
     def _gather(
-        self, kind: RowKind, contact: int, values: npt.NDArray[Any]
+        self, kind: core.RowKind, contact: int, values: npt.NDArray[Any]
     ) -> npt.NDArray[Any] | None:
         if kind == "global":
             return values
@@ -126,7 +124,7 @@ class Checkpoint:
         return self._u.rows.gather(values[: self._owned])
 
     def _scatter(
-        self, kind: RowKind, contact: int, values: npt.NDArray[Any] | None
+        self, kind: core.RowKind, contact: int, values: npt.NDArray[Any] | None
     ) -> npt.NDArray[Any]:
         if kind == "global":
             same: npt.NDArray[Any] = self._comm.bcast(values)

@@ -7,6 +7,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack
+from copy import copy
 from pathlib import Path
 from typing import Any
 
@@ -114,7 +115,8 @@ class LoadSteps:
             restarted = None if restart is None else check_path("restart", restart)
             if self._checkpoint is not None and comm.rank == 0:
                 make_folder("checkpoint", self._checkpoint)
-        _check_same(comm, self._plan, self._checkpoint, restart, len(history), output is None)
+        plan = self._plan.given, self._plan.max_cuts, self._plan.easy
+        _check_same(comm, plan, self._checkpoint, restart, len(history), output is None)
         self._problem = problem
         self._update = update
         self._history = [*history, *problem.beside]
@@ -156,7 +158,7 @@ class LoadSteps:
         """
         if self._state is None:
             self._state = Checkpoint(self._problem, self._history)
-        steps = {f"steps: {name}": array for name, array in self._plan.save().items()}
+        steps = {"steps: given": np.array(self._plan.given), "steps: place": self._plan.place}
         steps["steps: table"] = np.array(self._rows, dtype=np.float64).reshape(-1, len(Row._fields))
         state = self._state.save()
         with agreed(self._comm):
@@ -199,7 +201,7 @@ class LoadSteps:
         """Attempt shorter and shorter steps until one is accepted."""
         before = self._snapshot()
         begin = time.perf_counter()
-        index, plan, cuts, discarded = len(self._rows) + 1, self._plan, 0, 0
+        index, plan, cuts, discarded = len(self._rows) + 1, copy(self._plan), 0, 0
         with Interrupts() as interrupts:
             while True:
                 text = f"step {index} to t = {plan.next:.6g}" + (f", cut {cuts}x" if cuts else "")
@@ -217,24 +219,24 @@ class LoadSteps:
                     report.discarded += discarded
                     step = Step(index, plan.next, report)
                     row = make_row(step, time.perf_counter() - begin)
-                    following = plan.accept(report.iterations)
-                    self._rows, self._plan, self._unseen = [*self._rows, row], following, step
+                    plan.accept(report.iterations)
+                    self._rows, self._plan, self._unseen = [*self._rows, row], plan, step
                 except ConvergenceError as error:
                     interrupts.wait()
                     before.restore()
-                    shorter = plan.cut()
-                    if shorter is None:
+                    end = plan.next
+                    if not plan.cut():
                         error.report.discarded += discarded
                         error.add_note(
                             f"No step from t = {self.t:.6g} converged; the last attempt, to t = "
-                            f"{plan.next:.6g}, was the shortest that max_cuts = {plan.max_cuts} "
+                            f"{end:.6g}, was the shortest that max_cuts = {plan.max_cuts} "
                             "allows"
                         )
                         interrupts.allow()
                         self._update_again(error)
                         raise
                     discarded += error.report.iterations + error.report.discarded
-                    plan, cuts = shorter, cuts + 1
+                    cuts += 1
                     continue
                 except BaseException as error:
                     interrupts.wait()
@@ -246,10 +248,7 @@ class LoadSteps:
                 return step
 
     def _snapshot(self) -> Snapshot:
-        problem = self._problem
-        return Snapshot(
-            problem.displacement, problem.contacts, problem.update_ghosts, self._history
-        )
+        return Snapshot(self._problem.assembler, self._history)
 
     def _update_again(self, error: BaseException) -> None:
         """Set the loads of the last accepted step, whatever that raises."""
@@ -267,7 +266,8 @@ class LoadSteps:
         steps = self._comm.bcast(steps)
         before = self._snapshot()
         try:
-            plan = self._plan.load(steps["steps: given"], steps["steps: place"])
+            plan = copy(self._plan)
+            plan.load(steps["steps: given"], steps["steps: place"])
             self._problem.find_rigid_modes()
             self._state.load(saved)
         except (KeyError, ValueError) as error:

@@ -28,7 +28,7 @@ def test_slip_is_the_same_when_it_is_frozen(cell):
     interface.search()
     interface.update_gap()
     slip, gap = nodes.slip.copy(), nodes.gap.copy()
-    assert (interface.master.save()["feature"] != 0).sum() >= 2
+    assert (interface.save()["master_feature"] != 0).sum() >= 2
     interface.freeze(True)
     interface.update_gap()
     assert np.abs(nodes.gap - gap).max() <= 1e-14

@@ -11,7 +11,7 @@ import rich
 from rich.console import Console
 
 import contactx as cx
-from contactx import assembler
+from contactx.fields import Fields
 
 from scenes.steps import Sheared
 
@@ -158,7 +158,7 @@ def test_an_error_after_the_solve_counts_as_a_failed_step(monkeypatch, error):
     next(iter(steps))
     before = scene.state()
     with monkeypatch.context() as patch:
-        patch.setattr(assembler, "complete", raise_at(1, error)(lambda *_: None))
+        patch.setattr(Fields, "update", raise_at(1, error)(Fields.update))
         with pytest.raises(error):
             next(iter(steps))
     assert scene.state() == before
@@ -213,12 +213,10 @@ def test_an_error_of_the_body_leaves_the_step_accepted():
 def test_warnings_point_to_the_loop(monkeypatch):
     scene = Sheared(far=0.1)
 
-    master = type(scene.contact.interface.master)
+    def warn(_):
+        scene.problem.assembler.say("something is odd")
 
-    def unpaired(*_):
-        monkeypatch.setattr(master, "paired", np.zeros(4, dtype=bool))
-
-    monkeypatch.setattr(assembler, "complete", unpaired)
+    monkeypatch.setattr(Fields, "update", warn)
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         next(iter(scene.steps(1)))

@@ -7,7 +7,6 @@ import pytest
 
 import contactx as cx
 import ufl
-from contactx import cpp as core
 from dolfinx import default_scalar_type, fem
 from dolfinx.mesh import CellType
 
@@ -116,31 +115,6 @@ def test_touching_without_force():
         assert problem.report.iterations <= 1
         assert np.abs(scene.u.x.array).max() <= 1e-15
         assert np.abs(contact.multiplier).max() <= 1e-13
-
-
-@pytest.mark.parametrize("method", ["node-to-surface"], indirect=True)
-def test_frozen_pairs_that_hide_a_penetration_warn(monkeypatch, method):
-    scene = Blocks(CellType.tetrahedron)
-    contact = scene.contact()
-    problem = scene.problem(contact)
-    assert contact.interface.master.deepest_frozen_pair(contact.interface.positions()) == (0, 0)
-    monkeypatch.setattr(core.NodeToSurface, "frozen_pairs", np.arange(2))
-    monkeypatch.setattr(core.ActiveSet, "hidden_gaps", property(lambda _: [-1e-3]))
-    with pytest.warns(UserWarning, match=r"2 pairs went back.*hide a penetration of 0\.001"):
-        problem.solve()
-    assert problem.report.frozen_gap == -1e-3
-
-
-def test_frozen_pairs_that_hide_much_are_refused(monkeypatch):
-    """When they are released, and how often: see test_active_set.cpp."""
-    scene = Blocks(CellType.tetrahedron)
-    problem = scene.problem(scene.contact())
-    monkeypatch.setattr(core.Loop, "judge", lambda *_: core.Verdict.hidden)
-    with pytest.raises(
-        cx.ConvergenceError, match="hide a penetration: refine the coarser surface there"
-    ):
-        problem.solve()
-    assert not scene.u.x.array.any()
 
 
 def test_a_body_that_has_run_away_is_no_solution(method):

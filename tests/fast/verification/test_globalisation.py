@@ -9,11 +9,11 @@ import contactx as cx
 import ufl
 from contactx import cpp as core
 from contactx.newton import NewtonLoop
-from contactx.step_length import StepLength
 from dolfinx import fem
 from dolfinx.mesh import CellType
 
 from scenes import Blocks, slender
+from scenes.full_steps import limit
 from scenes.materials import neo_hookean, st_venant_kirchhoff
 from scenes.roller import Roller
 from story import METHODS, elasticity
@@ -166,7 +166,7 @@ def test_steps_that_squeeze_cells_are_shortened():
 def test_damped_steps_take_over(monkeypatch):
     """Where steps go too far for other reasons than cells."""
     roller = ("svk", "surface-to-surface", 0.1)
-    monkeypatch.setattr(StepLength, "_within_cells", lambda self, step: 1.0)
+    monkeypatch.setattr(core.Loop, "limit", limit)
     report = Roller(*roller, n=10).press(0.6)
     assert report.damped
     assert report.shortened > 0
@@ -175,16 +175,6 @@ def test_damped_steps_take_over(monkeypatch):
     monkeypatch.setattr(NewtonLoop, "damping_may_help", False)
     with pytest.raises(cx.ConvergenceError, match="no convergence"):
         Roller(*roller, n=10).press(0.6)
-
-
-def test_steps_that_lead_nowhere_end_the_loop(monkeypatch):
-    """When they do: see test_step_length.cpp."""
-    monkeypatch.setattr(core.Loop, "judge", lambda *_: core.Verdict.stuck)
-    scene = Blocks(CellType.triangle)
-    problem = scene.problem(scene.contact(sliding="small"))
-    with pytest.raises(cx.ConvergenceError, match="no step is short enough to lead on"):
-        problem.solve()
-    assert problem.report.iterations == 0
 
 
 @pytest.mark.parametrize("degree", [3, 8])

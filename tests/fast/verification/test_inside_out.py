@@ -5,8 +5,9 @@
 import pytest
 
 import contactx as cx
-from contactx.step_length import StepLength
+from contactx import cpp as core
 
+from scenes.full_steps import limit
 from scenes.held_sheet import HeldSheet
 from scenes.materials import st_venant_kirchhoff
 from scenes.roller import Roller
@@ -15,7 +16,7 @@ from scenes.roller import Roller
 @pytest.fixture
 def full_steps(monkeypatch):
     """Steps that nothing shortens."""
-    monkeypatch.setattr(StepLength, "_within_cells", lambda self, step: 1.0)
+    monkeypatch.setattr(core.Loop, "limit", limit)
 
 
 def roller(**options):

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 import contactx as cx
-from contactx.state import save_state
 from dolfinx.mesh import CellType
 
 from scenes import CELLS, Blocks, hertz_sphere
@@ -148,12 +147,12 @@ def test_a_failed_step_is_undone_and_its_repetition_is_the_same(sliding):
         problem = scene.problem(contact)
         problem.solve()
         if fails:
-            before = {name: a.copy() for name, a in save_state(contact.interface).items()}
+            before = {name: a.copy() for name, a in contact.interface.save().items()}
             u = scene.u.x.array.copy()
             scene.bcs[-1].g.value[...] = -1e300
             with pytest.raises(cx.ConvergenceError):
                 problem.solve()
-            after = save_state(contact.interface)
+            after = contact.interface.save()
             assert np.array_equal(scene.u.x.array, u)
             for name, array in before.items():
                 np.testing.assert_array_equal(after[name], array, err_msg=name)

@@ -1,0 +1,27 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#pragma once
+
+#include "../newton/loop.h"
+#include <string>
+#include <string_view>
+
+/// @brief A load step of bodies in contact, from its start to its end.
+namespace contactx::problem
+{
+/// @brief Why no solution is to be expected after an iterate, and what to do.
+/// @param[in] verdict What the loop says of it.
+/// @param[in] moved Length, or angle in degrees, that a body which nothing
+/// supports has moved by.
+/// @return Empty where the loop goes on or has found a solution.
+std::string failure_of(newton::Verdict verdict, double moved);
+
+/// @brief Say that iterations did not converge, and what may help.
+/// @param[in] count Number of iterations, or what limits it.
+/// @param[in] limit Name of the limit.
+/// @param[in] is_homogeneous Whether a smaller load is the same problem,
+/// scaled.
+std::string no_convergence(std::string_view count, std::string_view limit,
+                           bool is_homogeneous);
+} // namespace contactx::problem

@@ -1,0 +1,33 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include "snapshot.h"
+#include "../contact/contact_state.h"
+
+using namespace contactx;
+using namespace contactx::problem;
+
+Snapshot::Snapshot(std::shared_ptr<newton::System> system)
+    : _system(std::move(system))
+{
+  newton::Bulk& bulk = *_system->bulk();
+  const auto u = bulk.displacements();
+  _displacements.assign(u.begin(), u.end());
+  if (newton::Fields* fields = bulk.fields())
+  {
+    const auto values = fields->values();
+    _fields.assign(values.begin(), values.end());
+  }
+  for (const auto& contact : _system->contacts())
+    _contacts.push_back(contact::save(*contact));
+}
+
+void Snapshot::restore() const
+{
+  newton::Bulk& bulk = *_system->bulk();
+  bulk.set_displacements(_displacements);
+  if (newton::Fields* fields = bulk.fields())
+    fields->set(_fields);
+  for (std::size_t k = 0; k < _contacts.size(); ++k)
+    contact::load(*_system->contacts()[k], _contacts[k]);
+}

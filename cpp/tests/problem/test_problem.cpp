@@ -1,0 +1,441 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include "hiding_pairs.h"
+#include "spring_bodies.h"
+#include <contactx/contact/contact_state.h>
+#include <contactx/newton/derivative_check.h>
+#include <contactx/newton/not_finite.h>
+#include <contactx/problem/problem.h>
+#include <gtest/gtest.h>
+#include <limits>
+
+using namespace contactx;
+using namespace contactx::contact;
+using namespace contactx::problem;
+using namespace contactx::tests;
+
+namespace
+{
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+/// Friction and offset of all nodes.
+struct Given final : Values
+{
+  bool vary() const override { return varies; }
+  std::optional<std::vector<double>> friction() override
+  {
+    ++reads;
+    if (not coefficient)
+      return std::nullopt;
+    return std::vector<double>(count, *coefficient);
+  }
+  std::vector<double> offset() override
+  {
+    return std::vector<double>(count, length);
+  }
+
+  bool varies = true;
+  int reads = 0;
+  std::size_t count = 0;
+  std::optional<double> coefficient;
+  double length = 0;
+};
+
+/// Bodies of springs in a step with dense algebra.
+struct Stepped : SpringBodies
+{
+  using SpringBodies::SpringBodies;
+
+  /// Once contacts and Dirichlet conditions are there.
+  Problem& problem(bool refuses = true)
+  {
+    if (not made)
+    {
+      std::vector<Part> parts;
+      for (const auto& contact : contacts)
+      {
+        given.push_back(std::make_shared<Given>());
+        given.back()->count = contact->nodes()->num_nodes();
+        if (contact->law()->is_vector())
+          given.back()->coefficient = 0.3;
+        parts.push_back({"contact 0 (of sheets)", given.back()});
+      }
+      made.emplace(system(), bodies(), std::move(parts), refuses);
+    }
+    return *made;
+  }
+
+  /// One linear solve.
+  void advance()
+  {
+    newton::System& system = *problem().system();
+    std::vector<double> b(system.size());
+    system.residual(b);
+    std::vector<double> dx = dense::solve(matrix(), b);
+    for (double& value : dx)
+      value = -value;
+    problem().update(dx, problem().limit(dx));
+  }
+
+  /// Jacobian by the unknowns, which are lengths.
+  dense::Matrix matrix()
+  {
+    newton::System& system = *problem().system();
+    const auto& springs = problem().loop().free_bodies().springs();
+    dense::Matrix J = jacobian(springs ? std::span<const double>(*springs)
+                                       : std::span<const double>());
+    const std::size_t n = system.num_displacements();
+    for (std::size_t i = 0; i < J.rows; ++i)
+      for (std::size_t k = n; k < J.cols; ++k)
+        J(i, k) *= system.factors()[k - n];
+    return J;
+  }
+
+  /// Iterate until a solution is found, or none is to be expected.
+  const Settled& iterate(int max_it = 30)
+  {
+    while (true)
+    {
+      const Settled& found = problem().settle(1e-12, 0, max_it);
+      if (found.converged or not found.failure.empty())
+        return found;
+      advance();
+    }
+  }
+
+  const Settled& solve(int max_it = 30)
+  {
+    problem().begin_step();
+    return iterate(max_it);
+  }
+
+  /// All that a failed step must leave as it was.
+  std::vector<std::vector<Saved>> state() const
+  {
+    std::vector<std::vector<Saved>> all{{{"u", RowKind::node, 0, *scene.u}}};
+    for (const auto& contact : contacts)
+      all.push_back(save(*contact));
+    return all;
+  }
+
+  std::optional<Problem> made;
+  std::vector<std::shared_ptr<Given>> given;
+};
+
+/// Dense factors of the bodies' Jacobian.
+class DenseSolver final : public LinearSolver
+{
+public:
+  explicit DenseSolver(Stepped& bodies) : _bodies(&bodies) {}
+
+  void update() override { _J = _bodies->matrix(); }
+  void solve(std::span<const double> b, std::span<double> x) override
+  {
+    ++solves;
+    std::ranges::copy(dense::solve(_J, std::vector<double>(b.begin(), b.end())),
+                      x.begin());
+  }
+
+  int solves = 0;
+
+private:
+  Stepped* _bodies;
+  dense::Matrix _J;
+};
+
+void expect_same(const std::vector<std::vector<Saved>>& a,
+                 const std::vector<std::vector<Saved>>& b)
+{
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t k = 0; k < a.size(); ++k)
+  {
+    ASSERT_EQ(a[k].size(), b[k].size());
+    for (std::size_t i = 0; i < a[k].size(); ++i)
+    {
+      EXPECT_EQ(a[k][i].name, b[k][i].name);
+      std::visit(
+          [&](const auto& values)
+          {
+            const auto& others
+                = std::get<std::decay_t<decltype(values)>>(b[k][i].values);
+            ASSERT_EQ(values.size(), others.size());
+            // NaN is unlike itself
+            for (std::size_t j = 0; j < values.size(); ++j)
+              EXPECT_TRUE(
+                  values[j] == others[j]
+                  or (values[j] != values[j] and others[j] != others[j]))
+                  << a[k][i].name << " " << j;
+          },
+          a[k][i].values);
+    }
+  }
+}
+
+template <class Error, class Call>
+std::string said(Call call)
+{
+  try
+  {
+    call();
+  }
+  catch (const Error& error)
+  {
+    return error.what();
+  }
+  return "nothing";
+}
+
+bool contains(const std::string& text, const char* part)
+{
+  return text.find(part) != std::string::npos;
+}
+} // namespace
+
+TEST(Problem, AStepEndsWithItsReport)
+{
+  for (const double friction : {0., 0.3})
+  {
+    Stepped found(2);
+    found.add<NodeToSurface>(found.law(friction), Sliding::small);
+    found.press(0.09, friction > 0 ? 0.01 : 0);
+    const Settled end = found.solve();
+    ASSERT_TRUE(end.converged) << end.failure;
+    EXPECT_GT(end.closed, 0);
+    Problem& problem = found.problem();
+    EXPECT_TRUE(problem.converged());
+    problem.summarise();
+    problem.accept();
+    const Report& report = problem.report();
+    EXPECT_TRUE(report.converged);
+    EXPECT_EQ(report.slaves, found.scene.sheets.num_slaves);
+    EXPECT_EQ(report.pairs, found.scene.sheets.num_slaves);
+    ASSERT_EQ(std::ssize(report.history), end.number + 1);
+    for (int k = 0; k <= end.number; ++k)
+      EXPECT_EQ(report.history[k].number, k);
+    EXPECT_LE(report.history.back().residual, report.history.back().tolerance);
+    EXPECT_TRUE(report.warnings.empty());
+    EXPECT_EQ(report.slip > 0, friction > 0);
+    EXPECT_EQ(report.dissipation > 0, friction > 0);
+    EXPECT_FALSE(problem.has_begun());
+  }
+}
+
+TEST(Problem, AWholeStepIsThatOfItsParts)
+{
+  for (const double friction : {0., 0.3})
+  {
+    Stepped one(2), other(2);
+    for (Stepped* found : {&one, &other})
+    {
+      found->add<NodeToSurface>(found->law(friction), Sliding::small);
+      found->press(0.09, 0.01);
+    }
+    ASSERT_TRUE(one.solve().converged);
+    one.problem().accept();
+    DenseSolver solver(other);
+    other.problem().solve(solver, {.rtol = 1e-12, .max_it = 30});
+    expect_same(one.state(), other.state());
+    EXPECT_EQ(solver.solves, one.problem().number());
+    EXPECT_TRUE(other.problem().report().converged);
+  }
+}
+
+TEST(Problem, AFailedStepIsTriedOnceMoreDamped)
+{
+  // Linear bodies of small sliding are solved exactly by full steps
+  for (const Sliding sliding : {Sliding::finite, Sliding::small})
+  {
+    Stepped found(2);
+    found.add<NodeToSurface>(found.law(0.3), sliding);
+    found.press(0.09, 0.05);
+    const auto before = found.state();
+    DenseSolver solver(found);
+    const std::string reason = said<ConvergenceError>(
+        [&] { found.problem().solve(solver, {.rtol = 1e-12, .max_it = 0}); });
+    EXPECT_TRUE(contains(reason, "no convergence in 0 iterations")) << reason;
+    EXPECT_EQ(found.problem().report().damped, sliding == Sliding::finite);
+    expect_same(found.state(), before);
+  }
+}
+
+TEST(Problem, CallsHaveAnOrder)
+{
+  Stepped found(2);
+  found.add<NodeToSurface>(found.law(0), Sliding::small);
+  found.press(0.09, 0);
+  Problem& problem = found.problem();
+  std::vector<double> dx(problem.system()->size());
+  const auto refused = [](auto call) { return said<std::logic_error>(call); };
+  EXPECT_TRUE(contains(refused([&] { problem.settle(1e-11, 0, 50); }),
+                       "settle() before begin_step()"));
+  EXPECT_TRUE(contains(refused([&] { problem.enter("residual"); }),
+                       "residual() before begin_step()"));
+  problem.begin_step();
+  EXPECT_TRUE(
+      contains(refused([&] { problem.limit(dx); }), "limit() before settle()"));
+  problem.settle(1e-11, 0, 50);
+  EXPECT_TRUE(contains(refused([&] { problem.enter("accept"); }),
+                       "accept() of an iterate that is no solution"));
+  problem.update(dx);
+  EXPECT_TRUE(
+      contains(refused([&] { problem.limit(dx); }), "limit() before settle()"));
+  EXPECT_THROW(problem.update(dx, not_a_number), std::invalid_argument);
+  problem.restore();
+  EXPECT_TRUE(contains(refused([&] { problem.update(dx); }),
+                       "update() before begin_step()"));
+}
+
+TEST(Problem, ItReturnsToWhereAStepBeganBitForBit)
+{
+  for (const double friction : {0., 0.3})
+  {
+    Stepped found(3);
+    found.add<NodeToSurface>(found.law(friction), Sliding::small);
+    found.press(0.09, 0.01);
+    ASSERT_TRUE(found.solve().converged);
+    Problem& problem = found.problem();
+    problem.accept();
+    const auto before = found.state();
+    found.press(0.14, -0.02);
+    problem.begin_step();
+    problem.settle(1e-12, 0, 50);
+    found.advance();
+    problem.settle(1e-12, 0, 50);
+    problem.restore();
+    expect_same(found.state(), before);
+    // What is missing, or of another size, changes nothing
+    auto saved = save(*found.contacts[0]);
+    saved[1].values = std::vector<double>(3);
+    EXPECT_THROW(load(*found.contacts[0], saved), std::invalid_argument);
+    saved.erase(saved.begin() + 1);
+    EXPECT_THROW(load(*found.contacts[0], saved), std::invalid_argument);
+    expect_same(found.state(), before);
+    EXPECT_TRUE(found.solve().converged);
+  }
+}
+
+TEST(Problem, TooManyIterationsEndIt)
+{
+  Stepped found(2);
+  found.add<NodeToSurface>(found.law(0), Sliding::small);
+  found.press(0.09, 0);
+  const Settled& end = found.solve(1);
+  EXPECT_FALSE(end.converged);
+  EXPECT_EQ(end.number, 1);
+  EXPECT_TRUE(contains(end.failure, "no convergence in 1 iterations: take "
+                                    "smaller load steps"))
+      << end.failure;
+  EXPECT_FALSE(end.is_final);
+}
+
+TEST(Problem, HiddenPenetrationIsRefused)
+{
+  Stepped found(2);
+  found.add<Hiding>(found.law(0));
+  auto& master = dynamic_cast<Hiding&>(*found.contacts[0]->master());
+  Problem& problem = found.problem();
+  problem.begin_step();
+  // As if the pairs had gone back and forth since
+  master.is_frozen = true;
+  const Settled& end = problem.settle(1e-11, 0, 50);
+  EXPECT_TRUE(contains(end.failure, "hide a penetration: refine the coarser "
+                                    "surface there"))
+      << end.failure;
+  EXPECT_TRUE(end.is_final);
+  EXPECT_FALSE(problem.damping_may_help());
+  problem.summarise();
+  EXPECT_DOUBLE_EQ(problem.report().frozen_gap, -1e-3);
+}
+
+TEST(Problem, WhatIsNotFiniteIsRefusedBeforeAnyWork)
+{
+  Stepped found(2);
+  found.prescribe(0, 1, 0);
+  found.add<NodeToSurface>(found.law(0), Sliding::small);
+  found.press(0.09, 0);
+  Problem& problem = found.problem();
+  const auto refused = [&]
+  { return said<std::invalid_argument>([&] { problem.begin_step(); }); };
+  (*found.scene.u)[3] = not_a_number;
+  EXPECT_TRUE(
+      contains(refused(), "the displacement u is not finite at 1 dofs"));
+  (*found.scene.u)[3] = 0;
+  const std::size_t dof = 2 * found.scene.mesh.place[0] + 1;
+  found.bulk->values[dof] = not_a_number;
+  EXPECT_TRUE(contains(refused(), "bcs prescribe displacements that are not "
+                                  "finite, at 1 dofs"));
+  found.bulk->values[dof] = 0;
+  found.bulk->load[0] = not_a_number;
+  EXPECT_TRUE(
+      contains(said<newton::NotFinite>([&] { problem.begin_step(); }),
+               "the residual is not finite: the material fails at the start"));
+  found.bulk->load[0] = 0;
+  EXPECT_TRUE(found.solve().converged);
+}
+
+TEST(Problem, ValuesThatDoNotVaryAreReadOnce)
+{
+  for (const bool varies : {true, false})
+  {
+    Stepped found(2);
+    found.add<NodeToSurface>(found.law(0.3), Sliding::small);
+    found.press(0.09, 0.01);
+    found.problem();
+    Given& given = *found.given[0];
+    EXPECT_EQ(given.reads, 1);
+    given.varies = varies;
+    ASSERT_TRUE(found.solve().converged);
+    EXPECT_EQ(given.reads > 1, varies);
+    given.coefficient = -1;
+    found.problem().accept();
+    if (varies)
+      EXPECT_THROW(found.problem().begin_step(), std::invalid_argument);
+    else
+      EXPECT_NO_THROW(found.problem().begin_step());
+  }
+}
+
+TEST(Problem, AContactOutOfReachIsWarnedOf)
+{
+  for (const bool may_fly : {true, false})
+  {
+    Stepped found(2, 3);
+    found.add<NodeToSurface>(found.law(0), Sliding::small);
+    Problem& problem = found.problem();
+    if (may_fly)
+      problem.allow_flight();
+    ASSERT_TRUE(found.solve().converged);
+    problem.accept();
+    const auto& warnings = problem.report().warnings;
+    ASSERT_EQ(warnings.size(), may_fly ? 0 : 1);
+    if (not may_fly)
+    {
+      EXPECT_TRUE(contains(warnings[0],
+                           "contact 0 (of sheets) transmits no force: it has "
+                           "no slave node within reach of its master; the "
+                           "nearest is "))
+          << warnings[0];
+      EXPECT_TRUE(contains(warnings[0], "in the reference configuration"));
+    }
+  }
+}
+
+TEST(Problem, ARightStiffnessIsNotBlamed)
+{
+  Stepped found(2);
+  found.bulk->bar = 2;
+  found.add<NodeToSurface>(found.law(0), Sliding::small);
+  found.press(0.09, 0.01);
+  Problem& problem = found.problem();
+  problem.begin_step();
+  std::vector<double> direction(problem.system()->size());
+  for (std::size_t i = 0; i < direction.size(); ++i)
+    direction[i] = std::sin(static_cast<double>(i));
+  const std::vector<double> before = *found.scene.u;
+  EXPECT_LT(newton::derivative_error(*problem.system(), direction, 1e-4), 1e-9);
+  EXPECT_EQ(*found.scene.u, before);
+  EXPECT_EQ(problem.why_slow(direction), "");
+  direction.assign(direction.size(), 0);
+  EXPECT_EQ(newton::derivative_error(*problem.system(), direction, 1e-4), 0);
+}
