@@ -3,24 +3,12 @@
 
 #include "audit.h"
 #include "../parallel/spread.h"
-#include "../search/self_surface.h"
 #include "obstacle_audit.h"
 #include "self_audit.h"
 #include "surfaces_audit.h"
 
 using namespace contactx;
 using namespace contactx::audit;
-
-namespace
-{
-bool is_self(const contact::Contact& contact)
-{
-  const auto* master
-      = dynamic_cast<const contact::DeformableMaster*>(contact.master().get());
-  return master
-         and dynamic_cast<const search::SelfSurface*>(master->surface().get());
-}
-} // namespace
 
 Audit::Audit(std::shared_ptr<parallel::Halo> halo,
              std::vector<std::shared_ptr<contact::Contact>> contacts)
@@ -31,7 +19,7 @@ Audit::Audit(std::shared_ptr<parallel::Halo> halo,
     std::unique_ptr<ContactAudit> look;
     const bool is_rigid = contact->master()->is_rigid();
     const bool is_small = contact->sliding() == contact::Sliding::small;
-    if (is_self(*contact))
+    if (contact->is_self())
       look = std::make_unique<SelfAudit>(_halo, contact);
     else if (not contact->law()->is_tied() and not is_rigid)
       look = std::make_unique<SurfacesAudit>(_halo, contact);

@@ -4,6 +4,7 @@
 #include "contact.h"
 #include "../parallel/extent.h"
 #include "../vec.h"
+#include "deformable_master.h"
 #include "obstacle_pairs.h"
 #include <algorithm>
 #include <cmath>
@@ -173,6 +174,12 @@ void Contact::find_adjusted(double length)
         }
       });
   sum_offset();
+}
+
+bool Contact::is_self() const
+{
+  const auto* master = dynamic_cast<const DeformableMaster*>(_master.get());
+  return master and master->surface()->sees_bodies();
 }
 
 void Contact::set_active(bool is_active)

@@ -121,6 +121,9 @@ public:
   /// (shape=(num_owned)); empty for none.
   const std::vector<std::int8_t>& shared() const { return _options.shared; }
 
+  /// @brief True if it is a contact of a surface with itself.
+  bool is_self() const;
+
   /// @brief True if the contact is switched on.
   bool is_active() const { return _is_active; }
 
