@@ -51,6 +51,7 @@ void contactx_bindings::contact(py::module_& m)
       .def_property_readonly("updates_kinematics", &Contact::updates_kinematics)
       .def_property_readonly("pairs", &Contact::pairs)
       .def_property_readonly("version", &Contact::version)
+      .def_property_readonly("is_self", &Contact::is_self)
       .def_property("active", &Contact::is_active, &Contact::set_active)
       .def_property_readonly("skipped_searches", &Contact::skipped_searches)
       .def(

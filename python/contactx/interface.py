@@ -50,7 +50,6 @@ class Interface(core.Contact):
         markers: npt.NDArray[np.int8],
         shared: npt.NDArray[np.bool_] | None = None,
         adjust: float | None = None,
-        is_self: bool = False,
     ):
         """Pair the slave nodes in the reference configuration; all ranks must take part.
 
@@ -67,7 +66,6 @@ class Interface(core.Contact):
             shared: Which nodes of this rank the master surface has, too, owned ones first; None if
                 it has none.
             adjust: Gaps and overlaps of the reference configuration that count as none.
-            is_self: Whether slave and master are the same surface.
 
         Raises:
             ValueError: If an obstacle's parameters do not fit.
@@ -84,7 +82,6 @@ class Interface(core.Contact):
             adjust=adjust,
         )
         self.halo = halo
-        self.is_self = is_self
         self.slaves, self.slave_nodes = slaves.owned, slaves
         self.num_others = len(slaves.around) - len(slaves.owned)
         self._offset, self._friction = offset, friction
