@@ -167,7 +167,7 @@ public:
     _adapter->update_ghosts();
     read_values();
     check_kept();
-    _before.emplace(*_u, _system->contacts());
+    _before.emplace(*_u, _contacts);
     try
     {
       if (not _loop->begin_step(false))
@@ -308,7 +308,7 @@ public:
     require(_is_solution, "accept() of an iterate that is no solution: go on "
                           "until settle() says converged, or restore()");
     _loop->accept();
-    for (const auto& contact : _system->contacts())
+    for (const auto& contact : _contacts)
       contact->accept();
     _audit->accept();
     _has_begun = _is_settled = _is_solution = false;

@@ -47,6 +47,9 @@ public:
                                       { return c.get() == _u.get(); });
   }
 
+  /// @brief The displacement.
+  const std::shared_ptr<Function>& u() const { return _u; }
+
   int gdim() const override { return _halo->gdim(); }
   bool is_linear() const override { return _is_linear; }
 

@@ -3,13 +3,13 @@
 
 #pragma once
 
+#include "contact.h"
 #include "halo.h"
-#include <contactx/contact/contact.h>
 
 namespace contactx::dolfinx
 {
-/// @brief Copy of a displacement and of all that the next step of its contacts
-/// depends on.
+/// @brief Copy of a displacement, of all that the next step of its contacts
+/// depends on, and of their results.
 class Snapshot
 {
 public:
@@ -17,14 +17,16 @@ public:
   /// @param[in] u Displacement.
   /// @param[in] contacts Its contacts.
   Snapshot(const Function& u,
-           const std::vector<std::shared_ptr<contact::Contact>>& contacts)
+           const std::vector<std::shared_ptr<Contact>>& contacts)
       : _u(u.x()->array())
   {
-    for (const auto& contact : contacts)
+    for (const auto& owner : contacts)
     {
+      const contact::Contact* contact = &owner->discrete();
       const contact::NodeState& nodes = *contact->nodes();
       State state{
-          contact,
+          owner,
+          owner->results(),
           contact->is_active(),
           {nodes.multiplier, nodes.gap, nodes.normal, nodes.slip, nodes.mobile},
           {nodes.status, nodes.immobile},
@@ -46,7 +48,7 @@ public:
     adapter.update_ghosts();
     for (const State& state : _states)
     {
-      contact::Contact& contact = *state.contact;
+      contact::Contact& contact = state.contact->discrete();
       contact.master()->load(state.master);
       contact.set_active(state.is_active);
       contact::NodeState& nodes = *contact.nodes();
@@ -60,13 +62,15 @@ public:
       if (const auto& history = contact.history())
         history->restore(state.history[0], state.history[1], state.history[2]);
       contact.rebuild();
+      state.contact->restore(state.results);
     }
   }
 
 private:
   struct State
   {
-    std::shared_ptr<contact::Contact> contact;
+    std::shared_ptr<Contact> contact;
+    results::Results results;
     bool is_active;
     std::array<std::vector<double>, 5> values;
     std::array<std::vector<std::int8_t>, 2> marks;
