@@ -63,6 +63,7 @@ void mortar(py::module_& m);
 void condense(py::module_& m);
 void slave_nodes(py::module_& m);
 void contact(py::module_& m);
+void results(py::module_& m);
 void parallel(py::module_& m);
 void master(py::module_& m);
 void bodies(py::module_& m);

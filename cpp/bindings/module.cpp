@@ -16,6 +16,7 @@ PYBIND11_MODULE(cpp, m)
   contactx_bindings::law(m);
   contactx_bindings::slave_nodes(m);
   contactx_bindings::contact(m);
+  contactx_bindings::results(m);
   contactx_bindings::condense(m);
   contactx_bindings::bodies(m);
   contactx_bindings::reference(m);

@@ -12,6 +12,7 @@ using namespace contactx_bindings;
 using namespace contactx::problem;
 using contactx::contact::Bodies;
 using contactx::newton::System;
+using contactx::results::Results;
 
 namespace
 {
@@ -132,20 +133,20 @@ Attributes:
           py::arg("given"), py::arg("place"));
 
   py::class_<Snapshot>(m, "Snapshot", "State of a system")
-      .def(py::init<std::shared_ptr<System>>(), py::arg("system"))
       .def("restore", &Snapshot::restore);
 
   py::class_<Problem>(m, "Problem", "Drives a load step")
       .def(
           py::init(
               [](std::shared_ptr<System> system, std::shared_ptr<Bodies> bodies,
-                 const std::vector<std::pair<std::string, py::object>>& parts,
+                 const std::vector<std::tuple<std::string, py::object,
+                                              std::shared_ptr<Results>>>& parts,
                  bool refuses)
               {
                 std::vector<Part> given;
-                for (const auto& [name, values] : parts)
+                for (const auto& [name, values, results] : parts)
                   given.push_back(
-                      {name, std::make_shared<PythonValues>(values)});
+                      {name, std::make_shared<PythonValues>(values), results});
                 return std::make_unique<Problem>(std::move(system),
                                                  std::move(bodies),
                                                  std::move(given), refuses);
@@ -181,6 +182,7 @@ Attributes:
       .def("accept", &Problem::accept)
       .def("summarise", &Problem::summarise)
       .def("restore", &Problem::restore)
+      .def("snapshot", &Problem::snapshot)
       .def("find_rigid_modes", &Problem::find_rigid_modes)
       .def_property_readonly("damping_may_help", &Problem::damping_may_help)
       .def(

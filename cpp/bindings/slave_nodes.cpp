@@ -95,44 +95,5 @@ void contactx_bindings::slave_nodes(py::module_& m)
           [](const Recovery& self, const Array<double>& p,
              const Array<double>& area, const Array<bool>& closed)
           { return array(self.pressure(view(p), view(area), truths(closed))); },
-          py::arg("p"), py::arg("area"), py::arg("closed"))
-      .def_property_readonly("ratio", [](const Recovery& self)
-                             { return array(self.ratio()); })
-      .def(
-          "filled",
-          [](const Recovery& self, const Array<double>& values)
-          {
-            const bool is_flat = values.ndim() == 1;
-            const py::ssize_t width = is_flat ? 1 : values.shape(1);
-            const auto result
-                = self.filled(view(values), static_cast<int>(width));
-            return is_flat ? array(result)
-                           : array(result, {values.shape(0), width});
-          },
-          py::arg("values"))
-      .def(
-          "tractions",
-          [](const Recovery& self, const Array<double>& multiplier,
-             const Array<double>& normal, const Array<double>& area,
-             const Array<bool>& closed)
-          {
-            const Recovered found = self.tractions(
-                view(multiplier), view(normal), view(area), truths(closed));
-            const py::ssize_t n = std::ssize(found.pressure);
-            const py::ssize_t gdim = width_of(normal);
-            return py::make_tuple(array(found.pressure),
-                                  array(found.traction, {n, gdim}));
-          },
-          py::arg("multiplier"), py::arg("normal"), py::arg("area"),
-          py::arg("closed"));
-  m.def(
-      "recovery_change",
-      [](const NodeMap& nodes, const Array<double>& forces,
-         const Array<double>& recovered)
-      {
-        return recovery_change(nodes.ranks(), view(forces), view(recovered),
-                               width_of(forces));
-      },
-      py::arg("nodes"), py::arg("forces"), py::arg("recovered"),
-      "By how much recovered tractions change the force of a contact");
+          py::arg("p"), py::arg("area"), py::arg("closed"));
 }

@@ -15,6 +15,7 @@ namespace contactx::dolfinx
 {
 using problem::ConvergenceError;
 using problem::Settled;
+using problem::StepPlan;
 using problem::Tolerances;
 
 /// @brief The system of a bulk and its contacts, for a Newton loop of one's
@@ -108,7 +109,7 @@ public:
         discrete.push_back(_contacts[count]->attach(_halo, bodies, *_bulk, V));
         parts.push_back(
             {"contact " + std::to_string(count) + " (" + contact.name() + ")",
-             contact.values()});
+             contact.values(), contact.shared_results()});
       }
       _system
           = std::make_shared<newton::System>(_halo, _bulk, std::move(discrete));
@@ -183,6 +184,39 @@ public:
       throw;
     }
     pack();
+    show();
+  }
+
+  /// @brief Take the next of some load steps, and shorter ones until one
+  /// converges:
+  ///
+  ///     StepPlan plan(StepPlan::equal(10));
+  ///     while (not plan.finished())
+  ///     {
+  ///       assembler.advance(plan, update, solver);
+  ///       // results are those at plan.t()
+  ///     }
+  /// @param[in,out] plan The load steps.
+  /// @param[in] update Sets loads and Dirichlet values for a t.
+  /// @param[in] solver Solver of the Jacobian.
+  /// @param[in] tolerances When iterations end.
+  /// @throws ConvergenceError if the shortest step does not converge; plan and
+  /// state are then those of before.
+  void advance(StepPlan& plan, const std::function<void(double t)>& update,
+               problem::LinearSolver& solver, const Tolerances& tolerances = {})
+  {
+    try
+    {
+      _problem->advance(plan, update, solver, tolerances);
+    }
+    catch (...)
+    {
+      pack();
+      show();
+      throw;
+    }
+    pack();
+    show();
   }
 
   /// @brief Start a load step from u, with the loads and Dirichlet values of
@@ -209,6 +243,7 @@ public:
   {
     _problem->restore();
     pack();
+    show();
   }
 
   /// @brief Update pairs and active set at an accepted iterate, and judge its
@@ -284,6 +319,7 @@ public:
     _problem->enter("accept");
     _problem->summarise();
     _problem->accept();
+    show();
   }
 
   /// @brief Report of the step: iterates, what the audit has found, totals.
@@ -307,6 +343,12 @@ public:
 
 private:
   MPI_Comm comm() const { return _u->function_space()->mesh()->comm(); }
+
+  void show() const
+  {
+    for (const auto& contact : _contacts)
+      contact->show();
+  }
 
   void pack() const { _system->unknowns(petsc::Values(_x->get()).span()); }
 

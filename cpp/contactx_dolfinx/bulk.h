@@ -54,6 +54,8 @@ public:
   ///
   /// A program always gives it.
   bool has_own_jacobian() const override { return true; }
+  /// @brief The displacement.
+  const std::shared_ptr<Function>& u() const { return _u; }
 
   int gdim() const override { return _halo->gdim(); }
   bool is_linear() const override { return _is_linear; }

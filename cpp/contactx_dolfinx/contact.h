@@ -4,8 +4,8 @@
 #pragma once
 
 #include "bulk.h"
+#include "functions.h"
 #include "surface.h"
-#include <contactx/contact/recovery.h>
 #include <contactx/obstacle/obstacle.h>
 #include <contactx/problem/values.h>
 #include <contactx/reference/facing.h>
@@ -77,7 +77,8 @@ struct Values final : problem::Values
 ///
 /// Gaps g >= 0 are positive where it is open, pressures p >= 0 in compression.
 /// What it has of slave nodes are rows of those that this rank owns; it exists
-/// once the contact belongs to an Assembler.
+/// once the contact belongs to an Assembler. Results are those of the last
+/// accepted step, areas and multipliers those of now.
 class Contact
 {
 public:
@@ -128,6 +129,7 @@ public:
     try
     {
       make(halo, bodies, bulk, V);
+      _V = bulk.u()->function_space();
       return _discrete;
     }
     catch (...)
@@ -141,7 +143,8 @@ public:
   void detach()
   {
     _discrete.reset();
-    _recovery.reset();
+    _results.reset();
+    _functions.reset();
   }
 
   /// @brief Take another coefficient of friction, on all ranks, from the next
@@ -212,51 +215,87 @@ public:
     return discrete().nodes()->multiplier;
   }
 
-  /// @brief Gaps, NaN where there is no pair (shape=(n)).
-  std::span<const double> gap() const { return discrete().nodes()->gap; }
+  /// @brief All results, those of the last accepted step.
+  /// @throws std::logic_error if there are none yet.
+  const results::Results& results() const
+  {
+    discrete();
+    return *_results;
+  }
+
+  /// @brief Pressures, force/area, recovered from the multipliers, see
+  /// contact::Recovery (shape=(n)).
+  std::span<const double> pressure() const { return results().pressure(); }
+
+  /// @brief Tractions that the master exerts, force/area, recovered in the same
+  /// way (shape=(n, gdim)).
+  std::span<const double> traction() const { return results().traction(); }
+
+  /// @brief Means of the pressure at the nodes of the master, zero elsewhere
+  /// (shape=(number of the displacement's nodes that this rank owns)).
+  std::span<const double> master_pressure() const
+  {
+    return results().master_pressure();
+  }
+
+  /// @brief Gaps, lengths, NaN where there is no pair (shape=(n)).
+  std::span<const double> gap() const { return results().gap(); }
 
   /// @brief Status, see law::Status: 0 open, 1 stick or tied, 2 slip or
   /// frictionless in contact (shape=(n)).
-  std::span<const std::int8_t> status() const
-  {
-    return discrete().nodes()->status;
-  }
+  std::span<const std::int8_t> status() const { return results().status(); }
 
-  /// @brief Pressures, force/area, recovered from the multipliers: nodes in
-  /// contact exchange force with their neighbours, see contact::Recovery. All
-  /// ranks must take part.
-  std::vector<double> pressure() const
-  {
-    const contact::NodeState& nodes = *discrete().nodes();
-    std::vector<std::int8_t> closed(nodes.num_nodes());
-    for (std::size_t i = 0; i < closed.size(); ++i)
-      closed[i] = nodes.closed(i);
-    std::vector<double> p(nodes.num_nodes());
-    for (std::size_t i = 0; i < p.size(); ++i)
-      p[i] = nodes.pressure(i);
-    return _recovery->pressure(p, nodes.area, closed);
-  }
+  /// @brief Slip increments of the last step, lengths, zero where there is no
+  /// friction (shape=(n, gdim)).
+  std::span<const double> slip() const { return results().slip(); }
+
+  /// @brief Accumulated lengths of slip (shape=(n)).
+  std::span<const double> slip_total() const { return results().slip_total(); }
 
   /// @brief Force on the slave side of all ranks (shape=(gdim)), zero behind
-  /// that. All ranks must take part.
-  Vector<3> force() const
+  /// that.
+  Vector<3> force() const { return results().force(); }
+
+  /// @brief Moment of the forces on the slave side of all ranks, which must
+  /// take part; in 2D its last component, positive counter-clockwise.
+  /// @param[in] point The point that it is about (shape=(gdim)).
+  /// @throws std::invalid_argument if the point is not finite.
+  /// @throws std::logic_error if the model is axisymmetric.
+  Vector<3> moment(const Vector<3>& point) const
   {
-    const parallel::Halo& halo = discrete().halo();
-    const int gdim = halo.gdim();
-    std::vector<double> forces(std::size_t(halo.num_nodes()) * gdim, 0);
-    discrete().add_residual(forces);
-    halo.reverse(forces, gdim);
-    Vector<3> sum{};
-    const std::span<const std::int32_t> slaves = slave_nodes();
-    // In self-contact all nodes may be slaves: those that are in contact, as no
-    // node is on both sides
-    const bool each_counts = not is_self();
-    for (std::size_t i = 0; i < slaves.size(); ++i)
-      if (each_counts or discrete().nodes()->closed(i))
-        for (int k = 0; k < gdim; ++k)
-          sum[k] -= forces[gdim * slaves[i] + k];
-    halo.ranks().reduce(std::span<double>(sum), parallel::Reduction::sum);
-    return sum;
+    return results().moment(
+        std::span<const double>(point).first(results().gdim()));
+  }
+
+  /// @brief Sums and extremes over all ranks, which must take part.
+  results::Totals totals() const { return results().totals(); }
+
+  /// @brief The results as functions of DOLFINx, which follow the accepted
+  /// steps from the first call on. All ranks must take part.
+  const Functions& functions()
+  {
+    discrete();
+    if (not _functions)
+    {
+      _functions = std::make_unique<Functions>(_V, slave_nodes(),
+                                               discrete().law()->is_tied());
+      _functions->take(*_results);
+    }
+    return *_functions;
+  }
+
+  /// @brief The results as the core's driver of a step updates them.
+  const std::shared_ptr<results::Results>& shared_results() const
+  {
+    return _results;
+  }
+
+  /// @brief Copy the results to the functions, where these are asked for; the
+  /// Assembler does so. All ranks must take part.
+  void show()
+  {
+    if (_functions)
+      _functions->take(*_results);
   }
 
 private:
@@ -318,8 +357,7 @@ private:
         reference::check_facing(*halo, *slaves, _slave.name(), *master,
                                 surface.name());
     }
-    _recovery = std::make_unique<contact::Recovery>(slaves, halo->reference(),
-                                                    halo->gdim());
+    _results = std::make_shared<results::Results>(_discrete);
     _values->num_nodes = slaves->owned().size();
   }
 
@@ -342,6 +380,8 @@ private:
   Options _options;
   std::shared_ptr<Values> _values;
   std::shared_ptr<contact::Contact> _discrete;
-  std::unique_ptr<contact::Recovery> _recovery;
+  std::shared_ptr<results::Results> _results;
+  std::shared_ptr<const FunctionSpace> _V;
+  std::unique_ptr<Functions> _functions;
 };
 } // namespace contactx::dolfinx

@@ -164,7 +164,10 @@ class ContactAssembler:
                 self.bulk.follow(self.conductances)
             self.system = SaddlePointSystem(self.bulk, self.interfaces, self.halo)
             names = (f"contact {k} ({contact})" for k, contact in enumerate(self.contacts))
-            parts = [(n, i.values) for n, i in zip(names, self.interfaces, strict=True)]
+            parts = [
+                (name, contact.interface.values, contact.fields.results)
+                for name, contact in zip(names, self.contacts, strict=True)
+            ]
             refuses = audit == "refuse"
             self.core = core.Problem(self.system.core, self.bodies, parts, refuses=refuses)
         except BaseException:

@@ -25,7 +25,7 @@ from contactx.parallel.agreement import agreed
 from contactx.parallel.halo import Halo
 from contactx.refined import degree_of, node_levels
 from contactx.surface import Surface
-from contactx.weight import check_weight, is_circumference, nodal_weight
+from contactx.weight import check_weight, nodal_weight
 from dolfinx import fem, mesh
 
 _OPTIONS = (
@@ -163,7 +163,6 @@ class Contact:
         self.tangential_factor = tangential_factor
         self.friction = friction
         self.tied = bool(tied)
-        self._is_axisymmetric = False
         self._interface: Interface | None = None
         self._fields: Fields | None = None
 
@@ -242,10 +241,7 @@ class Contact:
         if degree_of(V) > 1:
             slaves.set_level(level[slaves.owned], self._is_mortar(V))
         if self.is_weighted:
-            values = nodal_weight(self.weight, V, slaves.owned)
-            slaves.set_weight(values)
-            radius = halo.x.reshape(-1, halo.gdim)[slaves.owned, 0]
-            self._is_axisymmetric = halo.gdim == 2 and is_circumference(values, radius, halo.comm)
+            slaves.set_weight(nodal_weight(self.weight, V, slaves.owned))
         with agreed(halo.comm):
             law, friction = self._law(V, slaves.owned)
             offset = NodalValue(self.offset, "offset", V, slaves.owned)
@@ -266,7 +262,7 @@ class Contact:
         if isinstance(master, core.DeformableMaster) and not self.is_self:
             core.check_facing(halo.nodes, slaves, str(self.slave), master, str(self.master))
         interface.nodes.along = float(self.tangential_factor)
-        self._fields = Fields(interface, V, slaves, halo)
+        self._fields = Fields(interface, V)
         self._interface = interface
         return interface
 
@@ -551,11 +547,6 @@ class Contact:
                 point in the plane of the mesh.
         """
         gdim = len(self.force)
-        if self._is_axisymmetric:
-            raise RuntimeError(
-                f"{self} has a weight in proportion to the radius, as in an axisymmetric model, "
-                "where the forces around the axis have no moment: leave it out"
-            )
         try:
             at = np.asarray(point, dtype=np.float64)
         except (TypeError, ValueError):

@@ -7,7 +7,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from contactx import cpp as core
 from dolfinx import fem
 
 if TYPE_CHECKING:
@@ -52,7 +51,7 @@ class Snapshot:
             assembler: The coupled system.
             history: Further functions that belong to the state.
         """
-        self._core = core.Snapshot(assembler.system.core)
+        self._core = assembler.core.snapshot()
         self._values = FunctionValues(assembler, history)
 
     def restore(self) -> None:

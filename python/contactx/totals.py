@@ -10,12 +10,9 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any
 
-import numpy as np
-
 from contactx.arguments import described, is_number
 from contactx.contact import Contact
 from contactx.files import check_path, make_folder
-from contactx.parallel import reduce
 from contactx.parallel.agreement import agreed
 
 
@@ -108,34 +105,15 @@ class CSVOutput:
         return [name + suffix for name in (*forces, *others)]
 
     def _totals(self, contact: Contact) -> list[Any]:
-        nodes, history = contact.interface.nodes, contact.interface.history
-        dissipation = 0.0 if history is None else float(history.dissipation.sum())
-        closed, slipping, area, dissipation = reduce.total(
-            self._comm,
-            np.array(
-                [
-                    nodes.closed.sum(),
-                    (nodes.status == 2).sum(),
-                    nodes.area[nodes.closed].sum(),
-                    dissipation,
-                ]
-            ),
-        ).tolist()
-        # Zero off the slave surface
-        pressure = contact.pressure.x.array
-        gap = nodes.gap[np.isfinite(nodes.gap)]
-        highest, lowest = reduce.largest(
-            self._comm, np.array([pressure.max(initial=0.0), (-gap).max(initial=-np.inf)])
-        ).tolist()
-        smallest = -lowest if np.isfinite(lowest) else np.nan
+        totals = contact.fields.totals()
         return [
             *contact.force.tolist(),
-            int(closed),
-            int(slipping),
-            area,
-            highest,
-            smallest,
-            dissipation,
+            totals.closed,
+            totals.slipping,
+            totals.area,
+            totals.largest_pressure,
+            totals.smallest_gap,
+            totals.dissipation,
         ]
 
     def _append(self, mode: str, row: list[Any]) -> None:

@@ -6,15 +6,12 @@ from __future__ import annotations
 
 from typing import Any
 
-from mpi4py import MPI
-
 import numpy as np
 import numpy.typing as npt
 
 import ufl
 from contactx.arguments import described, is_number
 from contactx.nodal import matching_nodes
-from contactx.parallel import reduce
 from contactx.refined import degree_of
 from dolfinx import fem
 from ufl.algorithms import extract_arguments
@@ -46,27 +43,6 @@ def check_weight(weight: Any) -> None:
             f"weight holds {np.dtype(weight.dtype).name} values: give real numbers in double "
             "precision"
         )
-
-
-def is_circumference(
-    weight: npt.NDArray[np.float64], radius: npt.NDArray[np.float64], comm: MPI.Comm
-) -> bool:
-    """True if a weight is 2 pi r, or another multiple of a radius that varies; collective.
-
-    Args:
-        weight: Nodal values, shape (n,).
-        radius: First coordinate of the nodes, shape (n,).
-        comm: Communicator.
-    """
-    ends = (weight, radius, -radius) if len(weight) else ([-np.inf],) * 3
-    largest, high, low = (reduce.largest(comm, float(np.max(values))) for values in ends)
-    if not largest > 0 or not high > 0:
-        return False
-    factor = largest / high
-    is_multiple = bool(np.all(np.abs(weight - factor * radius) <= 1e-10 * largest))
-    varies = high + low > 1e-10 * high
-    is_full = abs(factor - 2 * np.pi) <= 1e-10 * factor
-    return reduce.everywhere(comm, is_multiple) and (varies or is_full)
 
 
 def nodal_weight(

@@ -67,7 +67,7 @@ ERRORS: list[tables.Column] = [
 def averages(contact: cx.Contact) -> npt.NDArray[np.float64]:
     """Pressures of the slave nodes that are averaged alone, as those in tension are."""
     nodes = contact.interface.nodes
-    recovery = contact.fields._recovery
+    recovery = cx.cpp.Recovery(contact.interface.slave_nodes, contact.interface.halo.x)
     return np.asarray(-recovery.pressure(-nodes.pressure, nodes.area, nodes.closed))
 
 

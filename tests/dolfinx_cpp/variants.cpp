@@ -39,12 +39,23 @@ double sum(double mine)
   return mine;
 }
 
-double squares(std::span<const double> values)
+/// Norm over all ranks, of the values that are numbers.
+double norm(std::span<const double> values)
 {
   double s = 0;
   for (double v : values)
-    s += v * v;
+    s += std::isnan(v) ? 0 : v * v;
   return std::sqrt(sum(s));
+}
+
+/// Norm of a function, of what this rank owns; zero if there is none.
+double norm(const std::shared_ptr<fem::Function<T>>& f)
+{
+  if (not f)
+    return 0;
+  const auto& dofs = *f->function_space()->dofmap();
+  return norm(std::span<const double>(f->x()->array())
+                  .first(dofs.bs() * dofs.index_map->size_local()));
 }
 
 void solve(const Scene& scene, const char* name, const cx::Contact::Master& to,
@@ -115,19 +126,34 @@ void solve(const Scene& scene, const char* name, const cx::Contact::Master& to,
       iterate();
     assembler.accept();
     const auto force = contact->force();
-    const std::span<const double> all = u->x()->array();
-    const double norms[3]
-        = {squares(all.first(2 * V->dofmap()->index_map->size_local())),
-           squares(contact->multiplier()), squares(contact->pressure())};
+    const auto moment = contact->moment({0.5, 0.25});
+    const contactx::results::Totals totals = contact->totals();
+    const cx::Functions& f = contact->functions();
+    const std::vector<double> figures{force[0],
+                                      force[1],
+                                      norm(u),
+                                      norm(contact->multiplier()),
+                                      norm(contact->pressure()),
+                                      norm(contact->traction()),
+                                      norm(contact->slip()),
+                                      moment[2],
+                                      norm(f.gap),
+                                      norm(f.status),
+                                      norm(f.slip_total),
+                                      norm(f.master_pressure),
+                                      double(totals.closed),
+                                      totals.area,
+                                      totals.largest_pressure,
+                                      totals.dissipation};
     if (dolfinx::MPI::rank(MPI_COMM_WORLD) == 0)
     {
       // Iterations go with how accurate Krylov solvers are
       std::printf("%s %s", name,
                   is_condensed ? "condensed"
                                : std::to_string(it.number).c_str());
-      for (double f : {force[0], force[1], norms[0], norms[1], norms[2]})
+      for (double figure : figures)
         // Rounding has a sign
-        std::printf(" %.9f", std::abs(f) < 5e-10 ? 0.0 : f);
+        std::printf(" %.9f", std::abs(figure) < 5e-10 ? 0.0 : figure);
       std::printf("\n");
     }
   }

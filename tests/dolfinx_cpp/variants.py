@@ -65,10 +65,15 @@ def solve(
     for way in WAYS:
         push.g.value[...] = way
         problem.solve()
-        pressure = contact.pressure.x.array[contact.slave_nodes]
-        owned = u.x.array[: 2 * V.dofmap.index_map.size_local]
-        norms = [norm(owned), norm(contact.multiplier), norm(pressure)]
-        figures = [*contact.force, *norms]
+        fields, size = contact.fields, V.dofmap.index_map.size_local
+        figures = [*contact.force, norm(u.x.array[: 2 * size]), norm(contact.multiplier)]
+        for f in (fields.pressure, fields.traction, fields.slip):
+            figures.append(0.0 if f is None else norm(f.x.array))
+        figures.append(contact.moment([0.5, 0.25]))
+        for f in (fields.gap, fields.status, fields.slip_total, fields.master_pressure):
+            figures.append(0.0 if f is None else norm(np.nan_to_num(f.x.array[:size])))
+        totals = fields.totals()
+        figures += [totals.closed, totals.area, totals.largest_pressure, totals.dissipation]
         if MPI.COMM_WORLD.rank == 0:
             # Rounding has a sign
             texts = (f"{0.0 if abs(f) < 5e-10 else f:.9f}" for f in figures)

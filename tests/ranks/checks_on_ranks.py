@@ -91,7 +91,7 @@ def over_constrained(scene):
     )
     interface.nodes.immobile[:] = True
     system = SaddlePointSystem(scene.bulk, [interface], halo).core
-    problem = core.Problem(system, scene.bodies, [("name", interface.values)], refuses=True)
+    problem = core.Problem(system, scene.bodies, [("name", interface.values, None)], refuses=True)
     return said(scene, problem.prepare)
 
 

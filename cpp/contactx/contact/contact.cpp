@@ -4,6 +4,7 @@
 #include "contact.h"
 #include "../parallel/extent.h"
 #include "../vec.h"
+#include "deformable_master.h"
 #include "obstacle_pairs.h"
 #include <algorithm>
 #include <cmath>

@@ -3,24 +3,12 @@
 
 #include "transfer.h"
 #include "../check.h"
-#include "deformable_master.h"
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 using namespace contactx;
 using namespace contactx::contact;
-
-namespace
-{
-/// Whether slave and master are the same surface.
-bool is_self(const Contact& contact)
-{
-  const auto* master
-      = dynamic_cast<const DeformableMaster*>(contact.master().get());
-  return master and master->surface()->sees_bodies();
-}
-} // namespace
 
 Transfer::Transfer(const Contact& contact)
     : _halo(contact.halo()), _weights(contact.master()->weights()),
@@ -38,7 +26,7 @@ Transfer::Transfer(const Contact& contact)
       _area[i] = 0;
   }
   _is_slave.assign(_halo.num_nodes(), 0);
-  if (not is_self(contact))
+  if (not contact.is_self())
   {
     for (const std::int32_t node : contact.slaves().around())
       _is_slave[node] = 1;

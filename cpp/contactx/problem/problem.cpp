@@ -191,6 +191,46 @@ void Problem::solve(LinearSolver& solver, const Tolerances& tolerances)
   accept();
 }
 
+void Problem::advance(StepPlan& plan, const std::function<void(double)>& update,
+                      LinearSolver& solver, const Tolerances& tolerances)
+{
+  const Snapshot before = snapshot();
+  StepPlan attempted = plan;
+  int discarded = 0;
+  const auto set = [&](double t) { _halo->ranks().agree([&] { update(t); }); };
+  while (true)
+  {
+    const double t = attempted.next();
+    try
+    {
+      set(t);
+      solve(solver, tolerances);
+      break;
+    }
+    catch (const ConvergenceError& error)
+    {
+      before.restore();
+      discarded += _report.discarded + _number;
+      if (attempted.cut())
+        continue;
+      set(plan.t());
+      throw ConvergenceError(
+          std::string(error.what()) + ". No step from t = "
+          + number_text(plan.t(), 6) + " converged; the last attempt, to t = "
+          + number_text(t, 6) + ", was the shortest that max_cuts = "
+          + std::to_string(plan.max_cuts()) + " allows");
+    }
+    catch (...)
+    {
+      before.restore();
+      throw;
+    }
+  }
+  _report.discarded += discarded;
+  attempted.accept(_number);
+  plan = std::move(attempted);
+}
+
 bool Problem::attempt(const std::function<bool(bool damped)>& attempt)
 {
   if (attempt(false))
@@ -269,7 +309,7 @@ void Problem::prepare()
   read_values();
   check_kept();
   check_drag();
-  _before.emplace(_system);
+  _before.emplace(snapshot());
 }
 
 void Problem::check_finite()
@@ -517,6 +557,9 @@ void Problem::accept()
   _has_modes = true;
   for (const auto& contact : _system->contacts())
     contact->accept();
+  for (const Part& part : _parts)
+    if (part.results)
+      part.results->update();
   {
     const Timer timer(_report, "audit");
     _audit->accept();
@@ -639,6 +682,14 @@ std::string Problem::warning_of(std::size_t k)
          + number_text(-gaps[k], 3)
          + ". Refine the coarser surface there or take smaller steps (manual: "
            "errors/frozen-pairs)";
+}
+
+Snapshot Problem::snapshot() const
+{
+  std::vector<std::shared_ptr<results::Results>> results;
+  for (const Part& part : _parts)
+    results.push_back(part.results);
+  return {_system, std::move(results)};
 }
 
 void Problem::restore()

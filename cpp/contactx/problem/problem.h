@@ -7,6 +7,7 @@
 #include "../newton/loop.h"
 #include "audit_report.h"
 #include "snapshot.h"
+#include "step_plan.h"
 #include "values.h"
 #include <functional>
 #include <map>
@@ -181,6 +182,18 @@ public:
   /// @throws std::invalid_argument as `prepare` does.
   void solve(LinearSolver& solver, const Tolerances& tolerances = {});
 
+  /// @brief Take the next step of a plan: shorter and shorter ones, as the plan
+  /// says, until one converges.
+  /// @param[in,out] plan The plan; at the end at the accepted step.
+  /// @param[in] update Sets loads and Dirichlet values for a t; called before
+  /// each attempt, and where none converges once more for the last accepted t.
+  /// @param[in] solver Solves with the Jacobian.
+  /// @param[in] tolerances When iterations end.
+  /// @throws ConvergenceError if the shortest one does not converge; plan and
+  /// state are then those of before.
+  void advance(StepPlan& plan, const std::function<void(double t)>& update,
+               LinearSolver& solver, const Tolerances& tolerances = {});
+
   /// @brief Attempt a step that was prepared, and once more with damped steps
   /// where full ones have failed and these may do better.
   /// @param[in] attempt Starts the step with `start(damped)` and iterates;
@@ -252,8 +265,11 @@ public:
   void summarise();
 
   /// @brief Return to where the last step began, bit for bit, with all
-  /// contacts.
+  /// contacts and their results.
   void restore();
+
+  /// @brief Copy the state of now, to return to.
+  Snapshot snapshot() const;
 
   /// @brief Find the rigid modes of free bodies as they are, as the first step
   /// does: those of bodies without stress.

@@ -7,9 +7,13 @@
 using namespace contactx;
 using namespace contactx::problem;
 
-Snapshot::Snapshot(std::shared_ptr<newton::System> system)
-    : _system(std::move(system))
+Snapshot::Snapshot(std::shared_ptr<newton::System> system,
+                   std::vector<std::shared_ptr<results::Results>> results)
+    : _system(std::move(system)), _results(std::move(results))
 {
+  std::erase(_results, nullptr);
+  for (const auto& result : _results)
+    _copies.push_back(*result);
   newton::Bulk& bulk = *_system->bulk();
   const auto u = bulk.displacements();
   _displacements.assign(u.begin(), u.end());
@@ -30,4 +34,6 @@ void Snapshot::restore() const
     fields->set(_fields);
   for (std::size_t k = 0; k < _contacts.size(); ++k)
     contact::load(*_system->contacts()[k], _contacts[k]);
+  for (std::size_t k = 0; k < _results.size(); ++k)
+    *_results[k] = _copies[k];
 }

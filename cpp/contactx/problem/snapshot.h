@@ -5,16 +5,20 @@
 
 #include "../contact/saved.h"
 #include "../newton/system.h"
+#include "../results/results.h"
 
 namespace contactx::problem
 {
-/// @brief Copy of the unknowns of a system and of all that the next step of its
-/// contacts depends on.
+/// @brief Copy of the unknowns of a system, of all that the next step of its
+/// contacts depends on, and of their results.
 class Snapshot
 {
 public:
   /// @brief Copy the state of now.
-  explicit Snapshot(std::shared_ptr<newton::System> system);
+  /// @param[in] system The system.
+  /// @param[in] results Results of each of its contacts, null for none.
+  Snapshot(std::shared_ptr<newton::System> system,
+           std::vector<std::shared_ptr<results::Results>> results);
 
   /// @brief Return to it, bit for bit; collective.
   void restore() const;
@@ -23,5 +27,7 @@ private:
   std::shared_ptr<newton::System> _system;
   std::vector<double> _displacements, _fields;
   std::vector<std::vector<contact::Saved>> _contacts;
+  std::vector<std::shared_ptr<results::Results>> _results;
+  std::vector<results::Results> _copies;
 };
 } // namespace contactx::problem

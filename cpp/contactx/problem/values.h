@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "../results/results.h"
 #include <memory>
 #include <optional>
 #include <string>
@@ -31,7 +32,10 @@ public:
 /// @brief A contact as its problem knows it.
 struct Part
 {
-  std::string name; ///< what messages call it
-  std::shared_ptr<Values> values;
+  std::string name;               ///< what messages call it
+  std::shared_ptr<Values> values; ///< what may change
+  /// Results, which are updated where a step is accepted and restored where one
+  /// fails; null where they are of no interest
+  std::shared_ptr<results::Results> results = nullptr;
 };
 } // namespace contactx::problem

@@ -259,6 +259,42 @@ TEST(Problem, AFailedStepIsTriedOnceMoreDamped)
   }
 }
 
+TEST(Problem, StepsOfAPlanAreCutUntilTheyConverge)
+{
+  Stepped found(2);
+  found.add<NodeToSurface>(found.law(0), Sliding::small);
+  DenseSolver solver(found);
+  // Loads beyond that are not finite until steps are short
+  double reached = 0;
+  std::vector<double> tried;
+  const auto update = [&](double t)
+  {
+    tried.push_back(t);
+    found.press(0.09 * t, 0);
+    found.bulk->load[0] = t - reached > 0.3 ? not_a_number : 0;
+  };
+  StepPlan plan(StepPlan::equal(2), 2);
+  while (not plan.finished())
+  {
+    found.problem().advance(plan, update, solver);
+    reached = plan.t();
+    EXPECT_TRUE(found.problem().report().converged);
+  }
+  EXPECT_EQ(tried, (std::vector{0.5, 0.25, 0.5, 1.0, 0.75, 1.0}));
+  // Too short a plan leaves all as it was
+  const auto before = found.state();
+  StepPlan stuck(StepPlan::equal(1), 1);
+  reached = -10;
+  const std::string reason = said<ConvergenceError>(
+      [&] { found.problem().advance(stuck, update, solver); });
+  EXPECT_TRUE(contains(reason, "No step from t = 0 converged; the last "
+                               "attempt, to t = 0.5, was the shortest"))
+      << reason;
+  EXPECT_EQ(tried.back(), 0);
+  EXPECT_EQ(stuck.t(), 0);
+  expect_same(found.state(), before);
+}
+
 TEST(Problem, CallsHaveAnOrder)
 {
   Stepped found(2);

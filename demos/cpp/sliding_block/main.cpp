@@ -15,6 +15,7 @@
 #include <cstdio>
 #include <dolfinx.h>
 #include <dolfinx/fem/Constant.h>
+#include <dolfinx/io/VTKFile.h>
 #include <dolfinx/io/XDMFFile.h>
 
 using namespace dolfinx;
@@ -91,7 +92,9 @@ int main(int argc, char* argv[])
     la::petsc::options::set("pc_factor_mat_solver_type", "mumps");
     solver.set_from_options();
 
-    // Press, then push to the right, to the left and back
+    // Press, then push to the right, to the left and back; ParaView opens
+    // displacement and results of all steps
+    io::VTKFile output(MPI_COMM_WORLD, "sliding_block.pvd", "w");
     Vec x = assembler.x(), b = assembler.create_vector(),
         dx = assembler.create_vector();
     Mat A = assembler.create_matrix();
@@ -111,6 +114,9 @@ int main(int argc, char* argv[])
         assembler.update(dx, assembler.limit(dx));
       }
       assembler.accept();
+      auto functions = contact->functions().all();
+      functions.push_back(*u);
+      output.write<T>(functions, step);
 
       const auto force = contact->force();
       const auto status = contact->status();

@@ -96,7 +96,7 @@ class Checkpoint:
                         for name, kind in interface.saved_rows.items()
                     }
                 )
-                self._problem.contacts[k].fields.update()
+                self._problem.contacts[k].fields.evaluate()
         except BaseException:
             before.restore()
             raise

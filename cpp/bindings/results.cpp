@@ -1,0 +1,84 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include "bindings.h"
+#include <contactx/results/results.h>
+
+namespace py = pybind11;
+using namespace contactx_bindings;
+using contactx::Vector;
+using contactx::contact::Contact;
+using contactx::results::Results;
+using contactx::results::Totals;
+
+namespace
+{
+/// Vectors of the slave nodes (n, gdim).
+py::array_t<double> vectors(const Results& self,
+                            const std::vector<double>& values)
+{
+  return array(values, {std::ssize(self.gap()), self.gdim()});
+}
+
+/// The gdim components of a vector.
+py::array_t<double> components(const Results& self, const Vector<3>& v)
+{
+  return py::array_t<double>(self.gdim(), v.data());
+}
+} // namespace
+
+void contactx_bindings::results(py::module_& m)
+{
+  py::class_<Totals>(m, "Totals", "Sums and extremes over all ranks")
+      .def_readonly("closed", &Totals::closed)
+      .def_readonly("slipping", &Totals::slipping)
+      .def_readonly("area", &Totals::area)
+      .def_readonly("largest_pressure", &Totals::largest_pressure)
+      .def_readonly("smallest_gap", &Totals::smallest_gap)
+      .def_readonly("dissipation", &Totals::dissipation);
+  py::class_<Results, std::shared_ptr<Results>>(
+      m, "Results", "Results of a contact at its slave nodes")
+      .def(py::init<std::shared_ptr<Contact>>(), py::arg("contact"))
+      .def("update", &Results::update)
+      .def_property_readonly("pressure", [](const Results& self)
+                             { return array(self.pressure()); })
+      .def_property_readonly("traction", [](const Results& self)
+                             { return vectors(self, self.traction()); })
+      .def_property_readonly("master_pressure", [](const Results& self)
+                             { return array(self.master_pressure()); })
+      .def_property_readonly("gap", [](const Results& self)
+                             { return array(self.gap()); })
+      .def_property_readonly("status", [](const Results& self)
+                             { return array(self.status()); })
+      .def_property_readonly("slip", [](const Results& self)
+                             { return vectors(self, self.slip()); })
+      .def_property_readonly("slip_total", [](const Results& self)
+                             { return array(self.slip_total()); })
+      .def_property_readonly("force", [](const Results& self)
+                             { return components(self, self.force()); })
+      .def_property_readonly("imbalance", [](const Results& self)
+                             { return components(self, self.imbalance()); })
+      .def_property_readonly("recovery_change", &Results::recovery_change)
+      .def_property_readonly("is_axisymmetric", &Results::is_axisymmetric)
+      .def(
+          "moment",
+          [](const Results& self, const Array<double>& point)
+          {
+            const Vector<3> moment = self.moment(view(point));
+            const bool is_plane = self.gdim() == 2;
+            return py::array_t<double>(is_plane ? 1 : 3,
+                                       moment.data() + (is_plane ? 2 : 0));
+          },
+          py::arg("point"))
+      .def("totals", &Results::totals)
+      .def("recovered_pressure",
+           [](const Results& self) { return array(self.recovered_pressure()); })
+      .def(
+          "on_both",
+          [](const Results& self, const Array<double>& values, double missing)
+          { return array(self.on_both(view(values), missing)); },
+          py::arg("values"), py::arg("missing"))
+      .def(
+          "across", [](const Results& self, const Array<double>& field)
+          { return array(self.across(view(field))); }, py::arg("field"));
+}
