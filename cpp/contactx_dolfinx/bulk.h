@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "cell_forces.h"
 #include "halo.h"
 #include "petsc.h"
 #include <cmath>
@@ -35,6 +36,7 @@ public:
        std::shared_ptr<parallel::Halo> halo, HaloAdapter& adapter)
       : _F(std::move(F)), _J(std::move(J)), _u(std::move(u)),
         _bcs(std::move(bcs)), _halo(std::move(halo)), _adapter(&adapter),
+        _forces(_F, _u->function_space()),
         _b(_u->function_space()->dofmap()->index_map, _halo->gdim()),
         _markers(_u->x()->array().size(), 0),
         _size(std::size_t(_halo->num_owned()) * _halo->gdim())
@@ -174,19 +176,10 @@ public:
 
   /// @copydoc newton::Bulk::cell_forces
   ///
-  /// Here it is a measure of these: the diagonal of the stiffness times the
-  /// size of the displacement, zero at prescribed ones. Forces that do not come
-  /// of displacements, such as those of thermal strains, are not in it: where
-  /// they cancel give a tolerance above what they leave.
+  /// Terms are the integrals of the residual, see CellForces.
   std::span<const double> cell_forces() override
   {
-    const std::span<const double> stiffness = diagonal(), u = displacements();
-    _cell_forces.assign(_halo->num_owned(), 0);
-    for (std::size_t i = 0; i < _size; ++i)
-      if (not _markers[i])
-        _cell_forces[i / gdim()]
-            = std::hypot(_cell_forces[i / gdim()], stiffness[i] * u[i]);
-    return _cell_forces;
+    return _cell_forces = _forces.magnitudes(*_halo);
   }
 
   /// @brief Jacobian, with unit rows and columns at Dirichlet conditions,
@@ -268,6 +261,7 @@ private:
   std::vector<std::shared_ptr<const DirichletBC>> _bcs;
   std::shared_ptr<parallel::Halo> _halo;
   HaloAdapter* _adapter;
+  CellForces _forces;
   ::dolfinx::la::Vector<double> _b;
   std::vector<std::int8_t> _markers;
   std::size_t _size;

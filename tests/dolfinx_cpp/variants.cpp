@@ -5,6 +5,7 @@
 // variants.py prints, in the same digits on any number of ranks.
 
 #include "neo_hooke.h"
+#include "prestress.h"
 #include "sliding_block.h"
 #include <basix/finite-element.h>
 #include <contactx/obstacle/plane.h>
@@ -47,6 +48,89 @@ double squares(std::span<const double> values)
   return std::sqrt(sum(s));
 }
 
+/// A residual with the load on the block.
+std::shared_ptr<fem::Form<T>>
+residual_form(const Scene& scene, ufcx_form& form,
+              const std::shared_ptr<fem::Function<T>>& u,
+              std::map<std::string, std::shared_ptr<fem::Constant<T>>> constants
+              = {})
+{
+  constants["load"] = scene.load;
+  const auto top = fem::compute_integration_domains(
+      fem::IntegralType::exterior_facet, *scene.mesh->topology(),
+      scene.tags->find(12));
+  return std::make_shared<fem::Form<T>>(fem::create_form<T>(
+      form, {scene.V}, {{"u", u}}, {constants.begin(), constants.end()},
+      {{fem::IntegralType::exterior_facet, {{12, top}}}}, {}));
+}
+
+/// The block's support, and the value that pushes it.
+struct Support
+{
+  std::vector<std::shared_ptr<const fem::DirichletBC<T>>> bcs;
+  std::shared_ptr<fem::Constant<T>> push;
+};
+
+Support support(const Scene& scene)
+{
+  Support made;
+  const auto fix = [&](int component, int face)
+  {
+    auto value = std::make_shared<fem::Constant<T>>(0.0);
+    auto Vi
+        = std::make_shared<fem::FunctionSpace<U>>(scene.V->sub({component}));
+    made.bcs.push_back(std::make_shared<const fem::DirichletBC<T>>(
+        std::shared_ptr<const fem::Constant<T>>(value),
+        fem::locate_dofs_topological(*scene.mesh->topology_mutable(),
+                                     *Vi->dofmap(), 1, scene.tags->find(face)),
+        Vi));
+    return value;
+  };
+  fix(0, 22);
+  fix(1, 22);
+  made.push = fix(0, 12);
+  return made;
+}
+
+/// Two steps with forces that cancel: what the residual was compared with.
+void tolerances(const Scene& scene, const char* name, double size,
+                const cx::Options& options)
+{
+  auto u = std::make_shared<fem::Function<T>>(scene.V);
+  const std::map<std::string, std::shared_ptr<fem::Constant<T>>> constants{
+      {"growth", std::make_shared<fem::Constant<T>>(1e-3)},
+      {"prestress", std::make_shared<fem::Constant<T>>(
+                        std::vector<T>{2 * size, size, size, 3 * size},
+                        std::vector<std::size_t>{2, 2})}};
+  const auto F = residual_form(scene, *form_prestress_F, u, constants);
+  const auto J = std::make_shared<fem::Form<T>>(
+      fem::create_form<T>(*form_prestress_J, {scene.V, scene.V}, {{"u", u}},
+                          {constants.begin(), constants.end()}, {}, {}));
+  const auto contact = std::make_shared<cx::Contact>(
+      cx::Surface(scene.tags, {11}), cx::Surface(scene.tags, {21}), options);
+  cx::Assembler assembler(F, J, u, support(scene).bcs, {contact});
+  cx::petsc::OwnVec b(assembler.create_vector()), dx(assembler.create_vector());
+  cx::petsc::OwnMat A(assembler.create_matrix());
+  KSPReset(scene.ksp);
+  for (int step = 0; step < 2; ++step)
+  {
+    assembler.begin_step();
+    cx::Settled it;
+    while (not(it = assembler.settle()).converged)
+    {
+      assembler.F(assembler.x(), b.get());
+      assembler.J(assembler.x(), A.get());
+      KSPSetOperators(scene.ksp, A.get(), A.get());
+      KSPSolve(scene.ksp, b.get(), dx.get());
+      VecScale(dx.get(), -1);
+      assembler.update(dx.get(), assembler.limit(dx.get()));
+    }
+    assembler.accept();
+    if (dolfinx::MPI::rank(MPI_COMM_WORLD) == 0)
+      std::printf("%s %d %.6e\n", name, it.number, it.tolerance);
+  }
+}
+
 void solve(const Scene& scene, const char* name, const cx::Contact::Master& to,
            const cx::Options& options,
            ufcx_form* residual = form_sliding_block_F,
@@ -54,28 +138,10 @@ void solve(const Scene& scene, const char* name, const cx::Contact::Master& to,
 {
   const auto& [mesh, tags, V, load, ksp, is_condensed] = scene;
   auto u = std::make_shared<fem::Function<T>>(V);
-  const auto top = fem::compute_integration_domains(
-      fem::IntegralType::exterior_facet, *mesh->topology(), tags->find(12));
-  auto F = std::make_shared<fem::Form<T>>(fem::create_form<T>(
-      *residual, {V}, {{"u", u}}, {{"load", load}},
-      {{fem::IntegralType::exterior_facet, {{12, top}}}}, {}));
+  const auto F = residual_form(scene, *residual, u);
   auto J = std::make_shared<fem::Form<T>>(
       fem::create_form<T>(*jacobian, {V, V}, {{"u", u}}, {}, {}, {}));
-  std::vector<std::shared_ptr<const fem::DirichletBC<T>>> bcs;
-  auto fix = [&](int component, int face)
-  {
-    auto value = std::make_shared<fem::Constant<T>>(0.0);
-    auto Vi = std::make_shared<fem::FunctionSpace<U>>(V->sub({component}));
-    bcs.push_back(std::make_shared<const fem::DirichletBC<T>>(
-        std::shared_ptr<const fem::Constant<T>>(value),
-        fem::locate_dofs_topological(*mesh->topology_mutable(), *Vi->dofmap(),
-                                     1, tags->find(face)),
-        Vi));
-    return value;
-  };
-  fix(0, 22);
-  fix(1, 22);
-  auto push = fix(0, 12);
+  const auto [bcs, push] = support(scene);
   const auto slave = std::string(name) == "self" ? std::get<cx::Surface>(to)
                                                  : cx::Surface(tags, {11});
   auto contact = std::make_shared<cx::Contact>(slave, to, options);
@@ -208,6 +274,11 @@ int main(int argc, char* argv[])
     solve(scene, "weight", base, {.offset = offset, .weight = weight});
     solve(scene, "mortar weight", base,
           {.method = mortar, .offset = offset, .weight = weight});
+
+    tolerances(scene, "prestress", 1e3, {.offset = offset});
+    tolerances(scene, "mortar prestress", 1e3,
+               {.method = mortar, .offset = offset});
+    tolerances(scene, "growth", 0, {.offset = offset});
 
     scene.condensed = true;
     solve(scene, "frictionless", base, {.offset = offset});

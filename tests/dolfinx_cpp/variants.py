@@ -76,6 +76,28 @@ def solve(
             print(name, "condensed" if condensed else problem.report.iterations, *texts)
 
 
+def tolerances(name: str, tags: Any, V: fem.FunctionSpace, size: float, **options: Any) -> None:
+    """Solve twice with forces that cancel, and print what the residual was compared with."""
+    u, v = fem.Function(V), ufl.TestFunction(V)
+    prestress = fem.Constant(V.mesh, size * np.array([[2.0, 1.0], [1.0, 3.0]]))
+    # In one integral, as FFCx has all that is over the same cells
+    strain = ufl.sym(ufl.grad(u)) - fem.Constant(V.mesh, 1e-3) * ufl.Identity(2)
+    stress = 2 / 2.6 * strain + 0.3 / (1.3 * 0.4) * ufl.tr(strain) * ufl.Identity(2) + prestress
+    F = ufl.inner(stress, ufl.grad(v)) * ufl.dx
+    F -= ufl.inner(prestress * ufl.FacetNormal(V.mesh), v) * ufl.ds
+    F += story.traction(u, tags, 12, fem.Constant(V.mesh, np.array([0, -0.01])))
+    bcs = [*(story.fix(u, tags, i, 0.0, 22) for i in range(2)), story.fix(u, tags, 0, 0.0, 12)]
+    contact = cx.Contact(cx.Surface(tags, 11), cx.Surface(tags, 21), offset=1e-8, **options)
+    problem = cx.ContactProblem(
+        F, u, contacts=[contact], bcs=bcs, petsc_options_prefix="variants_", petsc_options=LU
+    )
+    for _ in range(2):
+        problem.solve()
+        if MPI.COMM_WORLD.rank == 0:
+            report = problem.report
+            print(name, report.iterations, f"{report.history[-1].tolerance:.6e}")
+
+
 def main() -> None:
     """Solve all."""
     with io.XDMFFile(MPI.COMM_WORLD, "sliding_block.xdmf", "r") as file:
@@ -107,6 +129,9 @@ def main() -> None:
     weight: Any = {"weight": 1 + ufl.SpatialCoordinate(mesh)[0] / 2, **little}
     solve("weight", tags, V, base, **weight)
     solve("mortar weight", tags, V, base, **mortar, **weight)
+    tolerances("prestress", tags, V, 1e3)
+    tolerances("mortar prestress", tags, V, 1e3, **mortar)
+    tolerances("growth", tags, V, 0.0)
     condensed: dict[str, Any] = {"condensed": True}
     solve("frictionless", tags, V, base, **little, **condensed)
     solve("friction", tags, V, base, **rubs, **condensed)
