@@ -20,7 +20,7 @@ void contactx_bindings::contact(py::module_& m)
           py::init(
               [](std::shared_ptr<Halo> halo, std::shared_ptr<SlaveNodes> slaves,
                  std::shared_ptr<Master> master, std::shared_ptr<Law> law,
-                 bool is_small, bool has_means,
+                 bool is_small, bool is_mortar,
                  const Array<std::int8_t>& prescribed,
                  const std::optional<Array<bool>>& shared,
                  std::optional<double> adjust)
@@ -29,13 +29,15 @@ void contactx_bindings::contact(py::module_& m)
                     std::move(halo), std::move(slaves), std::move(master),
                     std::move(law),
                     Contact::Options{
-                        is_small ? Sliding::small : Sliding::finite, has_means,
+                        is_small ? Sliding::small : Sliding::finite,
+                        is_mortar ? Method::surface_to_surface
+                                  : Method::node_to_surface,
                         copy(prescribed),
                         shared ? truths(*shared) : std::vector<std::int8_t>(),
                         adjust});
               }),
           py::arg("halo"), py::arg("slaves"), py::arg("master"), py::arg("law"),
-          py::kw_only(), py::arg("is_small"), py::arg("has_means"),
+          py::kw_only(), py::arg("is_small"), py::arg("is_mortar"),
           py::arg("prescribed"), py::arg("shared") = py::none(),
           py::arg("adjust") = py::none())
       .def_property_readonly("master", &Contact::master)

@@ -38,7 +38,6 @@ from contactx.contact import Contact, check_contacts
 from contactx.coupled import CoupledBulk
 from contactx.errors import ConvergenceError, NotFiniteError
 from contactx.geometry.cells import check_cells
-from contactx.geometry.curved import check_straight
 from contactx.interface import check_drag, check_over_constrained
 from contactx.linear import Condensed
 from contactx.newton import NewtonLoop
@@ -139,7 +138,6 @@ class ContactAssembler:
         self.conductances = check_conductances(conductances, list(contacts), functions, field)
         if audit not in ("refuse", "warn"):
             raise ValueError(f'audit must be "refuse" or "warn", not {audit!r}')
-        check_straight(contacts, field.function_space)
 
         V = field.function_space
         X = la.vector(V.dofmap.index_map, V.dofmap.index_map_bs)

@@ -17,13 +17,14 @@ from contactx.bodies import Bodies
 from contactx.fields import Fields
 from contactx.forms import ContactForms
 from contactx.friction import AccumulatedSlip, FrictionLaw
+from contactx.geometry.curved import check_straight
 from contactx.interface import Interface
 from contactx.nodal import NodalValue
 from contactx.obstacles import Obstacle
 from contactx.parallel import reduce
 from contactx.parallel.agreement import agreed
 from contactx.parallel.halo import Halo
-from contactx.refined import degree_of, node_levels
+from contactx.refined import node_levels
 from contactx.surface import Surface
 from contactx.weight import check_weight, is_circumference, nodal_weight
 from dolfinx import fem, mesh
@@ -93,7 +94,8 @@ class Contact:
                 projects on. It is cheap and its forces are exact, but pressures scatter where
                 meshes do not match. "surface-to-surface": the gap is integrated over the parts of
                 the slave facets in front of each master facet, with dual multipliers (Popp et al.,
-                2010). Pressures are smooth, and a uniform pressure is exact.
+                2010). Pressures are smooth, and a uniform pressure is exact. With a quadratic
+                displacement contact with an obstacle constrains the slave nodes by both methods.
             tied: Whether the slave nodes keep their place on the master, in compression and
                 tension: each keeps its position relative to its projection on the master in the
                 reference configuration, in the frame of the facet, which turns with the facet
@@ -236,11 +238,18 @@ class Contact:
                 f"{self} belongs to a ContactProblem already: create one Contact a problem"
             )
         V = bodies.V
-        facets = self.slave.facet_nodes(V)
-        level = node_levels(V)
-        slaves = core.SlaveNodes(halo.nodes, facets.offsets, facets.nodes, level)
-        if degree_of(V) > 1:
-            slaves.set_level(level[slaves.owned], self._is_mortar(V))
+        check_straight("slave", self.slave, V, halo)
+        if isinstance(self.master, Surface):
+            check_straight("master", self.master, V, halo)
+        facets, level = self.slave.facet_nodes(V), node_levels(V)
+        slaves = core.SlaveNodes(
+            halo.nodes,
+            facets.offsets,
+            facets.nodes,
+            level,
+            is_mortar=self._is_mortar,
+            is_rigid=isinstance(self.master, Obstacle),
+        )
         if self.is_weighted:
             values = nodal_weight(self.weight, V, slaves.owned)
             slaves.set_weight(values)
@@ -251,7 +260,7 @@ class Contact:
             own = self.friction
             slipped = AccumulatedSlip(own) if isinstance(own, FrictionLaw) else None
             law, friction = self._law(V, slaves.owned, slipped)
-        master, shared = self._make_master(slaves, law, halo, bodies)
+        master, shared = self._make_master(slaves, law, halo, bodies, level)
         interface = Interface(
             slaves,
             master,
@@ -259,7 +268,7 @@ class Contact:
             law=law,
             friction=friction,
             sliding=self.sliding,
-            has_means=self._is_mortar(V),
+            is_mortar=self._is_mortar,
             offset=offset,
             markers=markers,
             shared=shared,
@@ -276,7 +285,12 @@ class Contact:
         return interface
 
     def _make_master(
-        self, slaves: core.SlaveNodes, law: core.Law, halo: Halo, bodies: Bodies
+        self,
+        slaves: core.SlaveNodes,
+        law: core.Law,
+        halo: Halo,
+        bodies: Bodies,
+        level: npt.NDArray[np.int8],
     ) -> tuple[core.Master, npt.NDArray[np.bool_] | None]:
         """Make the master side, without pairs yet; see ``reference/sides.h``.
 
@@ -285,6 +299,7 @@ class Contact:
             law: Contact law.
             halo: Nodes of this rank.
             bodies: Bodies of the mesh.
+            level: Where nodes are on quadratic facets, shape (num_bulk,), or none.
 
         Returns:
             The master side, and which nodes of this rank the master surface shares with the slave;
@@ -296,10 +311,10 @@ class Contact:
         """
         mesh = core.ReferenceMesh(halo.nodes, bodies, bodies.linear_cells)
         options = core.MasterOptions(
-            is_mortar=self._is_mortar(bodies.V),
+            is_mortar=self._is_mortar,
             is_small=self.sliding == "small",
             search_distance=self.search_distance,
-            level=node_levels(bodies.V),
+            level=level,
             is_self=self.is_self,
             excluded_distance=self.excluded_distance,
             is_smooth=self.smooth,
@@ -315,10 +330,10 @@ class Contact:
         # Nodes that a surface shares with itself have gaps all the same
         return master, None if self.is_self else core.shared_nodes(halo.nodes, slaves, *lists)
 
-    def _is_mortar(self, V: fem.FunctionSpace) -> bool:
-        """True if facets are integrated; with a quadratic displacement not on obstacles."""
-        is_nodal = isinstance(self.master, Obstacle) and degree_of(V) > 1
-        return self.method == "surface-to-surface" and not is_nodal
+    @property
+    def _is_mortar(self) -> bool:
+        """True if the method is surface-to-surface."""
+        return self.method == "surface-to-surface"
 
     def _law(
         self, V: fem.FunctionSpace, slaves: npt.NDArray[np.int32], own: AccumulatedSlip | None

@@ -45,7 +45,7 @@ class Interface(core.Contact):
         law: core.Law,
         friction: NodalValue | None,
         sliding: str,
-        has_means: bool,
+        is_mortar: bool,
         offset: NodalValue,
         markers: npt.NDArray[np.int8],
         shared: npt.NDArray[np.bool_] | None = None,
@@ -61,7 +61,7 @@ class Interface(core.Contact):
             law: Contact law.
             friction: Coefficient of friction, read at each iterate; None for other laws.
             sliding: "finite" or "small".
-            has_means: Whether normals are means over facets.
+            is_mortar: Whether the method is surface-to-surface.
             offset: What is taken off the gap.
             markers: 1 at dofs of the bulk with a Dirichlet condition, shape (num_dofs,).
             shared: Which nodes of this rank the master surface has, too, owned ones first; None if
@@ -78,7 +78,7 @@ class Interface(core.Contact):
             master,
             law,
             is_small=sliding == "small",
-            has_means=has_means,
+            is_mortar=is_mortar,
             prescribed=markers,
             shared=None if shared is None else shared[: halo.num_owned],
             adjust=adjust,

@@ -85,7 +85,7 @@ def over_constrained(scene):
         law=core.Frictionless(),
         friction=None,
         sliding="finite",
-        has_means=False,
+        is_mortar=False,
         offset=NodalValue(0.0, "offset", V, slaves.owned),
         markers=np.ones(halo.num_bulk * halo.gdim, dtype=np.int8),
     )
