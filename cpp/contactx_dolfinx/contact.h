@@ -214,7 +214,12 @@ public:
     std::vector<double> p(nodes.num_nodes());
     for (std::size_t i = 0; i < p.size(); ++i)
       p[i] = nodes.pressure(i);
-    return _recovery->pressure(p, nodes.area, closed);
+    p = _recovery->pressure(p, nodes.area, closed);
+    // Vertices of quadratic triangles have no area of their own
+    const std::vector<double> filled = _recovery->filled(p, 1);
+    for (std::size_t i = 0; i < p.size(); ++i)
+      p[i] = filled[i] == 0 ? p[i] : filled[i];
+    return p;
   }
 
   /// @brief Force on the slave side of all ranks (shape=(gdim)), zero behind
@@ -244,8 +249,13 @@ private:
             const std::shared_ptr<const contact::Bodies>& bodies,
             const Bulk& bulk, const FunctionSpace& V)
   {
-    const facet::Facets slave = _slave.facet_nodes(V, halo->ranks());
-    const auto slaves = reference::make_slave_nodes(halo, slave.list());
+    const facet::Facets slave = _slave.facet_nodes(V, halo->ranks(), "slave");
+    const auto* obstacle
+        = std::get_if<std::shared_ptr<obstacle::Obstacle>>(&_master);
+    const std::vector<std::int8_t> level
+        = mesh::node_levels(cells_of(V), num_nodes(V));
+    const auto slaves = reference::make_slave_nodes(
+        halo, slave.list(), level, _options.method, obstacle != nullptr);
     if (_options.weight)
       slaves->set_weight(weights(*halo, *slaves));
     std::shared_ptr<law::Law> law;
@@ -262,17 +272,16 @@ private:
         .method = _options.method,
         .sliding = _options.sliding,
         .search_distance = _options.search_distance,
+        .level = level,
         .is_self = is_self(),
         .excluded_distance = _options.excluded_distance,
         .is_smooth = _options.smooth};
-    contact::Contact::Options options{
-        .sliding = _options.sliding,
-        .has_means = _options.method == Method::surface_to_surface,
-        .prescribed = bulk.all_markers(),
-        .shared = {},
-        .adjust = _options.adjust};
-    if (const auto* obstacle
-        = std::get_if<std::shared_ptr<obstacle::Obstacle>>(&_master))
+    contact::Contact::Options options{.sliding = _options.sliding,
+                                      .method = _options.method,
+                                      .prescribed = bulk.all_markers(),
+                                      .shared = {},
+                                      .adjust = _options.adjust};
+    if (obstacle)
     {
       const auto master = reference::make_master(mesh, slaves, _slave.name(),
                                                  *obstacle, *law, how);
@@ -282,7 +291,8 @@ private:
     else
     {
       const Surface& surface = std::get<Surface>(_master);
-      const facet::Facets facets = surface.facet_nodes(V, halo->ranks());
+      const facet::Facets facets
+          = surface.facet_nodes(V, halo->ranks(), "master");
       const auto master
           = reference::make_master(mesh, slaves, _slave.name(),
                                    {surface.name(), facets.list()}, *law, how);

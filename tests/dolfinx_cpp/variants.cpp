@@ -1,11 +1,13 @@
 // Copyright (C) 2026 contactx authors
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
-// Each kind of contact on the mesh of demos/cpp/sliding_block: prints what
-// variants.py prints, in the same digits on any number of ranks.
+// Each kind of contact on the mesh of demos/cpp/sliding_block, and on another
+// one that variants.py writes: prints what that prints, in the same digits on
+// any number of ranks.
 
 #include "neo_hooke.h"
 #include "prestress.h"
+#include "quadratic.h"
 #include "sliding_block.h"
 #include <basix/finite-element.h>
 #include <contactx/obstacle/plane.h>
@@ -32,7 +34,36 @@ struct Scene
   std::shared_ptr<fem::Constant<T>> load;
   KSP ksp;
   bool condensed = false;
+
+  int dim() const { return mesh->geometry().dim(); }
 };
+
+/// Mesh and tags of a file, and a displacement of some degree.
+void read(Scene& scene, const char* name, mesh::CellType cell, int degree)
+{
+  io::XDMFFile file(MPI_COMM_WORLD, name, "r");
+  const int dim = mesh::cell_dim(cell);
+  scene.mesh = std::make_shared<mesh::Mesh<U>>(
+      file.read_mesh(fem::CoordinateElement<U>(cell, 1),
+                     mesh::GhostMode::shared_facet, "mesh"));
+  const auto topology = scene.mesh->topology_mutable();
+  topology->create_entities(dim - 1);
+  topology->create_connectivity(dim - 1, dim);
+  topology->create_connectivity(dim, dim - 1);
+  scene.tags = std::make_shared<const mesh::MeshTags<std::int32_t>>(
+      file.read_meshtags(*scene.mesh, "facet_tags", std::nullopt));
+  const auto element = basix::create_element<U>(
+      basix::element::family::P, mesh::cell_type_to_basix_type(cell), degree,
+      basix::element::lagrange_variant::gll_warped,
+      basix::element::dpc_variant::unset, false);
+  scene.V
+      = std::make_shared<fem::FunctionSpace<U>>(fem::create_functionspace<U>(
+          scene.mesh, std::make_shared<fem::FiniteElement<U>>(
+                          element, std::vector{std::size_t(dim)})));
+  std::vector<T> load(dim, 0);
+  load.back() = -0.01;
+  scene.load = std::make_shared<fem::Constant<T>>(load);
+}
 
 double sum(double mine)
 {
@@ -55,12 +86,14 @@ residual_form(const Scene& scene, ufcx_form& form,
               std::map<std::string, std::shared_ptr<fem::Constant<T>>> constants
               = {})
 {
-  constants["load"] = scene.load;
+  // As the forms of some file call them
+  constants["load"] = constants["pressure"] = scene.load;
   const auto top = fem::compute_integration_domains(
       fem::IntegralType::exterior_facet, *scene.mesh->topology(),
       scene.tags->find(12));
   return std::make_shared<fem::Form<T>>(fem::create_form<T>(
-      form, {scene.V}, {{"u", u}}, {constants.begin(), constants.end()},
+      form, {scene.V}, {{"u", u}, {"w", u}},
+      {constants.begin(), constants.end()},
       {{fem::IntegralType::exterior_facet, {{12, top}}}}, {}));
 }
 
@@ -82,13 +115,16 @@ Support support(const Scene& scene)
     made.bcs.push_back(std::make_shared<const fem::DirichletBC<T>>(
         std::shared_ptr<const fem::Constant<T>>(value),
         fem::locate_dofs_topological(*scene.mesh->topology_mutable(),
-                                     *Vi->dofmap(), 1, scene.tags->find(face)),
+                                     *Vi->dofmap(), scene.dim() - 1,
+                                     scene.tags->find(face)),
         Vi));
     return value;
   };
-  fix(0, 22);
-  fix(1, 22);
+  for (int k = 0; k < scene.dim(); ++k)
+    fix(k, 22);
   made.push = fix(0, 12);
+  if (scene.dim() == 3)
+    fix(1, 12);
   return made;
 }
 
@@ -139,8 +175,9 @@ void solve(const Scene& scene, const char* name, const cx::Contact::Master& to,
   const auto& [mesh, tags, V, load, ksp, is_condensed] = scene;
   auto u = std::make_shared<fem::Function<T>>(V);
   const auto F = residual_form(scene, *residual, u);
-  auto J = std::make_shared<fem::Form<T>>(
-      fem::create_form<T>(*jacobian, {V, V}, {{"u", u}}, {}, {}, {}));
+  auto J = std::make_shared<fem::Form<T>>(fem::create_form<T>(
+      *jacobian, {V, V}, {{"u", u}, {"w", u}},
+      {{"load", scene.load}, {"pressure", scene.load}}, {}, {}));
   const auto [bcs, push] = support(scene);
   const auto slave = std::string(name) == "self" ? std::get<cx::Surface>(to)
                                                  : cx::Surface(tags, {11});
@@ -182,16 +219,18 @@ void solve(const Scene& scene, const char* name, const cx::Contact::Master& to,
     assembler.accept();
     const auto force = contact->force();
     const std::span<const double> all = u->x()->array();
-    const double norms[3]
-        = {squares(all.first(2 * V->dofmap()->index_map->size_local())),
-           squares(contact->multiplier()), squares(contact->pressure())};
+    const double norms[3] = {
+        squares(all.first(scene.dim() * V->dofmap()->index_map->size_local())),
+        squares(contact->multiplier()), squares(contact->pressure())};
     if (dolfinx::MPI::rank(MPI_COMM_WORLD) == 0)
     {
       // Iterations go with how accurate Krylov solvers are
       std::printf("%s %s", name,
                   is_condensed ? "condensed"
                                : std::to_string(it.number).c_str());
-      for (double f : {force[0], force[1], norms[0], norms[1], norms[2]})
+      std::vector<double> figures(force.begin(), force.begin() + scene.dim());
+      figures.insert(figures.end(), std::begin(norms), std::end(norms));
+      for (double f : figures)
         // Rounding has a sign
         std::printf(" %.9f", std::abs(f) < 5e-10 ? 0.0 : f);
       std::printf("\n");
@@ -212,25 +251,8 @@ int main(int argc, char* argv[])
   PetscInitialize(&argc, &argv, nullptr, nullptr);
   {
     Scene scene;
-    io::XDMFFile file(MPI_COMM_WORLD, "sliding_block.xdmf", "r");
-    const fem::CoordinateElement<U> cell(mesh::CellType::quadrilateral, 1);
-    scene.mesh = std::make_shared<mesh::Mesh<U>>(
-        file.read_mesh(cell, mesh::GhostMode::shared_facet, "mesh"));
-    const auto topology = scene.mesh->topology_mutable();
-    topology->create_entities(1);
-    topology->create_connectivity(1, 2);
-    topology->create_connectivity(2, 1);
-    scene.tags = std::make_shared<const mesh::MeshTags<std::int32_t>>(
-        file.read_meshtags(*scene.mesh, "facet_tags", std::nullopt));
-    auto element = basix::create_element<U>(
-        basix::element::family::P, basix::cell::type::quadrilateral, 1,
-        basix::element::lagrange_variant::unset,
-        basix::element::dpc_variant::unset, false);
-    scene.V
-        = std::make_shared<fem::FunctionSpace<U>>(fem::create_functionspace<U>(
-            scene.mesh, std::make_shared<fem::FiniteElement<U>>(
-                            element, std::vector<std::size_t>{2})));
-    scene.load = std::make_shared<fem::Constant<T>>(std::vector<T>{0, -0.01});
+    const auto quadrilateral = mesh::CellType::quadrilateral;
+    read(scene, "sliding_block.xdmf", quadrilateral, 1);
     cx::petsc::Owner<KSP, KSPDestroy> ksp;
     KSPCreate(MPI_COMM_WORLD, ksp.put());
     scene.ksp = ksp.get();
@@ -289,6 +311,42 @@ int main(int argc, char* argv[])
     solve(scene, "tied", base, {.tied = true});
     solve(scene, "neo-Hooke", base, {.friction = 0.3, .offset = offset},
           form_neo_hooke_F, form_neo_hooke_J);
+
+    // A quadratic displacement, of quadrilaterals and of tetrahedra
+    scene.condensed = false;
+    read(scene, "sliding_block.xdmf", quadrilateral, 2);
+    const auto plane = [&](const char* name, const cx::Contact::Master& to,
+                           const cx::Options& options)
+    { solve(scene, name, to, options, form_quadratic_F, form_quadratic_J); };
+    const cx::Surface wide(scene.tags, {21});
+    const auto disc = std::make_shared<obstacle::Sphere>(middle, 4.0);
+    const cx::Options rubs{.friction = 0.3, .offset = offset},
+        rubs_on_facets{.friction = 0.3, .method = mortar, .offset = offset};
+    plane("quadratic friction", wide, rubs);
+    plane("quadratic tied", wide, {.tied = true});
+    plane("quadratic mortar", wide, rubs_on_facets);
+    plane("quadratic disc", disc, {.friction = 0.1, .offset = offset});
+    plane("quadratic mortar disc", disc,
+          {.friction = 0.1, .method = mortar, .offset = offset});
+    scene.condensed = true;
+    plane("quadratic mortar", wide, rubs_on_facets);
+    scene.condensed = false;
+
+    read(scene, "solid_blocks.xdmf", mesh::CellType::tetrahedron, 2);
+    const auto solid = [&](const char* name, const cx::Contact::Master& to,
+                           const cx::Options& options)
+    {
+      solve(scene, name, to, options, form_quadratic_F_solid,
+            form_quadratic_J_solid);
+    };
+    const cx::Surface below(scene.tags, {21});
+    const auto ball = std::make_shared<obstacle::Sphere>(
+        std::vector<double>{0.75, 0.6, -4}, 4.0);
+    solid("solid friction", below, rubs);
+    solid("solid mortar", below, rubs_on_facets);
+    solid("solid ball", ball, {.friction = 0.1, .offset = offset});
+    solid("solid mortar ball", ball,
+          {.friction = 0.1, .method = mortar, .offset = offset});
   }
   PetscFinalize();
   return 0;
