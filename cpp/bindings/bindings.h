@@ -67,6 +67,7 @@ void results(py::module_& m);
 void parallel(py::module_& m);
 void master(py::module_& m);
 void bodies(py::module_& m);
+void mesh(py::module_& m);
 void obstacle(py::module_& m);
 void reference(py::module_& m);
 } // namespace contactx_bindings

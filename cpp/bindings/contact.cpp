@@ -5,23 +5,74 @@
 #include "parallel.h"
 #include <contactx/contact/contact_state.h>
 #include <contactx/contact/transfer.h>
+#include <contactx/problem/make_contact.h>
 #include <pybind11/stl.h>
 
 namespace py = pybind11;
 using namespace contactx_bindings;
 using namespace contactx::contact;
 using contactx::law::Law;
+using contactx::obstacle::Obstacle;
 using contactx::parallel::Halo;
+using contactx::problem::ContactOptions;
+using contactx::problem::make_contact;
+using contactx::problem::Sides;
+using contactx::reference::Mesh;
+
+namespace
+{
+/// Name, offsets and nodes of facets.
+using Surface
+    = std::tuple<std::string, Array<std::int32_t>, Array<std::int32_t>>;
+
+/// The surface as the core has it, which looks at the arrays.
+contactx::reference::NamedSurface named(const Surface& surface)
+{
+  const auto& [name, offsets, nodes] = surface;
+  return {name, {view(offsets), view(nodes)}};
+}
+} // namespace
 
 void contactx_bindings::contact(py::module_& m)
 {
+  py::class_<ContactOptions>(m, "ContactOptions", "Options of a contact")
+      .def(py::init(
+               [](bool is_mortar, bool is_small, bool tied, bool has_friction,
+                  const std::optional<py::function>& bound,
+                  std::optional<double> search_distance,
+                  std::optional<double> excluded_distance,
+                  std::optional<double> adjust, bool smooth,
+                  double tangential_factor)
+               {
+                 return ContactOptions{
+                     .method = is_mortar ? Method::surface_to_surface
+                                         : Method::node_to_surface,
+                     .sliding = is_small ? Sliding::small : Sliding::finite,
+                     .tied = tied,
+                     .has_friction = has_friction,
+                     .bound = bound ? bound_of(*bound)
+                                    : contactx::law::BoundFunction(),
+                     .search_distance = search_distance,
+                     .excluded_distance = excluded_distance,
+                     .adjust = adjust,
+                     .smooth = smooth,
+                     .tangential_factor = tangential_factor};
+               }),
+           py::kw_only(), py::arg("is_mortar"), py::arg("is_small"),
+           py::arg("tied"), py::arg("has_friction"), py::arg("bound"),
+           py::arg("search_distance"), py::arg("excluded_distance"),
+           py::arg("adjust"), py::arg("smooth"), py::arg("tangential_factor"))
+      .def(
+          "check", [](const ContactOptions& self, bool is_self)
+          { contactx::problem::check(self, is_self); }, py::arg("is_self"));
+
   py::class_<Contact, std::shared_ptr<Contact>>(
       m, "Contact", "Slave nodes of a contact with their pairs, state and law")
       .def(
           py::init(
               [](std::shared_ptr<Halo> halo, std::shared_ptr<SlaveNodes> slaves,
                  std::shared_ptr<Master> master, std::shared_ptr<Law> law,
-                 bool is_small, bool has_means,
+                 bool is_small, bool is_mortar,
                  const Array<std::int8_t>& prescribed,
                  const std::optional<Array<bool>>& shared,
                  std::optional<double> adjust)
@@ -30,15 +81,48 @@ void contactx_bindings::contact(py::module_& m)
                     std::move(halo), std::move(slaves), std::move(master),
                     std::move(law),
                     Contact::Options{
-                        is_small ? Sliding::small : Sliding::finite, has_means,
+                        is_small ? Sliding::small : Sliding::finite,
+                        is_mortar ? Method::surface_to_surface
+                                  : Method::node_to_surface,
                         copy(prescribed),
                         shared ? truths(*shared) : std::vector<std::int8_t>(),
                         adjust});
               }),
           py::arg("halo"), py::arg("slaves"), py::arg("master"), py::arg("law"),
-          py::kw_only(), py::arg("is_small"), py::arg("has_means"),
+          py::kw_only(), py::arg("is_small"), py::arg("is_mortar"),
           py::arg("prescribed"), py::arg("shared") = py::none(),
           py::arg("adjust") = py::none())
+      .def(py::init(
+               [](const Mesh& mesh, const Surface& slave,
+                  const py::object& master, const ContactOptions& options,
+                  bool is_self, const Array<std::int8_t>& level,
+                  const std::optional<py::function>& weight,
+                  const Array<std::int8_t>& prescribed)
+               {
+                 Sides sides{.slave = named(slave),
+                             .master = {},
+                             .is_self = is_self,
+                             .level = copy(level)};
+                 if (py::isinstance<Obstacle>(master))
+                   sides.master = master.cast<std::shared_ptr<Obstacle>>();
+                 else
+                   sides.master = named(master.cast<Surface>());
+                 if (weight)
+                   sides.weight = [&](std::span<const std::int32_t> nodes)
+                   {
+                     const py::array_t<std::int32_t> given(
+                         static_cast<py::ssize_t>(nodes.size()), nodes.data());
+                     return copy((*weight)(given).cast<Array<double>>());
+                   };
+                 return make_contact(mesh, sides, options, copy(prescribed));
+               }),
+           py::arg("mesh"), py::arg("slave"), py::arg("master"),
+           py::arg("options"), py::kw_only(), py::arg("is_self"),
+           py::arg("level"), py::arg("weight"), py::arg("prescribed"),
+           // A subclass in Python must outlive who calls its methods
+           py::keep_alive<1, 4>())
+      .def_property_readonly("slave_nodes", &Contact::slaves,
+                             py::return_value_policy::reference_internal)
       .def_property_readonly("master", &Contact::master)
       .def_property_readonly("law", &Contact::law)
       .def_property_readonly("nodes", &Contact::nodes)

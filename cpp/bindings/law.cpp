@@ -1,7 +1,7 @@
 // Copyright (C) 2026 contactx authors
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
-#include "bindings.h"
+#include "master.h"
 #include <contactx/law/law.h>
 #include <memory>
 #include <pybind11/stl.h>
@@ -11,6 +11,21 @@ using namespace contactx_bindings;
 using namespace contactx::law;
 using contactx::contact::NodeState;
 using contactx::parallel::NodeMap;
+
+BoundFunction contactx_bindings::bound_of(const py::function& bound)
+{
+  return [bound](std::span<const double> p, std::span<const double> slip)
+  {
+    const auto given = [](std::span<const double> values)
+    {
+      return py::array_t<double>(static_cast<py::ssize_t>(values.size()),
+                                 values.data());
+    };
+    const auto found
+        = bound(given(p), given(slip)).cast<std::array<Array<double>, 3>>();
+    return Bounds{copy(found[0]), copy(found[1]), copy(found[2])};
+  };
+}
 
 void contactx_bindings::law(py::module_& m)
 {
@@ -36,26 +51,8 @@ void contactx_bindings::law(py::module_& m)
   py::class_<Coulomb, Law, std::shared_ptr<Coulomb>>(
       m, "Coulomb", "Unilateral contact with dry friction")
       .def(py::init())
-      .def(py::init(
-               [](py::function bound)
-               {
-                 return std::make_shared<Coulomb>(
-                     [bound = std::move(bound)](std::span<const double> p,
-                                                std::span<const double> slip)
-                     {
-                       const auto given = [](std::span<const double> values)
-                       {
-                         return py::array_t<double>(
-                             static_cast<py::ssize_t>(values.size()),
-                             values.data());
-                       };
-                       const auto found
-                           = bound(given(p), given(slip))
-                                 .cast<std::array<Array<double>, 3>>();
-                       return Bounds{copy(found[0]), copy(found[1]),
-                                     copy(found[2])};
-                     });
-               }),
+      .def(py::init([](py::function bound)
+                    { return std::make_shared<Coulomb>(bound_of(bound)); }),
            py::arg("bound"))
       .def(
           "set_friction", [](Coulomb& self, const Array<double>& friction)

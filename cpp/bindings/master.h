@@ -6,6 +6,7 @@
 #include "bindings.h"
 #include <contactx/contact/master.h>
 #include <contactx/facet/nodal.h>
+#include <contactx/law/law.h>
 #include <memory>
 
 namespace contactx_bindings
@@ -33,6 +34,10 @@ py::list to_list(std::vector<contactx::contact::Pairs> pairs);
 
 /// @brief Facets as offsets and nodes.
 py::tuple to_tuple(const contactx::facet::FacetList& facets);
+
+/// @brief Bound of friction that a function of Python gives: of arrays of
+/// pressures and lengths of slip, three arrays.
+contactx::law::BoundFunction bound_of(const py::function& bound);
 
 /// @brief Truth values as the core has them.
 std::vector<std::int8_t> truths(const Array<bool>& values);

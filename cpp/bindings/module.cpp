@@ -19,6 +19,7 @@ PYBIND11_MODULE(cpp, m)
   contactx_bindings::results(m);
   contactx_bindings::condense(m);
   contactx_bindings::bodies(m);
+  contactx_bindings::mesh(m);
   contactx_bindings::reference(m);
   contactx_bindings::newton(m);
   contactx_bindings::dynamics(m);

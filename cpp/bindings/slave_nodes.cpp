@@ -28,25 +28,25 @@ void contactx_bindings::slave_nodes(py::module_& m)
       m, "SlaveNodes",
       "Slave nodes that a rank owns, and those of others that share a facet "
       "with them")
-      .def(py::init(
-               [](const std::shared_ptr<Halo>& halo,
-                  const Array<std::int32_t>& offsets,
-                  const Array<std::int32_t>& nodes,
-                  const Array<std::int8_t>& level)
-               {
-                 return contactx::reference::make_slave_nodes(
-                     halo, {view(offsets), view(nodes)}, view(level));
-               }),
-           py::arg("halo"), py::arg("offsets"), py::arg("nodes"),
-           py::arg("level") = Array<std::int8_t>())
+      .def(
+          py::init(
+              [](const std::shared_ptr<Halo>& halo,
+                 const Array<std::int32_t>& offsets,
+                 const Array<std::int32_t>& nodes,
+                 const Array<std::int8_t>& level, bool is_mortar, bool is_rigid)
+              {
+                return contactx::reference::make_slave_nodes(
+                    halo, {view(offsets), view(nodes)}, view(level),
+                    is_mortar ? Method::surface_to_surface
+                              : Method::node_to_surface,
+                    is_rigid);
+              }),
+          py::arg("halo"), py::arg("offsets"), py::arg("nodes"),
+          py::arg("level") = Array<std::int8_t>(), py::kw_only(),
+          py::arg("is_mortar") = false, py::arg("is_rigid") = false)
       .def(
           "set_weight", [](SlaveNodes& self, const Array<double>& weight)
           { self.set_weight(view(weight)); }, py::arg("weight"))
-      .def(
-          "set_level",
-          [](SlaveNodes& self, const Array<std::int8_t>& level, bool is_mortar)
-          { self.set_level(view(level), is_mortar); }, py::arg("level"),
-          py::arg("is_mortar"))
       .def_property_readonly("facets", [](const SlaveNodes& self)
                              { return to_tuple(self.facets()); })
       .def_property_readonly("owned",

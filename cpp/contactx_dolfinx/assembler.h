@@ -58,7 +58,8 @@ public:
   /// @brief Couple a bulk with contacts.
   /// @param[in] F Residual of the bulk, linear in its test function.
   /// @param[in] J Its derivative by the displacement.
-  /// @param[in] u Displacement, in a linear Lagrange space of vectors.
+  /// @param[in] u Displacement, in a Lagrange space of vectors of degree 1
+  /// or 2.
   /// @param[in] bcs Dirichlet conditions, whose values may change from step to
   /// step.
   /// @param[in] contacts Contacts, at least one.
@@ -93,10 +94,8 @@ public:
                                              std::move(adapter));
     _bulk = std::make_shared<Bulk>(std::move(F), std::move(J), _u,
                                    std::move(bcs), _halo, *_adapter);
-    const auto& topology = *V.mesh()->topology();
     const auto bodies = std::make_shared<contact::Bodies>(
-        _bulk->all_cells(), _bulk->nodes_per_cell(),
-        topology.index_map(topology.dim())->size_local(),
+        _bulk->all_cells(), _bulk->nodes_per_cell(), _bulk->num_owned_cells(),
         _halo->original().first(_halo->num_bulk()), _halo);
     std::size_t count = 0;
     try
@@ -106,7 +105,8 @@ public:
       for (; count < _contacts.size(); ++count)
       {
         const Contact& contact = *_contacts[count];
-        discrete.push_back(_contacts[count]->attach(_halo, bodies, *_bulk, V));
+        discrete.push_back(_contacts[count]->attach(_halo, bodies, *_bulk,
+                                                    _u->function_space()));
         parts.push_back(
             {"contact " + std::to_string(count) + " (" + contact.name() + ")",
              contact.values(), contact.shared_results()});

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "cell_forces.h"
 #include "halo.h"
 #include "petsc.h"
 #include <cmath>
@@ -36,8 +37,10 @@ public:
        std::shared_ptr<parallel::Halo> halo, HaloAdapter& adapter)
       : _F(std::move(F)), _J(std::move(J)), _u(std::move(u)),
         _bcs(std::move(bcs)), _halo(std::move(halo)), _adapter(&adapter),
+        _forces(_F, _u->function_space()),
         _b(_u->function_space()->dofmap()->index_map, _halo->gdim()),
         _markers(_u->x()->array().size(), 0),
+        _cells(mesh::linear_cells(cells_of(*_u->function_space()))),
         _size(std::size_t(_halo->num_owned()) * _halo->gdim())
   {
     for (const auto& bc : _bcs)
@@ -136,56 +139,49 @@ public:
 
   std::span<const std::int32_t> cells() override
   {
-    const auto& topology = *_u->function_space()->mesh()->topology();
-    return all_cells().first(
-        std::size_t(topology.index_map(topology.dim())->size_local())
-        * nodes_per_cell());
+    return all_cells().first(std::size_t(num_owned_cells()) * nodes_per_cell());
   }
 
-  /// @brief Nodes of all cells, ghosts included (shape=(num_cells,
-  /// nodes_per_cell)).
-  std::span<const std::int32_t> all_cells() const
+  /// @brief Nodes of all linear cells between the nodes, ghosts included
+  /// (shape=(num_cells, nodes_per_cell)).
+  std::span<const std::int32_t> all_cells() const { return _cells; }
+
+  /// @brief Number of these that belong to cells of this rank.
+  std::int32_t num_owned_cells() const
   {
-    const auto dofs = _u->function_space()->dofmap()->map();
-    return {dofs.data_handle(), dofs.size()};
+    const auto& V = *_u->function_space();
+    const auto& topology = *V.mesh()->topology();
+    return topology.index_map(topology.dim())->size_local()
+           * cells_of(V).num_parts();
   }
 
   int nodes_per_cell() const override
   {
-    const auto dofs = _u->function_space()->dofmap()->map();
-    return static_cast<int>(dofs.extent(1));
+    return mesh::num_vertices(cells_of(*_u->function_space()).type);
   }
 
   std::span<const double> cell_sizes() override
   {
-    const auto& mesh = *_u->function_space()->mesh();
-    const std::span<const std::int32_t> nodes = all_cells();
-    std::vector<std::int32_t> every(nodes.size() / nodes_per_cell());
+    const mesh::Cells cells = cells_of(*_u->function_space());
+    const auto& domain = *_u->function_space()->mesh();
+    std::vector<std::int32_t> every(cells.size());
     std::iota(every.begin(), every.end(), 0);
     const std::vector<double> h
-        = ::dolfinx::mesh::h(mesh, every, mesh.topology()->dim());
+        = ::dolfinx::mesh::h(domain, every, domain.topology()->dim());
     std::vector<double> sizes(_halo->num_bulk(), 0);
-    for (std::size_t i = 0; i < nodes.size(); ++i)
-      sizes[nodes[i]] = std::max(sizes[nodes[i]], h[i / nodes_per_cell()]);
+    for (std::int32_t c = 0; c < cells.size(); ++c)
+      for (const std::int32_t node : cells[c])
+        sizes[node] = std::max(sizes[node], h[c]);
     sizes.resize(_halo->num_owned());
     return _cell_sizes = std::move(sizes);
   }
 
   /// @copydoc newton::Bulk::cell_forces
   ///
-  /// Here it is a measure of these: the diagonal of the stiffness times the
-  /// size of the displacement, zero at prescribed ones. Forces that do not come
-  /// of displacements, such as those of thermal strains, are not in it: where
-  /// they cancel give a tolerance above what they leave.
+  /// Terms are the integrals of the residual, see CellForces.
   std::span<const double> cell_forces() override
   {
-    const std::span<const double> stiffness = diagonal(), u = displacements();
-    _cell_forces.assign(_halo->num_owned(), 0);
-    for (std::size_t i = 0; i < _size; ++i)
-      if (not _markers[i])
-        _cell_forces[i / gdim()]
-            = std::hypot(_cell_forces[i / gdim()], stiffness[i] * u[i]);
-    return _cell_forces;
+    return _cell_forces = _forces.magnitudes(*_halo);
   }
 
   /// @brief Jacobian, with unit rows and columns at Dirichlet conditions,
@@ -267,8 +263,10 @@ private:
   std::vector<std::shared_ptr<const DirichletBC>> _bcs;
   std::shared_ptr<parallel::Halo> _halo;
   HaloAdapter* _adapter;
+  CellForces _forces;
   ::dolfinx::la::Vector<double> _b;
   std::vector<std::int8_t> _markers;
+  std::vector<std::int32_t> _cells;
   std::size_t _size;
   bool _is_linear;
   petsc::OwnMat _A;

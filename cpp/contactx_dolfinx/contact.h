@@ -6,26 +6,28 @@
 #include "bulk.h"
 #include "functions.h"
 #include "surface.h"
+#include "values.h"
 #include <contactx/obstacle/obstacle.h>
-#include <contactx/problem/values.h>
-#include <contactx/reference/facing.h>
-#include <contactx/reference/shared_nodes.h>
-#include <contactx/reference/sides.h>
+#include <contactx/problem/make_contact.h>
 #include <functional>
 #include <optional>
 #include <variant>
 
 namespace contactx::dolfinx
 {
+using contact::Method;
 using contact::Sliding;
-using reference::Method;
 
 /// @brief Options of a contact.
 struct Options
 {
-  /// Coulomb's coefficient; with nothing along the surface nothing is computed
-  /// there, with zero it may become another one
-  std::optional<double> friction = std::nullopt;
+  /// Coulomb's coefficient: a number, a constant or a function, whose values
+  /// may change. With nothing along the surface nothing is computed there, with
+  /// zero it may become another one
+  std::optional<Value> friction = std::nullopt;
+  /// Bound of friction in place of Coulomb's: from pressures and accumulated
+  /// lengths of slip, with its derivatives
+  law::BoundFunction friction_law = {};
   Method method
       = Method::node_to_surface;     ///< node-to-surface or surface-to-surface
   Sliding sliding = Sliding::finite; ///< whether pairs follow the bodies
@@ -33,7 +35,7 @@ struct Options
   /// Largest distance of a pair; the diameter of the larger surface if not
   /// given, unlimited for an obstacle
   std::optional<double> search_distance = std::nullopt;
-  double offset = 0; ///< length that is taken off the gap
+  Value offset = 0.0; ///< length that is taken off the gap, likewise
   /// Gaps and overlaps of the reference configuration that count as none if
   /// they are at most so large, see contact::Contact::Options::adjust
   std::optional<double> adjust = std::nullopt;
@@ -47,29 +49,9 @@ struct Options
   /// What contact is integrated with, at reference positions, as the bulk's
   /// forms are: 2 pi r in axisymmetric models, a thickness; 1 if empty
   std::function<double(const Vector<3>&)> weight = {};
-};
-
-/// @brief Friction and offset of a contact, the same at all nodes.
-struct Values final : problem::Values
-{
-  bool vary() const override { return true; }
-  std::optional<std::vector<double>> friction() override
-  {
-    if (not coefficient)
-      return std::nullopt;
-    return std::vector<double>(num_nodes, *coefficient);
-  }
-  std::vector<double> offset() override
-  {
-    if (not std::isfinite(length))
-      throw std::invalid_argument(
-          "the offset of a contact is not finite: give a finite length");
-    return std::vector<double>(num_nodes, length);
-  }
-
-  std::size_t num_nodes = 0;         ///< slave nodes of this rank
-  std::optional<double> coefficient; ///< Coulomb's, if there is one
-  double length = 0;                 ///< that is taken off the gap
+  /// Complementarity factor along the surface as a part of the normal one: what
+  /// Newton's method finds does not depend on it, how fast it does
+  double tangential_factor = 1;
 };
 
 /// @brief Contact of a slave surface with a master surface or a rigid obstacle,
@@ -90,18 +72,15 @@ public:
   /// finer or the softer one.
   /// @param[in] master Surface or obstacle that they are measured against.
   /// @param[in] options How it is.
-  /// @throws std::invalid_argument if it is tied and has friction, or the
-  /// obstacle is null.
+  /// @throws std::invalid_argument if friction and a law of it are given, or
+  /// the obstacle is null.
   Contact(Surface slave, Master master, Options options = {})
       : _slave(std::move(slave)), _master(std::move(master)), _options(options),
-        _values(std::make_shared<Values>())
+        _values(std::make_shared<Values>(options.friction, options.offset))
   {
-    _values->coefficient = options.friction;
-    _values->length = options.offset;
-    if (_options.tied and _options.friction)
-      throw std::invalid_argument(
-          "tied excludes friction: a tied slave node does not slip. Leave "
-          "one of them out");
+    if (_options.friction and _options.friction_law)
+      throw std::invalid_argument("a Contact has friction or a friction_law: "
+                                  "leave one of them out");
     const auto* obstacle
         = std::get_if<std::shared_ptr<obstacle::Obstacle>>(&_master);
     if (obstacle and *obstacle == nullptr)
@@ -120,7 +99,7 @@ public:
   std::shared_ptr<contact::Contact>
   attach(const std::shared_ptr<parallel::Halo>& halo,
          const std::shared_ptr<const contact::Bodies>& bodies, const Bulk& bulk,
-         const FunctionSpace& V)
+         const std::shared_ptr<const FunctionSpace>& V)
   {
     if (_discrete)
       throw std::logic_error(
@@ -129,7 +108,7 @@ public:
     try
     {
       make(halo, bodies, bulk, V);
-      _V = bulk.u()->function_space();
+      _V = V;
       return _discrete;
     }
     catch (...)
@@ -150,32 +129,20 @@ public:
   /// @brief Take another coefficient of friction, on all ranks, from the next
   /// iterate on.
   /// @throws std::invalid_argument if the contact was created without one.
-  void set_friction(double friction)
+  void set_friction(Value friction)
   {
     if (not _options.friction)
       throw std::invalid_argument(
           "the contact has no friction: create it with one, zero will do");
-    _values->coefficient = friction;
+    _values->set_friction(std::move(friction));
   }
 
   /// @brief Take another length off the gap, on all ranks, from the next
   /// iterate on.
-  void set_offset(double offset) { _values->length = offset; }
+  void set_offset(Value offset) { _values->set_offset(std::move(offset)); }
 
-  /// @brief Name in messages.
-  std::string name() const
-  {
-    if (is_self())
-      return "Contact of " + _slave.name() + " with itself";
-    const auto* surface = std::get_if<Surface>(&_master);
-    const std::string master
-        = surface
-              ? surface->name()
-              : std::get<std::shared_ptr<obstacle::Obstacle>>(_master)->name();
-    const bool is_small = _options.sliding == Sliding::small;
-    return "Contact(slave=" + _slave.name() + ", master=" + master
-           + ", sliding='" + (is_small ? "small" : "finite") + "')";
-  }
+  /// @brief Name in messages, once it belongs to an Assembler.
+  const std::string& name() const { return _name; }
 
   /// @brief Friction and offset, as the core reads them.
   const std::shared_ptr<Values>& values() const { return _values; }
@@ -301,71 +268,48 @@ public:
 private:
   void make(const std::shared_ptr<parallel::Halo>& halo,
             const std::shared_ptr<const contact::Bodies>& bodies,
-            const Bulk& bulk, const FunctionSpace& V)
+            const Bulk& bulk, const std::shared_ptr<const FunctionSpace>& V)
   {
-    const facet::Facets slave = _slave.facet_nodes(V, halo->ranks());
-    const auto slaves = reference::make_slave_nodes(halo, slave.list());
+    const facet::Facets slave = _slave.facet_nodes(*V, halo->ranks(), "slave");
+    facet::Facets facets;
+    problem::Sides sides{.slave = {_slave.name(), slave.list()},
+                         .master = std::shared_ptr<obstacle::Obstacle>(),
+                         .is_self = is_self(),
+                         .level
+                         = mesh::node_levels(cells_of(*V), num_nodes(*V))};
+    if (const auto* surface = std::get_if<Surface>(&_master))
+    {
+      facets = surface->facet_nodes(*V, halo->ranks(), "master");
+      sides.master = reference::NamedSurface{surface->name(), facets.list()};
+    }
+    else
+      sides.master = std::get<std::shared_ptr<obstacle::Obstacle>>(_master);
     if (_options.weight)
-      slaves->set_weight(weights(*halo, *slaves));
-    std::shared_ptr<law::Law> law;
-    if (_options.tied)
-      law = std::make_shared<law::Tied>();
-    else if (_options.friction)
-      law = std::make_shared<law::Coulomb>();
-    else
-      law = std::make_shared<law::Frictionless>();
-
-    const reference::Mesh mesh{halo, bodies, bulk.all_cells(),
-                               bulk.nodes_per_cell()};
-    const reference::MasterOptions how{
-        .method = _options.method,
-        .sliding = _options.sliding,
-        .search_distance = _options.search_distance,
-        .is_self = is_self(),
-        .excluded_distance = _options.excluded_distance,
-        .is_smooth = _options.smooth};
-    contact::Contact::Options options{
-        .sliding = _options.sliding,
-        .has_means = _options.method == Method::surface_to_surface,
-        .prescribed = bulk.all_markers(),
-        .shared = {},
-        .adjust = _options.adjust};
-    if (const auto* obstacle
-        = std::get_if<std::shared_ptr<obstacle::Obstacle>>(&_master))
-    {
-      const auto master = reference::make_master(mesh, slaves, _slave.name(),
-                                                 *obstacle, *law, how);
-      _discrete = std::make_shared<contact::Contact>(halo, slaves, master, law,
-                                                     std::move(options));
-    }
-    else
-    {
-      const Surface& surface = std::get<Surface>(_master);
-      const facet::Facets facets = surface.facet_nodes(V, halo->ranks());
-      const auto master
-          = reference::make_master(mesh, slaves, _slave.name(),
-                                   {surface.name(), facets.list()}, *law, how);
-      if (not is_self())
-      {
-        options.shared
-            = reference::shared_nodes(*halo, slaves->own(), facets.list());
-        options.shared.resize(halo->num_owned());
-      }
-      _discrete = std::make_shared<contact::Contact>(halo, slaves, master, law,
-                                                     std::move(options));
-      if (not is_self())
-        reference::check_facing(*halo, *slaves, _slave.name(), *master,
-                                surface.name());
-    }
+      sides.weight = [&](std::span<const std::int32_t> nodes)
+      { return weights(*halo, nodes); };
+    _name = problem::name_of(sides, _options.sliding);
+    _discrete = problem::make_contact(
+        {halo, bodies, bulk.all_cells(), bulk.nodes_per_cell()}, sides,
+        {.method = _options.method,
+         .sliding = _options.sliding,
+         .tied = _options.tied,
+         .has_friction = _options.friction or _options.friction_law,
+         .bound = _options.friction_law,
+         .search_distance = _options.search_distance,
+         .excluded_distance = _options.excluded_distance,
+         .adjust = _options.adjust,
+         .smooth = _options.smooth,
+         .tangential_factor = _options.tangential_factor},
+        bulk.all_markers());
     _results = std::make_shared<results::Results>(_discrete);
-    _values->num_nodes = slaves->owned().size();
+    halo->ranks().agree([&] { _values->attach(V, slave_nodes()); });
   }
 
   std::vector<double> weights(const parallel::Halo& halo,
-                              const contact::SlaveNodes& slaves) const
+                              std::span<const std::int32_t> nodes) const
   {
     std::vector<double> values;
-    for (const std::int32_t node : slaves.owned())
+    for (const std::int32_t node : nodes)
     {
       Vector<3> x{};
       std::copy_n(halo.reference().begin() + halo.gdim() * node, halo.gdim(),
@@ -378,6 +322,7 @@ private:
   Surface _slave;
   Master _master;
   Options _options;
+  std::string _name;
   std::shared_ptr<Values> _values;
   std::shared_ptr<contact::Contact> _discrete;
   std::shared_ptr<results::Results> _results;

@@ -72,6 +72,22 @@ public:
     return functions;
   }
 
+  /// @brief Space of numbers at the nodes of a space of vectors, with its
+  /// dofmap.
+  static std::shared_ptr<const FunctionSpace> scalars(const FunctionSpace& V)
+  {
+    const auto element = V.element()->extract_sub_element({0});
+    const ::dolfinx::fem::DofMap& nodes = *V.dofmap();
+    const auto cells = nodes.map();
+    std::vector<std::int32_t> list(cells.data_handle(),
+                                   cells.data_handle() + cells.size());
+    return std::make_shared<const FunctionSpace>(
+        V.mesh(), element,
+        std::make_shared<const ::dolfinx::fem::DofMap>(
+            ::dolfinx::fem::create_element_dof_layout(*element),
+            nodes.index_map, 1, std::move(list), 1));
+  }
+
   /// Pressure, force/area, zero off the slave surface
   std::shared_ptr<Function> pressure;
   /// Its means at the nodes of the master, zero elsewhere
@@ -96,21 +112,6 @@ private:
     if (slip)
       list.insert(list.end(), {slip, slip_total});
     return list;
-  }
-
-  /// Space of numbers at the nodes of a space of vectors, with its dofmap.
-  static std::shared_ptr<const FunctionSpace> scalars(const FunctionSpace& V)
-  {
-    const auto element = V.element()->extract_sub_element({0});
-    const ::dolfinx::fem::DofMap& nodes = *V.dofmap();
-    const auto cells = nodes.map();
-    std::vector<std::int32_t> list(cells.data_handle(),
-                                   cells.data_handle() + cells.size());
-    return std::make_shared<const FunctionSpace>(
-        V.mesh(), element,
-        std::make_shared<const ::dolfinx::fem::DofMap>(
-            ::dolfinx::fem::create_element_dof_layout(*element),
-            nodes.index_map, 1, std::move(list), 1));
   }
 
   static std::shared_ptr<Function>

@@ -3,11 +3,9 @@
 
 #pragma once
 
-#include "input.h"
+#include "cells.h"
 #include "ranks.h"
 #include <contactx/parallel/halo.h>
-#include <dolfinx/common/IndexMap.h>
-#include <dolfinx/fem/DofMap.h>
 #include <dolfinx/fem/Function.h>
 #include <dolfinx/fem/FunctionSpace.h>
 #include <dolfinx/la/Vector.h>
@@ -20,53 +18,13 @@
 
 namespace contactx::dolfinx
 {
-/// @brief Number of this rank's nodes of a space, ghosts included.
-inline std::int32_t num_nodes(const FunctionSpace& V)
-{
-  const auto& map = *V.dofmap()->index_map;
-  return map.size_local() + map.num_ghosts();
-}
-
-/// @brief Call a function with each node of a linear space and its number in
-/// the mesh's geometry.
-template <class F>
-void for_each_node(const FunctionSpace& V, F&& visit)
-{
-  const auto dofs = V.dofmap()->map();
-  // Vertices come first in the geometry of a cell
-  const auto points = V.mesh()->geometry().dofmaps().front();
-  for (std::size_t c = 0; c < dofs.extent(0); ++c)
-    for (std::size_t i = 0; i < dofs.extent(1); ++i)
-      visit(dofs(c, i), points(c, i));
-}
-
-/// @brief Positions of the nodes of a linear space, ghosts included
-/// (shape=(num_nodes, gdim)).
-///
-/// They are the mesh's own to the last bit. What DOLFINx evaluates differs by
-/// rounding from cell to cell, and with it which of two facets is the nearer
-/// one would depend on the ranks.
-inline std::vector<double> reference_positions(const FunctionSpace& V)
-{
-  const auto& geometry = V.mesh()->geometry();
-  const int gdim = geometry.dim();
-  std::vector<double> x(std::size_t(num_nodes(V)) * gdim);
-  for_each_node(V,
-                [&](std::int32_t node, std::int32_t point)
-                {
-                  std::copy_n(geometry.x().begin() + 3 * point, gdim,
-                              x.begin() + gdim * node);
-                });
-  return x;
-}
-
 /// @brief Nodes of a displacement, as a halo needs them of whoever has the
 /// bulk.
 class HaloAdapter final : public parallel::HaloAdapter
 {
 public:
   /// @brief Start with the bulk's nodes alone; all ranks must take part.
-  /// @param[in] u Displacement, in a linear Lagrange space.
+  /// @param[in] u Displacement, in a Lagrange space of degree 1 or 2.
   explicit HaloAdapter(std::shared_ptr<Function> u)
       : _u(std::move(u)), _map(_u->function_space()->dofmap()->index_map),
         _gdim(_u->function_space()->mesh()->geometry().dim()),
@@ -75,23 +33,19 @@ public:
     set_ghosts({}, {});
   }
 
-  /// @brief The nodes of the bulk.
-  parallel::BulkNodes bulk_nodes() const
+  /// @brief The nodes of the bulk; all ranks must take part.
+  parallel::BulkNodes bulk_nodes()
   {
     const FunctionSpace& V = *_u->function_space();
     parallel::BulkNodes nodes{.gdim = _gdim,
                               .num_owned = _map->size_local(),
                               .numbers = _map->global_indices(),
                               .owners = {},
-                              .original = {},
+                              .original = original_nodes(V, _ranks),
                               .reference = reference_positions(V)};
     nodes.owners.assign(_map->size_local(), _ranks.rank());
     nodes.owners.insert(nodes.owners.end(), _map->owners().begin(),
                         _map->owners().end());
-    nodes.original.assign(num_nodes(V), -1);
-    const auto& numbers = V.mesh()->geometry().input_global_indices();
-    for_each_node(V, [&](std::int32_t node, std::int32_t point)
-                  { nodes.original[node] = numbers[point]; });
     return nodes;
   }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <basix/finite-element.h>
 #include <dolfinx/fem/DirichletBC.h>
 #include <dolfinx/fem/Form.h>
 #include <dolfinx/fem/Function.h>
@@ -31,8 +32,8 @@ using DirichletBC = ::dolfinx::fem::DirichletBC<double>;
 namespace input
 {
 /// @brief Check that a displacement is one that contact can act on.
-/// @throws std::invalid_argument if it is null or not of a linear Lagrange
-/// space of vectors on straight cells of the dimension of space.
+/// @throws std::invalid_argument if it is null or not of a Lagrange space of
+/// vectors of degree 1 or 2 on cells of the dimension of space.
 inline void check_displacement(const Function* u)
 {
   if (u == nullptr)
@@ -40,20 +41,20 @@ inline void check_displacement(const Function* u)
   const FunctionSpace& V = *u->function_space();
   const auto& mesh = *V.mesh();
   const int gdim = mesh.geometry().dim(), tdim = mesh.topology()->dim();
-  const auto dofs = V.dofmap()->map();
-  const int vertices
-      = ::dolfinx::mesh::cell_num_entities(mesh.topology()->cell_type(), 0);
   if (gdim != tdim or gdim < 2)
     throw std::invalid_argument("contact needs plane cells in the plane or "
                                 "solid ones in space");
-  if (V.dofmap()->bs() != gdim or static_cast<int>(dofs.extent(1)) != vertices
-      or V.element()->needs_dof_transformations())
+  const auto is_lagrange = [&V]
+  {
+    const auto& element = V.element()->basix_element();
+    return element.family() == basix::element::family::P
+           and not element.discontinuous()
+           and (element.degree() == 1 or element.degree() == 2);
+  };
+  if (V.dofmap()->bs() != gdim or not is_lagrange())
     throw std::invalid_argument(
-        "the displacement must be of a linear Lagrange space of vectors: "
-        "take degree 1 and as many components as the mesh has dimensions");
-  if (mesh.geometry().cmaps().front().degree() != 1)
-    throw std::invalid_argument(
-        "contact needs cells with straight edges: make the mesh of order 1");
+        "the displacement must be of a continuous Lagrange space of vectors: "
+        "take degree 1 or 2 and as many components as the mesh has dimensions");
 }
 
 /// @brief Whether a space is that of a displacement, whole.

@@ -3,11 +3,9 @@
 
 #pragma once
 
-#include "halo.h"
-#include <array>
-#include <contactx/facet/facets.h>
-#include <contactx/vec.h>
-#include <dolfinx/fem/ElementDofLayout.h>
+#include "cells.h"
+#include "ranks.h"
+#include <contactx/reference/straight.h>
 #include <dolfinx/mesh/MeshTags.h>
 #include <dolfinx/mesh/Topology.h>
 #include <dolfinx/mesh/cell_types.h>
@@ -61,7 +59,9 @@ public:
       _name += (i > 0 ? ", " : "") + std::to_string(_values[i]);
       count += there[i];
     }
-    _name = "Surface({" + _name + "}, " + std::to_string(count) + " facets)";
+    // As Python has it
+    _name = "Surface(tags=(" + _name + (_values.size() == 1 ? ",), " : "), ")
+            + std::to_string(count) + " facets)";
   }
 
   /// @brief Whether another surface is the same part of the same tags.
@@ -73,18 +73,20 @@ public:
   /// @brief Name in messages.
   const std::string& name() const { return _name; }
 
-  /// @brief Nodes of the surface's facets whose cells this rank owns, oriented:
-  /// the normal t_1 x t_2 of a facet's local coordinates points out of its
-  /// cell. All ranks must take part.
-  /// @param[in] V Linear Lagrange space whose blocks of dofs are the nodes.
+  /// @brief Nodes of the surface's facets whose cells this rank owns, oriented,
+  /// see mesh::facets. All ranks must take part.
+  /// @param[in] V Lagrange space of degree 1 or 2 whose blocks of dofs are the
+  /// nodes.
   /// @param[in] ranks The ranks.
+  /// @param[in] role What the surface is to a contact.
   /// @throws std::invalid_argument on all ranks if the tags belong to another
-  /// mesh, or a facet has a cell on either side.
-  facet::Facets facet_nodes(const FunctionSpace& V,
-                            parallel::Ranks& ranks) const
+  /// mesh, a facet has a cell on either side, or facets are curved that the
+  /// displacement has straight.
+  facet::Facets facet_nodes(const FunctionSpace& V, parallel::Ranks& ranks,
+                            const std::string& role) const
   {
     auto topology = V.mesh()->topology_mutable();
-    const int tdim = topology->dim(), gdim = V.mesh()->geometry().dim();
+    const int tdim = topology->dim();
     topology->create_connectivity(tdim - 1, tdim);
     topology->create_connectivity(tdim, tdim - 1);
     const auto cells = topology->connectivity(tdim - 1, tdim);
@@ -92,28 +94,21 @@ public:
 
     const auto facets = topology->connectivity(tdim, tdim - 1);
     const std::int32_t num_owned = topology->index_map(tdim)->size_local();
-    const auto& layout = V.dofmap()->element_dof_layout();
-    const std::vector<double> x = reference_positions(V);
-    facet::Facets result;
+    std::vector<std::int32_t> of, local;
     for (std::int32_t f : _facets)
     {
       const std::int32_t cell = cells->links(f)[0];
       if (cell >= num_owned)
         continue;
       const auto own = facets->links(cell);
-      const auto local = std::ranges::find(own, f) - own.begin();
-      const auto dofs = V.dofmap()->cell_dofs(cell);
-      const std::size_t at = result.nodes.size();
-      for (int i :
-           layout.entity_closure_dofs(tdim - 1, static_cast<int>(local)))
-        result.nodes.push_back(dofs[i]);
-      const auto nodes = std::span(result.nodes).subspan(at);
-      if (points_inward(nodes, dofs, x, gdim))
-        gdim == 2 ? std::swap(nodes[0], nodes[1])
-                  : std::swap(nodes[1], nodes[2]);
-      result.offsets.push_back(static_cast<std::int32_t>(result.nodes.size()));
+      of.push_back(cell);
+      local.push_back(
+          static_cast<std::int32_t>(std::ranges::find(own, f) - own.begin()));
     }
-    return result;
+    const mesh::Geometry geometry = geometry_of(*V.mesh());
+    reference::check_straight(ranks, role + " " + _name, cells_of(V), geometry,
+                              points_of_cell(*V.mesh()), of, local);
+    return mesh::facets(cells_of(V), of, local, geometry);
   }
 
 private:
@@ -135,33 +130,6 @@ private:
             _name
             + " has facets inside a body, with a cell on either side: a "
               "contact surface must be part of the boundary");
-  }
-
-  static Vector<3> at(std::int32_t node, std::span<const double> x, int gdim)
-  {
-    Vector<3> point{};
-    std::copy_n(x.begin() + gdim * node, gdim, point.begin());
-    return point;
-  }
-
-  static Vector<3> middle(std::span<const std::int32_t> nodes,
-                          std::span<const double> x, int gdim)
-  {
-    Vector<3> sum{};
-    for (std::int32_t node : nodes)
-      sum = sum + at(node, x, gdim);
-    return (1.0 / static_cast<double>(nodes.size())) * sum;
-  }
-
-  static bool points_inward(std::span<const std::int32_t> facet,
-                            std::span<const std::int32_t> cell,
-                            std::span<const double> x, int gdim)
-  {
-    const Vector<3> t = at(facet[1], x, gdim) - at(facet[0], x, gdim);
-    const Vector<3> normal
-        = gdim == 2 ? Vector<3>{t[1], -t[0], 0}
-                    : cross(t, at(facet[2], x, gdim) - at(facet[0], x, gdim));
-    return dot(normal, middle(facet, x, gdim) - middle(cell, x, gdim)) < 0;
   }
 
   std::shared_ptr<const ::dolfinx::mesh::MeshTags<std::int32_t>> _tags;

@@ -65,10 +65,12 @@ struct ContactScene
           std::vector<std::int8_t> shared = {},
           std::optional<double> adjust = std::nullopt) const
   {
-    constexpr bool has_means = std::is_base_of_v<contact::SurfaceToSurface, M>;
+    constexpr auto method = std::is_base_of_v<contact::SurfaceToSurface, M>
+                                ? contact::Method::surface_to_surface
+                                : contact::Method::node_to_surface;
     return std::make_shared<contact::Contact>(
         halo, slaves, master<M>(*law, sliding), law,
-        contact::Contact::Options{sliding, has_means, prescribed,
+        contact::Contact::Options{sliding, method, prescribed,
                                   std::move(shared), adjust});
   }
 

@@ -69,7 +69,8 @@ private:
             std::shared_ptr<contact::Master> master,
             std::shared_ptr<law::Law> law, contact::Sliding sliding)
   {
-    contact::Contact::Options options{sliding, false, {}, {}};
+    contact::Contact::Options options{
+        sliding, contact::Method::node_to_surface, {}, {}};
     options.prescribed.assign(displacement->size(), 0);
     contact = std::make_shared<contact::Contact>(
         halo, std::make_shared<const contact::SlaveNodes>(halo, facets, facets),

@@ -35,7 +35,6 @@ from contactx.contact import Contact, check_contacts
 from contactx.coupled import CoupledBulk
 from contactx.errors import ConvergenceError, NotFiniteError
 from contactx.geometry.cells import check_cells
-from contactx.geometry.curved import check_straight
 from contactx.linear import Condensed
 from contactx.newton import NewtonLoop
 from contactx.parallel.agreement import agreed
@@ -130,7 +129,6 @@ class ContactAssembler:
         self.conductances = check_conductances(conductances, list(contacts), functions, field)
         if audit not in ("refuse", "warn"):
             raise ValueError(f'audit must be "refuse" or "warn", not {audit!r}')
-        check_straight(contacts, field.function_space)
 
         V = field.function_space
         X = la.vector(V.dofmap.index_map, V.dofmap.index_map_bs)
@@ -165,7 +163,7 @@ class ContactAssembler:
             self.system = SaddlePointSystem(self.bulk, self.interfaces, self.halo)
             names = (f"contact {k} ({contact})" for k, contact in enumerate(self.contacts))
             parts = [
-                (name, contact.interface.values, contact.fields.results)
+                (name, contact.values, contact.fields.results)
                 for name, contact in zip(names, self.contacts, strict=True)
             ]
             refuses = audit == "refuse"

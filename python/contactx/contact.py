@@ -17,13 +17,14 @@ from contactx.bodies import Bodies
 from contactx.fields import Fields
 from contactx.forms import ContactForms
 from contactx.friction import FrictionLaw
+from contactx.geometry.curved import check_straight
 from contactx.interface import Interface
 from contactx.nodal import ContactValues, NodalValue
 from contactx.obstacles import Obstacle
 from contactx.parallel import reduce
 from contactx.parallel.agreement import agreed
 from contactx.parallel.halo import Halo
-from contactx.refined import degree_of, node_levels
+from contactx.refined import node_levels
 from contactx.surface import Surface
 from contactx.weight import check_weight, nodal_weight
 from dolfinx import fem, mesh
@@ -93,7 +94,8 @@ class Contact:
                 projects on. It is cheap and its forces are exact, but pressures scatter where
                 meshes do not match. "surface-to-surface": the gap is integrated over the parts of
                 the slave facets in front of each master facet, with dual multipliers (Popp et al.,
-                2010). Pressures are smooth, and a uniform pressure is exact.
+                2010). Pressures are smooth, and a uniform pressure is exact. With a quadratic
+                displacement contact with an obstacle constrains the slave nodes by both methods.
             tied: Whether the slave nodes keep their place on the master, in compression and
                 tension: each keeps its position relative to its projection on the master in the
                 reference configuration, in the frame of the facet, which turns with the facet
@@ -140,15 +142,13 @@ class Contact:
             method=method,
             tied=tied,
             search_distance=search_distance,
+            excluded_distance=excluded_distance,
             offset=offset,
+            adjust=adjust,
+            smooth=smooth,
+            tangential_factor=tangential_factor,
         )
-        is_self = _is_self(slave, master)
-        if is_self:
-            _check_self(sliding, method, tied)
-        _check_adjust(adjust, is_self=is_self, tied=tied)
-        _check_excluded(excluded_distance, is_self)
         check_weight(weight)
-        _check_factor(tangential_factor)
         self.slave = slave
         self.master = master
         self.sliding = sliding
@@ -157,13 +157,14 @@ class Contact:
         self.excluded_distance = excluded_distance
         self.offset = offset
         self.adjust = adjust
-        check_switch("smooth", smooth)
         self.smooth = bool(smooth)
         self.weight = weight
         self.tangential_factor = tangential_factor
         self.friction = friction
         self.tied = bool(tied)
+        self._core_options().check(is_self=self.is_self)
         self._interface: Interface | None = None
+        self._values: ContactValues | None = None
         self._fields: Fields | None = None
 
     def __setattr__(self, name: str, value: object) -> None:
@@ -235,102 +236,63 @@ class Contact:
                 f"{self} belongs to a ContactProblem already: create one Contact a problem"
             )
         V = bodies.V
-        facets = self.slave.facet_nodes(V)
-        level = node_levels(V)
-        slaves = core.SlaveNodes(halo.nodes, facets.offsets, facets.nodes, level)
-        if degree_of(V) > 1:
-            slaves.set_level(level[slaves.owned], self._is_mortar(V))
+        check_straight("slave", self.slave, V, halo)
+        if isinstance(self.master, Surface):
+            check_straight("master", self.master, V, halo)
+        weight = None
         if self.is_weighted:
-            slaves.set_weight(nodal_weight(self.weight, V, slaves.owned))
-        with agreed(halo.comm):
-            law, friction = self._law(V, slaves.owned)
-            offset = NodalValue(self.offset, "offset", V, slaves.owned)
-            given = ContactValues(friction, offset, len(slaves.owned))
-        master, shared = self._make_master(slaves, law, halo, bodies)
+            weight = nodal_weight(
+                self.weight, V, np.arange(halo.num_owned, dtype=np.int32)
+            ).__getitem__
+        slave = _named(self.slave, V)
+        master = _named(self.master, V) if isinstance(self.master, Surface) else self.master
         interface = Interface(
-            slaves,
+            core.ReferenceMesh(halo.nodes, bodies, bodies.linear_cells),
+            slave,
             master,
             halo,
-            law=law,
-            values=given,
-            sliding=self.sliding,
-            has_means=self._is_mortar(V),
+            options=self._core_options(),
+            is_self=self.is_self,
+            level=node_levels(V),
+            weight=weight,
             markers=markers,
-            shared=shared,
-            adjust=self.adjust,
         )
-        if isinstance(master, core.DeformableMaster) and not self.is_self:
-            core.check_facing(halo.nodes, slaves, str(self.slave), master, str(self.master))
-        interface.nodes.along = float(self.tangential_factor)
+        with agreed(halo.comm):
+            nodes = interface.slaves
+            is_law = isinstance(self.friction, FrictionLaw)
+            takes = self._has_friction and not is_law
+            friction = NodalValue(self.friction, "friction", V, nodes) if takes else None
+            offset = NodalValue(self.offset, "offset", V, nodes)
+            self._values = ContactValues(friction, offset, len(nodes))
         self._fields = Fields(interface, V)
         self._interface = interface
         return interface
 
-    def _make_master(
-        self, slaves: core.SlaveNodes, law: core.Law, halo: Halo, bodies: Bodies
-    ) -> tuple[core.Master, npt.NDArray[np.bool_] | None]:
-        """Make the master side, without pairs yet; see ``reference/sides.h``.
-
-        Args:
-            slaves: Slave nodes.
-            law: Contact law.
-            halo: Nodes of this rank.
-            bodies: Bodies of the mesh.
-
-        Returns:
-            The master side, and which nodes of this rank the master surface shares with the slave;
-            None of an obstacle.
-
-        Raises:
-            ValueError: If facets are degenerate, the surfaces share nodes, a body lies wholly
-                inside its master, or an obstacle's parameters do not fit.
-        """
-        mesh = core.ReferenceMesh(halo.nodes, bodies, bodies.linear_cells)
-        options = core.MasterOptions(
-            is_mortar=self._is_mortar(bodies.V),
+    def _core_options(self) -> core.ContactOptions:
+        """The options as the core has them."""
+        return core.ContactOptions(
+            is_mortar=self.method == "surface-to-surface",
             is_small=self.sliding == "small",
+            tied=self.tied,
+            has_friction=self._has_friction,
+            bound=self.friction.values if isinstance(self.friction, FrictionLaw) else None,
             search_distance=self.search_distance,
-            level=node_levels(bodies.V),
-            is_self=self.is_self,
             excluded_distance=self.excluded_distance,
-            is_smooth=self.smooth,
+            adjust=self.adjust,
+            smooth=self.smooth,
+            tangential_factor=self.tangential_factor,
         )
-        name = str(self.slave)
-        if isinstance(self.master, Obstacle):
-            return core.make_obstacle_master(mesh, slaves, name, self.master, law, options), None
-        facets = self.master.facet_nodes(bodies.V)
-        lists = facets.offsets, facets.nodes
-        master = core.make_surface_master(
-            mesh, slaves, name, *lists, str(self.master), law, options
-        )
-        # Nodes that a surface shares with itself have gaps all the same
-        return master, None if self.is_self else core.shared_nodes(halo.nodes, slaves, *lists)
 
-    def _is_mortar(self, V: fem.FunctionSpace) -> bool:
-        """True if facets are integrated; with a quadratic displacement not on obstacles."""
-        is_nodal = isinstance(self.master, Obstacle) and degree_of(V) > 1
-        return self.method == "surface-to-surface" and not is_nodal
+    @property
+    def _has_friction(self) -> bool:
+        """True if friction may act: a constant of the value 0 may become another one."""
+        return not (is_number(self.friction) and self.friction == 0)
 
-    def _law(
-        self, V: fem.FunctionSpace, slaves: npt.NDArray[np.int32]
-    ) -> tuple[core.Law, NodalValue | None]:
-        """Law of the contact, and the coefficient of friction that it is handed.
-
-        Args:
-            V: Space of the displacement.
-            slaves: Slave nodes of this rank, shape (n,).
-
-        Raises:
-            ValueError: If friction is a function of another space, or a constant that is no number.
-        """
-        if self.tied:
-            return core.Tied(), None
-        if isinstance(self.friction, FrictionLaw):
-            return core.Coulomb(self.friction.values), None
-        # A constant of the value 0 may become another one
-        if self.friction != 0:
-            return core.Coulomb(), NodalValue(self.friction, "friction", V, slaves)
-        return core.Frictionless(), None
+    @property
+    def values(self) -> ContactValues:
+        """Friction and offset as the core reads them."""
+        assert self._values is not None
+        return self._values
 
     @property
     def is_self(self) -> bool:
@@ -344,7 +306,7 @@ class Contact:
 
     def detach(self) -> None:
         """Free the contact for another problem; ContactProblem calls this if it is refused."""
-        self._interface = self._fields = None
+        self._interface = self._values = self._fields = None
 
     @property
     def active(self) -> bool:
@@ -557,6 +519,12 @@ class Contact:
         return float(moment[0]) if gdim == 2 else moment
 
 
+def _named(surface: Surface, V: fem.FunctionSpace) -> core.NamedSurface:
+    """Name and facets of a surface."""
+    facets = surface.facet_nodes(V)
+    return str(surface), facets.offsets, facets.nodes
+
+
 def check_contacts(contacts: Any) -> None:
     """Check that there are contacts and each is listed once.
 
@@ -592,9 +560,13 @@ def _check_options(
     method: Any,
     tied: Any,
     search_distance: Any,
+    excluded_distance: Any,
     offset: Any,
+    adjust: Any,
+    smooth: Any,
+    tangential_factor: Any,
 ) -> None:
-    """Check the arguments of a Contact; they are described there.
+    """Check the kinds of the arguments of a Contact; they are described there.
 
     Raises:
         TypeError: If an argument is of another kind.
@@ -642,24 +614,19 @@ def _check_options(
             wanted = "a finite number" if name == "offset" else "a number of at least 0"
             raise ValueError(f"{name} is {value}: give {wanted}")
     check_switch("tied", tied)
-    if tied and not (is_number(friction) and friction == 0):
-        raise ValueError(
-            "tied excludes friction: a tied slave node does not slip. Leave friction out, or tied"
+    check_switch("smooth", smooth)
+    lengths = (
+        ("search_distance", search_distance, "length"),
+        ("excluded_distance", excluded_distance, "length along the surface"),
+        ("adjust", adjust, "length"),
+    )
+    for name, value, what in lengths:
+        if not (value is None or is_number(value)):
+            raise TypeError(f"{name} is {described(value)}: give a {what}, or None")
+    if not is_number(tangential_factor):
+        raise TypeError(
+            f"tangential_factor is {described(tangential_factor)}: give a number, such as 0.05"
         )
-    if search_distance is not None:
-        if not is_number(search_distance):
-            raise TypeError(
-                f"search_distance is {described(search_distance)}: give a length, or None"
-            )
-        if not search_distance > 0:
-            raise ValueError(f"search_distance is {search_distance}: give a positive length")
-
-
-def _check_factor(factor: Any) -> None:
-    if not is_number(factor):
-        raise TypeError(f"tangential_factor is {described(factor)}: give a number, such as 0.05")
-    if not (np.isfinite(factor) and factor > 0):
-        raise ValueError(f"tangential_factor is {factor}: give a positive number, such as 0.05")
 
 
 def _joined(
@@ -706,71 +673,3 @@ def _is_self(slave: Surface, master: Surface | Obstacle) -> bool:
     return slave is master or (
         slave.facet_tags is master.facet_tags and set(slave.tags) == set(master.tags)
     )
-
-
-def _check_self(sliding: str, method: str, tied: bool) -> None:
-    """Check the options of self-contact.
-
-    Raises:
-        ValueError: If one of them is for two surfaces alone.
-    """
-    if method != "node-to-surface":
-        raise ValueError(
-            f'method is "{method}", but slave and master are the same surface: in self-contact '
-            "one side is chosen a node at a time, which integrals over facets cannot follow. Take "
-            '"node-to-surface", or give each side a surface of its own'
-        )
-    if sliding != "finite":
-        raise ValueError(
-            f'sliding is "{sliding}", but slave and master are the same surface: what meets is '
-            'found as it folds. Take "finite", or give each side a surface of its own'
-        )
-    if tied:
-        raise ValueError(
-            "tied is for two surfaces, but slave and master are the same: give each side a surface "
-            "of its own"
-        )
-
-
-def _check_adjust(adjust: Any, *, is_self: bool, tied: bool) -> None:
-    """Check the length up to which gaps of the reference configuration count as none.
-
-    Raises:
-        TypeError: If it is no number.
-        ValueError: If it is negative or not finite, or the contact has no such gaps.
-    """
-    if adjust is None:
-        return
-    if not is_number(adjust):
-        raise TypeError(f"adjust is {described(adjust)}: give a length, or None")
-    if not (np.isfinite(adjust) and adjust >= 0):
-        raise ValueError(f"adjust is {adjust}: give a finite length of at least 0")
-    if is_self or tied:
-        why = (
-            "a tie keeps the gaps of the reference configuration as they are"
-            if tied
-            else "in self-contact the master of a node is another one as the surface folds"
-        )
-        raise ValueError(f"adjust is {adjust}, but {why}: leave it out")
-
-
-def _check_excluded(distance: Any, is_self: bool) -> None:
-    """Check the distance along the surface within which nothing meets.
-
-    Raises:
-        TypeError: If it is no number.
-        ValueError: If it is negative or not finite, or slave and master are not the same surface.
-    """
-    if distance is None:
-        return
-    if not is_number(distance):
-        raise TypeError(
-            f"excluded_distance is {described(distance)}: give a length along the surface, or None"
-        )
-    if not (np.isfinite(distance) and distance >= 0):
-        raise ValueError(f"excluded_distance is {distance}: give a finite length of at least 0")
-    if not is_self:
-        raise ValueError(
-            f"excluded_distance is {distance}, but slave and master are not the same surface: "
-            "leave it out"
-        )

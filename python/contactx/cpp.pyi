@@ -7,6 +7,7 @@ from typing import Any, Literal, TypeVar, overload
 import numpy as np
 from numpy.typing import NDArray
 
+type NamedSurface = tuple[str, NDArray[np.int32], NDArray[np.int32]]
 type RowKind = Literal["slave", "node", "global"]
 
 _Scalar = TypeVar("_Scalar", np.float64, np.bool_, np.int8, np.int64)
@@ -429,9 +430,11 @@ class SlaveNodes:
         offsets: NDArray[np.int32],
         nodes: NDArray[np.int32],
         level: NDArray[np.int8] = ...,
+        *,
+        is_mortar: bool = False,
+        is_rigid: bool = False,
     ) -> None: ...
     def set_weight(self, weight: NDArray[np.float64]) -> None: ...
-    def set_level(self, level: NDArray[np.int8], is_mortar: bool) -> None: ...
     @property
     def facets(self) -> tuple[NDArray[np.int32], NDArray[np.int32]]: ...
     @property
@@ -511,7 +514,25 @@ class Transfer:
     def by_slaves(self, factor: NDArray[np.float64]) -> Triplets: ...
     def at_master(self, values: NDArray[np.float64]) -> NDArray[np.float64]: ...
 
+class ContactOptions:
+    def __init__(
+        self,
+        *,
+        is_mortar: bool,
+        is_small: bool,
+        tied: bool,
+        has_friction: bool,
+        bound: Callable[..., Any] | None,
+        search_distance: float | None,
+        excluded_distance: float | None,
+        adjust: float | None,
+        smooth: bool,
+        tangential_factor: float,
+    ) -> None: ...
+    def check(self, is_self: bool) -> None: ...
+
 class Contact:
+    @overload
     def __init__(
         self,
         halo: Halo,
@@ -520,11 +541,26 @@ class Contact:
         law: Law,
         *,
         is_small: bool,
-        has_means: bool,
+        is_mortar: bool,
         prescribed: NDArray[np.int8],
         shared: NDArray[np.bool_] | None = None,
         adjust: float | None = None,
     ) -> None: ...
+    @overload
+    def __init__(
+        self,
+        mesh: ReferenceMesh,
+        slave: NamedSurface,
+        master: NamedSurface | Obstacle,
+        options: ContactOptions,
+        *,
+        is_self: bool,
+        level: NDArray[np.int8],
+        weight: Callable[[NDArray[np.int32]], NDArray[np.float64]] | None,
+        prescribed: NDArray[np.int8],
+    ) -> None: ...
+    @property
+    def slave_nodes(self) -> SlaveNodes: ...
     active: bool
     @property
     def is_self(self) -> bool: ...
@@ -1010,6 +1046,48 @@ class MasterOptions:
         is_smooth: bool = False,
     ) -> None: ...
 
+class MeshGeometry:
+    def __init__(
+        self, gdim: int, degree: int, points: NDArray[np.int32], x: NDArray[np.float64]
+    ) -> None: ...
+
+def facet_vertices(cell: str) -> list[list[int]]: ...
+def node_vertices(cell: str, degree: int) -> list[list[int]]: ...
+def linear_cells(cell: str, degree: int, nodes: NDArray[np.int32]) -> NDArray[np.int32]: ...
+def node_levels(
+    cell: str, degree: int, nodes: NDArray[np.int32], num_nodes: int
+) -> NDArray[np.int8]: ...
+def reference_positions(
+    cell: str, degree: int, nodes: NDArray[np.int32], num_nodes: int, geometry: MeshGeometry
+) -> NDArray[np.float64]: ...
+def original_nodes(
+    cell: str,
+    degree: int,
+    nodes: NDArray[np.int32],
+    num_nodes: int,
+    geometry: MeshGeometry,
+    numbers: NDArray[np.int64],
+    count: int,
+) -> NDArray[np.int64]: ...
+def oriented_facets(
+    cell: str,
+    degree: int,
+    nodes: NDArray[np.int32],
+    of: NDArray[np.int32],
+    local: NDArray[np.int32],
+    geometry: MeshGeometry,
+) -> tuple[NDArray[np.int32], NDArray[np.int32]]: ...
+def check_straight(
+    halo: Halo,
+    name: str,
+    cell: str,
+    degree: int,
+    nodes: NDArray[np.int32],
+    geometry: MeshGeometry,
+    points: NDArray[np.float64],
+    of: NDArray[np.int32],
+    local: NDArray[np.int32],
+) -> None: ...
 def point_text(x: NDArray[np.float64] | Sequence[float], size: float) -> str: ...
 def make_surface_master(
     mesh: ReferenceMesh,

@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from mpi4py import MPI
 
 import numpy as np
@@ -11,7 +13,6 @@ import numpy.typing as npt
 
 from contactx import cpp as core
 from contactx.forms import ContactForms, State
-from contactx.nodal import ContactValues
 from contactx.parallel.halo import Halo
 from dolfinx import cpp
 
@@ -24,63 +25,57 @@ class Interface(core.Contact):
     Attributes:
         slaves: Slave nodes that this rank owns, numbered as the blocks of the displacement's
             dofmap, shape (n,).
-        slave_nodes: The same with their facets.
         num_others: Number of slave nodes of other ranks that share facets with these.
         halo: Nodes of this rank.
-        values: Friction and offset, which users may change.
         state: Vectors that the forms read.
     """
 
     def __init__(
         self,
-        slaves: core.SlaveNodes,
-        master: core.Master,
+        contact_mesh: core.ReferenceMesh,
+        slave: core.NamedSurface,
+        master: core.NamedSurface | core.Obstacle,
         halo: Halo,
         *,
-        law: core.Law,
-        values: ContactValues,
-        sliding: str,
-        has_means: bool,
+        options: core.ContactOptions,
+        is_self: bool,
+        level: npt.NDArray[np.int8],
+        weight: Callable[[npt.NDArray[np.int32]], npt.NDArray[np.float64]] | None,
         markers: npt.NDArray[np.int8],
-        shared: npt.NDArray[np.bool_] | None = None,
-        adjust: float | None = None,
     ):
         """Pair the slave nodes in the reference configuration; all ranks must take part.
 
         Args:
-            slaves: Slave nodes.
-            master: Master side, without pairs yet.
+            contact_mesh: The mesh on this rank.
+            slave: Name, offsets and nodes of the slave facets.
+            master: The same of the master, or an obstacle.
             halo: Nodes of this rank.
-            law: Contact law.
-            values: Friction and offset.
-            sliding: "finite" or "small".
-            has_means: Whether normals are means over facets.
+            options: Options of the contact.
+            is_self: Whether slave and master are the same surface.
+            level: Where nodes are on quadratic facets, shape (num_bulk,), or none.
+            weight: Factor of contact's integrals at some nodes; None for one.
             markers: 1 at dofs of the bulk with a Dirichlet condition, shape (num_dofs,).
-            shared: Which nodes of this rank the master surface has, too, owned ones first; None if
-                it has none.
-            adjust: Gaps and overlaps of the reference configuration that count as none.
 
         Raises:
-            ValueError: If an obstacle's parameters do not fit.
+            ValueError: As ``problem/make_contact.h`` says.
         """
         super().__init__(
-            halo.nodes,
-            slaves,
+            contact_mesh,
+            slave,
             master,
-            law,
-            is_small=sliding == "small",
-            has_means=has_means,
+            options,
+            is_self=is_self,
+            level=level,
+            weight=weight,
             prescribed=markers,
-            shared=None if shared is None else shared[: halo.num_owned],
-            adjust=adjust,
         )
         self.halo = halo
-        self.slaves, self.slave_nodes = slaves.owned, slaves
+        slaves = self.slave_nodes
+        self.slaves = slaves.owned
         self.num_others = len(slaves.around) - len(slaves.owned)
-        self.values = values
         # State is this rank's alone
         slave_map = cpp.common.IndexMap(MPI.COMM_SELF, len(slaves.around))
-        self.state = State.of(halo.gdim, slave_map, is_vector=law.is_vector)
+        self.state = State.of(halo.gdim, slave_map, is_vector=self.law.is_vector)
         self._forms: list[ContactForms] = []
         self._made_for: tuple[str, int] | None = None
         self._version = -1

@@ -13,11 +13,11 @@ from mpi4py import MPI
 import numpy as np
 import numpy.typing as npt
 
-import basix
+from contactx import cpp as core
 from contactx.geometry.cells import KINDS
 from contactx.parallel.agreement import agreed
 from contactx.parallel.reduce import anywhere, total
-from contactx.refined import facet_parts
+from contactx.refined import cells_of, geometry_of
 from dolfinx import cpp, fem, mesh
 
 
@@ -151,7 +151,23 @@ class Surface:
         Raises:
             ValueError: If the tags belong to another mesh, or a facet has a cell on either side.
         """
-        domain = V.mesh
+        of, local = self.cells_and_facets(V.mesh)
+        return FacetList(*core.oriented_facets(*cells_of(V), of, local, geometry_of(V.mesh)))
+
+    def cells_and_facets(
+        self, domain: mesh.Mesh
+    ) -> tuple[npt.NDArray[np.int32], npt.NDArray[np.int32]]:
+        """Cells of the surface's facets, those that this rank owns; all ranks must take part.
+
+        Args:
+            domain: The mesh.
+
+        Returns:
+            The cells, and the number of the facet in each, shape (n,).
+
+        Raises:
+            ValueError: As ``facet_nodes`` does.
+        """
         topology = domain.topology
         if self.facet_tags.topology is not topology._cpp_object:
             raise ValueError(
@@ -175,49 +191,7 @@ class Surface:
         cells = facet_cells.array[facet_cells.offsets[self.facets]]
         mine = cells < topology.index_map(tdim).size_local
         facets, cells = self.facets[mine], cells[mine]
-        cell_facets = topology.connectivity(tdim, tdim - 1)
         per_cell = cpp.mesh.cell_num_entities(topology.cell_type, tdim - 1)
-        facets_of_cell = cell_facets.array.reshape(-1, per_cell)
+        facets_of_cell = topology.connectivity(tdim, tdim - 1).array.reshape(-1, per_cell)
         local = np.argmax(facets_of_cell[cells] == facets[:, None], axis=1)
-
-        dofs, geometry = V.dofmap.list, domain.geometry
-        # Vertices come first in the geometry of a cell
-        vertices = cpp.mesh.cell_num_vertices(topology.cell_type)
-        x = geometry.x[geometry.dofmaps[0][cells, :vertices]]
-        closures = [facet_parts(V, i, False) for i in range(per_cell)]
-        sizes = np.array([c.size for c in closures], dtype=np.int32)[local]
-        first = np.concatenate([[0], np.cumsum(sizes)]).astype(np.int32)
-        nodes = np.empty(first[-1], dtype=np.int32)
-        offsets = [np.zeros(1, dtype=np.int64)]
-        for i, parts in enumerate(closures):
-            which = np.flatnonzero(local == i)
-            if len(which) == 0:
-                continue
-            corners = list(basix.topology(domain.basix_cell())[tdim - 1][i])
-            inward = _points_inward(x[which][:, corners], x[which].mean(axis=1))
-            for turned, these in ((False, which[~inward]), (True, which[inward])):
-                own = facet_parts(V, i, turned).ravel()
-                nodes[first[these][:, None] + np.arange(parts.size)] = dofs[cells[these]][:, own]
-            ends = np.arange(1, len(parts) + 1) * parts.shape[1]
-            offsets.append((first[which][:, None] + ends).ravel())
-        return FacetList(np.sort(np.concatenate(offsets)).astype(np.int32), nodes)
-
-
-def _points_inward(
-    x: npt.NDArray[np.float64], cell_midpoints: npt.NDArray[np.float64]
-) -> npt.NDArray[np.bool_]:
-    """Mark facets whose normals point into their cells.
-
-    Args:
-        x: Coordinates of the facets' vertices, shape (num_facets, num_vertices, 3).
-        cell_midpoints: Midpoints of the facets' cells, shape (num_facets, 3).
-    """
-    t = x[:, 1] - x[:, 0]
-    if x.shape[1] == 2:
-        normal = np.stack([t[:, 1], -t[:, 0], np.zeros(len(t))], axis=1)
-    else:
-        normal = np.cross(t, x[:, 2] - x[:, 0])
-    inward: npt.NDArray[np.bool_] = (
-        np.einsum("ij,ij->i", normal, x.mean(axis=1) - cell_midpoints) < 0
-    )
-    return inward
+        return cells, local.astype(np.int32)

@@ -1,10 +1,13 @@
 // Copyright (C) 2026 contactx authors
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
-// Each kind of contact on the mesh of demos/cpp/sliding_block: prints what
-// variants.py prints, in the same digits on any number of ranks.
+// Each kind of contact on the mesh of demos/cpp/sliding_block, and on another
+// one that variants.py writes: prints what that prints, in the same digits on
+// any number of ranks.
 
 #include "neo_hooke.h"
+#include "prestress.h"
+#include "quadratic.h"
 #include "sliding_block.h"
 #include <basix/finite-element.h>
 #include <contactx/obstacle/plane.h>
@@ -31,7 +34,36 @@ struct Scene
   std::shared_ptr<fem::Constant<T>> load;
   KSP ksp;
   bool condensed = false;
+
+  int dim() const { return mesh->geometry().dim(); }
 };
+
+/// Mesh and tags of a file, and a displacement of some degree.
+void read(Scene& scene, const char* name, mesh::CellType cell, int degree)
+{
+  io::XDMFFile file(MPI_COMM_WORLD, name, "r");
+  const int dim = mesh::cell_dim(cell);
+  scene.mesh = std::make_shared<mesh::Mesh<U>>(
+      file.read_mesh(fem::CoordinateElement<U>(cell, 1),
+                     mesh::GhostMode::shared_facet, "mesh"));
+  const auto topology = scene.mesh->topology_mutable();
+  topology->create_entities(dim - 1);
+  topology->create_connectivity(dim - 1, dim);
+  topology->create_connectivity(dim, dim - 1);
+  scene.tags = std::make_shared<const mesh::MeshTags<std::int32_t>>(
+      file.read_meshtags(*scene.mesh, "facet_tags", std::nullopt));
+  const auto element = basix::create_element<U>(
+      basix::element::family::P, mesh::cell_type_to_basix_type(cell), degree,
+      basix::element::lagrange_variant::gll_warped,
+      basix::element::dpc_variant::unset, false);
+  scene.V
+      = std::make_shared<fem::FunctionSpace<U>>(fem::create_functionspace<U>(
+          scene.mesh, std::make_shared<fem::FiniteElement<U>>(
+                          element, std::vector{std::size_t(dim)})));
+  std::vector<T> load(dim, 0);
+  load.back() = -0.01;
+  scene.load = std::make_shared<fem::Constant<T>>(load);
+}
 
 double sum(double mine)
 {
@@ -58,6 +90,94 @@ double norm(const std::shared_ptr<fem::Function<T>>& f)
                   .first(dofs.bs() * dofs.index_map->size_local()));
 }
 
+/// A residual with the load on the block.
+std::shared_ptr<fem::Form<T>>
+residual_form(const Scene& scene, ufcx_form& form,
+              const std::shared_ptr<fem::Function<T>>& u,
+              std::map<std::string, std::shared_ptr<fem::Constant<T>>> constants
+              = {})
+{
+  // As the forms of some file call them
+  constants["load"] = constants["pressure"] = scene.load;
+  const auto top = fem::compute_integration_domains(
+      fem::IntegralType::exterior_facet, *scene.mesh->topology(),
+      scene.tags->find(12));
+  return std::make_shared<fem::Form<T>>(fem::create_form<T>(
+      form, {scene.V}, {{"u", u}, {"w", u}},
+      {constants.begin(), constants.end()},
+      {{fem::IntegralType::exterior_facet, {{12, top}}}}, {}));
+}
+
+/// The block's support, and the value that pushes it.
+struct Support
+{
+  std::vector<std::shared_ptr<const fem::DirichletBC<T>>> bcs;
+  std::shared_ptr<fem::Constant<T>> push;
+};
+
+Support support(const Scene& scene)
+{
+  Support made;
+  const auto fix = [&](int component, int face)
+  {
+    auto value = std::make_shared<fem::Constant<T>>(0.0);
+    auto Vi
+        = std::make_shared<fem::FunctionSpace<U>>(scene.V->sub({component}));
+    made.bcs.push_back(std::make_shared<const fem::DirichletBC<T>>(
+        std::shared_ptr<const fem::Constant<T>>(value),
+        fem::locate_dofs_topological(*scene.mesh->topology_mutable(),
+                                     *Vi->dofmap(), scene.dim() - 1,
+                                     scene.tags->find(face)),
+        Vi));
+    return value;
+  };
+  for (int k = 0; k < scene.dim(); ++k)
+    fix(k, 22);
+  made.push = fix(0, 12);
+  if (scene.dim() == 3)
+    fix(1, 12);
+  return made;
+}
+
+/// Two steps with forces that cancel: what the residual was compared with.
+void tolerances(const Scene& scene, const char* name, double size,
+                const cx::Options& options)
+{
+  auto u = std::make_shared<fem::Function<T>>(scene.V);
+  const std::map<std::string, std::shared_ptr<fem::Constant<T>>> constants{
+      {"growth", std::make_shared<fem::Constant<T>>(1e-3)},
+      {"prestress", std::make_shared<fem::Constant<T>>(
+                        std::vector<T>{2 * size, size, size, 3 * size},
+                        std::vector<std::size_t>{2, 2})}};
+  const auto F = residual_form(scene, *form_prestress_F, u, constants);
+  const auto J = std::make_shared<fem::Form<T>>(
+      fem::create_form<T>(*form_prestress_J, {scene.V, scene.V}, {{"u", u}},
+                          {constants.begin(), constants.end()}, {}, {}));
+  const auto contact = std::make_shared<cx::Contact>(
+      cx::Surface(scene.tags, {11}), cx::Surface(scene.tags, {21}), options);
+  cx::Assembler assembler(F, J, u, support(scene).bcs, {contact});
+  cx::petsc::OwnVec b(assembler.create_vector()), dx(assembler.create_vector());
+  cx::petsc::OwnMat A(assembler.create_matrix());
+  KSPReset(scene.ksp);
+  for (int step = 0; step < 2; ++step)
+  {
+    assembler.begin_step();
+    cx::Settled it;
+    while (not(it = assembler.settle()).converged)
+    {
+      assembler.F(assembler.x(), b.get());
+      assembler.J(assembler.x(), A.get());
+      KSPSetOperators(scene.ksp, A.get(), A.get());
+      KSPSolve(scene.ksp, b.get(), dx.get());
+      VecScale(dx.get(), -1);
+      assembler.update(dx.get(), assembler.limit(dx.get()));
+    }
+    assembler.accept();
+    if (dolfinx::MPI::rank(MPI_COMM_WORLD) == 0)
+      std::printf("%s %d %.6e\n", name, it.number, it.tolerance);
+  }
+}
+
 void solve(const Scene& scene, const char* name, const cx::Contact::Master& to,
            const cx::Options& options,
            ufcx_form* residual = form_sliding_block_F,
@@ -65,28 +185,11 @@ void solve(const Scene& scene, const char* name, const cx::Contact::Master& to,
 {
   const auto& [mesh, tags, V, load, ksp, is_condensed] = scene;
   auto u = std::make_shared<fem::Function<T>>(V);
-  const auto top = fem::compute_integration_domains(
-      fem::IntegralType::exterior_facet, *mesh->topology(), tags->find(12));
-  auto F = std::make_shared<fem::Form<T>>(fem::create_form<T>(
-      *residual, {V}, {{"u", u}}, {{"load", load}},
-      {{fem::IntegralType::exterior_facet, {{12, top}}}}, {}));
-  auto J = std::make_shared<fem::Form<T>>(
-      fem::create_form<T>(*jacobian, {V, V}, {{"u", u}}, {}, {}, {}));
-  std::vector<std::shared_ptr<const fem::DirichletBC<T>>> bcs;
-  auto fix = [&](int component, int face)
-  {
-    auto value = std::make_shared<fem::Constant<T>>(0.0);
-    auto Vi = std::make_shared<fem::FunctionSpace<U>>(V->sub({component}));
-    bcs.push_back(std::make_shared<const fem::DirichletBC<T>>(
-        std::shared_ptr<const fem::Constant<T>>(value),
-        fem::locate_dofs_topological(*mesh->topology_mutable(), *Vi->dofmap(),
-                                     1, tags->find(face)),
-        Vi));
-    return value;
-  };
-  fix(0, 22);
-  fix(1, 22);
-  auto push = fix(0, 12);
+  const auto F = residual_form(scene, *residual, u);
+  auto J = std::make_shared<fem::Form<T>>(fem::create_form<T>(
+      *jacobian, {V, V}, {{"u", u}, {"w", u}},
+      {{"load", scene.load}, {"pressure", scene.load}}, {}, {}));
+  const auto [bcs, push] = support(scene);
   const auto slave = std::string(name) == "self" ? std::get<cx::Surface>(to)
                                                  : cx::Surface(tags, {11});
   auto contact = std::make_shared<cx::Contact>(slave, to, options);
@@ -129,22 +232,17 @@ void solve(const Scene& scene, const char* name, const cx::Contact::Master& to,
     const auto moment = contact->moment({0.5, 0.25});
     const contactx::results::Totals totals = contact->totals();
     const cx::Functions& f = contact->functions();
-    const std::vector<double> figures{force[0],
-                                      force[1],
-                                      norm(u),
-                                      norm(contact->multiplier()),
-                                      norm(contact->pressure()),
-                                      norm(contact->traction()),
-                                      norm(contact->slip()),
-                                      moment[2],
-                                      norm(f.gap),
-                                      norm(f.status),
-                                      norm(f.slip_total),
-                                      norm(f.master_pressure),
-                                      double(totals.closed),
-                                      totals.area,
-                                      totals.largest_pressure,
-                                      totals.dissipation};
+    std::vector<double> figures(force.begin(), force.begin() + scene.dim());
+    figures.insert(figures.end(),
+                   {norm(u), norm(contact->multiplier()),
+                    norm(contact->pressure()), norm(contact->traction()),
+                    norm(contact->slip())});
+    figures.insert(figures.end(), moment.begin() + (scene.dim() == 2 ? 2 : 0),
+                   moment.end());
+    figures.insert(figures.end(),
+                   {norm(f.gap), norm(f.status), norm(f.slip_total),
+                    norm(f.master_pressure), double(totals.closed), totals.area,
+                    totals.largest_pressure, totals.dissipation});
     if (dolfinx::MPI::rank(MPI_COMM_WORLD) == 0)
     {
       // Iterations go with how accurate Krylov solvers are
@@ -172,25 +270,8 @@ int main(int argc, char* argv[])
   PetscInitialize(&argc, &argv, nullptr, nullptr);
   {
     Scene scene;
-    io::XDMFFile file(MPI_COMM_WORLD, "sliding_block.xdmf", "r");
-    const fem::CoordinateElement<U> cell(mesh::CellType::quadrilateral, 1);
-    scene.mesh = std::make_shared<mesh::Mesh<U>>(
-        file.read_mesh(cell, mesh::GhostMode::shared_facet, "mesh"));
-    const auto topology = scene.mesh->topology_mutable();
-    topology->create_entities(1);
-    topology->create_connectivity(1, 2);
-    topology->create_connectivity(2, 1);
-    scene.tags = std::make_shared<const mesh::MeshTags<std::int32_t>>(
-        file.read_meshtags(*scene.mesh, "facet_tags", std::nullopt));
-    auto element = basix::create_element<U>(
-        basix::element::family::P, basix::cell::type::quadrilateral, 1,
-        basix::element::lagrange_variant::unset,
-        basix::element::dpc_variant::unset, false);
-    scene.V
-        = std::make_shared<fem::FunctionSpace<U>>(fem::create_functionspace<U>(
-            scene.mesh, std::make_shared<fem::FiniteElement<U>>(
-                            element, std::vector<std::size_t>{2})));
-    scene.load = std::make_shared<fem::Constant<T>>(std::vector<T>{0, -0.01});
+    const auto quadrilateral = mesh::CellType::quadrilateral;
+    read(scene, "sliding_block.xdmf", quadrilateral, 1);
     cx::petsc::Owner<KSP, KSPDestroy> ksp;
     KSPCreate(MPI_COMM_WORLD, ksp.put());
     scene.ksp = ksp.get();
@@ -235,6 +316,11 @@ int main(int argc, char* argv[])
     solve(scene, "mortar weight", base,
           {.method = mortar, .offset = offset, .weight = weight});
 
+    tolerances(scene, "prestress", 1e3, {.offset = offset});
+    tolerances(scene, "mortar prestress", 1e3,
+               {.method = mortar, .offset = offset});
+    tolerances(scene, "growth", 0, {.offset = offset});
+
     scene.condensed = true;
     solve(scene, "frictionless", base, {.offset = offset});
     solve(scene, "friction", base, {.friction = 0.3, .offset = offset});
@@ -244,6 +330,42 @@ int main(int argc, char* argv[])
     solve(scene, "tied", base, {.tied = true});
     solve(scene, "neo-Hooke", base, {.friction = 0.3, .offset = offset},
           form_neo_hooke_F, form_neo_hooke_J);
+
+    // A quadratic displacement, of quadrilaterals and of tetrahedra
+    scene.condensed = false;
+    read(scene, "sliding_block.xdmf", quadrilateral, 2);
+    const auto plane = [&](const char* name, const cx::Contact::Master& to,
+                           const cx::Options& options)
+    { solve(scene, name, to, options, form_quadratic_F, form_quadratic_J); };
+    const cx::Surface wide(scene.tags, {21});
+    const auto disc = std::make_shared<obstacle::Sphere>(middle, 4.0);
+    const cx::Options rubs{.friction = 0.3, .offset = offset},
+        rubs_on_facets{.friction = 0.3, .method = mortar, .offset = offset};
+    plane("quadratic friction", wide, rubs);
+    plane("quadratic tied", wide, {.tied = true});
+    plane("quadratic mortar", wide, rubs_on_facets);
+    plane("quadratic disc", disc, {.friction = 0.1, .offset = offset});
+    plane("quadratic mortar disc", disc,
+          {.friction = 0.1, .method = mortar, .offset = offset});
+    scene.condensed = true;
+    plane("quadratic mortar", wide, rubs_on_facets);
+    scene.condensed = false;
+
+    read(scene, "solid_blocks.xdmf", mesh::CellType::tetrahedron, 2);
+    const auto solid = [&](const char* name, const cx::Contact::Master& to,
+                           const cx::Options& options)
+    {
+      solve(scene, name, to, options, form_quadratic_F_solid,
+            form_quadratic_J_solid);
+    };
+    const cx::Surface below(scene.tags, {21});
+    const auto ball = std::make_shared<obstacle::Sphere>(
+        std::vector<double>{0.75, 0.6, -4}, 4.0);
+    solid("solid friction", below, rubs);
+    solid("solid mortar", below, rubs_on_facets);
+    solid("solid ball", ball, {.friction = 0.1, .offset = offset});
+    solid("solid mortar ball", ball,
+          {.friction = 0.1, .method = mortar, .offset = offset});
   }
   PetscFinalize();
   return 0;

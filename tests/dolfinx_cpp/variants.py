@@ -1,6 +1,9 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Each kind of contact on the mesh of demos/cpp/sliding_block, as variants.cpp has them."""
+"""Each kind of contact on the mesh of demos/cpp/sliding_block, as variants.cpp has them.
+
+It writes solid_blocks.xdmf, which variants.cpp reads.
+"""
 
 from __future__ import annotations
 
@@ -16,8 +19,10 @@ import numpy as np
 
 import ufl
 from dolfinx import fem, io
+from dolfinx.mesh import CellType
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "demos"))
+import meshes
 import story
 
 WAYS = (0.0, 0.03, -0.02)
@@ -47,11 +52,13 @@ def solve(
 ) -> None:
     """Solve three steps and print their figures."""
     u = fem.Function(V)
-    load = fem.Constant(V.mesh, np.array([0, -0.01]))
+    gdim = len(u)
+    load = fem.Constant(V.mesh, -0.01 * np.eye(gdim)[-1])
     F = neo_hooke(u) if name == "neo-Hooke" else story.elasticity(u, 1.0, 0.3)
     F += story.traction(u, tags, 12, load)
-    push = story.fix(u, tags, 0, 0.0, 12)
-    bcs = [*(story.fix(u, tags, i, 0.0, 22) for i in range(2)), push]
+    bcs = [story.fix(u, tags, i, 0.0, 22) for i in range(gdim)]
+    bcs += [story.fix(u, tags, i, 0.0, 12) for i in range(gdim - 1)]
+    push = bcs[gdim]
     slave = master if name == "self" else cx.Surface(tags, 11)
     contact = cx.Contact(slave=slave, master=master, **options)
     problem = cx.ContactProblem(
@@ -66,10 +73,10 @@ def solve(
         push.g.value[...] = way
         problem.solve()
         fields, size = contact.fields, V.dofmap.index_map.size_local
-        figures = [*contact.force, norm(u.x.array[: 2 * size]), norm(contact.multiplier)]
+        figures = [*contact.force, norm(u.x.array[: gdim * size]), norm(contact.multiplier)]
         for f in (fields.pressure, fields.traction, fields.slip):
             figures.append(0.0 if f is None else norm(f.x.array))
-        figures.append(contact.moment([0.5, 0.25]))
+        figures += np.atleast_1d(contact.moment([0.5, 0.25, 0.0][:gdim])).tolist()
         for f in (fields.gap, fields.status, fields.slip_total, fields.master_pressure):
             figures.append(0.0 if f is None else norm(np.nan_to_num(f.x.array[:size])))
         totals = fields.totals()
@@ -81,13 +88,59 @@ def solve(
             print(name, "condensed" if condensed else problem.report.iterations, *texts)
 
 
+def tolerances(name: str, tags: Any, V: fem.FunctionSpace, size: float, **options: Any) -> None:
+    """Solve twice with forces that cancel, and print what the residual was compared with."""
+    u, v = fem.Function(V), ufl.TestFunction(V)
+    prestress = fem.Constant(V.mesh, size * np.array([[2.0, 1.0], [1.0, 3.0]]))
+    # In one integral, as FFCx has all that is over the same cells
+    strain = ufl.sym(ufl.grad(u)) - fem.Constant(V.mesh, 1e-3) * ufl.Identity(2)
+    stress = 2 / 2.6 * strain + 0.3 / (1.3 * 0.4) * ufl.tr(strain) * ufl.Identity(2) + prestress
+    F = ufl.inner(stress, ufl.grad(v)) * ufl.dx
+    F -= ufl.inner(prestress * ufl.FacetNormal(V.mesh), v) * ufl.ds
+    F += story.traction(u, tags, 12, fem.Constant(V.mesh, np.array([0, -0.01])))
+    bcs = [*(story.fix(u, tags, i, 0.0, 22) for i in range(2)), story.fix(u, tags, 0, 0.0, 12)]
+    contact = cx.Contact(cx.Surface(tags, 11), cx.Surface(tags, 21), offset=1e-8, **options)
+    problem = cx.ContactProblem(
+        F, u, contacts=[contact], bcs=bcs, petsc_options_prefix="variants_", petsc_options=LU
+    )
+    for _ in range(2):
+        problem.solve()
+        if MPI.COMM_WORLD.rank == 0:
+            report = problem.report
+            print(name, report.iterations, f"{report.history[-1].tolerance:.6e}")
+
+
+def read(name: str) -> tuple[Any, Any]:
+    """Mesh and facet tags of a file."""
+    with io.XDMFFile(MPI.COMM_WORLD, name, "r") as file:
+        mesh = file.read_mesh(name="mesh")
+        facets = mesh.topology.dim - 1
+        mesh.topology.create_entities(facets)
+        mesh.topology.create_connectivity(facets, facets + 1)
+        return mesh, file.read_meshtags(mesh, "facet_tags")
+
+
+def write_solid() -> None:
+    """Write a block on a wider one, of tetrahedra."""
+    data = meshes.blocks(
+        CellType.tetrahedron,
+        [3, 2, 2],
+        [3, 3, 2],
+        size_upper=[1.0, 0.8, 0.6],
+        size_lower=[1.6, 1.2, 0.5],
+        shift=[0.25, 0.2],
+        comm=MPI.COMM_SELF,
+    )
+    data.mesh.name, data.facet_tags.name = "mesh", "facet_tags"
+    with io.XDMFFile(MPI.COMM_SELF, "solid_blocks.xdmf", "w") as file:
+        file.write_mesh(data.mesh)
+        data.mesh.topology.create_connectivity(2, 3)
+        file.write_meshtags(data.facet_tags, data.mesh.geometry)
+
+
 def main() -> None:
     """Solve all."""
-    with io.XDMFFile(MPI.COMM_WORLD, "sliding_block.xdmf", "r") as file:
-        mesh = file.read_mesh(name="mesh")
-        mesh.topology.create_entities(1)
-        mesh.topology.create_connectivity(1, 2)
-        tags = file.read_meshtags(mesh, "facet_tags")
+    mesh, tags = read("sliding_block.xdmf")
     V = fem.functionspace(mesh, ("Lagrange", 1, (2,)))
     base = cx.Surface(tags, 21)
     plane = cx.Plane(point=[0.0, 0.0], normal=[0.0, 1.0])
@@ -112,6 +165,9 @@ def main() -> None:
     weight: Any = {"weight": 1 + ufl.SpatialCoordinate(mesh)[0] / 2, **little}
     solve("weight", tags, V, base, **weight)
     solve("mortar weight", tags, V, base, **mortar, **weight)
+    tolerances("prestress", tags, V, 1e3)
+    tolerances("mortar prestress", tags, V, 1e3, **mortar)
+    tolerances("growth", tags, V, 0.0)
     condensed: dict[str, Any] = {"condensed": True}
     solve("frictionless", tags, V, base, **little, **condensed)
     solve("friction", tags, V, base, **rubs, **condensed)
@@ -119,6 +175,26 @@ def main() -> None:
     solve("plane", tags, V, plane, **rubs, **condensed)
     solve("tied", tags, V, base, tied=True, **condensed)
     solve("neo-Hooke", tags, V, base, **rubs, **condensed)
+
+    # A quadratic displacement, of quadrilaterals and of tetrahedra
+    W = fem.functionspace(mesh, ("Lagrange", 2, (2,)))
+    solve("quadratic friction", tags, W, base, **rubs)
+    solve("quadratic tied", tags, W, base, tied=True)
+    solve("quadratic mortar", tags, W, base, **mortar, **rubs)
+    solve("quadratic disc", tags, W, disc, friction=0.1, **little)
+    solve("quadratic mortar disc", tags, W, disc, **mortar, friction=0.1, **little)
+    solve("quadratic mortar", tags, W, base, **mortar, **rubs, **condensed)
+    if MPI.COMM_WORLD.rank == 0:
+        write_solid()
+    MPI.COMM_WORLD.barrier()
+    mesh, tags = read("solid_blocks.xdmf")
+    W = fem.functionspace(mesh, ("Lagrange", 2, (3,)))
+    base = cx.Surface(tags, 21)
+    ball = cx.Sphere(centre=[0.75, 0.6, -4.0], radius=4.0)
+    solve("solid friction", tags, W, base, **rubs)
+    solve("solid mortar", tags, W, base, **mortar, **rubs)
+    solve("solid ball", tags, W, ball, friction=0.1, **little)
+    solve("solid mortar ball", tags, W, ball, **mortar, friction=0.1, **little)
 
 
 if __name__ == "__main__":

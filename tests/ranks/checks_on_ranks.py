@@ -6,9 +6,8 @@ import numpy as np
 
 import contactx as cx
 from contactx import cpp as core
-from contactx.interface import Interface
+from contactx.bulk_side import BulkSide
 from contactx.nodal import ContactValues, NodalValue
-from contactx.system import SaddlePointSystem
 
 from scenes.numbered_blocks import TwoBlocks
 
@@ -79,19 +78,20 @@ def over_constrained(scene):
     x0 = np.eye(scene.dim)[0] - np.eye(scene.dim)[height]
     slaves, pairs = master_side(scene, bottom(scene), cx.Plane(x0, up))
     V = scene.u.function_space
-    interface = Interface(
+    contact = core.Contact(
+        halo.nodes,
         slaves,
         pairs,
-        halo,
-        law=core.Frictionless(),
-        values=ContactValues(None, NodalValue(0.0, "offset", V, slaves.owned), len(slaves.owned)),
-        sliding="finite",
-        has_means=False,
-        markers=np.ones(halo.num_bulk * halo.gdim, dtype=np.int8),
+        core.Frictionless(),
+        is_small=False,
+        is_mortar=False,
+        prescribed=np.ones(halo.num_bulk * halo.gdim, dtype=np.int8),
     )
-    interface.nodes.immobile[:] = True
-    system = SaddlePointSystem(scene.bulk, [interface], halo).core
-    problem = core.Problem(system, scene.bodies, [("name", interface.values, None)], refuses=True)
+    contact.nodes.immobile[:] = True
+    offset = NodalValue(0.0, "offset", V, slaves.owned)
+    values = ContactValues(None, offset, len(slaves.owned))
+    system = core.System(halo.nodes, BulkSide(scene.bulk, halo), [contact])
+    problem = core.Problem(system, scene.bodies, [("name", values, None)], refuses=True)
     return said(scene, problem.prepare)
 
 

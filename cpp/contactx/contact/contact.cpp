@@ -69,8 +69,8 @@ Contact::Contact(std::shared_ptr<parallel::Halo> halo,
   require(_options.shared.empty()
               or _options.shared.size() == std::size_t(_halo->num_owned()),
           "shared must have a value for each owned node");
-  _nodes = std::make_shared<NodeState>(n, gdim(), _law->is_vector(),
-                                       _options.has_means);
+  _nodes
+      = std::make_shared<NodeState>(n, gdim(), _law->is_vector(), integrates());
   if (_law->is_vector() and not _law->is_tied())
   {
     _history = std::make_shared<SlipHistory>(n, gdim());
@@ -106,12 +106,19 @@ Contact::Contact(std::shared_ptr<parallel::Halo> halo,
     find_adjusted(*_options.adjust);
 }
 
+/// Whether facets are integrated, so that normals are means over them.
+bool Contact::integrates() const
+{
+  return integrates_facets(_options.method, _master->is_rigid(),
+                           _slaves->is_quadratic());
+}
+
 /// Finds what ties measure as movement where nothing has moved: integration
 /// points of curved facets and what they are projected on are apart along the
 /// surface, too.
 void Contact::find_rest()
 {
-  if (not _law->is_tied() or not _options.has_means or _master->is_rigid())
+  if (not _law->is_tied() or not integrates() or _master->is_rigid())
     return;
   const auto reference = _halo->reference();
   const std::vector<double> still(reference.size(), 0);

@@ -7,6 +7,7 @@
 #include "../law/law.h"
 #include "../parallel/halo.h"
 #include "master.h"
+#include "method.h"
 #include "node_state.h"
 #include "slave_nodes.h"
 #include "slip_history.h"
@@ -38,7 +39,7 @@ public:
   struct Options
   {
     Sliding sliding;
-    bool has_means = false; ///< whether normals are means over facets
+    Method method = Method::node_to_surface; ///< see `integrates_facets`
     /// 1 at displacements with a Dirichlet condition, those of the bulk's
     /// nodes (shape=(num_bulk, gdim))
     std::vector<std::int8_t> prescribed;
@@ -241,6 +242,7 @@ public:
 
 private:
   int gdim() const { return _halo->gdim(); }
+  bool integrates() const;
   std::vector<double> at_slaves(std::span<const double> x) const;
   void nodes_changed();
   void find_free();

@@ -65,33 +65,6 @@ void check_smooth(const law::Law& law, const MasterOptions& options)
                  "surface of its own");
 }
 
-/// What a surface on itself is not made for.
-void check_self(const law::Law& law, const MasterOptions& options)
-{
-  if (not options.is_self)
-  {
-    check::require(not options.excluded_distance,
-                   "excluded_distance is for a surface on itself: leave it out "
-                   "where slave and master are different surfaces");
-    return;
-  }
-  check::require(
-      options.method == Method::node_to_surface,
-      "method must be node-to-surface where slave and master are the same "
-      "surface: one side is chosen a node at a time, which integrals over "
-      "facets cannot follow. For surface-to-surface give each side its own "
-      "surface");
-  check::require(options.sliding == contact::Sliding::finite,
-                 "sliding must be finite where slave and master are the same "
-                 "surface: what meets is found as it folds");
-  check::require(not law.is_tied(),
-                 "a surface cannot be tied to itself: give the two sides "
-                 "surfaces of their own");
-  if (options.excluded_distance and not(*options.excluded_distance >= 0))
-    throw std::invalid_argument("excluded_distance must be at least zero, not "
-                                + number_text(*options.excluded_distance, 6));
-}
-
 /// Largest distance of the nodes of a surface from their mean.
 double radius(const parallel::Halo& halo, const facet::FacetList& facets)
 {
@@ -134,7 +107,7 @@ double contactx::reference::default_reach(const parallel::Halo& halo,
 
 std::shared_ptr<contact::SlaveNodes> contactx::reference::make_slave_nodes(
     const std::shared_ptr<parallel::Halo>& halo, const facet::FacetList& facets,
-    std::span<const std::int8_t> level)
+    std::span<const std::int8_t> level, Method method, bool is_rigid)
 {
   check::require(halo != nullptr, "halo must not be empty");
   halo->ranks().agree([&] { check_facet_list(*halo, facets, ""); });
@@ -142,7 +115,17 @@ std::shared_ptr<contact::SlaveNodes> contactx::reference::make_slave_nodes(
       = search::in_order(*halo, facets.offsets, facets.nodes);
   const facet::Facets around
       = search::slave_facets(*halo, own.offsets, own.nodes, level);
-  return std::make_shared<contact::SlaveNodes>(halo, around.list(), own.list());
+  const auto slaves
+      = std::make_shared<contact::SlaveNodes>(halo, around.list(), own.list());
+  // A rank without nodes has none of their levels
+  if (not parallel::anywhere(halo->ranks(), not level.empty()))
+    return slaves;
+  std::vector<std::int8_t> own_level;
+  for (const std::int32_t node : slaves->owned())
+    own_level.push_back(level[node]);
+  slaves->set_level(own_level,
+                    contact::integrates_facets(method, is_rigid, true));
+  return slaves;
 }
 
 std::shared_ptr<contact::DeformableMaster> contactx::reference::make_master(
@@ -157,7 +140,6 @@ std::shared_ptr<contact::DeformableMaster> contactx::reference::make_master(
       {
         check_arguments(mesh, slaves.get(), options);
         check_facet_list(*halo, master.facets, "master_");
-        check_self(law, options);
         check_smooth(law, options);
       });
   const NamedSurface slave{slave_name, slaves->own()};
@@ -167,7 +149,8 @@ std::shared_ptr<contact::DeformableMaster> contactx::reference::make_master(
     check_shared(*halo, slave, master);
   check_nested(mesh, slave, master);
   // Where facets are folded a node has no normal to look along; facets have
-  const bool is_mortar = options.method == Method::surface_to_surface;
+  const bool is_mortar = contact::integrates_facets(options.method, false,
+                                                    slaves->is_quadratic());
   if (not is_mortar)
     check_folds(*halo, *slaves, slave_name);
   const contact::PairingOptions pairing{
@@ -240,7 +223,8 @@ std::shared_ptr<contact::ObstacleMaster> contactx::reference::make_master(
         if (law.is_tied())
           master
               = std::make_shared<ObstacleTie>(obstacle, slaves, x, gdim, reach);
-        else if (options.method == Method::surface_to_surface
+        else if (contact::integrates_facets(options.method, true,
+                                            slaves->is_quadratic())
                  and not obstacle->is_flat())
           master = std::make_shared<MortarObstacle>(obstacle, slaves, x, gdim,
                                                     reach, law.is_vector());

@@ -5,6 +5,7 @@
 
 #include "../contact/contact.h"
 #include "../contact/deformable_master.h"
+#include "../contact/method.h"
 #include "../contact/obstacle_pairs.h"
 #include "../law/law.h"
 #include "mesh.h"
@@ -12,17 +13,12 @@
 
 namespace contactx::reference
 {
-/// @brief Method of a contact.
-enum class Method : std::int8_t
-{
-  node_to_surface,   ///< slave nodes and the facets that they project on
-  surface_to_surface ///< parts of slave facets and the facets in front of them
-};
+using contact::Method;
 
 /// @brief Options of the master side of a contact.
 struct MasterOptions
 {
-  Method method = Method::node_to_surface;
+  Method method = Method::node_to_surface; ///< that was asked for
   contact::Sliding sliding = contact::Sliding::finite;
   /// Largest distance of a pair. If there is none it is the diameter of the
   /// larger surface, and unlimited for an obstacle
@@ -44,14 +40,16 @@ struct MasterOptions
 /// @param[in,out] halo Nodes of this rank, to which those of facets around its
 /// own are added for good.
 /// @param[in] facets Facets of this rank's cells, each on one rank alone.
-/// @param[in] level Where the bulk's nodes are on quadratic facets that these
-/// are parts of, see facet::Shares; empty where the displacement is linear.
+/// @param[in] level Where all nodes are on quadratic facets that these are
+/// parts of, see facet::Shares; empty where the displacement is linear.
+/// @param[in] method Method of the contact.
+/// @param[in] is_rigid Whether the master is an obstacle.
 /// @throws std::invalid_argument on all ranks if the facets of one are none of
 /// its nodes.
-std::shared_ptr<contact::SlaveNodes>
-make_slave_nodes(const std::shared_ptr<parallel::Halo>& halo,
-                 const facet::FacetList& facets,
-                 std::span<const std::int8_t> level = {});
+std::shared_ptr<contact::SlaveNodes> make_slave_nodes(
+    const std::shared_ptr<parallel::Halo>& halo, const facet::FacetList& facets,
+    std::span<const std::int8_t> level = {},
+    Method method = Method::node_to_surface, bool is_rigid = false);
 
 /// @brief Make the master side of a contact with a deformable body, without
 /// pairs yet; all ranks must take part.
@@ -63,9 +61,8 @@ make_slave_nodes(const std::shared_ptr<parallel::Halo>& halo,
 /// @param[in] options How it is made.
 /// @throws std::invalid_argument on all ranks if facets of any rank are
 /// degenerate or the slave surface is folded, if the surfaces share nodes that
-/// are no crack's tip, or a body lies wholly inside the other one; of a surface
-/// on itself if sliding is small, the law is a tie, or facets are integrated;
-/// of smooth surfaces if it is one on itself, the law is a tie, or facets are
+/// are no crack's tip, or a body lies wholly inside the other one; of smooth
+/// surfaces if it is one on itself, the law is a tie, or facets are
 /// quadratic.
 std::shared_ptr<contact::DeformableMaster>
 make_master(const Mesh& mesh, std::shared_ptr<const contact::SlaveNodes> slaves,

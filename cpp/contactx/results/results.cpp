@@ -22,9 +22,6 @@ constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 /// Relative tolerance in which a weight is a multiple of the radius
 constexpr double weight_tolerance = 1e-10;
 
-/// Round-off of a mean of whole numbers
-constexpr double mean_tolerance = 1e-9;
-
 /// Whether a weight is 2 pi r, or another multiple of a radius that varies.
 bool is_circumference(const Contact& contact)
 {
@@ -128,17 +125,25 @@ void Results::measure()
   const NodeState& nodes = *_contact->nodes();
   _gap = nodes.gap;
   _status = nodes.status;
-  // Nodes that take no force have what their neighbours have; of two status the
-  // more open one
+  // Nodes that take no force have what their neighbours have: open if one of
+  // these is, else sticking if one of them does
   const std::vector<double> gap = _recovery->filled(nodes.gap, 1);
-  const std::vector<double> status = _recovery->filled(
-      std::vector<double>(nodes.status.begin(), nodes.status.end()), 1);
+  const auto beside = [&](std::int8_t status)
+  {
+    std::vector<double> has(nodes.status.size());
+    std::ranges::transform(nodes.status, has.begin(), [&](std::int8_t s)
+                           { return s == status ? 1. : 0.; });
+    return _recovery->filled(has, 1);
+  };
+  const std::vector<double> is_open = beside(law::open),
+                            sticks = beside(law::stick);
   for (std::size_t i = 0; i < _gap.size(); ++i)
     if (std::isnan(_gap[i]) and not std::isnan(gap[i]))
     {
       _gap[i] = gap[i];
-      _status[i]
-          = static_cast<std::int8_t>(std::floor(status[i] + mean_tolerance));
+      _status[i] = is_open[i] > 0  ? law::open
+                   : sticks[i] > 0 ? law::stick
+                                   : law::slip;
     }
   if (const auto& history = _contact->history())
   {

@@ -89,7 +89,11 @@ std::shared_ptr<Contact> any_contact(Input& in, const Scene& scene,
     p = in.below(4) == 0;
   return std::make_shared<Contact>(
       halo, slaves, pairs, law,
-      Contact::Options{sliding, has_means, std::move(prescribed), {}});
+      Contact::Options{sliding,
+                       has_means ? contact::Method::surface_to_surface
+                                 : contact::Method::node_to_surface,
+                       std::move(prescribed),
+                       {}});
 }
 
 void check_state(const Contact& contact, const Scene& scene)

@@ -226,7 +226,8 @@ TEST_P(AuditOfSurfaces, WhatBothSurfacesHaveIsNoMaster)
   const TwoSheets s = sheets(0.28);
   MovedContact c(s, 1, Sliding::finite);
   const std::int32_t node = between(s);
-  contact::Contact::Options options{Sliding::finite, false, {}, {}};
+  contact::Contact::Options options{
+      Sliding::finite, contact::Method::node_to_surface, {}, {}};
   options.prescribed.assign(c.displacement->size(), 0);
   options.shared.assign(s.num_nodes(), 0);
   options.shared[node] = 1;

@@ -479,9 +479,10 @@ TEST(Contact, WhatHardlyMovesAlongAnAxisHasNoFrictionThere)
   for (std::int32_t i = 0; i < scene.sheets.num_nodes(); ++i)
     prescribed[2 * i] = i != free;
   const auto law = coulomb(n, 0.5);
-  Contact contact(scene.halo, scene.slaves,
-                  scene.master<NodeToSurface>(*law, Sliding::finite), law,
-                  {Sliding::finite, false, prescribed, {}});
+  Contact contact(
+      scene.halo, scene.slaves,
+      scene.master<NodeToSurface>(*law, Sliding::finite), law,
+      {Sliding::finite, contact::Method::node_to_surface, prescribed, {}});
   const double aside = -0.34 / 3;
   for (std::int32_t i = 0; i < n; ++i)
     (*scene.u)[2 * i] = aside;
@@ -521,7 +522,10 @@ TEST(Contact, ASlaveNodeThatIsHeldWhereItsFacetsMoveHasNoConstraint)
       const Contact contact(
           scene.halo, scene.slaves,
           scene.master<SurfaceToSurface>(*law, Sliding::finite), law,
-          {Sliding::finite, true, prescribed, {}});
+          {Sliding::finite,
+           contact::Method::surface_to_surface,
+           prescribed,
+           {}});
       const NodeState& nodes = *contact.nodes();
       for (std::int32_t i = 0; i < n; ++i)
       {
@@ -548,9 +552,10 @@ TEST(Contact, WhatCannotMoveAlongTheNormalStaysOpen)
       (*scene.u)[2 * i + 1] = slope * scene.sheets.x[2 * i] - (i < n) * 0.01;
     }
     const auto law = std::make_shared<law::Frictionless>();
-    Contact contact(scene.halo, scene.slaves,
-                    scene.master<NodeToSurface>(*law, Sliding::finite), law,
-                    {Sliding::finite, false, prescribed, {}});
+    Contact contact(
+        scene.halo, scene.slaves,
+        scene.master<NodeToSurface>(*law, Sliding::finite), law,
+        {Sliding::finite, contact::Method::node_to_surface, prescribed, {}});
     contact.begin_step();
     contact.search();
     contact.update_gap();
@@ -659,7 +664,7 @@ TEST(Contact, WhatDoesNotFitIsRefused)
   {
     return Contact(scene.halo, scene.slaves,
                    scene.master<NodeToSurface>(*law, Sliding::finite), law,
-                   {Sliding::finite, false,
+                   {Sliding::finite, contact::Method::node_to_surface,
                     std::vector<std::int8_t>(prescribed, 0),
                     std::vector<std::int8_t>(shared, 0)});
   };

@@ -123,6 +123,61 @@ TEST_P(Sides, MethodAndLawChooseTheMaster)
       "");
 }
 
+TEST(QuadraticSides, ObstaclesAreNodalByBothMethods)
+{
+  Blocks blocks(3);
+  blocks.add(4, {0, 0, 0}, {1, 1, 1});
+  const Side bottom = blocks.side(0, 2, false);
+  EXPECT_EQ(
+      said(blocks, 1,
+           [&](const RankBlocks& mine)
+           {
+             // Each cell of a block of eight cells has eight of these as parts
+             const auto x = mine.halo->reference();
+             std::vector<std::int8_t> level(mine.halo->num_nodes());
+             for (std::size_t i = 0; i < level.size(); ++i)
+             {
+               int odd = 0;
+               for (int k = 0; k < 3; ++k)
+                 odd += std::lround(4 * x[3 * i + k]) % 2;
+               level[i] = static_cast<std::int8_t>(std::min(odd, 2));
+             }
+             const facet::Facets facets = mine.own(bottom);
+             const auto law = std::make_shared<law::Coulomb>();
+             const auto made = [&](Method method, bool is_quadratic)
+             {
+               const std::vector<std::int8_t> levels
+                   = is_quadratic ? level : std::vector<std::int8_t>();
+               const auto slaves = make_slave_nodes(mine.halo, facets.list(),
+                                                    levels, method, true);
+               EXPECT_EQ(slaves->is_quadratic(), is_quadratic);
+               EXPECT_FALSE(slaves->is_mortar());
+               const auto master = make_master(
+                   mine.mesh(), slaves, "A", make_obstacle(Kind::bowl, 3), *law,
+                   {method, Sliding::finite, {}, levels});
+               EXPECT_EQ(is_a<contact::MortarObstacle>(*master),
+                         method == Method::surface_to_surface
+                             and not is_quadratic);
+               law->set_friction(
+                   std::vector<double>(slaves->owned().size(), 0.1));
+               const contact::Contact contact(
+                   mine.halo, slaves, master, law,
+                   {Sliding::finite,
+                    method,
+                    std::vector<std::int8_t>(3 * mine.halo->num_bulk(), 0),
+                    {}});
+               return contact.nodes()->mean.has_value();
+             };
+             EXPECT_TRUE(made(Method::surface_to_surface, false));
+             EXPECT_FALSE(made(Method::surface_to_surface, true));
+             EXPECT_FALSE(made(Method::node_to_surface, true));
+             EXPECT_TRUE(make_slave_nodes(mine.halo, facets.list(), level,
+                                          Method::surface_to_surface)
+                             ->is_mortar());
+           }),
+      "");
+}
+
 TEST_P(Sides, SlipIsMeasuredAsLawAndSlidingNeedIt)
 {
   const Stack stack(2);

@@ -94,7 +94,7 @@ def test_the_bulk_may_be_curved_where_nothing_touches(cell, scheme, of_order):
 def test_a_curved_contact_surface_is_refused(face, name, cell, order, by, of_order):
     of_order(STACKED, order, bulge(face, by))
     message = (
-        rf"^{name} Surface\(.*\) of contact 0 is curved: the mesh is of order {order}, and "
+        rf"^{name} Surface\(.*\) is curved: the mesh is of order {order}, and "
         r"\d+ of these facets have nodes up to .* away from .* first at \(.*\)\. .* "
         r"make the mesh of order 1, in gmsh by gmsh\.model\.mesh\.setOrder\(1\)"
     )

@@ -26,7 +26,7 @@ def tags():
         ({"method": "surface-to-surface"}, ValueError, "method is .* the same surface"),
         ({"sliding": "small"}, ValueError, "sliding is .* the same surface"),
         ({"tied": True}, ValueError, "tied is for two surfaces"),
-        ({"excluded_distance": -1.0}, ValueError, "excluded_distance is -1.0: give a finite"),
+        ({"excluded_distance": -1.0}, ValueError, "excluded_distance is -1: give a finite"),
         ({"excluded_distance": np.inf}, ValueError, "excluded_distance is inf"),
         ({"excluded_distance": "1"}, TypeError, "excluded_distance is str '1': give a length"),
     ],
