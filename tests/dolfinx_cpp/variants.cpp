@@ -39,12 +39,13 @@ struct Scene
 };
 
 /// Mesh and tags of a file, and a displacement of some degree.
-void read(Scene& scene, const char* name, mesh::CellType cell, int degree)
+void read(Scene& scene, const char* name, mesh::CellType cell, int degree,
+          int order = 1)
 {
   io::XDMFFile file(MPI_COMM_WORLD, name, "r");
   const int dim = mesh::cell_dim(cell);
   scene.mesh = std::make_shared<mesh::Mesh<U>>(
-      file.read_mesh(fem::CoordinateElement<U>(cell, 1),
+      file.read_mesh(fem::CoordinateElement<U>(cell, order),
                      mesh::GhostMode::shared_facet, "mesh"));
   const auto topology = scene.mesh->topology_mutable();
   topology->create_entities(dim - 1);
@@ -98,12 +99,13 @@ residual_form(const Scene& scene, ufcx_form& form,
               = {})
 {
   // As the forms of some file call them
-  constants["load"] = constants["pressure"] = scene.load;
+  for (const char* name : {"load", "push", "pressure"})
+    constants[name] = scene.load;
   const auto top = fem::compute_integration_domains(
       fem::IntegralType::exterior_facet, *scene.mesh->topology(),
       scene.tags->find(12));
   return std::make_shared<fem::Form<T>>(fem::create_form<T>(
-      form, {scene.V}, {{"u", u}, {"w", u}},
+      form, {scene.V}, {{"u", u}, {"c", u}, {"w", u}},
       {constants.begin(), constants.end()},
       {{fem::IntegralType::exterior_facet, {{12, top}}}}, {}));
 }
@@ -187,8 +189,8 @@ void solve(const Scene& scene, const char* name, const cx::Contact::Master& to,
   auto u = std::make_shared<fem::Function<T>>(V);
   const auto F = residual_form(scene, *residual, u);
   auto J = std::make_shared<fem::Form<T>>(fem::create_form<T>(
-      *jacobian, {V, V}, {{"u", u}, {"w", u}},
-      {{"load", scene.load}, {"pressure", scene.load}}, {}, {}));
+      *jacobian, {V, V}, {{"u", u}, {"c", u}, {"w", u}},
+      {{"load", load}, {"push", load}, {"pressure", load}}, {}, {}));
   const auto [bcs, push] = support(scene);
   const auto slave = std::string(name) == "self" ? std::get<cx::Surface>(to)
                                                  : cx::Surface(tags, {11});
@@ -350,6 +352,16 @@ int main(int argc, char* argv[])
     scene.condensed = true;
     plane("quadratic mortar", wide, rubs_on_facets);
     scene.condensed = false;
+
+    read(scene, "curved_blocks.xdmf", quadrilateral, 2, 2);
+    const auto curved = [&](const char* name, cx::Method method)
+    {
+      solve(scene, name, cx::Surface(scene.tags, {21}),
+            {.friction = 0.3, .method = method, .offset = 0.01},
+            form_quadratic_F_curved, form_quadratic_J_curved);
+    };
+    curved("curved friction", cx::Method::node_to_surface);
+    curved("curved mortar", mortar);
 
     read(scene, "solid_blocks.xdmf", mesh::CellType::tetrahedron, 2);
     const auto solid = [&](const char* name, const cx::Contact::Master& to,

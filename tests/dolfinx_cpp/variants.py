@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """Each kind of contact on the mesh of demos/cpp/sliding_block, as variants.cpp has them.
 
-It writes solid_blocks.xdmf, which variants.cpp reads.
+It writes curved_blocks.xdmf and solid_blocks.xdmf, which variants.cpp reads.
 """
 
 from __future__ import annotations
@@ -17,8 +17,9 @@ from mpi4py import MPI
 
 import numpy as np
 
+import basix.ufl
 import ufl
-from dolfinx import fem, io
+from dolfinx import fem, io, mesh
 from dolfinx.mesh import CellType
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "demos"))
@@ -113,11 +114,11 @@ def tolerances(name: str, tags: Any, V: fem.FunctionSpace, size: float, **option
 def read(name: str) -> tuple[Any, Any]:
     """Mesh and facet tags of a file."""
     with io.XDMFFile(MPI.COMM_WORLD, name, "r") as file:
-        mesh = file.read_mesh(name="mesh")
-        facets = mesh.topology.dim - 1
-        mesh.topology.create_entities(facets)
-        mesh.topology.create_connectivity(facets, facets + 1)
-        return mesh, file.read_meshtags(mesh, "facet_tags")
+        domain = file.read_mesh(name="mesh")
+        facets = domain.topology.dim - 1
+        domain.topology.create_entities(facets)
+        domain.topology.create_connectivity(facets, facets + 1)
+        return domain, file.read_meshtags(domain, "facet_tags")
 
 
 def write_solid() -> None:
@@ -138,10 +139,37 @@ def write_solid() -> None:
         file.write_meshtags(data.facet_tags, data.mesh.geometry)
 
 
+def write_curved() -> None:
+    """Write blocks of order 2 that meet along a wave, 0.01 apart."""
+    data = meshes.blocks(
+        CellType.quadrilateral, [8, 3], [12, 3], size_lower=[1.5, 0.5], shift=[0.2],
+        gap=0.01, comm=MPI.COMM_SELF,
+    )  # fmt: skip
+    W = fem.functionspace(data.mesh, ("Lagrange", 2))
+    x = W.tabulate_dof_coordinates()[:, :2]
+    heights = {11: 0.01, 12: 1.01, 21: 0.0, 22: -0.5}
+    element = basix.ufl.element("Lagrange", "quadrilateral", 2, shape=(2,))
+    curved = mesh.create_mesh(MPI.COMM_SELF, W.dofmap.list.astype(np.int64), element, x)
+    found = [
+        mesh.locate_entities_boundary(curved, 1, lambda x, y=y: np.isclose(x[1], y))
+        for y in heights.values()
+    ]
+    tags = np.repeat(np.array(list(heights), dtype=np.int32), [len(f) for f in found])
+    order = np.argsort(np.concatenate(found))
+    facet_tags = mesh.meshtags(curved, 1, np.concatenate(found)[order], tags[order])
+    points = curved.geometry.x
+    points[:, 1] += 0.03 * np.sin(4 * points[:, 0])
+    curved.name, facet_tags.name = "mesh", "facet_tags"
+    with io.XDMFFile(MPI.COMM_SELF, "curved_blocks.xdmf", "w") as file:
+        file.write_mesh(curved)
+        curved.topology.create_connectivity(1, 2)
+        file.write_meshtags(facet_tags, curved.geometry)
+
+
 def main() -> None:
     """Solve all."""
-    mesh, tags = read("sliding_block.xdmf")
-    V = fem.functionspace(mesh, ("Lagrange", 1, (2,)))
+    domain, tags = read("sliding_block.xdmf")
+    V = fem.functionspace(domain, ("Lagrange", 1, (2,)))
     base = cx.Surface(tags, 21)
     plane = cx.Plane(point=[0.0, 0.0], normal=[0.0, 1.0])
     disc = cx.Sphere(centre=[1.5, -4.0], radius=4.0)
@@ -162,7 +190,7 @@ def main() -> None:
     solve("adjusted disc", tags, V, disc, friction=0.1, **little, adjust=0.1)
     solve("smooth", tags, V, base, **rubs, smooth=True)
     solve("neo-Hooke", tags, V, base, **rubs)
-    weight: Any = {"weight": 1 + ufl.SpatialCoordinate(mesh)[0] / 2, **little}
+    weight: Any = {"weight": 1 + ufl.SpatialCoordinate(domain)[0] / 2, **little}
     solve("weight", tags, V, base, **weight)
     solve("mortar weight", tags, V, base, **mortar, **weight)
     tolerances("prestress", tags, V, 1e3)
@@ -177,7 +205,7 @@ def main() -> None:
     solve("neo-Hooke", tags, V, base, **rubs, **condensed)
 
     # A quadratic displacement, of quadrilaterals and of tetrahedra
-    W = fem.functionspace(mesh, ("Lagrange", 2, (2,)))
+    W = fem.functionspace(domain, ("Lagrange", 2, (2,)))
     solve("quadratic friction", tags, W, base, **rubs)
     solve("quadratic tied", tags, W, base, tied=True)
     solve("quadratic mortar", tags, W, base, **mortar, **rubs)
@@ -185,10 +213,16 @@ def main() -> None:
     solve("quadratic mortar disc", tags, W, disc, **mortar, friction=0.1, **little)
     solve("quadratic mortar", tags, W, base, **mortar, **rubs, **condensed)
     if MPI.COMM_WORLD.rank == 0:
+        write_curved()
         write_solid()
     MPI.COMM_WORLD.barrier()
-    mesh, tags = read("solid_blocks.xdmf")
-    W = fem.functionspace(mesh, ("Lagrange", 2, (3,)))
+    domain, tags = read("curved_blocks.xdmf")
+    W = fem.functionspace(domain, ("Lagrange", 2, (2,)))
+    base, gap = cx.Surface(tags, 21), {"friction": 0.3, "offset": 0.01}
+    solve("curved friction", tags, W, base, **gap)
+    solve("curved mortar", tags, W, base, **mortar, **gap)
+    domain, tags = read("solid_blocks.xdmf")
+    W = fem.functionspace(domain, ("Lagrange", 2, (3,)))
     base = cx.Surface(tags, 21)
     ball = cx.Sphere(centre=[0.75, 0.6, -4.0], radius=4.0)
     solve("solid friction", tags, W, base, **rubs)
