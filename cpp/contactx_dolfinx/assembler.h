@@ -438,9 +438,8 @@ private:
     for (std::size_t k = 0; k < looks.size(); ++k)
     {
       const audit::Findings& found = looks[k];
-      if (not found.warning.empty())
-        _warnings.push_back("contact " + std::to_string(k) + ": "
-                            + found.warning);
+      for (const std::string& text : found.warnings)
+        _warnings.push_back("contact " + std::to_string(k) + ": " + text);
       if (not found.is_fault())
         continue;
       std::string text = "contact " + std::to_string(k) + ": ";
