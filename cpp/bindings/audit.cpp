@@ -13,6 +13,7 @@ using namespace contactx_bindings;
 using contactx::audit::Audit;
 using contactx::audit::Chords;
 using contactx::audit::Depth;
+using contactx::audit::EdgeForce;
 using contactx::audit::Findings;
 using contactx::audit::FoundNodes;
 using contactx::audit::Roundness;
@@ -45,6 +46,17 @@ void contactx_bindings::audit(py::module_& m)
       .def_readonly("sagitta", &Chords::sagitta)
       .def_readonly("pressed", &Chords::pressed)
       .def_property_readonly("ratio", &Chords::ratio);
+  py::class_<EdgeForce>(m, "EdgeForce", "What becomes of the master's edges")
+      .def_readonly("share", &EdgeForce::share)
+      .def_readonly("off", &EdgeForce::off)
+      .def_property_readonly("at", [](const EdgeForce& self)
+                             { return array(self.at); })
+      .def_readonly("unseen", &EdgeForce::unseen)
+      .def_readonly("depth", &EdgeForce::depth)
+      .def_readonly("size", &EdgeForce::size)
+      .def_property_readonly("hidden", [](const EdgeForce& self)
+                             { return array(self.hidden); })
+      .def_property_readonly("ratio", &EdgeForce::ratio);
   py::class_<Findings>(m, "ContactFindings", "What was found of one contact")
       .def_readonly("passed", &Findings::passed)
       .def_readonly("inside", &Findings::inside)
@@ -53,7 +65,8 @@ void contactx_bindings::audit(py::module_& m)
       .def_readonly("facet_size", &Findings::facet_size)
       .def_readonly("roundness", &Findings::roundness)
       .def_readonly("chords", &Findings::chords)
-      .def_readonly("warning", &Findings::warning);
+      .def_readonly("edges", &Findings::edges)
+      .def_readonly("warnings", &Findings::warnings);
   py::class_<Audit>(m, "Audit", "Looks at the contacts of converged iterates")
       .def(py::init<std::shared_ptr<Halo>,
                     std::vector<std::shared_ptr<Contact>>>(),

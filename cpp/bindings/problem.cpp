@@ -83,6 +83,7 @@ Attributes:
       .def_readonly("excess", &AuditReport::excess)
       .def_readonly("radius_in_facets", &AuditReport::radius_in_facets)
       .def_readonly("chords", &AuditReport::chords)
+      .def_readonly("edges", &AuditReport::edges)
       .def_readonly("inverted", &AuditReport::inverted)
       .def_readonly("smallest_det", &AuditReport::smallest_det)
       .def_readonly("faults", &AuditReport::faults)

@@ -89,6 +89,9 @@ class Findings:
             the size of the facets there; infinite where none is curved. Below 4 there is a warning.
         chords: Where round surfaces fit each other, what gaps are off because facets are chords,
             over what pressures there press in; 0 where none fit. Above 0.4 there is a warning.
+        edges: Where edges of a master press a smooth slave, what the force there is off the slave's
+            normals, over the normal force; infinite where an edge between slave nodes would need
+            more force than they take. Above 0.05 there is a warning.
         inverted: Cells that are turned inside out.
         smallest_det: Smallest det F of the cells; NaN where none was looked at.
         faults: What is wrong and what to do about it, a text each.
@@ -101,6 +104,7 @@ class Findings:
     excess: float = 0.0
     radius_in_facets: float = float("inf")
     chords: float = 0.0
+    edges: float = 0.0
     inverted: int = 0
     smallest_det: float = float("nan")
     faults: list[str] = field(default_factory=list)
@@ -117,6 +121,8 @@ class Findings:
             parts.append(f"smallest radius of an obstacle {self.radius_in_facets:.3g} facets")
         if self.chords > 0:
             parts.append(f"gaps off by chords: {self.chords:.2g} of what is pressed in")
+        if self.edges > 0.01:
+            parts.append(f"off by edges of the master: {self.edges:.2g} of the force")
         if self.smallest_det == self.smallest_det:
             parts.append(
                 f"{self.inverted} cells inside out, smallest det F {self.smallest_det:.3g}"

@@ -53,7 +53,7 @@ ONE_METHOD = {
 }
 ONE_METHOD |= {"dam_face": "surface", "dam_face_in_increments": "surface"}
 # What they are for is in that one alone, or the same in both
-ONE_METHOD |= {"tip_on_arm": "surface", "chords": "surface"}
+ONE_METHOD |= {"tip_on_arm": "surface", "chords": "surface", "edge": "node"}
 # What tests/fast runs on two ranks: friction, free bodies, ties, nodes in several
 # contacts, dragging over the parts of ranks, an obstacle, inertia, self-contact, both solvers
 QUICK = (

@@ -42,6 +42,7 @@ class Outcome:
                 "slip": report.slip,
                 "dissipation": report.dissipation,
                 "chords": report.audit.chords,
+                "edges": report.audit.edges,
             }
         )
 
@@ -98,6 +99,7 @@ def differences(found: dict[str, Array], expected: dict[str, Array], tolerance: 
     # Gaps that are closed and slip of nodes that stick are rounding of displacements
     moved = np.abs(expected["u"]).max()
     smallest = dict.fromkeys(("gap", "slip", "slip_total", "step slip"), moved)
+    smallest["step edges"] = 1.0
     smallest["step dissipation"] = moved * np.abs(expected["step force"]).max()
     texts = []
     for name, a in found.items():

@@ -10,6 +10,7 @@ import contactx as cx
 from dolfinx.mesh import CellType
 
 from scenes import Blocks
+from scenes.ball_at_edge import BallAtEdge
 from scenes.free_rings import FreeRings, pulled
 from scenes.tip_on_arm import TipOnArm
 
@@ -44,3 +45,11 @@ def tip_on_arm() -> Iterator[cx.ContactProblem]:
         tip.way.value[1] = -depth
         tip.problem.solve()
         yield tip.problem
+
+
+def edge() -> Iterator[cx.ContactProblem]:
+    """A ball beside a plate's edge, which the ball's nodes do not see, as is warned of."""
+    ball = BallAtEdge(0.28)
+    ball.push()
+    assert ball.problem.report.audit.edges > 0.1
+    yield ball.problem

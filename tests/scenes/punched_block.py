@@ -36,6 +36,7 @@ class PunchedBlock:
         punch: int = 0,
         width: float = 0.2,
         lean: float = 0.0,
+        around: bool = False,
         x0: float = 0.0,
         down: float = 0.02,
         swapped: bool = False,
@@ -52,6 +53,7 @@ class PunchedBlock:
             punch: cells along a deformable punch, in the plane.
             width: Width of the punch.
             lean: By how much its head is wider, over its foot: its sides lean outward.
+            around: Whether its sides are part of the foot's surface, to its edges.
             x0: Place of the ball or the middle of the punch along the top.
             down: How far they are pushed down.
             swapped: Whether the punch is the slave.
@@ -74,7 +76,7 @@ class PunchedBlock:
         mine = slice(None if comm.rank == 0 else 0)
         domain = mesh.create_mesh(comm, cells[mine], element, x[mine])
         self.u = u = displacement(domain)
-        V, tags = u.function_space, _tagged(domain, unit * width)
+        V, tags = u.function_space, _tagged(domain, unit * width, around)
 
         def fixed(tag: int, value: np.ndarray) -> fem.DirichletBC:
             return fem.dirichletbc(
@@ -108,8 +110,8 @@ def _grid(low: list[float], high: list[float], n: list[int]) -> tuple[np.ndarray
     return x, number[tuple((origins[:, None] + corners[None]).transpose(2, 0, 1))]
 
 
-def _tagged(domain: mesh.Mesh, height: float) -> mesh.MeshTags:
-    """Tags of top, foot, bottom and head, in that order."""
+def _tagged(domain: mesh.Mesh, height: float, around: bool) -> mesh.MeshTags:
+    """Tags of top, foot, bottom and head, in that order; the foot's may go around its edges."""
     tdim = domain.topology.dim
     domain.topology.create_connectivity(tdim - 1, tdim)
     facets = mesh.exterior_facet_indices(domain.topology)
@@ -121,7 +123,7 @@ def _tagged(domain: mesh.Mesh, height: float) -> mesh.MeshTags:
     bottom = domain.comm.allreduce(at.min(initial=np.inf), MPI.MIN)
     values = np.zeros(len(facets), dtype=np.int32)
     values[(np.abs(at) < 1e-9 * size) & ~above] = TOP
-    values[(np.abs(at) < 1e-9 * size) & above] = FOOT
+    values[above if around else (np.abs(at) < 1e-9 * size) & above] = FOOT
     values[np.abs(at - bottom) < 1e-9 * size] = BOTTOM
     values[(np.abs(at - height) < 1e-9 * size) & above] = HEAD
     return mesh.meshtags(domain, tdim - 1, facets, values)

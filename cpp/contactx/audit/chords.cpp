@@ -6,7 +6,6 @@
 #include "../facet/closest_point.h"
 #include "../facet/gather.h"
 #include "../facet/smooth.h"
-#include "../parallel/spread.h"
 #include "../text.h"
 #include "../vec.h"
 #include "passed_nodes.h"
@@ -30,27 +29,6 @@ constexpr double ratio_allowed = 0.4;
 constexpr double beyond_patches = 0.1;
 /// Part of a sagitta that is a change, not rounding
 constexpr double noticed = 1e-6;
-/// Length of the mean of the unit normals of a node's facets, by area: that of
-/// two facets that meet at facet::cosine_at_edges
-const double even_enough = std::sqrt((1 + facet::cosine_at_edges) / 2);
-
-/// Mean unit normals of a surface at the nodes of this rank (shape=(num_nodes,
-/// gdim)), zero at its edges.
-std::vector<double> even_normals(parallel::Halo& halo,
-                                 const facet::FacetList& own)
-{
-  const int g = halo.gdim();
-  auto [normal, area] = area_vectors_of_all(halo, own, halo.reference());
-  for (std::size_t i = 0; i < area.size(); ++i)
-  {
-    double* n = &normal[i * g];
-    const double size = std::sqrt(dot(n, n, g));
-    const bool is_even = size > 0 and size >= even_enough * area[i];
-    for (int k = 0; k < g; ++k)
-      n[k] = is_even ? n[k] / size : 0;
-  }
-  return parallel::spread(halo, normal, g);
-}
 
 /// Rise of the edge between two nodes of a facet, see facet::rise_over.
 template <class F>
@@ -313,8 +291,9 @@ std::optional<Chords> contactx::audit::chords(parallel::Halo& halo,
   // node-to-surface linear parts of them stand for them
   if (not master or slaves.is_mortar() or master->is_smooth())
     return {};
-  const Sides sides{halo.reference(), even_normals(halo, slaves.own()),
-                    even_normals(halo, master->surface()->own())};
+  const Sides sides{
+      halo.reference(), even_normals(halo, slaves.own(), halo.reference()),
+      even_normals(halo, master->surface()->own(), halo.reference())};
   const Changes found = halo.gdim() == 2 ? changes<2>(contact, sides)
                                          : changes<3>(contact, sides);
   const contact::NodeState& state = *contact.nodes();

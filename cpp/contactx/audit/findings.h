@@ -5,6 +5,7 @@
 
 #include "../parallel/found_nodes.h"
 #include "chords.h"
+#include "edges.h"
 #include <optional>
 #include <string>
 
@@ -64,8 +65,10 @@ struct Findings
   std::optional<Roundness> roundness{};
   /// Of two bodies whose round surfaces fit each other; nothing of others
   std::optional<Chords> chords{};
-  /// What to warn of, of one contact once; empty for nothing
-  std::string warning{};
+  /// Of two bodies by node-to-surface contact, where anything presses
+  std::optional<EdgeForce> edges{};
+  /// What to warn of, of one contact each once
+  std::vector<std::string> warnings{};
 
   /// @brief True if the iterate is wrong.
   bool is_fault() const
@@ -90,22 +93,34 @@ public:
 
 protected:
   /// @brief Warn of the state of now, if no state that was accepted was warned
-  /// of.
+  /// of the same.
   /// @param[in,out] findings What was found.
-  /// @param[in] about What to warn of, if it is coarse.
-  template <class Coarse>
-  void warn(Findings& findings, const std::optional<Coarse>& about)
+  /// @param[in] about What to warn of, each if it is coarse; in each state the
+  /// same kinds.
+  template <class... Coarse>
+  void warn(Findings& findings, const std::optional<Coarse>&... about)
   {
-    _is_coarse = about and about->is_coarse();
-    if (_is_coarse and not _has_warned)
-      findings.warning = about->words();
+    _is_coarse = {(about and about->is_coarse())...};
+    _has_warned.resize(_is_coarse.size(), false);
+    std::size_t k = 0;
+    const auto add = [&](const auto& its)
+    {
+      if (_is_coarse[k] and not _has_warned[k])
+        findings.warnings.push_back(its->words());
+      ++k;
+    };
+    (add(about), ...);
   }
 
   /// @brief The state of now is accepted.
-  void accept_warning() { _has_warned = _has_warned or _is_coarse; }
+  void accept_warning()
+  {
+    for (std::size_t k = 0; k < _is_coarse.size(); ++k)
+      _has_warned[k] = _has_warned[k] or _is_coarse[k];
+  }
 
 private:
-  bool _is_coarse = false, _has_warned = false;
+  std::vector<bool> _is_coarse, _has_warned;
 };
 
 /// @brief Rows of some nodes.

@@ -2,8 +2,12 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "passed_nodes.h"
+#include "../facet/smooth.h"
+#include "../parallel/spread.h"
+#include "../vec.h"
 #include "passage.h"
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <unordered_map>
@@ -13,6 +17,10 @@ using namespace contactx::audit;
 
 namespace
 {
+/// Length of the mean of the unit normals of a node's facets, by area: that of
+/// two facets that meet at facet::cosine_at_edges
+const double even_enough = std::sqrt((1 + facet::cosine_at_edges) / 2);
+
 /// Which candidates come into the box that all facets sweep.
 std::vector<std::int32_t>
 near_facets(const parallel::Halo& halo, const facet::FacetList& facets,
@@ -141,6 +149,23 @@ std::vector<double> contactx::audit::normals_of_all(const parallel::Halo& halo,
 {
   const auto [vectors, areas] = area_vectors_of_all(halo, own, x);
   return facet::unit_normals(vectors, areas, halo.gdim());
+}
+
+std::vector<double> contactx::audit::even_normals(const parallel::Halo& halo,
+                                                  const facet::FacetList& own,
+                                                  std::span<const double> x)
+{
+  const int g = halo.gdim();
+  auto [normal, area] = area_vectors_of_all(halo, own, x);
+  for (std::size_t i = 0; i < area.size(); ++i)
+  {
+    double* n = &normal[i * g];
+    const double size = std::sqrt(dot(n, n, g));
+    const bool is_even = size > 0 and size >= even_enough * area[i];
+    for (int k = 0; k < g; ++k)
+      n[k] = is_even ? n[k] / size : 0;
+  }
+  return parallel::spread(halo, normal, g);
 }
 
 FoundNodes contactx::audit::passed_nodes(

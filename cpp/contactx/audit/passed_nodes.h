@@ -56,4 +56,16 @@ AreaVectors area_vectors_of_all(const parallel::Halo& halo,
 std::vector<double> normals_of_all(const parallel::Halo& halo,
                                    const facet::FacetList& own,
                                    std::span<const double> x);
+
+/// @brief Mean unit normals of a surface at the nodes of this rank, to which
+/// the facets that other ranks have around them count; all ranks must take
+/// part.
+/// @param[in] halo Nodes of this rank.
+/// @param[in] own Facets that this rank has.
+/// @param[in] x Positions of all nodes (shape=(num_nodes, gdim)), row-major.
+/// @return Normals, zero off the surface and at its edges, see
+/// facet::cosine_at_edges (shape=(num_nodes, gdim)).
+std::vector<double> even_normals(const parallel::Halo& halo,
+                                 const facet::FacetList& own,
+                                 std::span<const double> x);
 } // namespace contactx::audit

@@ -3,8 +3,10 @@
 
 #include "surfaces_audit.h"
 #include "../check.h"
+#include "../facet/middle.h"
 #include "../parallel/extent.h"
 #include "../parallel/spread.h"
+#include "../vec.h"
 #include "passed_nodes.h"
 #include "penetration.h"
 #include <algorithm>
@@ -22,6 +24,8 @@ namespace
 constexpr double overlap_of_edges = 1. / 16;
 // Part of a facet's size that a node without a pair may be behind it
 constexpr double behind_by = 1. / 32;
+// What the master's nodes see of a slave facet, see see_slave
+constexpr int num_seen = 8;
 
 double largest_of(std::span<const double> values)
 {
@@ -105,9 +109,9 @@ Findings SurfacesAudit::look(std::span<const double> start)
   look_back(start, x, findings);
   if (findings.passed.count == 0)
     findings.inside = look_from_slave(x);
-  findings.deepest = look_from_master(x);
+  look_from_master(x, findings);
   findings.chords = chords(*_halo, *_contact);
-  warn(findings, findings.chords);
+  warn(findings, findings.chords, findings.edges);
   findings.is_too_deep = not findings.is_fault() and findings.deepest
                          and findings.deepest->excess > 1;
   return findings;
@@ -264,7 +268,8 @@ std::vector<double> SurfacesAudit::bent(const Configuration& now) const
 }
 
 /// What the master's nodes see of the slave facets: the facet's size, how near
-/// it is to contact, what is taken off the gap, how it is bent.
+/// it is to contact, what is taken off the gap, how it is bent, the largest
+/// stiffness of its nodes, its normal.
 search::Seen SurfacesAudit::see_slave(const Configuration& now,
                                       std::span<const double> normals)
 {
@@ -275,17 +280,26 @@ search::Seen SurfacesAudit::see_slave(const Configuration& now,
       = unstretched_sizes(slaves.facets(), now.x, _halo->reference(), g);
   const double reach = facet_size(slaves.facets(), now.x);
   std::vector<std::int8_t> held(slaves.owned().size());
+  std::vector<double> stiffness(held.size());
   for (std::size_t i = 0; i < held.size(); ++i)
+  {
     held[i] = state.held(i);
+    stiffness[i] = state.c[i] * state.area[i];
+  }
   const auto offset
       = slaves.smallest(slaves.scatter_forward(_contact->offset()));
   const auto near = slaves.near(held);
   const auto curvature = bent(now);
+  const auto stiff = slaves.largest(slaves.scatter_forward(stiffness));
   std::vector<double> values;
-  values.reserve(4 * size.size());
+  values.reserve(num_seen * size.size());
+  const auto normal = facet::middles(slaves.facets(), now.x, g).normals;
   for (std::size_t f = 0; f < size.size(); ++f)
-    values.insert(values.end(),
-                  {size[f], double(near[f]), offset[f], curvature[f]});
+  {
+    const Vector<3> n = vector_at(normal, f, g);
+    values.insert(values.end(), {size[f], double(near[f]), offset[f],
+                                 curvature[f], stiff[f], n[0], n[1], n[2]});
+  }
   const auto points = rows_of(now.x, _points, g);
   std::vector<double> way;
   std::optional<search::Ways> ways;
@@ -295,11 +309,11 @@ search::Seen SurfacesAudit::see_slave(const Configuration& now,
     ways = search::Ways{now.way, way};
   }
   return _at_slave.look(now.x, points, rows_of(normals, _points, g), reach,
-                        values, 4, ways);
+                        values, num_seen, ways);
 }
 
-std::optional<Depth>
-SurfacesAudit::look_from_master(std::span<const double> positions)
+void SurfacesAudit::look_from_master(std::span<const double> positions,
+                                     Findings& findings)
 {
   const int g = _halo->gdim();
   const Configuration now = configuration();
@@ -314,7 +328,7 @@ SurfacesAudit::look_from_master(std::span<const double> positions)
   for (std::size_t i = 0; i < n; ++i)
   {
     below[i] = std::isnan(seen.height[i]) ? 0 : -seen.height[i];
-    sizes[i] = seen.values[4 * i];
+    sizes[i] = seen.values[num_seen * i];
   }
   const auto outside
       = _outside_slave.find(now.x, rows_of(now.x, _points, g), below, sizes);
@@ -329,9 +343,9 @@ SurfacesAudit::look_from_master(std::span<const double> positions)
       continue;
     there.push_back(i);
     size.push_back(sizes[i]);
-    near.push_back(_master->is_smooth()
-                       ? 2
-                       : static_cast<std::int8_t>(seen.values[4 * i + 1]));
+    near.push_back(_master->is_smooth() ? 2
+                                        : static_cast<std::int8_t>(
+                                              seen.values[num_seen * i + 1]));
     turn.push_back(curvature[_points[i]]);
   }
   auto explained = explained_depths(size, turn, near,
@@ -341,14 +355,23 @@ SurfacesAudit::look_from_master(std::span<const double> positions)
   {
     const std::size_t i = there[k];
     // Linear kinematics see a curved surface as flat along the way
-    explained[k]
-        += (turn[k] + seen.values[4 * i + 3]) * (seen.way[i] * seen.way[i]);
-    depth[k] = seen.values[4 * i + 2] - seen.gap[i];
+    explained[k] += (turn[k] + seen.values[num_seen * i + 3])
+                    * (seen.way[i] * seen.way[i]);
+    depth[k] = seen.values[num_seen * i + 2] - seen.gap[i];
     excess[k] = depth[k] / explained[k];
   }
+  std::vector<MasterBelow> nodes;
+  for (std::size_t k = 0; k < there.size() and not _master->is_smooth(); ++k)
+    if (const double* its = &seen.values[num_seen * there[k]]; depth[k] > 0)
+      nodes.push_back({_points[there[k]],
+                       depth[k],
+                       size[k],
+                       its[4],
+                       {its[5], its[6], its[7]}});
+  findings.edges = edge_force(*_halo, *_contact, now.x, nodes);
   std::optional<Depth> mine;
   if (const auto k = worst_of(excess); k >= 0)
     mine = Depth{excess[k], depth[k], size[k], near[k] > 1,
                  rows_of(positions, std::span(&_points[there[k]], 1), g)};
-  return deepest(_halo->ranks(), mine, g);
+  findings.deepest = deepest(_halo->ranks(), mine, g);
 }

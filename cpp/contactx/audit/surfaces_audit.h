@@ -54,7 +54,7 @@ private:
   std::vector<double> bent(const Configuration& now) const;
   search::Seen see_slave(const Configuration& now,
                          std::span<const double> normals);
-  std::optional<Depth> look_from_master(std::span<const double> positions);
+  void look_from_master(std::span<const double> positions, Findings& findings);
 
   std::shared_ptr<parallel::Halo> _halo;
   std::shared_ptr<contact::Contact> _contact;

@@ -69,8 +69,10 @@ void contactx::problem::add(AuditReport& report, const std::string& name,
         = std::min(report.radius_in_facets, found.roundness->facets());
   if (found.chords)
     report.chords = std::max(report.chords, found.chords->ratio());
-  if (not found.warning.empty())
-    report.warnings.push_back(name + ": " + found.warning);
+  if (found.edges)
+    report.edges = std::max(report.edges, found.edges->ratio());
+  for (const std::string& text : found.warnings)
+    report.warnings.push_back(name + ": " + text);
 
   const std::string count = std::to_string(found.passed.count);
   if (const auto* master

@@ -28,6 +28,10 @@ struct AuditReport
   /// What gaps of round surfaces that fit are off by chords, over what is
   /// pressed in
   double chords = 0;
+  /// Where edges of a master press a smooth slave, what the force there is off
+  /// the slave's normals, over the normal force; infinite where an edge between
+  /// slave nodes would need more force than they take
+  double edges = 0;
   std::int64_t inverted = 0; ///< cells that are turned inside out
   /// Smallest det F of the cells, NaN where none was looked at
   double smallest_det = std::numeric_limits<double>::quiet_NaN();

@@ -134,16 +134,17 @@ TEST(AuditOfObstacles, AFewFacetsARadiusAreWarnedOfOnceWhereNodesTouch)
     EXPECT_NEAR(found.roundness->size, h, 1e-14);
     EXPECT_NEAR(found.roundness->facets(), facets, 1e-12);
     EXPECT_NEAR(found.roundness->at[0], h, 1e-14);
-    EXPECT_EQ(found.warning.empty(), facets > 4);
+    ASSERT_EQ(found.warnings.size(), facets < 4);
     if (facets == 2)
-      EXPECT_NE(found.warning.find("0.667, is 2 slave facets long at the node "
-                                   "in contact at (0.333333, 0)"),
-                std::string::npos)
-          << found.warning;
+      EXPECT_NE(
+          found.warnings[0].find("0.667, is 2 slave facets long at the node "
+                                 "in contact at (0.333333, 0)"),
+          std::string::npos)
+          << found.warnings[0];
     // Until the step is accepted, as an iterate may be none
-    EXPECT_EQ(audit.look({}).warning, found.warning);
+    EXPECT_EQ(audit.look({}).warnings, found.warnings);
     audit.accept();
-    EXPECT_TRUE(audit.look({}).warning.empty());
+    EXPECT_TRUE(audit.look({}).warnings.empty());
     EXPECT_TRUE(audit.look({}).roundness);
   }
 }
