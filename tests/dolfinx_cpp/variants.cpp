@@ -10,6 +10,7 @@
 #include "quadratic.h"
 #include "sliding_block.h"
 #include <basix/finite-element.h>
+#include <contactx/obstacle/level_set.h>
 #include <contactx/obstacle/plane.h>
 #include <contactx/obstacle/sphere.h>
 #include <contactx_dolfinx/condensed.h>
@@ -117,7 +118,8 @@ struct Support
   std::shared_ptr<fem::Constant<T>> push;
 };
 
-Support support(const Scene& scene)
+Support support(const Scene& scene,
+                std::initializer_list<std::pair<int, int>> more = {})
 {
   Support made;
   const auto fix = [&](int component, int face)
@@ -138,6 +140,8 @@ Support support(const Scene& scene)
   made.push = fix(0, 12);
   if (scene.dim() == 3)
     fix(1, 12);
+  for (const auto& [component, face] : more)
+    fix(component, face);
   return made;
 }
 
@@ -264,6 +268,186 @@ void solve(const Scene& scene, const char* name, const cx::Contact::Master& to,
     std::printf("%s: %d direct solves, %d Krylov iterations\n", name,
                 condensed.direct(), condensed.iterations());
 }
+/// First sentence of a message.
+std::string sentence(const std::string& text)
+{
+  return text.substr(0, text.find(". "));
+}
+
+/// What is said of a step that is refused, or of a solution.
+void said(const char* name, const std::function<std::string()>& act)
+{
+  std::string text;
+  try
+  {
+    text = act();
+  }
+  catch (const std::exception& error)
+  {
+    text = sentence(error.what());
+  }
+  if (dolfinx::MPI::rank(MPI_COMM_WORLD) == 0)
+    std::printf("%s: %s\n", name, text.c_str());
+}
+
+/// A scene whose steps are refused, or accepted with a warning.
+struct Told
+{
+  Told(const Scene& scene, const cx::Contact::Master& to,
+       const cx::Options& options, Support given,
+       ufcx_form* residual = form_sliding_block_F,
+       ufcx_form* jacobian = form_sliding_block_J)
+      : scene(scene), bcs(std::move(given)),
+        u(std::make_shared<fem::Function<T>>(scene.V)),
+        contact(std::make_shared<cx::Contact>(cx::Surface(scene.tags, {11}), to,
+                                              options)),
+        assembler(residual_form(scene, *residual, u),
+                  std::make_shared<fem::Form<T>>(fem::create_form<T>(
+                      *jacobian, {scene.V, scene.V}, {{"u", u}}, {}, {}, {})),
+                  u, bcs.bcs, {contact})
+  {
+    KSPReset(scene.ksp);
+  }
+
+  /// Take a step; what it is warned of.
+  std::string step(int max_it = 50)
+  {
+    cx::KSPSolver solver(assembler, scene.ksp);
+    std::vector<T> dx(assembler.system()->size()), b(dx);
+    assembler.begin_step();
+    while (not assembler.settle(1e-11, 0, max_it).converged)
+    {
+      assembler.system()->residual(b);
+      solver.update();
+      solver.solve(b, dx);
+      cx::petsc::OwnVec step(assembler.create_vector());
+      std::ranges::transform(dx, cx::petsc::Values(step.get()).span().begin(),
+                             std::negate());
+      assembler.update(step.get(), assembler.limit(step.get()));
+    }
+    assembler.accept();
+    return assembler.warnings().empty() ? "accepted"
+                                        : sentence(assembler.warnings()[0]);
+  }
+
+  const Scene& scene;
+  Support bcs;
+  std::shared_ptr<fem::Function<T>> u;
+  std::shared_ptr<cx::Contact> contact;
+  cx::Assembler assembler;
+};
+
+/// Steps that both languages refuse with the same words.
+void refusals(Scene& scene)
+{
+  const cx::Surface base(scene.tags, {21});
+  const double offset = 1e-8;
+  const std::vector<double> point{0, 0}, up{0, 1};
+  said("unbalanced",
+       [&]
+       {
+         Support only_base = support(scene);
+         only_base.bcs.resize(2);
+         scene.load->value[1] = 0.01;
+         return Told(scene, base, {.offset = offset}, only_base).step();
+       });
+  scene.load->value[1] = -0.01;
+  said("too few iterations",
+       [&]
+       {
+         return Told(scene, base, {.friction = 0.3, .offset = offset},
+                     support(scene), form_neo_hooke_F, form_neo_hooke_J)
+             .step(1);
+       });
+  said("held inside",
+       [&]
+       {
+         const Support given = support(scene, {{1, 11}});
+         return Told(scene,
+                     std::make_shared<obstacle::Plane>(
+                         std::vector<double>{0, 0.05}, up),
+                     {}, given)
+             .step();
+       });
+  said("displacement",
+       [&]
+       {
+         Told told(scene, base, {.offset = offset}, support(scene));
+         std::ranges::fill(told.u->x()->array(), NAN);
+         return told.step();
+       });
+  said("prescribed",
+       [&]
+       {
+         const Support given = support(scene);
+         given.push->value[0] = INFINITY;
+         return Told(scene, base, {.offset = offset}, given).step();
+       });
+  said("load",
+       [&]
+       {
+         scene.load->value[1] = NAN;
+         return Told(scene, base, {.offset = offset}, support(scene)).step();
+       });
+  scene.load->value[1] = -0.01;
+  said("friction",
+       [&]
+       {
+         Told told(scene, base, {.friction = 0.3, .offset = offset},
+                   support(scene));
+         told.step();
+         told.contact->set_friction(NAN);
+         return told.step();
+       });
+  said("out of reach",
+       [&]
+       {
+         scene.load->value[1] = 0;
+         return Told(scene, base,
+                     {.sliding = cx::Sliding::small,
+                      .search_distance = 0.01,
+                      .offset = -0.5},
+                     support(scene, {{1, 12}}))
+             .step();
+       });
+  scene.load->value[1] = -0.01;
+  said("level set",
+       [&]
+       {
+         double height = 0;
+         const auto f = [&](std::span<const double> x, int, int)
+         {
+           obstacle::LevelValues at;
+           for (std::size_t i = 0; i < x.size(); i += 2)
+           {
+             at.value.push_back(x[i + 1] - height);
+             at.gradient.insert(at.gradient.end(), {0, 1});
+             at.hessian.insert(at.hessian.end(), 4, 0);
+           }
+           return at;
+         };
+         const auto moved = [&](int) { return std::vector<double>{height}; };
+         Told told(scene, std::make_shared<obstacle::LevelSet>(f, moved),
+                   {.friction = 0.3, .offset = offset}, support(scene));
+         told.step();
+         height = 0.1;
+         return told.step();
+       });
+  const auto options = [&](const char* name, const cx::Contact::Master& to,
+                           const cx::Options& given)
+  {
+    said(name, [&] { return Told(scene, to, given, support(scene)).step(); });
+  };
+  options("tied with friction", base, {.friction = 0.3, .tied = true});
+  options("negative distance", base, {.search_distance = -1});
+  options("excluded", base, {.excluded_distance = 0.1});
+  options("adjusted tie", base, {.tied = true, .adjust = 0.1});
+  options("tangential factor", base, {.friction = 0.3, .tangential_factor = 0});
+  options("smooth plane", std::make_shared<obstacle::Plane>(point, up),
+          {.smooth = true});
+  options("smooth tie", base, {.tied = true, .smooth = true});
+  options("apart", cx::Surface(scene.tags, {12}), {});
+}
 } // namespace
 
 int main(int argc, char* argv[])
@@ -317,6 +501,52 @@ int main(int argc, char* argv[])
     solve(scene, "weight", base, {.offset = offset, .weight = weight});
     solve(scene, "mortar weight", base,
           {.method = mortar, .offset = offset, .weight = weight});
+
+    // Fields and laws of one's own
+    const auto Q = cx::Functions::scalars(*scene.V);
+    const auto rough = std::make_shared<fem::Function<T>>(Q),
+               layer = std::make_shared<fem::Function<T>>(Q);
+    const auto set = [](fem::Function<T>& f, auto value)
+    {
+      f.interpolate(
+          [&](auto x) -> std::pair<std::vector<T>, std::vector<std::size_t>>
+          {
+            std::vector<T> values;
+            for (std::size_t p = 0; p < x.extent(1); ++p)
+              values.push_back(value(x(0, p)));
+            return {values, {values.size()}};
+          });
+    };
+    set(*rough, [](double x) { return 0.1 + 0.2 * x; });
+    set(*layer, [](double x) { return 1e-3 * x; });
+    solve(scene, "friction field", base,
+          {.friction = std::shared_ptr<const fem::Function<T>>(rough),
+           .offset = offset});
+    solve(scene, "offset field", base,
+          {.friction = 0.3,
+           .offset = std::shared_ptr<const fem::Function<T>>(layer)});
+    solve(scene, "mortar friction field", base,
+          {.friction = std::shared_ptr<const fem::Function<T>>(rough),
+           .method = mortar,
+           .offset = offset});
+    const contactx::law::BoundFunction weakens
+        = [](std::span<const double> p, std::span<const double> slip)
+    {
+      contactx::law::Bounds found;
+      for (std::size_t i = 0; i < p.size(); ++i)
+      {
+        const double weak = std::exp(-slip[i] / 0.01);
+        found.bound.push_back((0.2 + 0.1 * weak) * p[i]);
+        found.by_pressure.push_back(0.2 + 0.1 * weak);
+        found.by_slip.push_back(-0.1 * weak / 0.01 * p[i]);
+      }
+      return found;
+    };
+    solve(scene, "own law", base, {.friction_law = weakens, .offset = offset});
+    solve(scene, "tangential factor", base,
+          {.friction = 0.3, .offset = offset, .tangential_factor = 0.1});
+
+    refusals(scene);
 
     tolerances(scene, "prestress", 1e3, {.offset = offset});
     tolerances(scene, "mortar prestress", 1e3,

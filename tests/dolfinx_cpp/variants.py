@@ -8,12 +8,15 @@ It writes curved_blocks.xdmf and solid_blocks.xdmf, which variants.cpp reads.
 from __future__ import annotations
 
 import sys
+import warnings
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import contactx as cx  # isort: skip
 
 from mpi4py import MPI
+from petsc4py import PETSc
 
 import numpy as np
 
@@ -111,6 +114,127 @@ def tolerances(name: str, tags: Any, V: fem.FunctionSpace, size: float, **option
             print(name, report.iterations, f"{report.history[-1].tolerance:.6e}")
 
 
+def sentence(text: str) -> str:
+    """First sentence of a message."""
+    return text.removeprefix("contact did not converge: ").split(". ")[0].split("\n")[0]
+
+
+def said(name: str, act: Callable[[], str]) -> None:
+    """Print what is said of a step that is refused, or of a solution."""
+    try:
+        text = act()
+    except cx.ConvergenceError as error:
+        text = sentence(error.reason)
+    except (ValueError, RuntimeError) as error:
+        text = sentence(str(error))
+    if MPI.COMM_WORLD.rank == 0:
+        print(f"{name}: {text}")
+
+
+class Told:
+    """A scene whose steps are refused, or accepted with a warning."""
+
+    def __init__(
+        self,
+        tags: Any,
+        V: fem.FunctionSpace,
+        master: Any,
+        *,
+        more: Any = (),
+        held: bool = True,
+        form: Any = None,
+        load: float = -0.01,
+        **options: Any,
+    ):
+        """Make it."""
+        self.u = u = fem.Function(V)
+        self.load = fem.Constant(V.mesh, np.array([0.0, load]))
+        F = form(u) if form else story.elasticity(u, 1.0, 0.3)
+        F += story.traction(u, tags, 12, self.load)
+        bcs = [story.fix(u, tags, i, 0.0, 22) for i in range(2)]
+        self.push = story.fix(u, tags, 0, 0.0, 12)
+        bcs += [self.push] if held else []
+        bcs += [story.fix(u, tags, i, 0.0, face) for i, face in more]
+        contact = cx.Contact(slave=cx.Surface(tags, 11), master=master, **options)
+        self.assembler = cx.ContactAssembler(F, u, contacts=[contact], bcs=bcs)
+        self.ksp = PETSc.KSP().create()
+        self.ksp.setType("preonly")
+        self.ksp.getPC().setType("lu")
+        self.ksp.getPC().setFactorSolverType("mumps")
+
+    def step(self, max_it: int = 50) -> str:
+        """Take a step; what it is warned of."""
+        a = self.assembler
+        b, dx = a.create_vector(), a.create_vector()
+        a.begin_step()
+        while not a.settle(max_it=max_it).converged:
+            a.residual(b)
+            a.set_up(self.ksp)
+            b.scale(-1)
+            self.ksp.solve(b, dx)
+            a.update(dx, a.limit(dx))
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            a.accept()
+        told = a.core.report.warnings
+        return sentence(told[0]) if told else "accepted"
+
+
+def refusals(tags: Any, V: fem.FunctionSpace) -> None:
+    """Steps that both languages refuse with the same words."""
+    base = cx.Surface(tags, 21)
+    little: dict[str, Any] = {"offset": 1e-8}
+    plane = cx.Plane(point=[0.0, 0.0], normal=[0.0, 1.0])
+    said("unbalanced", lambda: Told(tags, V, base, held=False, load=0.01, **little).step())
+    rubs = {"friction": 0.3, **little}
+    said("too few iterations", lambda: Told(tags, V, base, form=neo_hooke, **rubs).step(1))
+    higher = cx.Plane(point=[0.0, 0.05], normal=[0.0, 1.0])
+    said("held inside", lambda: Told(tags, V, higher, more=[(1, 11)]).step())
+
+    def displacement() -> str:
+        told = Told(tags, V, base, **little)
+        told.u.x.array[:] = np.nan
+        return told.step()
+
+    def prescribed() -> str:
+        told = Told(tags, V, base, **little)
+        told.push.g.value[...] = np.inf
+        return told.step()
+
+    def friction() -> str:
+        coefficient = fem.Constant(V.mesh, 0.3)
+        told = Told(tags, V, base, friction=coefficient, **little)
+        told.step()
+        coefficient.value = np.nan
+        return told.step()
+
+    def level_set() -> str:
+        height = fem.Constant(V.mesh, 0.0)
+        told = Told(tags, V, cx.LevelSet(lambda x: x[1] - height), **rubs)
+        told.step()
+        height.value = 0.1
+        return told.step()
+
+    said("displacement", displacement)
+    said("prescribed", prescribed)
+    said("load", lambda: Told(tags, V, base, load=np.nan, **little).step())
+    said("friction", friction)
+    apart: dict[str, Any] = {"sliding": "small", "search_distance": 0.01, "offset": -0.5}
+    said("out of reach", lambda: Told(tags, V, base, more=[(1, 12)], load=0.0, **apart).step())
+    said("level set", level_set)
+    for name, master, options in (
+        ("tied with friction", base, {"friction": 0.3, "tied": True}),
+        ("negative distance", base, {"search_distance": -1}),
+        ("excluded", base, {"excluded_distance": 0.1}),
+        ("adjusted tie", base, {"tied": True, "adjust": 0.1}),
+        ("tangential factor", base, {"friction": 0.3, "tangential_factor": 0}),
+        ("smooth plane", plane, {"smooth": True}),
+        ("smooth tie", base, {"tied": True, "smooth": True}),
+        ("apart", cx.Surface(tags, 12), {}),
+    ):
+        said(name, lambda m=master, o=options: Told(tags, V, m, **o).step())
+
+
 def read(name: str) -> tuple[Any, Any]:
     """Mesh and facet tags of a file."""
     with io.XDMFFile(MPI.COMM_WORLD, name, "r") as file:
@@ -193,6 +317,18 @@ def main() -> None:
     weight: Any = {"weight": 1 + ufl.SpatialCoordinate(domain)[0] / 2, **little}
     solve("weight", tags, V, base, **weight)
     solve("mortar weight", tags, V, base, **mortar, **weight)
+    # Fields and laws of one's own
+    Q = fem.functionspace(domain, ("Lagrange", 1))
+    rough, layer = fem.Function(Q), fem.Function(Q)
+    rough.interpolate(lambda x: 0.1 + 0.2 * x[0])
+    layer.interpolate(lambda x: 1e-3 * x[0])
+    solve("friction field", tags, V, base, friction=rough, **little)
+    solve("offset field", tags, V, base, friction=0.3, offset=layer)
+    solve("mortar friction field", tags, V, base, **mortar, friction=rough, **little)
+    law = cx.FrictionLaw(lambda p, s: (0.2 + 0.1 * ufl.exp(-s / 0.01)) * p)
+    solve("own law", tags, V, base, friction=law, **little)
+    solve("tangential factor", tags, V, base, tangential_factor=0.1, **rubs)
+    refusals(tags, V)
     tolerances("prestress", tags, V, 1e3)
     tolerances("mortar prestress", tags, V, 1e3, **mortar)
     tolerances("growth", tags, V, 0.0)

@@ -113,7 +113,7 @@ struct Fold
     const auto master
         = reference::make_master({halo, bodies, mesh, 4}, slaves, "strip",
                                  {"strip", strip.facets.list()}, *law, self);
-    Contact::Options options{Sliding::finite, false, {}, {}};
+    Contact::Options options{Sliding::finite, Method::node_to_surface, {}, {}};
     options.prescribed.assign(u->size(), 0);
     contact = std::make_shared<Contact>(halo, slaves, master, law,
                                         std::move(options));
@@ -427,7 +427,8 @@ TEST(Results, VerticesOfQuadraticTrianglesWithoutAPairAreLikeTheirNeighbours)
       std::make_shared<obstacle::Plane>(std::vector<double>{0, 0, 0},
                                         std::vector<double>{0, 0, 1}),
       slaves, slave.x, 3, infinity, false);
-  Contact::Options options{Sliding::finite, false, {}, {1, 1, 1, 0, 0, 0}};
+  Contact::Options options{
+      Sliding::finite, Method::node_to_surface, {}, {1, 1, 1, 0, 0, 0}};
   options.prescribed.assign(u->size(), 0);
   const auto contact = std::make_shared<Contact>(
       halo, slaves, master, std::make_shared<law::Frictionless>(),
