@@ -552,6 +552,7 @@ void Problem::moved()
 void Problem::accept()
 {
   check_drag();
+  check_refusal();
   _report.converged = true;
   _loop.accept();
   _has_modes = true;
@@ -566,6 +567,23 @@ void Problem::accept()
   }
   complete();
   _has_begun = false;
+}
+
+/// Calls what may still refuse a step that has converged.
+void Problem::check_refusal()
+{
+  if (not _before_accept)
+    return;
+  try
+  {
+    if (const std::string reason = _before_accept(); not reason.empty())
+      throw ConvergenceError(reason);
+  }
+  catch (...)
+  {
+    restore();
+    throw;
+  }
 }
 
 void Problem::summarise()

@@ -161,6 +161,15 @@ public:
   /// may leave one another for good.
   void allow_flight() { _may_fly = true; }
 
+  /// @brief Call a function once a step has converged, before it is accepted:
+  /// time steps find their velocities then.
+  /// @param[in] function Returns why the step is refused, the same on all
+  /// ranks; empty if it is not. All ranks call it.
+  void before_accept(std::function<std::string()> function)
+  {
+    _before_accept = std::move(function);
+  }
+
   /// @brief Check that a call is in order: all ranks make the same one, with
   /// the same numbers, and a step has begun, or an iterate was settled, where
   /// that is needed.
@@ -258,6 +267,8 @@ public:
 
   /// @brief Take the solution as the start of the next step: history is
   /// committed, and the report completed.
+  /// @throws ConvergenceError if the function of `before_accept` refuses it;
+  /// all is then as it was before the step.
   /// @throws std::invalid_argument as `prepare` does of obstacles.
   void accept();
 
@@ -298,6 +309,7 @@ private:
   void check_prescribed();
   void check_kept();
   void check_drag();
+  void check_refusal();
   AuditReport audit();
   std::string warning_of(std::size_t contact);
   void complete();
@@ -307,6 +319,7 @@ private:
   std::vector<Part> _parts;
   bool _refuses, _may_fly = false;
   newton::Loop _loop;
+  std::function<std::string()> _before_accept;
   std::optional<audit::Audit> _audit;
   double _size; // of the scene
   std::optional<Snapshot> _before;
