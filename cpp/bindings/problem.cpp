@@ -180,7 +180,20 @@ Attributes:
           "update", [](Problem& self, const Array<double>& dx, double part)
           { self.update(view(dx), part); }, py::arg("dx"), py::arg("part"))
       .def("moved", &Problem::moved)
-      .def("accept", &Problem::accept)
+      // Why the step is refused; empty if it is accepted
+      .def("accept",
+           [](Problem& self) -> std::string
+           {
+             try
+             {
+               self.accept();
+             }
+             catch (const ConvergenceError& error)
+             {
+               return error.what();
+             }
+             return {};
+           })
       .def("summarise", &Problem::summarise)
       .def("restore", &Problem::restore)
       .def("snapshot", &Problem::snapshot)

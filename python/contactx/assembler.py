@@ -468,8 +468,8 @@ class ContactAssembler:
         """Take the solution as the start of the next step: history is committed.
 
         Raises:
-            ConvergenceError: If an attached SNES has not converged; state and contacts are then as
-                they were before the step.
+            ConvergenceError: If an attached SNES has not converged, or a node has come too far
+                before it touched; state and contacts are then as they were before the step.
             RuntimeError: If no iterate has settled and converged.
             ValueError: If a LevelSet with friction has moved while it is touched.
         """
@@ -484,12 +484,19 @@ class ContactAssembler:
         for solver in (self._attached, self._condensed):
             if solver is not None:
                 self.report.skipped.update(solver.skipped())
-        self.commit()
+        try:
+            self.commit()
+        except ConvergenceError:
+            self.restore()
+            raise
 
     def commit(self) -> None:
         """Do the same as ``accept`` without checking the order of calls."""
         report = self.report
-        self.core.accept()
+        if reason := self.core.accept():
+            report.converged = False
+            report.reason = reason
+            raise ConvergenceError(reason, report)
         report.converged = True
         for contact in self.contacts:
             contact.fields.update()

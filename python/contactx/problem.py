@@ -181,7 +181,6 @@ class ContactProblem:
                     interrupts.wait()
                 if not self.report.converged:
                     raise ConvergenceError(self.report.reason, self.report)
-                self._converged()
                 assembler.commit()
                 self._warn_of_options()
                 interrupts.come()
@@ -206,9 +205,6 @@ class ContactProblem:
             start: t at its start.
             end: t at its end.
         """
-
-    def _converged(self) -> None:
-        """Called once a step has converged, before it is accepted; on all ranks."""
 
     def _run(self, report: Report) -> None:
         """Run the Newton loop once.

@@ -10,7 +10,6 @@ import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field, fields
-from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
@@ -18,9 +17,6 @@ from rich.console import Console
 from rich.table import Table
 
 from contactx import cpp as core
-
-if TYPE_CHECKING:
-    from contactx.dynamics.balance import Balance
 
 # What the core counts
 _OF_CORE = (
@@ -203,7 +199,7 @@ class Report:
     recovery: list[float] = field(default_factory=list)
     skipped: dict[str, int] = field(default_factory=dict)
     audit: Findings = field(default_factory=Findings)
-    balance: Balance | None = None
+    balance: core.Balance | None = None
     unread: list[str] = field(default_factory=list)
     times: dict[str, float] = field(default_factory=dict)
 

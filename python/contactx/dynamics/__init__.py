@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """Bodies with inertia."""
 
-from contactx.dynamics.balance import Balance
+from contactx.cpp import Balance
 from contactx.dynamics.problem import ContactDynamics
 
 __all__ = ["Balance", "ContactDynamics"]

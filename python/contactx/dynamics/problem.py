@@ -5,7 +5,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
 from inspect import Parameter, signature
 from typing import Any
 
@@ -17,12 +16,9 @@ from contactx import cpp as core
 from contactx.arguments import described, is_number
 from contactx.bulk_input import check_displacement
 from contactx.contact import Contact
-from contactx.dynamics.balance import Balance
-from contactx.dynamics.mass import Mass, mass_measure
-from contactx.errors import ConvergenceError
-from contactx.parallel import reduce
+from contactx.dynamics.inertia import Inertia, mass_measure
 from contactx.problem import ContactProblem
-from dolfinx import fem, la
+from dolfinx import fem
 
 _MASSES = ("lumped", "consistent")
 
@@ -120,7 +116,7 @@ class ContactDynamics(ContactProblem):
         V = u.function_space
         kind = _kind_of(mass, V.ufl_element().degree)
         _check(forces, density, loads, strain_energy)
-        self._impact_travel = _check_travel(impact_travel)
+        travel = _check_travel(impact_travel)
         self.velocity = fem.Function(V, name="velocity")
         self._start = fem.Function(V, name="start")
         self._dt = fem.Constant(V.mesh, 1.0)
@@ -142,14 +138,17 @@ class ContactDynamics(ContactProblem):
             form_compiler_options=form_compiler_options,
             jit_options=jit_options,
         )
-        self.assembler.core.allow_flight()
-        options = {"form_compiler_options": form_compiler_options, "jit_options": jit_options}
-        self._mass = Mass(density * ufl.inner(w, v) * measure, kind, options)
-        self._loads = None if loads is None else fem.form(loads, **options)
-        self._strain = None if strain_energy is None else fem.form(strain_energy(u), **options)
-        self._impact = core.Impact(self.assembler.halo.nodes, self.assembler.interfaces)
-        # Velocity and balance of a step that has converged, until it is accepted
-        self._next: tuple[npt.NDArray[np.float64], Balance] | None = None
+        assembler = self.assembler
+        inertia = Inertia(
+            density * ufl.inner(w, v) * measure,
+            kind,
+            loads,
+            None if strain_energy is None else strain_energy(u),
+            {"form_compiler_options": form_compiler_options, "jit_options": jit_options},
+        )
+        results = [contact.fields.results for contact in self.contacts]
+        self._step = core.TimeStep(assembler.system.core, results, inertia, travel)
+        self._step.attach(assembler.core)
 
     @property
     def dt(self) -> float:
@@ -194,81 +193,13 @@ class ContactDynamics(ContactProblem):
         if not self._has_dt:
             raise RuntimeError("no dt was set: set dynamics.dt, or take steps by cx.LoadSteps")
         self._start.x.array[:] = self.displacement.x.array
-        bad = not np.isfinite(self.velocity.x.array).all()
-        if reduce.anywhere(self.velocity.function_space.mesh.comm, bad):
-            raise ValueError("velocity is not finite: set it to finite values")
+        self._step.begin(self.dt, self._owned_velocity())
         self.velocity.x.scatter_forward()
-        self._next = None
-        self._impact.begin_step()
         super().solve()
-        assert self._next is not None
-        velocity, balance = self._next
-        self._next = None
-        self.velocity.x.array[: len(velocity)] = velocity
+        self._owned_velocity()[:] = self._step.velocity
         self.velocity.x.scatter_forward()
-        forces = [self.dt * contact.force for contact in self.contacts]
-        impulse = [f + more for f, more in zip(forces, balance.impulse, strict=True)]
-        self.report.balance = replace(balance, impulse=impulse)
+        self.report.balance = self._step.balance()
         return self.u
-
-    def _converged(self) -> None:
-        """Find velocities and balance of a step before it is accepted."""
-        assembler, n = self.assembler, self.assembler.bulk.num_dofs
-        held = assembler.bulk.markers[:n] == 1
-        way = self.displacement.x.array[:n] - self._start.x.array[:n]
-        self._check_arrival(way)
-        self._mass.hold(assembler.bulk.markers[:n])
-        before = self.velocity.x.array[:n]
-        velocity = 2 * way / self.dt - before
-        free = self._kinetic(velocity)
-        # Twice the mean of an interval goes to and fro where motion is prescribed
-        velocity[held] = way[held] / self.dt
-        moved = self._kinetic(velocity)
-        self._impact.correct(self.dt, velocity, self._mass.solve)
-        kinetic = self._kinetic(velocity)
-        contact, supports = self._work(way, held)
-        loads = 0.0 if self._loads is None else self._total(self._vector(self._loads) @ way)
-        gdim = assembler.halo.gdim
-        # Those of the forces follow when they are known
-        impulse = [
-            self._total(each.reshape(-1, gdim).sum(axis=0)) for each in self._impact.corrections()
-        ]
-        self._next = (
-            velocity,
-            Balance(
-                dt=self.dt,
-                kinetic=kinetic,
-                strain=self.strain_energy(),
-                momentum=self._momentum(velocity),
-                angular_momentum=self._angular_momentum(velocity),
-                work_of_loads=loads,
-                work_of_supports=supports + moved - free,
-                contact_loss=moved - kinetic - contact,
-                impulse=impulse,
-            ),
-        )
-
-    def _check_arrival(self, way: npt.NDArray[np.float64]) -> None:
-        """Refuse a step in which a node has come too far before it touches.
-
-        Args:
-            way: Displacements of the step.
-
-        Raises:
-            ConvergenceError: If one has; on all ranks.
-        """
-        if self._impact_travel is None:
-            return
-        travel = self._impact.arrival(way, self.assembler.bulk.cell_sizes())
-        if travel > self._impact_travel:
-            report = self.report
-            report.converged = False
-            report.reason = (
-                f"a node moved by {travel:.2g} of a cell to what it hits, further than "
-                f"impact_travel = {self._impact_travel:g}: take shorter steps "
-                "(manual: errors/impact-travel)"
-            )
-            raise ConvergenceError(report.reason, report)
 
     def kinetic_energy(self) -> float:
         """Kinetic energy of the current velocity; all ranks must take part.
@@ -276,7 +207,7 @@ class ContactDynamics(ContactProblem):
         Returns:
             1/2 v . M v, an energy.
         """
-        return self._kinetic(self._owned_velocity())
+        return self._step.kinetic_energy(self._owned_velocity())
 
     def strain_energy(self) -> float | None:
         """Strain energy of the current displacement; all ranks must take part.
@@ -284,9 +215,7 @@ class ContactDynamics(ContactProblem):
         Returns:
             The energy, or None where no ``strain_energy`` was given.
         """
-        if self._strain is None:
-            return None
-        return float(self._total(fem.assemble_scalar(self._strain)))
+        return self._step.strain_energy()
 
     def momentum(self) -> npt.NDArray[np.float64]:
         """Momentum of the current velocity; all ranks must take part.
@@ -294,7 +223,7 @@ class ContactDynamics(ContactProblem):
         Returns:
             Mass times velocity, shape (gdim,).
         """
-        return self._momentum(self._owned_velocity())
+        return self._step.momentum(self._owned_velocity())
 
     def angular_momentum(self) -> float | npt.NDArray[np.float64]:
         """Moment of momentum about the origin; all ranks must take part.
@@ -302,53 +231,11 @@ class ContactDynamics(ContactProblem):
         Returns:
             A number in 2D, positive counter-clockwise; in 3D shape (3,).
         """
-        return self._angular_momentum(self._owned_velocity())
+        return self._step.angular_momentum(self._owned_velocity())
 
     def _owned_velocity(self) -> npt.NDArray[np.float64]:
         velocity: npt.NDArray[np.float64] = self.velocity.x.array[: self.assembler.bulk.num_dofs]
         return velocity
-
-    def _kinetic(self, velocity: npt.NDArray[np.float64]) -> float:
-        return float(self._total(0.5 * (velocity @ self._mass.product(velocity))))
-
-    def _momentum(self, velocity: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
-        p = self._mass.product(velocity).reshape(-1, self.assembler.halo.gdim)
-        momentum: npt.NDArray[np.float64] = self._total(p.sum(axis=0))
-        return momentum
-
-    def _angular_momentum(
-        self, velocity: npt.NDArray[np.float64]
-    ) -> float | npt.NDArray[np.float64]:
-        halo = self.assembler.halo
-        p = self._mass.product(velocity).reshape(-1, halo.gdim)
-        x = halo.x[: halo.num_owned] + self.displacement.x.array[: p.size].reshape(p.shape)
-        if halo.gdim == 2:
-            return float(self._total((x[:, 0] * p[:, 1] - x[:, 1] * p[:, 0]).sum()))
-        moment: npt.NDArray[np.float64] = self._total(np.cross(x, p).sum(axis=0))
-        return moment
-
-    def _work(
-        self, way: npt.NDArray[np.float64], held: npt.NDArray[np.bool_]
-    ) -> tuple[float, float]:
-        """Work of contact and of supports in a step."""
-        system, halo = self.assembler.system, self.assembler.halo
-        residual = np.zeros((halo.num_nodes, halo.gdim))
-        for interface in self.assembler.interfaces:
-            interface.add_residual(residual)
-        contact = halo.scatter_reverse(residual).ravel()[: len(way)]
-        forces = system.bulk_residual()[: len(way)] + contact
-        return -self._total(contact @ way), self._total(forces[held] @ way[held])
-
-    def _vector(self, form: fem.Form) -> npt.NDArray[np.float64]:
-        V = self.displacement.function_space
-        b = la.vector(V.dofmap.index_map, V.dofmap.index_map_bs)
-        fem.assemble_vector(b.array, form)
-        b.scatter_reverse(la.InsertMode.add)
-        values: npt.NDArray[np.float64] = b.array[: self.assembler.bulk.num_dofs].copy()
-        return values
-
-    def _total(self, value: npt.ArrayLike) -> Any:
-        return reduce.total(self.displacement.function_space.mesh.comm, value)
 
 
 def _middle(forces: Callable[..., ufl.Form], start: fem.Function, end: fem.Function) -> ufl.Form:
