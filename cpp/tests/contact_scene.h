@@ -29,13 +29,17 @@ struct ContactScene
   explicit ContactScene(int dim, double height = 0.05,
                         Cells cells = Cells::mixed,
                         parallel::Ranks* ranks = nullptr, double away = 0)
-      : sheets(dim, height, cells), mesh(sheets.num_nodes(), ranks),
+      : ContactScene(moved(TwoSheets(dim, height, cells), away), ranks)
+  {
+  }
+
+  /// @brief Take any two surfaces.
+  explicit ContactScene(TwoSheets surfaces, parallel::Ranks* ranks = nullptr)
+      : sheets(std::move(surfaces)), mesh(sheets.num_nodes(), ranks),
         u(std::make_shared<std::vector<double>>(sheets.x.size(), 0.0)),
         prescribed(u->size(), 0)
   {
-    for (double& x : sheets.x)
-      x += away;
-    halo = mesh.halo(sheets.x, dim, u);
+    halo = mesh.halo(sheets.x, sheets.gdim, u);
     const auto around = mesh.here(sheets.slave, true);
     const auto own = mesh.here(sheets.slave, false);
     slaves = std::make_shared<contact::SlaveNodes>(halo, around.list(),
@@ -80,6 +84,14 @@ struct ContactScene
     std::uniform_real_distribution<double> any(-size, size);
     for (double& v : *u)
       v = any(random);
+  }
+
+private:
+  static TwoSheets moved(TwoSheets sheets, double away)
+  {
+    for (double& x : sheets.x)
+      x += away;
+    return sheets;
   }
 };
 

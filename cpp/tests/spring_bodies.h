@@ -250,6 +250,15 @@ struct SpringBodies
     std::ranges::fill(bulk->ground, 3.0);
   }
 
+  /// @brief Take any two surfaces, and the cells of the bodies.
+  SpringBodies(TwoSheets surfaces, const std::vector<std::int32_t>& cells,
+               int width)
+      : scene(std::move(surfaces)),
+        bulk(std::make_shared<SpringBulk>(scene.mesh, scene.halo, scene.u,
+                                          cells, width))
+  {
+  }
+
   /// @brief Nodes of the sheets' edges, by their numbers in the mesh.
   std::vector<std::int32_t> edges() const
   {

@@ -2,11 +2,10 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "hiding_pairs.h"
-#include "spring_bodies.h"
+#include "stepped_bodies.h"
 #include <contactx/contact/contact_state.h>
 #include <contactx/newton/derivative_check.h>
 #include <contactx/newton/not_finite.h>
-#include <contactx/problem/problem.h>
 #include <gtest/gtest.h>
 #include <limits>
 
@@ -18,131 +17,6 @@ using namespace contactx::tests;
 namespace
 {
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-
-/// Friction and offset of all nodes.
-struct Given final : Values
-{
-  bool vary() const override { return varies; }
-  std::optional<std::vector<double>> friction() override
-  {
-    ++reads;
-    if (not coefficient)
-      return std::nullopt;
-    return std::vector<double>(count, *coefficient);
-  }
-  std::vector<double> offset() override
-  {
-    return std::vector<double>(count, length);
-  }
-
-  bool varies = true;
-  int reads = 0;
-  std::size_t count = 0;
-  std::optional<double> coefficient;
-  double length = 0;
-};
-
-/// Bodies of springs in a step with dense algebra.
-struct Stepped : SpringBodies
-{
-  using SpringBodies::SpringBodies;
-
-  /// Once contacts and Dirichlet conditions are there.
-  Problem& problem(bool refuses = true)
-  {
-    if (not made)
-    {
-      std::vector<Part> parts;
-      for (const auto& contact : contacts)
-      {
-        given.push_back(std::make_shared<Given>());
-        given.back()->count = contact->nodes()->num_nodes();
-        if (contact->law()->is_vector())
-          given.back()->coefficient = 0.3;
-        parts.push_back({"contact 0 (of sheets)", given.back()});
-      }
-      made.emplace(system(), bodies(), std::move(parts), refuses);
-    }
-    return *made;
-  }
-
-  /// One linear solve.
-  void advance()
-  {
-    newton::System& system = *problem().system();
-    std::vector<double> b(system.size());
-    system.residual(b);
-    std::vector<double> dx = dense::solve(matrix(), b);
-    for (double& value : dx)
-      value = -value;
-    problem().update(dx, problem().limit(dx));
-  }
-
-  /// Jacobian by the unknowns, which are lengths.
-  dense::Matrix matrix()
-  {
-    newton::System& system = *problem().system();
-    const auto& springs = problem().loop().free_bodies().springs();
-    dense::Matrix J = jacobian(springs ? std::span<const double>(*springs)
-                                       : std::span<const double>());
-    const std::size_t n = system.num_displacements();
-    for (std::size_t i = 0; i < J.rows; ++i)
-      for (std::size_t k = n; k < J.cols; ++k)
-        J(i, k) *= system.factors()[k - n];
-    return J;
-  }
-
-  /// Iterate until a solution is found, or none is to be expected.
-  const Settled& iterate(int max_it = 30)
-  {
-    while (true)
-    {
-      const Settled& found = problem().settle(1e-12, 0, max_it);
-      if (found.converged or not found.failure.empty())
-        return found;
-      advance();
-    }
-  }
-
-  const Settled& solve(int max_it = 30)
-  {
-    problem().begin_step();
-    return iterate(max_it);
-  }
-
-  /// All that a failed step must leave as it was.
-  std::vector<std::vector<Saved>> state() const
-  {
-    std::vector<std::vector<Saved>> all{{{"u", RowKind::node, 0, *scene.u}}};
-    for (const auto& contact : contacts)
-      all.push_back(save(*contact));
-    return all;
-  }
-
-  std::optional<Problem> made;
-  std::vector<std::shared_ptr<Given>> given;
-};
-
-/// Dense factors of the bodies' Jacobian.
-class DenseSolver final : public LinearSolver
-{
-public:
-  explicit DenseSolver(Stepped& bodies) : _bodies(&bodies) {}
-
-  void update() override { _J = _bodies->matrix(); }
-  void solve(std::span<const double> b, std::span<double> x) override
-  {
-    ++solves;
-    std::ranges::copy(dense::solve(_J, std::vector<double>(b.begin(), b.end())),
-                      x.begin());
-  }
-
-  int solves = 0;
-
-private:
-  Stepped* _bodies;
-  dense::Matrix _J;
-};
 
 void expect_same(const std::vector<std::vector<Saved>>& a,
                  const std::vector<std::vector<Saved>>& b)
@@ -418,7 +292,7 @@ TEST(Problem, ValuesThatDoNotVaryAreReadOnce)
     found.add<NodeToSurface>(found.law(0.3), Sliding::small);
     found.press(0.09, 0.01);
     found.problem();
-    Given& given = *found.given[0];
+    GivenValues& given = *found.given[0];
     EXPECT_EQ(given.reads, 1);
     given.varies = varies;
     ASSERT_TRUE(found.solve().converged);
