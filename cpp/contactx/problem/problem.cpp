@@ -304,6 +304,8 @@ void Problem::prepare()
   _before.reset();
   _has_begun = false;
   _system->bulk()->read();
+  if (_before_step)
+    _before_step();
   check_finite();
   check_prescribed();
   read_values();

@@ -161,6 +161,14 @@ public:
   /// may leave one another for good.
   void allow_flight() { _may_fly = true; }
 
+  /// @brief Call a function where a step is prepared, before its state is
+  /// checked and saved.
+  /// @param[in] function The function. All ranks call it.
+  void before_step(std::function<void()> function)
+  {
+    _before_step = std::move(function);
+  }
+
   /// @brief Call a function once a step has converged, before it is accepted:
   /// time steps find their velocities then.
   /// @param[in] function Returns why the step is refused, the same on all
@@ -319,6 +327,7 @@ private:
   std::vector<Part> _parts;
   bool _refuses, _may_fly = false;
   newton::Loop _loop;
+  std::function<void()> _before_step;
   std::function<std::string()> _before_accept;
   std::optional<audit::Audit> _audit;
   double _size; // of the scene
