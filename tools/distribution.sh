@@ -181,14 +181,18 @@ inside sh -c 'set -e
 		$python $here/demos/cpp/$demo/mesh.py
 		$python $here/tests/dolfinx_cpp/demos.py $demo > $demo.log
 	done
-	$python $here/tests/dolfinx_cpp/variants.py > variants.log
+	for test in variants dynamics; do
+		$python $here/tests/dolfinx_cpp/$test.py > $test.log
+	done
 	for ranks in 1 2; do
 		for demo in hertz sliding_block; do
 			mpiexec -n $ranks demos/cpp/$demo/$demo > cpp.log
 			diff cpp.log $demo.log
 		done
-		mpiexec -n $ranks tests/dolfinx_cpp/variants > cpp.log
-		diff cpp.log variants.log
+		for test in variants dynamics; do
+			mpiexec -n $ranks tests/dolfinx_cpp/$test > cpp.log
+			diff cpp.log $test.log
+		done
 		mpiexec -n $ranks tests/dolfinx_cpp/refusals
 	done' || fail "C++ and Python differ"
 

@@ -318,7 +318,15 @@ public:
   {
     _problem->enter("accept");
     _problem->summarise();
-    _problem->accept();
+    try
+    {
+      _problem->accept();
+    }
+    catch (...)
+    {
+      pack();
+      throw;
+    }
     show();
   }
 
@@ -328,6 +336,9 @@ public:
   /// @brief What the last solution is warned of, a sentence each, the same on
   /// all ranks.
   const std::vector<std::string>& warnings() const { return report().warnings; }
+
+  /// @brief The core's driver of a step.
+  problem::Problem& problem() { return *_problem; }
 
   /// @brief The core's loop.
   const newton::Loop& loop() const { return _problem->loop(); }

@@ -3,10 +3,11 @@
 
 // What the layer must refuse, on all ranks alike; prints what it did not.
 
+#include "falling_block.h"
 #include "sliding_block.h"
 #include <basix/finite-element.h>
 #include <contactx/obstacle/plane.h>
-#include <contactx_dolfinx/assembler.h>
+#include <contactx_dolfinx/dynamics.h>
 #include <cstdio>
 #include <dolfinx.h>
 #include <dolfinx/fem/Constant.h>
@@ -238,6 +239,54 @@ int main(int argc, char* argv[])
     refuses("", [&] { assembler.F(shorter.get(), b.get()); });
     u->x()->array()[0] = NAN;
     refuses("not finite", [&] { assembler.begin_step(); });
+
+    // Time steps
+    const auto start = std::make_shared<fem::Function<T>>(V),
+               velocity = std::make_shared<fem::Function<T>>(V);
+    const auto dt = std::make_shared<fem::Constant<T>>(1.0);
+    const auto weight
+        = std::make_shared<fem::Constant<T>>(std::vector<T>{0, 0});
+    const auto moving = std::make_shared<fem::Function<T>>(V);
+    const auto form = [&](ufcx_form& given, int rank)
+    {
+      return std::make_shared<fem::Form<T>>(fem::create_form<T, U>(
+          given,
+          std::vector<std::shared_ptr<const fem::FunctionSpace<U>>>(rank, V),
+          {{"u", moving}, {"start", start}, {"velocity", velocity}},
+          {{"dt", dt}, {"weight", weight}}, {}, {}, mesh));
+    };
+    const cx::DynamicForms forms{.F = form(*form_falling_block_F, 1),
+                                 .J = form(*form_falling_block_J, 2),
+                                 .mass = form(*form_falling_block_mass, 2)};
+    const auto dynamics
+        = [&](const cx::DynamicForms& given, const cx::Motion& motion)
+    {
+      return std::make_unique<cx::Dynamics>(
+          given, motion, none, std::vector{make(bottom, plane_at(0))});
+    };
+    const cx::Motion motion{moving, start, velocity, dt};
+    refuses("start is null",
+            [&] { dynamics(forms, {moving, nullptr, velocity, dt}); });
+    refuses("velocity is null, u itself",
+            [&] { dynamics(forms, {moving, start, moving, dt}); });
+    refuses("dt is null or no number",
+            [&] { dynamics(forms, {moving, start, velocity, weight}); });
+    refuses("F does not depend on start and velocity",
+            [&]
+            {
+              const auto other = std::make_shared<fem::Function<T>>(V);
+              dynamics(forms, {moving, start, other, dt});
+            });
+    refuses("mass has 1 arguments, but must have 2",
+            [&] { dynamics({forms.F, forms.J, forms.F}, motion); });
+    const auto falling = dynamics(forms, motion);
+    cx::petsc::Owner<KSP, KSPDestroy> ksp;
+    KSPCreate(MPI_COMM_WORLD, ksp.put());
+    cx::KSPSolver solver(falling->assembler(), ksp.get());
+    refuses("dt is 0: give a finite time above 0",
+            [&] { falling->step(0, solver); });
+    velocity->x()->array()[0] = NAN;
+    refuses("velocity is not finite", [&] { falling->step(1, solver); });
   }
   if (failures == 0 and dolfinx::MPI::rank(MPI_COMM_WORLD) == 0)
     std::printf("all refused\n");
