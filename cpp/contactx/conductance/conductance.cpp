@@ -94,10 +94,10 @@ Conductance::Iterate Conductance::evaluate() const
   const std::vector<double>& gap = _contact->nodes()->gap;
   Iterate result{Transfer(*_contact), {}, {}, {}, {}};
   const std::vector<std::int8_t>& is_paired = result.transfer.is_paired();
-  if (_contact->is_active())
-    for (std::size_t i = 0; i < gap.size(); ++i)
-      if (is_paired[i] and not std::isnan(gap[i]))
-        result.nodes.push_back(static_cast<std::int32_t>(i));
+  // Without a gap there is no pair, or the contact is switched off
+  for (std::size_t i = 0; i < gap.size(); ++i)
+    if (is_paired[i] and not std::isnan(gap[i]))
+      result.nodes.push_back(static_cast<std::int32_t>(i));
   result.pressure = some(_results->recovered_pressure(), result.nodes);
   result.gap = some(gap, result.nodes);
   _contact->halo().ranks().agree(
@@ -109,7 +109,8 @@ Conductance::Iterate Conductance::evaluate() const
   return result;
 }
 
-/// Field of the slave nodes less that of the master in front of them (n).
+/// Field of the slave nodes less that of the master in front of them; of no
+/// meaning where there is none, as the area is zero there (n).
 std::vector<double>
 Conductance::differences(const Iterate& iterate,
                          std::span<const double> field) const
@@ -121,10 +122,8 @@ Conductance::differences(const Iterate& iterate,
   every.resize(halo.num_nodes());
   halo.forward(every, 1);
   std::vector<double> result = iterate.transfer.differences(every);
-  if (_obstacle_value)
-    for (std::size_t i = 0; i < result.size(); ++i)
-      if (iterate.transfer.is_paired()[i])
-        result[i] -= *_obstacle_value;
+  for (double& difference : result)
+    difference -= _obstacle_value.value_or(0);
   return result;
 }
 
