@@ -61,6 +61,7 @@ void kernel(py::module_& m);
 void audit(py::module_& m);
 void mortar(py::module_& m);
 void condense(py::module_& m);
+void conductance(py::module_& m);
 void slave_nodes(py::module_& m);
 void contact(py::module_& m);
 void results(py::module_& m);

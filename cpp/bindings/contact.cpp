@@ -181,29 +181,7 @@ void contactx_bindings::contact(py::module_& m)
                        "Scalar fields on both sides of a contact")
       .def(py::init<const Contact&>(), py::arg("contact"),
            py::keep_alive<1, 2>())
-      .def_property_readonly("is_paired", [](const Transfer& self)
-                             { return to_bool(self.is_paired()); })
-      .def_property_readonly("area", [](const Transfer& self)
-                             { return array(self.area()); })
       .def(
           "differences", [](const Transfer& self, const Array<double>& field)
-          { return array(self.differences(view(field))); }, py::arg("field"))
-      .def(
-          "add",
-          [](const Transfer& self, const Array<double>& flow, Array<double> b)
-          { self.add(view(flow), mutable_view(b)); }, py::arg("flow"),
-          py::arg("b").noconvert())
-      .def(
-          "by_field", [](const Transfer& self, const Array<double>& h)
-          { return self.by_field(view(h)); }, py::arg("h"))
-      .def(
-          "by_displacement",
-          [](const Transfer& self, const Array<double>& factor)
-          { return self.by_displacement(view(factor)); }, py::arg("factor"))
-      .def(
-          "by_slaves", [](const Transfer& self, const Array<double>& factor)
-          { return self.by_slaves(view(factor)); }, py::arg("factor"))
-      .def(
-          "at_master", [](const Transfer& self, const Array<double>& values)
-          { return array(self.at_master(view(values))); }, py::arg("values"));
+          { return array(self.differences(view(field))); }, py::arg("field"));
 }

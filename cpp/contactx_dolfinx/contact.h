@@ -72,8 +72,8 @@ public:
   /// finer or the softer one.
   /// @param[in] master Surface or obstacle that they are measured against.
   /// @param[in] options How it is.
-  /// @throws std::invalid_argument if friction and a law of it are given, or
-  /// the obstacle is null.
+  /// @throws std::invalid_argument if options are out of their range or exclude
+  /// each other, or the obstacle is null.
   Contact(Surface slave, Master master, Options options = {})
       : _slave(std::move(slave)), _master(std::move(master)), _options(options),
         _values(std::make_shared<Values>(options.friction, options.offset))
@@ -86,6 +86,7 @@ public:
     if (obstacle and *obstacle == nullptr)
       throw std::invalid_argument("the obstacle of a Contact is null: give a "
                                   "Plane, Sphere, Cylinder or LevelSet");
+    problem::check(core_options(), is_self());
   }
 
   /// @brief Make the contact's discrete side; the Assembler does so. All ranks
@@ -290,19 +291,23 @@ private:
     _name = problem::name_of(sides, _options.sliding);
     _discrete = problem::make_contact(
         {halo, bodies, bulk.all_cells(), bulk.nodes_per_cell()}, sides,
-        {.method = _options.method,
-         .sliding = _options.sliding,
-         .tied = _options.tied,
-         .has_friction = _options.friction or _options.friction_law,
-         .bound = _options.friction_law,
-         .search_distance = _options.search_distance,
-         .excluded_distance = _options.excluded_distance,
-         .adjust = _options.adjust,
-         .smooth = _options.smooth,
-         .tangential_factor = _options.tangential_factor},
-        bulk.all_markers());
+        core_options(), bulk.all_markers());
     _results = std::make_shared<results::Results>(_discrete);
     halo->ranks().agree([&] { _values->attach(V, slave_nodes()); });
+  }
+
+  problem::ContactOptions core_options() const
+  {
+    return {.method = _options.method,
+            .sliding = _options.sliding,
+            .tied = _options.tied,
+            .has_friction = _options.friction or _options.friction_law,
+            .bound = _options.friction_law,
+            .search_distance = _options.search_distance,
+            .excluded_distance = _options.excluded_distance,
+            .adjust = _options.adjust,
+            .smooth = _options.smooth,
+            .tangential_factor = _options.tangential_factor};
   }
 
   std::vector<double> weights(const parallel::Halo& halo,

@@ -18,8 +18,6 @@ from contactx.arguments import described, is_number
 from contactx.contact import Contact
 from contactx.nodal import matching_nodes
 from contactx.obstacles import Obstacle
-from contactx.parallel import reduce
-from contactx.parallel.agreement import agreed
 from contactx.refined import degree_of
 from dolfinx import fem
 
@@ -27,18 +25,14 @@ type Array = npt.NDArray[np.float64]
 type Index = npt.NDArray[np.int64]
 type Coefficient = float | Callable[[Array, Array], npt.ArrayLike]
 
-# Relative steps of the difference quotients of a coefficient
-_STEP = 1e-6
-
 
 class Conductance:
     """Flow from the slave to the master of a contact, q = h(p, g) (T_slave - T_master) per area.
 
     T is a scalar field such as a temperature, p the recovered contact pressure and g the gap. What
-    leaves the slave arrives at the master, whether the meshes match or not: with the weights of the
-    contact's pairs a node j has the flow sum_i w_ij A_i h_i sum_k w_ik T_k; see
-    ``contact/transfer.h`` and theory/conductance of the manual. Flows are integrals with the
-    contact's weight, and over reference areas.
+    leaves the slave arrives at the master, whether the meshes match or not: see
+    ``conductance/conductance.h`` and theory/conductance of the manual. Flows are integrals with
+    the contact's weight, and over reference areas.
 
     Given to a ``ContactProblem`` that solves for displacement and T together, it is part of that
     system, with its derivatives by T, by the pressure and by the gap. Where T is solved for by
@@ -84,15 +78,6 @@ class Conductance:
                 f"coefficient is {described(coefficient)}: give a number, or a function of the "
                 "pressures and gaps"
             )
-        if not callable(coefficient) and not (np.isfinite(coefficient) and coefficient >= 0):
-            raise ValueError(f"coefficient is {coefficient}: give a finite number of at least 0")
-        is_rigid = isinstance(contact.master, Obstacle)
-        if is_rigid != (obstacle_value is not None):
-            raise ValueError(
-                "obstacle_value is missing: give the field's value at the rigid obstacle"
-                if is_rigid
-                else "obstacle_value is for rigid obstacles: a master surface has the field itself"
-            )
         if obstacle_value is not None and not (
             is_number(obstacle_value) or isinstance(obstacle_value, fem.Constant)
         ):
@@ -103,6 +88,8 @@ class Conductance:
         self.field = field
         self.coefficient = coefficient
         self.obstacle_value = obstacle_value
+        core.Coefficient(coefficient)
+        core.check_obstacle_value(self._obstacle_value, isinstance(contact.master, Obstacle))
         # Node of the field at each of the bulk's nodes
         self._nodes: npt.NDArray[np.int32] | None = None
 
@@ -139,9 +126,7 @@ class Conductance:
 
         All ranks must take part.
         """
-        transfer, h = self._evaluate()
-        flow = h * transfer.area * self._differences(transfer)
-        return float(reduce.total(self._halo.comm, flow.sum()))
+        return self._core().flow(self._values())
 
     def residual(self) -> Array:
         """Flow out of each of the field's dofs that this rank owns; all ranks must take part.
@@ -153,10 +138,7 @@ class Conductance:
             Flow from the slave's dofs, negative into the master's, shape (num_owned,): the unit of
             the coefficient times T times area.
         """
-        transfer, h = self._evaluate()
-        b = np.zeros(self._halo.num_nodes)
-        transfer.add(h * transfer.area * self._differences(transfer), b)
-        sums = self._halo.scatter_reverse(b)
+        sums = self._core().residual(self._values())
         residual: Array = np.empty_like(sums)
         assert self._nodes is not None
         residual[self._nodes[: len(sums)]] = sums
@@ -177,9 +159,8 @@ class Conductance:
         Returns:
             A new matrix, flow per unit of T.
         """
-        transfer, h = self._evaluate()
+        entries = self._core().by_field()
         dofs = self._numbers()
-        entries = transfer.by_field(h)
         index_map = self.field.function_space.dofmap.index_map
         size = (index_map.size_local, None)
         C = PETSc.Mat().createAIJ((size, size), comm=self._halo.comm)
@@ -192,24 +173,14 @@ class Conductance:
         C.setLGMap(lgmap, lgmap)
         return C
 
-    def derivatives(self) -> tuple[core.Triplets, core.Triplets, core.Triplets, Array]:
+    def derivatives(self) -> tuple[core.Triplets, core.Triplets, core.Triplets]:
         """Derivatives of the flows out of the nodes; all ranks must take part.
 
         Returns:
             Those by the field, nodes by nodes; by the displacement, nodes by displacements; by the
-            pressure, nodes by slave nodes; and the slave nodes' normals, shape (n, gdim).
+            contact's multipliers, nodes by multipliers of this rank's slave nodes.
         """
-        interface = self.contact.interface
-        transfer, h = self._evaluate()
-        difference = transfer.area * self._differences(transfer)
-        by_pressure, by_gap = self._slopes(transfer)
-        normal = interface.master.normals().reshape(-1, 3)[:, : self._halo.gdim]
-        return (
-            transfer.by_field(h),
-            transfer.by_displacement(by_gap * difference),
-            transfer.by_slaves(by_pressure * difference),
-            normal,
-        )
+        return self._core().derivatives(self._values())
 
     @property
     def _halo(self) -> Any:
@@ -235,84 +206,28 @@ class Conductance:
         first, last = index_map.local_range
         return self.at_nodes(np.arange(first, last, dtype=np.int64))
 
-    def _differences(self, transfer: core.Transfer) -> Array:
-        """Field of the slave nodes less that of the master in front of them, shape (n,)."""
-        differences = transfer.differences(self.at_nodes(self.field.x.array))
-        other = self.obstacle_value
-        if other is not None:
-            differences -= float(other.value if isinstance(other, fem.Constant) else other)
-        differences[~transfer.is_paired] = 0
-        return differences
+    def _values(self) -> Array:
+        """Values of the field at the nodes that this rank owns, shape (num_owned,)."""
+        assert self._nodes is not None
+        values: Array = self.field.x.array[self._nodes[: self._halo.num_owned]]
+        return values
 
-    def _evaluate(self) -> tuple[core.Transfer, Array]:
-        """Pairs and coefficients of the iterate, zero where there is no pair."""
+    @property
+    def _obstacle_value(self) -> float | None:
+        value = self.obstacle_value
+        if value is None:
+            return None
+        return float(value.value if isinstance(value, fem.Constant) else value)
+
+    def _core(self) -> core.Conductance:
+        """The core's, with the coefficient and the obstacle's value of now."""
         self.check()
-        interface = self.contact.interface
-        interface.update_gap()
-        transfer = core.Transfer(interface)
-        # Iterates may pull, or penetrate
-        self._p = np.maximum(self.contact.fields.recovered_pressure(), 0.0)
-        self._gap = np.maximum(interface.nodes.gap, 0.0)
-        with agreed(self._halo.comm):
-            h = self._coefficients(transfer, self._p, self._gap)
-        return transfer, h
-
-    def _slopes(self, transfer: core.Transfer) -> tuple[Array, Array]:
-        """Derivatives of the coefficients by pressure and gap, where these were evaluated last."""
-        zero = np.zeros_like(self._p)
-        if not callable(self.coefficient):
-            return zero, zero
-        paired = self._conducts(transfer)
-        comm = self._halo.comm
-        slopes = []
-        for k, values in enumerate((self._p, self._gap)):
-            size = reduce.largest(comm, float(np.abs(values[paired]).max(initial=0.0)))
-            if size == 0:
-                slopes.append(zero)
-                continue
-            step = _STEP * size
-            with agreed(comm):
-                ends = []
-                for sign in (1, -1):
-                    given = [self._p, self._gap]
-                    given[k] = np.maximum(values + sign * step, 0.0)
-                    ends.append((self._coefficients(transfer, *given), given[k]))
-                (high, up), (low, down) = ends
-                slopes.append((high - low) / np.where(paired, up - down, 1.0))
-        return slopes[0], slopes[1]
-
-    def _conducts(self, transfer: core.Transfer) -> npt.NDArray[np.bool_]:
-        """Whether anything flows at slave nodes: not where contact is switched off."""
-        conducts: npt.NDArray[np.bool_] = transfer.is_paired & ~np.isnan(self._gap)
-        return conducts & self.contact.active
-
-    def _coefficients(self, transfer: core.Transfer, p: Array, gap: Array) -> Array:
-        """Coefficients of the slave nodes.
-
-        Raises:
-            ValueError: If they are not as they must be.
-        """
-        h = np.zeros(len(p))
-        paired = self._conducts(transfer)
-        if not paired.any():
-            return h
-        found: Any = self.coefficient
-        if callable(self.coefficient):
-            found = self.coefficient(p[paired].copy(), gap[paired].copy())
-        found = np.asarray(found, dtype=np.float64)
-        wanted = (int(paired.sum()),)
-        if callable(self.coefficient) and found.shape not in ((), wanted):
-            raise ValueError(
-                f"coefficient() of a conductance returned the shape {found.shape} for {wanted[0]} "
-                "nodes: return a value for each"
-            )
-        if not (np.isfinite(found).all() and (found >= 0).all()):
-            raise ValueError(
-                "coefficient() of a conductance is negative or not finite: it must not be for any "
-                "pressure and gap of at least zero"
-            )
-        h[paired] = found
-        return h
+        return core.Conductance(
+            self.contact.interface,
+            self.contact.fields.results,
+            core.Coefficient(self.coefficient),
+            self._obstacle_value,
+        )
 
 
 def add_entries(A: PETSc.Mat, rows: Index, columns: Index, values: Array) -> None:

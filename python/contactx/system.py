@@ -161,28 +161,15 @@ class SaddlePointSystem:
         first = self._layout.bulk()[:1] + self.num_displacements + bulk.fields.first_of(k)
         dofs = conductance.at_nodes(first + np.arange(count, dtype=np.int64))
         free = conductance.at_nodes(bulk.all_markers[k].astype(np.int64)) == 0
-        by_field, by_displacement, by_pressure, normal = conductance.derivatives()
-        size = interface.nodes.size
         at = self._offsets[1 + self.interfaces.index(interface)] - self.num_bulk
-        own = places[self.num_local + at :]
-        slaves = by_pressure.columns
-        multipliers = [
-            (
-                by_pressure.rows,
-                own[size * slaves + i],
-                by_pressure.values * (1.0 if size == 1 else normal[slaves, i]),
-            )
-            for i in range(size)
-        ]
+        all_columns = dofs, places, places[self.num_local + at :]
+        derivatives = conductance.derivatives()
         A.assemble(PETSc.Mat.AssemblyType.FLUSH)
         A.setOption(PETSc.Mat.Option.NEW_NONZERO_ALLOCATION_ERR, False)
-        for rows, columns, values in (
-            (by_field.rows, dofs[by_field.columns], by_field.values),
-            (by_displacement.rows, places[by_displacement.columns], by_displacement.values),
-            *multipliers,
-        ):
+        for entries, columns in zip(derivatives, all_columns, strict=True):
+            rows, column, values = entries.rows, columns[entries.columns], entries.values
             keep = free[rows]
-            add_entries(A, dofs[rows[keep]], columns[keep], values[keep])
+            add_entries(A, dofs[rows[keep]], column[keep], values[keep])
 
     def _bulk_rows(self) -> Rows:
         """Rows of the bulk's Jacobian, which are kept where it does not change."""

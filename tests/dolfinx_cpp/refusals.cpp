@@ -212,7 +212,7 @@ int main(int argc, char* argv[])
             });
     refuses("but slave and master are not the same surface",
             [&] { couple(make(bottom, top, {.excluded_distance = 0.1})); });
-    refuses("inside a rigid obstacle",
+    refuses("inside the rigid obstacle",
             [&]
             {
               couple(make(top, std::make_shared<contactx::obstacle::Plane>(
@@ -228,11 +228,11 @@ int main(int argc, char* argv[])
     refuses("belongs to an Assembler already", [&] { couple(contact); });
     const cx::petsc::OwnVec b(assembler.create_vector());
     refuses("settle() before begin_step()", [&] { assembler.settle(); });
-    refuses("F() before begin_step()",
+    refuses("residual() before begin_step()",
             [&] { assembler.F(assembler.x(), b.get()); });
     assembler.begin_step();
     refuses("limit() before settle()", [&] { assembler.limit(b.get()); });
-    refuses("no solution", [&] { assembler.accept(); });
+    refuses("accept() before settle()", [&] { assembler.accept(); });
     assembler.settle();
     cx::petsc::OwnVec shorter;
     VecCreateMPI(MPI_COMM_WORLD, 1, PETSC_DETERMINE, shorter.put());

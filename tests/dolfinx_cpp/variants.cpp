@@ -399,18 +399,15 @@ void refusals(Scene& scene)
          told.contact->set_friction(NAN);
          return told.step();
        });
-  said("out of reach",
+  said("coarse disc",
        [&]
        {
-         scene.load->value[1] = 0;
-         return Told(scene, base,
-                     {.sliding = cx::Sliding::small,
-                      .search_distance = 0.01,
-                      .offset = -0.5},
-                     support(scene, {{1, 12}}))
+         const auto disc = std::make_shared<obstacle::Sphere>(
+             std::vector<double>{0.9, -0.15}, 0.15);
+         return Told(scene, disc, {.friction = 0.1, .offset = offset},
+                     support(scene))
              .step();
        });
-  scene.load->value[1] = -0.01;
   said("level set",
        [&]
        {
@@ -446,7 +443,7 @@ void refusals(Scene& scene)
   options("smooth plane", std::make_shared<obstacle::Plane>(point, up),
           {.smooth = true});
   options("smooth tie", base, {.tied = true, .smooth = true});
-  options("apart", cx::Surface(scene.tags, {12}), {});
+  options("faces away", cx::Surface(scene.tags, {22}), {});
 }
 } // namespace
 

@@ -219,8 +219,8 @@ def refusals(tags: Any, V: fem.FunctionSpace) -> None:
     said("prescribed", prescribed)
     said("load", lambda: Told(tags, V, base, load=np.nan, **little).step())
     said("friction", friction)
-    apart: dict[str, Any] = {"sliding": "small", "search_distance": 0.01, "offset": -0.5}
-    said("out of reach", lambda: Told(tags, V, base, more=[(1, 12)], load=0.0, **apart).step())
+    disc = cx.Sphere(centre=[0.9, -0.15], radius=0.15)
+    said("coarse disc", lambda: Told(tags, V, disc, friction=0.1, **little).step())
     said("level set", level_set)
     for name, master, options in (
         ("tied with friction", base, {"friction": 0.3, "tied": True}),
@@ -230,7 +230,7 @@ def refusals(tags: Any, V: fem.FunctionSpace) -> None:
         ("tangential factor", base, {"friction": 0.3, "tangential_factor": 0}),
         ("smooth plane", plane, {"smooth": True}),
         ("smooth tie", base, {"tied": True, "smooth": True}),
-        ("apart", cx.Surface(tags, 12), {}),
+        ("faces away", cx.Surface(tags, 22), {}),
     ):
         said(name, lambda m=master, o=options: Told(tags, V, m, **o).step())
 

@@ -317,39 +317,36 @@ void Problem::prepare()
 void Problem::check_finite()
 {
   const std::span<const double> u = _system->bulk()->displacements();
-  std::vector<std::size_t> bad;
+  std::vector<std::int32_t> nodes;
+  std::int64_t count = 0;
   for (std::size_t i = 0; i < u.size(); ++i)
     if (not std::isfinite(u[i]))
-      bad.push_back(i);
-  _halo->ranks().agree(
-      [&]
-      {
-        if (not bad.empty())
-          throw std::invalid_argument(
-              "the displacement u is not finite at "
-              + std::to_string(bad.size()) + " dofs, first at node "
-              + std::to_string(bad[0] / _halo->gdim())
-              + ": repair the mesh or the initial guess (manual: "
-                "errors/values-not-finite)");
-      });
+    {
+      ++count;
+      nodes.push_back(static_cast<std::int32_t>(i / _halo->gdim()));
+    }
+  count = parallel::total(_halo->ranks(), count);
+  const auto found = parallel::found_nodes(*_halo, nodes, _halo->reference());
+  if (count > 0)
+    throw std::invalid_argument(
+        "the displacement u is not finite at " + std::to_string(count)
+        + " dofs, first at node " + std::to_string(found.first)
+        + " of the mesh as it was made: repair the mesh or the initial guess "
+          "(manual: errors/values-not-finite)");
 }
 
 void Problem::check_prescribed()
 {
-  const std::span<const double> defect = _system->bulk()->defect();
-  const auto bad = std::ranges::count_if(defect, [](double d)
-                                         { return not std::isfinite(d); });
-  _halo->ranks().agree(
-      [&]
-      {
-        if (bad > 0)
-          throw std::invalid_argument(
-              "bcs prescribe displacements that are not finite, at "
-              + std::to_string(bad)
-              + " dofs: give finite numbers; the function that sets them, as "
-                "update of LoadSteps, may be wrong (manual: "
-                "errors/values-not-finite)");
-      });
+  const auto bad = parallel::total<std::int64_t>(
+      _halo->ranks(),
+      std::ranges::count_if(_system->bulk()->defect(),
+                            [](double d) { return not std::isfinite(d); }));
+  if (bad > 0)
+    throw std::invalid_argument(
+        "bcs prescribe displacements that are not finite, at "
+        + std::to_string(bad)
+        + " dofs: give finite numbers; the function that sets them, as update "
+          "of LoadSteps, may be wrong (manual: errors/values-not-finite)");
 }
 
 /// Dirichlet conditions must keep no slave node inside a rigid obstacle.
