@@ -103,10 +103,12 @@ void contactx_bindings::contact(py::module_& m)
                              .master = {},
                              .is_self = is_self,
                              .level = copy(level)};
+                 std::optional<Surface> surface;
                  if (py::isinstance<Obstacle>(master))
                    sides.master = master.cast<std::shared_ptr<Obstacle>>();
                  else
-                   sides.master = named(master.cast<Surface>());
+                   sides.master
+                       = named(surface.emplace(master.cast<Surface>()));
                  if (weight)
                    sides.weight = [&](std::span<const std::int32_t> nodes)
                    {
@@ -121,8 +123,9 @@ void contactx_bindings::contact(py::module_& m)
            py::arg("level"), py::arg("weight"), py::arg("prescribed"),
            // A subclass in Python must outlive who calls its methods
            py::keep_alive<1, 4>())
-      .def_property_readonly("slave_nodes", &Contact::slaves,
-                             py::return_value_policy::reference_internal)
+      .def_property_readonly(
+          "slave_nodes", [](const Contact& self)
+          { return std::const_pointer_cast<SlaveNodes>(self.shared_slaves()); })
       .def_property_readonly("master", &Contact::master)
       .def_property_readonly("law", &Contact::law)
       .def_property_readonly("nodes", &Contact::nodes)

@@ -68,6 +68,12 @@ public:
   /// @brief Slave nodes.
   const SlaveNodes& slaves() const { return *_slaves; }
 
+  /// @brief The same, to keep.
+  const std::shared_ptr<const SlaveNodes>& shared_slaves() const
+  {
+    return _slaves;
+  }
+
   /// @brief Master.
   const std::shared_ptr<Master>& master() const { return _master; }
 
