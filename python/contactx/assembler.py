@@ -491,7 +491,11 @@ class ContactAssembler:
             raise
 
     def commit(self) -> None:
-        """Do the same as ``accept`` without checking the order of calls."""
+        """Do the same as ``accept`` without checking the order of calls.
+
+        Raises:
+            ConvergenceError: If a node has come too far before it touched.
+        """
         report = self.report
         if reason := self.core.accept():
             report.converged = False
