@@ -131,14 +131,19 @@ def test_a_failed_step_brings_back_which_nodes_can_yield():
     assert scene.state() == before
 
 
-def test_problems_are_freed():
+@pytest.mark.parametrize("friction", [0.0, 0.3])
+@pytest.mark.parametrize("pc", ["lu", "condensed"])
+def test_problems_are_freed(pc, friction):
+    """With all that has vectors of PETSc and communicators, of which there are not many."""
     scene = Blocks(CellType.triangle)
-    problem = scene.problem(scene.contact())
+    problem = scene.problem(scene.contact(friction=friction), petsc_options={"pc_type": pc})
     problem.solve()
-    system = weakref.ref(problem.assembler.system)
-    del problem
+    assembler = problem.assembler
+    parts = (assembler, assembler.system, assembler.interfaces[0], assembler.halo)
+    seen = [weakref.ref(part) for part in parts]
+    del problem, assembler, parts
     gc.collect()
-    assert system() is None
+    assert [part() for part in seen] == [None] * len(seen)
 
 
 def test_another_kind_of_snes_does_not_pass_for_convergence():
