@@ -16,6 +16,16 @@ std::string contactx::number_text(double value, int digits)
   return {buffer.data(), end.ptr};
 }
 
+std::string contactx::exact_text(double value)
+{
+  if (std::isnan(value))
+    return "nan";
+  std::array<char, 32> buffer;
+  const auto end
+      = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+  return {buffer.data(), end.ptr};
+}
+
 std::string contactx::point_text(std::span<const double> x, double size)
 {
   std::string text;

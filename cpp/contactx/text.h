@@ -13,6 +13,10 @@ namespace contactx
 /// @param[in] digits Significant digits, 1 to 17.
 std::string number_text(double value, int digits);
 
+/// @brief Shortest text that reads back as the same number, or "nan" whatever
+/// its sign.
+std::string exact_text(double value);
+
 /// @brief Coordinates of a point in six digits, without what rounding has left
 /// of a zero.
 /// @param[in] x Point (shape=(gdim)).

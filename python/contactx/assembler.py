@@ -572,12 +572,10 @@ class ContactAssembler:
             ValueError: If a vector or matrix is of another layout, or arguments differ.
         """
         wrong = ", ".join(f"{k}={v!r}" for k, v in numbers.items() if not is_number(v))
-        values = [] if wrong else [(name, float(value)) for name, value in numbers.items()]
         wanted = self.system.x.getSizes()
         got = wanted if given is None else given.getSizes()
         if isinstance(given, PETSc.Mat):
             wanted = (wanted, wanted)
-        self.core.enter(call, values or [(name, np.nan) for name in numbers])
         with agreed(self._comm):
             if wrong:
                 raise TypeError(f"{call}() was given {wrong}: give a number")
@@ -587,3 +585,4 @@ class ContactAssembler:
                     f"global), but the unknowns are {wanted}: take create_vector(), or the matrix "
                     "that jacobian() returns"
                 )
+        self.core.enter(call, [(name, float(value)) for name, value in numbers.items()])

@@ -19,6 +19,7 @@ from contactx.interrupts import Interrupts
 from contactx.newton import NewtonLoop
 from contactx.options import check_petsc_options, is_condensed, newton_options
 from contactx.report import Report
+from contactx.state import Snapshot
 from dolfinx import fem
 
 
@@ -147,6 +148,14 @@ class ContactProblem:
     def update_ghosts(self) -> None:
         """Give ghosts the owners' displacements, after these were set; all ranks must take part."""
         self.assembler.halo.update_ghosts()
+
+    def snapshot(self, history: Sequence[fem.Function] = ()) -> Snapshot:
+        """Copy the state; LoadSteps returns to it where a step fails.
+
+        Args:
+            history: Further functions that belong to the state.
+        """
+        return Snapshot(self.assembler, history)
 
     @property
     def beside(self) -> list[fem.Function]:

@@ -35,7 +35,8 @@ class FreeBlock:
         # The nodes look at their interface's
         self.interface, self.nodes, self.slaves = interface, interface.nodes, interface.slaves
         assert interface.master.paired.all()
-        interface.read_values()
+        if friction:
+            interface.law.set_friction(np.full(len(self.slaves), friction))
         self.nodes.area[:] = 0.1
         self.nodes.gap[:] = gap + slope * halo.x[self.slaves, 0]
         if friction:

@@ -122,7 +122,7 @@ void Problem::enter(std::string_view call,
     if (differ(1 + k))
       throw std::invalid_argument(
           numbers[k].first + " of " + name + " differs between ranks, "
-          + each([&](std::size_t r) { return number_text(of(r, 1 + k), 17); })
+          + each([&](std::size_t r) { return exact_text(of(r, 1 + k)); })
           + ": give the same on all");
   if (call != "begin_step" and not _has_begun)
     throw std::logic_error(name

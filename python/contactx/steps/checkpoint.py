@@ -18,7 +18,6 @@ from contactx.parallel.adapter import original_nodes
 from contactx.parallel.agreement import agreed
 from contactx.problem import ContactProblem
 from contactx.refined import reference_positions
-from contactx.state import Snapshot
 from contactx.steps.function_rows import FunctionRows, cell_nodes
 from contactx.steps.rows import Rows
 from dolfinx import fem
@@ -83,7 +82,7 @@ class Checkpoint:
         with agreed(self._comm):
             if self._comm.rank == 0:
                 _check_fit(saved, present)
-        before = Snapshot(self._problem.assembler, self._history)
+        before = self._problem.snapshot(self._history)
         try:
             self._u.scatter(saved.get("u"))
             self._problem.update_ghosts()

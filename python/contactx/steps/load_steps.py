@@ -248,7 +248,7 @@ class LoadSteps:
                 return step
 
     def _snapshot(self) -> Snapshot:
-        return Snapshot(self._problem.assembler, self._history)
+        return self._problem.snapshot(self._history)
 
     def _update_again(self, error: BaseException) -> None:
         """Set the loads of the last accepted step, whatever that raises."""
