@@ -6,25 +6,27 @@
 #include <charconv>
 #include <cmath>
 
-std::string contactx::number_text(double value, int digits)
+namespace
+{
+/// Text of a number in a format of std::to_chars.
+template <class... Format>
+std::string text_in(double value, Format... format)
 {
   if (std::isnan(value))
     return "nan"; // Without a sign
   std::array<char, 32> buffer;
   const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(),
-                                 value, std::chars_format::general, digits);
+                                 value, format...);
   return {buffer.data(), end.ptr};
+}
+} // namespace
+
+std::string contactx::number_text(double value, int digits)
+{
+  return text_in(value, std::chars_format::general, digits);
 }
 
-std::string contactx::exact_text(double value)
-{
-  if (std::isnan(value))
-    return "nan";
-  std::array<char, 32> buffer;
-  const auto end
-      = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
-  return {buffer.data(), end.ptr};
-}
+std::string contactx::exact_text(double value) { return text_in(value); }
 
 std::string contactx::point_text(std::span<const double> x, double size)
 {

@@ -3,9 +3,9 @@
 
 #include "law.h"
 #include "../contact/slip_history.h"
+#include "../text.h"
 #include "coulomb.h"
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -132,9 +132,7 @@ void Coulomb::set_friction(std::span<const double> friction)
     // The least tells most
     if (const auto least = std::ranges::min_element(friction); *least < 0)
       bad = least;
-    char text[32];
-    const auto end = std::to_chars(text, text + sizeof(text), *bad).ptr;
-    throw std::invalid_argument("friction is " + std::string(text, end)
+    throw std::invalid_argument("friction is " + exact_text(*bad)
                                 + ": give numbers of at least 0 (manual: "
                                   "errors/friction-values)");
   }

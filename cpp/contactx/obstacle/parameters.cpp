@@ -2,28 +2,17 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "parameters.h"
+#include "../text.h"
 #include <algorithm>
-#include <charconv>
 #include <stdexcept>
 
 using namespace contactx;
-
-namespace
-{
-std::string text_of(double value)
-{
-  std::array<char, 32> buffer;
-  const auto end
-      = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
-  return {buffer.data(), end.ptr};
-}
-} // namespace
 
 std::string obstacle::text(std::span<const double> values)
 {
   std::string all;
   for (double value : values)
-    all += (all.empty() ? "" : ", ") + text_of(value);
+    all += (all.empty() ? "" : ", ") + exact_text(value);
   return "[" + all + "]";
 }
 
@@ -80,7 +69,7 @@ Vector<3> obstacle::direction(std::span<const double> value, int gdim,
 double obstacle::positive(double value, const char* name)
 {
   if (not(std::isfinite(value) and value > 0))
-    throw std::invalid_argument(std::string(name) + " is " + text_of(value)
+    throw std::invalid_argument(std::string(name) + " is " + exact_text(value)
                                 + ": give a positive number");
   return value;
 }
