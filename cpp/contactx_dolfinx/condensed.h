@@ -707,14 +707,7 @@ private:
       petsc::check(
           KSPSetOptionsPrefix(_lu.get(), (_prefix + "direct_").c_str()),
           "KSPSetOptionsPrefix");
-      petsc::check(KSPSetType(_lu.get(), KSPPREONLY), "KSPSetType");
-      PC pc = nullptr;
-      petsc::check(KSPGetPC(_lu.get(), &pc), "KSPGetPC");
-      petsc::check(PCSetType(pc, PCLU), "PCSetType");
-#ifdef PETSC_HAVE_MUMPS
-      petsc::check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS),
-                   "PCFactorSetMatSolverType");
-#endif
+      petsc::set_lu(_lu.get());
       petsc::check(KSPSetFromOptions(_lu.get()), "KSPSetFromOptions");
     }
     make_jacobian();

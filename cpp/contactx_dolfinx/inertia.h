@@ -92,14 +92,7 @@ public:
                  "PetscObjectGetComm");
     petsc::check(KSPCreate(comm, _ksp.put()), "KSPCreate");
     petsc::check(KSPSetOperators(_ksp.get(), A, A), "KSPSetOperators");
-    petsc::check(KSPSetType(_ksp.get(), KSPPREONLY), "KSPSetType");
-    PC pc = nullptr;
-    petsc::check(KSPGetPC(_ksp.get(), &pc), "KSPGetPC");
-    petsc::check(PCSetType(pc, PCLU), "PCSetType");
-#ifdef PETSC_HAVE_MUMPS
-    petsc::check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS),
-                 "PCFactorSetMatSolverType");
-#endif
+    petsc::set_lu(_ksp.get());
   }
 
   void solve(std::span<double> values) override

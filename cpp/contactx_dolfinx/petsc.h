@@ -4,6 +4,7 @@
 #pragma once
 
 #include <dolfinx/la/petsc.h>
+#include <petscksp.h>
 #include <petscmat.h>
 #include <petscvec.h>
 #include <span>
@@ -52,6 +53,19 @@ private:
 
 using OwnVec = Owner<::Vec, VecDestroy>;
 using OwnMat = Owner<::Mat, MatDestroy>;
+
+/// @brief Solve by one LU factorisation, that of MUMPS where PETSc has it.
+inline void set_lu(::KSP ksp)
+{
+  check(KSPSetType(ksp, KSPPREONLY), "KSPSetType");
+  ::PC pc = nullptr;
+  check(KSPGetPC(ksp, &pc), "KSPGetPC");
+  check(PCSetType(pc, PCLU), "PCSetType");
+#ifdef PETSC_HAVE_MUMPS
+  check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS),
+        "PCFactorSetMatSolverType");
+#endif
+}
 
 /// @brief A vector's values on this rank, for as long as this lives.
 class Values

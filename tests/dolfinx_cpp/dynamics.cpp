@@ -184,11 +184,7 @@ int main(int argc, char* argv[])
     cx::petsc::Owner<KSP, KSPDestroy> ksp;
     KSPCreate(MPI_COMM_WORLD, ksp.put());
     scene.ksp = ksp.get();
-    KSPSetType(scene.ksp, KSPPREONLY);
-    PC pc;
-    KSPGetPC(scene.ksp, &pc);
-    PCSetType(pc, PCLU);
-    PCFactorSetMatSolverType(pc, MATSOLVERMUMPS);
+    cx::petsc::set_lu(scene.ksp);
 
     const auto plane = std::make_shared<obstacle::Plane>(
         std::vector<double>{0, 0}, std::vector<double>{0, 1});

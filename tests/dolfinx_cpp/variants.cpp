@@ -458,11 +458,7 @@ int main(int argc, char* argv[])
     cx::petsc::Owner<KSP, KSPDestroy> ksp;
     KSPCreate(MPI_COMM_WORLD, ksp.put());
     scene.ksp = ksp.get();
-    KSPSetType(scene.ksp, KSPPREONLY);
-    PC pc;
-    KSPGetPC(scene.ksp, &pc);
-    PCSetType(pc, PCLU);
-    PCFactorSetMatSolverType(pc, MATSOLVERMUMPS);
+    cx::petsc::set_lu(scene.ksp);
 
     const cx::Surface base(scene.tags, {21});
     const auto mortar = cx::Method::surface_to_surface;
