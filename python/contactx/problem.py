@@ -154,6 +154,9 @@ class ContactProblem:
 
         Args:
             history: Further functions that belong to the state.
+
+        Returns:
+            The copy; its ``restore()`` brings the state back.
         """
         return Snapshot(self.assembler, history)
 
