@@ -166,12 +166,12 @@ for demo in hertz sliding_block; do
 	"$python" "$source/demos/cpp/$demo/mesh.py"
 	"$python" "$source/tests/dolfinx_cpp/demos.py" $demo > $demo.log
 done
-for test in variants dynamics; do
+for test in variants dynamics fields; do
 	"$python" "$source/tests/dolfinx_cpp/$test.py" > $test.log
 done
 built=$folder/build
 for ranks in 1 2; do
-	for name in hertz sliding_block variants dynamics refusals; do
+	for name in hertz sliding_block variants dynamics fields refusals; do
 		case $name in
 		hertz | sliding_block) of=$built/demos/cpp/$name/$name ;;
 		*) of=$built/tests/dolfinx_cpp/$name ;;

@@ -59,14 +59,17 @@ public:
   {
     return keep(_markers, _adapter.attr("markers")());
   }
-  std::span<const double> magnitudes() override
+  std::span<const double>
+  absolute_products(std::span<const double> sizes) override
   {
-    return keep(_magnitudes, _adapter.attr("magnitudes")());
+    return keep(_products,
+                _adapter.attr("absolute_products")(py::array_t<double>(
+                    static_cast<py::ssize_t>(sizes.size()), sizes.data())));
   }
 
 private:
   py::object _adapter;
-  Array<double> _values, _residual, _defect, _lifted, _magnitudes;
+  Array<double> _values, _residual, _defect, _lifted, _products;
   Array<std::int8_t> _markers;
 };
 

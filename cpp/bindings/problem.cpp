@@ -196,7 +196,7 @@ Attributes:
            })
       .def("summarise", &Problem::summarise)
       .def("restore", &Problem::restore)
-      .def("snapshot", &Problem::snapshot)
+      .def("snapshot", [](const Problem& self) { return self.snapshot(); })
       .def("find_rigid_modes", &Problem::find_rigid_modes)
       .def_property_readonly("damping_may_help", &Problem::damping_may_help)
       .def(

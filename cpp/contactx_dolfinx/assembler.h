@@ -73,11 +73,37 @@ public:
             std::vector<std::shared_ptr<const DirichletBC>> bcs,
             std::vector<std::shared_ptr<Contact>> contacts,
             Audit audit = Audit::refuse)
-      : _u(std::move(u)), _contacts(std::move(contacts))
+      : Assembler(alone(std::move(F), std::move(J), std::move(u)),
+                  std::move(bcs), std::move(contacts), audit)
   {
-    input::check_displacement(_u.get());
-    input::check_forms(F.get(), J.get(), *_u);
-    input::check_conditions(bcs, *_u);
+  }
+
+  /// @brief Couple a bulk of several fields with contacts: a mixed space, or a
+  /// block of rows and columns a function.
+  ///
+  /// The unknowns of a rank are its displacements, then the other fields, one
+  /// after the other, and its multipliers.
+  /// @param[in] blocks Forms and functions.
+  /// @param[in] bcs Dirichlet conditions on them.
+  /// @param[in] contacts Contacts, at least one.
+  /// @param[in] audit What becomes of a converged iterate whose geometry is
+  /// wrong.
+  /// @param[in] conductances Conductances across the contacts, of fields that
+  /// are solved for.
+  /// @throws std::invalid_argument as the other one does, and if a conductance
+  /// is of another contact, or of a field that is not solved for.
+  Assembler(const Blocks& blocks,
+            std::vector<std::shared_ptr<const DirichletBC>> bcs,
+            std::vector<std::shared_ptr<Contact>> contacts,
+            Audit audit = Audit::refuse,
+            std::vector<std::shared_ptr<Conductance>> conductances = {})
+      : _contacts(std::move(contacts))
+  {
+    const auto unknowns
+        = std::make_shared<Unknowns>(blocks.functions, blocks.displacement);
+    _u = unknowns->u();
+    input::check_blocks(blocks);
+    input::check_conditions(bcs, blocks.functions);
     if (_contacts.empty())
       throw std::invalid_argument(
           "an Assembler needs at least one contact: pass one");
@@ -92,8 +118,9 @@ public:
     parallel::BulkNodes nodes = adapter->bulk_nodes();
     _halo = std::make_shared<parallel::Halo>(std::move(nodes),
                                              std::move(adapter));
-    _bulk = std::make_shared<Bulk>(std::move(F), std::move(J), _u,
-                                   std::move(bcs), _halo, *_adapter);
+    _bulk = std::make_shared<Bulk>(blocks, unknowns, std::move(bcs), _halo,
+                                   *_adapter);
+    check(conductances);
     const auto bodies = std::make_shared<contact::Bodies>(
         _bulk->all_cells(), _bulk->nodes_per_cell(), _bulk->num_owned_cells(),
         _halo->original().first(_halo->num_bulk()), _halo);
@@ -105,12 +132,16 @@ public:
       for (; count < _contacts.size(); ++count)
       {
         const Contact& contact = *_contacts[count];
-        discrete.push_back(_contacts[count]->attach(_halo, bodies, *_bulk,
-                                                    _u->function_space()));
+        discrete.push_back(_contacts[count]->attach(
+            {_halo, bodies, _bulk->all_cells(), _bulk->nodes_per_cell()},
+            _bulk->all_markers(), _u->function_space()));
         parts.push_back(
             {"contact " + std::to_string(count) + " (" + contact.name() + ")",
              contact.values(), contact.shared_results()});
       }
+      for (const auto& conductance : conductances)
+        conductance->check();
+      _bulk->follow(std::move(conductances));
       _system
           = std::make_shared<newton::System>(_halo, _bulk, std::move(discrete));
       _problem = std::make_unique<problem::Problem>(
@@ -246,6 +277,26 @@ public:
     show();
   }
 
+  /// @brief Go on from the state of another run, as a Checkpoint has it.
+  /// @param[in] contacts State of each contact, see contact::save. Functions
+  /// have the values that they shall have.
+  /// @throws std::invalid_argument on all ranks if they do not fit.
+  void take(std::vector<std::vector<contact::Saved>> contacts)
+  {
+    problem::Snapshot::State state{.contacts = std::move(contacts)};
+    _bulk->read();
+    const auto u = _bulk->displacements();
+    state.displacements.assign(u.begin(), u.end());
+    if (newton::Fields* fields = _bulk->fields())
+    {
+      const auto values = fields->values();
+      state.fields.assign(values.begin(), values.end());
+    }
+    _problem->snapshot(std::move(state)).restore();
+    pack();
+    show();
+  }
+
   /// @brief Update pairs and active set at an accepted iterate, and judge its
   /// residual.
   ///
@@ -353,6 +404,39 @@ public:
   int number() const { return _problem->number(); }
 
 private:
+  /// A displacement alone.
+  static Blocks alone(std::shared_ptr<const Form> F,
+                      std::shared_ptr<const Form> J,
+                      std::shared_ptr<Function> u)
+  {
+    input::check_displacement(u.get());
+    return {{std::move(F)}, {{std::move(J)}}, {std::move(u)}};
+  }
+
+  void
+  check(const std::vector<std::shared_ptr<Conductance>>& conductances) const
+  {
+    for (std::size_t k = 0; k < conductances.size(); ++k)
+    {
+      const std::string name = "conductances[" + std::to_string(k) + "]";
+      if (conductances[k] == nullptr)
+        throw std::invalid_argument(name + " is null: give a Conductance");
+      if (std::ranges::find(_contacts, conductances[k]->contact())
+          == _contacts.end())
+        throw std::invalid_argument(
+            name + " is of another contact: list it among the contacts");
+      const auto& field = conductances[k]->field();
+      if (field == _u
+          or _bulk->number_of(*field) == int(_bulk->functions().size()))
+        throw std::invalid_argument(
+            "the field of " + name
+            + " is not solved for: give it among the functions of Blocks; a "
+              "part of a mixed space will not do. Where it is solved for by "
+              "itself, leave the conductance out and take its residual() and "
+              "by_field()");
+    }
+  }
+
   MPI_Comm comm() const { return _u->function_space()->mesh()->comm(); }
 
   void show() const

@@ -4,8 +4,10 @@
 #pragma once
 
 #include "cell_forces.h"
+#include "conductance.h"
 #include "halo.h"
 #include "petsc.h"
+#include "unknowns.h"
 #include <cmath>
 #include <contactx/newton/bulk.h>
 #include <contactx/newton/not_finite.h>
@@ -20,45 +22,86 @@
 namespace contactx::dolfinx
 {
 /// @brief Bodies without contact: forms of DOLFINx, as the core's Newton loop
-/// sees them.
+/// sees them. Besides the displacement there may be other fields.
 class Bulk final : public newton::Bulk
 {
 public:
   /// @brief Take the forms.
-  /// @param[in] F Residual.
-  /// @param[in] J Its derivative by the displacement.
-  /// @param[in] u Displacement.
+  /// @param[in] blocks Residuals, their derivatives, and the functions.
+  /// @param[in] unknowns These functions, with the displacement's place.
   /// @param[in] bcs Dirichlet conditions, whose values may change.
   /// @param[in] halo Nodes of this rank.
   /// @param[in] adapter What that one asks; it lives as long as the halo.
-  Bulk(std::shared_ptr<const Form> F, std::shared_ptr<const Form> J,
-       std::shared_ptr<Function> u,
+  Bulk(const Blocks& blocks, std::shared_ptr<Unknowns> unknowns,
        std::vector<std::shared_ptr<const DirichletBC>> bcs,
        std::shared_ptr<parallel::Halo> halo, HaloAdapter& adapter)
-      : _F(std::move(F)), _J(std::move(J)), _u(std::move(u)),
-        _bcs(std::move(bcs)), _halo(std::move(halo)), _adapter(&adapter),
-        _forces(_F, _u->function_space()),
-        _b(_u->function_space()->dofmap()->index_map, _halo->gdim()),
-        _markers(_u->x()->array().size(), 0),
+      : _F(blocks.F), _J(blocks.J), _unknowns(std::move(unknowns)),
+        _u(_unknowns->u()), _bcs(std::move(bcs)), _halo(std::move(halo)),
+        _adapter(&adapter),
         _cells(mesh::linear_cells(cells_of(*_u->function_space()))),
         _size(std::size_t(_halo->num_owned()) * _halo->gdim())
   {
-    for (const auto& bc : _bcs)
-      bc->mark_dofs(_markers);
-    // That of a linear bulk does not depend on the displacement
-    const auto& in = _J->coefficients();
-    _is_linear = std::ranges::none_of(in, [this](const auto& c)
-                                      { return c.get() == _u.get(); });
+    for (const auto& w : functions())
+    {
+      const FunctionSpace& V = *w->function_space();
+      _b.emplace_back(V.dofmap()->index_map, V.dofmap()->index_map_bs());
+      _markers_of.emplace_back(w->x()->array().size(), 0);
+      for (const auto& bc : _bcs)
+        if (V.contains(*bc->function_space()))
+          bc->mark_dofs(_markers_of.back());
+    }
+    _markers = _unknowns->displacements_of(
+        std::span<const std::int8_t>(_markers_of[index()]));
+    if (_unknowns->fields().empty())
+      _forces.emplace(_F[0], _u->function_space());
+    else
+      _fields.emplace(*this);
+    // That of a linear bulk does not depend on what is solved for
+    for_each_block(
+        [this](int, int, const Form& J)
+        {
+          for (const auto& c : J.coefficients())
+            for (const auto& w : functions())
+              _is_linear = _is_linear and c.get() != w.get();
+        });
   }
 
-  void read() override { _adapter->update_ghosts(); }
+  void read() override
+  {
+    _unknowns->read();
+    update_ghosts();
+  }
 
   /// @copydoc newton::Bulk::has_own_jacobian
   ///
   /// A program always gives it.
   bool has_own_jacobian() const override { return true; }
+
   /// @brief The displacement.
   const std::shared_ptr<Function>& u() const { return _u; }
+
+  /// @brief All functions that are solved for.
+  const std::vector<std::shared_ptr<Function>>& functions() const
+  {
+    return _unknowns->functions();
+  }
+
+  newton::Fields* fields() override { return _fields ? &*_fields : nullptr; }
+
+  /// @brief Take the conductances across contacts, whose flows are added to the
+  /// residuals of their fields.
+  void follow(std::vector<std::shared_ptr<Conductance>> conductances)
+  {
+    _conductances = std::move(conductances);
+    // Pairs, gaps and pressures decide on them
+    _is_linear = _is_linear and _conductances.empty();
+  }
+
+  /// @brief These.
+  const std::vector<std::shared_ptr<Conductance>>& conductances() const
+  {
+    return _conductances;
+  }
 
   int gdim() const override { return _halo->gdim(); }
   bool is_linear() const override { return _is_linear; }
@@ -84,13 +127,22 @@ public:
   /// else 0 (shape=(num_bulk, gdim)).
   const std::vector<std::int8_t>& all_markers() const { return _markers; }
 
+  /// @brief 1 at prescribed values of a function, ghosts included, else 0.
+  const std::vector<std::int8_t>& markers_of(int function) const
+  {
+    return _markers_of[function];
+  }
+
   std::span<const double> diagonal() override
   {
     petsc::OwnVec diagonal;
     petsc::check(MatCreateVecs(matrix(), nullptr, diagonal.put()),
                  "MatCreateVecs");
     petsc::check(MatGetDiagonal(matrix(), diagonal.get()), "MatGetDiagonal");
-    return _diagonal = copied(diagonal.get());
+    const petsc::ConstValues values(diagonal.get());
+    _diagonal.resize(_size);
+    at_displacements(values.span(), _diagonal);
+    return _diagonal;
   }
 
   std::span<const double> products(std::span<const double> fields,
@@ -98,43 +150,71 @@ public:
   {
     petsc::OwnVec x, y;
     petsc::check(MatCreateVecs(matrix(), x.put(), y.put()), "MatCreateVecs");
+    petsc::check(VecZeroEntries(x.get()), "VecZeroEntries");
     _products.resize(fields.size());
     for (int k = 0; k < count; ++k)
     {
-      std::ranges::copy(fields.subspan(k * _size, _size),
-                        petsc::Values(x.get()).span().begin());
+      {
+        const petsc::Values values(x.get());
+        for (std::size_t i = 0; i < _size; ++i)
+          values.span()[_unknowns->dofs()[i]] = fields[k * _size + i];
+      }
       petsc::check(MatMult(matrix(), x.get(), y.get()), "MatMult");
-      std::ranges::copy(petsc::ConstValues(y.get()).span(),
-                        _products.begin() + k * _size);
+      at_displacements(petsc::ConstValues(y.get()).span(),
+                       std::span(_products).subspan(k * _size, _size));
     }
     return _products;
   }
 
   std::span<const double> residual() override
   {
-    std::ranges::fill(_b.array(), 0);
-    ::dolfinx::fem::assemble_vector(_b.array(), *_F);
+    for (std::size_t k = 0; k < _b.size(); ++k)
+    {
+      std::ranges::fill(_b[k].array(), 0);
+      ::dolfinx::fem::assemble_vector(_b[k].array(), *_F[k]);
+      _b[k].scatter_rev(std::plus<double>());
+    }
+    for (const auto& conductance : _conductances)
+    {
+      const std::vector<double> flow = conductance->residual();
+      auto& b = _b[number_of(*conductance->field())].array();
+      std::ranges::transform(flow, b, b.begin(), std::plus());
+    }
+    if (_fields)
+      _fields->take_residual();
     return _residual = sums();
   }
 
   std::span<const double> defect() override
   {
-    return std::span<const double>(all_defects()).first(_size);
+    const std::vector<double> defect = defects(index());
+    _defect.resize(_size);
+    at_displacements(defect, _defect);
+    return _defect;
   }
 
   std::span<const double> lifted() override
   {
-    std::ranges::fill(_b.array(), 0);
-    ::dolfinx::fem::apply_lifting(_b.array(), {*_J}, {conditions()},
-                                  {std::span<const double>(_u->x()->array())},
-                                  -1.0);
+    for (auto& b : _b)
+      std::ranges::fill(b.array(), 0);
+    for_each_block(
+        [this](int i, int j, const Form& J)
+        {
+          ::dolfinx::fem::apply_lifting(
+              _b[i].array(), {J}, {conditions(j)},
+              {std::span<const double>(functions()[j]->x()->array())}, -1.0);
+        });
+    for (auto& b : _b)
+      b.scatter_rev(std::plus<double>());
+    if (_fields)
+      _fields->take_lifted();
     return _lifted = sums();
   }
 
   void set_displacements(std::span<const double> u) override
   {
     std::ranges::copy(u, _u->x()->array().begin());
-    _adapter->update_ghosts();
+    update_ghosts();
   }
 
   std::span<const std::int32_t> cells() override
@@ -181,35 +261,274 @@ public:
   /// Terms are the integrals of the residual, see CellForces.
   std::span<const double> cell_forces() override
   {
-    return _cell_forces = _forces.magnitudes(*_halo);
+    return _cell_forces = _forces->magnitudes(*_halo);
   }
 
-  /// @brief Jacobian, with unit rows and columns at Dirichlet conditions,
-  /// assembled anew where a coefficient or a constant of its form has changed:
-  /// that of a linear bulk once. All ranks must take part.
-  /// @throws newton::NotFinite on all ranks if it is not finite.
+  /// @brief Jacobian of the function that has the displacement, see `block`.
+  /// All ranks must take part.
   ::Mat matrix()
   {
-    std::vector<double> with = ::dolfinx::fem::pack_constants(*_J);
-    for (const auto& c : _J->coefficients())
-      with.insert(with.end(), c->x()->array().begin(), c->x()->array().end());
+    assemble();
+    return block(index(), index());
+  }
+
+  /// @brief Derivative of the residual of a function by another one, as it was
+  /// assembled last, with unit rows and columns at Dirichlet conditions.
+  ::Mat block(int i, int j) const
+  {
+    return _blocks[std::size_t(i) * functions().size() + j].get();
+  }
+
+  /// @brief Assemble the Jacobian anew where a coefficient or a constant of its
+  /// forms has changed: that of a linear bulk once. All ranks must take part.
+  /// @throws newton::NotFinite on all ranks if it is not finite.
+  void assemble()
+  {
+    std::vector<double> with;
+    for_each_block(
+        [&with](int, int, const Form& J)
+        {
+          const auto constants = ::dolfinx::fem::pack_constants(J);
+          with.insert(with.end(), constants.begin(), constants.end());
+          for (const auto& c : J.coefficients())
+            with.insert(with.end(), c->x()->array().begin(),
+                        c->x()->array().end());
+        });
     // NaN is unlike itself
     if (parallel::everywhere(_halo->ranks(),
                              _assembled_with and *_assembled_with == with))
-      return _A.get();
+      return;
     _assembled_with.reset();
-    if (_A.get() == nullptr)
-      *_A.put() = ::dolfinx::fem::petsc::create_matrix(*_J);
-    const ::Mat A = _A.get();
+    if (_blocks.empty())
+      create();
+    const int n = static_cast<int>(functions().size());
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j)
+        fill(i, j);
+    _assembled_with = std::move(with);
+    ++_assemblies;
+  }
+
+  /// @brief Number of assemblies of the Jacobian.
+  int assemblies() const { return _assemblies; }
+
+  /// @brief Number of a function among those that are solved for.
+  int number_of(const Function& w) const
+  {
+    const auto at = std::ranges::find(functions(), &w,
+                                      [](const auto& f) { return f.get(); });
+    return static_cast<int>(at - functions().begin());
+  }
+
+  /// @brief Calls a function with the number of the function and the dofs of
+  /// the displacement, then with those of each other field: this rank's
+  /// unknowns in their order.
+  template <class Use>
+  void for_each_part(Use&& use) const
+  {
+    use(index(), _unknowns->dofs());
+    for (const auto& [function, dofs] : _unknowns->fields())
+      use(function, dofs);
+  }
+
+private:
+  /// The fields beside the displacement.
+  class Fields final : public newton::Fields
+  {
+  public:
+    explicit Fields(Bulk& bulk) : _bulk(&bulk)
+    {
+      _offsets.push_back(0);
+      for (const auto& field : bulk._unknowns->fields())
+        _offsets.push_back(_offsets.back() + field.dofs.size());
+      take(_markers, [&](int k) -> const auto& { return bulk.markers_of(k); });
+    }
+
+    std::vector<std::size_t> offsets() const override { return _offsets; }
+    std::span<const double> values() override
+    {
+      take(_values, [this](int k) -> const auto&
+           { return _bulk->functions()[k]->x()->array(); });
+      return _values;
+    }
+    void set(std::span<const double> values) override
+    {
+      auto next = values.begin();
+      for (const auto& [k, dofs] : _bulk->_unknowns->fields())
+        for (const std::int32_t dof : dofs)
+          _bulk->functions()[k]->x()->array()[dof] = *next++;
+      for (const auto& w : _bulk->functions())
+        w->x()->scatter_fwd();
+    }
+    std::span<const double> residual() override { return _residual; }
+    bool follow_contacts() const override
+    {
+      return not _bulk->_conductances.empty();
+    }
+    std::span<const double> defect() override
+    {
+      take(_defect, [this](int k) { return _bulk->defects(k); });
+      return _defect;
+    }
+    std::span<const double> lifted() override { return _lifted; }
+    std::span<const std::int8_t> markers() override { return _markers; }
+    std::span<const double>
+    absolute_products(std::span<const double> sizes) override
+    {
+      return _products = _bulk->absolute_products(sizes);
+    }
+
+    /// @brief Keep the residual that was assembled.
+    void take_residual() { take_rows(_residual); }
+    /// @brief Keep what was lifted.
+    void take_lifted() { take_rows(_lifted); }
+
+  private:
+    /// Values at the fields' dofs, of what `of` has of each function.
+    template <class T, class Of>
+    void take(std::vector<T>& taken, Of&& of) const
+    {
+      taken.clear();
+      for (const auto& [k, dofs] : _bulk->_unknowns->fields())
+      {
+        const auto& values = of(k);
+        for (const std::int32_t dof : dofs)
+          taken.push_back(values[dof]);
+      }
+    }
+
+    void take_rows(std::vector<double>& taken) const
+    {
+      take(taken,
+           [this](int k) -> const auto& { return _bulk->_b[k].array(); });
+    }
+
+    Bulk* _bulk;
+    std::vector<std::size_t> _offsets;
+    std::vector<std::int8_t> _markers;
+    std::vector<double> _values, _residual, _defect, _lifted, _products;
+  };
+
+  int index() const { return _unknowns->index(); }
+
+  void update_ghosts()
+  {
+    _adapter->update_ghosts();
+    _unknowns->write();
+  }
+
+  /// Calls a function with the numbers and the form of each block that has one.
+  template <class Use>
+  void for_each_block(Use&& use) const
+  {
+    for (std::size_t i = 0; i < _J.size(); ++i)
+      for (std::size_t j = 0; j < _J[i].size(); ++j)
+        if (_J[i][j])
+          use(static_cast<int>(i), static_cast<int>(j), *_J[i][j]);
+  }
+
+  std::vector<std::reference_wrapper<const DirichletBC>> conditions() const
+  {
+    std::vector<std::reference_wrapper<const DirichletBC>> bcs;
+    for (const auto& bc : _bcs)
+      bcs.push_back(*bc);
+    return bcs;
+  }
+
+  /// Those of a function.
+  std::vector<std::reference_wrapper<const DirichletBC>>
+  conditions(int function) const
+  {
+    auto bcs = conditions();
+    const FunctionSpace& V = *functions()[function]->function_space();
+    std::erase_if(bcs, [&V](const DirichletBC& bc)
+                  { return not V.contains(*bc.function_space()); });
+    return bcs;
+  }
+
+  /// Values minus Dirichlet values of a function, zero elsewhere, ghosts
+  /// included.
+  std::vector<double> defects(int function) const
+  {
+    const std::span<const double> w = functions()[function]->x()->array();
+    std::vector<double> defect(w.size(), 0);
+    for (const DirichletBC& bc : conditions(function))
+      bc.set(defect, w, -1);
+    return defect;
+  }
+
+  /// Values at the displacement's owned dofs of those of its function.
+  void at_displacements(std::span<const double> values,
+                        std::span<double> taken) const
+  {
+    for (std::size_t i = 0; i < taken.size(); ++i)
+      taken[i] = values[_unknowns->dofs()[i]];
+  }
+
+  std::vector<double> sums() const
+  {
+    std::vector<double> sums(_size);
+    at_displacements(_b[index()].array(), sums);
+    return sums;
+  }
+
+  /// Creates the matrices of the blocks.
+  void create()
+  {
+    const std::size_t n = functions().size();
+    _blocks = std::vector<petsc::OwnMat>(n * n);
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j < n; ++j)
+      {
+        ::Mat* A = _blocks[n * i + j].put();
+        if (_J[i][j])
+        {
+          *A = ::dolfinx::fem::petsc::create_matrix(*_J[i][j]);
+          continue;
+        }
+        petsc::check(
+            MatCreateAIJ(
+                comm(),
+                static_cast<PetscInt>(Unknowns::num_owned(*functions()[i])),
+                static_cast<PetscInt>(Unknowns::num_owned(*functions()[j])),
+                PETSC_DETERMINE, PETSC_DETERMINE, i == j ? 1 : 0, nullptr, 0,
+                nullptr, A),
+            "MatCreateAIJ");
+      }
+  }
+
+  MPI_Comm comm() const { return _u->function_space()->mesh()->comm(); }
+
+  /// Assembles a block.
+  void fill(int i, int j)
+  {
+    const ::Mat A = block(i, j);
     petsc::check(MatZeroEntries(A), "MatZeroEntries");
-    ::dolfinx::fem::assemble_matrix(
-        ::dolfinx::la::petsc::Matrix::set_block_fn(A, ADD_VALUES), *_J,
-        conditions());
-    petsc::check(MatAssemblyBegin(A, MAT_FLUSH_ASSEMBLY), "MatAssemblyBegin");
-    petsc::check(MatAssemblyEnd(A, MAT_FLUSH_ASSEMBLY), "MatAssemblyEnd");
-    ::dolfinx::fem::set_diagonal<double>(
-        ::dolfinx::la::petsc::Matrix::set_fn(A, INSERT_VALUES),
-        *_u->function_space(), conditions());
+    if (const auto& J = _J[i][j])
+    {
+      ::dolfinx::fem::assemble_matrix(
+          ::dolfinx::la::petsc::Matrix::set_block_fn(A, ADD_VALUES), *J,
+          conditions());
+      petsc::check(MatAssemblyBegin(A, MAT_FLUSH_ASSEMBLY), "MatAssemblyBegin");
+      petsc::check(MatAssemblyEnd(A, MAT_FLUSH_ASSEMBLY), "MatAssemblyEnd");
+      if (i == j)
+        ::dolfinx::fem::set_diagonal<double>(
+            ::dolfinx::la::petsc::Matrix::set_fn(A, INSERT_VALUES),
+            *functions()[i]->function_space(), conditions());
+    }
+    else if (i == j)
+    {
+      PetscInt first = 0;
+      petsc::check(MatGetOwnershipRange(A, &first, nullptr),
+                   "MatGetOwnershipRange");
+      // The diagonal has its place, whatever is prescribed
+      for (std::size_t k = 0; k < Unknowns::num_owned(*functions()[i]); ++k)
+      {
+        const PetscInt row = first + static_cast<PetscInt>(k);
+        petsc::check(MatSetValue(A, row, row, _markers_of[i][k], INSERT_VALUES),
+                     "MatSetValue");
+      }
+    }
     petsc::check(MatAssemblyBegin(A, MAT_FINAL_ASSEMBLY), "MatAssemblyBegin");
     petsc::check(MatAssemblyEnd(A, MAT_FINAL_ASSEMBLY), "MatAssemblyEnd");
     PetscReal norm = 0;
@@ -220,56 +539,93 @@ public:
           "or a coefficient of it is NaN or infinite. Start from another "
           "displacement, or repair the coefficient (manual: "
           "errors/jacobian-not-finite)");
-    _assembled_with = std::move(with);
-    ++_assemblies;
-    return A;
   }
 
-  /// @brief Number of assemblies of the Jacobian.
-  int assemblies() const { return _assemblies; }
-
-private:
-  std::vector<std::reference_wrapper<const DirichletBC>> conditions() const
+  /// See newton::Fields::absolute_products.
+  std::vector<double> absolute_products(std::span<const double> sizes)
   {
-    std::vector<std::reference_wrapper<const DirichletBC>> bcs;
-    for (const auto& bc : _bcs)
-      bcs.push_back(*bc);
-    return bcs;
+    assemble();
+    const int n = static_cast<int>(functions().size());
+    std::vector<std::vector<double>> of, sums;
+    for (const auto& w : functions())
+      of.emplace_back(Unknowns::num_owned(*w), 0.0);
+    sums = of;
+    auto size = sizes.begin();
+    for_each_part(
+        [&](int k, const std::vector<std::int32_t>& dofs)
+        {
+          for (const std::int32_t dof : dofs)
+            of[k][dof] = *size++;
+        });
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j)
+        add_absolute(block(i, j), of[j], sums[i]);
+    std::vector<double> taken;
+    for_each_part(
+        [&](int k, const std::vector<std::int32_t>& dofs)
+        {
+          for (const std::int32_t dof : dofs)
+            taken.push_back(sums[k][dof]);
+        });
+    return taken;
   }
 
-  const std::vector<double>& all_defects()
+  /// Adds the product of a matrix, all entries by their size, with a vector.
+  static void add_absolute(::Mat K, std::span<const double> x,
+                           std::span<double> sums)
   {
-    const std::span<const double> u = _u->x()->array();
-    _defect.assign(u.size(), 0);
-    for (const auto& bc : _bcs)
-      bc->set(_defect, u, -1);
-    return _defect;
+    petsc::OwnMat absolute;
+    petsc::check(MatDuplicate(K, MAT_COPY_VALUES, absolute.put()),
+                 "MatDuplicate");
+    PetscInt first = 0, last = 0;
+    petsc::check(MatGetOwnershipRange(K, &first, &last),
+                 "MatGetOwnershipRange");
+    std::vector<double> sizes;
+    for (PetscInt i = first; i < last; ++i)
+    {
+      PetscInt count = 0;
+      const PetscInt* columns = nullptr;
+      const PetscScalar* values = nullptr;
+      petsc::check(MatGetRow(K, i, &count, &columns, &values), "MatGetRow");
+      sizes.resize(count);
+      std::transform(values, values + count, sizes.begin(),
+                     [](double v) { return std::abs(v); });
+      petsc::check(MatSetValues(absolute.get(), 1, &i, count, columns,
+                                sizes.data(), INSERT_VALUES),
+                   "MatSetValues");
+      petsc::check(MatRestoreRow(K, i, &count, &columns, &values),
+                   "MatRestoreRow");
+    }
+    petsc::check(MatAssemblyBegin(absolute.get(), MAT_FINAL_ASSEMBLY),
+                 "MatAssemblyBegin");
+    petsc::check(MatAssemblyEnd(absolute.get(), MAT_FINAL_ASSEMBLY),
+                 "MatAssemblyEnd");
+    petsc::OwnVec from, to;
+    petsc::check(MatCreateVecs(K, from.put(), to.put()), "MatCreateVecs");
+    std::ranges::copy(x, petsc::Values(from.get()).span().begin());
+    petsc::check(MatMult(absolute.get(), from.get(), to.get()), "MatMult");
+    const petsc::ConstValues values(to.get());
+    std::ranges::transform(sums, values.span(), sums.begin(), std::plus());
   }
 
-  std::vector<double> sums()
-  {
-    _b.scatter_rev(std::plus<double>());
-    return {_b.array().begin(), _b.array().begin() + _size};
-  }
-
-  static std::vector<double> copied(::Vec x)
-  {
-    const petsc::ConstValues values(x);
-    return {values.span().begin(), values.span().end()};
-  }
-
-  std::shared_ptr<const Form> _F, _J;
+  std::vector<std::shared_ptr<const Form>> _F;
+  std::vector<std::vector<std::shared_ptr<const Form>>> _J;
+  std::shared_ptr<Unknowns> _unknowns;
   std::shared_ptr<Function> _u;
   std::vector<std::shared_ptr<const DirichletBC>> _bcs;
   std::shared_ptr<parallel::Halo> _halo;
   HaloAdapter* _adapter;
-  CellForces _forces;
-  ::dolfinx::la::Vector<double> _b;
-  std::vector<std::int8_t> _markers;
+  std::optional<CellForces> _forces; // of a displacement alone
+  std::optional<Fields> _fields;     // nothing then
+  std::vector<std::shared_ptr<Conductance>> _conductances;
+  // Residuals and markers of each function
+  std::vector<::dolfinx::la::Vector<double>> _b;
+  std::vector<std::vector<std::int8_t>> _markers_of;
+  std::vector<std::int8_t> _markers; // of the displacement
   std::vector<std::int32_t> _cells;
   std::size_t _size;
-  bool _is_linear;
-  petsc::OwnMat _A;
+  bool _is_linear = true;
+  std::vector<petsc::OwnMat> _blocks;
   int _assemblies = 0;
   // Constants and coefficients of the Jacobian; nothing if it must be anew
   std::optional<std::vector<double>> _assembled_with;

@@ -94,13 +94,7 @@ private:
                 element.family(), element.cell_type(), element.degree(),
                 element.lagrange_variant(), element.dpc_variant(), true),
             std::vector{std::size_t(_V->dofmap()->bs())});
-    _broken = std::make_shared<const FunctionSpace>(
-        mesh, broken,
-        std::make_shared<const ::dolfinx::fem::DofMap>(
-            ::dolfinx::fem::create_dofmap(
-                mesh->comm(),
-                ::dolfinx::fem::create_element_dof_layout(*broken),
-                *mesh->topology_mutable(), nullptr, nullptr)));
+    _broken = create_space(mesh, broken);
     // Cells of another mesh are none of the displacement's
     if (_F->mesh() != mesh)
       return;

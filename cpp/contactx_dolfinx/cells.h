@@ -36,6 +36,30 @@ inline mesh::Cells cells_of(const FunctionSpace& V)
           {dofs.data_handle(), dofs.size()}};
 }
 
+/// @brief Node of a space of numbers at each node of one of vectors of the same
+/// degree, on the same mesh (shape=(num_nodes)).
+inline std::vector<std::int32_t> matching_nodes(const FunctionSpace& V,
+                                                const FunctionSpace& Q)
+{
+  const auto of_vectors = V.dofmap()->map(), of_numbers = Q.dofmap()->map();
+  std::vector<std::int32_t> match(num_nodes(V));
+  for (std::size_t c = 0; c < of_vectors.extent(0); ++c)
+    for (std::size_t i = 0; i < of_vectors.extent(1); ++i)
+      match[of_vectors(c, i)] = of_numbers(c, i);
+  return match;
+}
+
+/// @brief Whether a space is the continuous scalar Lagrange space of one of
+/// some degrees, each 1 or 2.
+inline bool is_scalar_lagrange(const FunctionSpace& Q,
+                               std::initializer_list<int> degrees)
+{
+  if (not is_lagrange(Q) or Q.dofmap()->bs() != 1)
+    return false;
+  const int degree = Q.element()->basix_element().degree();
+  return std::ranges::find(degrees, degree) != degrees.end();
+}
+
 /// @brief The mesh of these cells; a view of it.
 inline mesh::Geometry geometry_of(const ::dolfinx::mesh::Mesh<double>& mesh)
 {

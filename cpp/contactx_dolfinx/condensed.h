@@ -41,10 +41,16 @@ public:
   /// @param[in] assembler The system; it must outlive the solver.
   /// @param[in] prefix Prefix of PETSc's options of the Krylov solver and its
   /// preconditioner; with `direct_` behind it those of the direct solver.
+  /// @throws std::invalid_argument if other fields are solved for, too.
   Condensed(Assembler& assembler, const std::string& prefix)
       : _assembler(&assembler), _prefix(prefix),
         _accuracy(has_path(*assembler.system()))
   {
+    if (assembler.bulk()->fields())
+      throw std::invalid_argument(
+          "the condensed solver is for a displacement alone: where other "
+          "fields "
+          "are solved for take a KSPSolver, with a direct one");
   }
 
   /// @brief Solve J dx = b at the iterate that has settled last.

@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "bulk.h"
+#include "cells.h"
 #include "functions.h"
 #include "surface.h"
 #include "values.h"
@@ -91,15 +91,14 @@ public:
 
   /// @brief Make the contact's discrete side; the Assembler does so. All ranks
   /// must take part.
-  /// @param[in] halo Nodes of this rank.
-  /// @param[in] bodies Bodies of the mesh.
-  /// @param[in] bulk The bulk.
+  /// @param[in] mesh The mesh.
+  /// @param[in] prescribed 1 at displacements with a Dirichlet condition, those
+  /// of the bulk's nodes (shape=(num_bulk, gdim)).
   /// @param[in] V Space of the displacement.
   /// @throws std::invalid_argument on all ranks if the surfaces do not fit.
   /// @throws std::logic_error if it belongs to an Assembler already.
   std::shared_ptr<contact::Contact>
-  attach(const std::shared_ptr<parallel::Halo>& halo,
-         const std::shared_ptr<const contact::Bodies>& bodies, const Bulk& bulk,
+  attach(const reference::Mesh& mesh, std::vector<std::int8_t> prescribed,
          const std::shared_ptr<const FunctionSpace>& V)
   {
     if (_discrete)
@@ -108,7 +107,7 @@ public:
           "Assembler");
     try
     {
-      make(halo, bodies, bulk, V);
+      make(mesh, std::move(prescribed), V);
       _V = V;
       return _discrete;
     }
@@ -158,6 +157,24 @@ public:
           "to one first");
     return *_discrete;
   }
+
+  /// @brief The same, to keep.
+  const std::shared_ptr<contact::Contact>& shared_discrete() const
+  {
+    discrete();
+    return _discrete;
+  }
+
+  /// @brief Space of the displacement.
+  /// @throws std::logic_error if it belongs to no Assembler yet.
+  const FunctionSpace& space() const
+  {
+    discrete();
+    return *_V;
+  }
+
+  /// @brief Whether the master is a rigid obstacle.
+  bool is_rigid() const { return not std::holds_alternative<Surface>(_master); }
 
   /// @brief Whether it is a contact of a surface with itself.
   bool is_self() const
@@ -267,10 +284,10 @@ public:
   }
 
 private:
-  void make(const std::shared_ptr<parallel::Halo>& halo,
-            const std::shared_ptr<const contact::Bodies>& bodies,
-            const Bulk& bulk, const std::shared_ptr<const FunctionSpace>& V)
+  void make(const reference::Mesh& mesh, std::vector<std::int8_t> prescribed,
+            const std::shared_ptr<const FunctionSpace>& V)
   {
+    const auto& halo = mesh.halo;
     const facet::Facets slave = _slave.facet_nodes(*V, halo->ranks(), "slave");
     facet::Facets facets;
     problem::Sides sides{.slave = {_slave.name(), slave.list()},
@@ -289,9 +306,8 @@ private:
       sides.weight = [&](std::span<const std::int32_t> nodes)
       { return weights(*halo, nodes); };
     _name = problem::name_of(sides, _options.sliding);
-    _discrete = problem::make_contact(
-        {halo, bodies, bulk.all_cells(), bulk.nodes_per_cell()}, sides,
-        core_options(), bulk.all_markers());
+    _discrete = problem::make_contact(mesh, sides, core_options(),
+                                      std::move(prescribed));
     _results = std::make_shared<results::Results>(_discrete);
     halo->ranks().agree([&] { _values->attach(V, slave_nodes()); });
   }

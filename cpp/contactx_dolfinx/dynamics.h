@@ -190,14 +190,15 @@ private:
     if (dt == nullptr or dt->value.size() != 1)
       throw std::invalid_argument(
           "dt is null or no number: give the Constant that F has");
-    input::check_form(forms.mass.get(), "mass", 2, *u,
+    const std::pair<const Function*, std::string> of_u{u.get(), "u"};
+    input::check_form(forms.mass.get(), "mass", {of_u, of_u},
                       "give the density times the product of a trial and a "
                       "test function");
     if (forms.loads)
-      input::check_form(forms.loads.get(), "loads", 1, *u,
+      input::check_form(forms.loads.get(), "loads", {of_u},
                         "give a form linear in a test function");
     if (forms.strain_energy)
-      input::check_form(forms.strain_energy.get(), "strain_energy", 0, *u,
+      input::check_form(forms.strain_energy.get(), "strain_energy", {},
                         "give a form without arguments");
     if (forms.F == nullptr)
       return motion;

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "cells.h"
 #include "functions.h"
 #include <cmath>
 #include <contactx/problem/values.h>
@@ -60,7 +61,8 @@ public:
     if (given == nullptr)
       return;
     const int degree = V->element()->basix_element().degree();
-    if (*given == nullptr or not fits(**given, *V, degree))
+    if (*given == nullptr or (*given)->function_space()->mesh() != V->mesh()
+        or not is_scalar_lagrange(*(*given)->function_space(), {1, degree}))
       throw std::invalid_argument(
           _name
           + " is a function of another space: interpolate it into a continuous "
@@ -74,11 +76,7 @@ public:
       return;
     }
     // Both spaces number the nodes
-    const auto of_vectors = V->dofmap()->map(), of_numbers = Q.dofmap()->map();
-    std::vector<std::int32_t> match(_between_size(*V));
-    for (std::size_t c = 0; c < of_vectors.extent(0); ++c)
-      for (std::size_t i = 0; i < of_vectors.extent(1); ++i)
-        match[of_vectors(c, i)] = of_numbers(c, i);
+    const std::vector<std::int32_t> match = matching_nodes(*V, Q);
     for (std::int32_t& node : _nodes)
       node = match[node];
   }
@@ -106,22 +104,6 @@ public:
   }
 
 private:
-  static std::size_t _between_size(const FunctionSpace& V)
-  {
-    const auto& map = *V.dofmap()->index_map;
-    return map.size_local() + map.num_ghosts();
-  }
-
-  static bool fits(const Function& f, const FunctionSpace& V, int degree)
-  {
-    const FunctionSpace& Q = *f.function_space();
-    const auto& element = Q.element()->basix_element();
-    return Q.mesh() == V.mesh() and Q.dofmap()->bs() == 1
-           and element.family() == basix::element::family::P
-           and not element.discontinuous() and element.value_shape().empty()
-           and (element.degree() == 1 or element.degree() == degree);
-  }
-
   double check(double value) const
   {
     if (not std::isfinite(value))

@@ -50,10 +50,13 @@ public:
     return _lifted = std::vector<double>(value.size(), 0.5);
   }
   std::span<const std::int8_t> markers() override { return fixed; }
-  std::span<const double> magnitudes() override
+  std::span<const double>
+  absolute_products(std::span<const double> sizes) override
   {
     ++looks;
-    return size;
+    _products.assign(sizes.size() - size.size(), 0);
+    _products.insert(_products.end(), size.begin(), size.end());
+    return _products;
   }
 
   std::vector<double> value;               ///< values of now
@@ -66,7 +69,7 @@ public:
 
 private:
   std::vector<std::size_t> _offsets;
-  std::vector<double> _residual, _defect, _lifted;
+  std::vector<double> _residual, _defect, _lifted, _products;
 };
 
 /// @brief A bulk of springs. Each node has one to the ground in each direction,

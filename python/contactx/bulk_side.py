@@ -9,7 +9,6 @@ import numpy.typing as npt
 
 from contactx.bulk import Bulk
 from contactx.cell_forces import CellForces
-from contactx.coupled import CoupledBulk
 from contactx.parallel.halo import Halo
 from contactx.refined import linear_cells, parts_of_cells
 
@@ -30,12 +29,9 @@ class BulkSide:
         self.cells = linear_cells(V)[: owned * parts_of_cells(V)]
         self.nodes_per_cell = self.cells.shape[1]
         self.fields = bulk.fields
-        if isinstance(bulk, CoupledBulk):
-            self._cell_forces = bulk.forces_of_cells
-        else:
-            assert bulk.residual_form is not None
-            cells = CellForces(bulk.residual_form, bulk.u, halo, bulk.form_options)
-            self._cell_forces = cells.magnitudes
+        self._cell_forces: CellForces | None = None
+        if bulk.residual_form is not None:
+            self._cell_forces = CellForces(bulk.residual_form, bulk.u, halo, bulk.form_options)
 
     def read(self) -> None:
         """Take what the user's functions have now, and give ghosts the owners' displacements."""
@@ -104,4 +100,5 @@ class BulkSide:
 
     def cell_forces(self) -> Array:
         """Sum over cells and terms of the size of their force on each owned node."""
-        return self._cell_forces()
+        assert self._cell_forces is not None
+        return self._cell_forces.magnitudes()

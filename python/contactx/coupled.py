@@ -259,23 +259,26 @@ class CoupledBulk(Bulk):
         places: Index = found.array.astype(np.int64)[back]
         return places
 
-    def magnitudes(self) -> list[Array]:
-        """Sums of entries of the Jacobian times unknowns, by their sizes, of each function's rows.
+    def absolute_products(self, sizes: Array) -> Array:
+        """Products of the Jacobian with sizes, all entries by their size.
 
-        Displacements count by themselves and the size of the cells around them: strains are
-        differences of 1 and the deformation gradient.
+        All ranks must take part.
+
+        Args:
+            sizes: Sizes of this rank's unknowns: displacements, then other fields.
+
+        Returns:
+            Sums in each of these rows.
         """
         self._assemble()
-        sizes = [np.abs(w.x.array[:n]) for w, n in zip(self._functions, self._counts, strict=True)]
-        cells = (
-            np.zeros(self.num_dofs)
-            if self.is_linear
-            else np.repeat(self.cell_sizes(), self.u.function_space.dofmap.index_map_bs)
-        )
-        sizes[self.unknowns.index][self._own] += cells
+        parts = [np.zeros(count) for count in self._counts]
+        places = [(self.unknowns.index, self._own), *self._fields]
+        ends = np.cumsum([len(dofs) for _, dofs in places])
+        for (k, dofs), some in zip(places, np.split(sizes, ends[:-1]), strict=True):
+            parts[k][dofs] = some
         sums = [np.zeros(count) for count in self._counts]
         for row, total in zip(self._blocks, sums, strict=True):
-            for K, size in zip(row, sizes, strict=True):
+            for K, size in zip(row, parts, strict=True):
                 x, y = K.createVecs()
                 x.array[:] = size
                 absolute = K.copy()
@@ -285,7 +288,7 @@ class CoupledBulk(Bulk):
                 absolute.assemble()
                 absolute.mult(x, y)
                 total += y.array
-        return sums
+        return np.concatenate([sums[k][dofs] for k, dofs in places])
 
     @property
     def is_symmetric(self) -> bool:
@@ -340,11 +343,6 @@ class CoupledBulk(Bulk):
                 K.setValue(row, row, 0.0)
         K.assemble()
         return K
-
-    def forces_of_cells(self) -> Array:
-        """Sizes of the forces on each owned node before they cancel, shape (num_owned,)."""
-        sums = self.magnitudes()[self.unknowns.index][self._own]
-        return np.linalg.norm(sums.reshape(-1, self.u.function_space.dofmap.index_map_bs), axis=1)
 
 
 class Fields:
@@ -402,9 +400,9 @@ class Fields:
         """1 at prescribed values."""
         return self._taken(self._bulk.all_markers)
 
-    def magnitudes(self) -> Array:
-        """Sums of the sizes of the terms in each row."""
-        return self._taken(self._bulk.magnitudes())
+    def absolute_products(self, sizes: Array) -> Array:
+        """Products of the Jacobian with sizes of all unknowns, all entries by their size."""
+        return self._bulk.absolute_products(sizes)
 
 
 def _derivatives(

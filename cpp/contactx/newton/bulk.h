@@ -54,7 +54,7 @@ public:
 
   /// @brief Sum over cells and terms of the size of their force on each owned
   /// node (shape=(num_owned)): forces before they cancel. It is dear, and
-  /// asked for once a step at most.
+  /// asked for once a step at most, where there are no fields.
   virtual std::span<const double> cell_forces() = 0;
 
   /// @brief Its unknowns beside displacements; none if null.

@@ -128,7 +128,7 @@ double Convergence::excess_of_fields(std::span<const double> b, double rtol)
   ranks().reduce(std::span<double>(largest), parallel::Reduction::largest);
   _field_scales.resize(n);
   double excess = 0;
-  std::span<const double> terms;
+  std::vector<double> terms;
   for (std::size_t f = 0; f < n; ++f)
   {
     const double r = std::sqrt(residual[f]);
@@ -140,8 +140,10 @@ double Convergence::excess_of_fields(std::span<const double> b, double rtol)
     {
       // The same on all ranks
       if (terms.empty())
-        terms = fields->magnitudes();
-      const auto mine = terms.subspan(offsets[f], offsets[f + 1] - offsets[f]);
+        terms = sizes_of_terms();
+      const auto mine
+          = std::span(terms).subspan(_system->num_displacements() + offsets[f],
+                                     offsets[f + 1] - offsets[f]);
       allowed = std::max(allowed, eps * norm(mine));
     }
     if (r > 0)
@@ -289,8 +291,33 @@ void Convergence::look_into_cells(double force)
 {
   if (_cancelling or not may_be_rounding(force) or not(force > 0))
     return;
-  const std::span<const double> forces = _system->bulk()->cell_forces();
-  _cancelling.emplace(forces.begin(), forces.end());
+  Bulk& bulk = *_system->bulk();
+  if (bulk.fields())
+    _cancelling = sizes_of(std::span<const double>(sizes_of_terms())
+                               .first(_system->num_displacements()),
+                           _system->halo()->gdim());
+  else
+  {
+    const std::span<const double> forces = bulk.cell_forces();
+    _cancelling.emplace(forces.begin(), forces.end());
+  }
+}
+
+/// Sum of the sizes of the terms in each row of the bulk: entries of its
+/// Jacobian times unknowns. Displacements count by themselves and the size of
+/// the cells around them: strains are differences of 1 and the deformation
+/// gradient.
+std::vector<double> Convergence::sizes_of_terms() const
+{
+  Bulk& bulk = *_system->bulk();
+  const int g = _system->halo()->gdim();
+  std::vector<double> sizes;
+  for (const double u : bulk.displacements())
+    sizes.push_back(std::abs(u) + _cell_size[sizes.size() / g]);
+  for (const double value : bulk.fields()->values())
+    sizes.push_back(std::abs(value));
+  const std::span<const double> sums = bulk.fields()->absolute_products(sizes);
+  return {sums.begin(), sums.end()};
 }
 
 std::vector<double> Convergence::errors() const

@@ -81,6 +81,7 @@ private:
   parallel::Ranks& ranks() const { return _system->halo()->ranks(); }
   double norm(std::span<const double> values) const;
   std::vector<double> sizes() const;
+  std::vector<double> sizes_of_terms() const;
   std::vector<double> around(std::vector<double> sizes) const;
   std::vector<double> errors() const;
   double largest_error() const;

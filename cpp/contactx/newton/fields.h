@@ -48,9 +48,12 @@ public:
   /// @brief 1 at prescribed values, else 0.
   virtual std::span<const std::int8_t> markers() = 0;
 
-  /// @brief Sum of the sizes of the terms in each row: entries of the Jacobian
-  /// times unknowns. All ranks must take part. It is dear, and asked for where
-  /// a residual may be no more than rounding errors.
-  virtual std::span<const double> magnitudes() = 0;
+  /// @brief Products of the bulk's Jacobian with some sizes, all entries by
+  /// their size. All ranks must take part. It is dear, and asked for where a
+  /// residual may be no more than rounding errors.
+  /// @param[in] sizes Sizes of all unknowns of the bulk, displacements first.
+  /// @return Sum of the sizes in each row, in the same order.
+  virtual std::span<const double>
+  absolute_products(std::span<const double> sizes) = 0;
 };
 } // namespace contactx::newton

@@ -701,12 +701,20 @@ std::string Problem::warning_of(std::size_t k)
            "errors/frozen-pairs)";
 }
 
-Snapshot Problem::snapshot() const
+Snapshot Problem::snapshot() const { return {_system, results()}; }
+
+Snapshot Problem::snapshot(Snapshot::State state) const
+{
+  return {_system, results(), std::move(state)};
+}
+
+/// Results of each contact, null for none.
+std::vector<std::shared_ptr<results::Results>> Problem::results() const
 {
   std::vector<std::shared_ptr<results::Results>> results;
   for (const Part& part : _parts)
     results.push_back(part.results);
-  return {_system, std::move(results)};
+  return results;
 }
 
 void Problem::restore()

@@ -290,6 +290,9 @@ public:
   /// @brief Copy the state of now, to return to.
   Snapshot snapshot() const;
 
+  /// @brief The state of another run, to go on from.
+  Snapshot snapshot(Snapshot::State state) const;
+
   /// @brief Find the rigid modes of free bodies as they are, as the first step
   /// does: those of bodies without stress.
   void find_rigid_modes();
@@ -311,6 +314,7 @@ public:
                              std::string_view limit) const;
 
 private:
+  std::vector<std::shared_ptr<results::Results>> results() const;
   bool iterate(LinearSolver& solver, const Tolerances& tolerances);
   void read_values();
   void check_finite();

@@ -9,31 +9,42 @@ using namespace contactx::problem;
 
 Snapshot::Snapshot(std::shared_ptr<newton::System> system,
                    std::vector<std::shared_ptr<results::Results>> results)
-    : _system(std::move(system)), _results(std::move(results))
+    : Snapshot(std::move(system), std::move(results), {})
 {
-  std::erase(_results, nullptr);
   for (const auto& result : _results)
     _copies.push_back(*result);
   newton::Bulk& bulk = *_system->bulk();
   const auto u = bulk.displacements();
-  _displacements.assign(u.begin(), u.end());
+  _state.displacements.assign(u.begin(), u.end());
   if (newton::Fields* fields = bulk.fields())
   {
     const auto values = fields->values();
-    _fields.assign(values.begin(), values.end());
+    _state.fields.assign(values.begin(), values.end());
   }
   for (const auto& contact : _system->contacts())
-    _contacts.push_back(contact::save(*contact));
+    _state.contacts.push_back(contact::save(*contact));
+}
+
+Snapshot::Snapshot(std::shared_ptr<newton::System> system,
+                   std::vector<std::shared_ptr<results::Results>> results,
+                   State state)
+    : _system(std::move(system)), _results(std::move(results)),
+      _state(std::move(state))
+{
+  std::erase(_results, nullptr);
 }
 
 void Snapshot::restore() const
 {
   newton::Bulk& bulk = *_system->bulk();
-  bulk.set_displacements(_displacements);
+  bulk.set_displacements(_state.displacements);
   if (newton::Fields* fields = bulk.fields())
-    fields->set(_fields);
-  for (std::size_t k = 0; k < _contacts.size(); ++k)
-    contact::load(*_system->contacts()[k], _contacts[k]);
-  for (std::size_t k = 0; k < _results.size(); ++k)
+    fields->set(_state.fields);
+  for (std::size_t k = 0; k < _state.contacts.size(); ++k)
+    contact::load(*_system->contacts()[k], _state.contacts[k]);
+  for (std::size_t k = 0; k < _copies.size(); ++k)
     *_results[k] = _copies[k];
+  if (_copies.empty())
+    for (const auto& result : _results)
+      result->update();
 }

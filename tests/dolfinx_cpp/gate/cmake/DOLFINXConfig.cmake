@@ -44,7 +44,7 @@ if(NOT TARGET dolfinx)
   target_compile_definitions(dolfinx INTERFACE ${_dolfinx_define}
     "UFCX_SIGNATURE=\"\"" "DOLFINX_GIT_COMMIT_HASH=\"\"")
   target_compile_features(dolfinx INTERFACE cxx_std_20)
-  target_link_libraries(dolfinx INTERFACE ${_dolfinx_link} -lbasix -lspdlog -lfmt)
+  target_link_libraries(dolfinx INTERFACE ${_dolfinx_link} -lbasix -lspdlog -lfmt -lhdf5_openmpi)
   # In what is above already
   add_library(PkgConfig::PETSC INTERFACE IMPORTED)
 endif()
