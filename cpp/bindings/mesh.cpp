@@ -4,6 +4,7 @@
 #include "bindings.h"
 #include "parallel.h"
 #include <contactx/mesh/nodes.h>
+#include <contactx/reference/degenerate.h>
 #include <contactx/reference/straight.h>
 #include <pybind11/stl.h>
 #include <stdexcept>
@@ -126,4 +127,16 @@ void contactx_bindings::mesh(py::module_& m)
       py::arg("halo"), py::arg("name"), py::arg("cell"), py::arg("degree"),
       py::arg("nodes"), py::arg("geometry"), py::arg("points"), py::arg("of"),
       py::arg("local"), "Check that a surface is as the displacement has it");
+  m.def(
+      "check_cells",
+      [](const Halo& halo, const std::string& cell,
+         const contactx::mesh::Geometry& geometry, std::int32_t num_owned,
+         const Array<std::int64_t>& original)
+      {
+        contactx::reference::check_cells(halo.ranks(), cell_type(cell),
+                                         geometry, num_owned, view(original));
+      },
+      py::arg("halo"), py::arg("cell"), py::arg("geometry"),
+      py::arg("num_owned"), py::arg("original"),
+      "Check that cells have a volume and are not folded");
 }

@@ -7,6 +7,7 @@
 #include "jacobian.h"
 #include <contactx/newton/not_finite.h>
 #include <contactx/problem/problem.h>
+#include <contactx/reference/degenerate.h>
 #include <petscksp.h>
 
 /// @brief Contact beside the forms of DOLFINx 0.11, compiled in the program
@@ -139,6 +140,7 @@ public:
             {"contact " + std::to_string(count) + " (" + contact.name() + ")",
              contact.values(), contact.shared_results()});
       }
+      check_cells();
       for (const auto& conductance : conductances)
         conductance->check();
       _bulk->follow(std::move(conductances));
@@ -435,6 +437,16 @@ private:
               "itself, leave the conductance out and take its residual() and "
               "by_field()");
     }
+  }
+
+  void check_cells() const
+  {
+    const FunctionSpace& V = *_u->function_space();
+    const auto& topology = *V.mesh()->topology();
+    reference::check_cells(_halo->ranks(), cells_of(V).type,
+                           geometry_of(*V.mesh()),
+                           topology.index_map(topology.dim())->size_local(),
+                           original_cells(*V.mesh()));
   }
 
   MPI_Comm comm() const { return _u->function_space()->mesh()->comm(); }

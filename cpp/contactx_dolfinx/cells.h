@@ -72,6 +72,17 @@ inline mesh::Geometry geometry_of(const ::dolfinx::mesh::Mesh<double>& mesh)
           geometry.x()};
 }
 
+/// @brief Numbers of this rank's cells in the mesh as it was made; empty where
+/// a mesh was made of another one.
+inline std::span<const std::int64_t>
+original_cells(const ::dolfinx::mesh::Mesh<double>& mesh)
+{
+  const auto& numbers = mesh.topology()->original_cell_index;
+  if (numbers.empty())
+    return {};
+  return numbers.front();
+}
+
 /// @brief Reference coordinates of the points of a cell of the mesh
 /// (shape=(points_per_cell, tdim)).
 inline std::vector<double>

@@ -148,6 +148,12 @@ private:
 
     bool has(const std::string& name) const
     {
+      // Asked for in a group that is not there, HDF5 prints errors
+      for (auto end = name.find('/'); end != std::string::npos;
+           end = name.find('/', end + 1))
+        if (not ::dolfinx::io::hdf5::has_dataset(_handle,
+                                                 "/" + name.substr(0, end)))
+          return false;
       return ::dolfinx::io::hdf5::has_dataset(_handle, "/" + name);
     }
 
@@ -194,7 +200,7 @@ private:
             "'" + name + "' has " + std::to_string(there[0]) + " rows of "
             + std::to_string(there[1]) + " there, and " + std::to_string(count)
             + " of " + std::to_string(width)
-            + " here: is it of another mesh or other surfaces?");
+            + " here: it is of another mesh, or of other contacts");
       std::vector<double> values(mine.size() * width);
       std::size_t found = 0;
       for (std::int64_t first = 0; first < count; first += chunk)
@@ -218,8 +224,7 @@ private:
       if (missing)
         throw std::invalid_argument(
             "'" + name
-            + "' has other rows: is it of another mesh, or of other "
-              "surfaces?");
+            + "' has other rows: it is of another mesh, or of other surfaces");
       return values;
     }
 
@@ -228,8 +233,8 @@ private:
     {
       if (not has(name))
         throw std::invalid_argument("'" + name
-                                    + "' is missing: were contacts, their "
-                                      "options or functions others?");
+                                    + "' is missing: contacts, their options "
+                                      "or functions were others");
       auto shape = ::dolfinx::io::hdf5::get_dataset_shape(_handle, "/" + name);
       shape.resize(2, 1);
       return shape;
@@ -314,7 +319,13 @@ private:
               "quadrature or a discontinuous space");
       const auto& topology = *V.mesh()->topology();
       const std::int32_t n = topology.index_map(topology.dim())->size_local();
-      const auto& original = topology.original_cell_index.front();
+      const auto original = original_cells(*V.mesh());
+      if (parallel::anywhere(ranks(), original.size() < std::size_t(n)))
+        throw std::invalid_argument(
+            name
+            + " has values in cells, but the mesh does not know the numbers "
+              "that they had as it was made: make it with mesh::create_mesh or "
+              "read it");
       saved.rows.keys.assign(original.begin(), original.begin() + n);
       const auto cells = dofs.map();
       for (std::int32_t c = 0; c < n; ++c)

@@ -34,12 +34,11 @@ from contactx.conductance import Conductance, check_conductances
 from contactx.contact import Contact, check_contacts
 from contactx.coupled import CoupledBulk
 from contactx.errors import ConvergenceError, NotFiniteError
-from contactx.geometry.cells import check_cells
 from contactx.linear import Condensed
 from contactx.newton import NewtonLoop
 from contactx.parallel.agreement import agreed
 from contactx.parallel.halo import Halo
-from contactx.refined import reference_positions
+from contactx.refined import check_cells, reference_positions
 from contactx.report import Iteration, Report
 from contactx.state import FunctionValues
 from contactx.system import SaddlePointSystem
@@ -155,7 +154,7 @@ class ContactAssembler:
         try:
             for contact in self.contacts:
                 self.interfaces.append(contact.attach(self.halo, self.bulk.markers, self.bodies))
-            check_cells(V.mesh)
+            check_cells(V.mesh, self.halo.nodes)
             for conductance in self.conductances:
                 conductance.check()
             if isinstance(self.bulk, CoupledBulk):

@@ -1149,6 +1149,13 @@ def check_straight(
     of: NDArray[np.int32],
     local: NDArray[np.int32],
 ) -> None: ...
+def check_cells(
+    halo: Halo,
+    cell: str,
+    geometry: MeshGeometry,
+    num_owned: int,
+    original: NDArray[np.int64],
+) -> None: ...
 def point_text(x: NDArray[np.float64] | Sequence[float], size: float) -> str: ...
 def make_surface_master(
     mesh: ReferenceMesh,

@@ -37,6 +37,31 @@ def geometry_of(domain: mesh.Mesh) -> core.MeshGeometry:
     )
 
 
+def check_cells(domain: mesh.Mesh, halo: core.Halo) -> None:
+    """Check that cells have a volume and are not folded; all ranks must take part.
+
+    Args:
+        domain: The mesh.
+        halo: Nodes of this rank.
+
+    Raises:
+        ValueError: If a cell of any rank is degenerate, on all ranks.
+    """
+    topology = domain.topology
+    try:
+        original = topology.original_cell_index
+    except RuntimeError:
+        # A mesh that was made of another one
+        original = np.zeros(0, dtype=np.int64)
+    core.check_cells(
+        halo,
+        topology.cell_type.name,
+        geometry_of(domain),
+        topology.index_map(topology.dim).size_local,
+        original,
+    )
+
+
 def linear_cells(V: fem.FunctionSpace) -> Int32:
     """Cells of the linear mesh of all nodes, those of a cell in turn.
 

@@ -14,11 +14,14 @@ import numpy as np
 import numpy.typing as npt
 
 from contactx import cpp as core
-from contactx.geometry.cells import KINDS
 from contactx.parallel.agreement import agreed
 from contactx.parallel.reduce import anywhere, total
 from contactx.refined import cells_of, geometry_of
 from dolfinx import cpp, fem, mesh
+from dolfinx.mesh import CellType
+
+# Kinds of cells that contact is made for
+KINDS = (CellType.triangle, CellType.quadrilateral, CellType.tetrahedron, CellType.hexahedron)
 
 
 @dataclass(frozen=True)

@@ -45,7 +45,11 @@ def fix(V: fem.FunctionSpace, tags: Any, face: int, value: float) -> fem.Dirichl
 
 def supports(V: fem.FunctionSpace, tags: Any) -> list[fem.DirichletBC]:
     """The base held, and the top, last, which is pushed along."""
-    return [fix(V.sub(0), tags, 22, 0.0), fix(V.sub(1), tags, 22, 0.0), fix(V.sub(0), tags, 12, 0.0)]
+    return [
+        fix(V.sub(0), tags, 22, 0.0),
+        fix(V.sub(1), tags, 22, 0.0),
+        fix(V.sub(0), tags, 12, 0.0),
+    ]
 
 
 def steps(

@@ -7,6 +7,8 @@
 #include "sliding_block.h"
 #include <basix/finite-element.h>
 #include <contactx/obstacle/plane.h>
+#include <contactx_dolfinx/checkpoint.h>
+#include <contactx_dolfinx/condensed.h>
 #include <contactx_dolfinx/dynamics.h>
 #include <cstdio>
 #include <dolfinx.h>
@@ -239,6 +241,114 @@ int main(int argc, char* argv[])
     refuses("", [&] { assembler.F(shorter.get(), b.get()); });
     u->x()->array()[0] = NAN;
     refuses("not finite", [&] { assembler.begin_step(); });
+
+    // Several fields
+    const auto w = std::make_shared<fem::Function<T>>(V);
+    const cx::Blocks two{{F, F}, {{J, nullptr}, {nullptr, J}}, {u, w}};
+    const auto solves = [&](cx::Blocks blocks, auto&& change)
+    {
+      change(blocks);
+      cx::Assembler(blocks, none, one());
+    };
+    refuses("functions[1] is there twice",
+            [&] { solves(two, [&](auto& b) { b.functions[1] = u; }); });
+    refuses("functions[1] is null",
+            [&] { solves(two, [](auto& b) { b.functions[1] = nullptr; }); });
+    refuses("displacement is 2: give a number from 0 to 1",
+            [&] { solves(two, [](auto& b) { b.displacement = 2; }); });
+    refuses("2 and 2 times 2",
+            [&] { solves(two, [](auto& b) { b.F.pop_back(); }); });
+    refuses("F[1] has an argument that is not of the function space of "
+            "functions[1]",
+            [&]
+            {
+              solves(
+                  two, [&](auto& b)
+                  { b.functions[1] = std::make_shared<fem::Function<T>>(W); });
+            });
+    refuses("functions[1] is on another mesh",
+            [&]
+            {
+              solves(two,
+                     [&](auto& b)
+                     {
+                       b.functions[1] = std::make_shared<fem::Function<T>>(
+                           space(square(mesh::GhostMode::shared_facet), 1));
+                     });
+            });
+    const auto with = [&](const std::shared_ptr<cx::Conductance>& conductance)
+    {
+      cx::Assembler(two, none, one(), cx::Assembler::Audit::refuse,
+                    {conductance});
+    };
+    const contactx::conductance::Coefficient h(1.0);
+    refuses("conductances[0] is null", [&] { with(nullptr); });
+    refuses("conductances[0] is of another contact",
+            [&]
+            {
+              with(std::make_shared<cx::Conductance>(make(bottom, plane_at(0)),
+                                                     w, h, 1.0));
+            });
+    refuses("obstacle_value is missing",
+            [&] { cx::Conductance(make(bottom, plane_at(0)), w, h); });
+    for (const auto& [field, words] :
+         {std::pair(u, "the field of conductances[0] is not solved for"),
+          std::pair(w, "the field of a conductance is of another space")})
+      refuses(words,
+              [&]
+              {
+                const auto mine = make(bottom, plane_at(0));
+                cx::Assembler(
+                    two, none, {mine}, cx::Assembler::Audit::refuse,
+                    {std::make_shared<cx::Conductance>(mine, field, h, 1.0)});
+              });
+    refuses("the condensed solver is for a displacement alone",
+            [&]
+            {
+              cx::Assembler several(two, none, one());
+              cx::Condensed(several, "");
+            });
+
+    // Checkpoints
+    cx::Checkpoint checkpoint(assembler);
+    refuses("there is no checkpoint nowhere.h5",
+            [&] { checkpoint.read("nowhere.h5"); });
+    refuses("history_0 is null", [&] { cx::Checkpoint(assembler, {nullptr}); });
+    refuses("whose dofs change their order from rank to rank",
+            [&]
+            {
+              cx::Checkpoint(assembler, {std::make_shared<fem::Function<T>>(
+                                            space(mesh, 3))});
+            });
+    checkpoint.write("refusals.h5");
+    cx::StepPlan plan(cx::StepPlan::equal(2));
+    refuses("it has no load steps",
+            [&] { checkpoint.read("refusals.h5", &plan); });
+    {
+      cx::Assembler other(
+          F, J, u, none,
+          {make(bottom, plane_at(0), {.sliding = cx::Sliding::small})});
+      refuses("has another master, or another sliding",
+              [&] { cx::Checkpoint(other).read("refusals.h5"); });
+    }
+    {
+      cx::Assembler other(F, J, u, none,
+                          {make(bottom, plane_at(0), {.friction = 0.1})});
+      refuses("has 5 rows of 1 there, and 5 of 2 here",
+              [&] { cx::Checkpoint(other).read("refusals.h5"); });
+    }
+    {
+      cx::Assembler other(F, J, u, none, {make(top, plane_at(0))});
+      refuses("has other rows: it is of another mesh",
+              [&] { cx::Checkpoint(other).read("refusals.h5"); });
+    }
+    {
+      cx::Assembler other(F, J, u, none,
+                          {make(bottom, plane_at(0)), make(top, plane_at(-1))});
+      refuses("is missing: contacts, their options",
+              [&] { cx::Checkpoint(other).read("refusals.h5"); });
+    }
+    checkpoint.read("refusals.h5");
 
     // Time steps
     const auto start = std::make_shared<fem::Function<T>>(V),

@@ -59,14 +59,19 @@ def test_cpp_tutorial_shows_the_demo():
         moving / "falling_block.py",
         moving / "dynamics.cpp",
         moving / "dynamics.cpp",
+        moving / "fields.cpp",
+        moving / "several_fields.py",
     ]
-    project, forms, contact, loop, step, dynamics, steps = (part.code for part in shown)
+    codes = [part.code for part in shown]
+    project, forms, contact, loop, step, dynamics, steps, blocks, heat = codes
     assert project.startswith("cmake_minimum_required") and "COMPONENTS dolfinx" in project
     assert forms.startswith('"""Forms of linear elasticity') and "forms = [F, J]" in forms
     assert "cx::Contact" in contact and contact.rstrip().endswith(";")
     calls = ("begin_step", "settle", "limit", "accept")
     assert all(loop.count(f"assembler.{call}(") == 1 for call in calls)
     assert "acceleration" in step and step.rstrip().endswith("J = derivative(F, u)")
+    assert "nullptr" in blocks and "bcs, push, contact" in blocks
+    assert "F_warm =" in heat
     assert "cx::DynamicForms" in dynamics and "dynamics->step(" in steps
     # Code of the page's own would be code that nothing compiles
     languages = {block.language.split()[0] for block in pages.blocks(page)}
