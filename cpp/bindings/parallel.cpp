@@ -186,7 +186,13 @@ void contactx_bindings::parallel(py::module_& m)
                          {self.num_nodes(), self.gdim()});
           })
       .def("positions", [](const Halo& self)
-           { return array(self.positions(), {self.num_nodes(), self.gdim()}); })
+           { return array(self.now()->x, {self.num_nodes(), self.gdim()}); })
+      .def_property_readonly(
+          "start", [](const Halo& self)
+          { return array(self.start()->u, {self.num_nodes(), self.gdim()}); })
+      .def(
+          "set_start", [](Halo& self, const Array<double>& u)
+          { self.set_start(view(u)); }, py::arg("u"))
       .def(
           "numbers", [](const Halo& self, const Array<std::int32_t>& nodes)
           { return array(self.numbers(view(nodes))); }, py::arg("nodes"))

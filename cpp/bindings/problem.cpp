@@ -5,6 +5,7 @@
 #include <contactx/newton/not_finite.h>
 #include <contactx/problem/problem.h>
 #include <contactx/problem/step_plan.h>
+#include <pybind11/functional.h>
 #include <pybind11/stl.h>
 
 namespace py = pybind11;
@@ -133,6 +134,10 @@ Attributes:
           { self.load(view(given), view(place)); },
           py::arg("given"), py::arg("place"));
 
+  py::enum_<Outcome>(m, "Outcome", "What has come of an attempt at a step")
+      .value("converged", Outcome::converged)
+      .value("failed", Outcome::failed)
+      .value("is_final", Outcome::is_final);
   py::class_<Snapshot>(m, "Snapshot", "State of a system")
       .def("restore", &Snapshot::restore);
 
@@ -198,7 +203,7 @@ Attributes:
       .def("restore", &Problem::restore)
       .def("snapshot", [](const Problem& self) { return self.snapshot(); })
       .def("find_rigid_modes", &Problem::find_rigid_modes)
-      .def_property_readonly("damping_may_help", &Problem::damping_may_help)
+      .def("attempt", &Problem::attempt, py::arg("attempt"))
       .def(
           "why_slow", [](Problem& self, const Array<double>& direction)
           { return self.why_slow(view(direction)); }, py::arg("direction"))

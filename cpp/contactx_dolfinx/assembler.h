@@ -280,12 +280,16 @@ public:
   }
 
   /// @brief Go on from the state of another run, as a Checkpoint has it.
+  /// @param[in] start Displacements of the step's start
+  /// (shape=(num_displacements)).
   /// @param[in] contacts State of each contact, see contact::save. Functions
   /// have the values that they shall have.
   /// @throws std::invalid_argument on all ranks if they do not fit.
-  void take(std::vector<std::vector<contact::Saved>> contacts)
+  void take(std::vector<double> start,
+            std::vector<std::vector<contact::Saved>> contacts)
   {
-    problem::Snapshot::State state{.contacts = std::move(contacts)};
+    problem::Snapshot::State state{.start = std::move(start),
+                                   .contacts = std::move(contacts)};
     _bulk->read();
     const auto u = _bulk->displacements();
     state.displacements.assign(u.begin(), u.end());

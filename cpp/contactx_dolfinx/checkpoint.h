@@ -60,6 +60,7 @@ public:
       }
       const Rows nodes = node_rows();
       file.write(nodes, "nodes", identity());
+      file.write(nodes, "start", owned(halo().start()->u));
       for (const auto& [name, f] : _functions)
         file.write(f.rows, name, values_of(f));
       for (std::size_t k = 0; k < contacts().size(); ++k)
@@ -392,11 +393,14 @@ private:
   }
 
   /// Reference positions of the owned nodes.
-  std::vector<double> identity() const
+  std::vector<double> identity() const { return owned(halo().reference()); }
+
+  /// Rows of the owned nodes.
+  std::vector<double> owned(std::span<const double> values) const
   {
-    const auto x = halo().reference();
-    return {x.begin(),
-            x.begin() + std::ptrdiff_t(halo().gdim()) * halo().num_owned()};
+    return {values.begin(),
+            values.begin()
+                + std::ptrdiff_t(halo().gdim()) * halo().num_owned()};
   }
 
   static std::vector<double> doubles(const contact::Saved& s)
@@ -432,6 +436,8 @@ private:
     std::map<std::string, std::vector<double>> values;
     for (const auto& [name, f] : _functions)
       values[name] = read_rows(f.rows, name, f.dofs.size());
+    std::vector<double> start
+        = read_rows(node_rows(), "start", identity().size());
     std::vector<std::vector<contact::Saved>> states;
     for (std::size_t k = 0; k < contacts().size(); ++k)
     {
@@ -458,7 +464,7 @@ private:
     if (plan)
       place.load(file.read_same<double>("plan/given"),
                  file.read_same<double>("plan/place"));
-    take(values, std::move(states));
+    take(values, std::move(start), std::move(states));
     if (plan)
       *plan = place;
   }
@@ -482,6 +488,7 @@ private:
   /// Takes functions and contacts; what was before stays where these do not
   /// fit.
   void take(const std::map<std::string, std::vector<double>>& values,
+            std::vector<double> start,
             std::vector<std::vector<contact::Saved>> contacts)
   {
     const problem::Snapshot before = _assembler->problem().snapshot();
@@ -502,7 +509,7 @@ private:
           });
     try
     {
-      _assembler->take(std::move(contacts));
+      _assembler->take(std::move(start), std::move(contacts));
     }
     catch (...)
     {

@@ -105,7 +105,7 @@ public:
   std::span<const double> reference() override { return _halo->reference(); }
   std::span<const double> positions() override
   {
-    return _positions = _halo->positions();
+    return _positions = _halo->now()->x;
   }
   std::span<const double> displacements() override { return owned(*u); }
   std::span<const std::int8_t> markers() override { return owned(fixed); }

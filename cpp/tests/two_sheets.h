@@ -67,11 +67,13 @@ struct TwoSheets
     return u;
   }
 
+  std::shared_ptr<parallel::Halo> halo; ///< that of the last pairs
+
   /// @brief Pairs of these surfaces, searched for.
   template <class M>
   std::shared_ptr<M> pairs(bool is_small = false, bool measures_slip = true)
   {
-    auto halo = parallel::serial_halo(x, gdim);
+    halo = parallel::serial_halo(x, gdim);
     auto surface
         = search::make_master_surface(halo, master.offsets, master.nodes);
     auto outside

@@ -141,12 +141,8 @@ class NewtonLoop:
 
     @property
     def damping_may_help(self) -> bool:
-        """True if damped steps may converge where the last run has failed.
-
-        Not where steps solve what they solve exactly, nor on a user's own line search.
-        """
-        may_help = self.assembler.core.damping_may_help
-        return may_help and not self._is_final and self._has_full_steps
+        """True unless no other way leads to a solution, or a line search is the user's own."""
+        return not self._is_final and self._has_full_steps
 
     def take_error(self) -> BaseException | None:
         """Error that a callback raised, once."""

@@ -11,6 +11,7 @@ from typing import Any
 from petsc4py import PETSc
 
 import ufl
+from contactx import cpp as core
 from contactx.assembler import ContactAssembler
 from contactx.conductance import Conductance
 from contactx.contact import Contact
@@ -183,15 +184,7 @@ class ContactProblem:
         assembler.prepare()
         with Interrupts() as interrupts:
             try:
-                self._run(Report())
-                interrupts.wait()
-                if not self.report.converged and self._newton.damping_may_help:
-                    discarded = self.report.iterations
-                    assembler.restore()
-                    self._newton.reset()
-                    self._run(Report(discarded=discarded, damped=True))
-                    interrupts.wait()
-                if not self.report.converged:
+                if not assembler.core.attempt(lambda damped: self._attempt(damped, interrupts)):
                     raise ConvergenceError(self.report.reason, self.report)
                 assembler.commit()
                 self._warn_of_options()
@@ -217,6 +210,20 @@ class ContactProblem:
             start: t at its start.
             end: t at its end.
         """
+
+    def _attempt(self, damped: bool, interrupts: Interrupts) -> core.Outcome:
+        """Attempt the step, with damped steps once full ones have failed."""
+        discarded = 0
+        if damped:
+            discarded = self.report.iterations
+            self.assembler.restore()
+            self._newton.reset()
+        self._run(Report(discarded=discarded, damped=damped))
+        interrupts.wait()
+        if self.report.converged:
+            return core.Outcome.converged
+        may_help = self._newton.damping_may_help
+        return core.Outcome.failed if may_help else core.Outcome.is_final
 
     def _run(self, report: Report) -> None:
         """Run the Newton loop once.

@@ -317,10 +317,10 @@ void ActiveSet::note(double residual)
 
 bool ActiveSet::hide_penetration()
 {
-  const std::vector<double> x = _halo->positions();
+  const auto now = _halo->now();
   std::vector<contact::HiddenGap> found;
   for (const auto& c : _contacts)
-    found.push_back(c->master()->deepest_frozen_pair(x));
+    found.push_back(c->master()->deepest_frozen_pair(now->x));
   return _frozen.hide_penetration(_halo->ranks(), found);
 }
 

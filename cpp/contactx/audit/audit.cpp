@@ -56,7 +56,7 @@ std::vector<Findings> Audit::look()
 
 std::vector<double> Audit::owned() const
 {
-  std::vector<double> x = _halo->positions();
+  std::vector<double> x = _halo->now()->x;
   x.resize(std::size_t(_halo->num_owned()) * _halo->gdim());
   return x;
 }

@@ -103,7 +103,8 @@ std::optional<EdgeForce> contactx::audit::edge_force(
   // The worst of this rank: what is off and where, what is unseen, its depth,
   // the facet's size and where
   std::array<double, 10> worst{};
-  const std::vector<double> now = halo.positions();
+  const auto at = halo.now();
+  const std::vector<double>& now = at->x;
   for (std::int32_t i = 0; i < halo.num_owned(); ++i)
     if (const double* row = &shared[std::size_t(i) * 4];
         row[3] > 0 and is_edge(i))

@@ -68,7 +68,7 @@ void ObstacleAudit::accept()
   _halo->ranks().agree(
       [this]
       {
-        Places now = places(_halo->positions());
+        Places now = places(_halo->now()->x);
         _placed = _master->obstacle()->placement(gdim());
         // Spin moves no shape
         _placed.angle.clear();
@@ -82,7 +82,8 @@ Findings ObstacleAudit::look(std::span<const double> /*start*/)
 {
   parallel::Ranks& ranks = _halo->ranks();
   const contact::SlaveNodes& slaves = _contact->slaves();
-  const std::vector<double> x = _halo->positions();
+  const auto here = _halo->now();
+  const std::vector<double>& x = here->x;
   const auto around = rows_of(x, slaves.around(), gdim());
   const auto size = unstretched_sizes(
       slaves.local(), around,

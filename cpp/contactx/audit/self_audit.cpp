@@ -35,7 +35,8 @@ SelfAudit::SelfAudit(std::shared_ptr<parallel::Halo> halo,
 
 Findings SelfAudit::look(std::span<const double> start)
 {
-  const std::vector<double> x = _halo->positions();
+  const auto now = _halo->now();
+  const std::vector<double>& x = now->x;
   check::rows(start.size(), x.size(), 1, "start");
   search::SelfSight& sight = _surface->sight();
   sight.refit(start, x);
@@ -106,7 +107,7 @@ FoundNodes SelfAudit::look_back(double size) const
   for (std::size_t i = 0; i < owned.size(); ++i)
     if (found.facet[i] >= 0)
       bad.push_back(surface.owned_here()[i]);
-  return found_nodes(*_halo, bad, _halo->positions());
+  return found_nodes(*_halo, bad, _halo->now()->x);
 }
 
 /// How deep nodes are behind facets that they see.

@@ -103,7 +103,8 @@ void SurfacesAudit::accept()
 Findings SurfacesAudit::look(std::span<const double> start)
 {
   Findings findings;
-  const std::vector<double> x = _halo->positions();
+  const auto now = _halo->now();
+  const std::vector<double>& x = now->x;
   check::rows(start.size(), x.size(), 1, "start");
   findings.facet_size = facet_size(_contact->slaves().own(), x);
   look_back(start, x, findings);
@@ -125,9 +126,9 @@ bool SurfacesAudit::is_small() const
 SurfacesAudit::Configuration SurfacesAudit::configuration() const
 {
   if (not is_small())
-    return {_halo->positions(), {}};
+    return {_halo->now()->x, {}};
   const auto x = _halo->reference();
-  Configuration now{{x.begin(), x.end()}, _halo->positions()};
+  Configuration now{{x.begin(), x.end()}, _halo->now()->x};
   for (std::size_t i = 0; i < x.size(); ++i)
     now.way[i] -= x[i];
   return now;

@@ -88,8 +88,7 @@ Contact::Contact(std::shared_ptr<parallel::Halo> halo,
   leave_out_empty();
   nodes_changed();
   _observer = _halo->on_change([this] { nodes_changed(); });
-  _halo->ranks().agree(
-      [&] { _master->accept(_halo->positions(), _halo->displacement()); });
+  take_start();
   const auto reference = _halo->reference();
   const std::vector<double> x(reference.begin(), reference.end());
   const std::vector<std::int8_t> open(n, 0);
@@ -253,7 +252,7 @@ void Contact::turn_tractions()
 {
   if (not _history or not updates_kinematics())
     return;
-  const auto turn = _master->turn(_halo->positions());
+  const auto turn = _master->turn(_halo->now()->x);
   if (not turn)
     return;
   const int g = gdim();
@@ -273,8 +272,7 @@ void Contact::turn_tractions()
 
 void Contact::accept()
 {
-  _halo->ranks().agree(
-      [&] { _master->accept(_halo->positions(), _halo->displacement()); });
+  take_start();
   const std::vector<double> front = _front, area = _nodes->area;
   find_front();
   if (parallel::anywhere(_halo->ranks(), front != _front))
@@ -290,6 +288,14 @@ void Contact::accept()
     _history->add(*_nodes);
 }
 
+/// Takes the configuration of now as the start of the next step. All contacts
+/// of a halo do so together.
+void Contact::take_start()
+{
+  _halo->accept();
+  _halo->ranks().agree([&] { _master->accept(_halo->start()->x); });
+}
+
 void Contact::rebuild()
 {
   _is_frozen = sliding() == Sliding::small;
@@ -302,14 +308,14 @@ void Contact::find_front()
 {
   const int g = gdim();
   const auto reference = _halo->reference();
-  const std::vector<double> x = _halo->positions();
+  const auto now = _halo->now();
   const std::vector<double> normals = _master->normals();
   std::vector<double> normal(normals.size() / 3 * g);
   for (std::size_t i = 0; i < normals.size() / 3; ++i)
     std::copy_n(normals.begin() + 3 * i, g, normal.begin() + g * i);
   const std::vector<double> corners = _slaves->facing_areas(
-      reference, sliding() == Sliding::small ? reference : std::span(x), normal,
-      g);
+      reference, sliding() == Sliding::small ? reference : std::span(now->x),
+      normal, g);
   _front = _slaves->sums(corners);
   std::vector<std::int8_t> faces(corners.size());
   std::ranges::transform(corners, faces.begin(),
@@ -407,7 +413,8 @@ std::int32_t Contact::search()
     ++_skipped_searches;
     return 0;
   }
-  return pair(_halo->positions());
+  const auto now = _halo->now();
+  return pair(now->x);
 }
 
 std::int32_t Contact::pair(std::span<const double> x)
@@ -446,29 +453,28 @@ void Contact::freeze(bool is_frozen)
 
 void Contact::update_gap()
 {
-  const std::vector<double> displacement = _halo->displacement();
+  const auto now = _halo->now();
   // Each rank finds on its own whether it has anything to do
   _halo->ranks().agree(
       [&]
       {
-        if (_evaluated_version == _version and _evaluated == displacement)
+        if (_evaluated_version == _version and _evaluated == now)
           return;
-        if (auto fresh
-            = _master->update(_halo->positions(), _is_frozen, _offset))
+        if (auto fresh = _master->update(now->x, _is_frozen, _offset))
           take(std::move(*fresh));
-        measure_gap(displacement);
+        measure_gap(now->u);
         if (_nodes->is_vector())
         {
-          assemble("normal", displacement, _nodes->normal);
+          assemble("normal", now->u, _nodes->normal);
           _nodes->normalise();
-          measure_slip(displacement);
+          measure_slip(now->u);
         }
         const std::vector<std::int8_t> paired = _master->paired();
         for (std::size_t i = 0; i < _offset.size(); ++i)
           _nodes->gap[i] = paired[i] and _is_active and not _is_left_out[i]
                                ? _nodes->gap[i] - _offset[i]
                                : std::numeric_limits<double>::quiet_NaN();
-        _evaluated = displacement;
+        _evaluated = now;
         _evaluated_version = _version;
       });
 }
@@ -564,9 +570,9 @@ void Contact::add_residual(std::span<double> b) const
 {
   require(b.size() == std::size_t(_halo->num_nodes()) * gdim(),
           "b must have a value for each displacement");
-  const std::vector<double> displacement = _halo->displacement();
+  const auto now = _halo->now();
   std::array<std::vector<double>, 5> padded;
-  const kernel::NodalArrays read = arrays(displacement, padded);
+  const kernel::NodalArrays read = arrays(now->u, padded);
   for (const auto& pairs : _pairs)
     kernel::add_vector(kind_of(*_law), name_of(kinematics()), "residual",
                        *pairs, read, gdim(), b);
@@ -577,9 +583,9 @@ Triplets Contact::block(std::string_view term,
 {
   require(which.empty() or which.size() == _slaves->owned().size(),
           "which must have a value for each slave node");
-  const std::vector<double> displacement = _halo->displacement();
+  const auto now = _halo->now();
   std::array<std::vector<double>, 5> padded;
-  const kernel::NodalArrays read = arrays(displacement, padded);
+  const kernel::NodalArrays read = arrays(now->u, padded);
   Triplets all;
   for (const auto& pairs : _pairs)
   {
@@ -600,9 +606,9 @@ void Contact::for_each_pair(std::string_view term,
 {
   require(which.empty() or which.size() == _slaves->owned().size(),
           "which must have a value for each slave node");
-  const std::vector<double> displacement = _halo->displacement();
+  const auto now = _halo->now();
   std::array<std::vector<double>, 5> padded;
-  const kernel::NodalArrays read = arrays(displacement, padded);
+  const kernel::NodalArrays read = arrays(now->u, padded);
   for (const auto& pairs : _pairs)
     kernel::for_each_pair(kind_of(*_law), name_of(kinematics()), term, *pairs,
                           read, gdim(), which, use);
@@ -611,7 +617,7 @@ void Contact::for_each_pair(std::string_view term,
 bool Contact::is_without_gaps() const
 {
   const double tie
-      = touching_gap(_halo->ranks(), at_slaves(_halo->positions()), gdim());
+      = touching_gap(_halo->ranks(), at_slaves(_halo->now()->x), gdim());
   const bool any = std::ranges::any_of(_nodes->gap, [tie](double gap)
                                        { return std::abs(gap) > tie; });
   return not parallel::anywhere(_halo->ranks(), any);
@@ -675,29 +681,27 @@ std::vector<std::int8_t> Contact::touching(std::span<const std::int8_t> closes,
 
 void Contact::measure_from_touching(std::span<const std::int8_t> which)
 {
-  const std::vector<double> x = _halo->positions();
+  const auto now = _halo->now();
   _halo->ranks().agree(
       [&]
       {
         if (std::ranges::none_of(which, [](std::int8_t w) { return w != 0; }))
           return;
-        const std::vector<double> u = _halo->displacement();
-        _master->touch(which, x, u, _offset);
+        _master->touch(which, now->x, now->u, _offset);
         for (std::size_t i = 0; i < which.size(); ++i)
           _touched[i] = _touched[i] or which[i];
-        auto fresh = _master->update(x, _is_frozen, _offset);
+        auto fresh = _master->update(now->x, _is_frozen, _offset);
         take(fresh ? std::move(*fresh) : _master->pairs());
-        measure_slip(u);
+        measure_slip(now->u);
         _evaluated_version = _version;
       });
 }
 
 std::vector<std::int8_t> Contact::closing(bool is_first)
 {
-  const double tie = is_first
-                         ? touching_gap(_halo->ranks(),
-                                        at_slaves(_halo->positions()), gdim())
-                         : -1.0;
+  const double tie = is_first ? touching_gap(_halo->ranks(),
+                                             at_slaves(_halo->now()->x), gdim())
+                              : -1.0;
   std::vector<std::int8_t> closes(_nodes->num_nodes());
   for (std::size_t i = 0; i < closes.size(); ++i)
     closes[i] = _nodes->closing(i, tie);

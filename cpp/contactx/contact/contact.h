@@ -251,6 +251,7 @@ private:
   bool integrates() const;
   std::vector<double> at_slaves(std::span<const double> x) const;
   void nodes_changed();
+  void take_start();
   void find_free();
   void turn_tractions();
   void find_front();
@@ -293,8 +294,8 @@ private:
   std::vector<std::int8_t> _free; // displacements of all nodes
   std::vector<std::int8_t> _touched, _had_master, _is_left_out;
   std::vector<double> _filler; // areas of slave nodes that have none
-  // Displacements and version at which gaps were evaluated
-  std::vector<double> _evaluated;
+  // Configuration and version at which gaps were evaluated
+  std::shared_ptr<const parallel::Configuration> _evaluated;
   std::int64_t _evaluated_version = -1;
   std::shared_ptr<const void> _observer;
 };

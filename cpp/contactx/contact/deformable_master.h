@@ -5,7 +5,6 @@
 
 #include "../check.h"
 #include "../parallel/halo.h"
-#include "../parallel/spread.h"
 #include "../search/master_surface.h"
 #include "../search/outside.h"
 #include "master.h"
@@ -55,7 +54,6 @@ public:
     check::facets(facets.offsets, facets.nodes, _halo->gdim());
     if (not(options.reach > 0))
       throw std::invalid_argument("the reach of pairs is not larger than zero");
-    start_from(std::vector<double>(_halo->reference().size(), 0));
   }
 
   int gdim() const override { return _halo->gdim(); }
@@ -80,29 +78,6 @@ public:
   const std::shared_ptr<search::Outside>& outside() const { return _outside; }
 
 protected:
-  /// @brief Take displacements of all nodes as those of the step's start.
-  void start_from(std::vector<double> u)
-  {
-    _u0 = std::move(u);
-    _x0 = _u0;
-    const auto reference = _halo->reference();
-    for (std::size_t k = 0; k < _x0.size(); ++k)
-      _x0[k] += reference[k];
-  }
-
-  /// @brief Displacements of the step's start, as `load_start` takes them.
-  Saved save_start() const
-  {
-    return {"displacement", RowKind::node, gdim(), _u0};
-  }
-
-  /// @brief Take what `save_start` gave; all ranks must take part.
-  void load_start(const std::vector<Saved>& saved)
-  {
-    start_from(parallel::spread(
-        *_halo, values_of<double>(saved, "displacement"), gdim()));
-  }
-
   /// @brief Distance of each slave node from the master in the reference
   /// configuration, the mean of X_slave - X_master.
   ///
@@ -145,8 +120,6 @@ protected:
   std::shared_ptr<search::MasterSurface> _surface; ///< Master surface
   std::shared_ptr<search::Outside> _outside; ///< points outside of the body
   PairingOptions _options;                   ///< How pairs are made
-  /// Displacements and positions of all nodes at the step's start
-  std::vector<double> _u0, _x0;
   SlipOrigin _origin; ///< where slip starts in small sliding
 
 private:

@@ -53,10 +53,9 @@ public:
   virtual bool is_self() const { return false; }
 
   /// @brief Take a converged configuration, the start of the next step;
-  /// collective.
+  /// collective. The halo has it already.
   /// @param[in] x Its positions.
-  /// @param[in] u Displacements that led there.
-  virtual void accept(std::span<const double> x, std::span<const double> u) = 0;
+  virtual void accept(std::span<const double> /*x*/) {}
 
   /// @brief Start a step: slip is measured from its start, and pairs may move
   /// again; collective.

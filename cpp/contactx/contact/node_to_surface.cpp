@@ -34,7 +34,8 @@ NodeToSurface::NodeToSurface(std::shared_ptr<parallel::Halo> halo,
                copy(_surface->facets().offsets), copy(_surface->facets().nodes),
                _halo->gdim(), _halo->num_owned())
 {
-  _at = _x0;
+  const auto reference = _halo->reference();
+  _at.assign(reference.begin(), reference.end());
   if (_options.is_smooth)
     _smooth.emplace(*_halo, _surface->own());
   find_places();
@@ -150,21 +151,15 @@ std::int32_t NodeToSurface::drop_outside(std::span<const double> x,
   return changed;
 }
 
-void NodeToSurface::accept(std::span<const double> x, std::span<const double> u)
-{
-  start_from({u.begin(), u.end()});
-  _surface->accept(x);
-}
-
 void NodeToSurface::begin_step()
 {
   reset_flips();
   if (not _options.measures_slip)
     return;
   if (_options.is_small)
-    _origin.start(moved(_u0));
+    _origin.start(moved(_halo->start()->u));
   else
-    _start = at_slaves(_x0);
+    _start = at_slaves(_halo->start()->x);
 }
 
 void NodeToSurface::rebuild()
@@ -194,11 +189,7 @@ std::vector<Saved> NodeToSurface::saved_pairs() const
           {"normal", RowKind::slave, 3, _pairing.normal()}};
 }
 
-void NodeToSurface::nodes_changed()
-{
-  start_from(spread(*_halo, _u0, gdim()));
-  _at = spread(*_halo, _at, gdim());
-}
+void NodeToSurface::nodes_changed() { _at = spread(*_halo, _at, gdim()); }
 
 std::vector<std::int8_t> NodeToSurface::paired() const
 {
@@ -275,7 +266,7 @@ std::vector<double> NodeToSurface::slip() const
     put_xi(_places.xi);
     return data;
   }
-  auto [xi, gap] = feet(_x0, _start);
+  auto [xi, gap] = feet(_halo->start()->x, _start);
   const auto normal = places(_at, xi).normal;
   for (std::size_t i = 0; i < size(); ++i)
   {
@@ -295,10 +286,11 @@ std::vector<double> NodeToSurface::slip() const
 std::optional<std::vector<double>>
 NodeToSurface::turn(std::span<const double> x) const
 {
-  if (std::ranges::equal(x, _x0))
+  const std::vector<double>& x0 = _halo->start()->x;
+  if (std::ranges::equal(x, x0))
     return std::nullopt;
   const int g = gdim();
-  const std::vector<double> before = frames(_x0), now = frames(x);
+  const std::vector<double> before = frames(x0), now = frames(x);
   std::vector<double> turn(size() * g * g, 0);
   for (std::size_t i = 0; i < size(); ++i)
     for (int r = 0; r < g; ++r)
@@ -356,7 +348,8 @@ void NodeToSurface::touch(std::span<const std::int8_t> which,
   }
   const int g = gdim();
   const std::vector<double> points = at_slaves(x);
-  auto [xi0, gap0] = feet(_x0, _start);
+  const std::vector<double>& x0 = _halo->start()->x;
+  auto [xi0, gap0] = feet(x0, _start);
   const auto [xi1, gap1] = feet(x, points);
   std::vector<double> part(size());
   for (std::size_t i = 0; i < size(); ++i)
@@ -365,7 +358,7 @@ void NodeToSurface::touch(std::span<const std::int8_t> which,
     for (int a = 0; a < 2; ++a)
       xi0[2 * i + a] += part[i] * (xi1[2 * i + a] - xi0[2 * i + a]);
   }
-  const auto [foot, normal] = places(_x0, xi0);
+  const auto [foot, normal] = places(x0, xi0);
   for (std::size_t i = 0; i < size(); ++i)
     if (which[i])
     {
@@ -490,8 +483,6 @@ std::vector<Saved> NodeToSurface::save() const
             : Saved{"start", RowKind::slave, gdim(), _start});
     saved.push_back({"at", RowKind::node, gdim(), _at});
   }
-  if (needs_before())
-    saved.push_back(save_start());
   return saved;
 }
 
@@ -507,11 +498,6 @@ void NodeToSurface::load(const std::vector<Saved>& saved)
     else
       _start = values_of<double>(saved, "start");
     _at = spread(*_halo, values_of<double>(saved, "at"), gdim());
-  }
-  if (needs_before())
-  {
-    load_start(saved);
-    _surface->accept(_x0);
   }
 }
 
@@ -560,7 +546,7 @@ HiddenGap NodeToSurface::deepest_frozen_pair(std::span<const double> x) const
   }
   // Facets that a search without memory finds for them
   const auto found = _surface->find_of_nodes(x, nodes, normals, _options.reach);
-  const std::vector<double> now = _halo->positions();
+  const auto at = _halo->now();
   const facet::FacetList facets = _surface->facets();
   for (std::size_t i = 0; i < frozen.size(); ++i)
   {
@@ -571,8 +557,8 @@ HiddenGap NodeToSurface::deepest_frozen_pair(std::span<const double> x) const
     double square = 0;
     for (int k = 0; k < g; ++k)
     {
-      const double d = now[std::size_t(ends.back()) * g + k]
-                       - now[std::size_t(ends.front()) * g + k];
+      const double d = at->x[std::size_t(ends.back()) * g + k]
+                       - at->x[std::size_t(ends.front()) * g + k];
       square += d * d;
     }
     deepest.gap = std::min(deepest.gap, found.gap[i]);

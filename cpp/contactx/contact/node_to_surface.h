@@ -27,7 +27,6 @@ public:
                 std::shared_ptr<search::Outside> outside,
                 const PairingOptions& options);
 
-  void accept(std::span<const double> x, std::span<const double> u) override;
   void begin_step() override;
   void rebuild() override;
   void nodes_changed() override;
@@ -90,11 +89,6 @@ private:
 
   void find_places();
   void load_places(const std::vector<Saved>& saved);
-  // Whether what is searched for next depends on the step's start
-  bool needs_before() const
-  {
-    return _options.measures_slip or _surface->sees_bodies();
-  }
   std::int32_t drop_outside(std::span<const double> x,
                             std::span<const std::int8_t> closed);
   void restore(std::span<const std::int32_t> facet,

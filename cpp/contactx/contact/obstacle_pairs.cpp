@@ -44,7 +44,7 @@ ObstacleMaster::ObstacleMaster(std::shared_ptr<obstacle::Obstacle> obstacle,
   _slip.assign(size() * kernel::rigid_slip_size, 0);
   _data.assign(size() * kernel::rigid_size, 0);
   _at = at_slaves(x);
-  ObstacleMaster::accept(x, {});
+  ObstacleMaster::accept(x);
   ObstacleMaster::begin_step();
 }
 
@@ -181,7 +181,7 @@ std::vector<double> ObstacleMaster::movement() const
   return movement;
 }
 
-void ObstacleMaster::accept(std::span<const double> x, std::span<const double>)
+void ObstacleMaster::accept(std::span<const double> x)
 {
   std::vector<double> x0 = at_slaves(x);
   std::vector<double> gap0 = _obstacle->evaluate(x0, _gdim).gap;

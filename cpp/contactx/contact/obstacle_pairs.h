@@ -50,7 +50,7 @@ public:
   /// @param[in] tolerance Gap that counts as none.
   bool moves_untold(double tolerance) const;
 
-  void accept(std::span<const double> x, std::span<const double> u) override;
+  void accept(std::span<const double> x) override;
   void begin_step() override;
 
   /// @copydoc Master::turn; all of it turns as one

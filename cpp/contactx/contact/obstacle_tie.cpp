@@ -60,7 +60,7 @@ void ObstacleTie::update_slip(std::span<const double> at,
   }
 }
 
-void ObstacleTie::accept(std::span<const double> x, std::span<const double> u)
+void ObstacleTie::accept(std::span<const double> x)
 {
   if (_found)
   {
@@ -70,7 +70,7 @@ void ObstacleTie::accept(std::span<const double> x, std::span<const double> u)
     _normal = _obstacle->evaluate(place, _gdim).normal;
     _place = std::move(place);
   }
-  ObstacleMaster::accept(x, u);
+  ObstacleMaster::accept(x);
 }
 
 std::vector<Saved> ObstacleTie::save() const

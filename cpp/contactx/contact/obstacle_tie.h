@@ -27,7 +27,7 @@ public:
   update(std::span<const double> x, bool frozen,
          std::span<const double> offset) override;
 
-  void accept(std::span<const double> x, std::span<const double> u) override;
+  void accept(std::span<const double> x) override;
   std::vector<Saved> save() const override;
   void load(const std::vector<Saved>& saved) override;
 

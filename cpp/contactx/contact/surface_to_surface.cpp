@@ -50,12 +50,13 @@ SurfaceToSurface::SurfaceToSurface(
       _weight(_slaves->corner_weight())
 {
   if (not _options.is_small)
-    _edges = _sides.at_edges(_x0);
+    _edges = _sides.at_edges(_halo->reference());
   _keeps.assign(_sides.num_slave_facets(), _options.is_smooth
                                                ? kernel::Keeps::all
                                                : kernel::Keeps::nothing);
   _inradius = parallel::least(_halo->ranks(), _sides.inradius());
-  _at = _x0;
+  const auto reference = _halo->reference();
+  _at.assign(reference.begin(), reference.end());
   if (_options.is_smooth)
   {
     _smooth_slave.emplace(*_halo, _slaves->own());
@@ -68,9 +69,9 @@ SurfaceToSurface::SurfaceToSurface(
     for (int s = _sides.width(); s-- > 0;)
       if (const std::size_t i = _sides.numbers(f)[s]; i < _sides.size())
         _place[i] = {f, s};
-  _whole = _slaves->sums(facet::corner_areas(_slaves->local(),
-                                             _slaves->here(_x0, gdim(), "x"),
-                                             gdim(), _slaves->shares()));
+  _whole = _slaves->sums(facet::corner_areas(
+      _slaves->local(), _slaves->here(reference, gdim(), "x"), gdim(),
+      _slaves->shares()));
 }
 
 /// Takes the master facets that are known now; those before keep their numbers.
@@ -382,11 +383,7 @@ void SurfaceToSurface::rebuild()
   meet();
 }
 
-void SurfaceToSurface::nodes_changed()
-{
-  start_from(spread(*_halo, _u0, gdim()));
-  _at = spread(*_halo, _at, gdim());
-}
+void SurfaceToSurface::nodes_changed() { _at = spread(*_halo, _at, gdim()); }
 
 std::optional<std::vector<Pairs>>
 SurfaceToSurface::update(std::span<const double> x, bool frozen,
@@ -452,12 +449,6 @@ Weights SurfaceToSurface::weights() const
   return weights;
 }
 
-void SurfaceToSurface::accept(std::span<const double>,
-                              std::span<const double> u)
-{
-  start_from({u.begin(), u.end()});
-}
-
 void SurfaceToSurface::begin_step()
 {
   if (not _found)
@@ -465,12 +456,17 @@ void SurfaceToSurface::begin_step()
   if (not _options.is_small)
   {
     _found.reset();
-    pair(_x0);
+    const auto start = _halo->start();
+    pair(start->x);
   }
-  if (_options.measures_slip and _options.is_small)
-    _origin.start(moved(_u0));
-  else if (_options.measures_slip)
-    _slip.begin_step(of_slip(_x0, _u0), along(_u0));
+  if (not _options.measures_slip)
+    return;
+  // With the nodes that the pairs have brought here
+  const auto& [u0, x0] = *_halo->start();
+  if (_options.is_small)
+    _origin.start(moved(u0));
+  else
+    _slip.begin_step(of_slip(x0, u0), along(u0));
 }
 
 /// How far slave nodes are from what is in front of them, along the surface,
@@ -526,9 +522,10 @@ void SurfaceToSurface::touch(std::span<const std::int8_t> which,
 std::optional<std::vector<double>>
 SurfaceToSurface::turn(std::span<const double> x) const
 {
-  if (std::ranges::equal(x, _x0))
+  const std::vector<double>& x0 = _halo->start()->x;
+  if (std::ranges::equal(x, x0))
     return std::nullopt;
-  return rotations(_x0, x);
+  return rotations(x0, x);
 }
 
 std::vector<double> SurfaceToSurface::rotations(std::span<const double> from,
@@ -613,13 +610,12 @@ Mobility SurfaceToSurface::mobility(std::span<const std::int8_t> free) const
 std::vector<Saved> SurfaceToSurface::save() const
 {
   // Pairs follow from the positions
-  return {{"paired", RowKind::slave, 0, _paired}, save_start()};
+  return {{"paired", RowKind::slave, 0, _paired}};
 }
 
 void SurfaceToSurface::load(const std::vector<Saved>& saved)
 {
   _paired = values_of<std::int8_t>(saved, "paired");
-  load_start(saved);
   begin_step();
 }
 
@@ -677,5 +673,3 @@ SurfaceTie::update(std::span<const double>, bool,
   _offset.assign(offset.begin(), offset.end());
   return pairs();
 }
-
-void SurfaceTie::load(const std::vector<Saved>& saved) { load_start(saved); }

@@ -314,8 +314,8 @@ double Loop::within_cells(std::span<const double> dx) const
     way[i] = -dx[i];
   halo.forward(std::span(way), halo.gdim());
   const double part = audit::longest_way(
-      bulk.cells(), bulk.nodes_per_cell(), halo.reference(),
-      halo.displacement(), way, halo.gdim(), active_set::StepLength::left);
+      bulk.cells(), bulk.nodes_per_cell(), halo.reference(), halo.now()->u, way,
+      halo.gdim(), active_set::StepLength::left);
   return parallel::least(halo.ranks(), part);
 }
 

@@ -35,6 +35,7 @@ Halo::Halo(BulkNodes bulk, std::unique_ptr<HaloAdapter> adapter)
   // Of ghosts the owner knows more
   forward(_original, 1);
   forward(_reference, _gdim);
+  _start = displaced(std::vector<double>(_reference.size(), 0));
 }
 
 void Halo::forward(std::span<double> values, int width) const
@@ -58,19 +59,37 @@ void Halo::reverse(std::span<double> values, int width) const
     _adapter->reverse(values, width);
 }
 
-std::vector<double> Halo::displacement() const
+std::shared_ptr<const Configuration>
+Halo::displaced(std::vector<double> u) const
+{
+  Configuration made{std::move(u), _reference};
+  for (std::size_t i = 0; i < made.x.size(); ++i)
+    made.x[i] += made.u[i];
+  return std::make_shared<const Configuration>(std::move(made));
+}
+
+std::shared_ptr<const Configuration> Halo::now() const
 {
   std::vector<double> u(_reference.size());
   _adapter->displacement(u);
-  return u;
+  if (not _now or _now->u != u)
+    _now = displaced(std::move(u));
+  return _now;
 }
 
-std::vector<double> Halo::positions() const
+void Halo::set_start(std::span<const double> u)
 {
-  std::vector<double> x = displacement();
-  for (std::size_t i = 0; i < x.size(); ++i)
-    x[i] += _reference[i];
-  return x;
+  const std::size_t owned = std::size_t(_num_owned) * _gdim;
+  ranks().agree(
+      [&]
+      {
+        if (u.size() < owned)
+          throw std::invalid_argument("u must have a row for each owned node");
+      });
+  std::vector<double> all(_reference.size(), 0);
+  std::copy_n(u.begin(), owned, all.begin());
+  forward(all, _gdim);
+  _start = displaced(std::move(all));
 }
 
 std::vector<std::int64_t>
@@ -173,6 +192,10 @@ void Halo::take_ghosts()
   forward(_original, 1);
   _reference.resize(_numbers.size() * _gdim);
   forward(_reference, _gdim);
+  std::vector<double> start = _start->u;
+  start.resize(_reference.size());
+  forward(start, _gdim);
+  _start = displaced(std::move(start));
   ++_version;
   _adapter->changed();
   notify();

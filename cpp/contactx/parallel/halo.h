@@ -54,6 +54,16 @@ public:
   virtual void changed() {}
 };
 
+/// @brief Where all nodes of a rank are at one instant.
+///
+/// It never changes: who keeps one knows by its address whether it is another
+/// one.
+struct Configuration
+{
+  std::vector<double> u; ///< displacements (shape=(num_nodes, gdim))
+  std::vector<double> x; ///< positions (shape=(num_nodes, gdim))
+};
+
 /// @brief The bulk's nodes on this rank, followed by nodes of other ranks that
 /// contact needs here.
 ///
@@ -61,6 +71,9 @@ public:
 /// its ghosts, then those of the contact halo. "All nodes" are all of them. The
 /// halo grows as pairs are found, by nodes that are appended, and shrinks at a
 /// step's start. On one rank there is none.
+///
+/// It owns the configurations that contacts are measured in: the reference, the
+/// start of the step, and that of now.
 class Halo : public NodeMap
 {
 public:
@@ -96,11 +109,22 @@ public:
   /// @brief Reference positions of all nodes (shape=(num_nodes, gdim)).
   std::span<const double> reference() const { return _reference; }
 
-  /// @brief Displacements of all nodes (shape=(num_nodes, gdim)).
-  std::vector<double> displacement() const;
+  /// @brief The configuration of now; another one where displacements or nodes
+  /// have changed.
+  std::shared_ptr<const Configuration> now() const;
 
-  /// @brief Positions of all nodes (shape=(num_nodes, gdim)).
-  std::vector<double> positions() const;
+  /// @brief The converged configuration that the step has started from; the
+  /// reference before the first one.
+  const std::shared_ptr<const Configuration>& start() const { return _start; }
+
+  /// @brief Take the configuration of now as the start of the next step.
+  void accept() { _start = now(); }
+
+  /// @brief Take another start of the step; all ranks must take part.
+  /// @param[in] u Displacements, of which the rows of owned nodes count
+  /// (shape=(at least num_owned, gdim)).
+  /// @throws std::invalid_argument on all ranks if there are fewer.
+  void set_start(std::span<const double> u);
 
   /// @brief Numbers of some nodes that all ranks know.
   /// @param[in] nodes Nodes of this rank.
@@ -143,6 +167,7 @@ private:
   void sort();
   void check(std::span<const std::int32_t> nodes) const;
   void check(std::size_t size, int width) const;
+  std::shared_ptr<const Configuration> displaced(std::vector<double> u) const;
 
   std::unique_ptr<HaloAdapter> _adapter;
   int _gdim, _version = 1;
@@ -152,6 +177,8 @@ private:
   std::vector<std::int64_t> _numbers, _original;
   std::vector<std::int32_t> _owners;
   std::vector<double> _reference;
+  std::shared_ptr<const Configuration> _start;
+  mutable std::shared_ptr<const Configuration> _now;
   // Nodes in the order of their numbers
   std::vector<std::int32_t> _order;
 };

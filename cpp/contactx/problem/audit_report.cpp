@@ -115,7 +115,7 @@ DeformedCells contactx::problem::deformed_cells(parallel::Halo& halo,
   const std::span<const std::int32_t> cells = bulk.cells();
   const std::span<const double> X = halo.reference();
   const audit::DeformedCells mine
-      = audit::deformed_cells(cells, width, X, halo.displacement(), g);
+      = audit::deformed_cells(cells, width, X, halo.now()->u, g);
   // Smallest det F and midpoint of each rank that has cells
   std::vector<double> row(g + 2);
   row[0] = mine.cell >= 0;

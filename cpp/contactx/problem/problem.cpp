@@ -168,7 +168,7 @@ void Problem::solve(LinearSolver& solver, const Tolerances& tolerances)
           _report.discarded = discarded;
           const bool found = iterate(solver, tolerances);
           discarded += _number;
-          return found;
+          return found ? Outcome::converged : Outcome::failed;
         });
     if (not converged)
       reason = _found->failure;
@@ -231,14 +231,13 @@ void Problem::advance(StepPlan& plan, const std::function<void(double)>& update,
   plan = std::move(attempted);
 }
 
-bool Problem::attempt(const std::function<bool(bool damped)>& attempt)
+bool Problem::attempt(const std::function<Outcome(bool damped)>& attempt)
 {
-  if (attempt(false))
-    return true;
-  if (not damping_may_help())
-    return false;
+  const Outcome first = attempt(false);
+  if (first != Outcome::failed or not damping_may_help())
+    return first == Outcome::converged;
   restore();
-  return attempt(true);
+  return attempt(true) == Outcome::converged;
 }
 
 /// Iterates from the start of a step; false where no solution is found.
@@ -670,7 +669,7 @@ std::string Problem::warning_of(std::size_t k)
     const double distance = parallel::least(
         ranks,
         master.distance(is_small ? std::vector<double>(X.begin(), X.end())
-                                 : _halo->positions()));
+                                 : _halo->now()->x));
     std::string text = name + " transmits no force: it has no slave node ";
     if (distance > master.reach())
       text += "within reach of its master; the nearest is "

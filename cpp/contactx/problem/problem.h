@@ -68,6 +68,14 @@ struct Tolerances
   int max_it = 50;     ///< most linear solves of an attempt
 };
 
+/// @brief What has come of an attempt at a step.
+enum class Outcome : std::int8_t
+{
+  converged, ///< a solution
+  failed,    ///< none; damped steps may find one
+  is_final   ///< none, and damped steps would not find one either
+};
+
 /// @brief Report of a step; the same on all ranks.
 struct Report
 {
@@ -213,11 +221,10 @@ public:
 
   /// @brief Attempt a step that was prepared, and once more with damped steps
   /// where full ones have failed and these may do better.
-  /// @param[in] attempt Starts the step with `start(damped)` and iterates;
-  /// returns whether it has converged.
+  /// @param[in] attempt Starts the step with `start(damped)` and iterates.
   /// @return Whether an attempt has converged; if not the state is that of the
   /// last one.
-  bool attempt(const std::function<bool(bool damped)>& attempt);
+  bool attempt(const std::function<Outcome(bool damped)>& attempt);
 
   /// @brief Start a load step from the displacements of now, with the loads and
   /// Dirichlet values of now. If that throws, all is as it was before.
@@ -297,10 +304,6 @@ public:
   /// does: those of bodies without stress.
   void find_rigid_modes();
 
-  /// @brief True if damped steps may converge where the last run has failed:
-  /// not where steps solve what they solve exactly.
-  bool damping_may_help() const;
-
   /// @brief Say why iterations came to nothing, if that is not for the
   /// contacts: a wrong Jacobian, or rounding errors.
   /// @param[in] direction The last step (shape=(size)).
@@ -314,6 +317,9 @@ public:
                              std::string_view limit) const;
 
 private:
+  /// True if damped steps may converge where the last run has failed: not where
+  /// steps solve what they solve exactly.
+  bool damping_may_help() const;
   std::vector<std::shared_ptr<results::Results>> results() const;
   bool iterate(LinearSolver& solver, const Tolerances& tolerances);
   void read_values();

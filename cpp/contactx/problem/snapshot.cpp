@@ -16,6 +16,9 @@ Snapshot::Snapshot(std::shared_ptr<newton::System> system,
   newton::Bulk& bulk = *_system->bulk();
   const auto u = bulk.displacements();
   _state.displacements.assign(u.begin(), u.end());
+  const auto start = _system->halo()->start();
+  _state.start.assign(start->u.begin(),
+                      start->u.begin() + std::ptrdiff_t(u.size()));
   if (newton::Fields* fields = bulk.fields())
   {
     const auto values = fields->values();
@@ -40,6 +43,7 @@ void Snapshot::restore() const
   bulk.set_displacements(_state.displacements);
   if (newton::Fields* fields = bulk.fields())
     fields->set(_state.fields);
+  _system->halo()->set_start(_state.start);
   for (std::size_t k = 0; k < _state.contacts.size(); ++k)
     contact::load(*_system->contacts()[k], _state.contacts[k]);
   for (std::size_t k = 0; k < _copies.size(); ++k)

@@ -18,7 +18,8 @@ public:
   struct State
   {
     std::vector<double> displacements; ///< those of newton::Bulk
-    std::vector<double> fields;        ///< those of newton::Fields
+    std::vector<double> start;  ///< displacements of the step's start, likewise
+    std::vector<double> fields; ///< those of newton::Fields
     /// Those of each contact, see contact::save
     std::vector<std::vector<contact::Saved>> contacts;
   };

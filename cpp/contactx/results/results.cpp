@@ -164,7 +164,7 @@ void Results::sum_forces()
     for (std::size_t i = 0; i < nodes.status.size(); ++i)
       if (not nodes.closed(i))
         std::fill_n(_on_slave.begin() + g * i, g, 0.);
-  _at = rows(halo.positions(), _contact->slaves().owned(), g);
+  _at = rows(halo.now()->x, _contact->slaves().owned(), g);
   std::array<double, 6> sums{};
   add_rows(_on_slave, g, sums.data());
   add_rows(forces, g, sums.data() + 3);

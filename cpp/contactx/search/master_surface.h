@@ -53,11 +53,6 @@ public:
                               std::span<const std::int32_t> nodes,
                               std::span<const double> normals, double reach);
 
-  /// @brief Take a converged configuration, the start of the next step; not
-  /// collective.
-  /// @param[in] x Positions of all nodes (shape=(num_nodes, gdim)), row-major.
-  virtual void accept(std::span<const double> /*x*/) {}
-
   /// @brief Take the compliance of all nodes, length/force.
   /// @param[in] nodal Values at all nodes (shape=(num_nodes)).
   virtual void take_compliance(std::span<const double> /*nodal*/) {}

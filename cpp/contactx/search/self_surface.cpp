@@ -28,13 +28,6 @@ SelfSurface::SelfSurface(std::shared_ptr<parallel::Halo> halo,
     : DistributedSurface(halo, own, level),
       _sight(halo, own.list(), body, excluded)
 {
-  accept(halo->reference());
-}
-
-void SelfSurface::accept(std::span<const double> x)
-{
-  const std::size_t owned = std::size_t(_halo->num_owned()) * _halo->gdim();
-  _x0.assign(x.begin(), x.begin() + static_cast<std::ptrdiff_t>(owned));
 }
 
 void SelfSurface::take_compliance(std::span<const double> nodal)
@@ -84,7 +77,7 @@ Found SelfSurface::find_of_nodes(std::span<const double> x,
                                  std::span<const std::int32_t> nodes,
                                  std::span<const double>, double reach)
 {
-  _sight.refit(_x0, x);
+  _sight.refit(_halo->start()->x, x);
   const auto places = here(look(nodes, reach));
   Found found(nodes.size());
   for (std::size_t i = 0; i < nodes.size(); ++i)
@@ -106,7 +99,7 @@ std::int32_t SelfSurface::pair(Pairing& pairing, const facet::FacetList&,
   const int version = _halo->version();
   const std::vector<std::int32_t> left = pairing.seek(x, reach);
   // Other nodes may take over where nothing moves
-  _sight.refit(_x0, x);
+  _sight.refit(_halo->start()->x, x);
   std::vector<std::int32_t> nodes;
   for (const std::int32_t i : left)
     nodes.push_back(pairing.slaves()[i]);

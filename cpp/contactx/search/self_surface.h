@@ -38,7 +38,6 @@ public:
   std::int32_t pair(Pairing& pairing, const facet::FacetList& slave,
                     std::span<const double> x, double reach,
                     std::span<const std::int8_t> closed) override;
-  void accept(std::span<const double> x) override;
   void take_compliance(std::span<const double> nodal) override;
   bool sees_bodies() const override { return true; }
   bool is_self() const override { return true; }
@@ -52,7 +51,6 @@ private:
                             double reach, std::span<const std::int8_t> closed);
 
   SelfSight _sight;
-  std::vector<double> _x0; // of owned nodes at the step's start
   bool _is_ordered = false;
 };
 } // namespace contactx::search

@@ -78,7 +78,7 @@ TEST_P(EdgesOfMasters, WhatTheyTakeIsComparedWithTheNormalOfASmoothSlave)
       SurfacesAudit audit(c.halo, c.contact);
       c.contact->search();
       press(c, at_zero(s), 3);
-      const Findings found = audit.look(c.halo->positions());
+      const Findings found = audit.look(c.halo->now()->x);
       ASSERT_TRUE(found.edges);
       // The node is at two thirds of the facet that ends at the edge
       EXPECT_NEAR(found.edges->share, 2. / 3, 1e-12);
@@ -98,7 +98,7 @@ TEST_P(EdgesOfMasters, WhatTheyTakeIsComparedWithTheNormalOfASmoothSlave)
                 std::string::npos)
           << found.warnings[0];
       audit.accept();
-      EXPECT_TRUE(audit.look(c.halo->positions()).warnings.empty());
+      EXPECT_TRUE(audit.look(c.halo->now()->x).warnings.empty());
     }
 }
 
@@ -114,7 +114,7 @@ TEST_P(EdgesOfMasters, ThoseThatNodesDoNotSeeAreComparedWithWhatNodesTake)
       c.contact->search();
       // Along the last axis, of which the normal has a part
       c.move(0, s.num_slaves, -depth / std::cos(angle * degree));
-      const auto x = c.halo->positions();
+      const auto x = c.halo->now()->x;
       const bool counts = angle == 30; // others are as faces are
       const Findings none = audit.look(x);
       ASSERT_EQ(none.edges.has_value(), counts);

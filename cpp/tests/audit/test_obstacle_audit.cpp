@@ -172,7 +172,7 @@ TEST(AuditOfObstacles, SlaveNodesInsideThatFaceAway)
   EXPECT_TRUE(found.is_fault());
   EXPECT_FALSE(found.is_too_deep) << "what else is found comes first";
   const auto slaves = c.contact->slaves().owned();
-  const auto x = c.halo->positions();
+  const auto x = c.halo->now()->x;
   const auto first = static_cast<std::int32_t>(found.inside.first);
   EXPECT_EQ(std::ranges::count(slaves, first), 1);
   EXPECT_EQ(found.inside.at,

@@ -315,7 +315,7 @@ TEST(FoundNodes, AreThoseOfAllRanks)
            [&](ThreadRanks& ranks)
            {
              const auto halo = parts.halo(ranks);
-             const auto x = halo->positions();
+             const auto x = halo->now()->x;
              EXPECT_EQ(found_nodes(*halo, {}, x).count, 0);
              // All nodes but those of the first rank
              std::vector<std::int32_t> nodes;

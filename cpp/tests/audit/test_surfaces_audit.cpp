@@ -48,7 +48,7 @@ protected:
 double explained(const MovedContact& c, const TwoSheets& s, std::int32_t node,
                  double h, bool held)
 {
-  const auto x = c.halo->positions();
+  const auto x = c.halo->now()->x;
   const auto list = s.master.list();
   const auto k = nodal_curvatures(
       list, x, facet::nodal_normals(list, x, s.gdim), s.gdim)[node];
@@ -67,7 +67,7 @@ TEST_P(AuditOfSurfaces, NothingIsFoundOnASoundContact)
       MovedContact c(s, 1, sliding);
       SurfacesAudit audit(c.halo, c.contact);
       audit.accept();
-      const auto start = c.halo->positions();
+      const auto start = c.halo->now()->x;
       c.move(0, s.num_slaves, -height);
       c.contact->search();
       const Findings found = audit.look(start);
@@ -94,7 +94,7 @@ TEST_P(AuditOfSurfaces, SlaveNodesBehindTheMasterWithoutAPair)
     {
       c.move(0, s.num_slaves, -0.5);
       (*c.displacement)[2 * gdim() - 1] = -0.5 - depth;
-      const auto x = c.halo->positions();
+      const auto x = c.halo->now()->x;
       const Findings found = audit.look(x);
       EXPECT_EQ(found.passed.count, 0);
       ASSERT_EQ(found.inside.count, depth > h / 32) << depth;
@@ -108,12 +108,12 @@ TEST_P(AuditOfSurfaces, SlaveNodesBehindTheMasterWithoutAPair)
     }
     // An overlap that was asked for
     c.contact->set_offset(std::vector<double>(s.num_slaves, -0.1));
-    EXPECT_EQ(audit.look(c.halo->positions()).inside.count, 0);
+    EXPECT_EQ(audit.look(c.halo->now()->x).inside.count, 0);
     c.contact->set_offset(std::vector<double>(s.num_slaves, 0.));
-    EXPECT_EQ(audit.look(c.halo->positions()).inside.count, 1);
+    EXPECT_EQ(audit.look(c.halo->now()->x).inside.count, 1);
     // They may be there for good
     audit.accept();
-    EXPECT_EQ(audit.look(c.halo->positions()).inside.count, 0);
+    EXPECT_EQ(audit.look(c.halo->now()->x).inside.count, 0);
   }
 }
 
@@ -136,7 +136,7 @@ TEST_P(AuditOfSurfaces, NodesThatWentThroughWithinAStep)
     MovedContact c(s, 0.05, Sliding::finite);
     SurfacesAudit audit(c.halo, c.contact);
     audit.accept();
-    const auto start = c.halo->positions();
+    const auto start = c.halo->now()->x;
     c.move(0, s.num_slaves, -way);
     const Findings found = audit.look(start);
     EXPECT_EQ(found.passed.count, count) << way;
@@ -144,7 +144,7 @@ TEST_P(AuditOfSurfaces, NodesThatWentThroughWithinAStep)
     if (count == 0)
       continue;
     EXPECT_EQ(found.passed.first, 0);
-    const auto x = c.halo->positions();
+    const auto x = c.halo->now()->x;
     EXPECT_EQ(found.passed.at,
               std::vector<double>(x.begin(), x.begin() + gdim()));
     EXPECT_EQ(found.inside.count, 0);
@@ -163,7 +163,7 @@ TEST_P(AuditOfSurfaces, NodesThatWentThroughAndHaveAPair)
   c.contact->search();
   for (const std::int8_t paired : c.contact->master()->paired())
     ASSERT_TRUE(paired);
-  const auto start = c.halo->positions();
+  const auto start = c.halo->now()->x;
   c.move(0, s.num_slaves, -0.8);
   // All of them, and of the master two a line that are below the slave
   EXPECT_EQ(audit.look(start).passed.count,
@@ -186,7 +186,7 @@ TEST_P(AuditOfSurfaces, MasterThatReachesBetweenSlaveNodes)
     c.move(node, node + 1, height + depth);
     if (held)
       c.contact->nodes()->close(c.contact->slaves().facets()[0]);
-    const auto x = c.halo->positions();
+    const auto x = c.halo->now()->x;
     const Findings found = audit.look(x);
     EXPECT_EQ(found.passed.count + found.inside.count, 0);
     ASSERT_TRUE(found.deepest.has_value());
@@ -213,7 +213,7 @@ TEST_P(AuditOfSurfaces, SmallSlidingSeesGapsThatAreLinear)
   audit.accept();
   const std::int32_t node = between(s);
   c.move(node, node + 1, height + depth);
-  const Findings found = audit.look(c.halo->positions());
+  const Findings found = audit.look(c.halo->now()->x);
   ASSERT_TRUE(found.deepest.has_value());
   EXPECT_NEAR(found.deepest->depth, depth, 1e-14);
   EXPECT_NEAR(found.deepest->excess, depth * 256 / h, 1e-9);
@@ -237,7 +237,7 @@ TEST_P(AuditOfSurfaces, WhatBothSurfacesHaveIsNoMaster)
       c.contact->master(), c.contact->law(), options);
   SurfacesAudit audit(c.halo, c.contact);
   c.move(node, node + 1, 0.3);
-  const Findings found = audit.look(c.halo->positions());
+  const Findings found = audit.look(c.halo->now()->x);
   ASSERT_TRUE(found.deepest.has_value());
   EXPECT_LT(found.deepest->depth, 0);
 }

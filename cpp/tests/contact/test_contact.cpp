@@ -160,7 +160,7 @@ TYPED_TEST(Contacts, ForcesAndMomentsOfItsPairsSumToZero)
     contact->update_gap();
     std::vector<double> b(scene.u->size(), 0);
     contact->add_residual(b);
-    const std::vector<double> x = scene.halo->positions();
+    const std::vector<double> x = scene.halo->now()->x;
     double largest = 0;
     Vector<3> sum{}, moment{};
     for (std::int32_t i = 0; i < scene.sheets.num_nodes(); ++i)

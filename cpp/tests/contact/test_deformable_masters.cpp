@@ -138,10 +138,11 @@ TYPED_TEST(DeformableMasters, WhatIsSavedComesBack)
         return p;
       });
   pairs->search(moved, std::vector<std::int8_t>(sheets.num_slaves, 0));
-  pairs->accept(moved, sheets.moved_by(moved));
+  sheets.halo->set_start(sheets.moved_by(moved));
   pairs->begin_step();
   const auto saved = pairs->save();
   const auto other = sheets.template pairs<TypeParam>();
+  sheets.halo->set_start(sheets.moved_by(moved));
   other->load(saved);
   const auto expected = pairs->pairs(), found = other->pairs();
   ASSERT_EQ(found.size(), expected.size());

@@ -359,7 +359,7 @@ TEST(MortarObstacle, IsAsItWasAfterLoading)
   auto x = scene.x;
   for (std::size_t i = 0; i < x.size(); ++i)
     x[i] += 0.01 * std::sin(double(i));
-  first.master->accept(x, {});
+  first.master->accept(x);
   first.master->begin_step();
   first.master->search(x, std::vector<std::int8_t>(first.n));
   const auto saved = first.master->save();

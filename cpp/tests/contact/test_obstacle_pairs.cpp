@@ -154,7 +154,7 @@ TEST(ObstacleMaster, TheNextStepStartsWhereTheLastOneEnded)
   const FacingNodes scene(*o, 3);
   const auto master = make(scene, o);
   const auto x = strayed(scene, 0.1);
-  master->accept(x, {});
+  master->accept(x);
   // Not before the step begins
   EXPECT_LE(largest(given(*master, scene, scene.x).slip), 1e-15);
   master->begin_step();
@@ -243,7 +243,7 @@ TEST(ObstacleMaster, WhatAnObstacleCarriesDoesNotSlip)
     ASSERT_EQ(turn.size(), scene.n * one.size());
     EXPECT_TRUE(std::equal(one.begin(), one.end(), turn.end() - one.size()));
     // The next step starts from there
-    master->accept(x, {});
+    master->accept(x);
     master->begin_step();
     EXPECT_LE(largest(given(*master, scene, x).slip), 1e-14);
     EXPECT_LE(largest(master->turn(x).value()), 1);
@@ -436,7 +436,7 @@ TEST(ObstacleMaster, IsAsItWasAfterLoading)
   const auto first = make(scene, moving.o), second = make(scene, moving.o);
   const auto x = strayed(scene, 0.1, 5), y = strayed(scene, 0.2, 6);
   moving.move();
-  first->accept(x, {});
+  first->accept(x);
   first->begin_step();
   first->search(y, std::vector<std::int8_t>(scene.n));
   first->touch(std::vector<std::int8_t>(scene.n, 1), y, {},
@@ -509,7 +509,7 @@ TEST(ObstacleTie, MovesWithItsObstacleOverSteps)
     for (int i = 0; i < scene.n * gdim; ++i)
       for (int k = 0; k < gdim; ++k)
         EXPECT_EQ(at.derivative[gdim * i + k], i % gdim == k);
-    tie->accept(x, {});
+    tie->accept(x);
     tie->begin_step();
     // The tie's place is that of the reference for ever
     tie->search(x, std::vector<std::int8_t>(scene.n));
@@ -574,7 +574,7 @@ TEST(ObstacleMaster, ABeltDragsByItsVelocity)
     for (ObstacleMaster* each :
          {master.get(), static_cast<ObstacleMaster*>(tie.get())})
     {
-      each->accept(scene.x, {});
+      each->accept(scene.x);
       each->begin_step();
     }
   }

@@ -34,7 +34,7 @@ void check_nodes(const DistributedScene& scene, const Halo& halo)
   EXPECT_EQ(halo.find(numbers), every);
   const auto nodes = scene.mesh_nodes(halo, every);
   const auto owners = halo.owners(every);
-  const auto x = halo.positions();
+  const auto x = halo.now()->x;
   ASSERT_EQ(std::ssize(halo.original()), n);
   ASSERT_EQ(std::ssize(x), n * g);
   for (int i = 0; i < n; ++i)
@@ -91,7 +91,7 @@ TEST_P(HaloOnRanks, HaloGrowsAndShrinks)
              EXPECT_TRUE(grow(12, false));
              EXPECT_EQ(halo->version(), version) << "nothing is new";
 
-             const auto before = halo->positions();
+             const auto before = halo->now()->x;
              std::vector<std::int32_t> every(kept);
              std::iota(every.begin(), every.end(), 0);
              const auto numbers = halo->numbers(every);
@@ -100,7 +100,7 @@ TEST_P(HaloOnRanks, HaloGrowsAndShrinks)
              EXPECT_EQ(halo->version() > version, not alone);
              EXPECT_EQ(halo->numbers(every), numbers) << "nodes are appended";
              check_nodes(parts, *halo);
-             EXPECT_EQ(halo->updated(before, 3, version), halo->positions());
+             EXPECT_EQ(halo->updated(before, 3, version), halo->now()->x);
              EXPECT_EQ(halo->updated(before, 3, halo->version()), before);
 
              halo->shrink();

@@ -196,11 +196,11 @@ TEST_P(Sides, SlipIsMeasuredAsLawAndSlidingNeedIt)
               // As a contact does where the search brings nodes of other ranks
               const auto observer
                   = mine.halo->on_change([&] { master->nodes_changed(); });
-              std::vector<double> u(mine.halo->displacement());
+              std::vector<double> u(mine.halo->now()->u);
               for (const std::int32_t node : slaves->owned())
                 u[mine.halo->gdim() * node + 1] = 0.1;
-              master->accept(mine.halo->positions(), u);
-              master->search(mine.halo->positions(),
+              mine.halo->set_start(u);
+              master->search(mine.halo->now()->x,
                              std::vector<std::int8_t>(n, 0));
               master->begin_step();
               // Small sliding starts from what has moved

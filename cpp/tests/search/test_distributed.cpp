@@ -165,7 +165,7 @@ std::vector<Answer> found(const DistributedScene& scene, const Points& points,
              const auto surface
                  = surface_of(scene, halo, 0, scene.scene.facets().size());
              const Points mine = of_rank(points, ranks, gdim);
-             const auto x = halo->positions();
+             const auto x = halo->now()->x;
              const search::Found found
                  = surface->find(x, mine.points, mine.normals, reach);
              for (std::size_t k = 0; k < found.facet.size(); ++k)
@@ -246,7 +246,7 @@ TEST_P(SurfaceOnRanks, PairsAreThoseOfOneRank)
             const std::vector<std::int8_t> closed(pairing.slaves().size(), 1);
             for (int step = 0; step < 5; ++step)
             {
-              auto x = halo->positions();
+              auto x = halo->now()->x;
               for (const std::int32_t node : slave.nodes)
                 for (int k = 0; k < gdim; ++k)
                   x[node * gdim + k]
@@ -364,7 +364,7 @@ TEST_P(SurfaceOnRanks, LookingFindsAllFacetsInFront)
                    = part(parts, *halo, num_master, scene.facets().size());
                const auto surface = surface_of(parts, halo, 0, num_master);
                const int before = ranks.num_exchanges;
-               surface->look(halo->positions(), own.list(), reach, margin);
+               surface->look(halo->now()->x, own.list(), reach, margin);
                EXPECT_LE(ranks.num_exchanges - before, 2);
                std::vector<Name> expected;
                for (std::size_t i = 0; i < pairs.size(); ++i)
@@ -398,7 +398,7 @@ TEST_P(SurfaceOnRanks, NamesComeBackAfterTheHaloShrinks)
                const auto surface
                    = surface_of(parts, halo, 0, scene.facets().size());
                const Points mine = of_rank(points, ranks, 3);
-               const auto found = surface->find(halo->positions(), mine.points,
+               const auto found = surface->find(halo->now()->x, mine.points,
                                                 mine.normals, 2);
                const auto names = surface->names(found.facet);
                ASSERT_EQ(names.size(), 4 * found.facet.size());
@@ -475,8 +475,7 @@ TEST_P(SurfaceOnRanks, SurfaceIsKnownByItsFacets)
              std::vector<double> point;
              if (ranks.rank() == ranks.size() - 1)
                point = {scene.x[0], scene.x[1], 7};
-             const double distance
-                 = surface->distance(halo->positions(), point);
+             const double distance = surface->distance(halo->now()->x, point);
              const std::lock_guard lock(mutex);
              nearest = std::min(nearest, distance);
              EXPECT_EQ(std::isinf(distance), point.empty());
@@ -530,7 +529,7 @@ TEST_P(SurfaceOnRanks, OnlookersSeeWhatOneRankSees)
                    values.insert(values.end(), {sum, -sum});
                  }
                  const auto x0 = halo->reference();
-                 std::vector<double> nodal = halo->positions();
+                 std::vector<double> nodal = halo->now()->x;
                  for (std::size_t i = 0; i < nodal.size(); ++i)
                    nodal[i] -= x0[i];
                  std::optional<search::Ways> ways;
@@ -634,7 +633,7 @@ TEST_P(SurfaceOnRanks, PointsOutsideOfAThinPlate)
             }
             const auto find = [&](bool within_depth)
             {
-              return outside.find(halo->positions(), points, depth,
+              return outside.find(halo->now()->x, points, depth,
                                   std::vector<double>(5, 0.25), within_depth);
             };
             using Which = std::vector<std::int8_t>;
@@ -643,7 +642,7 @@ TEST_P(SurfaceOnRanks, PointsOutsideOfAThinPlate)
             // Below it is 0.08 to the plate, which is nearer than the depth
             EXPECT_EQ(find(true),
                       closed ? Which({0, 0, 1, 0, 0}) : Which(5, 0));
-            EXPECT_THROW(outside.find(halo->positions(), points, depth, {}),
+            EXPECT_THROW(outside.find(halo->now()->x, points, depth, {}),
                          std::invalid_argument);
           });
     }
@@ -659,7 +658,7 @@ TEST_P(SurfaceOnRanks, WrongArgumentsAreNamed)
       {
         const auto halo = parts.halo(ranks);
         const auto surface = surface_of(parts, halo, 0, scene.facets().size());
-        const auto x = halo->positions();
+        const auto x = halo->now()->x;
         const std::vector<double> one(3), two(6), four(4);
         EXPECT_THROW(surface->find(one, one, one, 1), std::invalid_argument);
         EXPECT_THROW(surface->find(x, four, one, 1), std::invalid_argument);

@@ -89,7 +89,7 @@ TEST(SelfSurface, WhatFoldsIsPairedOnOneSide)
     StripScene scene(strip);
     const auto at = scene.moved(strip.folded(distance));
     // Through an open fold, from which facets are seen
-    scene.surface.accept(scene.moved(strip.folded(0.1)));
+    scene.halo->set_start(strip.folded(0.1));
     scene.pair(at);
     int left = 0, right = 0;
     for (int i = 1; i < 25; ++i)
@@ -116,7 +116,7 @@ TEST(SelfSurface, ShallowPenetrationIsSeenWhateverTheStart)
   const Strip strip(80, 4, 0.05);
   StripScene scene(strip);
   const auto at = scene.moved(strip.folded(-0.02));
-  scene.surface.accept(at);
+  scene.halo->set_start(strip.folded(-0.02));
   scene.pair(at);
   EXPECT_EQ(scene.num_on_legs(strip), 24);
 }
@@ -126,11 +126,11 @@ TEST(SelfSurface, DeepPenetrationIsSeenFromInFrontAlone)
   const Strip strip(80, 4, 0.05);
   StripScene scene(strip);
   const auto at = scene.moved(strip.folded(-0.04));
-  scene.surface.accept(at);
+  scene.halo->set_start(strip.folded(-0.04));
   scene.pair(at);
   EXPECT_EQ(scene.num_on_legs(strip), 0);
   StripScene other(strip);
-  other.surface.accept(other.moved(strip.folded(0.01)));
+  other.halo->set_start(strip.folded(0.01));
   other.pair(at);
   EXPECT_EQ(other.num_on_legs(strip), 24);
 }

@@ -49,6 +49,7 @@ class Checkpoint:
         self._u = FunctionRows(problem.displacement, "u")
         self._functions = [FunctionRows(f, f"history[{k}]") for k, f in enumerate(history)]
         self._interfaces: list[Interface] = [c.interface for c in problem.contacts]
+        self._nodes: core.Halo = problem.assembler.halo.nodes
         original = original_nodes(V)
         self._slaves = [Rows(self._comm, original[i.slaves][:, None]) for i in self._interfaces]
         self._cells = Rows(self._comm, cell_nodes(V)).digest
@@ -60,6 +61,7 @@ class Checkpoint:
             Arrays of all ranks by their names; none but on rank 0.
         """
         arrays = self._identity() | {"u": self._u.gather()}
+        arrays["start"] = self._u.rows.gather(self._nodes.start[: self._owned])
         for k, interface in enumerate(self._interfaces):
             kinds = interface.saved_rows
             for name, values in interface.save().items():
@@ -86,6 +88,7 @@ class Checkpoint:
         try:
             self._u.scatter(saved.get("u"))
             self._problem.update_ghosts()
+            self._nodes.set_start(self._u.rows.scatter(saved.get("start")))
             for k, function in enumerate(self._functions):
                 function.scatter(saved.get(f"history {k}"))
             for k, interface in enumerate(self._interfaces):
@@ -170,7 +173,7 @@ def _check_fit(saved: Mapping[str, npt.NDArray[Any]], present: Arrays) -> None:
         if not same:
             raise ValueError(f"{name!r} is another one here: restart the same problem")
     for name, array in saved.items():
-        if name == "u" or name.endswith(": multiplier"):
+        if name in ("u", "start") or name.endswith(": multiplier"):
             bad = np.count_nonzero(~np.isfinite(array))
             if bad:
                 raise ValueError(f"{name!r} is not finite at {bad} dofs")

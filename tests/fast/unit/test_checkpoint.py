@@ -157,7 +157,7 @@ def test_files_of_other_kinds(file, tmp_path):
     np.savez(other, u=np.zeros(3))
     refused(other, "holds arrays, but is no checkpoint of contactx")
     np.savez(other, contactx_checkpoint=np.array(1))
-    refused(other, "has format 1, but this contactx reads 3")
+    refused(other, "has format 1, but this contactx reads 4")
 
 
 def test_files_of_other_problems(file, tmp_path):
