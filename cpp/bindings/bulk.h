@@ -105,7 +105,10 @@ public:
   }
   std::span<const double> displacements() override
   {
-    return keep(_displacements, _adapter.attr("displacements"));
+    // The array of a function that has other values later
+    if (not _displacements)
+      _displacements = _adapter.attr("displacements").cast<Array<double>>();
+    return view(*_displacements);
   }
   std::span<const std::int8_t> markers() override
   {
@@ -185,8 +188,9 @@ private:
 
   py::object _adapter;
   std::optional<PythonFields> _fields;
-  Array<double> _reference, _positions, _displacements, _diagonal, _products,
-      _residual, _defect, _lifted, _cell_sizes, _cell_forces;
+  std::optional<Array<double>> _displacements;
+  Array<double> _reference, _positions, _diagonal, _products, _residual,
+      _defect, _lifted, _cell_sizes, _cell_forces;
   Array<std::int32_t> _cells;
   Array<std::int8_t> _markers;
 };

@@ -106,6 +106,7 @@ public:
     _adapter.attr("set_ghosts")(
         array(std::vector<std::int64_t>(numbers.begin(), numbers.end())),
         array(std::vector<std::int32_t>(owners.begin(), owners.end())));
+    _displacement.reset();
   }
 
   void forward(std::span<double> values, int width) override
@@ -125,10 +126,13 @@ public:
 
   void displacement(std::span<double> values) const override
   {
-    const auto found
-        = _adapter.attr("current_displacement")().cast<Array<double>>();
-    check::rows(found.size(), std::ssize(values), 1, "displacement", "value");
-    std::ranges::copy(view(found), values.begin());
+    // The array of a vector that has other values later
+    if (not _displacement)
+      _displacement
+          = _adapter.attr("current_displacement")().cast<Array<double>>();
+    check::rows(_displacement->size(), std::ssize(values), 1, "displacement",
+                "value");
+    std::ranges::copy(view(*_displacement), values.begin());
   }
 
   void changed() override { _adapter.attr("changed")(); }
@@ -136,6 +140,7 @@ public:
 private:
   py::object _adapter;
   PythonRanks _ranks;
+  mutable std::optional<Array<double>> _displacement;
 };
 
 /// The bulk's nodes as the adapter has them.

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from contactx import cpp as core
 from contactx.arguments import check_switch
-from contactx.obstacles.parameters import Parameter, angle, number, vector
+from contactx.obstacles.parameters import Parameter, Placed, angle, number, vector
 from dolfinx import fem
 
 
@@ -40,6 +40,7 @@ class Cylinder(core.Cylinder):
         """
         check_switch("hollow", hollow)
         super().__init__(bool(hollow))
+        self._placed = Placed()
         self.point = point
         self.axis = axis
         self.radius = radius
@@ -55,9 +56,16 @@ class Cylinder(core.Cylinder):
             TypeError: If a parameter is no number, vector or ``fem.Constant``.
             ValueError: If a parameter is not finite or of another shape, or out of its range.
         """
-        self.place(
-            vector(self.point, gdim, "point of a Cylinder"),
-            vector(self.axis, gdim, "axis of a Cylinder"),
-            number(self.radius, "radius of a Cylinder"),
-            angle(self.angle, "angle of a Cylinder"),
+        self._placed.again(
+            gdim,
+            self.point,
+            self.axis,
+            self.radius,
+            self.angle,
+            place=lambda: self.place(
+                vector(self.point, gdim, "point of a Cylinder"),
+                vector(self.axis, gdim, "axis of a Cylinder"),
+                number(self.radius, "radius of a Cylinder"),
+                angle(self.angle, "angle of a Cylinder"),
+            ),
         )

@@ -8,6 +8,8 @@ checks what they are, too.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 import numpy.typing as npt
 
@@ -16,6 +18,48 @@ from contactx.arguments import is_number
 from dolfinx import fem
 
 type Parameter = npt.ArrayLike | fem.Constant
+
+
+class Placed:
+    """What an obstacle was placed with last: the core asks for it many times an iterate."""
+
+    def __init__(self) -> None:
+        """Start with an obstacle that has no place yet."""
+        self._with: tuple[object, ...] | None = None
+
+    def again(self, gdim: int, *values: object, place: Callable[[], None]) -> None:
+        """Place the obstacle unless it stands there already.
+
+        Args:
+            gdim: Geometric dimension.
+            values: Its parameters.
+            place: Places it.
+
+        Raises:
+            TypeError: As ``place`` does.
+            ValueError: As ``place`` does.
+        """
+        now = (gdim, *map(_contents, values))
+        if now == self._with:
+            return
+        self._with = None
+        place()
+        if None not in now:
+            self._with = now
+
+
+def _contents(value: object) -> object:
+    """What a parameter holds, to be compared; None for what has to be looked at each time."""
+    if isinstance(value, fem.Constant):
+        value = value.value
+    if isinstance(value, np.ndarray):
+        return value.shape, value.dtype.str, value.tobytes()
+    if value is None:
+        return "none"
+    if isinstance(value, tuple | list):
+        value = tuple(value)
+        return value if all(type(v) in (int, float) for v in value) else None
+    return value if type(value) in (int, float) else None
 
 
 def vector(value: Parameter, gdim: int, name: str) -> list[float]:

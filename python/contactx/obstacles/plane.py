@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from contactx import cpp as core
-from contactx.obstacles.parameters import Parameter, vector
+from contactx.obstacles.parameters import Parameter, Placed, vector
 
 
 class Plane(core.Plane):
@@ -22,6 +22,7 @@ class Plane(core.Plane):
             normal: Outward normal of any length, shape (gdim,), numbers or a ``fem.Constant``.
         """
         super().__init__()
+        self._placed = Placed()
         self.point = point
         self.normal = normal
 
@@ -35,7 +36,12 @@ class Plane(core.Plane):
             TypeError: If a parameter is no number, vector or ``fem.Constant``.
             ValueError: If a parameter is not finite or of another shape, or out of its range.
         """
-        self.place(
-            vector(self.point, gdim, "point of a Plane"),
-            vector(self.normal, gdim, "normal of a Plane"),
+        self._placed.again(
+            gdim,
+            self.point,
+            self.normal,
+            place=lambda: self.place(
+                vector(self.point, gdim, "point of a Plane"),
+                vector(self.normal, gdim, "normal of a Plane"),
+            ),
         )

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from contactx import cpp as core
 from contactx.arguments import check_switch
-from contactx.obstacles.parameters import Parameter, angle, number, vector
+from contactx.obstacles.parameters import Parameter, Placed, angle, number, vector
 from dolfinx import fem
 
 
@@ -39,6 +39,7 @@ class Sphere(core.Sphere):
         """
         check_switch("hollow", hollow)
         super().__init__(bool(hollow))
+        self._placed = Placed()
         self.centre = centre
         self.radius = radius
         self.angle = angle
@@ -53,8 +54,14 @@ class Sphere(core.Sphere):
             TypeError: If a parameter is no number, vector or ``fem.Constant``.
             ValueError: If a parameter is not finite or of another shape, or out of its range.
         """
-        self.place(
-            vector(self.centre, gdim, "centre of a Sphere"),
-            number(self.radius, "radius of a Sphere"),
-            angle(self.angle, "angle of a Sphere"),
+        self._placed.again(
+            gdim,
+            self.centre,
+            self.radius,
+            self.angle,
+            place=lambda: self.place(
+                vector(self.centre, gdim, "centre of a Sphere"),
+                number(self.radius, "radius of a Sphere"),
+                angle(self.angle, "angle of a Sphere"),
+            ),
         )
