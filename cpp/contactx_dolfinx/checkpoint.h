@@ -492,6 +492,8 @@ private:
             std::vector<std::vector<contact::Saved>> contacts)
   {
     const problem::Snapshot before = _assembler->problem().snapshot();
+    // Of bodies without stress
+    _assembler->problem().find_rigid_modes();
     std::vector<std::vector<double>> arrays;
     for (const auto& [name, f] : _functions)
       arrays.push_back(f.function->x()->array());

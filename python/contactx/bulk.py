@@ -234,13 +234,7 @@ class Bulk:
             self._A.assemble(PETSc.Mat.AssemblyType.FLUSH)
             dolfinx.fem.petsc.assemble_matrix(self._A, part, bcs=self.bcs)
         self._A.assemble()
-        if not np.isfinite(self._A.norm(PETSc.NormType.FROBENIUS)):
-            raise NotFiniteError(
-                "the Jacobian of F is not finite: its derivative does not exist at this "
-                "displacement, or a coefficient of F, or of J, is NaN or infinite. Start from "
-                "another displacement, or repair the coefficient (manual: "
-                "errors/jacobian-not-finite)"
-            )
+        check_jacobian(self._A)
         self._assembled_with = [values.copy() for values in parameters]
         self._symmetric = self._rows = None
         self.assemblies += 1
@@ -255,6 +249,20 @@ class Bulk:
         np.maximum.at(result, cells, sizes[:, None])
         owned: npt.NDArray[np.float64] = result[: V.dofmap.index_map.size_local]
         return owned
+
+
+def check_jacobian(K: PETSc.Mat) -> None:
+    """Check that a Jacobian, or a block of it, is finite; all ranks must take part.
+
+    Raises:
+        NotFiniteError: If it is not.
+    """
+    if not np.isfinite(K.norm(PETSc.NormType.FROBENIUS)):
+        raise NotFiniteError(
+            "the Jacobian of F is not finite: its derivative does not exist at this displacement, "
+            "or a coefficient of F, or of J, is NaN or infinite. Start from another displacement, "
+            "or repair the coefficient (manual: errors/jacobian-not-finite)"
+        )
 
 
 def _is_symmetric(K: PETSc.Mat) -> bool:

@@ -14,9 +14,8 @@ import numpy.typing as npt
 
 import dolfinx.fem.petsc
 import ufl
-from contactx.bulk import Bulk
+from contactx.bulk import Bulk, check_jacobian
 from contactx.conductance import Conductance
-from contactx.errors import NotFiniteError
 from contactx.layout import Index, Rows
 from contactx.parallel import reduce
 from contactx.quadrature import by_rule
@@ -321,13 +320,7 @@ class CoupledBulk(Bulk):
                     for row_number in own + K.getOwnershipRange()[0]:
                         K.setValue(row_number, row_number, 1.0)
                 K.assemble()
-                if not np.isfinite(K.norm(PETSc.NormType.FROBENIUS)):
-                    raise NotFiniteError(
-                        "the Jacobian of F is not finite: its derivative does not exist at this "
-                        "displacement, or a coefficient of F, or of J, is NaN or infinite. Start "
-                        "from another displacement, or repair the coefficient (manual: "
-                        "errors/jacobian-not-finite)"
-                    )
+                check_jacobian(K)
         self._A.assemble()
         self._assembled_with = [values.copy() for values in parameters]
         self.assemblies += 1

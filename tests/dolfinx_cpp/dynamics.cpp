@@ -70,8 +70,8 @@ void print(const std::vector<double>& figures)
   {
     char text[64];
     // Rounding has a sign
-    std::snprintf(text, sizeof(text), "%.9f",
-                  std::abs(figure) < 5e-10 ? 0.0 : figure);
+    std::snprintf(text, sizeof(text), "%.13f",
+                  std::abs(figure) < 5e-14 ? 0.0 : figure);
     line += (line.empty() ? "" : " ") + std::string(text);
   }
   print_line(line);

@@ -73,7 +73,7 @@ def figures(dynamics: cx.ContactDynamics, *values: float) -> None:
         balance.contact_loss,
     ]
     # Rounding has a sign
-    show(*(f"{0.0 if abs(f) < 5e-10 else f:.9f}" for f in numbers))
+    show(*(f"{0.0 if abs(f) < 5e-14 else f:.13f}" for f in numbers))
 
 
 def create(domain: Any, tags: Any, master: Any, **options: Any) -> cx.ContactDynamics:
@@ -137,7 +137,7 @@ def main() -> None:
     except cx.ConvergenceError as error:
         show(sentence(error.reason))
     # As it was before
-    show(*(f"{f:.9f}" for f in (dynamics.kinetic_energy(), dynamics.strain_energy())))
+    show(*(f"{f:.13f}" for f in (dynamics.kinetic_energy(), dynamics.strain_energy())))
     for step in cx.LoadSteps(dynamics, 4, lambda t: None, t_end=8 * DT, max_cuts=8, progress=False):
         figures(dynamics, step.t)
 

@@ -145,8 +145,8 @@ std::string figures(cx::Assembler& assembler, const cx::Contact& contact,
   {
     char text[64];
     // Rounding has a sign
-    std::snprintf(text, sizeof(text), " %.9f",
-                  std::abs(value) < 5e-10 ? 0.0 : value);
+    std::snprintf(text, sizeof(text), " %.13f",
+                  std::abs(value) < 5e-14 ? 0.0 : value);
     line += text;
   }
   return line;

@@ -69,7 +69,7 @@ def steps(
         figures += [norm(contact.gap), 0.0 if conductance is None else conductance.flow]
         if MPI.COMM_WORLD.rank == 0:
             # Rounding has a sign
-            texts = (f"{0.0 if abs(f) < 5e-10 else f:.9f}" for f in figures)
+            texts = (f"{0.0 if abs(f) < 5e-14 else f:.13f}" for f in figures)
             print(name, problem.report.iterations, *texts)
 
 

@@ -257,7 +257,7 @@ void solve(const Scene& scene, const char* name, const cx::Contact::Master& to,
                                : std::to_string(it.number).c_str());
       for (double figure : figures)
         // Rounding has a sign
-        std::printf(" %.9f", std::abs(figure) < 5e-10 ? 0.0 : figure);
+        std::printf(" %.13f", std::abs(figure) < 5e-14 ? 0.0 : figure);
       std::printf("\n");
     }
   }

@@ -87,7 +87,7 @@ def solve(
         figures += [totals.closed, totals.area, totals.largest_pressure, totals.dissipation]
         if MPI.COMM_WORLD.rank == 0:
             # Rounding has a sign
-            texts = (f"{0.0 if abs(f) < 5e-10 else f:.9f}" for f in figures)
+            texts = (f"{0.0 if abs(f) < 5e-14 else f:.13f}" for f in figures)
             # Iterations go with how accurate Krylov solvers are
             print(name, "condensed" if condensed else problem.report.iterations, *texts)
 

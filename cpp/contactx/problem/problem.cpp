@@ -198,12 +198,28 @@ void Problem::advance(StepPlan& plan, const std::function<void(double)>& update,
   StepPlan attempted = plan;
   int discarded = 0;
   const auto set = [&](double t) { _halo->ranks().agree([&] { update(t); }); };
+  // Loads of the last accepted step; what is said where that fails, too
+  const auto set_back = [&]() -> std::string
+  {
+    try
+    {
+      set(plan.t());
+      return "";
+    }
+    catch (const std::exception& error)
+    {
+      return ". Setting the loads of t = " + number_text(plan.t(), 6)
+             + " again failed: " + error.what();
+    }
+  };
   while (true)
   {
     const double t = attempted.next();
+    bool is_set = false;
     try
     {
       set(t);
+      is_set = true;
       solve(solver, tolerances);
       break;
     }
@@ -213,16 +229,18 @@ void Problem::advance(StepPlan& plan, const std::function<void(double)>& update,
       discarded += _report.discarded + _number;
       if (attempted.cut())
         continue;
-      set(plan.t());
+      const std::string also = set_back();
       throw ConvergenceError(
           std::string(error.what()) + ". No step from t = "
           + number_text(plan.t(), 6) + " converged; the last attempt, to t = "
           + number_text(t, 6) + ", was the shortest that max_cuts = "
-          + std::to_string(plan.max_cuts()) + " allows");
+          + std::to_string(plan.max_cuts()) + " allows" + also);
     }
     catch (...)
     {
       before.restore();
+      if (is_set)
+        set_back();
       throw;
     }
   }

@@ -103,7 +103,11 @@ TEST_P(HaloOnRanks, HaloGrowsAndShrinks)
              EXPECT_EQ(halo->updated(before, 3, version), halo->now()->x);
              EXPECT_EQ(halo->updated(before, 3, halo->version()), before);
 
+             // The start of the step follows the nodes
+             halo->accept();
+             EXPECT_EQ(halo->start(), halo->now()) << "nothing has moved";
              halo->shrink();
+             EXPECT_EQ(halo->start()->x, halo->now()->x);
              EXPECT_EQ(halo->num_nodes(), kept);
              EXPECT_EQ(halo->numbers(every), numbers);
              check_nodes(parts, *halo);

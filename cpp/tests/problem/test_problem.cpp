@@ -169,6 +169,51 @@ TEST(Problem, StepsOfAPlanAreCutUntilTheyConverge)
   expect_same(found.state(), before);
 }
 
+TEST(Problem, LoadsAreSetBackWhereAStepOfAPlanThrows)
+{
+  Stepped found(2);
+  found.add<NodeToSurface>(found.law(0), Sliding::small);
+  DenseSolver solver(found);
+  StepPlan plan(StepPlan::equal(2), 1);
+  std::vector<double> tried;
+  const auto update = [&](double t)
+  {
+    tried.push_back(t);
+    found.press(0.09 * t, 0);
+  };
+  found.problem().advance(plan, update, solver);
+  const auto before = found.state();
+  struct Throwing final : LinearSolver
+  {
+    void update() override {}
+    void solve(std::span<const double>, std::span<double>) override
+    {
+      throw std::runtime_error("no memory");
+    }
+  } throwing;
+  EXPECT_EQ(said<std::runtime_error>(
+                [&] { found.problem().advance(plan, update, throwing); }),
+            "no memory");
+  EXPECT_EQ(tried, (std::vector{0.5, 1.0, 0.5}));
+  EXPECT_EQ(plan.t(), 0.5);
+  expect_same(found.state(), before);
+  // What cannot be set back is said
+  const auto once = [&](double t)
+  {
+    if (t == 0.5)
+      throw std::runtime_error("no such load");
+    update(t);
+    found.bulk->load[0] = not_a_number;
+  };
+  StepPlan stuck(std::vector{0.5, 1.0}, 0);
+  stuck.accept(1);
+  const std::string reason = said<ConvergenceError>(
+      [&] { found.problem().advance(stuck, once, solver); });
+  EXPECT_TRUE(contains(reason, "max_cuts = 0 allows. Setting the loads of t = "
+                               "0.5 again failed: no such load"))
+      << reason;
+}
+
 TEST(Problem, CallsHaveAnOrder)
 {
   Stepped found(2);
@@ -245,15 +290,24 @@ TEST(Problem, HiddenPenetrationIsRefused)
   found.add<Hiding>(found.law(0));
   auto& master = dynamic_cast<Hiding&>(*found.contacts[0]->master());
   Problem& problem = found.problem();
-  problem.begin_step();
-  // As if the pairs had gone back and forth since
-  master.is_frozen = true;
-  const Settled& end = problem.settle(1e-11, 0, 50);
+  problem.prepare();
+  int attempts = 0;
+  Settled end;
+  EXPECT_FALSE(problem.attempt(
+      [&](bool damped)
+      {
+        ++attempts;
+        problem.start(damped);
+        // As if the pairs had gone back and forth since
+        master.is_frozen = true;
+        end = problem.settle(1e-11, 0, 50);
+        return Outcome::failed;
+      }));
+  EXPECT_EQ(attempts, 1) << "no other way leads on";
   EXPECT_TRUE(contains(end.failure, "hide a penetration: refine the coarser "
                                     "surface there"))
       << end.failure;
   EXPECT_TRUE(end.is_final);
-  EXPECT_FALSE(problem.damping_may_help());
   problem.summarise();
   EXPECT_DOUBLE_EQ(problem.report().frozen_gap, -1e-3);
 }
