@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <contactx/kernel/layout.h>
 #include <contactx/kernel/registry.h>
+#include <cstddef>
 #include <pybind11/stl.h>
 #include <stdexcept>
 
@@ -40,11 +41,14 @@ void check_sizes(int num_nodes, int gdim, int num_slaves)
 void contactx_bindings::kernel(py::module_& m)
 {
   using kernel::Site;
-  m.attr("pair_layout") = py::dict(py::arg("feature") = kernel::pair_feature,
-                                   py::arg("xi") = kernel::pair_xi,
-                                   py::arg("cone") = kernel::pair_cone,
-                                   py::arg("normal") = kernel::pair_normal,
-                                   py::arg("size") = kernel::pair_size);
+  using Pair = kernel::FacetPair;
+  const auto place = [](std::size_t bytes) { return bytes / sizeof(double); };
+  m.attr("pair_layout")
+      = py::dict(py::arg("feature") = place(offsetof(Pair, feature)),
+                 py::arg("xi") = place(offsetof(Pair, xi)),
+                 py::arg("cone") = place(offsetof(Pair, cone)),
+                 py::arg("normal") = place(offsetof(Pair, normal)),
+                 py::arg("size") = kernel::num_values<Pair>);
   m.def(
       "mortar_layout",
       [](int num_slaves, int num_nodes)

@@ -197,10 +197,12 @@ void contactx_bindings::master(py::module_& m)
       .def_property_readonly("normal",
                              [](py::object self) -> py::object
                              {
-                               const int at
-                                   = self.cast<const Pairs&>().num_nodes == 0
-                                         ? contactx::kernel::rigid_normal
-                                         : contactx::kernel::pair_normal;
+                               using namespace contactx::kernel;
+                               const std::size_t at
+                                   = (self.cast<const Pairs&>().num_nodes == 0
+                                          ? offsetof(ObstaclePair, normal)
+                                          : offsetof(FacetPair, normal))
+                                     / sizeof(double);
                                const py::object data = self.attr("data");
                                return data[py::make_tuple(
                                    py::ellipsis(), py::slice(at, at + 3, 1))];

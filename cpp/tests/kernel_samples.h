@@ -61,6 +61,13 @@ inline std::vector<Kind> kinds()
   return all;
 }
 
+/// @brief Put a row of typed values where a kernel reads it.
+template <class Row>
+void put(double* to, const Row& row)
+{
+  std::ranges::copy(kernel::values_of(std::span(&row, 1)), to);
+}
+
 /// @brief A pair at some state: what its kernels are given.
 struct Sample
 {
@@ -185,18 +192,18 @@ void place_node(Sample& s, Generator& random)
       const int i = D * a + k;
       X[i] = (a == 0 ? slave[k] : x[a - 1][k]) - u[i];
     }
-  double* p = s.at(Coefficient::pair);
-  std::fill_n(p, kernel::pair_size, 0);
-  p[kernel::pair_feature] = s.feature;
-  std::ranges::copy(xi, p + kernel::pair_xi);
-  std::ranges::copy(cone, p + kernel::pair_cone);
-  std::ranges::copy(random.unit<D>(), p + kernel::pair_normal);
+  kernel::FacetPair pair{.feature = double(s.feature)};
+  std::ranges::copy(xi, pair.xi.begin());
+  std::ranges::copy(cone, pair.cone.begin());
+  std::ranges::copy(random.unit<D>(), pair.normal.begin());
+  put(s.at(Coefficient::pair), pair);
   if (s.kind.law != Law::frictionless)
   {
-    double* from = s.at(Coefficient::slip);
+    auto from = kernel::read<kernel::FacetSlip>(s.at(Coefficient::slip));
     for (int a = 0; a < F::tdim; ++a)
-      from[kernel::slip_xi + a] = random(-0.1, 0.7);
-    from[kernel::slip_gap] = random(-0.3, 0.3);
+      from.xi[a] = random(-0.1, 0.7);
+    from.gap = random(-0.3, 0.3);
+    put(s.at(Coefficient::slip), from);
   }
 }
 
@@ -304,10 +311,11 @@ struct Ellipsoid
   std::vector<double> centre = {}, start = {};
   Vector<3> stretch = {1, 1.3, 0.8};
 
-  /// @brief Values of an obstacle's pair at a point, those of kernel/layout.h.
-  /// @param[out] pair Values a pair.
-  /// @param[out] slip Values of slip; not written if null.
-  void operator()(int gdim, const double* x, double* pair, double* slip) const
+  /// @brief Values of an obstacle's pair at a point.
+  /// @param[out] pair The pair.
+  /// @param[out] slip Its slip; not written if null.
+  void operator()(int gdim, const double* x, kernel::ObstaclePair& pair,
+                  kernel::ObstacleSlip* slip) const
   {
     Vector<3> d{}, stretched{};
     for (int k = 0; k < gdim; ++k)
@@ -318,12 +326,13 @@ struct Ellipsoid
     const double r = norm(d);
     const Vector<3> gradient = (1 / r) * stretched;
     const double slope = norm(gradient);
-    pair[kernel::rigid_gap] = r - radius;
-    std::copy_n(gradient.begin(), gdim, pair + kernel::rigid_gradient);
-    double* n = pair + kernel::rigid_normal;
+    pair = {};
+    pair.gap = r - radius;
+    std::copy_n(gradient.begin(), gdim, pair.gradient.begin());
+    auto& n = pair.normal;
     for (int k = 0; k < gdim; ++k)
       n[k] = gradient[k] / slope;
-    double* dn = pair + kernel::rigid_curvature;
+    auto& dn = pair.curvature;
     for (int j = 0; j < gdim; ++j)
     {
       // Of the gradient by x_j
@@ -338,10 +347,11 @@ struct Ellipsoid
     double along = 0; // of the movement
     for (int i = 0; i < gdim; ++i)
       along += n[i] * (x[i] - start[i]);
-    double* ds = slip + kernel::rigid_slip_derivative;
+    *slip = {};
+    auto& ds = slip->derivative;
     for (int i = 0; i < gdim; ++i)
     {
-      slip[kernel::rigid_slip + i] = x[i] - start[i] - along * n[i];
+      slip->slip[i] = x[i] - start[i] - along * n[i];
       for (int j = 0; j < gdim; ++j)
       {
         double turned = 0;
@@ -368,9 +378,14 @@ inline void place_before_obstacle(Sample& s, Generator& random)
   }
   s.renew = [obstacle](Sample& now)
   {
-    obstacle(now.kind.gdim, now.positions().data(), now.at(Coefficient::pair),
-             now.kind.law == Law::frictionless ? nullptr
-                                               : now.at(Coefficient::slip));
+    kernel::ObstaclePair pair;
+    kernel::ObstacleSlip slip;
+    const bool slips = now.kind.law != Law::frictionless;
+    obstacle(now.kind.gdim, now.positions().data(), pair,
+             slips ? &slip : nullptr);
+    put(now.at(Coefficient::pair), pair);
+    if (slips)
+      put(now.at(Coefficient::slip), slip);
   };
   s.renew(s);
 }
@@ -408,22 +423,22 @@ inline void place_facet_before_obstacle(Sample& s, Generator& random)
       for (int t = 0; t < n; ++t)
         for (int k = 0; k < gdim; ++k)
           point[k] += N[t] * x[gdim * t + k];
-      std::array<double, kernel::rigid_size> d;
-      obstacle(gdim, point.data(), d.data(), nullptr);
+      kernel::ObstaclePair d;
+      obstacle(gdim, point.data(), d, nullptr);
       for (int a = 0; a < n; ++a)
       {
         p[at.area + a] += phi[a];
-        p[at.gap + a] += phi[a] * d[kernel::rigid_gap];
+        p[at.gap + a] += phi[a] * d.gap;
         for (int k = 0; k < gdim; ++k)
-          p[at.normal + gdim * a + k] += phi[a] * d[kernel::rigid_normal + k];
+          p[at.normal + gdim * a + k] += phi[a] * d.normal[k];
         for (int t = 0; t < n; ++t)
         {
           for (int k = 0; k < gdim; ++k)
             p[at.gradient + (n * a + t) * gdim + k]
-                += phi[a] * N[t] * d[kernel::rigid_gradient + k];
+                += phi[a] * N[t] * d.gradient[k];
           for (int k = 0; k < gdim * gdim; ++k)
             p[at.curvature + (n * a + t) * gdim * gdim + k]
-                += phi[a] * N[t] * d[kernel::rigid_curvature + k];
+                += phi[a] * N[t] * d.curvature[k];
         }
       }
     }

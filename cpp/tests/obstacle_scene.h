@@ -121,14 +121,14 @@ struct Given
     const contact::Pairs& p = groups.at(0);
     for (std::size_t i = 0; i < p.size(); ++i)
     {
-      const double* data = &p.data[i * kernel::rigid_size];
-      gap.push_back(data[kernel::rigid_gap]);
-      add(normal, data + kernel::rigid_normal, gdim);
+      const auto pair = p.row<kernel::ObstaclePair>(i);
+      gap.push_back(pair.gap);
+      add(normal, pair.normal.data(), gdim);
       if (p.slip_size == 0)
         continue;
-      const double* row = &p.slip[i * kernel::rigid_slip_size];
-      add(slip, row + kernel::rigid_slip, gdim);
-      add(derivative, row + kernel::rigid_slip_derivative, gdim * gdim);
+      const auto from = p.slip_row<kernel::ObstacleSlip>(i);
+      add(slip, from.slip.data(), gdim);
+      add(derivative, from.derivative.data(), gdim * gdim);
     }
   }
 

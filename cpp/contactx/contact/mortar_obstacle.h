@@ -65,7 +65,10 @@ private:
   void add_kind(std::span<const double> x);
 
   /// The kernels measure it by themselves.
-  void update_slip(std::span<const double>, std::span<const double>) override {}
+  void update_slip(std::span<const double>,
+                   std::span<const kernel::ObstaclePair>) override
+  {
+  }
 
   /// Data of facets that the kernels read (shape=(m, size)).
   std::vector<double> integrate(const Kind& kind, std::span<const double> x);

@@ -212,15 +212,15 @@ std::vector<Pairs> NodeToSurface::pairs() const
 {
   using namespace kernel;
   const facet::FacetList facets = _surface->facets();
-  const std::vector<double> slips
-      = _options.measures_slip ? slip() : std::vector<double>();
+  const std::vector<FacetSlip> slips
+      = _options.measures_slip ? slip() : std::vector<FacetSlip>();
   std::vector<Pairs> groups;
   for (int nodes = 2; nodes <= 4; ++nodes)
   {
     Pairs group;
     group.num_nodes = nodes;
-    group.data_size = pair_size;
-    group.slip_size = _options.measures_slip ? slip_size : 0;
+    group.data_size = num_values<FacetPair>;
+    group.slip_size = _options.measures_slip ? num_values<FacetSlip> : 0;
     for (std::size_t i = 0; i < size(); ++i)
     {
       const std::int32_t f = _pairing.facet()[i];
@@ -229,16 +229,9 @@ std::vector<Pairs> NodeToSurface::pairs() const
       group.slaves.push_back(static_cast<std::int32_t>(i));
       group.nodes.push_back(_pairing.slaves()[i]);
       group.nodes.insert(group.nodes.end(), facets[f].begin(), facets[f].end());
-      const std::size_t at = group.data.size();
-      group.data.resize(at + pair_size);
-      double* data = group.data.data() + at;
-      data[pair_feature] = _places.feature[i];
-      std::copy_n(_places.xi.begin() + 2 * i, 2, data + pair_xi);
-      std::copy_n(_places.cone.begin() + 3 * i, 3, data + pair_cone);
-      std::copy_n(_places.normal.begin() + 3 * i, 3, data + pair_normal);
+      group.add(found_pair(i));
       if (_options.measures_slip)
-        group.slip.insert(group.slip.end(), slips.begin() + slip_size * i,
-                          slips.begin() + slip_size * (i + 1));
+        group.add_slip(slips[i]);
     }
     if (not group.slaves.empty())
       groups.push_back(std::move(group));
@@ -246,41 +239,43 @@ std::vector<Pairs> NodeToSurface::pairs() const
   return groups;
 }
 
-std::vector<double> NodeToSurface::slip() const
+kernel::FacetPair NodeToSurface::found_pair(std::size_t i) const
 {
-  using namespace kernel;
+  kernel::FacetPair pair{.feature = double(_places.feature[i])};
+  std::copy_n(_places.xi.begin() + 2 * i, 2, pair.xi.begin());
+  std::copy_n(_places.cone.begin() + 3 * i, 3, pair.cone.begin());
+  std::copy_n(_places.normal.begin() + 3 * i, 3, pair.normal.begin());
+  return pair;
+}
+
+std::vector<kernel::FacetSlip> NodeToSurface::slip() const
+{
   const int g = gdim();
   const facet::FacetList facets = _surface->facets();
-  std::vector<double> data(size() * slip_size, 0);
-  const auto put_xi = [&](std::span<const double> xi)
-  {
-    for (std::size_t i = 0; i < size(); ++i)
-      std::copy_n(xi.begin() + 2 * i, 2,
-                  data.begin() + slip_size * i + slip_xi);
-  };
+  std::vector<kernel::FacetSlip> from(size());
   if (_options.is_small)
   {
     for (std::size_t i = 0; i < size(); ++i)
-      std::copy_n(_origin.moved().begin() + g * i, g,
-                  data.begin() + slip_size * i + slip_origin);
-    put_xi(_places.xi);
-    return data;
+    {
+      std::copy_n(_places.xi.begin() + 2 * i, 2, from[i].xi.begin());
+      std::copy_n(_origin.moved().begin() + g * i, g, from[i].origin.begin());
+    }
+    return from;
   }
-  auto [xi, gap] = feet(_halo->start()->x, _start);
+  const auto [xi, gap] = feet(_halo->start()->x, _start);
   const auto normal = places(_at, xi).normal;
   for (std::size_t i = 0; i < size(); ++i)
   {
     const std::int32_t f = _pairing.facet()[i];
     const std::size_t nodes = f < 0 ? 0 : facets[f].size();
+    std::copy_n(xi.begin() + 2 * i, 2, from[i].xi.begin());
     // It has no part across the normal of a flat facet
-    if (_places.feature[i] == facet::interior and nodes < 4)
-      gap[i] = 0;
-    data[slip_size * i + slip_gap] = gap[i];
+    const bool is_flat = _places.feature[i] == facet::interior and nodes < 4;
+    from[i].gap = is_flat ? 0 : gap[i];
     for (int k = 0; k < g; ++k)
-      data[slip_size * i + slip_origin + k] = gap[i] * normal[g * i + k];
+      from[i].origin[k] = from[i].gap * normal[g * i + k];
   }
-  put_xi(xi);
-  return data;
+  return from;
 }
 
 std::optional<std::vector<double>>
@@ -421,16 +416,15 @@ Mobility NodeToSurface::mobility(std::span<const std::int8_t> free) const
               sum[k] += weight[l] * weight[l];
         return sum;
       };
-      const double* data = group.data.data() + pair_size * p;
-      const Vector<3> square = squares(data + pair_xi);
+      const auto pair = group.row<FacetPair>(p);
+      const Vector<3> square = squares(pair.xi.data());
       double sum = 0;
       for (int k = 0; k < g; ++k)
-        sum += data[pair_normal + k] * data[pair_normal + k] * square[k];
+        sum += pair.normal[k] * pair.normal[k] * square[k];
       found.normal[i] = std::sqrt(sum);
       if (group.slip_size == 0)
         continue;
-      const Vector<3> each
-          = squares(group.slip.data() + slip_size * p + slip_xi);
+      const Vector<3> each = squares(group.slip_row<FacetSlip>(p).xi.data());
       for (int k = 0; k < g; ++k)
         found.each[g * i + k] = std::sqrt(each[k]);
     }
@@ -596,18 +590,16 @@ NodeTie::update(std::span<const double>, bool, std::span<const double> offset)
   return pairs();
 }
 
-std::vector<double> NodeTie::slip() const
+std::vector<kernel::FacetSlip> NodeTie::slip() const
 {
-  using namespace kernel;
   const int g = gdim();
-  std::vector<double> data(size() * slip_size, 0);
+  std::vector<kernel::FacetSlip> from(size());
   for (std::size_t i = 0; i < size(); ++i)
   {
-    double* row = data.data() + slip_size * i;
-    std::copy_n(_xi.begin() + 2 * i, 2, row + slip_xi);
-    row[slip_gap] = _gap[i] + _offset[i];
+    std::copy_n(_xi.begin() + 2 * i, 2, from[i].xi.begin());
+    from[i].gap = _gap[i] + _offset[i];
     for (int k = 0; k < g; ++k)
-      row[slip_origin + k] = _arm[g * i + k] + _offset[i] * _normal[g * i + k];
+      from[i].origin[k] = _arm[g * i + k] + _offset[i] * _normal[g * i + k];
   }
-  return data;
+  return from;
 }

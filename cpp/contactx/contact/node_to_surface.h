@@ -55,8 +55,8 @@ public:
   std::vector<double> rise() const override { return _places.rise; }
 
 protected:
-  /// @brief Slip data that the kernels read (shape=(n, kernel::slip_size)).
-  virtual std::vector<double> slip() const;
+  /// @brief Where the slip of each slave node is measured from (shape=(n)).
+  virtual std::vector<kernel::FacetSlip> slip() const;
 
   /// @brief Number of owned slave nodes.
   std::size_t size() const { return _pairing.slaves().size(); }
@@ -88,6 +88,7 @@ private:
   };
 
   void find_places();
+  kernel::FacetPair found_pair(std::size_t i) const;
   void load_places(const std::vector<Saved>& saved);
   std::int32_t drop_outside(std::span<const double> x,
                             std::span<const std::int8_t> closed);
@@ -122,7 +123,7 @@ public:
          std::span<const double> offset) override;
 
 protected:
-  std::vector<double> slip() const override;
+  std::vector<kernel::FacetSlip> slip() const override;
 
 private:
   bool _found = false;

@@ -16,6 +16,13 @@ using namespace contactx::contact;
 
 namespace
 {
+template <class Row>
+std::vector<double> copied(const std::vector<Row>& rows)
+{
+  const auto values = kernel::values_of(std::span<const Row>(rows));
+  return {values.begin(), values.end()};
+}
+
 std::vector<double> gathered_rows(std::span<const double> x,
                                   std::span<const std::int32_t> nodes, int gdim)
 {
@@ -41,8 +48,8 @@ ObstacleMaster::ObstacleMaster(std::shared_ptr<obstacle::Obstacle> obstacle,
   check::facets(facets.offsets, facets.nodes, gdim);
   check::positions(x.size(), check::num_nodes(facets.nodes), gdim);
   _paired.assign(size(), 0);
-  _slip.assign(size() * kernel::rigid_slip_size, 0);
-  _data.assign(size() * kernel::rigid_size, 0);
+  _slip.resize(size());
+  _found.resize(size());
   _at = at_slaves(x);
   ObstacleMaster::accept(x);
   ObstacleMaster::begin_step();
@@ -53,21 +60,19 @@ std::vector<double> ObstacleMaster::at_slaves(std::span<const double> x) const
   return gathered_rows(x, _slaves->owned(), _gdim);
 }
 
-std::vector<double>
-ObstacleMaster::kernel_data(const obstacle::Geometry& seen) const
+std::vector<kernel::ObstaclePair>
+ObstacleMaster::pairs_of(const obstacle::Geometry& seen) const
 {
   const std::size_t g = _gdim;
-  std::vector<double> data(size() * kernel::rigid_size, 0);
+  std::vector<kernel::ObstaclePair> pairs(size());
   for (std::size_t i = 0; i < size(); ++i)
   {
-    double* row = &data[i * kernel::rigid_size];
-    row[kernel::rigid_gap] = seen.gap[i];
-    std::copy_n(&seen.gradient[g * i], g, row + kernel::rigid_gradient);
-    std::copy_n(&seen.normal[g * i], g, row + kernel::rigid_normal);
-    std::copy_n(&seen.curvature[g * g * i], g * g,
-                row + kernel::rigid_curvature);
+    pairs[i].gap = seen.gap[i];
+    std::copy_n(&seen.gradient[g * i], g, pairs[i].gradient.begin());
+    std::copy_n(&seen.normal[g * i], g, pairs[i].normal.begin());
+    std::copy_n(&seen.curvature[g * g * i], g * g, pairs[i].curvature.begin());
   }
-  return data;
+  return pairs;
 }
 
 std::int32_t ObstacleMaster::search(std::span<const double> x,
@@ -75,8 +80,8 @@ std::int32_t ObstacleMaster::search(std::span<const double> x,
 {
   _at = at_slaves(x);
   _obstacle->evaluate(_at, _gdim, _seen);
-  _data = kernel_data(_seen);
-  update_slip(_at, _data);
+  _found = pairs_of(_seen);
+  update_slip(_at, _found);
   // The far side of an obstacle, too, has a closest point for a node
   _paired = _slaves->facing(x, _seen.normal, _gdim);
   for (std::size_t i = 0; i < size(); ++i)
@@ -84,53 +89,49 @@ std::int32_t ObstacleMaster::search(std::span<const double> x,
   return 0;
 }
 
-std::vector<Pairs> ObstacleMaster::pairs() const { return group(_data); }
+std::vector<Pairs> ObstacleMaster::pairs() const { return group(_found); }
 
 std::optional<std::vector<Pairs>>
 ObstacleMaster::update(std::span<const double> x, bool frozen,
                        std::span<const double>)
 {
   const std::vector<double> now = at_slaves(x);
-  std::vector<double> data;
+  std::vector<kernel::ObstaclePair> pairs;
   if (not frozen)
   {
     _obstacle->evaluate(now, _gdim, _seen);
-    data = kernel_data(_seen);
+    pairs = pairs_of(_seen);
   }
   else
   {
-    data = _data;
+    pairs = _found;
     for (std::size_t i = 0; i < size(); ++i)
     {
-      double* row = &data[i * kernel::rigid_size];
       double more = 0;
       for (int k = 0; k < _gdim; ++k)
-        more += row[kernel::rigid_gradient + k]
-                * (now[_gdim * i + k] - _at[_gdim * i + k]);
-      row[kernel::rigid_gap] += more;
-      std::fill_n(row + kernel::rigid_curvature, _gdim * _gdim, 0.0);
+        more
+            += pairs[i].gradient[k] * (now[_gdim * i + k] - _at[_gdim * i + k]);
+      pairs[i].gap += more;
+      pairs[i].curvature = {};
     }
   }
-  update_slip(now, data);
-  return group(data);
+  update_slip(now, pairs);
+  return group(pairs);
 }
 
 void ObstacleMaster::update_slip(std::span<const double> at,
-                                 std::span<const double> data)
+                                 std::span<const kernel::ObstaclePair> pairs)
 {
   if (not _measures_slip)
     return;
   const std::vector<double> from = carried();
   const int g = _gdim;
-  std::ranges::fill(_slip, 0.0);
   for (std::size_t i = 0; i < size(); ++i)
   {
-    const double* normal = &data[i * kernel::rigid_size + kernel::rigid_normal];
-    const double* turn
-        = &data[i * kernel::rigid_size + kernel::rigid_curvature];
-    double* slip = &_slip[i * kernel::rigid_slip_size + kernel::rigid_slip];
-    double* derivative
-        = &_slip[i * kernel::rigid_slip_size + kernel::rigid_slip_derivative];
+    const auto& normal = pairs[i].normal;
+    const auto& turn = pairs[i].curvature;
+    _slip[i] = {};
+    auto& [slip, derivative] = _slip[i];
     Vector<3> way{}, way_turns{};
     double height = 0;
     for (int k = 0; k < g; ++k)
@@ -168,8 +169,7 @@ std::vector<double> ObstacleMaster::movement() const
   std::vector<double> movement(size() * g);
   for (std::size_t i = 0; i < size(); ++i)
   {
-    const double* normal
-        = &_data[i * kernel::rigid_size + kernel::rigid_normal];
+    const auto& normal = _found[i].normal;
     double height = 0;
     for (std::size_t k = 0; k < g; ++k)
       height += normal[k] * (to[g * i + k] - _x0[g * i + k]);
@@ -247,21 +247,21 @@ void ObstacleMaster::touch(std::span<const std::int8_t> which,
   }
 }
 
-std::vector<Pairs> ObstacleMaster::group(std::span<const double> data) const
+std::vector<Pairs>
+ObstacleMaster::group(std::span<const kernel::ObstaclePair> pairs) const
 {
   Pairs p;
-  p.data_size = kernel::rigid_size;
-  p.slip_size = _measures_slip ? kernel::rigid_slip_size : 0;
+  p.data_size = kernel::num_values<kernel::ObstaclePair>;
+  p.slip_size = _measures_slip ? kernel::num_values<kernel::ObstacleSlip> : 0;
   for (std::size_t i = 0; i < size(); ++i)
   {
     if (not _paired[i])
       continue;
     p.slaves.push_back(static_cast<std::int32_t>(i));
     p.nodes.push_back(_slaves->owned()[i]);
-    const auto row = data.subspan(i * p.data_size, p.data_size);
-    p.data.insert(p.data.end(), row.begin(), row.end());
-    const auto slip = _slip.begin() + i * p.slip_size;
-    p.slip.insert(p.slip.end(), slip, slip + p.slip_size);
+    p.add(pairs[i]);
+    if (_measures_slip)
+      p.add_slip(_slip[i]);
   }
   if (p.slaves.empty())
     return {};
@@ -275,8 +275,7 @@ std::vector<double> ObstacleMaster::normals() const
   std::vector<double> normals(3 * size(), 0);
   for (std::size_t i = 0; i < size(); ++i)
     if (_paired[i])
-      std::copy_n(&_data[i * kernel::rigid_size + kernel::rigid_normal], _gdim,
-                  &normals[3 * i]);
+      std::copy_n(_found[i].normal.begin(), _gdim, &normals[3 * i]);
   return normals;
 }
 
@@ -308,8 +307,7 @@ Mobility ObstacleMaster::mobility(std::span<const std::int8_t> free) const
              std::vector<double>(size() * _gdim)};
   for (std::size_t i = 0; i < size(); ++i)
   {
-    const double* normal
-        = &_data[i * kernel::rigid_size + kernel::rigid_normal];
+    const auto& normal = _found[i].normal;
     double square = 0;
     for (int k = 0; k < _gdim; ++k)
     {
@@ -339,14 +337,16 @@ double ObstacleMaster::distance(std::span<const double> x) const
 std::vector<Saved> ObstacleMaster::save() const
 {
   using enum RowKind;
-  std::vector<Saved> saved{{"paired", slave, 0, _paired},
-                           {"data", slave, kernel::rigid_size, _data},
-                           {"at", slave, _gdim, _at},
-                           {"x0", slave, _gdim, _x0},
-                           {"gap0", slave, 0, _gap0}};
+  std::vector<Saved> saved{
+      {"paired", slave, 0, _paired},
+      {"data", slave, kernel::num_values<kernel::ObstaclePair>, copied(_found)},
+      {"at", slave, _gdim, _at},
+      {"x0", slave, _gdim, _x0},
+      {"gap0", slave, 0, _gap0}};
   if (not _measures_slip)
     return saved;
-  saved.push_back({"slip_data", slave, kernel::rigid_slip_size, _slip});
+  saved.push_back({"slip_data", slave, kernel::num_values<kernel::ObstacleSlip>,
+                   copied(_slip)});
   saved.push_back({"start", slave, _gdim, _start});
   saved.push_back({"point", global, 0, _placed.point});
   if (not _placed.direction.empty())
@@ -365,13 +365,15 @@ void ObstacleMaster::load(const std::vector<Saved>& saved)
   const std::size_t n = size();
   const auto& paired = values_of<std::int8_t>(saved, "paired");
   check::rows(paired.size(), n, 1, "paired", "slave node");
-  auto data = values_of_size(saved, "data", n, kernel::rigid_size);
+  auto found = kernel::rows_of<kernel::ObstaclePair>(values_of_size(
+      saved, "data", n, kernel::num_values<kernel::ObstaclePair>));
   auto at = values_of_size(saved, "at", n, _gdim);
   auto x0 = values_of_size(saved, "x0", n, _gdim);
   auto gap0 = values_of_size(saved, "gap0", n, 1);
   if (_measures_slip)
   {
-    auto slip = values_of_size(saved, "slip_data", n, kernel::rigid_slip_size);
+    auto slip = kernel::rows_of<kernel::ObstacleSlip>(values_of_size(
+        saved, "slip_data", n, kernel::num_values<kernel::ObstacleSlip>));
     auto start = values_of_size(saved, "start", n, _gdim);
     obstacle::Placement placed{values_of_size(saved, "point", 1, _gdim)};
     if (has(saved, "direction"))
@@ -390,6 +392,6 @@ void ObstacleMaster::load(const std::vector<Saved>& saved)
   _x0 = std::move(x0);
   _gap0 = std::move(gap0);
   _paired = paired;
-  _data = std::move(data);
+  _found = std::move(found);
   _at = std::move(at);
 }

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "../kernel/layout.h"
 #include "../obstacle/obstacle.h"
 #include "master.h"
 #include "slave_nodes.h"
@@ -96,7 +97,7 @@ protected:
   /// Compute slip and its derivative at positions of the slave nodes, with the
   /// normals of the kernels' data.
   virtual void update_slip(std::span<const double> at,
-                           std::span<const double> data);
+                           std::span<const kernel::ObstaclePair> pairs);
 
   /// Where the obstacle has carried the points that slip is measured from.
   std::vector<double> carried() const;
@@ -107,17 +108,19 @@ protected:
   double _reach;
   bool _measures_slip;
   std::vector<std::int8_t> _paired;
-  std::vector<double> _slip;   ///< what kernels read of slip
+  std::vector<kernel::ObstacleSlip> _slip;
   obstacle::Placement _placed; ///< of the obstacle at the step's start
 
 private:
-  /// Kernels' data from the geometry of the obstacle.
-  std::vector<double> kernel_data(const obstacle::Geometry& seen) const;
+  /// Pairs of all slave nodes from the geometry of the obstacle.
+  std::vector<kernel::ObstaclePair>
+  pairs_of(const obstacle::Geometry& seen) const;
 
-  std::vector<Pairs> group(std::span<const double> data) const;
+  std::vector<Pairs> group(std::span<const kernel::ObstaclePair> pairs) const;
 
-  obstacle::Geometry _seen; // scratch
-  std::vector<double> _data, _at;
+  obstacle::Geometry _seen;                 // scratch
+  std::vector<kernel::ObstaclePair> _found; // by the last search
+  std::vector<double> _at;
   std::vector<double> _start, _x0, _gap0, _parameters;
 };
 } // namespace contactx::contact

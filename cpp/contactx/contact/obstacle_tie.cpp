@@ -41,21 +41,20 @@ ObstacleTie::update(std::span<const double> x, bool frozen,
 }
 
 void ObstacleTie::update_slip(std::span<const double> at,
-                              std::span<const double>)
+                              std::span<const kernel::ObstaclePair>)
 {
   std::vector<double> place = _place;
   for (std::size_t i = 0; i < place.size(); ++i)
     place[i] += _offset[i / _gdim] * _normal[i];
   const std::vector<double> carried
       = _obstacle->carry(place, _placed, _obstacle->placement(_gdim));
-  std::ranges::fill(_slip, 0.0);
   for (std::size_t i = 0; i < size(); ++i)
   {
-    double* row = &_slip[i * kernel::rigid_slip_size];
+    _slip[i] = {};
     for (int k = 0; k < _gdim; ++k)
     {
-      row[kernel::rigid_slip + k] = at[_gdim * i + k] - carried[_gdim * i + k];
-      row[kernel::rigid_slip_derivative + (_gdim + 1) * k] = 1;
+      _slip[i].slip[k] = at[_gdim * i + k] - carried[_gdim * i + k];
+      _slip[i].derivative[(_gdim + 1) * k] = 1;
     }
   }
 }

@@ -34,7 +34,7 @@ public:
 private:
   /// The whole way from the place that the obstacle has carried the node to.
   void update_slip(std::span<const double> at,
-                   std::span<const double> data) override;
+                   std::span<const kernel::ObstaclePair> pairs) override;
 
   bool _found = false;
   // Where the obstacle has carried the nodes' places to by the last accepted

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "../kernel/layout.h"
 #include <cstdint>
 #include <vector>
 
@@ -32,6 +33,38 @@ struct Pairs
 
   /// @brief Number of pairs.
   std::size_t size() const { return slaves.size() / num_slaves; }
+
+  /// @brief Data of a pair of single slave nodes, a kernel::FacetPair or a
+  /// kernel::ObstaclePair.
+  template <class Row>
+  Row row(std::size_t pair) const
+  {
+    return kernel::read<Row>(data.data() + data_size * pair);
+  }
+
+  /// @brief Slip data of such a pair, a kernel::FacetSlip or a
+  /// kernel::ObstacleSlip.
+  template <class Row>
+  Row slip_row(std::size_t pair) const
+  {
+    return kernel::read<Row>(slip.data() + slip_size * pair);
+  }
+
+  /// @brief Add the data of a pair.
+  template <class Row>
+  void add(const Row& row)
+  {
+    const auto values = kernel::values_of(std::span(&row, 1));
+    data.insert(data.end(), values.begin(), values.end());
+  }
+
+  /// @brief Add the slip data of a pair.
+  template <class Row>
+  void add_slip(const Row& row)
+  {
+    const auto values = kernel::values_of(std::span(&row, 1));
+    slip.insert(slip.end(), values.begin(), values.end());
+  }
 
   /// @brief True if other pairs have the same nodes, so that forms of these
   /// serve them, too.

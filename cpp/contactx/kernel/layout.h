@@ -4,8 +4,13 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
+#include <span>
 #include <string_view>
+#include <type_traits>
+#include <vector>
 
 /// @brief Kernels with the UFCx signature, assembled by DOLFINx.
 namespace contactx::kernel
@@ -57,36 +62,76 @@ struct CoefficientInfo
   int size; ///< values a dof; 0 where the law has no such coefficient
 };
 
-/// Values a pair with a facet: feature, local coordinates, components of a
-/// ridge's normal in the frame of its facet, and the unit normal that the
-/// search found
-inline constexpr int pair_feature = 0;
-inline constexpr int pair_xi = 1;
-inline constexpr int pair_cone = 3;
-inline constexpr int pair_normal = 6;
-inline constexpr int pair_size = 9;
+/// @brief A pair of a slave node with a facet, as the search found it.
+struct FacetPair
+{
+  double feature = 0;             ///< of the facet, see facet::interior
+  std::array<double, 2> xi{};     ///< local coordinates
+  std::array<double, 3> cone{};   ///< a ridge's normal in the facet's frame
+  std::array<double, 3> normal{}; ///< unit normal
+};
 
-/// Values of slip a pair with a facet: local coordinates and gap of the point
-/// that slip is measured from, and its place relative to those local
-/// coordinates while kinematics are frozen
-inline constexpr int slip_xi = 0;
-inline constexpr int slip_gap = 2;
-inline constexpr int slip_origin = 3;
-inline constexpr int slip_size = 6;
+/// @brief Slip of such a pair: the point that it is measured from.
+struct FacetSlip
+{
+  std::array<double, 2> xi{}; ///< local coordinates
+  double gap = 0;             ///< gap
+  /// Place relative to those local coordinates while kinematics are frozen
+  std::array<double, 3> origin{};
+};
 
-/// Values a pair with a rigid obstacle: gap, gradient of the gap, unit normal
-/// and derivative of the normal, row-major
-inline constexpr int rigid_gap = 0;
-inline constexpr int rigid_gradient = 1;
-inline constexpr int rigid_normal = 4;
-inline constexpr int rigid_curvature = 7;
-inline constexpr int rigid_size = 16;
+/// @brief A pair of a slave node with a rigid obstacle. In the plane vectors
+/// have two components, and matrices are 2 x 2, without anything between rows.
+struct ObstaclePair
+{
+  double gap = 0;                    ///< gap
+  std::array<double, 3> gradient{};  ///< of the gap
+  std::array<double, 3> normal{};    ///< unit normal
+  std::array<double, 9> curvature{}; ///< derivative of the normal, row-major
+};
 
-/// Values of slip a pair with a rigid obstacle: slip and its derivative,
-/// row-major
-inline constexpr int rigid_slip = 0;
-inline constexpr int rigid_slip_derivative = 3;
-inline constexpr int rigid_slip_size = 12;
+/// @brief Slip of such a pair.
+struct ObstacleSlip
+{
+  std::array<double, 3> slip{};       ///< slip
+  std::array<double, 9> derivative{}; ///< its derivative, row-major
+};
+
+/// Number of values of a row of these kinds, which have nothing but doubles
+template <class Row>
+inline constexpr int num_values = sizeof(Row) / sizeof(double);
+
+/// @brief Read a row of values.
+/// @param[in] values The values, `num_values` of them.
+template <class Row>
+Row read(const double* values)
+{
+  static_assert(std::is_trivially_copyable_v<Row>
+                and sizeof(Row) % sizeof(double) == 0);
+  Row row;
+  std::memcpy(static_cast<void*>(&row), values, sizeof(Row));
+  return row;
+}
+
+/// @brief Rows as the values that coefficients hold, one after the other.
+template <class Row>
+std::span<const double> values_of(std::span<const Row> rows)
+{
+  static_assert(std::is_standard_layout_v<Row>
+                and alignof(Row) == alignof(double));
+  return {reinterpret_cast<const double*>(rows.data()),
+          rows.size() * num_values<Row>};
+}
+
+/// @brief Rows of values, as many as there are whole ones.
+template <class Row>
+std::vector<Row> rows_of(std::span<const double> values)
+{
+  std::vector<Row> rows(values.size() / num_values<Row>);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    rows[i] = read<Row>(values.data() + num_values<Row> * i);
+  return rows;
+}
 
 /// @brief What a pair of two facets keeps from one search to the next in finite
 /// sliding.
@@ -142,7 +187,7 @@ constexpr int pair_values(int num_slaves, int num_nodes, int gdim)
   if (num_slaves > 1)
     return num_nodes > 0 ? MortarLayout(num_slaves, num_nodes).size
                          : RigidMortarLayout(num_slaves, gdim).size;
-  return num_nodes > 0 ? pair_size : rigid_size;
+  return num_nodes > 0 ? num_values<FacetPair> : num_values<ObstaclePair>;
 }
 
 /// @brief The coefficients in their order. Those of slip a pair exist for
@@ -155,7 +200,8 @@ constexpr std::array<CoefficientInfo, num_coefficients>
 coefficients(Law law, int num_nodes, int gdim, int num_slaves = 1)
 {
   const bool vector = law != Law::frictionless;
-  const int slip = num_nodes > 0 ? slip_size : rigid_slip_size;
+  const int slip
+      = num_nodes > 0 ? num_values<FacetSlip> : num_values<ObstacleSlip>;
   const int n = vector ? gdim : 1;
   return {{{"displacement", Site::nodes, gdim},
            {"position", Site::nodes, gdim},

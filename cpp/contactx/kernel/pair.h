@@ -35,7 +35,8 @@ struct Pair
     const double* u
         = w + offset(law, Coefficient::displacement, F::nodes, F::gdim);
     const double* x = w + offset(law, Coefficient::position, F::nodes, F::gdim);
-    const double* p = w + offset(law, Coefficient::pair, F::nodes, F::gdim);
+    const auto found = read<FacetPair>(
+        w + offset(law, Coefficient::pair, F::nodes, F::gdim));
     std::copy_n(u, F::gdim, slave.begin());
     for (int l = 0; l < F::nodes; ++l)
       for (int k = 0; k < F::gdim; ++k)
@@ -43,10 +44,10 @@ struct Pair
         const int i = F::gdim * (l + 1) + k;
         master[l][k] = (x[i] - x[k]) + u[i];
       }
-    feature = static_cast<int>(p[pair_feature]);
-    std::copy_n(p + pair_xi, F::tdim, xi.begin());
-    std::copy_n(p + pair_cone, 3, cone.begin());
-    std::copy_n(p + pair_normal, F::gdim, normal.begin());
+    feature = static_cast<int>(found.feature);
+    std::copy_n(found.xi.begin(), F::tdim, xi.begin());
+    cone = found.cone;
+    std::copy_n(found.normal.begin(), F::gdim, normal.begin());
   }
 };
 

@@ -52,10 +52,10 @@ struct Relative
   /// @param[in] w Coefficients of a law with slip.
   Relative(const Kinematics& kinematics, const double* w)
   {
-    const double* s
-        = w + offset(Law::frictional, Coefficient::slip, F::nodes, F::gdim);
-    std::copy_n(s + slip_xi, F::tdim, xi.begin());
-    gap = s[slip_gap];
+    const auto from = read<FacetSlip>(
+        w + offset(Law::frictional, Coefficient::slip, F::nodes, F::gdim));
+    std::copy_n(from.xi.begin(), F::tdim, xi.begin());
+    gap = from.gap;
     const Pair<F>& pair = kinematics.pair;
     const auto N = F::shape(xi);
     weight[0] = 1;
@@ -69,7 +69,7 @@ struct Relative
     }
     else
       for (int k = 0; k < F::gdim; ++k)
-        value[k] -= s[slip_origin + k];
+        value[k] -= from.origin[k];
   }
 
   /// @brief Derivative of the movement, [gdim][num_dofs].

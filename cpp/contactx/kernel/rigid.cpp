@@ -14,9 +14,15 @@ const double* at(const double* w, Coefficient c)
 }
 
 template <Law L, int D>
-const double* pair(const double* w)
+ObstaclePair pair(const double* w)
 {
-  return at<L, D>(w, Coefficient::pair);
+  return read<ObstaclePair>(at<L, D>(w, Coefficient::pair));
+}
+
+template <Law L, int D>
+ObstacleSlip slip_of(const double* w)
+{
+  return read<ObstacleSlip>(at<L, D>(w, Coefficient::slip));
 }
 
 template <Law L, int D>
@@ -29,23 +35,25 @@ template <Law L, int D>
 void gap(double* b, const double* w, const double*, const double*, const int*,
          const std::uint8_t*, void*)
 {
-  b[0] += pair<L, D>(w)[rigid_gap];
+  b[0] += pair<L, D>(w).gap;
 }
 
 template <Law L, int D>
 void normal(double* b, const double* w, const double*, const double*,
             const int*, const std::uint8_t*, void*)
 {
+  const auto normal = pair<L, D>(w).normal;
   for (int k = 0; k < D; ++k)
-    b[k] += pair<L, D>(w)[rigid_normal + k];
+    b[k] += normal[k];
 }
 
 template <Law L, int D>
 void slip(double* b, const double* w, const double*, const double*, const int*,
           const std::uint8_t*, void*)
 {
+  const auto slip = slip_of<L, D>(w).slip;
   for (int k = 0; k < D; ++k)
-    b[k] += at<L, D>(w, Coefficient::slip)[rigid_slip + k];
+    b[k] += slip[k];
 }
 
 template <Law L, int D>
@@ -53,11 +61,11 @@ void residual(double* b, const double* w, const double*, const double*,
               const int*, const std::uint8_t*, void*)
 {
   const double* multiplier = at<L, D>(w, Coefficient::multiplier);
+  [[maybe_unused]] const auto normal = pair<L, D>(w).normal;
   for (int k = 0; k < D; ++k)
   {
-    const double lambda = L == Law::frictionless
-                              ? *multiplier * pair<L, D>(w)[rigid_normal + k]
-                              : multiplier[k];
+    const double lambda
+        = L == Law::frictionless ? *multiplier * normal[k] : multiplier[k];
     b[k] -= area<L, D>(w) * lambda;
   }
 }
@@ -66,9 +74,10 @@ template <Law L, int D>
 void traction(double* A, const double* w, const double*, const double*,
               const int*, const std::uint8_t*, void*)
 {
+  [[maybe_unused]] const auto normal = pair<L, D>(w).normal;
   for (int k = 0; k < D; ++k)
     if constexpr (L == Law::frictionless)
-      A[k] -= area<L, D>(w) * pair<L, D>(w)[rigid_normal + k];
+      A[k] -= area<L, D>(w) * normal[k];
     else
       A[D * k + k] -= area<L, D>(w);
 }
@@ -78,17 +87,17 @@ void constraint(double* A, const double* w, const double*, const double*,
                 const int*, const std::uint8_t*, void*)
 {
   const double* by_gap = at<L, D>(w, Coefficient::gap_derivative);
-  const double* dg = pair<L, D>(w) + rigid_gradient;
+  const ObstaclePair at_node = pair<L, D>(w);
   constexpr int rows = L == Law::frictionless ? 1 : D;
   for (int i = 0; i < rows; ++i)
     for (int k = 0; k < D; ++k)
-      A[D * i + k] += by_gap[i] * dg[k];
+      A[D * i + k] += by_gap[i] * at_node.gradient[k];
   if constexpr (L != Law::frictionless)
   {
     const double* by_slip = at<L, D>(w, Coefficient::slip_derivative);
     const double* by_normal = at<L, D>(w, Coefficient::normal_derivative);
-    const double* ds = at<L, D>(w, Coefficient::slip) + rigid_slip_derivative;
-    const double* dn = pair<L, D>(w) + rigid_curvature;
+    const auto ds = slip_of<L, D>(w).derivative;
+    const auto& dn = at_node.curvature;
     for (int i = 0; i < D; ++i)
       for (int k = 0; k < D; ++k)
         for (int j = 0; j < D; ++j)
@@ -105,8 +114,9 @@ void stiffness(double* A, const double* w, const double*, const double*,
 {
   constexpr Law L = Law::frictionless;
   const double force = area<L, D>(w) * *at<L, D>(w, Coefficient::multiplier);
+  const auto turn = pair<L, D>(w).curvature;
   for (int k = 0; k < D * D; ++k)
-    A[k] -= force * pair<L, D>(w)[rigid_curvature + k];
+    A[k] -= force * turn[k];
 }
 
 template <Law L, int D>

@@ -240,10 +240,10 @@ TEST(NodeTie, TheOffsetMakesItLonger)
   for (const Pairs& p : *longer)
     for (std::size_t i = 0; i < p.size(); ++i)
     {
-      const double* slip = p.slip.data() + kernel::slip_size * i;
-      EXPECT_NEAR(slip[kernel::slip_gap], 0.06, 1e-12);
-      EXPECT_NEAR(slip[kernel::slip_origin + 2], 0.06, 1e-12);
-      EXPECT_NEAR(slip[kernel::slip_origin], 0, 1e-12);
+      const auto slip = p.slip_row<kernel::FacetSlip>(i);
+      EXPECT_NEAR(slip.gap, 0.06, 1e-12);
+      EXPECT_NEAR(slip.origin[2], 0.06, 1e-12);
+      EXPECT_NEAR(slip.origin[0], 0, 1e-12);
     }
   // Only the first search counts
   const auto aside = sheets.moved(

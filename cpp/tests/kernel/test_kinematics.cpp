@@ -95,11 +95,11 @@ TYPED_TEST(KernelsOver, MeasureAtTheSearchesPointInSmallSliding)
   using F = TypeParam;
   for (const Sample& s : this->of(Law::frictionless, false))
   {
-    const double* p = s.at(Coefficient::pair);
-    const auto xi = this->local(p + kernel::pair_xi);
+    const auto p = kernel::read<kernel::FacetPair>(s.at(Coefficient::pair));
+    const auto xi = this->local(p.xi.data());
     const auto N = F::shape(xi);
     Vector<F::gdim> normal;
-    std::copy_n(p + kernel::pair_normal, F::gdim, normal.begin());
+    std::copy_n(p.normal.begin(), F::gdim, normal.begin());
     const auto d = this->vector(s.positions()) - combine<F>(N, this->master(s));
     EXPECT_NEAR(s("small", "gap")[0], dot(normal, d), 1e-14);
     const Values forces = s("small", "residual");
@@ -127,10 +127,11 @@ TYPED_TEST(KernelsOver, SlipFromThePointThatTheNodeWasOverToTheOneItIsOver)
   using F = TypeParam;
   for (Sample s : this->of(Law::frictional, true))
   {
-    double* from = s.at(Coefficient::slip);
-    from[kernel::slip_gap] = 0;
+    auto from = kernel::read<kernel::FacetSlip>(s.at(Coefficient::slip));
+    from.gap = 0;
+    put(s.at(Coefficient::slip), from);
     const auto start
-        = position<F>(this->master(s), this->local(from + kernel::slip_xi));
+        = position<F>(this->master(s), this->local(from.xi.data()));
     const auto normal = this->vector(s("finite", "normal"));
     const auto foot
         = this->vector(s.positions()) - s("finite", "gap")[0] * normal;
@@ -145,13 +146,12 @@ TYPED_TEST(KernelsOver, MeasureATieFromItsPlaceInTheTurningFrame)
   using F = TypeParam;
   for (const Sample& s : this->of(Law::tied, false))
   {
-    const double* from = s.at(Coefficient::slip);
-    const auto xi = this->local(from + kernel::slip_xi);
+    const auto from = kernel::read<kernel::FacetSlip>(s.at(Coefficient::slip));
+    const auto xi = this->local(from.xi.data());
     const auto x = this->master(s);
     const auto n = frame<F>(x, xi).n;
     const auto d = this->vector(s.positions()) - position<F>(x, xi);
-    this->expect_near(this->vector(s("finite", "slip")),
-                      d - from[kernel::slip_gap] * n);
+    this->expect_near(this->vector(s("finite", "slip")), d - from.gap * n);
     this->expect_near(this->vector(s("finite", "normal")), n);
     EXPECT_NEAR(s("finite", "gap")[0], dot(n, d), 1e-14);
   }
@@ -175,12 +175,13 @@ TEST(KernelsOfObstacles, GiveWhatTheyAreGivenAtANode)
           return;
         const int gdim = s.kind.gdim;
         const double area = *s.at(Coefficient::area);
-        const double* pair = s.at(Coefficient::pair);
+        const auto pair
+            = kernel::read<kernel::ObstaclePair>(s.at(Coefficient::pair));
         const double* lambda = s.at(Coefficient::multiplier);
-        const Values normal = part(pair, kernel::rigid_normal, gdim);
+        const Values normal = part(pair.normal.data(), 0, gdim);
         for (const std::string_view sliding : {"finite", "small"})
         {
-          EXPECT_EQ(s(sliding, "gap"), part(pair, kernel::rigid_gap, 1));
+          EXPECT_EQ(s(sliding, "gap"), Values{pair.gap});
           if (s.kind.law == Law::frictionless)
           {
             expect_close(s(sliding, "residual"),
@@ -188,8 +189,7 @@ TEST(KernelsOfObstacles, GiveWhatTheyAreGivenAtANode)
             continue;
           }
           EXPECT_EQ(s(sliding, "normal"), normal);
-          EXPECT_EQ(s(sliding, "slip"),
-                    part(s.at(Coefficient::slip), kernel::rigid_slip, gdim));
+          EXPECT_EQ(s(sliding, "slip"), part(s.at(Coefficient::slip), 0, gdim));
           expect_close(s(sliding, "residual"), part(lambda, 0, gdim, -area),
                        1e-15);
         }

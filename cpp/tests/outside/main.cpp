@@ -42,18 +42,18 @@ int main()
 
   contact::Pairs pairs;
   pairs.num_nodes = 2;
-  pairs.data_size = kernel::pair_size;
+  pairs.data_size = kernel::num_values<kernel::FacetPair>;
   for (std::int32_t s = 0; s < 3; ++s)
   {
     if (found.facet()[s] != 0)
       return std::puts("a slave node has no pair"), 1;
     pairs.slaves.push_back(s);
     pairs.nodes.insert(pairs.nodes.end(), {s, 3, 4});
-    double data[kernel::pair_size] = {double(found.feature()[s])};
-    std::copy_n(&found.xi()[2 * s], 2, data + kernel::pair_xi);
-    std::copy_n(&found.cone()[3 * s], 3, data + kernel::pair_cone);
-    std::copy_n(&found.normal()[3 * s], 3, data + kernel::pair_normal);
-    pairs.data.insert(pairs.data.end(), data, data + kernel::pair_size);
+    kernel::FacetPair pair{.feature = double(found.feature()[s])};
+    std::copy_n(&found.xi()[2 * s], 2, pair.xi.begin());
+    std::copy_n(&found.cone()[3 * s], 3, pair.cone.begin());
+    std::copy_n(&found.normal()[3 * s], 3, pair.normal.begin());
+    pairs.add(pair);
   }
 
   const std::vector<double> u(x.size(), 0), p(3, pressure);
