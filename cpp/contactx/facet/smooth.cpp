@@ -231,7 +231,7 @@ private:
                   ends.push_back(nodes[i]);
             });
     std::ranges::sort(sheet.others);
-    sheet.others.erase(std::ranges::unique(sheet.others).begin(),
+    sheet.others.erase(std::unique(sheet.others.begin(), sheet.others.end()),
                        sheet.others.end());
     // Each edge at an inner node has two facets; in the plane the node has
     std::ranges::sort(ends);

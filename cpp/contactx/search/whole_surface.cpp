@@ -24,8 +24,10 @@ WholeSurface::WholeSurface(std::shared_ptr<const parallel::Halo> halo,
     for (int l = 0; l < facet.size(); ++l)
       nodes.push_back({facet.original[l], facet.numbers[l], facet.owners[l]});
   std::ranges::sort(nodes, {}, &Node::original);
-  const auto twice = std::ranges::unique(nodes, {}, &Node::original);
-  nodes.erase(twice.begin(), twice.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end(),
+                          [](const Node& a, const Node& b)
+                          { return a.original == b.original; }),
+              nodes.end());
   std::vector<std::int64_t> here;
   for (const Node& node : nodes)
   {

@@ -35,17 +35,20 @@ bool fill_pair(Input& in, const Entry& e, Coefficients& w)
       const int i = F::gdim * (l + 1) + k;
       position[i] = x[l][k] - u[i];
     }
-  double* pair = w.at(Coefficient::pair);
+  kernel::FacetPair pair;
   const int feature = in.below(1 + F::num_edges + F::nodes);
   facet::Local<F> xi;
   for (double& c : xi)
     c = (in.below(25) - 4) / 16.;
   const auto cone = in.unit<3>();
   const auto normal = in.unit<F::gdim>();
-  pair[kernel::pair_feature] = feature;
-  std::copy(xi.begin(), xi.end(), pair + kernel::pair_xi);
-  std::copy(cone.begin(), cone.end(), pair + kernel::pair_cone);
-  std::copy(normal.begin(), normal.end(), pair + kernel::pair_normal);
+  pair.feature = feature;
+  std::ranges::copy(xi, pair.xi.begin());
+  pair.cone = cone;
+  std::ranges::copy(normal, pair.normal.begin());
+  std::ranges::copy(
+      kernel::values_of(std::span<const kernel::FacetPair>(&pair, 1)),
+      w.at(Coefficient::pair));
   if (e.law != kernel::Law::frictionless)
     for (double* c = w.at(Coefficient::slip); double& s : std::span(c, 2))
       s = in.below(17) / 16.;
