@@ -165,7 +165,7 @@ say "C++ on the distribution's DOLFINx"
 inside sh -c 'set -e
 	cd /root/contactx
 	build() { cmake --build "$1" -j "$(nproc)"; }
-	for project in demos/cpp/hertz demos/cpp/sliding_block tests/dolfinx_cpp; do
+	for project in demos/cpp/hertz demos/cpp/sliding_block demos/cpp/pressed_block tests/dolfinx_cpp; do
 		cmake -S $project -B /root/cpp/$project -G Ninja -DCMAKE_BUILD_TYPE=Release \
 			-DCMAKE_PREFIX_PATH=/root/cpp/installed
 		build /root/cpp/$project
@@ -177,7 +177,7 @@ inside sh -c 'set -e
 inside sh -c 'set -e
 	cd /root/cpp
 	python=/root/venv/bin/python here=/root/contactx
-	for demo in hertz sliding_block; do
+	for demo in hertz sliding_block pressed_block; do
 		$python $here/demos/cpp/$demo/mesh.py
 		$python $here/tests/dolfinx_cpp/demos.py $demo > $demo.log
 	done
@@ -185,7 +185,7 @@ inside sh -c 'set -e
 		$python $here/tests/dolfinx_cpp/$test.py > $test.log
 	done
 	for ranks in 1 2; do
-		for demo in hertz sliding_block; do
+		for demo in hertz sliding_block pressed_block; do
 			mpiexec -n $ranks demos/cpp/$demo/$demo > cpp.log
 			$python $here/tests/dolfinx_cpp/compare.py cpp.log $demo.log
 		done

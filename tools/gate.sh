@@ -162,7 +162,7 @@ say "running them on one rank and on two"
 rm -rf "$folder/run"
 mkdir "$folder/run"
 cd "$folder/run"
-for demo in hertz sliding_block; do
+for demo in hertz sliding_block pressed_block; do
 	"$python" "$source/demos/cpp/$demo/mesh.py"
 	"$python" "$source/tests/dolfinx_cpp/demos.py" $demo > $demo.log
 done
@@ -171,9 +171,9 @@ for test in variants dynamics fields; do
 done
 built=$folder/build
 for ranks in 1 2; do
-	for name in hertz sliding_block variants dynamics fields refusals; do
+	for name in hertz sliding_block pressed_block variants dynamics fields refusals; do
 		case $name in
-		hertz | sliding_block) of=$built/demos/cpp/$name/$name ;;
+		hertz | sliding_block | pressed_block) of=$built/demos/cpp/$name/$name ;;
 		*) of=$built/tests/dolfinx_cpp/$name ;;
 		esac
 		OMP_NUM_THREADS=1 "$folder/bin/launch" -n $ranks "$of" > $name.$ranks 2> $name.$ranks.err || {

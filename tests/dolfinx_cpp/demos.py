@@ -5,15 +5,18 @@
 from __future__ import annotations
 
 import sys
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
 import contactx as cx  # isort: skip
 
 from mpi4py import MPI
+from petsc4py import PETSc
 
 import numpy as np
 
+import ufl
 from dolfinx import fem, io
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "demos"))
@@ -91,5 +94,49 @@ def sliding_block() -> None:
         )
 
 
+def pressed_block() -> None:
+    """A block between a disk and its base."""
+    u, tags = read("pressed_block")
+    v = ufl.TestFunction(u.function_space)
+    G = ufl.Identity(2) + ufl.grad(u)
+    log = ufl.ln(ufl.det(G))
+    F = ufl.derivative((0.5 * (ufl.tr(G.T * G) - 2 - 2 * log) + log**2) * ufl.dx, u, v)
+    centre = fem.Constant(u.function_space.mesh, np.array([1.5, 1.6]))
+    below = cx.Contact(cx.Surface(tags, 11), cx.Surface(tags, 21), friction=0.2, offset=1e-8)
+    above = cx.Contact(cx.Surface(tags, 12), cx.Sphere(centre, 0.6), friction=0.2)
+    bcs = [story.fix(u, tags, i, 0.0, 22) for i in range(2)]
+    assembler = cx.ContactAssembler(F, u, contacts=[below, above], bcs=bcs)
+    ksp = PETSc.KSP().create(MPI.COMM_SELF)
+    ksp.setType("preonly")
+    ksp.getPC().setType("lu")
+    ksp.getPC().setFactorSolverType("mumps")
+    b, dx = assembler.create_vector(), assembler.create_vector()
+    t, dt = 0.0, 1.0
+    while t < 1:
+        centre.value[1] = 1.6 - 0.5 * (t + dt)
+        assembler.begin_step()
+        it = assembler.settle()
+        with suppress(cx.ConvergenceError):
+            while not it.converged and it.number < 8:
+                assembler.residual(b)
+                b.scale(-1)
+                assembler.set_up(ksp)
+                ksp.solve(b, dx)
+                assembler.update(dx, assembler.limit(dx))
+                it = assembler.settle()
+        if not it.converged:
+            assembler.restore()
+            dt /= 2
+            print(f"t {t:.4f}: a shorter step, {dt:.4f}")
+            continue
+        assembler.accept()
+        t += dt
+        print(
+            f"t {t:.4f}  iterations {it.number}  force of the disk {above.force[1]:.10f}  "
+            f"on the base {below.force[1]:.10f}"
+        )
+
+
 if __name__ == "__main__":
-    {"hertz": hertz, "sliding_block": sliding_block}[sys.argv[1]]()
+    demos = {"hertz": hertz, "sliding_block": sliding_block, "pressed_block": pressed_block}
+    demos[sys.argv[1]]()
