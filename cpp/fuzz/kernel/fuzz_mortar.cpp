@@ -99,6 +99,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
   Coefficients w(e);
   for (double& value : w.values())
     value = in.number();
+  // One of a few, whatever else numbers are
+  if (e.num_nodes > 0)
+    w.at(Coefficient::pair)[MortarLayout(e.num_slaves, e.num_nodes).keeps]
+        = in.below(3);
   bool found = true;
   if (e.num_nodes > 0)
     found = fill_pair(in, e, w);
