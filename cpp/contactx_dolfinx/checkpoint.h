@@ -4,6 +4,7 @@
 #pragma once
 
 #include "assembler.h"
+#include <cmath>
 #include <contactx/contact/contact_state.h>
 #include <dolfinx/io/HDF5Interface.h>
 #include <filesystem>
@@ -435,7 +436,13 @@ private:
     check_mesh(read_rows(node_rows(), "nodes", identity().size()));
     std::map<std::string, std::vector<double>> values;
     for (const auto& [name, f] : _functions)
+    {
       values[name] = read_rows(f.rows, name, f.dofs.size());
+      const bool is_finite = std::ranges::all_of(values[name], [](double v)
+                                                 { return std::isfinite(v); });
+      if (not parallel::everywhere(ranks(), is_finite))
+        throw std::invalid_argument("'" + name + "' is not finite");
+    }
     std::vector<double> start
         = read_rows(node_rows(), "start", identity().size());
     std::vector<std::vector<contact::Saved>> states;

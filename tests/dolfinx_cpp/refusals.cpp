@@ -10,6 +10,7 @@
 #include <contactx_dolfinx/checkpoint.h>
 #include <contactx_dolfinx/condensed.h>
 #include <contactx_dolfinx/dynamics.h>
+#include <contactx_dolfinx/snes.h>
 #include <cstdio>
 #include <dolfinx.h>
 #include <dolfinx/fem/Constant.h>
@@ -239,8 +240,21 @@ int main(int argc, char* argv[])
     cx::petsc::OwnVec shorter;
     VecCreateMPI(MPI_COMM_WORLD, 1, PETSC_DETERMINE, shorter.put());
     refuses("", [&] { assembler.F(shorter.get(), b.get()); });
+    {
+      cx::Assembler pressed(F, J, u, {fixed}, {make(bottom, plane_at(0.01))});
+      cx::petsc::Owner<SNES, SNESDestroy> snes;
+      SNESCreate(MPI_COMM_WORLD, snes.put());
+      SNESSetTolerances(snes.get(), 0, 1e-11, 0, 0, -1);
+      cx::SNESLoop loop(pressed, snes.get());
+      refuses("before begin_step()", [&] { loop.solve(); });
+      pressed.begin_step();
+      refuses("no convergence in 0 iterations", [&] { loop.solve(); });
+      pressed.restore();
+    }
     u->x()->array()[0] = NAN;
     refuses("not finite", [&] { assembler.begin_step(); });
+
+    std::ranges::fill(u->x()->array(), 0);
 
     // Several fields
     const auto w = std::make_shared<fem::Function<T>>(V);
@@ -349,6 +363,11 @@ int main(int argc, char* argv[])
               [&] { cx::Checkpoint(other).read("refusals.h5"); });
     }
     checkpoint.read("refusals.h5");
+    std::ranges::fill(u->x()->array(), NAN);
+    checkpoint.write("refusals.h5");
+    std::ranges::fill(u->x()->array(), 0);
+    refuses("'function_0' is not finite",
+            [&] { checkpoint.read("refusals.h5"); });
 
     // Time steps
     const auto start = std::make_shared<fem::Function<T>>(V),

@@ -14,6 +14,7 @@
 #include <contactx/obstacle/plane.h>
 #include <contactx/obstacle/sphere.h>
 #include <contactx_dolfinx/condensed.h>
+#include <contactx_dolfinx/snes.h>
 #include <cstdio>
 #include <dolfinx.h>
 #include <dolfinx/fem/Constant.h>
@@ -35,6 +36,7 @@ struct Scene
   std::shared_ptr<fem::Constant<T>> load;
   KSP ksp;
   bool condensed = false;
+  bool has_snes = false; // in place of a loop of one's own
 
   int dim() const { return mesh->geometry().dim(); }
 };
@@ -189,7 +191,7 @@ void solve(const Scene& scene, const char* name, const cx::Contact::Master& to,
            ufcx_form* residual = form_sliding_block_F,
            ufcx_form* jacobian = form_sliding_block_J)
 {
-  const auto& [mesh, tags, V, load, ksp, is_condensed] = scene;
+  const auto& [mesh, tags, V, load, ksp, is_condensed, has_snes] = scene;
   auto u = std::make_shared<fem::Function<T>>(V);
   const auto F = residual_form(scene, *residual, u);
   auto J = std::make_shared<fem::Form<T>>(fem::create_form<T>(
@@ -219,6 +221,16 @@ void solve(const Scene& scene, const char* name, const cx::Contact::Master& to,
   };
   // Sizes are others than those of the contact before
   KSPReset(ksp);
+  cx::petsc::Owner<SNES, SNESDestroy> snes;
+  SNESCreate(MPI_COMM_WORLD, snes.put());
+  KSP its = nullptr;
+  SNESGetKSP(snes.get(), &its);
+  cx::petsc::set_lu(its);
+  SNESLineSearch search = nullptr;
+  SNESGetLineSearch(snes.get(), &search);
+  SNESLineSearchSetType(search, SNESLINESEARCHBASIC);
+  SNESSetTolerances(snes.get(), 0, 1e-11, 0, 50, -1);
+  cx::SNESLoop loop(assembler, snes.get());
   for (double way : {0.0, 0.03, -0.02})
   {
     // A step too far, which is given up, leaves no trace
@@ -231,8 +243,14 @@ void solve(const Scene& scene, const char* name, const cx::Contact::Master& to,
     push->value[0] = way;
     assembler.begin_step();
     cx::Settled it;
-    while (not(it = assembler.settle()).converged)
-      iterate();
+    if (has_snes)
+    {
+      loop.solve();
+      it.number = assembler.number();
+    }
+    else
+      while (not(it = assembler.settle()).converged)
+        iterate();
     assembler.accept();
     const auto force = contact->force();
     const auto moment = contact->moment({0.5, 0.25});
@@ -490,6 +508,13 @@ int main(int argc, char* argv[])
           {.friction = 0.3, .offset = offset, .smooth = true});
     solve(scene, "neo-Hooke", base, {.friction = 0.3, .offset = offset},
           form_neo_hooke_F, form_neo_hooke_J);
+    scene.has_snes = true;
+    solve(scene, "friction", base, {.friction = 0.3, .offset = offset});
+    solve(scene, "mortar friction", base,
+          {.friction = 0.3, .method = mortar, .offset = offset});
+    solve(scene, "neo-Hooke", base, {.friction = 0.3, .offset = offset},
+          form_neo_hooke_F, form_neo_hooke_J);
+    scene.has_snes = false;
     const auto weight = [](const auto& x) { return 1 + x[0] / 2; };
     solve(scene, "weight", base, {.offset = offset, .weight = weight});
     solve(scene, "mortar weight", base,

@@ -314,6 +314,10 @@ def main() -> None:
     solve("adjusted disc", tags, V, disc, friction=0.1, **little, adjust=0.1)
     solve("smooth", tags, V, base, **rubs, smooth=True)
     solve("neo-Hooke", tags, V, base, **rubs)
+    # By a SNES in C++
+    solve("friction", tags, V, base, **rubs)
+    solve("mortar friction", tags, V, base, **mortar, **rubs)
+    solve("neo-Hooke", tags, V, base, **rubs)
     weight: Any = {"weight": 1 + ufl.SpatialCoordinate(domain)[0] / 2, **little}
     solve("weight", tags, V, base, **weight)
     solve("mortar weight", tags, V, base, **mortar, **weight)

@@ -748,6 +748,7 @@ void Problem::restore()
 void Problem::find_rigid_modes()
 {
   _has_modes = true;
+  _system->bulk()->read();
   _loop.find_rigid_modes();
 }
 
