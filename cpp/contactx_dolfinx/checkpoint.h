@@ -51,38 +51,25 @@ public:
   {
     std::filesystem::path temporary = path;
     temporary += ".tmp";
+    try
     {
-      const File file(comm(), temporary, "w");
-      file.write_same("format", std::vector<std::int64_t>{version});
-      if (plan)
-      {
-        file.write_same("plan/given", plan->given());
-        file.write_same("plan/place", plan->place());
-      }
-      const Rows nodes = node_rows();
-      file.write(nodes, "nodes", identity());
-      file.write(nodes, "start", owned(halo().start()->u));
-      for (const auto& [name, f] : _functions)
-        file.write(f.rows, name, values_of(f));
-      for (std::size_t k = 0; k < contacts().size(); ++k)
-        for (const contact::Saved& s : arrays_of(k))
-          if (s.rows == contact::RowKind::global)
-            file.write_same(name_of(k, s.name), doubles(s));
-          else
-            file.write(rows_of(s.rows, k), name_of(k, s.name), doubles(s));
+      write_state(File(comm(), temporary, "w"), plan);
+      ranks().agree(
+          [&]
+          {
+            if (ranks().rank() == 0)
+              std::filesystem::rename(temporary, path);
+          });
     }
-    ranks().agree(
-        [&]
-        {
-          std::error_code error;
-          if (ranks().rank() == 0)
-            std::filesystem::rename(temporary, path, error);
-          if (error)
-            throw std::runtime_error("cannot write the checkpoint "
-                                     + path.string() + ": " + error.message()
-                                     + "; an older file of this name is as it "
-                                       "was");
-        });
+    catch (const std::exception& error)
+    {
+      std::error_code ignored;
+      if (ranks().rank() == 0)
+        std::filesystem::remove(temporary, ignored);
+      throw std::runtime_error("cannot write the checkpoint " + path.string()
+                               + ": " + error.what()
+                               + "; an older file of this name is as it was");
+    }
   }
 
   /// @brief Go on from what `write` has written for the same problem.
@@ -410,6 +397,27 @@ private:
         [](const auto& values)
         { return std::vector<double>(values.begin(), values.end()); },
         s.values);
+  }
+
+  void write_state(const File& file, const StepPlan* plan) const
+  {
+    file.write_same("format", std::vector<std::int64_t>{version});
+    if (plan)
+    {
+      file.write_same("plan/given", plan->given());
+      file.write_same("plan/place", plan->place());
+    }
+    const Rows nodes = node_rows();
+    file.write(nodes, "nodes", identity());
+    file.write(nodes, "start", owned(halo().start()->u));
+    for (const auto& [name, f] : _functions)
+      file.write(f.rows, name, values_of(f));
+    for (std::size_t k = 0; k < contacts().size(); ++k)
+      for (const contact::Saved& s : arrays_of(k))
+        if (s.rows == contact::RowKind::global)
+          file.write_same(name_of(k, s.name), doubles(s));
+        else
+          file.write(rows_of(s.rows, k), name_of(k, s.name), doubles(s));
   }
 
   void restore(const File& file, StepPlan* plan)

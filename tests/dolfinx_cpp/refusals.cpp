@@ -334,6 +334,7 @@ int main(int argc, char* argv[])
               cx::Checkpoint(assembler, {std::make_shared<fem::Function<T>>(
                                             space(mesh, 3))});
             });
+    refuses("cannot write the checkpoint .: ", [&] { checkpoint.write("."); });
     checkpoint.write("refusals.h5");
     cx::StepPlan plan(cx::StepPlan::equal(2));
     refuses("it has no load steps",
