@@ -113,7 +113,7 @@ def compare(end: dict[str, Any], straight: dict[str, Any], what: tuple[Any, ...]
     assert closed.any() and not np.all(straight["u"] == 0)
     for key, values in end.items():
         exact = straight[key]
-        if key.endswith(("slip", "slip_data", "start")):
+        if key.endswith(("slip", "slip_data", "master_start")):
             # Open nodes have what they had at some iterate
             values, exact = values[closed], exact[closed]
         if values.dtype.kind == "f":

@@ -49,7 +49,8 @@ class Checkpoint:
         self._u = FunctionRows(problem.displacement, "u")
         self._functions = [FunctionRows(f, f"history[{k}]") for k, f in enumerate(history)]
         self._interfaces: list[Interface] = [c.interface for c in problem.contacts]
-        self._nodes: core.Halo = problem.assembler.halo.nodes
+        # What slip starts from; a problem of one's own may have no contacts
+        self._nodes: core.Halo | None = next((i.halo.nodes for i in self._interfaces), None)
         original = original_nodes(V)
         self._slaves = [Rows(self._comm, original[i.slaves][:, None]) for i in self._interfaces]
         self._cells = Rows(self._comm, cell_nodes(V)).digest
@@ -61,7 +62,8 @@ class Checkpoint:
             Arrays of all ranks by their names; none but on rank 0.
         """
         arrays = self._identity() | {"u": self._u.gather()}
-        arrays["start"] = self._u.rows.gather(self._nodes.start[: self._owned])
+        if self._nodes is not None:
+            arrays["start"] = self._u.rows.gather(self._nodes.start[: self._owned])
         for k, interface in enumerate(self._interfaces):
             kinds = interface.saved_rows
             for name, values in interface.save().items():
@@ -88,7 +90,8 @@ class Checkpoint:
         try:
             self._u.scatter(saved.get("u"))
             self._problem.update_ghosts()
-            self._nodes.set_start(self._u.rows.scatter(saved.get("start")))
+            if self._nodes is not None:
+                self._nodes.set_start(self._u.rows.scatter(saved.get("start")))
             for k, function in enumerate(self._functions):
                 function.scatter(saved.get(f"history {k}"))
             for k, interface in enumerate(self._interfaces):
