@@ -53,7 +53,7 @@ public:
     temporary += ".tmp";
     try
     {
-      write_state(File(comm(), temporary, "w"), plan);
+      write_state(File(comm(), ranks(), temporary, "w"), plan);
       ranks().agree(
           [&]
           {
@@ -91,7 +91,7 @@ public:
         });
     try
     {
-      restore(File(comm(), path, "r"), plan);
+      restore(File(comm(), ranks(), path, "r"), plan);
     }
     catch (const std::exception& error)
     {
@@ -125,9 +125,10 @@ private:
   class File
   {
   public:
-    File(MPI_Comm comm, const std::filesystem::path& path,
-         const std::string& mode)
-        : _comm(comm), _parallel(::dolfinx::MPI::size(comm) > 1),
+    File(MPI_Comm comm, parallel::Ranks& ranks,
+         const std::filesystem::path& path, const std::string& mode)
+        : _comm(comm), _ranks(&ranks),
+          _parallel(::dolfinx::MPI::size(comm) > 1),
           _handle(::dolfinx::io::hdf5::open_file(comm, path, mode, _parallel))
     {
     }
@@ -160,10 +161,7 @@ private:
     {
       const auto n = static_cast<std::int64_t>(rows.keys.size());
       put(name + "/keys", rows.keys, 1, n);
-      std::int64_t width
-          = n > 0 ? static_cast<std::int64_t>(values.size()) / n : 0;
-      MPI_Allreduce(MPI_IN_PLACE, &width, 1, MPI_INT64_T, MPI_MAX, _comm);
-      put(name + "/values", values, width, n);
+      put(name + "/values", values, width_of(rows, values.size()), n);
     }
 
     template <class T>
@@ -173,15 +171,17 @@ private:
     }
 
     /// Read this rank's rows, in their order.
+    /// @param[in] size Number of values here.
     std::vector<double> read(const Rows& rows, const std::string& name,
-                             std::size_t width) const
+                             std::size_t size) const
     {
+      const auto width = static_cast<std::size_t>(width_of(rows, size));
       std::vector<std::pair<std::int64_t, std::size_t>> mine;
       for (std::size_t i = 0; i < rows.keys.size(); ++i)
         mine.emplace_back(rows.keys[i], i);
       std::ranges::sort(mine);
-      std::int64_t count = static_cast<std::int64_t>(mine.size());
-      MPI_Allreduce(MPI_IN_PLACE, &count, 1, MPI_INT64_T, MPI_SUM, _comm);
+      const auto count
+          = parallel::total(*_ranks, static_cast<std::int64_t>(mine.size()));
       const auto there = shape(name + "/values");
       const auto columns = static_cast<std::int64_t>(width);
       if (there[0] != count or (count > 0 and there[1] != columns))
@@ -208,9 +208,7 @@ private:
           ++found;
         }
       }
-      std::int64_t missing = found != mine.size();
-      MPI_Allreduce(MPI_IN_PLACE, &missing, 1, MPI_INT64_T, MPI_MAX, _comm);
-      if (missing)
+      if (parallel::anywhere(*_ranks, found != mine.size()))
         throw std::invalid_argument(
             "'" + name
             + "' has other rows: it is of another mesh, or of other surfaces");
@@ -218,6 +216,14 @@ private:
     }
 
   private:
+    /// Values a row, which a rank without rows does not know by itself.
+    std::int64_t width_of(const Rows& rows, std::size_t size) const
+    {
+      const std::size_t n = rows.keys.size();
+      return parallel::largest(*_ranks,
+                               static_cast<std::int64_t>(n > 0 ? size / n : 0));
+    }
+
     std::vector<std::int64_t> shape(const std::string& name) const
     {
       if (not has(name))
@@ -233,9 +239,9 @@ private:
     void put(const std::string& name, const std::vector<T>& values,
              std::int64_t width, std::int64_t rows) const
     {
-      std::int64_t end = 0, all = 0;
+      std::int64_t end = 0;
       MPI_Scan(&rows, &end, 1, MPI_INT64_T, MPI_SUM, _comm);
-      MPI_Allreduce(&rows, &all, 1, MPI_INT64_T, MPI_SUM, _comm);
+      const std::int64_t all = parallel::total(*_ranks, rows);
       ::dolfinx::io::hdf5::write_dataset(_handle, "/" + name, values.data(),
                                          {end - rows, end}, {all, width},
                                          _parallel, false);
@@ -260,6 +266,7 @@ private:
     }
 
     MPI_Comm _comm;
+    parallel::Ranks* _ranks;
     bool _parallel;
     hid_t _handle;
   };
@@ -431,28 +438,18 @@ private:
                                   + std::to_string(version));
     if (plan and not file.has("plan/place"))
       throw std::invalid_argument("it has no load steps");
-    const auto read_rows
-        = [&](const Rows& rows, const std::string& name, std::size_t size)
-    {
-      std::int64_t width
-          = rows.keys.empty()
-                ? 0
-                : static_cast<std::int64_t>(size / rows.keys.size());
-      MPI_Allreduce(MPI_IN_PLACE, &width, 1, MPI_INT64_T, MPI_MAX, comm());
-      return file.read(rows, name, width);
-    };
-    check_mesh(read_rows(node_rows(), "nodes", identity().size()));
+    check_mesh(file.read(node_rows(), "nodes", identity().size()));
     std::map<std::string, std::vector<double>> values;
     for (const auto& [name, f] : _functions)
     {
-      values[name] = read_rows(f.rows, name, f.dofs.size());
+      values[name] = file.read(f.rows, name, f.dofs.size());
       const bool is_finite = std::ranges::all_of(values[name], [](double v)
                                                  { return std::isfinite(v); });
       if (not parallel::everywhere(ranks(), is_finite))
         throw std::invalid_argument("'" + name + "' is not finite");
     }
     std::vector<double> start
-        = read_rows(node_rows(), "start", identity().size());
+        = file.read(node_rows(), "start", identity().size());
     std::vector<std::vector<contact::Saved>> states;
     for (std::size_t k = 0; k < contacts().size(); ++k)
     {
@@ -465,7 +462,7 @@ private:
               const auto there
                   = s.rows == contact::RowKind::global
                         ? file.read_same<double>(name)
-                        : read_rows(rows_of(s.rows, k), name, here.size());
+                        : file.read(rows_of(s.rows, k), name, here.size());
               if (s.name == "identity" and not std::ranges::equal(here, there))
                 throw std::invalid_argument(
                     "contact " + std::to_string(k)

@@ -96,7 +96,7 @@ def sliding_block() -> None:
 
 def pressed_block() -> None:
     """A block between a disk and its base."""
-    u, tags = read("pressed_block")
+    u, tags = read("sliding_block")
     v = ufl.TestFunction(u.function_space)
     G = ufl.Identity(2) + ufl.grad(u)
     log = ufl.ln(ufl.det(G))

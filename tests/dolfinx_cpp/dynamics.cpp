@@ -5,13 +5,9 @@
 // prints, in the same digits on any number of ranks.
 
 #include "falling_block.h"
-#include <basix/finite-element.h>
-#include <cmath>
+#include "scenes.h"
 #include <contactx/obstacle/plane.h>
 #include <contactx_dolfinx/dynamics.h>
-#include <cstdio>
-#include <dolfinx.h>
-#include <dolfinx/io/XDMFFile.h>
 
 using namespace dolfinx;
 using T = PetscScalar;
@@ -24,57 +20,18 @@ namespace
 constexpr double gap = 0.0135, dt = 0.01;
 constexpr int steps = 20;
 
-struct Scene
+struct Scene : scenes::Domain
 {
-  std::shared_ptr<mesh::Mesh<U>> mesh;
-  std::shared_ptr<const mesh::MeshTags<std::int32_t>> tags;
   std::shared_ptr<fem::FunctionSpace<U>> V;
   KSP ksp;
 };
 
 Scene read()
 {
-  Scene scene{};
-  io::XDMFFile file(MPI_COMM_WORLD, "falling_block.xdmf", "r");
   const auto cell = mesh::CellType::quadrilateral;
-  scene.mesh = std::make_shared<mesh::Mesh<U>>(
-      file.read_mesh(fem::CoordinateElement<U>(cell, 1),
-                     mesh::GhostMode::shared_facet, "mesh"));
-  const auto topology = scene.mesh->topology_mutable();
-  topology->create_entities(1);
-  topology->create_connectivity(1, 2);
-  topology->create_connectivity(2, 1);
-  scene.tags = std::make_shared<const mesh::MeshTags<std::int32_t>>(
-      file.read_meshtags(*scene.mesh, "facet_tags", std::nullopt));
-  const auto element = basix::create_element<U>(
-      basix::element::family::P, mesh::cell_type_to_basix_type(cell), 1,
-      basix::element::lagrange_variant::gll_warped,
-      basix::element::dpc_variant::unset, false);
-  scene.V
-      = std::make_shared<fem::FunctionSpace<U>>(fem::create_functionspace<U>(
-          scene.mesh, std::make_shared<fem::FiniteElement<U>>(
-                          element, std::vector<std::size_t>{2})));
+  Scene scene{scenes::read("falling_block.xdmf", cell), nullptr, nullptr};
+  scene.V = scenes::space(scene, scenes::lagrange(cell, 1, 2));
   return scene;
-}
-
-void print_line(const std::string& text)
-{
-  if (dolfinx::MPI::rank(MPI_COMM_WORLD) == 0)
-    std::printf("%s\n", text.c_str());
-}
-
-void print(const std::vector<double>& figures)
-{
-  std::string line;
-  for (const double figure : figures)
-  {
-    char text[64];
-    // Rounding has a sign
-    std::snprintf(text, sizeof(text), "%.13f",
-                  std::abs(figure) < 5e-14 ? 0.0 : figure);
-    line += (line.empty() ? "" : " ") + std::string(text);
-  }
-  print_line(line);
 }
 
 /// A problem at its start.
@@ -155,7 +112,7 @@ struct Falling
     figures.insert(figures.end(),
                    {balance.angular_momentum.front(), balance.work_of_loads,
                     balance.work_of_supports, balance.contact_loss});
-    print(figures);
+    scenes::print(scenes::text_of(figures));
   }
 
   std::shared_ptr<fem::Function<T>> u, start, velocity;
@@ -166,7 +123,7 @@ struct Falling
 
 void fall(const char* name, Falling&& falling)
 {
-  print_line(name);
+  scenes::print(name);
   for (int step = 0; step < steps; ++step)
   {
     falling.dynamics->step(dt, *falling.solver);
@@ -194,7 +151,7 @@ int main(int argc, char* argv[])
     fall("block, friction",
          {scene, cx::Surface(scene.tags, {21}), {.friction = 0.2}});
 
-    print_line("steps that are short at the impact");
+    scenes::print("steps that are short at the impact");
     Falling falling(scene, plane, {}, false, 0.02);
     cx::Dynamics& dynamics = *falling.dynamics;
     try
@@ -204,10 +161,11 @@ int main(int argc, char* argv[])
     catch (const cx::ConvergenceError& error)
     {
       const std::string text = error.what();
-      print_line(text.substr(0, text.find(". ")));
+      scenes::print(text.substr(0, text.find(". ")));
     }
     // As it was before
-    print({dynamics.kinetic_energy(), *dynamics.strain_energy()});
+    scenes::print(scenes::text_of(
+        {dynamics.kinetic_energy(), *dynamics.strain_energy()}));
     cx::StepPlan plan(cx::StepPlan::equal(4, 8 * dt), 8);
     while (not plan.finished())
     {

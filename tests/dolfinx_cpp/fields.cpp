@@ -5,14 +5,10 @@
 // mesh of demos/cpp/sliding_block: prints what fields.py prints, in the same
 // digits on any number of ranks.
 
+#include "scenes.h"
 #include "several_fields.h"
-#include <basix/finite-element.h>
-#include <cmath>
 #include <contactx/obstacle/plane.h>
 #include <contactx_dolfinx/checkpoint.h>
-#include <cstdio>
-#include <dolfinx.h>
-#include <dolfinx/io/XDMFFile.h>
 
 using namespace dolfinx;
 using T = PetscScalar;
@@ -22,22 +18,19 @@ namespace cx = contactx::dolfinx;
 namespace
 {
 using Space = std::shared_ptr<const fem::FunctionSpace<U>>;
-using Element = std::shared_ptr<const fem::FiniteElement<U>>;
+using scenes::Element;
 using Function = std::shared_ptr<fem::Function<T>>;
 using Conditions = std::vector<std::shared_ptr<const fem::DirichletBC<T>>>;
 
-struct Scene
+struct Scene : scenes::Domain
 {
-  std::shared_ptr<mesh::Mesh<U>> mesh;
-  std::shared_ptr<const mesh::MeshTags<std::int32_t>> tags;
   std::shared_ptr<fem::Constant<T>> load
       = std::make_shared<fem::Constant<T>>(std::vector<T>{0, -0.01});
   KSP ksp = nullptr;
 
   Space space(const Element& element) const
   {
-    return std::make_shared<fem::FunctionSpace<U>>(
-        fem::create_functionspace<U>(mesh, element));
+    return scenes::space(*this, element);
   }
 
   static Space part(const Space& V, int k)
@@ -71,61 +64,19 @@ struct Scene
     return constant;
   }
 
-  /// The base held, and the top pushed along; components are parts of V.
-  std::shared_ptr<fem::Constant<T>> support(Conditions& bcs, const Space& V,
-                                            std::vector<int> part = {}) const
+  /// The base held, and the top pushed along.
+  std::shared_ptr<fem::Constant<T>> support(Conditions& bcs,
+                                            const Space& V) const
   {
-    const auto component = [&](int k)
-    {
-      std::vector<int> of = part;
-      of.push_back(k);
-      return std::make_shared<const fem::FunctionSpace<U>>(V->sub(of));
-    };
-    fix(bcs, component(0), 22, 0);
-    fix(bcs, component(1), 22, 0);
-    return fix(bcs, component(0), 12, 0);
+    fix(bcs, part(V, 0), 22, 0);
+    fix(bcs, part(V, 1), 22, 0);
+    return fix(bcs, part(V, 0), 12, 0);
   }
 };
 
-Element lagrange(int degree, std::optional<std::vector<std::size_t>> shape = {})
+Element lagrange(int degree, std::optional<std::size_t> components = {})
 {
-  return std::make_shared<const fem::FiniteElement<U>>(
-      basix::create_element<U>(basix::element::family::P,
-                               basix::cell::type::quadrilateral, degree,
-                               basix::element::lagrange_variant::gll_warped,
-                               basix::element::dpc_variant::unset, false),
-      shape);
-}
-
-void read(Scene& scene)
-{
-  io::XDMFFile file(MPI_COMM_WORLD, "sliding_block.xdmf", "r");
-  const auto cell = mesh::CellType::quadrilateral;
-  scene.mesh = std::make_shared<mesh::Mesh<U>>(
-      file.read_mesh(fem::CoordinateElement<U>(cell, 1),
-                     mesh::GhostMode::shared_facet, "mesh"));
-  const auto topology = scene.mesh->topology_mutable();
-  topology->create_entities(1);
-  topology->create_connectivity(1, 2);
-  topology->create_connectivity(2, 1);
-  scene.tags = std::make_shared<const mesh::MeshTags<std::int32_t>>(
-      file.read_meshtags(*scene.mesh, "facet_tags", std::nullopt));
-}
-
-double norm(std::span<const double> values)
-{
-  double s = 0;
-  for (const double v : values)
-    s += std::isnan(v) ? 0 : v * v;
-  MPI_Allreduce(MPI_IN_PLACE, &s, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
-  return std::sqrt(s);
-}
-
-double norm(const fem::Function<T>& f)
-{
-  const auto& dofs = *f.function_space()->dofmap();
-  return norm(std::span<const double>(f.x()->array())
-                  .first(dofs.bs() * dofs.index_map->size_local()));
+  return scenes::lagrange(mesh::CellType::quadrilateral, degree, components);
 }
 
 /// What is at the end of a step, in the digits in which it is printed.
@@ -136,20 +87,12 @@ std::string figures(cx::Assembler& assembler, const cx::Contact& contact,
   const auto force = contact.force();
   std::vector<double> values(force.begin(), force.begin() + 2);
   for (const auto& f : functions)
-    values.push_back(norm(*f));
+    values.push_back(scenes::norm(f));
   values.insert(values.end(),
-                {norm(contact.multiplier()), norm(contact.pressure()),
-                 norm(contact.gap()), conductance ? conductance->flow() : 0.0});
-  std::string line = std::to_string(assembler.number());
-  for (const double value : values)
-  {
-    char text[64];
-    // Rounding has a sign
-    std::snprintf(text, sizeof(text), " %.13f",
-                  std::abs(value) < 5e-14 ? 0.0 : value);
-    line += text;
-  }
-  return line;
+                {scenes::norm(contact.multiplier()),
+                 scenes::norm(contact.pressure()), scenes::norm(contact.gap()),
+                 conductance ? conductance->flow() : 0.0});
+  return std::to_string(assembler.number()) + " " + scenes::text_of(values);
 }
 
 /// Three steps and their figures. From what was saved before the last one, on
@@ -200,8 +143,7 @@ void steps(const Scene& scene, const std::string& name,
       assembler.solve(solver);
       plan.accept(assembler.number());
       last = figures(assembler, *contact, functions, conductance);
-      if (rank == 0)
-        std::printf("%s %s\n", name.c_str(), last.c_str());
+      scenes::print(name + " " + last);
     }
   }
   for (int ranks = 1; ranks <= 4; ++ranks)
@@ -235,7 +177,7 @@ void incompressible(const Scene& scene, const std::string& name,
 {
   options.offset = 1e-8;
   const cx::Surface slave(scene.tags, {11}), base(scene.tags, {21});
-  const Element vectors = lagrange(2, {{2}}), numbers = lagrange(1);
+  const Element vectors = lagrange(2, 2), numbers = lagrange(1);
   {
     const Space W = scene.space(std::make_shared<const fem::FiniteElement<U>>(
         std::vector<Element>{vectors, numbers}));
@@ -273,7 +215,7 @@ void warm(const Scene& scene, const std::string& name,
           cx::Options options)
 {
   options.offset = 1e-8;
-  const Space V = scene.space(lagrange(1, {{2}})), Q = scene.space(lagrange(1));
+  const Space V = scene.space(lagrange(1, 2)), Q = scene.space(lagrange(1));
   const auto u = std::make_shared<fem::Function<T>>(V),
              warmth = std::make_shared<fem::Function<T>>(Q);
   const std::vector<std::pair<std::string, Function>> in{{"moved", u},
@@ -313,7 +255,8 @@ int main(int argc, char* argv[])
   PetscInitialize(&argc, &argv, nullptr, nullptr);
   {
     Scene scene;
-    read(scene);
+    static_cast<scenes::Domain&>(scene)
+        = scenes::read("sliding_block.xdmf", mesh::CellType::quadrilateral);
     cx::petsc::Owner<KSP, KSPDestroy> ksp;
     KSPCreate(MPI_COMM_WORLD, ksp.put());
     scene.ksp = ksp.get();

@@ -8,17 +8,14 @@
 #include "neo_hooke.h"
 #include "prestress.h"
 #include "quadratic.h"
+#include "scenes.h"
 #include "sliding_block.h"
-#include <basix/finite-element.h>
 #include <contactx/obstacle/level_set.h>
 #include <contactx/obstacle/plane.h>
 #include <contactx/obstacle/sphere.h>
 #include <contactx_dolfinx/condensed.h>
 #include <contactx_dolfinx/snes.h>
-#include <cstdio>
-#include <dolfinx.h>
 #include <dolfinx/fem/Constant.h>
-#include <dolfinx/io/XDMFFile.h>
 
 using namespace dolfinx;
 using T = PetscScalar;
@@ -28,10 +25,8 @@ namespace obstacle = contactx::obstacle;
 
 namespace
 {
-struct Scene
+struct Scene : scenes::Domain
 {
-  std::shared_ptr<mesh::Mesh<U>> mesh;
-  std::shared_ptr<const mesh::MeshTags<std::int32_t>> tags;
   std::shared_ptr<fem::FunctionSpace<U>> V;
   std::shared_ptr<fem::Constant<T>> load;
   KSP ksp;
@@ -45,53 +40,11 @@ struct Scene
 void read(Scene& scene, const char* name, mesh::CellType cell, int degree,
           int order = 1)
 {
-  io::XDMFFile file(MPI_COMM_WORLD, name, "r");
-  const int dim = mesh::cell_dim(cell);
-  scene.mesh = std::make_shared<mesh::Mesh<U>>(
-      file.read_mesh(fem::CoordinateElement<U>(cell, order),
-                     mesh::GhostMode::shared_facet, "mesh"));
-  const auto topology = scene.mesh->topology_mutable();
-  topology->create_entities(dim - 1);
-  topology->create_connectivity(dim - 1, dim);
-  topology->create_connectivity(dim, dim - 1);
-  scene.tags = std::make_shared<const mesh::MeshTags<std::int32_t>>(
-      file.read_meshtags(*scene.mesh, "facet_tags", std::nullopt));
-  const auto element = basix::create_element<U>(
-      basix::element::family::P, mesh::cell_type_to_basix_type(cell), degree,
-      basix::element::lagrange_variant::gll_warped,
-      basix::element::dpc_variant::unset, false);
-  scene.V
-      = std::make_shared<fem::FunctionSpace<U>>(fem::create_functionspace<U>(
-          scene.mesh, std::make_shared<fem::FiniteElement<U>>(
-                          element, std::vector{std::size_t(dim)})));
-  std::vector<T> load(dim, 0);
+  static_cast<scenes::Domain&>(scene) = scenes::read(name, cell, order);
+  scene.V = scenes::space(scene, scenes::lagrange(cell, degree, scene.dim()));
+  std::vector<T> load(scene.dim(), 0);
   load.back() = -0.01;
   scene.load = std::make_shared<fem::Constant<T>>(load);
-}
-
-double sum(double mine)
-{
-  MPI_Allreduce(MPI_IN_PLACE, &mine, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
-  return mine;
-}
-
-/// Norm over all ranks, of the values that are numbers.
-double norm(std::span<const double> values)
-{
-  double s = 0;
-  for (double v : values)
-    s += std::isnan(v) ? 0 : v * v;
-  return std::sqrt(sum(s));
-}
-
-/// Norm of a function, of what this rank owns; zero if there is none.
-double norm(const std::shared_ptr<fem::Function<T>>& f)
-{
-  if (not f)
-    return 0;
-  const auto& dofs = *f->function_space()->dofmap();
-  return norm(std::span<const double>(f->x()->array())
-                  .first(dofs.bs() * dofs.index_map->size_local()));
 }
 
 /// A residual with the load on the block.
@@ -191,7 +144,10 @@ void solve(const Scene& scene, const char* name, const cx::Contact::Master& to,
            ufcx_form* residual = form_sliding_block_F,
            ufcx_form* jacobian = form_sliding_block_J)
 {
-  const auto& [mesh, tags, V, load, ksp, is_condensed, has_snes] = scene;
+  const auto& [mesh, tags] = static_cast<const scenes::Domain&>(scene);
+  const auto& V = scene.V;
+  const auto load = scene.load;
+  const KSP ksp = scene.ksp;
   auto u = std::make_shared<fem::Function<T>>(V);
   const auto F = residual_form(scene, *residual, u);
   auto J = std::make_shared<fem::Form<T>>(fem::create_form<T>(
@@ -243,7 +199,7 @@ void solve(const Scene& scene, const char* name, const cx::Contact::Master& to,
     push->value[0] = way;
     assembler.begin_step();
     cx::Settled it;
-    if (has_snes)
+    if (scene.has_snes)
     {
       loop.solve();
       it.number = assembler.number();
@@ -258,26 +214,21 @@ void solve(const Scene& scene, const char* name, const cx::Contact::Master& to,
     const cx::Functions& f = contact->functions();
     std::vector<double> figures(force.begin(), force.begin() + scene.dim());
     figures.insert(figures.end(),
-                   {norm(u), norm(contact->multiplier()),
-                    norm(contact->pressure()), norm(contact->traction()),
-                    norm(contact->slip())});
+                   {scenes::norm(u), scenes::norm(contact->multiplier()),
+                    scenes::norm(contact->pressure()),
+                    scenes::norm(contact->traction()),
+                    scenes::norm(contact->slip())});
     figures.insert(figures.end(), moment.begin() + (scene.dim() == 2 ? 2 : 0),
                    moment.end());
     figures.insert(figures.end(),
-                   {norm(f.gap), norm(f.status), norm(f.slip_total),
-                    norm(f.master_pressure), double(totals.closed), totals.area,
-                    totals.largest_pressure, totals.dissipation});
-    if (dolfinx::MPI::rank(MPI_COMM_WORLD) == 0)
-    {
-      // Iterations go with how accurate Krylov solvers are
-      std::printf("%s %s", name,
-                  is_condensed ? "condensed"
-                               : std::to_string(it.number).c_str());
-      for (double figure : figures)
-        // Rounding has a sign
-        std::printf(" %.13f", std::abs(figure) < 5e-14 ? 0.0 : figure);
-      std::printf("\n");
-    }
+                   {scenes::norm(f.gap), scenes::norm(f.status),
+                    scenes::norm(f.slip_total), scenes::norm(f.master_pressure),
+                    double(totals.closed), totals.area, totals.largest_pressure,
+                    totals.dissipation});
+    // Iterations go with how accurate Krylov solvers are
+    scenes::print(name + std::string(" ")
+                  + (scene.condensed ? "condensed" : std::to_string(it.number))
+                  + " " + scenes::text_of(figures));
   }
   // What needed the direct solver, and whether multigrid did the rest
   const bool expected = condensed.direct() == 0 and condensed.iterations() > 0;

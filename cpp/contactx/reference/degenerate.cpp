@@ -66,9 +66,8 @@ void contactx::reference::check_cells(parallel::Ranks& ranks,
                                       std::span<const std::int64_t> original)
 {
   const std::size_t g = geometry.gdim, width = mesh::num_vertices(cell);
-  constexpr double none = std::numeric_limits<double>::infinity();
   // Number and middle of the first one
-  std::array<double, 4> first{none, 0, 0, 0};
+  std::array<double, 4> first{std::numeric_limits<double>::infinity(), 0, 0, 0};
   std::int64_t count = 0;
   std::vector<double> x(width * g);
   for (std::int32_t c = 0; c < num_owned; ++c)

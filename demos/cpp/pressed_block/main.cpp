@@ -5,7 +5,7 @@
 // in DOLFINx's own Newton solver. A step that takes too many iterations is
 // taken back, and half of it is tried.
 //
-//     python mesh.py
+//     python ../sliding_block/mesh.py
 //     cmake -S . -B build -DCMAKE_BUILD_TYPE=Release && cmake --build build
 //     mpiexec -n 2 build/pressed_block
 
@@ -30,7 +30,7 @@ int main(int argc, char* argv[])
   PetscInitialize(&argc, &argv, nullptr, nullptr);
   {
     // Mesh: the block (tags 1x) on its base (2x)
-    io::XDMFFile file(MPI_COMM_WORLD, "pressed_block.xdmf", "r");
+    io::XDMFFile file(MPI_COMM_WORLD, "sliding_block.xdmf", "r");
     const fem::CoordinateElement<U> cell(mesh::CellType::quadrilateral, 1);
     auto mesh = std::make_shared<mesh::Mesh<U>>(
         file.read_mesh(cell, mesh::GhostMode::shared_facet, "mesh"));
