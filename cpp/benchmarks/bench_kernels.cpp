@@ -8,7 +8,7 @@
 #include "facing.h"
 #include "table.h"
 #include <cmath>
-#include <contactx/facet/ridge.h>
+#include <contactx/geometry/ridge.h>
 #include <contactx/kernel/registry.h>
 
 using namespace contactx;
@@ -39,11 +39,11 @@ void fill_pair(double* w, Law law, int feature, std::mt19937& random)
   constexpr int D = F::gdim;
   const auto at
       = [w, law](Coefficient c) { return w + offset(law, c, F::nodes, D); };
-  facet::Nodes<F> master;
+  geometry::Nodes<F> master;
   for (int l = 0; l < F::nodes; ++l)
     for (int k = 0; k < D; ++k)
       master[l][k] = (k < F::tdim ? F::vertices[l][k] : 0) + 0.1 * unit(random);
-  facet::Local<F> xi;
+  geometry::Local<F> xi;
   for (double& c : xi)
     c = 0.1 + 0.4 * unit(random);
   Vector<3> cone{};
@@ -51,14 +51,14 @@ void fill_pair(double* w, Law law, int feature, std::mt19937& random)
     xi = F::vertices[feature - 1 - F::num_edges];
   else if (feature > 0)
   {
-    const auto [i, j] = facet::feature_edge<F>(feature);
+    const auto [i, j] = geometry::feature_edge<F>(feature);
     xi = 0.4 * F::vertices[i] + 0.6 * F::vertices[j];
   }
   if (feature > 0)
     cone = {0, D == 2 ? 0 : 0.6, D == 2 ? 1 : 0.8};
-  const auto normal = facet::frame<F>(master, xi).n;
+  const auto normal = geometry::frame<F>(master, xi).n;
   const double gap = 0.01 * unit(random);
-  const auto slave = facet::combine<F>(F::shape(xi), master) + gap * normal;
+  const auto slave = geometry::combine<F>(F::shape(xi), master) + gap * normal;
   double* x = at(Coefficient::position);
   double* u = at(Coefficient::displacement);
   for (int a = 0; a <= F::nodes; ++a)
@@ -158,7 +158,7 @@ void run(Table& table, const std::string& facet)
 {
   // A segment has no edges but its vertices
   const std::vector<std::pair<int, std::string>> features{
-      {facet::interior, "interior"},
+      {geometry::interior, "interior"},
       {1, F::num_edges > 0 ? "edge" : "vertex"},
       {1 + F::num_edges, "vertex"}};
   for (const auto& [law, law_name] : laws)
@@ -197,7 +197,7 @@ void run_facing(Table& table, const std::string& slave,
 
 int main(int argc, char** argv)
 {
-  using namespace facet;
+  using namespace geometry;
   const std::string folder = argc > 1 ? std::string(argv[1]) + "/" : "";
   std::cout << "\nMillions of pairs a second. Residual: all the vectors of an "
                "evaluation;\nJacobian: stiffness, traction and constraint\n";

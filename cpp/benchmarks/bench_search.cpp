@@ -7,7 +7,7 @@
 #include "table.h"
 #include "wavy.h"
 #include <cmath>
-#include <contactx/mortar/facet_search.h>
+#include <contactx/search/facet_search.h>
 #include <contactx/search/pairing.h>
 #include <cstdlib>
 #include <map>
@@ -86,18 +86,18 @@ void time_pairing(WavySquares& w, Times& times)
 /// @return Number of pairs.
 std::size_t time_facets(const WavySquares& w, int repeats, Times& times)
 {
-  mortar::FacetSearch search(w.slave_offsets, w.slave_nodes, w.master_offsets,
+  search::FacetSearch search(w.slave_offsets, w.slave_nodes, w.master_offsets,
                              w.master_nodes, 3);
-  mortar::FacetPairs pairs;
+  geometry::FacetPairs pairs;
   const auto find = [&] { pairs = search.find(w.x, 1, 0.1); };
   times.emplace_back("facets: first", seconds(find));
   times.emplace_back("facets: again", best_seconds(repeats, find));
-  mortar::Integrals found;
+  geometry::Integrals found;
   times.emplace_back("facets: integrals",
                      best_seconds(repeats,
                                   [&]
                                   {
-                                    found = mortar::integrals(
+                                    found = geometry::integrals(
                                         search.slave(), search.master(), pairs,
                                         w.x, w.x, 3);
                                   }));

@@ -4,9 +4,9 @@
 #pragma once
 
 #include <algorithm>
+#include <contactx/geometry/segment.h>
 #include <contactx/kernel/layout.h>
-#include <contactx/mortar/facet_search.h>
-#include <contactx/mortar/segment.h>
+#include <contactx/search/facet_search.h>
 #include <random>
 
 namespace contactx::benchmarks
@@ -29,19 +29,19 @@ void fill_facing(double* w, kernel::Law law, std::mt19937& random)
   std::vector<std::int32_t> nodes(num_nodes);
   for (int a = 0; a < num_nodes; ++a)
     nodes[a] = a;
-  mortar::FacetSearch search(
+  search::FacetSearch search(
       {0, S::nodes}, {nodes.begin(), nodes.begin() + S::nodes}, {0, M::nodes},
       {nodes.begin() + S::nodes, nodes.end()}, D);
-  mortar::Integrals found;
+  geometry::Integrals found;
   do
   {
-    facet::Local<S> shift;
+    geometry::Local<S> shift;
     for (double& c : shift)
       c = 0.6 * unit(random) - 0.3;
     std::vector<double> current(num_nodes * D);
     for (int a = 0; a < num_nodes; ++a)
     {
-      facet::Local<S> r;
+      geometry::Local<S> r;
       if (a < S::nodes)
       {
         // The slave facet looks at the master: turned over
@@ -59,9 +59,9 @@ void fill_facing(double* w, kernel::Law law, std::mt19937& random)
         current[i] = x[i] + u[i];
       }
     }
-    found = mortar::integrals(search.slave(), search.master(),
-                              search.find(current, 1, 0), current,
-                              {x, current.size()}, D);
+    found = geometry::integrals(search.slave(), search.master(),
+                                search.find(current, 1, 0), current,
+                                {x, current.size()}, D);
   } while (found.area[0] == 0);
   constexpr kernel::MortarLayout layout(S::nodes, M::nodes);
   double* p = at(Coefficient::pair);
@@ -69,10 +69,10 @@ void fill_facing(double* w, kernel::Law law, std::mt19937& random)
   {
     for (int l = 0; l < M::nodes; ++l)
       p[layout.weight + M::nodes * s + l]
-          = found.weight[mortar::most_nodes * s + l];
+          = found.weight[geometry::most_nodes * s + l];
     for (int t = 0; t < S::nodes; ++t)
       p[layout.dual + S::nodes * s + t]
-          = found.dual[mortar::most_nodes * s + t];
+          = found.dual[geometry::most_nodes * s + t];
     p[layout.gap + s] = found.gap[s];
   }
   std::copy_n(found.normal.begin(), 3, p + layout.normal);

@@ -4,7 +4,7 @@
 #include "bindings.h"
 #include "parallel.h"
 #include <contactx/audit/audit.h>
-#include <contactx/audit/deformed_cells.h>
+#include <contactx/mesh/deformed_cells.h>
 #include <pybind11/stl.h>
 #include <stdexcept>
 
@@ -18,7 +18,7 @@ using contactx::audit::Findings;
 using contactx::audit::FoundNodes;
 using contactx::audit::Roundness;
 using contactx::contact::Contact;
-using contactx::parallel::Halo;
+using contactx::mesh::Halo;
 
 void contactx_bindings::audit(py::module_& m)
 {
@@ -81,7 +81,7 @@ void contactx_bindings::audit(py::module_& m)
       {
         if (cells.ndim() != 2)
           throw std::invalid_argument("cells must have a row for each cell");
-        const auto found = contactx::audit::deformed_cells(
+        const auto found = contactx::mesh::deformed_cells(
             view(cells), static_cast<int>(cells.shape(1)), view(X), view(u),
             gdim);
         return py::make_tuple(found.smallest, found.cell, found.inverted);
@@ -96,7 +96,7 @@ void contactx_bindings::audit(py::module_& m)
       {
         if (cells.ndim() != 2)
           throw std::invalid_argument("cells must have a row for each cell");
-        return contactx::audit::longest_way(
+        return contactx::mesh::longest_way(
             view(cells), static_cast<int>(cells.shape(1)), view(X), view(u),
             view(du), gdim, part);
       },

@@ -4,17 +4,17 @@
 #include "bulk.h"
 #include "check.h"
 #include "master.h"
-#include <contactx/active_set/active_set.h>
-#include <contactx/contact/bodies.h>
+#include <contactx/mesh/bodies.h>
+#include <contactx/solve/active_set.h>
 #include <pybind11/stl.h>
 #include <stdexcept>
 
 namespace py = pybind11;
 using namespace contactx_bindings;
-using namespace contactx::active_set;
-using contactx::contact::Bodies;
+using namespace contactx::solve;
 using contactx::contact::Contact;
-using contactx::parallel::NodeMap;
+using contactx::mesh::Bodies;
+using contactx::mesh::NodeMap;
 
 namespace
 {

@@ -4,8 +4,8 @@
 #pragma once
 
 #include "bindings.h"
-#include <contactx/newton/bulk.h>
-#include <contactx/newton/not_finite.h>
+#include <contactx/solve/bulk.h>
+#include <contactx/solve/not_finite.h>
 #include <optional>
 #include <pybind11/stl.h>
 
@@ -21,7 +21,7 @@ std::span<const T> keep(Array<T>& kept, const py::object& values)
 
 /// What a bulk of Python has for unknowns beside displacements: see
 /// python/contactx/coupled.py.
-class PythonFields final : public contactx::newton::Fields
+class PythonFields final : public contactx::solve::Fields
 {
 public:
   explicit PythonFields(py::object adapter) : _adapter(std::move(adapter)) {}
@@ -75,7 +75,7 @@ private:
 
 /// Bulk that an object of Python looks after: see
 /// python/contactx/bulk_side.py. The object is kept alive.
-class PythonBulk final : public contactx::newton::Bulk
+class PythonBulk final : public contactx::solve::Bulk
 {
 public:
   explicit PythonBulk(py::object adapter) : _adapter(std::move(adapter))
@@ -162,7 +162,7 @@ public:
   {
     return keep(_cell_forces, _adapter.attr("cell_forces")());
   }
-  contactx::newton::Fields* fields() override
+  contactx::solve::Fields* fields() override
   {
     return _fields ? &*_fields : nullptr;
   }
@@ -181,7 +181,7 @@ private:
       const py::object kind
           = py::module_::import("contactx.cpp").attr("NotFiniteError");
       if (error.matches(kind))
-        throw contactx::newton::NotFinite(py::str(error.value()));
+        throw contactx::solve::NotFinite(py::str(error.value()));
       throw;
     }
   }

@@ -15,7 +15,7 @@ namespace py = pybind11;
 using namespace contactx;
 using namespace contactx_bindings;
 using namespace contactx::condense;
-using contactx::parallel::NodeMap;
+using contactx::mesh::NodeMap;
 
 namespace
 {
@@ -161,7 +161,7 @@ void contactx_bindings::condense(py::module_& m)
           "Places of held multipliers, their numbers, and their scale")
       .def(
           "stiff_bodies",
-          [](const Condensation& c, const contact::Bodies& bodies,
+          [](const Condensation& c, const contactx::mesh::Bodies& bodies,
              const Array<double>& diagonal)
           { return array(stiff_bodies(c, bodies, view(diagonal))); },
           py::arg("bodies"), py::arg("diagonal"))

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "bindings.h"
-#include <contactx/conductance/conductance.h>
+#include <contactx/results/conductance.h>
 #include <pybind11/stl.h>
 
 namespace py = pybind11;
 using namespace contactx_bindings;
-using namespace contactx::conductance;
+using namespace contactx::results;
 using contactx::contact::Contact;
 using contactx::results::Results;
 
@@ -15,7 +15,7 @@ namespace
 {
 /// Coefficients that a function of Python gives: of arrays of pressures and
 /// gaps an array, or one number for all.
-Function coefficients_of(const py::function& h)
+contactx::law::Function coefficients_of(const py::function& h)
 {
   return [h](std::span<const double> p, std::span<const double> gap)
   {
@@ -42,15 +42,15 @@ void contactx_bindings::conductance(py::module_& m)
 {
   m.def("check_obstacle_value", &check_obstacle_value,
         py::arg("obstacle_value"), py::arg("is_rigid"));
-  py::class_<Coefficient>(m, "Coefficient",
+  py::class_<contactx::law::Coefficient>(m, "Coefficient",
                           "Coefficient of the flow across a contact")
       .def(py::init([](const py::function& h)
-                    { return Coefficient(coefficients_of(h)); }),
+                    { return contactx::law::Coefficient(coefficients_of(h)); }),
            py::arg("coefficient"))
       .def(py::init<double>(), py::arg("coefficient"));
   py::class_<Conductance>(m, "Conductance", "Flow of a field across a contact")
       .def(py::init<std::shared_ptr<Contact>, std::shared_ptr<Results>,
-                    Coefficient, std::optional<double>>(),
+                    contactx::law::Coefficient, std::optional<double>>(),
            py::arg("contact"), py::arg("results"), py::arg("coefficient"),
            py::arg("obstacle_value"))
       .def(

@@ -4,20 +4,20 @@
 #include "master.h"
 #include "parallel.h"
 #include <contactx/contact/contact_state.h>
-#include <contactx/contact/transfer.h>
 #include <contactx/problem/make_contact.h>
+#include <contactx/results/transfer.h>
 #include <pybind11/stl.h>
 
 namespace py = pybind11;
 using namespace contactx_bindings;
 using namespace contactx::contact;
+using contactx::geometry::Obstacle;
 using contactx::law::Law;
-using contactx::obstacle::Obstacle;
-using contactx::parallel::Halo;
+using contactx::mesh::Halo;
+using contactx::mesh::Mesh;
 using contactx::problem::ContactOptions;
 using contactx::problem::make_contact;
 using contactx::problem::Sides;
-using contactx::reference::Mesh;
 
 namespace
 {
@@ -26,7 +26,7 @@ using Surface
     = std::tuple<std::string, Array<std::int32_t>, Array<std::int32_t>>;
 
 /// The surface as the core has it, which looks at the arrays.
-contactx::reference::NamedSurface named(const Surface& surface)
+contactx::mesh::NamedSurface named(const Surface& surface)
 {
   const auto& [name, offsets, nodes] = surface;
   return {name, {view(offsets), view(nodes)}};
@@ -180,11 +180,11 @@ void contactx_bindings::contact(py::module_& m)
           "add_residual", [](const Contact& self, Array<double>& b)
           { self.add_residual(mutable_view(b)); }, py::arg("b").noconvert());
 
-  py::class_<Transfer>(m, "Transfer",
+  py::class_<contactx::results::Transfer>(m, "Transfer",
                        "Scalar fields on both sides of a contact")
       .def(py::init<const Contact&>(), py::arg("contact"),
            py::keep_alive<1, 2>())
       .def(
-          "differences", [](const Transfer& self, const Array<double>& field)
+          "differences", [](const contactx::results::Transfer& self, const Array<double>& field)
           { return array(self.differences(view(field))); }, py::arg("field"));
 }

@@ -3,15 +3,15 @@
 
 #include "bindings.h"
 #include "bulk.h"
-#include <contactx/dynamics/time_step.h>
+#include <contactx/problem/time_step.h>
 #include <pybind11/stl.h>
 
 namespace py = pybind11;
 using namespace contactx_bindings;
-using namespace contactx::dynamics;
-using contactx::newton::System;
+using namespace contactx::problem;
 using contactx::problem::Problem;
 using contactx::results::Results;
+using contactx::solve::System;
 
 namespace
 {

@@ -4,8 +4,8 @@
 #include "bindings.h"
 #include "check.h"
 #include <algorithm>
-#include <contactx/facet/nodal.h>
-#include <contactx/facet/shape.h>
+#include <contactx/geometry/nodal.h>
+#include <contactx/geometry/shape.h>
 
 namespace py = pybind11;
 using namespace contactx_bindings;
@@ -18,8 +18,8 @@ void contactx_bindings::facet(py::module_& m)
          const Array<double>& x, int gdim)
       {
         check::surface(view(offsets), view(nodes), x.size(), gdim);
-        return array(contactx::facet::nodal_areas({view(offsets), view(nodes)},
-                                                  view(x), gdim));
+        return array(contactx::geometry::nodal_areas(
+            {view(offsets), view(nodes)}, view(x), gdim));
       },
       py::arg("offsets"), py::arg("nodes"), py::arg("x"), py::arg("gdim"),
       "Integral of each node's shape function over a surface");
@@ -29,7 +29,7 @@ void contactx_bindings::facet(py::module_& m)
          const Array<double>& x, int gdim)
       {
         check::surface(view(offsets), view(nodes), x.size(), gdim);
-        const auto n = contactx::facet::nodal_normals(
+        const auto n = contactx::geometry::nodal_normals(
             {view(offsets), view(nodes)}, view(x), gdim);
         return array(n, {static_cast<py::ssize_t>(n.size()) / gdim, gdim});
       },
@@ -43,13 +43,13 @@ void contactx_bindings::facet(py::module_& m)
         const py::ssize_t n = xi.size() / 2;
         check::rows(xi.size(), n, 2, "xi", "point");
         py::array_t<double> values({n, static_cast<py::ssize_t>(num_nodes)});
-        contactx::facet::visit(
+        contactx::geometry::visit(
             num_nodes,
             [&values, &xi, n]<class F>(F)
             {
               for (py::ssize_t i = 0; i < n; ++i)
               {
-                contactx::facet::Local<F> at;
+                contactx::geometry::Local<F> at;
                 std::copy_n(xi.data() + 2 * i, F::tdim, at.begin());
                 const auto N = F::shape(at);
                 std::copy(N.begin(), N.end(),

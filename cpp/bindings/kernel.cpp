@@ -40,21 +40,21 @@ void check_sizes(int num_nodes, int gdim, int num_slaves)
 
 void contactx_bindings::kernel(py::module_& m)
 {
-  using kernel::Site;
-  using Pair = kernel::FacetPair;
+  using contactx::kernel::Site;
+  using Pair = contactx::kernel::FacetPair;
   const auto place = [](std::size_t bytes) { return bytes / sizeof(double); };
   m.attr("pair_layout")
       = py::dict(py::arg("feature") = place(offsetof(Pair, feature)),
                  py::arg("xi") = place(offsetof(Pair, xi)),
                  py::arg("cone") = place(offsetof(Pair, cone)),
                  py::arg("normal") = place(offsetof(Pair, normal)),
-                 py::arg("size") = kernel::num_values<Pair>);
+                 py::arg("size") = contactx::kernel::num_values<Pair>);
   m.def(
       "mortar_layout",
       [](int num_slaves, int num_nodes)
       {
         check_sizes(num_nodes, 3, num_slaves);
-        const kernel::MortarLayout at(num_slaves, num_nodes);
+        const contactx::kernel::MortarLayout at(num_slaves, num_nodes);
         return py::dict(py::arg("weight") = at.weight,
                         py::arg("dual") = at.dual, py::arg("gap") = at.gap,
                         py::arg("normal") = at.normal,
@@ -67,7 +67,7 @@ void contactx_bindings::kernel(py::module_& m)
       [](int num_slaves, int gdim)
       {
         check_sizes(0, gdim, num_slaves);
-        const kernel::RigidMortarLayout at(num_slaves, gdim);
+        const contactx::kernel::RigidMortarLayout at(num_slaves, gdim);
         return py::dict(
             py::arg("area") = at.area, py::arg("gap") = at.gap,
             py::arg("gradient") = at.gradient, py::arg("normal") = at.normal,
@@ -81,8 +81,8 @@ void contactx_bindings::kernel(py::module_& m)
       {
         check_sizes(num_nodes, gdim, num_slaves);
         py::list table;
-        for (const kernel::CoefficientInfo& c :
-             kernel::coefficients(law_named(law), num_nodes, gdim, num_slaves))
+        for (const contactx::kernel::CoefficientInfo& c :
+             contactx::kernel::coefficients(law_named(law), num_nodes, gdim, num_slaves))
         {
           if (c.size == 0)
             continue;
@@ -102,7 +102,7 @@ void contactx_bindings::kernel(py::module_& m)
          int gdim, int num_slaves)
       {
         py::list terms;
-        for (const kernel::Entry& e : kernel::registry())
+        for (const contactx::kernel::Entry& e : contactx::kernel::registry())
           if (e.law == law_named(law) and e.sliding == sliding
               and e.num_nodes == num_nodes and e.gdim == gdim
               and e.num_slaves == num_slaves)
@@ -116,10 +116,10 @@ void contactx_bindings::kernel(py::module_& m)
       [](const std::string& law, const std::string& sliding,
          const std::string& term, int num_nodes, int gdim, int num_slaves)
       {
-        const kernel::Entry& e = kernel::find(law_named(law), sliding, term,
+        const contactx::kernel::Entry& e = contactx::kernel::find(law_named(law), sliding, term,
                                               num_nodes, gdim, num_slaves);
         const auto table
-            = kernel::coefficients(e.law, num_nodes, gdim, num_slaves);
+            = contactx::kernel::coefficients(e.law, num_nodes, gdim, num_slaves);
         Array<std::int8_t> active(e.active.size());
         for (std::size_t i = 0; i < e.active.size(); ++i)
         {
@@ -127,7 +127,7 @@ void contactx_bindings::kernel(py::module_& m)
           const auto c = static_cast<std::int8_t>(e.active[i]);
           active.mutable_at(i)
               = std::count_if(table.begin(), table.begin() + c,
-                              [](const kernel::CoefficientInfo& info)
+                              [](const contactx::kernel::CoefficientInfo& info)
                               { return info.size > 0; });
         }
         return py::make_tuple(reinterpret_cast<std::uintptr_t>(e.function),

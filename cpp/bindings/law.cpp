@@ -9,8 +9,8 @@
 namespace py = pybind11;
 using namespace contactx_bindings;
 using namespace contactx::law;
-using contactx::contact::NodeState;
-using contactx::parallel::NodeMap;
+using contactx::law::NodeState;
+using contactx::mesh::NodeMap;
 
 BoundFunction contactx_bindings::bound_of(const py::function& bound)
 {

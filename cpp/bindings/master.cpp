@@ -27,7 +27,7 @@ std::vector<T> values_of(const py::array& a)
 }
 
 /// Pairs with copies of the arrays, which say by their shapes what they are.
-Pairs pairs_of(const Array<std::int32_t>& slaves,
+contactx::kernel::Pairs pairs_of(const Array<std::int32_t>& slaves,
                const Array<std::int32_t>& nodes, const Array<double>& data,
                const std::optional<Array<double>>& slip, bool is_movement)
 {
@@ -45,7 +45,7 @@ Pairs pairs_of(const Array<std::int32_t>& slaves,
     check(*slip, "slip");
   if (nodes.shape(1) < slaves.shape(1))
     throw std::invalid_argument("nodes must begin with the slave nodes");
-  Pairs p;
+  contactx::kernel::Pairs p;
   p.num_slaves = static_cast<int>(slaves.shape(1));
   p.num_nodes = static_cast<int>(nodes.shape(1) - slaves.shape(1));
   p.data_size = static_cast<int>(data.shape(1));
@@ -120,15 +120,16 @@ std::vector<Saved> contactx_bindings::from_dict(const py::dict& saved)
   return result;
 }
 
-py::list contactx_bindings::to_list(std::vector<Pairs> pairs)
+py::list contactx_bindings::to_list(std::vector<contactx::kernel::Pairs> pairs)
 {
   py::list result;
-  for (Pairs& p : pairs)
-    result.append(std::make_shared<Pairs>(std::move(p)));
+  for (contactx::kernel::Pairs& p : pairs)
+    result.append(std::make_shared<contactx::kernel::Pairs>(std::move(p)));
   return result;
 }
 
-py::tuple contactx_bindings::to_tuple(const contactx::facet::FacetList& facets)
+py::tuple
+contactx_bindings::to_tuple(const contactx::geometry::FacetList& facets)
 {
   const auto copied = [](std::span<const std::int32_t> values)
   { return array(std::vector<std::int32_t>(values.begin(), values.end())); };
@@ -150,7 +151,7 @@ contactx_bindings::to_bool(const std::vector<std::int8_t>& values)
 
 void contactx_bindings::master(py::module_& m)
 {
-  py::class_<Pairs, std::shared_ptr<Pairs>>(
+  py::class_<contactx::kernel::Pairs, std::shared_ptr<contactx::kernel::Pairs>>(
       m, "Pairs", "Pairs with master facets of one kind")
       .def(py::init(&pairs_of), py::arg("slaves"), py::arg("nodes"),
            py::arg("data"), py::arg("slip") = py::none(), py::kw_only(),
@@ -159,7 +160,7 @@ void contactx_bindings::master(py::module_& m)
           "slaves",
           [](py::object self)
           {
-            const auto& p = self.cast<const Pairs&>();
+            const auto& p = self.cast<const contactx::kernel::Pairs&>();
             return looking(p.slaves,
                            {static_cast<py::ssize_t>(p.size()), p.num_slaves},
                            self);
@@ -167,7 +168,7 @@ void contactx_bindings::master(py::module_& m)
       .def_property_readonly("nodes",
                              [](py::object self)
                              {
-                               const auto& p = self.cast<const Pairs&>();
+                               const auto& p = self.cast<const contactx::kernel::Pairs&>();
                                return looking(
                                    p.nodes,
                                    {static_cast<py::ssize_t>(p.size()),
@@ -178,7 +179,7 @@ void contactx_bindings::master(py::module_& m)
           "data",
           [](py::object self)
           {
-            const auto& p = self.cast<const Pairs&>();
+            const auto& p = self.cast<const contactx::kernel::Pairs&>();
             return looking(p.data,
                            {static_cast<py::ssize_t>(p.size()), p.data_size},
                            self);
@@ -187,7 +188,7 @@ void contactx_bindings::master(py::module_& m)
           "slip",
           [](py::object self) -> py::object
           {
-            const auto& p = self.cast<const Pairs&>();
+            const auto& p = self.cast<const contactx::kernel::Pairs&>();
             if (p.slip_size == 0)
               return py::none();
             return looking(p.slip,
@@ -199,7 +200,7 @@ void contactx_bindings::master(py::module_& m)
                              {
                                using namespace contactx::kernel;
                                const std::size_t at
-                                   = (self.cast<const Pairs&>().num_nodes == 0
+                                   = (self.cast<const contactx::kernel::Pairs&>().num_nodes == 0
                                           ? offsetof(ObstaclePair, normal)
                                           : offsetof(FacetPair, normal))
                                      / sizeof(double);
@@ -207,16 +208,16 @@ void contactx_bindings::master(py::module_& m)
                                return data[py::make_tuple(
                                    py::ellipsis(), py::slice(at, at + 3, 1))];
                              })
-      .def_readonly("num_nodes", &Pairs::num_nodes)
-      .def_readonly("is_movement", &Pairs::is_movement)
-      .def("same", &Pairs::same, py::arg("other"));
-  py::class_<Weights>(m, "Weights", "Relative movement of slave nodes")
+      .def_readonly("num_nodes", &contactx::kernel::Pairs::num_nodes)
+      .def_readonly("is_movement", &contactx::kernel::Pairs::is_movement)
+      .def("same", &contactx::kernel::Pairs::same, py::arg("other"));
+  py::class_<contactx::kernel::Weights>(m, "Weights", "Relative movement of slave nodes")
       .def_property_readonly("slaves",
-                             [](const Weights& w) { return array(w.slaves); })
+                             [](const contactx::kernel::Weights& w) { return array(w.slaves); })
       .def_property_readonly("nodes",
-                             [](const Weights& w) { return array(w.nodes); })
+                             [](const contactx::kernel::Weights& w) { return array(w.nodes); })
       .def_property_readonly("values",
-                             [](const Weights& w) { return array(w.values); });
+                             [](const contactx::kernel::Weights& w) { return array(w.values); });
   py::class_<Master, std::shared_ptr<Master>>(
       m, "Master", "Pairs of the slave nodes of a contact with its master")
       .def_property_readonly("reach", &Master::reach)

@@ -5,7 +5,7 @@
 
 #include "bindings.h"
 #include <contactx/contact/master.h>
-#include <contactx/facet/nodal.h>
+#include <contactx/geometry/nodal.h>
 #include <contactx/law/law.h>
 #include <memory>
 
@@ -30,10 +30,10 @@ std::vector<contactx::contact::Saved> from_dict(const py::dict& saved);
 py::dict rows_of(const std::vector<contactx::contact::Saved>& saved);
 
 /// @brief Pairs as a list of Python.
-py::list to_list(std::vector<contactx::contact::Pairs> pairs);
+py::list to_list(std::vector<contactx::kernel::Pairs> pairs);
 
 /// @brief Facets as offsets and nodes.
-py::tuple to_tuple(const contactx::facet::FacetList& facets);
+py::tuple to_tuple(const contactx::geometry::FacetList& facets);
 
 /// @brief Bound of friction that a function of Python gives: of arrays of
 /// pressures and lengths of slip, three arrays.

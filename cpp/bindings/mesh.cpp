@@ -3,9 +3,9 @@
 
 #include "bindings.h"
 #include "parallel.h"
+#include <contactx/mesh/degenerate.h>
 #include <contactx/mesh/nodes.h>
-#include <contactx/reference/degenerate.h>
-#include <contactx/reference/straight.h>
+#include <contactx/mesh/straight.h>
 #include <pybind11/stl.h>
 #include <stdexcept>
 
@@ -13,7 +13,7 @@ namespace py = pybind11;
 using namespace contactx_bindings;
 using contactx::mesh::cell_type;
 using contactx::mesh::Cells;
-using contactx::parallel::Halo;
+using contactx::mesh::Halo;
 
 namespace
 {
@@ -120,9 +120,9 @@ void contactx_bindings::mesh(py::module_& m)
          const contactx::mesh::Geometry& geometry, const Array<double>& points,
          const Array<std::int32_t>& of, const Array<std::int32_t>& local)
       {
-        contactx::reference::check_straight(
-            halo.ranks(), name, cells_of(cell, degree, nodes), geometry,
-            view(points), view(of), view(local));
+        contactx::mesh::check_straight(halo.ranks(), name,
+                                       cells_of(cell, degree, nodes), geometry,
+                                       view(points), view(of), view(local));
       },
       py::arg("halo"), py::arg("name"), py::arg("cell"), py::arg("degree"),
       py::arg("nodes"), py::arg("geometry"), py::arg("points"), py::arg("of"),
@@ -133,8 +133,8 @@ void contactx_bindings::mesh(py::module_& m)
          const contactx::mesh::Geometry& geometry, std::int32_t num_owned,
          const Array<std::int64_t>& original)
       {
-        contactx::reference::check_cells(halo.ranks(), cell_type(cell),
-                                         geometry, num_owned, view(original));
+        contactx::mesh::check_cells(halo.ranks(), cell_type(cell), geometry,
+                                    num_owned, view(original));
       },
       py::arg("halo"), py::arg("cell"), py::arg("geometry"),
       py::arg("num_owned"), py::arg("original"),

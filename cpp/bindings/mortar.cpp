@@ -3,12 +3,12 @@
 
 #include "bindings.h"
 #include "check.h"
-#include <contactx/mortar/facet_search.h>
+#include <contactx/search/facet_search.h>
 
 namespace py = pybind11;
 using namespace contactx_bindings;
-using contactx::mortar::FacetPairs;
-using contactx::mortar::FacetSearch;
+using contactx::geometry::FacetPairs;
+using contactx::search::FacetSearch;
 
 void contactx_bindings::mortar(py::module_& m)
 {
@@ -60,7 +60,7 @@ void contactx_bindings::mortar(py::module_& m)
                            "master facets");
             if (normal.size() > 0)
               check::rows(normal.size(), slaves, 3, "normal", "slave facet");
-            const auto all = contactx::mortar::integrals(
+            const auto all = contactx::geometry::integrals(
                 self.slave(), self.master(), pairs, view(x), view(reference),
                 self.gdim(), view(normal));
             const auto shaped =

@@ -3,23 +3,23 @@
 
 #include "bulk.h"
 #include "master.h"
-#include <contactx/newton/accuracy.h>
-#include <contactx/newton/derivative_check.h>
-#include <contactx/newton/loop.h>
-#include <contactx/newton/not_finite.h>
-#include <contactx/newton/softness.h>
+#include <contactx/solve/accuracy.h>
+#include <contactx/solve/derivative_check.h>
+#include <contactx/solve/loop.h>
+#include <contactx/solve/not_finite.h>
+#include <contactx/solve/softness.h>
 #include <pybind11/functional.h>
 #include <pybind11/stl.h>
 
 namespace py = pybind11;
 using namespace contactx_bindings;
-using namespace contactx::newton;
-using contactx::active_set::ActiveSet;
-using contactx::active_set::FreeBodies;
-using contactx::active_set::StepLength;
+using namespace contactx::solve;
 using contactx::condense::ContactBlock;
-using contactx::contact::Bodies;
-using contactx::parallel::Halo;
+using contactx::mesh::Bodies;
+using contactx::mesh::Halo;
+using contactx::solve::ActiveSet;
+using contactx::solve::FreeBodies;
+using contactx::solve::StepLength;
 
 void contactx_bindings::newton(py::module_& m)
 {

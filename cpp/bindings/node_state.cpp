@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "master.h"
-#include <contactx/contact/node_state.h>
-#include <contactx/contact/slip_history.h>
+#include <contactx/law/node_state.h>
+#include <contactx/law/slip_history.h>
 
 namespace py = pybind11;
 using namespace contactx_bindings;
-using contactx::contact::NodeState;
-using contactx::contact::SlipHistory;
-using contactx::parallel::NodeMap;
+using contactx::law::NodeState;
+using contactx::law::SlipHistory;
+using contactx::mesh::NodeMap;
 
 namespace
 {
@@ -176,7 +176,7 @@ void contactx_bindings::node_state(py::module_& m)
       [](const NodeMap& nodes, const Array<double>& x)
       {
         const int gdim = x.ndim() == 2 ? static_cast<int>(x.shape(1)) : 0;
-        return contactx::contact::touching_gap(nodes.ranks(), view(x), gdim);
+        return contactx::law::touching_gap(nodes.ranks(), view(x), gdim);
       },
       py::arg("nodes"), py::arg("x"),
       "Gap up to which nodes touch but for rounding");

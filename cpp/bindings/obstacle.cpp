@@ -6,17 +6,17 @@
 #include "master.h"
 #include <contactx/contact/mortar_obstacle.h>
 #include <contactx/contact/obstacle_tie.h>
-#include <contactx/obstacle/cylinder.h>
-#include <contactx/obstacle/level_set.h>
-#include <contactx/obstacle/plane.h>
-#include <contactx/obstacle/sphere.h>
+#include <contactx/geometry/cylinder.h>
+#include <contactx/geometry/level_set.h>
+#include <contactx/geometry/plane.h>
+#include <contactx/geometry/sphere.h>
 #include <pybind11/functional.h>
 #include <pybind11/stl.h>
 
 namespace py = pybind11;
 using namespace contactx_bindings;
 using namespace contactx::contact;
-using namespace contactx::obstacle;
+using namespace contactx::geometry;
 
 namespace
 {

@@ -9,7 +9,7 @@
 
 namespace py = pybind11;
 using namespace contactx_bindings;
-using namespace contactx::parallel;
+using namespace contactx::mesh;
 
 namespace
 {

@@ -3,14 +3,14 @@
 
 #pragma once
 
-#include <contactx/parallel/halo.h>
+#include <contactx/mesh/halo.h>
 #include <pybind11/pybind11.h>
 
 namespace contactx_bindings
 {
 /// @brief Halo whose adapter is an object of Python, with the methods that
 /// contactx/parallel/adapter.py describes. The object is kept alive.
-class PythonNodes final : public contactx::parallel::Halo
+class PythonNodes final : public contactx::mesh::Halo
 {
 public:
   explicit PythonNodes(const pybind11::object& adapter);

@@ -2,18 +2,18 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "bindings.h"
-#include <contactx/newton/not_finite.h>
 #include <contactx/problem/problem.h>
 #include <contactx/problem/step_plan.h>
+#include <contactx/solve/not_finite.h>
 #include <pybind11/functional.h>
 #include <pybind11/stl.h>
 
 namespace py = pybind11;
 using namespace contactx_bindings;
 using namespace contactx::problem;
-using contactx::contact::Bodies;
-using contactx::newton::System;
+using contactx::mesh::Bodies;
 using contactx::results::Results;
+using contactx::solve::System;
 
 namespace
 {

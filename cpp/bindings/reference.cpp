@@ -3,9 +3,9 @@
 
 #include "master.h"
 #include "parallel.h"
-#include <contactx/reference/facing.h>
-#include <contactx/reference/shared_nodes.h>
-#include <contactx/reference/sides.h>
+#include <contactx/mesh/shared_nodes.h>
+#include <contactx/problem/check_facing.h>
+#include <contactx/problem/sides.h>
 #include <contactx/text.h>
 #include <pybind11/stl.h>
 #include <stdexcept>
@@ -13,16 +13,16 @@
 namespace py = pybind11;
 using namespace contactx_bindings;
 using namespace contactx::contact;
-using namespace contactx::reference;
+using namespace contactx::problem;
+using contactx::geometry::Obstacle;
 using contactx::law::Law;
-using contactx::obstacle::Obstacle;
-using contactx::parallel::Halo;
+using contactx::mesh::Halo;
 
 namespace
 {
 /// Offsets and nodes, as Python's FacetList has them.
-contactx::facet::FacetList facets_of(const Array<std::int32_t>& offsets,
-                                     const Array<std::int32_t>& nodes)
+contactx::geometry::FacetList facets_of(const Array<std::int32_t>& offsets,
+                                        const Array<std::int32_t>& nodes)
 {
   return {view(offsets), view(nodes)};
 }
@@ -35,15 +35,15 @@ void contactx_bindings::reference(py::module_& m)
       { return contactx::point_text(view(x), size); }, py::arg("x"),
       py::arg("size"), "Coordinates of a point in six digits");
   // It looks at the cells
-  py::class_<Mesh>(m, "ReferenceMesh", "The mesh of the bulk on this rank")
+  py::class_<contactx::mesh::Mesh>(m, "ReferenceMesh", "The mesh of the bulk on this rank")
       .def(py::init(
-               [](std::shared_ptr<Halo> halo, std::shared_ptr<Bodies> bodies,
+               [](std::shared_ptr<Halo> halo, std::shared_ptr<contactx::mesh::Bodies> bodies,
                   const Array<std::int32_t>& cells)
                {
                  if (cells.ndim() != 2)
                    throw std::invalid_argument(
                        "cells must have a row for each cell");
-                 return Mesh{std::move(halo), std::move(bodies), view(cells),
+                 return contactx::mesh::Mesh{std::move(halo), std::move(bodies), view(cells),
                              static_cast<int>(cells.shape(1))};
                }),
            py::arg("halo"), py::arg("bodies"), py::arg("cells").noconvert(),
@@ -72,7 +72,7 @@ void contactx_bindings::reference(py::module_& m)
            py::arg("is_smooth") = false);
   m.def(
       "make_surface_master",
-      [](const Mesh& mesh, const std::shared_ptr<SlaveNodes>& slaves,
+      [](const contactx::mesh::Mesh& mesh, const std::shared_ptr<SlaveNodes>& slaves,
          const std::string& slave, const Array<std::int32_t>& offsets,
          const Array<std::int32_t>& nodes, const std::string& master,
          const Law& law, const MasterOptions& options)
@@ -86,7 +86,7 @@ void contactx_bindings::reference(py::module_& m)
   // A subclass in Python must outlive who calls its methods
   m.def(
       "make_obstacle_master",
-      [](const Mesh& mesh, const std::shared_ptr<SlaveNodes>& slaves,
+      [](const contactx::mesh::Mesh& mesh, const std::shared_ptr<SlaveNodes>& slaves,
          const std::string& slave, const std::shared_ptr<Obstacle>& obstacle,
          const Law& law, const MasterOptions& options)
       { return make_master(mesh, slaves, slave, obstacle, law, options); },
@@ -99,7 +99,7 @@ void contactx_bindings::reference(py::module_& m)
          const Array<std::int32_t>& offsets, const Array<std::int32_t>& nodes)
       {
         return to_bool(
-            shared_nodes(halo, slaves.own(), facets_of(offsets, nodes)));
+            contactx::mesh::shared_nodes(halo, slaves.own(), facets_of(offsets, nodes)));
       },
       py::arg("halo"), py::arg("slaves"), py::arg("offsets"), py::arg("nodes"),
       "Which nodes slave and master have");

@@ -113,7 +113,7 @@ std::int32_t settle(Pairing& self, std::span<const std::int32_t> which,
 
 void contactx_bindings::search(py::module_& m)
 {
-  m.attr("margin") = contactx::search::margin;
+  m.attr("margin") = contactx::geometry::facet_margin;
   py::class_<Finder>(m, "Finder",
                      "Finds the place of a master surface that points are in "
                      "contact with")

@@ -3,14 +3,14 @@
 
 #include "master.h"
 #include "parallel.h"
-#include <contactx/contact/recovery.h>
-#include <contactx/reference/sides.h>
+#include <contactx/problem/sides.h>
+#include <contactx/results/recovery.h>
 
 namespace py = pybind11;
 using namespace contactx_bindings;
 using namespace contactx::contact;
-using contactx::parallel::Halo;
-using contactx::parallel::NodeMap;
+using contactx::mesh::Halo;
+using contactx::mesh::NodeMap;
 
 namespace
 {
@@ -35,7 +35,7 @@ void contactx_bindings::slave_nodes(py::module_& m)
                  const Array<std::int32_t>& nodes,
                  const Array<std::int8_t>& level, bool is_mortar, bool is_rigid)
               {
-                return contactx::reference::make_slave_nodes(
+                return contactx::problem::make_slave_nodes(
                     halo, {view(offsets), view(nodes)}, view(level),
                     is_mortar ? Method::surface_to_surface
                               : Method::node_to_surface,
@@ -81,18 +81,18 @@ void contactx_bindings::slave_nodes(py::module_& m)
       .def(
           "sums", [](const SlaveNodes& self, const Array<double>& corners)
           { return array(self.sums(view(corners))); }, py::arg("corners"));
-  py::class_<Recovery>(m, "Recovery",
+  py::class_<contactx::results::Recovery>(m, "Recovery",
                        "Nodal tractions that scatter less than multipliers")
       .def(py::init(
                [](std::shared_ptr<SlaveNodes> slaves, const Array<double>& x)
                {
-                 return std::make_unique<Recovery>(std::move(slaves), view(x),
+                 return std::make_unique<contactx::results::Recovery>(std::move(slaves), view(x),
                                                    width_of(x));
                }),
            py::arg("slaves"), py::arg("x"))
       .def(
           "pressure",
-          [](const Recovery& self, const Array<double>& p,
+          [](const contactx::results::Recovery& self, const Array<double>& p,
              const Array<double>& area, const Array<bool>& closed)
           { return array(self.pressure(view(p), view(area), truths(closed))); },
           py::arg("p"), py::arg("area"), py::arg("closed"));

@@ -5,9 +5,9 @@
 
 #include "contact.h"
 #include "jacobian.h"
-#include <contactx/newton/not_finite.h>
+#include <contactx/mesh/degenerate.h>
 #include <contactx/problem/problem.h>
-#include <contactx/reference/degenerate.h>
+#include <contactx/solve/not_finite.h>
 #include <petscksp.h>
 
 /// @brief Contact beside the forms of DOLFINx 0.11, compiled in the program
@@ -116,19 +116,18 @@ public:
 
     auto adapter = std::make_unique<HaloAdapter>(_u);
     _adapter = adapter.get();
-    parallel::BulkNodes nodes = adapter->bulk_nodes();
-    _halo = std::make_shared<parallel::Halo>(std::move(nodes),
-                                             std::move(adapter));
+    mesh::BulkNodes nodes = adapter->bulk_nodes();
+    _halo = std::make_shared<mesh::Halo>(std::move(nodes), std::move(adapter));
     _bulk = std::make_shared<Bulk>(blocks, unknowns, std::move(bcs), _halo,
                                    *_adapter);
     check(conductances);
-    const auto bodies = std::make_shared<contact::Bodies>(
+    const auto bodies = std::make_shared<mesh::Bodies>(
         _bulk->all_cells(), _bulk->nodes_per_cell(), _bulk->num_owned_cells(),
         _halo->original().first(_halo->num_bulk()), _halo);
     std::size_t count = 0;
     try
     {
-      newton::System::Contacts discrete;
+      solve::System::Contacts discrete;
       std::vector<problem::Part> parts;
       for (; count < _contacts.size(); ++count)
       {
@@ -145,7 +144,7 @@ public:
         conductance->check();
       _bulk->follow(std::move(conductances));
       _system
-          = std::make_shared<newton::System>(_halo, _bulk, std::move(discrete));
+          = std::make_shared<solve::System>(_halo, _bulk, std::move(discrete));
       _problem = std::make_unique<problem::Problem>(
           _system, bodies, std::move(parts), audit == Audit::refuse);
       _jacobian = std::make_unique<Jacobian>(_system, _bulk);
@@ -263,7 +262,7 @@ public:
     {
       _problem->begin_step();
     }
-    catch (const newton::NotFinite& error)
+    catch (const solve::NotFinite& error)
     {
       throw ConvergenceError(error.what());
     }
@@ -293,7 +292,7 @@ public:
     _bulk->read();
     const auto u = _bulk->displacements();
     state.displacements.assign(u.begin(), u.end());
-    if (newton::Fields* fields = _bulk->fields())
+    if (solve::Fields* fields = _bulk->fields())
     {
       const auto values = fields->values();
       state.fields.assign(values.begin(), values.end());
@@ -398,10 +397,10 @@ public:
   problem::Problem& problem() { return *_problem; }
 
   /// @brief The core's loop.
-  const newton::Loop& loop() const { return _problem->loop(); }
+  const solve::Loop& loop() const { return _problem->loop(); }
 
   /// @brief The core's system.
-  const std::shared_ptr<newton::System>& system() const { return _system; }
+  const std::shared_ptr<solve::System>& system() const { return _system; }
 
   /// @brief The bulk.
   const std::shared_ptr<Bulk>& bulk() const { return _bulk; }
@@ -447,10 +446,9 @@ private:
   {
     const FunctionSpace& V = *_u->function_space();
     const auto& topology = *V.mesh()->topology();
-    reference::check_cells(_halo->ranks(), cells_of(V).type,
-                           geometry_of(*V.mesh()),
-                           topology.index_map(topology.dim())->size_local(),
-                           original_cells(*V.mesh()));
+    mesh::check_cells(_halo->ranks(), cells_of(V).type, geometry_of(*V.mesh()),
+                      topology.index_map(topology.dim())->size_local(),
+                      original_cells(*V.mesh()));
   }
 
   MPI_Comm comm() const { return _u->function_space()->mesh()->comm(); }
@@ -471,11 +469,11 @@ private:
 
   std::shared_ptr<Function> _u;
   std::vector<std::shared_ptr<Contact>> _contacts;
-  std::shared_ptr<parallel::Halo> _halo;
+  std::shared_ptr<mesh::Halo> _halo;
   // The halo has it
   HaloAdapter* _adapter = nullptr;
   std::shared_ptr<Bulk> _bulk;
-  std::shared_ptr<newton::System> _system;
+  std::shared_ptr<solve::System> _system;
   std::unique_ptr<problem::Problem> _problem;
   std::unique_ptr<Jacobian> _jacobian;
   std::unique_ptr<petsc::OwnVec> _x;
@@ -508,7 +506,7 @@ public:
     KSPConvergedReason reason{};
     petsc::check(KSPGetConvergedReason(_ksp, &reason), "KSPGetConvergedReason");
     if (reason < 0)
-      throw newton::NotFinite(
+      throw solve::NotFinite(
           "the linear solver failed: is a body free to move without touching "
           "anything? Support it; with a Krylov solver of your own try pc_type "
           "lu (manual: errors/linear-solver-failed)");

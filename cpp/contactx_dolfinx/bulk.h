@@ -9,8 +9,8 @@
 #include "petsc.h"
 #include "unknowns.h"
 #include <cmath>
-#include <contactx/newton/bulk.h>
-#include <contactx/newton/not_finite.h>
+#include <contactx/solve/bulk.h>
+#include <contactx/solve/not_finite.h>
 #include <dolfinx/fem/DirichletBC.h>
 #include <dolfinx/fem/Form.h>
 #include <dolfinx/fem/assembler.h>
@@ -23,7 +23,7 @@ namespace contactx::dolfinx
 {
 /// @brief Bodies without contact: forms of DOLFINx, as the core's Newton loop
 /// sees them. Besides the displacement there may be other fields.
-class Bulk final : public newton::Bulk
+class Bulk final : public solve::Bulk
 {
 public:
   /// @brief Take the forms.
@@ -34,7 +34,7 @@ public:
   /// @param[in] adapter What that one asks; it lives as long as the halo.
   Bulk(const Blocks& blocks, std::shared_ptr<Unknowns> unknowns,
        std::vector<std::shared_ptr<const DirichletBC>> bcs,
-       std::shared_ptr<parallel::Halo> halo, HaloAdapter& adapter)
+       std::shared_ptr<mesh::Halo> halo, HaloAdapter& adapter)
       : _F(blocks.F), _J(blocks.J), _unknowns(std::move(unknowns)),
         _u(_unknowns->u()), _bcs(std::move(bcs)), _halo(std::move(halo)),
         _adapter(&adapter),
@@ -72,7 +72,7 @@ public:
     update_ghosts();
   }
 
-  /// @copydoc newton::Bulk::has_own_jacobian
+  /// @copydoc solve::Bulk::has_own_jacobian
   ///
   /// A program always gives it.
   bool has_own_jacobian() const override { return true; }
@@ -86,7 +86,7 @@ public:
     return _unknowns->functions();
   }
 
-  newton::Fields* fields() override { return _fields ? &*_fields : nullptr; }
+  solve::Fields* fields() override { return _fields ? &*_fields : nullptr; }
 
   /// @brief Take the conductances across contacts, whose flows are added to the
   /// residuals of their fields.
@@ -256,7 +256,7 @@ public:
     return _cell_sizes = std::move(sizes);
   }
 
-  /// @copydoc newton::Bulk::cell_forces
+  /// @copydoc solve::Bulk::cell_forces
   ///
   /// Terms are the integrals of the residual, see CellForces.
   std::span<const double> cell_forces() override
@@ -281,7 +281,7 @@ public:
 
   /// @brief Assemble the Jacobian anew where a coefficient or a constant of its
   /// forms has changed: that of a linear bulk once. All ranks must take part.
-  /// @throws newton::NotFinite on all ranks if it is not finite.
+  /// @throws solve::NotFinite on all ranks if it is not finite.
   void assemble()
   {
     std::vector<double> with;
@@ -295,8 +295,8 @@ public:
                         c->x()->array().end());
         });
     // NaN is unlike itself
-    if (parallel::everywhere(_halo->ranks(),
-                             _assembled_with and *_assembled_with == with))
+    if (mesh::everywhere(_halo->ranks(),
+                         _assembled_with and *_assembled_with == with))
       return;
     _assembled_with.reset();
     if (_blocks.empty())
@@ -333,7 +333,7 @@ public:
 
 private:
   /// The fields beside the displacement.
-  class Fields final : public newton::Fields
+  class Fields final : public solve::Fields
   {
   public:
     explicit Fields(Bulk& bulk) : _bulk(&bulk)
@@ -534,14 +534,14 @@ private:
     PetscReal norm = 0;
     petsc::check(MatNorm(A, NORM_FROBENIUS, &norm), "MatNorm");
     if (not std::isfinite(norm))
-      throw newton::NotFinite(
+      throw solve::NotFinite(
           "the Jacobian is not finite: it does not exist at this displacement, "
           "or a coefficient of it is NaN or infinite. Start from another "
           "displacement, or repair the coefficient (manual: "
           "errors/jacobian-not-finite)");
   }
 
-  /// See newton::Fields::absolute_products.
+  /// See solve::Fields::absolute_products.
   std::vector<double> absolute_products(std::span<const double> sizes)
   {
     assemble();
@@ -613,7 +613,7 @@ private:
   std::shared_ptr<Unknowns> _unknowns;
   std::shared_ptr<Function> _u;
   std::vector<std::shared_ptr<const DirichletBC>> _bcs;
-  std::shared_ptr<parallel::Halo> _halo;
+  std::shared_ptr<mesh::Halo> _halo;
   HaloAdapter* _adapter;
   std::optional<CellForces> _forces; // of a displacement alone
   std::optional<Fields> _fields;     // nothing then

@@ -6,7 +6,7 @@
 #include "input.h"
 #include <basix/finite-element.h>
 #include <cmath>
-#include <contactx/parallel/halo.h>
+#include <contactx/mesh/halo.h>
 #include <dolfinx/fem/DofMap.h>
 #include <dolfinx/fem/Form.h>
 #include <dolfinx/fem/assembler.h>
@@ -43,7 +43,7 @@ public:
   /// @brief Sum over cells and integrals of the size of the force on each owned
   /// node (shape=(num_owned)). All ranks must take part.
   /// @param[in] halo Nodes of this rank.
-  std::vector<double> magnitudes(const parallel::Halo& halo)
+  std::vector<double> magnitudes(const mesh::Halo& halo)
   {
     if (not _broken)
       make();

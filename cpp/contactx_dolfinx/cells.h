@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <basix/finite-element.h>
 #include <contactx/mesh/nodes.h>
-#include <contactx/parallel/ranks.h>
+#include <contactx/mesh/ranks.h>
 #include <dolfinx/common/IndexMap.h>
 #include <dolfinx/fem/CoordinateElement.h>
 #include <dolfinx/fem/DofMap.h>
@@ -111,13 +111,13 @@ inline std::vector<double> reference_positions(const FunctionSpace& V)
 /// @param[in] V Lagrange space of degree 1 or 2.
 /// @param[in] ranks The ranks.
 inline std::vector<std::int64_t> original_nodes(const FunctionSpace& V,
-                                                parallel::Ranks& ranks)
+                                                mesh::Ranks& ranks)
 {
   const auto& numbers = V.mesh()->geometry().input_global_indices();
   std::int64_t most = -1;
   for (const std::int64_t number : numbers)
     most = std::max(most, number);
   return mesh::original_nodes(cells_of(V), num_nodes(V), geometry_of(*V.mesh()),
-                              numbers, parallel::largest(ranks, most) + 1);
+                              numbers, mesh::largest(ranks, most) + 1);
 }
 } // namespace contactx::dolfinx

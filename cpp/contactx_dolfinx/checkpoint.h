@@ -125,8 +125,8 @@ private:
   class File
   {
   public:
-    File(MPI_Comm comm, parallel::Ranks& ranks,
-         const std::filesystem::path& path, const std::string& mode)
+    File(MPI_Comm comm, mesh::Ranks& ranks, const std::filesystem::path& path,
+         const std::string& mode)
         : _comm(comm), _ranks(&ranks),
           _parallel(::dolfinx::MPI::size(comm) > 1),
           _handle(::dolfinx::io::hdf5::open_file(comm, path, mode, _parallel))
@@ -181,7 +181,7 @@ private:
         mine.emplace_back(rows.keys[i], i);
       std::ranges::sort(mine);
       const auto count
-          = parallel::total(*_ranks, static_cast<std::int64_t>(mine.size()));
+          = mesh::total(*_ranks, static_cast<std::int64_t>(mine.size()));
       const auto there = shape(name + "/values");
       const auto columns = static_cast<std::int64_t>(width);
       if (there[0] != count or (count > 0 and there[1] != columns))
@@ -208,7 +208,7 @@ private:
           ++found;
         }
       }
-      if (parallel::anywhere(*_ranks, found != mine.size()))
+      if (mesh::anywhere(*_ranks, found != mine.size()))
         throw std::invalid_argument(
             "'" + name
             + "' has other rows: it is of another mesh, or of other surfaces");
@@ -220,8 +220,8 @@ private:
     std::int64_t width_of(const Rows& rows, std::size_t size) const
     {
       const std::size_t n = rows.keys.size();
-      return parallel::largest(*_ranks,
-                               static_cast<std::int64_t>(n > 0 ? size / n : 0));
+      return mesh::largest(*_ranks,
+                           static_cast<std::int64_t>(n > 0 ? size / n : 0));
     }
 
     std::vector<std::int64_t> shape(const std::string& name) const
@@ -241,7 +241,7 @@ private:
     {
       std::int64_t end = 0;
       MPI_Scan(&rows, &end, 1, MPI_INT64_T, MPI_SUM, _comm);
-      const std::int64_t all = parallel::total(*_ranks, rows);
+      const std::int64_t all = mesh::total(*_ranks, rows);
       ::dolfinx::io::hdf5::write_dataset(_handle, "/" + name, values.data(),
                                          {end - rows, end}, {all, width},
                                          _parallel, false);
@@ -266,17 +266,17 @@ private:
     }
 
     MPI_Comm _comm;
-    parallel::Ranks* _ranks;
+    mesh::Ranks* _ranks;
     bool _parallel;
     hid_t _handle;
   };
 
-  const newton::System::Contacts& contacts() const
+  const solve::System::Contacts& contacts() const
   {
     return _assembler->system()->contacts();
   }
-  parallel::Halo& halo() const { return *_assembler->system()->halo(); }
-  parallel::Ranks& ranks() const { return halo().ranks(); }
+  mesh::Halo& halo() const { return *_assembler->system()->halo(); }
+  mesh::Ranks& ranks() const { return halo().ranks(); }
   MPI_Comm comm() const
   {
     return _assembler->bulk()->u()->function_space()->mesh()->comm();
@@ -316,7 +316,7 @@ private:
       const auto& topology = *V.mesh()->topology();
       const std::int32_t n = topology.index_map(topology.dim())->size_local();
       const auto original = original_cells(*V.mesh());
-      if (parallel::anywhere(ranks(), original.size() < std::size_t(n)))
+      if (mesh::anywhere(ranks(), original.size() < std::size_t(n)))
         throw std::invalid_argument(
             name
             + " has values in cells, but the mesh does not know the numbers "
@@ -445,7 +445,7 @@ private:
       values[name] = file.read(f.rows, name, f.dofs.size());
       const bool is_finite = std::ranges::all_of(values[name], [](double v)
                                                  { return std::isfinite(v); });
-      if (not parallel::everywhere(ranks(), is_finite))
+      if (not mesh::everywhere(ranks(), is_finite))
         throw std::invalid_argument("'" + name + "' is not finite");
     }
     std::vector<double> start
@@ -490,7 +490,7 @@ private:
       most[0] = std::max(most[0], std::abs(here[i]));
       most[1] = std::max(most[1], std::abs(here[i] - there[i]));
     }
-    ranks().reduce(std::span<double>(most), parallel::Reduction::largest);
+    ranks().reduce(std::span<double>(most), mesh::Reduction::largest);
     // Another machine may round them in another way
     if (not(most[1] <= 1e-12 * most[0]))
       throw std::invalid_argument("its nodes are elsewhere: it is of another "

@@ -6,7 +6,7 @@
 #include "assembler.h"
 #include <contactx/condense/chains.h>
 #include <contactx/condense/condensation.h>
-#include <contactx/newton/accuracy.h>
+#include <contactx/solve/accuracy.h>
 #include <petscksp.h>
 #include <string>
 
@@ -58,10 +58,10 @@ public:
   /// @param[out] dx Solution.
   void solve(::Vec b, ::Vec dx)
   {
-    const newton::Loop& loop = _assembler->loop();
+    const solve::Loop& loop = _assembler->loop();
     if (_assembler->number() == 0)
       _accuracy.begin_step();
-    const newton::Iterate& now = loop.iterate();
+    const solve::Iterate& now = loop.iterate();
     _accuracy.set(now.residual, now.tolerance, loop.changing(),
                   loop.active_set().cycles() > 0);
     // A solver that has failed twice is not tried again: attempts are dear
@@ -129,14 +129,14 @@ private:
     bool is_new = true;
   };
 
-  static bool has_path(const newton::System& system)
+  static bool has_path(const solve::System& system)
   {
     return std::ranges::any_of(system.contacts(), [](const auto& c)
                                { return c->history() != nullptr; });
   }
 
-  const newton::System& system() const { return *_assembler->system(); }
-  parallel::Halo& halo() const { return *system().halo(); }
+  const solve::System& system() const { return *_assembler->system(); }
+  mesh::Halo& halo() const { return *system().halo(); }
   std::size_t num_owned() const { return system().num_displacements(); }
 
   /// Eliminates the multipliers; nothing on all ranks where that cannot be.
@@ -177,7 +177,7 @@ private:
             }
           });
     }
-    if (not parallel::everywhere(halo().ranks(), made.has_value()))
+    if (not mesh::everywhere(halo().ranks(), made.has_value()))
       return std::nullopt;
     return made;
   }
@@ -244,7 +244,7 @@ private:
 
   bool anywhere(bool here) const
   {
-    return parallel::anywhere(halo().ranks(), here);
+    return mesh::anywhere(halo().ranks(), here);
   }
 
   /// Makes the matrices of an iterate.
@@ -662,8 +662,7 @@ private:
       for (std::size_t i = 0; i < X.size(); ++i)
         middle[i % g] += X[i];
       middle[g] = static_cast<double>(X.size() / g);
-      halo().ranks().reduce(std::span<double>(middle),
-                            parallel::Reduction::sum);
+      halo().ranks().reduce(std::span<double>(middle), mesh::Reduction::sum);
       const petsc::Values values(x.get());
       for (std::size_t i = 0; i < X.size(); ++i)
         values.span()[i] = X[i] - middle[i % g] / middle[g];
@@ -730,7 +729,7 @@ private:
 
   Assembler* _assembler;
   std::string _prefix;
-  newton::Accuracy _accuracy;
+  solve::Accuracy _accuracy;
   OwnKSP _ksp, _lu;
   petsc::OwnMat _J;
   std::vector<std::int8_t> _free; // of the displacements of all nodes

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "contact.h"
-#include <contactx/conductance/conductance.h>
+#include <contactx/results/conductance.h>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -13,7 +13,7 @@
 namespace contactx::dolfinx
 {
 /// @brief Flow of a scalar field from the slave to the master of a contact,
-/// q = h(p, g) (T_slave - T_master) per area; see conductance::Conductance.
+/// q = h(p, g) (T_slave - T_master) per area; see results::Conductance.
 ///
 /// Given to an Assembler that solves for displacement and field together it is
 /// part of that system, with its derivatives. Where the field is solved for by
@@ -31,7 +31,7 @@ public:
   /// @throws std::invalid_argument if contact or field are null, or
   /// `obstacle_value` is missing or has no place.
   Conductance(std::shared_ptr<Contact> contact, std::shared_ptr<Function> field,
-              conductance::Coefficient coefficient,
+              law::Coefficient coefficient,
               std::optional<double> obstacle_value = std::nullopt)
       : _contact(std::move(contact)), _field(std::move(field)),
         _coefficient(std::move(coefficient)), _obstacle_value(obstacle_value)
@@ -39,7 +39,7 @@ public:
     if (_contact == nullptr or _field == nullptr)
       throw std::invalid_argument("contact or field of a Conductance is null: "
                                   "give both");
-    conductance::check_obstacle_value(_obstacle_value, _contact->is_rigid());
+    results::check_obstacle_value(_obstacle_value, _contact->is_rigid());
   }
 
   /// @brief The contact.
@@ -52,7 +52,7 @@ public:
   /// @throws std::invalid_argument if the master is no obstacle.
   void set_obstacle_value(double value)
   {
-    conductance::check_obstacle_value(value, _contact->is_rigid());
+    results::check_obstacle_value(value, _contact->is_rigid());
     _obstacle_value = value;
   }
 
@@ -93,18 +93,15 @@ public:
   /// take part.
   Triplets by_field() { return core().by_field(); }
 
-  /// @brief All derivatives of the residual, see conductance::Derivatives. All
+  /// @brief All derivatives of the residual, see results::Derivatives. All
   /// ranks must take part.
-  conductance::Derivatives derivatives()
-  {
-    return core().derivatives(values());
-  }
+  results::Derivatives derivatives() { return core().derivatives(values()); }
 
   /// @brief Values of the field's owned dofs at all nodes of the contact's
   /// halo. All ranks must take part.
   std::vector<std::int64_t> at_nodes(std::span<const std::int64_t> values)
   {
-    const parallel::Halo& halo = _contact->discrete().halo();
+    const mesh::Halo& halo = _contact->discrete().halo();
     std::vector<std::int64_t> at(halo.num_nodes());
     for (std::int32_t i = 0; i < halo.num_owned(); ++i)
       at[i] = values[_nodes[i]];
@@ -114,7 +111,7 @@ public:
 
 private:
   /// The core's, with coefficient and obstacle's value of now.
-  conductance::Conductance core()
+  results::Conductance core()
   {
     if (_nodes.empty())
       check();
@@ -132,7 +129,7 @@ private:
 
   std::shared_ptr<Contact> _contact;
   std::shared_ptr<Function> _field;
-  conductance::Coefficient _coefficient;
+  law::Coefficient _coefficient;
   std::optional<double> _obstacle_value;
   // Node of the field at each of the displacement's
   std::vector<std::int32_t> _nodes;

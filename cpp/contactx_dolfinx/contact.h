@@ -7,7 +7,7 @@
 #include "functions.h"
 #include "surface.h"
 #include "values.h"
-#include <contactx/obstacle/obstacle.h>
+#include <contactx/geometry/obstacle.h>
 #include <contactx/problem/make_contact.h>
 #include <functional>
 #include <optional>
@@ -44,7 +44,7 @@ struct Options
   /// search::SelfSight for what it is if not given
   std::optional<double> excluded_distance = std::nullopt;
   /// Whether linear facets stand for smooth surfaces through their nodes, see
-  /// facet::SmoothFacet
+  /// geometry::SmoothFacet
   bool smooth = false;
   /// What contact is integrated with, at reference positions, as the bulk's
   /// forms are: 2 pi r in axisymmetric models, a thickness; 1 if empty
@@ -65,7 +65,7 @@ class Contact
 {
 public:
   /// A deformable or a rigid master
-  using Master = std::variant<Surface, std::shared_ptr<obstacle::Obstacle>>;
+  using Master = std::variant<Surface, std::shared_ptr<geometry::Obstacle>>;
 
   /// @brief Create a contact.
   /// @param[in] slave Surface whose nodes must not penetrate the master: the
@@ -82,7 +82,7 @@ public:
       throw std::invalid_argument("a Contact has friction or a friction_law: "
                                   "leave one of them out");
     const auto* obstacle
-        = std::get_if<std::shared_ptr<obstacle::Obstacle>>(&_master);
+        = std::get_if<std::shared_ptr<geometry::Obstacle>>(&_master);
     if (obstacle and *obstacle == nullptr)
       throw std::invalid_argument("the obstacle of a Contact is null: give a "
                                   "Plane, Sphere, Cylinder or LevelSet");
@@ -98,7 +98,7 @@ public:
   /// @throws std::invalid_argument on all ranks if the surfaces do not fit.
   /// @throws std::logic_error if it belongs to an Assembler already.
   std::shared_ptr<contact::Contact>
-  attach(const reference::Mesh& mesh, std::vector<std::int8_t> prescribed,
+  attach(const mesh::Mesh& mesh, std::vector<std::int8_t> prescribed,
          const std::shared_ptr<const FunctionSpace>& V)
   {
     if (_discrete)
@@ -209,7 +209,7 @@ public:
   }
 
   /// @brief Pressures, force/area, recovered from the multipliers, see
-  /// contact::Recovery (shape=(n)).
+  /// results::Recovery (shape=(n)).
   std::span<const double> pressure() const { return results().pressure(); }
 
   /// @brief Tractions that the master exerts, force/area, recovered in the same
@@ -284,24 +284,25 @@ public:
   }
 
 private:
-  void make(const reference::Mesh& mesh, std::vector<std::int8_t> prescribed,
+  void make(const mesh::Mesh& mesh, std::vector<std::int8_t> prescribed,
             const std::shared_ptr<const FunctionSpace>& V)
   {
     const auto& halo = mesh.halo;
-    const facet::Facets slave = _slave.facet_nodes(*V, halo->ranks(), "slave");
-    facet::Facets facets;
+    const geometry::Facets slave
+        = _slave.facet_nodes(*V, halo->ranks(), "slave");
+    geometry::Facets facets;
     problem::Sides sides{.slave = {_slave.name(), slave.list()},
-                         .master = std::shared_ptr<obstacle::Obstacle>(),
+                         .master = std::shared_ptr<geometry::Obstacle>(),
                          .is_self = is_self(),
                          .level
                          = mesh::node_levels(cells_of(*V), num_nodes(*V))};
     if (const auto* surface = std::get_if<Surface>(&_master))
     {
       facets = surface->facet_nodes(*V, halo->ranks(), "master");
-      sides.master = reference::NamedSurface{surface->name(), facets.list()};
+      sides.master = mesh::NamedSurface{surface->name(), facets.list()};
     }
     else
-      sides.master = std::get<std::shared_ptr<obstacle::Obstacle>>(_master);
+      sides.master = std::get<std::shared_ptr<geometry::Obstacle>>(_master);
     if (_options.weight)
       sides.weight = [&](std::span<const std::int32_t> nodes)
       { return weights(*halo, nodes); };
@@ -326,7 +327,7 @@ private:
             .tangential_factor = _options.tangential_factor};
   }
 
-  std::vector<double> weights(const parallel::Halo& halo,
+  std::vector<double> weights(const mesh::Halo& halo,
                               std::span<const std::int32_t> nodes) const
   {
     std::vector<double> values;

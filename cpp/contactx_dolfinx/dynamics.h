@@ -5,7 +5,7 @@
 
 #include "assembler.h"
 #include "inertia.h"
-#include <contactx/dynamics/time_step.h>
+#include <contactx/problem/time_step.h>
 #include <dolfinx/fem/Constant.h>
 #include <functional>
 #include <memory>
@@ -17,7 +17,7 @@
 
 namespace contactx::dolfinx
 {
-using dynamics::Balance;
+using problem::Balance;
 
 /// @brief Forms of a time step of bodies with inertia.
 struct DynamicForms
@@ -57,7 +57,7 @@ struct Motion
 ///
 /// Steps are those of ContactDynamics in Python: the midpoint rule with the
 /// contact laws at the end of a step, and velocities that are corrected by the
-/// law of inelastic impact, see dynamics::TimeStep. A program reads
+/// law of inelastic impact, see problem::TimeStep. A program reads
 ///
 ///     Dynamics dynamics({F, J, mass}, {u, start, velocity, dt}, bcs,
 ///                       {contact});
@@ -96,12 +96,12 @@ public:
     for (const auto& contact : contacts)
       results.push_back(contact->shared_results());
     const auto& system = _assembler.system();
-    _step = std::make_shared<dynamics::TimeStep>(
+    _step = std::make_shared<problem::TimeStep>(
         system, std::move(results),
         std::make_shared<Inertia>(*forms.mass, forms.loads, forms.strain_energy,
                                   system->halo()->ranks()),
         impact_travel);
-    dynamics::attach(_assembler.problem(), _step);
+    problem::attach(_assembler.problem(), _step);
     _assembler.problem().before_step([this] { begin(); });
   }
 
@@ -237,7 +237,7 @@ private:
 
   Motion _motion;
   Assembler _assembler;
-  std::shared_ptr<dynamics::TimeStep> _step;
+  std::shared_ptr<problem::TimeStep> _step;
   // Length of the step that is attempted
   double _next = 0;
 };

@@ -5,7 +5,7 @@
 
 #include "cells.h"
 #include "ranks.h"
-#include <contactx/parallel/halo.h>
+#include <contactx/mesh/halo.h>
 #include <dolfinx/fem/Function.h>
 #include <dolfinx/fem/FunctionSpace.h>
 #include <dolfinx/la/Vector.h>
@@ -20,7 +20,7 @@ namespace contactx::dolfinx
 {
 /// @brief Nodes of a displacement, as a halo needs them of whoever has the
 /// bulk.
-class HaloAdapter final : public parallel::HaloAdapter
+class HaloAdapter final : public mesh::HaloAdapter
 {
 public:
   /// @brief Start with the bulk's nodes alone; all ranks must take part.
@@ -34,22 +34,22 @@ public:
   }
 
   /// @brief The nodes of the bulk; all ranks must take part.
-  parallel::BulkNodes bulk_nodes()
+  mesh::BulkNodes bulk_nodes()
   {
     const FunctionSpace& V = *_u->function_space();
-    parallel::BulkNodes nodes{.gdim = _gdim,
-                              .num_owned = _map->size_local(),
-                              .numbers = _map->global_indices(),
-                              .owners = {},
-                              .original = original_nodes(V, _ranks),
-                              .reference = reference_positions(V)};
+    mesh::BulkNodes nodes{.gdim = _gdim,
+                          .num_owned = _map->size_local(),
+                          .numbers = _map->global_indices(),
+                          .owners = {},
+                          .original = original_nodes(V, _ranks),
+                          .reference = reference_positions(V)};
     nodes.owners.assign(_map->size_local(), _ranks.rank());
     nodes.owners.insert(nodes.owners.end(), _map->owners().begin(),
                         _map->owners().end());
     return nodes;
   }
 
-  parallel::Ranks& ranks() override { return _ranks; }
+  mesh::Ranks& ranks() override { return _ranks; }
 
   void set_ghosts(std::span<const std::int64_t> numbers,
                   std::span<const std::int32_t> owners) override

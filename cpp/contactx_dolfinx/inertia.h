@@ -6,7 +6,7 @@
 #include "input.h"
 #include "petsc.h"
 #include <cmath>
-#include <contactx/dynamics/inertia.h>
+#include <contactx/problem/inertia.h>
 #include <dolfinx/fem/assembler.h>
 #include <dolfinx/fem/petsc.h>
 #include <dolfinx/la/Vector.h>
@@ -22,7 +22,7 @@ namespace contactx::dolfinx
 {
 /// @brief Masses, loads and strain energy of the bodies: forms of DOLFINx, as
 /// the core asks for them.
-class Inertia final : public dynamics::Inertia
+class Inertia final : public problem::Inertia
 {
 public:
   /// @brief Assemble the mass matrix; all ranks must take part.
@@ -35,7 +35,7 @@ public:
   /// for none.
   /// @param[in] ranks The ranks.
   Inertia(const Form& mass, std::shared_ptr<const Form> loads,
-          std::shared_ptr<const Form> strain_energy, parallel::Ranks& ranks)
+          std::shared_ptr<const Form> strain_energy, mesh::Ranks& ranks)
       : _loads(std::move(loads)), _strain_energy(std::move(strain_energy)),
         _A(::dolfinx::fem::petsc::create_matrix(mass))
   {
@@ -55,7 +55,7 @@ public:
       is_diagonal = is_diagonal
                     and std::abs(sums[i] - _diagonal[i])
                             <= rel_tol * std::abs(_diagonal[i]);
-    _is_lumped = parallel::everywhere(ranks, is_diagonal);
+    _is_lumped = mesh::everywhere(ranks, is_diagonal);
 
     const auto& dofs = *mass.function_spaces()[0]->dofmap();
     _b.emplace(dofs.index_map, dofs.index_map_bs());

@@ -5,8 +5,8 @@
 
 #include "bulk.h"
 #include <contactx/condense/coupled_rows.h>
-#include <contactx/newton/system.h>
-#include <contactx/parallel/spread.h>
+#include <contactx/mesh/spread.h>
+#include <contactx/solve/system.h>
 
 namespace contactx::dolfinx
 {
@@ -20,11 +20,11 @@ public:
   /// @brief Lay out the unknowns.
   /// @param[in] system The system.
   /// @param[in] bulk Its bulk.
-  Jacobian(std::shared_ptr<newton::System> system, std::shared_ptr<Bulk> bulk)
+  Jacobian(std::shared_ptr<solve::System> system, std::shared_ptr<Bulk> bulk)
       : _system(std::move(system)), _bulk(std::move(bulk))
   {
     const std::array mine{static_cast<double>(_system->size())};
-    parallel::Ranks& ranks = _system->halo()->ranks();
+    mesh::Ranks& ranks = _system->halo()->ranks();
     const std::vector<double> sizes = ranks.gather(mine);
     for (int r = 0; r < ranks.rank(); ++r)
       _start += static_cast<std::int64_t>(sizes[r]);
@@ -37,7 +37,7 @@ public:
   /// displacements (shape=(num_displacements)), or nothing.
   void assemble(::Mat A, const std::optional<std::vector<double>>& springs)
   {
-    const parallel::Halo& halo = *_system->halo();
+    const mesh::Halo& halo = *_system->halo();
     const condense::ContactBlock contact(_system->contacts(), markers(), true);
     const condense::Rows& bulk = bulk_rows();
     const std::vector<std::int64_t> places = this->places();
@@ -52,9 +52,8 @@ public:
     Pattern pattern{id,          rows.own.offsets,   rows.own.columns,
                     rows.others, rows.added.offsets, rows.added.columns};
     // That of a flow goes with gaps and pressures, too
-    const bool same
-        = _bulk->conductances().empty()
-          and parallel::everywhere(halo.ranks(), pattern == _pattern);
+    const bool same = _bulk->conductances().empty()
+                      and mesh::everywhere(halo.ranks(), pattern == _pattern);
     _pattern = std::move(pattern);
     if (same)
       petsc::check(MatZeroEntries(A), "MatZeroEntries");
@@ -100,7 +99,7 @@ private:
   /// Places of the displacements of all nodes, then of this rank's multipliers.
   std::vector<std::int64_t> places() const
   {
-    const parallel::Halo& halo = *_system->halo();
+    const mesh::Halo& halo = *_system->halo();
     const int g = halo.gdim();
     std::vector<std::int64_t> first(halo.num_nodes());
     for (std::int32_t i = 0; i < halo.num_owned(); ++i)
@@ -119,7 +118,7 @@ private:
   /// 1 at prescribed displacements of all nodes.
   std::vector<std::int8_t> markers() const
   {
-    const parallel::Halo& halo = *_system->halo();
+    const mesh::Halo& halo = *_system->halo();
     std::vector<std::int64_t> all(std::size_t(halo.num_nodes()) * halo.gdim());
     std::ranges::copy(_bulk->markers(), all.begin());
     halo.forward(std::span<std::int64_t>(all), halo.gdim());
@@ -153,8 +152,8 @@ private:
                 static_cast<std::int64_t>(rows.columns.size()));
           }
         });
-    if (parallel::everywhere(_system->halo()->ranks(),
-                             rows.offsets == _rows.offsets))
+    if (mesh::everywhere(_system->halo()->ranks(),
+                         rows.offsets == _rows.offsets))
       rows.columns = std::move(_rows.columns);
     else
       find_places(rows, firsts);
@@ -305,7 +304,7 @@ private:
         break;
       multiplier += c->nodes()->multiplier.size();
     }
-    const conductance::Derivatives of = conductance.derivatives();
+    const results::Derivatives of = conductance.derivatives();
     const auto add_entries
         = [&](const Triplets& T, std::span<const std::int64_t> columns)
     {
@@ -337,7 +336,7 @@ private:
     }
   }
 
-  std::shared_ptr<newton::System> _system;
+  std::shared_ptr<solve::System> _system;
   std::shared_ptr<Bulk> _bulk;
   std::int64_t _start = 0; // place of this rank's first unknown
   condense::Rows _rows;

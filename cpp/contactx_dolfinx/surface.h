@@ -5,7 +5,7 @@
 
 #include "cells.h"
 #include "ranks.h"
-#include <contactx/reference/straight.h>
+#include <contactx/mesh/straight.h>
 #include <dolfinx/mesh/MeshTags.h>
 #include <dolfinx/mesh/Topology.h>
 #include <dolfinx/mesh/cell_types.h>
@@ -47,7 +47,7 @@ public:
     const auto repeated = std::ranges::unique(_facets);
     _facets.erase(repeated.begin(), repeated.end());
     Ranks ranks(topology.comm());
-    ranks.reduce(std::span<std::int64_t>(there), parallel::Reduction::sum);
+    ranks.reduce(std::span<std::int64_t>(there), mesh::Reduction::sum);
     std::int64_t count = 0;
     for (std::size_t i = 0; i < _values.size(); ++i)
     {
@@ -82,8 +82,8 @@ public:
   /// @throws std::invalid_argument on all ranks if the tags belong to another
   /// mesh, a facet has a cell on either side, or facets are curved that the
   /// displacement has straight.
-  facet::Facets facet_nodes(const FunctionSpace& V, parallel::Ranks& ranks,
-                            const std::string& role) const
+  geometry::Facets facet_nodes(const FunctionSpace& V, mesh::Ranks& ranks,
+                               const std::string& role) const
   {
     auto topology = V.mesh()->topology_mutable();
     const int tdim = topology->dim();
@@ -106,8 +106,8 @@ public:
           static_cast<std::int32_t>(std::ranges::find(own, f) - own.begin()));
     }
     const mesh::Geometry geometry = geometry_of(*V.mesh());
-    reference::check_straight(ranks, role + " " + _name, cells_of(V), geometry,
-                              points_of_cell(*V.mesh()), of, local);
+    mesh::check_straight(ranks, role + " " + _name, cells_of(V), geometry,
+                         points_of_cell(*V.mesh()), of, local);
     return mesh::facets(cells_of(V), of, local, geometry);
   }
 

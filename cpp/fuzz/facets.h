@@ -4,16 +4,16 @@
 #pragma once
 
 #include "input.h"
-#include <contactx/facet/frame.h>
-#include <contactx/facet/nodal.h>
+#include <contactx/geometry/frame.h>
+#include <contactx/geometry/nodal.h>
 
 namespace contactx::fuzz
 {
 /// @brief A facet: of any nodes, or a reference facet with its nodes moved.
 template <class F>
-facet::Nodes<F> nodes(Input& in)
+geometry::Nodes<F> nodes(Input& in)
 {
-  facet::Nodes<F> x{};
+  geometry::Nodes<F> x{};
   const bool reference = in.flag();
   for (int l = 0; l < F::nodes; ++l)
     if (reference)
@@ -31,12 +31,13 @@ facet::Nodes<F> nodes(Input& in)
 /// @brief Area of a flat facet and of a bilinear one at a point, in units of
 /// its diameter: what is small is degenerate.
 template <class F>
-double roundness(const facet::Nodes<F>& x, const facet::Local<F>& xi)
+double roundness(const geometry::Nodes<F>& x, const geometry::Local<F>& xi)
 {
-  const double size = facet::diameter<F>(x);
+  const double size = geometry::diameter<F>(x);
   if (!(size > 0))
     return 0;
-  return facet::frame<F>(x, xi).jacobian / (F::gdim == 2 ? size : size * size);
+  return geometry::frame<F>(x, xi).jacobian
+         / (F::gdim == 2 ? size : size * size);
 }
 
 /// @brief Lists of facets as the bindings take them.
@@ -64,7 +65,7 @@ struct List
     return static_cast<std::int32_t>(offsets.size()) - 1;
   }
 
-  facet::FacetList facets() const { return {offsets, nodes}; }
+  geometry::FacetList facets() const { return {offsets, nodes}; }
 };
 
 /// @brief A surface of any facets: nodes may be missing or twice in a facet.

@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include <contactx/vec.h>
+#include <contactx/math/vec.h>
 #include <cstdint>
 #include <cstring>
 #include <limits>

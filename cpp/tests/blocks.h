@@ -4,7 +4,7 @@
 #pragma once
 
 #include "threads.h"
-#include <contactx/reference/mesh.h>
+#include <contactx/mesh/mesh.h>
 #include <string>
 
 namespace contactx::tests
@@ -12,7 +12,7 @@ namespace contactx::tests
 /// @brief A part of the boundary of blocks.
 struct Side
 {
-  facet::Facets facets;           ///< oriented outward
+  geometry::Facets facets;        ///< oriented outward
   std::vector<std::int32_t> cell; ///< of each facet
 
   /// @brief Both together.
@@ -181,8 +181,8 @@ public:
 /// @brief A rank's part of blocks.
 struct RankBlocks
 {
-  std::shared_ptr<parallel::Halo> halo;
-  std::shared_ptr<contact::Bodies> bodies;
+  std::shared_ptr<mesh::Halo> halo;
+  std::shared_ptr<mesh::Bodies> bodies;
   std::vector<std::int32_t> cells;
 
   RankBlocks(const DistributedBlocks& all, ThreadRanks& ranks) : _all(all)
@@ -204,23 +204,20 @@ struct RankBlocks
         all.nodes, ranks, ghosts, std::vector<double>(blocks.x.size(), 0.0),
         blocks.gdim);
     auto given = bulk->bulk(blocks.x);
-    halo = std::make_shared<parallel::Halo>(std::move(given), std::move(bulk));
+    halo = std::make_shared<mesh::Halo>(std::move(given), std::move(bulk));
     for (const std::int32_t node : mine)
       cells.push_back(here(node));
-    bodies = std::make_shared<contact::Bodies>(
+    bodies = std::make_shared<mesh::Bodies>(
         cells, width, static_cast<std::int32_t>(cells.size()) / width,
         halo->original().first(halo->num_bulk()), halo);
   }
 
-  reference::Mesh mesh() const
-  {
-    return {halo, bodies, cells, _all.blocks.width()};
-  }
+  mesh::Mesh mesh() const { return {halo, bodies, cells, _all.blocks.width()}; }
 
   /// @brief Facets of a side that belong to this rank's cells.
-  facet::Facets own(const Side& side) const
+  geometry::Facets own(const Side& side) const
   {
-    facet::Facets result;
+    geometry::Facets result;
     for (std::int32_t f = 0; f < side.facets.list().size(); ++f)
       if (_all.rank_of(side.cell[f]) == halo->ranks().rank())
       {

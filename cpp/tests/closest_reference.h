@@ -12,7 +12,7 @@ namespace contactx::tests
 /// of the best samples of the last one. No better than 1e-9 in xi, so that
 /// the distance has about nine digits near the facet.
 template <class F>
-double sampled_distance(const facet::Nodes<F>& x, const Vector<F::gdim>& p)
+double sampled_distance(const geometry::Nodes<F>& x, const Vector<F::gdim>& p)
 {
   constexpr int n = 24;
   double best = std::numeric_limits<double>::infinity();
@@ -21,16 +21,16 @@ double sampled_distance(const facet::Nodes<F>& x, const Vector<F::gdim>& p)
   for (int i = 0; i <= n; i += 4)
     for (int j = 0; j <= n; j += 4)
     {
-      facet::Local<F> centre{double(i) / n, double(j) / n};
+      geometry::Local<F> centre{double(i) / n, double(j) / n};
       for (double h = 1. / 8; h > 1e-10; h *= 0.6)
       {
         double least = std::numeric_limits<double>::infinity();
-        const facet::Local<F> around = centre;
+        const geometry::Local<F> around = centre;
         for (double a : {-h, 0.0, h})
           for (double b : {-h, 0.0, h})
           {
-            facet::Local<F> xi{std::clamp(around[0] + a, 0.0, 1.0),
-                               std::clamp(around[1] + b, 0.0, 1.0)};
+            geometry::Local<F> xi{std::clamp(around[0] + a, 0.0, 1.0),
+                                  std::clamp(around[1] + b, 0.0, 1.0)};
             if (F::nodes == 3 and xi[0] + xi[1] > 1)
               xi = (1 / (xi[0] + xi[1])) * xi;
             const double d = norm(p - position<F>(x, xi));
@@ -47,7 +47,7 @@ double sampled_distance(const facet::Nodes<F>& x, const Vector<F::gdim>& p)
 }
 
 /// @brief Distance from a triangle in extended precision, for slivers.
-inline double long_distance(const facet::Nodes<facet::Triangle>& x,
+inline double long_distance(const geometry::Nodes<geometry::Triangle>& x,
                             const Vector<3>& p)
 {
   using Real = long double;
@@ -60,7 +60,7 @@ inline double long_distance(const facet::Nodes<facet::Triangle>& x,
   { return Long{d[0] - s * a[0], d[1] - s * a[1], d[2] - s * a[2]}; };
 
   Real best = std::numeric_limits<Real>::infinity();
-  for (const auto& [i, j] : facet::Triangle::edges)
+  for (const auto& [i, j] : geometry::Triangle::edges)
   {
     const Long e = minus(x[j], x[i]), d = minus(p, x[i]);
     const Real s = std::clamp(product(d, e) / product(e, e), Real(0), Real(1));

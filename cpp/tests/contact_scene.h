@@ -17,7 +17,7 @@ struct ContactScene
   TwoSheets sheets;
   WholeMesh mesh;
   std::shared_ptr<std::vector<double>> u;
-  std::shared_ptr<parallel::Halo> halo;
+  std::shared_ptr<mesh::Halo> halo;
   std::shared_ptr<contact::SlaveNodes> slaves;
   std::shared_ptr<search::MasterSurface> surface;
   std::shared_ptr<search::Outside> outside;
@@ -28,13 +28,13 @@ struct ContactScene
   /// @param[in] away Added to all coordinates.
   explicit ContactScene(int dim, double height = 0.05,
                         Cells cells = Cells::mixed,
-                        parallel::Ranks* ranks = nullptr, double away = 0)
+                        mesh::Ranks* ranks = nullptr, double away = 0)
       : ContactScene(moved(TwoSheets(dim, height, cells), away), ranks)
   {
   }
 
   /// @brief Take any two surfaces.
-  explicit ContactScene(TwoSheets surfaces, parallel::Ranks* ranks = nullptr)
+  explicit ContactScene(TwoSheets surfaces, mesh::Ranks* ranks = nullptr)
       : sheets(std::move(surfaces)), mesh(sheets.num_nodes(), ranks),
         u(std::make_shared<std::vector<double>>(sheets.x.size(), 0.0)),
         prescribed(u->size(), 0)
@@ -100,7 +100,7 @@ private:
 inline std::vector<double>
 residual(const std::vector<std::shared_ptr<contact::Contact>>& contacts)
 {
-  const parallel::Halo& halo = contacts.front()->halo();
+  const mesh::Halo& halo = contacts.front()->halo();
   std::vector<double> b(std::size_t(halo.num_nodes()) * halo.gdim(), 0);
   for (const auto& c : contacts)
   {

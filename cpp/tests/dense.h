@@ -263,7 +263,7 @@ public:
   {
     const auto& elimination = condensation.elimination();
     const Dense I = Dense::one(n);
-    const parallel::SerialNodes nodes(static_cast<std::int32_t>(n / gdim));
+    const mesh::SerialNodes nodes(static_cast<std::int32_t>(n / gdim));
     const auto chains = condense::chains(elimination, nodes);
     const Dense of_right = (I - Dense(chains.right, n, n)).inverse();
     const Dense of_left = (I - Dense(chains.left, n, n)).inverse();

@@ -4,19 +4,19 @@
 #pragma once
 
 #include "generator.h"
-#include <contactx/facet/frame.h>
+#include <contactx/geometry/frame.h>
 #include <gtest/gtest.h>
 
 namespace contactx::tests
 {
 /// @brief The facets that typed tests run on.
-using FacetTypes
-    = ::testing::Types<facet::Segment, facet::Triangle, facet::Quadrilateral>;
+using FacetTypes = ::testing::Types<geometry::Segment, geometry::Triangle,
+                                    geometry::Quadrilateral>;
 
 /// @brief A random convex facet in the plane of the first two axes (on the
 /// first axis in 2D), about one in size.
 template <class F>
-facet::Nodes<F> flat_facet(Generator& random)
+geometry::Nodes<F> flat_facet(Generator& random)
 {
   if constexpr (F::nodes == 2)
     return {{{0, 0}, {random(0.5, 2), 0}}};
@@ -26,7 +26,7 @@ facet::Nodes<F> flat_facet(Generator& random)
              {random(-0.5, 1.5), random(0.5, 2), 0}}};
   else
   {
-    facet::Nodes<F> x{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}};
+    geometry::Nodes<F> x{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}};
     const double width = random(0.5, 2);
     for (auto& p : x)
     {
@@ -49,9 +49,9 @@ Vector<F::gdim> flat_normal()
 
 /// @brief Local coordinates inside a facet, away from its edges.
 template <class F>
-facet::Local<F> inner_point(Generator& random)
+geometry::Local<F> inner_point(Generator& random)
 {
-  facet::Local<F> xi = random.vector<F::tdim>(0.05, 0.95);
+  geometry::Local<F> xi = random.vector<F::tdim>(0.05, 0.95);
   while (F::excess(xi) > -0.05)
     xi = random.vector<F::tdim>(0.05, 0.95);
   return xi;
@@ -59,9 +59,9 @@ facet::Local<F> inner_point(Generator& random)
 
 /// @brief A random facet somewhere in space; quadrilaterals are warped.
 template <class F>
-facet::Nodes<F> random_facet(Generator& random, double warp = 0.2)
+geometry::Nodes<F> random_facet(Generator& random, double warp = 0.2)
 {
-  facet::Nodes<F> x = flat_facet<F>(random);
+  geometry::Nodes<F> x = flat_facet<F>(random);
   if constexpr (F::nodes == 4)
     for (auto& p : x)
       p[2] = random(-warp, warp);
@@ -70,8 +70,9 @@ facet::Nodes<F> random_facet(Generator& random, double warp = 0.2)
 
 /// @brief Point of a facet.
 template <class F>
-Vector<F::gdim> position(const facet::Nodes<F>& x, const facet::Local<F>& xi)
+Vector<F::gdim> position(const geometry::Nodes<F>& x,
+                         const geometry::Local<F>& xi)
 {
-  return facet::combine<F>(F::shape(xi), x);
+  return geometry::combine<F>(F::shape(xi), x);
 }
 } // namespace contactx::tests

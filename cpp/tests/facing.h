@@ -5,14 +5,14 @@
 
 #include "facets.h"
 #include "scene.h"
-#include <contactx/facet/gather.h>
-#include <contactx/mortar/facet_search.h>
+#include <contactx/geometry/gather.h>
+#include <contactx/search/facet_search.h>
 
 namespace contactx::tests
 {
 /// @brief The same facet seen from behind.
 template <class F>
-facet::Nodes<F> turned(facet::Nodes<F> x)
+geometry::Nodes<F> turned(geometry::Nodes<F> x)
 {
   if constexpr (F::nodes == 2)
     std::swap(x[0], x[1]);
@@ -59,7 +59,7 @@ inline auto level(int gdim, double z)
 
 /// @brief A surface of one facet.
 template <class F>
-Scene single(const facet::Nodes<F>& x)
+Scene single(const geometry::Nodes<F>& x)
 {
   Scene scene(F::gdim);
   std::vector<std::int32_t> nodes;
@@ -102,20 +102,20 @@ struct Facing
     }
   }
 
-  mortar::FacetSearch search() const
+  search::FacetSearch search() const
   {
     return {slave.offsets, slave.nodes, master.offsets, master.nodes, gdim};
   }
 
-  mortar::FacetPairs find(double reach = 10, double margin = 0) const
+  geometry::FacetPairs find(double reach = 10, double margin = 0) const
   {
     return search().find(x, reach, margin);
   }
 
   /// @brief Each slave facet with each master facet.
-  mortar::FacetPairs all_pairs() const
+  geometry::FacetPairs all_pairs() const
   {
-    mortar::FacetPairs pairs;
+    geometry::FacetPairs pairs;
     for (std::int32_t f = 0; f < slave.facets().size(); ++f)
       for (std::int32_t g = 0; g < master.facets().size(); ++g)
       {
@@ -125,15 +125,15 @@ struct Facing
     return pairs;
   }
 
-  mortar::Integrals integrals(const mortar::FacetPairs& pairs,
-                              std::span<const double> reference,
-                              std::span<const double> normal = {}) const
+  geometry::Integrals integrals(const geometry::FacetPairs& pairs,
+                                std::span<const double> reference,
+                                std::span<const double> normal = {}) const
   {
-    return mortar::integrals(slave.facets(), master.facets(), pairs, x,
-                             reference, gdim, normal);
+    return geometry::integrals(slave.facets(), master.facets(), pairs, x,
+                               reference, gdim, normal);
   }
 
-  mortar::Integrals integrals(const mortar::FacetPairs& pairs) const
+  geometry::Integrals integrals(const geometry::FacetPairs& pairs) const
   {
     return integrals(pairs, x);
   }
@@ -147,10 +147,10 @@ struct Facing
 };
 
 /// @brief Weight int Phi_s N_l of a pair.
-inline double weight(const mortar::Integrals& found, std::size_t pair, int s,
+inline double weight(const geometry::Integrals& found, std::size_t pair, int s,
                      int l)
 {
-  constexpr int n = mortar::most_nodes;
+  constexpr int n = geometry::most_nodes;
   return found.weight[n * n * pair + n * s + l];
 }
 } // namespace contactx::tests

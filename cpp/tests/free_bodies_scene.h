@@ -6,8 +6,8 @@
 #include "thread_ranks.h"
 #include <array>
 #include <cmath>
-#include <contactx/active_set/free_bodies.h>
 #include <contactx/law/coulomb.h>
+#include <contactx/solve/free_bodies.h>
 
 namespace contactx::tests
 {
@@ -74,13 +74,13 @@ struct Truss
 };
 
 /// @brief A truss as the bulk. Each rank has all nodes, its own first.
-class TrussBulk final : public active_set::Bulk
+class TrussBulk final : public solve::Bulk
 {
 public:
   /// @param[in] truss The truss.
   /// @param[in] map Nodes of this rank.
   /// @param[in] number Number in the truss of each node of this rank.
-  TrussBulk(const Truss& truss, std::shared_ptr<const parallel::NodeMap> map,
+  TrussBulk(const Truss& truss, std::shared_ptr<const mesh::NodeMap> map,
             std::vector<std::int64_t> number)
       : _gdim(truss.gdim), _cells(truss.cells), _map(std::move(map)),
         _number(std::move(number)), fixed(truss.x.size()),
@@ -147,6 +147,18 @@ public:
     return _products;
   }
 
+  // Free bodies ask for none of these
+  void read() override { asked(); }
+  bool has_own_jacobian() const override { return false; }
+  std::span<const double> residual() override { return asked(); }
+  std::span<const double> defect() override { return asked(); }
+  std::span<const double> lifted() override { return asked(); }
+  void set_displacements(std::span<const double>) override { asked(); }
+  std::span<const std::int32_t> cells() override { return _cells; }
+  int nodes_per_cell() const override { return 2; }
+  std::span<const double> cell_sizes() override { return asked(); }
+  std::span<const double> cell_forces() override { return asked(); }
+
   /// @brief Product of the stiffness with a field of the truss.
   std::vector<double> product(std::span<const double> field) const
   {
@@ -188,9 +200,14 @@ public:
   }
 
 private:
+  static std::span<const double> asked()
+  {
+    throw std::logic_error("a truss has no forces");
+  }
+
   int _gdim;
   std::vector<std::int32_t> _cells;
-  std::shared_ptr<const parallel::NodeMap> _map;
+  std::shared_ptr<const mesh::NodeMap> _map;
   std::vector<std::int64_t> _number;
   std::vector<double> _x, _reference, _positions, _displacements, _diagonal,
       _products;
@@ -207,16 +224,16 @@ public:
 };
 
 /// @brief Slave nodes that are paired with nodes, or with a rigid plane.
-class NodeContact final : public active_set::Holding
+class NodeContact final : public solve::Holding
 {
 public:
   bool is_small() const override { return small; }
   bool has_friction() const override { return friction > 0; }
-  active_set::Pairing pairing() const override { return found; }
+  solve::Pairing pairing() const override { return found; }
   std::vector<std::int8_t> status() const override { return kind; }
   std::vector<double> closable_gap() const override { return gap; }
 
-  active_set::Rubbing rubbing() override
+  solve::Rubbing rubbing() override
   {
     const std::size_t n = kind.size(), g = gdim;
     std::vector<double> normal;
@@ -286,7 +303,7 @@ public:
   int gdim = 2;
   bool small = false;
   double friction = 0;
-  active_set::Pairing found;
+  solve::Pairing found;
   std::vector<std::int8_t> kind;
   std::vector<double> gap, slip, traction;
   std::function<void()> on_close; ///< called where nodes are closed
@@ -297,7 +314,7 @@ struct FreeScene
 {
   /// @param[in] truss The truss.
   /// @param[in] ranks The ranks; one alone if null.
-  explicit FreeScene(Truss given, parallel::Ranks* ranks = nullptr)
+  explicit FreeScene(Truss given, mesh::Ranks* ranks = nullptr)
       : truss(std::move(given)), number(truss.num_nodes())
   {
     const std::int32_t n = truss.num_nodes();
@@ -314,14 +331,14 @@ struct FreeScene
       map = std::make_shared<NumberedNodes>(*ranks, number, num_owned);
     }
     else
-      map = std::make_shared<parallel::SerialNodes>(n);
+      map = std::make_shared<mesh::SerialNodes>(n);
     place.resize(n);
     for (std::int32_t i = 0; i < n; ++i)
       place[number[i]] = i;
     std::vector<std::int32_t> cells;
     for (const std::int32_t node : truss.cells)
       cells.push_back(place[node]);
-    bodies = std::make_shared<contact::Bodies>(
+    bodies = std::make_shared<mesh::Bodies>(
         cells, 2, static_cast<std::int32_t>(cells.size() / 2), number, map);
     bulk = std::make_shared<TrussBulk>(truss, map, number);
   }
@@ -339,14 +356,14 @@ struct FreeScene
   }
 
   /// @brief What keeps the bodies solvable; once all contacts are there.
-  active_set::FreeBodies free_bodies() const
+  solve::FreeBodies free_bodies() const
   {
     return {bodies, bulk, contacts, std::span(number).first(map->num_owned())};
   }
 
   /// @brief Forces on the nodes of the truss, loads of size one.
-  active_set::Forces loads(std::vector<double> load,
-                           std::vector<double> of_bulk = {}) const
+  solve::Forces loads(std::vector<double> load,
+                      std::vector<double> of_bulk = {}) const
   {
     if (of_bulk.empty())
       of_bulk = load;
@@ -371,9 +388,9 @@ struct FreeScene
   Truss truss;
   std::vector<std::int64_t> number; ///< in the truss, of each node here
   std::vector<std::int32_t> place;  ///< here, of each node of the truss
-  std::shared_ptr<parallel::NodeMap> map;
-  std::shared_ptr<contact::Bodies> bodies;
+  std::shared_ptr<mesh::NodeMap> map;
+  std::shared_ptr<mesh::Bodies> bodies;
   std::shared_ptr<TrussBulk> bulk;
-  std::vector<std::shared_ptr<active_set::Holding>> contacts;
+  std::vector<std::shared_ptr<solve::Holding>> contacts;
 };
 } // namespace contactx::tests

@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include <contactx/vec.h>
+#include <contactx/math/vec.h>
 #include <random>
 
 /// @brief What several tests share: random input and slow references.

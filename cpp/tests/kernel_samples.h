@@ -4,9 +4,9 @@
 #pragma once
 
 #include "facets.h"
-#include <contactx/facet/ridge.h>
+#include <contactx/geometry/ridge.h>
 #include <contactx/kernel/registry.h>
-#include <contactx/mortar/facet_search.h>
+#include <contactx/search/facet_search.h>
 #include <functional>
 #include <numeric>
 #include <ostream>
@@ -138,9 +138,9 @@ private:
 
 /// @brief A facet in space, warped, turned and stretched.
 template <class F>
-facet::Nodes<F> kernel_facet(Generator& random)
+geometry::Nodes<F> kernel_facet(Generator& random)
 {
-  facet::Nodes<F> x;
+  geometry::Nodes<F> x;
   const double size = random(0.5, 2);
   for (int l = 0; l < F::nodes; ++l)
     for (int k = 0; k < F::gdim; ++k)
@@ -155,7 +155,7 @@ void place_node(Sample& s, Generator& random)
 {
   constexpr int D = F::gdim;
   const auto x = kernel_facet<F>(random);
-  facet::Local<F> xi = inner_point<F>(random);
+  geometry::Local<F> xi = inner_point<F>(random);
   Vector<3> cone{};
   if (s.feature > F::num_edges)
   {
@@ -169,7 +169,7 @@ void place_node(Sample& s, Generator& random)
   }
   else if (s.feature > 0)
   {
-    const auto [i, j] = facet::feature_edge<F>(s.feature);
+    const auto [i, j] = geometry::feature_edge<F>(s.feature);
     const double part = random(0.1, 0.9);
     xi = (1 - part) * F::vertices[i] + part * F::vertices[j];
     const auto c = random.unit<2>();
@@ -177,7 +177,8 @@ void place_node(Sample& s, Generator& random)
   }
   Vector<D> slave;
   if (s.feature == 0)
-    slave = position<F>(x, xi) + random(-0.15, 0.15) * facet::frame<F>(x, xi).n;
+    slave = position<F>(x, xi)
+            + random(-0.15, 0.15) * geometry::frame<F>(x, xi).n;
   else
   {
     // Not at the middle of the facet, which may be too near to a ridge
@@ -214,7 +215,7 @@ inline void integrate_facets(Sample& sample)
   std::vector<std::int32_t> slave(n), master(m);
   std::iota(slave.begin(), slave.end(), 0);
   std::iota(master.begin(), master.end(), n);
-  mortar::FacetSearch search({0, n}, slave, {0, m}, master, gdim);
+  search::FacetSearch search({0, n}, slave, {0, m}, master, gdim);
   const auto x = sample.positions();
   const double* X = sample.at(Coefficient::position);
   const std::vector<double> reference(X, X + x.size());
@@ -227,12 +228,13 @@ inline void integrate_facets(Sample& sample)
   std::vector<double> kept;
   if (p[at.keeps] != 0)
     kept.assign(p + at.normal, p + at.normal + 3);
-  const auto all = mortar::integrals(search.slave(), search.master(), pairs, x,
-                                     reference, gdim, kept, weight);
+  const auto all = geometry::integrals(search.slave(), search.master(), pairs,
+                                       x, reference, gdim, kept, weight);
   for (int s = 0; s < n; ++s)
   {
-    std::copy_n(&all.weight[mortar::most_nodes * s], m, p + at.weight + m * s);
-    std::copy_n(&all.dual[mortar::most_nodes * s], n, p + at.dual + n * s);
+    std::copy_n(&all.weight[geometry::most_nodes * s], m,
+                p + at.weight + m * s);
+    std::copy_n(&all.dual[geometry::most_nodes * s], n, p + at.dual + n * s);
     p[at.gap + s] = all.gap[s];
   }
   std::copy_n(all.normal.begin(), 3, p + at.normal);
@@ -262,9 +264,9 @@ inline void place_facets(Sample& s, Generator& random, bool within, bool keeps)
         x.push_back(c + random(-0.08, 0.08));
       }
   };
-  facet::visit(n, [&](auto kind) { add(kind, 1, 0); });
-  facet::visit(m, [&](auto kind)
-               { add(kind, within ? 6 : 1.5, random(-.1, .1)); });
+  geometry::visit(n, [&](auto kind) { add(kind, 1, 0); });
+  geometry::visit(m, [&](auto kind)
+                  { add(kind, within ? 6 : 1.5, random(-.1, .1)); });
   const auto turn = [&]<int D>(std::integral_constant<int, D>)
   {
     const Motion<D> motion(random, 1);
@@ -479,8 +481,8 @@ inline std::vector<Sample> samples(const Kind& kind)
     else
     {
       s.feature = std::max(0, i - 1);
-      facet::visit(kind.num_nodes,
-                   [&]<class F>(F) { place_node<F>(s, random); });
+      geometry::visit(kind.num_nodes,
+                      [&]<class F>(F) { place_node<F>(s, random); });
     }
     all.push_back(std::move(s));
   }

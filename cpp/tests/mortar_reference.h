@@ -38,7 +38,7 @@ struct Across
 
   /// @brief Outline of a facet, counterclockwise where it is a polygon.
   template <class F>
-  Polygon<D - 1> outline(const facet::Nodes<F>& x) const
+  Polygon<D - 1> outline(const geometry::Nodes<F>& x) const
   {
     Polygon<D - 1> p;
     for (const auto& edge : F::edges)
@@ -54,7 +54,7 @@ struct Across
 template <class F>
 struct Foot
 {
-  facet::Local<F> xi;
+  geometry::Local<F> xi;
   Vector<F::nodes> N;
   double height;   ///< along the direction
   double jacobian; ///< area across the direction by that of local coordinates
@@ -62,15 +62,15 @@ struct Foot
 
 /// @brief Find the point of a facet over a point, by Newton's method in space.
 template <class F>
-Foot<F> foot(const facet::Nodes<F>& x, const Across<F::gdim>& across,
-             const facet::Local<F>& p)
+Foot<F> foot(const geometry::Nodes<F>& x, const Across<F::gdim>& across,
+             const geometry::Local<F>& p)
 {
-  facet::Local<F> xi;
+  geometry::Local<F> xi;
   xi.fill(F::nodes == 3 ? 1. / 3 : 0.5);
   double det = 0;
   for (int it = 0; it < 50; ++it)
   {
-    const auto t = facet::tangents<F>(x, xi);
+    const auto t = geometry::tangents<F>(x, xi);
     const auto r = p - across(position<F>(x, xi));
     if constexpr (F::tdim == 1)
     {
@@ -104,19 +104,20 @@ struct PairMoments
   /// @param[in] reference Its nodes in the reference configuration.
   /// @param[in] xm Nodes of the master facet.
   /// @param[in] direction Unit vector that is projected along.
-  PairMoments(const facet::Nodes<S>& xs, const facet::Nodes<S>& reference,
-              const facet::Nodes<M>& xm, const Vector<S::gdim>& direction)
+  PairMoments(const geometry::Nodes<S>& xs, const geometry::Nodes<S>& reference,
+              const geometry::Nodes<M>& xm, const Vector<S::gdim>& direction)
   {
     const Across<S::gdim> across(direction);
     const auto part = shared(across.template outline<S>(xs),
                              across.template outline<M>(xm));
     sample(part,
-           [&](const facet::Local<S>& p, double w)
+           [&](const geometry::Local<S>& p, double w)
            {
              const auto s = foot<S>(xs, across, p);
              const auto m = foot<M>(xm, across, p);
              const double weight
-                 = w * facet::frame<S>(reference, s.xi).jacobian / s.jacobian;
+                 = w * geometry::frame<S>(reference, s.xi).jacobian
+                   / s.jacobian;
              total += weight;
              area = area + weight * s.N;
              gap = gap + (weight * (m.height - s.height)) * s.N;
@@ -137,9 +138,9 @@ struct Kinds
   using M = Master;
 };
 using FacetPairTypes
-    = ::testing::Types<Kinds<facet::Segment, facet::Segment>,
-                       Kinds<facet::Triangle, facet::Triangle>,
-                       Kinds<facet::Triangle, facet::Quadrilateral>,
-                       Kinds<facet::Quadrilateral, facet::Triangle>,
-                       Kinds<facet::Quadrilateral, facet::Quadrilateral>>;
+    = ::testing::Types<Kinds<geometry::Segment, geometry::Segment>,
+                       Kinds<geometry::Triangle, geometry::Triangle>,
+                       Kinds<geometry::Triangle, geometry::Quadrilateral>,
+                       Kinds<geometry::Quadrilateral, geometry::Triangle>,
+                       Kinds<geometry::Quadrilateral, geometry::Quadrilateral>>;
 } // namespace contactx::tests

@@ -14,7 +14,7 @@ struct MovedContact
 {
   int gdim;
   std::shared_ptr<std::vector<double>> displacement;
-  std::shared_ptr<parallel::Halo> halo;
+  std::shared_ptr<mesh::Halo> halo;
   std::shared_ptr<contact::Contact> contact;
 
   /// @brief A slave sheet over a master sheet.
@@ -38,7 +38,7 @@ struct MovedContact
   }
 
   /// @brief A slave sheet and an obstacle.
-  MovedContact(const Scene& slave, std::shared_ptr<obstacle::Obstacle> obstacle,
+  MovedContact(const Scene& slave, std::shared_ptr<geometry::Obstacle> obstacle,
                contact::Sliding sliding = contact::Sliding::finite)
       : MovedContact(slave.x, slave.gdim)
   {
@@ -62,10 +62,10 @@ private:
       : gdim(dim),
         displacement(std::make_shared<std::vector<double>>(x.size(), 0.))
   {
-    halo = parallel::serial_halo(std::move(x), dim, displacement);
+    halo = mesh::serial_halo(std::move(x), dim, displacement);
   }
 
-  void make(const facet::FacetList& facets,
+  void make(const geometry::FacetList& facets,
             std::shared_ptr<contact::Master> master,
             std::shared_ptr<law::Law> law, contact::Sliding sliding)
   {

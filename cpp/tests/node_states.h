@@ -5,8 +5,8 @@
 
 #include "generator.h"
 #include <algorithm>
-#include <contactx/contact/node_state.h>
 #include <contactx/law/law.h>
+#include <contactx/law/node_state.h>
 #include <functional>
 #include <memory>
 #include <string>
@@ -16,7 +16,7 @@ namespace contactx::tests
 {
 /// @brief Set all that a law reads to random numbers, where nothing is
 /// singular: unit normals, trial friction far from zero and gaps away from it.
-inline void randomise(contact::NodeState& nodes, Generator& random)
+inline void randomise(law::NodeState& nodes, Generator& random)
 {
   const std::size_t n = nodes.num_nodes(), g = nodes.gdim();
   for (std::size_t i = 0; i < n; ++i)
@@ -53,7 +53,7 @@ inline void randomise(contact::NodeState& nodes, Generator& random)
 
 /// @brief A node with its normal along the last axis, c = 8 and area 1, among
 /// others like it.
-inline void set_upright(contact::NodeState& nodes, std::size_t i, double p,
+inline void set_upright(law::NodeState& nodes, std::size_t i, double p,
                         double t, double gap, double slip)
 {
   const std::size_t g = nodes.gdim();

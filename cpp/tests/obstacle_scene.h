@@ -12,7 +12,7 @@
 namespace contactx::tests
 {
 /// @brief Nodes of one rank, of which others own the last ones.
-class PartOfNodes final : public parallel::NodeMap
+class PartOfNodes final : public mesh::NodeMap
 {
 public:
   PartOfNodes(std::int32_t num_owned, std::int32_t num_nodes)
@@ -20,7 +20,7 @@ public:
   {
   }
 
-  parallel::Ranks& ranks() const override { return _ranks; }
+  mesh::Ranks& ranks() const override { return _ranks; }
   std::int32_t num_owned() const override { return _num_owned; }
   std::int32_t num_nodes() const override { return _num_nodes; }
   void forward(std::span<double>, int) const override {}
@@ -28,7 +28,7 @@ public:
   void reverse(std::span<double>, int) const override {}
 
 private:
-  mutable parallel::OneRank _ranks;
+  mutable mesh::OneRank _ranks;
   std::int32_t _num_owned, _num_nodes;
 };
 
@@ -42,7 +42,7 @@ struct FacingNodes
   std::shared_ptr<const contact::SlaveNodes> slaves;
 
   /// @brief Nodes at random places around an obstacle.
-  FacingNodes(obstacle::Obstacle& o, int dimension, int count = 12)
+  FacingNodes(geometry::Obstacle& o, int dimension, int count = 12)
       : gdim(dimension), n(count)
   {
     Generator random(7);
@@ -52,14 +52,14 @@ struct FacingNodes
   }
 
   /// @brief Nodes at given places.
-  FacingNodes(obstacle::Obstacle& o, int dimension, std::vector<double> points)
+  FacingNodes(geometry::Obstacle& o, int dimension, std::vector<double> points)
       : gdim(dimension), n(static_cast<int>(points.size()) / dimension),
         x(std::move(points))
   {
     face(o);
   }
 
-  facet::FacetList facets() const { return {offsets, nodes}; }
+  geometry::FacetList facets() const { return {offsets, nodes}; }
 
   /// @brief All positions after a function has moved the slave nodes.
   std::vector<double> moved(auto&& f) const
@@ -71,7 +71,7 @@ struct FacingNodes
   }
 
 private:
-  void face(obstacle::Obstacle& o)
+  void face(geometry::Obstacle& o)
   {
     const auto normal = o.normals(x, gdim);
     const double h = 1e-3;
@@ -116,9 +116,9 @@ struct Given
   std::vector<double> slip, derivative, gap, normal;
 
   /// @brief Take it from pairs of all nodes of a master.
-  Given(const std::vector<contact::Pairs>& groups, int gdim)
+  Given(const std::vector<kernel::Pairs>& groups, int gdim)
   {
-    const contact::Pairs& p = groups.at(0);
+    const kernel::Pairs& p = groups.at(0);
     for (std::size_t i = 0; i < p.size(); ++i)
     {
       const auto pair = p.row<kernel::ObstaclePair>(i);

@@ -4,22 +4,22 @@
 #pragma once
 
 #include <cmath>
-#include <contactx/obstacle/cylinder.h>
-#include <contactx/obstacle/level_set.h>
-#include <contactx/obstacle/plane.h>
-#include <contactx/obstacle/sphere.h>
+#include <contactx/geometry/cylinder.h>
+#include <contactx/geometry/level_set.h>
+#include <contactx/geometry/plane.h>
+#include <contactx/geometry/sphere.h>
 #include <memory>
 
 namespace contactx::tests
 {
 /// @brief f = |x - c|^2 - 1/2 + x_0 x_1, with its derivatives or, if
 /// `has_hessian` is false, its gradient alone.
-inline obstacle::LevelValues bump(std::span<const double> x, int gdim,
+inline geometry::LevelValues bump(std::span<const double> x, int gdim,
                                   bool has_hessian)
 {
   const double c[3] = {0.1, 0.2, -0.3};
   const std::size_t n = x.size() / gdim;
-  obstacle::LevelValues at;
+  geometry::LevelValues at;
   for (std::size_t i = 0; i < n; ++i)
   {
     const double* p = &x[gdim * i];
@@ -59,7 +59,7 @@ inline std::vector<Kind> kinds(int gdim)
 }
 
 /// @brief An obstacle near the origin, about as large as one.
-inline std::shared_ptr<obstacle::Obstacle> make_obstacle(Kind kind, int gdim)
+inline std::shared_ptr<geometry::Obstacle> make_obstacle(Kind kind, int gdim)
 {
   const auto cut = [gdim](std::vector<double> v)
   {
@@ -70,17 +70,17 @@ inline std::shared_ptr<obstacle::Obstacle> make_obstacle(Kind kind, int gdim)
   switch (kind)
   {
   case Kind::plane:
-    return std::make_shared<obstacle::Plane>(point, cut({0.4, -1, 2}));
+    return std::make_shared<geometry::Plane>(point, cut({0.4, -1, 2}));
   case Kind::sphere:
-    return std::make_shared<obstacle::Sphere>(point, 0.7);
+    return std::make_shared<geometry::Sphere>(point, 0.7);
   case Kind::bowl:
-    return std::make_shared<obstacle::Sphere>(point, 3.0, true);
+    return std::make_shared<geometry::Sphere>(point, 3.0, true);
   case Kind::cylinder:
-    return std::make_shared<obstacle::Cylinder>(point, axis, 0.7);
+    return std::make_shared<geometry::Cylinder>(point, axis, 0.7);
   case Kind::pipe:
-    return std::make_shared<obstacle::Cylinder>(point, axis, 3.0, true);
+    return std::make_shared<geometry::Cylinder>(point, axis, 3.0, true);
   default:
-    return std::make_shared<obstacle::LevelSet>(
+    return std::make_shared<geometry::LevelSet>(
         [has_hessian = kind == Kind::level_set](std::span<const double> x,
                                                 int g, int)
         { return bump(x, g, has_hessian); });

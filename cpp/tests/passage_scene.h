@@ -54,7 +54,8 @@ struct MovingScene
   /// @brief Crossings as an observer at rest sees them.
   std::vector<audit::Crossing> crossings() const
   {
-    const audit::RigidMotion rest{{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, {}, {}};
+    const geometry::RigidMotion rest{
+        {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, {}, {}};
     return audit::crossings(facets.facets(), facets.x, x1, gdim(), rest,
                             points());
   }

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "facets.h"
-#include <contactx/mortar/quadrature.h>
+#include <contactx/geometry/quadrature.h>
 #include <vector>
 
 namespace contactx::tests
@@ -114,8 +114,8 @@ void sample(const Polygon<2>& polygon, Function&& f)
   for (std::size_t i = 2; i < polygon.size(); ++i)
   {
     const Vector<2>&a = polygon[0], &b = polygon[i - 1], &c = polygon[i];
-    for (const auto& [s, ws] : mortar::gauss(mortar::max_points))
-      for (const auto& [t, wt] : mortar::gauss(mortar::max_points))
+    for (const auto& [s, ws] : geometry::gauss(geometry::max_points))
+      for (const auto& [t, wt] : geometry::gauss(geometry::max_points))
         f(a + s * ((1 - t) * (b - a) + t * (c - a)),
           s * ws * wt * turn(a, b, c));
   }
@@ -127,7 +127,7 @@ void sample(const Polygon<1>& interval, Function&& f)
 {
   if (interval.empty())
     return;
-  for (const auto& [s, w] : mortar::gauss(mortar::max_points))
+  for (const auto& [s, w] : geometry::gauss(geometry::max_points))
     f(interval[0] + s * (interval[1] - interval[0]), w * area(interval));
 }
 } // namespace contactx::tests

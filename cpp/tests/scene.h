@@ -50,7 +50,7 @@ struct Scene
     return p;
   }
 
-  facet::FacetList facets() const { return {offsets, nodes}; }
+  geometry::FacetList facets() const { return {offsets, nodes}; }
 
   search::Surface surface() const { return {offsets, nodes, gdim}; }
 };

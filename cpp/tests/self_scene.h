@@ -4,9 +4,9 @@
 #pragma once
 
 #include <cmath>
-#include <contactx/facet/facets.h>
-#include <contactx/parallel/halo.h>
-#include <contactx/search/self_surface.h>
+#include <contactx/geometry/facets.h>
+#include <contactx/mesh/halo.h>
+#include <contactx/search/self/self_surface.h>
 #include <numbers>
 
 namespace contactx::tests
@@ -18,7 +18,7 @@ struct Strip
   int cells;
   double length, thickness;
   std::vector<double> x;
-  facet::Facets facets;
+  geometry::Facets facets;
 
   Strip(int cells, double length, double thickness)
       : cells(cells), length(length), thickness(thickness)
@@ -84,7 +84,7 @@ struct Strip
 struct Joined
 {
   std::vector<double> x;
-  facet::Facets facets;
+  geometry::Facets facets;
   std::vector<std::int64_t> body;
 
   void add(const Strip& strip, double aside, double up, std::int64_t name)

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "mortar_reference.h"
-#include <contactx/mortar/plane.h>
+#include <contactx/geometry/projection_plane.h>
 
 namespace contactx::tests
 {
@@ -12,13 +12,13 @@ namespace contactx::tests
 /// they do not look at one another.
 /// @param[in] size What the slave facet is scaled with.
 template <class S, class M>
-double common_area(const facet::Nodes<S>& xs, const facet::Nodes<M>& xm,
+double common_area(const geometry::Nodes<S>& xs, const geometry::Nodes<M>& xm,
                    double reach, double size = 1)
 {
-  const auto n = facet::frame<S>(xs, mortar::plane_origin<S>()).n;
-  if (dot(n, facet::frame<M>(xm, mortar::plane_origin<M>()).n) > -0.1)
+  const auto n = geometry::frame<S>(xs, geometry::plane_origin<S>()).n;
+  if (dot(n, geometry::frame<M>(xm, geometry::plane_origin<M>()).n) > -0.1)
     return 0;
-  const auto middle = position<S>(xs, mortar::plane_origin<S>());
+  const auto middle = position<S>(xs, geometry::plane_origin<S>());
   double low = 0, high = 0, nearest = INFINITY, farthest = -INFINITY;
   for (const auto& p : xs)
   {
@@ -34,7 +34,7 @@ double common_area(const facet::Nodes<S>& xs, const facet::Nodes<M>& xm,
     return 0;
   const Across<S::gdim> across(n);
   auto outline = across.template outline<S>(xs);
-  facet::Local<S> centre{};
+  geometry::Local<S> centre{};
   for (const auto& p : outline)
     centre = centre + (1.0 / outline.size()) * p;
   for (auto& p : outline)
@@ -45,13 +45,14 @@ double common_area(const facet::Nodes<S>& xs, const facet::Nodes<M>& xm,
 /// @brief Whether a facet is no simple polygon, or none that is convex, as seen
 /// from another one.
 template <class S, class M>
-bool looks_folded(const facet::Nodes<S>& xs, const facet::Nodes<M>& xm)
+bool looks_folded(const geometry::Nodes<S>& xs, const geometry::Nodes<M>& xm)
 {
   if constexpr (M::nodes < 4)
     return false;
   else
   {
-    const Across<3> across(facet::frame<S>(xs, mortar::plane_origin<S>()).n);
+    const Across<3> across(
+        geometry::frame<S>(xs, geometry::plane_origin<S>()).n);
     const auto p = across.template outline<M>(xm);
     bool left = true;
     for (int i = 0; i < 4; ++i)
@@ -63,7 +64,7 @@ bool looks_folded(const facet::Nodes<S>& xs, const facet::Nodes<M>& xm)
 /// @brief What must be found: 1 if they share an area, 0 if they are apart, -1
 /// where rounding decides.
 template <class S, class M>
-int must_be_found(const facet::Nodes<S>& xs, const facet::Nodes<M>& xm,
+int must_be_found(const geometry::Nodes<S>& xs, const geometry::Nodes<M>& xm,
                   double reach)
 {
   if (looks_folded<S, M>(xs, xm))

@@ -37,10 +37,10 @@ struct Part
 /// @param[in] owner Rank of each node.
 /// @param[in] rank The rank.
 inline Part part_of(const Scene& whole, const std::vector<int>& owner,
-                    parallel::Ranks& rank)
+                    mesh::Ranks& rank)
 {
   Part part{Scene(whole.gdim), nullptr, {}, 0};
-  const facet::FacetList facets = whole.facets();
+  const geometry::FacetList facets = whole.facets();
   std::set<std::int32_t> others;
   std::vector<std::int32_t> here;
   for (std::int32_t f = 0; f < facets.size(); ++f)

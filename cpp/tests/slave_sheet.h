@@ -82,7 +82,7 @@ inline std::pair<Scene, std::vector<std::int32_t>> in_bulk(const Scene& scene,
 /// @brief Slave nodes of a surface on one rank.
 inline std::shared_ptr<contact::SlaveNodes> slave_nodes(const Scene& scene)
 {
-  const auto nodes = std::make_shared<parallel::SerialNodes>(
+  const auto nodes = std::make_shared<mesh::SerialNodes>(
       static_cast<std::int32_t>(scene.x.size()) / scene.gdim);
   return std::make_shared<contact::SlaveNodes>(nodes, scene.facets(),
                                                scene.facets());

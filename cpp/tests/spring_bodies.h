@@ -4,15 +4,15 @@
 #pragma once
 
 #include "contact_scene.h"
-#include <contactx/contact/bodies.h>
-#include <contactx/newton/loop.h>
+#include <contactx/mesh/bodies.h>
+#include <contactx/solve/loop.h>
 #include <optional>
 
 namespace contactx::tests
 {
 /// @brief Fields beside displacements whose rows are stiffness times value
 /// minus load, apart from each other.
-class LooseFields final : public newton::Fields
+class LooseFields final : public solve::Fields
 {
 public:
   /// @param[in] offsets Where each field begins, and the end.
@@ -76,7 +76,7 @@ private:
 /// the end of which may move; the nodes of a cell are joined by springs that
 /// resist whatever moves one against the other. All arrays are in the order of
 /// this rank, which has all nodes.
-class SpringBulk final : public newton::Bulk
+class SpringBulk final : public solve::Bulk
 {
 public:
   /// @param[in] mesh Nodes of this rank.
@@ -84,7 +84,7 @@ public:
   /// @param[in] u Displacement of all nodes.
   /// @param[in] cells Nodes of all cells by their number in the mesh.
   /// @param[in] width Nodes a cell.
-  SpringBulk(const WholeMesh& mesh, std::shared_ptr<parallel::Halo> halo,
+  SpringBulk(const WholeMesh& mesh, std::shared_ptr<mesh::Halo> halo,
              std::shared_ptr<std::vector<double>> u,
              const std::vector<std::int32_t>& cells, int width)
       : u(std::move(u)), ground(this->u->size(), 0), ends(ground), load(ground),
@@ -173,7 +173,7 @@ public:
     return std::span(cell_force).first(_halo->num_owned());
   }
 
-  newton::Fields* fields() override { return others.get(); }
+  solve::Fields* fields() override { return others.get(); }
 
   /// @brief Product of the stiffness with displacements of all nodes.
   std::vector<double> product(std::span<const double> field) const
@@ -229,7 +229,7 @@ private:
                   std::size_t(gdim()) * _cells[c + b] + k);
   }
 
-  std::shared_ptr<parallel::Halo> _halo;
+  std::shared_ptr<mesh::Halo> _halo;
   int _width;
   std::vector<std::int32_t> _cells, _own;
   std::vector<double> _positions, _diagonal, _products, _residual, _defect,
@@ -245,7 +245,7 @@ struct SpringBodies
   std::vector<std::shared_ptr<contact::Contact>> contacts;
 
   explicit SpringBodies(int dim, double height = 0.05,
-                        parallel::Ranks* ranks = nullptr)
+                        mesh::Ranks* ranks = nullptr)
       : scene(dim, height, Cells::mixed, ranks),
         bulk(std::make_shared<SpringBulk>(scene.mesh, scene.halo, scene.u,
                                           edges(), 2))
@@ -321,9 +321,9 @@ struct SpringBodies
   }
 
   /// @brief The system of these bodies and contacts.
-  std::shared_ptr<newton::System> system() const
+  std::shared_ptr<solve::System> system() const
   {
-    return std::make_shared<newton::System>(scene.halo, bulk, contacts);
+    return std::make_shared<solve::System>(scene.halo, bulk, contacts);
   }
 
   /// @brief Unknowns of this rank from those of one alone.
@@ -351,11 +351,11 @@ struct SpringBodies
   }
 
   /// @brief Bodies of the mesh: the sheets.
-  std::shared_ptr<const contact::Bodies> bodies() const
+  std::shared_ptr<const mesh::Bodies> bodies() const
   {
     const auto cells = bulk->cells();
     const int width = bulk->nodes_per_cell();
-    return std::make_shared<contact::Bodies>(
+    return std::make_shared<mesh::Bodies>(
         cells, width, static_cast<std::int32_t>(cells.size() / width),
         scene.halo->original(), scene.halo);
   }

@@ -63,7 +63,7 @@ struct Stepped : SpringBodies
   /// One linear solve.
   void advance()
   {
-    newton::System& system = *problem().system();
+    solve::System& system = *problem().system();
     std::vector<double> b(system.size());
     system.residual(b);
     std::vector<double> dx = dense::solve(matrix(), b);
@@ -75,7 +75,7 @@ struct Stepped : SpringBodies
   /// Jacobian by the unknowns, which are lengths.
   dense::Matrix matrix()
   {
-    newton::System& system = *problem().system();
+    solve::System& system = *problem().system();
     const auto& springs = problem().loop().free_bodies().springs();
     dense::Matrix J = jacobian(springs ? std::span<const double>(*springs)
                                        : std::span<const double>());

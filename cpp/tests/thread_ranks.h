@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <condition_variable>
-#include <contactx/parallel/ranks.h>
+#include <contactx/mesh/ranks.h>
 #include <exception>
 #include <map>
 #include <mutex>
@@ -60,28 +60,28 @@ private:
 };
 
 /// @brief A rank of several.
-class ThreadRanks final : public parallel::Ranks
+class ThreadRanks final : public mesh::Ranks
 {
 public:
   ThreadRanks(Meeting& meeting, int rank) : _meeting(meeting), _rank(rank) {}
 
   int rank() const override { return _rank; }
   int size() const override { return _meeting.size(); }
-  void reduce(std::span<double> values, parallel::Reduction how) override
+  void reduce(std::span<double> values, mesh::Reduction how) override
   {
     reduce_all(values, how);
   }
-  void reduce(std::span<std::int64_t> values, parallel::Reduction how) override
+  void reduce(std::span<std::int64_t> values, mesh::Reduction how) override
   {
     reduce_all(values, how);
   }
 
-  parallel::Messages exchange(const parallel::Messages& outgoing) override
+  mesh::Messages exchange(const mesh::Messages& outgoing) override
   {
     ++num_exchanges;
-    parallel::Messages incoming;
+    mesh::Messages incoming;
     show(outgoing,
-         [&](int rank, const parallel::Messages& theirs)
+         [&](int rank, const mesh::Messages& theirs)
          {
            if (const auto at = theirs.find(_rank); at != theirs.end())
              incoming[rank] = at->second;
@@ -104,16 +104,16 @@ public:
 
 private:
   template <class T>
-  void reduce_all(std::span<T> values, parallel::Reduction how)
+  void reduce_all(std::span<T> values, mesh::Reduction how)
   {
     std::vector<T> all(values.size());
     show(values,
          [&](int rank, std::span<T> theirs)
          {
            for (std::size_t i = 0; i < all.size(); ++i)
-             all[i] = rank == 0                         ? theirs[i]
-                      : how == parallel::Reduction::sum ? all[i] + theirs[i]
-                      : how == parallel::Reduction::least
+             all[i] = rank == 0                     ? theirs[i]
+                      : how == mesh::Reduction::sum ? all[i] + theirs[i]
+                      : how == mesh::Reduction::least
                           ? std::min(all[i], theirs[i])
                           : std::max(all[i], theirs[i]);
          });
@@ -167,20 +167,20 @@ void on_ranks(int size, Work work)
 }
 
 /// @brief Nodes of a rank, by the numbers that all ranks know.
-class NumberedNodes final : public parallel::NodeMap
+class NumberedNodes final : public mesh::NodeMap
 {
 public:
   /// @brief Take the nodes.
   /// @param[in] ranks The ranks.
   /// @param[in] numbers Number of each node on this rank, owned ones first.
   /// @param[in] num_owned How many it owns.
-  NumberedNodes(parallel::Ranks& ranks, std::vector<std::int64_t> numbers,
+  NumberedNodes(mesh::Ranks& ranks, std::vector<std::int64_t> numbers,
                 std::int32_t num_owned)
       : _ranks(ranks), _numbers(std::move(numbers)), _num_owned(num_owned)
   {
   }
 
-  parallel::Ranks& ranks() const override { return _ranks; }
+  mesh::Ranks& ranks() const override { return _ranks; }
   std::int32_t num_owned() const override { return _num_owned; }
   std::int32_t num_nodes() const override
   {
@@ -207,9 +207,8 @@ public:
   void reverse(std::span<double> values, int width) const override
   {
     const auto numbers
-        = parallel::gathered(_ranks, std::span<const std::int64_t>(_numbers));
-    const auto all
-        = parallel::gathered(_ranks, std::span<const double>(values));
+        = mesh::gathered(_ranks, std::span<const std::int64_t>(_numbers));
+    const auto all = mesh::gathered(_ranks, std::span<const double>(values));
     std::map<std::int64_t, std::int32_t> mine;
     for (std::int32_t i = 0; i < _num_owned; ++i)
       mine[_numbers[i]] = i;
@@ -226,8 +225,8 @@ private:
   {
     const auto owned
         = std::span<const std::int64_t>(_numbers).first(_num_owned);
-    const auto numbers = parallel::gathered(_ranks, owned);
-    const auto all = parallel::gathered(
+    const auto numbers = mesh::gathered(_ranks, owned);
+    const auto all = mesh::gathered(
         _ranks, std::span<const T>(values).first(owned.size() * width));
     std::map<std::int64_t, std::size_t> place;
     for (std::size_t i = 0; i < numbers.size(); ++i)
@@ -237,7 +236,7 @@ private:
                   &values[i * width]);
   }
 
-  parallel::Ranks& _ranks;
+  mesh::Ranks& _ranks;
   std::vector<std::int64_t> _numbers;
   std::int32_t _num_owned;
 };

@@ -6,8 +6,8 @@
 #include "generator.h"
 #include "scene.h"
 #include "thread_ranks.h"
-#include <contactx/facet/facets.h>
-#include <contactx/parallel/halo.h>
+#include <contactx/geometry/facets.h>
+#include <contactx/mesh/halo.h>
 
 namespace contactx::tests
 {
@@ -48,7 +48,7 @@ struct Distribution
 };
 
 /// @brief The bulk of a rank whose nodes are distributed.
-class ThreadBulk final : public parallel::HaloAdapter
+class ThreadBulk final : public mesh::HaloAdapter
 {
 public:
   /// @brief Take the nodes.
@@ -72,9 +72,9 @@ public:
 
   /// @brief What the halo is made of.
   /// @param[in] x Positions of all nodes of the mesh.
-  parallel::BulkNodes bulk(std::span<const double> x) const
+  mesh::BulkNodes bulk(std::span<const double> x) const
   {
-    parallel::BulkNodes result{_gdim, _num_owned, {}, {}, {}, {}};
+    mesh::BulkNodes result{_gdim, _num_owned, {}, {}, {}, {}};
     for (const std::int32_t node : _here)
     {
       const bool is_ghost = _nodes.owner[node] != _ranks.rank();
@@ -88,7 +88,7 @@ public:
     return result;
   }
 
-  parallel::Ranks& ranks() override { return _ranks; }
+  mesh::Ranks& ranks() override { return _ranks; }
 
   void set_ghosts(std::span<const std::int64_t> numbers,
                   std::span<const std::int32_t> owners) override
@@ -198,8 +198,8 @@ public:
   /// @brief Nodes of a rank, its facets' among them.
   /// @param[in] ranks The rank.
   /// @param[in] displacement Of all nodes of the mesh, none for zero.
-  std::shared_ptr<parallel::Halo>
-  halo(ThreadRanks& ranks, std::vector<double> displacement = {}) const
+  std::shared_ptr<mesh::Halo> halo(ThreadRanks& ranks,
+                                   std::vector<double> displacement = {}) const
   {
     displacement.resize(scene.x.size());
     std::vector<std::int32_t> ghosts;
@@ -214,14 +214,14 @@ public:
     auto bulk = std::make_unique<ThreadBulk>(
         nodes, ranks, ghosts, std::move(displacement), scene.gdim);
     auto given = bulk->bulk(scene.x);
-    return std::make_shared<parallel::Halo>(std::move(given), std::move(bulk));
+    return std::make_shared<mesh::Halo>(std::move(given), std::move(bulk));
   }
 
   /// @brief Facets of a rank, of those from one to another one.
-  facet::Facets own(const parallel::Halo& halo, std::int32_t begin,
-                    std::int32_t end) const
+  geometry::Facets own(const mesh::Halo& halo, std::int32_t begin,
+                       std::int32_t end) const
   {
-    facet::Facets result;
+    geometry::Facets result;
     for (std::int32_t f = begin; f < end; ++f)
       if (facet_rank[f] == halo.ranks().rank())
       {
@@ -236,8 +236,7 @@ public:
 
   /// @brief Nodes of the mesh by their numbers on a rank.
   std::vector<std::int32_t>
-  mesh_nodes(const parallel::Halo& halo,
-             std::span<const std::int32_t> which) const
+  mesh_nodes(const mesh::Halo& halo, std::span<const std::int32_t> which) const
   {
     std::vector<std::int32_t> result;
     for (const std::int64_t number : halo.numbers(which))

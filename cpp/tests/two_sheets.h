@@ -14,7 +14,7 @@ struct TwoSheets
 {
   int gdim;
   std::vector<double> x;
-  facet::Facets slave, master;
+  geometry::Facets slave, master;
   std::int32_t num_slaves; ///< the slave's nodes come first
 
   /// @brief Create them over squares.
@@ -67,13 +67,13 @@ struct TwoSheets
     return u;
   }
 
-  std::shared_ptr<parallel::Halo> halo; ///< that of the last pairs
+  std::shared_ptr<mesh::Halo> halo; ///< that of the last pairs
 
   /// @brief Pairs of these surfaces, searched for.
   template <class M>
   std::shared_ptr<M> pairs(bool is_small = false, bool measures_slip = true)
   {
-    halo = parallel::serial_halo(x, gdim);
+    halo = mesh::serial_halo(x, gdim);
     auto surface
         = search::make_master_surface(halo, master.offsets, master.nodes);
     auto outside

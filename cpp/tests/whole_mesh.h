@@ -4,8 +4,8 @@
 #pragma once
 
 #include "thread_ranks.h"
-#include <contactx/facet/facets.h>
-#include <contactx/parallel/halo.h>
+#include <contactx/geometry/facets.h>
+#include <contactx/mesh/halo.h>
 #include <numeric>
 
 namespace contactx::tests
@@ -15,7 +15,7 @@ struct WholeMesh
 {
   /// @param[in] n Number of nodes.
   /// @param[in] ranks The ranks; one alone if null.
-  WholeMesh(std::int32_t n, parallel::Ranks* ranks)
+  WholeMesh(std::int32_t n, mesh::Ranks* ranks)
       : ranks(ranks), number(n), place(n), num_owned(n)
   {
     std::iota(number.begin(), number.end(), 0);
@@ -54,9 +54,9 @@ struct WholeMesh
   /// @param[in] facets Facets of the mesh.
   /// @param[in] around Whether those are taken that have a node of this rank,
   /// else those whose first node is.
-  facet::Facets here(const facet::Facets& facets, bool around) const
+  geometry::Facets here(const geometry::Facets& facets, bool around) const
   {
-    facet::Facets result;
+    geometry::Facets result;
     for (std::int32_t f = 0; f < facets.list().size(); ++f)
     {
       const auto nodes = facets.list()[f];
@@ -76,18 +76,18 @@ struct WholeMesh
   /// @param[in] x Positions (shape=(n, gdim)).
   /// @param[in] gdim Geometric dimension.
   /// @param[in] u Displacements in the order of this rank.
-  std::shared_ptr<parallel::Halo>
+  std::shared_ptr<mesh::Halo>
   halo(const std::vector<double>& x, int gdim,
        std::shared_ptr<const std::vector<double>> u) const;
 
-  parallel::Ranks* ranks;
+  mesh::Ranks* ranks;
   std::vector<std::int64_t> number; ///< in the mesh, of each node here
   std::vector<std::int32_t> place;  ///< here, of each node of the mesh
   std::int32_t num_owned;
 };
 
 /// @brief The bulk of a rank that has all nodes.
-class WholeBulk final : public parallel::HaloAdapter
+class WholeBulk final : public mesh::HaloAdapter
 {
 public:
   WholeBulk(const WholeMesh& mesh,
@@ -97,7 +97,7 @@ public:
   {
   }
 
-  parallel::Ranks& ranks() override { return _map.ranks(); }
+  mesh::Ranks& ranks() override { return _map.ranks(); }
   void set_ghosts(std::span<const std::int64_t> numbers,
                   std::span<const std::int32_t>) override
   {
@@ -126,16 +126,16 @@ private:
   std::shared_ptr<const std::vector<double>> _displacement;
 };
 
-inline std::shared_ptr<parallel::Halo>
+inline std::shared_ptr<mesh::Halo>
 WholeMesh::halo(const std::vector<double>& x, int gdim,
                 std::shared_ptr<const std::vector<double>> u) const
 {
   if (not ranks)
-    return parallel::serial_halo(x, gdim, std::move(u));
-  parallel::BulkNodes bulk{gdim, num_owned, number, {}, number, here(x, gdim)};
+    return mesh::serial_halo(x, gdim, std::move(u));
+  mesh::BulkNodes bulk{gdim, num_owned, number, {}, number, here(x, gdim)};
   for (const std::int64_t node : number)
     bulk.owners.push_back(owner(node));
-  return std::make_shared<parallel::Halo>(
+  return std::make_shared<mesh::Halo>(
       std::move(bulk), std::make_unique<WholeBulk>(*this, std::move(u)));
 }
 } // namespace contactx::tests

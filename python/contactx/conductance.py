@@ -31,7 +31,7 @@ class Conductance:
 
     T is a scalar field such as a temperature, p the recovered contact pressure and g the gap. What
     leaves the slave arrives at the master, whether the meshes match or not: see
-    ``conductance/conductance.h`` and theory/conductance of the manual. Flows are integrals with
+    ``results/conductance.h`` and theory/conductance of the manual. Flows are integrals with
     the contact's weight, and over reference areas.
 
     Given to a ``ContactProblem`` that solves for displacement and T together, it is part of that

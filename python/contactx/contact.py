@@ -82,7 +82,7 @@ class Contact:
                 one of the two.
             master: Surface that they are measured against, or a rigid obstacle: Plane, Sphere,
                 Cylinder or LevelSet. The same surface as the slave is self-contact: of two places
-                that face each other one is the slave, see ``search/self_order.h``, and pairs are
+                that face each other one is the slave, see ``search/self/self_order.h``, and pairs are
                 found as the surface folds. It takes node-to-surface and finite sliding.
             friction: Coulomb's coefficient: a number, a ``fem.Constant`` or a ``fem.Function`` of
                 a scalar Lagrange space, which may change from step to step. With the number 0
@@ -197,7 +197,7 @@ class Contact:
         One contact has all pairs: self-contact of the surface that everything given makes up.
         Bodies may meet that are far apart at first, and each may fold onto itself. Of two bodies
         the softer one, or the one of smaller facets, is the slave where they differ by a factor of
-        2 in the product of stiffness and size; see ``search/self_order.h``. Write
+        2 in the product of stiffness and size; see ``search/self/self_order.h``. Write
         ``Contact.all(facet_tags)`` for all tags, ``Contact.all(facet_tags, 1, 2)`` for some, or
         ``Contact.all([arm, hook])`` for surfaces.
 
@@ -377,7 +377,7 @@ class Contact:
         """Contact pressure, force/area, zero off the slave surface and on open nodes.
 
         For either method, tied or not, it is recovered from the multipliers: nodes in contact
-        exchange force with their neighbours, which keeps its sum; see ``contact/recovery.h``.
+        exchange force with their neighbours, which keeps its sum; see ``results/recovery.h``.
         Where it rises towards an edge of the contact it goes on as a line, up to the edge.
         """
         return self.fields.pressure

@@ -3,7 +3,7 @@
 """The coupled system of bulk and contacts: one vector, one matrix.
 
 Each rank's unknowns are its displacements followed by the multipliers of each contact, all of them
-lengths, and all rows are forces: see ``newton/system.h``.
+lengths, and all rows are forces: see ``solve/system.h``.
 """
 
 from __future__ import annotations

@@ -6,7 +6,7 @@
 
 #include "falling_block.h"
 #include "scenes.h"
-#include <contactx/obstacle/plane.h>
+#include <contactx/geometry/plane.h>
 #include <contactx_dolfinx/dynamics.h>
 
 using namespace dolfinx;
@@ -143,7 +143,7 @@ int main(int argc, char* argv[])
     scene.ksp = ksp.get();
     cx::petsc::set_lu(scene.ksp);
 
-    const auto plane = std::make_shared<obstacle::Plane>(
+    const auto plane = std::make_shared<geometry::Plane>(
         std::vector<double>{0, 0}, std::vector<double>{0, 1});
     fall("plane", {scene, plane});
     fall("plane, friction, consistent",

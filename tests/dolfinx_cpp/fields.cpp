@@ -7,7 +7,7 @@
 
 #include "scenes.h"
 #include "several_fields.h"
-#include <contactx/obstacle/plane.h>
+#include <contactx/geometry/plane.h>
 #include <contactx_dolfinx/checkpoint.h>
 
 using namespace dolfinx;
@@ -239,7 +239,7 @@ void warm(const Scene& scene, const std::string& name,
       cx::Surface(scene.tags, {11}), master, options);
   const auto conductance = std::make_shared<cx::Conductance>(
       contact, warmth,
-      contactx::conductance::Coefficient(
+      contactx::law::Coefficient(
           [](std::span<const double> p, std::span<const double> g)
           {
             std::vector<double> h(p.size());
@@ -278,7 +278,7 @@ int main(int argc, char* argv[])
     incompressible(scene, "n2s", friction);
     incompressible(scene, "s2s", mortar);
     const cx::Surface base(scene.tags, {21});
-    const auto plane = std::make_shared<contactx::obstacle::Plane>(
+    const auto plane = std::make_shared<contactx::geometry::Plane>(
         std::vector<double>{0, 0}, std::vector<double>{0, 1});
     warm(scene, "base n2s", base, std::nullopt, friction);
     warm(scene, "base s2s", base, std::nullopt, mortar);

@@ -6,7 +6,7 @@
 #include "falling_block.h"
 #include "sliding_block.h"
 #include <basix/finite-element.h>
-#include <contactx/obstacle/plane.h>
+#include <contactx/geometry/plane.h>
 #include <contactx_dolfinx/checkpoint.h>
 #include <contactx_dolfinx/condensed.h>
 #include <contactx_dolfinx/dynamics.h>
@@ -122,7 +122,7 @@ int main(int argc, char* argv[])
         *form_sliding_block_J, {V, V}, {{"u", u}}, {}, {}, {}));
     const auto plane_at = [](double height)
     {
-      return std::make_shared<contactx::obstacle::Plane>(
+      return std::make_shared<contactx::geometry::Plane>(
           std::vector<double>{0, height}, std::vector<double>{0, 1});
     };
     const cx::Surface bottom(tags, {11}), top(tags, {12});
@@ -181,7 +181,7 @@ int main(int argc, char* argv[])
     refuses("contacts[0] is null",
             [&] { cx::Assembler(F, J, u, none, {nullptr}); });
     refuses("obstacle of a Contact is null", [&]
-            { make(bottom, std::shared_ptr<contactx::obstacle::Plane>()); });
+            { make(bottom, std::shared_ptr<contactx::geometry::Plane>()); });
     // Forms of another function than the displacement, and of its space
     refuses("F does not depend on u",
             [&]
@@ -218,7 +218,7 @@ int main(int argc, char* argv[])
     refuses("inside the rigid obstacle",
             [&]
             {
-              couple(make(top, std::make_shared<contactx::obstacle::Plane>(
+              couple(make(top, std::make_shared<contactx::geometry::Plane>(
                                    std::vector<double>{0, 0.99},
                                    std::vector<double>{0, -1})))
                   .begin_step();
@@ -295,7 +295,7 @@ int main(int argc, char* argv[])
       cx::Assembler(two, none, one(), cx::Assembler::Audit::refuse,
                     {conductance});
     };
-    const contactx::conductance::Coefficient h(1.0);
+    const contactx::law::Coefficient h(1.0);
     refuses("conductances[0] is null", [&] { with(nullptr); });
     refuses("conductances[0] is of another contact",
             [&]

@@ -10,9 +10,9 @@
 #include "quadratic.h"
 #include "scenes.h"
 #include "sliding_block.h"
-#include <contactx/obstacle/level_set.h>
-#include <contactx/obstacle/plane.h>
-#include <contactx/obstacle/sphere.h>
+#include <contactx/geometry/level_set.h>
+#include <contactx/geometry/plane.h>
+#include <contactx/geometry/sphere.h>
 #include <contactx_dolfinx/condensed.h>
 #include <contactx_dolfinx/snes.h>
 #include <dolfinx/fem/Constant.h>
@@ -333,7 +333,7 @@ void refusals(Scene& scene)
        {
          const Support given = support(scene, {{1, 11}});
          return Told(scene,
-                     std::make_shared<obstacle::Plane>(
+                     std::make_shared<geometry::Plane>(
                          std::vector<double>{0, 0.05}, up),
                      {}, given)
              .step();
@@ -371,7 +371,7 @@ void refusals(Scene& scene)
   said("coarse disc",
        [&]
        {
-         const auto disc = std::make_shared<obstacle::Sphere>(
+         const auto disc = std::make_shared<geometry::Sphere>(
              std::vector<double>{0.9, -0.15}, 0.15);
          return Told(scene, disc, {.friction = 0.1, .offset = offset},
                      support(scene))
@@ -383,7 +383,7 @@ void refusals(Scene& scene)
          double height = 0;
          const auto f = [&](std::span<const double> x, int, int)
          {
-           obstacle::LevelValues at;
+           geometry::LevelValues at;
            for (std::size_t i = 0; i < x.size(); i += 2)
            {
              at.value.push_back(x[i + 1] - height);
@@ -393,7 +393,7 @@ void refusals(Scene& scene)
            return at;
          };
          const auto moved = [&](int) { return std::vector<double>{height}; };
-         Told told(scene, std::make_shared<obstacle::LevelSet>(f, moved),
+         Told told(scene, std::make_shared<geometry::LevelSet>(f, moved),
                    {.friction = 0.3, .offset = offset}, support(scene));
          told.step();
          height = 0.1;
@@ -409,7 +409,7 @@ void refusals(Scene& scene)
   options("excluded", base, {.excluded_distance = 0.1});
   options("adjusted tie", base, {.tied = true, .adjust = 0.1});
   options("tangential factor", base, {.friction = 0.3, .tangential_factor = 0});
-  options("smooth plane", std::make_shared<obstacle::Plane>(point, up),
+  options("smooth plane", std::make_shared<geometry::Plane>(point, up),
           {.smooth = true});
   options("smooth tie", base, {.tied = true, .smooth = true});
   options("faces away", cx::Surface(scene.tags, {22}), {});
@@ -446,14 +446,14 @@ int main(int argc, char* argv[])
     solve(scene, "self", cx::Surface(scene.tags, {11, 21}),
           {.friction = 0.3, .offset = offset, .excluded_distance = 0.01});
     const std::vector<double> point{0, 0}, up{0, 1}, middle{1.5, -4};
-    solve(scene, "plane", std::make_shared<obstacle::Plane>(point, up),
+    solve(scene, "plane", std::make_shared<geometry::Plane>(point, up),
           {.friction = 0.3, .offset = offset});
-    solve(scene, "mortar plane", std::make_shared<obstacle::Plane>(point, up),
+    solve(scene, "mortar plane", std::make_shared<geometry::Plane>(point, up),
           {.friction = 0.3, .method = mortar, .offset = offset});
-    solve(scene, "disc", std::make_shared<obstacle::Sphere>(middle, 4.0),
+    solve(scene, "disc", std::make_shared<geometry::Sphere>(middle, 4.0),
           {.friction = 0.1, .offset = offset});
     solve(scene, "adjusted disc",
-          std::make_shared<obstacle::Sphere>(middle, 4.0),
+          std::make_shared<geometry::Sphere>(middle, 4.0),
           {.friction = 0.1, .offset = offset, .adjust = 0.1});
     solve(scene, "smooth", base,
           {.friction = 0.3, .offset = offset, .smooth = true});
@@ -526,7 +526,7 @@ int main(int argc, char* argv[])
     solve(scene, "frictionless", base, {.offset = offset});
     solve(scene, "friction", base, {.friction = 0.3, .offset = offset});
     solve(scene, "mortar", base, {.method = mortar, .offset = offset});
-    solve(scene, "plane", std::make_shared<obstacle::Plane>(point, up),
+    solve(scene, "plane", std::make_shared<geometry::Plane>(point, up),
           {.friction = 0.3, .offset = offset});
     solve(scene, "tied", base, {.tied = true});
     solve(scene, "neo-Hooke", base, {.friction = 0.3, .offset = offset},
@@ -539,7 +539,7 @@ int main(int argc, char* argv[])
                            const cx::Options& options)
     { solve(scene, name, to, options, form_quadratic_F, form_quadratic_J); };
     const cx::Surface wide(scene.tags, {21});
-    const auto disc = std::make_shared<obstacle::Sphere>(middle, 4.0);
+    const auto disc = std::make_shared<geometry::Sphere>(middle, 4.0);
     const cx::Options rubs{.friction = 0.3, .offset = offset},
         rubs_on_facets{.friction = 0.3, .method = mortar, .offset = offset};
     plane("quadratic friction", wide, rubs);
@@ -570,7 +570,7 @@ int main(int argc, char* argv[])
             form_quadratic_J_solid);
     };
     const cx::Surface below(scene.tags, {21});
-    const auto ball = std::make_shared<obstacle::Sphere>(
+    const auto ball = std::make_shared<geometry::Sphere>(
         std::vector<double>{0.75, 0.6, -4}, 4.0);
     solid("solid friction", below, rubs);
     solid("solid mortar", below, rubs_on_facets);

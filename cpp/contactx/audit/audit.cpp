@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "audit.h"
-#include "../parallel/spread.h"
+#include "../mesh/spread.h"
 #include "obstacle_audit.h"
 #include "self_audit.h"
 #include "surfaces_audit.h"
@@ -10,7 +10,7 @@
 using namespace contactx;
 using namespace contactx::audit;
 
-Audit::Audit(std::shared_ptr<parallel::Halo> halo,
+Audit::Audit(std::shared_ptr<mesh::Halo> halo,
              std::vector<std::shared_ptr<contact::Contact>> contacts)
     : _halo(std::move(halo)), _contacts(std::move(contacts))
 {
@@ -32,7 +32,7 @@ Audit::Audit(std::shared_ptr<parallel::Halo> halo,
 
 void Audit::begin_step()
 {
-  if (parallel::anywhere(_halo->ranks(), _start != owned()))
+  if (mesh::anywhere(_halo->ranks(), _start != owned()))
     accept();
 }
 
@@ -46,7 +46,7 @@ void Audit::accept()
 
 std::vector<Findings> Audit::look()
 {
-  const auto start = parallel::spread(*_halo, _start, _halo->gdim());
+  const auto start = mesh::spread(*_halo, _start, _halo->gdim());
   std::vector<Findings> found(_looks.size());
   for (std::size_t i = 0; i < found.size(); ++i)
     if (_looks[i] and _contacts[i]->is_active())

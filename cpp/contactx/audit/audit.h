@@ -25,7 +25,7 @@ public:
   /// before the first step.
   /// @param[in] halo Nodes of this rank.
   /// @param[in] contacts All contacts.
-  Audit(std::shared_ptr<parallel::Halo> halo,
+  Audit(std::shared_ptr<mesh::Halo> halo,
         std::vector<std::shared_ptr<contact::Contact>> contacts);
 
   /// @brief Start a step, from wherever the displacement is now.
@@ -43,7 +43,7 @@ private:
   // Positions of owned nodes
   std::vector<double> owned() const;
 
-  std::shared_ptr<parallel::Halo> _halo;
+  std::shared_ptr<mesh::Halo> _halo;
   std::vector<std::shared_ptr<contact::Contact>> _contacts;
   std::vector<std::unique_ptr<ContactAudit>> _looks;
   std::vector<double> _start;

@@ -3,11 +3,11 @@
 
 #include "chords.h"
 #include "../contact/deformable_master.h"
-#include "../facet/closest_point.h"
-#include "../facet/gather.h"
-#include "../facet/smooth.h"
+#include "../geometry/closest_point.h"
+#include "../geometry/gather.h"
+#include "../geometry/smooth.h"
+#include "../math/vec.h"
 #include "../text.h"
-#include "../vec.h"
 #include "passed_nodes.h"
 #include <algorithm>
 #include <array>
@@ -30,11 +30,11 @@ constexpr double beyond_patches = 0.1;
 /// Part of a sagitta that is a change, not rounding
 constexpr double noticed = 1e-6;
 
-/// Rise of the edge between two nodes of a facet, see facet::rise_over.
+/// Rise of the edge between two nodes of a facet, see geometry::rise_over.
 template <class F>
 struct Edges
 {
-  facet::Nodes<F> x, normal;
+  geometry::Nodes<F> x, normal;
 
   double operator()(int i, int j) const
   {
@@ -84,13 +84,13 @@ template <int D, class Function>
 void visit_edges(std::span<const std::int32_t> nodes, std::span<const double> x,
                  std::span<const double> normals, Function&& f)
 {
-  facet::visit(static_cast<int>(nodes.size()),
-               [&]<class F>(F)
-               {
-                 if constexpr (F::gdim == D)
-                   f(Edges<F>{facet::gather<F>(nodes, x),
-                              facet::gather<F>(nodes, normals)});
-               });
+  geometry::visit(static_cast<int>(nodes.size()),
+                  [&]<class F>(F)
+                  {
+                    if constexpr (F::gdim == D)
+                      f(Edges<F>{geometry::gather<F>(nodes, x),
+                                 geometry::gather<F>(nodes, normals)});
+                  });
 }
 
 /// The surfaces of a contact.
@@ -129,11 +129,11 @@ template <int D, class F>
 std::vector<Sample<D>> sampled(const Edges<F>& edges)
 {
   std::vector<Sample<D>> samples;
-  const auto add = [&](const facet::Local<F>& xi)
+  const auto add = [&](const geometry::Local<F>& xi)
   {
     const auto N = F::shape(xi);
-    Sample<D> sample{facet::combine<F>(N, edges.x),
-                     facet::rise_over<F>(xi, edges)};
+    Sample<D> sample{geometry::combine<F>(N, edges.x),
+                     geometry::rise_over<F>(xi, edges)};
     for (int l = 0; l < F::nodes; ++l)
     {
       if constexpr (F::flat)
@@ -180,7 +180,7 @@ Changes changes(const contact::Contact& contact, const Sides& sides)
   Changes found{std::vector<double>(n, 0), std::vector<double>(n, 0)};
   // Of the facets around each slave node, that which is bent most
   std::vector<double> curvature(n, 0);
-  const facet::FacetList facets = slaves.facets(), local = slaves.local();
+  const geometry::FacetList facets = slaves.facets(), local = slaves.local();
   std::map<std::vector<std::int32_t>, Bend> bent;
   for (std::int32_t f = 0; f < facets.size(); ++f)
     visit_edges<D>(facets[f], sides.x, sides.of_slave,
@@ -226,17 +226,18 @@ Changes changes(const contact::Contact& contact, const Sides& sides)
             auto& its = samples[key];
             if (its.empty() and m == 1)
               // The slave node itself is on its surface
-              its.push_back({facet::point<D>(nodes[0], sides.x), 0, {1}});
+              its.push_back({geometry::point<D>(nodes[0], sides.x), 0, {1}});
             else if (its.empty())
               visit_edges<D>(nodes.first(m), sides.x, sides.of_slave,
                              [&](const auto& slave)
                              { its = sampled<D>(slave); });
             for (Sample<D>& sample : its)
-              if (const auto foot = facet::closest_point<F>(edges.x, sample.at);
+              if (const auto foot
+                  = geometry::closest_point<F>(edges.x, sample.at);
                   foot.distance2 < sample.distance)
               {
                 sample.distance = foot.distance2;
-                sample.master = facet::rise_over<F>(foot.xi, edges);
+                sample.master = geometry::rise_over<F>(foot.xi, edges);
               }
           });
     }
@@ -281,7 +282,7 @@ std::string Chords::words() const
            "curved one with quadratic displacements (manual: errors/chords)";
 }
 
-std::optional<Chords> contactx::audit::chords(parallel::Halo& halo,
+std::optional<Chords> contactx::audit::chords(mesh::Halo& halo,
                                               const contact::Contact& contact)
 {
   const auto* master
@@ -296,7 +297,7 @@ std::optional<Chords> contactx::audit::chords(parallel::Halo& halo,
       even_normals(halo, master->surface()->own(), halo.reference())};
   const Changes found = halo.gdim() == 2 ? changes<2>(contact, sides)
                                          : changes<3>(contact, sides);
-  const contact::NodeState& state = *contact.nodes();
+  const law::NodeState& state = *contact.nodes();
   const std::size_t n = slaves.owned().size();
   // Those in contact, and those that chords keep from it
   std::vector<std::int8_t> which(n), is_near(n, 0);
@@ -313,7 +314,7 @@ std::optional<Chords> contactx::audit::chords(parallel::Halo& halo,
   }
   // All nodes of facets that have one of these
   const auto near = slaves.near(which);
-  const facet::FacetList local = slaves.local();
+  const geometry::FacetList local = slaves.local();
   for (std::int32_t f = 0; f < local.size(); ++f)
     for (const std::int32_t i : local[f])
       if (near[f] == 2 and i < static_cast<std::int32_t>(n)
@@ -336,18 +337,18 @@ std::optional<Chords> contactx::audit::chords(parallel::Halo& halo,
     sums[0] += p * state.area[i];
     sums[1] += p * state.area[i] * p / state.c[i];
   }
-  parallel::Ranks& ranks = halo.ranks();
-  ranks.reduce(std::span<double>(sums), parallel::Reduction::sum);
+  mesh::Ranks& ranks = halo.ranks();
+  ranks.reduce(std::span<double>(sums), mesh::Reduction::sum);
   const auto [force, work, area, off, turn] = sums;
-  if (not(area > 0) or (force == 0 and not parallel::anywhere(ranks, is_kept)))
+  if (not(area > 0) or (force == 0 and not mesh::anywhere(ranks, is_kept)))
     return {};
   double scatter = 0;
   for (std::size_t i = 0; i < n; ++i)
     if (is_near[i])
       scatter += state.area[i] * std::abs(found.off[i] - off / area);
   return Chords{.mean = std::abs(off) / area,
-                .scatter = parallel::total(ranks, scatter) / area,
+                .scatter = mesh::total(ranks, scatter) / area,
                 .turn = turn / area,
-                .sagitta = parallel::largest(ranks, found.sagitta),
+                .sagitta = mesh::largest(ranks, found.sagitta),
                 .pressed = force > 0 ? work / force : 0};
 }

@@ -39,8 +39,8 @@ struct Chords
 ///
 /// Where an edge of a facet leads from one node to another one, the surface
 /// rises over it by k s (1 - s) at the part s of the edge, see
-/// `facet::SmoothFacet`. Its k follows from the nodes' mean normals; it is the
-/// smaller one of what either of them tells, so that a flat facet beside a
+/// `geometry::SmoothFacet`. Its k follows from the nodes' mean normals; it is
+/// the smaller one of what either of them tells, so that a flat facet beside a
 /// round one stays flat, and zero where facets of a node make an edge. Surfaces
 /// fit where one is hollow and the other is not: where bodies touch in a point
 /// or along a line, chords matter as cells do.
@@ -49,6 +49,5 @@ struct Chords
 /// and multipliers of now.
 /// @return Nothing where nothing is pressed, nor kept from it by chords, where
 /// surfaces do not fit, are smooth or of quadratic facets that are integrated.
-std::optional<Chords> chords(parallel::Halo& halo,
-                             const contact::Contact& contact);
+std::optional<Chords> chords(mesh::Halo& halo, const contact::Contact& contact);
 } // namespace contactx::audit

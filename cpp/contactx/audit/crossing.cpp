@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "crossing.h"
-#include "../facet/frame.h"
-#include "../facet/gather.h"
+#include "../geometry/frame.h"
+#include "../geometry/gather.h"
 #include "../search/box_tree.h"
 #include <bit>
 #include <limits>
@@ -168,12 +168,12 @@ struct Height
 };
 
 template <class F>
-Height<F::gdim> height(const facet::Nodes<F>& x, const Vector<F::gdim>& p)
+Height<F::gdim> height(const geometry::Nodes<F>& x, const Vector<F::gdim>& p)
 {
-  facet::Local<F> middle{};
+  geometry::Local<F> middle{};
   for (const auto& v : F::vertices)
     middle = middle + (1. / F::nodes) * v;
-  Height<F::gdim> h{facet::frame<F>(x, middle).n,
+  Height<F::gdim> h{geometry::frame<F>(x, middle).n,
                     std::numeric_limits<double>::infinity(),
                     -std::numeric_limits<double>::infinity()};
   for (const auto& node : x)
@@ -188,7 +188,7 @@ Height<F::gdim> height(const facet::Nodes<F>& x, const Vector<F::gdim>& p)
 template <int D>
 Vector<D> row(std::span<const double> values, std::size_t i)
 {
-  return facet::point<D>(static_cast<std::int32_t>(i), values);
+  return geometry::point<D>(static_cast<std::int32_t>(i), values);
 }
 
 template <std::size_t D>
@@ -238,8 +238,8 @@ template <int D>
 class Finder
 {
 public:
-  Finder(const facet::FacetList& facets, std::span<const double> x0,
-         std::span<const double> x1, const RigidMotion& motion,
+  Finder(const geometry::FacetList& facets, std::span<const double> x0,
+         std::span<const double> x1, const geometry::RigidMotion& motion,
          const MovedPoints& points)
       : _facets(facets), _x0(x0), _x1(x1), _motion(motion), _points(points)
   {
@@ -277,8 +277,8 @@ public:
 private:
   Path<D> node_path(std::int32_t node) const
   {
-    return {facet::point<D>(node, _x0),
-            _motion.moved_back<D>(facet::point<D>(node, _x1))};
+    return {geometry::point<D>(node, _x0),
+            _motion.moved_back<D>(geometry::point<D>(node, _x1))};
   }
 
   Moved<D> moved_point(std::size_t i) const
@@ -302,11 +302,11 @@ private:
     if (own >= 0 and std::ranges::find(nodes, own) != nodes.end())
       return;
     if constexpr (D == 2)
-      cross<facet::Segment>(p, f);
+      cross<geometry::Segment>(p, f);
     else if (nodes.size() == 3)
-      cross<facet::Triangle>(p, f);
+      cross<geometry::Triangle>(p, f);
     else
-      cross<facet::Quadrilateral>(p, f);
+      cross<geometry::Quadrilateral>(p, f);
   }
 
   template <class F>
@@ -337,9 +337,9 @@ private:
   void add_crossing(std::int32_t point, std::int32_t f, double time,
                     bool entering)
   {
-    const auto before = height<F>(facet::gather<F>(_facets[f], _x0),
+    const auto before = height<F>(geometry::gather<F>(_facets[f], _x0),
                                   row<D>(_points.x0, point));
-    const auto after = height<F>(facet::gather<F>(_facets[f], _x1),
+    const auto after = height<F>(geometry::gather<F>(_facets[f], _x1),
                                  row<D>(_points.x1, point));
     const double cosine
         = entering ? dot(before.normal, row<D>(_points.normal0, point))
@@ -348,20 +348,18 @@ private:
         {point, f, time, entering, cosine, before.least, after.most});
   }
 
-  facet::FacetList _facets;
+  geometry::FacetList _facets;
   std::span<const double> _x0, _x1;
-  const RigidMotion& _motion;
+  const geometry::RigidMotion& _motion;
   const MovedPoints& _points;
   std::vector<Crossing> _found;
 };
 } // namespace
 
-std::vector<Crossing> contactx::audit::crossings(const facet::FacetList& facets,
-                                                 std::span<const double> x0,
-                                                 std::span<const double> x1,
-                                                 int gdim,
-                                                 const RigidMotion& motion,
-                                                 const MovedPoints& points)
+std::vector<Crossing> contactx::audit::crossings(
+    const geometry::FacetList& facets, std::span<const double> x0,
+    std::span<const double> x1, int gdim, const geometry::RigidMotion& motion,
+    const MovedPoints& points)
 {
   if (gdim == 2)
     return Finder<2>(facets, x0, x1, motion, points).find();

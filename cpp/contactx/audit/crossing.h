@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "rigid_motion.h"
+#include "../geometry/rigid_motion.h"
 
 namespace contactx::audit
 {
@@ -52,9 +52,9 @@ struct Crossing
 /// @param[in] gdim Geometric dimension, 2 or 3.
 /// @param[in] motion Motion of the facets' surface as a whole.
 /// @param[in] points Points.
-std::vector<Crossing> crossings(const facet::FacetList& facets,
+std::vector<Crossing> crossings(const geometry::FacetList& facets,
                                 std::span<const double> x0,
                                 std::span<const double> x1, int gdim,
-                                const RigidMotion& motion,
+                                const geometry::RigidMotion& motion,
                                 const MovedPoints& points);
 } // namespace contactx::audit

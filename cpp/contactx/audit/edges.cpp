@@ -3,10 +3,10 @@
 
 #include "edges.h"
 #include "../contact/node_to_surface.h"
-#include "../facet/middle.h"
+#include "../geometry/middle.h"
+#include "penetration.h"
 #include "../text.h"
 #include "passed_nodes.h"
-#include "penetration.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -60,9 +60,10 @@ std::string EdgeForce::words() const
            "contact (manual: errors/edges)";
 }
 
-std::optional<EdgeForce> contactx::audit::edge_force(
-    parallel::Halo& halo, const contact::Contact& contact,
-    std::span<const double> x, std::span<const MasterBelow> below)
+std::optional<EdgeForce>
+contactx::audit::edge_force(mesh::Halo& halo, const contact::Contact& contact,
+                            std::span<const double> x,
+                            std::span<const MasterBelow> below)
 {
   const auto* master
       = dynamic_cast<const contact::NodeToSurface*>(contact.master().get());
@@ -77,14 +78,14 @@ std::optional<EdgeForce> contactx::audit::edge_force(
 
   // Normal forces, and what is off in them, at nodes of the master
   const auto slaves = contact.slaves().owned();
-  const contact::NodeState& state = *contact.nodes();
+  const law::NodeState& state = *contact.nodes();
   const std::vector<double> of_master = master->normals();
   std::vector<double> force(slaves.size(), 0);
   for (std::size_t i = 0; i < slaves.size(); ++i)
     if (state.closed(i))
       force[i] = state.pressure(i) * state.area[i];
   std::vector<double> shared(std::size_t(halo.num_nodes()) * 4, 0);
-  const contact::Weights weights = master->weights();
+  const kernel::Weights weights = master->weights();
   for (std::size_t e = 0; e < weights.nodes.size(); ++e)
   {
     const std::int32_t i = weights.slaves[e];
@@ -118,7 +119,7 @@ std::optional<EdgeForce> contactx::audit::edge_force(
         std::copy_n(&now[std::size_t(i) * g], g, &worst[1]);
       }
     }
-  halo.ranks().reduce(std::span<double>(sums), parallel::Reduction::sum);
+  halo.ranks().reduce(std::span<double>(sums), mesh::Reduction::sum);
   const auto [total, at_edges, off] = sums;
 
   // Cosine of the angle between a facet and the face that it fits best
@@ -130,8 +131,8 @@ std::optional<EdgeForce> contactx::audit::edge_force(
       fit[its.node] = -1;
       facing[its.node] = its.normal;
     }
-  const facet::FacetList around = master->surface()->around();
-  const auto faces = facet::middles(around, x, g).normals;
+  const geometry::FacetList around = master->surface()->around();
+  const auto faces = geometry::middles(around, x, g).normals;
   for (std::int32_t f = 0; f < around.size(); ++f)
     for (const std::int32_t node : around[f])
       fit[node]

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "../contact/contact.h"
-#include "../vec.h"
+#include "../math/vec.h"
 #include <optional>
 #include <string>
 
@@ -66,7 +66,7 @@ struct EdgeForce
 /// @param[in] below Nodes of the master below slave facets.
 /// @return Nothing where facets are integrated, or there is no force and no
 /// edge that needs one.
-std::optional<EdgeForce> edge_force(parallel::Halo& halo,
+std::optional<EdgeForce> edge_force(mesh::Halo& halo,
                                     const contact::Contact& contact,
                                     std::span<const double> x,
                                     std::span<const MasterBelow> below);

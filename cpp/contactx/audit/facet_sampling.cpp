@@ -12,7 +12,7 @@
 using namespace contactx;
 using namespace contactx::audit;
 
-FacetSampling::FacetSampling(const facet::FacetList& facets,
+FacetSampling::FacetSampling(const geometry::FacetList& facets,
                              std::span<const double> x, int gdim,
                              std::vector<double> allowed, int levels)
     : _gdim(gdim), _levels(levels), _allowed(std::move(allowed)),

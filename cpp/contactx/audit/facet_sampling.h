@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "../facet/nodal.h"
+#include "../geometry/nodal.h"
 
 namespace contactx::audit
 {
@@ -29,7 +29,7 @@ public:
   /// @param[in] levels How often pieces are halved at most: an obstacle whose
   /// width is a 2^levels-th part of a facet is still seen.
   /// @throws std::invalid_argument If the sizes do not fit.
-  FacetSampling(const facet::FacetList& facets, std::span<const double> x,
+  FacetSampling(const geometry::FacetList& facets, std::span<const double> x,
                 int gdim, std::vector<double> allowed, int levels);
 
   /// @brief Geometric dimension.

@@ -42,7 +42,7 @@ contactx::audit::rows_of(std::span<const double> values,
   return rows;
 }
 
-std::optional<Depth> contactx::audit::deepest(parallel::Ranks& ranks,
+std::optional<Depth> contactx::audit::deepest(mesh::Ranks& ranks,
                                               const std::optional<Depth>& mine,
                                               int gdim)
 {
@@ -63,7 +63,7 @@ std::optional<Depth> contactx::audit::deepest(parallel::Ranks& ranks,
 }
 
 std::optional<Roundness>
-contactx::audit::sharpest(parallel::Ranks& ranks,
+contactx::audit::sharpest(mesh::Ranks& ranks,
                           const std::optional<Roundness>& mine, int gdim)
 {
   if (ranks.size() == 1)

@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "../parallel/found_nodes.h"
+#include "../mesh/found_nodes.h"
 #include "chords.h"
 #include "edges.h"
 #include <optional>
@@ -12,8 +12,8 @@
 /// @brief Checks of a converged iterate by its geometry alone.
 namespace contactx::audit
 {
-using parallel::found_nodes;
-using parallel::FoundNodes;
+using mesh::found_nodes;
+using mesh::FoundNodes;
 
 /// @brief Depth of a master below a slave facet, between its nodes.
 struct Depth
@@ -136,7 +136,7 @@ std::vector<double> rows_of(std::span<const double> values,
 /// @param[in] ranks The ranks.
 /// @param[in] mine That of this rank, if it has one.
 /// @param[in] gdim Geometric dimension, 2 or 3.
-std::optional<Depth> deepest(parallel::Ranks& ranks,
+std::optional<Depth> deepest(mesh::Ranks& ranks,
                              const std::optional<Depth>& mine, int gdim);
 
 /// @brief The roundness of all ranks with the fewest facets; all ranks must
@@ -144,9 +144,8 @@ std::optional<Depth> deepest(parallel::Ranks& ranks,
 /// @param[in] ranks The ranks.
 /// @param[in] mine That of this rank, if it has one.
 /// @param[in] gdim Geometric dimension, 2 or 3.
-std::optional<Roundness> sharpest(parallel::Ranks& ranks,
-                                  const std::optional<Roundness>& mine,
-                                  int gdim);
+std::optional<Roundness>
+sharpest(mesh::Ranks& ranks, const std::optional<Roundness>& mine, int gdim);
 
 /// @brief Number of the value that is the largest one and more than minus
 /// infinity; the first of equal ones, -1 for none.

@@ -2,11 +2,12 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "obstacle_audit.h"
-#include "../facet/middle.h"
-#include "../obstacle/plane.h"
+#include "../geometry/middle.h"
+#include "../geometry/sizes.h"
+#include "penetration.h"
+#include "../geometry/plane.h"
 #include "facet_sampling.h"
 #include "far_side.h"
-#include "penetration.h"
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -56,7 +57,7 @@ std::vector<double> turned(std::span<const double> vectors,
 }
 } // namespace
 
-ObstacleAudit::ObstacleAudit(std::shared_ptr<parallel::Halo> halo,
+ObstacleAudit::ObstacleAudit(std::shared_ptr<mesh::Halo> halo,
                              std::shared_ptr<contact::Contact> contact)
     : _halo(std::move(halo)), _contact(std::move(contact)),
       _master(rigid(*_contact))
@@ -80,18 +81,18 @@ void ObstacleAudit::accept()
 
 Findings ObstacleAudit::look(std::span<const double> /*start*/)
 {
-  parallel::Ranks& ranks = _halo->ranks();
+  mesh::Ranks& ranks = _halo->ranks();
   const contact::SlaveNodes& slaves = _contact->slaves();
   const auto here = _halo->now();
   const std::vector<double>& x = here->x;
   const auto around = rows_of(x, slaves.around(), gdim());
-  const auto size = unstretched_sizes(
+  const auto size = geometry::unstretched_sizes(
       slaves.local(), around,
       rows_of(_halo->reference(), slaves.around(), gdim()), gdim());
   Findings findings;
   for (const double h : size)
     findings.facet_size = std::max(findings.facet_size, h);
-  findings.facet_size = parallel::largest(ranks, findings.facet_size);
+  findings.facet_size = mesh::largest(ranks, findings.facet_size);
   const double small = negligible * findings.facet_size;
   std::vector<double> offset = _contact->offset();
   for (double& value : offset)
@@ -119,7 +120,7 @@ Findings ObstacleAudit::look(std::span<const double> /*start*/)
       });
   findings.roundness = sharpest(ranks, round, gdim());
   warn(findings, findings.roundness);
-  findings.passed.count = parallel::total(ranks, passed);
+  findings.passed.count = mesh::total(ranks, passed);
   if (findings.passed.count == 0)
     findings.inside = found_nodes(*_halo, bad, x);
   findings.deepest = deepest(ranks, mine, gdim());
@@ -133,9 +134,9 @@ ObstacleAudit::Places ObstacleAudit::places(std::span<const double> x) const
   const contact::SlaveNodes& slaves = _contact->slaves();
   const std::size_t owned = slaves.owned().size() * gdim();
   const auto around = rows_of(x, slaves.around(), gdim());
-  const auto nodal = facet::nodal_normals(slaves.local(), around, gdim());
+  const auto nodal = geometry::nodal_normals(slaves.local(), around, gdim());
   // Each facet on one rank
-  const facet::Middles middles = facet::middles(slaves.own(), x, gdim());
+  const geometry::Middles middles = geometry::middles(slaves.own(), x, gdim());
   const auto joined =
       [owned](std::span<const double> nodes, const std::vector<double>& facets)
   {
@@ -151,7 +152,7 @@ ObstacleAudit::Places ObstacleAudit::places(std::span<const double> x) const
 std::vector<double> ObstacleAudit::seen(std::span<const double> points,
                                         Function function, int width) const
 {
-  obstacle::Obstacle& obstacle = *_master->obstacle();
+  geometry::Obstacle& obstacle = *_master->obstacle();
   const std::size_t g = gdim(), n = points.size() / g;
   if (n == 0)
     return (obstacle.*function)(points, gdim());
@@ -175,7 +176,7 @@ std::vector<double> ObstacleAudit::seen(std::span<const double> points,
 
 std::vector<double> ObstacleAudit::gaps(std::span<const double> points) const
 {
-  return seen(points, &obstacle::Obstacle::distance, 1);
+  return seen(points, &geometry::Obstacle::distance, 1);
 }
 
 /// Slave nodes that face away from the obstacle and are inside it.
@@ -183,7 +184,7 @@ std::vector<std::int32_t> ObstacleAudit::inside(std::span<const double> gap,
                                                 double small) const
 {
   const auto slaves = _contact->slaves().owned();
-  const contact::NodeState& state = *_contact->nodes();
+  const law::NodeState& state = *_contact->nodes();
   const auto paired = _master->paired();
   std::vector<std::int32_t> nodes;
   for (std::size_t i = 0; i < slaves.size(); ++i)
@@ -211,7 +212,7 @@ std::optional<Roundness> ObstacleAudit::roundness(std::span<const double> x,
                                                   std::span<const double> gap,
                                                   double small) const
 {
-  const facet::FacetList local = _contact->slaves().local();
+  const geometry::FacetList local = _contact->slaves().local();
   const std::size_t n = gap.size();
   std::vector<double> largest(n, 0);
   for (std::int32_t f = 0; f < local.size(); ++f)
@@ -239,7 +240,7 @@ std::vector<std::int8_t> ObstacleAudit::near(std::span<const double> gap,
                                              double small) const
 {
   const contact::SlaveNodes& slaves = _contact->slaves();
-  const contact::NodeState& state = *_contact->nodes();
+  const law::NodeState& state = *_contact->nodes();
   std::vector<std::int8_t> held(gap.size()), touching(gap.size());
   for (std::size_t i = 0; i < gap.size(); ++i)
   {
@@ -264,16 +265,16 @@ std::optional<Depth> ObstacleAudit::look_between(
     std::span<const double> x, std::span<const double> size,
     std::span<const std::int8_t> near, std::span<const double> offset) const
 {
-  obstacle::Obstacle& obstacle = *_master->obstacle();
+  geometry::Obstacle& obstacle = *_master->obstacle();
   const contact::SlaveNodes& slaves = _contact->slaves();
-  const facet::FacetList local = slaves.local();
+  const geometry::FacetList local = slaves.local();
   // A plane is deepest at a node
-  if (dynamic_cast<const obstacle::Plane*>(&obstacle) or local.size() == 0)
+  if (dynamic_cast<const geometry::Plane*>(&obstacle) or local.size() == 0)
     return std::nullopt;
   const std::size_t n = size.size();
   std::vector<double> extent(n, obstacle.size(gdim()));
-  const obstacle::Geometry geometry = obstacle.evaluate(x, gdim());
-  auto curvature = facet_turns(local, x, geometry.normal, gdim());
+  const geometry::Geometry geometry = obstacle.evaluate(x, gdim());
+  auto curvature = geometry::facet_turns(local, x, geometry.normal, gdim());
   const auto at_nodes = slaves.largest(geometry.largest_curvatures(gdim()));
   for (std::size_t f = 0; f < n; ++f)
     curvature[f] = std::max(curvature[f], at_nodes[f]);
@@ -306,7 +307,7 @@ std::optional<Depth> ObstacleAudit::look_between(
   if (worst < 0)
     return std::nullopt;
   const Vector<3> middle
-      = facet::middle(local[static_cast<std::int32_t>(worst)], x, gdim());
+      = geometry::middle(local[static_cast<std::int32_t>(worst)], x, gdim());
   return Depth{excess[worst],
                depth[worst],
                size[worst],
@@ -328,8 +329,8 @@ std::vector<double> ObstacleAudit::turns(std::span<const std::int32_t> facets,
   std::vector<double> turn(facets.size(), 0);
   if (facets.empty())
     return turn;
-  const auto there = seen(at, &obstacle::Obstacle::normals, gdim());
-  const facet::FacetList local = _contact->slaves().local();
+  const auto there = seen(at, &geometry::Obstacle::normals, gdim());
+  const geometry::FacetList local = _contact->slaves().local();
   for (std::size_t k = 0; k < facets.size(); ++k)
     for (const std::int32_t node : local[facets[k]])
     {
@@ -347,10 +348,10 @@ std::int64_t ObstacleAudit::count_passed(std::span<const double> x,
 {
   if (not _before)
     return 0;
-  obstacle::Obstacle& obstacle = *_master->obstacle();
+  geometry::Obstacle& obstacle = *_master->obstacle();
   const std::size_t g = gdim();
   const Places now = places(x);
-  const obstacle::Placement placed = obstacle.placement(gdim());
+  const geometry::Placement placed = obstacle.placement(gdim());
   const auto before = turned(_normals, _placed.turn(placed), gdim());
   const auto after = obstacle.evaluate(now.points, gdim()).normal;
   const auto is_far

@@ -22,7 +22,7 @@ public:
   /// @param[in] contact The contact, in finite sliding: in small sliding the
   /// obstacle of each node is a plane.
   /// @throws std::invalid_argument if its master is no obstacle.
-  ObstacleAudit(std::shared_ptr<parallel::Halo> halo,
+  ObstacleAudit(std::shared_ptr<mesh::Halo> halo,
                 std::shared_ptr<contact::Contact> contact);
 
   /// @brief Remember how slave nodes and facets lie before the next step.
@@ -38,7 +38,7 @@ private:
   };
 
   using Function
-      = std::vector<double> (obstacle::Obstacle::*)(std::span<const double> x,
+      = std::vector<double> (geometry::Obstacle::*)(std::span<const double> x,
                                                     int gdim);
 
   int gdim() const { return _halo->gdim(); }
@@ -65,12 +65,12 @@ private:
                             std::span<const double> x,
                             std::span<const double> normal) const;
 
-  std::shared_ptr<parallel::Halo> _halo;
+  std::shared_ptr<mesh::Halo> _halo;
   std::shared_ptr<contact::Contact> _contact;
   std::shared_ptr<contact::ObstacleMaster> _master;
   // Before the step, with the obstacle's normals there and where it was
   std::optional<Places> _before;
   std::vector<double> _normals;
-  obstacle::Placement _placed;
+  geometry::Placement _placed;
 };
 } // namespace contactx::audit

@@ -97,7 +97,7 @@ contactx::audit::passed(std::span<const Crossing> crossings,
   return result;
 }
 
-Passages contactx::audit::passages(const facet::FacetList& facets,
+Passages contactx::audit::passages(const geometry::FacetList& facets,
                                    std::span<const double> x0,
                                    std::span<const double> x1, int gdim,
                                    const MovedPoints& points)
@@ -110,8 +110,8 @@ Passages contactx::audit::passages(const facet::FacetList& facets,
   const std::size_t first = static_cast<std::size_t>(facets.nodes[0]) * gdim;
   std::copy_n(x0.begin() + first, gdim, origin0.begin());
   std::copy_n(x1.begin() + first, gdim, origin1.begin());
-  const auto motion = rigid_motion(
-      moments(facets, x0, x1, gdim, origin0, origin1), gdim, origin0, origin1);
+  const auto motion = geometry::rigid_motion(
+      geometry::moments(facets, x0, x1, gdim, origin0, origin1), gdim, origin0, origin1);
   const auto found = crossings(facets, x0, x1, gdim, motion, points);
   const auto which = passed(found, points.tolerance);
   for (std::size_t i = 0; i < n; ++i)

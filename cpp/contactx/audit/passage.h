@@ -44,7 +44,7 @@ struct Passages
 /// (shape=(num_nodes, gdim)), row-major.
 /// @param[in] gdim Geometric dimension, 2 or 3.
 /// @param[in] points Points.
-Passages passages(const facet::FacetList& facets, std::span<const double> x0,
+Passages passages(const geometry::FacetList& facets, std::span<const double> x0,
                   std::span<const double> x1, int gdim,
                   const MovedPoints& points);
 } // namespace contactx::audit

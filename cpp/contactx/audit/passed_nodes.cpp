@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "passed_nodes.h"
-#include "../facet/smooth.h"
-#include "../parallel/spread.h"
-#include "../vec.h"
+#include "../geometry/smooth.h"
+#include "../math/vec.h"
+#include "../mesh/spread.h"
 #include "passage.h"
 #include <algorithm>
 #include <cmath>
@@ -18,12 +18,12 @@ using namespace contactx::audit;
 namespace
 {
 /// Length of the mean of the unit normals of a node's facets, by area: that of
-/// two facets that meet at facet::cosine_at_edges
-const double even_enough = std::sqrt((1 + facet::cosine_at_edges) / 2);
+/// two facets that meet at geometry::cosine_at_edges
+const double even_enough = std::sqrt((1 + geometry::cosine_at_edges) / 2);
 
 /// Which candidates come into the box that all facets sweep.
 std::vector<std::int32_t>
-near_facets(const parallel::Halo& halo, const facet::FacetList& facets,
+near_facets(const mesh::Halo& halo, const geometry::FacetList& facets,
             std::span<const double> x0, std::span<const double> x1,
             std::span<const std::int32_t> candidates, double tolerance)
 {
@@ -38,7 +38,7 @@ near_facets(const parallel::Halo& halo, const facet::FacetList& facets,
       box[k] = std::min({box[k], x0[at], x1[at]});
       box[g + k] = std::min({box[g + k], -x0[at], -x1[at]});
     }
-  halo.ranks().reduce(std::span(box), parallel::Reduction::least);
+  halo.ranks().reduce(std::span(box), mesh::Reduction::least);
   std::vector<std::int32_t> near;
   for (const std::int32_t node : candidates)
   {
@@ -70,7 +70,7 @@ struct Points
   }
 };
 
-Points points_of_all(const parallel::Halo& halo, const facet::FacetList& own,
+Points points_of_all(const mesh::Halo& halo, const geometry::FacetList& own,
                      std::span<const double> x0, std::span<const double> x1,
                      std::span<const std::int32_t> nodes)
 {
@@ -90,8 +90,8 @@ Points points_of_all(const parallel::Halo& halo, const facet::FacetList& own,
     }
   }
   const auto original
-      = parallel::gathered<std::int64_t>(halo.ranks(), std::span(mine));
-  table = parallel::gathered<double>(halo.ranks(), std::span(table));
+      = mesh::gathered<std::int64_t>(halo.ranks(), std::span(mine));
+  table = mesh::gathered<double>(halo.ranks(), std::span(table));
   std::vector<std::size_t> order(original.size());
   std::iota(order.begin(), order.end(), 0);
   std::ranges::sort(order, {}, [&](std::size_t i) { return original[i]; });
@@ -113,8 +113,8 @@ Points points_of_all(const parallel::Halo& halo, const facet::FacetList& own,
 
 /// Nodes of the facets by the numbers in the mesh as it was made, -1 for
 /// others.
-std::vector<std::int32_t> here(const parallel::Halo& halo,
-                               const facet::FacetList& facets,
+std::vector<std::int32_t> here(const mesh::Halo& halo,
+                               const geometry::FacetList& facets,
                                std::span<const std::int64_t> original)
 {
   std::unordered_map<std::int64_t, std::int32_t> node_of;
@@ -128,13 +128,13 @@ std::vector<std::int32_t> here(const parallel::Halo& halo,
 }
 } // namespace
 
-AreaVectors contactx::audit::area_vectors_of_all(const parallel::Halo& halo,
-                                                 const facet::FacetList& own,
+AreaVectors contactx::audit::area_vectors_of_all(const mesh::Halo& halo,
+                                                 const geometry::FacetList& own,
                                                  std::span<const double> x)
 {
   const int g = halo.gdim();
-  AreaVectors found{facet::nodal_area_vectors(own, x, g),
-                    facet::nodal_areas(own, x, g)};
+  AreaVectors found{geometry::nodal_area_vectors(own, x, g),
+                    geometry::nodal_areas(own, x, g)};
   halo.reverse(std::span(found.vectors), g);
   halo.reverse(std::span(found.areas), 1);
   const auto n = std::size_t(halo.num_owned());
@@ -143,17 +143,19 @@ AreaVectors contactx::audit::area_vectors_of_all(const parallel::Halo& halo,
   return found;
 }
 
-std::vector<double> contactx::audit::normals_of_all(const parallel::Halo& halo,
-                                                    const facet::FacetList& own,
-                                                    std::span<const double> x)
+std::vector<double>
+contactx::audit::normals_of_all(const mesh::Halo& halo,
+                                const geometry::FacetList& own,
+                                std::span<const double> x)
 {
   const auto [vectors, areas] = area_vectors_of_all(halo, own, x);
-  return facet::unit_normals(vectors, areas, halo.gdim());
+  return geometry::unit_normals(vectors, areas, halo.gdim());
 }
 
-std::vector<double> contactx::audit::even_normals(const parallel::Halo& halo,
-                                                  const facet::FacetList& own,
-                                                  std::span<const double> x)
+std::vector<double>
+contactx::audit::even_normals(const mesh::Halo& halo,
+                              const geometry::FacetList& own,
+                              std::span<const double> x)
 {
   const int g = halo.gdim();
   auto [normal, area] = area_vectors_of_all(halo, own, x);
@@ -165,35 +167,35 @@ std::vector<double> contactx::audit::even_normals(const parallel::Halo& halo,
     for (int k = 0; k < g; ++k)
       n[k] = is_even ? n[k] / size : 0;
   }
-  return parallel::spread(halo, normal, g);
+  return mesh::spread(halo, normal, g);
 }
 
 FoundNodes contactx::audit::passed_nodes(
-    const parallel::Halo& halo, const facet::FacetList& own,
-    const facet::FacetList& facets, std::span<const double> x0,
+    const mesh::Halo& halo, const geometry::FacetList& own,
+    const geometry::FacetList& facets, std::span<const double> x0,
     std::span<const double> x1, std::span<const std::int32_t> candidates,
     double tolerance)
 {
-  parallel::Ranks& ranks = halo.ranks();
-  if (not parallel::anywhere(ranks, not candidates.empty()))
+  mesh::Ranks& ranks = halo.ranks();
+  if (not mesh::anywhere(ranks, not candidates.empty()))
     return {};
   const auto near = near_facets(halo, facets, x0, x1, candidates, tolerance);
-  if (not parallel::anywhere(ranks, not near.empty()))
+  if (not mesh::anywhere(ranks, not near.empty()))
     return {};
   const int g = halo.gdim();
   const Points points = points_of_all(halo, own, x0, x1, near);
   const Vector<3> origin0 = points.first(points.start, g);
   const Vector<3> origin1 = points.first(points.end, g);
-  Moments sums = moments(facets, x0, x1, g, origin0, origin1);
-  ranks.reduce(std::span<double>(sums), parallel::Reduction::sum);
+  geometry::Moments sums = geometry::moments(facets, x0, x1, g, origin0, origin1);
+  ranks.reduce(std::span<double>(sums), mesh::Reduction::sum);
   const std::vector<double> allowed(points.original.size(), tolerance);
   const auto nodes = here(halo, facets, points.original);
   const auto mine
-      = crossings(facets, x0, x1, g, rigid_motion(sums, g, origin0, origin1),
+      = crossings(facets, x0, x1, g, geometry::rigid_motion(sums, g, origin0, origin1),
                   {points.start, points.end, points.normal0, points.normal1,
                    allowed, nodes});
   const auto which
-      = passed(parallel::gathered<Crossing>(ranks, std::span(mine)), allowed);
+      = passed(mesh::gathered<Crossing>(ranks, std::span(mine)), allowed);
   FoundNodes found;
   for (std::size_t i = 0; i < which.size(); ++i)
   {

@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "../facet/nodal.h"
+#include "../geometry/nodal.h"
 #include "findings.h"
 
 namespace contactx::audit
@@ -24,8 +24,8 @@ namespace contactx::audit
 /// @param[in] tolerance Depth that each may be behind the surface and still be
 /// on it, larger than zero, the same on all ranks.
 /// @return The nodes, and where the first of them is at the end.
-FoundNodes passed_nodes(const parallel::Halo& halo, const facet::FacetList& own,
-                        const facet::FacetList& facets,
+FoundNodes passed_nodes(const mesh::Halo& halo, const geometry::FacetList& own,
+                        const geometry::FacetList& facets,
                         std::span<const double> x0, std::span<const double> x1,
                         std::span<const std::int32_t> candidates,
                         double tolerance);
@@ -43,8 +43,8 @@ struct AreaVectors
 /// @param[in] own Facets that this rank has.
 /// @param[in] x Positions of all nodes (shape=(num_nodes, gdim)), row-major.
 /// @return Area vectors and areas, zero off the surface.
-AreaVectors area_vectors_of_all(const parallel::Halo& halo,
-                                const facet::FacetList& own,
+AreaVectors area_vectors_of_all(const mesh::Halo& halo,
+                                const geometry::FacetList& own,
                                 std::span<const double> x);
 
 /// @brief Unit normals of a surface at owned nodes, to which the facets that
@@ -53,8 +53,8 @@ AreaVectors area_vectors_of_all(const parallel::Halo& halo,
 /// @param[in] own Facets that this rank has.
 /// @param[in] x Positions of all nodes (shape=(num_nodes, gdim)), row-major.
 /// @return Normals, zero off the surface (shape=(num_owned, gdim)).
-std::vector<double> normals_of_all(const parallel::Halo& halo,
-                                   const facet::FacetList& own,
+std::vector<double> normals_of_all(const mesh::Halo& halo,
+                                   const geometry::FacetList& own,
                                    std::span<const double> x);
 
 /// @brief Mean unit normals of a surface at the nodes of this rank, to which
@@ -64,8 +64,8 @@ std::vector<double> normals_of_all(const parallel::Halo& halo,
 /// @param[in] own Facets that this rank has.
 /// @param[in] x Positions of all nodes (shape=(num_nodes, gdim)), row-major.
 /// @return Normals, zero off the surface and at its edges, see
-/// facet::cosine_at_edges (shape=(num_nodes, gdim)).
-std::vector<double> even_normals(const parallel::Halo& halo,
-                                 const facet::FacetList& own,
+/// geometry::cosine_at_edges (shape=(num_nodes, gdim)).
+std::vector<double> even_normals(const mesh::Halo& halo,
+                                 const geometry::FacetList& own,
                                  std::span<const double> x);
 } // namespace contactx::audit

@@ -4,8 +4,9 @@
 #include "self_audit.h"
 #include "../check.h"
 #include "../contact/deformable_master.h"
-#include "passage.h"
+#include "../geometry/sizes.h"
 #include "penetration.h"
+#include "passage.h"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -21,7 +22,7 @@ namespace
 constexpr double through_by = 1. / 4;
 } // namespace
 
-SelfAudit::SelfAudit(std::shared_ptr<parallel::Halo> halo,
+SelfAudit::SelfAudit(std::shared_ptr<mesh::Halo> halo,
                      std::shared_ptr<contact::Contact> contact)
     : _halo(std::move(halo)), _contact(std::move(contact))
 {
@@ -41,7 +42,7 @@ Findings SelfAudit::look(std::span<const double> start)
   search::SelfSight& sight = _surface->sight();
   sight.refit(start, x);
   const std::vector<double> sizes
-      = facet_sizes(sight.surface().facets(), sight.positions(), _halo->gdim());
+      = geometry::facet_sizes(sight.surface().facets(), sight.positions(), _halo->gdim());
   Findings findings;
   findings.facet_size = sizes.empty() ? 0 : std::ranges::max(sizes);
   findings.passed = look_back(findings.facet_size);
@@ -83,7 +84,7 @@ FoundNodes SelfAudit::look_back(double size) const
   double overlap = 0;
   for (const double offset : _contact->offset())
     overlap = std::max(overlap, -offset);
-  overlap = parallel::largest(_halo->ranks(), overlap);
+  overlap = mesh::largest(_halo->ranks(), overlap);
   std::vector<double> tolerance;
   double least = in_contact_by * size;
   for (const std::int32_t node : surface.owned())
@@ -94,7 +95,7 @@ FoundNodes SelfAudit::look_back(double size) const
     least = std::min(least, tolerance.back());
   }
   // Nodes that have not come that far are seen from where they are
-  if (not(2 * way > parallel::least(_halo->ranks(), least)))
+  if (not(2 * way > mesh::least(_halo->ranks(), least)))
     return {};
   const auto& owned = surface.owned();
   const auto from = rows_of(x0, owned, g), to = rows_of(x1, owned, g);
@@ -115,10 +116,10 @@ std::optional<Depth> SelfAudit::look_around(std::span<const double> sizes) const
 {
   const search::SelfSight& sight = _surface->sight();
   const search::WholeSurface& surface = sight.surface();
-  const facet::FacetList facets = surface.facets();
+  const geometry::FacetList facets = surface.facets();
   const int g = _halo->gdim();
   const auto& x = sight.positions();
-  const contact::NodeState& state = *_contact->nodes();
+  const law::NodeState& state = *_contact->nodes();
   std::vector<double> held(_contact->slaves().owned().size());
   for (std::size_t i = 0; i < held.size(); ++i)
     held[i] = state.held(i);
@@ -136,7 +137,7 @@ std::optional<Depth> SelfAudit::look_around(std::span<const double> sizes) const
       for (const std::int32_t node : facets[f])
         beside[node] = 1;
   const std::vector<double> curvature
-      = nodal_curvatures(facets, x, sight.normals(), g);
+      = geometry::nodal_curvatures(facets, x, sight.normals(), g);
   const double reach = sizes.empty() ? 0 : std::ranges::max(sizes);
   std::vector<std::size_t> there;
   std::vector<double> size, turn, depth;

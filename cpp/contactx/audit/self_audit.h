@@ -4,7 +4,7 @@
 #pragma once
 
 #include "../contact/contact.h"
-#include "../search/self_surface.h"
+#include "../search/self/self_surface.h"
 #include "findings.h"
 
 namespace contactx::audit
@@ -21,7 +21,7 @@ public:
   /// @param[in] halo Nodes of this rank.
   /// @param[in] contact The contact.
   /// @throws std::invalid_argument if its master is no SelfSurface.
-  SelfAudit(std::shared_ptr<parallel::Halo> halo,
+  SelfAudit(std::shared_ptr<mesh::Halo> halo,
             std::shared_ptr<contact::Contact> contact);
 
   void accept() override {}
@@ -35,7 +35,7 @@ private:
   std::optional<Depth> look_around(std::span<const double> sizes) const;
   std::vector<double> nodal(std::span<const double> of_slaves) const;
 
-  std::shared_ptr<parallel::Halo> _halo;
+  std::shared_ptr<mesh::Halo> _halo;
   std::shared_ptr<contact::Contact> _contact;
   std::shared_ptr<search::SelfSurface> _surface;
 };

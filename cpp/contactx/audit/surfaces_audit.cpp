@@ -3,12 +3,13 @@
 
 #include "surfaces_audit.h"
 #include "../check.h"
-#include "../facet/middle.h"
-#include "../parallel/extent.h"
-#include "../parallel/spread.h"
-#include "../vec.h"
-#include "passed_nodes.h"
+#include "../geometry/middle.h"
+#include "../geometry/sizes.h"
 #include "penetration.h"
+#include "../math/vec.h"
+#include "../mesh/extent.h"
+#include "../mesh/spread.h"
+#include "passed_nodes.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -46,7 +47,7 @@ deformable(const contact::Contact& contact)
 }
 
 /// Longest way of a node of facets.
-double longest_way_of(const facet::FacetList& facets,
+double longest_way_of(const geometry::FacetList& facets,
                       std::span<const double> from, std::span<const double> to,
                       int gdim)
 {
@@ -65,7 +66,7 @@ double longest_way_of(const facet::FacetList& facets,
 }
 } // namespace
 
-SurfacesAudit::SurfacesAudit(std::shared_ptr<parallel::Halo> halo,
+SurfacesAudit::SurfacesAudit(std::shared_ptr<mesh::Halo> halo,
                              std::shared_ptr<contact::Contact> contact)
     : _halo(std::move(halo)), _contact(std::move(contact)),
       _master(deformable(*_contact)),
@@ -74,8 +75,8 @@ SurfacesAudit::SurfacesAudit(std::shared_ptr<parallel::Halo> halo,
       _outside_slave(_halo, _contact->slaves().own().offsets,
                      _contact->slaves().own().nodes),
       _extent(std::ranges::max(
-          parallel::extent(_halo->ranks(), _master->surface()->own().nodes,
-                           _halo->reference(), _halo->gdim()))),
+          mesh::extent(_halo->ranks(), _master->surface()->own().nodes,
+                       _halo->reference(), _halo->gdim()))),
       _behind(_contact->slaves().owned().size(), 0)
 {
   const auto n = std::size_t(_halo->num_nodes());
@@ -135,11 +136,11 @@ SurfacesAudit::Configuration SurfacesAudit::configuration() const
 }
 
 /// Size of the largest facet on any rank.
-double SurfacesAudit::facet_size(const facet::FacetList& facets,
+double SurfacesAudit::facet_size(const geometry::FacetList& facets,
                                  std::span<const double> x) const
 {
-  return parallel::largest(_halo->ranks(),
-                           largest_of(facet_sizes(facets, x, _halo->gdim())));
+  return mesh::largest(_halo->ranks(),
+                       largest_of(geometry::facet_sizes(facets, x, _halo->gdim())));
 }
 
 /// Nodes that are out of contact must not have gone through the other surface.
@@ -151,7 +152,7 @@ void SurfacesAudit::look_back(std::span<const double> start,
     return;
   struct Side
   {
-    facet::FacetList own, other;
+    geometry::FacetList own, other;
     std::span<const std::int32_t> nodes;
   };
   const int g = _halo->gdim();
@@ -161,7 +162,7 @@ void SurfacesAudit::look_back(std::span<const double> start,
   // the other looks see of them is within a facet's size
   std::array ways{longest_way_of(slave, start, x, g),
                   longest_way_of(master, start, x, g)};
-  _halo->ranks().reduce(std::span<double>(ways), parallel::Reduction::largest);
+  _halo->ranks().reduce(std::span<double>(ways), mesh::Reduction::largest);
   const bool is_far = ways[0] + ways[1] > findings.facet_size;
   const auto slaves = _contact->slaves().owned();
   const auto paired = _master->paired();
@@ -175,7 +176,7 @@ void SurfacesAudit::look_back(std::span<const double> start,
   double overlap = 0;
   for (const double offset : _contact->offset())
     overlap = std::max(overlap, -offset);
-  overlap = parallel::largest(_halo->ranks(), overlap);
+  overlap = mesh::largest(_halo->ranks(), overlap);
   for (const auto& [own, other, nodes] : sides)
   {
     const double tolerance = in_contact_by * facet_size(other, x) + overlap;
@@ -194,10 +195,10 @@ void SurfacesAudit::look_back(std::span<const double> start,
 std::vector<std::int8_t> SurfacesAudit::find_behind()
 {
   const int g = _halo->gdim();
-  parallel::Ranks& ranks = _halo->ranks();
+  mesh::Ranks& ranks = _halo->ranks();
   const auto slaves = _contact->slaves().owned();
   const auto paired = _master->paired();
-  const contact::NodeState& state = *_contact->nodes();
+  const law::NodeState& state = *_contact->nodes();
   std::vector<std::int32_t> nodes;
   std::vector<std::size_t> which;
   for (std::size_t i = 0; i < slaves.size(); ++i)
@@ -208,13 +209,13 @@ std::vector<std::int8_t> SurfacesAudit::find_behind()
       nodes.push_back(slaves[i]);
     }
   std::vector<std::int8_t> behind(slaves.size(), 0);
-  if (not parallel::anywhere(ranks, not which.empty()))
+  if (not mesh::anywhere(ranks, not which.empty()))
     return behind;
   const Configuration now = configuration();
-  const auto size = facet_sizes(_master->surface()->own(), now.x, g);
+  const auto size = geometry::facet_sizes(_master->surface()->own(), now.x, g);
   // Reach of the search, but in small sliding nodes may have gone farther
   // since
-  double reach = parallel::largest(ranks, largest_of(size));
+  double reach = mesh::largest(ranks, largest_of(size));
   if (not is_small())
     reach = std::min(reach, _master->reach());
   const auto points = rows_of(now.x, nodes, g);
@@ -253,17 +254,17 @@ FoundNodes SurfacesAudit::look_from_slave(std::span<const double> x)
 std::vector<double> SurfacesAudit::bent(const Configuration& now) const
 {
   const contact::SlaveNodes& slaves = _contact->slaves();
-  const facet::FacetList local = slaves.local();
+  const geometry::FacetList local = slaves.local();
   if (not is_small())
     return std::vector<double>(local.size(), 0);
   const int g = _halo->gdim();
   const auto x = rows_of(now.x, slaves.around(), g);
   // Their owners have all facets around the others
   const std::size_t n = slaves.owned().size();
-  auto normals = facet::nodal_normals(local, x, g);
+  auto normals = geometry::nodal_normals(local, x, g);
   normals = slaves.scatter_forward(
       std::span<const double>(normals).first(n * g), g);
-  const auto curvature = nodal_curvatures(local, x, normals, g);
+  const auto curvature = geometry::nodal_curvatures(local, x, normals, g);
   return slaves.largest(
       slaves.scatter_forward(std::span<const double>(curvature).first(n)));
 }
@@ -276,9 +277,9 @@ search::Seen SurfacesAudit::see_slave(const Configuration& now,
 {
   const int g = _halo->gdim();
   const contact::SlaveNodes& slaves = _contact->slaves();
-  const contact::NodeState& state = *_contact->nodes();
+  const law::NodeState& state = *_contact->nodes();
   const auto size
-      = unstretched_sizes(slaves.facets(), now.x, _halo->reference(), g);
+      = geometry::unstretched_sizes(slaves.facets(), now.x, _halo->reference(), g);
   const double reach = facet_size(slaves.facets(), now.x);
   std::vector<std::int8_t> held(slaves.owned().size());
   std::vector<double> stiffness(held.size());
@@ -294,7 +295,7 @@ search::Seen SurfacesAudit::see_slave(const Configuration& now,
   const auto stiff = slaves.largest(slaves.scatter_forward(stiffness));
   std::vector<double> values;
   values.reserve(num_seen * size.size());
-  const auto normal = facet::middles(slaves.facets(), now.x, g).normals;
+  const auto normal = geometry::middles(slaves.facets(), now.x, g).normals;
   for (std::size_t f = 0; f < size.size(); ++f)
   {
     const Vector<3> n = vector_at(normal, f, g);
@@ -318,11 +319,11 @@ void SurfacesAudit::look_from_master(std::span<const double> positions,
 {
   const int g = _halo->gdim();
   const Configuration now = configuration();
-  const facet::FacetList around = _master->surface()->around();
+  const geometry::FacetList around = _master->surface()->around();
   // Of the facets around a node some may be on other ranks alone
-  const auto normals = parallel::spread(
+  const auto normals = mesh::spread(
       *_halo, normals_of_all(*_halo, _master->surface()->own(), now.x), g);
-  const auto curvature = nodal_curvatures(around, now.x, normals, g);
+  const auto curvature = geometry::nodal_curvatures(around, now.x, normals, g);
   const search::Seen seen = see_slave(now, normals);
   const std::size_t n = _points.size();
   std::vector<double> below(n), sizes(n);

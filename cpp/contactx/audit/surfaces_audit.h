@@ -22,7 +22,7 @@ public:
   /// @param[in] halo Nodes of this rank.
   /// @param[in] contact The contact, no tie.
   /// @throws std::invalid_argument if its master is not deformable.
-  SurfacesAudit(std::shared_ptr<parallel::Halo> halo,
+  SurfacesAudit(std::shared_ptr<mesh::Halo> halo,
                 std::shared_ptr<contact::Contact> contact);
 
   /// @brief Remember which slave nodes lie behind the master before the next
@@ -45,7 +45,7 @@ private:
 
   bool is_small() const;
   Configuration configuration() const;
-  double facet_size(const facet::FacetList& facets,
+  double facet_size(const geometry::FacetList& facets,
                     std::span<const double> x) const;
   void look_back(std::span<const double> start, std::span<const double> x,
                  Findings& findings) const;
@@ -56,7 +56,7 @@ private:
                          std::span<const double> normals);
   void look_from_master(std::span<const double> positions, Findings& findings);
 
-  std::shared_ptr<parallel::Halo> _halo;
+  std::shared_ptr<mesh::Halo> _halo;
   std::shared_ptr<contact::Contact> _contact;
   std::shared_ptr<contact::DeformableMaster> _master;
   search::Onlooker _at_slave;

@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "../triplets.h"
+#include "../math/triplets.h"
 #include <stdexcept>
 
 /// @brief Multipliers eliminated from the linear system of contact.

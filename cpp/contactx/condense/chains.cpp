@@ -51,7 +51,7 @@ bool is_transpose(const Triplets& left, const Triplets& right,
 } // namespace
 
 std::vector<std::int8_t>
-contactx::condense::marks(const parallel::NodeMap& nodes,
+contactx::condense::marks(const mesh::NodeMap& nodes,
                           std::span<const std::int32_t> dofs, int gdim)
 {
   std::vector<std::int64_t> marks(
@@ -63,7 +63,7 @@ contactx::condense::marks(const parallel::NodeMap& nodes,
 }
 
 Chains contactx::condense::chains(const Elimination& elimination,
-                                  const parallel::NodeMap& nodes)
+                                  const mesh::NodeMap& nodes)
 {
   const int gdim = elimination.gdim();
   const auto taken = marks(nodes, elimination.eliminated(), gdim);
@@ -78,7 +78,7 @@ Chains contactx::condense::chains(const Elimination& elimination,
 }
 
 bool contactx::condense::is_symmetric(const Elimination& elimination,
-                                      const parallel::NodeMap& nodes)
+                                      const mesh::NodeMap& nodes)
 {
   // Where friction sticks its traction moves over a master with what presses it
   // on, and contact's part of the stiffness is not symmetric
@@ -93,5 +93,5 @@ bool contactx::condense::is_symmetric(const Elimination& elimination,
         = static_cast<std::size_t>(nodes.num_nodes()) * elimination.gdim();
     is_same = is_transpose(elimination.left(), right, size);
   }
-  return parallel::everywhere(nodes.ranks(), is_same);
+  return mesh::everywhere(nodes.ranks(), is_same);
 }

@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "../parallel/ranks.h"
+#include "../mesh/ranks.h"
 #include "elimination.h"
 
 /// @brief Chains of eliminations: displacements that are eliminated by others
@@ -17,7 +17,7 @@ namespace contactx::condense
 /// @param[in] gdim Geometric dimension.
 /// @return 1 at those of all nodes' displacements that their owners have given,
 /// else 0 (shape=(num_local)).
-std::vector<std::int8_t> marks(const parallel::NodeMap& nodes,
+std::vector<std::int8_t> marks(const mesh::NodeMap& nodes,
                                std::span<const std::int32_t> dofs, int gdim);
 
 /// @brief Entries by which eliminations need one another; see Elimination.
@@ -31,13 +31,12 @@ struct Chains
 /// @param[in] elimination That of this rank.
 /// @param[in] nodes Nodes of this rank.
 /// @return This rank's entries, in its numbers.
-Chains chains(const Elimination& elimination, const parallel::NodeMap& nodes);
+Chains chains(const Elimination& elimination, const mesh::NodeMap& nodes);
 
 /// @brief Whether no node sticks or slips, and `left` is the transpose of
 /// `right` but for rounding.
 /// @param[in] elimination That of this rank.
 /// @param[in] nodes Nodes of this rank.
 /// @return The same on all ranks.
-bool is_symmetric(const Elimination& elimination,
-                  const parallel::NodeMap& nodes);
+bool is_symmetric(const Elimination& elimination, const mesh::NodeMap& nodes);
 } // namespace contactx::condense

@@ -15,7 +15,7 @@ namespace
 {
 /// 1 at slave nodes that are closed, or whose multiplier is not known to be
 /// zero.
-std::vector<std::int8_t> needed(const contact::NodeState& nodes,
+std::vector<std::int8_t> needed(const law::NodeState& nodes,
                                 std::span<const double> d)
 {
   std::vector<std::int8_t> which(nodes.num_nodes());
@@ -31,7 +31,7 @@ std::vector<std::int8_t> needed(const contact::NodeState& nodes,
 
 Nodes contactx::condense::nodes_of(const contact::Contact& contact)
 {
-  const contact::NodeState& nodes = *contact.nodes();
+  const law::NodeState& nodes = *contact.nodes();
   return {contact.slaves().owned(),
           nodes.size(),
           nodes.status,
@@ -46,7 +46,7 @@ ContactBlock::ContactBlock(const Contacts& contacts,
                            bool keeps_zeros, std::span<const double> d)
 {
   check::require(not contacts.empty(), "contacts must not be empty");
-  const parallel::Halo& halo = contacts.front()->halo();
+  const mesh::Halo& halo = contacts.front()->halo();
   const std::size_t num_local = std::size_t(halo.num_nodes()) * halo.gdim();
   std::size_t num_multipliers = 0;
   for (const auto& c : contacts)
@@ -65,7 +65,7 @@ ContactBlock::ContactBlock(const Contacts& contacts,
   std::size_t first = 0;
   for (const auto& c : contacts)
   {
-    const contact::NodeState& nodes = *c->nodes();
+    const law::NodeState& nodes = *c->nodes();
     const std::size_t n = nodes.num_nodes(), size = nodes.size();
     const auto start = static_cast<std::int32_t>(widths.size());
     std::vector<std::int8_t> which;

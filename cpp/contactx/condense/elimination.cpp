@@ -3,7 +3,7 @@
 
 #include "elimination.h"
 #include "../law/normal.h"
-#include "small.h"
+#include "../math/small.h"
 #include <algorithm>
 #include <array>
 #include <string>
@@ -200,14 +200,14 @@ void Elimination::add_stick(std::int32_t multiplier, std::int32_t first,
                             std::span<const std::int8_t> own, const Rows& rows)
 {
   const int g = _gdim;
-  Small block{}, inverse;
+  math::Small block{}, inverse;
   for (int j = 0; j < g; ++j)
   {
     const auto values = rows.at(first + j);
     for (int i = 0; i < g; ++i)
       block[i][j] = values[i] + (i == j and own[i] == 0 ? 1 : 0);
   }
-  if (invert(g, block, inverse) == 0)
+  if (math::invert(g, block, inverse) == 0)
     throw NotCondensable(
         "the constraints of a slave node do not give its displacements");
   bool has_others = false;

@@ -10,7 +10,7 @@ using namespace contactx;
 using namespace contactx::condense;
 
 std::vector<double> contactx::condense::bound(const Elimination& elimination,
-                                              const parallel::NodeMap& nodes,
+                                              const mesh::NodeMap& nodes,
                                               std::span<const double> diagonal)
 {
   const int gdim = elimination.gdim();
@@ -34,7 +34,7 @@ std::vector<double> contactx::condense::bound(const Elimination& elimination,
 }
 
 Triplets contactx::condense::elastic(const Elimination& elimination,
-                                     const parallel::NodeMap& nodes,
+                                     const mesh::NodeMap& nodes,
                                      const Triplets& soft,
                                      std::span<const double> diagonal)
 {

@@ -17,7 +17,7 @@ namespace contactx::condense
 /// @param[in] diagonal Diagonal of K, not negative (shape=(num_owned)).
 /// @return D (shape=(num_owned)).
 std::vector<double> bound(const Elimination& elimination,
-                          const parallel::NodeMap& nodes,
+                          const mesh::NodeMap& nodes,
                           std::span<const double> diagonal);
 
 /// @brief Springs without rows and columns of eliminated displacements; all
@@ -28,6 +28,6 @@ std::vector<double> bound(const Elimination& elimination,
 /// @param[in] diagonal Springs of single displacements (shape=(num_owned)), or
 /// nothing.
 /// @return Entries (dof, dof).
-Triplets elastic(const Elimination& elimination, const parallel::NodeMap& nodes,
+Triplets elastic(const Elimination& elimination, const mesh::NodeMap& nodes,
                  const Triplets& soft, std::span<const double> diagonal);
 } // namespace contactx::condense

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "prescribed.h"
-#include "small.h"
+#include "../math/small.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,13 +17,14 @@ namespace
 constexpr double least_determinant = 1e-8;
 
 /// Inverts D_pp over the area, zero elsewhere; false where it is singular
-bool inverted(int k, const Small& D, const std::array<bool, 3>& p, Small& G)
+bool inverted(int k, const math::Small& D, const std::array<bool, 3>& p,
+              math::Small& G)
 {
-  Small block{};
+  math::Small block{};
   for (int i = 0; i < k; ++i)
     for (int j = 0; j < k; ++j)
       block[i][j] = p[i] and p[j] ? D[i][j] : (i == j and not p[i]);
-  if (std::abs(invert(k, block, G)) < least_determinant)
+  if (std::abs(math::invert(k, block, G)) < least_determinant)
     return false;
   for (int i = 0; i < k; ++i)
     for (int j = 0; j < k; ++j)
@@ -40,7 +41,7 @@ constexpr double nothing = 1e-12;
 /// Chooses which multipliers the law gives, of those that may: the others stay
 /// with no more than rounding errors in the law of those that neither give nor
 /// stay. False where there are more.
-bool choose(int k, Small D, std::array<bool, 3>& gives,
+bool choose(int k, math::Small D, std::array<bool, 3>& gives,
             std::array<bool, 3>& stays)
 {
   stays = std::exchange(gives, {});
@@ -54,7 +55,7 @@ bool choose(int k, Small D, std::array<bool, 3>& gives,
         pivot = i;
     if (pivot < 0)
       break;
-    const Small before = D;
+    const math::Small before = D;
     for (int i = 0; i < k; ++i)
       for (int j = 0; j < k; ++j)
         D[i][j] -= before[i][pivot] * before[pivot][j] / before[pivot][pivot];
@@ -100,7 +101,7 @@ Prescribed::Prescribed(std::span<const Nodes> contacts, Blocks blocks,
         continue;
 
       double* d = by.data() + s * k * k;
-      Small D{}, G{};
+      math::Small D{}, G{};
       std::array<bool, 3> gives{}, stays{};
       for (int i = 0; i < k; ++i)
       {
@@ -120,8 +121,8 @@ Prescribed::Prescribed(std::span<const Nodes> contacts, Blocks blocks,
           G[i][j] /= nodes.area[s];
         }
 
-      const Small DG = product(k, D, G), GD = product(k, G, D),
-                  DGD = product(k, DG, D);
+      const math::Small DG = math::product(k, D, G), GD = math::product(k, G, D),
+                        DGD = math::product(k, DG, D);
       const auto place = static_cast<std::int32_t>(_multipliers.size());
       std::array<std::int32_t, 3> number{};
       for (int i = 0; i < k; ++i)

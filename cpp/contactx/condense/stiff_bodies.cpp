@@ -32,10 +32,10 @@ double limit(std::vector<double> known)
 
 std::vector<std::int8_t>
 contactx::condense::stiff_bodies(const Condensation& condensation,
-                                 const contact::Bodies& bodies,
+                                 const mesh::Bodies& bodies,
                                  std::span<const double> diagonal)
 {
-  const parallel::NodeMap& nodes = bodies.map();
+  const mesh::NodeMap& nodes = bodies.map();
   const Elimination& elimination = condensation.elimination();
   const int gdim = elimination.gdim();
   const std::size_t count = bodies.size();
@@ -62,7 +62,7 @@ contactx::condense::stiff_bodies(const Condensation& condensation,
         sums[body] += diagonal[i * gdim + k];
       sums[count + body] += area[i];
     }
-  nodes.ranks().reduce(std::span<double>(sums), parallel::Reduction::sum);
+  nodes.ranks().reduce(std::span<double>(sums), mesh::Reduction::sum);
   std::vector<double> known;
   for (std::size_t b = 0; b < count; ++b)
     if (sums[b] > 0)
@@ -80,7 +80,7 @@ contactx::condense::stiff_bodies(const Condensation& condensation,
     is_folded = is_folded
                 or (stiff[bodies.number()[right.rows[e] / gdim]]
                     and not stiff[bodies.number()[right.columns[e] / gdim]]);
-  if (parallel::anywhere(nodes.ranks(), is_folded))
+  if (mesh::anywhere(nodes.ranks(), is_folded))
     std::ranges::fill(stiff, 0);
   return stiff;
 }

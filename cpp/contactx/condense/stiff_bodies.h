@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "../contact/bodies.h"
+#include "../mesh/bodies.h"
 #include "condensation.h"
 
 namespace contactx::condense
@@ -29,6 +29,6 @@ namespace contactx::condense
 /// @throws std::invalid_argument on all ranks if the diagonal does not fit on
 /// one of them.
 std::vector<std::int8_t> stiff_bodies(const Condensation& condensation,
-                                      const contact::Bodies& bodies,
+                                      const mesh::Bodies& bodies,
                                       std::span<const double> diagonal);
 } // namespace contactx::condense

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "contact.h"
-#include "../parallel/extent.h"
-#include "../vec.h"
+#include "../math/vec.h"
+#include "../mesh/extent.h"
 #include "deformable_master.h"
 #include "obstacle_pairs.h"
 #include <algorithm>
@@ -53,7 +53,7 @@ void require(bool fits, const char* what)
 }
 } // namespace
 
-Contact::Contact(std::shared_ptr<parallel::Halo> halo,
+Contact::Contact(std::shared_ptr<mesh::Halo> halo,
                  std::shared_ptr<const SlaveNodes> slaves,
                  std::shared_ptr<Master> master, std::shared_ptr<law::Law> law,
                  Options options)
@@ -69,11 +69,11 @@ Contact::Contact(std::shared_ptr<parallel::Halo> halo,
   require(_options.shared.empty()
               or _options.shared.size() == std::size_t(_halo->num_owned()),
           "shared must have a value for each owned node");
-  _nodes
-      = std::make_shared<NodeState>(n, gdim(), _law->is_vector(), integrates());
+  _nodes = std::make_shared<law::NodeState>(n, gdim(), _law->is_vector(),
+                                            integrates());
   if (_law->is_vector() and not _law->is_tied())
   {
-    _history = std::make_shared<SlipHistory>(n, gdim());
+    _history = std::make_shared<law::SlipHistory>(n, gdim());
     if (auto* coulomb = dynamic_cast<law::Coulomb*>(_law.get()))
       coulomb->follow(_history);
   }
@@ -275,7 +275,7 @@ void Contact::accept()
   take_start();
   const std::vector<double> front = _front, area = _nodes->area;
   find_front();
-  if (parallel::anywhere(_halo->ranks(), front != _front))
+  if (mesh::anywhere(_halo->ranks(), front != _front))
   {
     take(_master->pairs());
     // Forces stay
@@ -330,11 +330,11 @@ void Contact::leave_out_empty()
   _filler.assign(_touched.size(), 0);
   if (not _slaves->is_quadratic())
     return;
-  const std::vector<double> area = _slaves->sums(facet::corner_areas(
+  const std::vector<double> area = _slaves->sums(geometry::corner_areas(
       _slaves->local(), _slaves->here(_halo->reference(), gdim(), "x"), gdim(),
       _slaves->shares()));
-  const double most = parallel::largest(
-      _halo->ranks(), area.empty() ? 0 : std::ranges::max(area));
+  const double most = mesh::largest(_halo->ranks(),
+                                    area.empty() ? 0 : std::ranges::max(area));
   for (std::size_t i = 0; i < area.size(); ++i)
     if (area[i] == 0)
     {
@@ -343,7 +343,7 @@ void Contact::leave_out_empty()
     }
 }
 
-void Contact::take(std::vector<Pairs> pairs)
+void Contact::take(std::vector<kernel::Pairs> pairs)
 {
   // Others look at the array
   std::ranges::copy(_master->area(_front), _nodes->area.begin());
@@ -352,8 +352,8 @@ void Contact::take(std::vector<Pairs> pairs)
       _nodes->area[i] = _filler[i];
   sum_offset();
   _pairs.clear();
-  for (Pairs& p : pairs)
-    _pairs.push_back(std::make_shared<Pairs>(std::move(p)));
+  for (kernel::Pairs& p : pairs)
+    _pairs.push_back(std::make_shared<kernel::Pairs>(std::move(p)));
   ++_version;
 }
 
@@ -381,7 +381,7 @@ std::vector<std::int32_t> Contact::kept_inside(std::span<const double> x)
         at = at_slaves(x);
       });
   const double size
-      = std::ranges::max(parallel::extent(_halo->ranks(), at, gdim()));
+      = std::ranges::max(mesh::extent(_halo->ranks(), at, gdim()));
   std::vector<std::int32_t> nodes;
   for (std::size_t i = 0; i < gap.size(); ++i)
     if (_nodes->immobile[i] and gap[i] - _offset[i] < -inside_part * size)
@@ -395,15 +395,15 @@ bool Contact::moves_untold()
   if (not master or not _is_active)
     return false;
   const double size = std::ranges::max(
-      parallel::extent(_halo->ranks(), at_slaves(_halo->reference()), gdim()));
+      mesh::extent(_halo->ranks(), at_slaves(_halo->reference()), gdim()));
   bool moves = false;
   _halo->ranks().agree([&]
                        { moves = master->moves_untold(moved_part * size); });
   const bool touches = std::ranges::any_of(_nodes->status, [](std::int8_t s)
                                            { return s != law::open; });
   // Both are asked on all ranks
-  const bool is_touched = parallel::anywhere(_halo->ranks(), touches);
-  return parallel::anywhere(_halo->ranks(), moves) and is_touched;
+  const bool is_touched = mesh::anywhere(_halo->ranks(), touches);
+  return mesh::anywhere(_halo->ranks(), moves) and is_touched;
 }
 
 std::int32_t Contact::search()
@@ -617,10 +617,10 @@ void Contact::for_each_pair(std::string_view term,
 bool Contact::is_without_gaps() const
 {
   const double tie
-      = touching_gap(_halo->ranks(), at_slaves(_halo->now()->x), gdim());
+      = law::touching_gap(_halo->ranks(), at_slaves(_halo->now()->x), gdim());
   const bool any = std::ranges::any_of(_nodes->gap, [tie](double gap)
                                        { return std::abs(gap) > tie; });
-  return not parallel::anywhere(_halo->ranks(), any);
+  return not mesh::anywhere(_halo->ranks(), any);
 }
 
 std::int32_t Contact::update_status(bool is_first)
@@ -699,7 +699,7 @@ void Contact::measure_from_touching(std::span<const std::int8_t> which)
 
 std::vector<std::int8_t> Contact::closing(bool is_first)
 {
-  const double tie = is_first ? touching_gap(_halo->ranks(),
+  const double tie = is_first ? law::touching_gap(_halo->ranks(),
                                              at_slaves(_halo->now()->x), gdim())
                               : -1.0;
   std::vector<std::int8_t> closes(_nodes->num_nodes());

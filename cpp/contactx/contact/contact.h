@@ -5,12 +5,12 @@
 
 #include "../kernel/assemble.h"
 #include "../law/law.h"
-#include "../parallel/halo.h"
+#include "../law/node_state.h"
+#include "../law/slip_history.h"
+#include "../mesh/halo.h"
 #include "master.h"
 #include "method.h"
-#include "node_state.h"
 #include "slave_nodes.h"
-#include "slip_history.h"
 #include <array>
 #include <memory>
 #include <optional>
@@ -60,7 +60,7 @@ public:
   /// @param[in] options How the contact is.
   /// @throws std::invalid_argument if sizes do not fit, or `adjust` is
   /// negative, not finite, or given for a tie.
-  Contact(std::shared_ptr<parallel::Halo> halo,
+  Contact(std::shared_ptr<mesh::Halo> halo,
           std::shared_ptr<const SlaveNodes> slaves,
           std::shared_ptr<Master> master, std::shared_ptr<law::Law> law,
           Options options);
@@ -81,13 +81,13 @@ public:
   const std::shared_ptr<law::Law>& law() const { return _law; }
 
   /// @brief State of the slave nodes.
-  const std::shared_ptr<NodeState>& nodes() const { return _nodes; }
+  const std::shared_ptr<law::NodeState>& nodes() const { return _nodes; }
 
   /// @brief Slip of the accepted steps; null where slip is not measured.
-  const std::shared_ptr<SlipHistory>& history() const { return _history; }
+  const std::shared_ptr<law::SlipHistory>& history() const { return _history; }
 
   /// @brief Nodes of this rank.
-  const parallel::Halo& halo() const { return *_halo; }
+  const mesh::Halo& halo() const { return *_halo; }
 
   /// @brief True if slave and master are the same surface.
   bool is_self() const { return _master->is_self(); }
@@ -116,8 +116,11 @@ public:
            and not _master->is_rigid();
   }
 
-  /// @brief Pairs by the kinds of their facets, with their data of now.
-  const std::vector<std::shared_ptr<Pairs>>& pairs() const { return _pairs; }
+  /// @brief kernel::Pairs by the kinds of their facets, with their data of now.
+  const std::vector<std::shared_ptr<kernel::Pairs>>& pairs() const
+  {
+    return _pairs;
+  }
 
   /// @brief Counts how often `pairs` or `kinematics` have changed, be it but
   /// their data.
@@ -259,7 +262,7 @@ private:
   void find_rest();
   void find_adjusted(double length);
   void sum_offset();
-  void take(std::vector<Pairs> pairs);
+  void take(std::vector<kernel::Pairs> pairs);
   std::int32_t pair(std::span<const double> x);
   void find_immobile();
   std::vector<std::int8_t> touching(std::span<const std::int8_t> closes,
@@ -274,17 +277,17 @@ private:
   void measure_gap(std::span<const double> displacement);
   void measure_slip(std::span<const double> displacement);
 
-  std::shared_ptr<parallel::Halo> _halo;
+  std::shared_ptr<mesh::Halo> _halo;
   std::shared_ptr<const SlaveNodes> _slaves;
   std::shared_ptr<Master> _master;
   std::shared_ptr<law::Law> _law;
   Options _options;
-  std::shared_ptr<NodeState> _nodes;
-  std::shared_ptr<SlipHistory> _history;
+  std::shared_ptr<law::NodeState> _nodes;
+  std::shared_ptr<law::SlipHistory> _history;
   bool _is_frozen, _is_active = true;
   // Whether the step's first iterate has told where nodes touch
   bool _is_predicted = false;
-  std::vector<std::shared_ptr<Pairs>> _pairs;
+  std::vector<std::shared_ptr<kernel::Pairs>> _pairs;
   std::int64_t _version = 0;
   int _skipped_searches = 0;
   // The last is the sum of these and of what smooth surfaces rise
@@ -295,7 +298,7 @@ private:
   std::vector<std::int8_t> _touched, _had_master, _is_left_out;
   std::vector<double> _filler; // areas of slave nodes that have none
   // Configuration and version at which gaps were evaluated
-  std::shared_ptr<const parallel::Configuration> _evaluated;
+  std::shared_ptr<const mesh::Configuration> _evaluated;
   std::int64_t _evaluated_version = -1;
   std::shared_ptr<const void> _observer;
 };

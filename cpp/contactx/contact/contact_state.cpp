@@ -36,7 +36,7 @@ std::vector<Saved> contactx::contact::save(const Contact& contact)
 {
   std::vector<Saved> saved{{"active", RowKind::global, 0,
                             std::vector<std::int8_t>{contact.is_active()}}};
-  const NodeState& nodes = *contact.nodes();
+  const law::NodeState& nodes = *contact.nodes();
   for_each_lasting(nodes, [&](const char* name, int width, const auto& values)
                    { saved.push_back({name, RowKind::slave, width, values}); });
   if (const auto& history = contact.history())
@@ -56,7 +56,7 @@ std::vector<Saved> contactx::contact::save(const Contact& contact)
 
 void contactx::contact::load(Contact& contact, const std::vector<Saved>& saved)
 {
-  NodeState& nodes = *contact.nodes();
+  law::NodeState& nodes = *contact.nodes();
   const auto& history = contact.history();
   contact.halo().ranks().agree(
       [&]

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "../check.h"
-#include "../parallel/halo.h"
+#include "../mesh/halo.h"
 #include "../search/master_surface.h"
 #include "../search/outside.h"
 #include "master.h"
@@ -21,13 +21,13 @@ struct PairingOptions
   double reach;       ///< largest distance of a pair
   bool is_small;      ///< whether sliding is small: pairs never change
   bool measures_slip; ///< whether slip is measured
-  /// Where each node is on quadratic facets, see facet::Shares; empty where
+  /// Where each node is on quadratic facets, see geometry::Shares; empty where
   /// facets are linear
   std::vector<std::int8_t> level = {};
   bool is_smooth = false; ///< whether linear facets stand for smooth surfaces
 };
 
-/// @brief Pairs with the facets of a deformable body.
+/// @brief kernel::Pairs with the facets of a deformable body.
 class DeformableMaster : public Master
 {
 public:
@@ -39,7 +39,7 @@ public:
   /// @param[in] options How pairs are made.
   /// @throws std::invalid_argument if the slave facets are none of the halo's
   /// dimension, or the reach is not larger than zero.
-  DeformableMaster(std::shared_ptr<parallel::Halo> halo,
+  DeformableMaster(std::shared_ptr<mesh::Halo> halo,
                    std::shared_ptr<const SlaveNodes> slaves,
                    std::shared_ptr<search::MasterSurface> surface,
                    std::shared_ptr<search::Outside> outside,
@@ -50,7 +50,7 @@ public:
   {
     if (not _slaves)
       throw std::invalid_argument("slaves must not be empty");
-    const facet::FacetList facets = _slaves->facets();
+    const geometry::FacetList facets = _slaves->facets();
     check::facets(facets.offsets, facets.nodes, _halo->gdim());
     if (not(options.reach > 0))
       throw std::invalid_argument("the reach of pairs is not larger than zero");
@@ -115,7 +115,7 @@ protected:
     return way;
   }
 
-  std::shared_ptr<parallel::Halo> _halo;           ///< Nodes of this rank
+  std::shared_ptr<mesh::Halo> _halo;               ///< Nodes of this rank
   std::shared_ptr<const SlaveNodes> _slaves;       ///< Slave nodes
   std::shared_ptr<search::MasterSurface> _surface; ///< Master surface
   std::shared_ptr<search::Outside> _outside; ///< points outside of the body
@@ -128,7 +128,7 @@ private:
   std::vector<double> means(Value&& value) const
   {
     const std::size_t g = gdim();
-    const Weights w = weights();
+    const kernel::Weights w = weights();
     std::vector<double> sums(_slaves->owned().size() * g, 0);
     for (std::size_t e = 0; e < w.values.size(); ++e)
       for (std::size_t k = 0; k < g; ++k)

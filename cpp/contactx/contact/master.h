@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "pairs.h"
+#include "../kernel/pairs.h"
 #include "saved.h"
 #include <optional>
 #include <span>
@@ -27,7 +27,7 @@ struct HiddenGap
   double part = 0;
 };
 
-/// @brief Pairs of the slave nodes of a contact with its master.
+/// @brief kernel::Pairs of the slave nodes of a contact with its master.
 ///
 /// Positions `x` are those of all nodes on this rank (shape=(num_nodes,
 /// gdim)), row-major. All ranks must take part in what is called collective;
@@ -108,9 +108,9 @@ public:
   /// @brief 1 at slave nodes that have a pair, else 0 (shape=(n)).
   virtual std::vector<std::int8_t> paired() const = 0;
 
-  /// @brief Pairs by the kind of their facets, with the data of the last
-  /// search.
-  virtual std::vector<Pairs> pairs() const = 0;
+  /// @brief kernel::Pairs by the kind of their facets, with the data of the
+  /// last search.
+  virtual std::vector<kernel::Pairs> pairs() const = 0;
 
   /// @brief Data of the pairs at an iterate between two searches.
   /// @param[in] x Positions.
@@ -118,7 +118,7 @@ public:
   /// search.
   /// @param[in] offset Offset, a length that is taken off the gap (shape=(n)).
   /// @return The pairs, nothing where their data have not changed.
-  virtual std::optional<std::vector<Pairs>>
+  virtual std::optional<std::vector<kernel::Pairs>>
   update(std::span<const double> x, bool frozen, std::span<const double> offset)
       = 0;
 
@@ -127,7 +127,7 @@ public:
   virtual std::vector<double> normals() const = 0;
 
   /// @brief Relative movement of each slave node and its master.
-  virtual Weights weights() const = 0;
+  virtual kernel::Weights weights() const = 0;
 
   /// @brief Movement of a rigid obstacle in this step, in front of each slave
   /// node: along its normal, and with slip along its surface (shape=(n, gdim));

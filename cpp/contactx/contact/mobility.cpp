@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "mobility.h"
-#include "../facet/shape.h"
+#include "../geometry/shape.h"
 #include <algorithm>
 #include <numeric>
 
@@ -24,19 +24,19 @@ void contactx::contact::pair_weights(int num_nodes, const double* xi,
                                      double* weight)
 {
   weight[0] = 1;
-  facet::visit(num_nodes,
-               [xi, weight]<class F>(F)
-               {
-                 facet::Local<F> at;
-                 std::copy_n(xi, F::tdim, at.begin());
-                 const auto N = F::shape(at);
-                 for (int l = 0; l < F::nodes; ++l)
-                   weight[1 + l] = -N[l];
-               });
+  geometry::visit(num_nodes,
+                  [xi, weight]<class F>(F)
+                  {
+                    geometry::Local<F> at;
+                    std::copy_n(xi, F::tdim, at.begin());
+                    const auto N = F::shape(at);
+                    for (int l = 0; l < F::nodes; ++l)
+                      weight[1 + l] = -N[l];
+                  });
 }
 
 std::vector<double>
-contactx::contact::free_squares(const Weights& weights,
+contactx::contact::free_squares(const kernel::Weights& weights,
                                 std::span<const std::int8_t> free,
                                 std::span<const std::int8_t> paired, int gdim)
 {

@@ -15,8 +15,8 @@ namespace contactx::contact
 bool all_free(std::span<const std::int32_t> nodes,
               std::span<const std::int8_t> free, int gdim);
 
-/// @brief Weights of a pair's nodes in the relative movement of its slave node:
-/// 1, then -N_l of the facet's nodes.
+/// @brief kernel::Weights of a pair's nodes in the relative movement of its
+/// slave node: 1, then -N_l of the facet's nodes.
 /// @param[in] num_nodes Nodes of the facet: 2, 3 or 4.
 /// @param[in] xi Local coordinates, two of them.
 /// @param[out] weight The weights (shape=(1 + num_nodes)).
@@ -30,7 +30,7 @@ void pair_weights(int num_nodes, const double* xi, double* weight);
 /// @param[in] paired 1 at slave nodes with a pair (shape=(n)).
 /// @param[in] gdim Geometric dimension.
 /// @return Sums, one where nothing is prescribed (shape=(n, gdim)).
-std::vector<double> free_squares(const Weights& weights,
+std::vector<double> free_squares(const kernel::Weights& weights,
                                  std::span<const std::int8_t> free,
                                  std::span<const std::int8_t> paired, int gdim);
 } // namespace contactx::contact

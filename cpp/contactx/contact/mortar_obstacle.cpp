@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "mortar_obstacle.h"
-#include "../facet/gather.h"
+#include "../geometry/gather.h"
+#include "../geometry/quadrature.h"
+#include "../geometry/square.h"
 #include "../kernel/layout.h"
-#include "../mortar/quadrature.h"
-#include "../mortar/square.h"
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -18,7 +18,7 @@ namespace
 template <class F>
 struct RulePoint
 {
-  facet::Local<F> xi;
+  geometry::Local<F> xi;
   double weight;
 };
 
@@ -43,12 +43,12 @@ std::vector<RulePoint<F>> rule()
     }
   }
   else
-    for (const auto& [a, wa] : mortar::gauss(3))
+    for (const auto& [a, wa] : geometry::gauss(3))
     {
       if constexpr (F::tdim == 1)
         points.push_back({{a}, wa});
       else
-        for (const auto& [b, wb] : mortar::gauss(3))
+        for (const auto& [b, wb] : geometry::gauss(3))
           points.push_back({{a, b}, wa * wb});
     }
   return points;
@@ -56,18 +56,18 @@ std::vector<RulePoint<F>> rule()
 
 /// Area, or length, of a facet by that of its local coordinates.
 template <class F>
-double stretch(const facet::Nodes<F>& x, const facet::Local<F>& xi)
+double stretch(const geometry::Nodes<F>& x, const geometry::Local<F>& xi)
 {
   const auto dN = F::derivative(xi);
   if constexpr (F::tdim == 1)
-    return norm(facet::combine<F>(dN[0], x));
+    return norm(geometry::combine<F>(dN[0], x));
   else
     return norm(
-        cross(facet::combine<F>(dN[0], x), facet::combine<F>(dN[1], x)));
+        cross(geometry::combine<F>(dN[0], x), geometry::combine<F>(dN[1], x)));
 }
 } // namespace
 
-MortarObstacle::MortarObstacle(std::shared_ptr<obstacle::Obstacle> obstacle,
+MortarObstacle::MortarObstacle(std::shared_ptr<geometry::Obstacle> obstacle,
                                std::shared_ptr<const SlaveNodes> slaves,
                                std::span<const double> x, int gdim,
                                double reach, bool measures_slip)
@@ -75,9 +75,9 @@ MortarObstacle::MortarObstacle(std::shared_ptr<obstacle::Obstacle> obstacle,
                      measures_slip),
       _faces(_slaves->corners().size(), 1), _positions(x.begin(), x.end())
 {
-  add_kind<facet::Segment>(x);
-  add_kind<facet::Triangle>(x);
-  add_kind<facet::Quadrilateral>(x);
+  add_kind<geometry::Segment>(x);
+  add_kind<geometry::Triangle>(x);
+  add_kind<geometry::Quadrilateral>(x);
 }
 
 template <class F>
@@ -100,8 +100,8 @@ void MortarObstacle::add_kind(std::span<const double> x)
     if (_slaves->facets().offsets[f + 1] - first != k)
       continue;
     const auto xs
-        = facet::gather<F>(_slaves->facets().nodes.subspan(first, k), x);
-    mortar::Square<k> mass{}, dual{};
+        = geometry::gather<F>(_slaves->facets().nodes.subspan(first, k), x);
+    geometry::Square<k> mass{}, dual{};
     Vector<k> whole{}, factor;
     factor.fill(1);
     if (not weight.empty())
@@ -117,7 +117,7 @@ void MortarObstacle::add_kind(std::span<const double> x)
       for (int s = 0; s < k; ++s)
         mass[s] = mass[s] + (area[p] * N[s]) * N;
     }
-    if (not mortar::invert<k>(mass, dual))
+    if (not geometry::invert<k>(mass, dual))
       throw std::invalid_argument("a slave facet has no area");
     for (int s = 0; s < k; ++s)
     {
@@ -214,16 +214,19 @@ void MortarObstacle::take_front(std::span<const std::int8_t> faces)
   _values = integrate(_positions);
 }
 
-std::vector<Pairs> MortarObstacle::pairs() const { return group(_values); }
+std::vector<kernel::Pairs> MortarObstacle::pairs() const
+{
+  return group(_values);
+}
 
-std::vector<Pairs>
+std::vector<kernel::Pairs>
 MortarObstacle::group(const std::vector<std::vector<double>>& values) const
 {
-  std::vector<Pairs> groups;
+  std::vector<kernel::Pairs> groups;
   for (std::size_t i = 0; i < values.size(); ++i)
   {
     const Kind& kind = _kinds[i];
-    Pairs p;
+    kernel::Pairs p;
     p.num_slaves = kind.k;
     p.data_size = kernel::RigidMortarLayout(kind.k, _gdim).size;
     for (std::size_t f = 0; f < kind.corners.size() / kind.k; ++f)
@@ -252,7 +255,7 @@ MortarObstacle::group(const std::vector<std::vector<double>>& values) const
   return groups;
 }
 
-std::optional<std::vector<Pairs>>
+std::optional<std::vector<kernel::Pairs>>
 MortarObstacle::update(std::span<const double> x, bool frozen,
                        std::span<const double>)
 {

@@ -7,7 +7,7 @@
 
 namespace contactx::contact
 {
-/// @brief Pairs of slave facets with a rigid obstacle.
+/// @brief kernel::Pairs of slave facets with a rigid obstacle.
 ///
 /// The gap and the normal at points of each facet are integrated with the dual
 /// functions; the force of a slave node acts on itself alone, along its mean
@@ -21,7 +21,7 @@ public:
   /// @brief Create the pairs, none yet; the arguments are those of
   /// ObstacleMaster.
   /// @throws std::invalid_argument also where a slave facet has no area.
-  MortarObstacle(std::shared_ptr<obstacle::Obstacle> obstacle,
+  MortarObstacle(std::shared_ptr<geometry::Obstacle> obstacle,
                  std::shared_ptr<const SlaveNodes> slaves,
                  std::span<const double> x, int gdim, double reach,
                  bool measures_slip);
@@ -34,11 +34,11 @@ public:
   void take_front(std::span<const std::int8_t> faces) override;
 
   /// @copydoc Master::pairs; of slave facets of one kind
-  std::vector<Pairs> pairs() const override;
+  std::vector<kernel::Pairs> pairs() const override;
 
   /// @copydoc Master::update; frozen, the gap is linear in the displacement
   /// since the search
-  std::optional<std::vector<Pairs>>
+  std::optional<std::vector<kernel::Pairs>>
   update(std::span<const double> x, bool frozen,
          std::span<const double> offset) override;
 
@@ -55,7 +55,7 @@ private:
     int k = 0, q = 0;
     std::vector<double> N;             ///< shape functions (shape=(q, k))
     std::vector<std::int32_t> corners; ///< of facets' nodes in the list of all
-    /// Weights of the dual functions at the points, by reference area
+    /// kernel::Weights of the dual functions at the points, by reference area
     /// (shape=(m, k, q))
     std::vector<double> weight;
   };
@@ -74,7 +74,7 @@ private:
   std::vector<double> integrate(const Kind& kind, std::span<const double> x);
   std::vector<std::vector<double>> integrate(std::span<const double> x);
 
-  std::vector<Pairs>
+  std::vector<kernel::Pairs>
   group(const std::vector<std::vector<double>>& values) const;
 
   std::vector<Kind> _kinds;
@@ -82,6 +82,6 @@ private:
   std::vector<std::vector<double>> _values;
   std::vector<double> _positions;
   std::vector<double> _points; // scratch
-  obstacle::Geometry _there;   // scratch
+  geometry::Geometry _there;   // scratch
 };
 } // namespace contactx::contact

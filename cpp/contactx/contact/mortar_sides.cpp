@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "mortar_sides.h"
-#include "../facet/middle.h"
-#include "../facet/smooth.h"
+#include "../geometry/middle.h"
+#include "../geometry/smooth.h"
 #include "../kernel/layout.h"
 #include "../search/surface.h"
 #include <cmath>
@@ -69,9 +69,9 @@ MortarSides::MortarSides(const SlaveNodes& slaves,
     : _slaves(&slaves), _gdim(gdim),
       _inradius(std::numeric_limits<double>::infinity())
 {
-  const facet::FacetList slave = slaves.facets();
-  const facet::Wholes local
-      = facet::wholes(slaves.local(), slaves.shares().level);
+  const geometry::FacetList slave = slaves.facets();
+  const geometry::Wholes local
+      = geometry::wholes(slaves.local(), slaves.shares().level);
   _numbers = local.nodes;
   _slave = local;
   for (std::int32_t& node : _slave.nodes)
@@ -93,10 +93,10 @@ MortarSides::MortarSides(const SlaveNodes& slaves,
   }
 }
 
-void MortarSides::meet(const facet::FacetList& master,
+void MortarSides::meet(const geometry::FacetList& master,
                        std::span<const std::int8_t> level)
 {
-  _master = facet::wholes(master, level);
+  _master = geometry::wholes(master, level);
 }
 
 std::vector<double>
@@ -132,20 +132,19 @@ MortarSides::total(std::span<const double> values,
   return sums;
 }
 
-std::vector<Pairs> MortarSides::pairs(const Mortar& mortar,
-                                      std::span<const double> dual,
-                                      std::span<const double> normal,
-                                      std::span<const kernel::Keeps> keeps,
-                                      std::span<const double> corner,
-                                      bool is_movement) const
+std::vector<kernel::Pairs>
+MortarSides::pairs(const Mortar& mortar, std::span<const double> dual,
+                   std::span<const double> normal,
+                   std::span<const kernel::Keeps> keeps,
+                   std::span<const double> corner, bool is_movement) const
 {
-  std::vector<Pairs> groups;
+  std::vector<kernel::Pairs> groups;
   const std::size_t stride = width();
   for (int n = 2; n <= width(); ++n)
     for (int m = 2; m <= width(); ++m)
     {
       const kernel::MortarLayout at(n, m);
-      Pairs group;
+      kernel::Pairs group;
       group.num_slaves = n;
       group.num_nodes = m;
       group.data_size = at.size;
@@ -223,7 +222,7 @@ std::vector<double> MortarSides::frames(std::span<const double> x) const
 
 std::vector<double>
 MortarSides::master_normals(std::span<const double> x,
-                            const mortar::FacetPairs& pairs,
+                            const geometry::FacetPairs& pairs,
                             std::span<const double> weight) const
 {
   std::vector<double> mean(3 * std::size_t(num_slave_facets()), 0);
@@ -243,11 +242,11 @@ MortarSides::master_normals(std::span<const double> x,
 
 std::vector<std::int8_t> MortarSides::at_edges(std::span<const double> x) const
 {
-  const facet::FacetList facets = _slaves->local();
+  const geometry::FacetList facets = _slaves->local();
   const std::vector<double> here
       = _slaves->here({x.begin(), x.end()}, _gdim, "x");
   const std::vector<double> normals
-      = facet::middles(facets, here, _gdim).normals;
+      = geometry::middles(facets, here, _gdim).normals;
   std::vector<std::vector<std::int32_t>> around(size());
   for (std::int32_t f = 0; f < facets.size(); ++f)
     for (const std::int32_t node : facets[f])
@@ -264,7 +263,7 @@ std::vector<std::int8_t> MortarSides::at_edges(std::span<const double> x) const
   for (std::size_t i = 0; i < size(); ++i)
     for (const std::int32_t e : around[i])
       for (const std::int32_t f : around[i])
-        if (cosine(e, f) < facet::cosine_at_edges)
+        if (cosine(e, f) < geometry::cosine_at_edges)
           is_edge[i] = 1;
   const auto marks = _slaves->scatter_forward(std::span(is_edge));
   const std::vector<double> values(marks.begin(), marks.end());
@@ -273,7 +272,7 @@ std::vector<std::int8_t> MortarSides::at_edges(std::span<const double> x) const
 }
 
 std::vector<double> MortarSides::between(std::span<const double> x,
-                                         const mortar::FacetPairs& pairs,
+                                         const geometry::FacetPairs& pairs,
                                          std::span<const double> weight,
                                          std::span<const double> normal) const
 {

@@ -3,18 +3,18 @@
 
 #pragma once
 
-#include "../facet/quadratic.h"
-#include "../facet/wholes.h"
+#include "../geometry/integrals.h"
+#include "../geometry/quadratic.h"
+#include "../geometry/wholes.h"
 #include "../kernel/layout.h"
-#include "../mortar/integrals.h"
-#include "pairs.h"
+#include "../kernel/pairs.h"
 #include "slave_nodes.h"
 #include <array>
 
 namespace contactx::contact
 {
-/// @brief Pairs of facets with their integrals; facets have so many places for
-/// nodes, of which smaller ones leave some at zero.
+/// @brief kernel::Pairs of facets with their integrals; facets have so many
+/// places for nodes, of which smaller ones leave some at zero.
 struct Mortar
 {
   int width = 4;                           ///< places for the nodes of a facet
@@ -61,17 +61,18 @@ public:
   /// @brief Take the master's side.
   /// @param[in] master Master facets.
   /// @param[in] level Where their nodes are on quadratic facets, see
-  /// facet::Shares; empty where facets are linear.
-  void meet(const facet::FacetList& master, std::span<const std::int8_t> level);
+  /// geometry::Shares; empty where facets are linear.
+  void meet(const geometry::FacetList& master,
+            std::span<const std::int8_t> level);
 
   /// @brief Places for the nodes of a facet.
   int width() const { return _slave.width; }
 
   /// @brief Quadratic facets that the slave facets are parts of.
-  const facet::Wholes& slave_wholes() const { return _slave; }
+  const geometry::Wholes& slave_wholes() const { return _slave; }
 
   /// @brief Quadratic facets that the master facets are parts of.
-  const facet::Wholes& master_wholes() const { return _master; }
+  const geometry::Wholes& master_wholes() const { return _master; }
 
   /// @brief Number of owned slave nodes.
   std::size_t size() const { return _slaves->owned().size(); }
@@ -101,7 +102,7 @@ public:
   }
 
   /// @brief Call f(node, part) for the nodes that a slave node's basis takes
-  /// parts of, see facet::Basis.
+  /// parts of, see geometry::Basis.
   /// @param[in] facet Slave facet.
   /// @param[in] s Number of the slave node in it.
   /// @param[in] f Function.
@@ -109,12 +110,13 @@ public:
   void for_each_part(std::int32_t facet, int s, Function&& f) const
   {
     const auto nodes = slave_nodes(facet);
-    facet::visit_whole(_gdim, _slave.sizes[facet],
-                       [&]<class F>(F)
-                       {
-                         facet::Basis<F>::for_each_part(
-                             s, [&](int j, double part) { f(nodes[j], part); });
-                       });
+    geometry::visit_whole(_gdim, _slave.sizes[facet],
+                          [&]<class F>(F)
+                          {
+                            geometry::Basis<F>::for_each_part(
+                                s,
+                                [&](int j, double part) { f(nodes[j], part); });
+                          });
   }
 
   /// @brief Number of slave facets.
@@ -152,9 +154,9 @@ public:
   std::vector<double> total(std::span<const double> values,
                             std::span<const std::int32_t> facets) const;
 
-  /// @brief Pairs with the data that the kernels read, by the kinds of both
-  /// facets.
-  /// @param[in] mortar Pairs with their integrals.
+  /// @brief kernel::Pairs with the data that the kernels read, by the kinds of
+  /// both facets.
+  /// @param[in] mortar kernel::Pairs with their integrals.
   /// @param[in] dual Coefficients of the dual functions (shape=(num_facets,
   /// width, width)).
   /// @param[in] normal Normals of the slave facets, those of the master
@@ -164,11 +166,10 @@ public:
   /// @param[in] corner Normals of the master at the nodes of the slave facets
   /// that keep all (shape=(num_facets, 4, 3)); empty if none does.
   /// @param[in] is_movement Whether they measure slip alone.
-  std::vector<Pairs> pairs(const Mortar& mortar, std::span<const double> dual,
-                           std::span<const double> normal,
-                           std::span<const kernel::Keeps> keeps,
-                           std::span<const double> corner,
-                           bool is_movement = false) const;
+  std::vector<kernel::Pairs>
+  pairs(const Mortar& mortar, std::span<const double> dual,
+        std::span<const double> normal, std::span<const kernel::Keeps> keeps,
+        std::span<const double> corner, bool is_movement = false) const;
 
   /// @brief Unit normal and directions along one facet of each owned slave
   /// node, in columns (shape=(n, gdim, gdim)).
@@ -177,11 +178,11 @@ public:
   /// @brief Mean unit normal of the master facets in front of each slave facet,
   /// zero where there are none (shape=(num_facets, 3)).
   /// @param[in] x Positions.
-  /// @param[in] pairs Pairs of facets.
+  /// @param[in] pairs kernel::Pairs of facets.
   /// @param[in] weight Integrals of the pairs (shape=(num_pairs, width,
   /// width)).
   std::vector<double> master_normals(std::span<const double> x,
-                                     const mortar::FacetPairs& pairs,
+                                     const geometry::FacetPairs& pairs,
                                      std::span<const double> weight) const;
 
   /// @brief 1 at slave facets that have a node on an edge of the surface, where
@@ -194,12 +195,12 @@ public:
   /// (shape=(num_facets, 3)): small sliding keeps those of the reference, and
   /// two surfaces that are pressed together meet midway.
   /// @param[in] x Positions.
-  /// @param[in] pairs Pairs of facets.
+  /// @param[in] pairs kernel::Pairs of facets.
   /// @param[in] weight Integrals of the pairs (shape=(num_pairs, width,
   /// width)).
   /// @param[in] normal Normals of the slave facets (shape=(num_facets, 3)).
   std::vector<double> between(std::span<const double> x,
-                              const mortar::FacetPairs& pairs,
+                              const geometry::FacetPairs& pairs,
                               std::span<const double> weight,
                               std::span<const double> normal) const;
 
@@ -209,7 +210,7 @@ private:
                                       std::int32_t facet) const;
 
   int _gdim;
-  facet::Wholes _slave, _master;
+  geometry::Wholes _slave, _master;
   std::vector<std::int32_t> _numbers;
   double _inradius;
 };

@@ -8,8 +8,8 @@
 
 namespace contactx::contact
 {
-/// @brief Weights with which slave nodes are measured against points of the
-/// master in finite sliding.
+/// @brief kernel::Weights with which slave nodes are measured against points of
+/// the master in finite sliding.
 ///
 /// They are those of the step's start: what was in front of a slave node then
 /// stays what its movement is relative to. A node that touches first within a
@@ -23,15 +23,16 @@ public:
   explicit MortarSlip(const MortarSides& sides) : _sides(&sides) {}
 
   /// @brief Start a step.
-  /// @param[in] now Pairs at its start, divided by the slave nodes' areas.
+  /// @param[in] now kernel::Pairs at its start, divided by the slave nodes'
+  /// areas.
   /// @param[in] origin What they measure at the start although nothing has
   /// moved, a vector a slave node; nothing if empty.
   void begin_step(Mortar now, std::vector<double> origin = {});
 
   /// @brief Measure from where nodes touch.
   /// @param[in] which 1 at those slave nodes (shape=(n)).
-  /// @param[in] now Pairs at the iterate that closes them, divided by the
-  /// areas.
+  /// @param[in] now kernel::Pairs at the iterate that closes them, divided by
+  /// the areas.
   /// @param[in] offset Offset, a length that is taken off the gap (shape=(n)).
   /// @param[in] origin What these pairs measure there, as in a step's start.
   void touch(std::span<const std::int8_t> which, const Mortar& now,
@@ -41,7 +42,7 @@ public:
   /// @brief What the pairs measure where nothing has moved; empty for nothing.
   const std::vector<double>& origin() const { return _origin; }
 
-  /// @brief Pairs that the movement is measured with.
+  /// @brief kernel::Pairs that the movement is measured with.
   /// @param[in] area Areas of the slave nodes (shape=(n)).
   Mortar pairs(std::span<const double> area) const;
 

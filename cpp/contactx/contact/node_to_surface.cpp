@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "node_to_surface.h"
-#include "../audit/penetration.h"
-#include "../facet/gather.h"
+#include "../geometry/gather.h"
+#include "../geometry/sizes.h"
 #include "../kernel/layout.h"
-#include "../parallel/spread.h"
+#include "../mesh/spread.h"
 #include "mobility.h"
 #include "touching.h"
 #include <cmath>
@@ -13,7 +13,7 @@
 
 using namespace contactx;
 using namespace contactx::contact;
-using parallel::spread;
+using mesh::spread;
 
 namespace
 {
@@ -23,7 +23,7 @@ std::vector<std::int32_t> copy(std::span<const std::int32_t> values)
 }
 } // namespace
 
-NodeToSurface::NodeToSurface(std::shared_ptr<parallel::Halo> halo,
+NodeToSurface::NodeToSurface(std::shared_ptr<mesh::Halo> halo,
                              std::shared_ptr<const SlaveNodes> slaves,
                              std::shared_ptr<search::MasterSurface> surface,
                              std::shared_ptr<search::Outside> outside,
@@ -91,34 +91,34 @@ void NodeToSurface::find_places()
     return;
   _places.rise.assign(size(), 0);
   const auto reference = _halo->reference();
-  const facet::FacetList facets = _surface->facets();
+  const geometry::FacetList facets = _surface->facets();
   for (std::size_t i = 0; i < size(); ++i)
   {
     const std::int32_t f = _pairing.facet()[i];
     if (f < 0)
       continue;
-    const facet::SmoothFacet& smooth = _smooth->of(*_halo, facets[f]);
+    const geometry::SmoothFacet& smooth = _smooth->of(*_halo, facets[f]);
     const int feature = _pairing.feature()[i];
-    if (feature != facet::interior and smooth.sharp >> (feature - 1) & 1)
+    if (feature != geometry::interior and smooth.sharp >> (feature - 1) & 1)
       continue;
-    facet::visit(static_cast<int>(facets[f].size()),
-                 [&]<class F>(F)
-                 {
-                   if (F::gdim != gdim())
-                     return;
-                   facet::Local<F> xi;
-                   std::copy_n(_pairing.xi().begin() + 2 * i, F::tdim,
-                               xi.begin());
-                   const auto at = facet::smooth_projection<F>(
-                       facet::gather<F>(facets[f], reference),
-                       facet::gather<F>(facets[f], _at), smooth,
-                       facet::point<F::gdim>(_pairing.slaves()[i], _at), xi);
-                   _places.feature[i] = facet::kept;
-                   std::ranges::copy(at.xi, _places.xi.begin() + 2 * i);
-                   std::ranges::copy(at.cone, _places.cone.begin() + 3 * i);
-                   std::ranges::copy(at.normal, _places.normal.begin() + 3 * i);
-                   _places.rise[i] = at.rise;
-                 });
+    geometry::visit(
+        static_cast<int>(facets[f].size()),
+        [&]<class F>(F)
+        {
+          if (F::gdim != gdim())
+            return;
+          geometry::Local<F> xi;
+          std::copy_n(_pairing.xi().begin() + 2 * i, F::tdim, xi.begin());
+          const auto at = geometry::smooth_projection<F>(
+              geometry::gather<F>(facets[f], reference),
+              geometry::gather<F>(facets[f], _at), smooth,
+              geometry::point<F::gdim>(_pairing.slaves()[i], _at), xi);
+          _places.feature[i] = geometry::kept;
+          std::ranges::copy(at.xi, _places.xi.begin() + 2 * i);
+          std::ranges::copy(at.cone, _places.cone.begin() + 3 * i);
+          std::ranges::copy(at.normal, _places.normal.begin() + 3 * i);
+          _places.rise[i] = at.rise;
+        });
   }
 }
 
@@ -132,8 +132,8 @@ std::int32_t NodeToSurface::drop_outside(std::span<const double> x,
   const std::size_t n = size();
   const std::vector<double> points = at_slaves(x);
   const auto [foot, normal] = places(x, _pairing.xi());
-  const facet::FacetList facets = _surface->facets();
-  const std::vector<double> sizes = audit::facet_sizes(facets, x, g);
+  const geometry::FacetList facets = _surface->facets();
+  const std::vector<double> sizes = geometry::facet_sizes(facets, x, g);
   std::vector<double> depth(n), size(n);
   for (std::size_t i = 0; i < n; ++i)
   {
@@ -208,16 +208,16 @@ std::vector<double> NodeToSurface::normals() const
   return normals;
 }
 
-std::vector<Pairs> NodeToSurface::pairs() const
+std::vector<kernel::Pairs> NodeToSurface::pairs() const
 {
   using namespace kernel;
-  const facet::FacetList facets = _surface->facets();
+  const geometry::FacetList facets = _surface->facets();
   const std::vector<FacetSlip> slips
       = _options.measures_slip ? slip() : std::vector<FacetSlip>();
-  std::vector<Pairs> groups;
+  std::vector<kernel::Pairs> groups;
   for (int nodes = 2; nodes <= 4; ++nodes)
   {
-    Pairs group;
+    kernel::Pairs group;
     group.num_nodes = nodes;
     group.data_size = num_values<FacetPair>;
     group.slip_size = _options.measures_slip ? num_values<FacetSlip> : 0;
@@ -251,7 +251,7 @@ kernel::FacetPair NodeToSurface::found_pair(std::size_t i) const
 std::vector<kernel::FacetSlip> NodeToSurface::slip() const
 {
   const int g = gdim();
-  const facet::FacetList facets = _surface->facets();
+  const geometry::FacetList facets = _surface->facets();
   std::vector<kernel::FacetSlip> from(size());
   if (_options.is_small)
   {
@@ -270,7 +270,7 @@ std::vector<kernel::FacetSlip> NodeToSurface::slip() const
     const std::size_t nodes = f < 0 ? 0 : facets[f].size();
     std::copy_n(xi.begin() + 2 * i, 2, from[i].xi.begin());
     // It has no part across the normal of a flat facet
-    const bool is_flat = _places.feature[i] == facet::interior and nodes < 4;
+    const bool is_flat = _places.feature[i] == geometry::interior and nodes < 4;
     from[i].gap = is_flat ? 0 : gap[i];
     for (int k = 0; k < g; ++k)
       from[i].origin[k] = from[i].gap * normal[g * i + k];
@@ -363,7 +363,7 @@ void NodeToSurface::touch(std::span<const std::int8_t> which,
     }
 }
 
-std::optional<std::vector<Pairs>>
+std::optional<std::vector<kernel::Pairs>>
 NodeToSurface::update(std::span<const double>, bool, std::span<const double>)
 {
   // The kernels project by themselves
@@ -374,7 +374,7 @@ std::vector<double>
 NodeToSurface::compliance(std::span<const double> nodal) const
 {
   _surface->take_compliance(nodal);
-  const facet::FacetList facets = _surface->facets();
+  const geometry::FacetList facets = _surface->facets();
   std::vector<double> result(size(), _surface->mean(nodal));
   for (std::size_t i = 0; i < size(); ++i)
     if (const std::int32_t f = _pairing.facet()[i]; f >= 0)
@@ -396,7 +396,7 @@ Mobility NodeToSurface::mobility(std::span<const std::int8_t> free) const
   if (all_free(_pairing.slaves(), free, g)
       and all_free(_surface->facets().nodes, free, g))
     return found;
-  for (const Pairs& group : pairs())
+  for (const kernel::Pairs& group : pairs())
   {
     const int width = 1 + group.num_nodes;
     std::vector<double> weight(width);
@@ -432,10 +432,10 @@ Mobility NodeToSurface::mobility(std::span<const std::int8_t> free) const
   return found;
 }
 
-Weights NodeToSurface::weights() const
+kernel::Weights NodeToSurface::weights() const
 {
-  const facet::FacetList facets = _surface->facets();
-  Weights weights;
+  const geometry::FacetList facets = _surface->facets();
+  kernel::Weights weights;
   // In the order of `pairs`
   for (std::size_t num_nodes = 2; num_nodes <= 4; ++num_nodes)
     for (std::size_t i = 0; i < size(); ++i)
@@ -526,10 +526,10 @@ HiddenGap NodeToSurface::deepest_frozen_pair(std::span<const double> x) const
   const int g = gdim();
   const std::vector<std::int32_t> frozen = _pairing.frozen();
   HiddenGap deepest;
-  if (parallel::total(_halo->ranks(), std::int64_t(frozen.size())) == 0)
+  if (mesh::total(_halo->ranks(), std::int64_t(frozen.size())) == 0)
     return deepest;
   const std::vector<double> nodal
-      = facet::nodal_normals(_slaves->facets(), x, g);
+      = geometry::nodal_normals(_slaves->facets(), x, g);
   std::vector<std::int32_t> nodes;
   std::vector<double> normals;
   for (const std::int32_t i : frozen)
@@ -541,7 +541,7 @@ HiddenGap NodeToSurface::deepest_frozen_pair(std::span<const double> x) const
   // Facets that a search without memory finds for them
   const auto found = _surface->find_of_nodes(x, nodes, normals, _options.reach);
   const auto at = _halo->now();
-  const facet::FacetList facets = _surface->facets();
+  const geometry::FacetList facets = _surface->facets();
   for (std::size_t i = 0; i < frozen.size(); ++i)
   {
     // Less is rounding
@@ -581,7 +581,7 @@ std::int32_t NodeTie::search(std::span<const double> x,
   return changed;
 }
 
-std::optional<std::vector<Pairs>>
+std::optional<std::vector<kernel::Pairs>>
 NodeTie::update(std::span<const double>, bool, std::span<const double> offset)
 {
   if (std::ranges::equal(offset, _offset))

@@ -10,8 +10,8 @@
 
 namespace contactx::contact
 {
-/// @brief Pairs of slave nodes with the facets of a deformable body, each with
-/// the one that it projects on.
+/// @brief kernel::Pairs of slave nodes with the facets of a deformable body,
+/// each with the one that it projects on.
 class NodeToSurface : public DeformableMaster
 {
 public:
@@ -21,7 +21,7 @@ public:
   /// @param[in] surface Master surface.
   /// @param[in] outside Finds points outside of its body.
   /// @param[in] options How nodes are paired.
-  NodeToSurface(std::shared_ptr<parallel::Halo> halo,
+  NodeToSurface(std::shared_ptr<mesh::Halo> halo,
                 std::shared_ptr<const SlaveNodes> slaves,
                 std::shared_ptr<search::MasterSurface> surface,
                 std::shared_ptr<search::Outside> outside,
@@ -38,12 +38,12 @@ public:
   std::int32_t search(std::span<const double> x,
                       std::span<const std::int8_t> closed) override;
   std::vector<std::int8_t> paired() const override;
-  std::vector<Pairs> pairs() const override;
-  std::optional<std::vector<Pairs>>
+  std::vector<kernel::Pairs> pairs() const override;
+  std::optional<std::vector<kernel::Pairs>>
   update(std::span<const double> x, bool frozen,
          std::span<const double> offset) override;
   std::vector<double> normals() const override;
-  Weights weights() const override;
+  kernel::Weights weights() const override;
   std::vector<double> compliance(std::span<const double> nodal) const override;
   Mobility mobility(std::span<const std::int8_t> free) const override;
   std::vector<Saved> save() const override;
@@ -74,7 +74,7 @@ protected:
   search::Places places(std::span<const double> x,
                         std::span<const double> xi) const;
 
-  /// @brief Pairs of the last search.
+  /// @brief kernel::Pairs of the last search.
   const search::Pairing& pairing() const { return _pairing; }
 
 private:
@@ -118,7 +118,7 @@ public:
                       std::span<const std::int8_t> closed) override;
 
   /// @brief The offset makes the tie longer.
-  std::optional<std::vector<Pairs>>
+  std::optional<std::vector<kernel::Pairs>>
   update(std::span<const double> x, bool frozen,
          std::span<const double> offset) override;
 

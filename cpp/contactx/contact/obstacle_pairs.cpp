@@ -4,7 +4,7 @@
 #include "obstacle_pairs.h"
 #include "../check.h"
 #include "../kernel/layout.h"
-#include "../vec.h"
+#include "../math/vec.h"
 #include "touching.h"
 #include <algorithm>
 #include <cmath>
@@ -35,7 +35,7 @@ std::vector<double> gathered_rows(std::span<const double> x,
 }
 } // namespace
 
-ObstacleMaster::ObstacleMaster(std::shared_ptr<obstacle::Obstacle> obstacle,
+ObstacleMaster::ObstacleMaster(std::shared_ptr<geometry::Obstacle> obstacle,
                                std::shared_ptr<const SlaveNodes> slaves,
                                std::span<const double> x, int gdim,
                                double reach, bool measures_slip)
@@ -44,7 +44,7 @@ ObstacleMaster::ObstacleMaster(std::shared_ptr<obstacle::Obstacle> obstacle,
 {
   if (not _slaves)
     throw std::invalid_argument("slaves must not be empty");
-  const facet::FacetList facets = _slaves->facets();
+  const geometry::FacetList facets = _slaves->facets();
   check::facets(facets.offsets, facets.nodes, gdim);
   check::positions(x.size(), check::num_nodes(facets.nodes), gdim);
   _paired.assign(size(), 0);
@@ -61,7 +61,7 @@ std::vector<double> ObstacleMaster::at_slaves(std::span<const double> x) const
 }
 
 std::vector<kernel::ObstaclePair>
-ObstacleMaster::pairs_of(const obstacle::Geometry& seen) const
+ObstacleMaster::pairs_of(const geometry::Geometry& seen) const
 {
   const std::size_t g = _gdim;
   std::vector<kernel::ObstaclePair> pairs(size());
@@ -89,9 +89,12 @@ std::int32_t ObstacleMaster::search(std::span<const double> x,
   return 0;
 }
 
-std::vector<Pairs> ObstacleMaster::pairs() const { return group(_found); }
+std::vector<kernel::Pairs> ObstacleMaster::pairs() const
+{
+  return group(_found);
+}
 
-std::optional<std::vector<Pairs>>
+std::optional<std::vector<kernel::Pairs>>
 ObstacleMaster::update(std::span<const double> x, bool frozen,
                        std::span<const double>)
 {
@@ -187,7 +190,7 @@ void ObstacleMaster::accept(std::span<const double> x)
   std::vector<double> gap0 = _obstacle->evaluate(x0, _gdim).gap;
   if (_measures_slip)
   {
-    obstacle::Placement placed = _obstacle->placement(_gdim);
+    geometry::Placement placed = _obstacle->placement(_gdim);
     _parameters = _obstacle->parameters(_gdim);
     _placed = std::move(placed);
   }
@@ -247,10 +250,10 @@ void ObstacleMaster::touch(std::span<const std::int8_t> which,
   }
 }
 
-std::vector<Pairs>
+std::vector<kernel::Pairs>
 ObstacleMaster::group(std::span<const kernel::ObstaclePair> pairs) const
 {
-  Pairs p;
+  kernel::Pairs p;
   p.data_size = kernel::num_values<kernel::ObstaclePair>;
   p.slip_size = _measures_slip ? kernel::num_values<kernel::ObstacleSlip> : 0;
   for (std::size_t i = 0; i < size(); ++i)
@@ -265,7 +268,7 @@ ObstacleMaster::group(std::span<const kernel::ObstaclePair> pairs) const
   }
   if (p.slaves.empty())
     return {};
-  std::vector<Pairs> groups;
+  std::vector<kernel::Pairs> groups;
   groups.push_back(std::move(p));
   return groups;
 }
@@ -279,9 +282,9 @@ std::vector<double> ObstacleMaster::normals() const
   return normals;
 }
 
-Weights ObstacleMaster::weights() const
+kernel::Weights ObstacleMaster::weights() const
 {
-  Weights w;
+  kernel::Weights w;
   for (std::size_t i = 0; i < size(); ++i)
     if (_paired[i])
     {
@@ -375,7 +378,7 @@ void ObstacleMaster::load(const std::vector<Saved>& saved)
     auto slip = kernel::rows_of<kernel::ObstacleSlip>(values_of_size(
         saved, "slip_data", n, kernel::num_values<kernel::ObstacleSlip>));
     auto start = values_of_size(saved, "start", n, _gdim);
-    obstacle::Placement placed{values_of_size(saved, "point", 1, _gdim)};
+    geometry::Placement placed{values_of_size(saved, "point", 1, _gdim)};
     if (has(saved, "direction"))
       placed.direction = values_of_size(saved, "direction", 1, _gdim);
     if (has(saved, "angle"))

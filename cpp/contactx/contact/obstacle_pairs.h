@@ -3,15 +3,16 @@
 
 #pragma once
 
+#include "../geometry/obstacle.h"
 #include "../kernel/layout.h"
-#include "../obstacle/obstacle.h"
 #include "master.h"
 #include "slave_nodes.h"
 #include <memory>
 
 namespace contactx::contact
 {
-/// @brief Pairs of slave nodes with a rigid obstacle: slave nodes alone.
+/// @brief kernel::Pairs of slave nodes with a rigid obstacle: slave nodes
+/// alone.
 ///
 /// The obstacle may move at any time: it is asked anew in each call. What it
 /// throws comes through, on this rank alone.
@@ -27,7 +28,7 @@ public:
   /// @param[in] measures_slip Whether slip is measured.
   /// @throws std::invalid_argument if the arguments do not fit together, or the
   /// obstacle's parameters the dimension.
-  ObstacleMaster(std::shared_ptr<obstacle::Obstacle> obstacle,
+  ObstacleMaster(std::shared_ptr<geometry::Obstacle> obstacle,
                  std::shared_ptr<const SlaveNodes> slaves,
                  std::span<const double> x, int gdim, double reach,
                  bool measures_slip);
@@ -37,7 +38,7 @@ public:
   bool is_rigid() const override { return true; }
 
   /// @brief The obstacle.
-  const std::shared_ptr<obstacle::Obstacle>& obstacle() const
+  const std::shared_ptr<geometry::Obstacle>& obstacle() const
   {
     return _obstacle;
   }
@@ -68,15 +69,15 @@ public:
   std::int32_t search(std::span<const double> x,
                       std::span<const std::int8_t> closed) override;
   std::vector<std::int8_t> paired() const override { return _paired; }
-  std::vector<Pairs> pairs() const override;
+  std::vector<kernel::Pairs> pairs() const override;
 
   /// @copydoc Master::update; frozen, gap and slip are linear in the
   /// displacement since the search
-  std::optional<std::vector<Pairs>>
+  std::optional<std::vector<kernel::Pairs>>
   update(std::span<const double> x, bool frozen,
          std::span<const double> offset) override;
   std::vector<double> normals() const override;
-  Weights weights() const override;
+  kernel::Weights weights() const override;
 
   /// @copydoc Master::movement; of an obstacle that does not tell how it moves
   /// the part along its normal is known from the gaps
@@ -102,23 +103,24 @@ protected:
   /// Where the obstacle has carried the points that slip is measured from.
   std::vector<double> carried() const;
 
-  std::shared_ptr<obstacle::Obstacle> _obstacle;
+  std::shared_ptr<geometry::Obstacle> _obstacle;
   std::shared_ptr<const SlaveNodes> _slaves;
   int _gdim;
   double _reach;
   bool _measures_slip;
   std::vector<std::int8_t> _paired;
   std::vector<kernel::ObstacleSlip> _slip;
-  obstacle::Placement _placed; ///< of the obstacle at the step's start
+  geometry::Placement _placed; ///< of the obstacle at the step's start
 
 private:
-  /// Pairs of all slave nodes from the geometry of the obstacle.
+  /// kernel::Pairs of all slave nodes from the geometry of the obstacle.
   std::vector<kernel::ObstaclePair>
-  pairs_of(const obstacle::Geometry& seen) const;
+  pairs_of(const geometry::Geometry& seen) const;
 
-  std::vector<Pairs> group(std::span<const kernel::ObstaclePair> pairs) const;
+  std::vector<kernel::Pairs>
+  group(std::span<const kernel::ObstaclePair> pairs) const;
 
-  obstacle::Geometry _seen;                 // scratch
+  geometry::Geometry _seen;                 // scratch
   std::vector<kernel::ObstaclePair> _found; // by the last search
   std::vector<double> _at;
   std::vector<double> _start, _x0, _gap0, _parameters;

@@ -10,7 +10,7 @@
 using namespace contactx;
 using namespace contactx::contact;
 
-ObstacleTie::ObstacleTie(std::shared_ptr<obstacle::Obstacle> obstacle,
+ObstacleTie::ObstacleTie(std::shared_ptr<geometry::Obstacle> obstacle,
                          std::shared_ptr<const SlaveNodes> slaves,
                          std::span<const double> x, int gdim, double reach)
     : ObstacleMaster(std::move(obstacle), std::move(slaves), x, gdim, reach,
@@ -31,7 +31,7 @@ std::int32_t ObstacleTie::search(std::span<const double> x,
   return changed;
 }
 
-std::optional<std::vector<Pairs>>
+std::optional<std::vector<kernel::Pairs>>
 ObstacleTie::update(std::span<const double> x, bool frozen,
                     std::span<const double> offset)
 {

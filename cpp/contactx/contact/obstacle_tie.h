@@ -14,7 +14,7 @@ class ObstacleTie final : public ObstacleMaster
 public:
   /// @brief Create the pairs, none yet; the arguments are those of
   /// ObstacleMaster.
-  ObstacleTie(std::shared_ptr<obstacle::Obstacle> obstacle,
+  ObstacleTie(std::shared_ptr<geometry::Obstacle> obstacle,
               std::shared_ptr<const SlaveNodes> slaves,
               std::span<const double> x, int gdim, double reach);
 
@@ -23,7 +23,7 @@ public:
                       std::span<const std::int8_t> closed) override;
 
   /// @copydoc Master::update; the offset makes the tie longer
-  std::optional<std::vector<Pairs>>
+  std::optional<std::vector<kernel::Pairs>>
   update(std::span<const double> x, bool frozen,
          std::span<const double> offset) override;
 

@@ -3,8 +3,8 @@
 
 #include "slave_nodes.h"
 #include "../check.h"
-#include "../parallel/ranks.h"
-#include "facing.h"
+#include "../geometry/facing.h"
+#include "../mesh/ranks.h"
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -20,7 +20,7 @@ namespace
 /// Of the largest weight: by so much a node on an axis may be off it.
 constexpr double rounding = 1e-12;
 
-void check_facets(const facet::FacetList& facets, std::int32_t num_nodes,
+void check_facets(const geometry::FacetList& facets, std::int32_t num_nodes,
                   const std::string& name)
 {
   const auto& offsets = facets.offsets;
@@ -40,7 +40,7 @@ std::vector<T> scattered(const SlaveNodes& slaves, std::span<const T> values,
   check::require(width > 0, "width must be at least 1");
   check::rows(values.size(), slaves.owned().size(), width, "values",
               "owned slave node");
-  const parallel::NodeMap& nodes = slaves.nodes();
+  const mesh::NodeMap& nodes = slaves.nodes();
   if (nodes.ranks().size() == 1)
     return {values.begin(), values.end()};
   std::vector<N> every(static_cast<std::size_t>(nodes.num_nodes()) * width, 0);
@@ -59,7 +59,7 @@ std::vector<T> scattered(const SlaveNodes& slaves, std::span<const T> values,
 
 /// What is left of the values at each facet's nodes.
 template <class T, class Function>
-std::vector<T> of_facets(const facet::FacetList& facets,
+std::vector<T> of_facets(const geometry::FacetList& facets,
                          std::span<const T> values, Function better)
 {
   std::vector<T> result(facets.size());
@@ -77,11 +77,11 @@ std::vector<T> of_facets(const facet::FacetList& facets,
 }
 } // namespace
 
-SlaveNodes::SlaveNodes(std::shared_ptr<const parallel::NodeMap> nodes,
-                       const facet::FacetList& facets,
-                       const facet::FacetList& own)
-    : _nodes(std::move(nodes)), _facets(facet::copied(facets)),
-      _own(facet::copied(own))
+SlaveNodes::SlaveNodes(std::shared_ptr<const mesh::NodeMap> nodes,
+                       const geometry::FacetList& facets,
+                       const geometry::FacetList& own)
+    : _nodes(std::move(nodes)), _facets(geometry::copied(facets)),
+      _own(geometry::copied(own))
 {
   if (not _nodes)
     throw std::invalid_argument("nodes must not be empty");
@@ -105,7 +105,7 @@ void SlaveNodes::set_weight(std::span<const double> weight)
   double most = 0;
   for (const double w : weight)
     most = std::max(most, std::abs(w));
-  const double least = -rounding * parallel::largest(_nodes->ranks(), most);
+  const double least = -rounding * mesh::largest(_nodes->ranks(), most);
   _nodes->ranks().agree(
       [&]
       {
@@ -214,9 +214,9 @@ std::vector<double> SlaveNodes::facing_areas(std::span<const double> reference,
                                              int gdim) const
 {
   check::dimension(gdim);
-  return contact::facing_areas(local(), here(reference, gdim, "reference"),
-                               here(x, gdim, "x"), padded(normal, gdim), gdim,
-                               shares());
+  return geometry::facing_areas(local(), here(reference, gdim, "reference"),
+                                here(x, gdim, "x"), padded(normal, gdim), gdim,
+                                shares());
 }
 
 std::vector<double> SlaveNodes::largest(std::span<const double> values) const
@@ -240,7 +240,7 @@ SlaveNodes::near(std::span<const std::int8_t> which) const
       = of_facets(local(), Values(at), std::greater_equal());
   // Of a node of another rank not all facets are here
   std::vector<std::int8_t> touched(_around.size(), 0);
-  const facet::FacetList facets = local();
+  const geometry::FacetList facets = local();
   for (std::int32_t f = 0; f < facets.size(); ++f)
     for (std::int32_t node : facets[f])
       touched[node] |= level[f];

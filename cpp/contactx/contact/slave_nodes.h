@@ -3,8 +3,8 @@
 
 #pragma once
 
-#include "../facet/facets.h"
-#include "../parallel/ranks.h"
+#include "../geometry/facets.h"
+#include "../mesh/ranks.h"
 #include <memory>
 
 namespace contactx::contact
@@ -23,8 +23,8 @@ public:
   /// @param[in] facets Slave facets around the slave nodes that this rank owns,
   /// their nodes among those of this rank.
   /// @param[in] own Slave facets of this rank's cells, each on one rank alone.
-  SlaveNodes(std::shared_ptr<const parallel::NodeMap> nodes,
-             const facet::FacetList& facets, const facet::FacetList& own);
+  SlaveNodes(std::shared_ptr<const mesh::NodeMap> nodes,
+             const geometry::FacetList& facets, const geometry::FacetList& own);
 
   /// @brief Integrate with a weight: over all angles in axisymmetric models,
   /// over the thickness in plane ones. Before masters and contacts are made of
@@ -40,7 +40,7 @@ public:
   /// collective.
   /// @param[in] level Where each owned slave node is on quadratic facets: 0 at
   /// vertices, 1 on edges, 2 inside (shape=(n)).
-  /// @param[in] is_mortar Whether facets are integrated, in facet::Basis.
+  /// @param[in] is_mortar Whether facets are integrated, in geometry::Basis.
   void set_level(std::span<const std::int8_t> level, bool is_mortar);
 
   /// @brief True if the facets are parts of quadratic ones.
@@ -49,13 +49,14 @@ public:
   /// @brief True if they are parts of quadratic facets that are integrated.
   bool is_mortar() const { return _is_mortar; }
 
-  /// @brief Weights of the nodes in the areas of facets, at all slave nodes.
-  facet::Shares shares() const { return {_weight, _level}; }
+  /// @brief kernel::Weights of the nodes in the areas of facets, at all slave
+  /// nodes.
+  geometry::Shares shares() const { return {_weight, _level}; }
 
   /// @brief These weights by the integrals of the shape functions, which are
-  /// zero at the vertices of triangles of six nodes; those of facet::Basis
+  /// zero at the vertices of triangles of six nodes; those of geometry::Basis
   /// where facets are integrated.
-  facet::Shares pressure_shares() const
+  geometry::Shares pressure_shares() const
   {
     return {_weight, _level, _is_mortar};
   }
@@ -68,13 +69,13 @@ public:
   std::vector<double> corner_weight() const;
 
   /// @brief Nodes of this rank.
-  const parallel::NodeMap& nodes() const { return *_nodes; }
+  const mesh::NodeMap& nodes() const { return *_nodes; }
 
   /// @brief Slave facets around the owned slave nodes.
-  facet::FacetList facets() const { return _facets.list(); }
+  geometry::FacetList facets() const { return _facets.list(); }
 
   /// @brief Slave facets of this rank's cells, each on one rank alone.
-  facet::FacetList own() const { return _own.list(); }
+  geometry::FacetList own() const { return _own.list(); }
 
   /// @brief Owned slave nodes in order (shape=(n)).
   std::span<const std::int32_t> owned() const
@@ -92,7 +93,7 @@ public:
 
   /// @brief The facets around the owned slave nodes, with these places for
   /// nodes.
-  facet::FacetList local() const { return {_facets.offsets, _corners}; }
+  geometry::FacetList local() const { return {_facets.offsets, _corners}; }
 
   /// @brief Give all slave nodes the values that their owners have; collective.
   /// @param[in] values Values at owned slave nodes (shape=(n, width)).
@@ -170,8 +171,8 @@ private:
   // Values at owned slave nodes with zero at those of other ranks
   std::vector<double> padded(std::span<const double> normal, int gdim) const;
 
-  std::shared_ptr<const parallel::NodeMap> _nodes;
-  facet::Facets _facets, _own;
+  std::shared_ptr<const mesh::NodeMap> _nodes;
+  geometry::Facets _facets, _own;
   std::vector<std::int32_t> _around, _corners;
   std::vector<double> _weight;
   std::vector<std::int8_t> _level;

@@ -7,8 +7,8 @@
 
 namespace contactx::contact
 {
-/// @brief Weights by which slave nodes have their points of the master right
-/// before them.
+/// @brief kernel::Weights by which slave nodes have their points of the master
+/// right before them.
 ///
 /// Where the nodes on the edges of quadratic facets are not in the middle,
 /// shape functions take points elsewhere than the parts of the facets do
@@ -16,7 +16,7 @@ namespace contactx::contact
 /// along the normal. A slip would have that for a movement. The master's
 /// weights are changed by what sums to zero and takes it off; so they measure
 /// the same in any frame.
-/// @param[in] now Pairs, divided by the slave nodes' areas.
+/// @param[in] now kernel::Pairs, divided by the slave nodes' areas.
 /// @param[in] sides Both surfaces.
 /// @param[in] distances Means of x_slave - x_master (shape=(n, gdim)).
 /// @param[in] normals Unit normals (shape=(n, 3)).

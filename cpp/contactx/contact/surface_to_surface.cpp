@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "surface_to_surface.h"
-#include "../audit/penetration.h"
-#include "../facet/gather.h"
-#include "../facet/middle.h"
-#include "../parallel/spread.h"
+#include "../geometry/gather.h"
+#include "../geometry/middle.h"
+#include "../geometry/sizes.h"
+#include "../mesh/spread.h"
 #include "mobility.h"
 #include "slip_weights.h"
 #include <cmath>
@@ -13,7 +13,7 @@
 
 using namespace contactx;
 using namespace contactx::contact;
-using parallel::spread;
+using mesh::spread;
 
 namespace
 {
@@ -28,8 +28,8 @@ constexpr double facing_part = 0.4;
 constexpr double enter = 0.06;
 constexpr double leave = 0.04;
 
-std::vector<std::int32_t> nodes_of_both(const facet::FacetList& slave,
-                                        const facet::FacetList& master)
+std::vector<std::int32_t> nodes_of_both(const geometry::FacetList& slave,
+                                        const geometry::FacetList& master)
 {
   std::vector<std::int32_t> nodes(slave.nodes.begin(), slave.nodes.end());
   nodes.insert(nodes.end(), master.nodes.begin(), master.nodes.end());
@@ -38,8 +38,7 @@ std::vector<std::int32_t> nodes_of_both(const facet::FacetList& slave,
 } // namespace
 
 SurfaceToSurface::SurfaceToSurface(
-    std::shared_ptr<parallel::Halo> halo,
-    std::shared_ptr<const SlaveNodes> slaves,
+    std::shared_ptr<mesh::Halo> halo, std::shared_ptr<const SlaveNodes> slaves,
     std::shared_ptr<search::MasterSurface> surface,
     std::shared_ptr<search::Outside> outside, const PairingOptions& options)
     : DeformableMaster(std::move(halo), std::move(slaves), std::move(surface),
@@ -54,7 +53,7 @@ SurfaceToSurface::SurfaceToSurface(
   _keeps.assign(_sides.num_slave_facets(), _options.is_smooth
                                                ? kernel::Keeps::all
                                                : kernel::Keeps::nothing);
-  _inradius = parallel::least(_halo->ranks(), _sides.inradius());
+  _inradius = mesh::least(_halo->ranks(), _sides.inradius());
   const auto reference = _halo->reference();
   _at.assign(reference.begin(), reference.end());
   if (_options.is_smooth)
@@ -69,7 +68,7 @@ SurfaceToSurface::SurfaceToSurface(
     for (int s = _sides.width(); s-- > 0;)
       if (const std::size_t i = _sides.numbers(f)[s]; i < _sides.size())
         _place[i] = {f, s};
-  _whole = _slaves->sums(facet::corner_areas(
+  _whole = _slaves->sums(geometry::corner_areas(
       _slaves->local(), _slaves->here(reference, gdim(), "x"), gdim(),
       _slaves->shares()));
 }
@@ -77,8 +76,8 @@ SurfaceToSurface::SurfaceToSurface(
 /// Takes the master facets that are known now; those before keep their numbers.
 void SurfaceToSurface::meet()
 {
-  facet::Facets ours = facet::copied(_slaves->facets()),
-                theirs = facet::copied(_surface->facets());
+  geometry::Facets ours = geometry::copied(_slaves->facets()),
+                   theirs = geometry::copied(_surface->facets());
   _search.emplace(std::move(ours.offsets), std::move(ours.nodes),
                   std::move(theirs.offsets), std::move(theirs.nodes), gdim());
   std::vector<std::int8_t> level;
@@ -146,9 +145,8 @@ bool SurfaceToSurface::lacks(std::span<const double> x)
   look(x, 0.0);
   const std::vector<double> now
       = _halo->updated({x.begin(), x.end()}, gdim(), version);
-  const mortar::FacetPairs found = find(now, 0.0);
-  return parallel::anywhere(_halo->ranks(),
-                            not mortar::contains(*_found, found));
+  const geometry::FacetPairs found = find(now, 0.0);
+  return mesh::anywhere(_halo->ranks(), not search::contains(*_found, found));
 }
 
 /// Whether anything has moved so far since the search that pairs may lack.
@@ -166,35 +164,35 @@ bool SurfaceToSurface::has_moved(std::span<const double> x) const
                           : std::max(way, d);
     }
   // Both sides may have moved
-  return parallel::largest(_halo->ranks(), way)
-         > 0.25 * margin_ahead * _inradius;
+  return mesh::largest(_halo->ranks(), way) > 0.25 * margin_ahead * _inradius;
 }
 
-mortar::FacetPairs SurfaceToSurface::find(std::span<const double> x,
-                                          double margin)
+geometry::FacetPairs SurfaceToSurface::find(std::span<const double> x,
+                                            double margin)
 {
   return facing(x,
                 without_outside(x, _search->find(x, _options.reach, margin)));
 }
 
-/// Pairs but for those with facets that look past the slave facet, when others
-/// around it look at it: beyond an edge of the master, its sides are in front
-/// of slave facets that touch the edge, far off, and would count in the mean.
-mortar::FacetPairs
+/// kernel::Pairs but for those with facets that look past the slave facet, when
+/// others around it look at it: beyond an edge of the master, its sides are in
+/// front of slave facets that touch the edge, far off, and would count in the
+/// mean.
+geometry::FacetPairs
 SurfaceToSurface::facing(std::span<const double> x,
-                         const mortar::FacetPairs& found) const
+                         const geometry::FacetPairs& found) const
 {
   const int g = gdim();
   const std::vector<double> ours
-      = facet::middles(_slaves->facets(), x, g).normals;
+      = geometry::middles(_slaves->facets(), x, g).normals;
   const std::vector<double> theirs
-      = facet::middles(_surface->facets(), x, g).normals;
+      = geometry::middles(_surface->facets(), x, g).normals;
   std::vector<double> cosine(found.size(), 0);
   for (std::size_t p = 0; p < found.size(); ++p)
     for (int k = 0; k < g; ++k)
       cosine[p] -= ours[std::size_t(found.slave[p]) * g + k]
                    * theirs[std::size_t(found.master[p]) * g + k];
-  const facet::FacetList local = _slaves->local();
+  const geometry::FacetList local = _slaves->local();
   std::vector<double> best(_sides.size(), 0);
   for (std::size_t p = 0; p < found.size(); ++p)
     for (const std::int32_t i : local[found.slave[p]])
@@ -202,7 +200,7 @@ SurfaceToSurface::facing(std::span<const double> x,
         best[i] = std::max(best[i], cosine[p]);
   const std::vector<double> around = _slaves->largest(
       _slaves->scatter_forward(std::span<const double>(best)));
-  mortar::FacetPairs kept;
+  geometry::FacetPairs kept;
   for (std::size_t p = 0; p < found.size(); ++p)
     if (is_at_edge(found.slave[p])
         or cosine[p] >= facing_part * around[found.slave[p]])
@@ -213,20 +211,20 @@ SurfaceToSurface::facing(std::span<const double> x,
   return kept;
 }
 
-/// Pairs but for those with facets behind all of the master's body.
-mortar::FacetPairs
+/// kernel::Pairs but for those with facets behind all of the master's body.
+geometry::FacetPairs
 SurfaceToSurface::without_outside(std::span<const double> x,
-                                  mortar::FacetPairs found) const
+                                  geometry::FacetPairs found) const
 {
   if (not _outside->is_around())
     return found;
   const int g = gdim();
-  const facet::FacetList theirs = _surface->facets();
-  const facet::Middles ours = facet::middles(_slaves->facets(), x, g);
-  const std::vector<double> others = facet::middles(theirs, x, g).points;
+  const geometry::FacetList theirs = _surface->facets();
+  const geometry::Middles ours = geometry::middles(_slaves->facets(), x, g);
+  const std::vector<double> others = geometry::middles(theirs, x, g).points;
   const std::vector<double> own_sizes
-      = audit::facet_sizes(_slaves->facets(), x, g);
-  const std::vector<double> their_sizes = audit::facet_sizes(theirs, x, g);
+      = geometry::facet_sizes(_slaves->facets(), x, g);
+  const std::vector<double> their_sizes = geometry::facet_sizes(theirs, x, g);
   std::vector<double> points, depth, size;
   for (std::size_t p = 0; p < found.size(); ++p)
   {
@@ -242,7 +240,7 @@ SurfaceToSurface::without_outside(std::span<const double> x,
     size.push_back(std::max(own_sizes[e], their_sizes[f]));
   }
   const auto is_outside = _outside->find(x, points, depth, size, true);
-  mortar::FacetPairs kept;
+  geometry::FacetPairs kept;
   for (std::size_t p = 0; p < found.size(); ++p)
     if (not is_outside[p])
     {
@@ -252,11 +250,11 @@ SurfaceToSurface::without_outside(std::span<const double> x,
   return kept;
 }
 
-mortar::Integrals
+geometry::Integrals
 SurfaceToSurface::integrals(std::span<const double> x,
                             std::span<const double> normal) const
 {
-  return mortar::integrals(
+  return geometry::integrals(
       {_slaves->facets(), &_sides.slave_wholes(), _slave_patches},
       {_surface->facets(), &_sides.master_wholes(), _master_patches}, *_found,
       x, _halo->reference(), gdim(), normal, _weight);
@@ -288,25 +286,26 @@ void SurfaceToSurface::find_corners(std::span<const double> x)
   if (not _smooth_slave)
     return;
   const auto reference = _halo->reference();
-  const facet::FacetList facets = _slaves->facets();
+  const geometry::FacetList facets = _slaves->facets();
   _corner.assign(12 * std::size_t(facets.size()), 0);
   for (std::int32_t f = 0; f < facets.size(); ++f)
-    facet::visit(static_cast<int>(facets[f].size()),
-                 [&]<class F>(F)
-                 {
-                   if (F::gdim != gdim())
-                     return;
-                   for (int l = 0; l < F::nodes; ++l)
-                   {
-                     const auto n = facet::smooth_point<F>(
-                                        facet::gather<F>(facets[f], reference),
-                                        facet::gather<F>(facets[f], x),
-                                        _slave_patches[f], F::vertices[l])
-                                        .normal;
-                     for (int k = 0; k < F::gdim; ++k)
-                       _corner[12 * std::size_t(f) + 3 * l + k] = -n[k];
-                   }
-                 });
+    geometry::visit(static_cast<int>(facets[f].size()),
+                    [&]<class F>(F)
+                    {
+                      if (F::gdim != gdim())
+                        return;
+                      for (int l = 0; l < F::nodes; ++l)
+                      {
+                        const auto n
+                            = geometry::smooth_point<F>(
+                                  geometry::gather<F>(facets[f], reference),
+                                  geometry::gather<F>(facets[f], x),
+                                  _slave_patches[f], F::vertices[l])
+                                  .normal;
+                        for (int k = 0; k < F::gdim; ++k)
+                          _corner[12 * std::size_t(f) + 3 * l + k] = -n[k];
+                      }
+                    });
 }
 
 void SurfaceToSurface::find_rise(std::span<const double> of_pairs)
@@ -321,7 +320,7 @@ void SurfaceToSurface::find_rise(std::span<const double> of_pairs)
 /// @return Integrals of what smooth patches rise.
 std::vector<double> SurfaceToSurface::integrate(std::span<const double> x)
 {
-  mortar::Integrals all = integrals(x, _kept);
+  geometry::Integrals all = integrals(x, _kept);
   if (_options.is_small)
     all = integrals(x, _sides.between(x, *_found, all.weight, all.normal));
   _at.assign(x.begin(), x.end());
@@ -342,16 +341,16 @@ std::vector<double> SurfaceToSurface::area(std::span<const double> whole) const
   return area;
 }
 
-std::vector<Pairs> SurfaceToSurface::pairs() const
+std::vector<kernel::Pairs> SurfaceToSurface::pairs() const
 {
-  std::vector<Pairs> result = groups(_mortar);
+  std::vector<kernel::Pairs> result = groups(_mortar);
   if (_options.measures_slip)
-    for (Pairs& p : groups(slip_pairs(), true))
+    for (kernel::Pairs& p : groups(slip_pairs(), true))
       result.push_back(std::move(p));
   return result;
 }
 
-/// Pairs that slip is measured with.
+/// kernel::Pairs that slip is measured with.
 Mortar SurfaceToSurface::slip_pairs() const
 {
   if (not _options.is_small)
@@ -385,7 +384,7 @@ void SurfaceToSurface::rebuild()
 
 void SurfaceToSurface::nodes_changed() { _at = spread(*_halo, _at, gdim()); }
 
-std::optional<std::vector<Pairs>>
+std::optional<std::vector<kernel::Pairs>>
 SurfaceToSurface::update(std::span<const double> x, bool frozen,
                          std::span<const double>)
 {
@@ -420,10 +419,10 @@ std::vector<double> SurfaceToSurface::normals() const
   return normals;
 }
 
-Weights SurfaceToSurface::weights() const
+kernel::Weights SurfaceToSurface::weights() const
 {
   const Mortar mortar = normalised();
-  Weights weights;
+  kernel::Weights weights;
   for (std::size_t i = 0; i < _sides.size(); ++i)
     if (_paired[i])
       _sides.for_each_part(_place[i].first, _place[i].second,
@@ -490,7 +489,7 @@ std::vector<double> SurfaceToSurface::along(std::span<const double> u) const
   return apart;
 }
 
-/// Pairs divided by the areas, with what slip is measured by.
+/// kernel::Pairs divided by the areas, with what slip is measured by.
 Mortar SurfaceToSurface::of_slip(std::span<const double> x,
                                  std::span<const double> u) const
 {
@@ -499,7 +498,7 @@ Mortar SurfaceToSurface::of_slip(std::span<const double> x,
   return slip_weights(normalised(), _sides, way(u), normals(), x, gdim());
 }
 
-/// Pairs divided by the slave nodes' areas.
+/// kernel::Pairs divided by the slave nodes' areas.
 Mortar SurfaceToSurface::normalised() const
 {
   std::vector<double> inverse = area(_whole);
@@ -547,7 +546,7 @@ std::vector<double> SurfaceToSurface::rotations(std::span<const double> from,
 std::vector<double>
 SurfaceToSurface::compliance(std::span<const double> nodal) const
 {
-  const Weights w = weights();
+  const kernel::Weights w = weights();
   std::vector<double> total(_sides.size(), 0), mean(_sides.size(), 0);
   // The slave nodes' own parts come first
   std::size_t first = 0;
@@ -609,7 +608,7 @@ Mobility SurfaceToSurface::mobility(std::span<const std::int8_t> free) const
 
 std::vector<Saved> SurfaceToSurface::save() const
 {
-  // Pairs follow from the positions
+  // kernel::Pairs follow from the positions
   return {{"paired", RowKind::slave, 0, _paired}};
 }
 
@@ -629,7 +628,7 @@ double SurfaceToSurface::distance(std::span<const double> x) const
   return _surface->distance(x, points);
 }
 
-SurfaceTie::SurfaceTie(std::shared_ptr<parallel::Halo> halo,
+SurfaceTie::SurfaceTie(std::shared_ptr<mesh::Halo> halo,
                        std::shared_ptr<const SlaveNodes> slaves,
                        std::shared_ptr<search::MasterSurface> surface,
                        std::shared_ptr<search::Outside> outside,
@@ -639,7 +638,7 @@ SurfaceTie::SurfaceTie(std::shared_ptr<parallel::Halo> halo,
                        {options.reach, options.is_small, false, options.level}),
       _offset(sides().size(), 0)
 {
-  // Pairs for good must turn with the facets
+  // kernel::Pairs for good must turn with the facets
   take_own_normals();
 }
 
@@ -649,7 +648,7 @@ std::int32_t SurfaceTie::search(std::span<const double> x,
   return is_found() ? 0 : SurfaceToSurface::search(x, closed);
 }
 
-std::vector<Pairs> SurfaceTie::pairs() const
+std::vector<kernel::Pairs> SurfaceTie::pairs() const
 {
   Mortar longer = mortar();
   const std::vector<double> offset = sides().at_corners(_offset, longer.slave);
@@ -664,7 +663,7 @@ std::vector<Pairs> SurfaceTie::pairs() const
   return groups(longer);
 }
 
-std::optional<std::vector<Pairs>>
+std::optional<std::vector<kernel::Pairs>>
 SurfaceTie::update(std::span<const double>, bool,
                    std::span<const double> offset)
 {

@@ -3,15 +3,15 @@
 
 #pragma once
 
-#include "../mortar/facet_search.h"
+#include "../search/facet_search.h"
 #include "../search/smooth_surface.h"
 #include "deformable_master.h"
 #include "mortar_slip.h"
 
 namespace contactx::contact
 {
-/// @brief Pairs of slave facets with the facets of a deformable body, with
-/// dual multipliers.
+/// @brief kernel::Pairs of slave facets with the facets of a deformable body,
+/// with dual multipliers.
 ///
 /// A slave node's constraint gathers from all pairs of its facets. A node of
 /// which little is in front of the master is not paired. Facets of which slave
@@ -25,7 +25,7 @@ public:
   /// @param[in] surface Master surface.
   /// @param[in] outside Finds points outside of its body.
   /// @param[in] options How facets are paired.
-  SurfaceToSurface(std::shared_ptr<parallel::Halo> halo,
+  SurfaceToSurface(std::shared_ptr<mesh::Halo> halo,
                    std::shared_ptr<const SlaveNodes> slaves,
                    std::shared_ptr<search::MasterSurface> surface,
                    std::shared_ptr<search::Outside> outside,
@@ -33,7 +33,8 @@ public:
   SurfaceToSurface(const SurfaceToSurface&) = delete;
   SurfaceToSurface& operator=(const SurfaceToSurface&) = delete;
 
-  /// @brief Pairs are then those of the start alone, whatever has been before.
+  /// @brief kernel::Pairs are then those of the start alone, whatever has been
+  /// before.
   void begin_step() override;
   void rebuild() override;
   void nodes_changed() override;
@@ -49,12 +50,12 @@ public:
   std::int32_t search(std::span<const double> x,
                       std::span<const std::int8_t> closed) override;
   std::vector<std::int8_t> paired() const override { return _paired; }
-  std::vector<Pairs> pairs() const override;
-  std::optional<std::vector<Pairs>>
+  std::vector<kernel::Pairs> pairs() const override;
+  std::optional<std::vector<kernel::Pairs>>
   update(std::span<const double> x, bool frozen,
          std::span<const double> offset) override;
   std::vector<double> normals() const override;
-  Weights weights() const override;
+  kernel::Weights weights() const override;
 
   /// @brief Area in front of the master. A node that is pushed off within
   /// an iteration keeps some until the next search.
@@ -83,12 +84,12 @@ protected:
   /// @brief Both surfaces.
   const MortarSides& sides() const { return _sides; }
 
-  /// @brief Pairs with their integrals.
+  /// @brief kernel::Pairs with their integrals.
   const Mortar& mortar() const { return _mortar; }
 
-  /// @brief Pairs of facets as the kernels read them.
-  std::vector<Pairs> groups(const Mortar& mortar,
-                            bool is_movement = false) const
+  /// @brief kernel::Pairs of facets as the kernels read them.
+  std::vector<kernel::Pairs> groups(const Mortar& mortar,
+                                    bool is_movement = false) const
   {
     return _sides.pairs(mortar, _dual, _normal, _keeps, _corner, is_movement);
   }
@@ -99,14 +100,14 @@ private:
   void look(std::span<const double> x, double margin);
   bool lacks(std::span<const double> x);
   bool has_moved(std::span<const double> x) const;
-  mortar::FacetPairs find(std::span<const double> x, double margin);
-  mortar::FacetPairs facing(std::span<const double> x,
-                            const mortar::FacetPairs& found) const;
-  mortar::FacetPairs without_outside(std::span<const double> x,
-                                     mortar::FacetPairs found) const;
+  geometry::FacetPairs find(std::span<const double> x, double margin);
+  geometry::FacetPairs facing(std::span<const double> x,
+                              const geometry::FacetPairs& found) const;
+  geometry::FacetPairs without_outside(std::span<const double> x,
+                                       geometry::FacetPairs found) const;
   std::vector<double> integrate(std::span<const double> x);
-  mortar::Integrals integrals(std::span<const double> x,
-                              std::span<const double> normal) const;
+  geometry::Integrals integrals(std::span<const double> x,
+                                std::span<const double> normal) const;
   void find_rise(std::span<const double> of_pairs);
   void find_corners(std::span<const double> x);
   void take_normals(std::span<const double> x);
@@ -121,7 +122,7 @@ private:
 
   MortarSides _sides;
   MortarSlip _slip;
-  std::optional<mortar::FacetSearch> _search;
+  std::optional<search::FacetSearch> _search;
   double _inradius;
   std::vector<std::int32_t> _nodes;   // of both surfaces here
   std::vector<double> _at, _searched; // positions; those of _nodes
@@ -130,7 +131,7 @@ private:
   // A facet of each slave node, and its number there
   std::vector<std::pair<std::int32_t, int>> _place;
   std::vector<double> _weight; // at the corners of the slave facets
-  std::optional<mortar::FacetPairs> _found;
+  std::optional<geometry::FacetPairs> _found;
   std::vector<double> _dual, _normal;
   // Slave facets at edges; those whose direction is kept, and the directions
   std::vector<std::int8_t> _edges;
@@ -138,7 +139,7 @@ private:
   std::vector<double> _kept;
   // Smooth surfaces of both sides and their patches, by facets
   std::optional<search::SmoothSurface> _smooth_slave, _smooth_master;
-  std::vector<facet::SmoothFacet> _slave_patches, _master_patches;
+  std::vector<geometry::SmoothFacet> _slave_patches, _master_patches;
   std::vector<double> _rise,
       _corner; // the latter: normals at the facets' nodes
   Mortar _mortar;
@@ -150,7 +151,7 @@ class SurfaceTie final : public SurfaceToSurface
 {
 public:
   /// @copydoc SurfaceToSurface::SurfaceToSurface
-  SurfaceTie(std::shared_ptr<parallel::Halo> halo,
+  SurfaceTie(std::shared_ptr<mesh::Halo> halo,
              std::shared_ptr<const SlaveNodes> slaves,
              std::shared_ptr<search::MasterSurface> surface,
              std::shared_ptr<search::Outside> outside, PairingOptions options);
@@ -159,10 +160,10 @@ public:
   std::int32_t search(std::span<const double> x,
                       std::span<const std::int8_t> closed) override;
   void begin_step() override {}
-  std::vector<Pairs> pairs() const override;
+  std::vector<kernel::Pairs> pairs() const override;
 
   /// @brief The offset makes the tie longer.
-  std::optional<std::vector<Pairs>>
+  std::optional<std::vector<kernel::Pairs>>
   update(std::span<const double> x, bool frozen,
          std::span<const double> offset) override;
   std::vector<Saved> save() const override { return {}; }

@@ -12,7 +12,7 @@
 
 using namespace contactx;
 using namespace contactx::kernel;
-using contactx::contact::Pairs;
+using contactx::kernel::Pairs;
 
 namespace
 {

@@ -3,9 +3,9 @@
 
 #pragma once
 
-#include "../contact/pairs.h"
-#include "../triplets.h"
+#include "../math/triplets.h"
 #include "layout.h"
+#include "pairs.h"
 #include <functional>
 #include <span>
 #include <string_view>
@@ -41,7 +41,7 @@ struct NodalArrays
 /// @throws std::invalid_argument If there is no such term, or no kernel at all
 /// for pairs of this kind.
 bool has_term(Law law, std::string_view sliding, std::string_view term,
-              const contact::Pairs& pairs, int gdim);
+              const Pairs& pairs, int gdim);
 
 /// @brief Add a vector term of pairs; nothing where the term vanishes.
 ///
@@ -59,8 +59,8 @@ bool has_term(Law law, std::string_view sliding, std::string_view term,
 /// them: what is assembled for those beyond, of other ranks, is left out.
 /// @throws std::invalid_argument If arguments do not fit; `b` has not changed.
 void add_vector(Law law, std::string_view sliding, std::string_view term,
-                const contact::Pairs& pairs, const NodalArrays& arrays,
-                int gdim, std::span<double> b);
+                const Pairs& pairs, const NodalArrays& arrays, int gdim,
+                std::span<double> b);
 
 /// @brief Takes the nodes or slave nodes of a pair's rows, those of its
 /// columns, and its block, row by row.
@@ -74,7 +74,7 @@ using UsePair = std::function<void(std::span<const std::int32_t>,
 /// @param[in] use Called for each pair.
 /// @throws std::invalid_argument If arguments do not fit.
 void for_each_pair(Law law, std::string_view sliding, std::string_view term,
-                   const contact::Pairs& pairs, const NodalArrays& arrays,
+                   const Pairs& pairs, const NodalArrays& arrays,
                    int gdim, std::span<const std::int8_t> which,
                    const UsePair& use);
 
@@ -97,7 +97,7 @@ void for_each_pair(Law law, std::string_view sliding, std::string_view term,
 /// @return The entries; none where the term vanishes.
 /// @throws std::invalid_argument If arguments do not fit.
 Triplets assemble_matrix(Law law, std::string_view sliding,
-                         std::string_view term, const contact::Pairs& pairs,
+                         std::string_view term, const Pairs& pairs,
                          const NodalArrays& arrays, int gdim,
                          std::span<const std::int8_t> which = {});
 } // namespace contactx::kernel

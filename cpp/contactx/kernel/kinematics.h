@@ -36,7 +36,7 @@ struct Finite
   Vector<Pair<F>::num_dofs> gap_derivative() const
   {
     // The projection's movement along the surface does not change the gap
-    if (pair.feature == facet::interior)
+    if (pair.feature == geometry::interior)
       return interior_gap_derivative(point);
     return variation().gap;
   }
@@ -72,9 +72,9 @@ struct Small
 template <class Function>
 void for_all_kinematics(Function&& f)
 {
-  using facet::Quadrilateral;
-  using facet::Segment;
-  using facet::Triangle;
+  using geometry::Quadrilateral;
+  using geometry::Segment;
+  using geometry::Triangle;
   f(std::type_identity<Small<Segment>>{});
   f(std::type_identity<Small<Triangle>>{});
   f(std::type_identity<Small<Quadrilateral>>{});

@@ -65,7 +65,7 @@ struct CoefficientInfo
 /// @brief A pair of a slave node with a facet, as the search found it.
 struct FacetPair
 {
-  double feature = 0;             ///< of the facet, see facet::interior
+  double feature = 0;             ///< of the facet, see geometry::interior
   std::array<double, 2> xi{};     ///< local coordinates
   std::array<double, 3> cone{};   ///< a ridge's normal in the facet's frame
   std::array<double, 3> normal{}; ///< unit normal

@@ -164,11 +164,11 @@ void constraint(double* A, const double* w, const double*, const double*,
     const auto factors = d.gap();
     for (int s = 0; s < S::nodes; ++s)
       d.add(factors[s], dg[s].data());
-    if constexpr (L != Law::frictionless or not facet::is_linear<S>)
+    if constexpr (L != Law::frictionless or not geometry::is_linear<S>)
       dn = d.normal();
     // Points of quadratic facets are beside those of their parts, so that the
     // way from one to the other is not along the normal alone
-    if constexpr (not facet::is_linear<S>)
+    if constexpr (not geometry::is_linear<S>)
       for (int s = 0; s < S::nodes; ++s)
       {
         const auto way = k.pair.distance(s);
@@ -227,7 +227,7 @@ void add(std::vector<Entry>& entries)
 std::vector<Entry> contactx::kernel::mortar()
 {
   std::vector<Entry> entries;
-  contactx::mortar::for_all_wholes(
+  contactx::geometry::for_all_wholes(
       [&entries]<class S, class M>(S, M)
       {
         add<S, M, Law::frictionless, false>(entries);

@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "../mortar/trace.h"
+#include "../geometry/trace.h"
 #include "layout.h"
 #include <algorithm>
 
@@ -18,17 +18,17 @@ namespace contactx::kernel
 template <class S, class M>
 struct MortarPair
 {
-  using SlavePart = facet::Part<S>;
-  using MasterPart = facet::Part<M>;
+  using SlavePart = geometry::Part<S>;
+  using MasterPart = geometry::Part<M>;
   static constexpr int gdim = S::gdim;
   static constexpr int num_dofs = gdim * (S::nodes + M::nodes);
   static constexpr MortarLayout layout{S::nodes, M::nodes};
 
-  facet::Nodes<S> slave;     ///< positions of the slave facet's nodes
-  facet::Nodes<S> reference; ///< in the reference configuration
-  facet::Nodes<M> master;    ///< positions of the master facet's nodes
-  facet::Places<S> slave_places = facet::all_places<S>();
-  facet::Places<M> master_places = facet::all_places<M>();
+  geometry::Nodes<S> slave;     ///< positions of the slave facet's nodes
+  geometry::Nodes<S> reference; ///< in the reference configuration
+  geometry::Nodes<M> master;    ///< positions of the master facet's nodes
+  geometry::Places<S> slave_places = geometry::all_places<S>();
+  geometry::Places<M> master_places = geometry::all_places<M>();
   const double* data; ///< values of the pair
 
   /// @brief Read a pair from the coefficients.
@@ -52,18 +52,18 @@ struct MortarPair
         const int i = gdim * (S::nodes + l) + k;
         master[l][k] = (x[i] - x[k]) + u[i];
       }
-    if constexpr (!facet::is_linear<S>)
+    if constexpr (!geometry::is_linear<S>)
       for (int j = 0; j < SlavePart::nodes; ++j)
         slave_places[j] = static_cast<int>(data[layout.slave_places + j]);
-    if constexpr (!facet::is_linear<M>)
+    if constexpr (!geometry::is_linear<M>)
       for (int j = 0; j < MasterPart::nodes; ++j)
         master_places[j] = static_cast<int>(data[layout.master_places + j]);
   }
 
   /// @brief Positions of the nodes of the slave facet's part.
-  facet::Nodes<SlavePart> slave_part() const
+  geometry::Nodes<SlavePart> slave_part() const
   {
-    return facet::part_of<S>(slave, slave_places);
+    return geometry::part_of<S>(slave, slave_places);
   }
 
   /// @brief Values of a coefficient.
@@ -117,7 +117,7 @@ struct MortarPair
   {
     Vector<gdim> n;
     if (Turning and not keeps_normal())
-      n = -1. * facet::frame<S>(slave, mortar::normal_place<S>()).n;
+      n = -1. * geometry::frame<S>(slave, geometry::normal_place<S>()).n;
     else
       std::copy_n(data + layout.normal, gdim, n.begin());
     return n;
@@ -140,7 +140,7 @@ struct MortarPair
   {
     Vector<gdim> d
         = area(s)
-          * facet::Basis<S>::template coefficient<Vector<gdim>>(s, slave);
+          * geometry::Basis<S>::template coefficient<Vector<gdim>>(s, slave);
     for (int l = 0; l < M::nodes; ++l)
       d = d - weight(s, l) * master[l];
     return d;
@@ -154,8 +154,8 @@ struct MortarPair
     for (int s = 0; s < S::nodes; ++s)
     {
       const double own = area(s);
-      facet::Basis<S>::for_each_part(s, [&](int node, double part)
-                                     { f(node, s, part * own); });
+      geometry::Basis<S>::for_each_part(s, [&](int node, double part)
+                                        { f(node, s, part * own); });
       for (int l = 0; l < M::nodes; ++l)
         f(S::nodes + l, s, -weight(s, l));
     }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "mortar_tied.h"
-#include "../mortar/segment.h"
+#include "../geometry/segment.h"
 #include "mortar_terms.h"
 #include "normal_hessian.h"
 
@@ -49,7 +49,7 @@ struct Tie
         });
     if constexpr (Turning)
     {
-      const contactx::mortar::FacetNormal<S> own(pair.slave);
+      const contactx::geometry::FacetNormal<S> own(pair.slave);
       for (int t = 0; t < slaves; ++t)
         for (int k = 0; k < gdim; ++k)
         {
@@ -132,9 +132,9 @@ void stiffness(double* A, const double* w, const double*, const double*,
       sum[i] += k.pair.gap(s) * k.multiplier[K::gdim * s + i];
   if (dot(sum, sum) == 0)
     return;
-  const auto xi = contactx::mortar::normal_place<S>();
+  const auto xi = contactx::geometry::normal_place<S>();
   // The pair's normal is against that of the slave facet
-  for_each_normal_hessian<S>(facet::frame<S>(k.pair.slave, xi), xi, sum,
+  for_each_normal_hessian<S>(geometry::frame<S>(k.pair.slave, xi), xi, sum,
                              [A](int i, int j, double value)
                              { A[K::num_dofs * i + j] -= value; });
 }
@@ -166,7 +166,7 @@ void add(std::vector<Entry>& entries)
 std::vector<Entry> contactx::kernel::mortar_tied()
 {
   std::vector<Entry> entries;
-  contactx::mortar::for_all_wholes(
+  contactx::geometry::for_all_wholes(
       [&entries]<class S, class M>(S, M)
       {
         add<Tie<S, M, false>>(entries);

@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "../mortar/segment.h"
+#include "../geometry/segment.h"
 #include "mortar_pair.h"
 
 namespace contactx::kernel
@@ -24,13 +24,13 @@ template <class S, class M>
 class MortarVariation
 {
 public:
-  using P = facet::Part<S>; ///< part of the slave facet
-  using Q = facet::Part<M>; ///< part of the master facet
+  using P = geometry::Part<S>; ///< part of the slave facet
+  using Q = geometry::Part<M>; ///< part of the master facet
   static constexpr int gdim = S::gdim;
   static constexpr int tdim = S::tdim;
   static constexpr int num_dofs = MortarPair<S, M>::num_dofs;
   using Row = Vector<num_dofs>;
-  using Local = facet::Local<S>;
+  using Local = geometry::Local<S>;
 
   /// @brief Factors of the variations of r_j, of the nodes of the master
   /// facet's part, and c.
@@ -44,12 +44,12 @@ public:
   /// @param[in] pair Pair.
   explicit MortarVariation(const MortarPair<S, M>& pair)
       : _pair(pair), _normal(pair.slave),
-        _master(facet::part_of<M>(pair.master, pair.master_places)),
+        _master(geometry::part_of<M>(pair.master, pair.master_places)),
         _slave(plane_of(pair, _normal.frame.n), pair.slave_part(),
-               facet::part_of<S>(pair.reference, pair.slave_places),
+               geometry::part_of<S>(pair.reference, pair.slave_places),
                pair.factor()),
-        _r(mortar::project<Q>(_slave.plane, _master)),
-        _slope(P::derivative(mortar::plane_origin<P>()))
+        _r(geometry::project<Q>(_slave.plane, _master)),
+        _slope(P::derivative(geometry::plane_origin<P>()))
   {
     const auto& plane = _slave.plane;
     for (int l = 0; l < M::nodes; ++l)
@@ -135,7 +135,7 @@ public:
   void add(const Factors& f, double* row) const
   {
     const auto& plane = _slave.plane;
-    constexpr Local o = mortar::plane_origin<P>();
+    constexpr Local o = geometry::plane_origin<P>();
     const auto N = P::shape(o);
     Vector<P::nodes> along{}; // of the height over a turning plane, by slope
     std::array<Vector<P::nodes>, tdim> across{};
@@ -202,18 +202,18 @@ private:
 
   static Local& at(Factors& f, int j) { return j < 0 ? f.c : f.r[j]; }
 
-  static mortar::Plane<P> plane_of(const MortarPair<S, M>& pair,
-                                   const Vector<gdim>& normal)
+  static geometry::ProjectionPlane<P> plane_of(const MortarPair<S, M>& pair,
+                                     const Vector<gdim>& normal)
   {
     if (pair.keeps_normal())
       return {pair.slave_part(), -1. * pair.template normal<false>()};
-    return mortar::part_plane<S>(pair.slave_part(), normal);
+    return geometry::part_plane<S>(pair.slave_part(), normal);
   }
 
   // Whether the direction of the projection is the normal of the facet's plane
   bool turns_with_plane() const
   {
-    return facet::is_linear<S> and not _pair.keeps_normal();
+    return geometry::is_linear<S> and not _pair.keeps_normal();
   }
 
   // First displacement of a node of the slave facet's part
@@ -224,9 +224,9 @@ private:
   template <class Add, class Reduce>
   void moments(Add&& add, Reduce&& reduce) const
   {
-    if constexpr (facet::is_linear<S> and P::flat and Q::flat)
+    if constexpr (geometry::is_linear<S> and P::flat and Q::flat)
     {
-      const auto slope = reduce(mortar::InverseMap<M>(_r).at({}).slope);
+      const auto slope = reduce(geometry::InverseMap<M>(_r).at({}).slope);
       for (int j = 0; j < M::nodes; ++j)
       {
         Vector<S::nodes> weight;
@@ -236,33 +236,34 @@ private:
       }
     }
     else
-      mortar::integrate<S, M>(
+      geometry::integrate<S, M>(
           _slave, _master,
-          [&](const mortar::Shape<P>& s, const mortar::Shape<Q>& m, double w)
+          [&](const geometry::Shape<P>& s, const geometry::Shape<Q>& m,
+              double w)
           {
-            const auto basis = facet::Basis<S>::functions(
-                mortar::trace<S>(s, _pair.slave_places));
+            const auto basis = geometry::Basis<S>::functions(
+                geometry::trace<S>(s, _pair.slave_places));
             Vector<S::nodes> phi{};
             for (int i = 0; i < S::nodes; ++i)
               for (int t = 0; t < S::nodes; ++t)
                 phi[i] += w * _pair.dual(i, t) * basis[t];
             const auto slope
-                = reduce(mortar::trace_slope<M>(m, _pair.master_places));
+                = reduce(geometry::trace_slope<M>(m, _pair.master_places));
             for (int j = 0; j < Q::nodes; ++j)
               add(m.N[j] * phi, slope, j);
             if constexpr (!P::flat)
             {
-              const Local y = s.xi - mortar::plane_origin<P>();
+              const Local y = s.xi - geometry::plane_origin<P>();
               add((y[0] * y[1]) * phi, slope, distortion);
             }
           });
   }
 
   const MortarPair<S, M>& _pair;
-  mortar::FacetNormal<S> _normal;
-  facet::Nodes<Q> _master;
-  mortar::SlaveFacet<P> _slave;
-  mortar::Flat<Q> _r;
+  geometry::FacetNormal<S> _normal;
+  geometry::Nodes<Q> _master;
+  geometry::SlaveFacet<P> _slave;
+  geometry::Flat<Q> _r;
   Vector<M::nodes> _along;  // of the master's nodes, along the normal
   Vector<Q::nodes> _height; // of its part's, over the plane
   std::array<Vector<P::nodes>, tdim> _slope; // of the slave part's centre

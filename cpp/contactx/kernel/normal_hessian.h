@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "../facet/frame.h"
+#include "../geometry/frame.h"
 
 namespace contactx::kernel
 {
@@ -12,7 +12,7 @@ namespace contactx::kernel
 template <class F>
 struct AreaVector
 {
-  AreaVector(const facet::Frame<F>& frame, const facet::Local<F>& xi)
+  AreaVector(const geometry::Frame<F>& frame, const geometry::Local<F>& xi)
       : dN(F::derivative(xi))
   {
     for (int l = 0; l < F::nodes; ++l)
@@ -54,8 +54,8 @@ struct AreaVector
 /// @param[in] add Called as add(i, j, value) for the components i and j of the
 /// nodes.
 template <class F, class Add>
-void for_each_normal_hessian(const facet::Frame<F>& frame,
-                             const facet::Local<F>& xi,
+void for_each_normal_hessian(const geometry::Frame<F>& frame,
+                             const geometry::Local<F>& xi,
                              const Vector<F::gdim>& lambda, Add&& add)
 {
   constexpr int gdim = F::gdim;

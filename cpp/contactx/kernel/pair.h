@@ -3,8 +3,8 @@
 
 #pragma once
 
-#include "../facet/closest_point.h"
-#include "../facet/ridge.h"
+#include "../geometry/closest_point.h"
+#include "../geometry/ridge.h"
 #include "layout.h"
 
 namespace contactx::kernel
@@ -19,12 +19,12 @@ struct Pair
 {
   static constexpr int num_dofs = F::gdim * (F::nodes + 1);
 
-  Vector<F::gdim> slave;  ///< position of the slave node
-  facet::Nodes<F> master; ///< positions of the facet's nodes
-  int feature;            ///< interior, kept, edge or vertex
-  facet::Local<F> xi;     ///< local coordinates that the search found
-  Vector<3> cone;         ///< components of a ridge's normal
-  Vector<F::gdim> normal; ///< unit normal that the search found
+  Vector<F::gdim> slave;     ///< position of the slave node
+  geometry::Nodes<F> master; ///< positions of the facet's nodes
+  int feature;               ///< interior, kept, edge or vertex
+  geometry::Local<F> xi;     ///< local coordinates that the search found
+  Vector<3> cone;            ///< components of a ridge's normal
+  Vector<F::gdim> normal;    ///< unit normal that the search found
 
   /// @brief Read a pair from the coefficients.
   /// @param[in] w Coefficients.
@@ -55,7 +55,7 @@ struct Pair
 template <class F>
 struct ContactPoint
 {
-  facet::Local<F> xi;          ///< local coordinates
+  geometry::Local<F> xi;       ///< local coordinates
   Vector<F::nodes + 1> weight; ///< 1 and -N_l(xi): x_s - x_m = weight x
   Vector<F::gdim> normal;      ///< unit normal
   Vector<F::gdim> d;           ///< x_s - x_m(xi)
@@ -64,11 +64,12 @@ struct ContactPoint
 
 /// @brief Unit normal of a pair at a point of its facet, now.
 template <class F>
-Vector<F::gdim> current_normal(const Pair<F>& pair, const facet::Local<F>& xi)
+Vector<F::gdim> current_normal(const Pair<F>& pair,
+                               const geometry::Local<F>& xi)
 {
-  if (pair.feature == facet::interior)
-    return facet::frame<F>(pair.master, xi).n;
-  const auto axes = facet::ridge_axes<F>(pair.master, pair.feature, xi);
+  if (pair.feature == geometry::interior)
+    return geometry::frame<F>(pair.master, xi).n;
+  const auto axes = geometry::ridge_axes<F>(pair.master, pair.feature, xi);
   if constexpr (F::gdim == 2)
     return pair.cone[0] * axes[0] + pair.cone[2] * axes[1];
   else
@@ -78,7 +79,7 @@ Vector<F::gdim> current_normal(const Pair<F>& pair, const facet::Local<F>& xi)
 
 /// @brief The contact point for given local coordinates and normal.
 template <class F>
-ContactPoint<F> contact_point(const Pair<F>& pair, const facet::Local<F>& xi,
+ContactPoint<F> contact_point(const Pair<F>& pair, const geometry::Local<F>& xi,
                               const Vector<F::gdim>& normal)
 {
   ContactPoint<F> c;
@@ -88,7 +89,7 @@ ContactPoint<F> contact_point(const Pair<F>& pair, const facet::Local<F>& xi,
   for (int l = 0; l < F::nodes; ++l)
     c.weight[l + 1] = -N[l];
   c.normal = normal;
-  c.d = pair.slave - facet::combine<F>(N, pair.master);
+  c.d = pair.slave - geometry::combine<F>(N, pair.master);
   c.gap = dot(c.normal, c.d);
   return c;
 }
@@ -98,14 +99,14 @@ ContactPoint<F> contact_point(const Pair<F>& pair, const facet::Local<F>& xi,
 template <class F>
 ContactPoint<F> project(const Pair<F>& pair)
 {
-  facet::Local<F> xi = pair.xi;
-  if (pair.feature == facet::interior)
-    facet::project<F>(pair.master, pair.slave, xi);
-  else if (pair.feature == facet::kept)
+  geometry::Local<F> xi = pair.xi;
+  if (pair.feature == geometry::interior)
+    geometry::project<F>(pair.master, pair.slave, xi);
+  else if (pair.feature == geometry::kept)
     ;
   else if (F::num_edges > 0 and pair.feature <= F::num_edges)
   {
-    const auto [i, j] = facet::feature_edge<F>(pair.feature);
+    const auto [i, j] = geometry::feature_edge<F>(pair.feature);
     const auto e = pair.master[j] - pair.master[i];
     const double s = dot(pair.slave - pair.master[i], e) / dot(e, e);
     xi = (1 - s) * F::vertices[i] + s * F::vertices[j];

@@ -12,17 +12,18 @@ namespace contactx::kernel
 /// @param[in] xi Local coordinates.
 template <class F>
 std::array<Vector<Pair<F>::num_dofs>, F::gdim>
-facet_normal_derivative(const facet::Frame<F>& frame, const facet::Local<F>& xi)
+facet_normal_derivative(const geometry::Frame<F>& frame,
+                        const geometry::Local<F>& xi)
 {
-  const auto m = facet::metric(frame.t);
+  const auto m = geometry::metric(frame.t);
   const auto dN = F::derivative(xi);
   std::array<Vector<Pair<F>::num_dofs>, F::gdim> dn{};
   for (int l = 0; l < F::nodes; ++l)
   {
-    facet::Local<F> dt;
+    geometry::Local<F> dt;
     for (int b = 0; b < F::tdim; ++b)
       dt[b] = dN[b][l];
-    const facet::Local<F> y = facet::solve(m, dt);
+    const geometry::Local<F> y = geometry::solve(m, dt);
     Vector<F::gdim> gradient{}; // of the node's shape function
     for (int b = 0; b < F::tdim; ++b)
       gradient = gradient + y[b] * frame.t[b];
@@ -61,10 +62,10 @@ struct Relative
     weight[0] = 1;
     for (int l = 0; l < F::nodes; ++l)
       weight[l + 1] = -N[l];
-    value = pair.slave - facet::combine<F>(N, pair.master);
+    value = pair.slave - geometry::combine<F>(N, pair.master);
     if constexpr (Kinematics::turning)
     {
-      frame = facet::frame<F>(pair.master, xi);
+      frame = geometry::frame<F>(pair.master, xi);
       value = value - gap * frame.n;
     }
     else
@@ -89,10 +90,10 @@ struct Relative
     return dw;
   }
 
-  facet::Local<F> xi;          ///< local coordinates of the point
+  geometry::Local<F> xi;       ///< local coordinates of the point
   double gap;                  ///< its gap
   Vector<F::nodes + 1> weight; ///< 1 and -N_l(xi_0)
-  facet::Frame<F> frame;       ///< frame of the facet there, where it turns
+  geometry::Frame<F> frame;    ///< frame of the facet there, where it turns
   Vector<F::gdim> value;       ///< the movement
 };
 } // namespace contactx::kernel

@@ -41,7 +41,7 @@ void gap(double* b, const double* w, const double*, const double*, const int*,
   const K tie(w);
   const Relative movement(tie, w);
   const auto d = tie.pair.slave
-                 - facet::combine<F>(F::shape(movement.xi), tie.pair.master);
+                 - geometry::combine<F>(F::shape(movement.xi), tie.pair.master);
   b[0] += dot(normal_of(tie, movement), d);
 }
 

@@ -26,19 +26,19 @@ struct Variation
   /// @param[in] c Its contact point, projected on the pair's feature.
   Variation(const Pair<F>& pair, const ContactPoint<F>& c)
   {
-    const auto frame = facet::frame<F>(pair.master, c.xi);
-    const auto m = facet::metric(frame.t);
+    const auto frame = geometry::frame<F>(pair.master, c.xi);
+    const auto m = geometry::metric(frame.t);
     const auto dN = F::derivative(c.xi);
     Vector<F::gdim> twist{}; // d^2 x / dxi_1 dxi_2
     if constexpr (!F::flat)
-      twist = facet::combine<F>(F::mixed_derivative, pair.master);
+      twist = geometry::combine<F>(F::mixed_derivative, pair.master);
     const double curvature = dot(frame.n, twist);
 
     // Feature data; unused in the facet's interior
-    const bool interior = pair.feature == facet::interior;
+    const bool interior = pair.feature == geometry::interior;
     const bool on_edge
-        = pair.feature > facet::interior and pair.feature <= F::num_edges;
-    const auto [i, j] = facet::feature_edge<F>(pair.feature);
+        = pair.feature > geometry::interior and pair.feature <= F::num_edges;
+    const auto [i, j] = geometry::feature_edge<F>(pair.feature);
     const auto edge = pair.master[j] - pair.master[i];
     const double length = norm(edge);
     const auto e = (1 / length) * edge;
@@ -50,11 +50,11 @@ struct Variation
     std::array<Vector<F::gdim>, F::tdim> dual, along;
     for (int k = 0; k < F::gdim; ++k)
     {
-      facet::Local<F> r;
+      geometry::Local<F> r;
       for (int b = 0; b < F::tdim; ++b)
         r[b] = frame.t[b][k];
-      const facet::Local<F> y = facet::solve(m, r);
-      const facet::Local<F> z = F::flat ? y : facet::solve(H, r);
+      const geometry::Local<F> y = geometry::solve(m, r);
+      const geometry::Local<F> z = F::flat ? y : geometry::solve(H, r);
       for (int b = 0; b < F::tdim; ++b)
       {
         dual[b][k] = y[b];
@@ -65,11 +65,11 @@ struct Variation
     for (int a = 0; a <= F::nodes; ++a)
     {
       // Variation of the tangents at fixed xi is dt along a unit vector
-      facet::Local<F> dt{};
+      geometry::Local<F> dt{};
       if (a > 0)
         for (int b = 0; b < F::tdim; ++b)
           dt[b] = dN[b][a - 1];
-      const facet::Local<F> slope = facet::solve(H, dt);
+      const geometry::Local<F> slope = geometry::solve(H, dt);
       Vector<F::gdim> gradient{}; // of the node's shape function
       for (int b = 0; b < F::tdim; ++b)
         gradient = gradient + dt[b] * dual[b];
@@ -78,7 +78,7 @@ struct Variation
       for (int k = 0; k < F::gdim; ++k)
       {
         const int col = F::gdim * a + k;
-        facet::Local<F> dxi{};
+        geometry::Local<F> dxi{};
         if (interior)
           for (int b = 0; b < F::tdim; ++b)
             dxi[b] = c.weight[a] * along[b][k] + c.d[k] * slope[b];

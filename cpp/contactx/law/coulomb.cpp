@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "coulomb.h"
-#include "../vec.h"
+#include "../math/vec.h"
 #include <algorithm>
 #include <cstddef>
 

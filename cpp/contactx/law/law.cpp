@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "law.h"
-#include "../contact/slip_history.h"
 #include "../text.h"
 #include "coulomb.h"
+#include "slip_history.h"
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -12,7 +12,7 @@
 
 using namespace contactx;
 using namespace contactx::law;
-using contactx::contact::NodeState;
+using contactx::law::NodeState;
 
 namespace
 {
@@ -101,7 +101,7 @@ double length_of_slip(const NodeState& nodes, std::size_t i)
 }
 } // namespace
 
-std::int32_t Frictionless::set_status(NodeState& nodes, parallel::Ranks&) const
+std::int32_t Frictionless::set_status(NodeState& nodes, mesh::Ranks&) const
 {
   check_multipliers(*this, nodes);
   const auto gap = closable_gaps(nodes);
@@ -212,12 +212,12 @@ std::vector<std::int8_t> Coulomb::rubs(const NodeState& nodes) const
   return rubs;
 }
 
-std::int32_t Coulomb::set_status(NodeState& nodes, parallel::Ranks& ranks) const
+std::int32_t Coulomb::set_status(NodeState& nodes, mesh::Ranks& ranks) const
 {
   double highest = 0;
   for (std::size_t i = 0; i < nodes.status.size(); ++i)
     highest = std::max(highest, nodes.pressure(i));
-  highest = parallel::largest(ranks, highest);
+  highest = mesh::largest(ranks, highest);
   // Only now: no rank may leave the others waiting
   check_multipliers(*this, nodes);
   Bounds found;
@@ -279,7 +279,7 @@ void Coulomb::evaluate(NodeState& nodes) const
     nodes.mean->chain(nodes.normal, nodes.by_slip, nodes.by_normal);
 }
 
-std::int32_t Tied::set_status(NodeState& nodes, parallel::Ranks&) const
+std::int32_t Tied::set_status(NodeState& nodes, mesh::Ranks&) const
 {
   check_multipliers(*this, nodes);
   std::int32_t changed = 0;

@@ -3,19 +3,15 @@
 
 #pragma once
 
-#include "../contact/node_state.h"
-#include "../parallel/ranks.h"
+#include "../mesh/ranks.h"
+#include "node_state.h"
+#include "slip_history.h"
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <span>
 #include <string_view>
 #include <vector>
-
-namespace contactx::contact
-{
-class SlipHistory;
-}
 
 namespace contactx::law
 {
@@ -46,14 +42,14 @@ public:
   /// @param[in] ranks The ranks, all of which take part.
   /// @return Number of this rank's nodes that changed.
   /// @throws std::invalid_argument if the multipliers are not those of the law.
-  virtual std::int32_t set_status(contact::NodeState& nodes,
-                                  parallel::Ranks& ranks) const = 0;
+  virtual std::int32_t set_status(NodeState& nodes,
+                                  mesh::Ranks& ranks) const = 0;
 
   /// @brief Compute the complementarity function and its derivatives for the
   /// status.
   /// @param[in,out] nodes Slave nodes.
   /// @throws std::invalid_argument if the multipliers are not those of the law.
-  virtual void evaluate(contact::NodeState& nodes) const = 0;
+  virtual void evaluate(NodeState& nodes) const = 0;
 
   /// @brief True if it calls a user's function, which may throw on one rank
   /// alone.
@@ -66,9 +62,9 @@ class Frictionless final : public Law
 public:
   std::string_view name() const override { return "frictionless"; }
   bool is_vector() const override { return false; }
-  std::int32_t set_status(contact::NodeState& nodes,
-                          parallel::Ranks& ranks) const override;
-  void evaluate(contact::NodeState& nodes) const override;
+  std::int32_t set_status(NodeState& nodes,
+                          mesh::Ranks& ranks) const override;
+  void evaluate(NodeState& nodes) const override;
 };
 
 /// @brief Bounds of friction with their derivatives, one value a slave node
@@ -101,7 +97,7 @@ public:
   void begin_step() override;
 
   /// @brief Take what accepted steps have slipped, which a bound counts, too.
-  void follow(std::shared_ptr<const contact::SlipHistory> history)
+  void follow(std::shared_ptr<const SlipHistory> history)
   {
     _history = std::move(history);
   }
@@ -122,13 +118,13 @@ public:
   /// @param[in] nodes Slave nodes.
   /// @throws std::invalid_argument if coefficients of others have been taken,
   /// or a function of the bound gives what is none.
-  std::vector<double> friction(const contact::NodeState& nodes) const;
+  std::vector<double> friction(const NodeState& nodes) const;
 
   /// @brief Mark the nodes that friction acts on: their bound is not zero
   /// (shape=(n)).
   /// @param[in] nodes Slave nodes.
   /// @throws std::invalid_argument as above.
-  std::vector<std::int8_t> rubs(const contact::NodeState& nodes) const;
+  std::vector<std::int8_t> rubs(const NodeState& nodes) const;
 
   bool may_throw() const override { return bool(_bound); }
 
@@ -138,12 +134,12 @@ public:
   /// and again with slip, which pulls it off, sticks every fourth time. Slip
   /// that turns back sticks first; where that has been tried it turns: a node
   /// that opens only on the way back would stick and slip for ever.
-  std::int32_t set_status(contact::NodeState& nodes,
-                          parallel::Ranks& ranks) const override;
-  void evaluate(contact::NodeState& nodes) const override;
+  std::int32_t set_status(NodeState& nodes,
+                          mesh::Ranks& ranks) const override;
+  void evaluate(NodeState& nodes) const override;
 
 private:
-  Bounds bounds(const contact::NodeState& nodes,
+  Bounds bounds(const NodeState& nodes,
                 std::span<const double> pressure) const;
 
   // Trial friction over its bound up to which slip that turns back sticks
@@ -152,7 +148,7 @@ private:
   static constexpr double _usual_reach = 10;
 
   BoundFunction _bound;
-  std::shared_ptr<const contact::SlipHistory> _history;
+  std::shared_ptr<const SlipHistory> _history;
   std::vector<double> _friction;
   double _reach = _usual_reach;
 };
@@ -166,8 +162,8 @@ class Tied final : public Law
 public:
   std::string_view name() const override { return "tied"; }
   bool is_tied() const override { return true; }
-  std::int32_t set_status(contact::NodeState& nodes,
-                          parallel::Ranks& ranks) const override;
-  void evaluate(contact::NodeState& nodes) const override;
+  std::int32_t set_status(NodeState& nodes,
+                          mesh::Ranks& ranks) const override;
+  void evaluate(NodeState& nodes) const override;
 };
 } // namespace contactx::law

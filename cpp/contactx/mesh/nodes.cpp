@@ -3,7 +3,7 @@
 
 #include "nodes.h"
 #include "../check.h"
-#include "../vec.h"
+#include "../math/vec.h"
 #include <algorithm>
 #include <array>
 
@@ -174,10 +174,10 @@ std::vector<std::int64_t> contactx::mesh::original_nodes(
   return original;
 }
 
-facet::Facets contactx::mesh::facets(const Cells& cells,
-                                     std::span<const std::int32_t> of,
-                                     std::span<const std::int32_t> local,
-                                     const Geometry& geometry)
+geometry::Facets contactx::mesh::facets(const Cells& cells,
+                                        std::span<const std::int32_t> of,
+                                        std::span<const std::int32_t> local,
+                                        const Geometry& geometry)
 {
   const auto& vertices = facet_vertices(cells.type);
   check_geometry(cells, geometry);
@@ -189,7 +189,7 @@ facet::Facets contactx::mesh::facets(const Cells& cells,
   for (int i = 0; i < static_cast<int>(vertices.size()); ++i)
     parts.push_back({facet_parts(cells.type, cells.degree, i, false),
                      facet_parts(cells.type, cells.degree, i, true)});
-  facet::Facets result;
+  geometry::Facets result;
   for (std::size_t f = 0; f < of.size(); ++f)
   {
     const auto nodes = cells[of[f]];

@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "../facet/facets.h"
+#include "../geometry/facets.h"
 #include "cell.h"
 
 namespace contactx::mesh
@@ -59,7 +59,7 @@ struct Geometry
 std::vector<std::int32_t> linear_cells(const Cells& cells);
 
 /// @brief Where the nodes of a quadratic displacement are on its facets, see
-/// facet::Shares: 0 at vertices, 1 on edges, 2 elsewhere.
+/// geometry::Shares: 0 at vertices, 1 on edges, 2 elsewhere.
 /// @param[in] cells Cells.
 /// @param[in] num_nodes Number of nodes.
 /// @return Levels (shape=(num_nodes)); empty of degree 1.
@@ -105,7 +105,7 @@ std::vector<std::int64_t> original_nodes(const Cells& cells,
 /// @param[in] geometry The mesh.
 /// @return The parts of the facets in turn.
 /// @throws std::invalid_argument if sizes or numbers do not fit.
-facet::Facets facets(const Cells& cells, std::span<const std::int32_t> of,
-                     std::span<const std::int32_t> local,
-                     const Geometry& geometry);
+geometry::Facets facets(const Cells& cells, std::span<const std::int32_t> of,
+                        std::span<const std::int32_t> local,
+                        const Geometry& geometry);
 } // namespace contactx::mesh

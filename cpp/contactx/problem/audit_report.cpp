@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "audit_report.h"
-#include "../audit/deformed_cells.h"
 #include "../contact/obstacle_pairs.h"
+#include "../mesh/deformed_cells.h"
 #include "../text.h"
 #include <algorithm>
 
@@ -108,14 +108,14 @@ void contactx::problem::add(AuditReport& report, const std::string& name,
               "Swap slave and master, or refine the slave surface");
 }
 
-DeformedCells contactx::problem::deformed_cells(parallel::Halo& halo,
-                                                newton::Bulk& bulk)
+DeformedCells contactx::problem::deformed_cells(mesh::Halo& halo,
+                                                solve::Bulk& bulk)
 {
   const int g = halo.gdim(), width = bulk.nodes_per_cell();
   const std::span<const std::int32_t> cells = bulk.cells();
   const std::span<const double> X = halo.reference();
-  const audit::DeformedCells mine
-      = audit::deformed_cells(cells, width, X, halo.now()->u, g);
+  const mesh::DeformedCells mine
+      = mesh::deformed_cells(cells, width, X, halo.now()->u, g);
   // Smallest det F and midpoint of each rank that has cells
   std::vector<double> row(g + 2);
   row[0] = mine.cell >= 0;
@@ -127,7 +127,7 @@ DeformedCells contactx::problem::deformed_cells(parallel::Halo& halo,
         row[2 + k] += X[std::size_t(node) * g + k] / width;
   const std::vector<double> all = halo.ranks().gather(row);
   DeformedCells found;
-  found.inverted = parallel::total(halo.ranks(), mine.inverted);
+  found.inverted = mesh::total(halo.ranks(), mine.inverted);
   std::span<const double> best;
   for (std::size_t at = 0; at < all.size(); at += row.size())
   {

@@ -5,7 +5,7 @@
 
 #include "../audit/findings.h"
 #include "../contact/contact.h"
-#include "../newton/bulk.h"
+#include "../solve/bulk.h"
 #include <limits>
 #include <string>
 #include <vector>
@@ -52,7 +52,7 @@ void add(AuditReport& report, const std::string& name,
 /// @brief The cells that displacements squeeze most, of all ranks.
 struct DeformedCells
 {
-  /// Smallest det F at the points that audit::deformed_cells names, infinity
+  /// Smallest det F at the points that mesh::deformed_cells names, infinity
   /// where there are no cells
   double smallest = std::numeric_limits<double>::infinity();
   std::int64_t inverted = 0; ///< number of cells that are turned inside out
@@ -64,7 +64,7 @@ struct DeformedCells
 /// @brief Look at the cells of all ranks; collective.
 /// @param[in] halo Nodes of this rank, with their displacements.
 /// @param[in] bulk The bulk.
-DeformedCells deformed_cells(parallel::Halo& halo, newton::Bulk& bulk);
+DeformedCells deformed_cells(mesh::Halo& halo, solve::Bulk& bulk);
 
 /// @brief Add the cells that are turned inside out: a fault where the material
 /// resists that, else a warning.

@@ -3,10 +3,10 @@
 
 #include "make_contact.h"
 #include "../check.h"
-#include "../reference/facing.h"
-#include "../reference/shared_nodes.h"
-#include "../reference/sides.h"
+#include "../mesh/shared_nodes.h"
 #include "../text.h"
+#include "check_facing.h"
+#include "sides.h"
 #include <cmath>
 #include <stdexcept>
 
@@ -15,7 +15,7 @@ using namespace contactx::problem;
 
 namespace
 {
-using Obstacle = std::shared_ptr<obstacle::Obstacle>;
+using Obstacle = std::shared_ptr<geometry::Obstacle>;
 
 /// Refuses a number.
 void refuse(bool is_wrong, const char* name, double value, const char* advice)
@@ -100,35 +100,35 @@ std::string contactx::problem::name_of(const Sides& sides,
   const auto* obstacle = std::get_if<Obstacle>(&sides.master);
   return "Contact(slave=" + sides.slave.name + ", master="
          + (obstacle ? (*obstacle)->name()
-                     : std::get<reference::NamedSurface>(sides.master).name)
+                     : std::get<mesh::NamedSurface>(sides.master).name)
          + ", sliding='"
          + (sliding == contact::Sliding::small ? "small" : "finite") + "')";
 }
 
 std::shared_ptr<contact::Contact>
-contactx::problem::make_contact(const reference::Mesh& mesh, const Sides& sides,
+contactx::problem::make_contact(const mesh::Mesh& mesh, const Sides& sides,
                                 const ContactOptions& options,
                                 std::vector<std::int8_t> prescribed)
 {
   check::require(mesh.halo != nullptr, "mesh must have a halo");
-  const std::shared_ptr<parallel::Halo>& halo = mesh.halo;
+  const std::shared_ptr<mesh::Halo>& halo = mesh.halo;
   halo->ranks().agree([&] { problem::check(options, sides.is_self); });
   const auto* obstacle = std::get_if<Obstacle>(&sides.master);
   const auto slaves
-      = reference::make_slave_nodes(halo, sides.slave.facets, sides.level,
-                                    options.method, obstacle != nullptr);
+      = problem::make_slave_nodes(halo, sides.slave.facets, sides.level,
+                                  options.method, obstacle != nullptr);
   if (sides.weight)
     halo->ranks().agree([&]
                         { slaves->set_weight(sides.weight(slaves->owned())); });
   const std::shared_ptr<law::Law> law = law_of(options);
-  const reference::MasterOptions how{.method = options.method,
-                                     .sliding = options.sliding,
-                                     .search_distance = options.search_distance,
-                                     .level = sides.level,
-                                     .is_self = sides.is_self,
-                                     .excluded_distance
-                                     = options.excluded_distance,
-                                     .is_smooth = options.smooth};
+  const MasterOptions how{.method = options.method,
+                                   .sliding = options.sliding,
+                                   .search_distance = options.search_distance,
+                                   .level = sides.level,
+                                   .is_self = sides.is_self,
+                                   .excluded_distance
+                                   = options.excluded_distance,
+                                   .is_smooth = options.smooth};
   contact::Contact::Options kinematics{.sliding = options.sliding,
                                        .method = options.method,
                                        .prescribed = std::move(prescribed),
@@ -141,24 +141,24 @@ contactx::problem::make_contact(const reference::Mesh& mesh, const Sides& sides,
         halo, slaves, std::move(master), law, std::move(kinematics));
   };
   if (obstacle)
-    make(reference::make_master(mesh, slaves, sides.slave.name, *obstacle, *law,
-                                how));
+    make(problem::make_master(mesh, slaves, sides.slave.name, *obstacle, *law,
+                              how));
   else
   {
-    const auto& surface = std::get<reference::NamedSurface>(sides.master);
-    const auto master = reference::make_master(mesh, slaves, sides.slave.name,
-                                               surface, *law, how);
+    const auto& surface = std::get<mesh::NamedSurface>(sides.master);
+    const auto master = problem::make_master(mesh, slaves, sides.slave.name,
+                                             surface, *law, how);
     // Nodes that a surface shares with itself have gaps all the same
     if (not sides.is_self)
     {
       kinematics.shared
-          = reference::shared_nodes(*halo, slaves->own(), surface.facets);
+          = mesh::shared_nodes(*halo, slaves->own(), surface.facets);
       kinematics.shared.resize(halo->num_owned());
     }
     make(master);
     if (not sides.is_self)
-      reference::check_facing(*halo, *slaves, sides.slave.name, *master,
-                              surface.name);
+      problem::check_facing(*halo, *slaves, sides.slave.name, *master,
+                            surface.name);
   }
   contact->nodes()->along = options.tangential_factor;
   return contact;

@@ -5,9 +5,9 @@
 
 #include "../contact/contact.h"
 #include "../contact/method.h"
+#include "../geometry/obstacle.h"
 #include "../law/law.h"
-#include "../obstacle/obstacle.h"
-#include "../reference/mesh.h"
+#include "../mesh/mesh.h"
 #include <functional>
 #include <memory>
 #include <optional>
@@ -38,7 +38,7 @@ struct ContactOptions
   /// Gaps and overlaps of the reference configuration up to this length count
   /// as none, see contact::Contact::Options
   std::optional<double> adjust = {};
-  /// Whether linear facets stand for smooth surfaces, see facet::SmoothFacet
+  /// Whether linear facets stand for smooth surfaces, see geometry::SmoothFacet
   bool smooth = false;
   /// Complementarity factor along the surface as a part of the normal one
   double tangential_factor = 1;
@@ -53,13 +53,12 @@ void check(const ContactOptions& options, bool is_self);
 /// @brief Both sides of a contact.
 struct Sides
 {
-  reference::NamedSurface slave; ///< facets of this rank's cells
+  mesh::NamedSurface slave; ///< facets of this rank's cells
   /// Another surface, or an obstacle
-  std::variant<reference::NamedSurface, std::shared_ptr<obstacle::Obstacle>>
-      master;
+  std::variant<mesh::NamedSurface, std::shared_ptr<geometry::Obstacle>> master;
   bool is_self = false; ///< whether the master is the slave surface itself
-  /// Where the bulk's nodes are on quadratic facets, see facet::Shares; empty
-  /// where the displacement is linear
+  /// Where the bulk's nodes are on quadratic facets, see geometry::Shares;
+  /// empty where the displacement is linear
   std::vector<std::int8_t> level = {};
   /// Factor of contact's integrals at some nodes, at least 0: 2 pi r in
   /// axisymmetric models, a thickness; one if empty
@@ -84,7 +83,7 @@ std::string name_of(const Sides& sides, contact::Sliding sliding);
 /// share nodes that are no crack's tip or face away from each other, a body
 /// lies wholly inside its master, or an obstacle's parameters do not fit.
 std::shared_ptr<contact::Contact>
-make_contact(const reference::Mesh& mesh, const Sides& sides,
+make_contact(const mesh::Mesh& mesh, const Sides& sides,
              const ContactOptions& options,
              std::vector<std::int8_t> prescribed);
 } // namespace contactx::problem

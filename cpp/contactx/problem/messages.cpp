@@ -6,7 +6,7 @@
 
 using namespace contactx;
 using namespace contactx::problem;
-using newton::Verdict;
+using solve::Verdict;
 
 std::string contactx::problem::failure_of(Verdict verdict, double moved)
 {

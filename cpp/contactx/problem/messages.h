@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "../newton/loop.h"
+#include "../solve/loop.h"
 #include <string>
 #include <string_view>
 
@@ -15,7 +15,7 @@ namespace contactx::problem
 /// @param[in] moved Length, or angle in degrees, that a body which nothing
 /// supports has moved by.
 /// @return Empty where the loop goes on or has found a solution.
-std::string failure_of(newton::Verdict verdict, double moved);
+std::string failure_of(solve::Verdict verdict, double moved);
 
 /// @brief Say that iterations did not converge, and what may help.
 /// @param[in] count Number of iterations, or what limits it.

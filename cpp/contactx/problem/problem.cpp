@@ -3,10 +3,10 @@
 
 #include "problem.h"
 #include "../law/law.h"
-#include "../newton/derivative_check.h"
-#include "../newton/not_finite.h"
-#include "../parallel/extent.h"
-#include "../parallel/found_nodes.h"
+#include "../mesh/extent.h"
+#include "../mesh/found_nodes.h"
+#include "../solve/derivative_check.h"
+#include "../solve/not_finite.h"
 #include "../text.h"
 #include "messages.h"
 #include <algorithm>
@@ -18,7 +18,7 @@
 
 using namespace contactx;
 using namespace contactx::problem;
-using newton::Verdict;
+using solve::Verdict;
 
 namespace
 {
@@ -62,16 +62,16 @@ std::string join(const std::vector<std::string>& texts, const char* between)
 }
 } // namespace
 
-Problem::Problem(std::shared_ptr<newton::System> system,
-                 std::shared_ptr<const contact::Bodies> bodies,
+Problem::Problem(std::shared_ptr<solve::System> system,
+                 std::shared_ptr<const mesh::Bodies> bodies,
                  std::vector<Part> parts, bool refuses)
     : _system(std::move(system)), _halo(_system->halo()),
       _parts(std::move(parts)), _refuses(refuses),
       _loop(_system, std::move(bodies)),
-      _size(std::ranges::max(parallel::extent(
-          _halo->ranks(),
-          _halo->reference().first(_system->num_displacements()),
-          _halo->gdim())))
+      _size(std::ranges::max(
+          mesh::extent(_halo->ranks(),
+                       _halo->reference().first(_system->num_displacements()),
+                       _halo->gdim())))
 {
   if (_parts.size() != _system->contacts().size())
     throw std::invalid_argument("there must be a part for each contact");
@@ -173,7 +173,7 @@ void Problem::solve(LinearSolver& solver, const Tolerances& tolerances)
     if (not converged)
       reason = _found->failure;
   }
-  catch (const newton::NotFinite& error)
+  catch (const solve::NotFinite& error)
   {
     reason = error.what();
   }
@@ -290,7 +290,7 @@ bool Problem::iterate(LinearSolver& solver, const Tolerances& tolerances)
       solver.update();
       solver.solve(b, dx);
     }
-    catch (const newton::NotFinite& error)
+    catch (const solve::NotFinite& error)
     {
       _found->failure = error.what();
       return false;
@@ -298,19 +298,18 @@ bool Problem::iterate(LinearSolver& solver, const Tolerances& tolerances)
     if (not _loop.softens(dx))
     {
       _system->unknowns(x);
-      take(
-          _loop.limit(dx,
-                      [&](double part)
-                      {
-                        take(part);
-                        _system->residual(force);
-                        const bool is_finite = std::ranges::all_of(
-                            force, [](double f) { return std::isfinite(f); });
-                        if (not parallel::everywhere(_halo->ranks(), is_finite))
-                          return std::numeric_limits<double>::infinity();
-                        solver.solve(force, correction);
-                        return _loop.size_of(correction);
-                      }));
+      take(_loop.limit(dx,
+                       [&](double part)
+                       {
+                         take(part);
+                         _system->residual(force);
+                         const bool is_finite = std::ranges::all_of(
+                             force, [](double f) { return std::isfinite(f); });
+                         if (not mesh::everywhere(_halo->ranks(), is_finite))
+                           return std::numeric_limits<double>::infinity();
+                         solver.solve(force, correction);
+                         return _loop.size_of(correction);
+                       }));
     }
     moved();
   }
@@ -342,8 +341,8 @@ void Problem::check_finite()
       ++count;
       nodes.push_back(static_cast<std::int32_t>(i / _halo->gdim()));
     }
-  count = parallel::total(_halo->ranks(), count);
-  const auto found = parallel::found_nodes(*_halo, nodes, _halo->reference());
+  count = mesh::total(_halo->ranks(), count);
+  const auto found = mesh::found_nodes(*_halo, nodes, _halo->reference());
   if (count > 0)
     throw std::invalid_argument(
         "the displacement u is not finite at " + std::to_string(count)
@@ -354,7 +353,7 @@ void Problem::check_finite()
 
 void Problem::check_prescribed()
 {
-  const auto bad = parallel::total<std::int64_t>(
+  const auto bad = mesh::total<std::int64_t>(
       _halo->ranks(),
       std::ranges::count_if(_system->bulk()->defect(),
                             [](double d) { return not std::isfinite(d); }));
@@ -369,7 +368,7 @@ void Problem::check_prescribed()
 /// Dirichlet conditions must keep no slave node inside a rigid obstacle.
 void Problem::check_kept()
 {
-  newton::Bulk& bulk = *_system->bulk();
+  solve::Bulk& bulk = *_system->bulk();
   const std::span<const double> u = bulk.displacements(),
                                 X = _halo->reference();
   const std::vector<double> own(u.begin(), u.end());
@@ -380,10 +379,10 @@ void Problem::check_kept()
   for (std::size_t k = 0; k < _parts.size(); ++k)
   {
     contact::Contact& contact = *_system->contacts()[k];
-    const auto found = parallel::found_nodes(*_halo, contact.kept_inside(x), X);
+    const auto found = mesh::found_nodes(*_halo, contact.kept_inside(x), X);
     if (found.count == 0)
       continue;
-    const double size = std::ranges::max(parallel::extent(
+    const double size = std::ranges::max(mesh::extent(
         _halo->ranks(), contact.slaves().owned(), X, _halo->gdim()));
     throw std::invalid_argument(
         _parts[k].name + " is over-constrained: Dirichlet conditions constrain "
@@ -446,7 +445,7 @@ void Problem::start(bool damped)
     is_finite = _loop.begin_step(damped);
   }
   if (not is_finite)
-    throw newton::NotFinite(
+    throw solve::NotFinite(
         "the residual is not finite: the material fails at the start of the "
         "step, or a load or coefficient of F is NaN or infinite. Take smaller "
         "load steps, or repair what sets it (manual: "
@@ -520,7 +519,7 @@ AuditReport Problem::audit()
   const auto looks = _audit->look();
   for (std::size_t k = 0; k < looks.size(); ++k)
     add(report, _parts[k].name, *_system->contacts()[k], looks[k], _size);
-  newton::Bulk& bulk = *_system->bulk();
+  solve::Bulk& bulk = *_system->bulk();
   // A linear material does not notice cells inside out, nor do contacts of
   // small sliding
   const bool matters
@@ -604,8 +603,8 @@ void Problem::check_refusal()
 
 void Problem::summarise()
 {
-  const active_set::ActiveSet& active_set = _loop.active_set();
-  const active_set::FreeBodies& bodies = _loop.free_bodies();
+  const solve::ActiveSet& active_set = _loop.active_set();
+  const solve::FreeBodies& bodies = _loop.free_bodies();
   const auto& gaps = active_set.hidden_gaps();
   _report.frozen_gap = gaps.empty() ? 0 : std::ranges::min(gaps);
   _report.soft = active_set.soft_iterations();
@@ -648,9 +647,9 @@ void Problem::complete()
         sums[1] += work;
     }
   }
-  parallel::Ranks& ranks = _halo->ranks();
-  ranks.reduce(std::span<std::int64_t>(counts), parallel::Reduction::sum);
-  ranks.reduce(std::span<double>(sums), parallel::Reduction::sum);
+  mesh::Ranks& ranks = _halo->ranks();
+  ranks.reduce(std::span<std::int64_t>(counts), mesh::Reduction::sum);
+  ranks.reduce(std::span<double>(sums), mesh::Reduction::sum);
   _report.slaves = counts[0];
   _report.pairs = counts[1];
   _report.immobile = counts[2];
@@ -671,20 +670,20 @@ std::string Problem::warning_of(std::size_t k)
 {
   contact::Contact& contact = *_system->contacts()[k];
   contact::Master& master = *contact.master();
-  parallel::Ranks& ranks = _halo->ranks();
+  mesh::Ranks& ranks = _halo->ranks();
   const std::string& name = _parts[k].name;
   // A surface need not meet itself
   const bool is_expected
       = contact.is_active() and not _may_fly and not contact.is_self();
   const auto paired = master.paired();
   if (is_expected
-      and not parallel::anywhere(
+      and not mesh::anywhere(
           ranks, std::ranges::any_of(paired, [](auto p) { return p != 0; })))
   {
     // Where its nodes were paired, or should have been
     const bool is_small = contact.sliding() == contact::Sliding::small;
     const auto X = _halo->reference();
-    const double distance = parallel::least(
+    const double distance = mesh::least(
         ranks,
         master.distance(is_small ? std::vector<double>(X.begin(), X.end())
                                  : _halo->now()->x));
@@ -709,7 +708,7 @@ std::string Problem::warning_of(std::size_t k)
   if (k >= gaps.size() or not(gaps[k] < 0))
     return {};
   const auto frozen
-      = parallel::total<std::int64_t>(ranks, std::ssize(master.frozen_pairs()));
+      = mesh::total<std::int64_t>(ranks, std::ssize(master.frozen_pairs()));
   return name + ": " + std::to_string(frozen)
          + " pairs went back and forth between facets and were frozen; they "
            "hide a penetration of "
@@ -763,10 +762,10 @@ bool Problem::damping_may_help() const
 
 std::string Problem::why_slow(std::span<const double> direction)
 {
-  const double error = newton::least_derivative_error(
+  const double error = solve::least_derivative_error(
       *_system, direction.first(_system->num_displacements()),
       _loop.convergence().extent());
-  if (error > newton::wrong_derivative)
+  if (error > solve::wrong_derivative)
     return "the Jacobian is not the derivative of F: along the last step it "
            "differs by "
            + number_text(100 * error, 2)

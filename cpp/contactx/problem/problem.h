@@ -4,7 +4,7 @@
 #pragma once
 
 #include "../audit/audit.h"
-#include "../newton/loop.h"
+#include "../solve/loop.h"
 #include "audit_report.h"
 #include "snapshot.h"
 #include "step_plan.h"
@@ -28,7 +28,7 @@ public:
 
 /// @brief An accepted iterate after its pairs and its active set were updated,
 /// as all ranks see it.
-struct Settled : newton::Iterate
+struct Settled : solve::Iterate
 {
   int number = 0;   ///< linear solves so far
   double scale = 0; ///< forces that the tolerance is relative to
@@ -43,20 +43,20 @@ struct Settled : newton::Iterate
 };
 
 /// @brief Solves with the Jacobian of a problem's iterates, see
-/// newton::System for its unknowns. A host provides it; all ranks take part.
+/// solve::System for its unknowns. A host provides it; all ranks take part.
 class LinearSolver
 {
 public:
   virtual ~LinearSolver() = default;
 
   /// @brief Take the Jacobian of the iterate that was judged last, with the
-  /// springs of free bodies (newton::Loop::free_bodies) on its diagonal.
+  /// springs of free bodies (solve::Loop::free_bodies) on its diagonal.
   virtual void update() = 0;
 
   /// @brief Solve.
   /// @param[in] b Right-hand side (shape=(size)).
   /// @param[out] x Solution (shape=(size)).
-  /// @throws newton::NotFinite if there is none.
+  /// @throws solve::NotFinite if there is none.
   virtual void solve(std::span<const double> b, std::span<double> x) = 0;
 };
 
@@ -136,15 +136,15 @@ public:
   /// @param[in] refuses Whether what the audit finds fails a step; else it is
   /// warned of.
   /// @throws std::invalid_argument if there are not as many parts as contacts.
-  Problem(std::shared_ptr<newton::System> system,
-          std::shared_ptr<const contact::Bodies> bodies,
-          std::vector<Part> parts, bool refuses = true);
+  Problem(std::shared_ptr<solve::System> system,
+          std::shared_ptr<const mesh::Bodies> bodies, std::vector<Part> parts,
+          bool refuses = true);
 
   /// @brief Bulk and contacts.
-  const std::shared_ptr<newton::System>& system() const { return _system; }
+  const std::shared_ptr<solve::System>& system() const { return _system; }
 
   /// @brief Newton's method.
-  newton::Loop& loop() { return _loop; }
+  solve::Loop& loop() { return _loop; }
 
   /// @brief Report of the step.
   const Report& report() const { return _report; }
@@ -229,7 +229,7 @@ public:
   /// @brief Start a load step from the displacements of now, with the loads and
   /// Dirichlet values of now. If that throws, all is as it was before.
   /// @throws std::invalid_argument as `prepare` does.
-  /// @throws newton::NotFinite as `start` does.
+  /// @throws solve::NotFinite as `start` does.
   void begin_step();
 
   /// @brief Check the state that a step starts from, and save it.
@@ -242,7 +242,7 @@ public:
   /// @brief Start a step that was prepared, or once more one that has failed
   /// and was restored.
   /// @param[in] damped Whether steps are damped.
-  /// @throws newton::NotFinite if the residual is not finite.
+  /// @throws solve::NotFinite if the residual is not finite.
   void start(bool damped = false);
 
   /// @brief Read what a user may have changed since the last call, update pairs
@@ -266,7 +266,7 @@ public:
   /// @brief Read what a user may have changed since the last call.
   void read();
 
-  /// @brief Part of a step that may be taken, see newton::Loop::limit; zero
+  /// @brief Part of a step that may be taken, see solve::Loop::limit; zero
   /// where the step shall not be taken, as contact becomes soft instead.
   /// @param[in] dx Increment, which is added to the unknowns (shape=(size)).
   double limit(std::span<const double> dx);
@@ -332,11 +332,11 @@ private:
   std::string warning_of(std::size_t contact);
   void complete();
 
-  std::shared_ptr<newton::System> _system;
-  std::shared_ptr<parallel::Halo> _halo;
+  std::shared_ptr<solve::System> _system;
+  std::shared_ptr<mesh::Halo> _halo;
   std::vector<Part> _parts;
   bool _refuses, _may_fly = false;
-  newton::Loop _loop;
+  solve::Loop _loop;
   std::function<void()> _before_step;
   std::function<std::string()> _before_accept;
   std::optional<audit::Audit> _audit;

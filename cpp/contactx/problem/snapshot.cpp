@@ -7,19 +7,19 @@
 using namespace contactx;
 using namespace contactx::problem;
 
-Snapshot::Snapshot(std::shared_ptr<newton::System> system,
+Snapshot::Snapshot(std::shared_ptr<solve::System> system,
                    std::vector<std::shared_ptr<results::Results>> results)
     : Snapshot(std::move(system), std::move(results), {})
 {
   for (const auto& result : _results)
     _copies.push_back(*result);
-  newton::Bulk& bulk = *_system->bulk();
+  solve::Bulk& bulk = *_system->bulk();
   const auto u = bulk.displacements();
   _state.displacements.assign(u.begin(), u.end());
   const auto start = _system->halo()->start();
   _state.start.assign(start->u.begin(),
                       start->u.begin() + std::ptrdiff_t(u.size()));
-  if (newton::Fields* fields = bulk.fields())
+  if (solve::Fields* fields = bulk.fields())
   {
     const auto values = fields->values();
     _state.fields.assign(values.begin(), values.end());
@@ -28,7 +28,7 @@ Snapshot::Snapshot(std::shared_ptr<newton::System> system,
     _state.contacts.push_back(contact::save(*contact));
 }
 
-Snapshot::Snapshot(std::shared_ptr<newton::System> system,
+Snapshot::Snapshot(std::shared_ptr<solve::System> system,
                    std::vector<std::shared_ptr<results::Results>> results,
                    State state)
     : _system(std::move(system)), _results(std::move(results)),
@@ -39,9 +39,9 @@ Snapshot::Snapshot(std::shared_ptr<newton::System> system,
 
 void Snapshot::restore() const
 {
-  newton::Bulk& bulk = *_system->bulk();
+  solve::Bulk& bulk = *_system->bulk();
   bulk.set_displacements(_state.displacements);
-  if (newton::Fields* fields = bulk.fields())
+  if (solve::Fields* fields = bulk.fields())
     fields->set(_state.fields);
   _system->halo()->set_start(_state.start);
   for (std::size_t k = 0; k < _state.contacts.size(); ++k)

@@ -4,8 +4,8 @@
 #pragma once
 
 #include "../contact/saved.h"
-#include "../newton/system.h"
 #include "../results/results.h"
+#include "../solve/system.h"
 
 namespace contactx::problem
 {
@@ -17,9 +17,9 @@ public:
   /// @brief What outlives a step, as arrays of this rank.
   struct State
   {
-    std::vector<double> displacements; ///< those of newton::Bulk
+    std::vector<double> displacements; ///< those of solve::Bulk
     std::vector<double> start;  ///< displacements of the step's start, likewise
-    std::vector<double> fields; ///< those of newton::Fields
+    std::vector<double> fields; ///< those of solve::Fields
     /// Those of each contact, see contact::save
     std::vector<std::vector<contact::Saved>> contacts;
   };
@@ -27,14 +27,14 @@ public:
   /// @brief Copy the state of now.
   /// @param[in] system The system.
   /// @param[in] results Results of each of its contacts, null for none.
-  Snapshot(std::shared_ptr<newton::System> system,
+  Snapshot(std::shared_ptr<solve::System> system,
            std::vector<std::shared_ptr<results::Results>> results);
 
   /// @brief Take the state of another run, whose results are evaluated anew.
   /// @param[in] system The system.
   /// @param[in] results Results of each of its contacts, null for none.
   /// @param[in] state The state, of contacts in the order of the system's.
-  Snapshot(std::shared_ptr<newton::System> system,
+  Snapshot(std::shared_ptr<solve::System> system,
            std::vector<std::shared_ptr<results::Results>> results, State state);
 
   /// @brief Return to it, bit for bit; collective.
@@ -43,7 +43,7 @@ public:
   void restore() const;
 
 private:
-  std::shared_ptr<newton::System> _system;
+  std::shared_ptr<solve::System> _system;
   std::vector<std::shared_ptr<results::Results>> _results;
   State _state;
   std::vector<results::Results> _copies; // none of another run

@@ -3,7 +3,7 @@
 
 #include "results.h"
 #include "../check.h"
-#include "../contact/transfer.h"
+#include "transfer.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -25,7 +25,7 @@ constexpr double weight_tolerance = 1e-10;
 /// Whether a weight is 2 pi r, or another multiple of a radius that varies.
 bool is_circumference(const Contact& contact)
 {
-  const parallel::Halo& halo = contact.halo();
+  const mesh::Halo& halo = contact.halo();
   const SlaveNodes& slaves = contact.slaves();
   const auto owned = slaves.owned();
   // On a rank without slave nodes there is no weight, either
@@ -42,7 +42,7 @@ bool is_circumference(const Contact& contact)
     most = {std::max(most[0], own[i]), std::max(most[1], radius[i]),
             std::max(most[2], -radius[i])};
   if (halo.ranks().size() > 1)
-    halo.ranks().reduce(std::span<double>(most), parallel::Reduction::largest);
+    halo.ranks().reduce(std::span<double>(most), mesh::Reduction::largest);
   const auto [largest, high, low] = most;
   if (not(largest > 0) or not(high > 0))
     return false;
@@ -54,8 +54,7 @@ bool is_circumference(const Contact& contact)
   const bool varies = high + low > weight_tolerance * high;
   const double circle = 2 * std::numbers::pi;
   const bool is_full = std::abs(factor - circle) <= weight_tolerance * factor;
-  return parallel::everywhere(halo.ranks(), is_multiple)
-         and (varies or is_full);
+  return mesh::everywhere(halo.ranks(), is_multiple) and (varies or is_full);
 }
 
 std::vector<std::int8_t> closed(const NodeState& nodes)
@@ -91,7 +90,7 @@ Results::Results(std::shared_ptr<const Contact> contact)
 {
   if (not _contact)
     throw std::invalid_argument("contact must not be empty");
-  const parallel::Halo& halo = _contact->halo();
+  const mesh::Halo& halo = _contact->halo();
   // The contact owns its slave nodes
   _recovery = std::make_shared<const Recovery>(
       std::shared_ptr<const SlaveNodes>(_contact, &_contact->slaves()),
@@ -154,7 +153,7 @@ void Results::measure()
 
 void Results::sum_forces()
 {
-  const parallel::Halo& halo = _contact->halo();
+  const mesh::Halo& halo = _contact->halo();
   const NodeState& nodes = *_contact->nodes();
   const int g = gdim();
   const std::vector<double> forces = nodal_forces(assembled());
@@ -169,7 +168,7 @@ void Results::sum_forces()
   add_rows(_on_slave, g, sums.data());
   add_rows(forces, g, sums.data() + 3);
   if (halo.ranks().size() > 1)
-    halo.ranks().reduce(std::span<double>(sums), parallel::Reduction::sum);
+    halo.ranks().reduce(std::span<double>(sums), mesh::Reduction::sum);
   std::copy_n(sums.begin(), 3, _force.begin());
   std::copy_n(sums.begin() + 3, 3, _imbalance.begin());
   // The force on a rigid obstacle goes to its support
@@ -188,7 +187,7 @@ std::vector<double> Results::assembled() const
 /// Forces on the owned nodes (num_owned, gdim); collective.
 std::vector<double> Results::nodal_forces(std::vector<double> forces) const
 {
-  const parallel::Halo& halo = _contact->halo();
+  const mesh::Halo& halo = _contact->halo();
   halo.reverse(forces, gdim());
   forces.resize(std::size_t(halo.num_owned()) * gdim());
   for (double& f : forces)
@@ -229,7 +228,7 @@ void Results::recover()
     recovered[k] = nodes.area[k / g] * ratio[k / g] * traction[k];
   _pressure = between(std::move(pressure), 1);
   _traction = between(std::move(traction), g);
-  _recovery_change = contact::recovery_change(_contact->halo().ranks(),
+  _recovery_change = results::recovery_change(_contact->halo().ranks(),
                                               _on_slave, recovered, g);
 }
 
@@ -268,9 +267,9 @@ Vector<3> Results::moment(std::span<const double> point) const
   Vector<3> sum{};
   for (std::size_t i = 0; i < _pressure.size(); ++i)
     sum = sum + cross(vector_at(_at, i, g) - about, vector_at(_on_slave, i, g));
-  parallel::Ranks& ranks = _contact->halo().ranks();
+  mesh::Ranks& ranks = _contact->halo().ranks();
   if (ranks.size() > 1)
-    ranks.reduce(std::span<double>(sum), parallel::Reduction::sum);
+    ranks.reduce(std::span<double>(sum), mesh::Reduction::sum);
   return sum;
 }
 
@@ -295,11 +294,11 @@ Totals Results::totals() const
   for (const double gap : nodes.gap)
     if (std::isfinite(gap))
       most[1] = std::max(most[1], -gap);
-  parallel::Ranks& ranks = _contact->halo().ranks();
+  mesh::Ranks& ranks = _contact->halo().ranks();
   if (ranks.size() > 1)
   {
-    ranks.reduce(std::span<double>(sums), parallel::Reduction::sum);
-    ranks.reduce(std::span<double>(most), parallel::Reduction::largest);
+    ranks.reduce(std::span<double>(sums), mesh::Reduction::sum);
+    ranks.reduce(std::span<double>(most), mesh::Reduction::largest);
   }
   return {static_cast<std::int64_t>(sums[0]),
           static_cast<std::int64_t>(sums[1]),
@@ -346,7 +345,7 @@ std::vector<double> Results::on_both(std::span<const double> values,
 std::vector<double> Results::across(std::span<const double> field) const
 {
   check_deformable();
-  const parallel::Halo& halo = _contact->halo();
+  const mesh::Halo& halo = _contact->halo();
   halo.ranks().agree(
       [&] { check::rows(field.size(), halo.num_owned(), 1, "field"); });
   const auto owned = _contact->slaves().owned();

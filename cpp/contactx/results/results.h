@@ -4,8 +4,8 @@
 #pragma once
 
 #include "../contact/contact.h"
-#include "../contact/recovery.h"
-#include "../vec.h"
+#include "../math/vec.h"
+#include "recovery.h"
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -51,7 +51,7 @@ public:
   int gdim() const { return _contact->halo().gdim(); }
 
   /// @brief Pressures, force/area, recovered from the multipliers, see
-  /// contact::Recovery; zero at open nodes (shape=(n)).
+  /// Recovery; zero at open nodes (shape=(n)).
   const std::vector<double>& pressure() const { return _pressure; }
 
   /// @brief Tractions that the master exerts, force/area, recovered
@@ -141,12 +141,12 @@ private:
   void recover();
   std::vector<double> assembled() const;
   std::vector<double> nodal_forces(std::vector<double> forces) const;
-  contact::Recovered tractions() const;
+  Recovered tractions() const;
   std::vector<double> between(std::vector<double> values, int width) const;
   void check_deformable() const;
 
   std::shared_ptr<const contact::Contact> _contact;
-  std::shared_ptr<const contact::Recovery> _recovery;
+  std::shared_ptr<const Recovery> _recovery;
   bool _is_axisymmetric;
 
   std::vector<double> _pressure, _traction, _master_pressure, _gap;

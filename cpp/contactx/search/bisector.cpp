@@ -2,12 +2,13 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "bisector.h"
+#include "../geometry/shape.h"
 #include "select.h"
 #include <cmath>
 
 using namespace contactx;
 using namespace contactx::search;
-using facet::Segment;
+using geometry::Segment;
 
 namespace
 {
@@ -30,7 +31,7 @@ std::optional<Projection> contactx::search::bisector(const Surface& surface,
   if (surface.gdim() != 2)
     return std::nullopt;
   const int end = q.xi[0] > 0.5 ? 1 : 0;
-  if (!(std::abs(q.xi[0] - end) <= margin))
+  if (!(std::abs(q.xi[0] - end) <= geometry::facet_margin))
     return std::nullopt;
 
   std::int32_t first = -1;

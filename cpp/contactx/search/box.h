@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "../vec.h"
+#include "../math/vec.h"
 #include <algorithm>
 #include <limits>
 

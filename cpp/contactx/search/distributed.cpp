@@ -3,7 +3,7 @@
 
 #include "distributed.h"
 #include "../check.h"
-#include "../mortar/facet_search.h"
+#include "facet_search.h"
 #include <algorithm>
 #include <stdexcept>
 
@@ -52,7 +52,7 @@ std::vector<double> rows(std::span<const double> values,
   return result;
 }
 
-bool same(const facet::FacetList& a, const facet::FacetList& b)
+bool same(const geometry::FacetList& a, const geometry::FacetList& b)
 {
   return std::ranges::equal(a.offsets, b.offsets)
          and std::ranges::equal(a.nodes, b.nodes);
@@ -62,7 +62,7 @@ bool same(const facet::FacetList& a, const facet::FacetList& b)
 /// What a surface begins with.
 struct DistributedSurface::Parts
 {
-  Parts(parallel::Halo& halo, const facet::Facets& own)
+  Parts(mesh::Halo& halo, const geometry::Facets& own)
       : own_records(joined(records(own.list(), halo))),
         around_records(around_facets(halo.ranks(), own_records))
   {
@@ -91,7 +91,7 @@ public:
             std::span<const std::byte> answers)
   {
     for (const Answer& a :
-         parallel::unpack<Answer>(answers, answers.size() / sizeof(Answer)))
+         mesh::unpack<Answer>(answers, answers.size() / sizeof(Answer)))
     {
       const std::int32_t i = which[a.point];
       const double before = found.distance[i];
@@ -116,21 +116,21 @@ private:
   std::vector<FacetKey> _key;
 };
 
-DistributedSurface::DistributedSurface(std::shared_ptr<parallel::Halo> halo,
-                                       facet::Facets own,
+DistributedSurface::DistributedSurface(std::shared_ptr<mesh::Halo> halo,
+                                       geometry::Facets own,
                                        std::span<const std::int8_t> level)
     : DistributedSurface(halo, Parts(*halo, own))
 {
-  _own_wholes = facet::wholes(this->own(), level);
+  _own_wholes = geometry::wholes(this->own(), level);
 }
 
-DistributedSurface::DistributedSurface(std::shared_ptr<parallel::Halo> halo,
+DistributedSurface::DistributedSurface(std::shared_ptr<mesh::Halo> halo,
                                        Parts parts)
-    : MasterSurface(
-          halo,
-          std::make_shared<const facet::Facets>(here(parts.own_records, *halo)),
-          std::make_shared<const facet::Facets>(
-              here(parts.around_records, *halo))),
+    : MasterSurface(halo,
+                    std::make_shared<const geometry::Facets>(
+                        here(parts.own_records, *halo)),
+                    std::make_shared<const geometry::Facets>(
+                        here(parts.around_records, *halo))),
       _own_records(std::move(parts.own_records)),
       _around_records(std::move(parts.around_records))
 {
@@ -203,22 +203,22 @@ void DistributedSurface::ask(
     const std::map<int, std::vector<std::int32_t>>& wanted, Best& best)
 {
   const int gdim = _halo->gdim();
-  parallel::Messages questions;
+  mesh::Messages questions;
   for (const auto& [rank, which] : wanted)
   {
     auto& bytes = questions[rank];
-    parallel::pack<double>(bytes, rows(points, which, gdim));
-    parallel::pack<double>(bytes, rows(normals, which, gdim));
-    parallel::pack<double>(bytes, rows(best.bound, which, 1));
+    mesh::pack<double>(bytes, rows(points, which, gdim));
+    mesh::pack<double>(bytes, rows(normals, which, gdim));
+    mesh::pack<double>(bytes, rows(best.bound, which, 1));
   }
-  parallel::Messages answers;
+  mesh::Messages answers;
   for (const auto& [rank, bytes] : _halo->ranks().exchange(questions))
   {
     std::span<const std::byte> left = bytes;
     const std::size_t n = bytes.size() / sizeof(double) / (2 * gdim + 1);
-    const auto p = parallel::unpack<double>(left, n * gdim);
-    const auto normal = parallel::unpack<double>(left, n * gdim);
-    auto bound = parallel::unpack<double>(left, n);
+    const auto p = mesh::unpack<double>(left, n * gdim);
+    const auto normal = mesh::unpack<double>(left, n * gdim);
+    auto bound = mesh::unpack<double>(left, n);
     answers[rank] = answer(x, p, normal, bound);
   }
   for (const auto& [rank, bytes] : _halo->ranks().exchange(answers))
@@ -255,7 +255,7 @@ std::vector<std::byte> DistributedSurface::answer(
     std::copy_n(found.normal.begin() + 3 * i, 3, answers.back().normal.begin());
   }
   std::vector<std::byte> bytes;
-  parallel::pack<Answer>(bytes, answers);
+  mesh::pack<Answer>(bytes, answers);
   return bytes;
 }
 
@@ -266,7 +266,7 @@ std::vector<std::int32_t> DistributedSurface::learn(const FacetRecords& facets)
                        [this](const FacetRecord& facet)
                        { return !_place.contains(facet.key()); });
   fresh = joined(std::move(fresh));
-  if (parallel::anywhere(_halo->ranks(), !fresh.empty()))
+  if (mesh::anywhere(_halo->ranks(), !fresh.empty()))
   {
     add_to(*_halo, fresh);
     FacetRecords known = std::move(_known);
@@ -289,7 +289,7 @@ void DistributedSurface::set_known(FacetRecords known)
 }
 
 std::int32_t DistributedSurface::pair(Pairing& pairing,
-                                      const facet::FacetList& slave,
+                                      const geometry::FacetList& slave,
                                       std::span<const double> x, double reach,
                                       std::span<const std::int8_t> closed)
 {
@@ -298,12 +298,12 @@ std::int32_t DistributedSurface::pair(Pairing& pairing,
   check::rows(closed.size(), pairing.slaves().size(), 1, "closed",
               "slave node");
   const std::vector<std::int32_t> left = pairing.seek(x, reach);
-  if (!parallel::anywhere(_halo->ranks(), !left.empty()))
+  if (!mesh::anywhere(_halo->ranks(), !left.empty()))
     return 0;
   std::vector<std::int32_t> nodes;
   for (const std::int32_t i : left)
     nodes.push_back(pairing.slaves()[i]);
-  const std::vector<double> normals = facet::nodal_normals(slave, x, gdim);
+  const std::vector<double> normals = geometry::nodal_normals(slave, x, gdim);
   const Found found
       = find(x, rows(x, nodes, gdim), rows(normals, nodes, gdim), reach);
   std::vector<std::optional<Projection>> places(left.size());
@@ -344,16 +344,16 @@ DistributedSurface::settle(Pairing& pairing, std::span<const std::int32_t> left,
 }
 
 void DistributedSurface::look(std::span<const double> x,
-                              const facet::FacetList& slave, double reach,
+                              const geometry::FacetList& slave, double reach,
                               double margin)
 {
   const int gdim = _halo->gdim();
   check::positions(x.size(), _finder.surface().num_nodes(), gdim);
-  parallel::Ranks& ranks = _halo->ranks();
+  mesh::Ranks& ranks = _halo->ranks();
   const std::vector<std::int8_t> near
       = Reach(ranks, own(), x, gdim).from_facets(x, slave, reach, margin);
   // Sizes of the facets, then their corners
-  parallel::Messages questions;
+  mesh::Messages questions;
   for (int rank = 0; rank < ranks.size(); ++rank)
   {
     std::vector<std::int32_t> which, sizes{0}, nodes;
@@ -366,19 +366,19 @@ void DistributedSurface::look(std::span<const double> x,
     if (nodes.empty())
       continue;
     sizes.front() = static_cast<std::int32_t>(sizes.size()) - 1;
-    parallel::pack<std::int32_t>(questions[rank], sizes);
-    parallel::pack<double>(questions[rank], rows(x, nodes, gdim));
+    mesh::pack<std::int32_t>(questions[rank], sizes);
+    mesh::pack<double>(questions[rank], rows(x, nodes, gdim));
   }
   // One search for what all ranks ask: its tree is made once
-  facet::Facets theirs;
+  geometry::Facets theirs;
   std::vector<double> every(x.begin(), x.end());
   std::vector<int> asker;
   for (const auto& [rank, bytes] : ranks.exchange(questions))
   {
     std::span<const std::byte> left = bytes;
-    const std::int32_t count = parallel::unpack<std::int32_t>(left, 1).front();
+    const std::int32_t count = mesh::unpack<std::int32_t>(left, 1).front();
     std::int32_t corners = 0;
-    for (const std::int32_t size : parallel::unpack<std::int32_t>(left, count))
+    for (const std::int32_t size : mesh::unpack<std::int32_t>(left, count))
     {
       for (std::int32_t l = 0; l < size; ++l)
         theirs.nodes.push_back(static_cast<std::int32_t>(every.size() / gdim)
@@ -386,14 +386,14 @@ void DistributedSurface::look(std::span<const double> x,
       theirs.offsets.push_back(static_cast<std::int32_t>(theirs.nodes.size()));
       asker.push_back(rank);
     }
-    const auto more = parallel::unpack<double>(
-        left, static_cast<std::size_t>(corners) * gdim);
+    const auto more
+        = mesh::unpack<double>(left, static_cast<std::size_t>(corners) * gdim);
     every.insert(every.end(), more.begin(), more.end());
   }
   std::map<int, std::vector<std::int32_t>> found;
   if (!asker.empty())
   {
-    mortar::FacetSearch search(std::move(theirs.offsets),
+    FacetSearch search(std::move(theirs.offsets),
                                std::move(theirs.nodes),
                                {own().offsets.begin(), own().offsets.end()},
                                {own().nodes.begin(), own().nodes.end()}, gdim);
@@ -401,7 +401,7 @@ void DistributedSurface::look(std::span<const double> x,
     for (std::size_t i = 0; i < pairs.size(); ++i)
       found[asker[pairs.slave[i]]].push_back(pairs.master[i]);
   }
-  parallel::Messages answers;
+  mesh::Messages answers;
   for (auto& [rank, masters] : found)
   {
     FacetRecords records;
@@ -411,14 +411,14 @@ void DistributedSurface::look(std::span<const double> x,
         whole.push_back(part);
     for (const std::int32_t f : sorted_unique(whole))
       records.push_back(_own_records[f]);
-    parallel::pack<FacetRecord>(answers[rank], records);
+    mesh::pack<FacetRecord>(answers[rank], records);
   }
   FacetRecords got;
   for (const auto& [rank, bytes] : ranks.exchange(answers))
   {
     std::span<const std::byte> left = bytes;
-    const auto records = parallel::unpack<FacetRecord>(
-        left, bytes.size() / sizeof(FacetRecord));
+    const auto records
+        = mesh::unpack<FacetRecord>(left, bytes.size() / sizeof(FacetRecord));
     got.insert(got.end(), records.begin(), records.end());
   }
   learn(got);
@@ -449,7 +449,7 @@ DistributedSurface::keep(std::span<const std::int32_t> used)
 std::vector<std::int32_t>
 DistributedSurface::named(std::span<const std::int64_t> names)
 {
-  parallel::Ranks& ranks = _halo->ranks();
+  mesh::Ranks& ranks = _halo->ranks();
   ranks.agree(
       [names]
       {
@@ -469,17 +469,17 @@ DistributedSurface::named(std::span<const std::int64_t> names)
   const auto twice = std::unique(missing.begin(), missing.end());
   missing.erase(twice, missing.end());
   // All may have what is not known here
-  parallel::Messages questions;
+  mesh::Messages questions;
   if (!missing.empty())
     for (int rank = 0; rank < ranks.size(); ++rank)
-      parallel::pack<FacetKey>(questions[rank], missing);
-  parallel::Messages answers;
+      mesh::pack<FacetKey>(questions[rank], missing);
+  mesh::Messages answers;
   for (const auto& [rank, bytes] : ranks.exchange(questions))
   {
     std::span<const std::byte> left = bytes;
     FacetRecords theirs;
     for (const FacetKey& key :
-         parallel::unpack<FacetKey>(left, bytes.size() / sizeof(FacetKey)))
+         mesh::unpack<FacetKey>(left, bytes.size() / sizeof(FacetKey)))
     {
       const auto at
           = std::ranges::lower_bound(_own_records, key, {}, &FacetRecord::key);
@@ -487,18 +487,18 @@ DistributedSurface::named(std::span<const std::int64_t> names)
         theirs.push_back(*at);
     }
     if (!theirs.empty())
-      parallel::pack<FacetRecord>(answers[rank], theirs);
+      mesh::pack<FacetRecord>(answers[rank], theirs);
   }
   FacetRecords got;
   for (const auto& [rank, bytes] : ranks.exchange(answers))
   {
     std::span<const std::byte> left = bytes;
-    const auto records = parallel::unpack<FacetRecord>(
-        left, bytes.size() / sizeof(FacetRecord));
+    const auto records
+        = mesh::unpack<FacetRecord>(left, bytes.size() / sizeof(FacetRecord));
     got.insert(got.end(), records.begin(), records.end());
   }
   got = joined(std::move(got));
-  if (parallel::anywhere(ranks, got.size() < missing.size()))
+  if (mesh::anywhere(ranks, got.size() < missing.size()))
     throw std::invalid_argument("a pair with a facet that does not exist");
   learn(got);
   std::vector<std::int32_t> which(keys.size(), -1);

@@ -22,15 +22,15 @@ public:
   /// @param[in] halo Nodes of this rank.
   /// @param[in] own Facets of the surface that this rank has.
   /// @param[in] level See make_master_surface.
-  DistributedSurface(std::shared_ptr<parallel::Halo> halo, facet::Facets own,
+  DistributedSurface(std::shared_ptr<mesh::Halo> halo, geometry::Facets own,
                      std::span<const std::int8_t> level = {});
 
   Found find(std::span<const double> x, std::span<const double> points,
              std::span<const double> normals, double reach) override;
-  std::int32_t pair(Pairing& pairing, const facet::FacetList& slave,
+  std::int32_t pair(Pairing& pairing, const geometry::FacetList& slave,
                     std::span<const double> x, double reach,
                     std::span<const std::int8_t> closed) override;
-  void look(std::span<const double> x, const facet::FacetList& slave,
+  void look(std::span<const double> x, const geometry::FacetList& slave,
             double reach, double margin) override;
   std::vector<std::int32_t> keep(std::span<const std::int32_t> used) override;
   std::vector<std::int32_t> named(std::span<const std::int64_t> names) override;
@@ -59,7 +59,7 @@ private:
   struct Parts;
   class Best;
 
-  DistributedSurface(std::shared_ptr<parallel::Halo> halo, Parts parts);
+  DistributedSurface(std::shared_ptr<mesh::Halo> halo, Parts parts);
 
   // Ask ranks for the points that are wanted of them, and take what is better
   void ask(std::span<const double> x, std::span<const double> points,
@@ -77,7 +77,7 @@ private:
   void set_known(FacetRecords known);
 
   FacetRecords _own_records, _around_records, _known;
-  facet::Wholes _own_wholes;
+  geometry::Wholes _own_wholes;
   std::vector<std::int8_t> _is_own;        // of those around
   std::map<FacetKey, std::int32_t> _place; // in _known
 };

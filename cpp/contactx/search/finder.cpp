@@ -10,7 +10,7 @@ using namespace contactx::search;
 
 Found::Found(std::size_t n)
     : distance(n, std::numeric_limits<double>::infinity()), facet(n, -1),
-      feature(n, facet::interior), gap(n), xi(2 * n), normal(3 * n)
+      feature(n, geometry::interior), gap(n), xi(2 * n), normal(3 * n)
 {
 }
 
@@ -48,7 +48,7 @@ FoundPlace Finder::find(std::span<const double> x, const Vector<3>& p,
       = nearest_facet(_surface, *_tree, x, p, normal, reach, hint, accepts);
   if (found.nearest)
     found.selected = select(_surface, x, p, *found.nearest);
-  if (found.selected and found.selected->feature == facet::interior)
+  if (found.selected and found.selected->feature == geometry::interior)
     if (const auto half_way = bisector(_surface, x, p, *found.selected))
       found.selected = half_way;
   return found;

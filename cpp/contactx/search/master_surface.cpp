@@ -11,26 +11,26 @@
 using namespace contactx;
 using namespace contactx::search;
 
-MasterSurface::MasterSurface(std::shared_ptr<parallel::Halo> halo,
-                             std::shared_ptr<const facet::Facets> own,
-                             std::shared_ptr<const facet::Facets> around)
+MasterSurface::MasterSurface(std::shared_ptr<mesh::Halo> halo,
+                             std::shared_ptr<const geometry::Facets> own,
+                             std::shared_ptr<const geometry::Facets> around)
     : _halo(std::move(halo)),
       _finder(around->offsets, around->nodes, _halo->gdim()), _facets(own),
       _own(std::move(own)), _around(std::move(around))
 {
 }
 
-MasterSurface::MasterSurface(std::shared_ptr<parallel::Halo> halo,
-                             facet::Facets own)
+MasterSurface::MasterSurface(std::shared_ptr<mesh::Halo> halo,
+                             geometry::Facets own)
     : _halo(std::move(halo)), _finder(own.offsets, own.nodes, _halo->gdim()),
-      _facets(std::make_shared<const facet::Facets>(std::move(own))),
+      _facets(std::make_shared<const geometry::Facets>(std::move(own))),
       _own(_facets), _around(_facets)
 {
 }
 
-void MasterSurface::set_facets(facet::Facets facets)
+void MasterSurface::set_facets(geometry::Facets facets)
 {
-  _facets = std::make_shared<const facet::Facets>(std::move(facets));
+  _facets = std::make_shared<const geometry::Facets>(std::move(facets));
   ++_version;
 }
 
@@ -68,7 +68,7 @@ Found MasterSurface::find_of_nodes(std::span<const double> x,
   return find(x, points, normals, reach);
 }
 
-std::int32_t MasterSurface::pair(Pairing& pairing, const facet::FacetList&,
+std::int32_t MasterSurface::pair(Pairing& pairing, const geometry::FacetList&,
                                  std::span<const double> x, double reach,
                                  std::span<const std::int8_t> closed)
 {
@@ -78,7 +78,7 @@ std::int32_t MasterSurface::pair(Pairing& pairing, const facet::FacetList&,
   return pairing.update(x, reach, closed);
 }
 
-void MasterSurface::look(std::span<const double>, const facet::FacetList&,
+void MasterSurface::look(std::span<const double>, const geometry::FacetList&,
                          double, double)
 {
 }
@@ -106,12 +106,12 @@ double MasterSurface::mean(std::span<const double> nodal)
   for (const std::int32_t node : own().nodes)
     sums[0] += nodal[node];
   if (_halo->ranks().size() > 1)
-    _halo->ranks().reduce(sums, parallel::Reduction::sum);
+    _halo->ranks().reduce(sums, mesh::Reduction::sum);
   return sums[0] / sums[1];
 }
 
 std::vector<std::int64_t>
-MasterSurface::names_of(const facet::FacetList& facets) const
+MasterSurface::names_of(const geometry::FacetList& facets) const
 {
   std::vector<std::int64_t> names(
       static_cast<std::size_t>(facets.size()) * most_nodes, -1);
@@ -163,11 +163,11 @@ MasterSurface::named(std::span<const std::int64_t> names)
 }
 
 std::shared_ptr<MasterSurface> contactx::search::make_master_surface(
-    std::shared_ptr<parallel::Halo> halo, std::span<const std::int32_t> offsets,
+    std::shared_ptr<mesh::Halo> halo, std::span<const std::int32_t> offsets,
     std::span<const std::int32_t> nodes, std::span<const std::int8_t> level)
 {
-  facet::Facets own{{offsets.begin(), offsets.end()},
-                    {nodes.begin(), nodes.end()}};
+  geometry::Facets own{{offsets.begin(), offsets.end()},
+                       {nodes.begin(), nodes.end()}};
   if (halo->ranks().size() == 1)
     return std::make_shared<MasterSurface>(std::move(halo), std::move(own));
   return std::make_shared<DistributedSurface>(std::move(halo), std::move(own),

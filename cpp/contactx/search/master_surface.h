@@ -3,8 +3,8 @@
 
 #pragma once
 
-#include "../facet/facets.h"
-#include "../parallel/halo.h"
+#include "../geometry/facets.h"
+#include "../mesh/halo.h"
 #include "pairing.h"
 
 namespace contactx::search
@@ -17,19 +17,19 @@ public:
   /// @brief Take the facets.
   /// @param[in] halo Nodes of this rank.
   /// @param[in] own Facets of the surface.
-  MasterSurface(std::shared_ptr<parallel::Halo> halo, facet::Facets own);
+  MasterSurface(std::shared_ptr<mesh::Halo> halo, geometry::Facets own);
 
   virtual ~MasterSurface() = default;
 
   /// @brief Facets that pairs are with; the view ends when they change.
-  facet::FacetList facets() const { return _facets->list(); }
+  geometry::FacetList facets() const { return _facets->list(); }
 
   /// @brief Facets of this rank.
-  facet::FacetList own() const { return _own->list(); }
+  geometry::FacetList own() const { return _own->list(); }
 
   /// @brief Facets of this rank and all that share a node with them; some more
   /// in the plane.
-  facet::FacetList around() const { return _around->list(); }
+  geometry::FacetList around() const { return _around->list(); }
 
   /// @brief Counts how often `facets` has changed.
   int version() const { return _version; }
@@ -72,7 +72,7 @@ public:
   /// @param[in] closed Whether slave nodes are in contact
   /// (shape=(num_slaves)).
   /// @return Number of this rank's nodes in contact that changed their facet.
-  virtual std::int32_t pair(Pairing& pairing, const facet::FacetList& slave,
+  virtual std::int32_t pair(Pairing& pairing, const geometry::FacetList& slave,
                             std::span<const double> x, double reach,
                             std::span<const std::int8_t> closed);
 
@@ -82,7 +82,7 @@ public:
   /// @param[in] slave Slave facets.
   /// @param[in] reach Largest distance.
   /// @param[in] margin By which part slave facets are enlarged.
-  virtual void look(std::span<const double> x, const facet::FacetList& slave,
+  virtual void look(std::span<const double> x, const geometry::FacetList& slave,
                     double reach, double margin);
 
   /// @brief Keep some facets and drop the others, once the halo has shrunk.
@@ -117,24 +117,24 @@ public:
 
 protected:
   /// @brief Take the facets of this rank, and those around them.
-  MasterSurface(std::shared_ptr<parallel::Halo> halo,
-                std::shared_ptr<const facet::Facets> own,
-                std::shared_ptr<const facet::Facets> around);
+  MasterSurface(std::shared_ptr<mesh::Halo> halo,
+                std::shared_ptr<const geometry::Facets> own,
+                std::shared_ptr<const geometry::Facets> around);
 
   /// @brief Take other facets that pairs are with.
-  void set_facets(facet::Facets facets);
+  void set_facets(geometry::Facets facets);
 
   /// @brief Check the arguments of a search.
   void check_points(std::span<const double> x, std::span<const double> points,
                     std::span<const double> normals) const;
 
-  std::shared_ptr<parallel::Halo> _halo; ///< Nodes of this rank
-  Finder _finder;                        ///< of `around`
+  std::shared_ptr<mesh::Halo> _halo; ///< Nodes of this rank
+  Finder _finder;                    ///< of `around`
 
 private:
-  std::vector<std::int64_t> names_of(const facet::FacetList& facets) const;
+  std::vector<std::int64_t> names_of(const geometry::FacetList& facets) const;
 
-  std::shared_ptr<const facet::Facets> _facets, _own, _around;
+  std::shared_ptr<const geometry::Facets> _facets, _own, _around;
   int _version = 0;
 };
 
@@ -144,9 +144,10 @@ private:
 /// @param[in] offsets First node of each facet that this rank has, and end.
 /// @param[in] nodes Nodes of these facets.
 /// @param[in] level Where nodes are on quadratic facets that these are parts
-/// of, see facet::Shares: `look` gives all parts of one then; empty otherwise.
+/// of, see geometry::Shares: `look` gives all parts of one then; empty
+/// otherwise.
 std::shared_ptr<MasterSurface>
-make_master_surface(std::shared_ptr<parallel::Halo> halo,
+make_master_surface(std::shared_ptr<mesh::Halo> halo,
                     std::span<const std::int32_t> offsets,
                     std::span<const std::int32_t> nodes,
                     std::span<const std::int8_t> level = {});

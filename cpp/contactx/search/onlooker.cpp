@@ -27,11 +27,11 @@ Vector<3> moved(std::span<const std::int32_t> nodes,
                 std::span<const double> nodal, std::span<const double> xi,
                 int gdim)
 {
-  return facet::visit(
+  return geometry::visit(
       static_cast<int>(nodes.size()),
       [&]<class F>(F)
       {
-        facet::Local<F> at;
+        geometry::Local<F> at;
         std::copy_n(xi.begin(), F::tdim, at.begin());
         const auto N = F::shape(at);
         Vector<3> way{};
@@ -66,7 +66,7 @@ Seen::Seen(std::size_t n, int width)
 {
 }
 
-Onlooker::Onlooker(std::shared_ptr<parallel::Halo> halo,
+Onlooker::Onlooker(std::shared_ptr<mesh::Halo> halo,
                    std::span<const std::int32_t> offsets,
                    std::span<const std::int32_t> nodes)
     : _halo(std::move(halo)),
@@ -95,7 +95,7 @@ Seen Onlooker::look(std::span<const double> x, std::span<const double> points,
   const std::span nodal = ways ? ways->nodes : std::span<const double>();
   const std::span own = ways ? ways->points : std::span<const double>();
   _finder.refit(x);
-  parallel::Ranks& ranks = _halo->ranks();
+  mesh::Ranks& ranks = _halo->ranks();
   if (ranks.size() == 1)
     return see(x, points, normals, reach, values, width, own, nodal);
 
@@ -108,23 +108,23 @@ Seen Onlooker::look(std::span<const double> x, std::span<const double> points,
     for (std::size_t j = 0; j < m; ++j)
       if (near.distance[i * m + j] < infinity)
         asked[near.ranks[j]].push_back(static_cast<std::int32_t>(i));
-  parallel::Messages questions;
+  mesh::Messages questions;
   for (const auto& [rank, which] : asked)
     for (const auto& table : {points, normals, own})
       if (!table.empty())
         for (const std::int32_t i : which)
-          parallel::pack(questions[rank],
-                         table.subspan(static_cast<std::size_t>(i) * gdim,
-                                       static_cast<std::size_t>(gdim)));
-  parallel::Messages answers;
+          mesh::pack(questions[rank],
+                     table.subspan(static_cast<std::size_t>(i) * gdim,
+                                   static_cast<std::size_t>(gdim)));
+  mesh::Messages answers;
   const int tables = ways ? 3 : 2;
   for (const auto& [rank, bytes] : ranks.exchange(questions))
   {
     std::span<const std::byte> left = bytes;
     const std::size_t size = bytes.size() / sizeof(double) / tables;
-    const auto p = parallel::unpack<double>(left, size);
-    const auto normal = parallel::unpack<double>(left, size);
-    const auto way = parallel::unpack<double>(left, ways ? size : 0);
+    const auto p = mesh::unpack<double>(left, size);
+    const auto normal = mesh::unpack<double>(left, size);
+    const auto way = mesh::unpack<double>(left, ways ? size : 0);
     const Seen seen = see(x, p, normal, reach, values, width, way, nodal);
     std::vector<Sight> sights;
     std::vector<double> rows;
@@ -139,8 +139,8 @@ Seen Onlooker::look(std::span<const double> x, std::span<const double> points,
           = seen.values.begin() + static_cast<std::ptrdiff_t>(i) * width;
       rows.insert(rows.end(), row, row + width);
     }
-    parallel::pack<Sight>(answers[rank], sights);
-    parallel::pack<double>(answers[rank], rows);
+    mesh::pack<Sight>(answers[rank], sights);
+    mesh::pack<double>(answers[rank], rows);
   }
   Seen best(n, width);
   // By rank, so that of facets as near the same one is taken in every run
@@ -149,8 +149,8 @@ Seen Onlooker::look(std::span<const double> x, std::span<const double> points,
     std::span<const std::byte> left = bytes;
     const std::size_t size
         = bytes.size() / (sizeof(Sight) + width * sizeof(double));
-    const auto sights = parallel::unpack<Sight>(left, size);
-    const auto rows = parallel::unpack<double>(left, size * width);
+    const auto sights = mesh::unpack<Sight>(left, size);
+    const auto rows = mesh::unpack<double>(left, size * width);
     for (std::size_t k = 0; k < size; ++k)
     {
       const std::size_t i = asked.at(rank)[sights[k].point];
@@ -181,7 +181,7 @@ Seen Onlooker::see(std::span<const double> x, std::span<const double> points,
       continue;
     const std::span xi = std::span(found.xi).subspan(2 * i, 2);
     seen.gap[i] = seen.height[i] = found.gap[i];
-    seen.inside[i] = found.feature[i] == facet::interior;
+    seen.inside[i] = found.feature[i] == geometry::interior;
     seen.margin[i] = outer_margin(surface, f, {xi[0], xi[1]});
     if (!ways.empty())
     {

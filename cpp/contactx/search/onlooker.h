@@ -3,8 +3,8 @@
 
 #pragma once
 
-#include "../facet/facets.h"
-#include "../parallel/halo.h"
+#include "../geometry/facets.h"
+#include "../mesh/halo.h"
 #include "finder.h"
 #include <map>
 #include <optional>
@@ -55,7 +55,7 @@ public:
   /// @param[in] offsets First node of each facet that this rank has, and end;
   /// several ranks may have the same facet.
   /// @param[in] nodes Nodes of these facets.
-  Onlooker(std::shared_ptr<parallel::Halo> halo,
+  Onlooker(std::shared_ptr<mesh::Halo> halo,
            std::span<const std::int32_t> offsets,
            std::span<const std::int32_t> nodes);
 
@@ -84,7 +84,7 @@ private:
            std::span<const double> values, int width,
            std::span<const double> ways, std::span<const double> nodal) const;
 
-  std::shared_ptr<parallel::Halo> _halo;
+  std::shared_ptr<mesh::Halo> _halo;
   Finder _finder;
 };
 } // namespace contactx::search

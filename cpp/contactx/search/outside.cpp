@@ -3,7 +3,7 @@
 
 #include "outside.h"
 #include "../check.h"
-#include "../facet/middle.h"
+#include "../geometry/middle.h"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -24,19 +24,19 @@ constexpr double around = 0.99;
 constexpr double on_it = 0.2;
 } // namespace
 
-Outside::Outside(std::shared_ptr<parallel::Halo> halo,
+Outside::Outside(std::shared_ptr<mesh::Halo> halo,
                  std::span<const std::int32_t> offsets,
                  std::span<const std::int32_t> nodes)
     : _halo(std::move(halo)), _onlooker(_halo, offsets, nodes)
 {
   const int gdim = _halo->gdim();
   const std::vector<double> normals
-      = facet::middles({offsets, nodes}, _halo->reference(), gdim).normals;
+      = geometry::middles({offsets, nodes}, _halo->reference(), gdim).normals;
   Vector<3> mean{};
   for (std::size_t i = 0; i < normals.size(); ++i)
     mean[i % gdim] += normals[i];
   if (_halo->ranks().size() > 1)
-    _halo->ranks().reduce(mean, parallel::Reduction::sum);
+    _halo->ranks().reduce(mean, mesh::Reduction::sum);
   const double length = norm(mean);
   double cosine = 1;
   for (std::size_t i = 0; length > 0 and i < normals.size(); i += gdim)
@@ -45,7 +45,7 @@ Outside::Outside(std::shared_ptr<parallel::Halo> halo,
     std::copy_n(normals.begin() + i, gdim, normal.begin());
     cosine = std::min(cosine, dot(normal, mean) / length);
   }
-  _is_around = length == 0 or parallel::least(_halo->ranks(), cosine) < around;
+  _is_around = length == 0 or mesh::least(_halo->ranks(), cosine) < around;
 }
 
 std::vector<std::int8_t> Outside::find(std::span<const double> x,
@@ -70,7 +70,7 @@ std::vector<std::int8_t> Outside::find(std::span<const double> x,
       const auto point = points.subspan(i * g, g);
       at.insert(at.end(), point.begin(), point.end());
     }
-  if (!parallel::anywhere(_halo->ranks(), !which.empty()))
+  if (!mesh::anywhere(_halo->ranks(), !which.empty()))
     return result;
   // Of any normal: what is in front of the nearest facet is outside
   const Seen seen = _onlooker.look(x, at, std::vector<double>(at.size(), 0),

@@ -20,7 +20,7 @@ public:
   /// @param[in] halo Nodes of this rank.
   /// @param[in] offsets First node of each facet that this rank has, and end.
   /// @param[in] nodes Nodes of these facets.
-  Outside(std::shared_ptr<parallel::Halo> halo,
+  Outside(std::shared_ptr<mesh::Halo> halo,
           std::span<const std::int32_t> offsets,
           std::span<const std::int32_t> nodes);
 
@@ -47,7 +47,7 @@ public:
   Onlooker& onlooker() { return _onlooker; }
 
 private:
-  std::shared_ptr<parallel::Halo> _halo;
+  std::shared_ptr<mesh::Halo> _halo;
   Onlooker _onlooker;
   bool _is_around;
 };

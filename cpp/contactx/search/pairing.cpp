@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "pairing.h"
-#include "../facet/gather.h"
+#include "../geometry/facets.h"
+#include "../geometry/gather.h"
 #include "order.h"
 #include <algorithm>
 #include <cmath>
@@ -33,7 +34,7 @@ Pairing::Pairing(std::vector<std::int32_t> slave_offsets,
 {
   _slaves.erase(std::ranges::lower_bound(_slaves, num_owned), _slaves.end());
   _facet.assign(_slaves.size(), -1);
-  _feature.assign(_slaves.size(), facet::interior);
+  _feature.assign(_slaves.size(), geometry::interior);
   _xi.assign(2 * _slaves.size(), 0);
   _cone.assign(3 * _slaves.size(), 0);
   _normal.assign(3 * _slaves.size(), 0);
@@ -55,17 +56,17 @@ void Pairing::restore(std::span<const std::int32_t> facet,
       or xi.size() != _xi.size() or cone.size() != _cone.size()
       or normal.size() != _normal.size())
     throw std::invalid_argument("pairs of another number of slave nodes");
-  const facet::FacetList facets = master().facets();
+  const geometry::FacetList facets = master().facets();
   const auto num_facets = static_cast<std::int32_t>(facets.size());
   for (std::size_t i = 0; i < facet.size(); ++i)
   {
     if (facet[i] < -1 or facet[i] >= num_facets)
       throw std::invalid_argument("a pair with a facet that does not exist");
     // As many vertices as edges; in the plane a facet is an edge itself
-    std::ptrdiff_t features = facet::interior;
+    std::ptrdiff_t features = geometry::interior;
     if (facet[i] >= 0)
       features += (master().gdim() - 1) * std::ssize(facets[facet[i]]);
-    if (feature[i] < facet::interior or feature[i] > features)
+    if (feature[i] < geometry::interior or feature[i] > features)
       throw std::invalid_argument("a pair on a feature that does not exist");
   }
   std::ranges::copy(facet, _facet.begin());
@@ -87,13 +88,13 @@ void Pairing::set_master(std::vector<std::int32_t> offsets,
 std::optional<Projection> Pairing::in_margin(std::span<const double> x,
                                              std::size_t i, double reach) const
 {
-  if (_facet[i] < 0 or _feature[i] != facet::interior)
+  if (_facet[i] < 0 or _feature[i] != geometry::interior)
     return std::nullopt;
   const auto q = extended(master(), _facet[i], x,
                           vector_at(x, _slaves[i], master().gdim()));
   if (q
       and (_returns[i] >= max_returns
-           or (q->excess <= margin and std::abs(q->gap) <= reach)))
+           or (q->excess <= geometry::facet_margin and std::abs(q->gap) <= reach)))
     return q;
   return std::nullopt;
 }
@@ -120,7 +121,7 @@ std::optional<Projection> Pairing::as_near(std::span<const double> x,
     return std::nullopt;
   const auto theirs
       = closest(master(), other, x, vector_at(x, _slaves[i], master().gdim()));
-  if (theirs and mine->gap > norm(theirs->d) + margin * mine->size)
+  if (theirs and mine->gap > norm(theirs->d) + geometry::facet_margin * mine->size)
     return std::nullopt;
   return mine;
 }
@@ -129,13 +130,13 @@ void Pairing::set(std::size_t i, const std::optional<Projection>& q,
                   std::span<const double> x)
 {
   _facet[i] = q ? q->facet : -1;
-  _feature[i] = q ? q->feature : facet::interior;
+  _feature[i] = q ? q->feature : geometry::interior;
   if (!q)
     return;
   std::copy(q->xi.begin(), q->xi.end(), _xi.begin() + 2 * i);
   std::copy(q->normal.begin(), q->normal.end(), _normal.begin() + 3 * i);
   Vector<3> c{};
-  if (q->feature != facet::interior)
+  if (q->feature != geometry::interior)
     c = cone_components(master(), x, *q);
   std::copy(c.begin(), c.end(), _cone.begin() + 3 * i);
 }
@@ -166,7 +167,7 @@ bool Pairing::is_on_ridge(std::size_t i, const Projection& q,
   for (int k = 0; k < 3; ++k)
     cosine += c[k] * _cone[3 * i + k];
   const double beside = q.gap * std::sqrt(std::max(0., 1 - cosine * cosine));
-  return beside <= margin * q.size;
+  return beside <= geometry::facet_margin * q.size;
 }
 
 bool Pairing::settle(std::int32_t i, const std::optional<Projection>& q,
@@ -181,7 +182,7 @@ bool Pairing::settle(std::int32_t i, const std::optional<Projection>& q,
     }
   const bool same = now == _facet[i] and (!q or q->feature == _feature[i]);
   // On a ridge any normal of the cone will do, but it must not wander
-  if (same and closed and q and q->feature != facet::interior
+  if (same and closed and q and q->feature != geometry::interior
       and is_on_ridge(i, *q, x))
     return false;
   // One that came off the surface while in contact comes back open
@@ -209,7 +210,7 @@ std::int32_t Pairing::update(std::span<const double> x, double reach,
   if (left.empty())
     return 0;
   _finder.refit(x);
-  const std::vector<double> normals = facet::nodal_normals(
+  const std::vector<double> normals = geometry::nodal_normals(
       {_slave_offsets, _slave_nodes}, x, master().gdim());
   std::int32_t changed = 0, hint = -1;
   for (const std::int32_t i : left)

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "reach.h"
-#include "../facet/middle.h"
+#include "../geometry/facets.h"
+#include "../geometry/middle.h"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -31,14 +32,14 @@ double distance(std::span<const double> low, std::span<const double> high,
 
 /// Axis and sine of half the angle of a cone around the facets' normals.
 /// Normals within a facet are positive combinations of those at its corners.
-std::pair<Vector<3>, double> cone(const facet::FacetList& facets,
+std::pair<Vector<3>, double> cone(const geometry::FacetList& facets,
                                   std::span<const double> x)
 {
   Vector<3> axis{};
   std::vector<Vector<3>> normals;
   for (std::int32_t f = 0; f < facets.size(); ++f)
   {
-    const facet::CornerNormals at = facet::corner_normals(facets[f], x);
+    const geometry::CornerNormals at = geometry::corner_normals(facets[f], x);
     for (int i = 0; i < at.size; ++i)
     {
       const double length = norm(at.normal[i]);
@@ -64,7 +65,7 @@ std::pair<Vector<3>, double> cone(const facet::FacetList& facets,
 }
 } // namespace
 
-Reach::Reach(parallel::Ranks& ranks, const facet::FacetList& own,
+Reach::Reach(mesh::Ranks& ranks, const geometry::FacetList& own,
              std::span<const double> x, int gdim)
     : _gdim(gdim), _num_ranks(ranks.size())
 {
@@ -159,15 +160,15 @@ Reach::Near Reach::from_points(std::span<const double> points,
 }
 
 std::vector<std::int8_t> Reach::from_facets(std::span<const double> x,
-                                            const facet::FacetList& slave,
+                                            const geometry::FacetList& slave,
                                             double reach, double margin) const
 {
   std::vector<std::int8_t> near(
       static_cast<std::size_t>(slave.size()) * _num_ranks, 0);
   for (std::int32_t f = 0; f < slave.size(); ++f)
   {
-    const Vector<3> middle = facet::middle(slave[f], x, _gdim);
-    Vector<3> normal = facet::corner_normals(slave[f], x).mean();
+    const Vector<3> middle = geometry::middle(slave[f], x, _gdim);
+    Vector<3> normal = geometry::corner_normals(slave[f], x).mean();
     normal = (1 / norm(normal)) * normal;
     double wide = 0;
     for (const std::int32_t node : slave[f])
@@ -177,7 +178,7 @@ std::vector<std::int8_t> Reach::from_facets(std::span<const double> x,
                   p.begin());
       wide = std::max(wide, norm(p - middle));
     }
-    wide *= 2 * (1 + margin);
+    wide *= 2 * (1 + geometry::facet_margin);
     for (int r = 0; r < _num_ranks; ++r)
     {
       if (!there(r))

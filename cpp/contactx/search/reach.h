@@ -3,8 +3,8 @@
 
 #pragma once
 
-#include "../facet/nodal.h"
-#include "../parallel/ranks.h"
+#include "../geometry/nodal.h"
+#include "../mesh/ranks.h"
 
 namespace contactx::search
 {
@@ -27,7 +27,7 @@ public:
   /// @param[in] own Facets of this rank.
   /// @param[in] x Node coordinates (shape=(num_nodes, gdim)), row-major.
   /// @param[in] gdim Geometric dimension, 2 or 3.
-  Reach(parallel::Ranks& ranks, const facet::FacetList& own,
+  Reach(mesh::Ranks& ranks, const geometry::FacetList& own,
         std::span<const double> x, int gdim);
 
   /// @brief Ranks that may matter to points, and how far away they are.
@@ -46,7 +46,7 @@ public:
   /// @param[in] margin By which part they are wider than the facets.
   /// @return Whether they may (shape=(num_facets, number of ranks)).
   std::vector<std::int8_t> from_facets(std::span<const double> x,
-                                       const facet::FacetList& slave,
+                                       const geometry::FacetList& slave,
                                        double reach, double margin) const;
 
 private:

@@ -13,18 +13,18 @@ namespace
 static_assert(sizeof(FacetRecord) == 80);
 
 /// Send facets by rank, and receive those of others.
-std::map<int, FacetRecords> exchanged(parallel::Ranks& ranks,
+std::map<int, FacetRecords> exchanged(mesh::Ranks& ranks,
                                       const std::map<int, FacetRecords>& facets)
 {
-  parallel::Messages out;
+  mesh::Messages out;
   for (const auto& [rank, theirs] : facets)
-    parallel::pack<FacetRecord>(out[rank], theirs);
+    mesh::pack<FacetRecord>(out[rank], theirs);
   std::map<int, FacetRecords> in;
   for (const auto& [rank, bytes] : ranks.exchange(out))
   {
     std::span<const std::byte> left = bytes;
-    in[rank] = parallel::unpack<FacetRecord>(left, bytes.size()
-                                                       / sizeof(FacetRecord));
+    in[rank]
+        = mesh::unpack<FacetRecord>(left, bytes.size() / sizeof(FacetRecord));
   }
   return in;
 }
@@ -60,8 +60,8 @@ FacetKey contactx::search::key_of(std::span<const std::int64_t> name)
   return key;
 }
 
-FacetRecords contactx::search::records(const facet::FacetList& facets,
-                                       const parallel::Halo& halo)
+FacetRecords contactx::search::records(const geometry::FacetList& facets,
+                                       const mesh::Halo& halo)
 {
   const std::vector<std::int64_t> numbers = halo.numbers(facets.nodes);
   const std::vector<std::int32_t> owners = halo.owners(facets.nodes);
@@ -87,7 +87,7 @@ FacetRecords contactx::search::joined(FacetRecords facets)
   return facets;
 }
 
-void contactx::search::add_to(parallel::Halo& halo, const FacetRecords& facets,
+void contactx::search::add_to(mesh::Halo& halo, const FacetRecords& facets,
                               bool for_good)
 {
   std::vector<std::int64_t> numbers;
@@ -101,10 +101,10 @@ void contactx::search::add_to(parallel::Halo& halo, const FacetRecords& facets,
   halo.grow(numbers, owners, for_good);
 }
 
-facet::Facets contactx::search::here(const FacetRecords& facets,
-                                     const parallel::Halo& halo)
+geometry::Facets contactx::search::here(const FacetRecords& facets,
+                                        const mesh::Halo& halo)
 {
-  facet::Facets result;
+  geometry::Facets result;
   std::vector<std::int64_t> numbers;
   for (const FacetRecord& facet : facets)
   {
@@ -117,9 +117,8 @@ facet::Facets contactx::search::here(const FacetRecords& facets,
 }
 
 std::map<int, FacetRecords>
-contactx::search::around_nodes(parallel::Ranks& ranks,
-                               const FacetRecords& facets,
-                               const facet::Wholes* wholes)
+contactx::search::around_nodes(mesh::Ranks& ranks, const FacetRecords& facets,
+                               const geometry::Wholes* wholes)
 {
   std::map<int, FacetRecords> out;
   std::vector<std::int32_t> owners;
@@ -145,7 +144,7 @@ contactx::search::around_nodes(parallel::Ranks& ranks,
   return exchanged(ranks, out);
 }
 
-FacetRecords contactx::search::around_facets(parallel::Ranks& ranks,
+FacetRecords contactx::search::around_facets(mesh::Ranks& ranks,
                                              const FacetRecords& facets)
 {
   // The owner of a node knows all facets there, and their ranks

@@ -3,9 +3,9 @@
 
 #pragma once
 
-#include "../facet/facets.h"
-#include "../facet/wholes.h"
-#include "../parallel/halo.h"
+#include "../geometry/facets.h"
+#include "../geometry/wholes.h"
+#include "../mesh/halo.h"
 #include <array>
 #include <limits>
 #include <map>
@@ -48,8 +48,7 @@ FacetKey key_of(std::span<const std::int64_t> name);
 using FacetRecords = std::vector<FacetRecord>;
 
 /// @brief Records of facets whose nodes are on this rank.
-FacetRecords records(const facet::FacetList& facets,
-                     const parallel::Halo& halo);
+FacetRecords records(const geometry::FacetList& facets, const mesh::Halo& halo);
 
 /// @brief Each facet once, in the order of their keys; of the same ones the
 /// first.
@@ -59,12 +58,12 @@ FacetRecords joined(FacetRecords facets);
 /// @param[in,out] halo Nodes of this rank.
 /// @param[in] facets Facets.
 /// @param[in] for_good Whether they stay when the halo shrinks.
-void add_to(parallel::Halo& halo, const FacetRecords& facets,
+void add_to(mesh::Halo& halo, const FacetRecords& facets,
             bool for_good = false);
 
 /// @brief Facets with the numbers of this rank, whose halo must have their
 /// nodes.
-facet::Facets here(const FacetRecords& facets, const parallel::Halo& halo);
+geometry::Facets here(const FacetRecords& facets, const mesh::Halo& halo);
 
 /// @brief Facets at the nodes that this rank owns, by the rank that has them;
 /// all ranks must take part.
@@ -72,13 +71,13 @@ facet::Facets here(const FacetRecords& facets, const parallel::Halo& halo);
 /// @param[in] facets Facets that this rank has.
 /// @param[in] wholes What these are parts of, which count as one; null if each
 /// is one.
-std::map<int, FacetRecords> around_nodes(parallel::Ranks& ranks,
-                                         const FacetRecords& facets,
-                                         const facet::Wholes* wholes = nullptr);
+std::map<int, FacetRecords>
+around_nodes(mesh::Ranks& ranks, const FacetRecords& facets,
+             const geometry::Wholes* wholes = nullptr);
 
 /// @brief Facets that share a node with those of this rank, which are among
 /// them, each once and in the order of their keys; all ranks must take part.
 /// @param[in] ranks The ranks.
 /// @param[in] facets Facets that this rank has.
-FacetRecords around_facets(parallel::Ranks& ranks, const FacetRecords& facets);
+FacetRecords around_facets(mesh::Ranks& ranks, const FacetRecords& facets);
 } // namespace contactx::search

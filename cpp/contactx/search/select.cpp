@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "select.h"
-#include "../facet/gather.h"
-#include "../facet/ridge.h"
+#include "../geometry/shape.h"
+#include "../geometry/gather.h"
+#include "../geometry/ridge.h"
 
 using namespace contactx;
 using namespace contactx::search;
@@ -33,7 +34,7 @@ struct Around
     mean = mean + q.normal;
     if (!deepest or q.gap < deepest->gap)
       deepest = q;
-    if (q.excess > margin)
+    if (q.excess > geometry::facet_margin)
       return;
     if (!deepest_inside or q.gap < deepest_inside->gap)
       deepest_inside = q;
@@ -127,7 +128,7 @@ std::optional<Projection> contactx::search::select(const Surface& surface,
                                                    const Vector<3>& p,
                                                    const Projection& nearest)
 {
-  if (nearest.feature == facet::interior)
+  if (nearest.feature == geometry::interior)
     return nearest;
 
   Around around;
@@ -149,18 +150,19 @@ Vector<3> contactx::search::cone_components(const Surface& surface,
                                             const Projection& projection)
 {
   const auto nodes = surface.facets()[projection.facet];
-  return facet::visit(nodes.size(),
-                      [&projection, nodes, x]<class F>(F)
-                      {
-                        facet::Local<F> xi;
-                        std::copy_n(projection.xi.begin(), F::tdim, xi.begin());
-                        const auto axes = facet::ridge_axes<F>(
-                            facet::gather<F>(nodes, x), projection.feature, xi);
-                        Vector<3> c{};
-                        for (int i = 0; i < F::gdim; ++i)
-                          for (int k = 0; k < F::gdim; ++k)
-                            c[F::gdim == 2 and i == 1 ? 2 : i]
-                                += projection.normal[k] * axes[i][k];
-                        return c;
-                      });
+  return geometry::visit(
+      nodes.size(),
+      [&projection, nodes, x]<class F>(F)
+      {
+        geometry::Local<F> xi;
+        std::copy_n(projection.xi.begin(), F::tdim, xi.begin());
+        const auto axes = geometry::ridge_axes<F>(geometry::gather<F>(nodes, x),
+                                                  projection.feature, xi);
+        Vector<3> c{};
+        for (int i = 0; i < F::gdim; ++i)
+          for (int k = 0; k < F::gdim; ++k)
+            c[F::gdim == 2 and i == 1 ? 2 : i]
+                += projection.normal[k] * axes[i][k];
+        return c;
+      });
 }

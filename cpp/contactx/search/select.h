@@ -9,10 +9,6 @@
 
 namespace contactx::search
 {
-/// @brief Margin of a facet beyond its edges, in its local coordinates:
-/// 5 % of its width.
-inline constexpr double margin = 0.05;
-
 /// @brief Decides if a closest point of a facet may be taken.
 using Accepts = std::function<bool(const Projection&)>;
 

@@ -8,14 +8,14 @@
 using namespace contactx;
 using namespace contactx::search;
 
-facet::Facets contactx::search::slave_facets(
-    parallel::Halo& halo, std::span<const std::int32_t> offsets,
+geometry::Facets contactx::search::slave_facets(
+    mesh::Halo& halo, std::span<const std::int32_t> offsets,
     std::span<const std::int32_t> nodes, std::span<const std::int8_t> level)
 {
   if (halo.ranks().size() == 1)
     return {{offsets.begin(), offsets.end()}, {nodes.begin(), nodes.end()}};
   FacetRecords every;
-  const facet::Wholes wholes = facet::wholes({offsets, nodes}, level);
+  const geometry::Wholes wholes = geometry::wholes({offsets, nodes}, level);
   for (const auto& [rank, theirs] :
        around_nodes(halo.ranks(), records({offsets, nodes}, halo), &wholes))
     every.insert(every.end(), theirs.begin(), theirs.end());
@@ -24,17 +24,18 @@ facet::Facets contactx::search::slave_facets(
   return here(every, halo);
 }
 
-facet::Facets contactx::search::in_order(const parallel::Halo& halo,
-                                         std::span<const std::int32_t> offsets,
-                                         std::span<const std::int32_t> nodes)
+geometry::Facets
+contactx::search::in_order(const mesh::Halo& halo,
+                           std::span<const std::int32_t> offsets,
+                           std::span<const std::int32_t> nodes)
 {
-  const facet::FacetList facets{offsets, nodes};
+  const geometry::FacetList facets{offsets, nodes};
   const FacetRecords found = records(facets, halo);
   std::vector<std::int32_t> order(found.size());
   std::iota(order.begin(), order.end(), 0);
   std::ranges::stable_sort(order, {},
                            [&found](std::int32_t f) { return found[f].key(); });
-  facet::Facets result;
+  geometry::Facets result;
   for (const std::int32_t f : order)
   {
     result.nodes.insert(result.nodes.end(), facets[f].begin(), facets[f].end());

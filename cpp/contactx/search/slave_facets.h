@@ -14,20 +14,20 @@ namespace contactx::search
 /// @param[in] offsets First node of each facet that this rank has, and end.
 /// @param[in] nodes Nodes of these facets.
 /// @param[in] level Where nodes are on quadratic facets that these are parts
-/// of, see facet::Shares: all parts of one are needed then; empty otherwise.
+/// of, see geometry::Shares: all parts of one are needed then; empty otherwise.
 /// @return The facets: as they are on one rank, in the order of their keys on
 /// several.
-facet::Facets slave_facets(parallel::Halo& halo,
-                           std::span<const std::int32_t> offsets,
-                           std::span<const std::int32_t> nodes,
-                           std::span<const std::int8_t> level = {});
+geometry::Facets slave_facets(mesh::Halo& halo,
+                              std::span<const std::int32_t> offsets,
+                              std::span<const std::int32_t> nodes,
+                              std::span<const std::int8_t> level = {});
 
 /// @brief Facets in the order of their nodes' numbers in the mesh as it was
 /// made, the same on any number of ranks.
 /// @param[in] halo Nodes of this rank.
 /// @param[in] offsets First node of each facet, and end.
 /// @param[in] nodes Nodes of the facets.
-facet::Facets in_order(const parallel::Halo& halo,
-                       std::span<const std::int32_t> offsets,
-                       std::span<const std::int32_t> nodes);
+geometry::Facets in_order(const mesh::Halo& halo,
+                          std::span<const std::int32_t> offsets,
+                          std::span<const std::int32_t> nodes);
 } // namespace contactx::search

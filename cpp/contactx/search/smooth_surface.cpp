@@ -11,7 +11,7 @@ namespace
 {
 /// Name of a facet, as `key_of` takes it.
 std::array<std::int64_t, most_nodes>
-name_of(const parallel::Halo& halo, std::span<const std::int32_t> nodes)
+name_of(const mesh::Halo& halo, std::span<const std::int32_t> nodes)
 {
   std::array<std::int64_t, most_nodes> name;
   name.fill(-1);
@@ -21,8 +21,8 @@ name_of(const parallel::Halo& halo, std::span<const std::int32_t> nodes)
 }
 } // namespace
 
-SmoothSurface::SmoothSurface(const parallel::Halo& halo,
-                             const facet::FacetList& own)
+SmoothSurface::SmoothSurface(const mesh::Halo& halo,
+                             const geometry::FacetList& own)
 {
   const int g = halo.gdim();
   std::vector<std::int64_t> names;
@@ -37,8 +37,8 @@ SmoothSurface::SmoothSurface(const parallel::Halo& halo,
                               ? halo.reference()[std::size_t(own[f][l]) * g + k]
                               : 0);
   }
-  names = parallel::gathered<std::int64_t>(halo.ranks(), names);
-  corners = parallel::gathered<double>(halo.ranks(), corners);
+  names = mesh::gathered<std::int64_t>(halo.ranks(), names);
+  corners = mesh::gathered<double>(halo.ranks(), corners);
   // In an order that does not depend on the ranks
   std::map<FacetKey, std::size_t> order;
   std::map<std::int64_t, std::int32_t> nodes;
@@ -53,7 +53,7 @@ SmoothSurface::SmoothSurface(const parallel::Halo& halo,
   std::int32_t count = 0;
   for (auto& [name, number] : nodes)
     number = count++;
-  facet::Facets facets;
+  geometry::Facets facets;
   std::vector<double> x(std::size_t(count) * g);
   for (const auto& [key, i] : order)
   {
@@ -68,24 +68,24 @@ SmoothSurface::SmoothSurface(const parallel::Halo& halo,
     }
     facets.offsets.push_back(static_cast<std::int32_t>(facets.nodes.size()));
   }
-  const auto smooth = facet::smooth_facets(facets.list(), x, g);
+  const auto smooth = geometry::smooth_facets(facets.list(), x, g);
   std::size_t f = 0;
   for (const auto& [key, i] : order)
     _facets.emplace(key, smooth[f++]);
 }
 
-const facet::SmoothFacet&
-SmoothSurface::of(const parallel::Halo& halo,
+const geometry::SmoothFacet&
+SmoothSurface::of(const mesh::Halo& halo,
                   std::span<const std::int32_t> nodes) const
 {
   return _facets.at(key_of(name_of(halo, nodes)));
 }
 
-std::vector<facet::SmoothFacet>
-SmoothSurface::of(const parallel::Halo& halo,
-                  const facet::FacetList& facets) const
+std::vector<geometry::SmoothFacet>
+SmoothSurface::of(const mesh::Halo& halo,
+                  const geometry::FacetList& facets) const
 {
-  std::vector<facet::SmoothFacet> all;
+  std::vector<geometry::SmoothFacet> all;
   for (std::int32_t f = 0; f < facets.size(); ++f)
     all.push_back(of(halo, facets[f]));
   return all;

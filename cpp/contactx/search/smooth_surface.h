@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "../facet/smooth.h"
+#include "../geometry/smooth.h"
 #include "records.h"
 #include <map>
 
@@ -19,20 +19,20 @@ public:
   /// @brief Find it; collective.
   /// @param[in] halo Nodes of this rank.
   /// @param[in] own Facets of this rank.
-  SmoothSurface(const parallel::Halo& halo, const facet::FacetList& own);
+  SmoothSurface(const mesh::Halo& halo, const geometry::FacetList& own);
 
   /// @brief The patch that a facet stands for.
   /// @param[in] halo Nodes of this rank.
   /// @param[in] nodes Nodes of the facet, in the order that it has on its own
   /// rank.
-  const facet::SmoothFacet& of(const parallel::Halo& halo,
-                               std::span<const std::int32_t> nodes) const;
+  const geometry::SmoothFacet& of(const mesh::Halo& halo,
+                                  std::span<const std::int32_t> nodes) const;
 
   /// @brief The patches that some facets stand for.
-  std::vector<facet::SmoothFacet> of(const parallel::Halo& halo,
-                                     const facet::FacetList& facets) const;
+  std::vector<geometry::SmoothFacet>
+  of(const mesh::Halo& halo, const geometry::FacetList& facets) const;
 
 private:
-  std::map<FacetKey, facet::SmoothFacet> _facets;
+  std::map<FacetKey, geometry::SmoothFacet> _facets;
 };
 } // namespace contactx::search

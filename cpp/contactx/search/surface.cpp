@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "surface.h"
-#include "../facet/closest_point.h"
-#include "../facet/gather.h"
+#include "../geometry/closest_point.h"
+#include "../geometry/gather.h"
 #include <stdexcept>
 
 using namespace contactx;
@@ -31,12 +31,12 @@ Vector<F::gdim> unpad(const Vector<3>& a)
 }
 
 template <class F>
-std::optional<Projection> make(std::int32_t f, const facet::Nodes<F>& x,
+std::optional<Projection> make(std::int32_t f, const geometry::Nodes<F>& x,
                                const Vector<F::gdim>& d, int feature,
-                               const facet::Local<F>& xi)
+                               const geometry::Local<F>& xi)
 {
-  const auto fr = facet::frame<F>(x, xi);
-  const double size = facet::diameter<F>(x);
+  const auto fr = geometry::frame<F>(x, xi);
+  const double size = geometry::diameter<F>(x);
   if (!(fr.jacobian > degenerate * (F::gdim == 2 ? size : size * size)))
     return std::nullopt;
   Projection q{f,   feature, {}, pad(d), pad(fr.n), dot(fr.n, d), F::excess(xi),
@@ -84,14 +84,14 @@ Surface::Surface(std::vector<std::int32_t> offsets,
 
 Surface::Ends Surface::feature_ends(int num_nodes, int feature)
 {
-  return facet::visit(num_nodes,
-                      [feature]<class F>(F) -> Ends
-                      {
-                        if (F::num_edges > 0 and feature <= F::num_edges)
-                          return F::edges[feature - 1];
-                        const int vertex = feature - 1 - F::num_edges;
-                        return {vertex, vertex};
-                      });
+  return geometry::visit(num_nodes,
+                         [feature]<class F>(F) -> Ends
+                         {
+                           if (F::num_edges > 0 and feature <= F::num_edges)
+                             return F::edges[feature - 1];
+                           const int vertex = feature - 1 - F::num_edges;
+                           return {vertex, vertex};
+                         });
 }
 
 std::int32_t Surface::count_at(std::int32_t f, const Ends& ends) const
@@ -111,7 +111,7 @@ std::vector<std::int32_t> Surface::star(std::int32_t f, int feature) const
 
 bool Surface::on_boundary(std::int32_t f, int feature) const
 {
-  if (feature == facet::interior)
+  if (feature == geometry::interior)
     return false;
   const Ends ends = feature_ends(facets()[f].size(), feature);
   if (ends.first != ends.second or _gdim == 2)
@@ -123,14 +123,14 @@ bool Surface::on_boundary(std::int32_t f, int feature) const
               [this, vertex, &open](std::int32_t g)
               {
                 const auto nodes = facets()[g];
-                facet::visit(nodes.size(),
-                             [this, nodes, g, vertex, &open]<class F>(F)
-                             {
-                               for (const auto& e : F::edges)
-                                 if (nodes[e.first] == vertex
-                                     or nodes[e.second] == vertex)
-                                   open = open or count_at(g, e) < 2;
-                             });
+                geometry::visit(nodes.size(),
+                                [this, nodes, g, vertex, &open]<class F>(F)
+                                {
+                                  for (const auto& e : F::edges)
+                                    if (nodes[e.first] == vertex
+                                        or nodes[e.second] == vertex)
+                                      open = open or count_at(g, e) < 2;
+                                });
               });
   return open;
 }
@@ -139,8 +139,8 @@ Box Surface::box(std::int32_t f, std::span<const double> x) const
 {
   Box box = Box::empty();
   for (std::int32_t node : facets()[f])
-    box.add(_gdim == 2 ? pad(facet::point<2>(node, x))
-                       : facet::point<3>(node, x));
+    box.add(_gdim == 2 ? pad(geometry::point<2>(node, x))
+                       : geometry::point<3>(node, x));
   return box;
 }
 
@@ -183,16 +183,17 @@ contactx::search::closest_within(const Surface& surface, std::int32_t f,
                                  double bound2)
 {
   const auto nodes = surface.facets()[f];
-  return facet::visit(nodes.size(),
-                      [=]<class F>(F) -> std::optional<Projection>
-                      {
-                        const auto xf = facet::gather<F>(nodes, x);
-                        const auto q = unpad<F>(p);
-                        const auto c = facet::closest_point<F>(xf, q);
-                        if (!std::isfinite(c.distance2) or c.distance2 > bound2)
-                          return std::nullopt;
-                        return make<F>(f, xf, c.d, c.feature, c.xi);
-                      });
+  return geometry::visit(nodes.size(),
+                         [=]<class F>(F) -> std::optional<Projection>
+                         {
+                           const auto xf = geometry::gather<F>(nodes, x);
+                           const auto q = unpad<F>(p);
+                           const auto c = geometry::closest_point<F>(xf, q);
+                           if (!std::isfinite(c.distance2)
+                               or c.distance2 > bound2)
+                             return std::nullopt;
+                           return make<F>(f, xf, c.d, c.feature, c.xi);
+                         });
 }
 
 std::optional<Projection> contactx::search::extended(const Surface& surface,
@@ -201,17 +202,18 @@ std::optional<Projection> contactx::search::extended(const Surface& surface,
                                                      const Vector<3>& p)
 {
   const auto nodes = surface.facets()[f];
-  return facet::visit(nodes.size(),
-                      [=]<class F>(F) -> std::optional<Projection>
-                      {
-                        const auto xf = facet::gather<F>(nodes, x);
-                        const auto q = unpad<F>(p);
-                        facet::Local<F> xi = facet::projection_start<F>(xf, q);
-                        if (!facet::project<F>(xf, q, xi))
-                          return std::nullopt;
-                        const auto foot = facet::combine<F>(F::shape(xi), xf);
-                        return make<F>(f, xf, q - foot, facet::interior, xi);
-                      });
+  return geometry::visit(
+      nodes.size(),
+      [=]<class F>(F) -> std::optional<Projection>
+      {
+        const auto xf = geometry::gather<F>(nodes, x);
+        const auto q = unpad<F>(p);
+        geometry::Local<F> xi = geometry::projection_start<F>(xf, q);
+        if (!geometry::project<F>(xf, q, xi))
+          return std::nullopt;
+        const auto foot = geometry::combine<F>(F::shape(xi), xf);
+        return make<F>(f, xf, q - foot, geometry::interior, xi);
+      });
 }
 
 SurfacePoint contactx::search::point_at(const Surface& surface, std::int32_t f,
@@ -219,26 +221,27 @@ SurfacePoint contactx::search::point_at(const Surface& surface, std::int32_t f,
                                         const Vector<2>& xi)
 {
   const auto nodes = surface.facets()[f];
-  return facet::visit(nodes.size(),
-                      [nodes, x, &xi]<class F>(F)
-                      {
-                        const auto xf = facet::gather<F>(nodes, x);
-                        facet::Local<F> local;
-                        std::copy_n(xi.begin(), F::tdim, local.begin());
-                        const auto at = facet::combine<F>(F::shape(local), xf);
-                        const auto n = facet::frame<F>(xf, local).n;
-                        return SurfacePoint{pad(at), pad(n)};
-                      });
+  return geometry::visit(nodes.size(),
+                         [nodes, x, &xi]<class F>(F)
+                         {
+                           const auto xf = geometry::gather<F>(nodes, x);
+                           geometry::Local<F> local;
+                           std::copy_n(xi.begin(), F::tdim, local.begin());
+                           const auto at
+                               = geometry::combine<F>(F::shape(local), xf);
+                           const auto n = geometry::frame<F>(xf, local).n;
+                           return SurfacePoint{pad(at), pad(n)};
+                         });
 }
 
 double contactx::search::outer_margin(const Surface& surface, std::int32_t f,
                                       const Vector<2>& xi)
 {
-  return facet::visit(
+  return geometry::visit(
       surface.facets()[f].size(),
       [&surface, f, &xi]<class F>(F)
       {
-        facet::Local<F> at;
+        geometry::Local<F> at;
         std::copy_n(xi.begin(), F::tdim, at.begin());
         const auto N = F::shape(at);
         double margin = 1;

@@ -3,8 +3,8 @@
 
 #pragma once
 
-#include "../facet/nodal.h"
-#include "../facet/shape.h"
+#include "../geometry/nodal.h"
+#include "../geometry/shape.h"
 #include "box.h"
 #include <optional>
 
@@ -30,7 +30,7 @@ public:
   std::int32_t num_nodes() const { return _num_nodes; }
 
   /// @brief Facets of the surface.
-  facet::FacetList facets() const { return {_offsets, _nodes}; }
+  geometry::FacetList facets() const { return {_offsets, _nodes}; }
 
   /// @brief Visit the facets that share the feature's nodes with facet `f`, in
   /// ascending order.
@@ -40,7 +40,7 @@ public:
   template <class Visitor>
   void for_each_around(std::int32_t f, int feature, Visitor&& visit) const
   {
-    if (feature == facet::interior)
+    if (feature == geometry::interior)
       visit(f);
     else
       for_each_at(f, feature_ends(facets()[f].size(), feature), visit);

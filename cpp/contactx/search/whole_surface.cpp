@@ -7,12 +7,12 @@
 using namespace contactx;
 using namespace contactx::search;
 
-WholeSurface::WholeSurface(std::shared_ptr<const parallel::Halo> halo,
-                           const facet::FacetList& own)
+WholeSurface::WholeSurface(std::shared_ptr<const mesh::Halo> halo,
+                           const geometry::FacetList& own)
     : _halo(std::move(halo))
 {
   const FacetRecords mine = search::records(own, *_halo);
-  _records = joined(parallel::gathered<FacetRecord>(
+  _records = joined(mesh::gathered<FacetRecord>(
       _halo->ranks(), std::span<const FacetRecord>(mine)));
   struct Node
   {
@@ -50,7 +50,7 @@ WholeSurface::WholeSurface(std::shared_ptr<const parallel::Halo> halo,
       _facets.nodes.push_back(place(facet.original[l]));
     _facets.offsets.push_back(static_cast<std::int32_t>(_facets.nodes.size()));
   }
-  const auto of_ranks = parallel::gathered<std::int32_t>(
+  const auto of_ranks = mesh::gathered<std::int32_t>(
       _halo->ranks(), std::span<const std::int32_t>(_owned));
   _of_ranks.assign(of_ranks.begin(), of_ranks.end());
 }

@@ -3,8 +3,8 @@
 
 #pragma once
 
-#include "../facet/facets.h"
-#include "../parallel/halo.h"
+#include "../geometry/facets.h"
+#include "../mesh/halo.h"
 #include "records.h"
 
 namespace contactx::search
@@ -20,11 +20,11 @@ public:
   /// @brief Gather the facets; all ranks must take part.
   /// @param[in] halo Nodes of this rank.
   /// @param[in] own Facets of this rank's cells, each on one rank alone.
-  WholeSurface(std::shared_ptr<const parallel::Halo> halo,
-               const facet::FacetList& own);
+  WholeSurface(std::shared_ptr<const mesh::Halo> halo,
+               const geometry::FacetList& own);
 
   /// @brief Facets, with the surface's own numbers of nodes.
-  facet::FacetList facets() const { return _facets.list(); }
+  geometry::FacetList facets() const { return _facets.list(); }
 
   /// @brief The facets by node numbers that all ranks know.
   const FacetRecords& records() const { return _records; }
@@ -66,7 +66,7 @@ public:
       mine.insert(mine.end(), row.begin(), row.end());
     }
     const auto every
-        = parallel::gathered<T>(_halo->ranks(), std::span<const T>(mine));
+        = mesh::gathered<T>(_halo->ranks(), std::span<const T>(mine));
     std::vector<T> all(_original.size() * w);
     for (std::size_t i = 0; i < _of_ranks.size(); ++i)
       std::copy_n(every.begin() + static_cast<std::ptrdiff_t>(i * w), w,
@@ -75,9 +75,9 @@ public:
   }
 
 private:
-  std::shared_ptr<const parallel::Halo> _halo;
+  std::shared_ptr<const mesh::Halo> _halo;
   FacetRecords _records;
-  facet::Facets _facets;
+  geometry::Facets _facets;
   std::vector<std::int64_t> _original;
   std::vector<std::int32_t> _owned, _owned_here;
   std::vector<std::size_t> _of_ranks; // owned nodes of one rank after the other

@@ -78,7 +78,7 @@ void check(const Crossing& c, const Scene& scene, const Points& points)
 
 /// The crossings of parts of a surface are those of the whole.
 void check_parts(const Scene& scene, const std::vector<double>& x1,
-                 const audit::RigidMotion& motion, const Points& points,
+                 const geometry::RigidMotion& motion, const Points& points,
                  std::vector<Crossing> whole, int cut)
 {
   const List& all = scene.master;
@@ -116,9 +116,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
   const Points points(in, scene);
   const auto facets = scene.master.facets();
   const Vector<3> origin0 = scene.point(in), origin1 = scene.point(in);
-  const auto motion = audit::rigid_motion(
-      audit::moments(facets, x0, x1, scene.gdim, origin0, origin1), scene.gdim,
-      origin0, origin1);
+  const auto motion = geometry::rigid_motion(
+      geometry::moments(facets, x0, x1, scene.gdim, origin0, origin1),
+      scene.gdim, origin0, origin1);
   const auto found
       = audit::crossings(facets, x0, x1, scene.gdim, motion, points.view());
   for (const Crossing& c : found)

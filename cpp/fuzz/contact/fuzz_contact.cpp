@@ -3,14 +3,14 @@
 
 #include "../facets.h"
 #include "../require.h"
-#include <contactx/active_set/active_set.h>
 #include <contactx/condense/chains.h>
 #include <contactx/condense/condensation.h>
 #include <contactx/condense/contact_block.h>
 #include <contactx/contact/node_to_surface.h>
 #include <contactx/contact/obstacle_tie.h>
 #include <contactx/contact/surface_to_surface.h>
-#include <contactx/obstacle/plane.h>
+#include <contactx/geometry/plane.h>
+#include <contactx/solve/active_set.h>
 
 using namespace contactx;
 using namespace contactx::fuzz;
@@ -35,7 +35,7 @@ std::shared_ptr<law::Law> any_law(Input& in, std::size_t n)
 
 /// A contact of the scene with its master surface, or with a plane.
 std::shared_ptr<Contact> any_contact(Input& in, const Scene& scene,
-                                     std::shared_ptr<parallel::Halo> halo)
+                                     std::shared_ptr<mesh::Halo> halo)
 {
   const auto slave = scene.slave.facets(), master = scene.master.facets();
   const auto slaves = std::make_shared<contact::SlaveNodes>(halo, slave, slave);
@@ -50,7 +50,7 @@ std::shared_ptr<Contact> any_contact(Input& in, const Scene& scene,
   if (in.below(4) == 0)
   {
     const auto up = in.unit<3>(), at = in.vector<3>();
-    auto plane = std::make_shared<obstacle::Plane>(
+    auto plane = std::make_shared<geometry::Plane>(
         std::vector<double>(at.begin(), at.begin() + scene.gdim),
         std::vector<double>{0, 1, 0});
     std::vector<double> normal(up.begin(), up.begin() + scene.gdim);
@@ -98,7 +98,7 @@ std::shared_ptr<Contact> any_contact(Input& in, const Scene& scene,
 
 void check_state(const Contact& contact, const Scene& scene)
 {
-  const contact::NodeState& nodes = *contact.nodes();
+  const law::NodeState& nodes = *contact.nodes();
   for (std::int32_t i = 0; i < nodes.num_nodes(); ++i)
   {
     require(nodes.status[i] == law::open or nodes.status[i] == law::stick
@@ -120,7 +120,7 @@ void check_state(const Contact& contact, const Scene& scene)
 
 /// The multipliers eliminated and found again.
 void eliminate(const std::vector<std::shared_ptr<Contact>>& contacts,
-               const parallel::Halo& halo, Input& in)
+               const mesh::Halo& halo, Input& in)
 {
   const condense::ContactBlock block(contacts, {});
   const std::size_t n = std::size_t(halo.num_nodes()) * halo.gdim();
@@ -154,14 +154,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
   if (not in.even())
     return 0;
   const auto u = std::make_shared<std::vector<double>>(scene.x.size(), 0.0);
-  const auto halo = parallel::serial_halo(scene.x, scene.gdim, u);
+  const auto halo = mesh::serial_halo(scene.x, scene.gdim, u);
   std::vector<std::shared_ptr<Contact>> contacts;
   for (int k = 1 + in.below(2); k > 0; --k)
     contacts.push_back(any_contact(in, scene, halo));
-  active_set::ActiveSet set(halo, contacts);
-  const active_set::Forces forces{[] { return std::vector<double>(); },
-                                  [] { return std::vector<double>(); },
-                                  [] { return 1.0; }};
+  solve::ActiveSet set(halo, contacts);
+  const solve::Forces forces{[] { return std::vector<double>(); },
+                             [] { return std::vector<double>(); },
+                             [] { return 1.0; }};
   std::vector<std::vector<contact::Saved>> saved;
   for (int steps = 1 + in.below(3); steps > 0; --steps)
   {

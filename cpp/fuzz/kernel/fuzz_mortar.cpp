@@ -3,7 +3,7 @@
 
 #include "../facets.h"
 #include "tensor.h"
-#include <contactx/mortar/facet_search.h>
+#include <contactx/search/facet_search.h>
 #include <numeric>
 
 using namespace contactx;
@@ -56,8 +56,8 @@ bool fill_pair(Input& in, const Entry& e, Coefficients& w)
           p[k] += 0.25 * in.number();
     }
   };
-  facet::visit(n, [&](auto kind) { place(kind, 0, false); });
-  facet::visit(m, [&](auto kind) { place(kind, n, true); });
+  geometry::visit(n, [&](auto kind) { place(kind, 0, false); });
+  geometry::visit(m, [&](auto kind) { place(kind, n, true); });
   std::vector<double> x(gdim * (n + m)),
       reference(position, position + x.size());
   for (std::size_t i = 0; i < x.size(); ++i)
@@ -66,16 +66,16 @@ bool fill_pair(Input& in, const Entry& e, Coefficients& w)
     x[i] = position[i] + u[i];
   }
   const List slave = one(n, 0), master = one(m, n);
-  mortar::FacetSearch search(slave.offsets, slave.nodes, master.offsets,
+  search::FacetSearch search(slave.offsets, slave.nodes, master.offsets,
                              master.nodes, gdim);
   const auto pairs = search.find(x, INFINITY, 0);
-  const auto all = mortar::integrals(search.slave(), search.master(), pairs, x,
-                                     reference, gdim);
+  const auto all = geometry::integrals(search.slave(), search.master(), pairs,
+                                       x, reference, gdim);
   if (pairs.size() == 0)
     return false;
   double* pair = w.at(Coefficient::pair);
   const MortarLayout at(n, m);
-  constexpr int stride = mortar::most_nodes;
+  constexpr int stride = geometry::most_nodes;
   for (int s = 0; s < n; ++s)
   {
     std::copy_n(&all.weight[stride * s], m, pair + at.weight + m * s);

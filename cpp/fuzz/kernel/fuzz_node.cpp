@@ -37,7 +37,7 @@ bool fill_pair(Input& in, const Entry& e, Coefficients& w)
     }
   kernel::FacetPair pair;
   const int feature = in.below(1 + F::num_edges + F::nodes);
-  facet::Local<F> xi;
+  geometry::Local<F> xi;
   for (double& c : xi)
     c = (in.below(25) - 4) / 16.;
   const auto cone = in.unit<3>();
@@ -71,8 +71,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
     value = in.number();
   bool round = true;
   if (e.num_nodes > 0)
-    round = facet::visit(e.num_nodes,
-                         [&]<class F>(F) { return fill_pair<F>(in, e, w); });
+    round = geometry::visit(e.num_nodes,
+                            [&]<class F>(F) { return fill_pair<F>(in, e, w); });
   const auto tensor = w.tabulate();
   // A step that has gone wrong may crush a facet: that is found out later
   if (!in.even() or !round)

@@ -49,7 +49,7 @@ void check(const Finder& finder, const Scene& scene, Input& in)
   require(all_finite(q.xi) and std::isfinite(q.gap), "all is finite");
   require(is_unit(std::span(q.normal).first(scene.gdim)),
           "the normal has length one");
-  if (q.feature != facet::interior)
+  if (q.feature != geometry::interior)
   {
     const Vector<3> cone
         = search::cone_components(finder.surface(), scene.x, q);

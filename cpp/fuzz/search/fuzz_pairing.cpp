@@ -94,7 +94,7 @@ void step(Pairing& pairing, const Scene& scene, Input& in)
       if (const auto q = any_projection(pairing, in); !q or in.even())
         pairing.settle(i, std::nullopt, scene.x, reach, closed[i]);
       else
-        pairing.settle(i, q->feature == facet::interior ? q : std::nullopt,
+        pairing.settle(i, q->feature == geometry::interior ? q : std::nullopt,
                        scene.x, reach, closed[i]);
     break;
   default:

@@ -216,7 +216,7 @@ struct Star
       {
         const Vector<3> middle
             = 0.25 * (at(t, n[0]) + at(t, n[1]) + at(t, n[2]) + at(t, n[3]));
-        for (const auto& [i, j] : facet::Quadrilateral::edges)
+        for (const auto& [i, j] : geometry::Quadrilateral::edges)
           if (below({at(t, n[i]), at(t, n[j]), middle}, q))
             return true;
       }

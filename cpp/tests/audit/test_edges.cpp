@@ -58,7 +58,7 @@ protected:
   /// Press a node, of the factor c = 2 in the complementarity
   void press(MovedContact& c, std::size_t i, double force) const
   {
-    contact::NodeState& state = *c.contact->nodes();
+    law::NodeState& state = *c.contact->nodes();
     std::ranges::fill(state.c, 2);
     state.status[i] = law::slip;
     state.multiplier[i] = force / state.area[i];

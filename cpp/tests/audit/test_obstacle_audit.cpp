@@ -22,22 +22,22 @@ Scene segments(double height)
   return sheet(2, 3, {}, false, 0, 1, level(2, height));
 }
 
-std::shared_ptr<obstacle::Sphere> disc(double x, double y, double radius)
+std::shared_ptr<geometry::Sphere> disc(double x, double y, double radius)
 {
-  return std::make_shared<obstacle::Sphere>(std::vector<double>{x, y}, radius);
+  return std::make_shared<geometry::Sphere>(std::vector<double>{x, y}, radius);
 }
 
 /// The same disc as a function that is its distance, and fails where it is told
 /// to
-std::shared_ptr<obstacle::LevelSet>
+std::shared_ptr<geometry::LevelSet>
 function(double cx, double cy, double radius, const bool* fails = nullptr)
 {
-  return std::make_shared<obstacle::LevelSet>(
+  return std::make_shared<geometry::LevelSet>(
       [=](std::span<const double> x, int, int)
       {
         if (fails and *fails)
           throw std::runtime_error("the function fails");
-        obstacle::LevelValues at;
+        geometry::LevelValues at;
         for (std::size_t i = 0; i < x.size(); i += 2)
         {
           const double dx = x[i] - cx, dy = x[i + 1] - cy;
@@ -152,7 +152,7 @@ TEST(AuditOfObstacles, AFewFacetsARadiusAreWarnedOfOnceWhereNodesTouch)
 TEST(AuditOfObstacles, APlaneIsDeepestAtANode)
 {
   MovedContact c(segments(0),
-                 std::make_shared<obstacle::Plane>(
+                 std::make_shared<geometry::Plane>(
                      std::vector<double>{0, 0.1}, std::vector<double>{0.2, 1}));
   ObstacleAudit audit(c.halo, c.contact);
   audit.accept();
@@ -234,7 +234,7 @@ TEST(AuditOfObstacles, OneThatHasMovedCarriesItsOwnFrame)
 TEST(AuditOfObstacles, APlaneThatTurnsIsNotPassed)
 {
   // By more than a right angle, so that the slave is behind it
-  auto plane = std::make_shared<obstacle::Plane>(std::vector<double>{0.5, -0.1},
+  auto plane = std::make_shared<geometry::Plane>(std::vector<double>{0.5, -0.1},
                                                  std::vector<double>{0, 1});
   MovedContact c(segments(0), plane);
   ObstacleAudit audit(c.halo, c.contact);
@@ -265,7 +265,7 @@ TEST(AuditOfObstacles, AFunctionIsSeenAsTheDiscIs)
     std::vector<Findings> found;
     for (const bool is_function : {false, true})
     {
-      std::shared_ptr<obstacle::Obstacle> o;
+      std::shared_ptr<geometry::Obstacle> o;
       if (is_function)
         o = function(0.5, y, 0.1);
       else
@@ -317,7 +317,7 @@ TEST(AuditOfObstacles, SpaceToo)
       = sheet(3, 3, Cells::quadrilaterals, false, 0, 1, level(3, 0));
   for (const double depth : {-0.02, 0.05})
   {
-    MovedContact c(slave, std::make_shared<obstacle::Sphere>(
+    MovedContact c(slave, std::make_shared<geometry::Sphere>(
                               std::vector<double>{0.5, 0.5, depth - 0.1}, 0.1));
     ObstacleAudit audit(c.halo, c.contact);
     audit.accept();

@@ -26,7 +26,7 @@ struct Tips
   int gdim;
   Scene below, above;
   std::vector<double> x;
-  std::shared_ptr<parallel::Halo> halo;
+  std::shared_ptr<mesh::Halo> halo;
 
   explicit Tips(int dim) : gdim(dim), below(dim), above(dim)
   {
@@ -36,7 +36,7 @@ struct Tips
       node += num_below();
     x = below.x;
     x.insert(x.end(), above.x.begin(), above.x.end());
-    halo = parallel::serial_halo(x, dim);
+    halo = mesh::serial_halo(x, dim);
   }
 
   std::int32_t num_below() const
@@ -227,7 +227,7 @@ Passed passed_on(int num_ranks, const TwoSheets& sheets,
            [&](ThreadRanks& ranks)
            {
              const auto halo = parts.halo(ranks);
-             const std::vector<facet::Facets> sides{
+             const std::vector<geometry::Facets> sides{
                  parts.own(*halo, 0, num_slave),
                  parts.own(*halo, num_slave, scene.facets().size())};
              std::vector<std::int32_t> every(halo->num_nodes());

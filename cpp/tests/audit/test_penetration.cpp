@@ -36,9 +36,9 @@ double explained(double size, double curvature, int contact,
 
 std::vector<double> curvatures(const Scene& scene)
 {
-  return nodal_curvatures(
+  return geometry::nodal_curvatures(
       scene.facets(), scene.x,
-      facet::nodal_normals(scene.facets(), scene.x, scene.gdim), scene.gdim);
+      geometry::nodal_normals(scene.facets(), scene.x, scene.gdim), scene.gdim);
 }
 
 TEST(NodalCurvatures, OfACircle)
@@ -86,7 +86,7 @@ TEST(FacetSizes, AreTheLongestDistances)
     scene.node(p);
   scene.facet({0, 1, 2, 3});
   scene.facet({0, 1, 2});
-  EXPECT_EQ(facet_sizes(scene.facets(), scene.x, 3),
+  EXPECT_EQ(geometry::facet_sizes(scene.facets(), scene.x, 3),
             (std::vector<double>{5, 5}));
 }
 
@@ -168,7 +168,7 @@ TEST(ExplainedDepths, RefuseArraysOfDifferentSizes)
 TEST(FacetTurns, RefuseNormalsOfOtherNodes)
 {
   const Scene scene = flat_grid(1, Cells::triangles);
-  EXPECT_THROW(facet_turns(scene.facets(), scene.x, std::vector<double>(3), 3),
+  EXPECT_THROW(geometry::facet_turns(scene.facets(), scene.x, std::vector<double>(3), 3),
                std::invalid_argument);
 }
 } // namespace

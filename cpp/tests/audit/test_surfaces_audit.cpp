@@ -3,8 +3,8 @@
 
 #include "moved_contact.h"
 #include <contactx/audit/audit.h>
-#include <contactx/audit/penetration.h>
 #include <contactx/audit/surfaces_audit.h>
+#include <contactx/geometry/penetration.h>
 #include <gtest/gtest.h>
 
 using namespace contactx;
@@ -50,8 +50,8 @@ double explained(const MovedContact& c, const TwoSheets& s, std::int32_t node,
 {
   const auto x = c.halo->now()->x;
   const auto list = s.master.list();
-  const auto k = nodal_curvatures(
-      list, x, facet::nodal_normals(list, x, s.gdim), s.gdim)[node];
+  const auto k = geometry::nodal_curvatures(
+      list, x, geometry::nodal_normals(list, x, s.gdim), s.gdim)[node];
   EXPECT_LT(k * h, 0.5);
   const double chord = (1 - std::sqrt(1 - k * k * h * h / 4)) / k;
   return std::max(h * (held ? 0.15 : 1. / 256), 2 * chord);

@@ -11,7 +11,7 @@
 
 using namespace contactx;
 using namespace contactx::condense;
-using namespace contactx::parallel;
+using namespace contactx::mesh;
 using namespace contactx::tests;
 
 namespace

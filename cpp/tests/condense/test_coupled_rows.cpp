@@ -3,7 +3,7 @@
 
 #include "contact_scene.h"
 #include <contactx/condense/coupled_rows.h>
-#include <contactx/dense.h>
+#include <contactx/math/dense.h>
 #include <gtest/gtest.h>
 #include <numeric>
 

@@ -28,8 +28,8 @@ protected:
     for (std::int32_t i = 0; i < 12; ++i)
       cells[i] = i;
     const std::vector<std::int64_t> original(cells.begin(), cells.end());
-    const auto nodes = std::make_shared<parallel::SerialNodes>(12);
-    const contact::Bodies bodies(cells, 4, 3, original, nodes);
+    const auto nodes = std::make_shared<mesh::SerialNodes>(12);
+    const mesh::Bodies bodies(cells, 4, 3, original, nodes);
     const Saddle saddle(
         gdim, 12, {{{0, 1, 2}, {4, 5, 6}, gdim, {status, status, status}}}, {},
         4);
@@ -64,8 +64,8 @@ TEST_F(StiffBodies, RefuseADiagonalThatDoesNotFit)
 {
   std::vector<std::int32_t> cells{0, 1, 2, 3};
   const std::vector<std::int64_t> original(cells.begin(), cells.end());
-  const auto nodes = std::make_shared<parallel::SerialNodes>(4);
-  const contact::Bodies bodies(cells, 4, 1, original, nodes);
+  const auto nodes = std::make_shared<mesh::SerialNodes>(4);
+  const mesh::Bodies bodies(cells, 4, 1, original, nodes);
   const Saddle saddle(gdim, 4, {{{0}, {1, 2}, gdim, {stick}}}, {}, 4);
   EXPECT_THROW(stiff_bodies(saddle.condensed(), bodies, std::vector<double>(5)),
                std::invalid_argument);

@@ -39,7 +39,7 @@ void spoil(ContactScene& scene, Contact& contact, std::mt19937& random)
   scene.shake(random, 0.01);
   contact.search();
   contact.update_gap();
-  NodeState& nodes = *contact.nodes();
+  law::NodeState& nodes = *contact.nodes();
   std::uniform_real_distribution<double> one(0, 1);
   const int size = nodes.size();
   for (std::int32_t i = 0; i < nodes.num_nodes(); ++i)
@@ -312,7 +312,7 @@ TYPED_TEST(Contacts, TermsAreThoseOfChosenSlaveNodes)
   ContactScene scene(3);
   const auto contact = scene.template contact<TypeParam>(
       std::make_shared<law::Frictionless>());
-  NodeState& nodes = *contact->nodes();
+  law::NodeState& nodes = *contact->nodes();
   contact->update_gap();
   std::ranges::fill(nodes.status, law::open);
   nodes.status[2] = law::slip;
@@ -447,7 +447,7 @@ TYPED_TEST(Contacts, WhereNothingPressesYetNodesStick)
         contact->begin_step();
         contact->search();
         contact->update_gap();
-        NodeState& nodes = *contact->nodes();
+        law::NodeState& nodes = *contact->nodes();
         std::ranges::fill(nodes.c, 1.0);
         // Aside by more than friction takes
         for (std::int32_t i = 0; i < n; ++i)
@@ -490,7 +490,7 @@ TEST(Contact, WhatHardlyMovesAlongAnAxisHasNoFrictionThere)
   contact.accept();
   contact.begin_step();
   contact.search();
-  const NodeState& nodes = *contact.nodes();
+  const law::NodeState& nodes = *contact.nodes();
   int hardly = 0, moving = 0;
   for (std::int32_t i = 0; i < n; ++i)
   {
@@ -526,7 +526,7 @@ TEST(Contact, ASlaveNodeThatIsHeldWhereItsFacetsMoveHasNoConstraint)
            contact::Method::surface_to_surface,
            prescribed,
            {}});
-      const NodeState& nodes = *contact.nodes();
+      const law::NodeState& nodes = *contact.nodes();
       for (std::int32_t i = 0; i < n; ++i)
       {
         // If all of them are held, the master moves
@@ -588,7 +588,7 @@ TEST(Contact, TurnsAndClosingsAreThoseOfAStep)
   ContactScene scene(2);
   const std::int32_t n = scene.sheets.num_slaves;
   const auto contact = scene.contact<NodeToSurface>(coulomb(n, 0.5));
-  NodeState& nodes = *contact->nodes();
+  law::NodeState& nodes = *contact->nodes();
   std::ranges::fill(nodes.turns, 1);
   std::ranges::fill(nodes.closings, 3);
   contact->begin_step();
@@ -633,7 +633,7 @@ TEST(Contact, ForcesStayWhereAreasChange)
   ContactScene scene(2, 0.0);
   const auto contact
       = scene.contact<NodeToSurface>(std::make_shared<law::Frictionless>());
-  NodeState& nodes = *contact->nodes();
+  law::NodeState& nodes = *contact->nodes();
   std::ranges::fill(nodes.multiplier, 2.0);
   const std::vector<double> before = nodes.area;
   double force = 0;

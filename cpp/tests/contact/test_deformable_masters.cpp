@@ -29,7 +29,7 @@ std::vector<std::int8_t> ones(std::size_t n)
 }
 
 /// Relative movement of each slave node in a field of displacements.
-std::vector<double> movement(const Weights& weights, std::size_t n,
+std::vector<double> movement(const kernel::Weights& weights, std::size_t n,
                              std::span<const double> u, int gdim)
 {
   std::vector<double> moved(n * gdim, 0);
@@ -158,7 +158,7 @@ TYPED_TEST(DeformableMasters, WhatIsSavedComesBack)
 TYPED_TEST(DeformableMasters, ReachMustBePositive)
 {
   TwoSheets sheets(2);
-  auto halo = parallel::serial_halo(sheets.x, 2);
+  auto halo = mesh::serial_halo(sheets.x, 2);
   const auto& [offsets, nodes] = sheets.master;
   auto surface = search::make_master_surface(halo, offsets, nodes);
   auto outside = std::make_shared<search::Outside>(halo, offsets, nodes);
@@ -173,7 +173,7 @@ TYPED_TEST(DeformableMasters, ReachMustBePositive)
 TYPED_TEST(DeformableMasters, SlaveFacetsMustBeOfTheDimension)
 {
   const TwoSheets sheets(3), line(2);
-  auto halo = parallel::serial_halo(sheets.x, 3);
+  auto halo = mesh::serial_halo(sheets.x, 3);
   const auto& [offsets, nodes] = sheets.master;
   auto surface = search::make_master_surface(halo, offsets, nodes);
   auto outside = std::make_shared<search::Outside>(halo, offsets, nodes);
@@ -237,7 +237,7 @@ TEST(NodeTie, TheOffsetMakesItLonger)
   const auto longer = tie->update(sheets.x, false,
                                   std::vector<double>(sheets.num_slaves, 0.01));
   ASSERT_TRUE(longer);
-  for (const Pairs& p : *longer)
+  for (const kernel::Pairs& p : *longer)
     for (std::size_t i = 0; i < p.size(); ++i)
     {
       const auto slip = p.slip_row<kernel::FacetSlip>(i);
@@ -265,7 +265,8 @@ TEST(SurfaceToSurface, TheAreaIsWhatTheMasterCovers)
     // Half of the slave is beyond the master's end at 2
     TwoSheets sheets(gdim, 0.01, Cells::quadrilaterals);
     const auto pairs = sheets.pairs<SurfaceToSurface>();
-    const auto whole = facet::nodal_areas(sheets.slave.list(), sheets.x, gdim);
+    const auto whole
+        = geometry::nodal_areas(sheets.slave.list(), sheets.x, gdim);
     const std::vector<double> all(whole.begin(),
                                   whole.begin() + sheets.num_slaves);
     const auto covered = pairs->area(all);
@@ -292,10 +293,10 @@ TEST(SurfaceToSurface, SlipIsMeasuredWithTheWeightsOfTheStart)
 {
   TwoSheets sheets(3, 0.01);
   const auto pairs = sheets.pairs<SurfaceToSurface>();
-  const auto count = [](const std::vector<Pairs>& groups)
+  const auto count = [](const std::vector<kernel::Pairs>& groups)
   {
     return std::ranges::count_if(groups,
-                                 [](const Pairs& p) { return p.is_movement; });
+                                 [](const kernel::Pairs& p) { return p.is_movement; });
   };
   EXPECT_GT(count(pairs->pairs()), 0);
   const auto start = pairs->pairs().back();
@@ -315,10 +316,10 @@ TEST(SurfaceTie, TheOffsetIsAddedToTheGap)
 {
   TwoSheets sheets(2, 0.05);
   const auto tie = sheets.pairs<SurfaceTie>();
-  const auto sum = [](const std::vector<Pairs>& groups)
+  const auto sum = [](const std::vector<kernel::Pairs>& groups)
   {
     double total = 0;
-    for (const Pairs& p : groups)
+    for (const kernel::Pairs& p : groups)
     {
       const kernel::MortarLayout at(p.num_slaves, p.num_nodes);
       for (std::size_t i = 0; i < p.size(); ++i)
@@ -338,7 +339,7 @@ TEST(SurfaceTie, TheOffsetIsAddedToTheGap)
 TEST(FreeSquares, PartsWithTheSameNodeAddUpFirst)
 {
   // Slave node 0 has node 2 in two facets; node 1 of it is prescribed along x
-  const Weights weights{{0, 0, 0, 0}, {0, 1, 2, 2}, {1, -0.5, -0.2, -0.3}};
+  const kernel::Weights weights{{0, 0, 0, 0}, {0, 1, 2, 2}, {1, -0.5, -0.2, -0.3}};
   std::vector<std::int8_t> free{1, 1, 0, 1, 1, 1};
   const std::vector<std::int8_t> paired{1, 1};
   const auto squares = free_squares(weights, free, paired, 2);

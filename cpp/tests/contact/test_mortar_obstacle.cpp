@@ -4,8 +4,8 @@
 #include "obstacle_scene.h"
 #include "scene.h"
 #include <contactx/contact/mortar_obstacle.h>
-#include <contactx/facet/nodal.h>
-#include <contactx/mortar/quadrature.h>
+#include <contactx/geometry/nodal.h>
+#include <contactx/geometry/quadrature.h>
 #include <gtest/gtest.h>
 #include <numeric>
 #include <stdexcept>
@@ -48,31 +48,31 @@ struct Front
   std::int32_t n;
   std::unique_ptr<MortarObstacle> master;
 
-  Front(Scene surface, std::shared_ptr<obstacle::Obstacle> o,
+  Front(Scene surface, std::shared_ptr<geometry::Obstacle> o,
         bool measures_slip = false)
       : scene(std::move(surface)),
         n(static_cast<std::int32_t>(scene.x.size()) / scene.gdim)
   {
     master = std::make_unique<MortarObstacle>(
         std::move(o),
-        std::make_shared<SlaveNodes>(std::make_shared<parallel::SerialNodes>(n),
+        std::make_shared<SlaveNodes>(std::make_shared<mesh::SerialNodes>(n),
                                      scene.facets(), scene.facets()),
         scene.x, scene.gdim, infinity, measures_slip);
     master->search(scene.x, std::vector<std::int8_t>(n));
   }
 
-  std::vector<Pairs> update(std::span<const double> x, bool frozen = false)
+  std::vector<kernel::Pairs> update(std::span<const double> x, bool frozen = false)
   {
     return master->update(x, frozen, std::vector<double>(n)).value();
   }
 
   /// Integrals of one kind at the slave nodes, `width` values each.
-  std::vector<double> sums(const std::vector<Pairs>& groups,
+  std::vector<double> sums(const std::vector<kernel::Pairs>& groups,
                            int kernel::RigidMortarLayout::* part,
                            int width) const
   {
     std::vector<double> sum(n * width, 0);
-    for (const Pairs& p : groups)
+    for (const kernel::Pairs& p : groups)
     {
       const kernel::RigidMortarLayout at(p.num_slaves, scene.gdim);
       for (std::size_t f = 0; f < p.size(); ++f)
@@ -86,20 +86,20 @@ struct Front
 };
 
 /// A ceiling above, whose outward normal points down.
-std::shared_ptr<obstacle::Obstacle> ceiling(int gdim, double z)
+std::shared_ptr<geometry::Obstacle> ceiling(int gdim, double z)
 {
   std::vector<double> point(gdim, 0), down(gdim, 0);
   point[gdim - 1] = z;
   down[gdim - 1] = -1;
-  return std::make_shared<obstacle::Plane>(point, down);
+  return std::make_shared<geometry::Plane>(point, down);
 }
 
 /// A ball above.
-std::shared_ptr<obstacle::Obstacle> ball(int gdim)
+std::shared_ptr<geometry::Obstacle> ball(int gdim)
 {
   std::vector<double> centre(gdim, 0.45);
   centre[gdim - 1] = 3;
-  return std::make_shared<obstacle::Sphere>(centre, 2.5);
+  return std::make_shared<geometry::Sphere>(centre, 2.5);
 }
 
 TEST(MortarObstacle, AUniformGapGivesTheArea)
@@ -108,7 +108,8 @@ TEST(MortarObstacle, AUniformGapGivesTheArea)
   {
     Front front(scene, ceiling(scene.gdim, 0.25));
     const auto groups = front.master->pairs();
-    const auto area = facet::nodal_areas(scene.facets(), scene.x, scene.gdim);
+    const auto area
+        = geometry::nodal_areas(scene.facets(), scene.x, scene.gdim);
     auto gaps = area;
     for (double& g : gaps)
       g *= 0.25;
@@ -128,7 +129,7 @@ TEST(MortarObstacle, WhatIsLinearOnFacetsIsWeighedAtTheNodes)
   // facets of any shape
   for (const Scene& scene : surfaces(0.1))
   {
-    auto plane = std::make_shared<obstacle::Plane>(
+    auto plane = std::make_shared<geometry::Plane>(
         scene.gdim == 2 ? std::vector<double>{0, 1}
                         : std::vector<double>{0, 0, 1},
         scene.gdim == 2 ? std::vector<double>{0.2, -1}
@@ -149,7 +150,8 @@ TEST(MortarObstacle, AreasAreThoseOfTheNodesToTheRulesAccuracy)
   for (const Scene& scene : surfaces(0.1))
   {
     Front front(scene, ball(scene.gdim));
-    const auto area = facet::nodal_areas(scene.facets(), scene.x, scene.gdim);
+    const auto area
+        = geometry::nodal_areas(scene.facets(), scene.x, scene.gdim);
     EXPECT_LE(difference(front.sums(front.master->pairs(),
                                     &kernel::RigidMortarLayout::area, 1),
                          area),
@@ -162,11 +164,11 @@ TEST(MortarObstacle, AreasAreThoseOfTheNodesToTheRulesAccuracy)
 /// area, which is that of nodal areas.
 TEST(MortarObstacle, IntegratesAGapOfDegreeTwoExactly)
 {
-  auto set = std::make_shared<obstacle::LevelSet>(
+  auto set = std::make_shared<geometry::LevelSet>(
       [](std::span<const double> x, int, int)
       {
         // Its gradient has length one: g = f
-        obstacle::LevelValues at;
+        geometry::LevelValues at;
         for (std::size_t i = 0; i < x.size(); i += 3)
         {
           at.value.push_back(2 + x[i] * x[i] - 0.5 * x[i] * x[i + 1]
@@ -186,8 +188,8 @@ TEST(MortarObstacle, IntegratesAGapOfDegreeTwoExactly)
   ASSERT_EQ(groups.size(), 1u);
   const double area = norm(cross(corner[1] - corner[0], corner[2] - corner[0]));
   Vector<3> expected{};
-  for (const auto& [s, ws] : mortar::gauss(8))
-    for (const auto& [t, wt] : mortar::gauss(8))
+  for (const auto& [s, ws] : geometry::gauss(8))
+    for (const auto& [t, wt] : geometry::gauss(8))
     {
       const Vector<3> N{1 - s, s * (1 - t), s * t};
       const Vector<3> p
@@ -219,7 +221,7 @@ TEST(MortarObstacle, DerivativesAreThoseByDifferences)
         const auto plus = front.update(up), minus = front.update(down);
         // Rows of the derivatives that this node has
         std::vector<double> gap(front.n, 0), normal(front.n * g, 0);
-        for (const Pairs& p : groups)
+        for (const kernel::Pairs& p : groups)
         {
           const int s = p.num_slaves;
           const Layout at(s, g);
@@ -283,7 +285,7 @@ TEST(MortarObstacle, FrozenTheGapIsLinear)
       EXPECT_NEAR(two[i] - one[i], one[i] - zero[i], 1e-14);
       EXPECT_NEAR(one[i] - zero[i], (plus[i] - minus[i]) / (2 * h), 1e-9);
     }
-    for (const Pairs& p : front.update(moved(1), true))
+    for (const kernel::Pairs& p : front.update(moved(1), true))
     {
       const Layout at(p.num_slaves, g);
       for (std::size_t f = 0; f < p.size(); ++f)
@@ -338,7 +340,7 @@ TEST(MortarObstacle, FacetsBelongToWhereTheirNodesAreOwned)
 
 TEST(MortarObstacle, TakesOffWhereTheObstacleCarriesItsPoints)
 {
-  auto plane = std::make_shared<obstacle::Plane>(std::vector<double>{0, 1},
+  auto plane = std::make_shared<geometry::Plane>(std::vector<double>{0, 1},
                                                  std::vector<double>{0, -1});
   Front front(surface(2, Cells::mixed, 0), plane, true);
   plane->place({0.5, 0.75}, {0, -1});

@@ -15,7 +15,7 @@ using namespace contactx::tests;
 namespace
 {
 std::unique_ptr<ObstacleMaster> make(const FacingNodes& scene,
-                                     std::shared_ptr<obstacle::Obstacle> o,
+                                     std::shared_ptr<geometry::Obstacle> o,
                                      bool measures_slip = true,
                                      double reach = infinity)
 {
@@ -165,9 +165,9 @@ TEST(ObstacleMaster, TheNextStepStartsWhereTheLastOneEnded)
 /// An obstacle that moves and turns, and the motion of its material.
 struct Moving
 {
-  std::shared_ptr<obstacle::Obstacle> o;
+  std::shared_ptr<geometry::Obstacle> o;
   std::function<void()> move;
-  obstacle::Placement from, to;
+  geometry::Placement from, to;
 
   Moving(Kind kind, int gdim)
   {
@@ -180,19 +180,19 @@ struct Moving
     b.resize(gdim);
     if (kind == Kind::plane)
     {
-      auto plane = std::make_shared<obstacle::Plane>(start, a);
+      auto plane = std::make_shared<geometry::Plane>(start, a);
       move = [=] { plane->place(end, b); };
       o = plane;
     }
     else if (kind == Kind::sphere)
     {
-      auto sphere = std::make_shared<obstacle::Sphere>(start, 0.8);
+      auto sphere = std::make_shared<geometry::Sphere>(start, 0.8);
       move = [=] { sphere->place(end, 0.8); };
       o = sphere;
     }
     else
     {
-      auto cylinder = std::make_shared<obstacle::Cylinder>(start, a, 0.8);
+      auto cylinder = std::make_shared<geometry::Cylinder>(start, a, 0.8);
       move = [=] { cylinder->place(end, b, 0.8); };
       o = cylinder;
     }
@@ -200,11 +200,11 @@ struct Moving
     move();
     to = o->placement(gdim);
     if (kind == Kind::plane)
-      std::static_pointer_cast<obstacle::Plane>(o)->place(start, a);
+      std::static_pointer_cast<geometry::Plane>(o)->place(start, a);
     else if (kind == Kind::sphere)
-      std::static_pointer_cast<obstacle::Sphere>(o)->place(start, 0.8);
+      std::static_pointer_cast<geometry::Sphere>(o)->place(start, 0.8);
     else
-      std::static_pointer_cast<obstacle::Cylinder>(o)->place(start, a, 0.8);
+      std::static_pointer_cast<geometry::Cylinder>(o)->place(start, a, 0.8);
   }
 
   std::vector<double> carried(const FacingNodes& scene) const
@@ -292,7 +292,7 @@ TEST(ObstacleMaster, FirstTouchIsWhereTheWayMeetsThePlane)
       points[gdim * i] = 0.1 * i;
       points[gdim * i + z] = 0.1 + 0.5 * i / (n - 1);
     }
-    auto plane = std::make_shared<obstacle::Plane>(start, up);
+    auto plane = std::make_shared<geometry::Plane>(start, up);
     const FacingNodes scene(*plane, gdim, points);
     const auto master = make(scene, plane);
     start[z] = 0.25;
@@ -324,7 +324,7 @@ TEST(ObstacleMaster, FirstTouchIsWhereTheWayMeetsThePlane)
 
 TEST(ObstacleMaster, AHalfTurnHasNoShortestWay)
 {
-  auto plane = std::make_shared<obstacle::Plane>(std::vector<double>{0, 0},
+  auto plane = std::make_shared<geometry::Plane>(std::vector<double>{0, 0},
                                                  std::vector<double>{1, 0});
   const FacingNodes scene(*plane, 2);
   const auto master = make(scene, plane);
@@ -348,7 +348,7 @@ TEST(ObstacleMaster, NothingIsTangentialWithoutFriction)
 
 TEST(ObstacleMaster, PairsNodesThatFaceItWithinReach)
 {
-  auto plane = std::make_shared<obstacle::Plane>(std::vector<double>{0, 0},
+  auto plane = std::make_shared<geometry::Plane>(std::vector<double>{0, 0},
                                                  std::vector<double>{0, 1});
   // Nodes 1, 2 and 4 are those of facets that face away, node 3 is out of reach
   const std::vector<double> x{0,   0.1, 1,    0.1, 2,    0.1, 3,
@@ -356,8 +356,8 @@ TEST(ObstacleMaster, PairsNodesThatFaceItWithinReach)
   const std::vector<std::int32_t> offsets{0, 2, 4, 6, 8},
       nodes{0, 6, 2, 1, 3, 5, 6, 4};
   const auto slaves = std::make_shared<SlaveNodes>(
-      std::make_shared<PartOfNodes>(6, 7), facet::FacetList{offsets, nodes},
-      facet::FacetList{offsets, nodes});
+      std::make_shared<PartOfNodes>(6, 7), geometry::FacetList{offsets, nodes},
+      geometry::FacetList{offsets, nodes});
   ObstacleMaster master(plane, slaves, x, 2, 0.5, false);
   EXPECT_EQ(master.paired(), std::vector<std::int8_t>(6));
   EXPECT_TRUE(master.pairs().empty());
@@ -372,7 +372,7 @@ TEST(ObstacleMaster, PairsNodesThatFaceItWithinReach)
   const auto normals = master.normals();
   EXPECT_EQ(normals[1], 1);
   EXPECT_EQ(largest({normals.begin() + 3, normals.end()}), 0);
-  const Weights weights = master.weights();
+  const kernel::Weights weights = master.weights();
   EXPECT_EQ(weights.values, (std::vector<double>{1}));
   EXPECT_EQ(master.distance(x), 0.1);
   EXPECT_EQ(master.compliance(x), std::vector<double>(6));
@@ -381,7 +381,7 @@ TEST(ObstacleMaster, PairsNodesThatFaceItWithinReach)
 
 TEST(ObstacleMaster, MobilityIsThatOfTheFreeComponents)
 {
-  auto plane = std::make_shared<obstacle::Plane>(std::vector<double>{0, 0},
+  auto plane = std::make_shared<geometry::Plane>(std::vector<double>{0, 0},
                                                  std::vector<double>{3, 4});
   const FacingNodes scene(*plane, 2, std::vector<double>{0, 1, 1, 1, 2, 1});
   const auto master = make(scene, plane);
@@ -396,10 +396,10 @@ TEST(ObstacleMaster, MobilityIsThatOfTheFreeComponents)
 TEST(ObstacleMaster, ALevelSetThatMovesTellsNothing)
 {
   double height = 0;
-  auto set = std::make_shared<obstacle::LevelSet>(
+  auto set = std::make_shared<geometry::LevelSet>(
       [&](std::span<const double> x, int, int)
       {
-        obstacle::LevelValues at;
+        geometry::LevelValues at;
         for (std::size_t i = 0; i < x.size(); i += 2)
         {
           at.value.push_back(x[i + 1] - height);
@@ -416,7 +416,7 @@ TEST(ObstacleMaster, ALevelSetThatMovesTellsNothing)
   EXPECT_FALSE(make(scene, set, false)->moves_untold(0));
   // Along its surface only parameters tell
   double shift = 0;
-  auto told = std::make_shared<obstacle::LevelSet>(
+  auto told = std::make_shared<geometry::LevelSet>(
       [&](std::span<const double> x, int g, int) { return bump(x, g, true); },
       [&](int) { return std::vector<double>{shift}; });
   const auto second = make(FacingNodes(*told, 2), told);
@@ -479,7 +479,7 @@ TEST(ObstacleMaster, RefusesWhatDoesNotFit)
 }
 
 std::unique_ptr<ObstacleTie> tied(const FacingNodes& scene,
-                                  std::shared_ptr<obstacle::Obstacle> o)
+                                  std::shared_ptr<geometry::Obstacle> o)
 {
   auto tie = std::make_unique<ObstacleTie>(std::move(o), scene.slaves, scene.x,
                                            scene.gdim, infinity);
@@ -527,10 +527,10 @@ TEST(ObstacleTie, MovesWithItsObstacleOverSteps)
 struct Belt
 {
   double time = 0, speed = 1;
-  std::shared_ptr<obstacle::LevelSet> o = std::make_shared<obstacle::LevelSet>(
+  std::shared_ptr<geometry::LevelSet> o = std::make_shared<geometry::LevelSet>(
       [](std::span<const double> x, int g, int)
       {
-        obstacle::LevelValues at;
+        geometry::LevelValues at;
         for (std::size_t i = 0; i < x.size(); i += g)
         {
           at.value.push_back(x[i + 1] + 10);
@@ -538,8 +538,8 @@ struct Belt
         }
         return at;
       },
-      obstacle::LevelSet::Parameters{},
-      obstacle::LevelSet::Velocity{[this](std::span<const double> x, int g)
+      geometry::LevelSet::Parameters{},
+      geometry::LevelSet::Velocity{[this](std::span<const double> x, int g)
                                    {
                                      std::vector<double> v(x.size(), 0);
                                      for (std::size_t i = 0; i < x.size();

@@ -3,7 +3,7 @@
 
 #include "slave_parts.h"
 #include "slave_sheet.h"
-#include <contactx/contact/facing.h>
+#include <contactx/geometry/facing.h>
 #include <gtest/gtest.h>
 #include <limits>
 #include <numeric>
@@ -91,7 +91,7 @@ TEST(SlaveNodes, LargestAndSmallestOfFacets)
   values[7] = std::numeric_limits<double>::quiet_NaN();
   const auto largest = slaves->largest(values);
   const auto smallest = slaves->smallest(values);
-  const facet::FacetList facets = slaves->local();
+  const geometry::FacetList facets = slaves->local();
   int num_nan = 0;
   for (std::int32_t f = 0; f < facets.size(); ++f)
   {
@@ -132,7 +132,7 @@ TEST(SlaveNodes, SumsOfCornersAreThoseOfTheirNodes)
   // All corners face a normal of length zero
   const std::vector<double> none(place.size() * 3, 0);
   const auto area = slaves->sums(slaves->facing_areas(bulk.x, bulk.x, none, 3));
-  const auto expected = facet::nodal_areas(bulk.facets(), bulk.x, 3);
+  const auto expected = geometry::nodal_areas(bulk.facets(), bulk.x, 3);
   for (std::size_t i = 0; i < place.size(); ++i)
     EXPECT_NEAR(area[i], expected[place[i]], 1e-14);
 }
@@ -155,14 +155,14 @@ TEST(SlaveNodes, FaceAMasterAsTheirFacetsDo)
       std::copy_n(n.begin(), gdim, every.begin() + node * gdim);
     }
     const auto faces = slaves->facing(bulk.x, normal, gdim);
-    const auto expected = facing_nodes(bulk.facets(), bulk.x, every, gdim);
+    const auto expected = geometry::facing_nodes(bulk.facets(), bulk.x, every, gdim);
     for (std::size_t i = 0; i < place.size(); ++i)
       EXPECT_EQ(faces[i], expected[place[i]]);
     std::vector<double> moved = bulk.x;
     for (double& c : moved)
       c += 0.02 * random(-1, 1);
     EXPECT_EQ(slaves->facing_areas(bulk.x, moved, normal, gdim),
-              facing_areas(bulk.facets(), bulk.x, moved, every, gdim));
+              geometry::facing_areas(bulk.facets(), bulk.x, moved, every, gdim));
   }
 }
 
@@ -183,10 +183,10 @@ TEST(SlaveNodes, AreTheSameOnRanks)
       std::vector<std::int64_t> tags(n);
       std::iota(tags.begin(), tags.end(), std::int64_t(1) << 40);
       const auto level = near(whole, which);
-      const auto area = facet::nodal_areas(whole.facets(), whole.x, gdim);
+      const auto area = geometry::nodal_areas(whole.facets(), whole.x, gdim);
       std::vector<std::int64_t> own(size);
       on_ranks(size,
-               [&](parallel::Ranks& rank)
+               [&](mesh::Ranks& rank)
                {
                  const Part part = part_of(whole, owner, rank);
                  const SlaveNodes& slaves = *part.slaves;
@@ -242,7 +242,7 @@ TEST(SlaveNodes, RefuseWhatDoesNotFit)
   EXPECT_THROW(slaves->smallest(few), std::invalid_argument);
   EXPECT_THROW(slaves->facing(few, few, 3), std::invalid_argument);
   EXPECT_THROW(slaves->facing(scene.x, few, 3), std::invalid_argument);
-  const auto nodes = std::make_shared<parallel::SerialNodes>(3);
+  const auto nodes = std::make_shared<mesh::SerialNodes>(3);
   EXPECT_THROW(SlaveNodes(nodes, scene.facets(), Scene(3).facets()),
                std::invalid_argument);
   const std::vector<std::int32_t> offsets{0, 3, 4}, three{0, 1, 2};

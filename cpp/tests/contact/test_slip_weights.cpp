@@ -23,7 +23,7 @@ struct Weighted
   std::vector<double> x;
 
   explicit Weighted(int gdim, double angle)
-      : sheets(gdim, 0.1), slaves(parallel::serial_halo(sheets.x, gdim),
+      : sheets(gdim, 0.1), slaves(mesh::serial_halo(sheets.x, gdim),
                                   sheets.slave.list(), sheets.slave.list()),
         sides(slaves, sheets.x, gdim), x(sheets.turned(angle))
   {

@@ -3,8 +3,8 @@
 
 #include "generator.h"
 #include <atomic>
+#include <contactx/geometry/segment.h>
 #include <contactx/kernel/registry.h>
-#include <contactx/mortar/segment.h>
 #include <cstdlib>
 #include <gtest/gtest.h>
 #include <new>
@@ -75,8 +75,8 @@ TEST(Kernels, AllocateNothing)
     if (e.num_slaves > e.gdim + (e.gdim == 3))
       continue;
     if (e.num_nodes > 0 and e.num_slaves > 1)
-      mortar::visit(e.num_slaves, e.num_nodes, [&]<class S, class M>(S, M)
-                    { face<S, M>(w.data(), e.law); });
+      geometry::visit(e.num_slaves, e.num_nodes, [&]<class S, class M>(S, M)
+                      { face<S, M>(w.data(), e.law); });
     for (int feature = 0; feature < features; ++feature)
     {
       if (has_features)

@@ -7,7 +7,7 @@
 using namespace contactx;
 using namespace contactx::kernel;
 using namespace contactx::tests;
-using contact::Pairs;
+using kernel::Pairs;
 
 namespace
 {
@@ -392,11 +392,11 @@ struct Fan
     Values x(position);
     for (std::size_t i = 0; i < x.size(); ++i)
       x[i] += displacement[i];
-    mortar::FacetSearch search({0, 3}, slave_nodes, master_offsets,
+    search::FacetSearch search({0, 3}, slave_nodes, master_offsets,
                                master_nodes, 3);
     const auto found = search.find(x, INFINITY, 0);
-    const auto all = mortar::integrals(search.slave(), search.master(), found,
-                                       x, position, 3);
+    const auto all = geometry::integrals(search.slave(), search.master(), found,
+                                         x, position, 3);
     const MortarLayout at(3, 3);
     Pairs p;
     p.num_slaves = p.num_nodes = 3;
@@ -408,7 +408,7 @@ struct Fan
       const auto first = master_nodes.begin() + 3 * found.master[i];
       p.nodes.insert(p.nodes.end(), first, first + 3);
       Values data(at.size);
-      constexpr int most = mortar::most_nodes;
+      constexpr int most = geometry::most_nodes;
       for (int s = 0; s < 3; ++s)
       {
         std::copy_n(&all.weight[most * (most * i + s)], 3,

@@ -4,7 +4,7 @@
 #include "kernel_samples.h"
 
 using namespace contactx;
-using namespace contactx::facet;
+using namespace contactx::geometry;
 using namespace contactx::tests;
 
 namespace

@@ -6,7 +6,7 @@
 
 using namespace contactx;
 using namespace contactx::tests;
-using contactx::contact::NodeState;
+using contactx::law::NodeState;
 
 namespace
 {

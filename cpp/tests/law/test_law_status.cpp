@@ -9,7 +9,7 @@
 using namespace contactx;
 using namespace contactx::law;
 using namespace contactx::tests;
-using contactx::contact::NodeState;
+using contactx::law::NodeState;
 
 namespace
 {
@@ -32,7 +32,7 @@ struct Rubbing
 
   NodeState nodes;
   law::Coulomb law;
-  parallel::OneRank ranks;
+  mesh::OneRank ranks;
 };
 
 TEST(FrictionlessLaw, ClosesUnderPressureOrPenetration)
@@ -40,7 +40,7 @@ TEST(FrictionlessLaw, ClosesUnderPressureOrPenetration)
   NodeState nodes(4, 3, false);
   nodes.multiplier = {1, 0, -1, 1};
   nodes.gap = {0, -0.1, 0, NAN};
-  parallel::OneRank ranks;
+  mesh::OneRank ranks;
   const Frictionless law;
   EXPECT_EQ(law.set_status(nodes, ranks), 2);
   EXPECT_EQ(nodes.status, (std::vector<std::int8_t>{slip, slip, open, open}));
@@ -57,7 +57,7 @@ TEST(FrictionlessLaw, ImmobileAndCededNodesStayOpen)
   nodes.multiplier = {1, 1, 1};
   nodes.gap = {-1, -1, -1};
   nodes.immobile[0] = nodes.ceded[1] = 1;
-  parallel::OneRank ranks;
+  mesh::OneRank ranks;
   EXPECT_EQ(Frictionless().set_status(nodes, ranks), 1);
   EXPECT_EQ(nodes.status, (std::vector<std::int8_t>{open, open, slip}));
 }
@@ -112,7 +112,7 @@ TEST(CoulombLaw, ChecksItsCoefficients)
 TEST(CoulombLaw, ChecksTheBoundsOfAFunction)
 {
   NodeState nodes(2, 3, true);
-  parallel::OneRank ranks;
+  mesh::OneRank ranks;
   const auto gives = [&](const law::Bounds& bounds)
   {
     const law::Coulomb law([&](auto, auto) { return bounds; });
@@ -144,7 +144,7 @@ TEST(CoulombLaw, ABoundOfTrescaDoesNotDependOnThePressure)
   std::ranges::fill(nodes.c, 1.0);
   std::ranges::fill(nodes.gap, 0.0);
   const law::Coulomb law(tresca);
-  parallel::OneRank ranks;
+  mesh::OneRank ranks;
   EXPECT_EQ(law.rubs(nodes), (std::vector<std::int8_t>{1, 1, 0}));
   law.set_status(nodes, ranks);
   EXPECT_EQ(nodes.status, (std::vector<std::int8_t>{stick, slip, open}));
@@ -196,7 +196,7 @@ TEST(CoulombLaw, ANodeThatHasNotMovedYetGoesOnWhereTheStepBeforeLeftIt)
 TEST(CoulombLaw, TheEdgeIsAsWideAsTheLargestPressureSays)
 {
   // What a solve leaves goes with the largest pressure, also of other ranks
-  const auto status = [](parallel::Ranks& ranks, double elsewhere)
+  const auto status = [](mesh::Ranks& ranks, double elsewhere)
   {
     Rubbing a(2);
     a.set(0, slip, 2, 1.8 - 1e-6, 0.1);
@@ -204,12 +204,12 @@ TEST(CoulombLaw, TheEdgeIsAsWideAsTheLargestPressureSays)
     a.law.set_status(a.nodes, ranks);
     return a.nodes.status[0];
   };
-  parallel::OneRank alone;
+  mesh::OneRank alone;
   EXPECT_EQ(status(alone, 2), stick);
   EXPECT_EQ(status(alone, 2e4), slip);
   for (const double heavy : {2.0, 2e4})
     on_ranks(2,
-             [&](parallel::Ranks& ranks)
+             [&](mesh::Ranks& ranks)
              {
                EXPECT_EQ(status(ranks, ranks.rank() == 0 ? 2 : heavy),
                          heavy > 2 ? slip : stick);
@@ -322,7 +322,7 @@ TEST(TiedLaw, TiesWhatHasAPair)
   nodes.ceded[2] = 1;
   // Its multiplier is another one's matter
   nodes.immobile[3] = 1;
-  parallel::OneRank ranks;
+  mesh::OneRank ranks;
   const Tied law;
   EXPECT_EQ(law.set_status(nodes, ranks), 3);
   EXPECT_EQ(nodes.status, (std::vector<std::int8_t>{stick, open, open, stick}));
@@ -332,7 +332,7 @@ TEST(TiedLaw, TiesWhatHasAPair)
 TEST(Laws, RefuseOtherMultipliers)
 {
   NodeState scalar(1, 3, false), vector(1, 3, true);
-  parallel::OneRank ranks;
+  mesh::OneRank ranks;
   law::Coulomb coulomb;
   coulomb.set_friction(std::vector{0.5});
   const Tied tied;

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <contactx/math/vec.h>
 #include <contactx/mesh/cell.h>
-#include <contactx/vec.h>
 #include <gtest/gtest.h>
 #include <numeric>
 #include <set>

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include <algorithm>
+#include <contactx/math/vec.h>
 #include <contactx/mesh/nodes.h>
-#include <contactx/vec.h>
 #include <gtest/gtest.h>
 #include <numeric>
 #include <set>
@@ -148,7 +148,7 @@ TEST_P(OfNodes, FacetsPointOutOfTheirCellWhicheverWayItIsRound)
         of.push_back(0);
         local.push_back(f);
       }
-      const facet::Facets found
+      const geometry::Facets found
           = facets(one.cells(), of, local, one.geometry());
       EXPECT_EQ(found.list().size(), std::ssize(of) << (dim - 1));
       Vector<3> middle{};

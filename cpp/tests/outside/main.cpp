@@ -40,7 +40,7 @@ int main()
                         master_nodes, 2);
   found.update(x, 1, std::vector<std::int8_t>(3, 0));
 
-  contact::Pairs pairs;
+  kernel::Pairs pairs;
   pairs.num_nodes = 2;
   pairs.data_size = kernel::num_values<kernel::FacetPair>;
   for (std::int32_t s = 0; s < 3; ++s)

@@ -4,7 +4,7 @@
 #include "contact_scene.h"
 #include "two_sheets.h"
 #include <contactx/contact/surface_to_surface.h>
-#include <contactx/obstacle/plane.h>
+#include <contactx/geometry/plane.h>
 #include <contactx/problem/make_contact.h>
 #include <gtest/gtest.h>
 #include <stdexcept>
@@ -20,12 +20,11 @@ struct Input
 {
   explicit Input(int dim)
       : scene(dim),
-        bodies(std::make_shared<contact::Bodies>(
+        bodies(std::make_shared<mesh::Bodies>(
             cells(), 2, num_cells(), scene.halo->original(), scene.halo)),
         mesh{scene.halo, bodies, cells(), 2},
         sides{.slave = {"upper", scene.sheets.slave.list()},
-              .master
-              = reference::NamedSurface{"lower", scene.sheets.master.list()}}
+              .master = mesh::NamedSurface{"lower", scene.sheets.master.list()}}
   {
   }
 
@@ -67,8 +66,8 @@ struct Input
 
   std::vector<std::int32_t> edges;
   ContactScene scene;
-  std::shared_ptr<contact::Bodies> bodies;
-  reference::Mesh mesh;
+  std::shared_ptr<mesh::Bodies> bodies;
+  mesh::Mesh mesh;
   Sides sides;
 };
 } // namespace
@@ -152,7 +151,7 @@ TEST(MakeContact, NamesAreThoseOfMessages)
   Input input(2);
   EXPECT_EQ(name_of(input.sides, contact::Sliding::small),
             "Contact(slave=upper, master=lower, sliding='small')");
-  input.sides.master = std::make_shared<obstacle::Plane>(
+  input.sides.master = std::make_shared<geometry::Plane>(
       std::vector<double>{0, 0}, std::vector<double>{0, 1});
   EXPECT_EQ(name_of(input.sides, contact::Sliding::finite),
             "Contact(slave=upper, master=Plane, sliding='finite')");

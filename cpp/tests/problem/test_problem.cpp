@@ -4,8 +4,8 @@
 #include "hiding_pairs.h"
 #include "stepped_bodies.h"
 #include <contactx/contact/contact_state.h>
-#include <contactx/newton/derivative_check.h>
-#include <contactx/newton/not_finite.h>
+#include <contactx/solve/derivative_check.h>
+#include <contactx/solve/not_finite.h>
 #include <gtest/gtest.h>
 #include <limits>
 
@@ -332,7 +332,7 @@ TEST(Problem, WhatIsNotFiniteIsRefusedBeforeAnyWork)
   found.bulk->values[dof] = 0;
   found.bulk->load[0] = not_a_number;
   EXPECT_TRUE(
-      contains(said<newton::NotFinite>([&] { problem.begin_step(); }),
+      contains(said<solve::NotFinite>([&] { problem.begin_step(); }),
                "the residual is not finite: the material fails at the start"));
   found.bulk->load[0] = 0;
   EXPECT_TRUE(found.solve().converged);
@@ -397,9 +397,9 @@ TEST(Problem, ARightStiffnessIsNotBlamed)
   for (std::size_t i = 0; i < direction.size(); ++i)
     direction[i] = std::sin(static_cast<double>(i));
   const std::vector<double> before = *found.scene.u;
-  EXPECT_LT(newton::derivative_error(*problem.system(), direction, 1e-4), 1e-9);
+  EXPECT_LT(solve::derivative_error(*problem.system(), direction, 1e-4), 1e-9);
   EXPECT_EQ(*found.scene.u, before);
   EXPECT_EQ(problem.why_slow(direction), "");
   direction.assign(direction.size(), 0);
-  EXPECT_EQ(newton::derivative_error(*problem.system(), direction, 1e-4), 0);
+  EXPECT_EQ(solve::derivative_error(*problem.system(), direction, 1e-4), 0);
 }

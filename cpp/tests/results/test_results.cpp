@@ -5,8 +5,8 @@
 #include "moved_contact.h"
 #include "self_scene.h"
 #include <cmath>
-#include <contactx/obstacle/plane.h>
-#include <contactx/reference/sides.h>
+#include <contactx/geometry/plane.h>
+#include <contactx/problem/sides.h>
 #include <contactx/results/results.h>
 #include <gtest/gtest.h>
 #include <numbers>
@@ -38,7 +38,7 @@ void press(Contact& contact, double pressure)
 {
   contact.search();
   contact.update_gap();
-  NodeState& nodes = *contact.nodes();
+  law::NodeState& nodes = *contact.nodes();
   std::ranges::fill(nodes.multiplier, pressure);
   std::ranges::fill(nodes.status, law::slip);
 }
@@ -57,7 +57,7 @@ std::shared_ptr<Contact> uneven(ContactScene& scene)
   auto contact = scene.contact<M>(coulomb(owned.size(), 0.4));
   contact->search();
   contact->update_gap();
-  NodeState& nodes = *contact->nodes();
+  law::NodeState& nodes = *contact->nodes();
   for (std::size_t i = 0; i < owned.size(); ++i)
   {
     const auto number = double(scene.mesh.number[owned[i]]);
@@ -96,7 +96,7 @@ struct Fold
   Strip strip{cells, 4, 0.1};
   std::shared_ptr<std::vector<double>> u
       = std::make_shared<std::vector<double>>(strip.x.size(), 0.);
-  std::shared_ptr<parallel::Halo> halo = parallel::serial_halo(strip.x, 2, u);
+  std::shared_ptr<mesh::Halo> halo = mesh::serial_halo(strip.x, 2, u);
   std::vector<std::int32_t> mesh;
   std::shared_ptr<Contact> contact;
 
@@ -105,14 +105,14 @@ struct Fold
     for (int i = 0; i < cells; ++i)
       mesh.insert(mesh.end(), {i, i + 1, strip.top(i), strip.top(i + 1)});
     const auto bodies
-        = std::make_shared<Bodies>(mesh, 4, cells, halo->original(), halo);
-    const auto slaves = reference::make_slave_nodes(halo, strip.facets.list());
+        = std::make_shared<mesh::Bodies>(mesh, 4, cells, halo->original(), halo);
+    const auto slaves = problem::make_slave_nodes(halo, strip.facets.list());
     auto law = std::make_shared<law::Frictionless>();
-    reference::MasterOptions self;
+    problem::MasterOptions self;
     self.is_self = true;
     const auto master
-        = reference::make_master({halo, bodies, mesh, 4}, slaves, "strip",
-                                 {"strip", strip.facets.list()}, *law, self);
+        = problem::make_master({halo, bodies, mesh, 4}, slaves, "strip",
+                               {"strip", strip.facets.list()}, *law, self);
     Contact::Options options{Sliding::finite, Method::node_to_surface, {}, {}};
     options.prescribed.assign(u->size(), 0);
     contact = std::make_shared<Contact>(halo, slaves, master, law,
@@ -199,7 +199,7 @@ TYPED_TEST(ResultsOf, RecoveryKeepsTheForceAndLeavesMultipliersAlone)
   const auto contact = scene.template contact<TypeParam>(
       std::make_shared<law::Frictionless>());
   press(*contact, 1);
-  NodeState& nodes = *contact->nodes();
+  law::NodeState& nodes = *contact->nodes();
   for (std::int32_t i = 0; i < nodes.num_nodes(); ++i)
     nodes.multiplier[i] += 0.2 * (i % 2);
   const std::vector<double> before = nodes.multiplier;
@@ -230,7 +230,7 @@ TYPED_TEST(ResultsOf, ForcesAreInBalanceAndTheSameOnRanks)
     ASSERT_GT(totals.closed, totals.slipping);
     on_ranks(
         3,
-        [&](parallel::Ranks& ranks)
+        [&](mesh::Ranks& ranks)
         {
           ContactScene part(dim, 0.05, Cells::mixed, &ranks);
           Results here(uneven<TypeParam>(part));
@@ -305,7 +305,7 @@ TYPED_TEST(ResultsOf, SlipIsThatOfTheAcceptedSteps)
   const std::int32_t n = scene.sheets.num_slaves;
   const auto contact = scene.template contact<TypeParam>(coulomb(n, 0.3));
   press(*contact, 1);
-  NodeState& nodes = *contact->nodes();
+  law::NodeState& nodes = *contact->nodes();
   for (std::int32_t i = 0; i < n; ++i)
     nodes.slip[3 * i] = 0.3, nodes.slip[3 * i + 1] = -0.4;
   contact->accept();
@@ -364,7 +364,7 @@ TEST(Results, ARigidObstacleCarriesItsForce)
     slave.node(p);
   slave.facet({0, 1, 2, 3});
   MovedContact moved(
-      slave, std::make_shared<obstacle::Plane>(std::vector<double>{0, 0, 0},
+      slave, std::make_shared<geometry::Plane>(std::vector<double>{0, 0, 0},
                                                std::vector<double>{0, 0, 1}));
   moved.move(0, 4, -0.1);
   press(*moved.contact, 3);
@@ -385,7 +385,7 @@ TEST(Results, TheForceOfSelfContactIsThatOnNodesInContact)
 {
   Fold fold;
   ASSERT_TRUE(fold.contact->is_self());
-  NodeState& nodes = *fold.contact->nodes();
+  law::NodeState& nodes = *fold.contact->nodes();
   const std::vector<double> normals = fold.contact->master()->normals();
   Vector<3> force{};
   int closed = 0;
@@ -419,12 +419,12 @@ TEST(Results, VerticesOfQuadraticTrianglesWithoutAPairAreLikeTheirNeighbours)
        {std::vector{0, 3, 4}, {3, 1, 5}, {4, 5, 2}, {3, 5, 4}})
     slave.facet(part);
   const auto u = std::make_shared<std::vector<double>>(slave.x.size(), 0.);
-  const auto halo = parallel::serial_halo(slave.x, 3, u);
+  const auto halo = mesh::serial_halo(slave.x, 3, u);
   const auto slaves
       = std::make_shared<SlaveNodes>(halo, slave.facets(), slave.facets());
   slaves->set_level(std::vector<std::int8_t>{0, 0, 0, 1, 1, 1}, false);
   const auto master = std::make_shared<ObstacleMaster>(
-      std::make_shared<obstacle::Plane>(std::vector<double>{0, 0, 0},
+      std::make_shared<geometry::Plane>(std::vector<double>{0, 0, 0},
                                         std::vector<double>{0, 0, 1}),
       slaves, slave.x, 3, infinity, false);
   Contact::Options options{
@@ -435,7 +435,7 @@ TEST(Results, VerticesOfQuadraticTrianglesWithoutAPairAreLikeTheirNeighbours)
       std::move(options));
   contact->search();
   contact->update_gap();
-  NodeState& nodes = *contact->nodes();
+  law::NodeState& nodes = *contact->nodes();
   for (std::size_t i = 0; i < 3; ++i)
     ASSERT_TRUE(std::isnan(nodes.gap[i]));
   std::ranges::fill(nodes.status.begin() + 3, nodes.status.end(), law::slip);

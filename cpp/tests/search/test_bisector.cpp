@@ -39,7 +39,7 @@ TEST(Bisector, IsHalfWayOverRidgesAndValleys)
       {
         const auto q = selected(down, over(down, height), turned);
         ASSERT_TRUE(q);
-        EXPECT_NE(q->feature, facet::interior);
+        EXPECT_NE(q->feature, geometry::interior);
         EXPECT_LT(norm(q->normal - over(down, 1)), 1e-9);
         EXPECT_NEAR(q->gap, height, 1e-12);
         EXPECT_LT(norm(q->d - over(down, height)), 1e-12);
@@ -65,14 +65,14 @@ TEST(Bisector, IsNothingBesideTheMiddle)
     {
       const auto q = selected(down, over(down, -1e-3) + Vector<3>{off, 0, 0});
       ASSERT_TRUE(q);
-      EXPECT_EQ(q->feature, facet::interior);
+      EXPECT_EQ(q->feature, geometry::interior);
     }
 }
 
 TEST(Bisector, IsNothingWhereFacetsAreInLine)
 {
   for (const double height : {-0.1, 0.0, 0.1})
-    EXPECT_EQ(selected(0, {0, height, 0})->feature, facet::interior);
+    EXPECT_EQ(selected(0, {0, height, 0})->feature, geometry::interior);
 }
 
 TEST(Bisector, LeavesCornersToTheirFacets)
@@ -80,7 +80,8 @@ TEST(Bisector, LeavesCornersToTheirFacets)
   // A box that stands with its corner on that of another one
   for (const double down : {std::acos(0.0), -std::acos(0.0), 0.8, -0.8})
     for (const double height : {-1e-3, 0.0})
-      EXPECT_EQ(selected(down, over(down, height))->feature, facet::interior);
+      EXPECT_EQ(selected(down, over(down, height))->feature,
+                geometry::interior);
 }
 
 TEST(Bisector, IsNothingFarFromTheVertex)
@@ -89,6 +90,6 @@ TEST(Bisector, IsNothingFarFromTheVertex)
   const double down = 0.5;
   const auto q = selected(down, over(down, -0.4));
   ASSERT_TRUE(q);
-  EXPECT_EQ(q->feature, facet::interior);
+  EXPECT_EQ(q->feature, geometry::interior);
 }
 } // namespace

@@ -3,16 +3,16 @@
 
 #include "random_scenes.h"
 #include "threads.h"
-#include <contactx/facet/middle.h>
-#include <contactx/mortar/facet_search.h>
+#include <contactx/geometry/middle.h>
 #include <contactx/search/distributed.h>
+#include <contactx/search/facet_search.h>
 #include <contactx/search/outside.h>
 #include <contactx/search/slave_facets.h>
 #include <gtest/gtest.h>
 
 using namespace contactx;
 using namespace contactx::tests;
-using parallel::Halo;
+using mesh::Halo;
 using search::MasterSurface;
 
 namespace
@@ -56,10 +56,10 @@ std::vector<Name> known(const MasterSurface& surface)
 }
 
 /// Own facets in order, as contact takes them
-facet::Facets part(const DistributedScene& scene, const Halo& halo,
-                   std::int32_t begin, std::int32_t end)
+geometry::Facets part(const DistributedScene& scene, const Halo& halo,
+                      std::int32_t begin, std::int32_t end)
 {
-  const facet::Facets own = scene.own(halo, begin, end);
+  const geometry::Facets own = scene.own(halo, begin, end);
   return search::in_order(halo, own.offsets, own.nodes);
 }
 
@@ -67,7 +67,7 @@ std::shared_ptr<MasterSurface> surface_of(const DistributedScene& scene,
                                           std::shared_ptr<Halo> halo,
                                           std::int32_t begin, std::int32_t end)
 {
-  const facet::Facets own = part(scene, *halo, begin, end);
+  const geometry::Facets own = part(scene, *halo, begin, end);
   return search::make_master_surface(std::move(halo), own.offsets, own.nodes);
 }
 
@@ -77,7 +77,7 @@ struct Points
 };
 
 /// Those of this rank
-Points of_rank(const Points& all, const parallel::Ranks& ranks, int gdim)
+Points of_rank(const Points& all, const mesh::Ranks& ranks, int gdim)
 {
   Points mine;
   for (std::size_t i = 0; i * gdim < all.points.size(); ++i)
@@ -251,7 +251,7 @@ TEST_P(SurfaceOnRanks, PairsAreThoseOfOneRank)
                 for (int k = 0; k < gdim; ++k)
                   x[node * gdim + k]
                       = halo->reference()[node * gdim + k] + step * way[k];
-              const auto changed = parallel::total(
+              const auto changed = mesh::total(
                   ranks, surface->pair(pairing, slave.list(), x, 0.3, closed));
               const std::lock_guard lock(mutex);
               result[{step, -1}].feature = changed;
@@ -341,7 +341,7 @@ TEST_P(SurfaceOnRanks, LookingFindsAllFacetsInFront)
                                             scene.offsets.end());
     for (std::int32_t& offset : slave_offsets)
       offset -= begin;
-    mortar::FacetSearch one(
+    search::FacetSearch one(
         slave_offsets, {scene.nodes.begin() + begin, scene.nodes.end()},
         {first, first + num_master + 1},
         {scene.nodes.begin(), scene.nodes.begin() + begin}, gdim);
@@ -513,7 +513,7 @@ TEST_P(SurfaceOnRanks, OnlookersSeeWhatOneRankSees)
                [&](ThreadRanks& ranks)
                {
                  const auto halo = parts.halo(ranks, u);
-                 facet::Facets own
+                 geometry::Facets own
                      = part(parts, *halo, 0, scene.facets().size());
                  if (around)
                    own = search::slave_facets(*halo, own.offsets, own.nodes);
@@ -616,7 +616,7 @@ TEST_P(SurfaceOnRanks, PointsOutsideOfAThinPlate)
                 = part(parts, *halo, 0, closed ? scene.facets().size() : n * n);
             search::Outside outside(halo, own.offsets, own.nodes);
             EXPECT_EQ(outside.is_around(), closed);
-            EXPECT_EQ(parallel::total(ranks, outside.onlooker().num_facets()),
+            EXPECT_EQ(mesh::total(ranks, outside.onlooker().num_facets()),
                       closed ? 2 * n * n : n * n);
             // Above, inside, below, inside but not deep, below and not asked
             Generator random(static_cast<unsigned>(ranks.rank()));

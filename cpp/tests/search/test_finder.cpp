@@ -3,8 +3,8 @@
 
 #include "pairing_scene.h"
 #include "random_scenes.h"
-#include <contactx/facet/nodal.h>
-#include <contactx/facet/shape.h>
+#include <contactx/geometry/nodal.h>
+#include <contactx/geometry/shape.h>
 #include <gtest/gtest.h>
 
 using namespace contactx;
@@ -106,7 +106,7 @@ TEST(PairingInHalves, IsPairing)
   for (int step = 0; step < 6; ++step)
   {
     const Finder finder = finder_of(halves, x);
-    const auto normals = facet::nodal_normals({offsets, nodes}, x, 3);
+    const auto normals = geometry::nodal_normals({offsets, nodes}, x, 3);
     std::int32_t changed = 0;
     for (const std::int32_t i : halves.seek(x, 1))
     {
@@ -213,12 +213,12 @@ TEST(PairingOnMixedFacets, ProjectsOnTheFacetThatItNames)
       all[k] = k;
     const Finder finder = finder_of(pairing, s.scene.x);
     const auto normals
-        = facet::nodal_normals({s.offsets, s.nodes}, s.scene.x, 3);
+        = geometry::nodal_normals({s.offsets, s.nodes}, s.scene.x, 3);
     int interior = 0;
     for (int k : all)
     {
       ASSERT_GE(pairing.facet()[k], 0);
-      if (pairing.feature()[k] != facet::interior)
+      if (pairing.feature()[k] != geometry::interior)
         continue;
       ++interior;
       const auto q = extended(surface, pairing.facet()[k], s.scene.x,
@@ -227,7 +227,7 @@ TEST(PairingOnMixedFacets, ProjectsOnTheFacetThatItNames)
       EXPECT_NEAR(q->xi[0], pairing.xi()[2 * k], 1e-13);
       EXPECT_NEAR(q->xi[1], pairing.xi()[2 * k + 1], 1e-13);
       // Behind a valley a pair may be farther out
-      EXPECT_TRUE(q->excess <= margin or q->gap < 0);
+      EXPECT_TRUE(q->excess <= geometry::facet_margin or q->gap < 0);
       const std::int32_t slave = pairing.slaves()[k];
       Vector<3> n;
       std::copy_n(normals.begin() + 3 * slave, 3, n.begin());

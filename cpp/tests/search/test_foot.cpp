@@ -57,7 +57,7 @@ protected:
   static constexpr int num = 200;
   Generator random{1};
   Scene scene;
-  std::vector<facet::Nodes<F>> facets;
+  std::vector<geometry::Nodes<F>> facets;
   std::vector<std::int32_t> which;
   std::vector<double> xi, gap;
 };
@@ -71,11 +71,12 @@ TYPED_TEST(Foot, PlacesAreOnTheSurfaceWithItsNormal)
       = places(this->scene.surface(), this->which, this->scene.x, this->xi);
   for (int i = 0; i < this->num; ++i)
   {
-    facet::Local<F> at;
+    geometry::Local<F> at;
     std::copy_n(this->xi.begin() + 2 * i, F::tdim, at.begin());
     const auto& x = this->facets[this->which[i]];
     EXPECT_LT(norm(this->point(q.x, i) - position<F>(x, at)), 1e-14);
-    EXPECT_LT(norm(this->point(q.normal, i) - facet::frame<F>(x, at).n), 1e-14);
+    EXPECT_LT(norm(this->point(q.normal, i) - geometry::frame<F>(x, at).n),
+              1e-14);
   }
 }
 

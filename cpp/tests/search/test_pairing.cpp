@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "pairing_scene.h"
-#include <contactx/facet/shape.h>
+#include <contactx/geometry/shape.h>
 #include <gtest/gtest.h>
 
 using namespace contactx;
@@ -28,7 +28,7 @@ TEST(Pairing, FindsFacetAndLocalCoordinates)
   SlidingSegment s(flat);
   s.search_at({1.25, 0.1}, false);
   EXPECT_EQ(s.facet(), 1);
-  EXPECT_EQ(s.feature(), facet::interior);
+  EXPECT_EQ(s.feature(), geometry::interior);
   EXPECT_NEAR(s.pairing.xi()[0], 0.75, 1e-15); // the facet starts at x = 2
 }
 
@@ -37,14 +37,14 @@ TEST(Pairing, KeepsAFacetInsideItsMargin)
   SlidingSegment s(flat);
   s.search_at({0.5, 0.1}, false);
   EXPECT_EQ(s.facet(), 0);
-  s.search_at({1 + 0.9 * margin, 0.1}, false);
+  s.search_at({1 + 0.9 * geometry::facet_margin, 0.1}, false);
   EXPECT_EQ(s.facet(), 0);
-  EXPECT_NEAR(s.pairing.xi()[0], -0.9 * margin, 1e-15);
-  s.search_at({1 + 1.1 * margin, 0.1}, false);
+  EXPECT_NEAR(s.pairing.xi()[0], -0.9 * geometry::facet_margin, 1e-15);
+  s.search_at({1 + 1.1 * geometry::facet_margin, 0.1}, false);
   EXPECT_EQ(s.facet(), 1);
-  s.search_at({1 - 0.9 * margin, 0.1}, false);
+  s.search_at({1 - 0.9 * geometry::facet_margin, 0.1}, false);
   EXPECT_EQ(s.facet(), 1);
-  s.search_at({1 - 1.1 * margin, 0.1}, false);
+  s.search_at({1 - 1.1 * geometry::facet_margin, 0.1}, false);
   EXPECT_EQ(s.facet(), 0);
 }
 
@@ -52,9 +52,9 @@ TEST(Pairing, LetsGoBeyondTheOuterEdge)
 {
   SlidingSegment s(flat);
   s.search_at({0.5, 0.1}, false);
-  s.search_at({-0.9 * margin, 0.1}, false);
+  s.search_at({-0.9 * geometry::facet_margin, 0.1}, false);
   EXPECT_EQ(s.facet(), 0);
-  s.search_at({-1.1 * margin, 0.1}, false);
+  s.search_at({-1.1 * geometry::facet_margin, 0.1}, false);
   EXPECT_EQ(s.facet(), -1);
   s.search_at({0.2, 0.1}, false);
   EXPECT_EQ(s.facet(), 0);
@@ -78,12 +78,12 @@ TEST(Pairing, FarFromAnEdgeOfTwoFacetsItKeepsTheOneThatItHas)
   const double far = 1.5; // longer than a facet
   s.search_at({0.99, far}, false);
   EXPECT_EQ(s.facet(), 0);
-  s.search_at({1 + 0.9 * margin, far}, false);
+  s.search_at({1 + 0.9 * geometry::facet_margin, far}, false);
   EXPECT_EQ(s.facet(), 0);
-  EXPECT_NEAR(s.pairing.xi()[0], -0.9 * margin, 1e-15);
-  s.search_at({1 + 1.1 * margin, far}, false);
+  EXPECT_NEAR(s.pairing.xi()[0], -0.9 * geometry::facet_margin, 1e-15);
+  s.search_at({1 + 1.1 * geometry::facet_margin, far}, false);
   EXPECT_EQ(s.facet(), 1);
-  s.search_at({1 - 0.9 * margin, far}, false);
+  s.search_at({1 - 0.9 * geometry::facet_margin, far}, false);
   EXPECT_EQ(s.facet(), 1);
 }
 

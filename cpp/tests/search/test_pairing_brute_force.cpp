@@ -15,9 +15,9 @@ using namespace contactx::tests;
 namespace
 {
 /// Slave facets whose nodes are where the search may find it hard.
-facet::FacetList add_slaves(Scene& scene, Generator& random,
-                            std::vector<std::int32_t>& offsets,
-                            std::vector<std::int32_t>& nodes)
+geometry::FacetList add_slaves(Scene& scene, Generator& random,
+                               std::vector<std::int32_t>& offsets,
+                               std::vector<std::int32_t>& nodes)
 {
   offsets = {0};
   for (int i = 0; i < 8; ++i)
@@ -42,9 +42,10 @@ TEST_P(PairingBruteForce, FirstPairsAreThoseOfALoop)
     Scene scene = random_scene(GetParam(), random);
     const Surface surface = scene.surface();
     std::vector<std::int32_t> offsets, nodes;
-    const facet::FacetList slaves = add_slaves(scene, random, offsets, nodes);
+    const geometry::FacetList slaves
+        = add_slaves(scene, random, offsets, nodes);
     const std::vector<double> normals
-        = facet::nodal_normals(slaves, scene.x, scene.gdim);
+        = geometry::nodal_normals(slaves, scene.x, scene.gdim);
     const double reach = set % 3 ? 10 : 0.3;
 
     Pairing pairing(offsets, nodes, scene.offsets, scene.nodes, scene.gdim);
@@ -60,7 +61,7 @@ TEST_P(PairingBruteForce, FirstPairsAreThoseOfALoop)
       auto expected = brute_force(surface, scene.x, p, normal, reach);
       if (expected)
         expected = select(surface, scene.x, p, *expected);
-      if (expected and expected->feature == facet::interior)
+      if (expected and expected->feature == geometry::interior)
         if (const auto q = bisector(surface, scene.x, p, *expected))
           expected = q;
       ASSERT_EQ(pairing.facet()[i], expected ? expected->facet : -1);

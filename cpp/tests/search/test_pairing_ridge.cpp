@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "pairing_scene.h"
-#include <contactx/facet/shape.h>
+#include <contactx/geometry/shape.h>
 #include <gtest/gtest.h>
 
 using namespace contactx;
@@ -27,7 +27,7 @@ TEST(PairingOnRidge, HasAUnitNormal)
 {
   SlidingSegment s(roof);
   s.search_at({0.1, 0.5}, false);
-  EXPECT_NE(s.feature(), facet::interior);
+  EXPECT_NE(s.feature(), geometry::interior);
   EXPECT_NEAR(norm(cone(s)), 1, 1e-15);
   // The left facet's normal is (-1, 1) / sqrt(2)
   const Vector<2> n = (1 / std::hypot(0.1, 0.5)) * Vector<2>{0.1, 0.5};
@@ -60,9 +60,9 @@ TEST(PairingOnRidge, TakesAnotherNormalBesideTheRidge)
       SlidingSegment s(spike);
       s.search_at(0.2 * n, false);
       const Vector<3> first = cone(s);
-      EXPECT_EQ(s.search_at(height * n + part * margin * size * across, true),
+      EXPECT_EQ(s.search_at(height * n + part * geometry::facet_margin * size * across, true),
                 0);
-      EXPECT_NE(s.feature(), facet::interior);
+      EXPECT_NE(s.feature(), geometry::interior);
       EXPECT_EQ(cone(s) == first, part < 1) << height;
     }
 }
@@ -73,7 +73,7 @@ TEST(PairingOnRidge, LeavesItForAFacet)
   s.search_at({0.1, 0.5}, false);
   EXPECT_EQ(s.search_at({0.5, -0.4}, true), 1);
   EXPECT_EQ(s.facet(), 1);
-  EXPECT_EQ(s.feature(), facet::interior);
+  EXPECT_EQ(s.feature(), geometry::interior);
   EXPECT_EQ(cone(s), Vector<3>{});
 }
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "select_scenes.h"
-#include <contactx/facet/shape.h>
+#include <contactx/geometry/shape.h>
 #include <gtest/gtest.h>
 
 using namespace contactx;
@@ -27,10 +27,10 @@ TEST_P(Select, FlatNeighboursGiveTheirNormalEverywhere)
     {
       const auto q = paired(scene, {x, 0.4, height});
       ASSERT_TRUE(q);
-      EXPECT_EQ(q->feature, facet::interior);
+      EXPECT_EQ(q->feature, geometry::interior);
       EXPECT_LT(norm(q->normal - up), 1e-15);
       EXPECT_NEAR(q->gap, height, 1e-15);
-      EXPECT_LE(q->excess, margin);
+      EXPECT_LE(q->excess, geometry::facet_margin);
     }
 }
 
@@ -40,17 +40,17 @@ TEST_P(Select, SurfaceReachesItsMarginBeyondTheOuterEdge)
       = flat_grid(1, GetParam() ? Cells::triangles : Cells::quadrilaterals);
   for (double height : {-0.1, 0.0, 0.1})
   {
-    const auto inside = paired(scene, {-0.99 * margin, 0.5, height});
+    const auto inside = paired(scene, {-0.99 * geometry::facet_margin, 0.5, height});
     ASSERT_TRUE(inside);
-    EXPECT_EQ(inside->feature, facet::interior);
-    EXPECT_NEAR(inside->excess, 0.99 * margin, 1e-14);
+    EXPECT_EQ(inside->feature, geometry::interior);
+    EXPECT_NEAR(inside->excess, 0.99 * geometry::facet_margin, 1e-14);
     EXPECT_NEAR(inside->gap, height, 1e-15);
-    EXPECT_FALSE(paired(scene, {-1.01 * margin, 0.5, height}));
+    EXPECT_FALSE(paired(scene, {-1.01 * geometry::facet_margin, 0.5, height}));
     // Beyond the corners, too
-    EXPECT_TRUE(paired(scene, {-0.99 * margin, -0.01, height}));
-    EXPECT_FALSE(paired(scene, {-1.01 * margin, -0.01, height}));
-    EXPECT_TRUE(paired(scene, {0.01, 1 + 0.9 * margin, height}));
-    EXPECT_FALSE(paired(scene, {0.01, 1 + 1.1 * margin, height}));
+    EXPECT_TRUE(paired(scene, {-0.99 * geometry::facet_margin, -0.01, height}));
+    EXPECT_FALSE(paired(scene, {-1.01 * geometry::facet_margin, -0.01, height}));
+    EXPECT_TRUE(paired(scene, {0.01, 1 + 0.9 * geometry::facet_margin, height}));
+    EXPECT_FALSE(paired(scene, {0.01, 1 + 1.1 * geometry::facet_margin, height}));
   }
 }
 
@@ -59,13 +59,13 @@ TEST_P(Select, RidgeGivesTheDirectionFromItsEdge)
   const Scene scene = fold(std::acos(0.0), GetParam());
   const auto q = paired(scene, {0.3, 0.4, 0.4});
   ASSERT_TRUE(q);
-  EXPECT_NE(q->feature, facet::interior);
+  EXPECT_NE(q->feature, geometry::interior);
   EXPECT_LT(norm(q->normal - Vector<3>{0.6, 0, 0.8}), 1e-15);
   EXPECT_NEAR(q->gap, 0.5, 1e-15);
   // Within the margin it is a facet
-  const auto flat = paired(scene, {0.9 * margin, 0.4, 0.4});
+  const auto flat = paired(scene, {0.9 * geometry::facet_margin, 0.4, 0.4});
   ASSERT_TRUE(flat);
-  EXPECT_EQ(flat->feature, facet::interior);
+  EXPECT_EQ(flat->feature, geometry::interior);
   EXPECT_LT(norm(flat->normal - up), 1e-15);
   EXPECT_NEAR(flat->gap, 0.4, 1e-15);
 }
@@ -83,14 +83,14 @@ TEST_P(Select, RidgeNormalIsInTheConeOfTheFacets)
     const double height = random(0.1, 2), y = random(0.1, 0.9);
     const auto q = paired(scene, Vector<3>{0, y, 0} + height * n);
     ASSERT_TRUE(q);
-    const bool within = height * std::sin(std::min(turn, down - turn)) < margin;
+    const bool within = height * std::sin(std::min(turn, down - turn)) < geometry::facet_margin;
     if (within)
     {
-      EXPECT_EQ(q->feature, facet::interior);
+      EXPECT_EQ(q->feature, geometry::interior);
       continue;
     }
     ++ridges;
-    EXPECT_NE(q->feature, facet::interior);
+    EXPECT_NE(q->feature, geometry::interior);
     EXPECT_LT(norm(q->normal - n), 1e-14); // across the edge, in the cone
     EXPECT_NEAR(q->gap, height, 1e-14);
   }
@@ -141,7 +141,7 @@ TEST_P(Select, PenetratedRidgeGivesTheNearestFace)
 {
   const auto q = paired(corner(GetParam()), {-0.1, -0.2, -0.3});
   ASSERT_TRUE(q);
-  EXPECT_EQ(q->feature, facet::interior);
+  EXPECT_EQ(q->feature, geometry::interior);
   EXPECT_NEAR(q->gap, -0.1, 1e-15);
   EXPECT_LT(norm(q->normal - Vector<3>{1, 0, 0}), 1e-15);
 }

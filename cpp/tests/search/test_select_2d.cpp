@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "select_scenes.h"
-#include <contactx/facet/shape.h>
+#include <contactx/geometry/shape.h>
 #include <gtest/gtest.h>
 
 using namespace contactx;
@@ -21,7 +21,7 @@ TEST(Select2D, FlatNeighboursGiveTheirNormalEverywhere)
     {
       const auto q = paired(scene, {x, height});
       ASSERT_TRUE(q);
-      EXPECT_EQ(q->feature, facet::interior);
+      EXPECT_EQ(q->feature, geometry::interior);
       EXPECT_EQ(q->normal, (Vector<3>{0, 1, 0}));
       EXPECT_NEAR(q->gap, height, 1e-15);
     }
@@ -32,12 +32,12 @@ TEST(Select2D, SurfaceReachesItsMarginBeyondItsEnds)
   const Scene scene = fold_2d(0);
   for (double height : {-0.1, 0.1})
   {
-    const auto q = paired(scene, {-1 - 0.9 * margin, height});
+    const auto q = paired(scene, {-1 - 0.9 * geometry::facet_margin, height});
     ASSERT_TRUE(q);
-    EXPECT_NEAR(q->excess, 0.9 * margin, 1e-14);
-    EXPECT_FALSE(paired(scene, {-1 - 1.1 * margin, height}));
-    EXPECT_TRUE(paired(scene, {1 + 0.9 * margin, height}));
-    EXPECT_FALSE(paired(scene, {1 + 1.1 * margin, height}));
+    EXPECT_NEAR(q->excess, 0.9 * geometry::facet_margin, 1e-14);
+    EXPECT_FALSE(paired(scene, {-1 - 1.1 * geometry::facet_margin, height}));
+    EXPECT_TRUE(paired(scene, {1 + 0.9 * geometry::facet_margin, height}));
+    EXPECT_FALSE(paired(scene, {1 + 1.1 * geometry::facet_margin, height}));
   }
 }
 
@@ -46,12 +46,12 @@ TEST(Select2D, RidgeGivesTheDirectionFromItsVertex)
   const Scene scene = fold_2d(right_angle);
   const auto q = paired(scene, {0.3, 0.4});
   ASSERT_TRUE(q);
-  EXPECT_NE(q->feature, facet::interior);
+  EXPECT_NE(q->feature, geometry::interior);
   EXPECT_LT(norm(q->normal - Vector<3>{0.6, 0.8}), 1e-15);
   EXPECT_NEAR(q->gap, 0.5, 1e-15);
-  const auto flat = paired(scene, {0.9 * margin, 0.4});
+  const auto flat = paired(scene, {0.9 * geometry::facet_margin, 0.4});
   ASSERT_TRUE(flat);
-  EXPECT_EQ(flat->feature, facet::interior);
+  EXPECT_EQ(flat->feature, geometry::interior);
   EXPECT_NEAR(flat->gap, 0.4, 1e-15);
 }
 
@@ -73,7 +73,7 @@ TEST(Select2D, BehindAValleyTheDeepestFacetCounts)
   {
     const auto q = paired(scene, p);
     ASSERT_TRUE(q);
-    EXPECT_EQ(q->feature, facet::interior);
+    EXPECT_EQ(q->feature, geometry::interior);
     EXPECT_NEAR(q->gap, -0.3, 1e-15);
   }
   const auto floor = paired(scene, {-0.3, -0.1});

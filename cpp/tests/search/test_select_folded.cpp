@@ -26,7 +26,7 @@ TEST(SelectFolded, FacetsWhoseNormalsCancelGiveAUnitNormal)
   const auto found = finder.find(
       scene.x, {2, -3.3216857910156249e+29, -39367.67578125}, {}, INFINITY);
   ASSERT_TRUE(found.selected.has_value());
-  EXPECT_NE(found.selected->feature, facet::interior);
+  EXPECT_NE(found.selected->feature, geometry::interior);
   EXPECT_NEAR(norm(found.selected->normal), 1, 1e-12);
 }
 } // namespace

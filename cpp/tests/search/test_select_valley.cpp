@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "select_scenes.h"
-#include <contactx/facet/shape.h>
+#include <contactx/geometry/shape.h>
 #include <gtest/gtest.h>
 
 using namespace contactx;
@@ -25,7 +25,7 @@ TEST_P(Valley, BehindItsEdgeTheDeepestFacetCounts)
   {
     const auto q = paired(scene, p);
     ASSERT_TRUE(q);
-    EXPECT_EQ(q->feature, facet::interior);
+    EXPECT_EQ(q->feature, geometry::interior);
     EXPECT_NEAR(q->gap, -0.3, 1e-15);
   }
 }
@@ -48,7 +48,7 @@ TEST_P(Valley, FromOutsideItIsTheNearestFacet)
   const Scene scene = fold(-std::acos(0.0), GetParam());
   const auto q = paired(scene, {-0.3, 0.5, 0.1});
   ASSERT_TRUE(q);
-  EXPECT_EQ(q->feature, facet::interior);
+  EXPECT_EQ(q->feature, geometry::interior);
   EXPECT_NEAR(q->gap, 0.1, 1e-15);
 }
 
@@ -68,10 +68,10 @@ TEST_P(Valley, GapIsThatOfTheDeepestFacetInTheMargin)
       continue;
     const auto q = paired(scene, p);
     ASSERT_TRUE(q);
-    EXPECT_EQ(q->feature, facet::interior);
+    EXPECT_EQ(q->feature, geometry::interior);
     // Behind both extended facets either of them may be out of reach, but
     // what counts is never less than the nearest and never another plane
-    const bool on_floor = x <= margin, on_wall = beyond <= margin;
+    const bool on_floor = x <= geometry::facet_margin, on_wall = beyond <= geometry::facet_margin;
     const double expected = on_floor and !on_wall   ? floor
                             : on_wall and !on_floor ? wall
                                                     : std::min(floor, wall);

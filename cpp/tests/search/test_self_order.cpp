@@ -10,7 +10,7 @@ using namespace contactx::tests;
 
 namespace
 {
-bool is_after(const SelfOrder& order, const facet::Facets& facets,
+bool is_after(const SelfOrder& order, const geometry::Facets& facets,
               std::int32_t node, std::int32_t facet)
 {
   const std::array weights{0.5, 0.5};
@@ -68,7 +68,7 @@ TEST(SelfOrder, OfASurfaceInSpaceItGoesAlongEdges)
 {
   // A flat plate of 4 x 4 quadrilaterals
   std::vector<double> x;
-  facet::Facets facets;
+  geometry::Facets facets;
   for (int j = 0; j <= 4; ++j)
     for (int i = 0; i <= 4; ++i)
       x.insert(x.end(), {i / 4.0, j / 4.0, 0});

@@ -14,14 +14,14 @@ namespace
 struct StripScene
 {
   std::vector<double> x;
-  std::shared_ptr<parallel::Halo> halo;
+  std::shared_ptr<mesh::Halo> halo;
   SelfSurface surface;
   Pairing pairing;
 
-  StripScene(const std::vector<double>& x, const facet::Facets& facets,
+  StripScene(const std::vector<double>& x, const geometry::Facets& facets,
              const std::vector<std::int64_t>& body,
              std::optional<double> excluded = {})
-      : x(x), halo(parallel::serial_halo(x, 2)),
+      : x(x), halo(mesh::serial_halo(x, 2)),
         surface(halo, facets, body, excluded),
         pairing(facets.offsets, facets.nodes, {0}, {}, 2)
   {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "scene.h"
-#include <contactx/facet/shape.h>
+#include <contactx/geometry/shape.h>
 #include <gtest/gtest.h>
 
 using namespace contactx;
@@ -22,7 +22,7 @@ int vertex(int num_nodes, int local)
 TEST(Surface, StarsOfAGrid)
 {
   const Surface s = flat_grid(2, Cells::quadrilaterals).surface();
-  EXPECT_EQ(s.star(3, facet::interior), Facets{3});
+  EXPECT_EQ(s.star(3, geometry::interior), Facets{3});
   EXPECT_EQ(s.star(0, vertex(4, 0)), Facets{0});
   EXPECT_EQ(s.star(0, vertex(4, 1)), (Facets{0, 1}));
   EXPECT_EQ(s.star(0, vertex(4, 3)), (Facets{0, 1, 2, 3}));
@@ -59,7 +59,7 @@ TEST(Surface, KnowsItsOuterEdge)
     {
       const auto nodes = s.facets()[f];
       const int n = nodes.size();
-      EXPECT_FALSE(s.on_boundary(f, facet::interior));
+      EXPECT_FALSE(s.on_boundary(f, geometry::interior));
       for (int l = 0; l < n; ++l)
       {
         const Vector<3> p = scene.point(nodes[l]);
@@ -138,7 +138,7 @@ TEST(Surface, ProjectionKnowsItsGapAndExcess)
   EXPECT_DOUBLE_EQ(c->size, std::sqrt(2));
   const auto e = extended(scene.surface(), 0, scene.x, {1.25, 0.5, -0.5});
   ASSERT_TRUE(e);
-  EXPECT_EQ(e->feature, facet::interior);
+  EXPECT_EQ(e->feature, geometry::interior);
   EXPECT_DOUBLE_EQ(e->excess, 0.25);
   EXPECT_DOUBLE_EQ(e->xi[0], 1.25);
 }

@@ -11,7 +11,7 @@
 
 #include "pressed_block.h"
 #include <basix/finite-element.h>
-#include <contactx/obstacle/sphere.h>
+#include <contactx/geometry/sphere.h>
 #include <contactx_dolfinx/assembler.h>
 #include <cstdio>
 #include <dolfinx.h>
@@ -64,7 +64,7 @@ int main(int argc, char* argv[])
 
     // Two contacts: with the base, and with the disk, which comes down
     const double radius = 0.6;
-    auto disk = std::make_shared<contactx::obstacle::Sphere>(
+    auto disk = std::make_shared<contactx::geometry::Sphere>(
         std::vector<double>{1.5, 1 + radius}, radius);
     auto below = std::make_shared<cx::Contact>(
         cx::Surface(tags, {11}), cx::Surface(tags, {21}),

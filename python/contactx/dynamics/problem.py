@@ -40,7 +40,7 @@ class ContactDynamics(ContactProblem):
     at rest neither the multipliers nor the correction can raise the energy, whatever dt is; where
     nodes slide over curved or faceted surfaces they may, since the normals turn within a step. An
     impact dissipates the kinetic energy of the surface's nodes, which vanishes with the size of
-    the cells; bodies rebound by their own elastic waves. See ``dynamics/impact.h``.
+    the cells; bodies rebound by their own elastic waves. See ``solve/impact.h``.
 
     Steps are those of ``LoadSteps``, in which t is the time::
 

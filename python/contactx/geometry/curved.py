@@ -17,7 +17,7 @@ from dolfinx import fem
 def check_straight(name: str, surface: Surface, V: fem.FunctionSpace, halo: Halo) -> None:
     """Check that a contact surface is as the displacement has it; all ranks must take part.
 
-    See ``reference/straight.h``.
+    See ``mesh/straight.h``.
 
     Args:
         name: What it is to the contact.

@@ -1,0 +1,338 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include "active_set.h"
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+
+using namespace contactx;
+using namespace contactx::solve;
+
+namespace
+{
+/// Share of the closed nodes above which changes of status or facet freeze the
+/// kinematics
+constexpr double few = 0.2;
+
+std::vector<std::span<const std::int32_t>>
+slaves_of(const std::vector<std::shared_ptr<contact::Contact>>& contacts)
+{
+  std::vector<std::span<const std::int32_t>> slaves;
+  for (const auto& c : contacts)
+    slaves.push_back(c->slaves().owned());
+  return slaves;
+}
+
+class Held final : public Holding
+{
+public:
+  explicit Held(std::shared_ptr<contact::Contact> contact)
+      : _contact(std::move(contact)),
+        _coulomb(std::dynamic_pointer_cast<law::Coulomb>(_contact->law()))
+  {
+  }
+
+  bool is_small() const override
+  {
+    return _contact->sliding() == contact::Sliding::small;
+  }
+  bool has_friction() const override { return _coulomb != nullptr; }
+  Pairing pairing() const override
+  {
+    const contact::Master& master = *_contact->master();
+    return {master.paired(), master.normals(), master.weights()};
+  }
+  std::vector<std::int8_t> status() const override { return nodes().status; }
+  std::vector<double> closable_gap() const override
+  {
+    std::vector<double> gap(nodes().gap.size());
+    for (std::size_t i = 0; i < gap.size(); ++i)
+      gap[i] = nodes().closable_gap(i);
+    return gap;
+  }
+  Rubbing rubbing() override
+  {
+    _coulomb->evaluate(nodes());
+    return {nodes().normal, nodes().multiplier, nodes().slip,
+            nodes().value,  nodes().area,       _coulomb->rubs(nodes())};
+  }
+  void close(std::span<const std::int32_t> which) override
+  {
+    nodes().close(which);
+  }
+  void set_tractions(std::span<const std::int32_t> which,
+                     std::span<const double> tractions) override
+  {
+    const int size = nodes().size();
+    for (std::size_t k = 0; k < which.size(); ++k)
+      std::copy_n(tractions.begin() + std::size_t(size) * k, size,
+                  nodes().multiplier.begin() + std::size_t(size) * which[k]);
+  }
+
+private:
+  law::NodeState& nodes() const { return *_contact->nodes(); }
+
+  std::shared_ptr<contact::Contact> _contact;
+  std::shared_ptr<law::Coulomb> _coulomb;
+};
+} // namespace
+
+std::shared_ptr<Holding>
+contactx::solve::holding(std::shared_ptr<contact::Contact> contact)
+{
+  return std::make_shared<Held>(std::move(contact));
+}
+
+ActiveSet::ActiveSet(std::shared_ptr<mesh::Halo> halo,
+                     std::vector<std::shared_ptr<contact::Contact>> contacts,
+                     std::shared_ptr<FreeBodies> bodies)
+    : _halo(std::move(halo)), _contacts(std::move(contacts)),
+      _bodies(std::move(bodies)), _junctions(slaves_of(_contacts)),
+      _has_junctions(
+          mesh::anywhere(_halo->ranks(), not _junctions.shared().empty())),
+      _may_soften(std::ranges::all_of(
+          _contacts, [](const auto& c)
+          { return c->law()->is_tied() or not c->law()->is_vector(); }))
+{
+}
+
+void ActiveSet::begin_step()
+{
+  _is_frozen = _is_stale = false;
+  _changes = {};
+  _frozen.begin_step();
+  _halo->shrink();
+  for (const auto& c : _contacts)
+    c->begin_step();
+  _path.begin_step();
+  take_softness();
+  _soft_iterations = 0;
+  _guard.begin_step();
+}
+
+Changes ActiveSet::settle(const Forces& forces, bool is_first)
+{
+  // On the soft path nothing leads far astray
+  return settle(forces, is_first, not is_soft());
+}
+
+Changes ActiveSet::settle(const Forces& forces, bool is_first, bool may_freeze)
+{
+  Changes changes = update(is_first);
+  _is_stale = _is_frozen and may_freeze and are_many(changes.status);
+  if (_is_frozen and not _is_stale)
+  {
+    freeze(false);
+    const Changes more = update(false);
+    changes = {changes.status + more.status, more.pairs};
+  }
+  freeze(may_freeze and are_many(changes.status + changes.pairs));
+  if (are_many(changes.status))
+  {
+    // While the active set is far from that of the solution, neither pairs that
+    // go back and forth nor the residual of pairs frozen for it mean anything
+    const bool has_frozen = std::ranges::any_of(
+        _contacts,
+        [](const auto& c) { return not c->master()->frozen_pairs().empty(); });
+    if (mesh::anywhere(_halo->ranks(), has_frozen) and may_freeze)
+      _is_stale = true;
+    reset_flips();
+  }
+  for (const auto& c : _contacts)
+    c->nodes()->drop_open();
+  if (_bodies and _bodies->stabilise(forces))
+    freeze(true);
+  _changes = changes;
+  return changes;
+}
+
+Changes ActiveSet::update(bool is_first)
+{
+  Changes changes;
+  for (const auto& c : _contacts)
+    changes.pairs += c->search();
+  for (const auto& c : _contacts)
+    c->update_gap();
+  share(is_first);
+  for (const auto& c : _contacts)
+    changes.status += c->update_status(is_first);
+  std::array sums{changes.status, changes.pairs};
+  _halo->ranks().reduce(std::span<std::int64_t>(sums), mesh::Reduction::sum);
+  return {sums[0], sums[1]};
+}
+
+void ActiveSet::foresee()
+{
+  for (const auto& c : _contacts)
+    c->search();
+  for (const auto& c : _contacts)
+  {
+    c->update_gap();
+    c->foresee();
+  }
+  // What it has changed was no return
+  reset_flips();
+}
+
+/// Decides which contacts of shared nodes may close, and where friction counts.
+void ActiveSet::share(bool is_first)
+{
+  if (not _has_junctions)
+    return;
+  std::vector<std::vector<std::int8_t>> closes;
+  std::vector<std::vector<double>> normals;
+  for (const auto& c : _contacts)
+  {
+    // Nodes that were ceded before may close again
+    std::ranges::fill(c->nodes()->ceded, 0);
+    if (not c->law()->is_tied())
+      closes.push_back(c->closing(is_first));
+    else if (c->is_active())
+      closes.push_back(c->master()->paired());
+    else
+      closes.emplace_back(c->nodes()->num_nodes(), 0);
+    normals.push_back(c->master()->normals());
+  }
+  std::vector<Closing> closing;
+  for (std::size_t k = 0; k < _contacts.size(); ++k)
+    closing.push_back({_contacts[k]->law()->is_tied(), closes[k],
+                       _contacts[k]->nodes()->gap, normals[k]});
+  const std::vector<Shared> shared = _junctions.update(closing, is_first);
+  for (std::size_t k = 0; k < _contacts.size(); ++k)
+  {
+    // Others look at the arrays
+    std::ranges::copy(shared[k].ceded, _contacts[k]->nodes()->ceded.begin());
+    std::ranges::copy(shared[k].smooth, _contacts[k]->nodes()->smooth.begin());
+  }
+}
+
+bool ActiveSet::are_many(std::int64_t changes) const
+{
+  return static_cast<double>(changes)
+         > std::max(1.0, few * static_cast<double>(num_closed()));
+}
+
+std::int64_t ActiveSet::num_closed() const
+{
+  std::int64_t closed = 0;
+  for (const auto& c : _contacts)
+    closed += std::ranges::count_if(c->nodes()->status, [](std::int8_t s)
+                                    { return s != law::open; });
+  return mesh::total(_halo->ranks(), closed);
+}
+
+std::int64_t ActiveSet::num_corners() const
+{
+  return mesh::total(_halo->ranks(), std::int64_t(_junctions.corners()));
+}
+
+bool ActiveSet::is_linear() const
+{
+  return _is_frozen
+         or std::ranges::none_of(_contacts, [](const auto& c)
+                                 { return c->updates_kinematics(); });
+}
+
+void ActiveSet::freeze(bool is_frozen)
+{
+  _is_frozen = is_frozen
+               and std::ranges::any_of(_contacts, [](const auto& c)
+                                       { return c->updates_kinematics(); });
+  for (const auto& c : _contacts)
+    c->freeze(is_frozen);
+}
+
+void ActiveSet::reset_flips()
+{
+  for (const auto& c : _contacts)
+    c->master()->reset_flips();
+}
+
+bool ActiveSet::softens(const std::vector<std::span<const double>>& step)
+{
+  if (step.size() != _contacts.size())
+    throw std::invalid_argument("step must have changes for each contact");
+  if (not _may_soften or is_soft())
+    return false;
+  HardStep sum;
+  for (std::size_t k = 0; k < step.size(); ++k)
+  {
+    const law::NodeState& nodes = *_contacts[k]->nodes();
+    if (_contacts[k]->law()->is_tied())
+      continue;
+    if (step[k].size() != nodes.multiplier.size())
+      throw std::invalid_argument("step must have a change for each "
+                                  "multiplier");
+    const HardStep part = look_at_step({nodes.multiplier, nodes.gap, nodes.c},
+                                       nodes.area, nodes.status, step[k]);
+    sum.work += part.work;
+    sum.local += part.local;
+    sum.closed += part.closed;
+    sum.opening += part.opening;
+  }
+  std::array sums{sum.work, sum.local, sum.closed, sum.opening};
+  _halo->ranks().reduce(std::span<double>(sums), mesh::Reduction::sum);
+  if (not _path.begins({sums[0], sums[1], sums[2], sums[3]}))
+    return false;
+  take_softness();
+  return true;
+}
+
+void ActiveSet::advance(bool is_full)
+{
+  if (not is_soft())
+    return;
+  ++_soft_iterations;
+  _path.advance(_changes.status, num_closed(), is_full);
+  take_softness();
+}
+
+void ActiveSet::harden()
+{
+  _path.harden();
+  take_softness();
+}
+
+void ActiveSet::take_softness()
+{
+  for (const auto& c : _contacts)
+    if (not c->law()->is_tied())
+      c->nodes()->softness = _path.softness();
+}
+
+void ActiveSet::note(double residual)
+{
+  // Soft contact is another problem
+  if (is_soft())
+    return;
+  std::vector<std::span<const std::int8_t>> status;
+  for (const auto& c : _contacts)
+    status.push_back(c->nodes()->status);
+  if (_guard.note(fingerprint(_halo->ranks(), status), residual))
+    for (const auto& c : _contacts)
+      c->law()->allow_larger_friction();
+}
+
+bool ActiveSet::hide_penetration()
+{
+  const auto now = _halo->now();
+  std::vector<contact::HiddenGap> found;
+  for (const auto& c : _contacts)
+    found.push_back(c->master()->deepest_frozen_pair(now->x));
+  return _frozen.hide_penetration(_halo->ranks(), found);
+}
+
+ActiveSet::End ActiveSet::may_end(const Forces& forces)
+{
+  if (not _is_stale and not hide_penetration())
+    return End::solution;
+  if (not _is_stale)
+  {
+    if (not _frozen.release())
+      return End::hidden;
+    reset_flips();
+  }
+  settle(forces, false, false);
+  return End::again;
+}

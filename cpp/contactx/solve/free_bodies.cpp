@@ -1,0 +1,736 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include "free_bodies.h"
+#include "../law/normal.h"
+#include "../math/vec.h"
+#include "springs.h"
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+using namespace contactx;
+using namespace contactx::solve;
+using mesh::Reduction;
+
+namespace
+{
+// Force along a free mode, relative to the problem's, that counts as out of
+// balance
+constexpr double balanced_part = 1e-6;
+// Force along free modes, relative to the residual, above which it asks for a
+// motion
+constexpr double idle_part = 1e-3;
+// Stiffness of springs, relative to the bulk's: of those that carry no force,
+// and of others
+constexpr double weak = 1e-6;
+constexpr double near = 1e-3;
+// Relative difference of what is equal but for rounding
+constexpr double tie = 1e-9;
+// Movement, relative to the largest, that counts as one
+constexpr double moves = 1e-6;
+
+/// Part of a vector along the surface.
+Vector<3> along_surface(const Vector<3>& normal, const Vector<3>& v)
+{
+  const double height = dot(normal, v);
+  return {v[0] - height * normal[0], v[1] - height * normal[1],
+          v[2] - height * normal[2]};
+}
+
+double largest_size(std::span<const double> way)
+{
+  double most = 0;
+  for (const double value : way)
+    most = std::max(most, std::abs(value));
+  return most;
+}
+
+/// Motion along some modes: N (N^T w N)^-1 f.
+std::vector<double> motion(const dense::Matrix& N, dense::Matrix resists,
+                           std::span<const double> f)
+{
+  return dense::product(N, dense::solve(std::move(resists), f));
+}
+} // namespace
+
+/// Slave nodes of a contact that have a pair.
+struct FreeBodies::Rows
+{
+  Holding* contact;
+  int gdim, m;
+  std::vector<std::int32_t> slaves; ///< by their number in the contact
+  std::vector<Vector<3>> normal;
+  /// Bodies that move a node, and its relative movement by their modes: those
+  /// of slave i from offsets[i] on (shape=(offsets.back()), (offsets.back(),
+  /// gdim, m))
+  std::vector<std::size_t> offsets;
+  std::vector<std::int32_t> bodies;
+  std::vector<double> blocks;
+
+  std::size_t size() const { return slaves.size(); }
+
+  /// Relative movement of a slave node by a motion.
+  Vector<3> by(std::span<const double> way, std::size_t i) const
+  {
+    Vector<3> u{};
+    for (std::size_t e = offsets[i]; e < offsets[i + 1]; ++e)
+      for (int c = 0; c < gdim; ++c)
+        for (int p = 0; p < m; ++p)
+          u[c] += blocks[(e * gdim + c) * m + p] * way[bodies[e] * m + p];
+    return u;
+  }
+
+  /// Rows in a direction by the modes of each body that moves the node
+  /// (shape=(number of bodies, m)).
+  void in_direction(const Vector<3>& direction, std::size_t i,
+                    std::vector<double>& row) const
+  {
+    row.assign((offsets[i + 1] - offsets[i]) * m, 0.0);
+    for (std::size_t e = offsets[i]; e < offsets[i + 1]; ++e)
+      for (int c = 0; c < gdim; ++c)
+        for (int p = 0; p < m; ++p)
+          row[(e - offsets[i]) * m + p]
+              += direction[c] * blocks[(e * gdim + c) * m + p];
+  }
+};
+
+FreeBodies::FreeBodies(std::shared_ptr<const mesh::Bodies> bodies,
+                       std::shared_ptr<Bulk> bulk,
+                       std::vector<std::shared_ptr<Holding>> contacts,
+                       std::span<const std::int64_t> original)
+    : _bodies(std::move(bodies)), _bulk(std::move(bulk)),
+      _contacts(std::move(contacts)),
+      _original(original.begin(), original.end())
+{
+}
+
+bool FreeBodies::has_friction() const
+{
+  return std::ranges::any_of(_contacts, [](const auto& contact)
+                             { return contact->has_friction(); });
+}
+
+/// Whether all but the active set is linear. Rigid motions are then about the
+/// reference positions: a rotation about the current ones changes gaps and
+/// strains by what the bodies have moved.
+bool FreeBodies::is_linear() const
+{
+  return _bulk->is_linear() and not has_friction()
+         and std::ranges::all_of(_contacts, [](const auto& contact)
+                                 { return contact->is_small(); });
+}
+
+void FreeBodies::begin_step()
+{
+  const std::span<const double> x
+      = is_linear() ? _bulk->reference() : _bulk->positions();
+  if (_modes)
+    _modes->update(*_bulk, x);
+  else
+    _modes.emplace(_bodies, *_bulk, x);
+  _free_modes = _closed_for_balance = 0;
+  _is_unbalanced = false;
+  _springs.reset();
+  _loose.reset();
+  _begins = true;
+}
+
+std::vector<FreeBodies::Rows> FreeBodies::rows(std::span<const double> x) const
+{
+  const int g = _modes->gdim(), m = _modes->modes_per_body();
+  const std::span<const std::int32_t> body = _modes->body();
+  std::vector<Rows> all;
+  ranks().agree(
+      [&]
+      {
+        std::array<double, 18> modes;
+        for (const auto& contact : _contacts)
+        {
+          const Pairing pairing = contact->pairing();
+          const kernel::Weights& weights = pairing.weights;
+          const std::size_t n = pairing.paired.size();
+          if (pairing.normals.size() != 3 * n)
+            throw std::invalid_argument("normals must have three values for "
+                                        "each slave node");
+          if (weights.nodes.size() != weights.slaves.size()
+              or weights.values.size() != weights.slaves.size())
+            throw std::invalid_argument("the arrays of weights differ in size");
+          if (contact->status().size() != n
+              or contact->closable_gap().size() != n)
+            throw std::invalid_argument("status and gap must have a value for "
+                                        "each slave node");
+          Rows& rows
+              = all.emplace_back(Rows{contact.get(), g, m, {}, {}, {}, {}, {}});
+          // Weights of each slave node, in their order
+          std::vector<std::size_t> first(n + 1), order(weights.slaves.size());
+          for (std::size_t w = 0; w < order.size(); ++w)
+          {
+            const std::int32_t slave = weights.slaves[w];
+            const std::int32_t node = weights.nodes[w];
+            if (slave < 0 or slave >= std::ssize(pairing.paired) or node < 0
+                or node >= std::ssize(body))
+              throw std::invalid_argument("weights must be of slave nodes and "
+                                          "nodes that are there");
+            ++first[slave + 1];
+          }
+          for (std::size_t i = 0; i < n; ++i)
+            first[i + 1] += first[i];
+          std::vector<std::size_t> at(first.begin(), first.end());
+          for (std::size_t w = 0; w < order.size(); ++w)
+            order[at[weights.slaves[w]]++] = w;
+          rows.offsets.push_back(0);
+          for (std::size_t i = 0; i < n; ++i)
+          {
+            if (pairing.paired[i] == 0)
+              continue;
+            rows.slaves.push_back(static_cast<std::int32_t>(i));
+            rows.normal.push_back(vector_at(pairing.normals, i, 3));
+            // Components beyond the dimension do not count
+            for (int k = g; k < 3; ++k)
+              rows.normal.back()[k] = 0;
+            for (std::size_t k = first[i]; k < first[i + 1]; ++k)
+            {
+              const std::size_t w = order[k];
+              const std::int32_t node = weights.nodes[w];
+              std::size_t e = rows.offsets.back();
+              while (e < rows.bodies.size() and rows.bodies[e] != body[node])
+                ++e;
+              if (e == rows.bodies.size())
+              {
+                rows.bodies.push_back(body[node]);
+                rows.blocks.resize(rows.blocks.size() + g * m);
+              }
+              _modes->at(node, x, modes.data());
+              for (int j = 0; j < g * m; ++j)
+                rows.blocks[e * g * m + j] += weights.values[w] * modes[j];
+            }
+            rows.offsets.push_back(rows.bodies.size());
+          }
+        }
+      });
+  return all;
+}
+
+/// Forces on all ranks, times a sign, along the modes of the bodies
+/// (shape=(num_bodies, m)).
+std::vector<double> FreeBodies::along(std::span<const double> x,
+                                      std::span<const double> forces,
+                                      double sign) const
+{
+  const std::size_t g = _modes->gdim(), m = _modes->modes_per_body();
+  const auto body = _modes->body();
+  std::array<double, 18> modes;
+  std::vector<double> sums(_modes->count() * m);
+  for (std::size_t i = 0; i < forces.size() / g; ++i)
+  {
+    _modes->at(static_cast<std::int32_t>(i), x, modes.data());
+    double* sum = &sums[body[i] * m];
+    for (std::size_t p = 0; p < m; ++p)
+    {
+      double work = 0;
+      for (std::size_t k = 0; k < g; ++k)
+        work += modes[k * m + p] * (sign * forces[i * g + k]);
+      sum[p] += work;
+    }
+  }
+  if (ranks().size() > 1)
+    ranks().reduce(std::span(sums), Reduction::sum);
+  return sums;
+}
+
+bool FreeBodies::stabilise(const Forces& forces)
+{
+  _springs.reset();
+  _loose.reset();
+  _free_modes = 0;
+  if (not _modes or not _modes->any_free())
+    return false;
+  const std::span<const double> reference = _bulk->reference();
+  const std::span<const double> x
+      = is_linear() ? reference : _bulk->positions();
+  const std::size_t m = _modes->modes_per_body();
+  const std::size_t n
+      = _bodies->map().num_owned() * std::size_t(_modes->gdim());
+  const auto checked = [&](std::vector<double> values)
+  {
+    ranks().agree(
+        [&]
+        {
+          if (values.size() != n)
+            throw std::invalid_argument(
+                "forces must have a value for each of " + std::to_string(n)
+                + " owned dofs, not " + std::to_string(values.size()));
+        });
+    return values;
+  };
+  const std::vector<double> force = checked(forces.residual());
+  const double balanced = balanced_part * forces.scale();
+  const std::vector<double> pull = along(x, force, -1);
+  if (_begins)
+  {
+    _loads = along(reference, checked(forces.of_bulk()), -1);
+    _balanced = balanced;
+  }
+  const std::vector<Rows> rows = this->rows(x);
+  bool closed_any = _begins and close_before_springs(rows, pull);
+  _begins = false;
+  dense::Matrix N;
+  while (true)
+  {
+    N = free_basis(rows, _modes->free());
+    if (N.cols == 0)
+    {
+      _is_unbalanced = false;
+      break;
+    }
+    std::vector<double> all = pull;
+    // In 3D the tangent across the slip resists motions that slip to all sides
+    // does not
+    if (_modes->gdim() == 2)
+    {
+      const std::vector<double> more = lacking(rows);
+      for (std::size_t i = 0; i < all.size(); ++i)
+        all[i] += more[i];
+    }
+    const std::vector<double> f = dense::product_transposed(N, all);
+    // A norm that does not depend on which basis of the modes rounding has
+    // chosen
+    if (dense::norm(f) <= balanced or loads_balance(N))
+    {
+      _is_unbalanced = false;
+      break;
+    }
+    // The rigid motion of bodies whose mass goes with their number of nodes
+    dense::Matrix heavy = N;
+    for (std::size_t i = 0; i < N.rows; ++i)
+      for (std::size_t k = 0; k < N.cols; ++k)
+        heavy(i, k) *= _modes->num_nodes()[i / m];
+    const std::vector<double> way
+        = motion(N, dense::product_transposed(N, heavy), f);
+    const std::int64_t closed = close_first(rows, way);
+    _closed_for_balance += closed;
+    if (closed == 0 and not stick_first(rows, way))
+    {
+      _is_unbalanced = true;
+      // A support may have got its stiffness on the way
+      _modes->update(*_bulk, x);
+      break;
+    }
+    closed_any = true;
+  }
+  _free_modes = static_cast<std::int64_t>(N.cols);
+  if (_free_modes > 0)
+    add_springs(N, x, pull, force);
+  return closed_any;
+}
+
+void FreeBodies::add_springs(const dense::Matrix& N, std::span<const double> x,
+                             std::span<const double> pull,
+                             std::span<const double> forces)
+{
+  const std::size_t g = _modes->gdim(), m = _modes->modes_per_body();
+  const auto body = _modes->body();
+  dense::Matrix shares(forces.size(), N.cols);
+  std::array<double, 18> modes;
+  for (std::size_t i = 0; i < forces.size() / g; ++i)
+  {
+    _modes->at(static_cast<std::int32_t>(i), x, modes.data());
+    for (std::size_t c = 0; c < g; ++c)
+      for (std::size_t p = 0; p < m; ++p)
+        if (const double u = modes[c * m + p]; u != 0)
+          for (std::size_t k = 0; k < N.cols; ++k)
+            shares(i * g + c, k) += u * N(body[i] * m + p, k);
+  }
+  const auto markers = _bulk->markers();
+  std::vector<double> springs
+      = independent_springs(ranks(), shares, markers, _bulk->diagonal(),
+                            _original, static_cast<int>(g));
+  double square = 0;
+  for (const double force : forces)
+    square += force * force;
+  const double size = std::sqrt(mesh::total(ranks(), square));
+  const bool idle
+      = dense::norm(dense::product_transposed(N, pull)) <= idle_part * size;
+  // Friction resists motions across the slip
+  if (idle and not has_friction())
+  {
+    for (std::size_t i = 0; i < shares.rows; ++i)
+      if (markers[i] != 0)
+        std::fill_n(&shares.values[i * shares.cols], shares.cols, 0.0);
+    const auto u = _bulk->displacements();
+    _loose = Loose{std::move(shares), {u.begin(), u.end()}};
+  }
+  // Weak, so that they do not slow down what a little stiffness does resist,
+  // such as friction that turns; a body that nothing balances yet stays near
+  // what it may meet
+  for (double& spring : springs)
+    spring *= _is_unbalanced ? near : weak;
+  _springs = std::move(springs);
+}
+
+/// Whether the loads of the step balance along free modes, as linear strains
+/// see them.
+///
+/// Stresses of linear strains balance in the reference configuration alone. In
+/// the current one they have a moment, without any load, that grows with the
+/// displacements. Contacts without friction have no force along free modes.
+bool FreeBodies::loads_balance(const dense::Matrix& N) const
+{
+  if (not _bulk->is_linear() or has_friction())
+    return false;
+  return dense::norm(dense::product_transposed(N, _loads)) <= _balanced;
+}
+
+std::optional<std::vector<double>> FreeBodies::drift()
+{
+  if (not _loose)
+    return std::nullopt;
+  const dense::Matrix& motions = _loose->motions;
+  const auto now = _bulk->displacements();
+  ranks().agree(
+      [&]
+      {
+        if (now.size() != motions.rows or _loose->before.size() != motions.rows)
+          throw std::invalid_argument("displacements must have a value for "
+                                      "each owned dof");
+      });
+  // The last column is the work of the step
+  const std::size_t k = motions.cols;
+  dense::Matrix sums(k, k + 1);
+  for (std::size_t i = 0; i < motions.rows; ++i)
+  {
+    const double step = now[i] - _loose->before[i];
+    for (std::size_t p = 0; p < k; ++p)
+    {
+      const double u = motions(i, p);
+      if (u == 0)
+        continue;
+      for (std::size_t q = 0; q < k; ++q)
+        sums(p, q) += u * motions(i, q);
+      sums(p, k) += u * step;
+    }
+  }
+  if (ranks().size() > 1)
+    ranks().reduce(std::span(sums.values), Reduction::sum);
+  dense::Matrix gram(k, k);
+  std::vector<double> work(k);
+  for (std::size_t p = 0; p < k; ++p)
+  {
+    std::copy_n(sums.row(p).begin(), k, &gram(p, 0));
+    work[p] = sums(p, k);
+  }
+  return dense::product(motions, dense::solve(std::move(gram), work));
+}
+
+double FreeBodies::turned() const
+{
+  if (not _modes or not _bulk->is_linear())
+    return 0;
+  const std::size_t g = _modes->gdim(), m = _modes->modes_per_body();
+  const auto x = _bulk->reference(), u = _bulk->displacements();
+  const auto body = _modes->body();
+  const std::vector<double> work = along(x, u, 1);
+  std::vector<double> grams(_modes->count() * m * m);
+  std::array<double, 18> modes;
+  for (std::size_t i = 0; i < u.size() / g; ++i)
+  {
+    _modes->at(static_cast<std::int32_t>(i), x, modes.data());
+    double* gram = &grams[body[i] * m * m];
+    for (std::size_t k = 0; k < g; ++k)
+      for (std::size_t p = 0; p < m; ++p)
+        for (std::size_t q = 0; q < m; ++q)
+          gram[p * m + q] += modes[k * m + p] * modes[k * m + q];
+  }
+  if (ranks().size() > 1)
+    ranks().reduce(std::span(grams), Reduction::sum);
+  double most = 0;
+  for (std::size_t b = 0; b < _modes->count(); ++b)
+  {
+    if (_modes->free()[b].cols == 0)
+      continue;
+    dense::Matrix gram(m, m);
+    std::copy_n(&grams[b * m * m], m * m, gram.values.begin());
+    const std::vector<double> motion
+        = dense::solve(std::move(gram), std::span(work).subspan(b * m, m));
+    double square = 0;
+    for (std::size_t p = g; p < m; ++p)
+      square += motion[p] * motion[p];
+    most = std::max(most, std::sqrt(square) / _modes->radius(b));
+  }
+  return most;
+}
+
+/// Close the nodes that bodies on weak springs meet before these stop them: a
+/// Newton step would carry the bodies past what they meet.
+bool FreeBodies::close_before_springs(const std::vector<Rows>& rows,
+                                      std::span<const double> pull)
+{
+  const dense::Matrix Z = by_body(_modes->weak());
+  std::vector<double> stiffness;
+  for (const std::vector<double>& some : _modes->stiffness())
+    stiffness.insert(stiffness.end(), some.begin(), some.end());
+  bool closed_any = false;
+  while (true)
+  {
+    const dense::Matrix N = free_basis(rows, _modes->weak());
+    if (N.cols == 0)
+      break;
+    const dense::Matrix combine = dense::product_transposed(Z, N);
+    dense::Matrix stiff = combine;
+    for (std::size_t i = 0; i < stiff.rows; ++i)
+      for (std::size_t k = 0; k < stiff.cols; ++k)
+        stiff(i, k) *= stiffness[i];
+    const std::vector<double> way
+        = motion(N, dense::product_transposed(combine, stiff),
+                 dense::product_transposed(N, pull));
+    if (largest_size(way) == 0)
+      break;
+    const std::int64_t closed = close_first(rows, way, 1.0);
+    _closed_for_balance += closed;
+    if (closed == 0)
+      break;
+    closed_any = true;
+  }
+  return closed_any;
+}
+
+/// Orthonormal basis of the motions that no closed node resists, as columns.
+/// @param[in] bases For each body the modes that the motions are combined of.
+dense::Matrix FreeBodies::free_basis(const std::vector<Rows>& rows,
+                                     std::span<const dense::Matrix> bases) const
+{
+  std::vector<std::size_t> first{0};
+  for (const dense::Matrix& basis : bases)
+    first.push_back(first.back() + basis.cols);
+  const std::size_t count = first.back();
+  dense::Matrix gram(count, count);
+  // A row of what resists, by the columns where it is not zero
+  std::vector<std::size_t> where;
+  std::vector<double> of_body, row;
+  const auto add
+      = [&](const Rows& some, const Vector<3>& direction, std::size_t i)
+  {
+    some.in_direction(direction, i, of_body);
+    where.clear();
+    row.clear();
+    for (std::size_t e = some.offsets[i]; e < some.offsets[i + 1]; ++e)
+    {
+      const std::int32_t b = some.bodies[e];
+      const double* modes = &of_body[(e - some.offsets[i]) * some.m];
+      for (std::size_t k = 0; k < bases[b].cols; ++k)
+      {
+        double sum = 0;
+        for (int p = 0; p < some.m; ++p)
+          sum += modes[p] * bases[b](p, k);
+        where.push_back(first[b] + k);
+        row.push_back(sum);
+      }
+    }
+    for (std::size_t p = 0; p < row.size(); ++p)
+      for (std::size_t q = 0; q < row.size(); ++q)
+        gram(where[p], where[q]) += row[p] * row[q];
+  };
+  if (count > 0)
+    for (const Rows& some : rows)
+    {
+      const std::vector<std::int8_t> status = some.contact->status();
+      for (std::size_t i = 0; i < some.size(); ++i)
+      {
+        const std::int8_t kind = status[some.slaves[i]];
+        if (kind == law::open)
+          continue;
+        add(some, some.normal[i], i);
+        if (kind == law::stick)
+          for (int k = 0; k < some.gdim; ++k)
+          {
+            Vector<3> axis{};
+            axis[k] = 1;
+            add(some, axis, i);
+          }
+      }
+    }
+  if (ranks().size() > 1 and count > 0)
+    ranks().reduce(std::span(gram.values), Reduction::sum);
+  const dense::Eigen found = dense::symmetric_eigen(gram);
+  const double most = count > 0 ? std::max(found.values.back(), 1.0) : 1.0;
+  std::vector<std::size_t> none;
+  for (std::size_t k = 0; k < count; ++k)
+    if (found.values[k] <= 1e-12 * most)
+      none.push_back(k);
+  return dense::product(by_body(bases), dense::columns(found.vectors, none));
+}
+
+/// Shortest of the times that nodes of all ranks need; infinite if there are
+/// none.
+double FreeBodies::lowest(std::span<const Found> found) const
+{
+  double lowest = infinity;
+  for (const Found& some : found)
+    for (const double time : some.times)
+      lowest = std::min(lowest, time);
+  return mesh::least(ranks(), lowest);
+}
+
+/// Close the open nodes that bodies meet first in a rigid motion.
+/// @param[in] way The motion: coefficients of each body's modes.
+/// @param[in] within Part of the motion that they go.
+/// @return Number of nodes closed on all ranks.
+std::int64_t FreeBodies::close_first(const std::vector<Rows>& rows,
+                                     std::span<const double> way, double within)
+{
+  const double most = largest_size(way);
+  std::vector<Found> found;
+  for (const Rows& some : rows)
+  {
+    Found& able = found.emplace_back(Found{some.contact, {}, {}});
+    const std::vector<std::int8_t> status = some.contact->status();
+    const std::vector<double> gap = some.contact->closable_gap();
+    for (std::size_t i = 0; i < some.size(); ++i)
+    {
+      const std::int32_t slave = some.slaves[i];
+      if (status[slave] != law::open or not std::isfinite(gap[slave]))
+        continue;
+      const double speed = -dot(some.normal[i], some.by(way, i));
+      if (not(speed > moves * most))
+        continue;
+      able.slaves.push_back(slave);
+      able.times.push_back(std::max(gap[slave], 0.0) / speed);
+    }
+  }
+  const double first = lowest(found);
+  if (not std::isfinite(first) or first > within)
+    return 0;
+  // Nodes that are closer than this touch at once
+  const double margin = tie * _modes->size() / most;
+  std::int64_t count = 0;
+  for (const Found& some : found)
+  {
+    std::vector<std::int32_t> which;
+    for (std::size_t i = 0; i < some.slaves.size(); ++i)
+      if (some.times[i] <= first + margin)
+        which.push_back(some.slaves[i]);
+    some.contact->close(which);
+    count += std::ssize(which);
+  }
+  return mesh::total(ranks(), count);
+}
+
+/// State of a contact with friction.
+/// @param[in] n Number of its slave nodes.
+Rubbing FreeBodies::rubbing(const Rows& rows, std::size_t n) const
+{
+  Rubbing found;
+  ranks().agree(
+      [&]
+      {
+        found = rows.contact->rubbing();
+        for (const auto* vectors :
+             {&found.normal, &found.traction, &found.slip, &found.value})
+          if (vectors->size() != n * rows.gdim)
+            throw std::invalid_argument("the state of friction must have gdim "
+                                        "values for each slave node");
+        if (found.area.size() != n or found.rubs.size() != n)
+          throw std::invalid_argument("the state of friction must have an area "
+                                      "and a bound for each slave node");
+      });
+  return found;
+}
+
+/// Forces of Coulomb's law at slipping nodes minus those of the iterate's
+/// tractions, along the modes of the bodies (shape=(num_bodies, m)).
+///
+/// Newton steps balance bodies with tractions that are not yet on the cone.
+std::vector<double> FreeBodies::lacking(const std::vector<Rows>& rows) const
+{
+  const std::size_t m = _modes->modes_per_body();
+  std::vector<double> sums(_modes->count() * m), row;
+  for (const Rows& some : rows)
+  {
+    if (not some.contact->has_friction())
+      continue;
+    const std::vector<std::int8_t> status = some.contact->status();
+    const Rubbing rubbing = this->rubbing(some, status.size());
+    for (std::size_t i = 0; i < some.size(); ++i)
+    {
+      const std::int32_t slave = some.slaves[i];
+      if (status[slave] != law::slip)
+        continue;
+      const Vector<3> force = along_surface(
+          some.normal[i], vector_at(rubbing.value, slave, some.gdim));
+      some.in_direction(force, i, row);
+      for (std::size_t e = some.offsets[i]; e < some.offsets[i + 1]; ++e)
+        for (std::size_t p = 0; p < m; ++p)
+          sums[some.bodies[e] * m + p] -= row[(e - some.offsets[i]) * m + p];
+    }
+  }
+  if (ranks().size() > 1)
+    ranks().reduce(std::span(sums), Reduction::sum);
+  return sums;
+}
+
+/// Stick the slipping nodes whose slip a rigid motion of the bodies reverses
+/// first. Slip to both sides may balance a body that slip along its motion
+/// alone does not.
+/// @param[in] way The motion: coefficients of each body's modes.
+/// @return Whether any sticks on any rank.
+bool FreeBodies::stick_first(const std::vector<Rows>& rows,
+                             std::span<const double> way)
+{
+  const double most = largest_size(way);
+  std::vector<Found> found;
+  for (const Rows& some : rows)
+  {
+    if (not some.contact->has_friction())
+      continue;
+    const int g = some.gdim;
+    Found& able = found.emplace_back(Found{some.contact, {}, {}});
+    const std::vector<std::int8_t> status = some.contact->status();
+    const Rubbing rubbing = this->rubbing(some, status.size());
+    for (std::size_t i = 0; i < some.size(); ++i)
+    {
+      const std::int32_t slave = some.slaves[i];
+      if (status[slave] != law::slip or rubbing.rubs[slave] == 0)
+        continue;
+      // Traction of the node by Coulomb's law
+      const Vector<3> excess
+          = along_surface(vector_at(rubbing.normal, slave, g),
+                          vector_at(rubbing.value, slave, g));
+      Vector<3> cone = vector_at(rubbing.traction, slave, g);
+      for (int k = 0; k < g; ++k)
+        cone[k] -= excess[k] / rubbing.area[slave];
+      const Vector<3> movement = along_surface(some.normal[i], some.by(way, i));
+      const double speed = std::sqrt(dot(movement, movement));
+      // Slip goes against the traction, also where it has only just begun
+      if (not(dot(cone, movement) > 0 and speed > moves * most))
+        continue;
+      const Vector<3> slip = vector_at(rubbing.slip, slave, g);
+      able.slaves.push_back(slave);
+      able.times.push_back(std::sqrt(dot(slip, slip)) / speed);
+      able.tractions.insert(able.tractions.end(), cone.begin(),
+                            cone.begin() + g);
+    }
+  }
+  const double first = lowest(found);
+  if (not std::isfinite(first))
+    return false;
+  const std::size_t g = _modes->gdim();
+  for (const Found& some : found)
+  {
+    std::vector<std::int32_t> which;
+    std::vector<double> tractions;
+    for (std::size_t i = 0; i < some.slaves.size(); ++i)
+      if (some.times[i] <= first * (1 + tie))
+      {
+        which.push_back(some.slaves[i]);
+        tractions.insert(tractions.end(), &some.tractions[i * g],
+                         &some.tractions[i * g] + g);
+      }
+    // With the traction of slip: more than that must not pass for a solution
+    some.contact->set_tractions(which, tractions);
+    some.contact->close(which);
+  }
+  return true;
+}

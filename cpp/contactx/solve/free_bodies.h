@@ -1,0 +1,210 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#pragma once
+
+#include "../kernel/pairs.h"
+#include "rigid_modes.h"
+#include <functional>
+#include <limits>
+#include <optional>
+
+namespace contactx::solve
+{
+/// @brief Pairs of a contact as the last search left them.
+struct Pairing
+{
+  std::vector<std::int8_t> paired; ///< 1 at slave nodes with a pair (shape=(n))
+  std::vector<double> normals;     ///< of the master (shape=(n, 3))
+  kernel::Weights weights;
+};
+
+/// @brief Slave nodes of a contact with friction (arrays of shape=(n, gdim) but
+/// for two).
+struct Rubbing
+{
+  std::vector<double> normal, traction, slip;
+  std::vector<double> value; ///< complementarity function, a force
+  std::vector<double> area;  ///< shape=(n)
+  /// 1 where the bound of friction is not zero (shape=(n))
+  std::vector<std::int8_t> rubs;
+};
+
+/// @brief A contact as free bodies see it. n is the number of owned slave
+/// nodes.
+class Holding
+{
+public:
+  virtual ~Holding() = default;
+
+  /// @brief True if pairs and normals are those of the reference: sliding is
+  /// small.
+  virtual bool is_small() const = 0;
+
+  /// @brief True with Coulomb friction.
+  virtual bool has_friction() const = 0;
+
+  /// @brief The pairs.
+  virtual Pairing pairing() const = 0;
+
+  /// @brief Status of each slave node, see law::Status (shape=(n)).
+  virtual std::vector<std::int8_t> status() const = 0;
+
+  /// @brief Gap of each slave node, NaN where it cannot close (shape=(n)).
+  virtual std::vector<double> closable_gap() const = 0;
+
+  /// @brief Evaluate the law of friction as the status is now.
+  virtual Rubbing rubbing() = 0;
+
+  /// @brief Close nodes, whatever their pressures: they stick where there is
+  /// friction.
+  virtual void close(std::span<const std::int32_t> which) = 0;
+
+  /// @brief Set the multipliers of nodes.
+  /// @param[in] which The nodes.
+  /// @param[in] tractions Multipliers (shape=(which.size(), gdim)).
+  virtual void set_tractions(std::span<const std::int32_t> which,
+                             std::span<const double> tractions) = 0;
+};
+
+/// @brief Forces at an iterate; collective, and called only where a body has a
+/// free mode.
+struct Forces
+{
+  /// Residual of the displacements without Dirichlet rows, at owned dofs
+  /// (shape=(num_owned, gdim))
+  std::function<std::vector<double>()> residual;
+  /// The bulk's part of it
+  std::function<std::vector<double>()> of_bulk;
+  /// Forces of the problem
+  std::function<double()> scale;
+};
+
+/// @brief Keeps the Newton step of bodies without enough supports solvable.
+///
+/// A rigid mode that neither supports nor closed contacts resist is free and
+/// makes the Jacobian singular. Where the forces along free modes balance, as
+/// many springs as modes are added to the Jacobian: they are statically
+/// determinate, so they carry no force and change no step. Where the forces do
+/// not balance, the open nodes that the bodies would meet first in a rigid
+/// motion are closed, until the closed nodes can balance them; then those
+/// slipping nodes stick whose slip this motion reverses first. The residual is
+/// never touched, so no solution depends on this. All ranks must take part in
+/// all of it, and find the same.
+class FreeBodies
+{
+public:
+  /// @brief Take the bodies.
+  /// @param[in] bodies Bodies of the mesh.
+  /// @param[in] bulk The bulk.
+  /// @param[in] contacts The contacts.
+  /// @param[in] original Number of each owned node in the mesh as it was made
+  /// (shape=(num_owned)).
+  FreeBodies(std::shared_ptr<const mesh::Bodies> bodies,
+             std::shared_ptr<Bulk> bulk,
+             std::vector<std::shared_ptr<Holding>> contacts,
+             std::span<const std::int64_t> original);
+
+  /// @brief True if any contact has Coulomb friction.
+  bool has_friction() const;
+
+  /// @brief Find the free modes of the bodies.
+  void begin_step();
+
+  /// @brief Drop the rigid modes: a failed step may have found them of a spoilt
+  /// stiffness.
+  void reset() { _modes.reset(); }
+
+  /// @brief Find the springs to add to the Jacobian at an iterate, and close
+  /// nodes for balance.
+  /// @param[in] forces Forces at the iterate.
+  /// @return Whether nodes have been closed or stick on any rank.
+  bool stabilise(const Forces& forces);
+
+  /// @brief Movement of the bodies along their free modes since the last
+  /// call of `stabilise`.
+  ///
+  /// Without friction, where the forces balance and kinematics are frozen,
+  /// nothing asks for such a motion: it comes of the places of the springs,
+  /// which bodies turn about as they deform, and takes nodes past each other.
+  /// @return Displacements at owned dofs (shape=(num_owned, gdim)); nothing if
+  /// no mode was free, or something asked for a motion.
+  std::optional<std::vector<double>> drift();
+
+  /// @brief Largest angle that a body with free modes has turned by, radians;
+  /// zero where strains are not linear. Collective.
+  ///
+  /// Linear strains take a rotation by the angle w for a stretch by
+  /// sqrt(1 + w^2) that costs nothing. A body that is held keeps its place in
+  /// spite of that; a loose one can become larger until nothing touches it.
+  double turned() const;
+
+  /// @brief Stiffness to add to the Jacobian's diagonal at owned dofs,
+  /// force/length (shape=(num_owned, gdim)); nothing if there are none.
+  const std::optional<std::vector<double>>& springs() const { return _springs; }
+
+  /// @brief Number of free rigid modes at the last iterate.
+  std::int64_t free_modes() const { return _free_modes; }
+
+  /// @brief Number of nodes that were closed in this step to balance a body.
+  std::int64_t closed_for_balance() const { return _closed_for_balance; }
+
+  /// @brief True if the last iterate had forces that nothing in the way can
+  /// balance.
+  bool is_unbalanced() const { return _is_unbalanced; }
+
+private:
+  /// Slave nodes of a contact with a pair under rigid motions of the bodies.
+  struct Rows;
+  /// Nodes of a contact that may balance a body, and the time in which the
+  /// motion gets there.
+  struct Found
+  {
+    Holding* contact;
+    std::vector<std::int32_t> slaves;
+    std::vector<double> times;
+    std::vector<double> tractions{};
+  };
+
+  mesh::Ranks& ranks() const { return _bodies->map().ranks(); }
+  bool is_linear() const;
+  std::vector<Rows> rows(std::span<const double> x) const;
+  std::vector<double> along(std::span<const double> x,
+                            std::span<const double> forces, double sign) const;
+  dense::Matrix free_basis(const std::vector<Rows>& rows,
+                           std::span<const dense::Matrix> bases) const;
+  bool close_before_springs(const std::vector<Rows>& rows,
+                            std::span<const double> pull);
+  std::int64_t
+  close_first(const std::vector<Rows>& rows, std::span<const double> way,
+              double within = std::numeric_limits<double>::infinity());
+  bool stick_first(const std::vector<Rows>& rows, std::span<const double> way);
+  std::vector<double> lacking(const std::vector<Rows>& rows) const;
+  Rubbing rubbing(const Rows& rows, std::size_t n) const;
+  double lowest(std::span<const Found> found) const;
+  bool loads_balance(const dense::Matrix& N) const;
+  void add_springs(const dense::Matrix& N, std::span<const double> x,
+                   std::span<const double> pull,
+                   std::span<const double> forces);
+
+  std::shared_ptr<const mesh::Bodies> _bodies;
+  std::shared_ptr<Bulk> _bulk;
+  std::vector<std::shared_ptr<Holding>> _contacts;
+  std::vector<std::int64_t> _original;
+  std::optional<RigidModes> _modes;
+  std::int64_t _free_modes = 0, _closed_for_balance = 0;
+  bool _is_unbalanced = false, _begins = true;
+  std::optional<std::vector<double>> _springs;
+  // Free motions at owned dofs, and the displacements at which they were found
+  struct Loose
+  {
+    dense::Matrix motions;
+    std::vector<double> before;
+  };
+  std::optional<Loose> _loose;
+  // Forces of the loads along the modes in the reference configuration, and
+  // what is balanced
+  std::vector<double> _loads;
+  double _balanced = 0;
+};
+} // namespace contactx::solve

@@ -1,0 +1,344 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include "loop.h"
+#include "../mesh/deformed_cells.h"
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+using namespace contactx;
+using namespace contactx::solve;
+
+namespace
+{
+/// Difference from a Dirichlet value over the largest displacement
+constexpr double defect_allowed = 1e-10;
+/// Rotation of a loose body that linear strains take for a stretch by 1e-4
+constexpr double turned_most = 0.014;
+
+std::vector<std::shared_ptr<Holding>>
+holdings(const System::Contacts& contacts)
+{
+  std::vector<std::shared_ptr<Holding>> held;
+  for (const auto& c : contacts)
+    held.push_back(solve::holding(c));
+  return held;
+}
+} // namespace
+
+Loop::Loop(std::shared_ptr<System> system,
+           std::shared_ptr<const mesh::Bodies> bodies)
+    : _system(std::move(system)), _convergence(_system),
+      _bodies(std::make_shared<FreeBodies>(
+          std::move(bodies), _system->bulk(), holdings(_system->contacts()),
+          _system->halo()->original().first(_system->halo()->num_owned()))),
+      _active_set(_system->halo(), _system->contacts(), _bodies),
+      _forces{[this] { return _system->forces(); },
+              [this]
+              {
+                const auto b = _system->bulk_residual();
+                return std::vector<double>(b.begin(), b.end());
+              },
+              [this] { return _convergence.scale_of_balance(); }}
+{
+}
+
+bool Loop::begin_step(bool damped)
+{
+  _system->begin_step();
+  _active_set.begin_step();
+  _length.begin_step(damped, _convergence.extent());
+  const std::span<const double> u = _system->bulk()->displacements();
+  _start.assign(u.begin(), u.end());
+  _last.reset();
+  _ahead.clear();
+  _balance.begin_step();
+  _has_stepped = false;
+  _iterate = {};
+  ++_version;
+  if (not std::isfinite(_convergence.scale()))
+    return false;
+  std::vector<double> stiffness = this->stiffness();
+  set_factors(stiffness);
+  _convergence.begin_step(std::move(stiffness));
+  _bodies->begin_step();
+  return true;
+}
+
+/// Stiffness of each owned node: the mean of its free diagonal entries, zero
+/// where all are prescribed.
+std::vector<double> Loop::stiffness()
+{
+  Bulk& bulk = *_system->bulk();
+  const int g = _system->halo()->gdim();
+  const std::span<const double> diagonal = bulk.diagonal();
+  const std::span<const std::int8_t> markers = bulk.markers();
+  std::vector<double> stiffness(_system->halo()->num_owned());
+  for (std::size_t i = 0; i < stiffness.size(); ++i)
+  {
+    int free = 0;
+    for (int k = 0; k < g; ++k)
+      if (markers[g * i + k] == 0)
+      {
+        stiffness[i] += std::abs(diagonal[g * i + k]);
+        ++free;
+      }
+    if (free > 0)
+      stiffness[i] /= free;
+  }
+  return stiffness;
+}
+
+/// Sets the factor c of each contact's complementarity.
+void Loop::set_factors(std::span<const double> stiffness)
+{
+  std::vector<double> compliance(_system->halo()->num_nodes());
+  for (std::size_t i = 0; i < stiffness.size(); ++i)
+    if (stiffness[i] > 0)
+      compliance[i] = 1 / stiffness[i];
+  _system->halo()->forward(std::span(compliance), 1);
+  for (const auto& c : _system->contacts())
+    c->set_factor(compliance);
+  _system->take_factors();
+}
+
+void Loop::settle_first()
+{
+  settle(true);
+  // For callers that ask for the Jacobian before the residual: freezing the
+  // kinematics has changed the pairs
+  for (const auto& c : _system->contacts())
+  {
+    c->update_gap();
+    System::evaluate(*c);
+  }
+  _is_homogeneous = find_homogeneous();
+}
+
+bool Loop::find_homogeneous()
+{
+  const auto& contacts = _system->contacts();
+  const auto scales = [](const auto& c)
+  { return not c->updates_kinematics() and not c->law()->may_throw(); };
+  if (not _system->bulk()->is_linear() or _system->bulk()->fields()
+      or not std::ranges::all_of(contacts, scales))
+    return false;
+  const bool moved
+      = std::ranges::any_of(_start, [](double u) { return u != 0; });
+  if (mesh::anywhere(_system->halo()->ranks(), moved))
+    return false;
+  return std::ranges::all_of(contacts, [](const auto& c)
+                             { return c->is_without_gaps(); });
+}
+
+void Loop::settle(bool is_first)
+{
+  _active_set.settle(_forces, is_first);
+  ++_version;
+}
+
+Verdict Loop::judge(bool is_start, double rtol, double atol,
+                    std::span<double> b)
+{
+  if (not is_start)
+  {
+    if (not _has_stepped)
+      look_ahead();
+    _has_stepped = true;
+    take_back();
+    take_off_drift();
+    settle(false);
+    _active_set.advance(_length.part() == 1);
+  }
+  bool is_small = compare(rtol, atol, b);
+  if (is_small and _active_set.is_soft())
+  {
+    _active_set.harden();
+    ++_version;
+    is_small = compare(rtol, atol, b);
+  }
+  while (is_small)
+  {
+    const auto end = _active_set.may_end(_forces);
+    if (end == ActiveSet::End::solution)
+      break;
+    if (end == ActiveSet::End::hidden)
+      return Verdict::hidden;
+    ++_version;
+    is_small = compare(rtol, atol, b);
+  }
+  _active_set.note(_iterate.residual);
+  _length.note(_iterate.changes.status > 0 or _iterate.changes.pairs > 0);
+  if (not _active_set.is_soft())
+  {
+    _last.emplace(_system->size());
+    _system->unknowns(*_last);
+  }
+  const bool is_unbalanced = _balance.note(
+      _bodies->is_unbalanced(), _iterate.changes.status, _iterate.residual);
+  if (not std::isfinite(_iterate.residual))
+    return Verdict::not_finite;
+  if (is_small)
+  {
+    if (_bodies->free_modes() == 0)
+      return Verdict::solution;
+    if (way() > _convergence.farthest())
+      return Verdict::ran_away;
+    return _bodies->turned() > turned_most ? Verdict::turned
+                                           : Verdict::solution;
+  }
+  if (_length.is_stuck())
+    return Verdict::stuck;
+  if (not is_unbalanced)
+    return Verdict::goes_on;
+  // What balances a body may have been lost on the way
+  return _balance.has_gone_astray() ? Verdict::stuck : Verdict::unbalanced;
+}
+
+double Loop::limit(std::span<const double> dx, const Correction& correction)
+{
+  foresee(dx);
+  const double size = size_of(dx);
+  _length.begin(size, std::isfinite(size) ? within_cells(dx) : 1);
+  while (correction and _length.has_trial())
+    _length.judge(correction(_length.part()));
+  return _length.part();
+}
+
+/// Remembers a Newton step in full, before a part of it is taken.
+///
+/// Slip of nodes that touch within a load step is measured from where they do
+/// on the way of its first Newton step, however much of that is taken: else the
+/// solution would depend on what shortens it. Only that one counts.
+void Loop::foresee(std::span<const double> dx)
+{
+  if (_has_stepped or not _bodies->has_friction())
+    return;
+  _ahead.resize(_system->size());
+  _system->unknowns(_ahead);
+  for (std::size_t i = 0; i < _ahead.size(); ++i)
+    _ahead[i] -= dx[i];
+}
+
+/// Measures slip from where nodes touch on the way of the first Newton step, if
+/// only a part of it was taken.
+void Loop::look_ahead()
+{
+  std::vector<double> x(_system->size());
+  _system->unknowns(x);
+  mesh::Ranks& ranks = _system->halo()->ranks();
+  const bool is_known = std::ranges::all_of(_ahead, [](double value)
+                                            { return std::isfinite(value); });
+  if (not mesh::anywhere(ranks, not _ahead.empty() and x != _ahead)
+      or mesh::anywhere(ranks, not is_known))
+    return;
+  _system->take(_ahead);
+  _active_set.foresee();
+  _system->take(x);
+}
+
+/// Takes back a part of the last step, if iterates go round in a circle.
+void Loop::take_back()
+{
+  if (not _last or not _active_set.shortens())
+    return;
+  constexpr double part = CycleGuard::part;
+  std::vector<double> x(_system->size());
+  _system->unknowns(x);
+  for (std::size_t i = 0; i < x.size(); ++i)
+    x[i] = part * x[i] + (1 - part) * (*_last)[i];
+  _system->take(x);
+}
+
+/// Takes off what free bodies have drifted in a step of linear contact
+/// conditions: with current kinematics pressures resist such motions by a
+/// little, and steps seek the place where they balance.
+void Loop::take_off_drift()
+{
+  if (not _active_set.is_linear())
+    return;
+  const auto drift = _bodies->drift();
+  if (not drift)
+    return;
+  const std::span<const double> now = _system->bulk()->displacements();
+  std::vector<double> u(now.begin(), now.end());
+  for (std::size_t i = 0; i < u.size(); ++i)
+    u[i] -= (*drift)[i];
+  _system->bulk()->set_displacements(u);
+}
+
+/// Evaluates the residual of an iterate, and whether it is small enough.
+bool Loop::compare(double rtol, double atol, std::span<double> b)
+{
+  _system->residual(b);
+  const auto found = _convergence.compare(b, rtol, atol);
+  _iterate = {found.residual,        found.tolerance,
+              found.defect,          _active_set.num_closed(),
+              _active_set.changes(), _active_set.is_frozen()};
+  double size = 0;
+  for (const double u : _system->bulk()->displacements())
+    size = std::max(size, std::abs(u));
+  size = mesh::largest(_system->halo()->ranks(), size);
+  return found.residual <= found.tolerance
+         and found.defect <= defect_allowed * size;
+}
+
+bool Loop::softens(std::span<const double> dx)
+{
+  if (not _has_stepped)
+    return false;
+  const auto& offsets = _system->offsets();
+  const std::size_t n = _system->num_bulk();
+  std::vector<double> step(dx.begin() + n, dx.end());
+  for (std::size_t i = 0; i < step.size(); ++i)
+    step[i] *= -_system->factors()[i];
+  std::vector<std::span<const double>> steps;
+  for (std::size_t k = 1; k + 1 < offsets.size(); ++k)
+    steps.push_back(std::span<const double>(step).subspan(
+        offsets[k] - n, offsets[k + 1] - offsets[k]));
+  if (not _active_set.softens(steps))
+    return false;
+  ++_version;
+  return true;
+}
+
+double Loop::within_cells(std::span<const double> dx) const
+{
+  Bulk& bulk = *_system->bulk();
+  if (bulk.is_linear())
+    return 1;
+  const mesh::Halo& halo = *_system->halo();
+  std::vector<double> way(std::size_t(halo.num_nodes()) * halo.gdim());
+  for (std::size_t i = 0; i < _system->num_displacements(); ++i)
+    way[i] = -dx[i];
+  halo.forward(std::span(way), halo.gdim());
+  const double part = mesh::longest_way(bulk.cells(), bulk.nodes_per_cell(),
+                                        halo.reference(), halo.now()->u, way,
+                                        halo.gdim(), StepLength::left);
+  return mesh::least(halo.ranks(), part);
+}
+
+double Loop::size_of(std::span<const double> dx) const
+{
+  double sum = 0;
+  for (std::size_t i = 0; i < _system->num_displacements(); ++i)
+    sum += dx[i] * dx[i];
+  return std::sqrt(mesh::total(_system->halo()->ranks(), sum));
+}
+
+double Loop::way()
+{
+  const std::span<const double> u = _system->bulk()->displacements();
+  double most = 0;
+  for (std::size_t i = 0; i < u.size(); ++i)
+    most = std::max(most, std::abs(u[i] - _start[i]));
+  return mesh::largest(_system->halo()->ranks(), most);
+}
+
+double Loop::changing() const
+{
+  const auto changes = _iterate.changes.status + _iterate.changes.pairs;
+  return static_cast<double>(changes)
+         / static_cast<double>(std::max<std::int64_t>(1, _iterate.closed));
+}

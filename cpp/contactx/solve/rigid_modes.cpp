@@ -1,0 +1,332 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include "rigid_modes.h"
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+using namespace contactx;
+using namespace contactx::solve;
+using mesh::Reduction;
+
+namespace
+{
+// Stiffness against a rigid motion, relative to the diagonal's, that counts as
+// a support: rounding leaves less than 1e-15
+constexpr double supported = 1e-13;
+// And one that lets a body move so far that it may meet others on the way
+constexpr double soft = 1e-3;
+
+/// Orthonormal basis of the null space of a matrix of so many rows, from the
+/// matrix times its transpose from the left.
+dense::Matrix null_space(const dense::Matrix& gram, double rows)
+{
+  const dense::Eigen found = dense::symmetric_eigen(gram);
+  std::vector<std::size_t> which;
+  for (std::size_t k = 0; k < found.values.size(); ++k)
+    if (std::abs(found.values[k]) <= 1e-12 * std::max(rows, 1.0))
+      which.push_back(k);
+  return dense::columns(found.vectors, which);
+}
+
+void sum_up(mesh::Ranks& ranks, std::span<double> values)
+{
+  if (ranks.size() > 1)
+    ranks.reduce(values, Reduction::sum);
+}
+} // namespace
+
+/// Stiffness of the bulk against motions of a body.
+struct RigidModes::Resistance
+{
+  dense::Eigen found; ///< and the combinations of motions that have it
+  double scale;       ///< that against motions that are not rigid
+};
+
+void solve::rigid_modes(const double* d, double* modes, int gdim)
+{
+  const int m = num_modes(gdim);
+  std::fill_n(modes, gdim * m, 0.0);
+  for (int i = 0; i < gdim; ++i)
+    modes[i * m + i] = 1;
+  if (gdim == 2)
+  {
+    modes[2] = -d[1];
+    modes[m + 2] = d[0];
+    return;
+  }
+  for (int k = 0; k < 3; ++k)
+  {
+    // About axis k
+    const int i = (k + 1) % 3, j = (k + 2) % 3;
+    modes[i * m + 3 + k] = -d[j];
+    modes[j * m + 3 + k] = d[i];
+  }
+}
+
+dense::Matrix solve::by_body(std::span<const dense::Matrix> bases)
+{
+  std::size_t rows = 0, cols = 0;
+  for (const dense::Matrix& basis : bases)
+  {
+    rows += basis.rows;
+    cols += basis.cols;
+  }
+  dense::Matrix Z(rows, cols);
+  std::size_t row = 0, col = 0;
+  for (const dense::Matrix& basis : bases)
+  {
+    for (std::size_t i = 0; i < basis.rows; ++i)
+      for (std::size_t k = 0; k < basis.cols; ++k)
+        Z(row + i, col + k) = basis(i, k);
+    row += basis.rows;
+    col += basis.cols;
+  }
+  return Z;
+}
+
+RigidModes::RigidModes(std::shared_ptr<const mesh::Bodies> bodies, Bulk& bulk,
+                       std::span<const double> x)
+    : _bodies(std::move(bodies)), _gdim(bulk.gdim())
+{
+  check(bulk, x);
+  mesh::Ranks& ranks = _bodies->map().ranks();
+  const std::size_t count = _bodies->size(), g = _gdim;
+  const auto owned = body().first(_bodies->map().num_owned());
+  std::vector<double> sums(count * (1 + g));
+  for (std::size_t i = 0; i < owned.size(); ++i)
+  {
+    double* sum = &sums[owned[i] * (1 + g)];
+    sum[0] += 1;
+    for (std::size_t k = 0; k < g; ++k)
+      sum[1 + k] += x[i * g + k];
+  }
+  sum_up(ranks, sums);
+  _num_nodes.resize(count);
+  _middle.resize(count * g);
+  for (std::size_t b = 0; b < count; ++b)
+  {
+    _num_nodes[b] = sums[b * (1 + g)];
+    for (std::size_t k = 0; k < g; ++k)
+      _middle[b * g + k]
+          = sums[b * (1 + g) + 1 + k] / std::max(_num_nodes[b], 1.0);
+  }
+  _radius.resize(count);
+  for (std::size_t i = 0; i < owned.size(); ++i)
+  {
+    double square = 0;
+    for (std::size_t k = 0; k < g; ++k)
+    {
+      const double d = x[i * g + k] - _middle[owned[i] * g + k];
+      square += d * d;
+    }
+    _radius[owned[i]] = std::max(_radius[owned[i]], std::sqrt(square));
+  }
+  if (ranks.size() > 1)
+    ranks.reduce(std::span(_radius), Reduction::largest);
+  std::ranges::replace(_radius, 0.0, 1.0);
+  _sprung.assign(count, 0);
+  update(bulk, x);
+}
+
+void RigidModes::check(Bulk& bulk, std::span<const double> x) const
+{
+  _bodies->map().ranks().agree(
+      [&]
+      {
+        if (_gdim != 2 and _gdim != 3)
+          throw std::invalid_argument("gdim must be 2 or 3, not "
+                                      + std::to_string(_gdim));
+        if (x.size() != body().size() * _gdim)
+          throw std::invalid_argument(
+              "x must have gdim coordinates for each of "
+              + std::to_string(body().size()) + " nodes: it has "
+              + std::to_string(x.size()) + " values");
+        const std::size_t dofs = _bodies->map().num_owned() * _gdim;
+        if (bulk.markers().size() != dofs)
+          throw std::invalid_argument(
+              "markers must have gdim values for each owned node: "
+              + std::to_string(dofs) + ", not "
+              + std::to_string(bulk.markers().size()));
+      });
+}
+
+double RigidModes::size() const
+{
+  return _radius.empty() ? 0.0 : std::ranges::max(_radius);
+}
+
+bool RigidModes::any_free() const
+{
+  const auto some = [](const dense::Matrix& basis) { return basis.cols > 0; };
+  return std::ranges::any_of(_free, some) or std::ranges::any_of(_weak, some);
+}
+
+void RigidModes::at(std::int32_t node, std::span<const double> x,
+                    double* modes) const
+{
+  const std::size_t b = body()[node];
+  std::array<double, 3> d{};
+  for (int k = 0; k < _gdim; ++k)
+    d[k] = (x[std::size_t(node) * _gdim + k] - _middle[b * _gdim + k])
+           / _radius[b];
+  rigid_modes(d.data(), modes, _gdim);
+}
+
+void RigidModes::update(Bulk& bulk, std::span<const double> x)
+{
+  check(bulk, x);
+  const std::size_t m = modes_per_body(), g = _gdim;
+  const std::vector<double> seen = prescribed(bulk, x);
+  std::vector<std::int8_t> sprung = _sprung;
+  std::vector<dense::Matrix> free, weak;
+  std::vector<std::vector<double>> stiffness;
+  for (std::size_t b = 0; b < count(); ++b)
+  {
+    const double* of_body = &seen[b * (m * m + 1)];
+    dense::Matrix gram(m, m);
+    std::copy_n(of_body, m * m, gram.values.begin());
+    const dense::Matrix unconstrained = null_space(gram, of_body[m * m]);
+    dense::Matrix basis = unconstrained, yielding(m, 0);
+    std::vector<double> yields;
+    if (unconstrained.cols > 0 and not(_is_first or sprung[b]))
+    {
+      // Stresses resist rotations without being a support
+      dense::Matrix turns(m - g, unconstrained.cols);
+      std::copy_n(unconstrained.values.begin() + g * unconstrained.cols,
+                  turns.values.size(), turns.values.begin());
+      const dense::Matrix shifts = dense::product(
+          unconstrained, null_space(dense::product_transposed(turns, turns),
+                                    static_cast<double>(turns.rows)));
+      if (shifts.cols > 0)
+      {
+        const Resistance r = resistance(bulk, x, b, shifts);
+        sprung[b] = std::ranges::any_of(
+            r.found.values, [&r](double value)
+            { return std::abs(value) > supported * r.scale; });
+      }
+    }
+    if (unconstrained.cols > 0 and (_is_first or sprung[b]))
+    {
+      const Resistance r = resistance(bulk, x, b, unconstrained);
+      std::vector<std::size_t> none, some;
+      for (std::size_t k = 0; k < r.found.values.size(); ++k)
+      {
+        const double size = std::abs(r.found.values[k]);
+        if (size <= supported * r.scale)
+          none.push_back(k);
+        else if (size <= soft * r.scale)
+        {
+          some.push_back(k);
+          yields.push_back(size);
+        }
+      }
+      basis = dense::product(unconstrained,
+                             dense::columns(r.found.vectors, none));
+      yielding = dense::product(unconstrained,
+                                dense::columns(r.found.vectors, some));
+      if (basis.cols < unconstrained.cols)
+        sprung[b] = 1;
+    }
+    free.push_back(std::move(basis));
+    weak.push_back(std::move(yielding));
+    stiffness.push_back(std::move(yields));
+  }
+  _free = std::move(free);
+  _weak = std::move(weak);
+  _stiffness = std::move(stiffness);
+  _sprung = std::move(sprung);
+  _is_first = false;
+}
+
+/// What prescribed displacements see of the modes of each body: Gram matrix of
+/// the modes at prescribed dofs, and the number of these (shape=(num_bodies,
+/// m * m + 1)).
+std::vector<double> RigidModes::prescribed(Bulk& bulk,
+                                           std::span<const double> x) const
+{
+  const std::size_t m = modes_per_body(), g = _gdim;
+  const auto markers = bulk.markers();
+  std::array<double, 18> modes;
+  std::vector<double> seen(count() * (m * m + 1));
+  for (std::size_t i = 0; i < markers.size() / g; ++i)
+  {
+    bool is_known = false;
+    double* of_body = &seen[body()[i] * (m * m + 1)];
+    for (std::size_t k = 0; k < g; ++k)
+    {
+      if (markers[i * g + k] != 1)
+        continue;
+      if (not is_known)
+        at(static_cast<std::int32_t>(i), x, modes.data());
+      is_known = true;
+      for (std::size_t p = 0; p < m; ++p)
+        for (std::size_t q = 0; q < m; ++q)
+          of_body[p * m + q] += modes[k * m + p] * modes[k * m + q];
+      of_body[m * m] += 1;
+    }
+  }
+  sum_up(_bodies->map().ranks(), seen);
+  return seen;
+}
+
+RigidModes::Resistance
+RigidModes::resistance(Bulk& bulk, std::span<const double> x, std::size_t b,
+                       const dense::Matrix& motions) const
+{
+  const std::size_t m = modes_per_body(), g = _gdim, k = motions.cols;
+  const auto owned = body().first(_bodies->map().num_owned());
+  const std::size_t n = owned.size() * g;
+  std::vector<std::size_t> dofs;
+  std::vector<double> fields(k * n);
+  std::array<double, 18> modes;
+  for (std::size_t i = 0; i < owned.size(); ++i)
+  {
+    if (static_cast<std::size_t>(owned[i]) != b)
+      continue;
+    at(static_cast<std::int32_t>(i), x, modes.data());
+    for (std::size_t c = 0; c < g; ++c)
+    {
+      dofs.push_back(i * g + c);
+      for (std::size_t q = 0; q < k; ++q)
+        for (std::size_t p = 0; p < m; ++p)
+          fields[q * n + i * g + c] += modes[c * m + p] * motions(p, q);
+    }
+  }
+  const auto diagonal = bulk.diagonal();
+  const auto forces = bulk.products(fields, static_cast<int>(k));
+  mesh::Ranks& ranks = _bodies->map().ranks();
+  ranks.agree(
+      [&]
+      {
+        if (diagonal.size() != n or forces.size() != k * n)
+          throw std::invalid_argument(
+              "the diagonal and the products of the stiffness must have a "
+              "value for each of "
+              + std::to_string(n) + " owned dofs");
+      });
+  // The last column is the stiffness of the diagonal
+  dense::Matrix sums(k, k + 1);
+  for (std::size_t p = 0; p < k; ++p)
+    for (const std::size_t dof : dofs)
+    {
+      const double u = fields[p * n + dof];
+      for (std::size_t q = 0; q < k; ++q)
+        sums(p, q) += u * forces[q * n + dof];
+      sums(p, k) += u * std::abs(diagonal[dof]) * u;
+    }
+  sum_up(ranks, sums.values);
+  dense::Matrix energy(k, k);
+  double scale = -std::numeric_limits<double>::infinity();
+  for (std::size_t p = 0; p < k; ++p)
+  {
+    for (std::size_t q = 0; q < k; ++q)
+      energy(p, q) = (sums(p, q) + sums(q, p)) / 2;
+    scale = std::max(scale, sums(p, k));
+  }
+  return {dense::symmetric_eigen(energy), scale};
+}

@@ -1,0 +1,77 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include "step_length.h"
+#include <algorithm>
+#include <cmath>
+
+using namespace contactx::solve;
+
+namespace
+{
+/// Trial steps of a damped one; what is left after the last is taken
+constexpr int trials = 6;
+/// Part of a step that leads nowhere, and how many such in turn end the loop
+constexpr double nothing = 1e-3;
+constexpr int stuck = 3;
+/// By how much a damped step is at least and at most shorter than the one
+/// before
+constexpr double shortest = 0.1, longest = 0.5;
+/// Size of a step over that of the scene which rounding errors may have made
+constexpr double rounding = 1e-10;
+} // namespace
+
+void StepLength::begin_step(bool damped, double extent)
+{
+  *this = {};
+  _is_damped = damped;
+  _extent = extent;
+}
+
+void StepLength::begin(double size, double within_cells)
+{
+  _part = 1;
+  _trials = 0;
+  if (not std::isfinite(size))
+    return;
+  _size = size;
+  _part = _within_cells = within_cells;
+  _limited += within_cells < 1;
+  if (_is_damped and (_changes or size > rounding * _extent))
+    _trials = trials;
+  else
+    end();
+}
+
+void StepLength::judge(double next_size)
+{
+  if (_trials == 0)
+    return;
+  if (next_size <= (1 - _part / 4) * _size)
+  {
+    end();
+    return;
+  }
+  double shorter = shortest;
+  if (not std::isinf(next_size))
+  {
+    // It is (1 - t) times this one, and a part that grows with the square of t
+    const double square
+        = _size > 0
+              ? 2 * std::abs(next_size / _size - (1 - _part)) / (_part * _part)
+              : 0;
+    shorter = square > 0 ? 1 / (square * _part) : 1;
+  }
+  _part *= std::min(std::max(shorter, shortest), longest);
+  if (--_trials == 0)
+    end();
+}
+
+void StepLength::end()
+{
+  _trials = 0;
+  _damped += _part < _within_cells;
+  _tiny = _part < nothing ? _tiny + 1 : 0;
+}
+
+bool StepLength::is_stuck() const { return _tiny >= stuck; }

@@ -1,0 +1,239 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include "scene.h"
+#include <gtest/gtest.h>
+#include <numeric>
+
+using namespace contactx;
+using namespace contactx::geometry;
+using namespace contactx::tests;
+
+namespace
+{
+double sum(const std::vector<double>& v)
+{
+  return std::accumulate(v.begin(), v.end(), 0.0);
+}
+
+std::vector<double> areas(const Scene& scene)
+{
+  return nodal_areas(scene.facets(), scene.x, scene.gdim);
+}
+
+Vector<3> normal(const Scene& scene, std::int32_t node)
+{
+  const auto n = nodal_normals(scene.facets(), scene.x, scene.gdim);
+  Vector<3> p{};
+  std::copy_n(n.begin() + node * scene.gdim, scene.gdim, p.begin());
+  return p;
+}
+
+/// Patch of the unit sphere around (1, 1, 1), outward.
+Scene sphere_patch(int n, Cells cells)
+{
+  return grid(n, cells,
+              [](double s, double t)
+              {
+                const Vector<3> p{s, t, 1};
+                return (1 / norm(p)) * p;
+              });
+}
+
+TEST(NodalAreas, WithAWeightAreItsIntegrals)
+{
+  Generator random(8);
+  for (const Cells cells : {Cells::triangles, Cells::quadrilaterals})
+  {
+    const Scene square = flat_grid(3, cells);
+    const std::size_t n = square.x.size() / 3;
+    const auto with = [&](const std::vector<double>& weight)
+    { return nodal_areas(square.facets(), square.x, 3, weight); };
+    const auto plain = areas(square);
+    const auto same = with(std::vector<double>(n, 1));
+    for (std::size_t i = 0; i < n; ++i)
+      EXPECT_NEAR(same[i], plain[i], 1e-15);
+    // The shape functions' mass matrix is symmetric, and exact
+    std::vector<double> x(n), w(n);
+    for (std::size_t i = 0; i < n; ++i)
+    {
+      x[i] = square.x[3 * i];
+      w[i] = random(0, 1);
+    }
+    const auto by_x = with(x), by_w = with(w);
+    EXPECT_NEAR(std::inner_product(x.begin(), x.end(), by_w.begin(), 0.0),
+                std::inner_product(w.begin(), w.end(), by_x.begin(), 0.0),
+                1e-15);
+    EXPECT_NEAR(std::inner_product(x.begin(), x.end(), by_x.begin(), 0.0),
+                1. / 3, 1e-15);
+  }
+}
+
+TEST(NodalAreas, OfAFlatSquareAddUpToItsArea)
+{
+  for (Cells cells : {Cells::triangles, Cells::quadrilaterals, Cells::mixed})
+    for (int n : {1, 2, 5})
+      EXPECT_NEAR(sum(areas(flat_grid(n, cells))), 1, 1e-14);
+}
+
+TEST(NodalAreas, AreTheIntegralsOfTheShapeFunctions)
+{
+  const auto a = areas(flat_grid(2, Cells::quadrilaterals));
+  EXPECT_DOUBLE_EQ(a[0], 1. / 16); // corner
+  EXPECT_DOUBLE_EQ(a[1], 2. / 16); // edge
+  EXPECT_DOUBLE_EQ(a[4], 4. / 16); // middle
+  Scene skew(3);
+  skew.facet({skew.node({0, 0, 0}), skew.node({3, 0, 0}), skew.node({0, 1, 0}),
+              skew.node({1, 1, 0})});
+  // Integrals of the bilinear functions over the trapezoid, by hand
+  const auto b = areas(skew);
+  EXPECT_DOUBLE_EQ(b[0], 7. / 12);
+  EXPECT_DOUBLE_EQ(b[1], 7. / 12);
+  EXPECT_DOUBLE_EQ(b[2], 5. / 12);
+  EXPECT_DOUBLE_EQ(b[3], 5. / 12);
+}
+
+TEST(NodalAreas, OfSegmentsAreLengths)
+{
+  Scene scene(2);
+  for (Vector<3> p : {Vector<3>{0, 0}, {3, 4}, {3, 5}, {9, 9}})
+    scene.node(p);
+  scene.facet({0, 1});
+  scene.facet({1, 2});
+  const std::vector<double> expected{2.5, 3, 0.5, 0}; // the last is not on it
+  EXPECT_EQ(areas(scene), expected);
+}
+
+TEST(NodalAreas, OfASphereConverge)
+{
+  // The patch seen through a square of a cube from its centre
+  const double exact = std::asin(0.5); // one of the corners' quarters: pi/6
+  for (Cells cells : {Cells::triangles, Cells::quadrilaterals, Cells::mixed})
+  {
+    const double coarse = std::abs(sum(areas(sphere_patch(8, cells))) - exact);
+    const double fine = std::abs(sum(areas(sphere_patch(16, cells))) - exact);
+    EXPECT_LT(fine, 2e-3);
+    EXPECT_NEAR(coarse / fine, 4, 0.1);
+  }
+}
+
+TEST(NodalAreas, ScaleWithTheSurface)
+{
+  Scene scene = sphere_patch(4, Cells::mixed);
+  const double area = sum(areas(scene));
+  for (double& c : scene.x)
+    c *= 0x1p-40;
+  EXPECT_DOUBLE_EQ(sum(areas(scene)), 0x1p-80 * area);
+}
+
+TEST(NodalAreas, OfFacetsWithoutAreaAreZero)
+{
+  Scene scene(3);
+  for (int i = 0; i < 4; ++i)
+    scene.node({double(i), double(i), 0});
+  scene.facet({0, 1, 2});
+  scene.facet({0, 1, 2, 3});
+  EXPECT_EQ(areas(scene), std::vector<double>(4, 0));
+  EXPECT_EQ(normal(scene, 1), Vector<3>{});
+}
+
+TEST(NodalNormals, OfAFlatSurfaceAreItsNormal)
+{
+  const Scene scene = flat_grid(3, Cells::mixed);
+  for (int i = 0; i < 16; ++i)
+    EXPECT_LT(norm(normal(scene, i) - Vector<3>{0, 0, 1}), 1e-15);
+}
+
+TEST(NodalNormals, PointOutOfASphere)
+{
+  double last = 1;
+  for (int n : {4, 8, 16})
+  {
+    const Scene scene = sphere_patch(n, Cells::mixed);
+    const int middle = n / 2 * (n + 1) + n / 2;
+    const double error = norm(normal(scene, middle) - scene.point(middle));
+    EXPECT_LT(error, 0.6 * last);
+    last = error;
+  }
+  EXPECT_LT(last, 0.02);
+}
+
+TEST(NodalNormals, AreWeightedByArea)
+{
+  Scene scene(2); // a corner of segments of length 3 and 4
+  scene.node({0, 0});
+  scene.node({3, 0});
+  scene.node({3, 4});
+  scene.node({7, 7});
+  scene.facet({0, 1});
+  scene.facet({1, 2});
+  EXPECT_LT(norm(normal(scene, 1) - Vector<3>{0.8, -0.6}), 1e-15);
+  EXPECT_EQ(normal(scene, 3), Vector<3>{}); // not on it
+}
+
+TEST(NodalNormals, PassOverFacetsWithoutArea)
+{
+  Scene scene = flat_grid(1, Cells::triangles);
+  scene.facet({0, 1, 1});
+  scene.facet({0, 2, 0, 2});
+  for (int i = 0; i < 4; ++i)
+    EXPECT_LT(norm(normal(scene, i) - Vector<3>{0, 0, 1}), 1e-15);
+}
+
+TEST(NodalNormals, OfATinySurfaceAreUnitVectors)
+{
+  Scene scene = sphere_patch(4, Cells::mixed);
+  for (double& c : scene.x)
+    c *= 1e-12;
+  for (int i = 0; i < 25; ++i)
+    EXPECT_NEAR(norm(normal(scene, i)), 1, 1e-14);
+}
+
+TEST(NodalNormals, ThatCancelAreZero)
+{
+  Scene scene(3); // both sides of a sheet that is turned somehow
+  Generator random(1);
+  const Motion<3> motion(random, 1);
+  for (Vector<3> p : {Vector<3>{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}})
+    scene.node(motion(p));
+  scene.facet({0, 1, 2});
+  scene.facet({1, 3, 2});
+  scene.facet({2, 1, 0});
+  scene.facet({3, 1, 2});
+  EXPECT_EQ(normal(scene, 0), Vector<3>{});
+  EXPECT_EQ(normal(scene, 3), Vector<3>{});
+}
+TEST(NodalAreaVectors, OfPartsAddUpToThoseOfTheWhole)
+{
+  const Scene scene = sphere_patch(4, Cells::mixed);
+  const auto facets = scene.facets();
+  const std::int32_t half = facets.size() / 2, cut = facets.offsets[half];
+  std::vector<std::int32_t> offsets(facets.offsets.begin() + half,
+                                    facets.offsets.end());
+  for (auto& offset : offsets)
+    offset -= cut;
+  const FacetList low{facets.offsets.first(half + 1), facets.nodes.first(cut)};
+  const FacetList high{offsets, facets.nodes.subspan(cut)};
+  auto vector = nodal_area_vectors(low, scene.x, 3);
+  auto area = nodal_areas(low, scene.x, 3);
+  const auto more = nodal_area_vectors(high, scene.x, 3);
+  const auto larger = nodal_areas(high, scene.x, 3);
+  for (std::size_t i = 0; i < vector.size(); ++i)
+    vector[i] += more[i];
+  for (std::size_t i = 0; i < area.size(); ++i)
+    area[i] += larger[i];
+  const auto expected = nodal_normals(facets, scene.x, 3);
+  const auto found = unit_normals(vector, area, 3);
+  for (std::size_t i = 0; i < found.size(); ++i)
+    EXPECT_NEAR(found[i], expected[i], 1e-14);
+  // Of a flat square all vectors are along one axis, and as long as the areas
+  const Scene square = flat_grid(2, Cells::mixed);
+  const auto flat = nodal_area_vectors(square.facets(), square.x, 3);
+  const auto sizes = areas(square);
+  for (std::size_t i = 0; i < sizes.size(); ++i)
+  {
+    EXPECT_EQ(flat[3 * i], 0);
+    EXPECT_NEAR(flat[3 * i + 2], sizes[i], 1e-15);
+  }
+}
+} // namespace

@@ -1,0 +1,319 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include "asperities.h"
+#include "contact_scene.h"
+#include "moved_contact.h"
+#include <algorithm>
+#include <cmath>
+#include <contactx/geometry/plane.h>
+#include <contactx/results/conductance.h>
+#include <gtest/gtest.h>
+#include <numeric>
+
+using namespace contactx;
+using namespace contactx::contact;
+using namespace contactx::tests;
+using law::Coefficient;
+using results::Conductance;
+using results::Derivatives;
+using results::Results;
+
+namespace
+{
+constexpr double pressure = 2;
+
+Conductance conducting(const std::shared_ptr<Contact>& contact,
+                       Coefficient h = Coefficient(asperities),
+                       std::optional<double> obstacle_value = std::nullopt)
+{
+  return {contact, std::make_shared<Results>(contact), std::move(h),
+          obstacle_value};
+}
+
+/// Close all slave nodes with a pressure along their normals.
+void press(Contact& contact)
+{
+  contact.search();
+  contact.update_gap();
+  law::NodeState& nodes = *contact.nodes();
+  std::ranges::fill(nodes.status, law::slip);
+  if (not nodes.is_vector())
+  {
+    std::ranges::fill(nodes.multiplier, pressure);
+    return;
+  }
+  const int g = contact.halo().gdim();
+  const std::vector<double> normals = contact.master()->normals();
+  for (std::size_t k = 0; k < nodes.multiplier.size(); ++k)
+    nodes.multiplier[k] = pressure * normals[3 * (k / g) + k % g];
+}
+
+/// Two sheets in small sliding that are uneven, by the numbers of their nodes
+/// in the mesh.
+template <class M>
+std::shared_ptr<Contact> uneven(ContactScene& scene, bool has_friction)
+{
+  const int g = scene.sheets.gdim;
+  for (std::size_t i = 0; i < scene.mesh.number.size(); ++i)
+    for (int k = 0; k < g; ++k)
+      (*scene.u)[g * i + k]
+          = 0.01 * std::sin(3. * double(scene.mesh.number[i]) + k);
+  std::shared_ptr<law::Law> law = std::make_shared<law::Frictionless>();
+  if (has_friction)
+  {
+    auto coulomb = std::make_shared<law::Coulomb>();
+    coulomb->set_friction(
+        std::vector<double>(scene.slaves->owned().size(), 0.4));
+    law = std::move(coulomb);
+  }
+  auto contact = scene.contact<M>(law, Sliding::small);
+  press(*contact);
+  return contact;
+}
+
+/// A field that differs from node to node.
+std::vector<double> warm(const ContactScene& scene)
+{
+  std::vector<double> field(scene.halo->num_owned());
+  for (std::size_t i = 0; i < field.size(); ++i)
+    field[i] = 10 + 3 * std::cos(5. * double(scene.mesh.number[i]));
+  return field;
+}
+
+/// Derivative of the residual along a way by central differences.
+template <class Move>
+std::vector<double> quotient(Conductance& conductance,
+                             const std::vector<double>& field, Move&& move)
+{
+  constexpr double step = 1e-5;
+  move(step);
+  std::vector<double> high = conductance.residual(field);
+  move(-2 * step);
+  const std::vector<double> low = conductance.residual(field);
+  move(step);
+  for (std::size_t i = 0; i < high.size(); ++i)
+    high[i] = (high[i] - low[i]) / (2 * step);
+  return high;
+}
+
+void expect_product(const Triplets& A, const std::vector<double>& way,
+                    const std::vector<double>& expected)
+{
+  std::vector<double> product(expected.size(), 0);
+  A.multiply(way, product);
+  double most = 0;
+  for (const double v : expected)
+    most = std::max(most, std::abs(v));
+  ASSERT_GT(most, 0.01);
+  for (std::size_t i = 0; i < product.size(); ++i)
+    EXPECT_NEAR(product[i], expected[i], 1e-7 * most);
+}
+
+std::vector<double> any(std::size_t count, unsigned seed)
+{
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> one(-1, 1);
+  std::vector<double> values(count);
+  for (double& v : values)
+    v = one(random);
+  return values;
+}
+
+void add(std::vector<double>& x, const std::vector<double>& way, double by)
+{
+  for (std::size_t i = 0; i < x.size(); ++i)
+    x[i] += by * way[i];
+}
+
+template <class M>
+class Conductances : public testing::Test
+{
+};
+
+using Methods = testing::Types<NodeToSurface, SurfaceToSurface>;
+TYPED_TEST_SUITE(Conductances, Methods);
+
+/// What is recovered from uniform pressures is uniform: along these the
+/// derivative by the nodes' own pressures is exact.
+TYPED_TEST(Conductances, DerivativesAreThoseOfTheResidual)
+{
+  for (const int dim : {2, 3})
+    for (const bool has_friction : {false, true})
+    {
+      ContactScene scene(dim);
+      const auto contact = uneven<TypeParam>(scene, has_friction);
+      Conductance conductance = conducting(contact);
+      std::vector<double> field = warm(scene);
+      for (const double gap : contact->nodes()->gap)
+        ASSERT_GT(gap, 0.01);
+      const Derivatives derivatives = conductance.derivatives(field);
+      auto way = any(field.size(), 1);
+      // Linear in the field
+      expect_product(derivatives.by_field, field, conductance.residual(field));
+      expect_product(derivatives.by_field, way, conductance.residual(way));
+      const Triplets alone = conductance.by_field();
+      EXPECT_EQ(alone.rows, derivatives.by_field.rows);
+      EXPECT_EQ(alone.columns, derivatives.by_field.columns);
+      EXPECT_EQ(alone.values, derivatives.by_field.values);
+      way = any(scene.u->size(), 2);
+      expect_product(derivatives.by_displacement, way,
+                     quotient(conductance, field,
+                              [&](double by) { add(*scene.u, way, by); }));
+      // Components along the surface press nothing
+      auto& multiplier = contact->nodes()->multiplier;
+      way.assign(multiplier.size(), 1);
+      if (has_friction)
+        for (std::size_t k = 0; k < way.size(); ++k)
+          way[k] = k % dim == std::size_t(dim - 1) ? 1 : 0.7;
+      expect_product(derivatives.by_multiplier, way,
+                     quotient(conductance, field,
+                              [&](double by) { add(multiplier, way, by); }));
+    }
+}
+
+TYPED_TEST(Conductances, WhatLeavesOneSideEntersTheOther)
+{
+  for (const int dim : {2, 3})
+  {
+    ContactScene scene(dim);
+    const auto contact = uneven<TypeParam>(scene, false);
+    Conductance conductance = conducting(contact);
+    std::vector<double> field = warm(scene);
+    for (std::int32_t i = 0; i < scene.sheets.num_slaves; ++i)
+      field[i] += 20;
+    const auto residual = conductance.residual(field);
+    const auto first_master = residual.begin() + scene.sheets.num_slaves;
+    const double out = std::accumulate(residual.begin(), first_master, 0.);
+    const double in = std::accumulate(first_master, residual.end(), 0.);
+    const double flow = conductance.flow(field);
+    ASSERT_GT(flow, 1);
+    EXPECT_NEAR(out, flow, 1e-12 * flow);
+    EXPECT_NEAR(in, -flow, 1e-12 * flow);
+    // Where both sides are alike nothing flows
+    std::ranges::fill(field, 7);
+    EXPECT_NEAR(conductance.flow(field), 0, 1e-12 * flow);
+  }
+}
+
+TYPED_TEST(Conductances, NegativePressuresAndGapsCountAsZero)
+{
+  ContactScene scene(2, -0.05);
+  const auto contact = uneven<TypeParam>(scene, false);
+  for (double& p : contact->nodes()->multiplier)
+    p = -p;
+  for (const double gap : contact->nodes()->gap)
+    ASSERT_LT(gap, 0);
+  bool is_called = false;
+  Conductance conductance
+      = conducting(contact, Coefficient(
+                                [&](auto p, auto gap)
+                                {
+                                  is_called = true;
+                                  for (std::size_t i = 0; i < p.size(); ++i)
+                                  {
+                                    EXPECT_EQ(p[i], 0);
+                                    EXPECT_EQ(gap[i], 0);
+                                  }
+                                  return asperities(p, gap);
+                                }));
+  const auto field = warm(scene);
+  EXPECT_EQ(conductance.residual(field),
+            conducting(contact, Coefficient(0.5)).residual(field));
+  EXPECT_TRUE(is_called);
+}
+
+TYPED_TEST(Conductances, ContactsThatAreSwitchedOffConductNothing)
+{
+  ContactScene scene(2);
+  const auto contact = uneven<TypeParam>(scene, false);
+  Conductance conductance = conducting(contact);
+  const auto field = warm(scene);
+  ASSERT_NE(conductance.flow(field), 0);
+  contact->set_active(false);
+  EXPECT_EQ(conductance.flow(field), 0);
+  EXPECT_EQ(conductance.residual(field), std::vector<double>(field.size(), 0));
+  contact->set_active(true);
+  EXPECT_NE(conductance.flow(field), 0);
+}
+
+TYPED_TEST(Conductances, AreTheSameOnRanks)
+{
+  for (const int dim : {2, 3})
+  {
+    ContactScene scene(dim);
+    const auto contact = uneven<TypeParam>(scene, true);
+    Conductance alone = conducting(contact);
+    const auto field = warm(scene);
+    const double flow = alone.flow(field);
+    const auto residual = alone.residual(field);
+    const Derivatives derivatives = alone.derivatives(field);
+    std::vector<double> product(residual.size(), 0);
+    derivatives.by_displacement.multiply(*scene.u, product);
+    derivatives.by_multiplier.multiply(contact->nodes()->multiplier, product);
+    on_ranks(3,
+             [&](mesh::Ranks& ranks)
+             {
+               ContactScene part(dim, 0.05, Cells::mixed, &ranks);
+               const auto here = uneven<TypeParam>(part, true);
+               Conductance conductance = conducting(here);
+               const auto mine = warm(part);
+               EXPECT_NEAR(conductance.flow(mine), flow, 1e-11);
+               const auto out = conductance.residual(mine);
+               const Derivatives by = conductance.derivatives(mine);
+               std::vector<double> sums(part.halo->num_nodes(), 0);
+               by.by_displacement.multiply(*part.u, sums);
+               by.by_multiplier.multiply(here->nodes()->multiplier, sums);
+               part.halo->reverse(sums, 1);
+               ASSERT_EQ(out.size(), std::size_t(part.halo->num_owned()));
+               for (std::size_t i = 0; i < out.size(); ++i)
+               {
+                 EXPECT_NEAR(out[i], residual[part.mesh.number[i]], 1e-11);
+                 EXPECT_NEAR(sums[i], product[part.mesh.number[i]], 1e-8);
+               }
+             });
+  }
+}
+
+/// A body over a plate: h A (T - T0) flows.
+TEST(Conductance, ARigidObstacleHasAValue)
+{
+  Scene slave(3);
+  for (const Vector<3>& p : {Vector<3>{0, 0, 0.1}, Vector<3>{0, 2, 0.1},
+                             Vector<3>{2, 0, 0.1}, Vector<3>{2, 2, 0.1}})
+    slave.node(p);
+  slave.facet({0, 1, 2, 3});
+  MovedContact moved(
+      slave, std::make_shared<geometry::Plane>(std::vector<double>{0, 0, 0},
+                                               std::vector<double>{0, 0, 1}));
+  press(*moved.contact);
+  Conductance conductance = conducting(moved.contact, Coefficient(0.5), 3);
+  const std::vector<double> field(4, 10);
+  EXPECT_NEAR(conductance.flow(field), 0.5 * 4 * (10 - 3), 1e-13);
+  for (const double out : conductance.residual(field))
+    EXPECT_NEAR(out, 0.5 * 7, 1e-13);
+  EXPECT_THROW((void)conducting(moved.contact), std::invalid_argument);
+}
+
+TEST(Conductance, RefusesWhatDoesNotFit)
+{
+  ContactScene scene(2);
+  const auto contact = uneven<NodeToSurface>(scene, false);
+  const auto results = std::make_shared<Results>(contact);
+  EXPECT_THROW((void)conducting(contact, Coefficient(1), 3.),
+               std::invalid_argument);
+  EXPECT_THROW(Conductance(nullptr, results, Coefficient(1)),
+               std::invalid_argument);
+  EXPECT_THROW(Conductance(contact, nullptr, Coefficient(1)),
+               std::invalid_argument);
+  Conductance conductance(contact, results, Coefficient(1));
+  const std::vector<double> few(3, 0);
+  EXPECT_THROW((void)conductance.flow(few), std::invalid_argument);
+  EXPECT_THROW((void)conductance.residual(few), std::invalid_argument);
+  EXPECT_THROW((void)conductance.derivatives(few), std::invalid_argument);
+  Conductance bad = conducting(
+      contact,
+      Coefficient([](auto p, auto) { return std::vector(p.size(), -1.); }));
+  EXPECT_THROW((void)bad.by_field(), std::invalid_argument);
+}
+} // namespace

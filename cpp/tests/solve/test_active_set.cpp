@@ -1,0 +1,468 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include "free_bodies_scene.h"
+#include "hiding_pairs.h"
+#include "spring_bodies.h"
+#include <cmath>
+#include <gtest/gtest.h>
+
+using namespace contactx;
+using namespace contactx::solve;
+using namespace contactx::contact;
+using namespace contactx::tests;
+
+namespace
+{
+/// Bodies of springs, and Newton's method with dense algebra around an active
+/// set alone.
+struct Springs : SpringBodies
+{
+  std::shared_ptr<ActiveSet> set;
+  Forces none{[] { return std::vector<double>(); },
+              [] { return std::vector<double>(); }, [] { return 1.0; }};
+
+  explicit Springs(int dim) : SpringBodies(dim) {}
+
+  template <class M>
+  void add(std::shared_ptr<law::Law> law, Sliding sliding = Sliding::finite)
+  {
+    SpringBodies::add<M>(std::move(law), sliding);
+    set = std::make_shared<ActiveSet>(scene.halo, contacts);
+  }
+
+  /// Solve; the number of iterations, or -1.
+  int solve()
+  {
+    const auto system = this->system();
+    std::vector<double> compliance(scene.sheets.num_nodes(),
+                                   1 / bulk->ground[0]);
+    set->begin_step();
+    for (const auto& c : contacts)
+      c->set_factor(compliance);
+    set->settle(none, true);
+    std::vector<double> b(system->size()), x(b);
+    for (int iteration = 0; iteration < 30; ++iteration)
+    {
+      system->residual(b);
+      while (dense::norm(b) < 1e-13)
+      {
+        const auto end = set->may_end(none);
+        if (end == ActiveSet::End::solution)
+        {
+          for (const auto& c : contacts)
+            c->accept();
+          return iteration;
+        }
+        if (end == ActiveSet::End::hidden)
+          return -1;
+        system->residual(b);
+      }
+      set->note(dense::norm(b));
+      const std::vector<double> step = dense::solve(jacobian(), b);
+      system->unknowns(x);
+      for (std::size_t i = 0; i < x.size(); ++i)
+        x[i] -= step[i];
+      system->take(x);
+      set->settle(none);
+      set->advance(true);
+    }
+    return -1;
+  }
+};
+
+template <class M>
+class ActiveSets : public testing::Test
+{
+};
+
+using Methods = testing::Types<NodeToSurface, SurfaceToSurface>;
+TYPED_TEST_SUITE(ActiveSets, Methods);
+} // namespace
+
+TYPED_TEST(ActiveSets, TheSolutionIsComplementary)
+{
+  for (int dim : {2, 3})
+    for (const Sliding sliding : {Sliding::finite, Sliding::small})
+    {
+      Springs scene(dim);
+      scene.template add<TypeParam>(std::make_shared<law::Frictionless>(),
+                                    sliding);
+      scene.press(0.09, 0.01);
+      const int iterations = scene.solve();
+      EXPECT_GT(iterations, 0);
+      EXPECT_LE(iterations, 10);
+      EXPECT_FALSE(scene.set->is_frozen());
+      const law::NodeState& nodes = *scene.contacts[0]->nodes();
+      std::int64_t closed = 0;
+      for (std::int32_t i = 0; i < nodes.num_nodes(); ++i)
+      {
+        EXPECT_GE(nodes.gap[i], -1e-12);
+        EXPECT_GE(nodes.multiplier[i], -1e-12);
+        EXPECT_NEAR(nodes.gap[i] * nodes.multiplier[i], 0, 1e-12);
+        closed += nodes.multiplier[i] > 1e-6;
+      }
+      // Some touch, some do not
+      EXPECT_GT(closed, 0);
+      EXPECT_LT(closed, nodes.num_nodes());
+      EXPECT_EQ(scene.set->num_closed(), closed);
+      // Once more from there nothing is left to do
+      EXPECT_EQ(scene.solve(), 0);
+      EXPECT_EQ(scene.set->changes().status, 0);
+    }
+}
+
+TYPED_TEST(ActiveSets, FrictionStaysInTheCone)
+{
+  for (int dim : {2, 3})
+  {
+    Springs scene(dim);
+    auto law = std::make_shared<law::Coulomb>();
+    law->set_friction(std::vector<double>(scene.scene.sheets.num_slaves, 0.3));
+    scene.add<TypeParam>(law);
+    scene.press(0.09, 0.0, 0.6);
+    ASSERT_GE(scene.solve(), 0);
+    // Aside: nodes at the edge slip, those in the middle stick
+    scene.press(0.09, 0.008, 0.6);
+    ASSERT_GE(scene.solve(), 0);
+    const Contact& contact = *scene.contacts[0];
+    const law::NodeState& nodes = *contact.nodes();
+    int sticking = 0, slipping = 0;
+    for (std::int32_t i = 0; i < nodes.num_nodes(); ++i)
+    {
+      const double p = nodes.pressure(i);
+      double t = 0, slip = 0, work = 0;
+      for (int k = 0; k < dim; ++k)
+      {
+        const std::size_t at = std::size_t(dim) * i + k;
+        const double along = nodes.multiplier[at] - p * nodes.normal[at];
+        t += along * along;
+        slip += nodes.slip[at] * nodes.slip[at];
+        work += along * nodes.slip[at];
+      }
+      EXPECT_LE(std::sqrt(t), 0.3 * p + 1e-12);
+      if (nodes.status[i] == law::open or p < 1e-6)
+        continue;
+      if (std::sqrt(t) < 0.3 * p * (1 - 1e-9))
+      {
+        EXPECT_NEAR(std::sqrt(slip), 0, 1e-12);
+        ++sticking;
+      }
+      else
+      {
+        // Against the slip
+        EXPECT_NEAR(work, -std::sqrt(t * slip), 1e-12);
+        ++slipping;
+      }
+    }
+    EXPECT_GT(sticking, 0);
+    EXPECT_GT(slipping, 0);
+    for (const double d : contact.history()->dissipation())
+      EXPECT_GE(d, -1e-15);
+  }
+}
+
+TEST(ActiveSet, AFarActiveSetFreezesTheKinematics)
+{
+  Springs scene(3);
+  scene.add<NodeToSurface>(std::make_shared<law::Frictionless>());
+  scene.set->begin_step();
+  scene.contacts[0]->set_factor(
+      std::vector<double>(scene.scene.sheets.num_nodes(), 1.0));
+  scene.set->settle(scene.none, true);
+  EXPECT_FALSE(scene.set->is_frozen());
+  // All nodes close at once
+  for (std::int32_t i = 0; i < scene.scene.sheets.num_slaves; ++i)
+    (*scene.scene.u)[3 * i + 2] = -0.1;
+  scene.set->settle(scene.none);
+  EXPECT_EQ(scene.set->changes().status, scene.scene.sheets.num_slaves);
+  EXPECT_TRUE(scene.set->is_frozen());
+  EXPECT_TRUE(scene.set->is_linear());
+  EXPECT_EQ(scene.contacts[0]->kinematics(), Sliding::small);
+  // Nothing changes any more: they are of the iterate again
+  const auto changes = scene.set->settle(scene.none);
+  EXPECT_EQ(changes.status, 0);
+  EXPECT_FALSE(scene.set->is_frozen());
+  EXPECT_EQ(scene.contacts[0]->kinematics(), Sliding::finite);
+  // A residual of frozen kinematics is not the true one
+  std::ranges::fill(*scene.scene.u, 0.0);
+  std::ranges::fill(scene.contacts[0]->nodes()->multiplier, -1.0);
+  scene.set->settle(scene.none);
+  EXPECT_TRUE(scene.set->is_frozen());
+}
+
+TEST(ActiveSet, AResidualOfFrozenKinematicsIsAskedForAgain)
+{
+  Springs scene(2);
+  scene.add<NodeToSurface>(std::make_shared<law::Frictionless>());
+  scene.set->begin_step();
+  law::NodeState& nodes = *scene.contacts[0]->nodes();
+  scene.contacts[0]->set_factor(
+      std::vector<double>(scene.scene.sheets.num_nodes(), 1.0));
+  scene.set->settle(scene.none, true);
+  EXPECT_EQ(scene.set->may_end(scene.none), ActiveSet::End::solution);
+  const auto move = [&](double down)
+  {
+    for (std::int32_t i = 0; i < scene.scene.sheets.num_slaves; ++i)
+      (*scene.scene.u)[2 * i + 1] = -down;
+  };
+  move(0.1);
+  scene.set->settle(scene.none);
+  ASSERT_TRUE(scene.set->is_frozen());
+  // Many open again while frozen, far aside: pairs stay
+  move(0.0);
+  for (std::int32_t i = 0; i < scene.scene.sheets.num_slaves; ++i)
+    (*scene.scene.u)[2 * i] = 0.7;
+  std::ranges::fill(nodes.multiplier, 0.0);
+  const auto facets
+      = [&] { return scene.contacts[0]->master()->weights().nodes; };
+  const std::vector<std::int32_t> before = facets();
+  scene.set->settle(scene.none);
+  ASSERT_TRUE(scene.set->is_frozen());
+  EXPECT_EQ(facets(), before);
+  EXPECT_EQ(scene.set->may_end(scene.none), ActiveSet::End::again);
+  EXPECT_FALSE(scene.set->is_frozen());
+  EXPECT_NE(facets(), before);
+  EXPECT_EQ(scene.set->may_end(scene.none), ActiveSet::End::solution);
+}
+
+TEST(ActiveSet, KinematicsFreezeWhereMoreThanAFifthChanges)
+{
+  Springs scene(3);
+  scene.add<NodeToSurface>(std::make_shared<law::Frictionless>());
+  law::NodeState& nodes = *scene.contacts[0]->nodes();
+  const std::int32_t n = nodes.num_nodes();
+  const auto all_closed = [&]
+  {
+    std::ranges::fill(*scene.scene.u, 0.0);
+    scene.set->begin_step();
+    std::ranges::fill(nodes.c, 1.0);
+    scene.set->settle(scene.none, true);
+    std::ranges::fill(nodes.status, law::slip);
+    std::ranges::fill(nodes.multiplier, 1.0);
+  };
+  for (std::int32_t changes = 0; changes <= n; ++changes)
+  {
+    all_closed();
+    std::fill_n(nodes.multiplier.begin(), changes, -1.0);
+    EXPECT_EQ(scene.set->settle(scene.none).status, changes);
+    EXPECT_EQ(scene.set->is_frozen(),
+              changes > std::max(1.0, 0.2 * (n - changes)));
+  }
+  // Or goes to another facet
+  all_closed();
+  for (std::int32_t i = 0; i < n; ++i)
+    (*scene.scene.u)[3 * i] = 0.7;
+  const auto found = scene.set->settle(scene.none);
+  EXPECT_EQ(found.status, 0);
+  EXPECT_EQ(found.pairs, n);
+  EXPECT_TRUE(scene.set->is_frozen());
+}
+
+TEST(ActiveSet, WhatGoesBackAndForthOnAFarActiveSetCountsForNothing)
+{
+  Springs scene(2);
+  scene.add<Hiding>(std::make_shared<law::Frictionless>());
+  auto& master = dynamic_cast<Hiding&>(*scene.contacts[0]->master());
+  std::ranges::fill(scene.contacts[0]->nodes()->c, 1.0);
+  scene.set->begin_step();
+  scene.set->settle(scene.none, true);
+  master.releases = 0;
+  for (std::int32_t i = 0; i < scene.scene.sheets.num_slaves; ++i)
+    (*scene.scene.u)[2 * i + 1] = -0.1;
+  scene.set->settle(scene.none);
+  EXPECT_EQ(master.releases, 1);
+  // Nor does the residual of those pairs: that is none of the two releases
+  EXPECT_EQ(scene.set->may_end(scene.none), ActiveSet::End::again);
+  EXPECT_EQ(master.releases, 1);
+  EXPECT_EQ(scene.set->may_end(scene.none), ActiveSet::End::again);
+  EXPECT_EQ(scene.set->may_end(scene.none), ActiveSet::End::again);
+  EXPECT_EQ(scene.set->may_end(scene.none), ActiveSet::End::hidden);
+}
+
+TEST(ActiveSet, NodesThatCloseForBalanceFreezeTheKinematics)
+{
+  for (const double load : {0.0, 1.0})
+  {
+    // A free body above one node in its way
+    Truss truss{2, {}, {}};
+    truss.add_block(1, {0, 0, 0}, 1);
+    FreeScene body(truss);
+    body.add_contact()->add(0, -1, {0, 1, 0}, 0.1);
+    Springs scene(2);
+    scene.add<NodeToSurface>(std::make_shared<law::Frictionless>());
+    const auto free = std::make_shared<FreeBodies>(body.free_bodies());
+    ActiveSet set(scene.scene.halo, scene.contacts, free);
+    const Forces forces = body.loads(body.push(0, {0, -load}));
+    set.begin_step();
+    free->begin_step();
+    set.settle(forces, true);
+    EXPECT_EQ(free->closed_for_balance(), load > 0);
+    EXPECT_EQ(set.is_frozen(), load > 0);
+  }
+}
+
+TEST(ActiveSet, FrozenPairsThatHideAPenetrationAreReleasedTwice)
+{
+  for (const bool stays : {true, false})
+  {
+    Springs scene(2);
+    scene.add<Hiding>(std::make_shared<law::Frictionless>());
+    auto& master = dynamic_cast<Hiding&>(*scene.contacts[0]->master());
+    master.stays = stays;
+    scene.set->begin_step();
+    scene.set->settle(scene.none, true);
+    // As if the pairs had gone back and forth since
+    master.is_frozen = true;
+    master.releases = 0;
+    EXPECT_EQ(scene.set->may_end(scene.none), ActiveSet::End::again);
+    EXPECT_EQ(scene.set->hidden_gaps(), std::vector<double>{-1e-3});
+    if (not stays)
+    {
+      EXPECT_EQ(scene.set->may_end(scene.none), ActiveSet::End::solution);
+      EXPECT_EQ(master.releases, 1);
+      continue;
+    }
+    EXPECT_EQ(scene.set->may_end(scene.none), ActiveSet::End::again);
+    EXPECT_EQ(scene.set->may_end(scene.none), ActiveSet::End::hidden);
+    EXPECT_EQ(master.releases, 2);
+    // A new step may try again
+    scene.set->begin_step();
+    scene.set->settle(scene.none, true);
+    EXPECT_EQ(scene.set->may_end(scene.none), ActiveSet::End::again);
+  }
+}
+
+TEST(ActiveSet, ANodeOfTwoContactsLeavesTheOneThatItDoesNotNeed)
+{
+  // The same surfaces twice: each node would be held twice along one normal
+  Springs scene(2);
+  scene.add<NodeToSurface>(std::make_shared<law::Frictionless>());
+  scene.add<NodeToSurface>(std::make_shared<law::Frictionless>());
+  scene.press(0.09, 0.0);
+  EXPECT_GT(scene.solve(), 0);
+  Springs alone(2);
+  alone.add<NodeToSurface>(std::make_shared<law::Frictionless>());
+  alone.press(0.09, 0.0);
+  EXPECT_GT(alone.solve(), 0);
+  for (std::size_t k = 0; k < alone.scene.u->size(); ++k)
+    EXPECT_NEAR((*scene.scene.u)[k], (*alone.scene.u)[k], 1e-13);
+  EXPECT_EQ(scene.set->num_closed(), alone.set->num_closed());
+  EXPECT_EQ(scene.set->num_corners(), 0);
+}
+
+TEST(ActiveSet, OpenNodesLoseTheirPressures)
+{
+  Springs scene(3);
+  scene.add<NodeToSurface>(std::make_shared<law::Frictionless>());
+  scene.set->begin_step();
+  law::NodeState& nodes = *scene.contacts[0]->nodes();
+  std::ranges::fill(nodes.c, 1.0);
+  scene.set->settle(scene.none, true);
+  // Less than the gap of 0.05 asks for, but for one
+  std::ranges::fill(nodes.multiplier, 0.03);
+  nodes.multiplier[1] = 0.1;
+  scene.set->settle(scene.none);
+  for (std::int32_t i = 0; i < nodes.num_nodes(); ++i)
+    EXPECT_EQ(nodes.multiplier[i], i == 1 ? 0.1 : 0);
+}
+
+TEST(ActiveSet, SoftContactIsForContactsWithoutFrictionAlone)
+{
+  for (const bool has_friction : {false, true})
+  {
+    Springs scene(3);
+    scene.add<NodeToSurface>(std::make_shared<law::Frictionless>());
+    if (has_friction)
+    {
+      auto law = std::make_shared<law::Coulomb>();
+      law->set_friction(
+          std::vector<double>(scene.scene.sheets.num_slaves, 0.3));
+      scene.add<NodeToSurface>(law);
+    }
+    scene.set->begin_step();
+    std::vector<std::vector<double>> changes;
+    for (const auto& c : scene.contacts)
+    {
+      c->set_factor(std::vector<double>(scene.scene.sheets.num_nodes(), 1.0));
+      c->update_gap();
+      std::ranges::fill(c->nodes()->status, law::slip);
+      // Bodies that are much softer than their surfaces: a gap is closed by
+      // little pressure, and most of the nodes would be pulled
+      changes.emplace_back(c->nodes()->multiplier.size(), -1e-9);
+    }
+    std::vector<std::span<const double>> step(changes.begin(), changes.end());
+    EXPECT_EQ(scene.set->softens(step), not has_friction);
+    EXPECT_EQ(scene.set->is_soft(), not has_friction);
+    EXPECT_EQ(scene.contacts[0]->nodes()->softness > 0, not has_friction);
+    if (has_friction)
+      continue;
+    // Once a step
+    EXPECT_FALSE(scene.set->softens(step));
+    // Many change, but nothing leads far astray
+    EXPECT_GT(scene.set->settle(scene.none).status, 0);
+    EXPECT_FALSE(scene.set->is_frozen());
+    scene.set->advance(true);
+    EXPECT_EQ(scene.set->soft_iterations(), 1);
+    scene.set->harden();
+    EXPECT_EQ(scene.contacts[0]->nodes()->softness, 0);
+    EXPECT_FALSE(scene.set->softens(step));
+    EXPECT_THROW(scene.set->softens({}), std::invalid_argument);
+  }
+}
+
+TEST(ActiveSet, IteratesThatGoRoundAreShortened)
+{
+  Springs scene(2);
+  scene.add<NodeToSurface>(std::make_shared<law::Frictionless>());
+  scene.set->begin_step();
+  auto& status = scene.contacts[0]->nodes()->status;
+  for (int turn = 0; turn < 2; ++turn)
+    for (const std::int8_t s : {law::open, law::slip})
+    {
+      std::ranges::fill(status, s);
+      scene.set->note(1.0);
+    }
+  EXPECT_GT(scene.set->cycles(), 0);
+  EXPECT_TRUE(scene.set->shortens());
+  scene.set->begin_step();
+  EXPECT_EQ(scene.set->cycles(), 0);
+  EXPECT_FALSE(scene.set->shortens());
+}
+
+TEST(ActiveSet, SlipTurnsBackFartherWhereIteratesGoRound)
+{
+  Springs scene(2);
+  auto law = std::make_shared<law::Coulomb>();
+  const std::int32_t n = scene.scene.sheets.num_slaves;
+  law->set_friction(std::vector<double>(n, 0.5));
+  scene.add<NodeToSurface>(law);
+  scene.set->begin_step();
+  law::NodeState& nodes = *scene.contacts[0]->nodes();
+  std::ranges::fill(nodes.c, 1.0);
+  scene.contacts[0]->update_gap();
+  // Trial friction of 39.5 times its bound, against the traction
+  const auto status = [&]
+  {
+    std::ranges::fill(nodes.status, law::slip);
+    std::ranges::fill(nodes.turns, 0);
+    for (std::int32_t i = 0; i < n; ++i)
+    {
+      nodes.multiplier[2 * i] = 0.5;
+      nodes.multiplier[2 * i + 1] = 2;
+      nodes.gap[i] = 0;
+      nodes.slip[2 * i] = 40;
+      nodes.slip[2 * i + 1] = 0;
+    }
+    law->set_status(nodes, scene.scene.halo->ranks());
+    return nodes.status;
+  };
+  EXPECT_EQ(status(), std::vector<std::int8_t>(n, law::slip));
+  for (int turn = 0; turn < 2; ++turn)
+    for (const std::int8_t s : {law::open, law::slip})
+    {
+      std::ranges::fill(nodes.status, s);
+      scene.set->note(1.0);
+    }
+  EXPECT_EQ(status(), std::vector<std::int8_t>(n, law::stick));
+}

@@ -1,0 +1,705 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include "free_bodies_scene.h"
+#include <gtest/gtest.h>
+#include <set>
+#include <stdexcept>
+
+using namespace contactx;
+using namespace contactx::solve;
+using tests::FreeScene;
+using tests::NodeContact;
+using tests::Truss;
+
+namespace
+{
+/// A block of n cells a side above a plane, with a gap that grows with x.
+struct Block
+{
+  explicit Block(int gdim, double friction = 0, double slope = 0.01,
+                 double gap = 0.05, mesh::Ranks* ranks = nullptr)
+      : scene(make(gdim), ranks), floor(scene.add_contact(friction))
+  {
+    const int g = gdim;
+    for (std::int32_t i = 0; i < scene.truss.num_nodes(); ++i)
+      if (scene.truss.x[i * g + g - 1] < 0.01 and scene.owns(i))
+      {
+        std::array<double, 3> up{};
+        up[g - 1] = 1;
+        floor->add(scene.place[i], -1, up, gap + slope * scene.truss.x[i * g]);
+        slaves.push_back(i);
+      }
+  }
+
+  static Truss make(int gdim)
+  {
+    Truss truss{gdim, {}, {}};
+    truss.add_block(3, {0, 0, 0}, 1);
+    return truss;
+  }
+
+  /// All nodes slip along x, by what grows with x, under a pressure.
+  void slide(double aside)
+  {
+    const std::size_t g = scene.truss.gdim;
+    for (std::size_t i = 0; i < slaves.size(); ++i)
+    {
+      floor->kind[i] = law::slip;
+      floor->gap[i] = 0;
+      floor->traction[i * g + g - 1] = 1;
+      floor->traction[i * g] = -aside;
+      floor->slip[i * g] = 0.01 + 0.01 * scene.truss.x[slaves[i] * g];
+    }
+  }
+
+  /// A load on each node.
+  std::vector<double> load(std::vector<double> force) const
+  {
+    return scene.push(0, std::move(force));
+  }
+
+  std::set<std::int32_t> nodes(std::int8_t kind) const
+  {
+    std::set<std::int32_t> found;
+    for (std::size_t i = 0; i < slaves.size(); ++i)
+      if (floor->kind[i] == kind)
+        found.insert(slaves[i]);
+    return found;
+  }
+
+  FreeScene scene;
+  std::shared_ptr<NodeContact> floor;
+  std::vector<std::int32_t> slaves; ///< in the truss
+};
+
+std::size_t num_springs(const FreeBodies& free)
+{
+  return std::ranges::count_if(*free.springs(), [](double k) { return k > 0; });
+}
+
+double stiffest(const FreeBodies& free)
+{
+  return std::ranges::max(*free.springs());
+}
+
+std::vector<double> down(int gdim, double force = 1)
+{
+  std::vector<double> load(gdim);
+  load.back() = -force;
+  return load;
+}
+
+TEST(FreeBodies, WithoutALoadSpringsAloneHoldABlock)
+{
+  for (const int g : {2, 3})
+  {
+    Block block(g);
+    FreeBodies free = block.scene.free_bodies();
+    EXPECT_FALSE(free.stabilise(block.scene.loads(block.load(down(g)))))
+        << "no step has begun";
+    free.begin_step();
+    EXPECT_FALSE(free.stabilise(block.scene.loads(block.load(down(g, 0)))));
+    EXPECT_EQ(free.free_modes(), num_modes(g));
+    EXPECT_EQ(free.closed_for_balance(), 0);
+    EXPECT_FALSE(free.is_unbalanced());
+    // As many as modes, and weak
+    EXPECT_EQ(num_springs(free), std::size_t(num_modes(g)));
+    EXPECT_LE(stiffest(free),
+              1e-6 * std::ranges::max(block.scene.bulk->diagonal()));
+    free.begin_step();
+    EXPECT_FALSE(free.springs());
+  }
+}
+
+TEST(FreeBodies, ABlockClosesTheNodesThatItMeetsFirst)
+{
+  // In 2D the nearest node, then the one that turning about it takes down first
+  Block block(2);
+  FreeBodies free = block.scene.free_bodies();
+  free.begin_step();
+  EXPECT_TRUE(free.stabilise(block.scene.loads(block.load(down(2)))));
+  EXPECT_EQ(block.nodes(law::slip), (std::set<std::int32_t>{0, 3}));
+  EXPECT_EQ(free.closed_for_balance(), 2);
+  EXPECT_EQ(free.free_modes(), 1);
+  EXPECT_FALSE(free.is_unbalanced());
+  EXPECT_EQ(num_springs(free), 1);
+  // In 3D the edge that is nearest, then the one across
+  Block solid(3);
+  FreeBodies held = solid.scene.free_bodies();
+  held.begin_step();
+  EXPECT_TRUE(held.stabilise(solid.scene.loads(solid.load(down(3)))));
+  EXPECT_EQ(solid.nodes(law::slip),
+            (std::set<std::int32_t>{0, 4, 8, 12, 3, 7, 11, 15}));
+  EXPECT_EQ(held.free_modes(), 3);
+}
+
+TEST(FreeBodies, NodesThatAreAsNearCloseTogether)
+{
+  for (const int g : {2, 3})
+  {
+    Block block(g, 0, 0);
+    // But for rounding
+    block.floor->gap[1] += 1e-15;
+    FreeBodies free = block.scene.free_bodies();
+    free.begin_step();
+    EXPECT_TRUE(free.stabilise(block.scene.loads(block.load(down(g)))));
+    EXPECT_EQ(free.closed_for_balance(), g == 2 ? 4 : 16);
+  }
+}
+
+TEST(FreeBodies, NodesThatPenetrateTouchAtOnce)
+{
+  Block block(2);
+  block.floor->gap = {-0.1, -0.05, 1e-3, -0.01};
+  FreeBodies free = block.scene.free_bodies();
+  free.begin_step();
+  EXPECT_TRUE(free.stabilise(block.scene.loads(block.load(down(2)))));
+  EXPECT_EQ(block.nodes(law::slip), (std::set<std::int32_t>{0, 1, 3}));
+}
+
+TEST(FreeBodies, BodiesMoveAsTheirNumbersOfNodesLetThem)
+{
+  // Under equal loads: the small one four times as fast
+  Truss truss{2, {}, {}};
+  truss.add_block(3, {0, 0, 0}, 1);
+  truss.add_block(1, {5, 0, 0}, 1);
+  for (const double gap : {0.19, 0.21})
+  {
+    FreeScene scene(truss);
+    const auto large = scene.add_contact(), small = scene.add_contact();
+    for (int i = 0; i < 4; ++i)
+      large->add(i, -1, {0, 1, 0}, 0.05);
+    small->add(16, -1, {0, 1, 0}, gap);
+    small->add(17, -1, {0, 1, 0}, gap);
+    std::vector<const NodeContact*> order;
+    for (const auto& contact : {large, small})
+      contact->on_close = [&order, c = contact.get()] { order.push_back(c); };
+    FreeBodies free = scene.free_bodies();
+    free.begin_step();
+    std::vector<double> load = scene.push(0, down(2));
+    for (std::size_t i = 32; i < 40; ++i)
+      load[i] *= 4;
+    EXPECT_TRUE(free.stabilise(scene.loads(load)));
+    ASSERT_EQ(order.size(), 2);
+    EXPECT_EQ(order[0] == small.get(), gap < 0.2);
+  }
+}
+
+TEST(FreeBodies, ASupportMayGetItsStiffnessOnTheWay)
+{
+  Block block(2);
+  FreeBodies free = block.scene.free_bodies();
+  free.begin_step();
+  for (double& spring : block.scene.bulk->ground)
+    spring = 1;
+  const auto forces = block.scene.loads(block.load(down(2, -1)));
+  free.stabilise(forces);
+  EXPECT_TRUE(free.is_unbalanced());
+  EXPECT_EQ(free.free_modes(), 3);
+  // It is looked for where nothing balances a body
+  free.stabilise(forces);
+  EXPECT_EQ(free.free_modes(), 0);
+}
+
+TEST(FreeBodies, NodesThatCannotCloseStayOpen)
+{
+  Block block(2);
+  block.floor->gap[0] = std::nan("");
+  block.floor->found.paired[3] = 0;
+  FreeBodies free = block.scene.free_bodies();
+  free.begin_step();
+  free.stabilise(block.scene.loads(block.load(down(2))));
+  EXPECT_EQ(block.nodes(law::slip), (std::set<std::int32_t>{1, 2}));
+}
+
+TEST(FreeBodies, APullThatNothingBalancesIsFound)
+{
+  for (const int g : {2, 3})
+  {
+    Block block(g);
+    FreeBodies free = block.scene.free_bodies();
+    free.begin_step();
+    EXPECT_FALSE(free.stabilise(block.scene.loads(block.load(down(g, -1)))));
+    EXPECT_TRUE(free.is_unbalanced());
+    EXPECT_EQ(free.free_modes(), num_modes(g));
+    // As stiff as what keeps it near
+    EXPECT_GT(stiffest(free),
+              1e-4 * std::ranges::max(block.scene.bulk->diagonal()));
+    // A load that comes back to nothing
+    EXPECT_FALSE(free.stabilise(block.scene.loads(block.load(down(g, 0)))));
+    EXPECT_FALSE(free.is_unbalanced());
+  }
+  // A push aside that no friction holds
+  Block block(2, 0, 0, 0);
+  FreeBodies free = block.scene.free_bodies();
+  free.begin_step();
+  EXPECT_TRUE(free.stabilise(block.scene.loads(block.load({0.1, -1}))));
+  EXPECT_TRUE(free.is_unbalanced());
+  EXPECT_EQ(free.free_modes(), 1);
+  // Forces below one in a million of the problem's count for nothing
+  Block light(2);
+  FreeBodies still = light.scene.free_bodies();
+  still.begin_step();
+  EXPECT_FALSE(
+      still.stabilise(light.scene.loads(light.load(down(2, -0.9e-6 / 16)))));
+  EXPECT_FALSE(still.is_unbalanced());
+  EXPECT_FALSE(
+      still.stabilise(light.scene.loads(light.load(down(2, -1.1e-6 / 16)))));
+  EXPECT_TRUE(still.is_unbalanced());
+}
+
+/// Two blocks on each other above a plane, each nearest node to node.
+struct Tower
+{
+  explicit Tower(int gdim, double between, double below)
+      : scene(make(gdim)), upper(scene.add_contact()),
+        lower(scene.add_contact())
+  {
+    const int g = gdim;
+    std::array<double, 3> up{};
+    up[g - 1] = 1;
+    const int n = scene.truss.num_nodes() / 2;
+    for (std::int32_t i = 0; i < n; ++i)
+    {
+      if (scene.truss.x[i * g + g - 1] == 0)
+      {
+        lower->add(i, -1, up, below);
+        upper->add(n + i, i + n - (g == 2 ? 3 : 9), up, between);
+      }
+    }
+  }
+
+  static Truss make(int gdim)
+  {
+    Truss truss{gdim, {}, {}};
+    truss.add_block(2, {0, 0, 0}, 1);
+    std::array<double, 3> above{};
+    above[gdim - 1] = 1;
+    truss.add_block(2, above, 1);
+    return truss;
+  }
+
+  FreeScene scene;
+  std::shared_ptr<NodeContact> upper, lower;
+};
+
+TEST(FreeBodies, ATowerOfTwoBlocksComesToRest)
+{
+  for (const int g : {2, 3})
+    for (const double between : {0.0, 0.1})
+    {
+      // The load is on the upper one alone, and goes through the lower one
+      Tower tower(g, between, 0.3);
+      const int n = tower.scene.truss.num_nodes() / 2;
+      FreeBodies free = tower.scene.free_bodies();
+      free.begin_step();
+      EXPECT_TRUE(
+          free.stabilise(tower.scene.loads(tower.scene.push(n, down(g)))));
+      EXPECT_FALSE(free.is_unbalanced());
+      for (const auto& contact : {tower.upper, tower.lower})
+        EXPECT_EQ(std::ranges::count(contact->kind, law::slip), g == 2 ? 3 : 9);
+      // Each slides, and turns about the height
+      EXPECT_EQ(free.free_modes(), 2 * (g == 2 ? 1 : 3));
+      EXPECT_EQ(num_springs(free), std::size_t(free.free_modes()));
+    }
+  // Loads that pull them apart
+  Tower tower(2, 0, 0);
+  std::vector<double> load = tower.scene.push(0, down(2));
+  for (std::size_t i = load.size() / 2; i < load.size(); ++i)
+    load[i] *= -1;
+  FreeBodies free = tower.scene.free_bodies();
+  free.begin_step();
+  EXPECT_TRUE(free.stabilise(tower.scene.loads(load)));
+  EXPECT_TRUE(free.is_unbalanced());
+  EXPECT_EQ(std::ranges::count(tower.lower->kind, law::slip), 3);
+  EXPECT_EQ(std::ranges::count(tower.upper->kind, law::slip), 0);
+}
+
+TEST(FreeBodies, ABlockSticksFirstWhereSlipReverses)
+{
+  for (const int g : {2, 3})
+  {
+    // Pushed back where it slips along x: the least slip is at the smallest x
+    Block block(g, 0.3);
+    block.slide(0.02);
+    FreeBodies free = block.scene.free_bodies();
+    free.begin_step();
+    std::vector<double> back(g);
+    back[0] = -0.01;
+    EXPECT_TRUE(free.stabilise(block.scene.loads(block.load(back))));
+    EXPECT_EQ(free.closed_for_balance(), 0);
+    EXPECT_EQ(free.free_modes(), 0);
+    EXPECT_FALSE(free.springs());
+    const std::set<std::int32_t> first
+        = g == 2 ? std::set<std::int32_t>{0}
+                 : std::set<std::int32_t>{0, 4, 8, 12};
+    EXPECT_EQ(block.nodes(law::stick), first);
+    // With the traction of slip, on the cone
+    for (std::size_t i = 0; i < block.slaves.size(); ++i)
+    {
+      const bool sticks = block.floor->kind[i] == law::stick;
+      EXPECT_NEAR(block.floor->traction[i * g], sticks ? -0.3 : -0.02, 1e-15);
+      EXPECT_EQ(block.floor->traction[i * g + g - 1], 1);
+    }
+  }
+  // Without a bound of friction nothing sticks
+  Block bare(2, 0.3);
+  bare.slide(0.02);
+  bare.floor->traction[0] = bare.floor->traction[1] = 0;
+  bare.floor->gap[0] = -0.1;
+  FreeBodies next = bare.scene.free_bodies();
+  next.begin_step();
+  EXPECT_TRUE(next.stabilise(bare.scene.loads(bare.load({-0.01, 0}))));
+  EXPECT_EQ(bare.nodes(law::stick), std::set<std::int32_t>{1});
+  // A push on along the slip reverses nothing
+  Block block(2, 0.3);
+  block.slide(0.02);
+  FreeBodies free = block.scene.free_bodies();
+  free.begin_step();
+  EXPECT_FALSE(free.stabilise(block.scene.loads(block.load({0.5, 0}))));
+  EXPECT_TRUE(free.is_unbalanced());
+}
+
+TEST(FreeBodies, WhatSlipLacksToTheConeCountsInTheBalance)
+{
+  // Four nodes of area 0.1 push back by 0.3 - 0.02 more than their tractions
+  const double whole = 4 * 0.1 * (0.3 - 0.02) / 16;
+  for (const double part : {1.0, 0.9})
+  {
+    Block block(2, 0.3);
+    block.slide(0.02);
+    // The moment of the load about the floor goes to pressures
+    FreeBodies free = block.scene.free_bodies();
+    free.begin_step();
+    EXPECT_EQ(free.stabilise(block.scene.loads(block.load({part * whole, 0}))),
+              part < 1);
+    EXPECT_FALSE(free.is_unbalanced());
+    EXPECT_EQ(free.free_modes(), part < 1 ? 0 : 1);
+  }
+}
+
+TEST(FreeBodies, In3DTractionsOfTheIterateCountAlone)
+{
+  Block block(3, 0.3);
+  block.slide(0.02);
+  FreeBodies free = block.scene.free_bodies();
+  free.begin_step();
+  const double whole = 16 * 0.1 * (0.3 - 0.02) / 64;
+  EXPECT_FALSE(free.stabilise(block.scene.loads(block.load({whole, 0, 0}))));
+  EXPECT_TRUE(free.is_unbalanced());
+}
+
+/// A disc on a plane, with the lowest node of its rim closed.
+struct Disc
+{
+  Disc() : scene(make()), floor(scene.add_contact())
+  {
+    for (std::int32_t i = 1; i < scene.truss.num_nodes(); ++i)
+      floor->add(i, -1, {0, 1, 0}, scene.truss.x[2 * i + 1]);
+  }
+
+  static Truss make()
+  {
+    Truss truss{2, {}, {}};
+    truss.add_disc(12, {0, 1}, 1);
+    return truss;
+  }
+
+  FreeScene scene;
+  std::shared_ptr<NodeContact> floor;
+};
+
+TEST(FreeBodies, SpringsOfADiscThatMayRollCarryNoForce)
+{
+  Disc disc;
+  FreeBodies free = disc.scene.free_bodies();
+  free.begin_step();
+  // Its middle is pressed down
+  std::vector<double> load(26);
+  load[1] = -1;
+  EXPECT_TRUE(free.stabilise(disc.scene.loads(load)));
+  EXPECT_EQ(std::ranges::count(disc.floor->kind, law::slip), 1);
+  EXPECT_EQ(disc.floor->kind[0], law::slip);
+  EXPECT_EQ(free.free_modes(), 2);
+  EXPECT_EQ(num_springs(free), 2);
+  // What the step solves: bars and springs, the closed node held along y
+  dense::Matrix K(26, 26);
+  std::vector<double> unit(26);
+  for (std::size_t j = 0; j < 26; ++j)
+  {
+    unit[j] = 1;
+    const std::vector<double> column = disc.scene.bulk->product(unit);
+    for (std::size_t i = 0; i < 26; ++i)
+      K(i, j) = column[i];
+    K(j, j) += (*free.springs())[j];
+    unit[j] = 0;
+  }
+  for (std::size_t j = 0; j < 26; ++j)
+    K(3, j) = K(j, 3) = j == 3;
+  const std::vector<double> u = dense::solve(K, load);
+  EXPECT_LT(u[1], -0.1);
+  for (std::size_t i = 0; i < 26; ++i)
+    EXPECT_NEAR((*free.springs())[i] * u[i], 0, 1e-9);
+}
+
+TEST(FreeBodies, ADiscThatIsTurnedIsUnbalanced)
+{
+  // It has one node alone that can touch
+  Disc disc;
+  disc.floor->found.paired.assign(12, 0);
+  disc.floor->found.paired[0] = 1;
+  FreeBodies free = disc.scene.free_bodies();
+  free.begin_step();
+  std::vector<double> load(26);
+  load[1] = -1;
+  // A pair of forces at the rim
+  load[2] = -0.1;
+  load[2 * 7] = 0.1;
+  free.stabilise(disc.scene.loads(load));
+  EXPECT_TRUE(free.is_unbalanced());
+}
+
+TEST(FreeBodies, ABlockOnWeakSpringsDoesNotPassThroughThePlane)
+{
+  for (const double k : {1e-3, 1e-6, 1e-9})
+    for (const bool meets : {true, false})
+    {
+      Block block(2);
+      for (double& spring : block.scene.bulk->ground)
+        spring = k;
+      FreeBodies free = block.scene.free_bodies();
+      free.begin_step();
+      // The springs let the load move it by more than the gap, or by less
+      const double force = k * 0.05 * (meets ? 1.01 : 0.99);
+      EXPECT_EQ(free.stabilise(block.scene.loads(block.load(down(2, force)))),
+                meets);
+      EXPECT_EQ(block.nodes(law::slip).contains(0), meets);
+      // What the springs hold needs no others
+      EXPECT_EQ(free.free_modes(), 0);
+      EXPECT_FALSE(free.springs());
+      // Later iterates are Newton's
+      block.floor->kind[0] = law::open;
+      EXPECT_FALSE(
+          free.stabilise(block.scene.loads(block.load(down(2, 10 * k)))));
+    }
+}
+
+TEST(FreeBodies, DriftIsTheRigidPartOfAStep)
+{
+  for (const int g : {2, 3})
+  {
+    Block block(g, 0, 0, 0);
+    FreeBodies free = block.scene.free_bodies();
+    EXPECT_FALSE(free.drift());
+    free.begin_step();
+    free.stabilise(block.scene.loads(block.load(down(g))));
+    const std::size_t n = block.scene.truss.x.size();
+    // It slides along, and the plane keeps it from what is not free
+    auto& u = block.scene.bulk->u;
+    for (std::size_t i = 0; i < n; ++i)
+      u[i] = i % g == 0 ? 0.3 : 0;
+    auto drift = free.drift();
+    ASSERT_TRUE(drift);
+    for (std::size_t i = 0; i < n; ++i)
+      EXPECT_NEAR((*drift)[i], u[i], 1e-13);
+    for (std::size_t i = 0; i < n; ++i)
+      u[i] = i % g == std::size_t(g) - 1 ? 0.3 : 0;
+    drift = free.drift();
+    for (std::size_t i = 0; i < n; ++i)
+      EXPECT_NEAR((*drift)[i], 0, 1e-13);
+    // What is left of any step has no part along the motions
+    for (std::size_t i = 0; i < n; ++i)
+      u[i] = std::sin(double(3 * i));
+    drift = free.drift();
+    double along = 0, moved = 0;
+    for (std::size_t i = 0; i < n; i += g)
+    {
+      along += u[i] - (*drift)[i];
+      moved += (*drift)[i];
+    }
+    EXPECT_NEAR(along, 0, 1e-12);
+    EXPECT_GT(std::abs(moved), 1e-3);
+  }
+}
+
+TEST(FreeBodies, NothingDriftsWhereFrictionOrForcesAskForAMotion)
+{
+  Block rough(2, 0.3, 0, 0);
+  FreeBodies free = rough.scene.free_bodies();
+  free.begin_step();
+  free.stabilise(rough.scene.loads(rough.load({0, 0})));
+  EXPECT_EQ(free.free_modes(), 3);
+  EXPECT_FALSE(free.drift());
+  Block pulled(2);
+  FreeBodies away = pulled.scene.free_bodies();
+  away.begin_step();
+  away.stabilise(pulled.scene.loads(pulled.load({0, 1})));
+  EXPECT_TRUE(away.is_unbalanced());
+  EXPECT_FALSE(away.drift());
+}
+
+TEST(FreeBodies, LinearStrainsBalanceInTheReference)
+{
+  // A moment of stresses in the current configuration, that no load has
+  for (const bool linear : {true, false})
+  {
+    Block block(2, 0, 0, 0);
+    block.scene.bulk->linear = linear;
+    FreeBodies free = block.scene.free_bodies();
+    free.begin_step();
+    const std::vector<double> aside = block.load({0.1, 0}),
+                              none = block.load({0, 0});
+    free.stabilise(block.scene.loads(aside, none));
+    EXPECT_EQ(free.is_unbalanced(), not linear);
+  }
+  // Friction may have such forces
+  Block block(2, 0.3, 0, 0);
+  block.scene.bulk->linear = true;
+  block.floor->found.paired.assign(4, 0);
+  FreeBodies free = block.scene.free_bodies();
+  free.begin_step();
+  free.stabilise(block.scene.loads(block.load({0.1, 0}), block.load({0, 0})));
+  EXPECT_TRUE(free.is_unbalanced());
+}
+
+TEST(FreeBodies, WhereAllIsLinearMotionsAreAboutTheReference)
+{
+  // Turned by a right angle, a block rolls off its nodes as they are now
+  for (const bool small : {true, false})
+  {
+    Block block(2, 0, 0, 0);
+    block.scene.bulk->linear = true;
+    block.floor->small = small;
+    FreeBodies free = block.scene.free_bodies();
+    free.begin_step();
+    const auto& x = block.scene.truss.x;
+    auto& u = block.scene.bulk->u;
+    for (std::size_t i = 0; i < u.size(); i += 2)
+    {
+      u[i] = -x[i + 1] - x[i];
+      u[i + 1] = x[i] - x[i + 1];
+    }
+    // Pressed at the node at the far end of the floor
+    std::vector<double> load(u.size());
+    load[2 * 3 + 1] = -1;
+    free.stabilise(block.scene.loads(load));
+    // The nodes are above each other now: none holds it against turning
+    EXPECT_EQ(free.free_modes(), small ? 1 : 2);
+  }
+}
+
+TEST(FreeBodies, NoDecisionDependsOnTheAxes)
+{
+  const double c = std::cos(0.7), s = std::sin(0.7);
+  Block block(2), turned(2);
+  Truss truss = turned.scene.truss;
+  for (std::size_t i = 0; i < truss.x.size(); i += 2)
+  {
+    const double x = truss.x[i], y = truss.x[i + 1];
+    truss.x[i] = c * x - s * y;
+    truss.x[i + 1] = s * x + c * y;
+  }
+  FreeScene scene(truss);
+  const auto slope = scene.add_contact();
+  for (int i = 0; i < 4; ++i)
+    slope->add(i, -1, {-s, c, 0}, 0.05 + 0.01 * i / 3);
+  FreeBodies straight = block.scene.free_bodies(), skew = scene.free_bodies();
+  straight.begin_step();
+  skew.begin_step();
+  straight.stabilise(block.scene.loads(block.load({0, -1})));
+  skew.stabilise(scene.loads(scene.push(0, {s, -c})));
+  EXPECT_EQ(slope->kind, block.floor->kind);
+  EXPECT_EQ(skew.free_modes(), straight.free_modes());
+}
+
+TEST(FreeBodies, OnSeveralRanksTheyAreThoseOfOne)
+{
+  struct Outcome
+  {
+    bool changed = false, unbalanced = false;
+    std::int64_t free = 0, closed = 0;
+    std::map<std::int32_t, std::int8_t> status;
+    std::vector<double> springs;
+    bool operator==(const Outcome&) const = default;
+  };
+  struct Case
+  {
+    double friction, slope;
+    std::vector<double> load;
+  };
+  for (const int g : {2, 3})
+    for (const Case& c : {Case{0, 0.01, down(g, 0)}, Case{0, 0.01, down(g)},
+                          Case{0, 0, down(g)}, Case{0, 0.01, down(g, -1)},
+                          Case{0.3, 0.01, std::vector{-0.01, 0.0, 0.0}}})
+    {
+      const auto run = [&](mesh::Ranks* ranks)
+      {
+        Block block(g, c.friction, c.slope, 0.05, ranks);
+        if (c.friction > 0)
+          block.slide(0.02);
+        FreeBodies free = block.scene.free_bodies();
+        free.begin_step();
+        Outcome outcome;
+        std::vector<double> force = c.load;
+        force.resize(g);
+        outcome.changed = free.stabilise(block.scene.loads(block.load(force)));
+        outcome.unbalanced = free.is_unbalanced();
+        outcome.free = free.free_modes();
+        outcome.closed = free.closed_for_balance();
+        for (std::size_t i = 0; i < block.slaves.size(); ++i)
+          outcome.status[block.slaves[i]] = block.floor->kind[i];
+        const std::size_t n = block.scene.truss.x.size();
+        if (free.springs())
+        {
+          outcome.springs.resize(n);
+          std::vector<double>& springs = outcome.springs;
+          for (std::int32_t i = 0; i < block.scene.map->num_owned(); ++i)
+            for (int k = 0; k < g; ++k)
+              springs[block.scene.number[i] * g + k]
+                  = (*free.springs())[i * g + k];
+          if (ranks)
+            ranks->reduce(std::span(springs), mesh::Reduction::sum);
+        }
+        const auto drift = free.drift();
+        EXPECT_EQ(drift.has_value(), outcome.free > 0 and c.friction == 0
+                                         and not outcome.unbalanced);
+        return outcome;
+      };
+      const Outcome one = run(nullptr);
+      for (const int size : {2, 3, 4})
+        tests::on_ranks(size,
+                        [&](mesh::Ranks& ranks)
+                        {
+                          Outcome here = run(&ranks);
+                          for (const auto& [node, kind] : here.status)
+                            EXPECT_EQ(kind, one.status.at(node));
+                          here.status = one.status;
+                          EXPECT_EQ(here, one);
+                        });
+    }
+}
+
+TEST(FreeBodies, WhatDoesNotFitIsRefused)
+{
+  Block block(2);
+  FreeBodies free = block.scene.free_bodies();
+  free.begin_step();
+  auto forces = block.scene.loads(block.load({0, -1}));
+  auto few = forces;
+  few.residual = [] { return std::vector<double>(3); };
+  EXPECT_THROW(free.stabilise(few), std::invalid_argument);
+  block.floor->found.weights.nodes[0] = 99;
+  EXPECT_THROW(free.stabilise(forces), std::invalid_argument);
+  block.floor->found.weights.nodes[0] = 0;
+  block.floor->gap.pop_back();
+  EXPECT_THROW(free.stabilise(forces), std::invalid_argument);
+  block.floor->gap.push_back(0.06);
+  EXPECT_TRUE(free.stabilise(forces));
+  // A spoilt stiffness leaves the step without modes
+  free.reset();
+  block.scene.bulk->throws = true;
+  EXPECT_THROW(free.begin_step(), std::runtime_error);
+  EXPECT_FALSE(free.stabilise(forces));
+}
+} // namespace

@@ -1,0 +1,272 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include "free_bodies_scene.h"
+#include "generator.h"
+#include <gtest/gtest.h>
+#include <stdexcept>
+
+using namespace contactx;
+using namespace contactx::solve;
+using tests::FreeScene;
+using tests::Truss;
+
+namespace
+{
+FreeScene block(int gdim)
+{
+  Truss truss{gdim, {}, {}};
+  truss.add_block(2, {0.3, -0.2, 0.5}, 1.0);
+  return FreeScene(truss);
+}
+
+/// Fix components of the nodes where a function of the position holds.
+template <class F>
+void fix(FreeScene& scene, F at, std::vector<int> components)
+{
+  const int g = scene.truss.gdim;
+  for (std::int32_t i = 0; i < scene.truss.num_nodes(); ++i)
+    if (at(&scene.truss.x[i * g]))
+      for (const int c : components)
+        scene.bulk->fixed[i * g + c] = 1;
+}
+
+/// Whether no mode moves what is fixed, and the bars are as long as they were.
+void expect_free(const FreeScene& scene, const RigidModes& modes,
+                 std::size_t body)
+{
+  const std::size_t g = scene.truss.gdim, m = modes.modes_per_body();
+  const dense::Matrix& free = modes.free()[body];
+  std::vector<double> at(g * m);
+  for (std::size_t k = 0; k < free.cols; ++k)
+  {
+    std::vector<double> field(scene.truss.x.size());
+    for (std::int32_t i = 0; i < scene.truss.num_nodes(); ++i)
+    {
+      if (modes.body()[i] != static_cast<std::int32_t>(body))
+        continue;
+      modes.at(i, scene.bulk->reference(), at.data());
+      for (std::size_t c = 0; c < g; ++c)
+        for (std::size_t p = 0; p < m; ++p)
+          field[i * g + c] += at[c * m + p] * free(p, k);
+    }
+    EXPECT_GT(dense::norm(field), 0.1);
+    for (std::size_t i = 0; i < field.size(); ++i)
+      EXPECT_NEAR(scene.bulk->fixed[i] * field[i], 0, 1e-6);
+    for (const double force : scene.bulk->product(field))
+      EXPECT_NEAR(force, 0, 1e-6);
+  }
+}
+
+std::size_t num_free(FreeScene& scene)
+{
+  const RigidModes modes(scene.bodies, *scene.bulk, scene.bulk->reference());
+  expect_free(scene, modes, 0);
+  EXPECT_EQ(modes.any_free(), modes.free()[0].cols > 0);
+  return modes.free()[0].cols;
+}
+
+TEST(RigidModes, TranslationsThenRotations)
+{
+  const std::array<double, 3> d{2, 3, 5};
+  std::array<double, 18> modes;
+  rigid_modes(d.data(), modes.data(), 2);
+  EXPECT_TRUE(std::ranges::equal(std::span(modes).first(6),
+                                 std::array{1., 0., -3., 0., 1., 2.}));
+  rigid_modes(d.data(), modes.data(), 3);
+  for (int k = 0; k < 3; ++k)
+  {
+    Vector<3> axis{};
+    axis[k] = 1;
+    const Vector<3> turned = cross(axis, d);
+    for (int c = 0; c < 3; ++c)
+    {
+      EXPECT_EQ(modes[6 * c + k], c == k);
+      EXPECT_EQ(modes[6 * c + 3 + k], turned[c]);
+    }
+  }
+}
+
+TEST(RigidModes, ModesAreAboutTheMiddleOverTheRadius)
+{
+  Truss truss{2, {}, {}};
+  truss.add_block(1, {0, 0, 0}, 2.0);
+  truss.add_block(1, {10, 4, 0}, 1.0);
+  const FreeScene scene(truss);
+  const RigidModes modes(scene.bodies, *scene.bulk, scene.bulk->reference());
+  EXPECT_EQ(modes.count(), 2);
+  EXPECT_NEAR(modes.size(), std::sqrt(2.0), 1e-15);
+  EXPECT_EQ(modes.num_nodes(), (std::vector<double>{4, 4}));
+  std::array<double, 6> at;
+  // The last node is a corner of the small block
+  modes.at(7, scene.bulk->reference(), at.data());
+  EXPECT_NEAR(at[2], -std::sqrt(0.5), 1e-14);
+  EXPECT_NEAR(at[5], std::sqrt(0.5), 1e-14);
+}
+
+TEST(RigidModes, SupportsIn2D)
+{
+  FreeScene none = block(2), point = block(2), points = block(2),
+            line = block(2), roller = block(2), slope = block(2);
+  EXPECT_EQ(num_free(none), 3);
+  fix(point, [](const double* x) { return x[0] < 0.4 and x[1] < 0; }, {0, 1});
+  EXPECT_EQ(num_free(point), 1);
+  fix(points, [](const double* x) { return x[0] < 0.4 and x[1] < 0; }, {0, 1});
+  fix(points, [](const double* x) { return x[0] > 1 and x[1] > 0.7; }, {0});
+  EXPECT_EQ(num_free(points), 0);
+  fix(line, [](const double* x) { return x[1] < -0.1; }, {0, 1});
+  EXPECT_EQ(num_free(line), 0);
+  // It slides along
+  fix(roller, [](const double* x) { return x[1] < -0.1; }, {1});
+  EXPECT_EQ(num_free(roller), 1);
+  // Forces that meet in a point: a rotation about it is free
+  fix(slope, [](const double* x) { return x[0] < 0.4 and x[1] < 0; }, {1});
+  fix(slope, [](const double* x) { return x[0] < 0.4 and x[1] > 0.7; }, {0});
+  EXPECT_EQ(num_free(slope), 1);
+}
+
+TEST(RigidModes, SupportsIn3D)
+{
+  const auto corner = [](const double* x)
+  { return x[0] < 0.4 and x[1] < -0.1 and x[2] < 0.6; };
+  const auto edge = [](const double* x) { return x[1] < -0.1 and x[2] < 0.6; };
+  const auto face = [](const double* x) { return x[2] < 0.6; };
+  FreeScene none = block(3), point = block(3), line = block(3),
+            plane = block(3), roller = block(3), guided = block(3);
+  EXPECT_EQ(num_free(none), 6);
+  fix(point, corner, {0, 1, 2});
+  EXPECT_EQ(num_free(point), 3);
+  fix(line, edge, {0, 1, 2});
+  EXPECT_EQ(num_free(line), 1);
+  fix(plane, face, {0, 1, 2});
+  EXPECT_EQ(num_free(plane), 0);
+  fix(roller, face, {2});
+  EXPECT_EQ(num_free(roller), 3);
+  fix(guided, face, {2});
+  fix(guided, edge, {1});
+  EXPECT_EQ(num_free(guided), 1);
+}
+
+TEST(RigidModes, ElasticSupports)
+{
+  for (const int g : {2, 3})
+  {
+    // Of all nodes in one direction
+    FreeScene scene = block(g);
+    const double k = 1e-6;
+    for (std::int32_t i = 0; i < scene.truss.num_nodes(); ++i)
+      scene.bulk->ground[i * g + g - 1] = k;
+    const RigidModes modes(scene.bodies, *scene.bulk, scene.bulk->reference());
+    // Along it, and rotations that lift nodes
+    const std::size_t held = g == 2 ? 2 : 3;
+    EXPECT_EQ(modes.free()[0].cols, num_modes(g) - held);
+    ASSERT_EQ(modes.weak()[0].cols, held);
+    EXPECT_EQ(modes.stiffness()[0].size(), held);
+    // A translation has all springs
+    EXPECT_NEAR(std::ranges::max(modes.stiffness()[0]),
+                k * scene.truss.num_nodes(), 1e-6 * k);
+    // Stiff ones leave nothing that little resists
+    for (double& spring : scene.bulk->ground)
+      spring = 1;
+    const RigidModes stiff(scene.bodies, *scene.bulk, scene.bulk->reference());
+    EXPECT_FALSE(stiff.any_free());
+  }
+}
+
+TEST(RigidModes, StressesAreNoSupport)
+{
+  for (const int g : {2, 3})
+  {
+    FreeScene scene = block(g);
+    RigidModes modes(scene.bodies, *scene.bulk, scene.bulk->reference());
+    EXPECT_EQ(modes.free()[0].cols, num_modes(g));
+    // They resist rotations alone
+    scene.bulk->tension = 0.1;
+    modes.update(*scene.bulk, scene.bulk->reference());
+    EXPECT_EQ(modes.free()[0].cols, num_modes(g));
+    // A support that comes later
+    scene.bulk->tension = 0;
+    scene.bulk->ground[0] = 1e-3;
+    modes.update(*scene.bulk, scene.bulk->reference());
+    EXPECT_EQ(modes.free()[0].cols, num_modes(g) - 1);
+    // Whose motions are looked at from then on
+    scene.bulk->ground[0] = 0;
+    modes.update(*scene.bulk, scene.bulk->reference());
+    EXPECT_EQ(modes.free()[0].cols, num_modes(g));
+  }
+}
+
+TEST(RigidModes, AStiffnessThatThrowsChangesNothing)
+{
+  FreeScene scene = block(2);
+  RigidModes modes(scene.bodies, *scene.bulk, scene.bulk->reference());
+  scene.bulk->throws = true;
+  EXPECT_THROW(modes.update(*scene.bulk, scene.bulk->reference()),
+               std::runtime_error);
+  EXPECT_EQ(modes.free()[0].cols, 3);
+  EXPECT_THROW(modes.update(*scene.bulk, std::array<double, 3>{}),
+               std::invalid_argument);
+}
+
+TEST(RigidModes, OnSeveralRanksTheyAreThoseOfOne)
+{
+  for (const int g : {2, 3})
+  {
+    Truss truss{g, {}, {}};
+    truss.add_block(2, {0.3, -0.2, 0.5}, 1.0);
+    truss.add_block(3, {2, 2, 2}, 2.0);
+    const auto hold = [g](FreeScene& scene)
+    {
+      scene.bulk->fixed[0] = 1;
+      scene.bulk->ground[2 * g - 1] = 1e-5;
+    };
+    FreeScene one(truss);
+    hold(one);
+    const RigidModes serial(one.bodies, *one.bulk, one.bulk->reference());
+    EXPECT_EQ(serial.free()[0].cols, num_modes(g) - 2);
+    EXPECT_EQ(serial.free()[1].cols, num_modes(g));
+    for (const int size : {2, 3, 4})
+      tests::on_ranks(size,
+                      [&](mesh::Ranks& ranks)
+                      {
+                        FreeScene scene(truss, &ranks);
+                        hold(scene);
+                        const RigidModes modes(scene.bodies, *scene.bulk,
+                                               scene.bulk->reference());
+                        EXPECT_NEAR(modes.size(), serial.size(), 1e-14);
+                        for (std::size_t b = 0; b < 2; ++b)
+                        {
+                          // The same space
+                          const dense::Matrix &F = modes.free()[b],
+                                              &S = serial.free()[b];
+                          ASSERT_EQ(F.cols, S.cols);
+                          for (std::size_t i = 0; i < F.rows; ++i)
+                            for (std::size_t j = 0; j < F.rows; ++j)
+                            {
+                              double difference = 0;
+                              for (std::size_t k = 0; k < F.cols; ++k)
+                                difference
+                                    += F(i, k) * F(j, k) - S(i, k) * S(j, k);
+                              EXPECT_NEAR(difference, 0, 1e-8);
+                            }
+                        }
+                        ASSERT_EQ(modes.stiffness()[0].size(), 1);
+                        EXPECT_NEAR(modes.stiffness()[0][0],
+                                    serial.stiffness()[0][0], 1e-15);
+                      });
+  }
+}
+
+TEST(RigidModes, OfSingleBodiesAsThoseOfAll)
+{
+  dense::Matrix a(2, 1), none(2, 0), b(2, 2);
+  a.values = {1, 2};
+  b.values = {3, 4, 5, 6};
+  const dense::Matrix bases[] = {a, none, b};
+  const dense::Matrix Z = by_body(bases);
+  EXPECT_EQ(Z.rows, 6);
+  EXPECT_EQ(Z.cols, 3);
+  EXPECT_EQ(Z.values, (std::vector<double>{1, 0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0,
+                                           0, 3, 4, 0, 5, 6}));
+}
+} // namespace
