@@ -61,7 +61,7 @@ void contactx_bindings::audit(py::module_& m)
       .def_readonly("passed", &Findings::passed)
       .def_readonly("inside", &Findings::inside)
       .def_readonly("deepest", &Findings::deepest)
-      .def_readonly("is_too_deep", &Findings::is_too_deep)
+      .def_readonly("is_too_deep", &Findings::penetrates_too_deep)
       .def_readonly("facet_size", &Findings::facet_size)
       .def_readonly("roundness", &Findings::roundness)
       .def_readonly("chords", &Findings::chords)
@@ -73,7 +73,7 @@ void contactx_bindings::audit(py::module_& m)
            py::arg("halo"), py::arg("contacts"))
       .def("begin_step", &Audit::begin_step)
       .def("accept", &Audit::accept)
-      .def("look", &Audit::look);
+      .def("look", &Audit::find);
   m.def(
       "deformed_cells",
       [](const Array<std::int32_t>& cells, const Array<double>& X,
@@ -96,7 +96,7 @@ void contactx_bindings::audit(py::module_& m)
       {
         if (cells.ndim() != 2)
           throw std::invalid_argument("cells must have a row for each cell");
-        return contactx::mesh::longest_way(
+        return contactx::mesh::max_step_without_inversion(
             view(cells), static_cast<int>(cells.shape(1)), view(X), view(u),
             view(du), gdim, part);
       },

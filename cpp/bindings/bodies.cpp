@@ -145,9 +145,9 @@ void contactx_bindings::bodies(py::module_& m)
                   const std::vector<std::shared_ptr<Contact>>& contacts,
                   const Array<std::int64_t>& original)
                {
-                 std::vector<std::shared_ptr<Holding>> holdings;
+                 std::vector<std::shared_ptr<FreeBodyContact>> holdings;
                  for (const auto& contact : contacts)
-                   holdings.push_back(holding(contact));
+                   holdings.push_back(free_body_contact(contact));
                  return std::make_shared<FreeBodies>(
                      std::move(bodies),
                      std::make_shared<PythonBulk>(std::move(bulk)),

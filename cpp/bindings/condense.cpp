@@ -128,7 +128,7 @@ void contactx_bindings::condense(py::module_& m)
              const auto result = c.right_hand_side(view(d));
              return py::make_tuple(
                  array(result.forces), array(result.shift), array(result.extra),
-                 array(result.multipliers), array(result.held));
+                 array(result.multipliers), array(result.retained));
            })
       .def(
           "recover",
@@ -145,7 +145,8 @@ void contactx_bindings::condense(py::module_& m)
           "chains",
           [](const Condensation& c, const NodeMap& nodes)
           {
-            Chains found = chains(c.elimination(), nodes);
+            DependentConstraints found
+                = dependent_constraints(c.elimination(), nodes);
             return py::make_tuple(std::move(found.right),
                                   std::move(found.left));
           },
@@ -154,9 +155,10 @@ void contactx_bindings::condense(py::module_& m)
           "held",
           [](const Condensation& c)
           {
-            const Held& held = c.held();
-            return py::make_tuple(array(held.dofs), array(held.multipliers),
-                                  array(held.scale));
+            const RetainedMultipliers& retained = c.retained();
+            return py::make_tuple(array(retained.dofs),
+                                  array(retained.multipliers),
+                                  array(retained.scale));
           },
           "Places of held multipliers, their numbers, and their scale")
       .def(

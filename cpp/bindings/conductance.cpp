@@ -42,8 +42,8 @@ void contactx_bindings::conductance(py::module_& m)
 {
   m.def("check_obstacle_value", &check_obstacle_value,
         py::arg("obstacle_value"), py::arg("is_rigid"));
-  py::class_<contactx::law::Coefficient>(m, "Coefficient",
-                          "Coefficient of the flow across a contact")
+  py::class_<contactx::law::Coefficient>(
+      m, "Coefficient", "Coefficient of the flow across a contact")
       .def(py::init([](const py::function& h)
                     { return contactx::law::Coefficient(coefficients_of(h)); }),
            py::arg("coefficient"))

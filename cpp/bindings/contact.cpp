@@ -165,8 +165,8 @@ void contactx_bindings::contact(py::module_& m)
           { self.set_factor(view(compliance)); }, py::arg("compliance"))
       .def(
           "kept_inside", [](Contact& self, const Array<double>& x)
-          { return array(self.kept_inside(view(x))); }, py::arg("x"))
-      .def("moves_untold", &Contact::moves_untold)
+          { return array(self.constrained_inside(view(x))); }, py::arg("x"))
+      .def("moves_untold", &Contact::has_unknown_motion)
       .def("search", &Contact::search)
       .def("freeze", &Contact::freeze, py::arg("is_frozen"))
       .def("update_gap", &Contact::update_gap)
@@ -180,11 +180,14 @@ void contactx_bindings::contact(py::module_& m)
           "add_residual", [](const Contact& self, Array<double>& b)
           { self.add_residual(mutable_view(b)); }, py::arg("b").noconvert());
 
-  py::class_<contactx::results::Transfer>(m, "Transfer",
-                       "Scalar fields on both sides of a contact")
+  py::class_<contactx::results::Transfer>(
+      m, "Transfer", "Scalar fields on both sides of a contact")
       .def(py::init<const Contact&>(), py::arg("contact"),
            py::keep_alive<1, 2>())
       .def(
-          "differences", [](const contactx::results::Transfer& self, const Array<double>& field)
-          { return array(self.differences(view(field))); }, py::arg("field"));
+          "differences",
+          [](const contactx::results::Transfer& self,
+             const Array<double>& field)
+          { return array(self.differences(view(field))); },
+          py::arg("field"));
 }

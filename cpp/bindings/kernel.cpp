@@ -82,7 +82,8 @@ void contactx_bindings::kernel(py::module_& m)
         check_sizes(num_nodes, gdim, num_slaves);
         py::list table;
         for (const contactx::kernel::CoefficientInfo& c :
-             contactx::kernel::coefficients(law_named(law), num_nodes, gdim, num_slaves))
+             contactx::kernel::coefficients(law_named(law), num_nodes, gdim,
+                                            num_slaves))
         {
           if (c.size == 0)
             continue;
@@ -116,10 +117,10 @@ void contactx_bindings::kernel(py::module_& m)
       [](const std::string& law, const std::string& sliding,
          const std::string& term, int num_nodes, int gdim, int num_slaves)
       {
-        const contactx::kernel::Entry& e = contactx::kernel::find(law_named(law), sliding, term,
-                                              num_nodes, gdim, num_slaves);
-        const auto table
-            = contactx::kernel::coefficients(e.law, num_nodes, gdim, num_slaves);
+        const contactx::kernel::Entry& e = contactx::kernel::find(
+            law_named(law), sliding, term, num_nodes, gdim, num_slaves);
+        const auto table = contactx::kernel::coefficients(e.law, num_nodes,
+                                                          gdim, num_slaves);
         Array<std::int8_t> active(e.active.size());
         for (std::size_t i = 0; i < e.active.size(); ++i)
         {

@@ -28,8 +28,10 @@ std::vector<T> values_of(const py::array& a)
 
 /// Pairs with copies of the arrays, which say by their shapes what they are.
 contactx::kernel::Pairs pairs_of(const Array<std::int32_t>& slaves,
-               const Array<std::int32_t>& nodes, const Array<double>& data,
-               const std::optional<Array<double>>& slip, bool is_movement)
+                                 const Array<std::int32_t>& nodes,
+                                 const Array<double>& data,
+                                 const std::optional<Array<double>>& slip,
+                                 bool is_movement)
 {
   const auto check = [&slaves](const py::array& a, const char* name)
   {
@@ -165,16 +167,16 @@ void contactx_bindings::master(py::module_& m)
                            {static_cast<py::ssize_t>(p.size()), p.num_slaves},
                            self);
           })
-      .def_property_readonly("nodes",
-                             [](py::object self)
-                             {
-                               const auto& p = self.cast<const contactx::kernel::Pairs&>();
-                               return looking(
-                                   p.nodes,
-                                   {static_cast<py::ssize_t>(p.size()),
-                                    p.num_slaves + p.num_nodes},
-                                   self);
-                             })
+      .def_property_readonly(
+          "nodes",
+          [](py::object self)
+          {
+            const auto& p = self.cast<const contactx::kernel::Pairs&>();
+            return looking(p.nodes,
+                           {static_cast<py::ssize_t>(p.size()),
+                            p.num_slaves + p.num_nodes},
+                           self);
+          })
       .def_property_readonly(
           "data",
           [](py::object self)
@@ -195,29 +197,31 @@ void contactx_bindings::master(py::module_& m)
                            {static_cast<py::ssize_t>(p.size()), p.slip_size},
                            self);
           })
-      .def_property_readonly("normal",
-                             [](py::object self) -> py::object
-                             {
-                               using namespace contactx::kernel;
-                               const std::size_t at
-                                   = (self.cast<const contactx::kernel::Pairs&>().num_nodes == 0
-                                          ? offsetof(ObstaclePair, normal)
-                                          : offsetof(FacetPair, normal))
-                                     / sizeof(double);
-                               const py::object data = self.attr("data");
-                               return data[py::make_tuple(
-                                   py::ellipsis(), py::slice(at, at + 3, 1))];
-                             })
+      .def_property_readonly(
+          "normal",
+          [](py::object self) -> py::object
+          {
+            using namespace contactx::kernel;
+            const std::size_t at
+                = (self.cast<const contactx::kernel::Pairs&>().num_nodes == 0
+                       ? offsetof(ObstaclePair, normal)
+                       : offsetof(FacetPair, normal))
+                  / sizeof(double);
+            const py::object data = self.attr("data");
+            return data[py::make_tuple(py::ellipsis(),
+                                       py::slice(at, at + 3, 1))];
+          })
       .def_readonly("num_nodes", &contactx::kernel::Pairs::num_nodes)
       .def_readonly("is_movement", &contactx::kernel::Pairs::is_movement)
       .def("same", &contactx::kernel::Pairs::same, py::arg("other"));
-  py::class_<contactx::kernel::Weights>(m, "Weights", "Relative movement of slave nodes")
-      .def_property_readonly("slaves",
-                             [](const contactx::kernel::Weights& w) { return array(w.slaves); })
-      .def_property_readonly("nodes",
-                             [](const contactx::kernel::Weights& w) { return array(w.nodes); })
-      .def_property_readonly("values",
-                             [](const contactx::kernel::Weights& w) { return array(w.values); });
+  py::class_<contactx::kernel::Weights>(m, "Weights",
+                                        "Relative movement of slave nodes")
+      .def_property_readonly("slaves", [](const contactx::kernel::Weights& w)
+                             { return array(w.slaves); })
+      .def_property_readonly("nodes", [](const contactx::kernel::Weights& w)
+                             { return array(w.nodes); })
+      .def_property_readonly("values", [](const contactx::kernel::Weights& w)
+                             { return array(w.values); });
   py::class_<Master, std::shared_ptr<Master>>(
       m, "Master", "Pairs of the slave nodes of a contact with its master")
       .def_property_readonly("reach", &Master::reach)

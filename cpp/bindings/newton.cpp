@@ -7,7 +7,7 @@
 #include <contactx/solve/derivative_check.h>
 #include <contactx/solve/loop.h>
 #include <contactx/solve/not_finite.h>
-#include <contactx/solve/softness.h>
+#include <contactx/solve/residual_weights.h>
 #include <pybind11/functional.h>
 #include <pybind11/stl.h>
 
@@ -161,7 +161,7 @@ void contactx_bindings::newton(py::module_& m)
       "softness",
       [](const Bodies& bodies, const Array<double>& diagonal,
          const Array<double>& residual, int gdim)
-      { return softness(bodies, view(diagonal), view(residual), gdim); },
+      { return residual_weight(bodies, view(diagonal), view(residual), gdim); },
       py::arg("bodies"), py::arg("diagonal"), py::arg("residual"),
       py::arg("gdim"));
 }

@@ -32,7 +32,7 @@ protected:
 };
 
 /// What is seen, which knows its shapes.
-struct Seen
+struct ProbeResult
 {
   Geometry at;
   py::ssize_t gdim;
@@ -101,14 +101,14 @@ void contactx_bindings::obstacle(py::module_& m)
   {
     return [values, rank](py::object self)
     {
-      const auto& seen = self.cast<const Seen&>();
+      const auto& seen = self.cast<const ProbeResult&>();
       std::vector<py::ssize_t> shape{
           static_cast<py::ssize_t>(seen.at.gap.size())};
       shape.insert(shape.end(), rank, seen.gdim);
       return looking(seen.at.*values, shape, self);
     };
   };
-  py::class_<Seen>(m, "Geometry", "An obstacle seen from points")
+  py::class_<ProbeResult>(m, "Geometry", "An obstacle seen from points")
       .def_property_readonly("gap", part(&Geometry::gap, 0))
       .def_property_readonly("gradient", part(&Geometry::gradient, 1))
       .def_property_readonly("normal", part(&Geometry::normal, 1))
@@ -119,7 +119,7 @@ void contactx_bindings::obstacle(py::module_& m)
            [](Obstacle& self, const Array<double>& x)
            {
              const int gdim = Dimension(x).gdim;
-             return Seen{self.evaluate(view(x), gdim), gdim};
+             return ProbeResult{self.evaluate(view(x), gdim), gdim};
            })
       .def("parameters", [](Obstacle& self, int gdim)
            { return array(self.parameters(gdim)); })

@@ -35,16 +35,19 @@ void contactx_bindings::reference(py::module_& m)
       { return contactx::point_text(view(x), size); }, py::arg("x"),
       py::arg("size"), "Coordinates of a point in six digits");
   // It looks at the cells
-  py::class_<contactx::mesh::Mesh>(m, "ReferenceMesh", "The mesh of the bulk on this rank")
+  py::class_<contactx::mesh::Mesh>(m, "ReferenceMesh",
+                                   "The mesh of the bulk on this rank")
       .def(py::init(
-               [](std::shared_ptr<Halo> halo, std::shared_ptr<contactx::mesh::Bodies> bodies,
+               [](std::shared_ptr<Halo> halo,
+                  std::shared_ptr<contactx::mesh::Bodies> bodies,
                   const Array<std::int32_t>& cells)
                {
                  if (cells.ndim() != 2)
                    throw std::invalid_argument(
                        "cells must have a row for each cell");
-                 return contactx::mesh::Mesh{std::move(halo), std::move(bodies), view(cells),
-                             static_cast<int>(cells.shape(1))};
+                 return contactx::mesh::Mesh{std::move(halo), std::move(bodies),
+                                             view(cells),
+                                             static_cast<int>(cells.shape(1))};
                }),
            py::arg("halo"), py::arg("bodies"), py::arg("cells").noconvert(),
            py::keep_alive<1, 4>());
@@ -72,10 +75,11 @@ void contactx_bindings::reference(py::module_& m)
            py::arg("is_smooth") = false);
   m.def(
       "make_surface_master",
-      [](const contactx::mesh::Mesh& mesh, const std::shared_ptr<SlaveNodes>& slaves,
-         const std::string& slave, const Array<std::int32_t>& offsets,
-         const Array<std::int32_t>& nodes, const std::string& master,
-         const Law& law, const MasterOptions& options)
+      [](const contactx::mesh::Mesh& mesh,
+         const std::shared_ptr<SlaveNodes>& slaves, const std::string& slave,
+         const Array<std::int32_t>& offsets, const Array<std::int32_t>& nodes,
+         const std::string& master, const Law& law,
+         const MasterOptions& options)
       {
         return make_master(mesh, slaves, slave,
                            {master, facets_of(offsets, nodes)}, law, options);
@@ -86,9 +90,10 @@ void contactx_bindings::reference(py::module_& m)
   // A subclass in Python must outlive who calls its methods
   m.def(
       "make_obstacle_master",
-      [](const contactx::mesh::Mesh& mesh, const std::shared_ptr<SlaveNodes>& slaves,
-         const std::string& slave, const std::shared_ptr<Obstacle>& obstacle,
-         const Law& law, const MasterOptions& options)
+      [](const contactx::mesh::Mesh& mesh,
+         const std::shared_ptr<SlaveNodes>& slaves, const std::string& slave,
+         const std::shared_ptr<Obstacle>& obstacle, const Law& law,
+         const MasterOptions& options)
       { return make_master(mesh, slaves, slave, obstacle, law, options); },
       py::arg("mesh"), py::arg("slaves"), py::arg("slave"), py::arg("obstacle"),
       py::arg("law"), py::arg("options"), py::keep_alive<0, 4>(),
@@ -98,8 +103,8 @@ void contactx_bindings::reference(py::module_& m)
       [](const Halo& halo, const SlaveNodes& slaves,
          const Array<std::int32_t>& offsets, const Array<std::int32_t>& nodes)
       {
-        return to_bool(
-            contactx::mesh::shared_nodes(halo, slaves.own(), facets_of(offsets, nodes)));
+        return to_bool(contactx::mesh::shared_nodes(halo, slaves.own(),
+                                                    facets_of(offsets, nodes)));
       },
       py::arg("halo"), py::arg("slaves"), py::arg("offsets"), py::arg("nodes"),
       "Which nodes slave and master have");

@@ -3,8 +3,8 @@
 
 #include "bindings.h"
 #include "check.h"
-#include <contactx/search/foot.h>
 #include <contactx/search/pairing.h>
+#include <contactx/search/projections.h>
 #include <limits>
 #include <pybind11/stl.h>
 
@@ -77,12 +77,14 @@ void check_features(const Pairing& self, std::span<const std::int32_t> facet,
                      "feature");
 }
 
-std::int32_t settle(Pairing& self, std::span<const std::int32_t> which,
-                    std::span<const std::int32_t> facet,
-                    std::span<const std::int32_t> feature,
-                    std::span<const double> xi, std::span<const double> normal,
-                    std::span<const double> x, double reach,
-                    std::span<const std::int8_t> closed)
+std::int32_t accept_projections(Pairing& self,
+                                std::span<const std::int32_t> which,
+                                std::span<const std::int32_t> facet,
+                                std::span<const std::int32_t> feature,
+                                std::span<const double> xi,
+                                std::span<const double> normal,
+                                std::span<const double> x, double reach,
+                                std::span<const std::int8_t> closed)
 {
   const std::size_t n = which.size();
   const char* slave = "slave node of which";
@@ -105,7 +107,8 @@ std::int32_t settle(Pairing& self, std::span<const std::int32_t> which,
                          0,
                          0,
                          0};
-    changed += self.settle(which[k], found, x, reach, closed[which[k]]);
+    changed
+        += self.accept_projection(which[k], found, x, reach, closed[which[k]]);
   }
   return changed;
 }
@@ -211,8 +214,9 @@ void contactx_bindings::search(py::module_& m)
              const Array<std::int8_t>& closed)
           {
             check_pairs(self, x, closed);
-            return settle(self, view(which), view(facet), view(feature),
-                          view(xi), view(normal), view(x), reach, view(closed));
+            return accept_projections(self, view(which), view(facet),
+                                      view(feature), view(xi), view(normal),
+                                      view(x), reach, view(closed));
           },
           py::arg("which"), py::arg("facet"), py::arg("feature"), py::arg("xi"),
           py::arg("normal"), py::arg("x"), py::arg("reach"), py::arg("closed"),
@@ -248,7 +252,7 @@ void contactx_bindings::search(py::module_& m)
             check_pairs(self, x);
             check::rows(points.size(), n, self.master().gdim(), "points",
                         "slave node");
-            const auto feet = contactx::search::feet(
+            const auto feet = contactx::search::projections(
                 self.master(), self.facet(), view(x), view(points), self.xi());
             return py::make_tuple(array(feet.xi, {n, 2}), array(feet.gap));
           },
@@ -264,7 +268,7 @@ void contactx_bindings::search(py::module_& m)
             check_pairs(self, x);
             check::rows(xi.size(), n, 2, "xi", "slave node");
             const py::ssize_t gdim = self.master().gdim();
-            const auto at = contactx::search::places(
+            const auto at = contactx::search::facet_points(
                 self.master(), self.facet(), view(x), view(xi));
             return py::make_tuple(array(at.x, {n, gdim}),
                                   array(at.normal, {n, gdim}));

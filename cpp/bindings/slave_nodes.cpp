@@ -81,13 +81,13 @@ void contactx_bindings::slave_nodes(py::module_& m)
       .def(
           "sums", [](const SlaveNodes& self, const Array<double>& corners)
           { return array(self.sums(view(corners))); }, py::arg("corners"));
-  py::class_<contactx::results::Recovery>(m, "Recovery",
-                       "Nodal tractions that scatter less than multipliers")
+  py::class_<contactx::results::Recovery>(
+      m, "Recovery", "Nodal tractions that scatter less than multipliers")
       .def(py::init(
                [](std::shared_ptr<SlaveNodes> slaves, const Array<double>& x)
                {
-                 return std::make_unique<contactx::results::Recovery>(std::move(slaves), view(x),
-                                                   width_of(x));
+                 return std::make_unique<contactx::results::Recovery>(
+                     std::move(slaves), view(x), width_of(x));
                }),
            py::arg("slaves"), py::arg("x"))
       .def(

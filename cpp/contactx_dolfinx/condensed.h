@@ -4,8 +4,8 @@
 #pragma once
 
 #include "assembler.h"
-#include <contactx/condense/chains.h>
 #include <contactx/condense/condensation.h>
+#include <contactx/condense/dependent_constraints.h>
 #include <contactx/solve/accuracy.h>
 #include <petscksp.h>
 #include <string>
@@ -101,7 +101,7 @@ private:
   using OwnKSP = petsc::Owner<KSP, KSPDestroy>;
 
   /// What eliminations need of one another.
-  struct Chains
+  struct DependentConstraints
   {
     petsc::OwnMat C, E; // E = I - C
     OwnKSP ksp;
@@ -124,7 +124,7 @@ private:
     // Without identity; A is for multigrid, and applied where nothing is
     // chained
     petsc::OwnMat stiff, right, left, law, A, product;
-    Chains of_right, of_left;
+    DependentConstraints of_right, of_left;
     petsc::OwnVec v, w; // work
     bool is_new = true;
   };
@@ -301,7 +301,8 @@ private:
         left.add(rows.rows[e], rows.columns[e], rows.values[e]);
       make(system.left, left, places);
     }
-    const condense::Chains chains = condense::chains(elimination, halo());
+    const condense::DependentConstraints chains
+        = condense::dependent_constraints(elimination, halo());
     make(system.of_right, chains.right, places);
     if (not system.is_symmetric)
       make(system.of_left, chains.left, places);
@@ -311,7 +312,7 @@ private:
   }
 
   /// Makes the solver of what eliminations need of one another, if they do.
-  void make(Chains& chains, const Triplets& entries,
+  void make(DependentConstraints& chains, const Triplets& entries,
             std::span<const PetscInt> places) const
   {
     if (not anywhere(entries.size() > 0))
@@ -334,7 +335,8 @@ private:
   }
 
   /// First terms of the series of (I - C)^-1 X.
-  static void add_terms(const Chains& chains, petsc::OwnMat& X, bool is_left)
+  static void add_terms(const DependentConstraints& chains, petsc::OwnMat& X,
+                        bool is_left)
   {
     if (not chains.any())
       return;
@@ -474,7 +476,8 @@ private:
   }
 
   /// Solves (I - C) x = x, with C transposed or not.
-  static void solve(const Chains& chains, ::Vec x, bool is_transposed)
+  static void solve(const DependentConstraints& chains, ::Vec x,
+                    bool is_transposed)
   {
     if (not chains.any())
       return;

@@ -20,7 +20,7 @@ struct ContactScene
   std::shared_ptr<mesh::Halo> halo;
   std::shared_ptr<contact::SlaveNodes> slaves;
   std::shared_ptr<search::MasterSurface> surface;
-  std::shared_ptr<search::Outside> outside;
+  std::shared_ptr<search::InsideTest> outside;
 
   /// 1 at displacements with a Dirichlet condition, in the order of this rank
   std::vector<std::int8_t> prescribed;
@@ -46,8 +46,8 @@ struct ContactScene
                                                    own.list());
     const auto master = mesh.here(sheets.master, false);
     surface = search::make_master_surface(halo, master.offsets, master.nodes);
-    outside
-        = std::make_shared<search::Outside>(halo, master.offsets, master.nodes);
+    outside = std::make_shared<search::InsideTest>(halo, master.offsets,
+                                                   master.nodes);
   }
 
   /// @brief Pairs of a method, not searched for yet.

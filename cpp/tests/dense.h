@@ -4,8 +4,8 @@
 #pragma once
 
 #include <cmath>
-#include <contactx/condense/chains.h>
 #include <contactx/condense/condensation.h>
+#include <contactx/condense/dependent_constraints.h>
 #include <stdexcept>
 
 #include "generator.h"
@@ -176,12 +176,13 @@ struct Contact
   std::vector<std::int32_t> masters; ///< of all slave nodes alike
   int size;
   std::vector<std::int8_t> status;
-  double softness = 0;
+  double layer_compliance = 0;
   std::vector<double> area = {}, normal = {}, by_multiplier = {};
 
   condense::Nodes nodes() const
   {
-    return {slaves, size, status, area, normal, by_multiplier, softness};
+    return {slaves, size,          status,          area,
+            normal, by_multiplier, layer_compliance};
   }
 };
 
@@ -264,7 +265,7 @@ public:
     const auto& elimination = condensation.elimination();
     const Dense I = Dense::one(n);
     const mesh::SerialNodes nodes(static_cast<std::int32_t>(n / gdim));
-    const auto chains = condense::chains(elimination, nodes);
+    const auto chains = condense::dependent_constraints(elimination, nodes);
     const Dense of_right = (I - Dense(chains.right, n, n)).inverse();
     const Dense of_left = (I - Dense(chains.left, n, n)).inverse();
     const Dense left
@@ -278,8 +279,8 @@ public:
     given.shift = of_right * given.shift;
     Dense A = left * (K * right) + law * right;
     Column forces = b + given.forces;
-    for (std::size_t i = 0; i < given.held.size(); ++i)
-      forces[condensation.held().dofs[i]] = given.held[i];
+    for (std::size_t i = 0; i < given.retained.size(); ++i)
+      forces[condensation.retained().dofs[i]] = given.retained[i];
     Column rhs
         = left * (forces - K * given.shift) - law * given.shift + given.extra;
     for (const std::int32_t dof : elimination.eliminated())
@@ -292,7 +293,7 @@ public:
     Column multipliers = given.multipliers;
     condensation.recover(d, of_left * (b + given.forces - K * u), u,
                          multipliers);
-    for (const std::int32_t dof : condensation.held().dofs)
+    for (const std::int32_t dof : condensation.retained().dofs)
       u[dof] = b[dof];
     u.insert(u.end(), multipliers.begin(), multipliers.end());
     return u;
@@ -384,7 +385,7 @@ private:
     }
     if (k == 1)
     {
-      D(0, 0) = area * c.softness;
+      D(0, 0) = area * c.layer_compliance;
       return D;
     }
     std::vector<int> f, p;

@@ -224,7 +224,7 @@ public:
 };
 
 /// @brief Slave nodes that are paired with nodes, or with a rigid plane.
-class NodeContact final : public solve::Holding
+class NodeContact final : public solve::FreeBodyContact
 {
 public:
   bool is_small() const override { return small; }
@@ -233,7 +233,7 @@ public:
   std::vector<std::int8_t> status() const override { return kind; }
   std::vector<double> closable_gap() const override { return gap; }
 
-  solve::Rubbing rubbing() override
+  solve::FrictionState friction_state() override
   {
     const std::size_t n = kind.size(), g = gdim;
     std::vector<double> normal;
@@ -247,15 +247,15 @@ public:
     law::frictional_complementarity(
         {gdim, traction, gap, normal, slip, c, mu}, area, kind, mobile,
         {value, by_traction, by_gap, by_slip, by_normal});
-    std::vector<std::int8_t> rubs(n);
+    std::vector<std::int8_t> has_friction(n);
     for (std::size_t i = 0; i < n; ++i)
     {
       double pressure = 0;
       for (std::size_t k = 0; k < g; ++k)
         pressure += normal[i * g + k] * traction[i * g + k];
-      rubs[i] = friction * pressure > 0;
+      has_friction[i] = friction * pressure > 0;
     }
-    return {normal, traction, slip, value, area, rubs};
+    return {normal, traction, slip, value, area, has_friction};
   }
 
   void close(std::span<const std::int32_t> which) override
@@ -391,6 +391,6 @@ struct FreeScene
   std::shared_ptr<mesh::NodeMap> map;
   std::shared_ptr<mesh::Bodies> bodies;
   std::shared_ptr<TrussBulk> bulk;
-  std::vector<std::shared_ptr<solve::Holding>> contacts;
+  std::vector<std::shared_ptr<solve::FreeBodyContact>> contacts;
 };
 } // namespace contactx::tests

@@ -25,7 +25,7 @@ struct MovedContact
   {
     auto surface = search::make_master_surface(halo, sheets.master.offsets,
                                                sheets.master.nodes);
-    auto outside = std::make_shared<search::Outside>(
+    auto outside = std::make_shared<search::InsideTest>(
         halo, sheets.master.offsets, sheets.master.nodes);
     auto master = std::make_shared<contact::NodeToSurface>(
         halo,

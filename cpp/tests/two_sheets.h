@@ -76,8 +76,8 @@ struct TwoSheets
     halo = mesh::serial_halo(x, gdim);
     auto surface
         = search::make_master_surface(halo, master.offsets, master.nodes);
-    auto outside
-        = std::make_shared<search::Outside>(halo, master.offsets, master.nodes);
+    auto outside = std::make_shared<search::InsideTest>(halo, master.offsets,
+                                                        master.nodes);
     auto made = std::make_shared<M>(
         halo,
         std::make_shared<contact::SlaveNodes>(halo, slave.list(), slave.list()),

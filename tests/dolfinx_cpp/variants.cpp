@@ -540,9 +540,9 @@ int main(int argc, char* argv[])
     { solve(scene, name, to, options, form_quadratic_F, form_quadratic_J); };
     const cx::Surface wide(scene.tags, {21});
     const auto disc = std::make_shared<geometry::Sphere>(middle, 4.0);
-    const cx::Options rubs{.friction = 0.3, .offset = offset},
+    const cx::Options has_friction{.friction = 0.3, .offset = offset},
         rubs_on_facets{.friction = 0.3, .method = mortar, .offset = offset};
-    plane("quadratic friction", wide, rubs);
+    plane("quadratic friction", wide, has_friction);
     plane("quadratic tied", wide, {.tied = true});
     plane("quadratic mortar", wide, rubs_on_facets);
     plane("quadratic disc", disc, {.friction = 0.1, .offset = offset});
@@ -572,7 +572,7 @@ int main(int argc, char* argv[])
     const cx::Surface below(scene.tags, {21});
     const auto ball = std::make_shared<geometry::Sphere>(
         std::vector<double>{0.75, 0.6, -4}, 4.0);
-    solid("solid friction", below, rubs);
+    solid("solid friction", below, has_friction);
     solid("solid mortar", below, rubs_on_facets);
     solid("solid ball", ball, {.friction = 0.1, .offset = offset});
     solid("solid mortar ball", ball,

@@ -25,7 +25,7 @@ Audit::Audit(std::shared_ptr<mesh::Halo> halo,
       look = std::make_unique<SurfacesAudit>(_halo, contact);
     else if (not contact->law()->is_tied() and not is_small)
       look = std::make_unique<ObstacleAudit>(_halo, contact);
-    _looks.push_back(std::move(look));
+    _audits.push_back(std::move(look));
   }
   accept();
 }
@@ -39,18 +39,18 @@ void Audit::begin_step()
 void Audit::accept()
 {
   _start = owned();
-  for (const auto& look : _looks)
+  for (const auto& look : _audits)
     if (look)
       look->accept();
 }
 
-std::vector<Findings> Audit::look()
+std::vector<Findings> Audit::find()
 {
   const auto start = mesh::spread(*_halo, _start, _halo->gdim());
-  std::vector<Findings> found(_looks.size());
+  std::vector<Findings> found(_audits.size());
   for (std::size_t i = 0; i < found.size(); ++i)
-    if (_looks[i] and _contacts[i]->is_active())
-      found[i] = _looks[i]->look(start);
+    if (_audits[i] and _contacts[i]->is_active())
+      found[i] = _audits[i]->find(start);
   return found;
 }
 

@@ -37,7 +37,7 @@ public:
   /// @brief Look at the state of now.
   /// @return What was found of each contact, nothing of those that are not
   /// looked at or switched off.
-  std::vector<Findings> look();
+  std::vector<Findings> find();
 
 private:
   // Positions of owned nodes
@@ -45,7 +45,7 @@ private:
 
   std::shared_ptr<mesh::Halo> _halo;
   std::vector<std::shared_ptr<contact::Contact>> _contacts;
-  std::vector<std::unique_ptr<ContactAudit>> _looks;
+  std::vector<std::unique_ptr<ContactAudit>> _audits;
   std::vector<double> _start;
 };
 } // namespace contactx::audit

@@ -38,8 +38,8 @@ struct Edges
 
   double operator()(int i, int j) const
   {
-    const auto way = x[j] - x[i];
-    const double a = -dot(normal[i], way), b = dot(normal[j], way);
+    const auto edge = x[j] - x[i];
+    const double a = -dot(normal[i], edge), b = dot(normal[j], edge);
     return a * b > 0 ? std::copysign(std::min(std::abs(a), std::abs(b)), a) : 0;
   }
 };
@@ -61,12 +61,12 @@ Bend bend(const Edges<F>& k)
       // No diagonals of quadrilaterals
       if (F::flat or i + j != 3)
       {
-        const auto way = k.x[i] - k.x[j];
-        const double rise = k(j, i), curvature = 2 * rise / dot(way, way);
+        const auto edge = k.x[i] - k.x[j];
+        const double rise = k(j, i), curvature = 2 * rise / dot(edge, edge);
         if (std::abs(curvature) > std::abs(found.curvature))
         {
           found.curvature = curvature;
-          found.turn = std::abs(curvature) * norm(way);
+          found.turn = std::abs(curvature) * norm(edge);
         }
         found.sagitta = std::max(found.sagitta, std::abs(rise) / 4);
       }
@@ -309,8 +309,9 @@ std::optional<Chords> contactx::audit::chords(mesh::Halo& halo,
     const bool is_hidden = change > noticed * found.sagitta
                            and state.gap[i] + contact.adjusted()[i]
                                    < off - beyond_patches * change;
-    which[i] = not contact.is_left_out()[i] and (state.held(i) or is_hidden);
-    is_kept = is_kept or (which[i] and not state.held(i));
+    which[i] = not contact.is_left_out()[i]
+               and (state.is_constrained(i) or is_hidden);
+    is_kept = is_kept or (which[i] and not state.is_constrained(i));
   }
   // All nodes of facets that have one of these
   const auto near = slaves.near(which);
@@ -331,7 +332,7 @@ std::optional<Chords> contactx::audit::chords(mesh::Halo& halo,
     sums[2] += state.area[i];
     sums[3] += state.area[i] * found.off[i];
     sums[4] += state.area[i] * found.turn[i];
-    if (not state.held(i))
+    if (not state.is_constrained(i))
       continue;
     const double p = state.pressure(i);
     sums[0] += p * state.area[i];

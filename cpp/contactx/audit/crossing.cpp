@@ -203,20 +203,20 @@ void add(Box& box, const std::array<double, D>& p)
 /// those that its own box meets. Of a box that holds another one it says no
 /// less than of that, rounding included.
 template <int D>
-bool meet(const Box& box, const Path<D>& path)
+bool meets(const Box& box, const Path<D>& path)
 {
   double first = 0, last = 1;
   for (int k = 0; k < D; ++k)
   {
-    const double way = path.to[k] - path.from[k];
-    if (way == 0)
+    const double delta = path.to[k] - path.from[k];
+    if (delta == 0)
     {
       if (!(box.lower[k] <= path.from[k] and path.from[k] <= box.upper[k]))
         return false;
       continue;
     }
-    double in = (box.lower[k] - path.from[k]) / way;
-    double out = (box.upper[k] - path.from[k]) / way;
+    double in = (box.lower[k] - path.from[k]) / delta;
+    double out = (box.upper[k] - path.from[k]) / delta;
     if (in > out)
       std::swap(in, out);
     first = std::max(first, in);
@@ -263,13 +263,13 @@ public:
     }
     std::vector<Moved<D>> moved;
     for (std::size_t i = 0; i < _points.tolerance.size(); ++i)
-      if (const auto p = moved_point(i); meet<D>(whole, p.path))
+      if (const auto p = moved_point(i); meets<D>(whole, p.path))
         moved.push_back(p);
     if (moved.empty())
       return {};
     const search::BoxTree tree(boxes);
     for (const Moved<D>& p : moved)
-      tree.for_each([&p](const Box& box) { return meet<D>(box, p.path); },
+      tree.for_each([&p](const Box& box) { return meets<D>(box, p.path); },
                     [this, &p](std::int32_t f) { cross(p, f); });
     return std::move(_found);
   }

@@ -4,9 +4,9 @@
 #include "edges.h"
 #include "../contact/node_to_surface.h"
 #include "../geometry/middle.h"
-#include "penetration.h"
 #include "../text.h"
 #include "passed_nodes.h"
+#include "penetration.h"
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -59,7 +59,7 @@ struct Findings
   std::optional<Depth> deepest;
   /// Whether that is deeper than the mesh explains, and nothing else was found:
   /// where nodes are inside the master their facets are, too
-  bool is_too_deep = false;
+  bool penetrates_too_deep = false;
   double facet_size = 0; ///< size of the largest slave facet
   /// Of an obstacle that is curved where nodes touch it; nothing of others
   std::optional<Roundness> roundness{};
@@ -73,7 +73,7 @@ struct Findings
   /// @brief True if the iterate is wrong.
   bool is_fault() const
   {
-    return passed.count > 0 or inside.count > 0 or is_too_deep;
+    return passed.count > 0 or inside.count > 0 or penetrates_too_deep;
   }
 };
 
@@ -89,7 +89,7 @@ public:
   /// @brief Look at the state of now.
   /// @param[in] start Positions of all nodes when the step started
   /// (shape=(num_nodes, gdim)), row-major.
-  virtual Findings look(std::span<const double> start) = 0;
+  virtual Findings find(std::span<const double> start) = 0;
 
 protected:
   /// @brief Warn of the state of now, if no state that was accepted was warned

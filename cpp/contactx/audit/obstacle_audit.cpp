@@ -3,11 +3,11 @@
 
 #include "obstacle_audit.h"
 #include "../geometry/middle.h"
-#include "../geometry/sizes.h"
-#include "penetration.h"
 #include "../geometry/plane.h"
+#include "../geometry/sizes.h"
 #include "facet_sampling.h"
 #include "far_side.h"
+#include "penetration.h"
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -79,7 +79,7 @@ void ObstacleAudit::accept()
   accept_warning();
 }
 
-Findings ObstacleAudit::look(std::span<const double> /*start*/)
+Findings ObstacleAudit::find(std::span<const double> /*start*/)
 {
   mesh::Ranks& ranks = _halo->ranks();
   const contact::SlaveNodes& slaves = _contact->slaves();
@@ -124,8 +124,8 @@ Findings ObstacleAudit::look(std::span<const double> /*start*/)
   if (findings.passed.count == 0)
     findings.inside = found_nodes(*_halo, bad, x);
   findings.deepest = deepest(ranks, mine, gdim());
-  findings.is_too_deep = not findings.is_fault() and findings.deepest
-                         and findings.deepest->excess > 1;
+  findings.penetrates_too_deep = not findings.is_fault() and findings.deepest
+                                 and findings.deepest->excess > 1;
   return findings;
 }
 
@@ -189,7 +189,7 @@ std::vector<std::int32_t> ObstacleAudit::inside(std::span<const double> gap,
   std::vector<std::int32_t> nodes;
   for (std::size_t i = 0; i < slaves.size(); ++i)
     if (gap[i] < std::min(_contact->offset()[i], 0.) - small and not paired[i]
-        and not state.immobile[i] and not state.ceded[i])
+        and not state.immobile[i] and not state.redundant[i])
       nodes.push_back(slaves[i]);
   return nodes;
 }
@@ -198,7 +198,7 @@ std::vector<std::int32_t> ObstacleAudit::inside(std::span<const double> gap,
 /// a mean may be closed although the node is beside it.
 bool ObstacleAudit::touches(std::size_t i, double gap, double small) const
 {
-  return _contact->nodes()->held(i)
+  return _contact->nodes()->is_constrained(i)
          and not(gap - _contact->offset()[i] > small);
 }
 
@@ -244,7 +244,7 @@ std::vector<std::int8_t> ObstacleAudit::near(std::span<const double> gap,
   std::vector<std::int8_t> held(gap.size()), touching(gap.size());
   for (std::size_t i = 0; i < gap.size(); ++i)
   {
-    held[i] = state.held(i);
+    held[i] = state.is_constrained(i);
     touching[i] = touches(i, gap[i], small);
   }
   auto result = slaves.near(held);
@@ -279,7 +279,7 @@ std::optional<Depth> ObstacleAudit::look_between(
   for (std::size_t f = 0; f < n; ++f)
     curvature[f] = std::max(curvature[f], at_nodes[f]);
   FacetSampling sampling(local, x, gdim(),
-                         explained_depths(size, curvature, near, extent),
+                         allowed_penetration(size, curvature, near, extent),
                          levels);
   while (not sampling.points().empty())
     sampling.take(gaps(sampling.points()));
@@ -300,7 +300,7 @@ std::optional<Depth> ObstacleAudit::look_between(
   for (std::size_t f = 0; f < n; ++f)
     if (near[f] < 2 and curvature[f] * size[f] > 1)
       extent[f] = std::min(extent[f], 2 / curvature[f]);
-  const auto explained = explained_depths(size, curvature, near, extent);
+  const auto explained = allowed_penetration(size, curvature, near, extent);
   for (std::size_t f = 0; f < n; ++f)
     excess[f] = depth[f] / explained[f];
   const auto worst = worst_of(excess);
@@ -334,10 +334,10 @@ std::vector<double> ObstacleAudit::turns(std::span<const std::int32_t> facets,
   for (std::size_t k = 0; k < facets.size(); ++k)
     for (const std::int32_t node : local[facets[k]])
     {
-      const double way = distance(at, k, x, node, gdim());
-      if (way > 0)
-        turn[k]
-            = std::max(turn[k], distance(there, k, normal, node, gdim()) / way);
+      const double length = distance(at, k, x, node, gdim());
+      if (length > 0)
+        turn[k] = std::max(turn[k],
+                           distance(there, k, normal, node, gdim()) / length);
     }
   return turn;
 }
@@ -360,7 +360,7 @@ std::int64_t ObstacleAudit::count_passed(std::span<const double> x,
   for (std::size_t i = 0; i < is_far.size(); ++i)
     if (is_far[i])
       passed.push_back(static_cast<std::int32_t>(i));
-  if (not obstacle.tells_movement() or passed.empty())
+  if (not obstacle.knows_its_motion() or passed.empty())
     return std::ssize(passed);
   const auto start
       = _placed.carry(rows_of(_before->points, passed, gdim()), placed);

@@ -28,7 +28,7 @@ public:
   /// @brief Remember how slave nodes and facets lie before the next step.
   void accept() override;
 
-  Findings look(std::span<const double> start) override;
+  Findings find(std::span<const double> start) override;
 
 private:
   // Owned slave nodes and middles of this rank's facets, and unit normals there

@@ -13,10 +13,10 @@ namespace
 {
 /// What a point has gone through and not come back from: facets that it entered
 /// from the front, and others that it left on the other side.
-class Way
+class PathThrough
 {
 public:
-  Way(std::span<const Crossing> crossings, double tolerance)
+  PathThrough(std::span<const Crossing> crossings, double tolerance)
       : _crossings(crossings), _tolerance(tolerance)
   {
   }
@@ -89,10 +89,10 @@ contactx::audit::passed(std::span<const Crossing> crossings,
   for (std::size_t i = 0; i < order.size();)
   {
     const std::int32_t point = crossings[order[i]].point;
-    Way way(crossings, tolerance[point]);
+    PathThrough path(crossings, tolerance[point]);
     for (; i < order.size() and crossings[order[i]].point == point; ++i)
-      way.add(order[i]);
-    result[point] = way.passed();
+      path.add(order[i]);
+    result[point] = path.passed();
   }
   return result;
 }
@@ -111,7 +111,8 @@ Passages contactx::audit::passages(const geometry::FacetList& facets,
   std::copy_n(x0.begin() + first, gdim, origin0.begin());
   std::copy_n(x1.begin() + first, gdim, origin1.begin());
   const auto motion = geometry::rigid_motion(
-      geometry::moments(facets, x0, x1, gdim, origin0, origin1), gdim, origin0, origin1);
+      geometry::moments(facets, x0, x1, gdim, origin0, origin1), gdim, origin0,
+      origin1);
   const auto found = crossings(facets, x0, x1, gdim, motion, points);
   const auto which = passed(found, points.tolerance);
   for (std::size_t i = 0; i < n; ++i)

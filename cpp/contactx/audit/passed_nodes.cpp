@@ -186,14 +186,15 @@ FoundNodes contactx::audit::passed_nodes(
   const Points points = points_of_all(halo, own, x0, x1, near);
   const Vector<3> origin0 = points.first(points.start, g);
   const Vector<3> origin1 = points.first(points.end, g);
-  geometry::Moments sums = geometry::moments(facets, x0, x1, g, origin0, origin1);
+  geometry::Moments sums
+      = geometry::moments(facets, x0, x1, g, origin0, origin1);
   ranks.reduce(std::span<double>(sums), mesh::Reduction::sum);
   const std::vector<double> allowed(points.original.size(), tolerance);
   const auto nodes = here(halo, facets, points.original);
-  const auto mine
-      = crossings(facets, x0, x1, g, geometry::rigid_motion(sums, g, origin0, origin1),
-                  {points.start, points.end, points.normal0, points.normal1,
-                   allowed, nodes});
+  const auto mine = crossings(facets, x0, x1, g,
+                              geometry::rigid_motion(sums, g, origin0, origin1),
+                              {points.start, points.end, points.normal0,
+                               points.normal1, allowed, nodes});
   const auto which
       = passed(mesh::gathered<Crossing>(ranks, std::span(mine)), allowed);
   FoundNodes found;

@@ -26,7 +26,7 @@ double chord(double turn)
 }
 } // namespace
 
-std::vector<double> contactx::audit::explained_depths(
+std::vector<double> contactx::audit::allowed_penetration(
     std::span<const double> size, std::span<const double> curvature,
     std::span<const std::int8_t> contact, std::span<const double> extent)
 {

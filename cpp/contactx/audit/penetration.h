@@ -41,8 +41,8 @@ inline constexpr double negligible = 1. / 256;
 /// @param[in] extent Sizes of the master there, which may be infinite.
 /// @return Depths.
 /// @throws std::invalid_argument If the arrays are of different sizes.
-std::vector<double> explained_depths(std::span<const double> size,
-                                     std::span<const double> curvature,
-                                     std::span<const std::int8_t> contact,
-                                     std::span<const double> extent);
+std::vector<double> allowed_penetration(std::span<const double> size,
+                                        std::span<const double> curvature,
+                                        std::span<const std::int8_t> contact,
+                                        std::span<const double> extent);
 } // namespace contactx::audit

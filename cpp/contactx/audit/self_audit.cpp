@@ -5,8 +5,8 @@
 #include "../check.h"
 #include "../contact/deformable_master.h"
 #include "../geometry/sizes.h"
-#include "penetration.h"
 #include "passage.h"
+#include "penetration.h"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -34,21 +34,21 @@ SelfAudit::SelfAudit(std::shared_ptr<mesh::Halo> halo,
     throw std::invalid_argument("the contact's surface must be on itself");
 }
 
-Findings SelfAudit::look(std::span<const double> start)
+Findings SelfAudit::find(std::span<const double> start)
 {
   const auto now = _halo->now();
   const std::vector<double>& x = now->x;
   check::rows(start.size(), x.size(), 1, "start");
   search::SelfSight& sight = _surface->sight();
   sight.refit(start, x);
-  const std::vector<double> sizes
-      = geometry::facet_sizes(sight.surface().facets(), sight.positions(), _halo->gdim());
+  const std::vector<double> sizes = geometry::facet_sizes(
+      sight.surface().facets(), sight.positions(), _halo->gdim());
   Findings findings;
   findings.facet_size = sizes.empty() ? 0 : std::ranges::max(sizes);
   findings.passed = look_back(findings.facet_size);
   findings.deepest = look_around(sizes);
-  findings.is_too_deep = not findings.is_fault() and findings.deepest
-                         and findings.deepest->excess > 1;
+  findings.penetrates_too_deep = not findings.is_fault() and findings.deepest
+                                 and findings.deepest->excess > 1;
   return findings;
 }
 
@@ -70,7 +70,7 @@ FoundNodes SelfAudit::look_back(double size) const
   const search::WholeSurface& surface = sight.surface();
   const auto &x0 = sight.start(), &x1 = sight.positions();
   const int g = _halo->gdim();
-  double way = 0;
+  double moved = 0;
   for (std::int32_t i = 0; i < surface.num_nodes(); ++i)
   {
     double square = 0;
@@ -79,7 +79,7 @@ FoundNodes SelfAudit::look_back(double size) const
       const double d = x1[std::size_t(i) * g + k] - x0[std::size_t(i) * g + k];
       square += d * d;
     }
-    way = std::max(way, std::sqrt(square));
+    moved = std::max(moved, std::sqrt(square));
   }
   double overlap = 0;
   for (const double offset : _contact->offset())
@@ -95,7 +95,7 @@ FoundNodes SelfAudit::look_back(double size) const
     least = std::min(least, tolerance.back());
   }
   // Nodes that have not come that far are seen from where they are
-  if (not(2 * way > mesh::least(_halo->ranks(), least)))
+  if (not(2 * moved > mesh::least(_halo->ranks(), least)))
     return {};
   const auto& owned = surface.owned();
   const auto from = rows_of(x0, owned, g), to = rows_of(x1, owned, g);
@@ -122,7 +122,7 @@ std::optional<Depth> SelfAudit::look_around(std::span<const double> sizes) const
   const law::NodeState& state = *_contact->nodes();
   std::vector<double> held(_contact->slaves().owned().size());
   for (std::size_t i = 0; i < held.size(); ++i)
-    held[i] = state.held(i);
+    held[i] = state.is_constrained(i);
   const std::vector<double> is_held = nodal(held),
                             offset = nodal(_contact->offset());
   // Nodes of facets around those that are in contact
@@ -166,7 +166,7 @@ std::optional<Depth> SelfAudit::look_around(std::span<const double> sizes) const
     near.push_back(is_held[node] > 0 or holds(f) ? 2 : is_beside);
     depth.push_back(taken_off - found.selected->gap);
   }
-  const auto explained = explained_depths(
+  const auto explained = allowed_penetration(
       size, turn, near,
       std::vector<double>(there.size(),
                           std::numeric_limits<double>::infinity()));

@@ -28,7 +28,7 @@ public:
 
   /// @copydoc ContactAudit::look
   /// @throws std::invalid_argument if there are not as many positions as nodes.
-  Findings look(std::span<const double> start) override;
+  Findings find(std::span<const double> start) override;
 
 private:
   FoundNodes look_back(double size) const;

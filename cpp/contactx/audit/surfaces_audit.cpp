@@ -5,11 +5,11 @@
 #include "../check.h"
 #include "../geometry/middle.h"
 #include "../geometry/sizes.h"
-#include "penetration.h"
 #include "../math/vec.h"
 #include "../mesh/extent.h"
 #include "../mesh/spread.h"
 #include "passed_nodes.h"
+#include "penetration.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -47,9 +47,9 @@ deformable(const contact::Contact& contact)
 }
 
 /// Longest way of a node of facets.
-double longest_way_of(const geometry::FacetList& facets,
-                      std::span<const double> from, std::span<const double> to,
-                      int gdim)
+double largest_displacement_of(const geometry::FacetList& facets,
+                               std::span<const double> from,
+                               std::span<const double> to, int gdim)
 {
   double longest = 0;
   for (const std::int32_t node : facets.nodes)
@@ -101,7 +101,7 @@ void SurfacesAudit::accept()
   accept_warning();
 }
 
-Findings SurfacesAudit::look(std::span<const double> start)
+Findings SurfacesAudit::find(std::span<const double> start)
 {
   Findings findings;
   const auto now = _halo->now();
@@ -114,8 +114,8 @@ Findings SurfacesAudit::look(std::span<const double> start)
   look_from_master(x, findings);
   findings.chords = chords(*_halo, *_contact);
   warn(findings, findings.chords, findings.edges);
-  findings.is_too_deep = not findings.is_fault() and findings.deepest
-                         and findings.deepest->excess > 1;
+  findings.penetrates_too_deep = not findings.is_fault() and findings.deepest
+                                 and findings.deepest->excess > 1;
   return findings;
 }
 
@@ -131,7 +131,7 @@ SurfacesAudit::Configuration SurfacesAudit::configuration() const
   const auto x = _halo->reference();
   Configuration now{{x.begin(), x.end()}, _halo->now()->x};
   for (std::size_t i = 0; i < x.size(); ++i)
-    now.way[i] -= x[i];
+    now.displacement[i] -= x[i];
   return now;
 }
 
@@ -139,8 +139,8 @@ SurfacesAudit::Configuration SurfacesAudit::configuration() const
 double SurfacesAudit::facet_size(const geometry::FacetList& facets,
                                  std::span<const double> x) const
 {
-  return mesh::largest(_halo->ranks(),
-                       largest_of(geometry::facet_sizes(facets, x, _halo->gdim())));
+  return mesh::largest(_halo->ranks(), largest_of(geometry::facet_sizes(
+                                           facets, x, _halo->gdim())));
 }
 
 /// Nodes that are out of contact must not have gone through the other surface.
@@ -160,10 +160,10 @@ void SurfacesAudit::look_back(std::span<const double> start,
              master = _master->surface()->own();
   // A slave node with a pair faces its facet, a master node has no pair: what
   // the other looks see of them is within a facet's size
-  std::array ways{longest_way_of(slave, start, x, g),
-                  longest_way_of(master, start, x, g)};
-  _halo->ranks().reduce(std::span<double>(ways), mesh::Reduction::largest);
-  const bool is_far = ways[0] + ways[1] > findings.facet_size;
+  std::array moved{largest_displacement_of(slave, start, x, g),
+                   largest_displacement_of(master, start, x, g)};
+  _halo->ranks().reduce(std::span<double>(moved), mesh::Reduction::largest);
+  const bool is_far = moved[0] + moved[1] > findings.facet_size;
   const auto slaves = _contact->slaves().owned();
   const auto paired = _master->paired();
   std::vector<std::int32_t> candidates;
@@ -213,22 +213,22 @@ std::vector<std::int8_t> SurfacesAudit::find_behind()
     return behind;
   const Configuration now = configuration();
   const auto size = geometry::facet_sizes(_master->surface()->own(), now.x, g);
-  // Reach of the search, but in small sliding nodes may have gone farther
+  // RankBoxes of the search, but in small sliding nodes may have gone farther
   // since
   double reach = mesh::largest(ranks, largest_of(size));
   if (not is_small())
     reach = std::min(reach, _master->reach());
   const auto points = rows_of(now.x, nodes, g);
-  std::vector<double> way;
-  std::optional<search::Ways> ways;
+  std::vector<double> displacement;
+  std::optional<search::Displacements> displacements;
   if (is_small())
   {
-    way = rows_of(now.way, nodes, g);
-    ways = search::Ways{now.way, way};
+    displacement = rows_of(now.displacement, nodes, g);
+    displacements = search::Displacements{now.displacement, displacement};
   }
-  const search::Seen seen = _master->outside()->onlooker().look(
+  const search::ProbeResult seen = _master->outside()->probe().query(
       now.x, points, std::vector<double>(points.size(), 0), reach, size, 1,
-      ways);
+      displacements);
   for (std::size_t k = 0; k < which.size(); ++k)
   {
     const double offset = std::min(_contact->offset()[which[k]], 0.);
@@ -272,20 +272,20 @@ std::vector<double> SurfacesAudit::bent(const Configuration& now) const
 /// What the master's nodes see of the slave facets: the facet's size, how near
 /// it is to contact, what is taken off the gap, how it is bent, the largest
 /// stiffness of its nodes, its normal.
-search::Seen SurfacesAudit::see_slave(const Configuration& now,
-                                      std::span<const double> normals)
+search::ProbeResult SurfacesAudit::see_slave(const Configuration& now,
+                                             std::span<const double> normals)
 {
   const int g = _halo->gdim();
   const contact::SlaveNodes& slaves = _contact->slaves();
   const law::NodeState& state = *_contact->nodes();
-  const auto size
-      = geometry::unstretched_sizes(slaves.facets(), now.x, _halo->reference(), g);
+  const auto size = geometry::unstretched_sizes(slaves.facets(), now.x,
+                                                _halo->reference(), g);
   const double reach = facet_size(slaves.facets(), now.x);
   std::vector<std::int8_t> held(slaves.owned().size());
   std::vector<double> stiffness(held.size());
   for (std::size_t i = 0; i < held.size(); ++i)
   {
-    held[i] = state.held(i);
+    held[i] = state.is_constrained(i);
     stiffness[i] = state.c[i] * state.area[i];
   }
   const auto offset
@@ -303,15 +303,15 @@ search::Seen SurfacesAudit::see_slave(const Configuration& now,
                                  curvature[f], stiff[f], n[0], n[1], n[2]});
   }
   const auto points = rows_of(now.x, _points, g);
-  std::vector<double> way;
-  std::optional<search::Ways> ways;
+  std::vector<double> displacement;
+  std::optional<search::Displacements> displacements;
   if (is_small())
   {
-    way = rows_of(now.way, _points, g);
-    ways = search::Ways{now.way, way};
+    displacement = rows_of(now.displacement, _points, g);
+    displacements = search::Displacements{now.displacement, displacement};
   }
-  return _at_slave.look(now.x, points, rows_of(normals, _points, g), reach,
-                        values, num_seen, ways);
+  return _at_slave.query(now.x, points, rows_of(normals, _points, g), reach,
+                         values, num_seen, displacements);
 }
 
 void SurfacesAudit::look_from_master(std::span<const double> positions,
@@ -324,7 +324,7 @@ void SurfacesAudit::look_from_master(std::span<const double> positions,
   const auto normals = mesh::spread(
       *_halo, normals_of_all(*_halo, _master->surface()->own(), now.x), g);
   const auto curvature = geometry::nodal_curvatures(around, now.x, normals, g);
-  const search::Seen seen = see_slave(now, normals);
+  const search::ProbeResult seen = see_slave(now, normals);
   const std::size_t n = _points.size();
   std::vector<double> below(n), sizes(n);
   for (std::size_t i = 0; i < n; ++i)
@@ -350,15 +350,15 @@ void SurfacesAudit::look_from_master(std::span<const double> positions,
                                               seen.values[num_seen * i + 1]));
     turn.push_back(curvature[_points[i]]);
   }
-  auto explained = explained_depths(size, turn, near,
-                                    std::vector<double>(there.size(), _extent));
+  auto explained = allowed_penetration(
+      size, turn, near, std::vector<double>(there.size(), _extent));
   std::vector<double> depth(there.size()), excess(there.size());
   for (std::size_t k = 0; k < there.size(); ++k)
   {
     const std::size_t i = there[k];
     // Linear kinematics see a curved surface as flat along the way
     explained[k] += (turn[k] + seen.values[num_seen * i + 3])
-                    * (seen.way[i] * seen.way[i]);
+                    * (seen.displacement[i] * seen.displacement[i]);
     depth[k] = seen.values[num_seen * i + 2] - seen.gap[i];
     excess[k] = depth[k] / explained[k];
   }

@@ -34,13 +34,13 @@ public:
 
   /// @copydoc ContactAudit::look
   /// @throws std::invalid_argument if there are not as many positions as nodes.
-  Findings look(std::span<const double> start) override;
+  Findings find(std::span<const double> start) override;
 
 private:
   // Positions to look in, and in small sliding displacements since
   struct Configuration
   {
-    std::vector<double> x, way;
+    std::vector<double> x, displacement;
   };
 
   bool is_small() const;
@@ -52,15 +52,15 @@ private:
   std::vector<std::int8_t> find_behind();
   FoundNodes look_from_slave(std::span<const double> x);
   std::vector<double> bent(const Configuration& now) const;
-  search::Seen see_slave(const Configuration& now,
-                         std::span<const double> normals);
+  search::ProbeResult see_slave(const Configuration& now,
+                                std::span<const double> normals);
   void look_from_master(std::span<const double> positions, Findings& findings);
 
   std::shared_ptr<mesh::Halo> _halo;
   std::shared_ptr<contact::Contact> _contact;
   std::shared_ptr<contact::DeformableMaster> _master;
-  search::Onlooker _at_slave;
-  search::Outside _outside_slave;
+  search::SurfaceProbe _at_slave;
+  search::InsideTest _outside_slave;
   // Of the master surface, without what both surfaces have: nodes of this
   // rank's facets, and those that this rank owns
   std::vector<std::int32_t> _points, _owned_master;

@@ -30,7 +30,7 @@ struct Nodes
   /// The law's derivative by the multiplier, a force over a traction
   /// (shape=(n, size, size))
   std::span<const double> by_multiplier;
-  double softness = 0; ///< compliance of a layer between the surfaces
+  double layer_compliance = 0; ///< compliance of a layer between the surfaces
 
   /// @brief Number of slave nodes.
   std::size_t count() const { return slaves.size(); }

@@ -40,7 +40,7 @@ Condensation::Condensation(const CompressedRows& contact,
     : _num_local(free.size()),
       _num_multipliers(condense::num_multipliers(contacts)),
       _is_soft(std::ranges::any_of(contacts, [](const Nodes& nodes)
-                                   { return nodes.softness > 0; })),
+                                   { return nodes.layer_compliance > 0; })),
       _prescribed(contacts, checked(contact, contacts, free, gdim), free, gdim,
                   holds),
       _elimination(contacts, _prescribed, free, gdim)
@@ -54,7 +54,7 @@ Condensation::right_hand_side(std::span<const double> d) const
   RightHandSide result;
   result.forces.assign(_num_local, 0);
   std::vector<double> left(d.begin(), d.end());
-  _prescribed.right_hand_side(left, result.forces, result.held);
+  _prescribed.right_hand_side(left, result.forces, result.retained);
   result.multipliers = _elimination.open_multipliers(left);
   _prescribed.blocks().traction.multiply(result.multipliers, result.forces, -1);
   result.shift = _elimination.shift(left);

@@ -26,7 +26,7 @@ public:
     std::vector<double> extra;  ///< of the law's rows (shape=(num_local))
     /// Multipliers of open nodes, zero elsewhere (shape=(num_multipliers))
     std::vector<double> multipliers;
-    std::vector<double> held; ///< rows of held multipliers (shape=(n))
+    std::vector<double> retained; ///< rows of held multipliers (shape=(n))
   };
 
   /// @brief Eliminate the multipliers.
@@ -56,7 +56,7 @@ public:
   const Triplets& traction() const { return _prescribed.blocks().traction; }
 
   /// @brief Multipliers that stay unknowns.
-  const Held& held() const { return _prescribed.held(); }
+  const RetainedMultipliers& retained() const { return _prescribed.retained(); }
 
   /// @brief What soft contact, and multipliers that the law gives, have added
   /// to it, (dof, dof).

@@ -38,7 +38,7 @@ Nodes contactx::condense::nodes_of(const contact::Contact& contact)
           nodes.area,
           nodes.normal,
           nodes.by_multiplier,
-          nodes.softness};
+          nodes.layer_compliance};
 }
 
 ContactBlock::ContactBlock(const Contacts& contacts,

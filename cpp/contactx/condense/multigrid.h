@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "chains.h"
+#include "dependent_constraints.h"
 
 namespace contactx::condense
 {

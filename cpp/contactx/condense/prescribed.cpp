@@ -93,7 +93,7 @@ Prescribed::Prescribed(std::span<const Nodes> contacts, Blocks blocks,
       bool is_concerned = false;
       for (int i = 0; i < k; ++i)
       {
-        own[i] = k == 1 ? not(nodes.softness > 0)
+        own[i] = k == 1 ? not(nodes.layer_compliance > 0)
                         : free[nodes.slaves[s] * gdim + i] != 0;
         is_concerned = is_concerned or own[i] == 0;
       }
@@ -121,7 +121,8 @@ Prescribed::Prescribed(std::span<const Nodes> contacts, Blocks blocks,
           G[i][j] /= nodes.area[s];
         }
 
-      const math::Small DG = math::product(k, D, G), GD = math::product(k, G, D),
+      const math::Small DG = math::product(k, D, G),
+                        GD = math::product(k, G, D),
                         DGD = math::product(k, DG, D);
       const auto place = static_cast<std::int32_t>(_multipliers.size());
       std::array<std::int32_t, 3> number{};
@@ -130,9 +131,9 @@ Prescribed::Prescribed(std::span<const Nodes> contacts, Blocks blocks,
         _is_given.push_back(gives[i]);
         if (not stays[i])
           continue;
-        number[i] = static_cast<std::int32_t>(_held.dofs.size());
-        _held.multipliers.push_back(static_cast<std::int32_t>(first) + i);
-        _held.dofs.push_back(nodes.slaves[s] * gdim + i);
+        number[i] = static_cast<std::int32_t>(_retained.dofs.size());
+        _retained.multipliers.push_back(static_cast<std::int32_t>(first) + i);
+        _retained.dofs.push_back(nodes.slaves[s] * gdim + i);
       }
       for (int i = 0; i < k; ++i)
         for (int j = 0; j < k; ++j)
@@ -156,16 +157,16 @@ Prescribed::Prescribed(std::span<const Nodes> contacts, Blocks blocks,
   }
   if (not _multipliers.empty())
     take_out(count, free.size());
-  if (not _held.dofs.empty())
+  if (not _retained.dofs.empty())
     hold(held_law);
 }
 
 void Prescribed::hold(const Triplets& law)
 {
-  const std::size_t n = _held.dofs.size();
+  const std::size_t n = _retained.dofs.size();
   std::vector<std::int32_t> place(_own.size(), -1);
   for (std::size_t i = 0; i < n; ++i)
-    place[_held.multipliers[i]] = static_cast<std::int32_t>(i);
+    place[_retained.multipliers[i]] = static_cast<std::int32_t>(i);
   Blocks left;
   left.stiffness = std::move(_blocks.stiffness);
   const Triplets &T = _blocks.traction, &C = _blocks.constraint;
@@ -174,7 +175,7 @@ void Prescribed::hold(const Triplets& law)
     if (const std::int32_t at = place[C.rows[e]]; at >= 0)
     {
       of_constraint[at] = std::max(of_constraint[at], std::abs(C.values[e]));
-      left.stiffness.add(_held.dofs[at], C.columns[e], C.values[e]);
+      left.stiffness.add(_retained.dofs[at], C.columns[e], C.values[e]);
     }
     else
       left.constraint.add(C.rows[e], C.columns[e], C.values[e]);
@@ -196,20 +197,21 @@ void Prescribed::hold(const Triplets& law)
   {
     // One whose master is prescribed, too, is in the law of another one alone
     const bool is_free = of_traction[i] > 0 and of_constraint[i] > 0;
-    _held.scale.push_back(is_free ? of_constraint[i] / of_traction[i]
-                                  : sum / count);
+    _retained.scale.push_back(is_free ? of_constraint[i] / of_traction[i]
+                                      : sum / count);
     // The bulk's row of a prescribed displacement has a one
-    left.stiffness.add(_held.dofs[i], _held.dofs[i], -1);
+    left.stiffness.add(_retained.dofs[i], _retained.dofs[i], -1);
   }
   for (std::size_t e = 0; e < T.size(); ++e)
     if (const std::int32_t at = place[T.columns[e]]; at >= 0)
-      left.stiffness.add(T.rows[e], _held.dofs[at],
-                         _held.scale[at] * T.values[e]);
+      left.stiffness.add(T.rows[e], _retained.dofs[at],
+                         _retained.scale[at] * T.values[e]);
     else
       left.traction.add(T.rows[e], T.columns[e], T.values[e]);
   for (std::size_t e = 0; e < law.size(); ++e)
-    left.stiffness.add(_held.dofs[law.rows[e]], _held.dofs[law.columns[e]],
-                       law.values[e] * _held.scale[law.columns[e]]);
+    left.stiffness.add(_retained.dofs[law.rows[e]],
+                       _retained.dofs[law.columns[e]],
+                       law.values[e] * _retained.scale[law.columns[e]]);
   _blocks = std::move(left);
 }
 
@@ -269,7 +271,7 @@ void Prescribed::take_out(std::size_t num_multipliers, std::size_t num_local)
 }
 
 void Prescribed::right_hand_side(std::span<double> d, std::span<double> forces,
-                                 std::vector<double>& held) const
+                                 std::vector<double>& retained) const
 {
   const std::size_t m = _multipliers.size();
   std::vector<double> given(m), known(m, 0), change(m, 0);
@@ -281,15 +283,16 @@ void Prescribed::right_hand_side(std::span<double> d, std::span<double> forces,
   // Nothing is left in the rows of what the law gives
   for (std::size_t i = 0; i < m; ++i)
     d[_multipliers[i]] = _is_given[i] == 0 ? given[i] + change[i] : 0;
-  for (const std::int32_t i : _held.multipliers)
-    held.push_back(std::exchange(d[i], 0));
+  for (const std::int32_t i : _retained.multipliers)
+    retained.push_back(std::exchange(d[i], 0));
 }
 
 void Prescribed::recover(std::span<const double> d, std::span<const double> u,
                          std::span<double> multipliers) const
 {
-  for (std::size_t i = 0; i < _held.dofs.size(); ++i)
-    multipliers[_held.multipliers[i]] = _held.scale[i] * u[_held.dofs[i]];
+  for (std::size_t i = 0; i < _retained.dofs.size(); ++i)
+    multipliers[_retained.multipliers[i]]
+        = _retained.scale[i] * u[_retained.dofs[i]];
   const std::size_t m = _multipliers.size();
   std::vector<double> left(m), others(m), found(m, 0);
   for (std::size_t i = 0; i < m; ++i)

@@ -9,7 +9,7 @@ namespace contactx::condense
 {
 /// @brief Multipliers that are unknowns in the place of prescribed
 /// displacements.
-struct Held
+struct RetainedMultipliers
 {
   std::vector<std::int32_t> multipliers; ///< numbers (shape=(n))
   std::vector<std::int32_t> dofs;        ///< their places (shape=(n))
@@ -62,7 +62,7 @@ public:
   const Triplets& springs() const { return _springs; }
 
   /// @brief Held multipliers.
-  const Held& held() const { return _held; }
+  const RetainedMultipliers& retained() const { return _retained; }
 
   /// @brief 1 where a multiplier follows from a row of the bulk, else 0
   /// (shape=(num_multipliers)).
@@ -83,7 +83,7 @@ public:
   /// it is added to (shape=(num_local)).
   /// @param[out] held Right-hand side of held multipliers' rows (shape=(n)).
   void right_hand_side(std::span<double> d, std::span<double> forces,
-                       std::vector<double>& held) const;
+                       std::vector<double>& retained) const;
 
   /// @brief Add these multipliers.
   /// @param[in] d Right-hand side of the multipliers' rows
@@ -101,7 +101,7 @@ private:
 
   Blocks _blocks;
   Triplets _springs;
-  Held _held;
+  RetainedMultipliers _retained;
   std::vector<std::int8_t> _own;
   std::vector<std::vector<double>> _by_multiplier;
 

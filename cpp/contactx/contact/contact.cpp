@@ -236,8 +236,8 @@ void Contact::begin_step()
   for (std::size_t i = 0; i < _touched.size(); ++i)
     _touched[i] = _nodes->closed(i);
   _is_predicted = false;
-  std::ranges::fill(_nodes->turns, 0);
-  std::ranges::fill(_nodes->closings, 0);
+  std::ranges::fill(_nodes->slip_reversals, 0);
+  std::ranges::fill(_nodes->slip_closings, 0);
   if (sliding() == Sliding::small and _master->is_rigid())
   {
     const auto reference = _halo->reference();
@@ -320,7 +320,7 @@ void Contact::find_front()
   std::vector<std::int8_t> faces(corners.size());
   std::ranges::transform(corners, faces.begin(),
                          [](double area) { return area > 0; });
-  _halo->ranks().agree([&] { _master->take_front(faces); });
+  _halo->ranks().agree([&] { _master->set_front_facets(faces); });
 }
 
 /// Slave nodes of quadratic facets that have no area take no force: their
@@ -368,7 +368,7 @@ void Contact::set_factor(std::span<const double> compliance)
   _nodes->set_factor(_halo->ranks(), of_pairs);
 }
 
-std::vector<std::int32_t> Contact::kept_inside(std::span<const double> x)
+std::vector<std::int32_t> Contact::constrained_inside(std::span<const double> x)
 {
   const auto* master = dynamic_cast<const ObstacleMaster*>(_master.get());
   if (not master or _law->is_tied() or not _is_active)
@@ -389,7 +389,7 @@ std::vector<std::int32_t> Contact::kept_inside(std::span<const double> x)
   return nodes;
 }
 
-bool Contact::moves_untold()
+bool Contact::has_unknown_motion()
 {
   const auto* master = dynamic_cast<const ObstacleMaster*>(_master.get());
   if (not master or not _is_active)
@@ -397,8 +397,8 @@ bool Contact::moves_untold()
   const double size = std::ranges::max(
       mesh::extent(_halo->ranks(), at_slaves(_halo->reference()), gdim()));
   bool moves = false;
-  _halo->ranks().agree([&]
-                       { moves = master->moves_untold(moved_part * size); });
+  _halo->ranks().agree(
+      [&] { moves = master->has_unknown_motion(moved_part * size); });
   const bool touches = std::ranges::any_of(_nodes->status, [](std::int8_t s)
                                            { return s != law::open; });
   // Both are asked on all ranks
@@ -616,10 +616,10 @@ void Contact::for_each_pair(std::string_view term,
 
 bool Contact::is_without_gaps() const
 {
-  const double tie
+  const double gap_tol
       = law::touching_gap(_halo->ranks(), at_slaves(_halo->now()->x), gdim());
-  const bool any = std::ranges::any_of(_nodes->gap, [tie](double gap)
-                                       { return std::abs(gap) > tie; });
+  const bool any = std::ranges::any_of(_nodes->gap, [gap_tol](double gap)
+                                       { return std::abs(gap) > gap_tol; });
   return not mesh::anywhere(_halo->ranks(), any);
 }
 
@@ -699,11 +699,12 @@ void Contact::measure_from_touching(std::span<const std::int8_t> which)
 
 std::vector<std::int8_t> Contact::closing(bool is_first)
 {
-  const double tie = is_first ? law::touching_gap(_halo->ranks(),
-                                             at_slaves(_halo->now()->x), gdim())
-                              : -1.0;
+  const double gap_tol
+      = is_first ? law::touching_gap(_halo->ranks(), at_slaves(_halo->now()->x),
+                                     gdim())
+                 : -1.0;
   std::vector<std::int8_t> closes(_nodes->num_nodes());
   for (std::size_t i = 0; i < closes.size(); ++i)
-    closes[i] = _nodes->closing(i, tie);
+    closes[i] = _nodes->closing(i, gap_tol);
   return closes;
 }

@@ -184,12 +184,12 @@ public:
   /// rigid obstacle: no pressure could get them out.
   /// @param[in] x Positions with the prescribed displacements (shape=(at least
   /// num_owned, gdim)).
-  std::vector<std::int32_t> kept_inside(std::span<const double> x);
+  std::vector<std::int32_t> constrained_inside(std::span<const double> x);
 
   /// @brief True if an obstacle that is touched has moved since the step's
   /// start, and nothing tells how its material moves, which slip and ties are
   /// measured from.
-  bool moves_untold();
+  bool has_unknown_motion();
 
   /// @brief Pair the slave nodes, unless kinematics are frozen.
   /// @return Number of this rank's nodes in contact whose facet has changed.

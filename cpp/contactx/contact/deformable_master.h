@@ -5,8 +5,8 @@
 
 #include "../check.h"
 #include "../mesh/halo.h"
+#include "../search/inside_test.h"
 #include "../search/master_surface.h"
-#include "../search/outside.h"
 #include "master.h"
 #include "slave_nodes.h"
 #include "slip_origin.h"
@@ -42,7 +42,7 @@ public:
   DeformableMaster(std::shared_ptr<mesh::Halo> halo,
                    std::shared_ptr<const SlaveNodes> slaves,
                    std::shared_ptr<search::MasterSurface> surface,
-                   std::shared_ptr<search::Outside> outside,
+                   std::shared_ptr<search::InsideTest> outside,
                    const PairingOptions& options)
       : _halo(std::move(halo)), _slaves(std::move(slaves)),
         _surface(std::move(surface)), _outside(std::move(outside)),
@@ -75,7 +75,10 @@ public:
   }
 
   /// @brief Finds points outside of the master's body.
-  const std::shared_ptr<search::Outside>& outside() const { return _outside; }
+  const std::shared_ptr<search::InsideTest>& outside() const
+  {
+    return _outside;
+  }
 
 protected:
   /// @brief Distance of each slave node from the master in the reference
@@ -106,20 +109,20 @@ protected:
 
   /// @brief Mean of x_slave - x_master (shape=(n, gdim)).
   /// @param[in] u Displacements (shape=(num_nodes, gdim)).
-  std::vector<double> way(std::span<const double> u) const
+  std::vector<double> separation(std::span<const double> u) const
   {
-    std::vector<double> way = apart();
+    std::vector<double> separation = apart();
     const std::vector<double> by = moved(u);
-    for (std::size_t k = 0; k < way.size(); ++k)
-      way[k] += by[k];
-    return way;
+    for (std::size_t k = 0; k < separation.size(); ++k)
+      separation[k] += by[k];
+    return separation;
   }
 
   std::shared_ptr<mesh::Halo> _halo;               ///< Nodes of this rank
   std::shared_ptr<const SlaveNodes> _slaves;       ///< Slave nodes
   std::shared_ptr<search::MasterSurface> _surface; ///< Master surface
-  std::shared_ptr<search::Outside> _outside; ///< points outside of the body
-  PairingOptions _options;                   ///< How pairs are made
+  std::shared_ptr<search::InsideTest> _outside; ///< points outside of the body
+  PairingOptions _options;                      ///< How pairs are made
   SlipOrigin _origin; ///< where slip starts in small sliding
 
 private:

@@ -151,7 +151,7 @@ public:
   /// integrates over facets on its own needs to know.
   /// @param[in] faces 1 at those corners, else 0, in the order of the facets'
   /// nodes.
-  virtual void take_front(std::span<const std::int8_t> /*faces*/) {}
+  virtual void set_front_facets(std::span<const std::int8_t> /*faces*/) {}
 
   /// @brief Vector that is taken off the movement that kernels measure
   /// (shape=(n, gdim)); empty for nothing.

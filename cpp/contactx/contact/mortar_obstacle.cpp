@@ -204,7 +204,7 @@ std::int32_t MortarObstacle::search(std::span<const double> x,
   return changed;
 }
 
-void MortarObstacle::take_front(std::span<const std::int8_t> faces)
+void MortarObstacle::set_front_facets(std::span<const std::int8_t> faces)
 {
   if (faces.size() != _faces.size())
     throw std::invalid_argument("faces must have a value for each corner");

@@ -30,8 +30,8 @@ public:
   std::int32_t search(std::span<const double> x,
                       std::span<const std::int8_t> closed) override;
 
-  /// @copydoc Master::take_front; the others are not integrated
-  void take_front(std::span<const std::int8_t> faces) override;
+  /// @copydoc Master::set_front_facets; the others are not integrated
+  void set_front_facets(std::span<const std::int8_t> faces) override;
 
   /// @copydoc Master::pairs; of slave facets of one kind
   std::vector<kernel::Pairs> pairs() const override;

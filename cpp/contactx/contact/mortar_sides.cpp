@@ -70,8 +70,8 @@ MortarSides::MortarSides(const SlaveNodes& slaves,
       _inradius(std::numeric_limits<double>::infinity())
 {
   const geometry::FacetList slave = slaves.facets();
-  const geometry::Wholes local
-      = geometry::wholes(slaves.local(), slaves.shares().level);
+  const geometry::QuadraticFacets local
+      = geometry::quadratic_facets(slaves.local(), slaves.shares().level);
   _numbers = local.nodes;
   _slave = local;
   for (std::int32_t& node : _slave.nodes)
@@ -93,10 +93,10 @@ MortarSides::MortarSides(const SlaveNodes& slaves,
   }
 }
 
-void MortarSides::meet(const geometry::FacetList& master,
-                       std::span<const std::int8_t> level)
+void MortarSides::set_master_facets(const geometry::FacetList& master,
+                                    std::span<const std::int8_t> level)
 {
-  _master = geometry::wholes(master, level);
+  _master = geometry::quadratic_facets(master, level);
 }
 
 std::vector<double>

@@ -5,7 +5,7 @@
 
 #include "../geometry/integrals.h"
 #include "../geometry/quadratic.h"
-#include "../geometry/wholes.h"
+#include "../geometry/quadratic_facets.h"
 #include "../kernel/layout.h"
 #include "../kernel/pairs.h"
 #include "slave_nodes.h"
@@ -62,17 +62,17 @@ public:
   /// @param[in] master Master facets.
   /// @param[in] level Where their nodes are on quadratic facets, see
   /// geometry::Shares; empty where facets are linear.
-  void meet(const geometry::FacetList& master,
-            std::span<const std::int8_t> level);
+  void set_master_facets(const geometry::FacetList& master,
+                         std::span<const std::int8_t> level);
 
   /// @brief Places for the nodes of a facet.
   int width() const { return _slave.width; }
 
   /// @brief Quadratic facets that the slave facets are parts of.
-  const geometry::Wholes& slave_wholes() const { return _slave; }
+  const geometry::QuadraticFacets& slave_wholes() const { return _slave; }
 
   /// @brief Quadratic facets that the master facets are parts of.
-  const geometry::Wholes& master_wholes() const { return _master; }
+  const geometry::QuadraticFacets& master_wholes() const { return _master; }
 
   /// @brief Number of owned slave nodes.
   std::size_t size() const { return _slaves->owned().size(); }
@@ -210,7 +210,7 @@ private:
                                       std::int32_t facet) const;
 
   int _gdim;
-  geometry::Wholes _slave, _master;
+  geometry::QuadraticFacets _slave, _master;
   std::vector<std::int32_t> _numbers;
   double _inradius;
 };

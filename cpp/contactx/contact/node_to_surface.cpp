@@ -26,7 +26,7 @@ std::vector<std::int32_t> copy(std::span<const std::int32_t> values)
 NodeToSurface::NodeToSurface(std::shared_ptr<mesh::Halo> halo,
                              std::shared_ptr<const SlaveNodes> slaves,
                              std::shared_ptr<search::MasterSurface> surface,
-                             std::shared_ptr<search::Outside> outside,
+                             std::shared_ptr<search::InsideTest> outside,
                              const PairingOptions& options)
     : DeformableMaster(std::move(halo), std::move(slaves), std::move(surface),
                        std::move(outside), options),
@@ -52,17 +52,19 @@ std::vector<double> NodeToSurface::at_slaves(std::span<const double> x) const
   return rows;
 }
 
-search::Feet NodeToSurface::feet(std::span<const double> x,
-                                 std::span<const double> points) const
+search::Projections
+NodeToSurface::projections(std::span<const double> x,
+                           std::span<const double> points) const
 {
-  return search::feet(_pairing.master(), _pairing.facet(), x, points,
-                      _pairing.xi());
+  return search::projections(_pairing.master(), _pairing.facet(), x, points,
+                             _pairing.xi());
 }
 
-search::Places NodeToSurface::places(std::span<const double> x,
-                                     std::span<const double> xi) const
+search::FacetPoints
+NodeToSurface::facet_points(std::span<const double> x,
+                            std::span<const double> xi) const
 {
-  return search::places(_pairing.master(), _pairing.facet(), x, xi);
+  return search::facet_points(_pairing.master(), _pairing.facet(), x, xi);
 }
 
 std::int32_t NodeToSurface::search(std::span<const double> x,
@@ -131,7 +133,7 @@ std::int32_t NodeToSurface::drop_outside(std::span<const double> x,
   const int g = gdim();
   const std::size_t n = size();
   const std::vector<double> points = at_slaves(x);
-  const auto [foot, normal] = places(x, _pairing.xi());
+  const auto [foot, normal] = facet_points(x, _pairing.xi());
   const geometry::FacetList facets = _surface->facets();
   const std::vector<double> sizes = geometry::facet_sizes(facets, x, g);
   std::vector<double> depth(n), size(n);
@@ -146,8 +148,9 @@ std::int32_t NodeToSurface::drop_outside(std::span<const double> x,
   std::int32_t changed = 0;
   for (std::size_t i = 0; i < n; ++i)
     if (is_outside[i])
-      changed += _pairing.settle(static_cast<std::int32_t>(i), std::nullopt, x,
-                                 _options.reach, closed[i] != 0);
+      changed += _pairing.accept_projection(static_cast<std::int32_t>(i),
+                                            std::nullopt, x, _options.reach,
+                                            closed[i] != 0);
   return changed;
 }
 
@@ -262,8 +265,8 @@ std::vector<kernel::FacetSlip> NodeToSurface::slip() const
     }
     return from;
   }
-  const auto [xi, gap] = feet(_halo->start()->x, _start);
-  const auto normal = places(_at, xi).normal;
+  const auto [xi, gap] = projections(_halo->start()->x, _start);
+  const auto normal = facet_points(_at, xi).normal;
   for (std::size_t i = 0; i < size(); ++i)
   {
     const std::int32_t f = _pairing.facet()[i];
@@ -305,11 +308,11 @@ NodeToSurface::turn(std::span<const double> x) const
 std::vector<double> NodeToSurface::frames(std::span<const double> x) const
 {
   const int g = gdim();
-  const auto [foot, normal] = places(x, _pairing.xi());
+  const auto [foot, normal] = facet_points(x, _pairing.xi());
   std::vector<double> beside = _pairing.xi();
   for (std::size_t i = 0; i < size(); ++i)
     beside[2 * i] += 1;
-  const auto ahead = places(x, beside).x;
+  const auto ahead = facet_points(x, beside).x;
   std::vector<double> frames(size() * g * g);
   for (std::size_t i = 0; i < size(); ++i)
   {
@@ -344,8 +347,8 @@ void NodeToSurface::touch(std::span<const std::int8_t> which,
   const int g = gdim();
   const std::vector<double> points = at_slaves(x);
   const std::vector<double>& x0 = _halo->start()->x;
-  auto [xi0, gap0] = feet(x0, _start);
-  const auto [xi1, gap1] = feet(x, points);
+  auto [xi0, gap0] = projections(x0, _start);
+  const auto [xi1, gap1] = projections(x, points);
   std::vector<double> part(size());
   for (std::size_t i = 0; i < size(); ++i)
   {
@@ -353,7 +356,7 @@ void NodeToSurface::touch(std::span<const std::int8_t> which,
     for (int a = 0; a < 2; ++a)
       xi0[2 * i + a] += part[i] * (xi1[2 * i + a] - xi0[2 * i + a]);
   }
-  const auto [foot, normal] = places(x0, xi0);
+  const auto [foot, normal] = facet_points(x0, xi0);
   for (std::size_t i = 0; i < size(); ++i)
     if (which[i])
     {
@@ -570,8 +573,8 @@ std::int32_t NodeTie::search(std::span<const double> x,
   const std::int32_t changed = NodeToSurface::search(x, closed);
   const auto at = spread(*_halo, x, gdim());
   const std::vector<double> points = at_slaves(at);
-  auto [xi, gap] = feet(at, points);
-  auto [foot, normal] = places(at, xi);
+  auto [xi, gap] = projections(at, points);
+  auto [foot, normal] = facet_points(at, xi);
   _arm.resize(points.size());
   std::ranges::transform(points, foot, _arm.begin(), std::minus());
   _xi = std::move(xi);

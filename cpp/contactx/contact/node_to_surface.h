@@ -3,8 +3,8 @@
 
 #pragma once
 
-#include "../search/foot.h"
 #include "../search/pairing.h"
+#include "../search/projections.h"
 #include "../search/smooth_surface.h"
 #include "deformable_master.h"
 
@@ -24,7 +24,7 @@ public:
   NodeToSurface(std::shared_ptr<mesh::Halo> halo,
                 std::shared_ptr<const SlaveNodes> slaves,
                 std::shared_ptr<search::MasterSurface> surface,
-                std::shared_ptr<search::Outside> outside,
+                std::shared_ptr<search::InsideTest> outside,
                 const PairingOptions& options);
 
   void begin_step() override;
@@ -67,12 +67,12 @@ protected:
 
   /// @brief Projections of points, one a slave node, on the slave nodes'
   /// facets.
-  search::Feet feet(std::span<const double> x,
-                    std::span<const double> points) const;
+  search::Projections projections(std::span<const double> x,
+                                  std::span<const double> points) const;
 
   /// @brief Points at local coordinates of the slave nodes' facets.
-  search::Places places(std::span<const double> x,
-                        std::span<const double> xi) const;
+  search::FacetPoints facet_points(std::span<const double> x,
+                                   std::span<const double> xi) const;
 
   /// @brief kernel::Pairs of the last search.
   const search::Pairing& pairing() const { return _pairing; }

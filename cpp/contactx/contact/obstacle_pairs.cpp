@@ -135,23 +135,23 @@ void ObstacleMaster::update_slip(std::span<const double> at,
     const auto& turn = pairs[i].curvature;
     _slip[i] = {};
     auto& [slip, derivative] = _slip[i];
-    Vector<3> way{}, way_turns{};
+    Vector<3> movement{}, turned_back{};
     double height = 0;
     for (int k = 0; k < g; ++k)
     {
-      way[k] = at[g * i + k] - from[g * i + k];
-      height += normal[k] * way[k];
+      movement[k] = at[g * i + k] - from[g * i + k];
+      height += normal[k] * movement[k];
     }
     for (int k = 0; k < g; ++k)
       for (int j = 0; j < g; ++j)
-        way_turns[k] += way[j] * turn[g * j + k];
+        turned_back[k] += movement[j] * turn[g * j + k];
     for (int j = 0; j < g; ++j)
       for (int k = 0; k < g; ++k)
       {
         const double across = (j == k) - normal[j] * normal[k];
-        slip[j] += across * way[k];
+        slip[j] += across * movement[k];
         derivative[g * j + k]
-            = across - height * turn[g * j + k] - normal[j] * way_turns[k];
+            = across - height * turn[g * j + k] - normal[j] * turned_back[k];
       }
   }
 }
@@ -204,9 +204,9 @@ void ObstacleMaster::begin_step()
     _start = _x0;
 }
 
-bool ObstacleMaster::moves_untold(double tolerance) const
+bool ObstacleMaster::has_unknown_motion(double tolerance) const
 {
-  if (not _measures_slip or _obstacle->tells_movement())
+  if (not _measures_slip or _obstacle->knows_its_motion())
     return false;
   const std::vector<double> gap = _obstacle->evaluate(_x0, _gdim).gap;
   for (std::size_t i = 0; i < size(); ++i)

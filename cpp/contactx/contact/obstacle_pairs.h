@@ -50,7 +50,7 @@ public:
   /// @brief True if the obstacle has moved since the step's start and nothing
   /// tells how, so that slip cannot be measured on this rank.
   /// @param[in] tolerance Gap that counts as none.
-  bool moves_untold(double tolerance) const;
+  bool has_unknown_motion(double tolerance) const;
 
   void accept(std::span<const double> x) override;
   void begin_step() override;

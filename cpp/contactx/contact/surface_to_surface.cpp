@@ -40,7 +40,7 @@ std::vector<std::int32_t> nodes_of_both(const geometry::FacetList& slave,
 SurfaceToSurface::SurfaceToSurface(
     std::shared_ptr<mesh::Halo> halo, std::shared_ptr<const SlaveNodes> slaves,
     std::shared_ptr<search::MasterSurface> surface,
-    std::shared_ptr<search::Outside> outside, const PairingOptions& options)
+    std::shared_ptr<search::InsideTest> outside, const PairingOptions& options)
     : DeformableMaster(std::move(halo), std::move(slaves), std::move(surface),
                        std::move(outside), options),
       _sides(*_slaves, _halo->reference(), _halo->gdim()), _slip(_sides),
@@ -62,7 +62,7 @@ SurfaceToSurface::SurfaceToSurface(
     _smooth_master.emplace(*_halo, _surface->own());
     _slave_patches = _smooth_slave->of(*_halo, _slaves->facets());
   }
-  meet();
+  set_master_facets();
   _place.resize(_sides.size());
   for (std::int32_t f = _sides.num_slave_facets(); f-- > 0;)
     for (int s = _sides.width(); s-- > 0;)
@@ -74,7 +74,7 @@ SurfaceToSurface::SurfaceToSurface(
 }
 
 /// Takes the master facets that are known now; those before keep their numbers.
-void SurfaceToSurface::meet()
+void SurfaceToSurface::set_master_facets()
 {
   geometry::Facets ours = geometry::copied(_slaves->facets()),
                    theirs = geometry::copied(_surface->facets());
@@ -88,7 +88,7 @@ void SurfaceToSurface::meet()
     _halo->forward(std::span<std::int64_t>(every), 1);
     level.assign(every.begin(), every.end());
   }
-  _sides.meet(_surface->facets(), level);
+  _sides.set_master_facets(_surface->facets(), level);
   if (_smooth_master)
     _master_patches = _smooth_master->of(*_halo, _surface->facets());
 }
@@ -114,7 +114,7 @@ void SurfaceToSurface::pair(std::span<const double> x)
   {
     update();
     const double margin = _options.is_small ? 0.0 : margin_ahead;
-    look(now, margin);
+    update_facets(now, margin);
     update();
     _found = find(now, margin);
     _searched.clear();
@@ -130,19 +130,19 @@ void SurfaceToSurface::pair(std::span<const double> x)
     _paired[i] = _area[i] > (_paired[i] ? leave : enter) * _whole[i];
 }
 
-void SurfaceToSurface::look(std::span<const double> x, double margin)
+void SurfaceToSurface::update_facets(std::span<const double> x, double margin)
 {
   const int known = _surface->version();
-  _surface->look(x, _slaves->facets(), _options.reach, margin);
+  _surface->add_facets_within(x, _slaves->facets(), _options.reach, margin);
   if (_surface->version() != known)
-    meet();
+    set_master_facets();
 }
 
 /// Whether any rank finds a pair that it does not have.
 bool SurfaceToSurface::lacks(std::span<const double> x)
 {
   const int version = _halo->version();
-  look(x, 0.0);
+  update_facets(x, 0.0);
   const std::vector<double> now
       = _halo->updated({x.begin(), x.end()}, gdim(), version);
   const geometry::FacetPairs found = find(now, 0.0);
@@ -153,18 +153,18 @@ bool SurfaceToSurface::lacks(std::span<const double> x)
 bool SurfaceToSurface::has_moved(std::span<const double> x) const
 {
   const int g = gdim();
-  double way = 0;
+  double moved = 0;
   for (std::size_t i = 0; i < _nodes.size(); ++i)
     for (int k = 0; k < g; ++k)
     {
       const double d
           = std::abs(x[std::size_t(_nodes[i]) * g + k] - _searched[g * i + k]);
       // Not a number is far
-      way = std::isnan(d) ? std::numeric_limits<double>::infinity()
-                          : std::max(way, d);
+      moved = std::isnan(d) ? std::numeric_limits<double>::infinity()
+                            : std::max(moved, d);
     }
   // Both sides may have moved
-  return mesh::largest(_halo->ranks(), way) > 0.25 * margin_ahead * _inradius;
+  return mesh::largest(_halo->ranks(), moved) > 0.25 * margin_ahead * _inradius;
 }
 
 geometry::FacetPairs SurfaceToSurface::find(std::span<const double> x,
@@ -379,7 +379,7 @@ void SurfaceToSurface::rebuild()
   for (std::int32_t& f : _mortar.master)
     f = numbers[f];
   _slip.rename(numbers);
-  meet();
+  set_master_facets();
 }
 
 void SurfaceToSurface::nodes_changed() { _at = spread(*_halo, _at, gdim()); }
@@ -476,7 +476,7 @@ std::vector<double> SurfaceToSurface::along(std::span<const double> u) const
   if (not _smooth_slave)
     return {};
   const std::size_t g = gdim();
-  std::vector<double> apart = way(u);
+  std::vector<double> apart = separation(u);
   const std::vector<double> normal = normals();
   for (std::size_t i = 0; i < _sides.size(); ++i)
   {
@@ -495,7 +495,8 @@ Mortar SurfaceToSurface::of_slip(std::span<const double> x,
 {
   if (not _slaves->is_quadratic())
     return normalised();
-  return slip_weights(normalised(), _sides, way(u), normals(), x, gdim());
+  return slip_weights(normalised(), _sides, separation(u), normals(), x,
+                      gdim());
 }
 
 /// kernel::Pairs divided by the slave nodes' areas.
@@ -631,7 +632,7 @@ double SurfaceToSurface::distance(std::span<const double> x) const
 SurfaceTie::SurfaceTie(std::shared_ptr<mesh::Halo> halo,
                        std::shared_ptr<const SlaveNodes> slaves,
                        std::shared_ptr<search::MasterSurface> surface,
-                       std::shared_ptr<search::Outside> outside,
+                       std::shared_ptr<search::InsideTest> outside,
                        PairingOptions options)
     : SurfaceToSurface(std::move(halo), std::move(slaves), std::move(surface),
                        std::move(outside),

@@ -28,7 +28,7 @@ public:
   SurfaceToSurface(std::shared_ptr<mesh::Halo> halo,
                    std::shared_ptr<const SlaveNodes> slaves,
                    std::shared_ptr<search::MasterSurface> surface,
-                   std::shared_ptr<search::Outside> outside,
+                   std::shared_ptr<search::InsideTest> outside,
                    const PairingOptions& options);
   SurfaceToSurface(const SurfaceToSurface&) = delete;
   SurfaceToSurface& operator=(const SurfaceToSurface&) = delete;
@@ -95,9 +95,9 @@ protected:
   }
 
 private:
-  void meet();
+  void set_master_facets();
   void pair(std::span<const double> x);
-  void look(std::span<const double> x, double margin);
+  void update_facets(std::span<const double> x, double margin);
   bool lacks(std::span<const double> x);
   bool has_moved(std::span<const double> x) const;
   geometry::FacetPairs find(std::span<const double> x, double margin);
@@ -154,7 +154,8 @@ public:
   SurfaceTie(std::shared_ptr<mesh::Halo> halo,
              std::shared_ptr<const SlaveNodes> slaves,
              std::shared_ptr<search::MasterSurface> surface,
-             std::shared_ptr<search::Outside> outside, PairingOptions options);
+             std::shared_ptr<search::InsideTest> outside,
+             PairingOptions options);
 
   /// @brief Only the first search counts.
   std::int32_t search(std::span<const double> x,

@@ -33,9 +33,9 @@ struct SlavePart
 /// Add int M_t rise of a pair of smooth patches.
 template <class S, class M>
 void add_rise(const SlavePart<S>& slave, const Nodes<S>& own,
-              const SmoothFacet& slave_patch,
-              const Nodes<M>& master, const Nodes<M>& other,
-              const SmoothFacet& master_patch, double* rise)
+              const SmoothFacet& slave_patch, const Nodes<M>& master,
+              const Nodes<M>& other, const SmoothFacet& master_patch,
+              double* rise)
 {
   integrate<S, M>(
       slave.projected, master,
@@ -53,8 +53,8 @@ void add_rise(const SlavePart<S>& slave, const Nodes<S>& own,
 /// Add int M_t N_l and int M_t gap of a pair, and int M_t.
 template <class S, class M>
 void add_pair(const SlavePart<S>& slave, const Nodes<M>& xm,
-              const Places<M>& places, int width, Cover<S>& cover,
-              double* area, double* weight, double* gap)
+              const Places<M>& places, int width, Cover<S>& cover, double* area,
+              double* weight, double* gap)
 {
   Vector<M::nodes> high;
   for (int l = 0; l < M::nodes; ++l)
@@ -62,8 +62,8 @@ void add_pair(const SlavePart<S>& slave, const Nodes<M>& xm,
   integrate<S, M>(slave.projected, geometry::part_of<M>(xm, places),
                   [&](const auto& s, const auto& m, double w)
                   {
-                    const auto basis = Basis<S>::functions(
-                        trace<S>(s, slave.places));
+                    const auto basis
+                        = Basis<S>::functions(trace<S>(s, slave.places));
                     const auto N = trace<M>(m, places);
                     const double g = dot(N, high) - dot(basis, slave.height);
                     cover.total += w;
@@ -91,9 +91,8 @@ double facet_area(const Nodes<S>& x)
 /// master unless it is zero, or along that of the facet.
 template <class S>
 ProjectionPlane<Part<S>>
-plane_of(const Nodes<Part<S>>& part,
-         const Nodes<S>& whole, std::span<const std::int32_t> parts,
-         std::span<const double> normal)
+plane_of(const Nodes<Part<S>>& part, const Nodes<S>& whole,
+         std::span<const std::int32_t> parts, std::span<const double> normal)
 {
   Vector<S::gdim> n{};
   if (not normal.empty())
@@ -124,11 +123,11 @@ void combine_rows(const Square<S::nodes>& dual, double* rows, int width,
 }
 
 template <class F>
-Places<F> places_of(const Wholes& wholes, std::int32_t part)
+Places<F> places_of(const QuadraticFacets& parents, std::int32_t part)
 {
   Places<F> places;
   for (int j = 0; j < Part<F>::nodes; ++j)
-    places[j] = wholes.places[4 * std::size_t(part) + j];
+    places[j] = parents.places[4 * std::size_t(part) + j];
   return places;
 }
 
@@ -149,9 +148,9 @@ void integrate_whole(const Given& given, std::span<const std::int32_t> parts,
                      std::span<const std::size_t> begin, Integrals& all)
 {
   using P = Part<S>;
-  const Wholes& wholes = *given.slave.wholes;
+  const QuadraticFacets& parents = *given.slave.parents;
   const std::size_t n = all.width;
-  const auto w = geometry::gather<S>(wholes.of(parts[0]), given.x);
+  const auto w = geometry::gather<S>(parents.of(parts[0]), given.x);
   Cover<S> cover;
   double whole = 0;
   for (const std::int32_t f : parts)
@@ -169,21 +168,20 @@ void integrate_whole(const Given& given, std::span<const std::int32_t> parts,
     whole += mean * facet_area<P>(X);
     if (begin[f] == begin[f + 1])
       continue;
-    SlavePart<S> part{places_of<S>(wholes, f),
+    SlavePart<S> part{places_of<S>(parents, f),
                       {plane_of<S>(xs, w, parts, given.normal), xs, X, factor},
                       {}};
     Vector<S::nodes> height;
     for (int t = 0; t < S::nodes; ++t)
       height[t] = part.projected.plane.height(w[t]);
     for (int t = 0; t < S::nodes; ++t)
-      part.height[t]
-          = Basis<S>::template coefficient<double>(t, height);
+      part.height[t] = Basis<S>::template coefficient<double>(t, height);
     for (int k = 0; k < given.gdim; ++k)
       all.normal[3 * f + k] = -part.projected.plane.n[k];
     for (std::size_t i = begin[f]; i < begin[f + 1]; ++i)
     {
       const std::int32_t m = given.pairs.master[i];
-      const auto others = given.master.wholes->of(m);
+      const auto others = given.master.parents->of(m);
       geometry::visit_whole(
           S::gdim, static_cast<int>(others.size()),
           [&]<class M>(M)
@@ -191,7 +189,7 @@ void integrate_whole(const Given& given, std::span<const std::int32_t> parts,
             if constexpr (M::gdim == S::gdim
                           and geometry::is_linear<M> == geometry::is_linear<S>)
               add_pair<S, M>(part, geometry::gather<M>(others, given.x),
-                             places_of<M>(*given.master.wholes, m),
+                             places_of<M>(*given.master.parents, m),
                              static_cast<int>(n), cover, &all.area[n * f],
                              &all.weight[i * n * n], &all.gap[i * n]);
             if constexpr (M::gdim == S::gdim
@@ -238,9 +236,9 @@ Integrals contactx::geometry::integrals(
     std::span<const double> x, std::span<const double> reference, int gdim,
     std::span<const double> normal, std::span<const double> weight)
 {
-  const Wholes& wholes = *slave.wholes;
+  const QuadraticFacets& parents = *slave.parents;
   Integrals all;
-  all.width = std::max(wholes.width, master.wholes->width);
+  all.width = std::max(parents.width, master.parents->width);
   const std::size_t n = all.width, count = slave.facets.size();
   all.weight.assign(pairs.size() * n * n, 0);
   all.gap.assign(pairs.size() * n, 0);
@@ -254,29 +252,28 @@ Integrals contactx::geometry::integrals(
     ++begin[f + 1];
   std::partial_sum(begin.begin(), begin.end(), begin.begin());
   const Given given{slave, master, pairs, x, reference, gdim, normal, weight};
-  for (std::int32_t k = 0; k < wholes.size(); ++k)
+  for (std::int32_t k = 0; k < parents.size(); ++k)
   {
     const std::span parts
-        = std::span(wholes.parts)
-              .subspan(wholes.offsets[k],
-                       wholes.offsets[k + 1] - wholes.offsets[k]);
+        = std::span(parents.parts)
+              .subspan(parents.offsets[k],
+                       parents.offsets[k + 1] - parents.offsets[k]);
     if (std::ranges::all_of(parts, [&begin](std::int32_t f)
                             { return begin[f] == begin[f + 1]; }))
       continue;
-    geometry::visit_whole(gdim, wholes.sizes[parts[0]], [&]<class S>(S)
+    geometry::visit_whole(gdim, parents.sizes[parts[0]], [&]<class S>(S)
                           { integrate_whole<S>(given, parts, begin, all); });
   }
   return all;
 }
 
 Integrals contactx::geometry::integrals(
-    const FacetList& slave, const FacetList& master,
-    const FacetPairs& pairs, std::span<const double> x,
-    std::span<const double> reference, int gdim, std::span<const double> normal,
-    std::span<const double> weight)
+    const FacetList& slave, const FacetList& master, const FacetPairs& pairs,
+    std::span<const double> x, std::span<const double> reference, int gdim,
+    std::span<const double> normal, std::span<const double> weight)
 {
-  const Wholes ours = geometry::wholes(slave, {});
-  const Wholes theirs = geometry::wholes(master, {});
+  const QuadraticFacets ours = geometry::quadratic_facets(slave, {});
+  const QuadraticFacets theirs = geometry::quadratic_facets(master, {});
   return integrals({slave, &ours}, {master, &theirs}, pairs, x, reference, gdim,
                    normal, weight);
 }

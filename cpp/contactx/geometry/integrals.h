@@ -4,8 +4,8 @@
 #pragma once
 
 #include "../math/vec.h"
+#include "quadratic_facets.h"
 #include "smooth.h"
-#include "wholes.h"
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -61,8 +61,8 @@ inline constexpr double least_cover = 1e-3;
 /// @brief Facets of one side: linear ones, and those that they are parts of.
 struct Side
 {
-  FacetList facets;     ///< facets that are paired
-  const Wholes* wholes; ///< whole facets that they are parts of
+  FacetList facets;               ///< facets that are paired
+  const QuadraticFacets* parents; ///< whole facets that they are parts of
   /// Smooth patches that linear facets stand for; empty for none
   std::span<const SmoothFacet> smooth = {};
 };
@@ -88,9 +88,8 @@ Integrals integrals(const Side& slave, const Side& master,
                     std::span<const double> weight = {});
 
 /// @brief Integrals over pairs of linear facets.
-Integrals integrals(const FacetList& slave,
-                    const FacetList& master, const FacetPairs& pairs,
-                    std::span<const double> x,
+Integrals integrals(const FacetList& slave, const FacetList& master,
+                    const FacetPairs& pairs, std::span<const double> x,
                     std::span<const double> reference, int gdim,
                     std::span<const double> normal = {},
                     std::span<const double> weight = {});

@@ -14,8 +14,8 @@ struct Shape
 {
   Vector<F::nodes> N;                          ///< shape functions
   std::array<Vector<F::nodes>, F::tdim> slope; ///< by the plane's coordinates
-  double jacobian;       ///< of the plane's coordinates by the local ones
-  Local<F> xi; ///< local coordinates
+  double jacobian; ///< of the plane's coordinates by the local ones
+  Local<F> xi;     ///< local coordinates
 };
 
 /// @brief Inverse of the map from local coordinates to a plane: affine, or

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "level_set.h"
-#include "shape.h"
 #include "meeting.h"
 #include "parameters.h"
+#include "shape.h"
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -104,7 +104,7 @@ std::optional<Meeting> axis(const Faces& faces, std::size_t nearest,
 /// means of the normals.
 double part(const Meeting& cone, int i)
 {
-  return cone.share[i] / dot(cone.way, cone.way);
+  return cone.share[i] / dot(cone.offset, cone.offset);
 }
 
 /// A body of several faces is convex: from outside its nearest point is that of
@@ -127,15 +127,15 @@ Nearest nearest(const Faces& faces, double width, int gdim)
     const std::size_t face = found->plane[0];
     if (found->count == 1)
       return {distance[face], faces.normal[face], face};
-    const double way = norm(found->way);
-    return {way, (1 / way) * found->way, face, found};
+    const double offset = norm(found->offset);
+    return {offset, (1 / offset) * found->offset, face, found};
   }
   if (const auto cone = axis(faces, first, width, gdim))
   {
     double gap = 0;
     for (int i = 0; i < cone->count; ++i)
       gap += part(*cone, i) * distance[cone->plane[i]];
-    return {gap, (1 / norm(cone->way)) * cone->way, first, cone, true};
+    return {gap, (1 / norm(cone->offset)) * cone->offset, first, cone, true};
   }
   return {distance[first], faces.normal[first], first};
 }
@@ -189,24 +189,24 @@ Turn turn_of_face(const Nearest& at, const Matrix3& H)
 /// (c_i' - N_i^T d).
 /// @param[in] N Derivatives of the planes' normals.
 /// @param[in] distance Derivatives of the distances.
-Matrix3 way_turns(const Meeting& at, std::span<const Vector<3>> normal,
-                  std::span<const Matrix3> N,
-                  std::span<const Vector<3>> distance)
+Matrix3 offset_turns(const Meeting& at, std::span<const Vector<3>> normal,
+                     std::span<const Matrix3> N,
+                     std::span<const Vector<3>> distance)
 {
   Matrix3 S{};
   for (int i = 0; i < at.count; ++i)
     for (int j = 0; j < 3; ++j)
       S[j] = S[j] + at.share[i] * N[i][j];
-  Matrix3 way = S;
+  Matrix3 offset = S;
   for (int i = 0; i < at.count; ++i)
   {
     Vector<3> along = distance[i];
     for (int j = 0; j < 3; ++j)
-      along = along - at.way[j] * N[i][j] - normal[at.plane[i]][j] * S[j];
+      along = along - at.offset[j] * N[i][j] - normal[at.plane[i]][j] * S[j];
     for (int j = 0; j < 3; ++j)
-      way[j] = way[j] + at.dual[i][j] * along;
+      offset[j] = offset[j] + at.dual[i][j] * along;
   }
-  return way;
+  return offset;
 }
 
 /// Derivative of a vector's direction from that of the vector.
@@ -236,8 +236,8 @@ Turn turn_of_axis(const Nearest& at, std::span<const Matrix3> H,
                 * (n - faces.distance[cone.plane[i]] * times(H[i], n));
   }
   const std::array<Vector<3>, 3> none{};
-  turn.curvature = direction_turns(way_turns(cone, faces.normal, N, none),
-                                   at.normal, norm(cone.way));
+  turn.curvature = direction_turns(offset_turns(cone, faces.normal, N, none),
+                                   at.normal, norm(cone.offset));
   return turn;
 }
 
@@ -250,10 +250,10 @@ Turn turn_of_ridge(const Nearest& at, std::span<const Matrix3> H,
   std::array<Vector<3>, 3> distance{};
   for (int i = 0; i < ridge.count; ++i)
     distance[i] = faces.normal[ridge.plane[i]];
-  const Matrix3 way = way_turns(ridge, faces.normal, H, distance);
-  Turn turn{{}, direction_turns(way, at.normal, at.gap)};
+  const Matrix3 offset = offset_turns(ridge, faces.normal, H, distance);
+  Turn turn{{}, direction_turns(offset, at.normal, at.gap)};
   for (int j = 0; j < 3; ++j)
-    turn.gradient = turn.gradient + at.normal[j] * way[j];
+    turn.gradient = turn.gradient + at.normal[j] * offset[j];
   return turn;
 }
 } // namespace

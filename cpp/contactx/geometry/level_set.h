@@ -81,7 +81,7 @@ public:
   /// @copydoc Obstacle::level; the function itself
   std::vector<double> level(std::span<const double> x, int gdim) override;
 
-  bool tells_movement() const override { return _velocity.has_value(); }
+  bool knows_its_motion() const override { return _velocity.has_value(); }
   std::vector<double> parameters(int gdim) override;
   std::string name() const override { return "LevelSet"; }
   std::string usual_mistake() const override;

@@ -48,17 +48,17 @@ bool is_nearest(Planes normal, std::span<const double> distance, double small,
 {
   if (not set_dual(normal, at))
     return false;
-  at.way = {};
+  at.offset = {};
   for (int i = 0; i < at.count; ++i)
-    at.way = at.way + distance[at.plane[i]] * at.dual[i];
+    at.offset = at.offset + distance[at.plane[i]] * at.dual[i];
   for (int i = 0; i < at.count; ++i)
   {
-    at.share[i] = dot(at.dual[i], at.way);
+    at.share[i] = dot(at.dual[i], at.offset);
     if (at.share[i] < -small)
       return false;
   }
   for (std::size_t i = 0; i < normal.size(); ++i)
-    if (dot(normal[i], at.way) < distance[i] - small)
+    if (dot(normal[i], at.offset) < distance[i] - small)
       return false;
   return true;
 }
@@ -72,7 +72,7 @@ void add_touching(Planes normal, std::span<const double> distance, double small,
   {
     const auto end = at.plane.begin() + at.count;
     if (std::find(at.plane.begin(), end, i) != end
-        or dot(normal[i], at.way) > distance[i] + small)
+        or dot(normal[i], at.offset) > distance[i] + small)
       continue;
     Meeting more = at;
     more.plane[more.count++] = i;

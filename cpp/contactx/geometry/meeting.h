@@ -15,10 +15,10 @@ struct Meeting
 {
   int count = 0;              ///< number of planes that meet there, 1 to gdim
   std::array<int, 3> plane{}; ///< which ones
-  std::array<double, 3> share{}; ///< the way is their normals times these
+  std::array<double, 3> share{}; ///< the offset is their normals times these
   /// Along the i-th one only the distance from the i-th plane changes
   std::array<Vector<3>, 3> dual{};
-  Vector<3> way{}; ///< from the nearest point to the point outside
+  Vector<3> offset{}; ///< from the nearest point to the point outside
 };
 
 /// @brief Nearest point of what half-spaces have in common.

@@ -114,7 +114,7 @@ public:
   virtual std::vector<double> level(std::span<const double> x, int gdim);
 
   /// @brief True if `placement` says how its material moves.
-  virtual bool tells_movement() const { return true; }
+  virtual bool knows_its_motion() const { return true; }
 
   /// @brief Current values of what moves it although `placement` does not tell.
   virtual std::vector<double> parameters(int /*gdim*/) { return {}; }

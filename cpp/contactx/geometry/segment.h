@@ -28,8 +28,7 @@ struct SlaveFacet
   /// @param[in] reference Its nodes in the reference configuration.
   /// @param[in] weight Weight of the integrals, at its nodes.
   SlaveFacet(const ProjectionPlane<S>& plane, const Nodes<S>& x,
-             const Nodes<S>& reference,
-             const Vector<S::nodes>& weight = ones())
+             const Nodes<S>& reference, const Vector<S::nodes>& weight = ones())
       : reference(reference), plane(plane), map(project<S>(plane, x)),
         shape(outline<S>(project<S>(plane, x))), weight(weight),
         is_weighted(weight != ones())
@@ -118,8 +117,8 @@ int rule_degree(double distortion, bool is_weighted = false)
 /// function of each facet.
 template <class SlaveWhole, class MasterWhole, class Function>
 void integrate(const SlaveFacet<Part<SlaveWhole>>& slave,
-               const Nodes<Part<MasterWhole>>& master,
-               Function&& f, int more = 0)
+               const Nodes<Part<MasterWhole>>& master, Function&& f,
+               int more = 0)
 {
   using S = Part<SlaveWhole>;
   using M = Part<MasterWhole>;
@@ -187,9 +186,8 @@ decltype(auto) visit(int slave_nodes, int master_nodes, Function&& f)
                            if constexpr (S::tdim == 1)
                              return f(s, Segment{});
                            else
-                             return master_nodes == 3
-                                        ? f(s, Triangle{})
-                                        : f(s, Quadrilateral{});
+                             return master_nodes == 3 ? f(s, Triangle{})
+                                                      : f(s, Quadrilateral{});
                          });
 }
 } // namespace contactx::geometry

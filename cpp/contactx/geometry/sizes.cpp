@@ -40,10 +40,10 @@ contactx::geometry::facet_turns(const FacetList& facets,
     for (std::size_t i = 0; i < nodes.size(); ++i)
       for (std::size_t j = 0; j < i; ++j)
       {
-        const double way = distance(x, nodes[i], nodes[j], gdim);
-        if (way > 0)
-          turn[f] = std::max(turn[f],
-                             distance(normal, nodes[i], nodes[j], gdim) / way);
+        const double length = distance(x, nodes[i], nodes[j], gdim);
+        if (length > 0)
+          turn[f] = std::max(turn[f], distance(normal, nodes[i], nodes[j], gdim)
+                                          / length);
       }
   }
   return turn;
@@ -62,9 +62,9 @@ contactx::geometry::nodal_curvatures(const FacetList& facets,
   return curvature;
 }
 
-std::vector<double>
-contactx::geometry::facet_sizes(const FacetList& facets,
-                                std::span<const double> x, int gdim)
+std::vector<double> contactx::geometry::facet_sizes(const FacetList& facets,
+                                                    std::span<const double> x,
+                                                    int gdim)
 {
   std::vector<double> size(facets.size(), 0);
   for (std::int32_t f = 0; f < facets.size(); ++f)

@@ -275,9 +275,9 @@ private:
     LeastSquares fit(across == 1 ? 2 : most_unknowns);
     for (const std::int32_t other : sheet.others)
     {
-      const Vector<3> way = (1 / size) * (vector_at(_x, other, _gdim) - point);
-      const double far = norm(way), height = dot(way, mean);
-      const double s = dot(way, first), t = dot(way, second);
+      const Vector<3> edge = (1 / size) * (vector_at(_x, other, _gdim) - point);
+      const double far = norm(edge), height = dot(edge, mean);
+      const double s = dot(edge, first), t = dot(edge, second);
       // Slopes, then curvatures: weighted, so that near nodes tell more
       const Row row = across == 1 ? Row{s, 0.5 * s * s}
                                   : Row{s, t, 0.5 * s * s, s * t, 0.5 * t * t};

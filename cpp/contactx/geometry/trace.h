@@ -59,9 +59,8 @@ struct FacetNormal
 /// @param[in] part Nodes of the part.
 /// @param[in] normal Normal of the facet.
 template <class S>
-ProjectionPlane<Part<S>>
-part_plane(const Nodes<Part<S>>& part,
-           const Vector<S::gdim>& normal)
+ProjectionPlane<Part<S>> part_plane(const Nodes<Part<S>>& part,
+                                    const Vector<S::gdim>& normal)
 {
   if constexpr (geometry::is_linear<S>)
     return ProjectionPlane<S>(part);
@@ -73,8 +72,7 @@ part_plane(const Nodes<Part<S>>& part,
 /// @param[in] s Those of the part there.
 /// @param[in] places Places of the part's nodes.
 template <class F>
-Vector<F::nodes> trace(const Shape<Part<F>>& s,
-                       const Places<F>& places)
+Vector<F::nodes> trace(const Shape<Part<F>>& s, const Places<F>& places)
 {
   if constexpr (geometry::is_linear<F>)
     return s.N;
@@ -91,9 +89,8 @@ Vector<F::nodes> trace(const Shape<Part<F>>& s,
 /// @param[in] s Shape functions of the part there.
 /// @param[in] places Places of the part's nodes.
 template <class F>
-std::array<Vector<F::nodes>, F::tdim>
-trace_slope(const Shape<Part<F>>& s,
-            const Places<F>& places)
+std::array<Vector<F::nodes>, F::tdim> trace_slope(const Shape<Part<F>>& s,
+                                                  const Places<F>& places)
 {
   if constexpr (geometry::is_linear<F>)
     return s.slope;

@@ -74,9 +74,8 @@ using UsePair = std::function<void(std::span<const std::int32_t>,
 /// @param[in] use Called for each pair.
 /// @throws std::invalid_argument If arguments do not fit.
 void for_each_pair(Law law, std::string_view sliding, std::string_view term,
-                   const Pairs& pairs, const NodalArrays& arrays,
-                   int gdim, std::span<const std::int8_t> which,
-                   const UsePair& use);
+                   const Pairs& pairs, const NodalArrays& arrays, int gdim,
+                   std::span<const std::int8_t> which, const UsePair& use);
 
 /// @brief Assemble a matrix term of pairs.
 ///

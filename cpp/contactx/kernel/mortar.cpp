@@ -171,10 +171,10 @@ void constraint(double* A, const double* w, const double*, const double*,
     if constexpr (not geometry::is_linear<S>)
       for (int s = 0; s < S::nodes; ++s)
       {
-        const auto way = k.pair.distance(s);
+        const auto separation = k.pair.distance(s);
         for (int q = 0; q < gdim; ++q)
           for (int col = 0; col < n; ++col)
-            dg[s][col] += way[q] * dn[q][col];
+            dg[s][col] += separation[q] * dn[q][col];
       }
   }
   for (int s = 0; s < S::nodes; ++s)

@@ -203,7 +203,7 @@ private:
   static Local& at(Factors& f, int j) { return j < 0 ? f.c : f.r[j]; }
 
   static geometry::ProjectionPlane<P> plane_of(const MortarPair<S, M>& pair,
-                                     const Vector<gdim>& normal)
+                                               const Vector<gdim>& normal)
   {
     if (pair.keeps_normal())
       return {pair.slave_part(), -1. * pair.template normal<false>()};

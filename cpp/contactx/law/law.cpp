@@ -52,8 +52,8 @@ double edge(const NodeState& nodes, std::size_t i, double bound, double highest)
   double moved = 0;
   for (std::size_t k = gdim * i; k < gdim * (i + 1); ++k)
     moved += nodes.slip[k] * nodes.slip[k];
-  const bool is_still
-      = nodes.along * nodes.c[i] * std::sqrt(moved) <= edge_of_cone * bound;
+  const bool is_still = nodes.tangential_ratio * nodes.c[i] * std::sqrt(moved)
+                        <= edge_of_cone * bound;
   const double left = (is_still ? left_by_step : left_by_solve) * highest;
   const double pressure = nodes.pressure(i);
   return pressure > 0 ? std::min(edge_of_cone + left / pressure, 0.5) : 0.5;
@@ -63,7 +63,7 @@ double edge(const NodeState& nodes, std::size_t i, double bound, double highest)
 bool exceeds(const NodeState& nodes, std::size_t i, double bound)
 {
   const std::size_t gdim = nodes.gdim();
-  const double p = nodes.pressure(i), c = nodes.along * nodes.c[i];
+  const double p = nodes.pressure(i), c = nodes.tangential_ratio * nodes.c[i];
   double size = 0;
   for (std::size_t k = gdim * i; k < gdim * (i + 1); ++k)
   {
@@ -111,11 +111,11 @@ std::int32_t Frictionless::set_status(NodeState& nodes, mesh::Ranks&) const
 void Frictionless::evaluate(NodeState& nodes) const
 {
   check_multipliers(*this, nodes);
-  if (not(nodes.softness >= 0))
+  if (not(nodes.layer_compliance >= 0))
     throw std::invalid_argument("softness must not be negative");
-  normal_complementarity({nodes.multiplier, nodes.gap, nodes.c, nodes.softness},
-                         nodes.area, nodes.status, nodes.value,
-                         nodes.by_multiplier, nodes.by_gap);
+  normal_complementarity(
+      {nodes.multiplier, nodes.gap, nodes.c, nodes.layer_compliance},
+      nodes.area, nodes.status, nodes.value, nodes.by_multiplier, nodes.by_gap);
 }
 
 void Coulomb::begin_step() { _reach = _usual_reach; }
@@ -144,7 +144,7 @@ void Coulomb::set_friction(std::span<const double> friction)
 Bounds Coulomb::bounds(const NodeState& nodes,
                        std::span<const double> pressure) const
 {
-  const std::size_t n = nodes.smooth.size();
+  const std::size_t n = nodes.frictionless.size();
   Bounds found;
   if (_bound)
   {
@@ -192,7 +192,7 @@ Bounds Coulomb::bounds(const NodeState& nodes,
       found.bound[i] = _friction[i] * pressure[i];
   }
   for (std::size_t i = 0; i < n; ++i)
-    if (nodes.smooth[i])
+    if (nodes.frictionless[i])
       found.bound[i] = found.by_pressure[i] = found.by_slip[i] = 0;
   return found;
 }
@@ -202,14 +202,14 @@ std::vector<double> Coulomb::friction(const NodeState& nodes) const
   return bounds(nodes, pressures(nodes)).by_pressure;
 }
 
-std::vector<std::int8_t> Coulomb::rubs(const NodeState& nodes) const
+std::vector<std::int8_t> Coulomb::has_friction(const NodeState& nodes) const
 {
   const std::vector<double> p = pressures(nodes);
   const Bounds found = bounds(nodes, p);
-  std::vector<std::int8_t> rubs(p.size());
-  for (std::size_t i = 0; i < rubs.size(); ++i)
-    rubs[i] = p[i] > 0 and found.bound[i] > 0;
-  return rubs;
+  std::vector<std::int8_t> result(p.size());
+  for (std::size_t i = 0; i < result.size(); ++i)
+    result[i] = p[i] > 0 and found.bound[i] > 0;
+  return result;
 }
 
 std::int32_t Coulomb::set_status(NodeState& nodes, mesh::Ranks& ranks) const
@@ -241,7 +241,7 @@ std::int32_t Coulomb::set_status(NodeState& nodes, mesh::Ranks& ranks) const
                      found.by_pressure,
                      found.bound,
                      {},
-                     nodes.along},
+                     nodes.tangential_ratio},
                     _reach, nodes.status);
   std::int32_t changed = 0;
   for (std::size_t i = 0; i < before.size(); ++i)
@@ -249,16 +249,16 @@ std::int32_t Coulomb::set_status(NodeState& nodes, mesh::Ranks& ranks) const
     std::int8_t& now = nodes.status[i];
     if (before[i] == open and now == slip and found.bound[i] > 0)
     {
-      if (nodes.closings[i] % 4 == 3)
+      if (nodes.slip_closings[i] % 4 == 3)
         now = stick;
-      ++nodes.closings[i];
+      ++nodes.slip_closings[i];
     }
     else if (before[i] == slip and now == stick
              and exceeds(nodes, i, found.bound[i]))
     {
-      if (nodes.turns[i] % 2 == 1)
+      if (nodes.slip_reversals[i] % 2 == 1)
         now = slip;
-      ++nodes.turns[i];
+      ++nodes.slip_reversals[i];
     }
     changed += now != before[i];
   }
@@ -269,12 +269,13 @@ void Coulomb::evaluate(NodeState& nodes) const
 {
   check_multipliers(*this, nodes);
   const Bounds found = bounds(nodes, pressures_hat(nodes));
-  frictional_complementarity(
-      {nodes.gdim(), nodes.multiplier, nodes.gap, nodes.normal, nodes.slip,
-       nodes.c, found.by_pressure, found.bound, found.by_slip, nodes.along},
-      nodes.area, nodes.status, nodes.mobile,
-      {nodes.value, nodes.by_multiplier, nodes.by_gap, nodes.by_slip,
-       nodes.by_normal});
+  frictional_complementarity({nodes.gdim(), nodes.multiplier, nodes.gap,
+                              nodes.normal, nodes.slip, nodes.c,
+                              found.by_pressure, found.bound, found.by_slip,
+                              nodes.tangential_ratio},
+                             nodes.area, nodes.status, nodes.mobile,
+                             {nodes.value, nodes.by_multiplier, nodes.by_gap,
+                              nodes.by_slip, nodes.by_normal});
   if (nodes.mean)
     nodes.mean->chain(nodes.normal, nodes.by_slip, nodes.by_normal);
 }
@@ -286,7 +287,7 @@ std::int32_t Tied::set_status(NodeState& nodes, mesh::Ranks&) const
   for (std::size_t i = 0; i < nodes.status.size(); ++i)
   {
     const std::int8_t now
-        = std::isnan(nodes.gap[i]) or nodes.ceded[i] ? open : stick;
+        = std::isnan(nodes.gap[i]) or nodes.redundant[i] ? open : stick;
     changed += now != nodes.status[i];
     nodes.status[i] = now;
   }

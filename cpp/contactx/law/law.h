@@ -42,8 +42,8 @@ public:
   /// @param[in] ranks The ranks, all of which take part.
   /// @return Number of this rank's nodes that changed.
   /// @throws std::invalid_argument if the multipliers are not those of the law.
-  virtual std::int32_t set_status(NodeState& nodes,
-                                  mesh::Ranks& ranks) const = 0;
+  virtual std::int32_t set_status(NodeState& nodes, mesh::Ranks& ranks) const
+      = 0;
 
   /// @brief Compute the complementarity function and its derivatives for the
   /// status.
@@ -62,8 +62,7 @@ class Frictionless final : public Law
 public:
   std::string_view name() const override { return "frictionless"; }
   bool is_vector() const override { return false; }
-  std::int32_t set_status(NodeState& nodes,
-                          mesh::Ranks& ranks) const override;
+  std::int32_t set_status(NodeState& nodes, mesh::Ranks& ranks) const override;
   void evaluate(NodeState& nodes) const override;
 };
 
@@ -124,7 +123,7 @@ public:
   /// (shape=(n)).
   /// @param[in] nodes Slave nodes.
   /// @throws std::invalid_argument as above.
-  std::vector<std::int8_t> rubs(const NodeState& nodes) const;
+  std::vector<std::int8_t> has_friction(const NodeState& nodes) const;
 
   bool may_throw() const override { return bool(_bound); }
 
@@ -134,13 +133,11 @@ public:
   /// and again with slip, which pulls it off, sticks every fourth time. Slip
   /// that turns back sticks first; where that has been tried it turns: a node
   /// that opens only on the way back would stick and slip for ever.
-  std::int32_t set_status(NodeState& nodes,
-                          mesh::Ranks& ranks) const override;
+  std::int32_t set_status(NodeState& nodes, mesh::Ranks& ranks) const override;
   void evaluate(NodeState& nodes) const override;
 
 private:
-  Bounds bounds(const NodeState& nodes,
-                std::span<const double> pressure) const;
+  Bounds bounds(const NodeState& nodes, std::span<const double> pressure) const;
 
   // Trial friction over its bound up to which slip that turns back sticks
   // first. Measured: 3 to 100 differ by little, without a limit it is twice
@@ -162,8 +159,7 @@ class Tied final : public Law
 public:
   std::string_view name() const override { return "tied"; }
   bool is_tied() const override { return true; }
-  std::int32_t set_status(NodeState& nodes,
-                          mesh::Ranks& ranks) const override;
+  std::int32_t set_status(NodeState& nodes, mesh::Ranks& ranks) const override;
   void evaluate(NodeState& nodes) const override;
 };
 } // namespace contactx::law

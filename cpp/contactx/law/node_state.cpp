@@ -39,10 +39,10 @@ NodeState::NodeState(std::int32_t num_nodes, int gdim, bool is_vector,
   c.assign(n, 1.0);
   immobile.assign(n, 0);
   mobile.assign(rows * gdim, 1.0);
-  ceded.assign(n, 0);
-  smooth.assign(n, 0);
-  turns.assign(n, 0);
-  closings.assign(n, 0);
+  redundant.assign(n, 0);
+  frictionless.assign(n, 0);
+  slip_reversals.assign(n, 0);
+  slip_closings.assign(n, 0);
   value.assign(n * _size, 0.0);
   by_multiplier.assign(n * _size * _size, 0.0);
   by_gap.assign(n * _size, 0.0);
@@ -87,7 +87,7 @@ void NodeState::close(std::span<const std::int32_t> nodes)
 {
   check::numbers(nodes, _num_nodes, "nodes", "slave nodes");
   for (std::int32_t i : nodes)
-    status[i] = is_vector() and not smooth[i] ? law::stick : law::slip;
+    status[i] = is_vector() and not frictionless[i] ? law::stick : law::slip;
 }
 
 void NodeState::drop_open()

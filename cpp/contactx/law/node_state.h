@@ -72,19 +72,19 @@ public:
   std::vector<double> mobile;
   /// 1 where a node leaves this contact to another one that it closes
   /// (shape=(n))
-  std::vector<std::int8_t> ceded;
+  std::vector<std::int8_t> redundant;
   /// 1 where friction is left out because a node closes several contacts
   /// (shape=(n))
-  std::vector<std::int8_t> smooth;
+  std::vector<std::int8_t> frictionless;
   /// How often slip has turned back in this step (shape=(n))
-  std::vector<std::int32_t> turns;
+  std::vector<std::int32_t> slip_reversals;
   /// How often nodes have closed with slip in this step (shape=(n))
-  std::vector<std::int32_t> closings;
+  std::vector<std::int32_t> slip_closings;
   /// Compliance of a layer between the surfaces, over 1 / c; zero but on a soft
   /// path
-  double softness = 0;
+  double layer_compliance = 0;
   /// Complementarity factor along the surface, as a part of c
-  double along = 1;
+  double tangential_ratio = 1;
 
   /// Complementarity function, a force (shape=(n, size))
   std::vector<double> value;
@@ -106,16 +106,17 @@ public:
 
   /// @brief True if a node is in contact, or would be if another condition let
   /// it.
-  bool held(std::size_t i) const
+  bool is_constrained(std::size_t i) const
   {
-    return closed(i) or immobile[i] or ceded[i];
+    return closed(i) or immobile[i] or redundant[i];
   }
 
   /// @brief Gap of a node, NaN where it cannot close.
   double closable_gap(std::size_t i) const
   {
-    return immobile[i] or ceded[i] ? std::numeric_limits<double>::quiet_NaN()
-                                   : gap[i];
+    return immobile[i] or redundant[i]
+               ? std::numeric_limits<double>::quiet_NaN()
+               : gap[i];
   }
 
   /// @brief Pressure of a node, force/area.
@@ -134,12 +135,12 @@ public:
   /// @param[in] i The node.
   /// @param[in] tie Gap, of either sign, up to which nodes touch; none if
   /// negative.
-  bool closing(std::size_t i, double tie = -1) const
+  bool closing(std::size_t i, double gap_tol = -1) const
   {
     // False for the gap NaN, too
     const double g = closable_gap(i);
     return law::pressure_hat(pressure(i), c[i], g, closed(i)) > 0
-           or std::abs(g) <= tie;
+           or std::abs(g) <= gap_tol;
   }
 
   /// @brief Set the factor c to the stiffness of a pair over the slave node's

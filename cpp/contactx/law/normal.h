@@ -24,7 +24,7 @@ struct NormalState
   std::span<const double> gap; ///< NaN where a node has no pair
   std::span<const double> c;   ///< complementarity factor, traction/length
   /// Compliance of a layer between the surfaces, over 1 / c
-  double softness = 0;
+  double layer_compliance = 0;
 };
 
 /// @brief Pressure by which a node is closed, where it is positive.

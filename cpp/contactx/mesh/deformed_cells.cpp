@@ -353,14 +353,14 @@ double shortest(std::span<const std::int32_t> cells, std::span<const double> X,
     for (int p = 0; p < C::points; ++p)
     {
       const double sign = std::copysign(1, reference[p]);
-      auto way = powers<gdim>(sign * begin[p], sign * end[p], sign * back[p],
-                              sign * alone[p]);
+      auto polynomial = powers<gdim>(sign * begin[p], sign * end[p],
+                                     sign * back[p], sign * alone[p]);
       // NaN of an overflow is left to the audit
-      if (!(way[0] > 0))
+      if (!(polynomial[0] > 0))
         continue;
-      way[0] -= part * std::min(way[0], sign * reference[p]);
+      polynomial[0] -= part * std::min(polynomial[0], sign * reference[p]);
       const double whole = t / unit;
-      const double found = first_root(bernstein(way, whole), 0, whole);
+      const double found = first_root(bernstein(polynomial, whole), 0, whole);
       if (found < whole)
         t = unit * found;
     }
@@ -416,12 +416,10 @@ contactx::mesh::deformed_cells(std::span<const std::int32_t> cells,
                              : find<Hexahedron>(cells, X, u);
 }
 
-double contactx::mesh::longest_way(std::span<const std::int32_t> cells,
-                                   int nodes_per_cell,
-                                   std::span<const double> X,
-                                   std::span<const double> u,
-                                   std::span<const double> du, int gdim,
-                                   double part)
+double contactx::mesh::max_step_without_inversion(
+    std::span<const std::int32_t> cells, int nodes_per_cell,
+    std::span<const double> X, std::span<const double> u,
+    std::span<const double> du, int gdim, double part)
 {
   check_cells(cells, nodes_per_cell, X, u, gdim);
   if (du.size() < u.size())

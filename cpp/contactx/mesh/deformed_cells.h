@@ -70,14 +70,16 @@ DeformedCells deformed_cells(std::span<const std::int32_t> cells,
 /// @param[in] nodes_per_cell As above.
 /// @param[in] X Reference positions.
 /// @param[in] u Displacements at t = 0, as many as positions or more.
-/// @param[in] du The way, as many as displacements.
+/// @param[in] du The polynomial, as many as displacements.
 /// @param[in] gdim Geometric dimension, 2 or 3.
 /// @param[in] part Part of min(det F, 1) that must be left, of [0, 1).
 /// @return The largest such t, at most 1; it is too small by 1/1024 of it at
 /// most.
 /// @throws std::invalid_argument as above, if `du` is shorter than `u` or the
 /// part is out of its range.
-double longest_way(std::span<const std::int32_t> cells, int nodes_per_cell,
-                   std::span<const double> X, std::span<const double> u,
-                   std::span<const double> du, int gdim, double part);
+double max_step_without_inversion(std::span<const std::int32_t> cells,
+                                  int nodes_per_cell, std::span<const double> X,
+                                  std::span<const double> u,
+                                  std::span<const double> du, int gdim,
+                                  double part);
 } // namespace contactx::mesh

@@ -21,8 +21,7 @@ constexpr double no_volume = 1e-12;
 
 bool is_simplex(CellType cell)
 {
-  return cell == CellType::triangle
-         or cell == CellType::tetrahedron;
+  return cell == CellType::triangle or cell == CellType::tetrahedron;
 }
 
 bool is_degenerate(CellType cell, std::span<const double> x)
@@ -35,8 +34,7 @@ bool is_degenerate(CellType cell, std::span<const double> x)
 } // namespace
 
 std::vector<double>
-contactx::mesh::corner_determinants(CellType cell,
-                                    std::span<const double> x)
+contactx::mesh::corner_determinants(CellType cell, std::span<const double> x)
 {
   const int gdim = mesh::dimension(cell);
   std::vector<double> determinants(is_simplex(cell) ? 1 : 1 << gdim);

@@ -28,7 +28,7 @@ std::vector<double> corner_determinants(CellType cell,
 /// num_owned)); empty on all ranks where they are not known.
 /// @throws std::invalid_argument on all ranks if a cell of any rank is
 /// degenerate.
-void check_cells(Ranks& ranks, CellType cell,
-                 const Geometry& geometry, std::int32_t num_owned,
+void check_cells(Ranks& ranks, CellType cell, const Geometry& geometry,
+                 std::int32_t num_owned,
                  std::span<const std::int64_t> original);
 } // namespace contactx::mesh

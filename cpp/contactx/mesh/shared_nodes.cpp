@@ -29,8 +29,7 @@ contactx::mesh::shared_nodes(const NodeMap& nodes,
 }
 
 std::vector<std::int8_t>
-contactx::mesh::edge_nodes(const Halo& halo,
-                           const geometry::FacetList& facets)
+contactx::mesh::edge_nodes(const Halo& halo, const geometry::FacetList& facets)
 {
   // Around a node within the surface each facet begins where another one ends,
   // so that any numbers of the neighbours at which they do cancel
@@ -64,8 +63,7 @@ contactx::mesh::edge_nodes(const Halo& halo,
   return is_edge;
 }
 
-void contactx::mesh::check_shared(const Halo& halo,
-                                  const NamedSurface& slave,
+void contactx::mesh::check_shared(const Halo& halo, const NamedSurface& slave,
                                   const NamedSurface& master)
 {
   const std::vector<std::int8_t> shared

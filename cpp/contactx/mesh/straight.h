@@ -26,9 +26,8 @@ namespace contactx::mesh
 /// @throws std::invalid_argument on all ranks if the mesh is of another order
 /// than 1 and the degree of the displacement, and a facet of any rank is
 /// curved.
-void check_straight(Ranks& ranks, const std::string& name,
-                    const Cells& cells, const Geometry& geometry,
-                    std::span<const double> points,
+void check_straight(Ranks& ranks, const std::string& name, const Cells& cells,
+                    const Geometry& geometry, std::span<const double> points,
                     std::span<const std::int32_t> of,
                     std::span<const std::int32_t> local);
 } // namespace contactx::mesh

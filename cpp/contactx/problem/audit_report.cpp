@@ -40,7 +40,7 @@ void add_depth(AuditReport& report, const std::string& name,
                const std::string& what, const audit::Findings& found,
                const std::string& place, const std::string& advice)
 {
-  if (not found.is_too_deep or not found.deepest)
+  if (not found.penetrates_too_deep or not found.deepest)
     return;
   const audit::Depth& worst = *found.deepest;
   report.faults.push_back(

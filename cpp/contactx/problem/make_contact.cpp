@@ -122,13 +122,12 @@ contactx::problem::make_contact(const mesh::Mesh& mesh, const Sides& sides,
                         { slaves->set_weight(sides.weight(slaves->owned())); });
   const std::shared_ptr<law::Law> law = law_of(options);
   const MasterOptions how{.method = options.method,
-                                   .sliding = options.sliding,
-                                   .search_distance = options.search_distance,
-                                   .level = sides.level,
-                                   .is_self = sides.is_self,
-                                   .excluded_distance
-                                   = options.excluded_distance,
-                                   .is_smooth = options.smooth};
+                          .sliding = options.sliding,
+                          .search_distance = options.search_distance,
+                          .level = sides.level,
+                          .is_self = sides.is_self,
+                          .excluded_distance = options.excluded_distance,
+                          .is_smooth = options.smooth};
   contact::Contact::Options kinematics{.sliding = options.sliding,
                                        .method = options.method,
                                        .prescribed = std::move(prescribed),
@@ -160,6 +159,6 @@ contactx::problem::make_contact(const mesh::Mesh& mesh, const Sides& sides,
       problem::check_facing(*halo, *slaves, sides.slave.name, *master,
                             surface.name);
   }
-  contact->nodes()->along = options.tangential_factor;
+  contact->nodes()->tangential_ratio = options.tangential_factor;
   return contact;
 }

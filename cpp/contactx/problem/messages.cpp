@@ -12,19 +12,19 @@ std::string contactx::problem::failure_of(Verdict verdict, double moved)
 {
   switch (verdict)
   {
-  case Verdict::hidden:
+  case Verdict::frozen_pair_penetrates:
     return "pairs went back and forth between facets and were frozen, and hide "
            "a penetration: refine the coarser surface there, swap slave and "
            "master where that is the slave, or take smaller load steps "
            "(manual: errors/frozen-pairs)";
-  case Verdict::ran_away:
+  case Verdict::unbounded_motion:
     return "a body that nothing holds has moved by " + number_text(moved, 3)
            + ", more than the size of the scene: no place was found where the "
              "forces of contact balance. Support it. Where a ring can turn in "
              "another one, take method=\"surface-to-surface\", or numbers of "
              "facets that are no multiples of each other (manual: "
              "errors/body-ran-away)";
-  case Verdict::turned:
+  case Verdict::large_rotation:
     return "a body that nothing holds has turned by " + number_text(moved, 3)
            + " degrees, which linear strains take for a stretch. Support it, "
              "or take a material with finite strains (manual: "

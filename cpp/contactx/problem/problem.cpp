@@ -379,7 +379,8 @@ void Problem::check_kept()
   for (std::size_t k = 0; k < _parts.size(); ++k)
   {
     contact::Contact& contact = *_system->contacts()[k];
-    const auto found = mesh::found_nodes(*_halo, contact.kept_inside(x), X);
+    const auto found
+        = mesh::found_nodes(*_halo, contact.constrained_inside(x), X);
     if (found.count == 0)
       continue;
     const double size = std::ranges::max(mesh::extent(
@@ -400,7 +401,7 @@ void Problem::check_kept()
 void Problem::check_drag()
 {
   for (std::size_t k = 0; k < _parts.size(); ++k)
-    if (_system->contacts()[k]->moves_untold())
+    if (_system->contacts()[k]->has_unknown_motion())
       throw std::invalid_argument(
           _parts[k].name
           + ": the LevelSet moves while it is touched, and its function does "
@@ -486,9 +487,9 @@ const Settled& Problem::judge(double rtol, double atol, std::span<double> b)
     verdict = _loop.judge(is_start, rtol, atol, b);
   }
   double moved = 0;
-  if (verdict == Verdict::ran_away)
-    moved = _loop.way();
-  else if (verdict == Verdict::turned)
+  if (verdict == Verdict::unbounded_motion)
+    moved = _loop.max_increment();
+  else if (verdict == Verdict::large_rotation)
     moved = _loop.turned() * 180 / std::numbers::pi;
   std::string failure = failure_of(verdict, moved);
   if (verdict == Verdict::solution)
@@ -516,9 +517,9 @@ const Settled& Problem::judge(double rtol, double atol, std::span<double> b)
 AuditReport Problem::audit()
 {
   AuditReport report;
-  const auto looks = _audit->look();
-  for (std::size_t k = 0; k < looks.size(); ++k)
-    add(report, _parts[k].name, *_system->contacts()[k], looks[k], _size);
+  const auto findings = _audit->find();
+  for (std::size_t k = 0; k < findings.size(); ++k)
+    add(report, _parts[k].name, *_system->contacts()[k], findings[k], _size);
   solve::Bulk& bulk = *_system->bulk();
   // A linear material does not notice cells inside out, nor do contacts of
   // small sliding

@@ -170,7 +170,7 @@ std::shared_ptr<contact::DeformableMaster> contactx::problem::make_master(
             : search::make_master_surface(halo, own.offsets, own.nodes,
                                           options.level);
   const auto outside
-      = std::make_shared<search::Outside>(halo, own.offsets, own.nodes);
+      = std::make_shared<search::InsideTest>(halo, own.offsets, own.nodes);
   const auto made
       = [&]<class M>(
             std::type_identity<M>) -> std::shared_ptr<contact::DeformableMaster>

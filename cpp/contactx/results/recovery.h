@@ -72,8 +72,8 @@ public:
   /// @param[in] slaves Slave nodes.
   /// @param[in] x Reference positions of all nodes (shape=(num_nodes, gdim)).
   /// @param[in] gdim Geometric dimension, 2 or 3.
-  Recovery(std::shared_ptr<const contact::SlaveNodes> slaves, std::span<const double> x,
-           int gdim);
+  Recovery(std::shared_ptr<const contact::SlaveNodes> slaves,
+           std::span<const double> x, int gdim);
 
   /// @brief Average pressures.
   /// @param[in] p Pressures, zero on open nodes (shape=(n)).

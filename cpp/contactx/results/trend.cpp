@@ -57,8 +57,8 @@ struct Trend::Rim
                               // (shape=(n, gdim, gdim))
 };
 
-Trend::Trend(std::shared_ptr<const contact::SlaveNodes> slaves, std::vector<double> x,
-             std::vector<double> parts, int gdim)
+Trend::Trend(std::shared_ptr<const contact::SlaveNodes> slaves,
+             std::vector<double> x, std::vector<double> parts, int gdim)
     : _slaves(std::move(slaves)), _x(std::move(x)), _parts(std::move(parts)),
       _gdim(gdim)
 {
@@ -346,10 +346,11 @@ Slope Trend::find(std::span<const Flow> flows, std::span<const double> p,
   for (std::size_t f = 0; f < flows.size(); ++f)
   {
     const auto& flow = flows[f];
-    const Vector<3> way
+    const Vector<3> edge
         = vector_at(_x, flow.from, _gdim) - vector_at(_x, flow.to, _gdim);
-    from_above[f] = flow.weight
-                    * std::max(dot(way, vector_at(slopes, flow.to, _gdim)), 0.);
+    from_above[f]
+        = flow.weight
+          * std::max(dot(edge, vector_at(slopes, flow.to, _gdim)), 0.);
     above[flow.to] += from_above[f];
   }
   Slope result{_slaves->scatter_forward(at_edge, _gdim),

@@ -58,8 +58,8 @@ public:
   /// @param[in] x Reference positions of all slave nodes (shape=(m, gdim)).
   /// @param[in] parts Parts of the facets' areas, in the order of their nodes.
   /// @param[in] gdim Geometric dimension, 2 or 3.
-  Trend(std::shared_ptr<const contact::SlaveNodes> slaves, std::vector<double> x,
-        std::vector<double> parts, int gdim);
+  Trend(std::shared_ptr<const contact::SlaveNodes> slaves,
+        std::vector<double> x, std::vector<double> parts, int gdim);
 
   /// @brief Find the slope; collective.
   /// @param[in] flows Pairs of closed nodes.

@@ -95,9 +95,9 @@ public:
     {
       const std::int32_t i = which[a.point];
       const double before = found.distance[i];
-      const double tie = equal_over_ranks * (a.distance + a.size);
-      if (not(a.distance < before - tie)
-          and not(a.distance <= before + tie and a.key < _key[i]))
+      const double tol = equal_over_ranks * (a.distance + a.size);
+      if (not(a.distance < before - tol)
+          and not(a.distance <= before + tol and a.key < _key[i]))
         continue;
       found.distance[i] = a.distance;
       bound[i] = std::min(bound[i], tie_bound(a.distance, a.size));
@@ -121,7 +121,7 @@ DistributedSurface::DistributedSurface(std::shared_ptr<mesh::Halo> halo,
                                        std::span<const std::int8_t> level)
     : DistributedSurface(halo, Parts(*halo, own))
 {
-  _own_wholes = geometry::wholes(this->own(), level);
+  _own_parents = geometry::quadratic_facets(this->own(), level);
 }
 
 DistributedSurface::DistributedSurface(std::shared_ptr<mesh::Halo> halo,
@@ -154,11 +154,11 @@ Found DistributedSurface::find(std::span<const double> x,
     every[i] = static_cast<std::int32_t>(i);
   best.take(every, answer(x, points, normals, best.bound));
 
-  const Reach others(_halo->ranks(), own(), x, gdim);
+  const RankBoxes others(_halo->ranks(), own(), x, gdim);
   std::vector<double> bound = best.bound;
   for (double& b : bound)
     b *= wider;
-  Reach::Near near = others.from_points(points, normals, bound);
+  RankBoxes::Near near = others.from_points(points, normals, bound);
   const std::size_t m = near.ranks.size();
   // First the nearest rank, then all that may still have something nearer
   std::map<int, std::vector<std::int32_t>> wanted;
@@ -318,14 +318,14 @@ std::int32_t DistributedSurface::pair(Pairing& pairing,
                              0,
                              0,
                              0};
-  return settle(pairing, left, places, x, version, reach, closed);
+  return accept_projections(pairing, left, places, x, version, reach, closed);
 }
 
-std::int32_t
-DistributedSurface::settle(Pairing& pairing, std::span<const std::int32_t> left,
-                           std::span<const std::optional<Projection>> places,
-                           std::span<const double> x, int version, double reach,
-                           std::span<const std::int8_t> closed)
+std::int32_t DistributedSurface::accept_projections(
+    Pairing& pairing, std::span<const std::int32_t> left,
+    std::span<const std::optional<Projection>> places,
+    std::span<const double> x, int version, double reach,
+    std::span<const std::int8_t> closed)
 {
   if (!same(pairing.master().facets(), facets()))
     pairing.set_master({facets().offsets.begin(), facets().offsets.end()},
@@ -338,20 +338,20 @@ DistributedSurface::settle(Pairing& pairing, std::span<const std::int32_t> left,
   }
   std::int32_t changed = 0;
   for (std::size_t k = 0; k < left.size(); ++k)
-    changed
-        += pairing.settle(left[k], places[k], x, reach, closed[left[k]] != 0);
+    changed += pairing.accept_projection(left[k], places[k], x, reach,
+                                         closed[left[k]] != 0);
   return changed;
 }
 
-void DistributedSurface::look(std::span<const double> x,
-                              const geometry::FacetList& slave, double reach,
-                              double margin)
+void DistributedSurface::add_facets_within(std::span<const double> x,
+                                           const geometry::FacetList& slave,
+                                           double reach, double margin)
 {
   const int gdim = _halo->gdim();
   check::positions(x.size(), _finder.surface().num_nodes(), gdim);
   mesh::Ranks& ranks = _halo->ranks();
   const std::vector<std::int8_t> near
-      = Reach(ranks, own(), x, gdim).from_facets(x, slave, reach, margin);
+      = RankBoxes(ranks, own(), x, gdim).from_facets(x, slave, reach, margin);
   // Sizes of the facets, then their corners
   mesh::Messages questions;
   for (int rank = 0; rank < ranks.size(); ++rank)
@@ -393,10 +393,9 @@ void DistributedSurface::look(std::span<const double> x,
   std::map<int, std::vector<std::int32_t>> found;
   if (!asker.empty())
   {
-    FacetSearch search(std::move(theirs.offsets),
-                               std::move(theirs.nodes),
-                               {own().offsets.begin(), own().offsets.end()},
-                               {own().nodes.begin(), own().nodes.end()}, gdim);
+    FacetSearch search(std::move(theirs.offsets), std::move(theirs.nodes),
+                       {own().offsets.begin(), own().offsets.end()},
+                       {own().nodes.begin(), own().nodes.end()}, gdim);
     const auto pairs = search.find(every, reach, margin, true);
     for (std::size_t i = 0; i < pairs.size(); ++i)
       found[asker[pairs.slave[i]]].push_back(pairs.master[i]);
@@ -407,7 +406,7 @@ void DistributedSurface::look(std::span<const double> x,
     FacetRecords records;
     std::vector<std::int32_t> whole;
     for (const std::int32_t f : masters)
-      for (const std::int32_t part : _own_wholes.parts_of(f))
+      for (const std::int32_t part : _own_parents.parts_of(f))
         whole.push_back(part);
     for (const std::int32_t f : sorted_unique(whole))
       records.push_back(_own_records[f]);

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "master_surface.h"
-#include "reach.h"
+#include "rank_boxes.h"
 #include "records.h"
 
 namespace contactx::search
@@ -30,8 +30,9 @@ public:
   std::int32_t pair(Pairing& pairing, const geometry::FacetList& slave,
                     std::span<const double> x, double reach,
                     std::span<const std::int8_t> closed) override;
-  void look(std::span<const double> x, const geometry::FacetList& slave,
-            double reach, double margin) override;
+  void add_facets_within(std::span<const double> x,
+                         const geometry::FacetList& slave, double reach,
+                         double margin) override;
   std::vector<std::int32_t> keep(std::span<const std::int32_t> used) override;
   std::vector<std::int32_t> named(std::span<const std::int64_t> names) override;
 
@@ -50,10 +51,11 @@ protected:
   /// @param[in] reach Largest distance of a pair.
   /// @param[in] closed Whether slave nodes are in contact (shape=(num_slaves)).
   /// @return Number of this rank's nodes in contact that changed their facet.
-  std::int32_t settle(Pairing& pairing, std::span<const std::int32_t> left,
-                      std::span<const std::optional<Projection>> places,
-                      std::span<const double> x, int version, double reach,
-                      std::span<const std::int8_t> closed);
+  std::int32_t
+  accept_projections(Pairing& pairing, std::span<const std::int32_t> left,
+                     std::span<const std::optional<Projection>> places,
+                     std::span<const double> x, int version, double reach,
+                     std::span<const std::int8_t> closed);
 
 private:
   struct Parts;
@@ -77,7 +79,7 @@ private:
   void set_known(FacetRecords known);
 
   FacetRecords _own_records, _around_records, _known;
-  geometry::Wholes _own_wholes;
+  geometry::QuadraticFacets _own_parents;
   std::vector<std::int8_t> _is_own;        // of those around
   std::map<FacetKey, std::int32_t> _place; // in _known
 };

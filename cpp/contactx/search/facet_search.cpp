@@ -37,8 +37,8 @@ template <class S>
 class Prism
 {
 public:
-  Prism(const geometry::ProjectionPlane<S>& plane, const geometry::Overlap<S::tdim>& outline, double low,
-        double high)
+  Prism(const geometry::ProjectionPlane<S>& plane,
+        const geometry::Overlap<S::tdim>& outline, double low, double high)
       : _plane(plane), _low(low), _high(high)
   {
     _from = _to = outline.corner[0];
@@ -82,8 +82,8 @@ private:
 
 /// Distance of a facet, in the middle of what it shares.
 template <class M>
-double distance_at(const geometry::Overlap<M::tdim>& part, const geometry::Flat<M>& r,
-                   const Vector<M::nodes>& height)
+double distance_at(const geometry::Overlap<M::tdim>& part,
+                   const geometry::Flat<M>& r, const Vector<M::nodes>& height)
 {
   geometry::Local<M> middle{};
   for (int i = 0; i < part.size; ++i)
@@ -108,8 +108,8 @@ void keep_nearest(std::vector<SharedFacet>& found, double area,
         facets[a], [nodes = facets[b]](std::int32_t node)
         { return std::ranges::find(nodes, node) != nodes.end(); });
   };
-  const auto gather
-      = [&share_a_node](std::vector<SharedFacet>& layer, std::vector<SharedFacet>& from)
+  const auto gather = [&share_a_node](std::vector<SharedFacet>& layer,
+                                      std::vector<SharedFacet>& from)
   {
     for (std::size_t i = 0; i < layer.size(); ++i)
       std::erase_if(from,
@@ -121,8 +121,9 @@ void keep_nearest(std::vector<SharedFacet>& found, double area,
                       return true;
                     });
   };
-  const auto border = std::partition(found.begin(), found.end(),
-                                     [](const SharedFacet& f) { return f.area > 0; });
+  const auto border
+      = std::partition(found.begin(), found.end(),
+                       [](const SharedFacet& f) { return f.area > 0; });
   std::vector<SharedFacet> beside(border, found.end());
   found.erase(border, found.end());
   std::ranges::sort(found, {}, &SharedFacet::distance);
@@ -160,7 +161,7 @@ FacetSearch::FacetSearch(std::vector<std::int32_t> slave_offsets,
 }
 
 geometry::FacetPairs FacetSearch::find(std::span<const double> x, double reach,
-                             double margin, bool all_layers)
+                                       double margin, bool all_layers)
 {
   if (!_tree)
     _tree.emplace(_master.boxes(x));
@@ -198,7 +199,8 @@ geometry::FacetPairs FacetSearch::find(std::span<const double> x, double reach,
           const auto look = [&]<class M>(std::int32_t m, M)
           {
             const auto xm = geometry::gather<M>(master()[m], x);
-            if (not(dot(geometry::frame<M>(xm, geometry::plane_origin<M>()).n, plane.n)
+            if (not(dot(geometry::frame<M>(xm, geometry::plane_origin<M>()).n,
+                        plane.n)
                     < -upright_cosine))
               return;
             Vector<M::nodes> height;
@@ -208,7 +210,8 @@ geometry::FacetPairs FacetSearch::find(std::span<const double> x, double reach,
             if (nearest - high > reach or farthest - low < -reach)
               return;
             const geometry::Flat<M> r = geometry::project<M>(plane, xm);
-            if (!geometry::is_convex<M>(r) or !geometry::InverseMap<M>(r).exists())
+            if (!geometry::is_convex<M>(r)
+                or !geometry::InverseMap<M>(r).exists())
               return;
             const auto shape = geometry::outline<M>(r);
             if (not(size_of(geometry::clip(shape, wide)) > 0))
@@ -218,17 +221,17 @@ geometry::FacetPairs FacetSearch::find(std::span<const double> x, double reach,
             found.push_back(
                 {m, area, area > 0 ? distance_at<M>(part, r, height) : 0});
           };
-          _tree->for_each(
-              [&prism](const Box& box) { return prism.meets(box); },
-              [&](std::int32_t m)
-              {
-                geometry::visit(static_cast<int>(master()[m].size()),
+          _tree->for_each([&prism](const Box& box) { return prism.meets(box); },
+                          [&](std::int32_t m)
+                          {
+                            geometry::visit(
+                                static_cast<int>(master()[m].size()),
                                 [&]<class M>(M kind)
                                 {
                                   if constexpr (M::gdim == S::gdim)
                                     look(m, kind);
                                 });
-              });
+                          });
           if (!all_layers)
             keep_nearest(found, size_of(outline), _master);
         });
@@ -242,7 +245,8 @@ geometry::FacetPairs FacetSearch::find(std::span<const double> x, double reach,
   return pairs;
 }
 
-bool contactx::search::contains(const geometry::FacetPairs& all, const geometry::FacetPairs& part)
+bool contactx::search::contains(const geometry::FacetPairs& all,
+                                const geometry::FacetPairs& part)
 {
   std::size_t j = 0;
   for (std::size_t i = 0; i < part.size(); ++i)

@@ -36,8 +36,8 @@ public:
   /// @param[in] margin By which part a slave facet is enlarged about its middle
   /// when it looks: pairs that share nothing yet.
   /// @param[in] all_layers Whether all layers count: for a part of the master.
-  geometry::FacetPairs find(std::span<const double> x, double reach, double margin,
-                  bool all_layers = false);
+  geometry::FacetPairs find(std::span<const double> x, double reach,
+                            double margin, bool all_layers = false);
 
   /// @brief Geometric dimension.
   int gdim() const { return _master.gdim(); }
@@ -62,5 +62,6 @@ private:
 /// @brief True if all pairs of a part are among others.
 /// @param[in] all Pairs, ascending by slave and then by master facet.
 /// @param[in] part Others, in the same order.
-bool contains(const geometry::FacetPairs& all, const geometry::FacetPairs& part);
+bool contains(const geometry::FacetPairs& all,
+              const geometry::FacetPairs& part);
 } // namespace contactx::search

@@ -78,8 +78,9 @@ std::int32_t MasterSurface::pair(Pairing& pairing, const geometry::FacetList&,
   return pairing.update(x, reach, closed);
 }
 
-void MasterSurface::look(std::span<const double>, const geometry::FacetList&,
-                         double, double)
+void MasterSurface::add_facets_within(std::span<const double>,
+                                      const geometry::FacetList&, double,
+                                      double)
 {
 }
 

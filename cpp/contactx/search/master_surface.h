@@ -82,8 +82,9 @@ public:
   /// @param[in] slave Slave facets.
   /// @param[in] reach Largest distance.
   /// @param[in] margin By which part slave facets are enlarged.
-  virtual void look(std::span<const double> x, const geometry::FacetList& slave,
-                    double reach, double margin);
+  virtual void add_facets_within(std::span<const double> x,
+                                 const geometry::FacetList& slave, double reach,
+                                 double margin);
 
   /// @brief Keep some facets and drop the others, once the halo has shrunk.
   /// @param[in] used Facets to keep, -1 for none.

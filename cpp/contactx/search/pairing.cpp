@@ -94,7 +94,8 @@ std::optional<Projection> Pairing::in_margin(std::span<const double> x,
                           vector_at(x, _slaves[i], master().gdim()));
   if (q
       and (_returns[i] >= max_returns
-           or (q->excess <= geometry::facet_margin and std::abs(q->gap) <= reach)))
+           or (q->excess <= geometry::facet_margin
+               and std::abs(q->gap) <= reach)))
     return q;
   return std::nullopt;
 }
@@ -121,7 +122,8 @@ std::optional<Projection> Pairing::as_near(std::span<const double> x,
     return std::nullopt;
   const auto theirs
       = closest(master(), other, x, vector_at(x, _slaves[i], master().gdim()));
-  if (theirs and mine->gap > norm(theirs->d) + geometry::facet_margin * mine->size)
+  if (theirs
+      and mine->gap > norm(theirs->d) + geometry::facet_margin * mine->size)
     return std::nullopt;
   return mine;
 }
@@ -170,8 +172,10 @@ bool Pairing::is_on_ridge(std::size_t i, const Projection& q,
   return beside <= geometry::facet_margin * q.size;
 }
 
-bool Pairing::settle(std::int32_t i, const std::optional<Projection>& q,
-                     std::span<const double> x, double reach, bool closed)
+bool Pairing::accept_projection(std::int32_t i,
+                                const std::optional<Projection>& q,
+                                std::span<const double> x, double reach,
+                                bool closed)
 {
   const std::int32_t now = q ? q->facet : -1;
   if (now >= 0 and now != _facet[i])
@@ -222,7 +226,7 @@ std::int32_t Pairing::update(std::span<const double> x, double reach,
         vector_at(normals, _slaves[i], master().gdim()), reach, hint);
     if (found.nearest)
       hint = found.nearest->facet;
-    changed += settle(i, found.selected, x, reach, closed[i]);
+    changed += accept_projection(i, found.selected, x, reach, closed[i]);
   }
   return changed;
 }

@@ -77,8 +77,8 @@ public:
   /// @param[in] reach Largest distance of a pair.
   /// @param[in] closed Whether the slave node is in contact.
   /// @return Whether it is in contact and has changed its facet.
-  bool settle(std::int32_t i, const std::optional<Projection>& found,
-              std::span<const double> x, double reach, bool closed);
+  bool accept_projection(std::int32_t i, const std::optional<Projection>& found,
+                         std::span<const double> x, double reach, bool closed);
 
   /// @brief Take over the pairs of another pairing of the same surfaces, as
   /// the functions of these names give them. Nothing is frozen then.

@@ -118,7 +118,7 @@ geometry::Facets contactx::search::here(const FacetRecords& facets,
 
 std::map<int, FacetRecords>
 contactx::search::around_nodes(mesh::Ranks& ranks, const FacetRecords& facets,
-                               const geometry::Wholes* wholes)
+                               const geometry::QuadraticFacets* parents)
 {
   std::map<int, FacetRecords> out;
   std::vector<std::int32_t> owners;
@@ -130,9 +130,9 @@ contactx::search::around_nodes(mesh::Ranks& ranks, const FacetRecords& facets,
       owners.insert(owners.end(), facet.owners.begin(),
                     facet.owners.begin() + facet.size());
     };
-    if (wholes)
+    if (parents)
       for (const std::int32_t part :
-           wholes->parts_of(static_cast<std::int32_t>(f)))
+           parents->parts_of(static_cast<std::int32_t>(f)))
         add(facets[part]);
     else
       add(facets[f]);

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "../geometry/facets.h"
-#include "../geometry/wholes.h"
+#include "../geometry/quadratic_facets.h"
 #include "../mesh/halo.h"
 #include <array>
 #include <limits>
@@ -69,11 +69,11 @@ geometry::Facets here(const FacetRecords& facets, const mesh::Halo& halo);
 /// all ranks must take part.
 /// @param[in] ranks The ranks.
 /// @param[in] facets Facets that this rank has.
-/// @param[in] wholes What these are parts of, which count as one; null if each
+/// @param[in] parents What these are parts of, which count as one; null if each
 /// is one.
 std::map<int, FacetRecords>
 around_nodes(mesh::Ranks& ranks, const FacetRecords& facets,
-             const geometry::Wholes* wholes = nullptr);
+             const geometry::QuadraticFacets* parents = nullptr);
 
 /// @brief Facets that share a node with those of this rank, which are among
 /// them, each once and in the order of their keys; all ranks must take part.

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "select.h"
-#include "../geometry/shape.h"
 #include "../geometry/gather.h"
 #include "../geometry/ridge.h"
+#include "../geometry/shape.h"
 
 using namespace contactx;
 using namespace contactx::search;
@@ -105,15 +105,15 @@ contactx::search::nearest_facet(const Surface& surface, const BoxTree& tree,
     const auto q = closest_within(surface, f, x, p, bound2);
     if (!q or (!any and dot(q->normal, normal) >= 0))
       return;
-    const double d = norm(q->d), tie = equal_distance * (d + q->size);
-    if ((d < best_d - tie
-         or (d <= best_d + tie and (!best or f < best->facet) and d <= reach))
+    const double d = norm(q->d), tol = equal_distance * (d + q->size);
+    if ((d < best_d - tol
+         or (d <= best_d + tol and (!best or f < best->facet) and d <= reach))
         and (!accepts or accepts(*q)))
     {
       best = q;
       best_d = d;
       // Wider, so that rounding in a box's distance hides no tie
-      const double wide = (1 + 1e-6) * d + 10 * tie;
+      const double wide = (1 + 1e-6) * d + 10 * tol;
       bound2 = std::min(bound2, wide * wide);
     }
   };

@@ -15,9 +15,10 @@ geometry::Facets contactx::search::slave_facets(
   if (halo.ranks().size() == 1)
     return {{offsets.begin(), offsets.end()}, {nodes.begin(), nodes.end()}};
   FacetRecords every;
-  const geometry::Wholes wholes = geometry::wholes({offsets, nodes}, level);
+  const geometry::QuadraticFacets parents
+      = geometry::quadratic_facets({offsets, nodes}, level);
   for (const auto& [rank, theirs] :
-       around_nodes(halo.ranks(), records({offsets, nodes}, halo), &wholes))
+       around_nodes(halo.ranks(), records({offsets, nodes}, halo), &parents))
     every.insert(every.end(), theirs.begin(), theirs.end());
   every = joined(std::move(every));
   add_to(halo, every, true);

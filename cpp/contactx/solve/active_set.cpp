@@ -24,7 +24,7 @@ slaves_of(const std::vector<std::shared_ptr<contact::Contact>>& contacts)
   return slaves;
 }
 
-class Held final : public Holding
+class Held final : public FreeBodyContact
 {
 public:
   explicit Held(std::shared_ptr<contact::Contact> contact)
@@ -51,11 +51,12 @@ public:
       gap[i] = nodes().closable_gap(i);
     return gap;
   }
-  Rubbing rubbing() override
+  FrictionState friction_state() override
   {
     _coulomb->evaluate(nodes());
-    return {nodes().normal, nodes().multiplier, nodes().slip,
-            nodes().value,  nodes().area,       _coulomb->rubs(nodes())};
+    return {nodes().normal, nodes().multiplier,
+            nodes().slip,   nodes().value,
+            nodes().area,   _coulomb->has_friction(nodes())};
   }
   void close(std::span<const std::int32_t> which) override
   {
@@ -78,8 +79,8 @@ private:
 };
 } // namespace
 
-std::shared_ptr<Holding>
-contactx::solve::holding(std::shared_ptr<contact::Contact> contact)
+std::shared_ptr<FreeBodyContact>
+contactx::solve::free_body_contact(std::shared_ptr<contact::Contact> contact)
 {
   return std::make_shared<Held>(std::move(contact));
 }
@@ -111,13 +112,13 @@ void ActiveSet::begin_step()
   _guard.begin_step();
 }
 
-Changes ActiveSet::settle(const Forces& forces, bool is_first)
+Changes ActiveSet::update(const Forces& forces, bool is_first)
 {
   // On the soft path nothing leads far astray
-  return settle(forces, is_first, not is_soft());
+  return update(forces, is_first, not is_soft());
 }
 
-Changes ActiveSet::settle(const Forces& forces, bool is_first, bool may_freeze)
+Changes ActiveSet::update(const Forces& forces, bool is_first, bool may_freeze)
 {
   Changes changes = update(is_first);
   _is_stale = _is_frozen and may_freeze and are_many(changes.status);
@@ -185,7 +186,7 @@ void ActiveSet::share(bool is_first)
   for (const auto& c : _contacts)
   {
     // Nodes that were ceded before may close again
-    std::ranges::fill(c->nodes()->ceded, 0);
+    std::ranges::fill(c->nodes()->redundant, 0);
     if (not c->law()->is_tied())
       closes.push_back(c->closing(is_first));
     else if (c->is_active())
@@ -202,8 +203,10 @@ void ActiveSet::share(bool is_first)
   for (std::size_t k = 0; k < _contacts.size(); ++k)
   {
     // Others look at the arrays
-    std::ranges::copy(shared[k].ceded, _contacts[k]->nodes()->ceded.begin());
-    std::ranges::copy(shared[k].smooth, _contacts[k]->nodes()->smooth.begin());
+    std::ranges::copy(shared[k].redundant,
+                      _contacts[k]->nodes()->redundant.begin());
+    std::ranges::copy(shared[k].frictionless,
+                      _contacts[k]->nodes()->frictionless.begin());
   }
 }
 
@@ -298,7 +301,7 @@ void ActiveSet::take_softness()
 {
   for (const auto& c : _contacts)
     if (not c->law()->is_tied())
-      c->nodes()->softness = _path.softness();
+      c->nodes()->layer_compliance = _path.compliance();
 }
 
 void ActiveSet::note(double residual)
@@ -330,9 +333,9 @@ ActiveSet::End ActiveSet::may_end(const Forces& forces)
   if (not _is_stale)
   {
     if (not _frozen.release())
-      return End::hidden;
+      return End::frozen_pair_penetrates;
     reset_flips();
   }
-  settle(forces, false, false);
+  update(forces, false, false);
   return End::again;
 }

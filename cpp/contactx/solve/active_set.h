@@ -7,13 +7,14 @@
 #include "cycle_guard.h"
 #include "free_bodies.h"
 #include "frozen_pairs.h"
-#include "junctions.h"
+#include "shared_nodes.h"
 #include "soft_path.h"
 
 namespace contactx::solve
 {
 /// @brief A contact as free bodies see it.
-std::shared_ptr<Holding> holding(std::shared_ptr<contact::Contact> contact);
+std::shared_ptr<FreeBodyContact>
+free_body_contact(std::shared_ptr<contact::Contact> contact);
 
 /// @brief Changes that an update of the active set has made, on all ranks.
 struct Changes
@@ -54,7 +55,7 @@ public:
   /// kinematics are updated again.
   /// @param[in] forces Forces at the iterate, which free bodies ask for.
   /// @param[in] is_first Whether the iterate is the step's start.
-  Changes settle(const Forces& forces, bool is_first = false);
+  Changes update(const Forces& forces, bool is_first = false);
 
   /// @brief Changes of the last `settle`.
   const Changes& changes() const { return _changes; }
@@ -79,7 +80,7 @@ public:
   bool softens(const std::vector<std::span<const double>>& step);
 
   /// @brief True while contact is soft.
-  bool is_soft() const { return _path.softness() > 0; }
+  bool is_soft() const { return _path.compliance() > 0; }
 
   /// @brief Go on along the soft path after an iterate has settled.
   /// @param[in] is_full Whether the step to it was taken in full.
@@ -104,7 +105,8 @@ public:
   {
     solution, ///< it is
     again,    ///< pairs have been updated: its residual must be evaluated anew
-    hidden    ///< frozen pairs hide a penetration, and cannot be released
+    frozen_pair_penetrates ///< frozen pairs hide a penetration, and cannot be
+                           ///< released
   };
 
   /// @brief Tell whether an iterate with a small residual is a solution, and
@@ -130,7 +132,7 @@ public:
   const std::vector<double>& hidden_gaps() const { return _frozen.gaps(); }
 
 private:
-  Changes settle(const Forces& forces, bool is_first, bool may_freeze);
+  Changes update(const Forces& forces, bool is_first, bool may_freeze);
   Changes update(bool is_first);
   void share(bool is_first);
   void freeze(bool is_frozen);
@@ -142,7 +144,7 @@ private:
   std::shared_ptr<mesh::Halo> _halo;
   std::vector<std::shared_ptr<contact::Contact>> _contacts;
   std::shared_ptr<FreeBodies> _bodies;
-  Junctions _junctions;
+  SharedNodes _junctions;
   bool _has_junctions;
   CycleGuard _guard;
   FrozenPairs _frozen;

@@ -31,20 +31,20 @@ double contactx::solve::derivative_error(System& system,
   const std::size_t n = system.num_displacements();
   const std::span<const std::int8_t> marks = bulk.markers();
   const std::vector<std::int8_t> markers(marks.begin(), marks.end());
-  std::vector<double> way(direction.begin(), direction.begin() + n);
+  std::vector<double> direction_of(direction.begin(), direction.begin() + n);
   double most = 0;
   bool is_known = true;
   for (std::size_t i = 0; i < n; ++i)
   {
     if (markers[i] == 1)
-      way[i] = 0;
-    most = std::max(most, std::abs(way[i]));
-    is_known = is_known and std::isfinite(way[i]);
+      direction_of[i] = 0;
+    most = std::max(most, std::abs(direction_of[i]));
+    is_known = is_known and std::isfinite(direction_of[i]);
   }
   most = mesh::largest(ranks, most);
   if (not mesh::everywhere(ranks, is_known) or not(most > 0))
     return 0;
-  for (double& w : way)
+  for (double& w : direction_of)
     w /= most;
 
   const std::span<const double> now = bulk.displacements();
@@ -53,7 +53,7 @@ double contactx::solve::derivative_error(System& system,
   {
     std::vector<double> there(n);
     for (std::size_t i = 0; i < n; ++i)
-      there[i] = u[i] + part * way[i];
+      there[i] = u[i] + part * direction_of[i];
     bulk.set_displacements(there);
   };
   // Squares of the difference, of rounding, of both products and of what is
@@ -62,7 +62,7 @@ double contactx::solve::derivative_error(System& system,
   try
   {
     place(ahead);
-    const std::span<const double> products = bulk.products(way, 1);
+    const std::span<const double> products = bulk.products(direction_of, 1);
     const std::vector<double> product(products.begin(), products.end());
     const std::span<const double> entries = bulk.diagonal();
     const std::vector<double> diagonal(entries.begin(), entries.end());
@@ -80,7 +80,7 @@ double contactx::solve::derivative_error(System& system,
         const std::array terms{product[i] - quotient[i],
                                lost * std::abs(u[i]) * diagonal[i] / size,
                                product[i], quotient[i],
-                               rigid * way[i] * diagonal[i]};
+                               rigid * direction_of[i] * diagonal[i]};
         for (std::size_t k = 0; k < terms.size(); ++k)
           squares[k] += terms[k] * terms[k];
       }

@@ -28,7 +28,7 @@ constexpr double idle_part = 1e-3;
 constexpr double weak = 1e-6;
 constexpr double near = 1e-3;
 // Relative difference of what is equal but for rounding
-constexpr double tie = 1e-9;
+constexpr double rel_tol = 1e-9;
 // Movement, relative to the largest, that counts as one
 constexpr double moves = 1e-6;
 
@@ -40,10 +40,10 @@ Vector<3> along_surface(const Vector<3>& normal, const Vector<3>& v)
           v[2] - height * normal[2]};
 }
 
-double largest_size(std::span<const double> way)
+double largest_size(std::span<const double> increment)
 {
   double most = 0;
-  for (const double value : way)
+  for (const double value : increment)
     most = std::max(most, std::abs(value));
   return most;
 }
@@ -59,7 +59,7 @@ std::vector<double> motion(const dense::Matrix& N, dense::Matrix resists,
 /// Slave nodes of a contact that have a pair.
 struct FreeBodies::Rows
 {
-  Holding* contact;
+  FreeBodyContact* contact;
   int gdim, m;
   std::vector<std::int32_t> slaves; ///< by their number in the contact
   std::vector<Vector<3>> normal;
@@ -73,13 +73,13 @@ struct FreeBodies::Rows
   std::size_t size() const { return slaves.size(); }
 
   /// Relative movement of a slave node by a motion.
-  Vector<3> by(std::span<const double> way, std::size_t i) const
+  Vector<3> by(std::span<const double> increment, std::size_t i) const
   {
     Vector<3> u{};
     for (std::size_t e = offsets[i]; e < offsets[i + 1]; ++e)
       for (int c = 0; c < gdim; ++c)
         for (int p = 0; p < m; ++p)
-          u[c] += blocks[(e * gdim + c) * m + p] * way[bodies[e] * m + p];
+          u[c] += blocks[(e * gdim + c) * m + p] * increment[bodies[e] * m + p];
     return u;
   }
 
@@ -99,7 +99,7 @@ struct FreeBodies::Rows
 
 FreeBodies::FreeBodies(std::shared_ptr<const mesh::Bodies> bodies,
                        std::shared_ptr<Bulk> bulk,
-                       std::vector<std::shared_ptr<Holding>> contacts,
+                       std::vector<std::shared_ptr<FreeBodyContact>> contacts,
                        std::span<const std::int64_t> original)
     : _bodies(std::move(bodies)), _bulk(std::move(bulk)),
       _contacts(std::move(contacts)),
@@ -291,7 +291,7 @@ bool FreeBodies::stabilise(const Forces& forces)
     // does not
     if (_modes->gdim() == 2)
     {
-      const std::vector<double> more = lacking(rows);
+      const std::vector<double> more = cone_deficit(rows);
       for (std::size_t i = 0; i < all.size(); ++i)
         all[i] += more[i];
     }
@@ -308,11 +308,11 @@ bool FreeBodies::stabilise(const Forces& forces)
     for (std::size_t i = 0; i < N.rows; ++i)
       for (std::size_t k = 0; k < N.cols; ++k)
         heavy(i, k) *= _modes->num_nodes()[i / m];
-    const std::vector<double> way
+    const std::vector<double> increment
         = motion(N, dense::product_transposed(N, heavy), f);
-    const std::int64_t closed = close_first(rows, way);
+    const std::int64_t closed = close_first(rows, increment);
     _closed_for_balance += closed;
-    if (closed == 0 and not stick_first(rows, way))
+    if (closed == 0 and not stick_first(rows, increment))
     {
       _is_unbalanced = true;
       // A support may have got its stiffness on the way
@@ -483,12 +483,12 @@ bool FreeBodies::close_before_springs(const std::vector<Rows>& rows,
     for (std::size_t i = 0; i < stiff.rows; ++i)
       for (std::size_t k = 0; k < stiff.cols; ++k)
         stiff(i, k) *= stiffness[i];
-    const std::vector<double> way
+    const std::vector<double> increment
         = motion(N, dense::product_transposed(combine, stiff),
                  dense::product_transposed(N, pull));
-    if (largest_size(way) == 0)
+    if (largest_size(increment) == 0)
       break;
-    const std::int64_t closed = close_first(rows, way, 1.0);
+    const std::int64_t closed = close_first(rows, increment, 1.0);
     _closed_for_balance += closed;
     if (closed == 0)
       break;
@@ -575,13 +575,14 @@ double FreeBodies::lowest(std::span<const Found> found) const
 }
 
 /// Close the open nodes that bodies meet first in a rigid motion.
-/// @param[in] way The motion: coefficients of each body's modes.
+/// @param[in] increment The motion: coefficients of each body's modes.
 /// @param[in] within Part of the motion that they go.
 /// @return Number of nodes closed on all ranks.
 std::int64_t FreeBodies::close_first(const std::vector<Rows>& rows,
-                                     std::span<const double> way, double within)
+                                     std::span<const double> increment,
+                                     double within)
 {
-  const double most = largest_size(way);
+  const double most = largest_size(increment);
   std::vector<Found> found;
   for (const Rows& some : rows)
   {
@@ -593,7 +594,7 @@ std::int64_t FreeBodies::close_first(const std::vector<Rows>& rows,
       const std::int32_t slave = some.slaves[i];
       if (status[slave] != law::open or not std::isfinite(gap[slave]))
         continue;
-      const double speed = -dot(some.normal[i], some.by(way, i));
+      const double speed = -dot(some.normal[i], some.by(increment, i));
       if (not(speed > moves * most))
         continue;
       able.slaves.push_back(slave);
@@ -604,7 +605,7 @@ std::int64_t FreeBodies::close_first(const std::vector<Rows>& rows,
   if (not std::isfinite(first) or first > within)
     return 0;
   // Nodes that are closer than this touch at once
-  const double margin = tie * _modes->size() / most;
+  const double margin = rel_tol * _modes->size() / most;
   std::int64_t count = 0;
   for (const Found& some : found)
   {
@@ -620,19 +621,19 @@ std::int64_t FreeBodies::close_first(const std::vector<Rows>& rows,
 
 /// State of a contact with friction.
 /// @param[in] n Number of its slave nodes.
-Rubbing FreeBodies::rubbing(const Rows& rows, std::size_t n) const
+FrictionState FreeBodies::friction_state(const Rows& rows, std::size_t n) const
 {
-  Rubbing found;
+  FrictionState found;
   ranks().agree(
       [&]
       {
-        found = rows.contact->rubbing();
+        found = rows.contact->friction_state();
         for (const auto* vectors :
              {&found.normal, &found.traction, &found.slip, &found.value})
           if (vectors->size() != n * rows.gdim)
             throw std::invalid_argument("the state of friction must have gdim "
                                         "values for each slave node");
-        if (found.area.size() != n or found.rubs.size() != n)
+        if (found.area.size() != n or found.has_friction.size() != n)
           throw std::invalid_argument("the state of friction must have an area "
                                       "and a bound for each slave node");
       });
@@ -643,7 +644,8 @@ Rubbing FreeBodies::rubbing(const Rows& rows, std::size_t n) const
 /// tractions, along the modes of the bodies (shape=(num_bodies, m)).
 ///
 /// Newton steps balance bodies with tractions that are not yet on the cone.
-std::vector<double> FreeBodies::lacking(const std::vector<Rows>& rows) const
+std::vector<double>
+FreeBodies::cone_deficit(const std::vector<Rows>& rows) const
 {
   const std::size_t m = _modes->modes_per_body();
   std::vector<double> sums(_modes->count() * m), row;
@@ -652,14 +654,15 @@ std::vector<double> FreeBodies::lacking(const std::vector<Rows>& rows) const
     if (not some.contact->has_friction())
       continue;
     const std::vector<std::int8_t> status = some.contact->status();
-    const Rubbing rubbing = this->rubbing(some, status.size());
+    const FrictionState friction_state
+        = this->friction_state(some, status.size());
     for (std::size_t i = 0; i < some.size(); ++i)
     {
       const std::int32_t slave = some.slaves[i];
       if (status[slave] != law::slip)
         continue;
       const Vector<3> force = along_surface(
-          some.normal[i], vector_at(rubbing.value, slave, some.gdim));
+          some.normal[i], vector_at(friction_state.value, slave, some.gdim));
       some.in_direction(force, i, row);
       for (std::size_t e = some.offsets[i]; e < some.offsets[i + 1]; ++e)
         for (std::size_t p = 0; p < m; ++p)
@@ -674,12 +677,12 @@ std::vector<double> FreeBodies::lacking(const std::vector<Rows>& rows) const
 /// Stick the slipping nodes whose slip a rigid motion of the bodies reverses
 /// first. Slip to both sides may balance a body that slip along its motion
 /// alone does not.
-/// @param[in] way The motion: coefficients of each body's modes.
+/// @param[in] increment The motion: coefficients of each body's modes.
 /// @return Whether any sticks on any rank.
 bool FreeBodies::stick_first(const std::vector<Rows>& rows,
-                             std::span<const double> way)
+                             std::span<const double> increment)
 {
-  const double most = largest_size(way);
+  const double most = largest_size(increment);
   std::vector<Found> found;
   for (const Rows& some : rows)
   {
@@ -688,25 +691,27 @@ bool FreeBodies::stick_first(const std::vector<Rows>& rows,
     const int g = some.gdim;
     Found& able = found.emplace_back(Found{some.contact, {}, {}});
     const std::vector<std::int8_t> status = some.contact->status();
-    const Rubbing rubbing = this->rubbing(some, status.size());
+    const FrictionState friction_state
+        = this->friction_state(some, status.size());
     for (std::size_t i = 0; i < some.size(); ++i)
     {
       const std::int32_t slave = some.slaves[i];
-      if (status[slave] != law::slip or rubbing.rubs[slave] == 0)
+      if (status[slave] != law::slip or friction_state.has_friction[slave] == 0)
         continue;
       // Traction of the node by Coulomb's law
       const Vector<3> excess
-          = along_surface(vector_at(rubbing.normal, slave, g),
-                          vector_at(rubbing.value, slave, g));
-      Vector<3> cone = vector_at(rubbing.traction, slave, g);
+          = along_surface(vector_at(friction_state.normal, slave, g),
+                          vector_at(friction_state.value, slave, g));
+      Vector<3> cone = vector_at(friction_state.traction, slave, g);
       for (int k = 0; k < g; ++k)
-        cone[k] -= excess[k] / rubbing.area[slave];
-      const Vector<3> movement = along_surface(some.normal[i], some.by(way, i));
+        cone[k] -= excess[k] / friction_state.area[slave];
+      const Vector<3> movement
+          = along_surface(some.normal[i], some.by(increment, i));
       const double speed = std::sqrt(dot(movement, movement));
       // Slip goes against the traction, also where it has only just begun
       if (not(dot(cone, movement) > 0 and speed > moves * most))
         continue;
-      const Vector<3> slip = vector_at(rubbing.slip, slave, g);
+      const Vector<3> slip = vector_at(friction_state.slip, slave, g);
       able.slaves.push_back(slave);
       able.times.push_back(std::sqrt(dot(slip, slip)) / speed);
       able.tractions.insert(able.tractions.end(), cone.begin(),
@@ -722,7 +727,7 @@ bool FreeBodies::stick_first(const std::vector<Rows>& rows,
     std::vector<std::int32_t> which;
     std::vector<double> tractions;
     for (std::size_t i = 0; i < some.slaves.size(); ++i)
-      if (some.times[i] <= first * (1 + tie))
+      if (some.times[i] <= first * (1 + rel_tol))
       {
         which.push_back(some.slaves[i]);
         tractions.insert(tractions.end(), &some.tractions[i * g],

@@ -21,21 +21,21 @@ struct Pairing
 
 /// @brief Slave nodes of a contact with friction (arrays of shape=(n, gdim) but
 /// for two).
-struct Rubbing
+struct FrictionState
 {
   std::vector<double> normal, traction, slip;
   std::vector<double> value; ///< complementarity function, a force
   std::vector<double> area;  ///< shape=(n)
   /// 1 where the bound of friction is not zero (shape=(n))
-  std::vector<std::int8_t> rubs;
+  std::vector<std::int8_t> has_friction;
 };
 
 /// @brief A contact as free bodies see it. n is the number of owned slave
 /// nodes.
-class Holding
+class FreeBodyContact
 {
 public:
-  virtual ~Holding() = default;
+  virtual ~FreeBodyContact() = default;
 
   /// @brief True if pairs and normals are those of the reference: sliding is
   /// small.
@@ -54,7 +54,7 @@ public:
   virtual std::vector<double> closable_gap() const = 0;
 
   /// @brief Evaluate the law of friction as the status is now.
-  virtual Rubbing rubbing() = 0;
+  virtual FrictionState friction_state() = 0;
 
   /// @brief Close nodes, whatever their pressures: they stick where there is
   /// friction.
@@ -102,7 +102,7 @@ public:
   /// (shape=(num_owned)).
   FreeBodies(std::shared_ptr<const mesh::Bodies> bodies,
              std::shared_ptr<Bulk> bulk,
-             std::vector<std::shared_ptr<Holding>> contacts,
+             std::vector<std::shared_ptr<FreeBodyContact>> contacts,
              std::span<const std::int64_t> original);
 
   /// @brief True if any contact has Coulomb friction.
@@ -160,7 +160,7 @@ private:
   /// motion gets there.
   struct Found
   {
-    Holding* contact;
+    FreeBodyContact* contact;
     std::vector<std::int32_t> slaves;
     std::vector<double> times;
     std::vector<double> tractions{};
@@ -176,11 +176,12 @@ private:
   bool close_before_springs(const std::vector<Rows>& rows,
                             std::span<const double> pull);
   std::int64_t
-  close_first(const std::vector<Rows>& rows, std::span<const double> way,
+  close_first(const std::vector<Rows>& rows, std::span<const double> increment,
               double within = std::numeric_limits<double>::infinity());
-  bool stick_first(const std::vector<Rows>& rows, std::span<const double> way);
-  std::vector<double> lacking(const std::vector<Rows>& rows) const;
-  Rubbing rubbing(const Rows& rows, std::size_t n) const;
+  bool stick_first(const std::vector<Rows>& rows,
+                   std::span<const double> increment);
+  std::vector<double> cone_deficit(const std::vector<Rows>& rows) const;
+  FrictionState friction_state(const Rows& rows, std::size_t n) const;
   double lowest(std::span<const Found> found) const;
   bool loads_balance(const dense::Matrix& N) const;
   void add_springs(const dense::Matrix& N, std::span<const double> x,
@@ -189,7 +190,7 @@ private:
 
   std::shared_ptr<const mesh::Bodies> _bodies;
   std::shared_ptr<Bulk> _bulk;
-  std::vector<std::shared_ptr<Holding>> _contacts;
+  std::vector<std::shared_ptr<FreeBodyContact>> _contacts;
   std::vector<std::int64_t> _original;
   std::optional<RigidModes> _modes;
   std::int64_t _free_modes = 0, _closed_for_balance = 0;

@@ -104,31 +104,31 @@ public:
         left[i][k] = _nodes[i].target[k] - left[i][k];
       left[i] = _nodes[i].constrained(left[i]);
     }
-    Vectors way = left;
+    Vectors increment = left;
     double size = product(left, left);
     for (int n = 0; n < most_iterations and std::sqrt(size) > _small; ++n)
     {
-      const std::vector<double> more = pushed(way);
+      const std::vector<double> more = pushed(increment);
       Vectors change = relative(more);
       for (std::size_t i = 0; i < change.size(); ++i)
         change[i] = _nodes[i].constrained(change[i]);
-      const double work = product(way, change);
+      const double work = product(increment, change);
       // Held by prescribed displacements
       if (not(work > 0))
         return;
       const double part = size / work;
       for (std::size_t j = 0; j < more.size(); ++j)
         _velocity[j] += part * more[j];
-      for (std::size_t i = 0; i < way.size(); ++i)
+      for (std::size_t i = 0; i < increment.size(); ++i)
         for (int k = 0; k < 3; ++k)
         {
-          _nodes[i].sum[k] += part * way[i][k];
+          _nodes[i].sum[k] += part * increment[i][k];
           left[i][k] -= part * change[i][k];
         }
       const double before = std::exchange(size, product(left, left));
-      for (std::size_t i = 0; i < way.size(); ++i)
+      for (std::size_t i = 0; i < increment.size(); ++i)
         for (int k = 0; k < 3; ++k)
-          way[i][k] = left[i][k] + size / before * way[i][k];
+          increment[i][k] = left[i][k] + size / before * increment[i][k];
     }
   }
 
@@ -321,14 +321,14 @@ void Impact::begin_step()
   }
 }
 
-double Impact::arrival(std::span<const double> way,
+double Impact::arrival(std::span<const double> increment,
                        std::span<const double> cell_sizes) const
 {
   const std::size_t n = _halo->num_owned();
   _halo->ranks().agree(
       [&]
       {
-        check::rows(way.size(), n, _halo->gdim(), "way", "owned node");
+        check::rows(increment.size(), n, _halo->gdim(), "way", "owned node");
         check::rows(cell_sizes.size(), n, 1, "cell_sizes", "owned node");
         check::require(_was_closed.size() == _contacts.size(),
                        "begin_step must come before arrival");
@@ -339,7 +339,7 @@ double Impact::arrival(std::span<const double> way,
   for (Node& node : closed)
     if (not _was_closed[node.contact][node.place])
       arrived.push_back(std::move(node));
-  const Vectors moved = relative(*_halo, arrived, way);
+  const Vectors moved = relative(*_halo, arrived, increment);
   double most = 0;
   for (std::size_t i = 0; i < arrived.size(); ++i)
   {

@@ -57,14 +57,14 @@ public:
   ///
   /// Contact acts throughout a step, as if they had touched from its start: the
   /// time of an impact is known as well as these distances are small.
-  /// @param[in] way Displacements of the step (shape=(num_owned, gdim)).
+  /// @param[in] increment Displacements of the step (shape=(num_owned, gdim)).
   /// @param[in] cell_sizes Size of the largest cell around each node
   /// (shape=(num_owned)).
   /// @return Largest distance along the normal over the size of a cell at the
   /// slave node, the same on all ranks; 0 if no node has arrived.
   /// @throws std::invalid_argument on all ranks if an array does not fit on
   /// one of them, or no step has begun.
-  double arrival(std::span<const double> way,
+  double arrival(std::span<const double> increment,
                  std::span<const double> cell_sizes) const;
 
   /// @brief Correct velocities after a step that has converged, before it is

@@ -17,12 +17,12 @@ constexpr double defect_allowed = 1e-10;
 /// Rotation of a loose body that linear strains take for a stretch by 1e-4
 constexpr double turned_most = 0.014;
 
-std::vector<std::shared_ptr<Holding>>
+std::vector<std::shared_ptr<FreeBodyContact>>
 holdings(const System::Contacts& contacts)
 {
-  std::vector<std::shared_ptr<Holding>> held;
+  std::vector<std::shared_ptr<FreeBodyContact>> held;
   for (const auto& c : contacts)
-    held.push_back(solve::holding(c));
+    held.push_back(solve::free_body_contact(c));
   return held;
 }
 } // namespace
@@ -105,7 +105,7 @@ void Loop::set_factors(std::span<const double> stiffness)
 
 void Loop::settle_first()
 {
-  settle(true);
+  update_active_set(true);
   // For callers that ask for the Jacobian before the residual: freezing the
   // kinematics has changed the pairs
   for (const auto& c : _system->contacts())
@@ -132,9 +132,9 @@ bool Loop::find_homogeneous()
                              { return c->is_without_gaps(); });
 }
 
-void Loop::settle(bool is_first)
+void Loop::update_active_set(bool is_first)
 {
-  _active_set.settle(_forces, is_first);
+  _active_set.update(_forces, is_first);
   ++_version;
 }
 
@@ -148,7 +148,7 @@ Verdict Loop::judge(bool is_start, double rtol, double atol,
     _has_stepped = true;
     take_back();
     take_off_drift();
-    settle(false);
+    update_active_set(false);
     _active_set.advance(_length.part() == 1);
   }
   bool is_small = compare(rtol, atol, b);
@@ -163,8 +163,8 @@ Verdict Loop::judge(bool is_start, double rtol, double atol,
     const auto end = _active_set.may_end(_forces);
     if (end == ActiveSet::End::solution)
       break;
-    if (end == ActiveSet::End::hidden)
-      return Verdict::hidden;
+    if (end == ActiveSet::End::frozen_pair_penetrates)
+      return Verdict::frozen_pair_penetrates;
     ++_version;
     is_small = compare(rtol, atol, b);
   }
@@ -183,9 +183,9 @@ Verdict Loop::judge(bool is_start, double rtol, double atol,
   {
     if (_bodies->free_modes() == 0)
       return Verdict::solution;
-    if (way() > _convergence.farthest())
-      return Verdict::ran_away;
-    return _bodies->turned() > turned_most ? Verdict::turned
+    if (max_increment() > _convergence.farthest())
+      return Verdict::unbounded_motion;
+    return _bodies->turned() > turned_most ? Verdict::large_rotation
                                            : Verdict::solution;
   }
   if (_length.is_stuck())
@@ -313,9 +313,9 @@ double Loop::within_cells(std::span<const double> dx) const
   for (std::size_t i = 0; i < _system->num_displacements(); ++i)
     way[i] = -dx[i];
   halo.forward(std::span(way), halo.gdim());
-  const double part = mesh::longest_way(bulk.cells(), bulk.nodes_per_cell(),
-                                        halo.reference(), halo.now()->u, way,
-                                        halo.gdim(), StepLength::left);
+  const double part = mesh::max_step_without_inversion(
+      bulk.cells(), bulk.nodes_per_cell(), halo.reference(), halo.now()->u, way,
+      halo.gdim(), StepLength::left);
   return mesh::least(halo.ranks(), part);
 }
 
@@ -327,7 +327,7 @@ double Loop::size_of(std::span<const double> dx) const
   return std::sqrt(mesh::total(_system->halo()->ranks(), sum));
 }
 
-double Loop::way()
+double Loop::max_increment()
 {
   const std::span<const double> u = _system->bulk()->displacements();
   double most = 0;

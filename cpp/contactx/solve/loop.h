@@ -14,14 +14,15 @@ namespace contactx::solve
 /// @brief Verdict on an accepted iterate.
 enum class Verdict : std::int8_t
 {
-  goes_on,    ///< the Jacobian's turn
-  solution,   ///< bulk, contacts and active set are in equilibrium
-  not_finite, ///< the residual is not
-  hidden,     ///< frozen pairs hide a penetration, and cannot be released
-  ran_away,   ///< it would be, but for a body that nothing holds and that has
-              ///< left the scene
-  turned,     ///< it would be, but for a body that nothing holds and that has
-              ///< turned farther than its linear strains allow
+  goes_on,                ///< the Jacobian's turn
+  solution,               ///< bulk, contacts and active set are in equilibrium
+  not_finite,             ///< the residual is not
+  frozen_pair_penetrates, ///< frozen pairs hide a penetration, and cannot be
+                          ///< released
+  unbounded_motion, ///< it would be, but for a body that nothing holds and that
+                    ///< has left the scene
+  large_rotation, ///< it would be, but for a body that nothing holds and that
+                  ///< has turned farther than its linear strains allow
   unbalanced, ///< nothing can balance the loads on a body
   stuck       ///< the last steps have led nowhere
 };
@@ -29,12 +30,12 @@ enum class Verdict : std::int8_t
 /// @brief An accepted iterate, as all ranks see it.
 struct Iterate
 {
-  double residual = 0;      ///< norm of the residual
-  double tolerance = 0;     ///< bound of the residual
-  double defect = 0;        ///< largest difference from a Dirichlet value
-  std::int64_t closed = 0;  ///< slave nodes in contact
-  Changes changes{}; ///< of the last update
-  bool is_frozen = false;   ///< whether kinematics are
+  double residual = 0;     ///< norm of the residual
+  double tolerance = 0;    ///< bound of the residual
+  double defect = 0;       ///< largest difference from a Dirichlet value
+  std::int64_t closed = 0; ///< slave nodes in contact
+  Changes changes{};       ///< of the last update
+  bool is_frozen = false;  ///< whether kinematics are
 };
 
 /// @brief Semismooth Newton method, the primal-dual active set strategy
@@ -147,7 +148,7 @@ public:
   double size_of(std::span<const double> dx) const;
 
   /// @brief Largest component of what any node has moved by in this step.
-  double way();
+  double max_increment();
 
   /// @brief Angle that a body without supports has turned by, radians, see
   /// FreeBodies::turned.
@@ -167,7 +168,7 @@ public:
   void reset() { _bodies->reset(); }
 
 private:
-  void settle(bool is_first);
+  void update_active_set(bool is_first);
   void foresee(std::span<const double> dx);
   void look_ahead();
   bool find_homogeneous();

@@ -60,21 +60,21 @@ bool SoftPath::begins(const HardStep& step)
       or _stiffness >= stiff)
     return false;
   _has_begun = _is_fresh = true;
-  _softness = 1 / _stiffness;
+  _compliance = 1 / _stiffness;
   return true;
 }
 
 void SoftPath::advance(std::int64_t changes, std::int64_t closed, bool is_full)
 {
   // The iterate at which the path began has not moved
-  if (std::exchange(_is_fresh, false) or !(_softness > 0) or !is_full)
+  if (std::exchange(_is_fresh, false) or !(_compliance > 0) or !is_full)
     return;
   ++_iterations;
   if (_iterations < most_iterations
       and changes > std::max(1.0, settled * closed))
     return;
   _iterations = 0;
-  _softness /= harder;
-  if (_softness <= last)
+  _compliance /= harder;
+  if (_compliance <= last)
     harden();
 }

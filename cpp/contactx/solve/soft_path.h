@@ -58,13 +58,13 @@ public:
   void advance(std::int64_t changes, std::int64_t closed, bool is_full);
 
   /// @brief Make contact hard again.
-  void harden() { _softness = 0; }
+  void harden() { _compliance = 0; }
 
   /// @brief Compliance of the layer, over 1 / c; zero if contact is hard.
-  double softness() const { return _softness; }
+  double compliance() const { return _compliance; }
 
 private:
-  double _softness = 0;
+  double _compliance = 0;
   // Smallest stiffness of the bodies that has been seen, over c
   double _stiffness = 1;
   int _iterations = 0; // at this level

@@ -3,9 +3,9 @@
 
 #include "../facets.h"
 #include "../require.h"
-#include <contactx/condense/chains.h>
 #include <contactx/condense/condensation.h>
 #include <contactx/condense/contact_block.h>
+#include <contactx/condense/dependent_constraints.h>
 #include <contactx/contact/node_to_surface.h>
 #include <contactx/contact/obstacle_tie.h>
 #include <contactx/contact/surface_to_surface.h>
@@ -68,8 +68,8 @@ std::shared_ptr<Contact> any_contact(Input& in, const Scene& scene,
   {
     auto surface
         = search::make_master_surface(halo, master.offsets, master.nodes);
-    auto outside
-        = std::make_shared<search::Outside>(halo, master.offsets, master.nodes);
+    auto outside = std::make_shared<search::InsideTest>(halo, master.offsets,
+                                                        master.nodes);
     has_means = in.flag();
     if (has_means and law->is_tied())
       pairs = std::make_shared<contact::SurfaceTie>(halo, slaves, surface,

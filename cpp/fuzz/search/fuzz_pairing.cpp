@@ -3,8 +3,8 @@
 
 #include "../facets.h"
 #include "../require.h"
-#include <contactx/search/foot.h>
 #include <contactx/search/pairing.h>
+#include <contactx/search/projections.h>
 
 using namespace contactx;
 using namespace contactx::fuzz;
@@ -16,7 +16,7 @@ namespace
 void check(const Pairing& pairing, const Scene& scene, Input& in)
 {
   const auto facets = pairing.master().facets();
-  const auto feet = search::feet(
+  const auto feet = search::projections(
       pairing.master(), pairing.facet(), scene.x,
       std::vector<double>(scene.gdim * pairing.facet().size(), 0.5),
       pairing.xi());
@@ -92,10 +92,11 @@ void step(Pairing& pairing, const Scene& scene, Input& in)
   case 3:
     for (const std::int32_t i : pairing.seek(scene.x, reach))
       if (const auto q = any_projection(pairing, in); !q or in.even())
-        pairing.settle(i, std::nullopt, scene.x, reach, closed[i]);
+        pairing.accept_projection(i, std::nullopt, scene.x, reach, closed[i]);
       else
-        pairing.settle(i, q->feature == geometry::interior ? q : std::nullopt,
-                       scene.x, reach, closed[i]);
+        pairing.accept_projection(
+            i, q->feature == geometry::interior ? q : std::nullopt, scene.x,
+            reach, closed[i]);
     break;
   default:
   {

@@ -4,13 +4,13 @@
 #include "../input.h"
 #include "../require.h"
 #include <algorithm>
-#include <contactx/solve/junctions.h>
+#include <contactx/solve/shared_nodes.h>
 #include <vector>
 
 using namespace contactx;
 using namespace contactx::fuzz;
 using solve::Closing;
-using solve::Junctions;
+using solve::SharedNodes;
 
 namespace
 {
@@ -39,7 +39,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
   }
   for (const Arrays& c : contacts)
     slaves.push_back(c.slaves);
-  Junctions junctions(slaves);
+  SharedNodes junctions(slaves);
   for (int iterate = 0; iterate < 1 + in.below(8); ++iterate)
   {
     std::vector<Closing> closing;
@@ -76,9 +76,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
           continue;
         }
         ++closed;
-        kept += not shared[k].ceded[at];
+        kept += not shared[k].redundant[at];
         tied += c.is_tied;
-        left += c.is_tied and shared[k].ceded[at];
+        left += c.is_tied and shared[k].redundant[at];
       }
       require(closed == 0 or kept > 0, "a node that is closed is held");
       require(tied == 0 or left == tied - 1, "of several ties one holds");

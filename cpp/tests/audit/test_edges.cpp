@@ -78,7 +78,7 @@ TEST_P(EdgesOfMasters, WhatTheyTakeIsComparedWithTheNormalOfASmoothSlave)
       SurfacesAudit audit(c.halo, c.contact);
       c.contact->search();
       press(c, at_zero(s), 3);
-      const Findings found = audit.look(c.halo->now()->x);
+      const Findings found = audit.find(c.halo->now()->x);
       ASSERT_TRUE(found.edges);
       // The node is at two thirds of the facet that ends at the edge
       EXPECT_NEAR(found.edges->share, 2. / 3, 1e-12);
@@ -98,7 +98,7 @@ TEST_P(EdgesOfMasters, WhatTheyTakeIsComparedWithTheNormalOfASmoothSlave)
                 std::string::npos)
           << found.warnings[0];
       audit.accept();
-      EXPECT_TRUE(audit.look(c.halo->now()->x).warnings.empty());
+      EXPECT_TRUE(audit.find(c.halo->now()->x).warnings.empty());
     }
 }
 
@@ -116,7 +116,7 @@ TEST_P(EdgesOfMasters, ThoseThatNodesDoNotSeeAreComparedWithWhatNodesTake)
       c.move(0, s.num_slaves, -depth / std::cos(angle * degree));
       const auto x = c.halo->now()->x;
       const bool counts = angle == 30; // others are as faces are
-      const Findings none = audit.look(x);
+      const Findings none = audit.find(x);
       ASSERT_EQ(none.edges.has_value(), counts);
       if (counts)
       {
@@ -137,7 +137,7 @@ TEST_P(EdgesOfMasters, ThoseThatNodesDoNotSeeAreComparedWithWhatNodesTake)
         for (const double area : c.contact->nodes()->area)
           most = std::max(most, area);
         press(c, i, 2 * most * depth / part);
-        const Findings found = audit.look(x);
+        const Findings found = audit.find(x);
         ASSERT_TRUE(found.edges);
         EXPECT_NEAR(found.edges->unseen, counts ? part : 0, 1e-9);
         EXPECT_EQ(found.edges->ratio() == contactx::infinity,

@@ -58,9 +58,9 @@ TEST(AuditOfObstacles, ReachesBetweenSlaveNodes)
     MovedContact c(segments(0), disc(0.5, depth - radius, radius));
     ObstacleAudit audit(c.halo, c.contact);
     audit.accept();
-    const Findings found = audit.look({});
+    const Findings found = audit.find({});
     EXPECT_EQ(found.passed.count + found.inside.count, 0);
-    EXPECT_EQ(found.is_too_deep, depth > 0);
+    EXPECT_EQ(found.penetrates_too_deep, depth > 0);
     EXPECT_EQ(found.is_fault(), depth > 0);
     EXPECT_NEAR(found.facet_size, h, 1e-15);
     if (depth < 0)
@@ -85,8 +85,8 @@ TEST(AuditOfObstacles, IsSeenHoweverNarrow)
   MovedContact c(segments(0), disc(1.3 / 3, depth - radius, radius));
   ObstacleAudit audit(c.halo, c.contact);
   audit.accept();
-  const Findings found = audit.look({});
-  EXPECT_TRUE(found.is_too_deep);
+  const Findings found = audit.find({});
+  EXPECT_TRUE(found.penetrates_too_deep);
   EXPECT_LE(found.deepest->depth, depth + 1e-15);
   EXPECT_GE(found.deepest->depth, 0.6 * depth);
 }
@@ -100,12 +100,12 @@ TEST(AuditOfObstacles, WhereAStepEndsBeforeANodeTouchesOrAfterItIsTheSame)
   ObstacleAudit audit(c.halo, c.contact);
   audit.accept();
   const double depth = radius - low;
-  const Findings open = audit.look({});
+  const Findings open = audit.find({});
   ASSERT_TRUE(open.deepest.has_value());
   EXPECT_FALSE(open.is_fault());
   EXPECT_FALSE(open.deepest->is_held);
   c.contact->nodes()->close(std::vector<std::int32_t>{1, 2});
-  const Findings held = audit.look({});
+  const Findings held = audit.find({});
   ASSERT_TRUE(held.deepest.has_value());
   EXPECT_TRUE(held.deepest->is_held);
   EXPECT_FALSE(held.is_fault());
@@ -114,7 +114,7 @@ TEST(AuditOfObstacles, WhereAStepEndsBeforeANodeTouchesOrAfterItIsTheSame)
   EXPECT_EQ(open.deepest->excess, held.deepest->excess);
   // A gap that is closed in the mean while the node is beside the obstacle
   c.move(0, 4, 0.01);
-  EXPECT_FALSE(audit.look({}).deepest->is_held);
+  EXPECT_FALSE(audit.find({}).deepest->is_held);
 }
 
 TEST(AuditOfObstacles, AFewFacetsARadiusAreWarnedOfOnceWhereNodesTouch)
@@ -126,9 +126,9 @@ TEST(AuditOfObstacles, AFewFacetsARadiusAreWarnedOfOnceWhereNodesTouch)
     MovedContact c(segments(0), disc(h, -radius, radius));
     ObstacleAudit audit(c.halo, c.contact);
     audit.accept();
-    EXPECT_FALSE(audit.look({}).roundness) << "no node is in contact";
+    EXPECT_FALSE(audit.find({}).roundness) << "no node is in contact";
     c.contact->nodes()->close(std::vector<std::int32_t>{1});
-    const Findings found = audit.look({});
+    const Findings found = audit.find({});
     ASSERT_TRUE(found.roundness);
     EXPECT_NEAR(found.roundness->radius, radius, 1e-13);
     EXPECT_NEAR(found.roundness->size, h, 1e-14);
@@ -142,10 +142,10 @@ TEST(AuditOfObstacles, AFewFacetsARadiusAreWarnedOfOnceWhereNodesTouch)
           std::string::npos)
           << found.warnings[0];
     // Until the step is accepted, as an iterate may be none
-    EXPECT_EQ(audit.look({}).warnings, found.warnings);
+    EXPECT_EQ(audit.find({}).warnings, found.warnings);
     audit.accept();
-    EXPECT_TRUE(audit.look({}).warnings.empty());
-    EXPECT_TRUE(audit.look({}).roundness);
+    EXPECT_TRUE(audit.find({}).warnings.empty());
+    EXPECT_TRUE(audit.find({}).roundness);
   }
 }
 
@@ -156,7 +156,7 @@ TEST(AuditOfObstacles, APlaneIsDeepestAtANode)
                      std::vector<double>{0, 0.1}, std::vector<double>{0.2, 1}));
   ObstacleAudit audit(c.halo, c.contact);
   audit.accept();
-  const Findings found = audit.look({});
+  const Findings found = audit.find({});
   EXPECT_FALSE(found.deepest.has_value());
   EXPECT_FALSE(found.is_fault()) << "nodes that face it have pairs";
 }
@@ -167,10 +167,10 @@ TEST(AuditOfObstacles, SlaveNodesInsideThatFaceAway)
   MovedContact c(segments(-0.2), disc(0.5, 0, 0.4));
   ObstacleAudit audit(c.halo, c.contact);
   audit.accept();
-  Findings found = audit.look({});
+  Findings found = audit.find({});
   EXPECT_EQ(found.inside.count, 2);
   EXPECT_TRUE(found.is_fault());
-  EXPECT_FALSE(found.is_too_deep) << "what else is found comes first";
+  EXPECT_FALSE(found.penetrates_too_deep) << "what else is found comes first";
   const auto slaves = c.contact->slaves().owned();
   const auto x = c.halo->now()->x;
   const auto first = static_cast<std::int32_t>(found.inside.first);
@@ -180,9 +180,9 @@ TEST(AuditOfObstacles, SlaveNodesInsideThatFaceAway)
   EXPECT_NEAR(std::abs(found.inside.at[0] - 0.5), 1. / 6, 1e-15);
   // An overlap that was asked for: they are 0.14 deep
   c.contact->set_offset(std::vector<double>(4, -0.15));
-  EXPECT_EQ(audit.look({}).inside.count, 0);
+  EXPECT_EQ(audit.find({}).inside.count, 0);
   c.contact->set_offset(std::vector<double>(4, -0.13));
-  EXPECT_EQ(audit.look({}).inside.count, 2);
+  EXPECT_EQ(audit.find({}).inside.count, 2);
 }
 
 TEST(AuditOfObstacles, NodesAndFacetsThatWentThrough)
@@ -199,12 +199,12 @@ TEST(AuditOfObstacles, NodesAndFacetsThatWentThrough)
     ObstacleAudit audit(c.halo, c.contact);
     audit.accept();
     c.move(0, 4, -1.2);
-    Findings found = audit.look({});
+    Findings found = audit.find({});
     EXPECT_EQ(found.passed.count, count);
     EXPECT_TRUE(found.is_fault());
     EXPECT_EQ(found.inside.count, 0);
     audit.accept();
-    EXPECT_EQ(audit.look({}).passed.count, 0) << "it was not in this step";
+    EXPECT_EQ(audit.find({}).passed.count, 0) << "it was not in this step";
     // Around it, not through it
     c.move(0, 4, 0.);
     audit.accept();
@@ -212,7 +212,7 @@ TEST(AuditOfObstacles, NodesAndFacetsThatWentThrough)
       (*c.displacement)[2 * i] = 2;
     audit.accept();
     c.move(0, 4, -1.2);
-    EXPECT_EQ(audit.look({}).passed.count, 0);
+    EXPECT_EQ(audit.find({}).passed.count, 0);
   }
 }
 
@@ -224,11 +224,11 @@ TEST(AuditOfObstacles, OneThatHasMovedCarriesItsOwnFrame)
   audit.accept();
   // The disc goes up through the slave
   moving->place({0.5, 1.2}, 0.4);
-  EXPECT_EQ(audit.look({}).passed.count, 5);
+  EXPECT_EQ(audit.find({}).passed.count, 5);
   // Both go down as one
   moving->place({0.5, -1.2}, 0.4);
   c.move(0, 4, -1.2);
-  EXPECT_EQ(audit.look({}).passed.count, 0);
+  EXPECT_EQ(audit.find({}).passed.count, 0);
 }
 
 TEST(AuditOfObstacles, APlaneThatTurnsIsNotPassed)
@@ -242,7 +242,7 @@ TEST(AuditOfObstacles, APlaneThatTurnsIsNotPassed)
   const double angle = 100 * std::numbers::pi / 180;
   plane->place({0.5, -0.1}, {std::sin(angle), std::cos(angle)});
   c.contact->search();
-  const Findings found = audit.look({});
+  const Findings found = audit.find({});
   EXPECT_EQ(found.passed.count, 0);
   EXPECT_EQ(found.inside.count, 2) << "of them two nodes";
 }
@@ -255,7 +255,7 @@ TEST(AuditOfObstacles, AFunctionTellsNoWay)
   ObstacleAudit audit(c.halo, c.contact);
   audit.accept();
   c.move(0, 4, -1.2);
-  EXPECT_EQ(audit.look({}).passed.count, 7);
+  EXPECT_EQ(audit.find({}).passed.count, 7);
 }
 
 TEST(AuditOfObstacles, AFunctionIsSeenAsTheDiscIs)
@@ -273,7 +273,7 @@ TEST(AuditOfObstacles, AFunctionIsSeenAsTheDiscIs)
       MovedContact c(segments(0), o);
       ObstacleAudit audit(c.halo, c.contact);
       audit.accept();
-      found.push_back(audit.look({}));
+      found.push_back(audit.find({}));
     }
     EXPECT_EQ(found[0].is_fault(), found[1].is_fault());
     EXPECT_EQ(found[0].inside.count, found[1].inside.count);
@@ -292,12 +292,12 @@ TEST(AuditOfObstacles, WhatAFunctionThrowsComesThrough)
   bool fails = false;
   MovedContact c(segments(0), function(0.5, -0.2, 0.1, &fails));
   Audit audit(c.halo, {c.contact});
-  EXPECT_FALSE(audit.look().at(0).is_fault());
+  EXPECT_FALSE(audit.find().at(0).is_fault());
   fails = true;
-  EXPECT_THROW(audit.look(), std::runtime_error);
+  EXPECT_THROW(audit.find(), std::runtime_error);
   EXPECT_THROW(audit.accept(), std::runtime_error);
   fails = false;
-  EXPECT_FALSE(audit.look().at(0).is_fault());
+  EXPECT_FALSE(audit.find().at(0).is_fault());
 }
 
 TEST(AuditOfObstacles, InSmallSlidingTheyAreNotLookedAt)
@@ -306,7 +306,7 @@ TEST(AuditOfObstacles, InSmallSlidingTheyAreNotLookedAt)
   {
     MovedContact c(segments(0), disc(0.5, -0.03, 0.1), sliding);
     Audit audit(c.halo, {c.contact});
-    EXPECT_EQ(audit.look().at(0).is_fault(), sliding == Sliding::finite);
+    EXPECT_EQ(audit.find().at(0).is_fault(), sliding == Sliding::finite);
   }
 }
 
@@ -321,8 +321,8 @@ TEST(AuditOfObstacles, SpaceToo)
                               std::vector<double>{0.5, 0.5, depth - 0.1}, 0.1));
     ObstacleAudit audit(c.halo, c.contact);
     audit.accept();
-    const Findings found = audit.look({});
-    EXPECT_EQ(found.is_too_deep, depth > 0);
+    const Findings found = audit.find({});
+    EXPECT_EQ(found.penetrates_too_deep, depth > 0);
     if (depth > 0)
     {
       EXPECT_NEAR(found.deepest->depth, depth, 1e-14);
@@ -338,5 +338,5 @@ TEST(AuditOfObstacles, ArgumentsThatDoNotFit)
   EXPECT_THROW(SurfacesAudit(rigid.halo, rigid.contact), std::invalid_argument);
   EXPECT_THROW(ObstacleAudit(soft.halo, soft.contact), std::invalid_argument);
   SurfacesAudit audit(soft.halo, soft.contact);
-  EXPECT_THROW(audit.look(std::vector<double>(3)), std::invalid_argument);
+  EXPECT_THROW(audit.find(std::vector<double>(3)), std::invalid_argument);
 }

@@ -112,7 +112,7 @@ TEST_P(Passage, IsDeeperThanTheTolerance)
   {
     EXPECT_FALSE(passes(table, {{2.1, start}, {2.3, -0.045}, down, down}));
     EXPECT_TRUE(passes(table, {{2.1, start}, {2.3, -0.06}, down, down}));
-    // Seen at an angle, too
+    // ProbeResult at an angle, too
     const Vector<2> tilted{0.6, -0.8};
     EXPECT_FALSE(passes(table, {{2.1, start}, {2.3, -0.045}, tilted, tilted}));
     EXPECT_TRUE(passes(table, {{2.1, start}, {2.3, -0.06}, tilted, tilted}));

@@ -3,6 +3,7 @@
 
 #include "scene.h"
 #include <contactx/audit/penetration.h>
+#include <contactx/geometry/sizes.h>
 #include <gtest/gtest.h>
 #include <limits>
 #include <numbers>
@@ -30,8 +31,8 @@ double explained(double size, double curvature, int contact,
                  double extent = std::numeric_limits<double>::infinity())
 {
   const std::int8_t flag = contact;
-  return explained_depths(std::span(&size, 1), std::span(&curvature, 1),
-                          std::span(&flag, 1), std::span(&extent, 1))[0];
+  return allowed_penetration(std::span(&size, 1), std::span(&curvature, 1),
+                             std::span(&flag, 1), std::span(&extent, 1))[0];
 }
 
 std::vector<double> curvatures(const Scene& scene)
@@ -161,14 +162,17 @@ TEST(ExplainedDepths, RefuseArraysOfDifferentSizes)
 {
   const std::vector<double> two(2), one(1);
   const std::vector<std::int8_t> flags(2);
-  EXPECT_THROW(explained_depths(two, one, flags, two), std::invalid_argument);
-  EXPECT_THROW(explained_depths(one, one, flags, one), std::invalid_argument);
+  EXPECT_THROW(allowed_penetration(two, one, flags, two),
+               std::invalid_argument);
+  EXPECT_THROW(allowed_penetration(one, one, flags, one),
+               std::invalid_argument);
 }
 
 TEST(FacetTurns, RefuseNormalsOfOtherNodes)
 {
   const Scene scene = flat_grid(1, Cells::triangles);
-  EXPECT_THROW(geometry::facet_turns(scene.facets(), scene.x, std::vector<double>(3), 3),
-               std::invalid_argument);
+  EXPECT_THROW(
+      geometry::facet_turns(scene.facets(), scene.x, std::vector<double>(3), 3),
+      std::invalid_argument);
 }
 } // namespace

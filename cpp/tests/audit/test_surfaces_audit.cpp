@@ -3,8 +3,9 @@
 
 #include "moved_contact.h"
 #include <contactx/audit/audit.h>
+#include <contactx/audit/penetration.h>
 #include <contactx/audit/surfaces_audit.h>
-#include <contactx/geometry/penetration.h>
+#include <contactx/geometry/sizes.h>
 #include <gtest/gtest.h>
 
 using namespace contactx;
@@ -70,7 +71,7 @@ TEST_P(AuditOfSurfaces, NothingIsFoundOnASoundContact)
       const auto start = c.halo->now()->x;
       c.move(0, s.num_slaves, -height);
       c.contact->search();
-      const Findings found = audit.look(start);
+      const Findings found = audit.find(start);
       EXPECT_FALSE(found.is_fault());
       EXPECT_EQ(found.passed.count, 0);
       EXPECT_EQ(found.inside.count, 0);
@@ -95,7 +96,7 @@ TEST_P(AuditOfSurfaces, SlaveNodesBehindTheMasterWithoutAPair)
       c.move(0, s.num_slaves, -0.5);
       (*c.displacement)[2 * gdim() - 1] = -0.5 - depth;
       const auto x = c.halo->now()->x;
-      const Findings found = audit.look(x);
+      const Findings found = audit.find(x);
       EXPECT_EQ(found.passed.count, 0);
       ASSERT_EQ(found.inside.count, depth > h / 32) << depth;
       if (found.inside.count == 0)
@@ -104,16 +105,17 @@ TEST_P(AuditOfSurfaces, SlaveNodesBehindTheMasterWithoutAPair)
       EXPECT_EQ(found.inside.first, 1);
       EXPECT_EQ(found.inside.at, std::vector<double>(x.begin() + gdim(),
                                                      x.begin() + 2 * gdim()));
-      EXPECT_FALSE(found.is_too_deep) << "what else is found comes first";
+      EXPECT_FALSE(found.penetrates_too_deep)
+          << "what else is found comes first";
     }
     // An overlap that was asked for
     c.contact->set_offset(std::vector<double>(s.num_slaves, -0.1));
-    EXPECT_EQ(audit.look(c.halo->now()->x).inside.count, 0);
+    EXPECT_EQ(audit.find(c.halo->now()->x).inside.count, 0);
     c.contact->set_offset(std::vector<double>(s.num_slaves, 0.));
-    EXPECT_EQ(audit.look(c.halo->now()->x).inside.count, 1);
+    EXPECT_EQ(audit.find(c.halo->now()->x).inside.count, 1);
     // They may be there for good
     audit.accept();
-    EXPECT_EQ(audit.look(c.halo->now()->x).inside.count, 0);
+    EXPECT_EQ(audit.find(c.halo->now()->x).inside.count, 0);
   }
 }
 
@@ -138,7 +140,7 @@ TEST_P(AuditOfSurfaces, NodesThatWentThroughWithinAStep)
     audit.accept();
     const auto start = c.halo->now()->x;
     c.move(0, s.num_slaves, -way);
-    const Findings found = audit.look(start);
+    const Findings found = audit.find(start);
     EXPECT_EQ(found.passed.count, count) << way;
     EXPECT_EQ(found.is_fault(), count > 0 or found.inside.count > 0);
     if (count == 0)
@@ -148,8 +150,8 @@ TEST_P(AuditOfSurfaces, NodesThatWentThroughWithinAStep)
     EXPECT_EQ(found.passed.at,
               std::vector<double>(x.begin(), x.begin() + gdim()));
     EXPECT_EQ(found.inside.count, 0);
-    EXPECT_FALSE(found.is_too_deep);
-    EXPECT_EQ(audit.look(x).passed.count, 0) << "it was not in this step";
+    EXPECT_FALSE(found.penetrates_too_deep);
+    EXPECT_EQ(audit.find(x).passed.count, 0) << "it was not in this step";
   }
 }
 
@@ -166,10 +168,10 @@ TEST_P(AuditOfSurfaces, NodesThatWentThroughAndHaveAPair)
   const auto start = c.halo->now()->x;
   c.move(0, s.num_slaves, -0.8);
   // All of them, and of the master two a line that are below the slave
-  EXPECT_EQ(audit.look(start).passed.count,
+  EXPECT_EQ(audit.find(start).passed.count,
             s.num_slaves + (gdim() == 2 ? 2 : 4));
   c.move(0, s.num_slaves, -0.1 - 1e-3 * facet_size());
-  EXPECT_EQ(audit.look(start).passed.count, 0);
+  EXPECT_EQ(audit.find(start).passed.count, 0);
 }
 
 TEST_P(AuditOfSurfaces, MasterThatReachesBetweenSlaveNodes)
@@ -187,7 +189,7 @@ TEST_P(AuditOfSurfaces, MasterThatReachesBetweenSlaveNodes)
     if (held)
       c.contact->nodes()->close(c.contact->slaves().facets()[0]);
     const auto x = c.halo->now()->x;
-    const Findings found = audit.look(x);
+    const Findings found = audit.find(x);
     EXPECT_EQ(found.passed.count + found.inside.count, 0);
     ASSERT_TRUE(found.deepest.has_value());
     const double allowed = explained(c, s, node, h, held);
@@ -195,7 +197,7 @@ TEST_P(AuditOfSurfaces, MasterThatReachesBetweenSlaveNodes)
     EXPECT_NEAR(found.deepest->size, h, 1e-14);
     EXPECT_NEAR(found.deepest->excess, depth / allowed, 1e-12 / allowed);
     EXPECT_EQ(found.deepest->excess > 1, not held);
-    EXPECT_EQ(found.is_too_deep, not held);
+    EXPECT_EQ(found.penetrates_too_deep, not held);
     EXPECT_EQ(found.is_fault(), not held);
     EXPECT_EQ(found.deepest->at,
               std::vector<double>(x.begin() + gdim() * node,
@@ -213,11 +215,11 @@ TEST_P(AuditOfSurfaces, SmallSlidingSeesGapsThatAreLinear)
   audit.accept();
   const std::int32_t node = between(s);
   c.move(node, node + 1, height + depth);
-  const Findings found = audit.look(c.halo->now()->x);
+  const Findings found = audit.find(c.halo->now()->x);
   ASSERT_TRUE(found.deepest.has_value());
   EXPECT_NEAR(found.deepest->depth, depth, 1e-14);
   EXPECT_NEAR(found.deepest->excess, depth * 256 / h, 1e-9);
-  EXPECT_TRUE(found.is_too_deep);
+  EXPECT_TRUE(found.penetrates_too_deep);
 }
 
 TEST_P(AuditOfSurfaces, WhatBothSurfacesHaveIsNoMaster)
@@ -237,7 +239,7 @@ TEST_P(AuditOfSurfaces, WhatBothSurfacesHaveIsNoMaster)
       c.contact->master(), c.contact->law(), options);
   SurfacesAudit audit(c.halo, c.contact);
   c.move(node, node + 1, 0.3);
-  const Findings found = audit.look(c.halo->now()->x);
+  const Findings found = audit.find(c.halo->now()->x);
   ASSERT_TRUE(found.deepest.has_value());
   EXPECT_LT(found.deepest->depth, 0);
 }
@@ -249,15 +251,15 @@ TEST_P(AuditOfSurfaces, StepsStartWhereverTheDisplacementIs)
   Audit audit(c.halo, {c.contact});
   audit.begin_step();
   c.move(0, s.num_slaves, -0.3);
-  EXPECT_GT(audit.look().at(0).passed.count, 0);
+  EXPECT_GT(audit.find().at(0).passed.count, 0);
   c.contact->set_active(false);
-  EXPECT_EQ(audit.look().at(0).passed.count, 0);
+  EXPECT_EQ(audit.find().at(0).passed.count, 0);
   c.contact->set_active(true);
-  EXPECT_GT(audit.look().at(0).passed.count, 0);
+  EXPECT_GT(audit.find().at(0).passed.count, 0);
   // A displacement that was put there, not solved for
   audit.begin_step();
-  EXPECT_EQ(audit.look().at(0).passed.count, 0);
-  EXPECT_EQ(audit.look().at(0).inside.count, 0);
+  EXPECT_EQ(audit.find().at(0).passed.count, 0);
+  EXPECT_EQ(audit.find().at(0).inside.count, 0);
 }
 
 TEST_P(AuditOfSurfaces, TiesAreNotLookedAt)
@@ -266,7 +268,7 @@ TEST_P(AuditOfSurfaces, TiesAreNotLookedAt)
   MovedContact c(s, 0.05, Sliding::finite, std::make_shared<law::Tied>());
   Audit audit(c.halo, {c.contact});
   c.move(0, s.num_slaves, -0.3);
-  const auto found = audit.look();
+  const auto found = audit.find();
   ASSERT_EQ(found.size(), 1);
   EXPECT_FALSE(found[0].is_fault());
   EXPECT_FALSE(found[0].deepest.has_value());

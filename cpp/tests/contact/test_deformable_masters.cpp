@@ -161,7 +161,7 @@ TYPED_TEST(DeformableMasters, ReachMustBePositive)
   auto halo = mesh::serial_halo(sheets.x, 2);
   const auto& [offsets, nodes] = sheets.master;
   auto surface = search::make_master_surface(halo, offsets, nodes);
-  auto outside = std::make_shared<search::Outside>(halo, offsets, nodes);
+  auto outside = std::make_shared<search::InsideTest>(halo, offsets, nodes);
   auto slaves = std::make_shared<SlaveNodes>(halo, sheets.slave.list(),
                                              sheets.slave.list());
   for (double reach : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()})
@@ -176,7 +176,7 @@ TYPED_TEST(DeformableMasters, SlaveFacetsMustBeOfTheDimension)
   auto halo = mesh::serial_halo(sheets.x, 3);
   const auto& [offsets, nodes] = sheets.master;
   auto surface = search::make_master_surface(halo, offsets, nodes);
-  auto outside = std::make_shared<search::Outside>(halo, offsets, nodes);
+  auto outside = std::make_shared<search::InsideTest>(halo, offsets, nodes);
   const auto segments = std::make_shared<SlaveNodes>(halo, line.slave.list(),
                                                      line.slave.list());
   for (const auto& slaves : {segments, std::shared_ptr<SlaveNodes>()})
@@ -295,8 +295,8 @@ TEST(SurfaceToSurface, SlipIsMeasuredWithTheWeightsOfTheStart)
   const auto pairs = sheets.pairs<SurfaceToSurface>();
   const auto count = [](const std::vector<kernel::Pairs>& groups)
   {
-    return std::ranges::count_if(groups,
-                                 [](const kernel::Pairs& p) { return p.is_movement; });
+    return std::ranges::count_if(groups, [](const kernel::Pairs& p)
+                                 { return p.is_movement; });
   };
   EXPECT_GT(count(pairs->pairs()), 0);
   const auto start = pairs->pairs().back();
@@ -339,7 +339,8 @@ TEST(SurfaceTie, TheOffsetIsAddedToTheGap)
 TEST(FreeSquares, PartsWithTheSameNodeAddUpFirst)
 {
   // Slave node 0 has node 2 in two facets; node 1 of it is prescribed along x
-  const kernel::Weights weights{{0, 0, 0, 0}, {0, 1, 2, 2}, {1, -0.5, -0.2, -0.3}};
+  const kernel::Weights weights{
+      {0, 0, 0, 0}, {0, 1, 2, 2}, {1, -0.5, -0.2, -0.3}};
   std::vector<std::int8_t> free{1, 1, 0, 1, 1, 1};
   const std::vector<std::int8_t> paired{1, 1};
   const auto squares = free_squares(weights, free, paired, 2);

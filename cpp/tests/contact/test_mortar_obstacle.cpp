@@ -61,7 +61,8 @@ struct Front
     master->search(scene.x, std::vector<std::int8_t>(n));
   }
 
-  std::vector<kernel::Pairs> update(std::span<const double> x, bool frozen = false)
+  std::vector<kernel::Pairs> update(std::span<const double> x,
+                                    bool frozen = false)
   {
     return master->update(x, frozen, std::vector<double>(n)).value();
   }
@@ -303,14 +304,14 @@ TEST(MortarObstacle, WhatDoesNotFaceItIsNotIntegrated)
   ASSERT_EQ(front.master->pairs().at(0).size(), 4u);
   // Of the second facet one corner, of the last one none
   const std::vector<std::int8_t> faces{1, 1, 1, 0, 1, 1, 0, 0};
-  front.master->take_front(faces);
+  front.master->set_front_facets(faces);
   const auto groups = front.master->pairs();
   ASSERT_EQ(groups.at(0).size(), 3u);
   const auto area = front.sums(groups, &Layout::area, 1);
   EXPECT_LE(difference(area, {0.125, 0.125, 0.25, 0.125, 0}), 1e-15);
   const auto gap = front.sums(groups, &Layout::gap, 1);
   EXPECT_LE(difference(gap, {0.0625, 0.0625, 0.125, 0.0625, 0}), 1e-15);
-  EXPECT_THROW(front.master->take_front(std::vector<std::int8_t>(3)),
+  EXPECT_THROW(front.master->set_front_facets(std::vector<std::int8_t>(3)),
                std::invalid_argument);
 }
 

@@ -409,24 +409,24 @@ TEST(ObstacleMaster, ALevelSetThatMovesTellsNothing)
       });
   const FacingNodes scene(*set, 2);
   const auto master = make(scene, set);
-  EXPECT_FALSE(master->moves_untold(1e-6));
+  EXPECT_FALSE(master->has_unknown_motion(1e-6));
   height = 1e-3;
-  EXPECT_TRUE(master->moves_untold(1e-6));
-  EXPECT_FALSE(master->moves_untold(1e-2));
-  EXPECT_FALSE(make(scene, set, false)->moves_untold(0));
+  EXPECT_TRUE(master->has_unknown_motion(1e-6));
+  EXPECT_FALSE(master->has_unknown_motion(1e-2));
+  EXPECT_FALSE(make(scene, set, false)->has_unknown_motion(0));
   // Along its surface only parameters tell
   double shift = 0;
   auto told = std::make_shared<geometry::LevelSet>(
       [&](std::span<const double> x, int g, int) { return bump(x, g, true); },
       [&](int) { return std::vector<double>{shift}; });
   const auto second = make(FacingNodes(*told, 2), told);
-  EXPECT_FALSE(second->moves_untold(1e-6));
+  EXPECT_FALSE(second->has_unknown_motion(1e-6));
   shift = 1;
-  EXPECT_TRUE(second->moves_untold(1e-6));
+  EXPECT_TRUE(second->has_unknown_motion(1e-6));
   Moving moving(Kind::plane, 2);
   const auto third = make(FacingNodes(*moving.o, 2), moving.o);
   moving.move();
-  EXPECT_FALSE(third->moves_untold(0));
+  EXPECT_FALSE(third->has_unknown_motion(0));
 }
 
 TEST(ObstacleMaster, IsAsItWasAfterLoading)
@@ -578,7 +578,7 @@ TEST(ObstacleMaster, ABeltDragsByItsVelocity)
       each->begin_step();
     }
   }
-  EXPECT_FALSE(master->moves_untold(0));
+  EXPECT_FALSE(master->has_unknown_motion(0));
   // The time is saved with the step's start
   const auto other = make(scene, belt.o);
   belt.time += 0.5;

@@ -155,14 +155,16 @@ TEST(SlaveNodes, FaceAMasterAsTheirFacetsDo)
       std::copy_n(n.begin(), gdim, every.begin() + node * gdim);
     }
     const auto faces = slaves->facing(bulk.x, normal, gdim);
-    const auto expected = geometry::facing_nodes(bulk.facets(), bulk.x, every, gdim);
+    const auto expected
+        = geometry::facing_nodes(bulk.facets(), bulk.x, every, gdim);
     for (std::size_t i = 0; i < place.size(); ++i)
       EXPECT_EQ(faces[i], expected[place[i]]);
     std::vector<double> moved = bulk.x;
     for (double& c : moved)
       c += 0.02 * random(-1, 1);
-    EXPECT_EQ(slaves->facing_areas(bulk.x, moved, normal, gdim),
-              geometry::facing_areas(bulk.facets(), bulk.x, moved, every, gdim));
+    EXPECT_EQ(
+        slaves->facing_areas(bulk.x, moved, normal, gdim),
+        geometry::facing_areas(bulk.facets(), bulk.x, moved, every, gdim));
   }
 }
 

@@ -27,7 +27,7 @@ struct Weighted
                                   sheets.slave.list(), sheets.slave.list()),
         sides(slaves, sheets.x, gdim), x(sheets.turned(angle))
   {
-    sides.meet(sheets.master.list(), {});
+    sides.set_master_facets(sheets.master.list(), {});
     const std::size_t w = mortar.width = sides.width();
     mortar.slave = {0, 0, 0};
     mortar.master = {0, 1, 3};

@@ -7,7 +7,7 @@
 #include <numbers>
 
 using namespace contactx;
-using namespace contactx::contact;
+using namespace contactx::geometry;
 using namespace contactx::tests;
 
 namespace
@@ -40,8 +40,8 @@ Scene square(double angle = 0)
 
 std::vector<double> areas(const Scene& scene, const Vector<3>& normal)
 {
-  const auto corners = geometry::facing_areas(scene.facets(), scene.x, scene.x,
-                                    everywhere(scene, normal), scene.gdim);
+  const auto corners = geometry::facing_areas(
+      scene.facets(), scene.x, scene.x, everywhere(scene, normal), scene.gdim);
   std::vector<double> sums(scene.x.size() / scene.gdim, 0);
   for (std::size_t c = 0; c < corners.size(); ++c)
     sums[scene.nodes[c]] += corners[c];
@@ -51,16 +51,16 @@ std::vector<double> areas(const Scene& scene, const Vector<3>& normal)
 TEST(FacingNodes, OfABoxAreThoseBelow)
 {
   const Scene scene = square();
-  const auto faces
-      = geometry::facing_nodes(scene.facets(), scene.x, everywhere(scene, {0, 1}), 2);
+  const auto faces = geometry::facing_nodes(scene.facets(), scene.x,
+                                            everywhere(scene, {0, 1}), 2);
   EXPECT_EQ(faces, (std::vector<std::int8_t>{1, 1, 0, 0, 1}));
 }
 
 TEST(FacingNodes, NoneFaceWhereTheMasterHasNoNormal)
 {
   const Scene scene = flat_grid(2, Cells::mixed);
-  const auto faces
-      = geometry::facing_nodes(scene.facets(), scene.x, everywhere(scene, {0, 0, 0}), 3);
+  const auto faces = geometry::facing_nodes(scene.facets(), scene.x,
+                                            everywhere(scene, {0, 0, 0}), 3);
   EXPECT_EQ(faces, std::vector<std::int8_t>(9, 0));
 }
 
@@ -128,7 +128,7 @@ TEST(FacingAreas, AreThoseOfTheReference)
   for (double& c : x)
     c *= 3;
   const auto corners = geometry::facing_areas(scene.facets(), scene.x, x,
-                                    everywhere(scene, {0, 0, -1}), 3);
+                                              everywhere(scene, {0, 0, -1}), 3);
   double sum = 0;
   for (double a : corners)
     sum += a;

@@ -243,7 +243,7 @@ TEST(LevelSet, OfADistanceIsASphere)
         EXPECT_NEAR(level[i], 2.5 * b.gap[i], 1e-14);
       }
       EXPECT_EQ(normal, a.normal);
-      EXPECT_FALSE(set.tells_movement());
+      EXPECT_FALSE(set.knows_its_motion());
     }
 }
 
@@ -375,7 +375,7 @@ TEST(LevelSet, AVelocityCarriesItsMaterial)
   for (int gdim : {2, 3})
   {
     Turning turning(gdim);
-    EXPECT_TRUE(turning.set.tells_movement());
+    EXPECT_TRUE(turning.set.knows_its_motion());
     std::vector<double> x(10 * gdim);
     for (double& c : x)
       c = random(-1, 1);

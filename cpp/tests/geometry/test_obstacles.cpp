@@ -247,7 +247,8 @@ TEST(Obstacles, SayWhatDoesNotFit)
 }
 
 /// Rotation from a to b by axis and angle (Rodrigues).
-std::array<Vector<3>, 3> turned(const Vector<3>& a, const Vector<3>& b)
+std::array<Vector<3>, 3> rotation_between(const Vector<3>& a,
+                                          const Vector<3>& b)
 {
   Vector<3> axis = cross(a, b);
   const double s = norm(axis), angle = std::atan2(s, dot(a, b));
@@ -275,7 +276,7 @@ TEST(Placement, TurnsOnTheShortestWay)
                     x = random.vector<3>(-1, 1);
     if (dot(a, b) < -0.9 or norm(cross(a, b)) < 1e-2)
       continue;
-    const auto R = turned(a, b);
+    const auto R = rotation_between(a, b);
     const Placement from{{p.begin(), p.end()}, {a.begin(), a.end()}},
         to{{q.begin(), q.end()}, {b.begin(), b.end()}};
     const auto turn = from.turn(to);

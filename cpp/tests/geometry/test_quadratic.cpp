@@ -3,7 +3,7 @@
 
 #include "facets.h"
 #include <contactx/geometry/quadratic.h>
-#include <contactx/geometry/wholes.h>
+#include <contactx/geometry/quadratic_facets.h>
 #include <gtest/gtest.h>
 #include <numeric>
 
@@ -131,10 +131,10 @@ Parts two_triangles()
   return p;
 }
 
-TEST(Wholes, OfTrianglesAreFoundByTheirEdges)
+TEST(QuadraticFacets, OfTrianglesAreFoundByTheirEdges)
 {
   const Parts p = two_triangles();
-  const Wholes w = wholes(p.list(), p.level);
+  const QuadraticFacets w = quadratic_facets(p.list(), p.level);
   ASSERT_EQ(w.size(), 2);
   EXPECT_EQ(w.width, 9);
   for (std::int32_t f = 0; f < p.list().size(); ++f)
@@ -156,7 +156,7 @@ TEST(Wholes, OfTrianglesAreFoundByTheirEdges)
             (std::vector<std::int32_t>{0, 1, 2, 4, 5, 6}));
 }
 
-TEST(Wholes, OfSegmentsAndQuadrilaterals)
+TEST(QuadraticFacets, OfSegmentsAndQuadrilaterals)
 {
   Parts line;
   line.level = {0, 0, 1, 0, 1};
@@ -164,7 +164,7 @@ TEST(Wholes, OfSegmentsAndQuadrilaterals)
   line.add({1, 4});
   line.add({0, 2});
   line.add({4, 3});
-  const Wholes w = wholes(line.list(), line.level);
+  const QuadraticFacets w = quadratic_facets(line.list(), line.level);
   ASSERT_EQ(w.size(), 2);
   EXPECT_EQ(w.of(0)[0], 0);
   EXPECT_EQ(w.of(0)[1], 1);
@@ -177,29 +177,29 @@ TEST(Wholes, OfSegmentsAndQuadrilaterals)
   square.add({0, 4, 5, 8});
   square.add({4, 1, 8, 6});
   square.add({5, 8, 2, 7});
-  const Wholes q = wholes(square.list(), square.level);
+  const QuadraticFacets q = quadratic_facets(square.list(), square.level);
   ASSERT_EQ(q.size(), 1);
   const auto nodes = q.of(0);
   EXPECT_EQ(std::vector(nodes.begin(), nodes.end()),
             (std::vector<std::int32_t>{0, 1, 2, 3, 4, 5, 6, 7, 8}));
 }
 
-TEST(Wholes, OfLinearFacetsAreThese)
+TEST(QuadraticFacets, OfLinearFacetsAreThese)
 {
   Parts p = two_triangles();
-  const Wholes w = wholes(p.list(), {});
+  const QuadraticFacets w = quadratic_facets(p.list(), {});
   EXPECT_EQ(w.size(), p.list().size());
   EXPECT_EQ(w.width, 4);
   for (std::int32_t f = 0; f < w.size(); ++f)
     EXPECT_TRUE(std::ranges::equal(w.of(f), p.list()[f]));
 }
 
-TEST(Wholes, LackNoPart)
+TEST(QuadraticFacets, LackNoPart)
 {
   Parts p = two_triangles();
   p.offsets.pop_back();
   p.nodes.resize(p.offsets.back());
-  EXPECT_THROW(wholes(p.list(), p.level), std::invalid_argument);
+  EXPECT_THROW(quadratic_facets(p.list(), p.level), std::invalid_argument);
 }
 
 TEST(CornerAreas, OfPartsAreTheIntegralsOfQuadraticShapeFunctions)

@@ -157,7 +157,8 @@ TEST(RigidMotion, IsATranslationWherePartsTurnAgainstEachOther)
 
 TEST(RigidMotion, OfNothingIsNone)
 {
-  const geometry::RigidMotion motion = geometry::rigid_motion({}, 3, {1, 2, 3}, {1, 2, 3});
+  const geometry::RigidMotion motion
+      = geometry::rigid_motion({}, 3, {1, 2, 3}, {1, 2, 3});
   EXPECT_EQ(motion.moved_back<3>({4, 5, 6}), (Vector<3>{4, 5, 6}));
 }
 } // namespace

@@ -10,7 +10,7 @@
 #include <string>
 
 using namespace contactx;
-using namespace contactx::results;
+using namespace contactx::law;
 using tests::asperities;
 using tests::on_ranks;
 
@@ -73,7 +73,8 @@ TEST(Coefficient, DifferencesAreTheGradient)
   mesh::OneRank ranks;
   const law::Gradient given
       = law::Coefficient(asperities, slopes).gradient(p, gap, ranks);
-  const law::Gradient found = law::Coefficient(asperities).gradient(p, gap, ranks);
+  const law::Gradient found
+      = law::Coefficient(asperities).gradient(p, gap, ranks);
   for (std::size_t i = 0; i < p.size(); ++i)
   {
     EXPECT_NEAR(found.by_pressure[i], given.by_pressure[i], 1e-7);
@@ -82,7 +83,8 @@ TEST(Coefficient, DifferencesAreTheGradient)
   // From the right where there is nothing to the left
   const std::vector<double> touching{0, -0.1, 0.3, 0.25};
   const std::vector<double> opening{0, 0, 0.3, 0.25};
-  const law::Gradient right = Coefficient(asperities).gradient(p, touching, ranks);
+  const law::Gradient right
+      = Coefficient(asperities).gradient(p, touching, ranks);
   for (std::size_t i = 0; i < p.size(); ++i)
     EXPECT_NEAR(right.by_gap[i], slopes(p, opening).by_gap[i], 1e-5);
   // With no pressure anywhere there is no scale for a step
@@ -96,7 +98,8 @@ TEST(Coefficient, DifferencesAreThoseOfAllRanks)
 {
   const std::vector<double> p{0.3, 2, 0.7}, gap{0.1, 0.02, 0.3};
   mesh::OneRank alone;
-  const law::Gradient all = law::Coefficient(asperities).gradient(p, gap, alone);
+  const law::Gradient all
+      = law::Coefficient(asperities).gradient(p, gap, alone);
   on_ranks(3,
            [&](mesh::Ranks& ranks)
            {
@@ -130,15 +133,17 @@ TEST(Coefficient, RefusesWhatCannotBe)
     EXPECT_NE(refused([&] { law::Coefficient h(value); }).find("of at least 0"),
               std::string::npos);
     const law::Coefficient h([&](auto p, auto)
-                        { return std::vector<double>(p.size(), value); });
+                             { return std::vector<double>(p.size(), value); });
     EXPECT_NE(refused([&] { (void)h.values(std::vector{1.}, std::vector{0.}); })
                   .find("negative or not finite"),
               std::string::npos);
   }
-  EXPECT_NE(refused([] { law::Coefficient h{law::Function()}; }).find("is empty"),
-            std::string::npos);
+  EXPECT_NE(
+      refused([] { law::Coefficient h{law::Function()}; }).find("is empty"),
+      std::string::npos);
   const std::vector<double> p{1, 2}, gap{0, 0.1};
-  const law::Coefficient few([](auto, auto) { return std::vector<double>(3, 1); });
+  const law::Coefficient few([](auto, auto)
+                             { return std::vector<double>(3, 1); });
   EXPECT_NE(refused([&] { (void)few.values(p, gap); })
                 .find("returned 3 values for 2 nodes"),
             std::string::npos);
@@ -150,13 +155,14 @@ TEST(Coefficient, RefusesWhatCannotBe)
                 .find("not finite"),
             std::string::npos);
   mesh::OneRank ranks;
-  const law::Coefficient steep(asperities, [](auto, auto)
-                          { return law::Gradient{{1, undefined}, {0, 0}}; });
+  const law::Coefficient steep(
+      asperities,
+      [](auto, auto) { return law::Gradient{{1, undefined}, {0, 0}}; });
   EXPECT_NE(refused([&] { (void)steep.gradient(p, gap, ranks); })
                 .find("a derivative of the coefficient"),
             std::string::npos);
-  const law::Coefficient half(asperities,
-                         [](auto, auto) { return law::Gradient{{1, 1}, {0}}; });
+  const law::Coefficient half(asperities, [](auto, auto)
+                              { return law::Gradient{{1, 1}, {0}}; });
   EXPECT_NE(refused([&] { (void)half.gradient(p, gap, ranks); })
                 .find("returned 1 values"),
             std::string::npos);

@@ -101,9 +101,9 @@ TEST_P(LawDerivatives, AreDifferencesOfTheValue)
     EXPECT_EQ(law->name(), name == "weakening" ? "frictional" : name);
     NodeState nodes(n, gdim, law->is_vector());
     randomise(nodes, random);
-    nodes.smooth[5] = nodes.smooth[7] = nodes.smooth[9] = 1;
+    nodes.frictionless[5] = nodes.frictionless[7] = nodes.frictionless[9] = 1;
     if (not law->is_vector())
-      nodes.softness = 0.3;
+      nodes.layer_compliance = 0.3;
     const auto evaluate = [&]
     {
       law->evaluate(nodes);

@@ -14,9 +14,10 @@ using contactx::law::NodeState;
 namespace
 {
 /// Nodes with friction 0.5, upright.
-struct Rubbing
+struct FrictionState
 {
-  explicit Rubbing(int n, int gdim = 3, double mu = 0.5) : nodes(n, gdim, true)
+  explicit FrictionState(int n, int gdim = 3, double mu = 0.5)
+      : nodes(n, gdim, true)
   {
     law.set_friction(std::vector<double>(n, mu));
     for (int i = 0; i < n; ++i)
@@ -56,7 +57,7 @@ TEST(FrictionlessLaw, ImmobileAndCededNodesStayOpen)
   NodeState nodes(3, 3, false);
   nodes.multiplier = {1, 1, 1};
   nodes.gap = {-1, -1, -1};
-  nodes.immobile[0] = nodes.ceded[1] = 1;
+  nodes.immobile[0] = nodes.redundant[1] = 1;
   mesh::OneRank ranks;
   EXPECT_EQ(Frictionless().set_status(nodes, ranks), 1);
   EXPECT_EQ(nodes.status, (std::vector<std::int8_t>{open, open, slip}));
@@ -70,16 +71,16 @@ TEST(FrictionlessLaw, ASoftLayerAddsItsCompliance)
   nodes.area = {2, 2};
   nodes.c = {4, 4};
   nodes.status = {slip, open};
-  nodes.softness = 0.25;
+  nodes.layer_compliance = 0.25;
   const Frictionless law;
   law.evaluate(nodes);
   // A (c g + s p), and A p on the open node
   EXPECT_EQ(nodes.value, (std::vector{2 * (4 * -0.5 + 0.25 * 3), 6.0}));
   EXPECT_EQ(nodes.by_multiplier, (std::vector{0.5, 2.0}));
   EXPECT_EQ(nodes.by_gap, (std::vector{8.0, 0.0}));
-  nodes.softness = -1;
+  nodes.layer_compliance = -1;
   EXPECT_THROW(law.evaluate(nodes), std::invalid_argument);
-  nodes.softness = NAN;
+  nodes.layer_compliance = NAN;
   EXPECT_THROW(law.evaluate(nodes), std::invalid_argument);
 }
 
@@ -117,7 +118,7 @@ TEST(CoulombLaw, ChecksTheBoundsOfAFunction)
   {
     const law::Coulomb law([&](auto, auto) { return bounds; });
     EXPECT_TRUE(law.may_throw());
-    law.rubs(nodes);
+    law.has_friction(nodes);
     law.set_status(nodes, ranks);
   };
   const std::vector<double> ok{0.0, 0.5};
@@ -145,15 +146,15 @@ TEST(CoulombLaw, ABoundOfTrescaDoesNotDependOnThePressure)
   std::ranges::fill(nodes.gap, 0.0);
   const law::Coulomb law(tresca);
   mesh::OneRank ranks;
-  EXPECT_EQ(law.rubs(nodes), (std::vector<std::int8_t>{1, 1, 0}));
+  EXPECT_EQ(law.has_friction(nodes), (std::vector<std::int8_t>{1, 1, 0}));
   law.set_status(nodes, ranks);
   EXPECT_EQ(nodes.status, (std::vector<std::int8_t>{stick, slip, open}));
 }
 
 TEST(CoulombLaw, ASmoothNodeHasNoFriction)
 {
-  Rubbing a(2);
-  a.nodes.smooth[1] = 1;
+  FrictionState a(2);
+  a.nodes.frictionless[1] = 1;
   EXPECT_EQ(a.law.friction(a.nodes), (std::vector{0.5, 0.0}));
   EXPECT_EQ(a.update(), 2);
   EXPECT_EQ(a.nodes.status, (std::vector<std::int8_t>{stick, slip}));
@@ -161,15 +162,15 @@ TEST(CoulombLaw, ASmoothNodeHasNoFriction)
 
 TEST(CoulombLaw, ImmobileAndCededNodesStayOpen)
 {
-  Rubbing a(3);
-  a.nodes.immobile[0] = a.nodes.ceded[1] = 1;
+  FrictionState a(3);
+  a.nodes.immobile[0] = a.nodes.redundant[1] = 1;
   EXPECT_EQ(a.update(), 1);
   EXPECT_EQ(a.nodes.status, (std::vector<std::int8_t>{open, open, stick}));
 }
 
 TEST(CoulombLaw, OnTheEdgeOfTheConeANodeThatSlipsGoesOn)
 {
-  Rubbing a(4);
+  FrictionState a(4);
   // mu p = 1. A part of 1e-9 is left of the bound by a solve; c = 8
   a.set(0, slip, 2, 1.8 - 1e-10, 0.1);
   a.set(1, slip, 2, 1.8 - 1e-8, 0.1);
@@ -182,7 +183,7 @@ TEST(CoulombLaw, OnTheEdgeOfTheConeANodeThatSlipsGoesOn)
 
 TEST(CoulombLaw, ANodeThatHasNotMovedYetGoesOnWhereTheStepBeforeLeftIt)
 {
-  Rubbing a(4);
+  FrictionState a(4);
   // A part of 1e-6 is left by Newton's method
   a.set(0, slip, 2, 1 - 1e-7, 0);
   a.set(1, slip, 2, 1 - 1e-5, 0);
@@ -198,7 +199,7 @@ TEST(CoulombLaw, TheEdgeIsAsWideAsTheLargestPressureSays)
   // What a solve leaves goes with the largest pressure, also of other ranks
   const auto status = [](mesh::Ranks& ranks, double elsewhere)
   {
-    Rubbing a(2);
+    FrictionState a(2);
     a.set(0, slip, 2, 1.8 - 1e-6, 0.1);
     a.set(1, stick, elsewhere, 0, 0);
     a.law.set_status(a.nodes, ranks);
@@ -215,7 +216,7 @@ TEST(CoulombLaw, TheEdgeIsAsWideAsTheLargestPressureSays)
                          heavy > 2 ? slip : stick);
              });
   // But no node falls short of its bound by more than half of it
-  Rubbing a(2);
+  FrictionState a(2);
   a.set(0, slip, 2e-12, 0.49e-12, 0);
   a.set(1, stick, 2, 0, 0);
   a.update();
@@ -224,7 +225,7 @@ TEST(CoulombLaw, TheEdgeIsAsWideAsTheLargestPressureSays)
 
 TEST(CoulombLaw, EveryFourthClosingWithSlipSticks)
 {
-  Rubbing a(2);
+  FrictionState a(2);
   a.law.set_friction(std::vector{0.5, 0.0});
   for (int k = 0; k < 8; ++k)
   {
@@ -232,46 +233,46 @@ TEST(CoulombLaw, EveryFourthClosingWithSlipSticks)
       a.set(i, open, 2, 4, 0);
     EXPECT_EQ(a.update(), 2);
     EXPECT_EQ(a.nodes.status[0], k % 4 == 3 ? stick : slip) << k;
-    EXPECT_EQ(a.nodes.closings[0], k + 1);
+    EXPECT_EQ(a.nodes.slip_closings[0], k + 1);
     // Nothing sticks without friction
     EXPECT_EQ(a.nodes.status[1], slip);
-    EXPECT_EQ(a.nodes.closings[1], 0);
+    EXPECT_EQ(a.nodes.slip_closings[1], 0);
   }
   // One that is closed already does not count
   a.set(0, slip, 2, 4, 0);
-  a.nodes.closings[0] = 3;
+  a.nodes.slip_closings[0] = 3;
   a.update();
   EXPECT_EQ(a.nodes.status[0], slip);
-  EXPECT_EQ(a.nodes.closings[0], 3);
+  EXPECT_EQ(a.nodes.slip_closings[0], 3);
 }
 
 TEST(CoulombLaw, SlipThatTurnsBackSticksFirst)
 {
-  Rubbing a(1);
+  FrictionState a(1);
   for (int k = 0; k < 4; ++k)
   {
     // mu p = 1, t_hat = 0.5 - 8 * 0.5 against t
     a.set(0, slip, 2, 0.5, 0.5);
     EXPECT_EQ(a.update(), k % 2 == 0);
     EXPECT_EQ(a.nodes.status[0], k % 2 == 0 ? stick : slip) << k;
-    EXPECT_EQ(a.nodes.turns[0], k + 1);
+    EXPECT_EQ(a.nodes.slip_reversals[0], k + 1);
   }
   // What sticks within the bound has not turned back
-  a.nodes.turns[0] = 1;
+  a.nodes.slip_reversals[0] = 1;
   a.set(0, slip, 2, 0.5, 0);
   EXPECT_EQ(a.update(), 1);
   EXPECT_EQ(a.nodes.status[0], stick);
-  EXPECT_EQ(a.nodes.turns[0], 1);
+  EXPECT_EQ(a.nodes.slip_reversals[0], 1);
   // mu p_hat = 1.4 where it penetrates
   a.set(0, slip, 2, 1.2, 0);
   a.nodes.gap[0] = -0.1;
   EXPECT_EQ(a.update(), 1);
   EXPECT_EQ(a.nodes.status[0], stick);
-  EXPECT_EQ(a.nodes.turns[0], 1);
+  EXPECT_EQ(a.nodes.slip_reversals[0], 1);
   // Nor has what stuck before
   a.set(0, stick, 2, 0.5, 0.5);
   EXPECT_EQ(a.update(), 0);
-  EXPECT_EQ(a.nodes.turns[0], 1);
+  EXPECT_EQ(a.nodes.slip_reversals[0], 1);
 }
 
 TEST(CoulombLaw, MayTakeASmallerFactorAlongTheSurface)
@@ -279,8 +280,8 @@ TEST(CoulombLaw, MayTakeASmallerFactorAlongTheSurface)
   // mu p = 1, and c = 8: trial friction is 1.1 or 0.9
   for (const double length : {1.1, 0.9})
   {
-    Rubbing a(1);
-    a.nodes.along = 0.25;
+    FrictionState a(1);
+    a.nodes.tangential_ratio = 0.25;
     a.set(0, stick, 2, 0, length / 2);
     a.update();
     EXPECT_EQ(a.nodes.status[0], length > 1 ? slip : stick);
@@ -289,11 +290,11 @@ TEST(CoulombLaw, MayTakeASmallerFactorAlongTheSurface)
 
 TEST(CoulombLaw, ReachesFartherWhereIteratesGoRound)
 {
-  Rubbing a(1);
+  FrictionState a(1);
   // |t_hat| = 39.5 mu p
   const auto status = [&a]
   {
-    a.nodes.turns[0] = 0;
+    a.nodes.slip_reversals[0] = 0;
     a.set(0, slip, 2, 0.5, 5);
     a.update();
     return a.nodes.status[0];
@@ -308,9 +309,9 @@ TEST(CoulombLaw, ReachesFartherWhereIteratesGoRound)
 TEST(CoulombLaw, CountsTheNodesThatChangeInTheEnd)
 {
   // The complementarity asks for stick, and the second turn for slip
-  Rubbing a(1);
+  FrictionState a(1);
   a.set(0, slip, 2, 0.5, 0.5);
-  a.nodes.turns[0] = 1;
+  a.nodes.slip_reversals[0] = 1;
   EXPECT_EQ(a.update(), 0);
 }
 
@@ -319,7 +320,7 @@ TEST(TiedLaw, TiesWhatHasAPair)
   NodeState nodes(4, 2, true);
   nodes.gap = {1, NAN, -1, -1};
   nodes.status[1] = stick;
-  nodes.ceded[2] = 1;
+  nodes.redundant[2] = 1;
   // Its multiplier is another one's matter
   nodes.immobile[3] = 1;
   mesh::OneRank ranks;

@@ -8,7 +8,7 @@
 #include <limits>
 
 using namespace contactx;
-using namespace contactx::contact;
+using namespace contactx::law;
 using namespace contactx::tests;
 
 namespace
@@ -40,12 +40,12 @@ TEST(NodeState, HoldsWhatIsClosedOrWouldBe)
 {
   law::NodeState nodes(4, 2, true);
   nodes.status = {law::slip, law::open, law::open, law::open};
-  nodes.immobile[1] = nodes.ceded[2] = 1;
+  nodes.immobile[1] = nodes.redundant[2] = 1;
   nodes.gap = {1, 2, 3, 4};
   const Flags held{1, 1, 1, 0}, closed{1, 0, 0, 0};
   for (std::size_t i = 0; i < 4; ++i)
   {
-    EXPECT_EQ(nodes.held(i), held[i] == 1);
+    EXPECT_EQ(nodes.is_constrained(i), held[i] == 1);
     EXPECT_EQ(nodes.closed(i), closed[i] == 1);
   }
   EXPECT_EQ(nodes.closable_gap(0), 1);
@@ -88,7 +88,7 @@ TEST(NodeState, TouchesUpToATie)
   law::NodeState nodes(6, 3, false);
   nodes.gap = {1e-13, -1e-13, 1e-11, nan, 1e-13, -1e-11};
   nodes.multiplier = {0, -1, 0, 0, 0, -1};
-  nodes.ceded[4] = 1;
+  nodes.redundant[4] = 1;
   std::vector<bool> none, touching;
   for (std::size_t i = 0; i < 6; ++i)
   {
@@ -102,7 +102,7 @@ TEST(NodeState, TouchesUpToATie)
 TEST(NodeState, ClosedNodesStickWhereThereIsFriction)
 {
   law::NodeState vector(3, 2, true), scalar(3, 2, false);
-  vector.smooth[2] = 1;
+  vector.frictionless[2] = 1;
   const std::vector<std::int32_t> which{0, 2};
   vector.close(which);
   scalar.close(which);

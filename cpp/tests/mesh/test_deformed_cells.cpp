@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 using namespace contactx;
-using namespace contactx::audit;
+using namespace contactx::mesh;
 using namespace contactx::tests;
 
 namespace
@@ -23,7 +23,8 @@ TYPED_TEST_SUITE(DeformedCellsOf, CellTypes);
 template <class C>
 mesh::DeformedCells look(const SampledCells<C>& cells)
 {
-  return mesh::deformed_cells(cells.nodes(), C::nodes, cells.X, cells.u, C::gdim);
+  return mesh::deformed_cells(cells.nodes(), C::nodes, cells.X, cells.u,
+                              C::gdim);
 }
 
 /// Many cells that are somewhat out of shape and stand anywhere, every other

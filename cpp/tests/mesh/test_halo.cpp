@@ -20,7 +20,7 @@ double value_of(std::int64_t original, int k)
 class HaloOnRanks : public testing::TestWithParam<int>
 {
 protected:
-  Scene scene = grid(5, Cells::mixed,
+  Scene scene = grid(5, tests::Cells::mixed,
                      [](double s, double t) { return Vector<3>{s, t, s * t}; });
 };
 

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 using namespace contactx;
-using namespace contactx::audit;
+using namespace contactx::mesh;
 using namespace contactx::tests;
 
 namespace
@@ -80,8 +80,8 @@ double least(const SampledCells<C>& cells, const std::vector<double>& way,
 template <class C>
 double longest(const SampledCells<C>& cells, const std::vector<double>& way)
 {
-  return mesh::longest_way(cells.nodes(), C::nodes, cells.X, cells.u, way, C::gdim,
-                     part);
+  return mesh::max_step_without_inversion(cells.nodes(), C::nodes, cells.X,
+                                          cells.u, way, C::gdim, part);
 }
 
 TYPED_TEST(LongestWay, EndsWhereACellIsSqueezedTooMuch)
@@ -187,11 +187,14 @@ TEST(LongestWayInput, RefusesWhatMakesNoSense)
 {
   const std::vector<double> X{0, 0, 1, 0, 0, 1}, u(6), short_way(4);
   const std::vector<std::int32_t> cell{0, 1, 2};
-  EXPECT_EQ(mesh::longest_way(cell, 3, X, u, u, 2, 0), 1);
-  EXPECT_THROW(mesh::longest_way(cell, 3, X, u, short_way, 2, part),
-               std::invalid_argument);
+  EXPECT_EQ(mesh::max_step_without_inversion(cell, 3, X, u, u, 2, 0), 1);
+  EXPECT_THROW(
+      mesh::max_step_without_inversion(cell, 3, X, u, short_way, 2, part),
+      std::invalid_argument);
   for (const double bad : {-0.1, 1.0, std::nan("")})
-    EXPECT_THROW(mesh::longest_way(cell, 3, X, u, u, 2, bad), std::invalid_argument);
-  EXPECT_THROW(mesh::longest_way(cell, 5, X, u, u, 2, part), std::invalid_argument);
+    EXPECT_THROW(mesh::max_step_without_inversion(cell, 3, X, u, u, 2, bad),
+                 std::invalid_argument);
+  EXPECT_THROW(mesh::max_step_without_inversion(cell, 5, X, u, u, 2, part),
+               std::invalid_argument);
 }
 } // namespace

@@ -49,7 +49,7 @@ struct OneCell
     std::iota(nodes.rbegin(), nodes.rend(), 0);
   }
 
-  Cells cells() const { return {type, 2, nodes}; }
+  mesh::Cells cells() const { return {type, 2, nodes}; }
   Geometry geometry() const
   {
     return {dimension(type), order, points, static_cast<int>(points.size()), x};

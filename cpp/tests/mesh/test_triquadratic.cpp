@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 using namespace contactx;
-using namespace contactx::audit;
+using namespace contactx::mesh;
 using namespace contactx::tests;
 
 namespace

@@ -89,7 +89,7 @@ TEST(MakeContact, OptionsDecideOnMethodAndLaw)
               nullptr);
     EXPECT_EQ(rough->sliding(), contact::Sliding::small);
     EXPECT_NE(rough->history(), nullptr);
-    EXPECT_EQ(rough->nodes()->along, 0.1);
+    EXPECT_EQ(rough->nodes()->tangential_ratio, 0.1);
     EXPECT_TRUE(input.make({.tied = true})->law()->is_tied());
     for (const auto& contact : {plain, rough})
       for (const std::int8_t paired : contact->master()->paired())

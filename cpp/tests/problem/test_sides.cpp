@@ -23,7 +23,7 @@ using contactx::problem::Method;
 
 namespace
 {
-class Sides : public testing::TestWithParam<int>
+class MadeSides : public testing::TestWithParam<int>
 {
 };
 
@@ -69,7 +69,7 @@ bool is_a(const contact::Master& master)
 }
 } // namespace
 
-TEST_P(Sides, MethodAndLawChooseTheMaster)
+TEST_P(MadeSides, MethodAndLawChooseTheMaster)
 {
   const law::Frictionless smooth;
   const law::Coulomb rough;
@@ -179,7 +179,7 @@ TEST(QuadraticSides, ObstaclesAreNodalByBothMethods)
       "");
 }
 
-TEST_P(Sides, SlipIsMeasuredAsLawAndSlidingNeedIt)
+TEST_P(MadeSides, SlipIsMeasuredAsLawAndSlidingNeedIt)
 {
   const Stack stack(2);
   const auto length_of = [&](const law::Law& law, Sliding sliding)
@@ -223,7 +223,7 @@ TEST_P(Sides, SlipIsMeasuredAsLawAndSlidingNeedIt)
   EXPECT_EQ(length_of(law::Coulomb(), Sliding::finite), 0);
 }
 
-TEST_P(Sides, ReachIsTheDiameterOfTheLargerSurface)
+TEST_P(MadeSides, ReachIsTheDiameterOfTheLargerSurface)
 {
   for (const int gdim : {2, 3})
   {
@@ -254,7 +254,7 @@ TEST_P(Sides, ReachIsTheDiameterOfTheLargerSurface)
   }
 }
 
-TEST_P(Sides, AnObstacleIsAnywhereInReach)
+TEST_P(MadeSides, AnObstacleIsAnywhereInReach)
 {
   const Stack stack(3);
   const auto obstacle = make_obstacle(Kind::bowl, 3);
@@ -282,7 +282,7 @@ TEST_P(Sides, AnObstacleIsAnywhereInReach)
   EXPECT_EQ(look(0.7), "");
 }
 
-TEST_P(Sides, FacetsComeInTheOrderOfTheMeshAsItWasMade)
+TEST_P(MadeSides, FacetsComeInTheOrderOfTheMeshAsItWasMade)
 {
   // However a rank has them in order
   const Stack stack(3);
@@ -328,7 +328,7 @@ TEST_P(Sides, FacetsComeInTheOrderOfTheMeshAsItWasMade)
       "");
 }
 
-TEST_P(Sides, AllFacetsAroundOwnSlaveNodesAreThere)
+TEST_P(MadeSides, AllFacetsAroundOwnSlaveNodesAreThere)
 {
   const Stack stack(3);
   EXPECT_EQ(
@@ -351,7 +351,7 @@ TEST_P(Sides, AllFacetsAroundOwnSlaveNodesAreThere)
       "");
 }
 
-TEST_P(Sides, SurfacesAreChecked)
+TEST_P(MadeSides, SurfacesAreChecked)
 {
   // Each by the check that it fails
   const law::Frictionless law;
@@ -404,7 +404,7 @@ TEST_P(Sides, SurfacesAreChecked)
             std::string::npos);
 }
 
-TEST_P(Sides, ArgumentsAreChecked)
+TEST_P(MadeSides, ArgumentsAreChecked)
 {
   const Stack stack(2);
   const law::Frictionless law;
@@ -455,4 +455,4 @@ TEST_P(Sides, ArgumentsAreChecked)
                   .starts_with("offsets must give a facet two nodes"));
 }
 
-INSTANTIATE_TEST_SUITE_P(Ranks, Sides, testing::Values(1, 2, 3, 4));
+INSTANTIATE_TEST_SUITE_P(Ranks, MadeSides, testing::Values(1, 2, 3, 4));

@@ -344,7 +344,8 @@ void expect_no_change_by_a_motion(Facets kind, Generator& random)
     lambda[i] += p[i / D] * s.normal[i];
   const results::Recovered found
       = s.recovery().tractions(lambda, s.normal, s.area, s.closed);
-  const results::Recovery there(slave_nodes(s.scene), moved(s.scene.x, true), D);
+  const results::Recovery there(slave_nodes(s.scene), moved(s.scene.x, true),
+                                D);
   const results::Recovered turned = there.tractions(
       moved(lambda, false), moved(s.normal, false), s.area, s.closed);
   expect_near(turned.pressure, found.pressure, 1e-11);
@@ -581,21 +582,21 @@ TEST(Recovery, IsTheSameOnRanks)
       std::vector<int> owner(s.size());
       for (int& r : owner)
         r = static_cast<int>(random(0, size));
-      on_ranks(size,
-               [&](mesh::Ranks& rank)
-               {
-                 const Part part = part_of(s.scene, owner, rank);
-                 const results::Recovery recovery(part.slaves, part.scene.x, gdim);
-                 const results::Recovered mine = recovery.tractions(
-                     part.take(lambda, gdim), part.take(s.normal, gdim),
-                     part.take(s.area), part.take(s.closed));
-                 expect_near(mine.pressure, part.take(found.pressure), 1e-14);
-                 expect_near(mine.traction, part.take(found.traction, gdim),
-                             1e-14);
-                 EXPECT_NEAR(results::recovery_change(rank, part.take(lambda, gdim),
-                                             mine.traction, gdim),
-                             change, 1e-14);
-               });
+      on_ranks(
+          size,
+          [&](mesh::Ranks& rank)
+          {
+            const Part part = part_of(s.scene, owner, rank);
+            const results::Recovery recovery(part.slaves, part.scene.x, gdim);
+            const results::Recovered mine = recovery.tractions(
+                part.take(lambda, gdim), part.take(s.normal, gdim),
+                part.take(s.area), part.take(s.closed));
+            expect_near(mine.pressure, part.take(found.pressure), 1e-14);
+            expect_near(mine.traction, part.take(found.traction, gdim), 1e-14);
+            EXPECT_NEAR(results::recovery_change(rank, part.take(lambda, gdim),
+                                                 mine.traction, gdim),
+                        change, 1e-14);
+          });
     }
 }
 
@@ -604,7 +605,8 @@ TEST(RecoveryChange, IsThatOfTheForceOverTheSumOfTheNodes)
   mesh::OneRank alone;
   // Sizes 5 and 10; the sum changes by (3, 4)
   const Values before{3, 4, -6, -8}, after{4, 4, -4, -4};
-  EXPECT_NEAR(results::recovery_change(alone, before, after, 2), 5. / 15, 1e-15);
+  EXPECT_NEAR(results::recovery_change(alone, before, after, 2), 5. / 15,
+              1e-15);
   EXPECT_EQ(results::recovery_change(alone, before, before, 2), 0);
   const Values none(4, 0);
   EXPECT_EQ(results::recovery_change(alone, none, none, 2), 0);
@@ -622,7 +624,8 @@ TEST(Recovery, RefusesWhatDoesNotFit)
   EXPECT_THROW(recovery.pressure(s.area, few, s.closed), std::invalid_argument);
   EXPECT_THROW(recovery.tractions(s.normal, few, s.area, s.closed),
                std::invalid_argument);
-  EXPECT_THROW(results::Recovery(slave_nodes(s.scene), few, 3), std::invalid_argument);
+  EXPECT_THROW(results::Recovery(slave_nodes(s.scene), few, 3),
+               std::invalid_argument);
   EXPECT_THROW(results::Recovery(slave_nodes(s.scene), s.scene.x, 4),
                std::invalid_argument);
   EXPECT_THROW(results::Recovery(nullptr, s.scene.x, 3), std::invalid_argument);

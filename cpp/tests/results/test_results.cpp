@@ -104,8 +104,8 @@ struct Fold
   {
     for (int i = 0; i < cells; ++i)
       mesh.insert(mesh.end(), {i, i + 1, strip.top(i), strip.top(i + 1)});
-    const auto bodies
-        = std::make_shared<mesh::Bodies>(mesh, 4, cells, halo->original(), halo);
+    const auto bodies = std::make_shared<mesh::Bodies>(mesh, 4, cells,
+                                                       halo->original(), halo);
     const auto slaves = problem::make_slave_nodes(halo, strip.facets.list());
     auto law = std::make_shared<law::Frictionless>();
     problem::MasterOptions self;

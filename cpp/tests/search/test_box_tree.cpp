@@ -137,7 +137,7 @@ TEST(BoxTree, RefitKnowsTheMovedBoxes)
   }
 }
 
-bool meet(const Box& a, const Box& b)
+bool set_master_facets(const Box& a, const Box& b)
 {
   for (int k = 0; k < 3; ++k)
     if (not(a.lower[k] <= b.upper[k] and b.lower[k] <= a.upper[k]))
@@ -155,7 +155,7 @@ std::pair<std::multiset<std::int32_t>, int> met(const BoxTree& tree,
       [&](const Box& b)
       {
         ++looked_at;
-        return meet(b, box);
+        return set_master_facets(b, box);
       },
       [&items](std::int32_t i) { items.insert(i); });
   return {items, looked_at};
@@ -182,7 +182,7 @@ TEST(BoxTree, ForEachVisitsEachBoxThatMattersOnce)
       box.add(p + random.vector<3>(-1, 1));
       std::multiset<std::int32_t> expected;
       for (int j = 0; j < n; ++j)
-        if (meet(boxes[j], box))
+        if (set_master_facets(boxes[j], box))
           expected.insert(j);
       EXPECT_EQ(met(tree, box).first, expected);
     }

@@ -6,7 +6,7 @@
 #include <contactx/geometry/middle.h>
 #include <contactx/search/distributed.h>
 #include <contactx/search/facet_search.h>
-#include <contactx/search/outside.h>
+#include <contactx/search/inside_test.h>
 #include <contactx/search/slave_facets.h>
 #include <gtest/gtest.h>
 
@@ -364,7 +364,8 @@ TEST_P(SurfaceOnRanks, LookingFindsAllFacetsInFront)
                    = part(parts, *halo, num_master, scene.facets().size());
                const auto surface = surface_of(parts, halo, 0, num_master);
                const int before = ranks.num_exchanges;
-               surface->look(halo->now()->x, own.list(), reach, margin);
+               surface->add_facets_within(halo->now()->x, own.list(), reach,
+                                          margin);
                EXPECT_LE(ranks.num_exchanges - before, 2);
                std::vector<Name> expected;
                for (std::size_t i = 0; i < pairs.size(); ++i)
@@ -508,7 +509,7 @@ TEST_P(SurfaceOnRanks, OnlookersSeeWhatOneRankSees)
     {
       const DistributedScene parts(scene, num_ranks, seed, false);
       const std::size_t n = points.points.size() / gdim;
-      search::Seen all(n, 2);
+      search::ProbeResult all(n, 2);
       on_ranks(num_ranks,
                [&](ThreadRanks& ranks)
                {
@@ -518,7 +519,7 @@ TEST_P(SurfaceOnRanks, OnlookersSeeWhatOneRankSees)
                  if (around)
                    own = search::slave_facets(*halo, own.offsets, own.nodes);
                  const int version = halo->version();
-                 search::Onlooker onlooker(halo, own.offsets, own.nodes);
+                 search::SurfaceProbe probe(halo, own.offsets, own.nodes);
                  const Points mine = of_rank(points, ranks, gdim);
                  std::vector<double> values;
                  for (std::int32_t f = 0; f < own.list().size(); ++f)
@@ -532,10 +533,10 @@ TEST_P(SurfaceOnRanks, OnlookersSeeWhatOneRankSees)
                  std::vector<double> nodal = halo->now()->x;
                  for (std::size_t i = 0; i < nodal.size(); ++i)
                    nodal[i] -= x0[i];
-                 std::optional<search::Ways> ways;
+                 std::optional<search::Displacements> ways;
                  if (moves)
-                   ways = search::Ways{nodal, mine.normals};
-                 const search::Seen seen = onlooker.look(
+                   ways = search::Displacements{nodal, mine.normals};
+                 const search::ProbeResult seen = probe.query(
                      x0, mine.points, mine.normals, 1.2, values, 2, ways);
                  EXPECT_EQ(halo->version(), version);
                  for (std::size_t k = 0; k < seen.gap.size(); ++k)
@@ -546,17 +547,17 @@ TEST_P(SurfaceOnRanks, OnlookersSeeWhatOneRankSees)
                    all.height[i] = seen.height[k];
                    all.inside[i] = seen.inside[k];
                    all.margin[i] = seen.margin[k];
-                   all.way[i] = seen.way[k];
+                   all.displacement[i] = seen.displacement[k];
                    std::copy_n(seen.values.begin() + 2 * k, 2,
                                all.values.begin() + 2 * i);
                  }
                });
       return all;
     };
-    const search::Seen expected = look(1, false);
+    const search::ProbeResult expected = look(1, false);
     for (const bool around : {false, true})
     {
-      const search::Seen seen = look(GetParam(), around);
+      const search::ProbeResult seen = look(GetParam(), around);
       for (std::size_t i = 0; i < seen.gap.size(); ++i)
       {
         EXPECT_TRUE(seen.distance[i] == expected.distance[i]
@@ -578,7 +579,7 @@ TEST_P(SurfaceOnRanks, OnlookersSeeWhatOneRankSees)
         EXPECT_EQ(seen.values[2 * i], expected.values[2 * i]);
         EXPECT_EQ(seen.values[2 * i + 1], -expected.values[2 * i]);
         EXPECT_NEAR(seen.gap[i], expected.gap[i], 1e-14);
-        EXPECT_NEAR(seen.way[i], expected.way[i], 1e-14);
+        EXPECT_NEAR(seen.displacement[i], expected.displacement[i], 1e-14);
       }
     }
   }
@@ -614,9 +615,9 @@ TEST_P(SurfaceOnRanks, PointsOutsideOfAThinPlate)
             const auto halo = parts.halo(ranks);
             const auto own
                 = part(parts, *halo, 0, closed ? scene.facets().size() : n * n);
-            search::Outside outside(halo, own.offsets, own.nodes);
+            search::InsideTest outside(halo, own.offsets, own.nodes);
             EXPECT_EQ(outside.is_around(), closed);
-            EXPECT_EQ(mesh::total(ranks, outside.onlooker().num_facets()),
+            EXPECT_EQ(mesh::total(ranks, outside.probe().num_facets()),
                       closed ? 2 * n * n : n * n);
             // Above, inside, below, inside but not deep, below and not asked
             Generator random(static_cast<unsigned>(ranks.rank()));
@@ -665,13 +666,13 @@ TEST_P(SurfaceOnRanks, WrongArgumentsAreNamed)
         EXPECT_THROW(surface->find(x, one, two, 1), std::invalid_argument);
         EXPECT_THROW(surface->mean(one), std::invalid_argument);
         const auto own = surface->own();
-        search::Onlooker onlooker(halo, own.offsets, own.nodes);
-        EXPECT_THROW(onlooker.look(one, one, one, 1), std::invalid_argument);
-        EXPECT_THROW(onlooker.look(x, one, two, 1), std::invalid_argument);
-        EXPECT_THROW(onlooker.look(x, one, one, 1, {}, 1),
-                     std::invalid_argument);
-        EXPECT_THROW(onlooker.look(x, one, one, 1, {}, 0, search::Ways{x, two}),
-                     std::invalid_argument);
+        search::SurfaceProbe probe(halo, own.offsets, own.nodes);
+        EXPECT_THROW(probe.query(one, one, one, 1), std::invalid_argument);
+        EXPECT_THROW(probe.query(x, one, two, 1), std::invalid_argument);
+        EXPECT_THROW(probe.query(x, one, one, 1, {}, 1), std::invalid_argument);
+        EXPECT_THROW(
+            probe.query(x, one, one, 1, {}, 0, search::Displacements{x, two}),
+            std::invalid_argument);
       });
 }
 

@@ -19,9 +19,9 @@ constexpr double inf = std::numeric_limits<double>::infinity();
 
 using Pairs = std::set<std::pair<std::int32_t, std::int32_t>>;
 
-kernel::Pairs set_of(const FacetPairs& pairs)
+Pairs set_of(const FacetPairs& pairs)
 {
-  kernel::Pairs all;
+  Pairs all;
   for (std::size_t i = 0; i < pairs.size(); ++i)
     all.emplace(pairs.slave[i], pairs.master[i]);
   EXPECT_EQ(all.size(), pairs.size());
@@ -31,7 +31,7 @@ kernel::Pairs set_of(const FacetPairs& pairs)
 /// The search without a tree.
 void expect_brute_force(const Facing& scene, double reach)
 {
-  const kernel::Pairs found = set_of(scene.find(reach));
+  const Pairs found = set_of(scene.find(reach));
   const auto slave = scene.slave.facets(), master = scene.master.facets();
   int expected = 0;
   for (std::int32_t f = 0; f < slave.size(); ++f)

@@ -114,7 +114,8 @@ TEST(PairingInHalves, IsPairing)
       const auto slave = halves.slaves()[i];
       std::copy_n(x.begin() + 3 * slave, 3, p.begin());
       std::copy_n(normals.begin() + 3 * slave, 3, n.begin());
-      changed += halves.settle(i, finder.find(x, p, n, 1).selected, x, 1, true);
+      changed += halves.accept_projection(i, finder.find(x, p, n, 1).selected,
+                                          x, 1, true);
     }
     EXPECT_EQ(whole.update(x, 1, closed), changed);
     EXPECT_EQ(whole.facet(), halves.facet());

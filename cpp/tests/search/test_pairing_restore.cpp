@@ -26,7 +26,8 @@ TEST(PairingRestore, GoesOnAsTheOther)
 {
   // Inside the margin memory decides, on a ridge the normal that was found
   for (const auto& [line, first, then] :
-       {std::tuple{flat, Vector<2>{1.5, 0}, Vector<2>{1 - 0.5 * geometry::facet_margin, 0}},
+       {std::tuple{flat, Vector<2>{1.5, 0},
+                   Vector<2>{1 - 0.5 * geometry::facet_margin, 0}},
         std::tuple{ridge, Vector<2>{1.01, 1.2}, Vector<2>{0.99, 1.2}}})
   {
     SlidingSegment a(line), b(line);

@@ -60,7 +60,9 @@ TEST(PairingOnRidge, TakesAnotherNormalBesideTheRidge)
       SlidingSegment s(spike);
       s.search_at(0.2 * n, false);
       const Vector<3> first = cone(s);
-      EXPECT_EQ(s.search_at(height * n + part * geometry::facet_margin * size * across, true),
+      EXPECT_EQ(s.search_at(height * n
+                                + part * geometry::facet_margin * size * across,
+                            true),
                 0);
       EXPECT_NE(s.feature(), geometry::interior);
       EXPECT_EQ(cone(s) == first, part < 1) << height;

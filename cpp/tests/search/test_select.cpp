@@ -40,7 +40,8 @@ TEST_P(Select, SurfaceReachesItsMarginBeyondTheOuterEdge)
       = flat_grid(1, GetParam() ? Cells::triangles : Cells::quadrilaterals);
   for (double height : {-0.1, 0.0, 0.1})
   {
-    const auto inside = paired(scene, {-0.99 * geometry::facet_margin, 0.5, height});
+    const auto inside
+        = paired(scene, {-0.99 * geometry::facet_margin, 0.5, height});
     ASSERT_TRUE(inside);
     EXPECT_EQ(inside->feature, geometry::interior);
     EXPECT_NEAR(inside->excess, 0.99 * geometry::facet_margin, 1e-14);
@@ -48,9 +49,12 @@ TEST_P(Select, SurfaceReachesItsMarginBeyondTheOuterEdge)
     EXPECT_FALSE(paired(scene, {-1.01 * geometry::facet_margin, 0.5, height}));
     // Beyond the corners, too
     EXPECT_TRUE(paired(scene, {-0.99 * geometry::facet_margin, -0.01, height}));
-    EXPECT_FALSE(paired(scene, {-1.01 * geometry::facet_margin, -0.01, height}));
-    EXPECT_TRUE(paired(scene, {0.01, 1 + 0.9 * geometry::facet_margin, height}));
-    EXPECT_FALSE(paired(scene, {0.01, 1 + 1.1 * geometry::facet_margin, height}));
+    EXPECT_FALSE(
+        paired(scene, {-1.01 * geometry::facet_margin, -0.01, height}));
+    EXPECT_TRUE(
+        paired(scene, {0.01, 1 + 0.9 * geometry::facet_margin, height}));
+    EXPECT_FALSE(
+        paired(scene, {0.01, 1 + 1.1 * geometry::facet_margin, height}));
   }
 }
 
@@ -83,7 +87,8 @@ TEST_P(Select, RidgeNormalIsInTheConeOfTheFacets)
     const double height = random(0.1, 2), y = random(0.1, 0.9);
     const auto q = paired(scene, Vector<3>{0, y, 0} + height * n);
     ASSERT_TRUE(q);
-    const bool within = height * std::sin(std::min(turn, down - turn)) < geometry::facet_margin;
+    const bool within = height * std::sin(std::min(turn, down - turn))
+                        < geometry::facet_margin;
     if (within)
     {
       EXPECT_EQ(q->feature, geometry::interior);

@@ -71,7 +71,8 @@ TEST_P(Valley, GapIsThatOfTheDeepestFacetInTheMargin)
     EXPECT_EQ(q->feature, geometry::interior);
     // Behind both extended facets either of them may be out of reach, but
     // what counts is never less than the nearest and never another plane
-    const bool on_floor = x <= geometry::facet_margin, on_wall = beyond <= geometry::facet_margin;
+    const bool on_floor = x <= geometry::facet_margin,
+               on_wall = beyond <= geometry::facet_margin;
     const double expected = on_floor and !on_wall   ? floor
                             : on_wall and !on_floor ? wall
                                                     : std::min(floor, wall);

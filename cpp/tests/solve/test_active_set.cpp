@@ -40,7 +40,7 @@ struct Springs : SpringBodies
     set->begin_step();
     for (const auto& c : contacts)
       c->set_factor(compliance);
-    set->settle(none, true);
+    set->update(none, true);
     std::vector<double> b(system->size()), x(b);
     for (int iteration = 0; iteration < 30; ++iteration)
     {
@@ -54,7 +54,7 @@ struct Springs : SpringBodies
             c->accept();
           return iteration;
         }
-        if (end == ActiveSet::End::hidden)
+        if (end == ActiveSet::End::frozen_pair_penetrates)
           return -1;
         system->residual(b);
       }
@@ -64,7 +64,7 @@ struct Springs : SpringBodies
       for (std::size_t i = 0; i < x.size(); ++i)
         x[i] -= step[i];
       system->take(x);
-      set->settle(none);
+      set->update(none);
       set->advance(true);
     }
     return -1;
@@ -169,25 +169,25 @@ TEST(ActiveSet, AFarActiveSetFreezesTheKinematics)
   scene.set->begin_step();
   scene.contacts[0]->set_factor(
       std::vector<double>(scene.scene.sheets.num_nodes(), 1.0));
-  scene.set->settle(scene.none, true);
+  scene.set->update(scene.none, true);
   EXPECT_FALSE(scene.set->is_frozen());
   // All nodes close at once
   for (std::int32_t i = 0; i < scene.scene.sheets.num_slaves; ++i)
     (*scene.scene.u)[3 * i + 2] = -0.1;
-  scene.set->settle(scene.none);
+  scene.set->update(scene.none);
   EXPECT_EQ(scene.set->changes().status, scene.scene.sheets.num_slaves);
   EXPECT_TRUE(scene.set->is_frozen());
   EXPECT_TRUE(scene.set->is_linear());
   EXPECT_EQ(scene.contacts[0]->kinematics(), Sliding::small);
   // Nothing changes any more: they are of the iterate again
-  const auto changes = scene.set->settle(scene.none);
+  const auto changes = scene.set->update(scene.none);
   EXPECT_EQ(changes.status, 0);
   EXPECT_FALSE(scene.set->is_frozen());
   EXPECT_EQ(scene.contacts[0]->kinematics(), Sliding::finite);
   // A residual of frozen kinematics is not the true one
   std::ranges::fill(*scene.scene.u, 0.0);
   std::ranges::fill(scene.contacts[0]->nodes()->multiplier, -1.0);
-  scene.set->settle(scene.none);
+  scene.set->update(scene.none);
   EXPECT_TRUE(scene.set->is_frozen());
 }
 
@@ -199,7 +199,7 @@ TEST(ActiveSet, AResidualOfFrozenKinematicsIsAskedForAgain)
   law::NodeState& nodes = *scene.contacts[0]->nodes();
   scene.contacts[0]->set_factor(
       std::vector<double>(scene.scene.sheets.num_nodes(), 1.0));
-  scene.set->settle(scene.none, true);
+  scene.set->update(scene.none, true);
   EXPECT_EQ(scene.set->may_end(scene.none), ActiveSet::End::solution);
   const auto move = [&](double down)
   {
@@ -207,7 +207,7 @@ TEST(ActiveSet, AResidualOfFrozenKinematicsIsAskedForAgain)
       (*scene.scene.u)[2 * i + 1] = -down;
   };
   move(0.1);
-  scene.set->settle(scene.none);
+  scene.set->update(scene.none);
   ASSERT_TRUE(scene.set->is_frozen());
   // Many open again while frozen, far aside: pairs stay
   move(0.0);
@@ -217,7 +217,7 @@ TEST(ActiveSet, AResidualOfFrozenKinematicsIsAskedForAgain)
   const auto facets
       = [&] { return scene.contacts[0]->master()->weights().nodes; };
   const std::vector<std::int32_t> before = facets();
-  scene.set->settle(scene.none);
+  scene.set->update(scene.none);
   ASSERT_TRUE(scene.set->is_frozen());
   EXPECT_EQ(facets(), before);
   EXPECT_EQ(scene.set->may_end(scene.none), ActiveSet::End::again);
@@ -237,7 +237,7 @@ TEST(ActiveSet, KinematicsFreezeWhereMoreThanAFifthChanges)
     std::ranges::fill(*scene.scene.u, 0.0);
     scene.set->begin_step();
     std::ranges::fill(nodes.c, 1.0);
-    scene.set->settle(scene.none, true);
+    scene.set->update(scene.none, true);
     std::ranges::fill(nodes.status, law::slip);
     std::ranges::fill(nodes.multiplier, 1.0);
   };
@@ -245,7 +245,7 @@ TEST(ActiveSet, KinematicsFreezeWhereMoreThanAFifthChanges)
   {
     all_closed();
     std::fill_n(nodes.multiplier.begin(), changes, -1.0);
-    EXPECT_EQ(scene.set->settle(scene.none).status, changes);
+    EXPECT_EQ(scene.set->update(scene.none).status, changes);
     EXPECT_EQ(scene.set->is_frozen(),
               changes > std::max(1.0, 0.2 * (n - changes)));
   }
@@ -253,7 +253,7 @@ TEST(ActiveSet, KinematicsFreezeWhereMoreThanAFifthChanges)
   all_closed();
   for (std::int32_t i = 0; i < n; ++i)
     (*scene.scene.u)[3 * i] = 0.7;
-  const auto found = scene.set->settle(scene.none);
+  const auto found = scene.set->update(scene.none);
   EXPECT_EQ(found.status, 0);
   EXPECT_EQ(found.pairs, n);
   EXPECT_TRUE(scene.set->is_frozen());
@@ -266,18 +266,19 @@ TEST(ActiveSet, WhatGoesBackAndForthOnAFarActiveSetCountsForNothing)
   auto& master = dynamic_cast<Hiding&>(*scene.contacts[0]->master());
   std::ranges::fill(scene.contacts[0]->nodes()->c, 1.0);
   scene.set->begin_step();
-  scene.set->settle(scene.none, true);
+  scene.set->update(scene.none, true);
   master.releases = 0;
   for (std::int32_t i = 0; i < scene.scene.sheets.num_slaves; ++i)
     (*scene.scene.u)[2 * i + 1] = -0.1;
-  scene.set->settle(scene.none);
+  scene.set->update(scene.none);
   EXPECT_EQ(master.releases, 1);
   // Nor does the residual of those pairs: that is none of the two releases
   EXPECT_EQ(scene.set->may_end(scene.none), ActiveSet::End::again);
   EXPECT_EQ(master.releases, 1);
   EXPECT_EQ(scene.set->may_end(scene.none), ActiveSet::End::again);
   EXPECT_EQ(scene.set->may_end(scene.none), ActiveSet::End::again);
-  EXPECT_EQ(scene.set->may_end(scene.none), ActiveSet::End::hidden);
+  EXPECT_EQ(scene.set->may_end(scene.none),
+            ActiveSet::End::frozen_pair_penetrates);
 }
 
 TEST(ActiveSet, NodesThatCloseForBalanceFreezeTheKinematics)
@@ -296,7 +297,7 @@ TEST(ActiveSet, NodesThatCloseForBalanceFreezeTheKinematics)
     const Forces forces = body.loads(body.push(0, {0, -load}));
     set.begin_step();
     free->begin_step();
-    set.settle(forces, true);
+    set.update(forces, true);
     EXPECT_EQ(free->closed_for_balance(), load > 0);
     EXPECT_EQ(set.is_frozen(), load > 0);
   }
@@ -311,7 +312,7 @@ TEST(ActiveSet, FrozenPairsThatHideAPenetrationAreReleasedTwice)
     auto& master = dynamic_cast<Hiding&>(*scene.contacts[0]->master());
     master.stays = stays;
     scene.set->begin_step();
-    scene.set->settle(scene.none, true);
+    scene.set->update(scene.none, true);
     // As if the pairs had gone back and forth since
     master.is_frozen = true;
     master.releases = 0;
@@ -324,11 +325,12 @@ TEST(ActiveSet, FrozenPairsThatHideAPenetrationAreReleasedTwice)
       continue;
     }
     EXPECT_EQ(scene.set->may_end(scene.none), ActiveSet::End::again);
-    EXPECT_EQ(scene.set->may_end(scene.none), ActiveSet::End::hidden);
+    EXPECT_EQ(scene.set->may_end(scene.none),
+              ActiveSet::End::frozen_pair_penetrates);
     EXPECT_EQ(master.releases, 2);
     // A new step may try again
     scene.set->begin_step();
-    scene.set->settle(scene.none, true);
+    scene.set->update(scene.none, true);
     EXPECT_EQ(scene.set->may_end(scene.none), ActiveSet::End::again);
   }
 }
@@ -358,11 +360,11 @@ TEST(ActiveSet, OpenNodesLoseTheirPressures)
   scene.set->begin_step();
   law::NodeState& nodes = *scene.contacts[0]->nodes();
   std::ranges::fill(nodes.c, 1.0);
-  scene.set->settle(scene.none, true);
+  scene.set->update(scene.none, true);
   // Less than the gap of 0.05 asks for, but for one
   std::ranges::fill(nodes.multiplier, 0.03);
   nodes.multiplier[1] = 0.1;
-  scene.set->settle(scene.none);
+  scene.set->update(scene.none);
   for (std::int32_t i = 0; i < nodes.num_nodes(); ++i)
     EXPECT_EQ(nodes.multiplier[i], i == 1 ? 0.1 : 0);
 }
@@ -394,18 +396,19 @@ TEST(ActiveSet, SoftContactIsForContactsWithoutFrictionAlone)
     std::vector<std::span<const double>> step(changes.begin(), changes.end());
     EXPECT_EQ(scene.set->softens(step), not has_friction);
     EXPECT_EQ(scene.set->is_soft(), not has_friction);
-    EXPECT_EQ(scene.contacts[0]->nodes()->softness > 0, not has_friction);
+    EXPECT_EQ(scene.contacts[0]->nodes()->layer_compliance > 0,
+              not has_friction);
     if (has_friction)
       continue;
     // Once a step
     EXPECT_FALSE(scene.set->softens(step));
     // Many change, but nothing leads far astray
-    EXPECT_GT(scene.set->settle(scene.none).status, 0);
+    EXPECT_GT(scene.set->update(scene.none).status, 0);
     EXPECT_FALSE(scene.set->is_frozen());
     scene.set->advance(true);
     EXPECT_EQ(scene.set->soft_iterations(), 1);
     scene.set->harden();
-    EXPECT_EQ(scene.contacts[0]->nodes()->softness, 0);
+    EXPECT_EQ(scene.contacts[0]->nodes()->layer_compliance, 0);
     EXPECT_FALSE(scene.set->softens(step));
     EXPECT_THROW(scene.set->softens({}), std::invalid_argument);
   }
@@ -445,7 +448,7 @@ TEST(ActiveSet, SlipTurnsBackFartherWhereIteratesGoRound)
   const auto status = [&]
   {
     std::ranges::fill(nodes.status, law::slip);
-    std::ranges::fill(nodes.turns, 0);
+    std::ranges::fill(nodes.slip_reversals, 0);
     for (std::int32_t i = 0; i < n; ++i)
     {
       nodes.multiplier[2 * i] = 0.5;

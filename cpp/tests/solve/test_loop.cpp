@@ -308,7 +308,8 @@ TEST(Loop, IteratesAreTheSameOnRanks)
                    EXPECT_NEAR(here.residuals[i], one.residuals[i], 1e-12);
                  EXPECT_EQ(here.loop->iterate().closed,
                            one.loop->iterate().closed);
-                 EXPECT_DOUBLE_EQ(here.loop->way(), one.loop->way());
+                 EXPECT_DOUBLE_EQ(here.loop->max_increment(),
+                                  one.loop->max_increment());
                });
   }
 }
@@ -408,7 +409,8 @@ TEST(Loop, FrozenPairsThatStillHideAPenetrationEndIt)
     master.is_frozen = true;
     master.stays = stays;
     const std::int64_t version = found.loop->version();
-    EXPECT_EQ(found.judge(true), stays ? Verdict::hidden : Verdict::solution);
+    EXPECT_EQ(found.judge(true),
+              stays ? Verdict::frozen_pair_penetrates : Verdict::solution);
     EXPECT_EQ(found.loop->version(), version + (stays ? 2 : 1));
   }
 }
@@ -428,9 +430,9 @@ TEST(Loop, ALooseBodyThatHasLeftTheSceneIsNoSolution)
       found.shift(0, way);
       if (not is_loose)
         found.bulk->ends[0] = way;
-      EXPECT_DOUBLE_EQ(found.loop->way(), std::abs(way));
-      EXPECT_EQ(found.judge(),
-                is_loose and way < -3 ? Verdict::ran_away : Verdict::solution);
+      EXPECT_DOUBLE_EQ(found.loop->max_increment(), std::abs(way));
+      EXPECT_EQ(found.judge(), is_loose and way < -3 ? Verdict::unbounded_motion
+                                                     : Verdict::solution);
     }
 }
 
@@ -449,8 +451,8 @@ TEST(Loop, ALooseBodyThatHasTurnedIsNoSolution)
       for (std::int32_t i = 0; i < found.scene.sheets.num_slaves; ++i)
         (*found.scene.u)[2 * i + 1] += angle * found.scene.sheets.x[2 * i];
       EXPECT_NEAR(found.loop->turned(), is_linear ? std::abs(angle) : 0, 1e-12);
-      EXPECT_EQ(found.judge(),
-                is_linear and angle < 0 ? Verdict::turned : Verdict::solution);
+      EXPECT_EQ(found.judge(), is_linear and angle < 0 ? Verdict::large_rotation
+                                                       : Verdict::solution);
     }
 }
 
@@ -579,7 +581,7 @@ TEST(Loop, SoftContactGetsHardBeforeTheEnd)
   EXPECT_EQ(found.loop->version(), version + 1);
   EXPECT_TRUE(found.loop->active_set().is_soft());
   // Nodes go down until their layers carry what presses: no solution yet
-  const double softness = nodes.softness, depth = 0.05 + 1e-3;
+  const double softness = nodes.layer_compliance, depth = 0.05 + 1e-3;
   for (std::int32_t i = 0; i < nodes.num_nodes(); ++i)
   {
     (*found.scene.u)[3 * i + 2] = -depth;
@@ -592,7 +594,7 @@ TEST(Loop, SoftContactGetsHardBeforeTheEnd)
   EXPECT_EQ(found.judge(), Verdict::goes_on);
   EXPECT_FALSE(found.loop->active_set().is_soft());
   EXPECT_EQ(found.loop->active_set().soft_iterations(), 1);
-  EXPECT_EQ(nodes.softness, 0);
+  EXPECT_EQ(nodes.layer_compliance, 0);
 }
 
 TEST(Loop, FactorsOfComplementarityAreOfSpringsInSeries)
@@ -704,7 +706,7 @@ TEST(Loop, MeasuresSteps)
   // Part of the closed nodes that change
   (*found.scene.u)[1] = (*found.scene.u)[3] = -0.6;
   (*found.scene.u)[2] = -0.01;
-  EXPECT_EQ(found.loop->way(), 0.6);
+  EXPECT_EQ(found.loop->max_increment(), 0.6);
   found.judge();
   EXPECT_EQ(found.loop->iterate().closed, 2);
   EXPECT_EQ(found.loop->changing(), 1);

@@ -55,9 +55,9 @@ TEST(SoftPath, IsAsSoftAsTheSoftestThatItHasSeen)
 {
   SoftPath path;
   EXPECT_FALSE(path.begins({-1e-4, 1, 100, 0}));
-  EXPECT_EQ(path.softness(), 0);
+  EXPECT_EQ(path.compliance(), 0);
   EXPECT_TRUE(path.begins(opening(0.001)));
-  EXPECT_DOUBLE_EQ(path.softness(), 1e4);
+  EXPECT_DOUBLE_EQ(path.compliance(), 1e4);
 }
 
 TEST(SoftPath, BeginsOnceAStep)
@@ -66,11 +66,11 @@ TEST(SoftPath, BeginsOnceAStep)
   EXPECT_TRUE(path.begins(opening(0.001)));
   EXPECT_FALSE(path.begins(opening(0.001)));
   path.harden();
-  EXPECT_EQ(path.softness(), 0);
+  EXPECT_EQ(path.compliance(), 0);
   EXPECT_FALSE(path.begins(opening(0.001)));
   path.begin_step();
   EXPECT_TRUE(path.begins(opening(0.002)));
-  EXPECT_DOUBLE_EQ(path.softness(), 500);
+  EXPECT_DOUBLE_EQ(path.compliance(), 500);
 }
 
 TEST(SoftPath, StaysAtALevelForThreeIterations)
@@ -79,13 +79,13 @@ TEST(SoftPath, StaysAtALevelForThreeIterations)
   path.begins(opening(1e-3));
   // The iterate where it begins is no iteration
   path.advance(0, 100, true);
-  for (const double softness : {1000., 50., 2.5})
+  for (const double compliance : {1000., 50., 2.5})
     for (int i = 0; i < 3; ++i)
     {
-      EXPECT_DOUBLE_EQ(path.softness(), softness);
+      EXPECT_DOUBLE_EQ(path.compliance(), compliance);
       path.advance(50, 100, true);
     }
-  EXPECT_EQ(path.softness(), 0);
+  EXPECT_EQ(path.compliance(), 0);
 }
 
 TEST(SoftPath, LeavesALevelThatHasSettled)
@@ -94,11 +94,11 @@ TEST(SoftPath, LeavesALevelThatHasSettled)
   path.begins(opening(1e-3));
   path.advance(50, 100, true);
   path.advance(3, 100, true);
-  EXPECT_DOUBLE_EQ(path.softness(), 1000);
+  EXPECT_DOUBLE_EQ(path.compliance(), 1000);
   path.advance(2, 100, true);
-  EXPECT_DOUBLE_EQ(path.softness(), 50);
+  EXPECT_DOUBLE_EQ(path.compliance(), 50);
   path.advance(1, 10, true);
-  EXPECT_DOUBLE_EQ(path.softness(), 2.5);
+  EXPECT_DOUBLE_EQ(path.compliance(), 2.5);
 }
 
 TEST(SoftPath, WaitsForFullSteps)
@@ -108,13 +108,13 @@ TEST(SoftPath, WaitsForFullSteps)
   path.advance(0, 100, true);
   for (int i = 0; i < 10; ++i)
     path.advance(0, 100, false);
-  EXPECT_DOUBLE_EQ(path.softness(), 1000);
+  EXPECT_DOUBLE_EQ(path.compliance(), 1000);
 }
 
 TEST(SoftPath, HardContactStaysHard)
 {
   SoftPath path;
   path.advance(50, 100, true);
-  EXPECT_EQ(path.softness(), 0);
+  EXPECT_EQ(path.compliance(), 0);
 }
 } // namespace

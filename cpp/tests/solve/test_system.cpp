@@ -59,7 +59,7 @@ struct Hanging : SpringBodies
   }
 
   /// Dirichlet values that the displacements have.
-  void meet()
+  void set_master_facets()
   {
     for (std::size_t i = 0; i < bulk->values.size(); ++i)
       if (bulk->fixed[i])
@@ -121,7 +121,7 @@ TEST(System, TheResidualIsForcesThenComplementarity)
   for (const int dim : {2, 3})
   {
     Hanging s(dim);
-    s.meet();
+    s.set_master_facets();
     std::vector<double> b = s.expected();
     for (std::size_t i = 0; i < s.scene.u->size(); ++i)
       if (s.bulk->fixed[i])
@@ -176,7 +176,7 @@ TEST(System, DirichletValuesThatAreNotThereYetCountInOtherRows)
 TEST(System, RoundingOfDirichletValuesIsNotLifted)
 {
   Hanging s(2);
-  s.meet();
+  s.set_master_facets();
   double most = 0;
   for (const double v : *s.scene.u)
     most = std::max(most, std::abs(v));
@@ -403,7 +403,7 @@ TEST(System, OtherFieldsComeBetweenDisplacementsAndMultipliers)
 TEST(System, DirichletRowsOfOtherFieldsAreDifferences)
 {
   Hanging s(2);
-  s.meet();
+  s.set_master_facets();
   const auto others
       = std::make_shared<LooseFields>(std::vector<std::size_t>{0, 2});
   s.bulk->others = others;

@@ -47,8 +47,8 @@ void set_distances(std::span<const std::int32_t> nodes,
 }
 } // namespace
 
-EdgeWays::EdgeWays(const geometry::FacetList& facets, std::span<const double> x,
-                   int gdim)
+EdgePaths::EdgePaths(const geometry::FacetList& facets,
+                     std::span<const double> x, int gdim)
     : _edges(x.size() / gdim)
 {
   const auto add = [&](std::int32_t a, std::int32_t b)
@@ -67,10 +67,10 @@ EdgeWays::EdgeWays(const geometry::FacetList& facets, std::span<const double> x,
   }
 }
 
-std::vector<std::pair<double, std::int32_t>> EdgeWays::from(std::int32_t from,
-                                                            double within) const
+std::vector<std::pair<double, std::int32_t>>
+EdgePaths::from(std::int32_t from, double within) const
 {
-  std::map<std::int32_t, double> way{{from, 0.0}};
+  std::map<std::int32_t, double> distance{{from, 0.0}};
   using Entry = std::pair<double, std::int32_t>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> next;
   next.emplace(0.0, from);
@@ -79,7 +79,7 @@ std::vector<std::pair<double, std::int32_t>> EdgeWays::from(std::int32_t from,
   {
     const auto [d, node] = next.top();
     next.pop();
-    if (d > way.at(node))
+    if (d > distance.at(node))
       continue;
     found.emplace_back(d, node);
     for (const auto& [length, other] : _edges[node])
@@ -87,7 +87,7 @@ std::vector<std::pair<double, std::int32_t>> EdgeWays::from(std::int32_t from,
       const double sum = d + length;
       if (sum > within)
         continue;
-      const auto [at, is_new] = way.emplace(other, sum);
+      const auto [at, is_new] = distance.emplace(other, sum);
       if (is_new or sum < at->second)
       {
         at->second = sum;
@@ -106,14 +106,14 @@ SelfOrder::SelfOrder(const geometry::FacetList& facets,
   // Nodes of the parts, each in ascending order
   _part.assign(n, -1);
   _along.assign(n, 0);
-  const EdgeWays ways(facets, x, gdim);
+  const EdgePaths paths(facets, x, gdim);
   std::vector<std::vector<std::int32_t>> parts;
   for (std::int32_t first = 0; first < n; ++first)
   {
     if (_part[first] >= 0)
       continue;
     auto& nodes = parts.emplace_back();
-    for (const auto& [way, node] : ways.from(first, infinity))
+    for (const auto& [length, node] : paths.from(first, infinity))
     {
       nodes.push_back(node);
       _part[node] = static_cast<std::int32_t>(parts.size()) - 1;
@@ -167,16 +167,17 @@ SelfOrder::SelfOrder(const geometry::FacetList& facets,
     }
     std::vector<double> beside(n, infinity);
     std::int32_t opposite = start;
-    for (const auto& [way, node] : ways.from(start, infinity))
+    for (const auto& [length, node] : paths.from(start, infinity))
     {
-      _along[node] = way;
-      beside[node] = way;
+      _along[node] = length;
+      beside[node] = length;
       opposite = node;
     }
-    for (const auto& [way, node] : ways.from(opposite, infinity))
-      beside[node] = std::min(beside[node], way);
-    for (const auto& [way, node] : ways.from(farthest(nodes, beside), infinity))
-      _along[node] += 0.5 * way;
+    for (const auto& [length, node] : paths.from(opposite, infinity))
+      beside[node] = std::min(beside[node], length);
+    for (const auto& [length, node] :
+         paths.from(farthest(nodes, beside), infinity))
+      _along[node] += 0.5 * length;
   }
   std::vector<double> score(_size);
   for (double& s : score)

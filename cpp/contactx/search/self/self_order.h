@@ -63,20 +63,20 @@ private:
   std::vector<double> _size; // mean size of the facets of each part
 };
 
-/// @brief Ways along the edges of facets.
-class EdgeWays
+/// @brief Displacements along the edges of facets.
+class EdgePaths
 {
 public:
   /// @brief Take the edges.
   /// @param[in] facets Facets.
   /// @param[in] x Positions (shape=(n, gdim)), row-major.
   /// @param[in] gdim Geometric dimension, 2 or 3.
-  EdgeWays(const geometry::FacetList& facets, std::span<const double> x,
-           int gdim);
+  EdgePaths(const geometry::FacetList& facets, std::span<const double> x,
+            int gdim);
 
   /// @brief Nodes within a way of a node, with the ways, in the order of these.
   /// @param[in] from The node.
-  /// @param[in] within Longest way; may be infinite.
+  /// @param[in] within Longest length; may be infinite.
   std::vector<std::pair<double, std::int32_t>> from(std::int32_t from,
                                                     double within) const;
 

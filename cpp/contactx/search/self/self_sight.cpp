@@ -59,15 +59,15 @@ void SelfSight::find_neighbours(std::optional<double> excluded)
   for (std::int32_t f = 0; f < facets.size(); ++f)
     for (const std::int32_t node : facets[f])
       at[node].push_back(f);
-  const std::optional<EdgeWays> ways
+  const std::optional<EdgePaths> paths
       = excluded
-            ? std::optional<EdgeWays>(std::in_place, facets, _reference, _gdim)
+            ? std::optional<EdgePaths>(std::in_place, facets, _reference, _gdim)
             : std::nullopt;
   for (const std::int32_t node : _surface.owned())
   {
     std::vector<std::int32_t> found = at[node];
-    if (ways)
-      for (const auto& [way, other] : ways->from(node, *excluded))
+    if (paths)
+      for (const auto& [length, other] : paths->from(node, *excluded))
         found.insert(found.end(), at[other].begin(), at[other].end());
     else
       for (const std::int32_t f : at[node])

@@ -40,7 +40,7 @@ void SelfSurface::take_compliance(std::span<const double> nodal)
 
 /// What nodes see, by the numbers of facets of the whole surface.
 std::vector<std::optional<Projection>>
-SelfSurface::look(std::span<const std::int32_t> nodes, double reach) const
+SelfSurface::candidates(std::span<const std::int32_t> nodes, double reach) const
 {
   std::vector<std::optional<Projection>> places(nodes.size());
   std::int32_t hint = -1;
@@ -77,7 +77,7 @@ Found SelfSurface::find_of_nodes(std::span<const double> x,
                                  std::span<const double>, double reach)
 {
   _sight.refit(_halo->start()->x, x);
-  const auto places = here(look(nodes, reach));
+  const auto places = here(candidates(nodes, reach));
   Found found(nodes.size());
   for (std::size_t i = 0; i < nodes.size(); ++i)
     if (places[i])
@@ -102,13 +102,13 @@ std::int32_t SelfSurface::pair(Pairing& pairing, const geometry::FacetList&,
   std::vector<std::int32_t> nodes;
   for (const std::int32_t i : left)
     nodes.push_back(pairing.slaves()[i]);
-  std::vector<std::optional<Projection>> places = look(nodes, reach);
+  std::vector<std::optional<Projection>> places = candidates(nodes, reach);
   for (std::size_t k = 0; k < left.size(); ++k)
     if (places[k]
         and not _sight.is_slave(_sight.surface().node(nodes[k]), *places[k]))
       places[k] = std::nullopt;
-  std::int32_t changed
-      = settle(pairing, left, here(places), x, version, reach, closed);
+  std::int32_t changed = accept_projections(pairing, left, here(places), x,
+                                            version, reach, closed);
   const std::vector<double> grown
       = _halo->updated({x.begin(), x.end()}, _halo->gdim(), version);
   changed += drop_doubles(pairing, grown, reach, closed);
@@ -173,8 +173,8 @@ std::int32_t SelfSurface::drop_doubles(Pairing& pairing,
             or (other and has(other->facet, me.node) and is_first(*other, me));
     }
     if (drops)
-      changed += pairing.settle(static_cast<std::int32_t>(i), std::nullopt, x,
-                                reach, closed[i] != 0);
+      changed += pairing.accept_projection(
+          static_cast<std::int32_t>(i), std::nullopt, x, reach, closed[i] != 0);
   }
   return changed;
 }

@@ -44,7 +44,7 @@ public:
 
 private:
   std::vector<std::optional<Projection>>
-  look(std::span<const std::int32_t> nodes, double reach) const;
+  candidates(std::span<const std::int32_t> nodes, double reach) const;
   std::vector<std::optional<Projection>>
   here(std::vector<std::optional<Projection>> places);
   std::int32_t drop_doubles(Pairing& pairing, std::span<const double> x,

@@ -10,7 +10,7 @@ namespace contactx::search
 {
 /// @brief Ranks that have facets within reach, by boxes of the ranks' facets,
 /// and cones around their normals.
-class Reach
+class RankBoxes
 {
 public:
   /// @brief Distances from points to the boxes of ranks that may matter.
@@ -27,8 +27,8 @@ public:
   /// @param[in] own Facets of this rank.
   /// @param[in] x Node coordinates (shape=(num_nodes, gdim)), row-major.
   /// @param[in] gdim Geometric dimension, 2 or 3.
-  Reach(mesh::Ranks& ranks, const geometry::FacetList& own,
-        std::span<const double> x, int gdim);
+  RankBoxes(mesh::Ranks& ranks, const geometry::FacetList& own,
+            std::span<const double> x, int gdim);
 
   /// @brief Ranks that may matter to points, and how far away they are.
   /// @param[in] points Points (shape=(n, gdim)), row-major.

@@ -7,9 +7,9 @@
 
 namespace contactx::search
 {
-/// @brief Feet of points on given facets, which are extended beyond their
-/// edges; their state is that of the facets' material.
-struct Feet
+/// @brief Projections of points on given facets, which are extended beyond
+/// their edges; their state is that of the facets' material.
+struct Projections
 {
   std::vector<double> xi;  ///< local coordinates (shape=(n, 2))
   std::vector<double> gap; ///< heights over the facets (shape=(n))
@@ -22,12 +22,14 @@ struct Feet
 /// @param[in] points Points (shape=(n, gdim)), row-major.
 /// @param[in] xi Local coordinates where a point has no projection
 /// (shape=(n, 2)); zero gap is given there.
-Feet feet(const Surface& surface, std::span<const std::int32_t> facet,
-          std::span<const double> x, std::span<const double> points,
-          std::span<const double> xi);
+Projections projections(const Surface& surface,
+                        std::span<const std::int32_t> facet,
+                        std::span<const double> x,
+                        std::span<const double> points,
+                        std::span<const double> xi);
 
 /// @brief Points of the surface and unit normals there (shape=(n, gdim)).
-struct Places
+struct FacetPoints
 {
   std::vector<double> x;
   std::vector<double> normal;
@@ -39,6 +41,7 @@ struct Places
 /// (shape=(n)).
 /// @param[in] x Node coordinates (shape=(num_nodes, gdim)), row-major.
 /// @param[in] xi Local coordinates (shape=(n, 2)).
-Places places(const Surface& surface, std::span<const std::int32_t> facet,
-              std::span<const double> x, std::span<const double> xi);
+FacetPoints facet_points(const Surface& surface,
+                         std::span<const std::int32_t> facet,
+                         std::span<const double> x, std::span<const double> xi);
 } // namespace contactx::search

@@ -9,7 +9,7 @@ namespace contactx::geometry
 {
 /// @brief Facets that a list of linear ones are the parts of: quadratic ones,
 /// of which each linear facet between their nodes is a part, or the same again.
-struct Wholes
+struct QuadraticFacets
 {
   int width = 4;                    ///< places for nodes, 4 or 9
   std::vector<std::int32_t> nodes;  ///< of each part's whole, the last one
@@ -52,5 +52,6 @@ struct Wholes
 /// where these are linear.
 /// @return The wholes, in the order of their first parts.
 /// @throws std::invalid_argument If a quadratic facet lacks a part.
-Wholes wholes(const FacetList& parts, std::span<const std::int8_t> level);
+QuadraticFacets quadratic_facets(const FacetList& parts,
+                                 std::span<const std::int8_t> level);
 } // namespace contactx::geometry

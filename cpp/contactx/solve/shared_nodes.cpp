@@ -1,7 +1,7 @@
 // Copyright (C) 2026 contactx authors
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
-#include "junctions.h"
+#include "shared_nodes.h"
 #include "../check.h"
 #include "../math/vec.h"
 #include <algorithm>
@@ -54,7 +54,8 @@ private:
 };
 } // namespace
 
-Junctions::Junctions(const std::vector<std::span<const std::int32_t>>& slaves)
+SharedNodes::SharedNodes(
+    const std::vector<std::span<const std::int32_t>>& slaves)
 {
   std::vector<std::tuple<std::int32_t, std::size_t, std::size_t>> all;
   for (std::size_t k = 0; k < slaves.size(); ++k)
@@ -79,8 +80,8 @@ Junctions::Junctions(const std::vector<std::span<const std::int32_t>>& slaves)
   _flips.assign(_shared.size(), 0);
 }
 
-std::vector<Shared> Junctions::update(const std::vector<Closing>& contacts,
-                                      bool first)
+std::vector<Shared> SharedNodes::update(const std::vector<Closing>& contacts,
+                                        bool first)
 {
   if (contacts.size() != _sizes.size())
     throw std::invalid_argument("contacts must be as many as there were");
@@ -113,8 +114,9 @@ std::vector<Shared> Junctions::update(const std::vector<Closing>& contacts,
   return result;
 }
 
-void Junctions::decide(std::size_t s, const std::vector<Closing>& contacts,
-                       std::vector<Place>& closed, std::vector<Shared>& result)
+void SharedNodes::decide(std::size_t s, const std::vector<Closing>& contacts,
+                         std::vector<Place>& closed,
+                         std::vector<Shared>& result)
 {
   const auto urgency = [&contacts](const Place& place)
   {
@@ -143,7 +145,7 @@ void Junctions::decide(std::size_t s, const std::vector<Closing>& contacts,
     const double size = norm(rest);
     if (not(size >= independent))
     {
-      result[place.contact].ceded[place.node] = 1;
+      result[place.contact].redundant[place.node] = 1;
       continue;
     }
     kept.push_back(place);
@@ -156,5 +158,5 @@ void Junctions::decide(std::size_t s, const std::vector<Closing>& contacts,
     return;
   ++_corners;
   for (const Place& place : kept)
-    result[place.contact].smooth[place.node] = 1;
+    result[place.contact].frictionless[place.node] = 1;
 }

@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "onlooker.h"
+#include "surface_probe.h"
 
 namespace contactx::search
 {
@@ -12,7 +12,7 @@ namespace contactx::search
 ///
 /// Behind a thin body that is tagged all around there is a facet that a point
 /// faces, from inside of the body: as if the point had come through all of it.
-class Outside
+class InsideTest
 {
 public:
   /// @brief Find out whether the surface goes around its body, in the reference
@@ -20,9 +20,9 @@ public:
   /// @param[in] halo Nodes of this rank.
   /// @param[in] offsets First node of each facet that this rank has, and end.
   /// @param[in] nodes Nodes of these facets.
-  Outside(std::shared_ptr<mesh::Halo> halo,
-          std::span<const std::int32_t> offsets,
-          std::span<const std::int32_t> nodes);
+  InsideTest(std::shared_ptr<mesh::Halo> halo,
+             std::span<const std::int32_t> offsets,
+             std::span<const std::int32_t> nodes);
 
   /// @brief True if the surface encloses a volume; else no point is outside.
   bool is_around() const { return _is_around; }
@@ -44,11 +44,11 @@ public:
                                 bool within_depth = false);
 
   /// @brief Looks at the surface.
-  Onlooker& onlooker() { return _onlooker; }
+  SurfaceProbe& probe() { return _probe; }
 
 private:
   std::shared_ptr<mesh::Halo> _halo;
-  Onlooker _onlooker;
+  SurfaceProbe _probe;
   bool _is_around;
 };
 } // namespace contactx::search

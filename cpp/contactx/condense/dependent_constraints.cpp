@@ -1,7 +1,7 @@
 // Copyright (C) 2026 contactx authors
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
-#include "chains.h"
+#include "dependent_constraints.h"
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -62,8 +62,9 @@ contactx::condense::marks(const mesh::NodeMap& nodes,
   return {marks.begin(), marks.end()};
 }
 
-Chains contactx::condense::chains(const Elimination& elimination,
-                                  const mesh::NodeMap& nodes)
+DependentConstraints
+contactx::condense::dependent_constraints(const Elimination& elimination,
+                                          const mesh::NodeMap& nodes)
 {
   const int gdim = elimination.gdim();
   const auto taken = marks(nodes, elimination.eliminated(), gdim);

@@ -1,7 +1,7 @@
 // Copyright (C) 2026 contactx authors
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
-#include <contactx/solve/softness.h>
+#include <contactx/solve/residual_weights.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,7 +10,7 @@
 #include <stdexcept>
 
 using namespace contactx;
-using solve::softness;
+using solve::residual_weight;
 
 namespace
 {
@@ -38,7 +38,7 @@ protected:
 
   static double part(double first, double second, double r, double s)
   {
-    return softness(bodies(), values(first, second), values(r, s), gdim);
+    return residual_weight(bodies(), values(first, second), values(r, s), gdim);
   }
 };
 } // namespace
@@ -74,6 +74,8 @@ TEST_F(Softness, LeavesOutWhatIsPrescribed)
 TEST_F(Softness, RefusesArraysThatDoNotFit)
 {
   const std::vector<double> fits(6 * gdim, 1), none;
-  EXPECT_THROW(softness(bodies(), none, fits, gdim), std::invalid_argument);
-  EXPECT_THROW(softness(bodies(), fits, none, gdim), std::invalid_argument);
+  EXPECT_THROW(residual_weight(bodies(), none, fits, gdim),
+               std::invalid_argument);
+  EXPECT_THROW(residual_weight(bodies(), fits, none, gdim),
+               std::invalid_argument);
 }

@@ -1,9 +1,9 @@
 // Copyright (C) 2026 contactx authors
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
-#include "onlooker.h"
+#include "surface_probe.h"
 #include "../check.h"
-#include "reach.h"
+#include "rank_boxes.h"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -18,7 +18,7 @@ namespace
 struct Sight
 {
   std::int32_t point, inside;
-  double distance, gap, height, margin, way;
+  double distance, gap, height, margin, displacement;
 };
 static_assert(sizeof(Sight) == 2 * sizeof(std::int32_t) + 5 * sizeof(double));
 
@@ -34,17 +34,17 @@ Vector<3> moved(std::span<const std::int32_t> nodes,
         geometry::Local<F> at;
         std::copy_n(xi.begin(), F::tdim, at.begin());
         const auto N = F::shape(at);
-        Vector<3> way{};
+        Vector<3> displacement{};
         for (int l = 0; l < F::nodes; ++l)
           for (int k = 0; k < gdim; ++k)
-            way[k]
+            displacement[k]
                 += N[l] * nodal[static_cast<std::size_t>(nodes[l]) * gdim + k];
-        return way;
+        return displacement;
       });
 }
 
 /// Take a row of what another rank sees.
-void take(Seen& seen, std::size_t i, const Sight& s,
+void take(ProbeResult& seen, std::size_t i, const Sight& s,
           std::span<const double> values)
 {
   seen.distance[i] = s.distance;
@@ -52,33 +52,34 @@ void take(Seen& seen, std::size_t i, const Sight& s,
   seen.height[i] = s.height;
   seen.inside[i] = static_cast<std::int8_t>(s.inside);
   seen.margin[i] = s.margin;
-  seen.way[i] = s.way;
+  seen.displacement[i] = s.displacement;
   std::ranges::copy(values,
                     seen.values.begin()
                         + static_cast<std::ptrdiff_t>(i) * std::ssize(values));
 }
 } // namespace
 
-Seen::Seen(std::size_t n, int width)
+ProbeResult::ProbeResult(std::size_t n, int width)
     : width(width), distance(n, infinity),
       gap(n, std::numeric_limits<double>::quiet_NaN()), height(gap),
-      inside(n, 0), margin(n, 1), way(n, 0), values(n * width, 0)
+      inside(n, 0), margin(n, 1), displacement(n, 0), values(n * width, 0)
 {
 }
 
-Onlooker::Onlooker(std::shared_ptr<mesh::Halo> halo,
-                   std::span<const std::int32_t> offsets,
-                   std::span<const std::int32_t> nodes)
+SurfaceProbe::SurfaceProbe(std::shared_ptr<mesh::Halo> halo,
+                           std::span<const std::int32_t> offsets,
+                           std::span<const std::int32_t> nodes)
     : _halo(std::move(halo)),
       _finder({offsets.begin(), offsets.end()}, {nodes.begin(), nodes.end()},
               _halo->gdim())
 {
 }
 
-Seen Onlooker::look(std::span<const double> x, std::span<const double> points,
+ProbeResult
+SurfaceProbe::query(std::span<const double> x, std::span<const double> points,
                     std::span<const double> normals, double reach,
                     std::span<const double> values, int width,
-                    const std::optional<Ways>& ways)
+                    const std::optional<Displacements>& displacements)
 {
   const int gdim = _halo->gdim();
   const std::size_t n = points.size() / gdim;
@@ -86,21 +87,23 @@ Seen Onlooker::look(std::span<const double> x, std::span<const double> points,
   check::positions(points.size(), 0, gdim, "points");
   check::rows(normals.size(), n, gdim, "normals", "point");
   check::rows(values.size(), num_facets(), width, "values", "facet");
-  if (ways)
+  if (displacements)
   {
-    check::positions(ways->nodes.size(), _finder.surface().num_nodes(), gdim,
-                     "ways");
-    check::rows(ways->points.size(), n, gdim, "ways", "point");
+    check::positions(displacements->nodes.size(), _finder.surface().num_nodes(),
+                     gdim, "ways");
+    check::rows(displacements->points.size(), n, gdim, "ways", "point");
   }
-  const std::span nodal = ways ? ways->nodes : std::span<const double>();
-  const std::span own = ways ? ways->points : std::span<const double>();
+  const std::span nodal
+      = displacements ? displacements->nodes : std::span<const double>();
+  const std::span own
+      = displacements ? displacements->points : std::span<const double>();
   _finder.refit(x);
   mesh::Ranks& ranks = _halo->ranks();
   if (ranks.size() == 1)
     return see(x, points, normals, reach, values, width, own, nodal);
 
-  const Reach::Near near
-      = Reach(ranks, _finder.surface().facets(), x, gdim)
+  const RankBoxes::Near near
+      = RankBoxes(ranks, _finder.surface().facets(), x, gdim)
             .from_points(points, normals, std::vector<double>(n, reach));
   std::map<int, std::vector<std::int32_t>> asked;
   const std::size_t m = near.ranks.size();
@@ -117,15 +120,17 @@ Seen Onlooker::look(std::span<const double> x, std::span<const double> points,
                      table.subspan(static_cast<std::size_t>(i) * gdim,
                                    static_cast<std::size_t>(gdim)));
   mesh::Messages answers;
-  const int tables = ways ? 3 : 2;
+  const int tables = displacements ? 3 : 2;
   for (const auto& [rank, bytes] : ranks.exchange(questions))
   {
     std::span<const std::byte> left = bytes;
     const std::size_t size = bytes.size() / sizeof(double) / tables;
     const auto p = mesh::unpack<double>(left, size);
     const auto normal = mesh::unpack<double>(left, size);
-    const auto way = mesh::unpack<double>(left, ways ? size : 0);
-    const Seen seen = see(x, p, normal, reach, values, width, way, nodal);
+    const auto displacement
+        = mesh::unpack<double>(left, displacements ? size : 0);
+    const ProbeResult seen
+        = see(x, p, normal, reach, values, width, displacement, nodal);
     std::vector<Sight> sights;
     std::vector<double> rows;
     for (std::size_t i = 0; i < seen.distance.size(); ++i)
@@ -134,7 +139,7 @@ Seen Onlooker::look(std::span<const double> x, std::span<const double> points,
         continue;
       sights.push_back({static_cast<std::int32_t>(i), seen.inside[i],
                         seen.distance[i], seen.gap[i], seen.height[i],
-                        seen.margin[i], seen.way[i]});
+                        seen.margin[i], seen.displacement[i]});
       const auto row
           = seen.values.begin() + static_cast<std::ptrdiff_t>(i) * width;
       rows.insert(rows.end(), row, row + width);
@@ -142,7 +147,7 @@ Seen Onlooker::look(std::span<const double> x, std::span<const double> points,
     mesh::pack<Sight>(answers[rank], sights);
     mesh::pack<double>(answers[rank], rows);
   }
-  Seen best(n, width);
+  ProbeResult best(n, width);
   // By rank, so that of facets as near the same one is taken in every run
   for (const auto& [rank, bytes] : ranks.exchange(answers))
   {
@@ -161,18 +166,19 @@ Seen Onlooker::look(std::span<const double> x, std::span<const double> points,
   return best;
 }
 
-Seen Onlooker::see(std::span<const double> x, std::span<const double> points,
-                   std::span<const double> normals, double reach,
-                   std::span<const double> values, int width,
-                   std::span<const double> ways,
-                   std::span<const double> nodal) const
+ProbeResult SurfaceProbe::see(std::span<const double> x,
+                              std::span<const double> points,
+                              std::span<const double> normals, double reach,
+                              std::span<const double> values, int width,
+                              std::span<const double> displacements,
+                              std::span<const double> nodal) const
 {
   const int gdim = _halo->gdim();
   const std::size_t n = points.size() / gdim;
   const Surface& surface = _finder.surface();
   const FoundNearest found
       = _finder.find(x, points, normals, std::vector<double>(n, reach));
-  Seen seen(n, width);
+  ProbeResult seen(n, width);
   seen.distance = found.distance;
   for (std::size_t i = 0; i < n; ++i)
   {
@@ -183,14 +189,14 @@ Seen Onlooker::see(std::span<const double> x, std::span<const double> points,
     seen.gap[i] = seen.height[i] = found.gap[i];
     seen.inside[i] = found.feature[i] == geometry::interior;
     seen.margin[i] = outer_margin(surface, f, {xi[0], xi[1]});
-    if (!ways.empty())
+    if (!displacements.empty())
     {
-      Vector<3> way{}, normal{};
-      std::copy_n(ways.begin() + i * gdim, gdim, way.begin());
+      Vector<3> displacement{}, normal{};
+      std::copy_n(displacements.begin() + i * gdim, gdim, displacement.begin());
       std::copy_n(found.normal.begin() + 3 * i, 3, normal.begin());
-      way = way - moved(surface.facets()[f], nodal, xi, gdim);
-      seen.gap[i] += dot(normal, way);
-      seen.way[i] = norm(way);
+      displacement = displacement - moved(surface.facets()[f], nodal, xi, gdim);
+      seen.gap[i] += dot(normal, displacement);
+      seen.displacement[i] = norm(displacement);
     }
     std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(f) * width, width,
                 seen.values.begin() + static_cast<std::ptrdiff_t>(i) * width);

@@ -21,7 +21,7 @@ std::vector<std::int8_t> marks(const mesh::NodeMap& nodes,
                                std::span<const std::int32_t> dofs, int gdim);
 
 /// @brief Entries by which eliminations need one another; see Elimination.
-struct Chains
+struct DependentConstraints
 {
   Triplets right; ///< of `right` between two eliminated displacements
   Triplets left;  ///< of `left` between two rows that give multipliers
@@ -31,7 +31,8 @@ struct Chains
 /// @param[in] elimination That of this rank.
 /// @param[in] nodes Nodes of this rank.
 /// @return This rank's entries, in its numbers.
-Chains chains(const Elimination& elimination, const mesh::NodeMap& nodes);
+DependentConstraints dependent_constraints(const Elimination& elimination,
+                                           const mesh::NodeMap& nodes);
 
 /// @brief Whether no node sticks or slips, and `left` is the transpose of
 /// `right` but for rounding.

@@ -1,7 +1,7 @@
 // Copyright (C) 2026 contactx authors
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
-#include "wholes.h"
+#include "quadratic_facets.h"
 #include <algorithm>
 #include <array>
 #include <map>
@@ -98,10 +98,11 @@ Whole triangle(const FacetList& facets, std::int32_t inner,
 }
 } // namespace
 
-Wholes contactx::geometry::wholes(const FacetList& facets,
-                                  std::span<const std::int8_t> level)
+QuadraticFacets
+contactx::geometry::quadratic_facets(const FacetList& facets,
+                                     std::span<const std::int8_t> level)
 {
-  Wholes result;
+  QuadraticFacets result;
   const std::size_t n = facets.size();
   result.number.resize(n);
   result.sizes.resize(n);

@@ -3,7 +3,7 @@
 
 #include "facets.h"
 #include "scene.h"
-#include <contactx/search/foot.h>
+#include <contactx/search/projections.h>
 
 using namespace contactx;
 using namespace contactx::search;
@@ -67,8 +67,8 @@ TYPED_TEST(Foot, PlacesAreOnTheSurfaceWithItsNormal)
 {
   using F = TypeParam;
   this->draw(0);
-  const Places q
-      = places(this->scene.surface(), this->which, this->scene.x, this->xi);
+  const FacetPoints q = facet_points(this->scene.surface(), this->which,
+                                     this->scene.x, this->xi);
   for (int i = 0; i < this->num; ++i)
   {
     geometry::Local<F> at;
@@ -86,13 +86,15 @@ TYPED_TEST(Foot, FeetAndPlacesAreInverse)
   // Below the radius of curvature of the warped ones
   this->draw(0.3);
   const Surface surface = this->scene.surface();
-  const Places q = places(surface, this->which, this->scene.x, this->xi);
+  const FacetPoints q
+      = facet_points(surface, this->which, this->scene.x, this->xi);
   std::vector<double> points(q.x);
   for (int i = 0; i < this->num; ++i)
     for (int k = 0; k < F::gdim; ++k)
       points[F::gdim * i + k] += this->gap[i] * q.normal[F::gdim * i + k];
   const std::vector<double> nowhere(2 * this->num, -9);
-  const Feet found = feet(surface, this->which, this->scene.x, points, nowhere);
+  const Projections found
+      = projections(surface, this->which, this->scene.x, points, nowhere);
   for (int i = 0; i < this->num; ++i)
   {
     for (int a = 0; a < F::tdim; ++a)
@@ -113,8 +115,9 @@ TYPED_TEST(Foot, AreThoseOfTheMaterialWhenTheFacetsHaveMoved)
     const auto p = motion(this->point(moved, i));
     std::copy(p.begin(), p.end(), moved.begin() + F::gdim * i);
   }
-  const Places before = places(surface, this->which, this->scene.x, this->xi);
-  const Places after = places(surface, this->which, moved, this->xi);
+  const FacetPoints before
+      = facet_points(surface, this->which, this->scene.x, this->xi);
+  const FacetPoints after = facet_points(surface, this->which, moved, this->xi);
   for (int i = 0; i < this->num; ++i)
   {
     EXPECT_LT(norm(this->point(after.x, i) - motion(this->point(before.x, i))),
@@ -132,7 +135,8 @@ TYPED_TEST(Foot, WithoutAFacetIsWhatWasGiven)
   const std::vector<std::int32_t> which{-1, 0, -1};
   const std::vector<double> given{0.25, 0.5, 7, 7, -3, 4};
   const std::vector<double> points(3 * F::gdim, 0.3);
-  const Feet found = feet(surface, which, this->scene.x, points, given);
+  const Projections found
+      = projections(surface, which, this->scene.x, points, given);
   EXPECT_EQ(found.xi[0], 0.25);
   EXPECT_EQ(found.xi[1], 0.5);
   EXPECT_NE(found.xi[2], 7);
@@ -140,7 +144,7 @@ TYPED_TEST(Foot, WithoutAFacetIsWhatWasGiven)
   EXPECT_EQ(found.xi[5], 4);
   EXPECT_EQ(found.gap[0], 0);
   EXPECT_EQ(found.gap[2], 0);
-  const Places q = places(surface, which, this->scene.x, given);
+  const FacetPoints q = facet_points(surface, which, this->scene.x, given);
   for (int i : {0, 2})
   {
     EXPECT_EQ(norm(this->point(q.x, i)), 0);
@@ -156,7 +160,8 @@ TEST(FootOfADegenerateFacet, IsWhatWasGiven)
       {scene.node({0, 0, 0}), scene.node({1, 0, 0}), scene.node({2, 0, 0})});
   const std::vector<std::int32_t> which{0};
   const std::vector<double> point{0.5, 1, 1}, given{0.25, 0.125};
-  const Feet found = feet(scene.surface(), which, scene.x, point, given);
+  const Projections found
+      = projections(scene.surface(), which, scene.x, point, given);
   EXPECT_EQ(found.xi, given);
   EXPECT_EQ(found.gap[0], 0);
 }

@@ -1,7 +1,7 @@
 // Copyright (C) 2026 contactx authors
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
-#include "outside.h"
+#include "inside_test.h"
 #include "../check.h"
 #include "../geometry/middle.h"
 #include <algorithm>
@@ -24,10 +24,10 @@ constexpr double around = 0.99;
 constexpr double on_it = 0.2;
 } // namespace
 
-Outside::Outside(std::shared_ptr<mesh::Halo> halo,
-                 std::span<const std::int32_t> offsets,
-                 std::span<const std::int32_t> nodes)
-    : _halo(std::move(halo)), _onlooker(_halo, offsets, nodes)
+InsideTest::InsideTest(std::shared_ptr<mesh::Halo> halo,
+                       std::span<const std::int32_t> offsets,
+                       std::span<const std::int32_t> nodes)
+    : _halo(std::move(halo)), _probe(_halo, offsets, nodes)
 {
   const int gdim = _halo->gdim();
   const std::vector<double> normals
@@ -48,11 +48,11 @@ Outside::Outside(std::shared_ptr<mesh::Halo> halo,
   _is_around = length == 0 or mesh::least(_halo->ranks(), cosine) < around;
 }
 
-std::vector<std::int8_t> Outside::find(std::span<const double> x,
-                                       std::span<const double> points,
-                                       std::span<const double> depth,
-                                       std::span<const double> size,
-                                       bool within_depth)
+std::vector<std::int8_t> InsideTest::find(std::span<const double> x,
+                                          std::span<const double> points,
+                                          std::span<const double> depth,
+                                          std::span<const double> size,
+                                          bool within_depth)
 {
   const std::size_t g = _halo->gdim(), n = points.size() / g;
   check::rows(points.size(), n, static_cast<int>(g), "points", "point");
@@ -73,8 +73,9 @@ std::vector<std::int8_t> Outside::find(std::span<const double> x,
   if (!mesh::anywhere(_halo->ranks(), !which.empty()))
     return result;
   // Of any normal: what is in front of the nearest facet is outside
-  const Seen seen = _onlooker.look(x, at, std::vector<double>(at.size(), 0),
-                                   std::numeric_limits<double>::infinity());
+  const ProbeResult seen
+      = _probe.query(x, at, std::vector<double>(at.size(), 0),
+                     std::numeric_limits<double>::infinity());
   for (std::size_t k = 0; k < which.size(); ++k)
   {
     const std::size_t i = which[k];

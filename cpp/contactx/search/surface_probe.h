@@ -12,12 +12,12 @@
 namespace contactx::search
 {
 /// @brief View of points on a surface, a row a point.
-struct Seen
+struct ProbeResult
 {
   /// @brief Nothing seen.
   /// @param[in] n Number of points.
   /// @param[in] width Values a facet.
-  explicit Seen(std::size_t n = 0, int width = 0);
+  explicit ProbeResult(std::size_t n = 0, int width = 0);
 
   int width;                    ///< values a facet
   std::vector<double> distance; ///< from the nearest facet, infinite without
@@ -30,13 +30,13 @@ struct Seen
   std::vector<double> margin;
   /// How far the point has moved relatively to the facet since, where that is
   /// given
-  std::vector<double> way;
+  std::vector<double> displacement;
   std::vector<double> values; ///< of the facet (shape=(n, width))
 };
 
 /// @brief Displacements since the configuration that is looked at: gaps then
 /// are linear in them, as in small sliding.
-struct Ways
+struct Displacements
 {
   std::span<const double> nodes;  ///< of all nodes (shape=(num_nodes, gdim))
   std::span<const double> points; ///< of the points (shape=(n, gdim))
@@ -47,7 +47,7 @@ struct Ways
 ///
 /// A search for pairs adds what it finds to the halo; this does not, so that it
 /// may come after a solve.
-class Onlooker
+class SurfaceProbe
 {
 public:
   /// @brief Take the facets.
@@ -55,9 +55,9 @@ public:
   /// @param[in] offsets First node of each facet that this rank has, and end;
   /// several ranks may have the same facet.
   /// @param[in] nodes Nodes of these facets.
-  Onlooker(std::shared_ptr<mesh::Halo> halo,
-           std::span<const std::int32_t> offsets,
-           std::span<const std::int32_t> nodes);
+  SurfaceProbe(std::shared_ptr<mesh::Halo> halo,
+               std::span<const std::int32_t> offsets,
+               std::span<const std::int32_t> nodes);
 
   /// @brief Number of facets of this rank.
   std::int32_t num_facets() const { return _finder.surface().facets().size(); }
@@ -71,18 +71,20 @@ public:
   /// @param[in] values Values of this rank's facets
   /// (shape=(num_facets, width)), row-major.
   /// @param[in] width Values a facet, the same on all ranks.
-  /// @param[in] ways Displacements, on all ranks or none.
-  Seen look(std::span<const double> x, std::span<const double> points,
-            std::span<const double> normals, double reach,
-            std::span<const double> values = {}, int width = 0,
-            const std::optional<Ways>& ways = std::nullopt);
+  /// @param[in] displacements Displacements, on all ranks or none.
+  ProbeResult query(std::span<const double> x, std::span<const double> points,
+                    std::span<const double> normals, double reach,
+                    std::span<const double> values = {}, int width = 0,
+                    const std::optional<Displacements>& displacements
+                    = std::nullopt);
 
 private:
   // View of points on this rank's facets, the points moving on by their ways
-  Seen see(std::span<const double> x, std::span<const double> points,
-           std::span<const double> normals, double reach,
-           std::span<const double> values, int width,
-           std::span<const double> ways, std::span<const double> nodal) const;
+  ProbeResult see(std::span<const double> x, std::span<const double> points,
+                  std::span<const double> normals, double reach,
+                  std::span<const double> values, int width,
+                  std::span<const double> displacements,
+                  std::span<const double> nodal) const;
 
   std::shared_ptr<mesh::Halo> _halo;
   Finder _finder;

@@ -1,19 +1,20 @@
 // Copyright (C) 2026 contactx authors
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
-#include "foot.h"
+#include "projections.h"
 
 using namespace contactx;
 using namespace contactx::search;
 
-Feet contactx::search::feet(const Surface& surface,
-                            std::span<const std::int32_t> facet,
-                            std::span<const double> x,
-                            std::span<const double> points,
-                            std::span<const double> xi)
+Projections contactx::search::projections(const Surface& surface,
+                                          std::span<const std::int32_t> facet,
+                                          std::span<const double> x,
+                                          std::span<const double> points,
+                                          std::span<const double> xi)
 {
   const int gdim = surface.gdim();
-  Feet result{{xi.begin(), xi.end()}, std::vector<double>(facet.size(), 0)};
+  Projections result{{xi.begin(), xi.end()},
+                     std::vector<double>(facet.size(), 0)};
   for (std::size_t i = 0; i < facet.size(); ++i)
   {
     if (facet[i] < 0)
@@ -29,14 +30,14 @@ Feet contactx::search::feet(const Surface& surface,
   return result;
 }
 
-Places contactx::search::places(const Surface& surface,
-                                std::span<const std::int32_t> facet,
-                                std::span<const double> x,
-                                std::span<const double> xi)
+FacetPoints contactx::search::facet_points(const Surface& surface,
+                                           std::span<const std::int32_t> facet,
+                                           std::span<const double> x,
+                                           std::span<const double> xi)
 {
   const int gdim = surface.gdim();
-  Places result{std::vector<double>(facet.size() * gdim, 0),
-                std::vector<double>(facet.size() * gdim, 0)};
+  FacetPoints result{std::vector<double>(facet.size() * gdim, 0),
+                     std::vector<double>(facet.size() * gdim, 0)};
   for (std::size_t i = 0; i < facet.size(); ++i)
   {
     if (facet[i] < 0)

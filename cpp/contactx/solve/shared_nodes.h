@@ -24,10 +24,10 @@ struct Closing
 /// @brief Slave nodes of one of several contacts that share nodes.
 struct Shared
 {
-  std::vector<std::int8_t> ceded;  ///< 1 where a node leaves it to others
-                                   ///< (shape=(n))
-  std::vector<std::int8_t> smooth; ///< 1 where friction is left out
-                                   ///< (shape=(n))
+  std::vector<std::int8_t> redundant;    ///< 1 where a node leaves it to others
+                                         ///< (shape=(n))
+  std::vector<std::int8_t> frictionless; ///< 1 where friction is left out
+                                         ///< (shape=(n))
 };
 
 /// @brief Keeps the system solvable where a node is slave in several contacts,
@@ -40,13 +40,14 @@ struct Shared
 /// in all of them, so that its constraints are the independent normals alone. A
 /// tie constrains a node in every direction: the node's other contacts stay
 /// open.
-class Junctions
+class SharedNodes
 {
 public:
   /// @brief Find the nodes.
   /// @param[in] slaves Slave nodes of each contact that this rank owns, each
   /// once.
-  explicit Junctions(const std::vector<std::span<const std::int32_t>>& slaves);
+  explicit SharedNodes(
+      const std::vector<std::span<const std::int32_t>>& slaves);
 
   /// @brief Nodes that are slave in several contacts, in order.
   const std::vector<std::int32_t>& shared() const { return _shared; }

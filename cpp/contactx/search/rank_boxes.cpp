@@ -1,9 +1,10 @@
 // Copyright (C) 2026 contactx authors
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
-#include "reach.h"
+#include "rank_boxes.h"
 #include "../geometry/facets.h"
 #include "../geometry/middle.h"
+#include "../geometry/shape.h"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -65,8 +66,8 @@ std::pair<Vector<3>, double> cone(const geometry::FacetList& facets,
 }
 } // namespace
 
-Reach::Reach(mesh::Ranks& ranks, const geometry::FacetList& own,
-             std::span<const double> x, int gdim)
+RankBoxes::RankBoxes(mesh::Ranks& ranks, const geometry::FacetList& own,
+                     std::span<const double> x, int gdim)
     : _gdim(gdim), _num_ranks(ranks.size())
 {
   const std::size_t g = gdim;
@@ -97,31 +98,31 @@ Reach::Reach(mesh::Ranks& ranks, const geometry::FacetList& own,
                            rounding * std::abs(high(r)[k])});
 }
 
-bool Reach::there(int rank) const { return low(rank)[0] <= high(rank)[0]; }
+bool RankBoxes::there(int rank) const { return low(rank)[0] <= high(rank)[0]; }
 
-std::span<const double> Reach::low(int rank) const
+std::span<const double> RankBoxes::low(int rank) const
 {
   return std::span(_every).subspan((3 * _gdim + 1) * rank, _gdim);
 }
 
-std::span<const double> Reach::high(int rank) const
+std::span<const double> RankBoxes::high(int rank) const
 {
   return std::span(_every).subspan((3 * _gdim + 1) * rank + _gdim, _gdim);
 }
 
-std::span<const double> Reach::axis(int rank) const
+std::span<const double> RankBoxes::axis(int rank) const
 {
   return std::span(_every).subspan((3 * _gdim + 1) * rank + 2 * _gdim, _gdim);
 }
 
-double Reach::sine(int rank) const
+double RankBoxes::sine(int rank) const
 {
   return _every[(3 * _gdim + 1) * rank + 3 * _gdim];
 }
 
-Reach::Near Reach::from_points(std::span<const double> points,
-                               std::span<const double> normals,
-                               std::span<const double> bound) const
+RankBoxes::Near RankBoxes::from_points(std::span<const double> points,
+                                       std::span<const double> normals,
+                                       std::span<const double> bound) const
 {
   Near near;
   const std::size_t n = bound.size(), g = _gdim;
@@ -159,9 +160,10 @@ Reach::Near Reach::from_points(std::span<const double> points,
   return near;
 }
 
-std::vector<std::int8_t> Reach::from_facets(std::span<const double> x,
-                                            const geometry::FacetList& slave,
-                                            double reach, double margin) const
+std::vector<std::int8_t>
+RankBoxes::from_facets(std::span<const double> x,
+                       const geometry::FacetList& slave, double reach,
+                       double margin) const
 {
   std::vector<std::int8_t> near(
       static_cast<std::size_t>(slave.size()) * _num_ranks, 0);

@@ -3,7 +3,7 @@
 
 #include "generator.h"
 #include <algorithm>
-#include <contactx/solve/junctions.h>
+#include <contactx/solve/shared_nodes.h>
 #include <gtest/gtest.h>
 #include <limits>
 #include <numeric>
@@ -41,18 +41,18 @@ struct Node
                           {&s.closes, 1},
                           {&s.gap, 1},
                           {s.normal.data(), s.normal.size()}});
-    ceded.clear();
-    smooth.clear();
+    redundant.clear();
+    frictionless.clear();
     for (const Shared& s : junctions.update(contacts, first))
     {
-      ceded.push_back(s.ceded.at(0));
-      smooth.push_back(s.smooth.at(0));
+      redundant.push_back(s.redundant.at(0));
+      frictionless.push_back(s.frictionless.at(0));
     }
   }
 
   std::vector<std::int32_t> number{7};
-  Junctions junctions;
-  Flags ceded, smooth;
+  SharedNodes junctions;
+  Flags redundant, frictionless;
 };
 
 /// Unit normal in the plane at an angle from the vertical.
@@ -80,30 +80,30 @@ double gram(const std::vector<Vector<3>>& v)
 }
 } // namespace
 
-TEST(Junctions, FindTheNodesThatContactsShare)
+TEST(SharedNodes, FindTheNodesThatContactsShare)
 {
   const std::vector<std::int32_t> a{1, 3, 5, 9}, b{0, 3, 9}, c{9, 2}, none;
-  const Junctions junctions({a, b, c, none});
+  const SharedNodes junctions({a, b, c, none});
   EXPECT_EQ(junctions.shared(), (std::vector<std::int32_t>{3, 9}));
-  EXPECT_TRUE(Junctions({a, none}).shared().empty());
-  EXPECT_TRUE(Junctions({}).shared().empty());
+  EXPECT_TRUE(SharedNodes({a, none}).shared().empty());
+  EXPECT_TRUE(SharedNodes({}).shared().empty());
 }
 
-TEST(Junctions, InAWedgeANodeClosesBothAndSlides)
+TEST(SharedNodes, InAWedgeANodeClosesBothAndSlides)
 {
   Node node(2);
   node.update({{tilted(0.8)}, {tilted(-0.8), -0.5}}, true);
-  EXPECT_EQ(node.ceded, Flags({0, 0}));
-  EXPECT_EQ(node.smooth, Flags({1, 1}));
+  EXPECT_EQ(node.redundant, Flags({0, 0}));
+  EXPECT_EQ(node.frictionless, Flags({1, 1}));
   EXPECT_EQ(node.junctions.corners(), 1);
   // One alone keeps its friction
   node.update({{tilted(0.8)}, {tilted(-0.8), 0.5, false, 0}});
-  EXPECT_EQ(node.ceded, Flags({0, 0}));
-  EXPECT_EQ(node.smooth, Flags({0, 0}));
+  EXPECT_EQ(node.redundant, Flags({0, 0}));
+  EXPECT_EQ(node.frictionless, Flags({0, 0}));
   EXPECT_EQ(node.junctions.corners(), 0);
 }
 
-TEST(Junctions, InAShallowValleyTheDeepestComesFirst)
+TEST(SharedNodes, InAShallowValleyTheDeepestComesFirst)
 {
   // The sine of the angle between the normals is a tenth
   const double angle = std::asin(0.1);
@@ -111,20 +111,20 @@ TEST(Junctions, InAShallowValleyTheDeepestComesFirst)
   {
     Node node(2);
     node.update({{tilted(0)}, {tilted(angle + more), -2}}, true);
-    EXPECT_EQ(node.ceded, Flags({more < 0, 0}));
-    EXPECT_EQ(node.smooth, Flags({more > 0, more > 0}));
+    EXPECT_EQ(node.redundant, Flags({more < 0, 0}));
+    EXPECT_EQ(node.frictionless, Flags({more > 0, more > 0}));
     EXPECT_EQ(node.junctions.corners(), more > 0);
   }
 }
 
-TEST(Junctions, OfEqualGapsTheFirstContactCounts)
+TEST(SharedNodes, OfEqualGapsTheFirstContactCounts)
 {
   Node node(2);
   node.update({{tilted(0)}, {tilted(0.01)}}, true);
-  EXPECT_EQ(node.ceded, Flags({0, 1}));
+  EXPECT_EQ(node.redundant, Flags({0, 1}));
 }
 
-TEST(Junctions, ANodeThatGoesToAndFroInAShallowValleyNeedsBoth)
+TEST(SharedNodes, ANodeThatGoesToAndFroInAShallowValleyNeedsBoth)
 {
   Node node(2);
   const auto deepest = [&node](int which, bool first = false)
@@ -137,47 +137,47 @@ TEST(Junctions, ANodeThatGoesToAndFroInAShallowValleyNeedsBoth)
   {
     // A step forgets what was before
     deepest(0, true);
-    EXPECT_EQ(node.ceded, Flags({0, 1}));
+    EXPECT_EQ(node.redundant, Flags({0, 1}));
     deepest(1);
-    EXPECT_EQ(node.ceded, Flags({1, 0}));
+    EXPECT_EQ(node.redundant, Flags({1, 0}));
     deepest(1);
-    EXPECT_EQ(node.ceded, Flags({1, 0}));
+    EXPECT_EQ(node.redundant, Flags({1, 0}));
     deepest(0);
-    EXPECT_EQ(node.ceded, Flags({0, 0}));
-    EXPECT_EQ(node.smooth, Flags({1, 1}));
+    EXPECT_EQ(node.redundant, Flags({0, 0}));
+    EXPECT_EQ(node.frictionless, Flags({1, 1}));
     EXPECT_EQ(node.junctions.corners(), 1);
     // And so it stays
     deepest(0);
-    EXPECT_EQ(node.ceded, Flags({0, 0}));
+    EXPECT_EQ(node.redundant, Flags({0, 0}));
   }
 }
 
-TEST(Junctions, ANodeOnOneSideAloneDoesNotGoToAndFro)
+TEST(SharedNodes, ANodeOnOneSideAloneDoesNotGoToAndFro)
 {
   Node node(2);
   for (int i = 0; i < 6; ++i)
   {
     node.update({{tilted(0), -2}, {tilted(0.01), -1}}, i == 0);
-    EXPECT_EQ(node.ceded, Flags({0, 1}));
+    EXPECT_EQ(node.redundant, Flags({0, 1}));
     // In one contact alone nothing is decided
     node.update({{tilted(0), 1, false, 0}, {tilted(0.01), -1}});
-    EXPECT_EQ(node.ceded, Flags({0, 0}));
+    EXPECT_EQ(node.redundant, Flags({0, 0}));
   }
 }
 
-TEST(Junctions, TheSameNormalTwiceIsNeverKept)
+TEST(SharedNodes, TheSameNormalTwiceIsNeverKept)
 {
   Node node(2);
   for (int i = 0; i < 8; ++i)
   {
     const bool swap = i % 2;
     node.update({{tilted(0.3), swap ? -1. : -2}, {tilted(0.3), -1.5}}, i == 0);
-    EXPECT_EQ(node.ceded, Flags({swap, not swap}));
+    EXPECT_EQ(node.redundant, Flags({swap, not swap}));
     EXPECT_EQ(node.junctions.corners(), 0);
   }
 }
 
-TEST(Junctions, BesideATieOtherContactsStayOpen)
+TEST(SharedNodes, BesideATieOtherContactsStayOpen)
 {
   const double none = std::numeric_limits<double>::quiet_NaN();
   for (double gap : {0., 1., none})
@@ -185,17 +185,17 @@ TEST(Junctions, BesideATieOtherContactsStayOpen)
     Node node(3);
     node.update({{tilted(1.5), -9}, {tilted(0), gap, true}, {{0, 0, 1}, -7}},
                 true);
-    EXPECT_EQ(node.ceded, Flags({1, 0, 1}));
-    EXPECT_EQ(node.smooth, Flags({0, 0, 0}));
+    EXPECT_EQ(node.redundant, Flags({1, 0, 1}));
+    EXPECT_EQ(node.frictionless, Flags({0, 0, 0}));
     EXPECT_EQ(node.junctions.corners(), 0);
   }
   // Of two ties the second is too many
   Node node(2);
   node.update({{tilted(1), 0, true}, {tilted(0), -1, true}}, true);
-  EXPECT_EQ(node.ceded, Flags({1, 0}));
+  EXPECT_EQ(node.redundant, Flags({1, 0}));
 }
 
-TEST(Junctions, KeepIndependentNormalsOfAnyNumber)
+TEST(SharedNodes, KeepIndependentNormalsOfAnyNumber)
 {
   // By the volumes that normals span, in the order of their gaps
   Generator random(1);
@@ -220,7 +220,7 @@ TEST(Junctions, KeepIndependentNormalsOfAnyNumber)
     std::iota(order.begin(), order.end(), 0);
     std::ranges::sort(order, {}, [&](std::size_t k) { return sides[k].gap; });
     std::vector<Vector<3>> kept;
-    Flags ceded(n, 0), smooth(n, 0);
+    Flags redundant(n, 0), frictionless(n, 0);
     for (std::size_t k : order)
     {
       if (not sides[k].closes)
@@ -228,29 +228,29 @@ TEST(Junctions, KeepIndependentNormalsOfAnyNumber)
       auto with = kept;
       with.push_back(sides[k].normal);
       if (std::sqrt(std::max(gram(with) / gram(kept), 0.0)) < 0.1)
-        ceded[k] = 1;
+        redundant[k] = 1;
       else
       {
         kept = with;
-        smooth[k] = 1;
+        frictionless[k] = 1;
       }
     }
     if (kept.size() < 2)
-      std::ranges::fill(smooth, 0);
-    EXPECT_EQ(node.ceded, ceded);
-    EXPECT_EQ(node.smooth, smooth);
+      std::ranges::fill(frictionless, 0);
+    EXPECT_EQ(node.redundant, redundant);
+    EXPECT_EQ(node.frictionless, frictionless);
     EXPECT_EQ(node.junctions.corners(), kept.size() > 1);
     kept_three += kept.size() == 3;
-    ceded_some += std::ranges::count(ceded, 1) > 0;
+    ceded_some += std::ranges::count(redundant, 1) > 0;
   }
   EXPECT_GT(kept_three, 50);
   EXPECT_GT(ceded_some, 50);
 }
 
-TEST(Junctions, DecideForEachNodeAlone)
+TEST(SharedNodes, DecideForEachNodeAlone)
 {
   const std::vector<std::int32_t> a{4, 6, 8}, b{8, 6};
-  Junctions junctions({a, b});
+  SharedNodes junctions({a, b});
   const Flags all(3, 1), some{1, 0};
   const std::vector<double> gap_a{-1, -1, -1}, gap_b{-2, -2};
   std::vector<double> normal_a, normal_b;
@@ -262,17 +262,17 @@ TEST(Junctions, DecideForEachNodeAlone)
                                       {false, some, gap_b, normal_b}};
   const auto result = junctions.update(contacts, true);
   // Node 8 alone closes both
-  EXPECT_EQ(result[0].smooth, Flags({0, 0, 1}));
-  EXPECT_EQ(result[1].smooth, Flags({1, 0}));
-  EXPECT_EQ(result[0].ceded, Flags({0, 0, 0}));
-  EXPECT_EQ(result[1].ceded, Flags({0, 0}));
+  EXPECT_EQ(result[0].frictionless, Flags({0, 0, 1}));
+  EXPECT_EQ(result[1].frictionless, Flags({1, 0}));
+  EXPECT_EQ(result[0].redundant, Flags({0, 0, 0}));
+  EXPECT_EQ(result[1].redundant, Flags({0, 0}));
   EXPECT_EQ(junctions.corners(), 1);
 }
 
-TEST(Junctions, RefuseWhatDoesNotFit)
+TEST(SharedNodes, RefuseWhatDoesNotFit)
 {
   const std::vector<std::int32_t> a{4};
-  Junctions junctions({a, a});
+  SharedNodes junctions({a, a});
   const Flags one{1}, two{1, 1};
   const std::vector<double> gap{0}, normal{0, 1, 0}, flat{0, 1};
   const Closing good{false, one, gap, normal};

@@ -1,7 +1,7 @@
 // Copyright (C) 2026 contactx authors
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
-#include "softness.h"
+#include "residual_weights.h"
 #include "../check.h"
 #include <algorithm>
 #include <cmath>
@@ -13,9 +13,10 @@ namespace
 constexpr double alike = 10;
 } // namespace
 
-double contactx::solve::softness(const mesh::Bodies& bodies,
-                                 std::span<const double> diagonal,
-                                 std::span<const double> residual, int gdim)
+double contactx::solve::residual_weight(const mesh::Bodies& bodies,
+                                        std::span<const double> diagonal,
+                                        std::span<const double> residual,
+                                        int gdim)
 {
   const mesh::NodeMap& nodes = bodies.map();
   nodes.ranks().agree(

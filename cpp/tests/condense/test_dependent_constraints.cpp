@@ -27,7 +27,7 @@ Saddle symmetric(int gdim)
 }
 } // namespace
 
-TEST(Chains, ANodeThatIsSlaveHereAndMasterThere)
+TEST(DependentConstraints, ANodeThatIsSlaveHereAndMasterThere)
 {
   for (const int gdim : {2, 3})
     for (const int size : {1, gdim})
@@ -36,7 +36,8 @@ TEST(Chains, ANodeThatIsSlaveHereAndMasterThere)
       const std::int8_t held = size == 1 ? slip : stick;
       const auto found = [&](const Saddle& saddle)
       {
-        const Chains all = chains(saddle.condensed().elimination(), nodes);
+        const DependentConstraints all
+            = dependent_constraints(saddle.condensed().elimination(), nodes);
         return std::pair(all.right.size(), all.left.size());
       };
       using Counts = std::pair<std::size_t, std::size_t>;
@@ -67,7 +68,7 @@ TEST(Chains, ANodeThatIsSlaveHereAndMasterThere)
     }
 }
 
-TEST(Chains, TheOtherNodeIsOfAnotherRank)
+TEST(DependentConstraints, TheOtherNodeIsOfAnotherRank)
 {
   // The first rank's master node 5 is the other one's first node
   const auto count = [](const std::vector<Contact>& others)
@@ -85,7 +86,8 @@ TEST(Chains, TheOtherNodeIsOfAnotherRank)
           const NumberedNodes nodes
               = is_first ? NumberedNodes(ranks, {0, 1, 2, 3, 4, 5}, 5)
                          : NumberedNodes(ranks, {5, 6, 7, 8, 9, 10, 11, 12}, 8);
-          const Chains all = chains(saddle.condensed().elimination(), nodes);
+          const DependentConstraints all
+              = dependent_constraints(saddle.condensed().elimination(), nodes);
           EXPECT_EQ(all.right.size(), all.left.size());
           found[ranks.rank()] = all.right.size();
         });
@@ -99,7 +101,7 @@ TEST(Chains, TheOtherNodeIsOfAnotherRank)
             (Counts{0, 9}));
 }
 
-TEST(Chains, MarksReachOtherRanks)
+TEST(DependentConstraints, MarksReachOtherRanks)
 {
   on_ranks(2,
            [](Ranks& ranks)
@@ -117,7 +119,7 @@ TEST(Chains, MarksReachOtherRanks)
            });
 }
 
-TEST(Chains, SymmetricWithoutFriction)
+TEST(DependentConstraints, SymmetricWithoutFriction)
 {
   for (const int gdim : {2, 3})
   {
@@ -150,7 +152,7 @@ TEST(Chains, SymmetricWithoutFriction)
   }
 }
 
-TEST(Chains, NotSymmetricWithFriction)
+TEST(DependentConstraints, NotSymmetricWithFriction)
 {
   const SerialNodes nodes(6);
   for (const std::int8_t status : {stick, slip})

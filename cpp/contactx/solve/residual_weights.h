@@ -29,6 +29,7 @@ namespace contactx::solve
 /// @return That over |r|, at most one; one where the residual is zero.
 /// @throws std::invalid_argument on all ranks if an array does not fit on one
 /// of them.
-double softness(const mesh::Bodies& bodies, std::span<const double> diagonal,
-                std::span<const double> residual, int gdim);
+double residual_weight(const mesh::Bodies& bodies,
+                       std::span<const double> diagonal,
+                       std::span<const double> residual, int gdim);
 } // namespace contactx::solve
