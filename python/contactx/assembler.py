@@ -15,12 +15,12 @@ from petsc4py import PETSc
 import numpy as np
 
 import ufl
-from contactx import compat
 from contactx import cpp as core
-from contactx.arguments import is_number
-from contactx.bodies import Bodies
-from contactx.bulk import Bulk
-from contactx.bulk_input import (
+from contactx._host import compat
+from contactx._host.bodies import Bodies
+from contactx._host.bulk import Bulk
+from contactx._host.checkpoint.snapshot import FunctionValues
+from contactx._host.checks import (
     as_blocks,
     check_compiler_options,
     check_conditions,
@@ -29,21 +29,21 @@ from contactx.bulk_input import (
     check_finite,
     check_forms,
     have_changed,
+    is_number,
 )
+from contactx._host.coupled import CoupledBulk
+from contactx._host.linear import Condensed
+from contactx._host.newton import NewtonLoop
+from contactx._host.nodal_values import is_axisymmetric
+from contactx._host.nodes import check_cells, reference_positions
+from contactx._host.parallel.halo import Halo
+from contactx._host.parallel.reduce import agreed
+from contactx._host.system import SaddlePointSystem
+from contactx._host.unknowns import unknowns_of
 from contactx.conductance import Conductance, check_conductances
 from contactx.contact import Contact, check_contacts
-from contactx.coupled import CoupledBulk
 from contactx.errors import ConvergenceError, NotFiniteError
-from contactx.linear import Condensed
-from contactx.newton import NewtonLoop
-from contactx.parallel.agreement import agreed
-from contactx.parallel.halo import Halo
-from contactx.refined import check_cells, reference_positions
 from contactx.report import Iteration, Report
-from contactx.state import FunctionValues
-from contactx.system import SaddlePointSystem
-from contactx.unknowns import unknowns_of
-from contactx.weight import is_axisymmetric
 from dolfinx import fem, la
 
 

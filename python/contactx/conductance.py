@@ -14,11 +14,11 @@ import numpy.typing as npt
 
 import basix.ufl
 from contactx import cpp as core
-from contactx.arguments import described, is_number
+from contactx._host.checks import described, is_number
+from contactx._host.nodal_values import matching_nodes
+from contactx._host.nodes import degree_of
 from contactx.contact import Contact
-from contactx.nodal import matching_nodes
 from contactx.obstacles import Obstacle
-from contactx.refined import degree_of
 from dolfinx import fem
 
 type Array = npt.NDArray[np.float64]

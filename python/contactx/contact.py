@@ -12,21 +12,18 @@ import numpy.typing as npt
 
 import ufl
 from contactx import cpp as core
-from contactx.arguments import check_switch, described, is_number
-from contactx.bodies import Bodies
-from contactx.fields import Fields
-from contactx.forms import ContactForms
-from contactx.friction import FrictionLaw
-from contactx.geometry.curved import check_straight
-from contactx.interface import Interface
-from contactx.nodal import ContactValues, NodalValue
+from contactx._host.bodies import Bodies
+from contactx._host.checks import check_switch, described, is_number
+from contactx._host.discrete_contact import Fields, Interface
+from contactx._host.forms import ContactForms
+from contactx._host.nodal_values import ContactValues, NodalValue, check_weight, nodal_weight
+from contactx._host.nodes import node_levels
+from contactx._host.parallel import reduce
+from contactx._host.parallel.halo import Halo
+from contactx._host.parallel.reduce import agreed
+from contactx.laws import FrictionLaw
 from contactx.obstacles import Obstacle
-from contactx.parallel import reduce
-from contactx.parallel.agreement import agreed
-from contactx.parallel.halo import Halo
-from contactx.refined import node_levels
-from contactx.surface import Surface
-from contactx.weight import check_weight, nodal_weight
+from contactx.surface import Surface, check_straight
 from dolfinx import fem, mesh
 
 _OPTIONS = (

@@ -12,15 +12,15 @@ from petsc4py import PETSc
 
 import ufl
 from contactx import cpp as core
+from contactx._host.callbacks import Interrupts
+from contactx._host.checkpoint.snapshot import Snapshot
+from contactx._host.newton import NewtonLoop
+from contactx._host.options import check_petsc_options, is_condensed, newton_options
 from contactx.assembler import ContactAssembler
 from contactx.conductance import Conductance
 from contactx.contact import Contact
 from contactx.errors import ConvergenceError, NotFiniteError
-from contactx.interrupts import Interrupts
-from contactx.newton import NewtonLoop
-from contactx.options import check_petsc_options, is_condensed, newton_options
 from contactx.report import Report
-from contactx.state import Snapshot
 from dolfinx import fem
 
 

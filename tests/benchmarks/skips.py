@@ -17,10 +17,10 @@ import numpy as np
 
 import contactx as cx
 from contactx import cpp as core
-from contactx import linear
+from contactx._host import linear
+from contactx._host.bulk import Bulk
+from contactx._host.condensed.multigrid import Multigrid
 from contactx.assembler import ContactAssembler
-from contactx.bulk import Bulk
-from contactx.condensed.multigrid import Multigrid
 from dolfinx.io.gmsh import MeshData
 from dolfinx.mesh import CellType
 

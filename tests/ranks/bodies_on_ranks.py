@@ -7,7 +7,7 @@ from mpi4py import MPI
 import numpy as np
 
 from contactx import cpp as core
-from contactx.bulk_side import BulkSide
+from contactx._host.bulk_host import BulkSide
 
 from ranks.audit_on_ranks import check_audit
 from ranks.checks_on_ranks import check_errors, nested

@@ -6,8 +6,8 @@ import numpy as np
 
 import contactx as cx
 from contactx import cpp as core
-from contactx.bulk_side import BulkSide
-from contactx.nodal import ContactValues, NodalValue
+from contactx._host.bulk_host import BulkSide
+from contactx._host.nodal_values import ContactValues, NodalValue
 
 from scenes.numbered_blocks import TwoBlocks
 

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 import contactx as cx
-from contactx.refined import original_nodes
+from contactx._host.nodes import original_nodes
 from dolfinx import fem
 
 type Array = npt.NDArray[Any]

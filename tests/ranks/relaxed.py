@@ -14,8 +14,8 @@ import numpy as np
 
 import basix.ufl
 import contactx as cx
+from contactx._host.checkpoint.snapshot import FunctionValues
 from contactx.report import Iteration, Report
-from contactx.state import FunctionValues
 from dolfinx import fem, mesh
 
 import meshes

@@ -9,7 +9,7 @@ from typing import Any
 from unittest.mock import patch
 
 import contactx as cx
-from contactx.condensed import by_bodies as solver
+from contactx._host.condensed import by_bodies as solver
 from dolfinx.mesh import CellType
 
 from dam_face import Compression

@@ -6,7 +6,7 @@ import numpy as np
 
 import contactx as cx
 from contactx import cpp as core
-from contactx.bulk_side import BulkSide
+from contactx._host.bulk_host import BulkSide
 from dolfinx import mesh
 
 

@@ -12,9 +12,9 @@ import numpy as np
 
 import basix.ufl
 import ufl
-from contactx.bodies import Bodies
-from contactx.bulk import Bulk
-from contactx.parallel.halo import Halo
+from contactx._host.bodies import Bodies
+from contactx._host.bulk import Bulk
+from contactx._host.parallel.halo import Halo
 from dolfinx import fem, graph, mesh
 
 SHAPES = {2: "quadrilateral", 3: "hexahedron"}

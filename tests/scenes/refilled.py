@@ -13,9 +13,9 @@ from petsc4py import PETSc
 
 import numpy as np
 
-from contactx.factorised import FactorisedSolver
+from contactx._host.factorised import FactorisedSolver
+from contactx._host.system import SaddlePointSystem
 from contactx.report import Report
-from contactx.system import SaddlePointSystem
 
 N = 24
 

@@ -5,8 +5,8 @@
 import numpy as np
 import pytest
 
-from contactx import compat
-from contactx.condensed import by_bodies, solver
+from contactx._host import compat
+from contactx._host.condensed import by_bodies, solver
 from dolfinx.mesh import CellType
 
 from meshes import Tag

@@ -14,10 +14,10 @@ import stacked_blocks
 import contactx as cx
 import ufl
 from contactx import cpp as core
-from contactx.condensed.chains import Chains
-from contactx.condensed.galerkin import Galerkin
-from contactx.condensed.multigrid import near_null_space
-from contactx.condensed.solver import CondensedSolver
+from contactx._host.condensed.chains import Chains
+from contactx._host.condensed.galerkin import Galerkin
+from contactx._host.condensed.multigrid import near_null_space
+from contactx._host.condensed.solver import CondensedSolver
 from dolfinx import fem
 from dolfinx.mesh import CellType
 

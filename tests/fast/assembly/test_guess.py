@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import contactx as cx
-from contactx.condensed import guess
+from contactx._host.condensed import guess
 from dolfinx import fem
 from dolfinx.mesh import CellType
 

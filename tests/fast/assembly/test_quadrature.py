@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 import ufl
-from contactx.bulk import Bulk
-from contactx.quadrature import by_rule
+from contactx._host.bulk import Bulk, by_rule
 from dolfinx import fem
 from dolfinx.mesh import CellType
 

@@ -8,7 +8,7 @@ import pytest
 import contactx as cx
 import ufl
 from contactx import cpp as core
-from contactx.newton import NewtonLoop
+from contactx._host.newton import NewtonLoop
 from dolfinx import fem
 from dolfinx.mesh import CellType
 

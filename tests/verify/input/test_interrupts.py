@@ -15,8 +15,8 @@ import numpy as np
 import pytest
 
 import contactx as cx
-from contactx.interrupts import Interrupts
-from contactx.state import Snapshot
+from contactx._host.callbacks import Interrupts
+from contactx._host.checkpoint.snapshot import Snapshot
 
 from scenes.steps import KINDS, Rubbing
 

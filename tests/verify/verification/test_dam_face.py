@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from matplotlib import image
 
-from contactx.condensed import by_bodies
+from contactx._host.condensed import by_bodies
 
 import dam_face
 from dam_results import joints, laws

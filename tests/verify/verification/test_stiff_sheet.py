@@ -6,7 +6,7 @@ import pytest
 
 import contactx as cx
 import ufl
-from contactx.condensed import by_bodies
+from contactx._host.condensed import by_bodies
 from dolfinx import fem
 from dolfinx.mesh import CellType
 

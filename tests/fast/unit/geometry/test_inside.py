@@ -11,8 +11,8 @@ from scipy.sparse.csgraph import connected_components
 
 import basix.ufl
 import contactx as cx
-from contactx.bodies import Bodies
-from contactx.parallel.halo import Halo
+from contactx._host.bodies import Bodies
+from contactx._host.parallel.halo import Halo
 from dolfinx import mesh
 from dolfinx.mesh import CellType
 
