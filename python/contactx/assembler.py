@@ -150,16 +150,18 @@ class ContactAssembler:
         self.halo = Halo(field, X.array.reshape(-1, gdim))
         self._comm = self.halo.comm
         self.bodies = Bodies(V, self.halo)
-        self.interfaces = []
+        self.discrete_contacts = []
         try:
             for contact in self.contacts:
-                self.interfaces.append(contact.attach(self.halo, self.bulk.markers, self.bodies))
+                self.discrete_contacts.append(
+                    contact.attach(self.halo, self.bulk.markers, self.bodies)
+                )
             check_cells(V.mesh, self.halo.nodes)
             for conductance in self.conductances:
                 conductance.check()
             if isinstance(self.bulk, CoupledBulk):
                 self.bulk.follow(self.conductances)
-            self.system = SaddlePointSystem(self.bulk, self.interfaces, self.halo)
+            self.system = SaddlePointSystem(self.bulk, self.discrete_contacts, self.halo)
             names = (f"contact {k} ({contact})" for k, contact in enumerate(self.contacts))
             parts = [
                 (name, contact.values, contact.fields.results)
@@ -168,7 +170,7 @@ class ContactAssembler:
             refuses = audit == "refuse"
             self.core = core.Problem(self.system.core, self.bodies, parts, refuses=refuses)
         except BaseException:
-            for contact in self.contacts[: len(self.interfaces)]:
+            for contact in self.contacts[: len(self.discrete_contacts)]:
                 contact.detach()
             raise
         self._warn_of_weights(residuals[unknowns.index if unknowns else 0])
@@ -252,8 +254,8 @@ class ContactAssembler:
         """Take the Dirichlet conditions that the user's list has now."""
         check_conditions(self._bcs, self.functions)
         self.bulk.set_conditions(self._bcs)
-        for interface in self.interfaces:
-            interface.set_prescribed(self.bulk.markers)
+        for discrete in self.discrete_contacts:
+            discrete.set_prescribed(self.bulk.markers)
         for solver in self.solvers:
             solver.reset()
 

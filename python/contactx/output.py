@@ -226,7 +226,7 @@ class CSVOutput:
                 f"path ends in {self._path.suffix!r}: totals are written to .csv, give such a name"
             )
         self._contacts = list(contacts)
-        self._comm = contacts[0].interface.halo.comm
+        self._comm = contacts[0].discrete.halo.comm
         self._names = [name for k in range(len(contacts)) for name in self._columns(k)]
         with agreed(self._comm):
             if self._comm.rank == 0:

@@ -178,10 +178,10 @@ def _search_anew() -> Iterator[None]:
 
     def search_too(self: ContactAssembler) -> None:
         with self.report.timing("settle"):
-            for interface in self.interfaces:
-                master, slave = interface.master, interface.slave_nodes.facets
+            for discrete in self.discrete_contacts:
+                master, slave = discrete.master, discrete.slave_nodes.facets
                 if isinstance(master, core.DeformableMaster):
-                    x, closed = interface.positions(), interface.nodes.closed.astype(np.int8)
+                    x, closed = discrete.positions(), discrete.nodes.closed.astype(np.int8)
                     lists = (*slave, *master.surface.facets)
                     core.Pairing(*lists, x.shape[1]).update(x, master.reach, closed)
         collect(self)

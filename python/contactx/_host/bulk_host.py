@@ -20,7 +20,7 @@ from dolfinx import fem, la
 type Array = npt.NDArray[np.float64]
 
 
-class BulkSide:
+class BulkHost:
     """The bulk, as the core's ``newton::Bulk`` describes it."""
 
     def __init__(self, bulk: Bulk, halo: Halo):

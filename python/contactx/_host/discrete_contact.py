@@ -21,8 +21,8 @@ from dolfinx import cpp, fem
 type Array = npt.NDArray[np.float64]
 
 
-class Interface(core.Contact):
-    """Discrete side of a contact: see ``contact/contact.h``.
+class DiscreteContact(core.Contact):
+    """A contact on the discrete bulk: see ``contact/contact.h``.
 
     The core has slave nodes, pairs, state and law. Here are the forms.
 
@@ -134,24 +134,24 @@ class Fields:
             nodes' forces.
     """
 
-    def __init__(self, interface: Interface, V: fem.FunctionSpace):
+    def __init__(self, discrete: DiscreteContact, V: fem.FunctionSpace):
         """Create the functions; all ranks must take part.
 
         Args:
-            interface: Discrete side of the contact.
+            discrete: The contact on the discrete bulk.
             V: Space of the displacement.
         """
-        self.results = core.Results(interface)
+        self.results = core.Results(discrete)
         Q = fem.functionspace(V.mesh, ("Lagrange", degree_of(V)))
         # Both spaces number the nodes; where they differ the results must follow the bulk
-        self._every = matching_nodes(V, Q)[: interface.halo.num_owned]
-        self._slaves, self._nodes = interface.slaves, self._every[interface.slaves]
+        self._every = matching_nodes(V, Q)[: discrete.halo.num_owned]
+        self._slaves, self._nodes = discrete.slaves, self._every[discrete.slaves]
         self.pressure = fem.Function(Q, name="pressure")
         self.master_pressure = fem.Function(Q, name="master_pressure")
         self.traction = fem.Function(V, name="traction")
         self.gap = fem.Function(Q, name="gap")
         self.status = fem.Function(Q, name="status")
-        tied = interface.law.is_tied
+        tied = discrete.law.is_tied
         self.slip = None if tied else fem.Function(V, name="slip")
         self.slip_total = None if tied else fem.Function(Q, name="slip_total")
         self.gap.x.array[:] = np.nan

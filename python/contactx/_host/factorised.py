@@ -79,7 +79,7 @@ class FactorisedSolver:
                 Jacobian must not move them.
         """
         with report.timing("Jacobian"):
-            forms = [list(interface.forms) for interface in self._system.interfaces]
+            forms = [list(discrete.forms) for discrete in self._system.discrete_contacts]
             if not reduce.everywhere(self._system.halo.comm, self._forms == forms):
                 self._A = None
                 self._pattern += 1

@@ -17,9 +17,9 @@ import numpy.typing as npt
 
 from contactx import cpp as core
 from contactx._host.bulk import Bulk
-from contactx._host.bulk_host import BulkSide
+from contactx._host.bulk_host import BulkHost
 from contactx._host.coupled import CoupledBulk
-from contactx._host.discrete_contact import Interface
+from contactx._host.discrete_contact import DiscreteContact
 from contactx._host.layout import Layout, Rows
 from contactx._host.parallel.halo import Halo
 from contactx._host.parallel.reduce import anywhere, everywhere
@@ -36,24 +36,24 @@ class SaddlePointSystem:
         core: The core's part: residual and unknowns.
         x: Unknowns.
         b: Residual.
-        interfaces: Discrete sides of the contacts.
+        discrete_contacts: Contacts on the discrete bulk.
         halo: Nodes of this rank.
         num_displacements: Number of displacements of this rank.
         num_bulk: Number of the bulk's unknowns of this rank, displacements first.
         block: Displacements a node.
     """
 
-    def __init__(self, bulk: Bulk, interfaces: Sequence[Interface], halo: Halo):
+    def __init__(self, bulk: Bulk, discrete_contacts: Sequence[DiscreteContact], halo: Halo):
         """Lay out the unknowns.
 
         Args:
             bulk: The bulk.
-            interfaces: Discrete sides of the contacts.
+            discrete_contacts: Contacts on the discrete bulk.
             halo: Nodes of this rank.
         """
         self._bulk = bulk
-        self.core = core.System(halo.nodes, BulkSide(bulk, halo), list(interfaces))
-        self.interfaces = list(interfaces)
+        self.core = core.System(halo.nodes, BulkHost(bulk, halo), list(discrete_contacts))
+        self.discrete_contacts = list(discrete_contacts)
         self.halo = halo
         self._comm = halo.comm
         self.block = halo.gdim
@@ -113,7 +113,7 @@ class SaddlePointSystem:
         Returns:
             The Jacobian.
         """
-        contact = core.ContactBlock(self.interfaces, self._markers(), keeps_zeros=True)
+        contact = core.ContactBlock(self.discrete_contacts, self._markers(), keeps_zeros=True)
         places = self._layout.places()
         rows, others, added = core.coupled_rows(
             *self._bulk_rows(), contact, places, self.num_displacements, self.num_local
@@ -155,13 +155,13 @@ class SaddlePointSystem:
             places: Places of the displacements of all nodes, then of this rank's multipliers.
         """
         assert isinstance(self._bulk, CoupledBulk)
-        bulk, interface = self._bulk, conductance.contact.interface
+        bulk, discrete = self._bulk, conductance.contact.discrete
         k = bulk.number_of(conductance.field)
         count = conductance.field.function_space.dofmap.index_map.size_local
         first = self._layout.bulk()[:1] + self.num_displacements + bulk.fields.first_of(k)
         dofs = conductance.at_nodes(first + np.arange(count, dtype=np.int64))
         free = conductance.at_nodes(bulk.all_markers[k].astype(np.int64)) == 0
-        at = self._offsets[1 + self.interfaces.index(interface)] - self.num_bulk
+        at = self._offsets[1 + self.discrete_contacts.index(discrete)] - self.num_bulk
         all_columns = dofs, places, places[self.num_local + at :]
         derivatives = conductance.derivatives()
         A.assemble(PETSc.Mat.AssemblyType.FLUSH)
@@ -186,7 +186,7 @@ class SaddlePointSystem:
     @property
     def has_friction(self) -> bool:
         """True if any contact measures slip."""
-        return any(interface.history is not None for interface in self.interfaces)
+        return any(discrete.history is not None for discrete in self.discrete_contacts)
 
     def contact_block(self, b: PETSc.Vec | None = None) -> core.ContactBlock:
         """Assemble this rank's pairs.
@@ -196,7 +196,7 @@ class SaddlePointSystem:
                 assembled for them. Any right-hand side if None.
         """
         d = None if b is None else b.array_r[self.num_bulk :]
-        return core.ContactBlock(self.interfaces, self._markers(), d=d)
+        return core.ContactBlock(self.discrete_contacts, self._markers(), d=d)
 
     def multiply_contact(self, contact: core.ContactBlock, x: PETSc.Vec, y: PETSc.Vec) -> None:
         """Multiply by the contacts' part of the Jacobian; all ranks must take part.

@@ -14,7 +14,7 @@ import numpy.typing as npt
 
 from contactx import cpp as core
 from contactx._host.checkpoint.rows import FunctionRows, Rows, cell_nodes
-from contactx._host.discrete_contact import Interface
+from contactx._host.discrete_contact import DiscreteContact
 from contactx._host.nodes import reference_positions
 from contactx._host.parallel.mpi_host import original_nodes
 from contactx._host.parallel.reduce import agreed
@@ -47,11 +47,13 @@ class Checkpoint:
         self._owned: int = V.dofmap.index_map.size_local
         self._u = FunctionRows(problem.displacement, "u")
         self._functions = [FunctionRows(f, f"history[{k}]") for k, f in enumerate(history)]
-        self._interfaces: list[Interface] = [c.interface for c in problem.contacts]
+        self._discrete_contacts: list[DiscreteContact] = [c.discrete for c in problem.contacts]
         # What slip starts from; a problem of one's own may have no contacts
-        self._nodes: core.Halo | None = next((i.halo.nodes for i in self._interfaces), None)
+        self._nodes: core.Halo | None = next((i.halo.nodes for i in self._discrete_contacts), None)
         original = original_nodes(V)
-        self._slaves = [Rows(self._comm, original[i.slaves][:, None]) for i in self._interfaces]
+        self._slaves = [
+            Rows(self._comm, original[i.slaves][:, None]) for i in self._discrete_contacts
+        ]
         self._cells = Rows(self._comm, cell_nodes(V)).digest
 
     def save(self) -> Arrays:
@@ -63,9 +65,9 @@ class Checkpoint:
         arrays = self._identity() | {"u": self._u.gather()}
         if self._nodes is not None:
             arrays["start"] = self._u.rows.gather(self._nodes.start[: self._owned])
-        for k, interface in enumerate(self._interfaces):
-            kinds = interface.saved_rows
-            for name, values in interface.save().items():
+        for k, discrete in enumerate(self._discrete_contacts):
+            kinds = discrete.saved_rows
+            for name, values in discrete.save().items():
                 arrays[f"contact {k}: {name}"] = self._gather(kinds[name], k, values)
         arrays |= {f"history {k}": f.gather() for k, f in enumerate(self._functions)}
         return {n: a for n, a in arrays.items() if a is not None and self._comm.rank == 0}
@@ -93,11 +95,11 @@ class Checkpoint:
                 self._nodes.set_start(self._u.rows.scatter(saved.get("start")))
             for k, function in enumerate(self._functions):
                 function.scatter(saved.get(f"history {k}"))
-            for k, interface in enumerate(self._interfaces):
-                interface.load(
+            for k, discrete in enumerate(self._discrete_contacts):
+                discrete.load(
                     {
                         name: self._scatter(kind, k, saved.get(f"contact {k}: {name}"))
-                        for name, kind in interface.saved_rows.items()
+                        for name, kind in discrete.saved_rows.items()
                     }
                 )
                 self._problem.contacts[k].fields.evaluate()
@@ -111,10 +113,10 @@ class Checkpoint:
         x = reference_positions(V)[: self._owned]
         arrays = {"mesh: coordinates": self._u.rows.gather(x), "mesh: cells": self._cells}
         arrays |= {f"history {k}: rows": f.rows.digest for k, f in enumerate(self._functions)}
-        for k, interface in enumerate(self._interfaces):
+        for k, discrete in enumerate(self._discrete_contacts):
             arrays[f"surface {k}: slaves"] = self._slaves[k].digest
-            arrays[f"surface {k}: sliding"] = np.array(interface.sliding)
-            for name, numbers in interface.master.identity().items():
+            arrays[f"surface {k}: sliding"] = np.array(discrete.sliding)
+            for name, numbers in discrete.master.identity().items():
                 arrays[f"surface {k}: master {name}"] = Rows(self._comm, numbers).digest
         return arrays
 

@@ -201,7 +201,7 @@ class CondensedSolver:
         with agreed(numbering.comm):
             condensation = core.Condensation(
                 self._system.contact_block(b),
-                self._system.interfaces,
+                self._system.discrete_contacts,
                 around.free,
                 self._system.block,
                 holds=True,

@@ -14,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from contactx import cpp as core
-from contactx._host.parallel.mpi_host import Adapter
+from contactx._host.parallel.mpi_host import MPIHost
 from dolfinx import fem, la
 
 type Array = npt.NDArray[np.float64]
@@ -37,7 +37,7 @@ class Halo:
         original: Number of each node in the mesh as it was made: the same on any number of ranks,
             shape (num_nodes,).
         position: Reference position of all nodes.
-        adapter: What the core asks of other ranks.
+        host: What the core asks of other ranks.
         nodes: The nodes as the core has them.
     """
 
@@ -51,14 +51,14 @@ class Halo:
             u: Displacement, in a linear Lagrange space.
             X: Reference positions of its nodes, ghosts included, shape (num_bulk, gdim).
         """
-        self.adapter = Adapter(u, X)
-        self.comm: MPI.Comm = self.adapter.comm
-        self.nodes = core.PythonNodes(self.adapter)
+        self.host = MPIHost(u, X)
+        self.comm: MPI.Comm = self.host.comm
+        self.nodes = core.PythonNodes(self.host)
         self.gdim = self.nodes.gdim
         self.num_owned = self.nodes.num_owned
         self.num_bulk = self.nodes.num_bulk
         self._observers: list[weakref.WeakMethod[Callable[[], None]]] = []
-        self.adapter.on_change(self._changed)
+        self.host.on_change(self._changed)
         self._changed()
 
     @property
@@ -74,12 +74,12 @@ class Halo:
     @property
     def index_map(self) -> Any:
         """Index map of all nodes, on this rank alone."""
-        return self.adapter.index_map
+        return self.host.index_map
 
     @property
     def displacement(self) -> la.Vector:
         """Displacement of all nodes, as of the last ``update_ghosts``."""
-        return self.adapter.displacement
+        return self.host.displacement
 
     @property
     def x(self) -> Array:
@@ -94,7 +94,7 @@ class Halo:
 
     def update_ghosts(self) -> None:
         """Give ghosts the owners' displacements: those of the bulk and of the contact halo."""
-        self.adapter.update_ghosts()
+        self.host.update_ghosts()
 
     def scatter_forward(self, values: npt.NDArray[Any]) -> npt.NDArray[Any]:
         """Give all nodes the values that their owners have; all ranks must take part.
@@ -110,7 +110,7 @@ class Halo:
         dtype = np.int64 if values.dtype.kind in "iub" else np.float64
         every = np.zeros((self.num_nodes, *values.shape[1:]), dtype=dtype)
         every[: self.num_owned] = values[: self.num_owned]
-        self.adapter.forward(every, 1 if values.ndim == 1 else values.shape[1])
+        self.host.forward(every, 1 if values.ndim == 1 else values.shape[1])
         return every.astype(values.dtype)
 
     def updated(self, values: npt.NDArray[Any], version: int) -> npt.NDArray[Any]:
@@ -134,7 +134,7 @@ class Halo:
         if self.comm.size == 1:
             return values
         every = np.array(values, dtype=np.float64)
-        self.adapter.reverse(every, 1 if values.ndim == 1 else values.shape[1])
+        self.host.reverse(every, 1 if values.ndim == 1 else values.shape[1])
         return every[: self.num_owned]
 
     def numbers(self, nodes: npt.NDArray[np.integer]) -> npt.NDArray[np.int64]:

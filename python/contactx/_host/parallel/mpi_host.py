@@ -25,7 +25,7 @@ _FIRST, _COUNT = 7100, 16
 _OPERATIONS = {"sum": MPI.SUM, "least": MPI.MIN, "largest": MPI.MAX}
 
 
-class Adapter:
+class MPIHost:
     """Ranks and nodes, as the core's ``Ranks`` and ``HaloAdapter`` describe them.
 
     Attributes:
