@@ -145,7 +145,8 @@ class Report:
         krylov: Iterations of the condensed solver.
         hierarchies: Multigrid hierarchies made for it.
         factorisations: Factorisations, of the blocks of bodies or of systems not condensed.
-        by_bodies: Why condensed solves were by bodies, without multigrid; an entry for each solve.
+        by_bodies: Why condensed solves had blocks of soft and stiff bodies in place of multigrid;
+            an entry for each solve.
         uncondensed: Why solves were not condensed; an entry for each solve.
         soft: Linear solves on the path from soft to hard contact.
         limited: Newton steps that were shortened so as not to turn a cell inside out.
@@ -282,9 +283,8 @@ class Report:
                 f"{_counted(self.factorisations, 'factorisation')}"
             )
         for reason in sorted(set(self.by_bodies)):
-            lines.append(
-                f"solved by bodies {_counted(self.by_bodies.count(reason), 'time')}: {reason}"
-            )
+            count = _counted(self.by_bodies.count(reason), "time")
+            lines.append(f"solved with blocks of bodies {count}: {reason}")
         for reason in sorted(set(self.uncondensed)):
             lines.append(
                 f"solved directly {_counted(self.uncondensed.count(reason), 'time')}: {reason}"

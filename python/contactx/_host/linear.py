@@ -166,7 +166,7 @@ class Condensed(LinearSolver):
     def follow(self, loop: core.Loop) -> None:
         """See ``LinearSolver``."""
         row, has_cycled = loop.iterate, loop.active_set.cycles > 0
-        if self._solver.is_guessed:
+        if self._solver.is_predicted:
             self._accuracy.skip()
         self._accuracy.set(row.residual, row.tolerance, loop.changing(), has_cycled)
         self._solver.target = self._accuracy.target

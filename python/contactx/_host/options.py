@@ -17,9 +17,9 @@ from contactx._host import compat
 # Relative residual of a linear solve that rounding allows
 ROUNDING = 1e-13
 
-# Displacements from which on multigrid is faster than a direct solver, by the dimension: without
-# friction, and with it, where systems are not symmetric (bench_solvers)
-_MANY = {2: (4_000, 300_000), 3: (2_500, 2_500)}
+# Dofs of the displacement from which on multigrid is faster than a direct solver, by the
+# dimension: without friction, and with it, where systems are not symmetric (bench_solvers)
+_MIN_CONDENSED_DOFS = {2: (4_000, 300_000), 3: (2_500, 2_500)}
 
 
 # PETSc's numbers of errors for a type, and for a package, that it does not have
@@ -168,7 +168,7 @@ def is_condensed(given: Mapping[str, Any], num_dofs: int, gdim: int, *, has_fric
     """
     if "pc_type" in given:
         return bool(given["pc_type"] == "condensed")
-    return num_dofs >= _MANY[gdim][has_friction] and "ksp_type" not in given
+    return num_dofs >= _MIN_CONDENSED_DOFS[gdim][has_friction] and "ksp_type" not in given
 
 
 def _newton() -> dict[str, Any]:

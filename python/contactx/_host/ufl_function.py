@@ -21,7 +21,7 @@ type Values = tuple[
 ]
 
 # Numbers of points that a function of UFL is kept compiled for
-_MOST_COMPILED = 3
+_MAX_COMPILED = 3
 
 
 def faces(f: ufl.core.expr.Expr) -> list[ufl.core.expr.Expr]:
@@ -90,7 +90,7 @@ class UFLFunction:
     def _compiled_for(self, shape: tuple[int, ...]) -> _Compiled:
         if shape not in self._compiled:
             # Slave nodes, points of slave facets, and what the audit looks at
-            while len(self._compiled) >= _MOST_COMPILED:
+            while len(self._compiled) >= _MAX_COMPILED:
                 del self._compiled[next(iter(self._compiled))]
             self._compiled[shape] = self._compile(shape)
         return self._compiled[shape]

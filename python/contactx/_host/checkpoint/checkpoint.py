@@ -24,7 +24,7 @@ from dolfinx import fem
 type Arrays = dict[str, npt.NDArray[Any]]
 
 # Starts of the names of arrays that stay the same as long as a problem is the same
-_SAME = ("mesh: ", "surface ")
+_INVARIANT_PREFIXES = ("mesh: ", "surface ")
 
 
 class Checkpoint:
@@ -170,7 +170,7 @@ def _check_fit(saved: Mapping[str, npt.NDArray[Any]], present: Arrays) -> None:
         if name == "mesh: coordinates":
             # Another machine may round them in another way
             same = np.allclose(saved[name], array, rtol=0, atol=1e-12 * np.ptp(array))
-        elif name.startswith(_SAME) or name.endswith(": rows"):
+        elif name.startswith(_INVARIANT_PREFIXES) or name.endswith(": rows"):
             same = np.array_equal(saved[name], array)
         else:
             continue

@@ -12,8 +12,8 @@ from contactx import cpp as core
 from contactx._host.condensed.numbering import DIFFERENT, Array, Index, Numbering, diagonal_matrix
 from contactx._host.parallel import reduce
 
-# Terms of a series, beside the first one
-_TERMS = 2
+# Number of terms of a Neumann series after the first one
+_NUM_SERIES_TERMS = 2
 
 
 class Chains:
@@ -94,6 +94,6 @@ def add_terms(X: PETSc.Mat, C: PETSc.Mat, *, is_left: bool = False) -> None:
         is_left: Whether of X (I - C)^-1.
     """
     term = X
-    for _ in range(_TERMS):
+    for _ in range(_NUM_SERIES_TERMS):
         term = term.matMult(C) if is_left else C.matMult(term)
         X.axpy(1.0, term, DIFFERENT)

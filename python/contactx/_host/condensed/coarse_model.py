@@ -9,7 +9,7 @@ from petsc4py import PETSc
 import numpy as np
 
 from contactx._host.bulk import Bulk
-from contactx._host.condensed.diagonal_blocks import Part
+from contactx._host.condensed.diagonal_blocks import DofBlock
 from contactx._host.condensed.multigrid import near_null_space
 from contactx._host.condensed.numbering import (
     Array,
@@ -22,11 +22,12 @@ from contactx._host.condensed.numbering import (
 from contactx._host.options import aggregation_options
 from contactx._host.parallel import reduce
 
-# Stiffness of a spring over the diagonal of the soft body where it acts, whose other nodes do not
-# move: of 0.02, 0.05, 0.1 and 0.3 the one with the fewest iterations on slabs of a dam's face
-_SPRING = 0.1
-# Keeps a body that contact alone holds from leaving a singular block
-_SHIFT = 1e-6
+# Stiffness of a spring, relative to the diagonal of the soft body's matrix where it acts: of 0.02,
+# 0.05, 0.1 and 0.3 the one with the fewest iterations on slabs of a dam's face
+_SPRING_STIFFNESS = 0.1
+# Relative increase of the diagonal, so that a body that contact alone supports leaves no singular
+# block
+_DIAGONAL_SHIFT = 1e-6
 
 
 class CoarseModel:
@@ -48,7 +49,12 @@ class CoarseModel:
     """
 
     def __init__(
-        self, numbering: Numbering, stiffness: PETSc.Mat, P: PETSc.Mat, soft: Part, slaves: Index
+        self,
+        numbering: Numbering,
+        stiffness: PETSc.Mat,
+        P: PETSc.Mat,
+        soft: DofBlock,
+        slaves: Index,
     ):
         """Create a model; see ``of``.
 
@@ -65,13 +71,19 @@ class CoarseModel:
         self._P = P
         diagonal = np.zeros(numbering.num_owned)
         diagonal[soft.dofs] = np.abs(soft.K.getDiagonal().array_r)
-        self._springs: Array = _SPRING * diagonal[slaves]
+        self._springs: Array = _SPRING_STIFFNESS * diagonal[slaves]
         is_grouped = stiffness.getLocalSize()[0] % soft.group == 0
         self.group = soft.group if reduce.everywhere(numbering.comm, is_grouped) else 1
 
     @classmethod
     def of(
-        cls, numbering: Numbering, bulk: Bulk, x: Array, soft: Part, slave_dofs: Index, prefix: str
+        cls,
+        numbering: Numbering,
+        bulk: Bulk,
+        x: Array,
+        soft: DofBlock,
+        slave_dofs: Index,
+        prefix: str,
     ) -> CoarseModel | None:
         """Make a model of soft bodies; all ranks must take part.
 
@@ -111,11 +123,13 @@ class CoarseModel:
         at_slaves = P.createSubMatrix(index_set(places, P), own_columns(P))
         stiffness = pc.getMGCoarseSolve().getOperators()[0].copy()
         diagonal = stiffness.getDiagonal()
-        diagonal.scale(1 + _SHIFT)
+        diagonal.scale(1 + _DIAGONAL_SHIFT)
         stiffness.setDiagonal(diagonal)
         return cls(numbering, stiffness, at_slaves, soft, slaves)
 
-    def block(self, A: PETSc.Mat, right: PETSc.Mat, stiff: Part, eliminated: Index) -> PETSc.Mat:
+    def block(
+        self, A: PETSc.Mat, right: PETSc.Mat, stiff: DofBlock, eliminated: Index
+    ) -> PETSc.Mat:
         """The matrix of stiff bodies, the model and the springs; all ranks must take part.
 
         Args:

@@ -13,8 +13,8 @@ from contactx._host.condensed.chains import add_terms
 from contactx._host.condensed.numbering import DIFFERENT, Array, Index, Numbering, diagonal_matrix
 from contactx._host.parallel import reduce
 
-# Difference of equal matrices that rounding leaves, relative
-_ROUNDED = 1e-12
+# Relative difference, in the Frobenius norm, below which two matrices are equal but for round-off
+_ROUND_OFF = 1e-12
 
 
 class Transforms:
@@ -59,8 +59,8 @@ class Transforms:
             self.stiffness.axpy(1.0, diagonal, DIFFERENT)
 
 
-class Part:
-    """Some of the displacements, those of soft bodies or of stiff ones.
+class DofBlock:
+    """Block of dofs, those of soft bodies or of stiff ones.
 
     Attributes:
         dofs: Owned displacements, ascending, shape (n,).
@@ -91,7 +91,7 @@ class Part:
         places: Index = self._places[dofs]
         return places[places >= 0]
 
-    def of(self, A: PETSc.Mat, columns: Part | None = None) -> PETSc.Mat:
+    def of(self, A: PETSc.Mat, columns: DofBlock | None = None) -> PETSc.Mat:
         """Block of a matrix over all displacements; all ranks must take part.
 
         Args:
@@ -134,7 +134,7 @@ class Part:
         return A
 
 
-def change_of(part: Part, transforms: Transforms) -> tuple[PETSc.Mat, bool]:
+def change_of(part: DofBlock, transforms: Transforms) -> tuple[PETSc.Mat, bool]:
     """What contact adds to the bulk's block of a part; all ranks must take part.
 
     Args:
@@ -182,7 +182,7 @@ def _is_transposed(L: PETSc.Mat, R: PETSc.Mat) -> bool:
     size = max(L.norm(), R.norm())
     difference = R.transpose(PETSc.Mat())
     difference.axpy(-1.0, L, DIFFERENT)
-    return bool(difference.norm() <= _ROUNDED * size)
+    return bool(difference.norm() <= _ROUND_OFF * size)
 
 
 def _has_entries(A: PETSc.Mat) -> bool:

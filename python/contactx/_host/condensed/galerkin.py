@@ -13,11 +13,11 @@ import numpy as np
 
 from contactx._host.condensed.chains import add_terms
 from contactx._host.condensed.numbering import DIFFERENT, Index, index_set, own_columns
-from contactx._host.condensed.operator import Change
+from contactx._host.condensed.operator import ContactUpdate
 from contactx._host.parallel import reduce
 
-# Part of the eliminated displacements that may have changed for a hierarchy to serve as it is
-_FEW = 0.25
+# Changed eliminated dofs, as a fraction of all of them, up to which a hierarchy is kept as it is
+_MAX_CHANGED_FRACTION = 0.25
 
 
 class Galerkin:
@@ -45,32 +45,32 @@ class Galerkin:
         self._added: list[PETSc.Mat | None] = [None for _ in prolongations]
         self._eliminated: Index = np.zeros(0, dtype=np.int64)
 
-    def nearly_serves(self, part: Change) -> bool:
+    def nearly_serves(self, update: ContactUpdate) -> bool:
         """True if the eliminated displacements of both states are nearly the same.
 
         All ranks must take part, and have the same answer.
         """
-        new = np.setxor1d(part.places, self._eliminated, assume_unique=True)
-        changed, count = reduce.total(self._comm, np.array([len(new), len(part.places)]))
-        return part.springs is None and bool(changed <= _FEW * count)
+        new = np.setxor1d(update.places, self._eliminated, assume_unique=True)
+        changed, count = reduce.total(self._comm, np.array([len(new), len(update.places)]))
+        return update.springs is None and bool(changed <= _MAX_CHANGED_FRACTION * count)
 
-    def update(self, part: Change, matrices: Sequence[PETSc.Mat]) -> None:
+    def update(self, update: ContactUpdate, matrices: Sequence[PETSc.Mat]) -> None:
         """Bring the matrices of the coarser levels from one state of the contacts to another.
 
         All ranks must take part.
 
         Args:
-            part: What contact changes now.
+            update: What contact changes now.
             matrices: Matrices of the levels, in the order of the prolongations.
         """
-        X, springs = part.right, part.springs
-        chosen = index_set(part.places, self._rows[0])
+        X, springs = update.right, update.springs
+        chosen = index_set(update.places, self._rows[0])
         levels = zip(self._prolongations, self._rows[1:], matrices, strict=True)
         for level, (Q, rows, A) in enumerate(levels):
             X = X.matMult(Q)
-            if level == 0 and part.chains is not None:
-                add_terms(X, part.chains)
-            Y = part.block.matMult(X)
+            if level == 0 and update.chains is not None:
+                add_terms(X, update.chains)
+            Y = update.block.matMult(X)
             Y.scale(0.5)
             Y.axpy(1.0, rows.createSubMatrix(chosen, own_columns(rows)), DIFFERENT)
             change = X.transposeMatMult(Y)
@@ -82,4 +82,4 @@ class Galerkin:
             if before is not None:
                 change.axpy(-1.0, before, DIFFERENT)
             A.axpy(1.0, change, DIFFERENT)
-        self._eliminated = part.places
+        self._eliminated = update.places

@@ -17,15 +17,16 @@ from contactx._host.bulk import Bulk
 from contactx._host.callbacks import Quiet, weakly
 from contactx._host.condensed.galerkin import Galerkin
 from contactx._host.condensed.numbering import Array, Index
-from contactx._host.condensed.operator import Change, CondensedOperator
+from contactx._host.condensed.operator import CondensedOperator, ContactUpdate
 from contactx._host.options import ROUNDING, multigrid_options, product_options
 from contactx._host.parallel import reduce
 from contactx.report import Report
 
-# Iterations that cost what a hierarchy costs, as measured from 7,000 to 160,000 displacements
-_COST = 40
-# Iterations for a reduction by e from which on a direct solver is faster: stiff thin bodies
-SLOW = 12
+# Cost of a hierarchy, in Krylov iterations, as measured from 7,000 to 160,000 dofs
+_HIERARCHY_COST = 40
+# Krylov iterations for a reduction of the residual by e, from which on a direct solver is faster:
+# thin stiff bodies
+SLOW_RATE = 12
 # Preconditioned from where the norm of the residual itself is at hand
 _SIDES = {"cg": PETSc.PC.Side.LEFT, "gmres": PETSc.PC.Side.RIGHT}
 _INDEFINITE = (
@@ -73,7 +74,7 @@ class Multigrid:
         # What the hierarchy was brought up to, and whether without its coarser levels
         self._updated_for: CondensedOperator | None = None
         self._serves = False
-        self._slow = SLOW
+        self._slow = SLOW_RATE
         self._quiet = Quiet()
         called = SimpleNamespace(mult=weakly(self._multiply))
         self._A = PETSc.Mat().createPython((size, size), called, comm=self._comm)
@@ -86,7 +87,7 @@ class Multigrid:
         v: PETSc.Vec,
         target: float,
         report: Report,
-        slow: int = SLOW,
+        slow: int = SLOW_RATE,
     ) -> bool:
         """Solve operator v = rhs.
 
@@ -96,30 +97,30 @@ class Multigrid:
             v: Start of the iterations, overwritten by the solution.
             target: What the norm of the residual must fall below.
             report: Report whose times are added to.
-            slow: Iterations for a reduction by e from which on another solver is faster.
+            slow: Krylov iterations for a reduction by e from which on another solver is faster.
 
         Returns:
             Whether the iterations converged.
         """
         self._operator, self._slow = operator, slow
-        if self._lost > _COST:
+        if self._lost > _HIERARCHY_COST:
             self.reset()
         if self._ksp is None:
             self._build(operator.slave_dofs, report)
         if self._updated_for is not operator:
-            change = operator.change()
+            change = operator.contact_update()
             self._serves = self._galerkin.nearly_serves(change)
             self._update(change, report, coarse=not self._serves)
         if self._iterate(operator, rhs, v, target, report):
             return True
         if self._serves:
             self._serves = False
-            self._update(operator.change(), report)
+            self._update(operator.contact_update(), report)
             if self._iterate(operator, rhs, v, target, report):
                 return True
         if self._built_at != self._bulk.assemblies:
             self._build(operator.slave_dofs, report)
-            self._update(operator.change(), report)
+            self._update(operator.contact_update(), report)
             if self._iterate(operator, rhs, v, target, report):
                 return True
         self.reset()
@@ -236,7 +237,7 @@ class Multigrid:
         )
         self._ksp = ksp
 
-    def _update(self, change: Change, report: Report, *, coarse: bool = True) -> None:
+    def _update(self, change: ContactUpdate, report: Report, *, coarse: bool = True) -> None:
         """Bring the hierarchy up to what contact makes of the matrix.
 
         Args:
@@ -248,7 +249,7 @@ class Multigrid:
         finest, *coarser = self._smoothers
         with report.timing("condensation"):
             self._D.setDiagonal(change.bound)
-            # PETSc looks at a matrix that has changed in place only where it is set again
+            # PETSc reads a matrix that has changed in place only where it is set again
             finest.setOperators(self._A, self._D)
             if not coarse or not coarser:
                 return
@@ -271,7 +272,7 @@ def near_null_space(x: Array, prescribed: npt.NDArray[np.bool_], comm: MPI.Comm)
         comm: Communicator.
 
     Returns:
-        Three modes in the plane, six in space.
+        Three modes in 2D, six in 3D.
     """
     # About the origin of a far body rotations are all but translations, and lost in rounding
     middle = reduce.total(comm, x.sum(axis=0)) / reduce.total(comm, len(x))

@@ -121,8 +121,8 @@ class Numbering:
         return A
 
 
-class Surroundings:
-    """Data of other ranks' nodes that a rank needs to eliminate its multipliers.
+class NodeLayout:
+    """Numbers and free dofs of all nodes on a rank, those of other ranks included.
 
     Attributes:
         numbering: Where the displacements are in the bulk's matrix.

@@ -33,7 +33,7 @@ class CondensedOperator:
         eliminated: The eliminated displacements, shape (k,).
         slave_dofs: Displacements of all slave nodes, in order.
         is_symmetric: Whether the condensed matrix is symmetric.
-        held: Owned displacements in whose places multipliers are, shape (n,).
+        retained: Owned prescribed dofs in whose places multipliers remain unknowns, shape (n,).
         numbering: Displacements on this rank.
     """
 
@@ -59,7 +59,7 @@ class CondensedOperator:
         self._springs = springs
         self.slave_dofs = condensation.slave_dofs
         self.eliminated = condensation.eliminated
-        self.held, self._held_multipliers, self._held_scale = condensation.held
+        self.retained, self._retained_multipliers, self._retained_scale = condensation.held
         # Rows of the eliminated displacements alone
         self._right = numbering.matrix(condensation.right, rows=self.eliminated)
         self._some = self._right.createVecLeft()
@@ -98,8 +98,8 @@ class CondensedOperator:
         n = self.numbering.num_owned
         v = x[:n].copy()
         v[self.eliminated] = 0
-        of_held = self._held_multipliers
-        v[self.held] = x[n + of_held] * factors[of_held] / self._held_scale
+        of_retained = self._retained_multipliers
+        v[self.retained] = x[n + of_retained] * factors[of_retained] / self._retained_scale
         return v
 
     def parts(self, bodies: core.Bodies) -> tuple[Index, Index]:
@@ -252,8 +252,8 @@ class CondensedOperator:
         self.add_law(self._z, y, 1.0)
         y.array[self.eliminated] = self.diagonal * v.array_r[self.eliminated]
 
-    def change(self) -> Change:
-        """What contact changes in the bulk's matrix, without what friction adds."""
+    def contact_update(self) -> ContactUpdate:
+        """Update of the bulk's matrix by contact, without what friction adds."""
         rows = self._bulk.rows(self.slave_dofs)
         places = np.searchsorted(self.slave_dofs, self.eliminated)
         block = rows.createSubMatrix(
@@ -261,7 +261,7 @@ class CondensedOperator:
         )
         springs = self._elastic()
         chains = None if self._of_right is None else self._of_right.C
-        return Change(places, self._right, chains, block, springs, self._bound())
+        return ContactUpdate(places, self._right, chains, block, springs, self._bound())
 
     def _elastic(self) -> PETSc.Mat | None:
         """Springs and soft contact as a matrix, without rows of eliminated displacements."""
@@ -287,7 +287,7 @@ class CondensedOperator:
 
 
 @dataclass(frozen=True)
-class Change:
+class ContactUpdate:
     """What contact changes in the bulk's matrix K, by the eliminated displacements e in order.
 
     Attributes:

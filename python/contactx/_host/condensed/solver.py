@@ -13,11 +13,11 @@ import numpy as np
 from contactx import cpp as core
 from contactx._host.bodies import Bodies
 from contactx._host.bulk import Bulk
-from contactx._host.condensed.by_bodies import ByBodies
-from contactx._host.condensed.guess import Guess
-from contactx._host.condensed.multigrid import SLOW, Multigrid
-from contactx._host.condensed.numbering import Array, Numbering, Surroundings
+from contactx._host.condensed.multigrid import SLOW_RATE, Multigrid
+from contactx._host.condensed.numbering import Array, NodeLayout, Numbering
 from contactx._host.condensed.operator import CondensedOperator
+from contactx._host.condensed.predictor import Predictor
+from contactx._host.condensed.soft_stiff import SoftStiffSolver
 from contactx._host.factorised import FactorisedSolver
 from contactx._host.options import reproducible_options
 from contactx._host.parallel import reduce
@@ -25,32 +25,33 @@ from contactx._host.parallel.reduce import agreed
 from contactx._host.system import SaddlePointSystem
 from contactx.report import Report
 
-_SLOW = "multigrid is slow here"
-_ASKED = "condensed_pc_type asks for it"
-_HELD = "a slave node with a prescribed displacement moves its master"
-# What a guess may leave for each part that a solve would: Newton's method leaves as much
-_NEAR = 300.0
-# Part of the right-hand side that no iterate needs a residual below
-_EXACT = 1e-11
-# Iterations of multigrid for a reduction by e from which on stiff bodies and soft ones are solved
-# in turn
-_SLOW_OF_MIXED = 6
+# Reasons, as the report says them
+_SLOW_MULTIGRID = "multigrid is slow here"
+_OPTION = "condensed_pc_type asks for it"
+_RETAINED_MULTIPLIERS = "a slave node with a prescribed displacement moves its master"
+# Residual of a predicted solution over the tolerance of a solve, up to which it is taken: Newton's
+# method leaves as much
+_MAX_PREDICTED_RESIDUAL = 300.0
+# Residual over right-hand side that no iterate needs to fall below
+_MIN_RTOL = 1e-11
+# As SLOW_RATE, where stiff bodies and soft ones can be told apart and have a block preconditioner
+_SLOW_RATE_OF_MIXED = 6
 
 
 class CondensedSolver:
     """Solves the system of the Jacobian.
 
     The multipliers are eliminated and the displacements found by CG, or GMRES where friction slips,
-    with a multigrid hierarchy that is updated with the contact. Bodies on which multigrid is slow,
-    and multipliers that no other equation gives, are solved by bodies: with factors of soft ones
-    and of stiff ones. What cannot be condensed goes to a direct solver whose factors serve several
+    with a multigrid hierarchy that is updated with the contact. Where multigrid is slow, and where
+    multipliers remain unknowns, a block preconditioner of soft and stiff bodies takes its place.
+    What cannot be condensed goes to a direct solver whose factors serve several
     Jacobians.
 
     Attributes:
         target: What the norm of the next solve's residual must fall below, a force.
         is_last: Whether it is to be the last one of the step.
-        is_guessed: Whether the last solution was not solved for: it is what steps before tell.
-        by_bodies: Condensed solves without multigrid since ``begin_step``, and why.
+        is_predicted: Whether the last solution was extrapolated from steps before, not solved for.
+        by_bodies: Why condensed solves since ``begin_step`` had the block preconditioner of bodies.
         direct: Solves that were not condensed since ``begin_step``, and why.
     """
 
@@ -65,17 +66,17 @@ class CondensedSolver:
         """
         self._bulk = bulk
         self._system = system
-        self._surroundings = Surroundings(bulk, system)
+        self._node_layout = NodeLayout(bulk, system)
         self._factorised = FactorisedSolver(system, prefix + "direct_")
-        self._guess = Guess(bulk, system)
+        self._predictor = Predictor(bulk, system)
         owned = bodies.x[: system.num_bulk // system.block]
         self._multigrid = Multigrid(bulk, owned, prefix)
         self._bodies = bodies
-        self._by_bodies = ByBodies(bulk, bodies, prefix + "bodies_")
+        self._soft_stiff = SoftStiffSolver(bulk, bodies, prefix + "bodies_")
         self._prefix = prefix
         self.target = 0.0
-        self.is_last = self.is_guessed = False
-        # Failures of multigrid, and of the solver by bodies
+        self.is_last = self.is_predicted = False
+        # Failures of multigrid, and of the block preconditioner
         self._failures = self._failures_before = (0, 0)
         self.springs: Array | None = None
         self.begin_step(Report())
@@ -88,30 +89,30 @@ class CondensedSolver:
         """
         self._report = report
         self._failures_before = self._failures
-        self._guess.begin_step()
+        self._predictor.begin_step()
         self._multigrid.iterations = self._multigrid.hierarchies = 0
         self._factorised.iterations = self._factorised.factorisations = 0
-        self._by_bodies.iterations = self._by_bodies.factorisations = 0
+        self._soft_stiff.iterations = self._soft_stiff.factorisations = 0
         self.direct: list[str] = []
         self.by_bodies: list[str] = []
         self._solves = 0
 
     def reset(self) -> None:
-        """Drop what earlier solves have left: after a failed step it is of no use, or half done.
+        """Drop the results of earlier solves: after a failed step they are of no use, or half done.
 
         What the failed step found of multigrid does not count either.
         """
         self._failures = self._failures_before
-        self._surroundings.reset()
-        self._guess.reset()
+        self._node_layout.reset()
+        self._predictor.reset()
         self._multigrid.reset()
-        self._by_bodies.reset()
+        self._soft_stiff.reset()
         self._factorised.reset()
 
     @property
     def iterations(self) -> int:
         """Krylov iterations since ``begin_step``, by any of the solvers."""
-        solvers = (self._multigrid, self._by_bodies, self._factorised)
+        solvers = (self._multigrid, self._soft_stiff, self._factorised)
         return sum(solver.iterations for solver in solvers)
 
     @property
@@ -122,7 +123,7 @@ class CondensedSolver:
     @property
     def factorisations(self) -> int:
         """Factorisations since ``begin_step``, of blocks or of the whole."""
-        return self._by_bodies.factorisations + self._factorised.factorisations
+        return self._soft_stiff.factorisations + self._factorised.factorisations
 
     def skipped(self) -> dict[str, int]:
         """Hierarchies and factorisations of solves that used an older one."""
@@ -146,10 +147,10 @@ class CondensedSolver:
     def _solve_somehow(self, b: PETSc.Vec, x: PETSc.Vec) -> None:
         """Solve J x = b, condensed where that serves."""
         self._solves += 1
-        self.is_guessed = False
+        self.is_predicted = False
         # What does not converge twice will not, and each attempt is dear
         if self._failures[1] == 2:
-            self._solve_directly(b, x, _SLOW)
+            self._solve_directly(b, x, _SLOW_MULTIGRID)
             return
         try:
             with self._report.timing("condensation"):
@@ -159,12 +160,12 @@ class CondensedSolver:
             self._solve_directly(b, x, str(reason))
             return
         if not is_solved:
-            self._solve_directly(b, x, _SLOW)
+            self._solve_directly(b, x, _SLOW_MULTIGRID)
 
     def _solve_condensed(
         self, operator: CondensedOperator, rhs: PETSc.Vec, v: PETSc.Vec, target: float
     ) -> bool:
-        """Solve the condensed system by multigrid, or by bodies; whether the iterations converged.
+        """Solve the condensed system, by multigrid where it is fast; whether iterations converged.
 
         Args:
             operator: The condensed matrix.
@@ -173,17 +174,19 @@ class CondensedSolver:
             target: What the norm of the residual must fall below.
         """
         of_multigrid, of_bodies = self._failures
-        is_held = reduce.anywhere(operator.numbering.comm, len(operator.held) > 0)
+        is_needed = reduce.anywhere(operator.numbering.comm, len(operator.retained) > 0)
         is_asked = PETSc.Options(self._prefix).getString("pc_type", "gamg") == "bodies"
-        reason = _HELD if is_held else _ASKED if is_asked else _SLOW
-        if not (is_held or is_asked) and of_multigrid < 2:
+        reason = _OPTION if is_asked else _SLOW_MULTIGRID
+        if is_needed:
+            reason = _RETAINED_MULTIPLIERS
+        if not (is_needed or is_asked) and of_multigrid < 2:
             # Where bodies can be told apart the other solver is fast: one slow solve tells enough
-            is_mixed = self._by_bodies.tells_apart(operator)
-            slow = _SLOW_OF_MIXED if is_mixed else SLOW
+            is_mixed = self._soft_stiff.tells_apart(operator)
+            slow = _SLOW_RATE_OF_MIXED if is_mixed else SLOW_RATE
             if self._multigrid.solve(operator, rhs, v, target, self._report, slow):
                 return True
             of_multigrid += 2 if is_mixed else 1
-        is_solved = self._by_bodies.solve(operator, rhs, v, target, self._report)
+        is_solved = self._soft_stiff.solve(operator, rhs, v, target, self._report)
         if is_solved:
             self.by_bodies.append(reason)
         self._failures = of_multigrid, of_bodies + (not is_solved)
@@ -195,14 +198,14 @@ class CondensedSolver:
         Raises:
             core.NotCondensable: On all ranks, where a multiplier has no equation of its own.
         """
-        around = self._surroundings
-        around.rebuild()
-        numbering = around.numbering
+        nodes = self._node_layout
+        nodes.rebuild()
+        numbering = nodes.numbering
         with agreed(numbering.comm):
             condensation = core.Condensation(
                 self._system.contact_block(b),
                 self._system.discrete_contacts,
-                around.free,
+                nodes.free,
                 self._system.block,
                 holds=True,
             )
@@ -238,7 +241,7 @@ class CondensedSolver:
         h, w = self._bulk.matrix().createVecs()
         rhs, v = w.duplicate(), h.duplicate()
         w.array[:] = given + numbering.scatter_reverse(forces)
-        w.array[operator.held] = held
+        w.array[operator.retained] = held
         balance = w.duplicate()
         w.copy(balance)
         h.array[:] = operator.place(shift[:n])
@@ -250,16 +253,18 @@ class CondensedSolver:
         rhs.array[:] += extra[:n]
         rhs.array[operator.eliminated] = 0
         v.set(0.0)
-        guess = self._guess.start(operator, b, rhs, v, _NEAR * self.target)
-        self.is_guessed = guess is not None
-        if guess is not None:
-            x.array[:] = guess
+        predicted = self._predictor.start(
+            operator, b, rhs, v, _MAX_PREDICTED_RESIDUAL * self.target
+        )
+        self.is_predicted = predicted is not None
+        if predicted is not None:
+            x.array[:] = predicted
             return True
         target = self.target
         if not self.is_last:
             # A small part of what loads a stiff body is much for a soft one
             softness = operator.softness(self._bodies, given)
-            target = min(target, max(target * softness, _EXACT * rhs.norm()))
+            target = min(target, max(target * softness, _MIN_RTOL * rhs.norm()))
         if not self._solve_condensed(operator, rhs, v, target):
             return False
         operator.expand(v, work)
@@ -268,7 +273,7 @@ class CondensedSolver:
         balance.axpy(-1.0, work)
         u = numbering.scatter_forward(h.array_r)
         condensation.recover(constraints, operator.release(balance.array), u, multipliers)
-        x.array[:n] = np.where(self._surroundings.free[:n] == 1, h.array_r, given)
+        x.array[:n] = np.where(self._node_layout.free[:n] == 1, h.array_r, given)
         x.array[n:] = multipliers / self._system.core.factors
         return True
 
@@ -281,7 +286,7 @@ class CondensedSolver:
 
 @dataclass(frozen=True)
 class _Condensed:
-    """The system without multipliers, and the way there and back."""
+    """The system without multipliers, and how they are eliminated and recovered."""
 
     numbering: Numbering
     operator: CondensedOperator

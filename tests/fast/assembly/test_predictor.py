@@ -1,12 +1,12 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""What a step's first solution is guessed from."""
+"""Extrapolation of a step's first solution."""
 
 import numpy as np
 import pytest
 
 import contactx as cx
-from contactx._host.condensed import guess
+from contactx._host.condensed import predictor
 from dolfinx import fem
 from dolfinx.mesh import CellType
 
@@ -23,7 +23,7 @@ STEPS = 8
 def test_values_of_a_polynomial_go_on(order):
     coefficients = np.arange(1.0, order + 1)[:, None] * [[1.0, -2.0]]
     values = [sum(c * k**i for i, c in enumerate(coefficients)) for k in range(order + 1)]
-    np.testing.assert_allclose(guess._next(values[-2::-1]), values[-1], rtol=1e-13)
+    np.testing.assert_allclose(predictor._next(values[-2::-1]), values[-1], rtol=1e-13)
 
 
 def pressed(method, solver, load_at):
@@ -45,7 +45,7 @@ def pressed(method, solver, load_at):
         contacts=[contact],
         bcs=bcs,
         petsc_options={"pc_type": solver},
-        petsc_options_prefix="guess_",
+        petsc_options_prefix="predictor_",
     )
     reports = []
     for k in range(STEPS):

@@ -9,7 +9,7 @@ from typing import Any
 from unittest.mock import patch
 
 import contactx as cx
-from contactx._host.condensed import by_bodies as solver
+from contactx._host.condensed import soft_stiff as solver
 from dolfinx.mesh import CellType
 
 from dam_face import Compression
@@ -31,7 +31,7 @@ def by_bodies_alike() -> Iterator[cx.ContactProblem]:
 
 def by_bodies_coarse_model() -> Iterator[cx.ContactProblem]:
     """A coarse model stands for the soft body."""
-    with patch.object(solver, "_MOST_OF_SPRINGS", 0):
+    with patch.object(solver, "_MAX_ITERATIONS_WITH_SPRINGS", 0):
         yield from _dragged(1e3, friction=0.3)
 
 

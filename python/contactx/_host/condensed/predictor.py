@@ -1,6 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""A first guess of a step's first solution from the steps before."""
+"""Extrapolation of a step's first solution from the steps before."""
 
 from __future__ import annotations
 
@@ -18,15 +18,17 @@ from contactx._host.condensed.operator import CondensedOperator
 from contactx._host.parallel import reduce
 from contactx._host.system import SaddlePointSystem
 
-# Steps that are remembered, and those of them that are combined
-_STEPS = 4
-_COMBINED = 2
-# Part of the right-hand side that a guess must leave at most
-_USEFUL = 0.5
-# Part of a solution's product that must be new
-_SAME = 1e-10
-# Part of a right-hand side that is not one of the step before, where loads grow evenly
-_EVEN = 0.1
+# Number of last steps that are kept, and of those whose increments are combined
+_NUM_STEPS_KEPT = 4
+_NUM_STEPS_COMBINED = 2
+# Norm of the residual, relative to the right-hand side, above which a combination is not used
+_MAX_RESIDUAL_FRACTION = 0.5
+# Norm of what a product adds to the span of the others, relative to its own, above which it counts
+# as linearly independent
+_MIN_INDEPENDENT_FRACTION = 1e-10
+# Relative distance of a step's load from the multiples of this one's, up to which loads are
+# proportional
+_MAX_LOAD_DEVIATION = 0.1
 
 
 @dataclass(frozen=True)
@@ -37,21 +39,21 @@ class _Step:
     load: PETSc.Vec
 
 
-class Guess:
-    """Guesses the first solution of a step from what the steps before have moved in all.
+class Predictor:
+    """Predicts the first solution of a step from the increments of the steps before.
 
-    Where the status has settled and the load grows evenly, the increments of steps lie on a
+    Where the status stays and the load grows evenly, the increments of steps lie on a
     polynomial of the order that would have served best for the last one: what follows on it has
     what Newton's method adds to a first solution, too. Elsewhere increments are combined so that
     the residual is smallest.
 
     PETSc's guess after Fischer keeps products of the matrices that were: its preconditioner is
     reused, so PETSc takes them for those of today's. With 20 vectors instead of these two it takes
-    up to 6 % more iterations, 2 % in the mean; without any guess it is 16 %.
+    up to 6 % more iterations, 2 % in the mean; without any prediction it is 16 %.
     """
 
     def __init__(self, bulk: Bulk, system: SaddlePointSystem):
-        """Create a guess that knows nothing.
+        """Create a predictor without steps.
 
         Args:
             bulk: The bulk.
@@ -73,7 +75,7 @@ class Guess:
         self._system.core.unknowns(now)
         if self._start is not None and self._load is not None:
             # Newton's method subtracts what it solves for
-            self._steps = [_Step(self._start - now, self._load), *self._steps][:_STEPS]
+            self._steps = [_Step(self._start - now, self._load), *self._steps][:_NUM_STEPS_KEPT]
         self._start, self._load, self._is_first = now, None, True
 
     def start(
@@ -82,7 +84,7 @@ class Guess:
         b: PETSc.Vec,
         rhs: PETSc.Vec,
         v: PETSc.Vec,
-        near: float,
+        tolerance: float,
     ) -> Array | None:
         """Set a start of the iterations.
 
@@ -91,29 +93,29 @@ class Guess:
             b: Right-hand side in all unknowns.
             rhs: Right-hand side of the condensed matrix.
             v: Start, overwritten where there is one.
-            near: Norm of the residual below which an increment that goes on evenly is taken for
-                the solution.
+            tolerance: Norm of the residual below which an extrapolated increment is taken for the
+                solution.
 
         Returns:
-            That increment, in all unknowns; None where there is none, or not as near.
+            That increment, in all unknowns; None where there is none, or its residual is larger.
         """
         if not self._is_first:
             return None
         self._is_first, self._load = False, b.copy()
         if not self._steps:
             return None
-        going_on = self._going_on(b)
-        if going_on is not None:
+        increment = self._extrapolate(b)
+        if increment is not None:
             start, product = rhs.duplicate(), rhs.duplicate()
-            start.array[:] = operator.unknowns(going_on, self._system.core.factors)
+            start.array[:] = operator.unknowns(increment, self._system.core.factors)
             operator.mult(start, product)
             product.aypx(-1.0, rhs)
-            if product.norm() <= near:
-                return going_on
+            if product.norm() <= tolerance:
+                return increment
         self._combine(operator, rhs, v)
         return None
 
-    def _going_on(self, b: PETSc.Vec) -> Array | None:
+    def _extrapolate(self, b: PETSc.Vec) -> Array | None:
         """Increment of a load that grows as before; None where it does not."""
         size = b.norm()
         increments: list[Array] = []
@@ -121,7 +123,7 @@ class Guess:
             part = step.load.dot(b) / size**2 if size > 0 else 0.0
             rest = step.load.copy()
             rest.axpy(-part, b)
-            if part == 0 or rest.norm() > _EVEN * abs(part) * size:
+            if part == 0 or rest.norm() > _MAX_LOAD_DEVIATION * abs(part) * size:
                 break
             increments.append(step.increment / part)
         if len(increments) < 2:
@@ -146,7 +148,7 @@ class Guess:
         # Orthonormal products of the matrix, each with its vector
         basis: list[tuple[PETSc.Vec, PETSc.Vec]] = []
         factors = self._system.core.factors
-        for step in self._steps[:_COMBINED]:
+        for step in self._steps[:_NUM_STEPS_COMBINED]:
             vector, product = rhs.duplicate(), rhs.duplicate()
             vector.array[:] = operator.unknowns(step.increment, factors)
             operator.mult(vector, product)
@@ -156,7 +158,7 @@ class Guess:
                 product.axpy(-factor, of_other)
                 vector.axpy(-factor, other)
             new = product.norm()
-            if new <= _SAME * size:
+            if new <= _MIN_INDEPENDENT_FRACTION * size:
                 continue
             vector.scale(1 / new)
             product.scale(1 / new)
@@ -164,7 +166,7 @@ class Guess:
             factor = product.dot(left)
             start.axpy(factor, vector)
             left.axpy(-factor, product)
-        if left.norm() <= _USEFUL * rhs.norm():
+        if left.norm() <= _MAX_RESIDUAL_FRACTION * rhs.norm():
             start.copy(v)
 
 

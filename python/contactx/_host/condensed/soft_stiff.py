@@ -1,6 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""FGMRES with factors of the soft bodies and of the stiff ones."""
+"""FGMRES with a block triangular preconditioner: factors of the soft bodies and the stiff ones."""
 
 from __future__ import annotations
 
@@ -16,35 +16,39 @@ from contactx._host.bodies import Bodies
 from contactx._host.bulk import Bulk
 from contactx._host.callbacks import Quiet, weakly
 from contactx._host.condensed.coarse_model import CoarseModel
-from contactx._host.condensed.diagonal_blocks import Part, Transforms, change_of
+from contactx._host.condensed.diagonal_blocks import DofBlock, Transforms, change_of
 from contactx._host.condensed.numbering import DIFFERENT, Array
 from contactx._host.condensed.operator import CondensedOperator
 from contactx._host.options import ROUNDING, block_options
 from contactx._host.parallel import reduce
 from contactx.report import Report
 
-# Iterations after which the blocks are no use, and those after which springs are none
-_MOST = _MOST_OF_SPRINGS = 120
-# Change of the soft block, to the size of what contact adds to it, below which its factors serve
-_SOFT_SERVES = 0.03
-# The same of the stiff block, times the reduction that a solve asks for as a power of e: iterations
-# that old factors cost grow with both
-_STIFF_SERVES = 0.15
-# Change that rounding leaves: one node that slips where it stuck makes more, and costs iterations
-_SAME = 1e-6
-# Iterations that cost what the factors of a block cost, at 200,000 to 400,000 displacements
-_COST = 15
-# Iterations whose reduction tells what those that follow will reach
-_SEEN = 10
-# Least part of the largest movement under a uniform traction that counts for a spring
-_LEAST_MOVED = 0.1
-# Power of the stiffness for the shortest waves in that of springs: on slabs of a dam's face 0 takes
-# a fifth to two fifths more iterations, and one half between a tenth less and a quarter more
-_SHORT_WAVES = 1 / 3
+# Krylov iterations after which a solve with the coarse model, or with springs, is given up
+_MAX_ITERATIONS = _MAX_ITERATIONS_WITH_SPRINGS = 120
+# Difference between what contact adds to the soft block now and what it added when this was
+# factorised, relative in the Frobenius norm, up to which the factors are kept
+_MAX_CHANGE_OF_SOFT = 0.03
+# The same for the stiff block, times ln(residual / target) of a solve: iterations with old factors
+# grow with both
+_MAX_CHANGE_OF_STIFF = 0.15
+# The same difference below which matrices count as equal: one node that slips where it stuck makes
+# more, and costs iterations
+_ROUND_OFF = 1e-6
+# Cost of factorising a block, in Krylov iterations, at 200,000 to 400,000 dofs
+_FACTORISATION_COST = 15
+# Number of last Krylov iterations by whose mean reduction the remaining ones are estimated
+_RATE_WINDOW = 10
+# Displacement under a uniform traction, as a fraction of the largest one, that a spring's stiffness
+# is limited to
+_MIN_MOVED_FRACTION = 0.1
+# Exponent of the stiffness for the shortest waves in the geometric mean of a spring's: on slabs of
+# a dam's face 0 takes a fifth to two fifths more iterations, and one half between a tenth less and
+# a quarter more
+_SHORT_WAVE_EXPONENT = 1 / 3
 
 
-class ByBodies:
-    """Solves with the unknowns of soft bodies and of stiff ones in turn.
+class SoftStiffSolver:
+    """Block preconditioner of soft and stiff bodies, with an approximate Schur complement.
 
     Once the multipliers are eliminated contact couples the unknowns c of soft bodies and m of stiff
     ones, which are their masters. With factors of A_cc the block triangular matrix
@@ -91,8 +95,8 @@ class ByBodies:
 
     def reset(self) -> None:
         """Drop all factors."""
-        self._soft: _Block | None = None
-        self._stiff: _Block | None = None
+        self._soft: _BlockFactors | None = None
+        self._stiff: _BlockFactors | None = None
         self._built_at = -1
         self._ksp: PETSc.KSP | None = None
         self._updated_for: CondensedOperator | None = None
@@ -161,7 +165,9 @@ class ByBodies:
     ) -> bool:
         ksp = self._ksp
         assert ksp is not None
-        most = _MOST if self._stiff is None or self._model else _MOST_OF_SPRINGS
+        most = (
+            _MAX_ITERATIONS if self._stiff is None or self._model else _MAX_ITERATIONS_WITH_SPRINGS
+        )
         self._goal = max(target, ROUNDING * rhs.norm())
         self._otherwise = self._renewal + self._rate * reduction
         self._residuals = []
@@ -183,7 +189,9 @@ class ByBodies:
             v.set(0.0)
         return False
 
-    def _judge(self, ksp: PETSc.KSP, count: int, residual: float) -> PETSc.KSP.ConvergedReason:
+    def _test_convergence(
+        self, ksp: PETSc.KSP, count: int, residual: float
+    ) -> PETSc.KSP.ConvergedReason:
         """Whether iterations have converged, or are to go on; PETSc calls this.
 
         With old factors they end where those that are left by their last ones are more than new
@@ -195,9 +203,9 @@ class ByBodies:
         if residual <= self._goal:
             return reason.CONVERGED_ATOL
         self._residuals.append(residual)
-        if self._renewal > 0 and count >= _SEEN:
+        if self._renewal > 0 and count >= _RATE_WINDOW:
             left = np.log(residual / self._goal)
-            reached = np.log(self._residuals[-1 - _SEEN] / residual) / _SEEN
+            reached = np.log(self._residuals[-1 - _RATE_WINDOW] / residual) / _RATE_WINDOW
             if left > reached * self._otherwise:
                 return reason.DIVERGED_DTOL
         return reason.ITERATING
@@ -222,24 +230,24 @@ class ByBodies:
             change, is_symmetric = change_of(soft.part, transforms)
             is_symmetric = is_symmetric and self._bulk.is_symmetric
         if reduction is None or self._lost > self._renewal:
-            of_soft = of_stiff = 0.0
+            max_of_soft = max_of_stiff = 0.0
         else:
-            of_soft, of_stiff = _SOFT_SERVES, _STIFF_SERVES / reduction
+            max_of_soft, max_of_stiff = _MAX_CHANGE_OF_SOFT, _MAX_CHANGE_OF_STIFF / reduction
         is_new = soft.update(
             change,
             lambda: soft.part.block(change, operator.eliminated),
             is_symmetric,
             soft.part.group,
-            of_soft,
+            max_of_soft,
             report,
         )
         self.factorisations += is_new
         blocks = [soft]
         if stiff is not None:
             blocks.append(stiff)
-            is_new = self._update_stiff(operator, stiff, transforms, of_stiff, report)
+            is_new = self._update_stiff(operator, stiff, transforms, max_of_stiff, report)
             self.factorisations += is_new
-        self._renewal = _COST * sum(block.is_old for block in blocks)
+        self._renewal = _FACTORISATION_COST * sum(block.is_old for block in blocks)
         if self._renewal == 0:
             self._lost = 0.0
         self._updated_for = operator
@@ -248,9 +256,9 @@ class ByBodies:
     def _update_stiff(
         self,
         operator: CondensedOperator,
-        block: _Block,
+        block: _BlockFactors,
         transforms: Transforms,
-        serves: float,
+        max_change: float,
         report: Report,
     ) -> bool:
         """Bring the stiff block up to date; whether it was factorised."""
@@ -269,7 +277,7 @@ class ByBodies:
             return model.block(A, transforms.right, part, operator.eliminated)
 
         group = part.group if model is None else min(part.group, model.group)
-        return block.update(change, make, is_symmetric, group, serves, report)
+        return block.update(change, make, is_symmetric, group, max_change, report)
 
     def _model_of(self, operator: CondensedOperator) -> CoarseModel | None:
         """The coarse model, if there is to be one; all ranks must take part."""
@@ -286,7 +294,7 @@ class ByBodies:
         return self._model
 
     def _part(self, operator: CondensedOperator) -> None:
-        """Part the unknowns, anew where the bodies or the bulk are others."""
+        """Split the unknowns, anew where the bodies or the bulk are others."""
         dofs = operator.parts(self._bodies)
         soft = self._soft
         same = soft is not None and np.array_equal(dofs[0], soft.part.dofs)
@@ -297,9 +305,9 @@ class ByBodies:
         self._soft = self._stiff = self._model = None
         K = self._bulk.copy()
         numbering = operator.numbering
-        self._soft = _Block(Part(numbering, dofs[0], K), self._prefix + "soft_")
+        self._soft = _BlockFactors(DofBlock(numbering, dofs[0], K), self._prefix + "soft_")
         if reduce.anywhere(self._comm, len(dofs[1]) > 0):
-            self._stiff = _Block(Part(numbering, dofs[1], K), self._prefix + "stiff_")
+            self._stiff = _BlockFactors(DofBlock(numbering, dofs[1], K), self._prefix + "stiff_")
         K.destroy()
         self._built_at = self._bulk.assemblies
 
@@ -350,10 +358,12 @@ class ByBodies:
             moved = np.where(axis == k, u.array_r, 0.0)
             moved[~np.isfinite(moved)] = 0
             most = reduce.largest(self._comm, float(moved.max(initial=0.0)))
-            # Beside supports no traction moves much, but short waves meet no more stiffness there
+            # Near supports no traction moves much, though short waves are no stiffer there
             known = moved > 0
-            long = 1 / np.maximum(moved[known], _LEAST_MOVED * most)
-            mean = long ** (1 - _SHORT_WAVES) * np.maximum(short, long) ** _SHORT_WAVES
+            long = 1 / np.maximum(moved[known], _MIN_MOVED_FRACTION * most)
+            mean = (
+                long ** (1 - _SHORT_WAVE_EXPONENT) * np.maximum(short, long) ** _SHORT_WAVE_EXPONENT
+            )
             stiffness[part.dofs[known]] = mean
         ksp.destroy()
         return stiffness
@@ -366,8 +376,8 @@ class ByBodies:
         ksp = PETSc.KSP().create(comm=self._comm)
         ksp.setOptionsPrefix(self._prefix)
         ksp.setType("fgmres")
-        ksp.setGMRESRestart(_MOST)
-        ksp.setConvergenceTest(weakly(self._judge))
+        ksp.setGMRESRestart(_MAX_ITERATIONS)
+        ksp.setConvergenceTest(weakly(self._test_convergence))
         ksp.setOperators(A)
         pc = ksp.getPC()
         pc.setType("python")
@@ -398,15 +408,15 @@ class ByBodies:
         z.array[soft.part.dofs] = soft.at(self._w.array_r)
 
 
-class _Block:
+class _BlockFactors:
     """Factors of a block.
 
     Attributes:
-        part: Its displacements.
+        part: Its dofs.
         is_old: Whether they are of another matrix.
     """
 
-    def __init__(self, part: Part, prefix: str):
+    def __init__(self, part: DofBlock, prefix: str):
         self.part = part
         self.is_old = False
         self._prefix = prefix
@@ -425,7 +435,7 @@ class _Block:
         make: Callable[[], PETSc.Mat],
         is_symmetric: bool,
         group: int,
-        serves: float,
+        max_change: float,
         report: Report,
     ) -> bool:
         """Factorise it where contact has changed it; all ranks must take part.
@@ -435,7 +445,7 @@ class _Block:
             make: Makes the whole block; its first unknowns are those of the part.
             is_symmetric: Whether the block is symmetric.
             group: Number of successive unknowns that belong together.
-            serves: Part of the change that may be other than in the factors.
+            max_change: Relative difference to the change in the factors up to which they are kept.
             report: Report whose times are added to.
 
         Returns:
@@ -446,8 +456,8 @@ class _Block:
             difference.axpy(-1.0, self._change, DIFFERENT)
             size = change.norm()
             other = float(difference.norm())
-            self.is_old = other > _SAME * size
-            if other <= max(serves, _SAME) * size:
+            self.is_old = other > _ROUND_OFF * size
+            if other <= max(max_change, _ROUND_OFF) * size:
                 return False
         self.is_old = False
         # Factors are the largest part of the memory: those of before go first

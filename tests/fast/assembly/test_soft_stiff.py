@@ -1,12 +1,12 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""The condensed solver by bodies: factors of soft bodies and of stiff ones."""
+"""The block preconditioner of bodies: factors of soft bodies and of stiff ones."""
 
 import numpy as np
 import pytest
 
 from contactx._host import compat
-from contactx._host.condensed import by_bodies, solver
+from contactx._host.condensed import soft_stiff, solver
 from dolfinx.mesh import CellType
 
 from meshes import Tag
@@ -22,7 +22,7 @@ HELD = "a slave node with a prescribed displacement moves its master"
 
 
 def both(create, options=BY_BODIES):
-    """Solve directly and by bodies: displacements, multipliers, reports of all steps."""
+    """Solve directly and by blocks: displacements, multipliers, reports of all steps."""
     answers = []
     for chosen in ({"pc_type": "lu"}, options):
         problem, contact, move = create(chosen)
@@ -65,7 +65,7 @@ def test_the_answer_is_that_of_the_direct_solver(cell, law, stiffness, sliding):
     direct, found = both(dragged(cell, stiffness, sliding, **law))
     assert_same(direct, found)
     text = str(found[2][0]).replace("\n", " ")
-    assert "solved by bodies" in text
+    assert "solved with blocks of bodies" in text
     assert "condensed_pc_type asks for it" in text
 
 
@@ -86,11 +86,11 @@ def test_stiff_masters_cost_few_iterations():
 @pytest.fixture
 def with_model(monkeypatch):
     """Take the coarse model of soft bodies at once."""
-    monkeypatch.setattr(by_bodies, "_MOST_OF_SPRINGS", 0)
+    monkeypatch.setattr(soft_stiff, "_MAX_ITERATIONS_WITH_SPRINGS", 0)
     made = []
-    of = by_bodies.CoarseModel.of
+    of = soft_stiff.CoarseModel.of
     monkeypatch.setattr(
-        by_bodies.CoarseModel, "of", lambda *args: made.append(of(*args)) or made[-1]
+        soft_stiff.CoarseModel, "of", lambda *args: made.append(of(*args)) or made[-1]
     )
     return made
 
@@ -132,14 +132,14 @@ def test_factors_serve_where_nothing_changes():
 def test_nodes_are_ordered_as_groups(is_held, monkeypatch):
     """Not where a node is partly in a block."""
     groups = []
-    factorised = by_bodies._factorised
+    factorised = soft_stiff._factorised
 
     def note(*args):
         ksp = factorised(*args)
         groups.append((args[-1], -ksp.getPC().getFactorMatrix().getMumpsIcntl(15)))
         return ksp
 
-    monkeypatch.setattr(by_bodies, "_factorised", note)
+    monkeypatch.setattr(soft_stiff, "_factorised", note)
 
     def create(options):
         scene = Blocks(CellType.hexahedron, n_upper=3, n_lower=4, gap=1e-9, stiffness=1e4)
