@@ -19,7 +19,8 @@ from contactx import cpp as core
 from contactx._host import compat
 from contactx._host.bodies import Bodies
 from contactx._host.bulk import Bulk
-from contactx._host.checkpoint.snapshot import FunctionValues
+from contactx._host.callbacks import weakly
+from contactx._host.checkpoint.snapshot import FunctionValues, Snapshot
 from contactx._host.checks import (
     as_blocks,
     check_compiler_options,
@@ -32,7 +33,7 @@ from contactx._host.checks import (
     is_number,
 )
 from contactx._host.coupled import CoupledBulk
-from contactx._host.linear import Condensed
+from contactx._host.linear import Condensed, SaddlePoint
 from contactx._host.newton import NewtonLoop
 from contactx._host.nodal_values import is_axisymmetric
 from contactx._host.nodes import check_cells, reference_positions
@@ -210,8 +211,27 @@ class ContactAssembler:
             condensed: Whether its preconditioner is contactx's condensed solver, which is exact.
         """
         self._check_condensed(condensed)
-        self._attached = NewtonLoop(self, snes, condensed=condensed)
-        self.solvers.append(self._attached)
+        self._attached = self.newton_loop(snes, condensed=condensed)
+
+    def newton_loop(self, snes: PETSc.SNES, *, condensed: bool) -> NewtonLoop:
+        """Set the callbacks of a SNES; ``attach`` calls this.
+
+        Args:
+            snes: The solver.
+            condensed: Whether its preconditioner is contactx's condensed solver.
+
+        Returns:
+            The loop that runs in it.
+        """
+        prefix = snes.getOptionsPrefix() or ""
+        linear = (
+            Condensed(self.bulk, self.system, self.bodies, prefix)
+            if condensed
+            else SaddlePoint(self.system)
+        )
+        loop = NewtonLoop(snes, linear, self.system, self.core, weakly(self.check))
+        self.solvers.append(loop)
+        return loop
 
     @property
     def x(self) -> PETSc.Vec:
@@ -248,7 +268,23 @@ class ContactAssembler:
         self.core.prepare()
         for function in self.functions:
             check_finite(self._comm, the_start_of_the_solve_is=function.x)
-        self._before = FunctionValues(self)
+        self._before = self._function_values()
+
+    def _function_values(self, history: Sequence[fem.Function] = ()) -> FunctionValues:
+        """Copy the functions, and further ones that belong to the state."""
+        fields = [contact.fields for contact in self.contacts]
+        return FunctionValues([self.u, *self.functions, *history], fields)
+
+    def snapshot(self, history: Sequence[fem.Function] = ()) -> Snapshot:
+        """Copy the state.
+
+        Args:
+            history: Further functions that belong to it.
+
+        Returns:
+            The copy; its ``restore()`` brings the state back.
+        """
+        return Snapshot(self.core, self._function_values(history))
 
     def _take_conditions(self) -> None:
         """Take the Dirichlet conditions that the user's list has now."""
@@ -307,7 +343,7 @@ class ContactAssembler:
             raise ConvergenceError(found.failure, self.report)
         return found
 
-    def judge(self, rtol: float, atol: float) -> core.Settled:
+    def check(self, rtol: float, atol: float) -> core.Settled:
         """Do the same as ``settle`` without raising an error, for SNES.
 
         Args:

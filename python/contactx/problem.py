@@ -14,7 +14,6 @@ import ufl
 from contactx import cpp as core
 from contactx._host.callbacks import Interrupts
 from contactx._host.checkpoint.snapshot import Snapshot
-from contactx._host.newton import NewtonLoop
 from contactx._host.options import check_petsc_options, is_condensed, newton_options
 from contactx.assembler import ContactAssembler
 from contactx.conductance import Conductance
@@ -130,8 +129,7 @@ class ContactProblem:
         self._options = newton_options(petsc_options_prefix, options, condensed=condensed)
         snes = PETSc.SNES().create(system.x.comm)
         snes.setOptionsPrefix(petsc_options_prefix)
-        self._newton = NewtonLoop(self.assembler, snes, condensed=condensed)
-        self.assembler.solvers.append(self._newton)
+        self._newton = self.assembler.newton_loop(snes, condensed=condensed)
         self._read_options = False
 
     @property
@@ -159,7 +157,7 @@ class ContactProblem:
         Returns:
             The copy; its ``restore()`` brings the state back.
         """
-        return Snapshot(self.assembler, history)
+        return self.assembler.snapshot(history)
 
     @property
     def beside(self) -> list[fem.Function]:

@@ -17,19 +17,17 @@ All objects that take part in a solve, from contacts to linear solvers, have the
 
 from __future__ import annotations
 
-import weakref
-from typing import TYPE_CHECKING
+from collections.abc import Callable
 
 from petsc4py import PETSc
 
 import numpy as np
 
+from contactx import cpp as core
 from contactx._host.callbacks import keeps_its_error, weakly
-from contactx._host.linear import Condensed, LinearSolver, SaddlePoint
+from contactx._host.linear import LinearSolver
+from contactx._host.system import SaddlePointSystem
 from contactx.report import Report
-
-if TYPE_CHECKING:
-    from contactx.assembler import ContactAssembler
 
 _CODE = PETSc.SNES.ConvergedReason
 _REASONS = {
@@ -48,7 +46,7 @@ _REASONS = {
 class NewtonLoop:
     """Semismooth Newton method, the primal-dual active set strategy.
 
-    The assembler settles and judges once an accepted iterate, in SNES's convergence test, never
+    Pairs and active set are updated once an accepted iterate, in SNES's convergence test, never
     inside a line search.
 
     Attributes:
@@ -56,23 +54,28 @@ class NewtonLoop:
         error: Error of Python inside PETSc; whoever deals with it sets it to None.
     """
 
-    def __init__(self, assembler: ContactAssembler, snes: PETSc.SNES, *, condensed: bool):
+    def __init__(
+        self,
+        snes: PETSc.SNES,
+        linear: LinearSolver,
+        system: SaddlePointSystem,
+        problem: core.Problem,
+        check: Callable[[float, float], core.Settled],
+    ):
         """Set the callbacks of a solver.
 
         Args:
-            assembler: The coupled system.
             snes: The solver.
-            condensed: Whether the preconditioner is the condensed solver.
+            linear: What gives it its Jacobian.
+            system: The coupled system.
+            problem: Driver of the load step.
+            check: Updates pairs and active set at an iterate and tests its residual, by the
+                relative and the absolute tolerance.
         """
-        self._assembler = weakref.ref(assembler)
-        self._bulk, self._system = assembler.bulk, assembler.system
-        self._loop, self._halo = assembler.loop, assembler.halo
-        prefix = snes.getOptionsPrefix() or ""
-        self._linear: LinearSolver = (
-            Condensed(self._bulk, self._system, assembler.bodies, prefix)
-            if condensed
-            else SaddlePoint(self._system)
-        )
+        self._linear = linear
+        self._system = system
+        self._problem, self._loop = problem, problem.loop
+        self._check = check
         self._report = Report()
         self.error: BaseException | None = None
         # Version of the state that the Jacobian was made for
@@ -86,15 +89,8 @@ class NewtonLoop:
         self.snes.setConvergenceTest(weakly(self._test))
         self.snes.setLineSearchPreCheck(weakly(self._shorten))
 
-    @property
-    def assembler(self) -> ContactAssembler:
-        """The coupled system."""
-        assembler = self._assembler()
-        assert assembler is not None
-        return assembler
-
     def begin(self, report: Report) -> None:
-        """Start a step that the assembler has started.
+        """Start a step that the driver has started.
 
         Args:
             report: Report of the step.
@@ -113,7 +109,7 @@ class NewtonLoop:
         Args:
             report: Report of the step, which is written to.
         """
-        converged = self.assembler.converged
+        converged = self._problem.converged
         self._system.unpack(self._system.x)
         code = self.snes.getConvergedReason()
         if not converged and not self._failure:
@@ -137,7 +133,7 @@ class NewtonLoop:
         """
         if code not in (_CODE.DIVERGED_MAX_IT, _CODE.DIVERGED_LINE_SEARCH):
             return ""
-        return self.assembler.core.why_slow(self.snes.getSolutionUpdate().array_r)
+        return self._problem.why_slow(self.snes.getSolutionUpdate().array_r)
 
     @property
     def damping_may_help(self) -> bool:
@@ -169,9 +165,9 @@ class NewtonLoop:
         if not np.isfinite(norms[2]):
             return _CODE.DIVERGED_FUNCTION_NANORINF
         if number > 0:
-            self.assembler.core.moved()
+            self._problem.moved()
         rtol, atol, _, _ = snes.getTolerances()
-        found = self.assembler.judge(rtol, atol)
+        found = self._check(rtol, atol)
         if found.is_final:
             self._failure, self._is_final = found.failure, True
             return _CODE.DIVERGED_FUNCTION_DOMAIN
@@ -232,7 +228,7 @@ class NewtonLoop:
         """
         if code == _CODE.DIVERGED_MAX_IT:
             limit = "snes_max_it"
-            return self.assembler.core.no_convergence(limit, limit)
+            return self._problem.no_convergence(limit, limit)
         return _reason_of(code, converged)
 
 

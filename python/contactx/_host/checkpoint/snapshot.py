@@ -5,33 +5,30 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
+from contactx import cpp as core
+from contactx._host.discrete_contact import Fields
 from dolfinx import fem
-
-if TYPE_CHECKING:
-    from contactx.assembler import ContactAssembler
 
 
 class FunctionValues:
     """Copy of the functions of a problem: what is solved for, and the contacts' results."""
 
-    def __init__(self, assembler: ContactAssembler, history: Sequence[fem.Function] = ()):
+    def __init__(self, functions: Sequence[fem.Function], fields: Sequence[Fields] = ()):
         """Copy the values.
 
         Args:
-            assembler: The coupled system.
-            history: Further functions that belong to the state.
+            functions: Functions that belong to the state.
+            fields: Results of the contacts.
         """
-        self._fields = [(c.fields, dict(vars(c.fields))) for c in assembler.contacts]
+        self._fields = [(f, dict(vars(f))) for f in fields]
         results = [
             value
             for _, attributes in self._fields
             for value in attributes.values()
             if isinstance(value, fem.Function)
         ]
-        functions = (assembler.u, *assembler.functions, *history, *results)
-        self._functions = [(f, f.x.array.copy()) for f in functions]
+        self._functions = [(f, f.x.array.copy()) for f in (*functions, *results)]
 
     def restore(self) -> None:
         """Return to the values."""
@@ -44,15 +41,15 @@ class FunctionValues:
 class Snapshot:
     """Copy of all state of a problem; see ``problem/snapshot.h`` for what the core copies."""
 
-    def __init__(self, assembler: ContactAssembler, history: Sequence[fem.Function] = ()):
+    def __init__(self, problem: core.Problem, values: FunctionValues):
         """Copy the state.
 
         Args:
-            assembler: The coupled system.
-            history: Further functions that belong to the state.
+            problem: Driver of the load steps.
+            values: Copy of the functions.
         """
-        self._core = assembler.core.snapshot()
-        self._values = FunctionValues(assembler, history)
+        self._core = problem.snapshot()
+        self._values = values
 
     def restore(self) -> None:
         """Return to the state, bit for bit; all ranks must take part."""
