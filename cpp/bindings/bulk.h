@@ -20,7 +20,7 @@ std::span<const T> keep(Array<T>& kept, const py::object& values)
 }
 
 /// What a bulk of Python has for unknowns beside displacements: see
-/// python/contactx/_host/coupled.py.
+/// python/contactx/_host/bulk_host.py.
 class PythonFields final : public contactx::newton::Fields
 {
 public:

@@ -26,13 +26,11 @@ from contactx._host.checks import (
     check_compiler_options,
     check_conditions,
     check_coupled_forms,
-    check_displacement,
     check_finite,
     check_forms,
     have_changed,
     is_number,
 )
-from contactx._host.coupled import CoupledBulk
 from contactx._host.linear import Condensed, SaddlePoint
 from contactx._host.newton import NewtonLoop
 from contactx._host.nodal_values import is_axisymmetric
@@ -116,13 +114,11 @@ class ContactAssembler:
         """
         compat.require_real_double()
         unknowns = unknowns_of(u, displacement)
-        functions: list[fem.Function] = [u] if unknowns is None else unknowns.functions
-        if unknowns is None:
-            check_displacement(u)
-            check_forms(F, J, u)
+        functions, field = unknowns.functions, unknowns.u
+        if displacement is None:
+            check_forms(F, J, field)
         else:
             check_coupled_forms(F, J, functions, is_list=isinstance(u, Sequence))
-        field: fem.Function = u if unknowns is None else unknowns.u
         check_conditions(bcs, functions)
         check_compiler_options(form_compiler_options, jit_options)
         check_contacts(contacts)
@@ -143,11 +139,7 @@ class ContactAssembler:
         self._bcs: Sequence[fem.DirichletBC] = [] if bcs is None else bcs
         options = form_compiler_options, jit_options
         residuals, jacobians = as_blocks(F, J)
-        self.bulk = (
-            Bulk(residuals[0], field, bcs or [], jacobians and jacobians[0][0], *options)
-            if unknowns is None
-            else CoupledBulk(residuals, jacobians, unknowns, bcs or [], *options)
-        )
+        self.bulk = Bulk(residuals, jacobians, unknowns, bcs or [], *options)
         self.halo = Halo(field, X.array.reshape(-1, gdim))
         self._comm = self.halo.comm
         self.bodies = Bodies(V, self.halo)
@@ -160,8 +152,7 @@ class ContactAssembler:
             check_cells(V.mesh, self.halo.nodes)
             for conductance in self.conductances:
                 conductance.check()
-            if isinstance(self.bulk, CoupledBulk):
-                self.bulk.follow(self.conductances)
+            self.bulk.follow(self.conductances)
             self.system = SaddlePointSystem(self.bulk, self.discrete_contacts, self.halo)
             names = (f"contact {k} ({contact})" for k, contact in enumerate(self.contacts))
             parts = [
@@ -174,7 +165,7 @@ class ContactAssembler:
             for contact in self.contacts[: len(self.discrete_contacts)]:
                 contact.detach()
             raise
-        self._warn_of_weights(residuals[unknowns.index if unknowns else 0])
+        self._warn_of_weights(residuals[unknowns.index])
         self.loop = self.core.loop
         self._before: FunctionValues | None = None
         self._skipped = 0
@@ -317,7 +308,7 @@ class ContactAssembler:
         self.system.pack()
 
     def settle(self, rtol: float = 1e-11, atol: float = 0.0, max_it: int = 50) -> core.Settled:
-        """Update pairs and active set at an accepted iterate, and judge its residual.
+        """Update pairs and active set at an accepted iterate, and test its residual.
 
         The iterate may change a little: where iterates cycle, part of the last step is taken back,
         and the drift of free bodies is subtracted.
@@ -357,7 +348,7 @@ class ContactAssembler:
         return self._settled(self.core.judge(rtol, atol, self.system.b.array))
 
     def _settled(self, found: core.Settled) -> core.Settled:
-        """Take note of an iterate that was judged, which may have been taken back."""
+        """Take note of an iterate that was tested, which may have been taken back."""
         self.system.pack()
         self.report.history.append(Iteration.of(found))
         self.report.take(self.core.report)
@@ -459,7 +450,7 @@ class ContactAssembler:
         self._condensed.hand_to(ksp)
 
     def _check_condensed(self, condensed: bool) -> None:
-        if condensed and self.bulk.fields is not None:
+        if condensed and self.bulk.fields:
             raise ValueError(
                 "the condensed solver is for a displacement alone: leave condensed out where other "
                 "fields are solved for with it"

@@ -119,7 +119,7 @@ class ContactProblem:
         self.displacement = self.assembler.u
         dofs = self.displacement.x.index_map.size_global * system.block
         condensed = is_condensed(options, dofs, system.block, has_friction=system.has_friction)
-        if self.assembler.bulk.fields is not None:
+        if self.assembler.bulk.fields:
             if condensed and "pc_type" in options:
                 raise ValueError(
                     "petsc_options['pc_type'] is 'condensed', which is for a displacement alone: "

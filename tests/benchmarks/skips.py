@@ -18,7 +18,7 @@ import numpy as np
 import contactx as cx
 from contactx import cpp as core
 from contactx._host import linear
-from contactx._host.bulk import Bulk
+from contactx._host.blocks import Blocks
 from contactx._host.condensed.multigrid import Multigrid
 from contactx.assembler import ContactAssembler
 from dolfinx.io.gmsh import MeshData
@@ -125,13 +125,13 @@ def _replaced(owner: Any, **values: Any) -> Iterator[None]:
 
 def _jacobian_each_time() -> AbstractContextManager[None]:
     """The bulk's Jacobian as one that depends on the displacement."""
-    before = Bulk.__init__
+    before = Blocks.__init__
 
-    def init(self: Bulk, F: Any, u: Any, *args: Any, **kwargs: Any) -> None:
-        before(self, F, u, *args, **kwargs)
-        self._coefficients.append(u._cpp_object)
+    def init(self: Blocks, *args: Any) -> None:
+        before(self, *args)
+        self._coefficients += [w._cpp_object for w in self.functions]
 
-    return _replaced(Bulk, __init__=init)
+    return _replaced(Blocks, __init__=init)
 
 
 def _hierarchy_each_time() -> AbstractContextManager[None]:

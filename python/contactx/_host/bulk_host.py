@@ -33,7 +33,7 @@ class BulkHost:
         owned = topology.index_map(topology.dim).size_local
         self.cells = linear_cells(V)[: owned * parts_of_cells(V)]
         self.nodes_per_cell = self.cells.shape[1]
-        self.fields = bulk.fields
+        self.fields = FieldsHost(bulk) if bulk.fields else None
         self._cell_forces: CellForces | None = None
         if bulk.residual_form is not None:
             self._cell_forces = CellForces(bulk.residual_form, bulk.u, halo, bulk.form_options)
@@ -107,6 +107,53 @@ class BulkHost:
         """Sum over cells and terms of the size of their force on each owned node."""
         assert self._cell_forces is not None
         return self._cell_forces.magnitudes()
+
+
+class FieldsHost:
+    """The fields beside the displacement, as the core's ``newton::Fields`` describes them."""
+
+    def __init__(self, bulk: Bulk):
+        """Take the bulk."""
+        self._bulk = bulk
+        self._functions = bulk.unknowns.functions
+        self.offsets = np.cumsum([0, *(len(dofs) for _, dofs in bulk.fields)]).tolist()
+
+    def values(self) -> Array:
+        """Values of now."""
+        return self._bulk.of_fields([w.x.array for w in self._functions])
+
+    def set(self, values: Array) -> None:
+        """Set them, ghosts included."""
+        parts = np.split(values, self.offsets[1:-1])
+        for (k, dofs), part in zip(self._bulk.fields, parts, strict=True):
+            self._functions[k].x.array[dofs] = part
+        for k in sorted({k for k, _ in self._bulk.fields}):
+            self._functions[k].x.scatter_forward()
+
+    @property
+    def follow_contacts(self) -> bool:
+        """True if their residuals depend on contacts."""
+        return bool(self._bulk.conductances)
+
+    def residual(self) -> Array:
+        """Their rows of the residual assembled last."""
+        return self._bulk.rows_of_fields("residual")
+
+    def lifted(self) -> Array:
+        """Their rows of what was lifted last."""
+        return self._bulk.rows_of_fields("lifted")
+
+    def defect(self) -> Array:
+        """Values minus Dirichlet values, zero elsewhere."""
+        return self._bulk.of_fields(self._bulk.blocks.defects())
+
+    def markers(self) -> npt.NDArray[np.int8]:
+        """1 at prescribed values."""
+        return self._bulk.of_fields(self._bulk.blocks.markers)
+
+    def absolute_products(self, sizes: Array) -> Array:
+        """Products of the Jacobian with sizes of all unknowns, all entries by their size."""
+        return self._bulk.absolute_products(sizes)
 
 
 class CellForces:

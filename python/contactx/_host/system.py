@@ -16,14 +16,52 @@ import numpy as np
 import numpy.typing as npt
 
 from contactx import cpp as core
-from contactx._host.bulk import Bulk
+from contactx._host.bulk import Bulk, Index, Rows
 from contactx._host.bulk_host import BulkHost
-from contactx._host.coupled import CoupledBulk
 from contactx._host.discrete_contact import DiscreteContact
-from contactx._host.layout import Layout, Rows
 from contactx._host.parallel.halo import Halo
 from contactx._host.parallel.reduce import anywhere, everywhere
 from contactx.conductance import Conductance, add_entries
+
+
+class Layout:
+    """Each rank's displacements, followed by the bulk's other fields and by its multipliers."""
+
+    def __init__(self, halo: Halo, num_bulk: int, size: int):
+        """Create the layout.
+
+        Args:
+            halo: Nodes of this rank.
+            num_bulk: Number of the bulk's unknowns of this rank.
+            size: Number of this rank's unknowns.
+        """
+        self._halo = halo
+        self._num_bulk, self._size = int(num_bulk), int(size)
+        counts = halo.comm.allgather(self._size)
+        # Where this rank's displacements start
+        self._start = sum(counts[: halo.comm.rank])
+
+    def places(self) -> Index:
+        """Places of the displacements of all nodes, then of this rank's multipliers; collective."""
+        halo, g = self._halo, self._halo.gdim
+        own = self._start + g * np.arange(halo.num_owned, dtype=np.int64)
+        nodes = (halo.scatter_forward(own)[:, None] + np.arange(g)).ravel()
+        multipliers = np.arange(self._start + self._num_bulk, self._start + self._size)
+        return np.concatenate([nodes, multipliers])
+
+    def bulk(self) -> Index:
+        """Places of the bulk's unknowns of this rank."""
+        return np.arange(self._start, self._start + self._num_bulk, dtype=np.int64)
+
+    def matrix(self, rows: Rows) -> PETSc.Mat:
+        """Matrix of all unknowns; all ranks must take part.
+
+        Args:
+            rows: This rank's rows, in places.
+        """
+        size, (offsets, columns, values) = (self._size, None), rows
+        csr = offsets.astype(PETSc.IntType), columns.astype(PETSc.IntType), values
+        return PETSc.Mat().createAIJ((size, size), csr=csr, comm=self._halo.comm)
 
 
 class SaddlePointSystem:
@@ -130,9 +168,8 @@ class SaddlePointSystem:
             A.assemble(PETSc.Mat.AssemblyType.FLUSH)
             A.setOption(PETSc.Mat.Option.NEW_NONZERO_ALLOCATION_ERR, False)
             _add(A, added, others)
-        if isinstance(self._bulk, CoupledBulk):
-            for conductance in self._bulk.conductances:
-                self._add_conductance(A, conductance, places)
+        for conductance in self._bulk.conductances:
+            self._add_conductance(A, conductance, places)
         A.assemble()
         if springs is not None:
             diagonal = self.x.duplicate()
@@ -154,13 +191,12 @@ class SaddlePointSystem:
             conductance: What flows.
             places: Places of the displacements of all nodes, then of this rank's multipliers.
         """
-        assert isinstance(self._bulk, CoupledBulk)
         bulk, discrete = self._bulk, conductance.contact.discrete
         k = bulk.number_of(conductance.field)
         count = conductance.field.function_space.dofmap.index_map.size_local
-        first = self._layout.bulk()[:1] + self.num_displacements + bulk.fields.first_of(k)
+        first = self._layout.bulk()[:1] + self.num_displacements + bulk.first_of(k)
         dofs = conductance.at_nodes(first + np.arange(count, dtype=np.int64))
-        free = conductance.at_nodes(bulk.all_markers[k].astype(np.int64)) == 0
+        free = conductance.at_nodes(bulk.blocks.markers[k].astype(np.int64)) == 0
         at = self._offsets[1 + self.discrete_contacts.index(discrete)] - self.num_bulk
         all_columns = dofs, places, places[self.num_local + at :]
         derivatives = conductance.derivatives()
@@ -173,14 +209,10 @@ class SaddlePointSystem:
 
     def _bulk_rows(self) -> Rows:
         """Rows of the bulk's Jacobian, which are kept where it does not change."""
-        K = self._bulk.jacobian()
-        if self._rows is None or not self._bulk.is_linear or self._rows[0] != self._bulk.assemblies:
-            rows = (
-                self._bulk.rows_in(self._layout.bulk())
-                if isinstance(self._bulk, CoupledBulk)
-                else self._layout.rows(K)
-            )
-            self._rows = self._bulk.assemblies, rows
+        bulk = self._bulk
+        bulk.update()
+        if self._rows is None or not bulk.is_linear or self._rows[0] != bulk.assemblies:
+            self._rows = bulk.assemblies, bulk.rows_in(self._layout.bulk())
         return self._rows[1]
 
     @property

@@ -20,7 +20,8 @@ type Index = npt.NDArray[np.int64]
 class Unknowns:
     """Functions that are solved for together, one of which has the displacement.
 
-    That is one function with all there is, in a mixed space; or a function a block.
+    That is the displacement alone; one function with all there is, in a mixed space; or a function
+    a block.
 
     Attributes:
         functions: The functions.
@@ -101,8 +102,8 @@ class Unknowns:
         return found
 
 
-def unknowns_of(u: Any, displacement: Any) -> Unknowns | None:
-    """The unknowns of a problem, or None where they are a displacement alone.
+def unknowns_of(u: Any, displacement: Any) -> Unknowns:
+    """The unknowns of a problem.
 
     Args:
         u: A function, or a list of them.
@@ -114,6 +115,9 @@ def unknowns_of(u: Any, displacement: Any) -> Unknowns | None:
         ValueError: If there is no such part, or it is no displacement that contact can act on.
     """
     is_list = isinstance(u, Sequence) and not isinstance(u, str)
+    if displacement is None and not is_list:
+        check_displacement(u)
+        return Unknowns([u], 0, is_mixed=False)
     functions = list(u) if is_list else [u]
     for k, function in enumerate(functions):
         if not isinstance(function, fem.Function):
@@ -123,8 +127,6 @@ def unknowns_of(u: Any, displacement: Any) -> Unknowns | None:
             raise TypeError(
                 f"u holds {np.dtype(function.dtype).name} values, but contactx needs float64"
             )
-    if displacement is None and not is_list:
-        return None
     if isinstance(displacement, bool) or not isinstance(displacement, int | np.integer):
         raise TypeError(
             f"displacement is {described(displacement)}: give the number of the "

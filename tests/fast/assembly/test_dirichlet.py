@@ -40,7 +40,7 @@ def test_prescribed_master_nodes(cell):
     # The same linear system with the final active set, all prescribed values eliminated by hand
     n = len(scene.u.x.array)
     zero = fem.Function(scene.u.function_space)
-    K = sum(fem.assemble_matrix(part).to_dense() for part in problem.assembler.bulk.J)
+    K = sum(fem.assemble_matrix(part).to_dense() for part in problem.assembler.bulk.blocks.J[0][0])
     D = constraint_matrix(contact, n)[closed]
     gap = gap_at(contact, zero)[closed]
     prescribed = problem.assembler.bulk.markers == 1

@@ -139,7 +139,7 @@ def test_the_jacobian_is_the_derivative(method, friction):
         system.unpack(x0 + sign * step * way)
         system.residual(b)
         quotient += sign * b.array / (2 * step)
-    marked = np.concatenate(assembler.bulk.all_markers[1:])[: n_bulk - n]
+    marked = np.concatenate(assembler.bulk.blocks.markers[1:])[: n_bulk - n]
     rows = n + np.flatnonzero(marked == 0)
     scale = np.abs(quotient[rows]).max()
     assert scale > 0.1
