@@ -14,7 +14,7 @@ import ufl
 from contactx import cpp as core
 from contactx._host.bodies import Bodies
 from contactx._host.checks import check_switch, described, is_number
-from contactx._host.discrete_contact import DiscreteContact, Fields
+from contactx._host.discrete_contact import DiscreteContact, Fields, NamedSurface
 from contactx._host.forms import ContactForms
 from contactx._host.nodal_values import ContactValues, NodalValue, check_weight, nodal_weight
 from contactx._host.nodes import node_levels
@@ -123,8 +123,8 @@ class Contact:
                 integrals with it, pressures and tractions still force per true area.
             tangential_factor: Ratio of the tangential complementarity factor to the normal one,
                 which is the stiffness of the cells; with friction only. It changes the iterations,
-                not the solution. Stiff thin bodies that are held by friction alone, such as slabs
-                on soft ground, converge with 0.05 and not with 1.
+                not the solution. Stiff thin bodies that friction alone supports, such as slabs on soft
+                ground, converge with 0.05 and not with 1.
 
         Raises:
             TypeError: If an argument is of another kind.
@@ -516,7 +516,7 @@ class Contact:
         return float(moment[0]) if gdim == 2 else moment
 
 
-def _named(surface: Surface, V: fem.FunctionSpace) -> core.NamedSurface:
+def _named(surface: Surface, V: fem.FunctionSpace) -> NamedSurface:
     """Name and facets of a surface."""
     facets = surface.facet_nodes(V)
     return str(surface), facets.offsets, facets.nodes

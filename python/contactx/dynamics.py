@@ -235,7 +235,8 @@ class ContactDynamics(ContactProblem):
         Returns:
             A number in 2D, positive counter-clockwise; in 3D shape (3,).
         """
-        return self._step.angular_momentum(self._owned_velocity())
+        momentum: float | Array = self._step.angular_momentum(self._owned_velocity())
+        return momentum
 
     def _owned_velocity(self) -> npt.NDArray[np.float64]:
         velocity: npt.NDArray[np.float64] = self.velocity.x.array[: self.assembler.bulk.num_dofs]

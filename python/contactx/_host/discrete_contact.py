@@ -19,6 +19,8 @@ from contactx._host.parallel.halo import Halo
 from dolfinx import cpp, fem
 
 type Array = npt.NDArray[np.float64]
+# Name of a surface, and its facets: offsets and nodes, as in Surface.facet_nodes
+type NamedSurface = tuple[str, npt.NDArray[np.int32], npt.NDArray[np.int32]]
 
 
 class DiscreteContact(core.Contact):
@@ -37,8 +39,8 @@ class DiscreteContact(core.Contact):
     def __init__(
         self,
         contact_mesh: core.ReferenceMesh,
-        slave: core.NamedSurface,
-        master: core.NamedSurface | core.Obstacle,
+        slave: NamedSurface,
+        master: NamedSurface | core.Obstacle,
         halo: Halo,
         *,
         options: core.ContactOptions,

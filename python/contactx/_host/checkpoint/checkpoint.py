@@ -120,9 +120,7 @@ class Checkpoint:
                 arrays[f"surface {k}: master {name}"] = Rows(self._comm, numbers).digest
         return arrays
 
-    def _gather(
-        self, kind: core.RowKind, contact: int, values: npt.NDArray[Any]
-    ) -> npt.NDArray[Any] | None:
+    def _gather(self, kind: str, contact: int, values: npt.NDArray[Any]) -> npt.NDArray[Any] | None:
         if kind == "global":
             return values
         if kind == "slave":
@@ -130,7 +128,7 @@ class Checkpoint:
         return self._u.rows.gather(values[: self._owned])
 
     def _scatter(
-        self, kind: core.RowKind, contact: int, values: npt.NDArray[Any] | None
+        self, kind: str, contact: int, values: npt.NDArray[Any] | None
     ) -> npt.NDArray[Any]:
         if kind == "global":
             same: npt.NDArray[Any] = self._comm.bcast(values)
@@ -168,7 +166,7 @@ def _check_fit(saved: Mapping[str, npt.NDArray[Any]], present: Arrays) -> None:
             )
     for name, array in present.items():
         if name == "mesh: coordinates":
-            # Another machine may round them in another way
+            # Another machine may round them differently
             same = np.allclose(saved[name], array, rtol=0, atol=1e-12 * np.ptp(array))
         elif name.startswith(_INVARIANT_PREFIXES) or name.endswith(": rows"):
             same = np.array_equal(saved[name], array)
