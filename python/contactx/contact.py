@@ -123,8 +123,8 @@ class Contact:
                 integrals with it, pressures and tractions still force per true area.
             tangential_factor: Ratio of the tangential complementarity factor to the normal one,
                 which is the stiffness of the cells; with friction only. It changes the iterations,
-                not the solution. Stiff thin bodies that friction alone supports, such as slabs on soft
-                ground, converge with 0.05 and not with 1.
+                not the solution. Stiff thin bodies that friction alone supports, such as slabs on
+                soft ground, converge with 0.05 and not with 1.
 
         Raises:
             TypeError: If an argument is of another kind.

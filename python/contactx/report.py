@@ -64,7 +64,7 @@ class Iteration:
 
     @classmethod
     def of(cls, found: core.Settled) -> Iteration:
-        """The row of an iterate that was judged.
+        """The row of an iterate that was tested.
 
         Args:
             found: The iterate.
@@ -156,13 +156,13 @@ class Report:
         closed_for_balance: Nodes that were closed since a free body would touch there first.
         slip: Sum over the slave nodes of their slip in this step, a length.
         dissipation: Work of friction in all steps so far.
-        frozen_pairs: Pairs that went back and forth between facets and were frozen.
+        frozen_pairs: Pairs that alternated between facets and were frozen.
         frozen_gap: Smallest gap that a frozen pair hides; a negative one is a penetration.
-        imbalance: Sum of all contact forces on both sides, shape (gdim,): zero but for rounding.
+        imbalance: Sum of all contact forces on both sides, shape (gdim,): zero but for round-off.
         force: Force on the slave side of each contact, a list of arrays of shape (gdim,).
         recovery: By how much the recovered pressures and tractions of each contact change its
             force, relative to the sum of its nodes' forces: zero on plane surfaces but for
-            rounding.
+            round-off.
         skipped: How often results of earlier iterations were used again: assembly of the bulk's
             Jacobian, hierarchies, factorisations, searches.
         audit: Findings of the audit of the converged iterate.

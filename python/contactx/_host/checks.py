@@ -66,7 +66,7 @@ def check_displacement(u: Any) -> None:
         raise ValueError(
             "u is in the function space of a MultiPointConstraint of dolfinx_mpc, which contactx "
             "would leave out: take the space that the constraint was made of. Surfaces are glued "
-            "by cx.Contact(..., tied=True), symmetry planes held by fem.dirichletbc"
+            "by cx.Contact(..., tied=True), symmetry planes constrained by fem.dirichletbc"
         )
 
 

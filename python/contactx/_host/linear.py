@@ -50,7 +50,7 @@ class LinearSolver(ABC):
         """Set how accurate the next solve must be.
 
         Args:
-            loop: The loop, which has judged an iterate.
+            loop: The loop, which has tested an iterate.
         """
 
     def end_step(self, report: Report) -> None:

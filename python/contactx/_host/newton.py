@@ -80,7 +80,7 @@ class NewtonLoop:
         self.error: BaseException | None = None
         # Version of the state that the Jacobian was made for
         self._version = -1
-        # Why the step has failed, and whether no other way may lead to a solution
+        # Why the step has failed, and whether damped steps cannot lead to a solution either
         self._failure, self._is_final = "", False
         self._has_full_steps = False
         # Vectors of the parts of a step that are tried
@@ -137,7 +137,7 @@ class NewtonLoop:
 
     @property
     def damping_may_help(self) -> bool:
-        """True unless no other way leads to a solution, or a line search is the user's own."""
+        """True unless damped steps cannot help either, or a line search is the user's own."""
         return not self._is_final and self._has_full_steps
 
     def take_error(self) -> BaseException | None:

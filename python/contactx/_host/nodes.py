@@ -95,7 +95,7 @@ def node_levels(V: fem.FunctionSpace) -> npt.NDArray[np.int8]:
 def reference_positions(V: fem.FunctionSpace) -> Array:
     """Positions of the nodes of a space of degree 1 or 2, ghosts included, shape (num_nodes, gdim).
 
-    They are the mesh's own to the last bit. What DOLFINx evaluates differs by rounding from cell
+    They are the mesh's own to the last bit. What DOLFINx evaluates differs by round-off from cell
     to cell, and with it which of two facets is the nearer one would depend on the ranks.
     """
     return core.reference_positions(*cells_of(V), _num_nodes(V), geometry_of(V.mesh))

@@ -14,7 +14,7 @@ import numpy as np
 
 from contactx._host import compat
 
-# Relative residual of a linear solve that rounding allows
+# Relative residual below which a linear solve cannot get, for round-off
 ROUNDING = 1e-13
 
 # Dofs of the displacement from which on multigrid is faster than a direct solver, by the
@@ -136,7 +136,7 @@ def product_options() -> SolverOptions:
 def reproducible_options() -> SolverOptions:
     """Options that make solves the same to the last bit.
 
-    PETSc sums several products of vectors in another way where the vectors happen to lie evenly
+    PETSc sums several products of vectors in another order where the vectors happen to lie evenly
     spaced in memory.
     """
     return SolverOptions("", {}, {"vec_mdot_use_gemv": False})
@@ -221,7 +221,7 @@ def block_options(prefix: str, *, is_symmetric: bool, group: int = 1) -> SolverO
     """
     options = {"ksp_type": "preonly", **_direct()}
     if compat.direct_solver() == "mumps":
-        # Iterations correct for what rounding leaves
+        # Iterations correct the round-off
         options["pc_precision"] = "single"
         options["mat_mumps_icntl_14"] = 30
         if group > 1:

@@ -89,7 +89,7 @@ class UFLFunction:
 
     def _compiled_for(self, shape: tuple[int, ...]) -> _Compiled:
         if shape not in self._compiled:
-            # Slave nodes, points of slave facets, and what the audit looks at
+            # Slave nodes, points of slave facets, and points of the audit
             while len(self._compiled) >= _MAX_COMPILED:
                 del self._compiled[next(iter(self._compiled))]
             self._compiled[shape] = self._compile(shape)

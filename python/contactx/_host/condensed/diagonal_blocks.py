@@ -176,7 +176,7 @@ def _sum_of_products(K: PETSc.Mat, S: PETSc.Mat, R: PETSc.Mat) -> PETSc.Mat:
 
 
 def _is_transposed(L: PETSc.Mat, R: PETSc.Mat) -> bool:
-    """Whether L = R^T but for rounding, or both are empty; the same on all ranks."""
+    """Whether L = R^T but for round-off, or both are empty; the same on all ranks."""
     if not (_has_entries(L) or _has_entries(R)):
         return True
     size = max(L.norm(), R.norm())

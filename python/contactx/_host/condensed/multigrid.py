@@ -274,7 +274,7 @@ def near_null_space(x: Array, prescribed: npt.NDArray[np.bool_], comm: MPI.Comm)
     Returns:
         Three modes in 2D, six in 3D.
     """
-    # About the origin of a far body rotations are all but translations, and lost in rounding
+    # About the origin of a far body rotations are all but translations, and lost in round-off
     middle = reduce.total(comm, x.sum(axis=0)) / reduce.total(comm, len(x))
     nodes = PETSc.Vec().createWithArray((x - middle).ravel(), bsize=x.shape[1], comm=comm)
     # PETSc lets nobody change its own
