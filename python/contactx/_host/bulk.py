@@ -282,7 +282,8 @@ class Bulk:
         matrices = self.blocks.matrices or [[self.copy()]]
         blocks = [[K.getValuesCSR() for K in row] for row in matrices]
         values = np.concatenate([v for row in blocks for _, _, v in row])
-        if self._order is None or len(self._order[2]) != len(values):
+        if self._order is None:
+            # The forms, and with them the pattern, stay the same
             self._order = self._ordered(blocks, own)
         order, offsets, columns = self._order
         return offsets, columns, values if order is None else values[order]
