@@ -46,7 +46,7 @@ PYTEST := exec $(RUN) $(BIN)/python -m pytest
 
 .DELETE_ON_ERROR:
 .PHONY: all demo test test-cpp test-fast gate verify gallery stress record figures leaks fuzz sanitize bench bench-core \
-	wheel distribution docs demo-pages lint format clean help
+	wheel distribution docs demo-pages lint stubs format clean help
 
 all: $(INSTALLED)
 
@@ -70,6 +70,7 @@ help:
 	@echo "make wheel    an sdist and a wheel, which runs the quick start in an empty environment"
 	@echo "make distribution  install contactx beside Debian sid's DOLFINx and test it there; root"
 	@echo "make lint     check format, style and types"
+	@echo "make stubs    write python/contactx/cpp.pyi, the types of the bindings"
 	@echo "make format   format C++ and Python"
 	@echo "make clean    remove everything that make made"
 	@echo "make PYTHON=/path/to/python  use this Python (>= 3.12)"
@@ -267,6 +268,10 @@ lint: $(TESTER)
 	$(BIN)/ruff check $(PY_FOLDERS)
 	$(BIN)/ruff format --check $(PY_FOLDERS)
 	$(BIN)/python -m mypy
+
+# Types of the bindings, as the installed extension has them
+stubs: $(TESTABLE)
+	$(RUN) $(BIN)/python tools/stubs.py
 
 format: $(TESTER)
 	$(BIN)/clang-format -i $(CPP_FILES)

@@ -129,7 +129,7 @@ class Clip:
     @property
     def penetration(self) -> float:
         """Largest depth of a node behind the surface that it meets, of both sides."""
-        gap = self.contact.interface.nodes.gap
+        gap = self.contact.discrete.nodes.gap
         own = max(0.0, -np.nanmin(gap, initial=0.0))
         comm = self.u.function_space.mesh.comm
         return max(comm.allreduce(own, MPI.MAX), self.problem.report.audit.depth)

@@ -83,7 +83,7 @@ def laws(dam: Dam) -> Laws:
     known = np.zeros(halo.positions().size)
     for contact in dam.problem.contacts:
         if contact.active:
-            contact.interface.add_residual(known)
+            contact.discrete.add_residual(known)
     forces = -halo.scatter_reverse(known.reshape(-1, 3))
     loads = dam.loads_on_nodes()
     balance = 0.0

@@ -192,7 +192,7 @@ class Fold:
     def _closed(self) -> npt.NDArray[np.int32]:
         """Slave nodes in contact on this rank."""
         nodes: npt.NDArray[np.int32] = self.contact.slave_nodes
-        return nodes[self.contact.interface.nodes.closed]
+        return nodes[self.contact.discrete.nodes.closed]
 
     def _positions(self) -> Array:
         """Where all nodes of this rank are, shape (n, 2)."""

@@ -85,7 +85,7 @@ def in_order(function: fem.Function) -> np.ndarray:
 
 def shares(problem: cx.ContactProblem) -> None:
     """Print what each rank has."""
-    contact, halo = problem.contacts[0], problem.contacts[0].interface.halo
+    contact, halo = problem.contacts[0], problem.contacts[0].discrete.halo
     rank = {
         "rank": halo.comm.rank,
         "cells": problem.u.function_space.mesh.topology.index_map(3).size_local,
@@ -93,7 +93,7 @@ def shares(problem: cx.ContactProblem) -> None:
         "ghosts": halo.num_bulk - halo.num_owned,
         "contact halo": halo.num_nodes - halo.num_bulk,
         "slave nodes": len(contact.slave_nodes),
-        "pairs": int(contact.interface.master.paired.sum()),
+        "pairs": int(contact.discrete.master.paired.sum()),
     }
     rows = halo.comm.gather(rank) or []
     table = Table(*rank, title="Who has what")

@@ -203,10 +203,10 @@ class Box:
         """Largest force on a disc that nothing balances."""
         b = fem.assemble_vector(fem.form(self._F))
         b.scatter_reverse(la.InsertMode.add)
-        halo = self.discs.interface.halo
+        halo = self.discs.discrete.halo
         forces = np.zeros((halo.num_nodes, 2))
         for contact in (self.discs, *self.walls):
-            contact.interface.add_residual(forces.ravel())
+            contact.discrete.add_residual(forces.ravel())
         owned = halo.num_owned
         total = b.array.reshape(-1, 2)[:owned] + halo.scatter_reverse(forces)[:owned]
         # Nodes are numbered disc by disc
@@ -242,7 +242,7 @@ def main(argv: Sequence[str] | None = None) -> list[story.Result]:
         box.settle()
     carried, each = box.carried(), box.weight / (ROWS * COLUMNS)
     results = [story.Result("force of the box on the discs", box.weight, carried)]
-    closed = int(box.discs.interface.nodes.closed.sum())
+    closed = int(box.discs.discrete.nodes.closed.sum())
     story.console.print(
         f"at rest after {box.steps} steps, {closed} nodes in contact with other discs; the box "
         f"carries their weight but for {abs(carried / box.weight - 1):.1e} of it; of the weight of "

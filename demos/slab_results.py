@@ -134,7 +134,7 @@ def profile(scene: Scene, stress: Array) -> dict[str, tuple[Array, Array]]:
     contact = scene.joints[middle_joint(scene) - 1]
     left, _ = faces_of_joint(scene, scene.section())
     multiplier = np.zeros(len(scene.x))
-    multiplier[contact.slave_nodes] = contact.interface.nodes.pressure
+    multiplier[contact.slave_nodes] = contact.discrete.nodes.pressure
     height = scene.x[left, 2]
     return {
         "multiplier": (multiplier[left], height),
@@ -202,7 +202,7 @@ def nodal_forces(scene: Scene, contacts: Sequence[cx.Contact]) -> Array:
     """Contact forces on all nodes along dam, slope and normal, MN, shape (num_nodes, 3)."""
     forces = np.zeros(len(scene.u.x.array))
     for contact in contacts:
-        contact.interface.add_residual(forces)
+        contact.discrete.add_residual(forces)
     return -forces.reshape(-1, 3)[:, list(scene.setting.axes)]
 
 
@@ -211,7 +211,7 @@ def friction_excess(contact: cx.Contact, mu: float) -> tuple[float, float]:
 
     Coulomb's law is one of the raw multipliers; without friction the excess is minus infinity.
     """
-    p, traction = contact.interface.nodes.pressure, contact.multiplier
+    p, traction = contact.discrete.nodes.pressure, contact.multiplier
     excess = -np.inf
     if traction.ndim == 2:
         shear = np.sqrt(np.maximum(np.sum(traction**2, axis=1) - p**2, 0))

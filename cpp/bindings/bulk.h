@@ -20,7 +20,7 @@ std::span<const T> keep(Array<T>& kept, const py::object& values)
 }
 
 /// What a bulk of Python has for unknowns beside displacements: see
-/// python/contactx/coupled.py.
+/// python/contactx/_host/bulk_host.py.
 class PythonFields final : public contactx::solve::Fields
 {
 public:
@@ -74,7 +74,7 @@ private:
 };
 
 /// Bulk that an object of Python looks after: see
-/// python/contactx/bulk_side.py. The object is kept alive.
+/// python/contactx/_host/bulk_host.py. The object is kept alive.
 class PythonBulk final : public contactx::solve::Bulk
 {
 public:

@@ -16,7 +16,7 @@ using contactx::solve::System;
 namespace
 {
 /// Masses that an object of Python looks after: see
-/// python/contactx/dynamics/inertia.py. The object is kept alive.
+/// python/contactx/dynamics.py. The object is kept alive.
 class PythonInertia final : public Inertia
 {
 public:

@@ -9,7 +9,7 @@
 namespace contactx_bindings
 {
 /// @brief Halo whose adapter is an object of Python, with the methods that
-/// contactx/parallel/adapter.py describes. The object is kept alive.
+/// contactx/_host/parallel/mpi_host.py describes. The object is kept alive.
 class PythonNodes final : public contactx::mesh::Halo
 {
 public:

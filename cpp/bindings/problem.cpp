@@ -17,8 +17,8 @@ using contactx::solve::System;
 
 namespace
 {
-/// Values that an object of Python has: see python/contactx/nodal.py. The
-/// object is kept alive.
+/// Values that an object of Python has: see
+/// python/contactx/_host/nodal_values.py. The object is kept alive.
 class PythonValues final : public Values
 {
 public:

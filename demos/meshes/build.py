@@ -12,7 +12,7 @@ from mpi4py import MPI
 
 import numpy as np
 
-from contactx.parallel.agreement import agreed
+from contactx._host.parallel.reduce import agreed
 from dolfinx.io.gmsh import MeshData, extract_geometry, model_to_mesh
 
 from meshes.gmsh_session import gmsh_session

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from contactx.arguments import described, is_number
+from contactx._host.checks import described, is_number
 from dolfinx.mesh import CellType
 
 _DIMENSIONS = {

@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from contactx.arguments import described, is_number
-from contactx.parallel.reduce import total
+from contactx._host.checks import described, is_number
+from contactx._host.parallel.reduce import total
 from dolfinx import fem
 
 

@@ -14,8 +14,8 @@ from mpi4py import MPI
 import numpy as np
 import numpy.typing as npt
 
-from contactx.files import check_path
-from contactx.parallel.agreement import agreed
+from contactx._host.files import check_path
+from contactx._host.parallel.reduce import agreed
 
 from plot.checks import check_curves, check_increasing, check_labels, check_numbers
 from plot.style import COLOURS, DOTS_PER_INCH, INK, import_plotter

@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from contactx.files import check_path
-from contactx.parallel.agreement import agreed
+from contactx._host.files import check_path
+from contactx._host.parallel.reduce import agreed
 from dolfinx import fem
 
 from plot.checks import check_functions, check_increasing, check_numbers

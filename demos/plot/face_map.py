@@ -13,8 +13,8 @@ from mpi4py import MPI
 import numpy as np
 import numpy.typing as npt
 
-from contactx.files import check_path
-from contactx.parallel.agreement import agreed
+from contactx._host.files import check_path
+from contactx._host.parallel.reduce import agreed
 
 from plot.checks import check_labels
 from plot.style import DOTS_PER_INCH, INK, colour_map, import_plotter, is_signed

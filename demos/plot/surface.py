@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from contactx.parallel.agreement import agreed
+from contactx._host.parallel.reduce import agreed
 from dolfinx import fem
 from dolfinx.plot import vtk_mesh
 

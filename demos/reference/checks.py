@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import math
 
-from contactx.arguments import described, is_number
+from contactx._host.checks import described, is_number
 
 
 def check_positive(**values: float) -> None:

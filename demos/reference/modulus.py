@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import math
 
-from contactx.arguments import described, is_number
+from contactx._host.checks import described, is_number
 
 
 def contact_modulus(young_1: float, nu_1: float, young_2: float, nu_2: float) -> float:

@@ -9,21 +9,20 @@ back where one fails. ``VTKOutput`` writes the results. Import contactx before d
 """
 
 # First, because it loads the wheels' MPI and PETSc before DOLFINx
-from contactx import compat as compat  # isort: skip
+from contactx._host import compat as compat  # isort: skip
 
 from contactx.assembler import ContactAssembler
 from contactx.conductance import Conductance
 from contactx.contact import Contact
 from contactx.dynamics import ContactDynamics
 from contactx.errors import ConvergenceError
-from contactx.friction import FrictionLaw
+from contactx.laws import FrictionLaw
 from contactx.obstacles import Cylinder, LevelSet, Plane, Sphere
-from contactx.output import VTKOutput
+from contactx.output import CSVOutput, VTKOutput
 from contactx.problem import ContactProblem
 from contactx.report import Report
 from contactx.steps import LoadSteps
 from contactx.surface import Surface
-from contactx.totals import CSVOutput
 
 __all__ = [
     "CSVOutput",

@@ -15,35 +15,34 @@ from petsc4py import PETSc
 import numpy as np
 
 import ufl
-from contactx import compat
 from contactx import cpp as core
-from contactx.arguments import is_number
-from contactx.bodies import Bodies
-from contactx.bulk import Bulk
-from contactx.bulk_input import (
+from contactx._host import compat
+from contactx._host.bodies import Bodies
+from contactx._host.bulk import Bulk
+from contactx._host.callbacks import weakly
+from contactx._host.checkpoint.snapshot import FunctionValues, Snapshot
+from contactx._host.checks import (
     as_blocks,
     check_compiler_options,
     check_conditions,
     check_coupled_forms,
-    check_displacement,
     check_finite,
     check_forms,
     have_changed,
+    is_number,
 )
+from contactx._host.linear import Condensed, SaddlePoint
+from contactx._host.newton import NewtonLoop
+from contactx._host.nodal_values import is_axisymmetric
+from contactx._host.nodes import check_cells, reference_positions
+from contactx._host.parallel.halo import Halo
+from contactx._host.parallel.reduce import agreed
+from contactx._host.system import SaddlePointSystem
+from contactx._host.unknowns import unknowns_of
 from contactx.conductance import Conductance, check_conductances
 from contactx.contact import Contact, check_contacts
-from contactx.coupled import CoupledBulk
 from contactx.errors import ConvergenceError, NotFiniteError
-from contactx.linear import Condensed
-from contactx.newton import NewtonLoop
-from contactx.parallel.agreement import agreed
-from contactx.parallel.halo import Halo
-from contactx.refined import check_cells, reference_positions
 from contactx.report import Iteration, Report
-from contactx.state import FunctionValues
-from contactx.system import SaddlePointSystem
-from contactx.unknowns import unknowns_of
-from contactx.weight import is_axisymmetric
 from dolfinx import fem, la
 
 
@@ -115,13 +114,11 @@ class ContactAssembler:
         """
         compat.require_real_double()
         unknowns = unknowns_of(u, displacement)
-        functions: list[fem.Function] = [u] if unknowns is None else unknowns.functions
-        if unknowns is None:
-            check_displacement(u)
-            check_forms(F, J, u)
+        functions, field = unknowns.functions, unknowns.u
+        if displacement is None:
+            check_forms(F, J, field)
         else:
             check_coupled_forms(F, J, functions, is_list=isinstance(u, Sequence))
-        field: fem.Function = u if unknowns is None else unknowns.u
         check_conditions(bcs, functions)
         check_compiler_options(form_compiler_options, jit_options)
         check_contacts(contacts)
@@ -142,24 +139,21 @@ class ContactAssembler:
         self._bcs: Sequence[fem.DirichletBC] = [] if bcs is None else bcs
         options = form_compiler_options, jit_options
         residuals, jacobians = as_blocks(F, J)
-        self.bulk = (
-            Bulk(residuals[0], field, bcs or [], jacobians and jacobians[0][0], *options)
-            if unknowns is None
-            else CoupledBulk(residuals, jacobians, unknowns, bcs or [], *options)
-        )
+        self.bulk = Bulk(residuals, jacobians, unknowns, bcs or [], *options)
         self.halo = Halo(field, X.array.reshape(-1, gdim))
         self._comm = self.halo.comm
         self.bodies = Bodies(V, self.halo)
-        self.interfaces = []
+        self.discrete_contacts = []
         try:
             for contact in self.contacts:
-                self.interfaces.append(contact.attach(self.halo, self.bulk.markers, self.bodies))
+                self.discrete_contacts.append(
+                    contact.attach(self.halo, self.bulk.markers, self.bodies)
+                )
             check_cells(V.mesh, self.halo.nodes)
             for conductance in self.conductances:
                 conductance.check()
-            if isinstance(self.bulk, CoupledBulk):
-                self.bulk.follow(self.conductances)
-            self.system = SaddlePointSystem(self.bulk, self.interfaces, self.halo)
+            self.bulk.follow(self.conductances)
+            self.system = SaddlePointSystem(self.bulk, self.discrete_contacts, self.halo)
             names = (f"contact {k} ({contact})" for k, contact in enumerate(self.contacts))
             parts = [
                 (name, contact.values, contact.fields.results)
@@ -168,10 +162,10 @@ class ContactAssembler:
             refuses = audit == "refuse"
             self.core = core.Problem(self.system.core, self.bodies, parts, refuses=refuses)
         except BaseException:
-            for contact in self.contacts[: len(self.interfaces)]:
+            for contact in self.contacts[: len(self.discrete_contacts)]:
                 contact.detach()
             raise
-        self._warn_of_weights(residuals[unknowns.index if unknowns else 0])
+        self._warn_of_weights(residuals[unknowns.index])
         self.loop = self.core.loop
         self._before: FunctionValues | None = None
         self._skipped = 0
@@ -208,8 +202,27 @@ class ContactAssembler:
             condensed: Whether its preconditioner is contactx's condensed solver, which is exact.
         """
         self._check_condensed(condensed)
-        self._attached = NewtonLoop(self, snes, condensed=condensed)
-        self.solvers.append(self._attached)
+        self._attached = self.newton_loop(snes, condensed=condensed)
+
+    def newton_loop(self, snes: PETSc.SNES, *, condensed: bool) -> NewtonLoop:
+        """Set the callbacks of a SNES; ``attach`` calls this.
+
+        Args:
+            snes: The solver.
+            condensed: Whether its preconditioner is contactx's condensed solver.
+
+        Returns:
+            The loop that runs in it.
+        """
+        prefix = snes.getOptionsPrefix() or ""
+        linear = (
+            Condensed(self.bulk, self.system, self.bodies, prefix)
+            if condensed
+            else SaddlePoint(self.system)
+        )
+        loop = NewtonLoop(snes, linear, self.system, self.core, weakly(self.check))
+        self.solvers.append(loop)
+        return loop
 
     @property
     def x(self) -> PETSc.Vec:
@@ -246,14 +259,30 @@ class ContactAssembler:
         self.core.prepare()
         for function in self.functions:
             check_finite(self._comm, the_start_of_the_solve_is=function.x)
-        self._before = FunctionValues(self)
+        self._before = self._function_values()
+
+    def _function_values(self, history: Sequence[fem.Function] = ()) -> FunctionValues:
+        """Copy the functions, and further ones that belong to the state."""
+        fields = [contact.fields for contact in self.contacts]
+        return FunctionValues([self.u, *self.functions, *history], fields)
+
+    def snapshot(self, history: Sequence[fem.Function] = ()) -> Snapshot:
+        """Copy the state.
+
+        Args:
+            history: Further functions that belong to it.
+
+        Returns:
+            The copy; its ``restore()`` brings the state back.
+        """
+        return Snapshot(self.core, self._function_values(history))
 
     def _take_conditions(self) -> None:
         """Take the Dirichlet conditions that the user's list has now."""
         check_conditions(self._bcs, self.functions)
         self.bulk.set_conditions(self._bcs)
-        for interface in self.interfaces:
-            interface.set_prescribed(self.bulk.markers)
+        for discrete in self.discrete_contacts:
+            discrete.set_prescribed(self.bulk.markers)
         for solver in self.solvers:
             solver.reset()
 
@@ -279,7 +308,7 @@ class ContactAssembler:
         self.system.pack()
 
     def settle(self, rtol: float = 1e-11, atol: float = 0.0, max_it: int = 50) -> core.Settled:
-        """Update pairs and active set at an accepted iterate, and judge its residual.
+        """Update pairs and active set at an accepted iterate, and test its residual.
 
         The iterate may change a little: where iterates cycle, part of the last step is taken back,
         and the drift of free bodies is subtracted.
@@ -305,7 +334,7 @@ class ContactAssembler:
             raise ConvergenceError(found.failure, self.report)
         return found
 
-    def judge(self, rtol: float, atol: float) -> core.Settled:
+    def check(self, rtol: float, atol: float) -> core.Settled:
         """Do the same as ``settle`` without raising an error, for SNES.
 
         Args:
@@ -319,7 +348,7 @@ class ContactAssembler:
         return self._settled(self.core.judge(rtol, atol, self.system.b.array))
 
     def _settled(self, found: core.Settled) -> core.Settled:
-        """Take note of an iterate that was judged, which may have been taken back."""
+        """Take note of an iterate that was tested, which may have been taken back."""
         self.system.pack()
         self.report.history.append(Iteration.of(found))
         self.report.take(self.core.report)
@@ -421,7 +450,7 @@ class ContactAssembler:
         self._condensed.hand_to(ksp)
 
     def _check_condensed(self, condensed: bool) -> None:
-        if condensed and self.bulk.fields is not None:
+        if condensed and self.bulk.fields:
             raise ValueError(
                 "the condensed solver is for a displacement alone: leave condensed out where other "
                 "fields are solved for with it"

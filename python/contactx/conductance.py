@@ -14,11 +14,11 @@ import numpy.typing as npt
 
 import basix.ufl
 from contactx import cpp as core
-from contactx.arguments import described, is_number
+from contactx._host.checks import described, is_number
+from contactx._host.nodal_values import matching_nodes
+from contactx._host.nodes import degree_of
 from contactx.contact import Contact
-from contactx.nodal import matching_nodes
 from contactx.obstacles import Obstacle
-from contactx.refined import degree_of
 from dolfinx import fem
 
 type Array = npt.NDArray[np.float64]
@@ -102,7 +102,7 @@ class Conductance:
         """
         if self._nodes is not None:
             return
-        V = self.contact.interface.halo.adapter.space
+        V = self.contact.discrete.halo.host.space
         Q = self.field.function_space
         element, degree = Q.ufl_element(), degree_of(V)
         fits = (
@@ -184,7 +184,7 @@ class Conductance:
 
     @property
     def _halo(self) -> Any:
-        return self.contact.interface.halo
+        return self.contact.discrete.halo
 
     def at_nodes(self, values: npt.NDArray[Any]) -> npt.NDArray[Any]:
         """Values of the field's owned dofs at all nodes; all ranks must take part.
@@ -223,7 +223,7 @@ class Conductance:
         """The core's, with the coefficient and the obstacle's value of now."""
         self.check()
         return core.Conductance(
-            self.contact.interface,
+            self.contact.discrete,
             self.contact.fields.results,
             core.Coefficient(self.coefficient),
             self._obstacle_value,

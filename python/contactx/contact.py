@@ -12,21 +12,18 @@ import numpy.typing as npt
 
 import ufl
 from contactx import cpp as core
-from contactx.arguments import check_switch, described, is_number
-from contactx.bodies import Bodies
-from contactx.fields import Fields
-from contactx.forms import ContactForms
-from contactx.friction import FrictionLaw
-from contactx.geometry.curved import check_straight
-from contactx.interface import Interface
-from contactx.nodal import ContactValues, NodalValue
+from contactx._host.bodies import Bodies
+from contactx._host.checks import check_switch, described, is_number
+from contactx._host.discrete_contact import DiscreteContact, Fields, NamedSurface
+from contactx._host.forms import ContactForms
+from contactx._host.nodal_values import ContactValues, NodalValue, check_weight, nodal_weight
+from contactx._host.nodes import node_levels
+from contactx._host.parallel import reduce
+from contactx._host.parallel.halo import Halo
+from contactx._host.parallel.reduce import agreed
+from contactx.laws import FrictionLaw
 from contactx.obstacles import Obstacle
-from contactx.parallel import reduce
-from contactx.parallel.agreement import agreed
-from contactx.parallel.halo import Halo
-from contactx.refined import node_levels
-from contactx.surface import Surface
-from contactx.weight import check_weight, nodal_weight
+from contactx.surface import Surface, check_straight
 from dolfinx import fem, mesh
 
 _OPTIONS = (
@@ -126,8 +123,8 @@ class Contact:
                 integrals with it, pressures and tractions still force per true area.
             tangential_factor: Ratio of the tangential complementarity factor to the normal one,
                 which is the stiffness of the cells; with friction only. It changes the iterations,
-                not the solution. Stiff thin bodies that are held by friction alone, such as slabs
-                on soft ground, converge with 0.05 and not with 1.
+                not the solution. Stiff thin bodies that friction alone supports, such as slabs on
+                soft ground, converge with 0.05 and not with 1.
 
         Raises:
             TypeError: If an argument is of another kind.
@@ -163,7 +160,7 @@ class Contact:
         self.friction = friction
         self.tied = bool(tied)
         self._core_options().check(is_self=self.is_self)
-        self._interface: Interface | None = None
+        self._discrete: DiscreteContact | None = None
         self._values: ContactValues | None = None
         self._fields: Fields | None = None
 
@@ -171,7 +168,7 @@ class Contact:
         """Refuse names that do not exist, and options that have been read already."""
         if "_fields" in vars(self) and not (name in vars(self) or hasattr(type(self), name)):
             raise AttributeError(f"a Contact has no {name!r}: check the spelling")
-        if name in _OPTIONS and vars(self).get("_interface") is not None:
+        if name in _OPTIONS and vars(self).get("_discrete") is not None:
             raise AttributeError(
                 f"{name} cannot be replaced once the contact belongs to a ContactProblem: give "
                 "friction and offset as a fem.Constant or fem.Function and change its value"
@@ -217,8 +214,8 @@ class Contact:
         surface = _joined(where, more)
         return cls(surface, surface, **options)
 
-    def attach(self, halo: Halo, markers: npt.NDArray[np.int8], bodies: Bodies) -> Interface:
-        """Make the contact's discrete side; ContactProblem calls this.
+    def attach(self, halo: Halo, markers: npt.NDArray[np.int8], bodies: Bodies) -> DiscreteContact:
+        """Make the discrete contact; ContactProblem calls this.
 
         Args:
             halo: Nodes of this rank.
@@ -226,12 +223,12 @@ class Contact:
             bodies: Bodies of the mesh.
 
         Returns:
-            The discrete side.
+            The discrete contact.
 
         Raises:
             RuntimeError: If the contact belongs to a problem already.
         """
-        if self._interface is not None:
+        if self._discrete is not None:
             raise RuntimeError(
                 f"{self} belongs to a ContactProblem already: create one Contact a problem"
             )
@@ -246,7 +243,7 @@ class Contact:
             ).__getitem__
         slave = _named(self.slave, V)
         master = _named(self.master, V) if isinstance(self.master, Surface) else self.master
-        interface = Interface(
+        discrete = DiscreteContact(
             core.ReferenceMesh(halo.nodes, bodies, bodies.linear_cells),
             slave,
             master,
@@ -258,15 +255,15 @@ class Contact:
             markers=markers,
         )
         with agreed(halo.comm):
-            nodes = interface.slaves
+            nodes = discrete.slaves
             is_law = isinstance(self.friction, FrictionLaw)
             takes = self._has_friction and not is_law
             friction = NodalValue(self.friction, "friction", V, nodes) if takes else None
             offset = NodalValue(self.offset, "offset", V, nodes)
             self._values = ContactValues(friction, offset, len(nodes))
-        self._fields = Fields(interface, V)
-        self._interface = interface
-        return interface
+        self._fields = Fields(discrete, V)
+        self._discrete = discrete
+        return discrete
 
     def _core_options(self) -> core.ContactOptions:
         """The options as the core has them."""
@@ -306,28 +303,28 @@ class Contact:
 
     def detach(self) -> None:
         """Free the contact for another problem; ContactProblem calls this if it is refused."""
-        self._interface = self._values = self._fields = None
+        self._discrete = self._values = self._fields = None
 
     @property
     def active(self) -> bool:
         """True if the contact is switched on; may be set between steps."""
-        return self.interface.active
+        return self.discrete.active
 
     @active.setter
     def active(self, active: bool) -> None:
         check_switch("active", active)
-        self.interface.active = bool(active)
+        self.discrete.active = bool(active)
 
     @property
-    def interface(self) -> Interface:
-        """Discrete side of the contact, for a Newton loop of your own.
+    def discrete(self) -> DiscreteContact:
+        """The discrete contact, for a Newton loop of your own.
 
         Raises:
             RuntimeError: If the contact belongs to no problem yet.
         """
-        if self._interface is None:
+        if self._discrete is None:
             raise RuntimeError(f"{self} has no results yet: pass it to a ContactProblem first")
-        return self._interface
+        return self._discrete
 
     @property
     def fields(self) -> Fields:
@@ -346,12 +343,12 @@ class Contact:
 
         They read the state as it is now: ask anew where it has changed since.
         """
-        return self.interface.forms
+        return self.discrete.forms
 
     @property
     def slave_nodes(self) -> npt.NDArray[np.int32]:
         """Slave nodes of this rank, as the blocks of the displacement's dofmap, shape (n,)."""
-        return self.interface.slaves
+        return self.discrete.slaves
 
     @property
     def area(self) -> npt.NDArray[np.float64]:
@@ -359,7 +356,7 @@ class Contact:
 
         The integral of its shape function with the contact's weight.
         """
-        return self.interface.nodes.area
+        return self.discrete.nodes.area
 
     @property
     def multiplier(self) -> npt.NDArray[np.float64]:
@@ -369,7 +366,7 @@ class Contact:
         master exerts on it, shape (n, gdim). The contact laws and equilibrium hold for it; it
         scatters more than ``pressure`` and ``traction``.
         """
-        nodes = self.interface.nodes
+        nodes = self.discrete.nodes
         return nodes.multiplier if nodes.size == 1 else nodes.multiplier.reshape(-1, nodes.size)
 
     @property
@@ -519,7 +516,7 @@ class Contact:
         return float(moment[0]) if gdim == 2 else moment
 
 
-def _named(surface: Surface, V: fem.FunctionSpace) -> core.NamedSurface:
+def _named(surface: Surface, V: fem.FunctionSpace) -> NamedSurface:
     """Name and facets of a surface."""
     facets = surface.facet_nodes(V)
     return str(surface), facets.offsets, facets.nodes

@@ -12,15 +12,14 @@ from petsc4py import PETSc
 
 import ufl
 from contactx import cpp as core
+from contactx._host.callbacks import Interrupts
+from contactx._host.checkpoint.snapshot import Snapshot
+from contactx._host.options import check_petsc_options, is_condensed, newton_options
 from contactx.assembler import ContactAssembler
 from contactx.conductance import Conductance
 from contactx.contact import Contact
 from contactx.errors import ConvergenceError, NotFiniteError
-from contactx.interrupts import Interrupts
-from contactx.newton import NewtonLoop
-from contactx.options import check_petsc_options, is_condensed, newton_options
 from contactx.report import Report
-from contactx.state import Snapshot
 from dolfinx import fem
 
 
@@ -120,7 +119,7 @@ class ContactProblem:
         self.displacement = self.assembler.u
         dofs = self.displacement.x.index_map.size_global * system.block
         condensed = is_condensed(options, dofs, system.block, has_friction=system.has_friction)
-        if self.assembler.bulk.fields is not None:
+        if self.assembler.bulk.fields:
             if condensed and "pc_type" in options:
                 raise ValueError(
                     "petsc_options['pc_type'] is 'condensed', which is for a displacement alone: "
@@ -130,8 +129,7 @@ class ContactProblem:
         self._options = newton_options(petsc_options_prefix, options, condensed=condensed)
         snes = PETSc.SNES().create(system.x.comm)
         snes.setOptionsPrefix(petsc_options_prefix)
-        self._newton = NewtonLoop(self.assembler, snes, condensed=condensed)
-        self.assembler.solvers.append(self._newton)
+        self._newton = self.assembler.newton_loop(snes, condensed=condensed)
         self._read_options = False
 
     @property
@@ -159,7 +157,7 @@ class ContactProblem:
         Returns:
             The copy; its ``restore()`` brings the state back.
         """
-        return Snapshot(self.assembler, history)
+        return self.assembler.snapshot(history)
 
     @property
     def beside(self) -> list[fem.Function]:

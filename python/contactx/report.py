@@ -64,7 +64,7 @@ class Iteration:
 
     @classmethod
     def of(cls, found: core.Settled) -> Iteration:
-        """The row of an iterate that was judged.
+        """The row of an iterate that was tested.
 
         Args:
             found: The iterate.
@@ -145,7 +145,8 @@ class Report:
         krylov: Iterations of the condensed solver.
         hierarchies: Multigrid hierarchies made for it.
         factorisations: Factorisations, of the blocks of bodies or of systems not condensed.
-        by_bodies: Why condensed solves were by bodies, without multigrid; an entry for each solve.
+        by_bodies: Why condensed solves had blocks of soft and stiff bodies in place of multigrid;
+            an entry for each solve.
         uncondensed: Why solves were not condensed; an entry for each solve.
         soft: Linear solves on the path from soft to hard contact.
         limited: Newton steps that were shortened so as not to turn a cell inside out.
@@ -155,13 +156,13 @@ class Report:
         closed_for_balance: Nodes that were closed since a free body would touch there first.
         slip: Sum over the slave nodes of their slip in this step, a length.
         dissipation: Work of friction in all steps so far.
-        frozen_pairs: Pairs that went back and forth between facets and were frozen.
+        frozen_pairs: Pairs that alternated between facets and were frozen.
         frozen_gap: Smallest gap that a frozen pair hides; a negative one is a penetration.
-        imbalance: Sum of all contact forces on both sides, shape (gdim,): zero but for rounding.
+        imbalance: Sum of all contact forces on both sides, shape (gdim,): zero but for round-off.
         force: Force on the slave side of each contact, a list of arrays of shape (gdim,).
         recovery: By how much the recovered pressures and tractions of each contact change its
             force, relative to the sum of its nodes' forces: zero on plane surfaces but for
-            rounding.
+            round-off.
         skipped: How often results of earlier iterations were used again: assembly of the bulk's
             Jacobian, hierarchies, factorisations, searches.
         audit: Findings of the audit of the converged iterate.
@@ -282,9 +283,8 @@ class Report:
                 f"{_counted(self.factorisations, 'factorisation')}"
             )
         for reason in sorted(set(self.by_bodies)):
-            lines.append(
-                f"solved by bodies {_counted(self.by_bodies.count(reason), 'time')}: {reason}"
-            )
+            count = _counted(self.by_bodies.count(reason), "time")
+            lines.append(f"solved with blocks of bodies {count}: {reason}")
         for reason in sorted(set(self.uncondensed)):
             lines.append(
                 f"solved directly {_counted(self.uncondensed.count(reason), 'time')}: {reason}"

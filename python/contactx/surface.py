@@ -13,10 +13,11 @@ from mpi4py import MPI
 import numpy as np
 import numpy.typing as npt
 
+import basix
 from contactx import cpp as core
-from contactx.parallel.agreement import agreed
-from contactx.parallel.reduce import anywhere, total
-from contactx.refined import cells_of, geometry_of
+from contactx._host.nodes import cells_of, geometry_of
+from contactx._host.parallel.halo import Halo
+from contactx._host.parallel.reduce import agreed, anywhere, total
 from dolfinx import cpp, fem, mesh
 from dolfinx.mesh import CellType
 
@@ -198,3 +199,36 @@ class Surface:
         facets_of_cell = topology.connectivity(tdim, tdim - 1).array.reshape(-1, per_cell)
         local = np.argmax(facets_of_cell[cells] == facets[:, None], axis=1)
         return cells, local.astype(np.int32)
+
+
+def check_straight(name: str, surface: Surface, V: fem.FunctionSpace, halo: Halo) -> None:
+    """Check that a contact surface is as the displacement has it; all ranks must take part.
+
+    See ``mesh/straight.h``.
+
+    Args:
+        name: What it is to the contact.
+        surface: The surface.
+        V: Space of the displacement.
+        halo: Nodes on this rank.
+
+    Raises:
+        ValueError: If it is curved on any rank, on all ranks; as ``Surface.facet_nodes`` does.
+    """
+    cmap = V.mesh.geometry.cmaps[0]
+    if cmap.degree == 1:
+        return
+    points = basix.create_element(
+        basix.ElementFamily.P,
+        basix.CellType[V.mesh.topology.cell_type.name],
+        cmap.degree,
+        basix.LagrangeVariant(cmap.variant),
+    ).points
+    core.check_straight(
+        halo.nodes,
+        f"{name} {surface}",
+        *cells_of(V),
+        geometry_of(V.mesh),
+        np.asarray(points, dtype=np.float64),
+        *surface.cells_and_facets(V.mesh),
+    )

@@ -87,7 +87,7 @@ def sliding_block() -> None:
         way = step if step <= 4 else 8 - step if step <= 12 else step - 16
         push.g.value[...] = 0.06 * way / 4
         problem.solve()
-        sticking = int((contact.interface.nodes.status == 1).sum())
+        sticking = int((contact.discrete.nodes.status == 1).sum())
         print(
             f"push {float(push.g.value):6.3f}  force {-contact.force[0]:.10f} of 0.0060  "
             f"sticking {sticking:2d}  iterations {problem.report.iterations}"

@@ -29,8 +29,8 @@ class Audited:
         contact = cx.Contact(surface(scene, 0.1), master, **options)
         F = ufl.inner(ufl.sym(ufl.grad(self.u)), ufl.grad(v)) * ufl.dx
         cx.ContactProblem(F, self.u, contacts=[contact], petsc_options_prefix="audited_")
-        self.halo = contact.interface.halo
-        self.contact, self.audit = contact, core.Audit(self.halo.nodes, [contact.interface])
+        self.halo = contact.discrete.halo
+        self.contact, self.audit = contact, core.Audit(self.halo.nodes, [contact.discrete])
 
     def look(self, moved):
         """What is found once nodes have come to positions moved(X)."""

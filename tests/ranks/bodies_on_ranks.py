@@ -7,7 +7,7 @@ from mpi4py import MPI
 import numpy as np
 
 from contactx import cpp as core
-from contactx.bulk_side import BulkSide
+from contactx._host.bulk_host import BulkHost
 
 from ranks.audit_on_ranks import check_audit
 from ranks.checks_on_ranks import check_errors, nested
@@ -51,7 +51,7 @@ def check_bodies(one, scene):
 def check_modes(one, scene):
     found = []
     for s in (one, scene):
-        side = BulkSide(s.bulk, s.halo)
+        side = BulkHost(s.bulk, s.halo)
         modes = core.RigidModes(s.bodies, side, s.halo.x)
         modes.update(side, s.halo.x)
         owned = np.arange(s.halo.num_owned, dtype=np.int32)

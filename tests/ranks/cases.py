@@ -13,7 +13,6 @@ import contactx as cx
 from ranks import (
     partitions,
     scenes_adjusted,
-    scenes_by_bodies,
     scenes_coupled,
     scenes_elastic,
     scenes_moving,
@@ -22,6 +21,7 @@ from ranks import (
     scenes_rubbing,
     scenes_self,
     scenes_several,
+    scenes_soft_stiff,
 )
 
 METHODS = {"node": "node-to-surface", "surface": "surface-to-surface"}
@@ -32,7 +32,7 @@ _MODULES = (
     scenes_several,
     scenes_coupled,
     scenes_quadratic,
-    scenes_by_bodies,
+    scenes_soft_stiff,
     scenes_moving,
     scenes_self,
     scenes_adjusted,

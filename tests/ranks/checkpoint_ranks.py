@@ -14,7 +14,7 @@ from mpi4py import MPI
 import numpy as np
 
 import contactx as cx
-from contactx.steps import archive
+from contactx._host.checkpoint import archive
 from dolfinx.mesh import CellType
 
 import meshes

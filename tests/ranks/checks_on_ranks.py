@@ -6,8 +6,8 @@ import numpy as np
 
 import contactx as cx
 from contactx import cpp as core
-from contactx.bulk_side import BulkSide
-from contactx.nodal import ContactValues, NodalValue
+from contactx._host.bulk_host import BulkHost
+from contactx._host.nodal_values import ContactValues, NodalValue
 
 from scenes.numbered_blocks import TwoBlocks
 
@@ -90,7 +90,7 @@ def over_constrained(scene):
     contact.nodes.immobile[:] = True
     offset = NodalValue(0.0, "offset", V, slaves.owned)
     values = ContactValues(None, offset, len(slaves.owned))
-    system = core.System(halo.nodes, BulkSide(scene.bulk, halo), [contact])
+    system = core.System(halo.nodes, BulkHost(scene.bulk, halo), [contact])
     problem = core.Problem(system, scene.bodies, [("name", values, None)], refuses=True)
     return said(scene, problem.prepare)
 

@@ -15,8 +15,8 @@ import numpy as np
 
 import basix.ufl
 import contactx as cx
-from contactx.steps import archive
-from contactx.steps.function_rows import FunctionRows
+from contactx._host.checkpoint import archive
+from contactx._host.checkpoint.rows import FunctionRows
 from dolfinx import fem, mesh
 from dolfinx.mesh import CellType
 

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 import contactx as cx
-from contactx.refined import original_nodes
+from contactx._host.nodes import original_nodes
 from dolfinx import fem
 
 type Array = npt.NDArray[Any]
@@ -56,7 +56,7 @@ class Outcome:
         found["u"] = in_order(problem.displacement)
         for k, contact in enumerate(problem.contacts):
             names = list(FIELDS)
-            if not contact.tied and not contact.interface.law.name.startswith("frictionless"):
+            if not contact.tied and not contact.discrete.law.name.startswith("frictionless"):
                 names += ["slip", "slip_total"]
             for name in names:
                 found[f"{name} {k}"] = in_order(getattr(contact, name))

@@ -5,7 +5,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from types import SimpleNamespace
 from typing import Any
 
 from mpi4py import MPI
@@ -14,8 +13,8 @@ import numpy as np
 
 import basix.ufl
 import contactx as cx
+from contactx._host.checkpoint.snapshot import FunctionValues
 from contactx.report import Iteration, Report
-from contactx.state import FunctionValues
 from dolfinx import fem, mesh
 
 import meshes
@@ -57,7 +56,7 @@ class Relaxed(cx.ContactProblem):
 
     def snapshot(self, history: Sequence[fem.Function] = ()) -> Any:
         """The functions are all the state."""
-        return FunctionValues(SimpleNamespace(contacts=[], u=self.u, functions=[]), history)
+        return FunctionValues([self.u, *history])
 
     def update(self, t: float) -> None:
         self.calls.append(t)

@@ -14,7 +14,7 @@ type Array = npt.NDArray[np.float64]
 
 def parts(contact: cx.Contact) -> tuple[Array, Array]:
     """Pressure and tangential traction of the slave nodes, shapes (n,) and (n, gdim)."""
-    normal, traction = contact.interface.nodes.normal, contact.multiplier
+    normal, traction = contact.discrete.nodes.normal, contact.multiplier
     p: Array = np.einsum("ij,ij->i", normal, traction)
     return p, traction - p[:, None] * normal
 
@@ -32,12 +32,12 @@ def check_coulomb(
     Returns:
         Number of all nodes by status.
     """
-    nodes = contact.interface.nodes
+    nodes = contact.discrete.nodes
     p, t = parts(contact)
-    mu = np.broadcast_to(contact.interface.law.friction(nodes), p.shape)
+    mu = np.broadcast_to(contact.discrete.law.friction(nodes), p.shape)
     # A row of the conditions is a force: area times a traction, or times c and a length
     stress = tolerance / nodes.area
-    length = stress / nodes.c + 1e-15 * np.abs(contact.interface.positions()).max()
+    length = stress / nodes.c + 1e-15 * np.abs(contact.discrete.positions()).max()
     stick, slips, is_open = (nodes.status == k for k in (1, 2, 0))
     which = np.ones(len(p), dtype=bool) if which is None else which
     size_t, size_s = np.linalg.norm(t, axis=1), np.linalg.norm(nodes.slip, axis=1)

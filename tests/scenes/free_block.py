@@ -6,7 +6,7 @@ import numpy as np
 
 import contactx as cx
 from contactx import cpp as core
-from contactx.bulk_side import BulkSide
+from contactx._host.bulk_host import BulkHost
 from dolfinx import mesh
 
 
@@ -31,21 +31,21 @@ class FreeBlock:
         order = facets.argsort()
         tags = mesh.meshtags(domain, dim - 1, facets[order], values[order])
         contact = cx.Contact(cx.Surface(tags, 1), cx.Surface(tags, 2), friction=friction)
-        interface = contact.attach(halo, scene.bulk.markers, scene.bodies)
-        # The nodes look at their interface's
-        self.interface, self.nodes, self.slaves = interface, interface.nodes, interface.slaves
-        assert interface.master.paired.all()
+        discrete = contact.attach(halo, scene.bulk.markers, scene.bodies)
+        # The nodes are views of the arrays of their contact
+        self.discrete, self.nodes, self.slaves = discrete, discrete.nodes, discrete.slaves
+        assert discrete.master.paired.all()
         if friction:
-            interface.law.set_friction(np.full(len(self.slaves), friction))
+            discrete.law.set_friction(np.full(len(self.slaves), friction))
         self.nodes.area[:] = 0.1
         self.nodes.gap[:] = gap + slope * halo.x[self.slaves, 0]
         if friction:
-            self.nodes.normal[:] = interface.master.normals()[:, :dim]
+            self.nodes.normal[:] = discrete.master.normals()[:, :dim]
         scene.see_all()
         self.free_bodies = core.FreeBodies(
             scene.bodies,
-            BulkSide(scene.bulk, halo),
-            [interface],
+            BulkHost(scene.bulk, halo),
+            [discrete],
             halo.original[: halo.num_owned],
         )
 

@@ -127,7 +127,7 @@ class FreeRings:
     @property
     def mean_pressure(self) -> float:
         """Of all slave nodes, by their areas."""
-        nodes = self.contact.interface.nodes
+        nodes = self.contact.discrete.nodes
         return float(np.average(nodes.pressure, weights=nodes.area))
 
 

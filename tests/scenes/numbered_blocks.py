@@ -12,9 +12,10 @@ import numpy as np
 
 import basix.ufl
 import ufl
-from contactx.bodies import Bodies
-from contactx.bulk import Bulk
-from contactx.parallel.halo import Halo
+from contactx._host.bodies import Bodies
+from contactx._host.bulk import Bulk
+from contactx._host.parallel.halo import Halo
+from contactx._host.unknowns import Unknowns
 from dolfinx import fem, graph, mesh
 
 SHAPES = {2: "quadrilateral", 3: "hexahedron"}
@@ -83,7 +84,7 @@ class TwoBlocks:
         F = ufl.inner(ufl.sym(ufl.grad(self.u)), ufl.grad(v)) * ufl.dx
         bottom = fem.locate_dofs_geometrical(V, lambda x: np.isclose(x[dim - 1], -1))
         bc = fem.dirichletbc(np.zeros(dim), bottom, V)
-        self.bulk = Bulk(F, self.u, [bc], None, None, None)
+        self.bulk = Bulk([F], None, Unknowns([self.u], 0, is_mixed=False), [bc])
         self.halo = Halo(self.u, V.tabulate_dof_coordinates()[:, :dim])
         self.bodies = Bodies(V, self.halo)
 

@@ -13,9 +13,9 @@ from petsc4py import PETSc
 
 import numpy as np
 
-from contactx.factorised import FactorisedSolver
+from contactx._host.factorised import FactorisedSolver
+from contactx._host.system import SaddlePointSystem
 from contactx.report import Report
-from contactx.system import SaddlePointSystem
 
 N = 24
 
@@ -29,7 +29,7 @@ class Refilled:
 
     def __init__(self) -> None:
         self.halo = SimpleNamespace(comm=MPI.COMM_WORLD)
-        self.interfaces: list[object] = []
+        self.discrete_contacts: list[object] = []
         self.is_singular = False
 
     def jacobian(self, A: PETSc.Mat | None, springs: object) -> PETSc.Mat:

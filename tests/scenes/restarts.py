@@ -45,9 +45,9 @@ def run(scene: Any, until: int | None = None, **options: Any) -> tuple[list[byte
         scene.commit()
         if step.index == until:
             break
-    interface = scene.contact.interface
+    discrete = scene.contact.discrete
     arrays = [scene.u.x.array, *(f.x.array for f in scene.history)]
-    arrays += [*interface.save().values(), scene.contact.force]
+    arrays += [*discrete.save().values(), scene.contact.force]
     return [a.tobytes() for a in arrays], steps
 
 

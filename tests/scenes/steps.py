@@ -25,11 +25,11 @@ def state(problem: cx.ContactProblem, *history: fem.Function) -> list[bytes]:
     """Bits of all that a failed step must leave as it was."""
     arrays = [problem.u.x.array, *(f.x.array for f in history)]
     for contact in problem.contacts:
-        arrays += contact.interface.save().values()
+        arrays += contact.discrete.save().values()
         for value in vars(contact.fields).values():
             if isinstance(value, fem.Function):
                 arrays.append(value.x.array)
-        arrays += [contact.interface.nodes.immobile]
+        arrays += [contact.discrete.nodes.immobile]
         arrays += [contact.fields.force, contact.fields.imbalance]
     return [np.ascontiguousarray(array).tobytes() for array in arrays]
 

@@ -238,9 +238,9 @@ def solve(
 
     moved = np.empty((len(number), gdim))
     moved[number] = u.x.array.reshape(-1, gdim) @ Q / length
-    nodes = contact.interface.nodes
+    nodes = contact.discrete.nodes
     traction = contact.traction.x.array.reshape(-1, gdim)[contact.slave_nodes]
-    slip = np.zeros_like(traction) if friction == 0 else contact.interface.history.slip
+    slip = np.zeros_like(traction) if friction == 0 else contact.discrete.history.slip
     return Answer(
         iterations=len(history) - len(loads),
         closed=[row.closed for row in history],

@@ -129,7 +129,7 @@ def pushed(name: str, model: FaceSlab, method: str, steps: int) -> None:
 
     def each(scene: Scene) -> None:
         joint, m = scene.joints[0], measure(scene)
-        closed = joint.interface.nodes.closed
+        closed = joint.discrete.nodes.closed
         x = scene.x[joint.slave_nodes[closed]]
         rows = np.unique((x[:, 2] / scene.model.thickness_at(x[:, 1])).round(6))
         found.append((1000 * float(scene.push[0].value), m.stress, m.largest, len(rows)))

@@ -52,7 +52,7 @@ def mindlin(h: float, coarser: float, method: str) -> dict[str, Any]:
     # The curves are recovered ones; those of the multipliers beside them
     nodes = scene.contact.slave_nodes
     order = np.argsort(scene.problem.u.function_space.tabulate_dof_coordinates()[nodes, 0])
-    p, q = scene.contact.interface.nodes.pressure[order], -scene.contact.multiplier[order, 0]
+    p, q = scene.contact.discrete.nodes.pressure[order], -scene.contact.multiplier[order, 0]
     for name, raw, curve in (("pressure", p, exact.pressure), ("shear", q, exact.shear)):
         label = f"raw {name}'s difference / formula's, L2"
         results.append(_entry(story.Result.of_curves(label, found.area, raw, curve(found.x))))

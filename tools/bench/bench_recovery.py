@@ -66,14 +66,14 @@ ERRORS: list[tables.Column] = [
 
 def averages(contact: cx.Contact) -> npt.NDArray[np.float64]:
     """Pressures of the slave nodes that are averaged alone, as those in tension are."""
-    nodes = contact.interface.nodes
-    recovery = cx.cpp.Recovery(contact.interface.slave_nodes, contact.interface.halo.x)
+    nodes = contact.discrete.nodes
+    recovery = cx.cpp.Recovery(contact.discrete.slave_nodes, contact.discrete.halo.x)
     return np.asarray(-recovery.pressure(-nodes.pressure, nodes.area, nodes.closed))
 
 
 def edge(contact: cx.Contact) -> dict[str, Any]:
     """Largest pressures of a contact, and its lowest one of a closed node over that."""
-    nodes = contact.interface.nodes
+    nodes = contact.discrete.nodes
     p = contact.pressure.x.array[contact.slave_nodes]
     raw, area = np.asarray(nodes.pressure), np.asarray(nodes.area)
     return {

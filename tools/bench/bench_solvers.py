@@ -4,7 +4,7 @@
 
 Blocks pressed on each other and pushed aside in four steps, finite sliding, without friction and
 with it: process CPU seconds by MUMPS over those of the condensed solver, on one thread, the least
-of some runs. ``contactx.options`` has the rule that follows from it.
+of some runs. ``contactx._host.options`` has the rule that follows from it.
 
     python tools/bench/bench_solvers.py 2
     python tools/bench/bench_solvers.py 3

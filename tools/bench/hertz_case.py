@@ -121,7 +121,7 @@ def errors(
         "p_l2_best": scenes.pressure_error(problem, contact, young, best),
         "force_best": problem.report.recovery[0],
         "pen": _penetration(problem, contact) / DOWN,
-        "gap": max(0.0, -float(np.nanmin(contact.interface.nodes.gap))) / DOWN,
+        "gap": max(0.0, -float(np.nanmin(contact.discrete.nodes.gap))) / DOWN,
     }
 
 

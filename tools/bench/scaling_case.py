@@ -146,8 +146,8 @@ class Sent:
     def __init__(self, contact: cx.Contact):
         """Count from now on."""
         self.counts: Counter[tuple[str, str]] = Counter()
-        self._adapter = adapter = contact.interface.halo.adapter
-        self._gdim = contact.interface.halo.gdim
+        self._host = host = contact.discrete.halo.host
+        self._gdim = contact.discrete.halo.gdim
         # Index map of the halo, and with how many ranks it shares how many owned nodes
         self._shared: tuple[Any, int, int] = None, 0, 0
         for name, count in (
@@ -156,7 +156,7 @@ class Sent:
             ("forward", self._forward),
             ("reverse", self._reverse),
         ):
-            setattr(adapter, name, self._counting(getattr(adapter, name), count))
+            setattr(host, name, self._counting(getattr(host, name), count))
 
     def _add(self, purpose: str, messages: int, size: int) -> None:
         self.counts["messages", purpose] += messages
@@ -164,7 +164,7 @@ class Sent:
 
     def _counting(self, operation: Any, count: Any) -> Any:
         def counted(*arguments: Any) -> Any:
-            if self._adapter.size > 1:
+            if self._host.size > 1:
                 count(*arguments)
             return operation(*arguments)
 
@@ -172,7 +172,7 @@ class Sent:
 
     def _exchanged(self, outgoing: Mapping[int, bytes]) -> None:
         for rank, item in outgoing.items():
-            if rank != self._adapter.rank:
+            if rank != self._host.rank:
                 self._add("exchange", 1, len(item))
 
     def _gathered(self, values: Any) -> None:
@@ -181,7 +181,7 @@ class Sent:
         self._add("boxes" if is_box else "audit", 1, values.nbytes)
 
     def _forward(self, values: Any, width: int) -> None:
-        index_map = self._adapter.full_map
+        index_map = self._host.full_map
         if self._shared[0] is not index_map:
             ranks = index_map.index_to_dest_ranks(_TAG).array
             self._shared = index_map, len(np.unique(ranks)), len(ranks)
@@ -189,7 +189,7 @@ class Sent:
         self._add("halo", messages, nodes * width * values.itemsize)
 
     def _reverse(self, values: Any, width: int) -> None:
-        owners = self._adapter.full_map.owners
+        owners = self._host.full_map.owners
         self._add("halo", len(np.unique(owners)), len(owners) * width * values.itemsize)
 
 
@@ -258,5 +258,5 @@ def _petsc_traffic() -> Counter[str]:
 
 
 def _halo_size(contact: cx.Contact) -> int:
-    halo = contact.interface.halo
+    halo = contact.discrete.halo
     return int(halo.num_nodes - halo.num_bulk)

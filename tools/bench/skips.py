@@ -17,10 +17,10 @@ import numpy as np
 
 import contactx as cx
 from contactx import cpp as core
-from contactx import linear
+from contactx._host import linear
+from contactx._host.blocks import Blocks
+from contactx._host.condensed.multigrid import Multigrid
 from contactx.assembler import ContactAssembler
-from contactx.bulk import Bulk
-from contactx.condensed.multigrid import Multigrid
 from dolfinx.io.gmsh import MeshData
 from dolfinx.mesh import CellType
 
@@ -125,13 +125,13 @@ def _replaced(owner: Any, **values: Any) -> Iterator[None]:
 
 def _jacobian_each_time() -> AbstractContextManager[None]:
     """The bulk's Jacobian as one that depends on the displacement."""
-    before = Bulk.__init__
+    before = Blocks.__init__
 
-    def init(self: Bulk, F: Any, u: Any, *args: Any, **kwargs: Any) -> None:
-        before(self, F, u, *args, **kwargs)
-        self._coefficients.append(u._cpp_object)
+    def init(self: Blocks, *args: Any) -> None:
+        before(self, *args)
+        self._coefficients += [w._cpp_object for w in self.functions]
 
-    return _replaced(Bulk, __init__=init)
+    return _replaced(Blocks, __init__=init)
 
 
 def _hierarchy_each_time() -> AbstractContextManager[None]:
@@ -178,10 +178,10 @@ def _search_anew() -> Iterator[None]:
 
     def search_too(self: ContactAssembler) -> None:
         with self.report.timing("settle"):
-            for interface in self.interfaces:
-                master, slave = interface.master, interface.slave_nodes.facets
+            for discrete in self.discrete_contacts:
+                master, slave = discrete.master, discrete.slave_nodes.facets
                 if isinstance(master, core.DeformableMaster):
-                    x, closed = interface.positions(), interface.nodes.closed.astype(np.int8)
+                    x, closed = discrete.positions(), discrete.nodes.closed.astype(np.int8)
                     lists = (*slave, *master.surface.facets)
                     core.Pairing(*lists, x.shape[1]).update(x, master.reach, closed)
         collect(self)

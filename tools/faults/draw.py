@@ -31,10 +31,13 @@ PARTS = {
     "pairing": ("cpp/contactx/search", "cpp/contactx/facet"),
     "reference": ("cpp/contactx/reference",),
     "mortar": ("cpp/contactx/mortar",),
-    "condensation": ("cpp/contactx/condense", "python/contactx/condensed"),
+    "condensation": ("cpp/contactx/condense", "python/contactx/_host/condensed"),
     "audit": ("cpp/contactx/audit",),
-    "steps": ("python/contactx/steps",),
-    "parallel": ("cpp/contactx/parallel", "python/contactx/parallel"),
+    "steps": (
+        "python/contactx/steps.py",
+        "python/contactx/_host/checkpoint",
+    ),
+    "parallel": ("cpp/contactx/parallel", "python/contactx/_host/parallel"),
 }
 
 # A token and what it becomes, for both languages

@@ -73,7 +73,7 @@ class Judge:
             checks.append(self._work())
         for contact in self._case.contacts:
             checks += self._conditions(contact)
-            if contact.interface.law.is_vector and not contact.tied:
+            if contact.discrete.law.is_vector and not contact.tied:
                 checks += self._coulomb(contact)
         return [check for check in checks if not check.holds]
 
@@ -108,7 +108,7 @@ class Judge:
         scale, self._before = max(largest, self._before), largest
         forces = np.zeros_like(r)
         for contact in self._case.contacts:
-            contact.interface.add_residual(forces.ravel())
+            contact.discrete.add_residual(forces.ravel())
         allowed = _ALLOWED * scale + self._rounding_of_forces()
         out = (np.abs(r + forces) / allowed)[~self._fixed]
         yield Check("balance of nodes", out.max(initial=0.0), 1.0)
@@ -118,12 +118,12 @@ class Judge:
 
     def _of_pairs(self, contact: cx.Contact, scale: float) -> Iterator[Check]:
         """Forces and moments of a contact on both sides."""
-        interface = contact.interface
+        discrete = contact.discrete
         forces = np.zeros_like(self._x)
-        interface.add_residual(forces.ravel())
+        discrete.add_residual(forces.ravel())
         forces *= -1
         on_slave = forces[contact.slave_nodes]
-        n = contact.interface.nodes
+        n = contact.discrete.nodes
         if n.size == self._gdim and contact.method == "node-to-surface":
             expected = n.area[:, None] * contact.multiplier
             own = ~np.isin(contact.slave_nodes, self._master_nodes(contact))
@@ -155,7 +155,7 @@ class Judge:
             isinstance(contact.master, cx.Surface)
             and contact.sliding == "finite"
             and not contact.tied
-            and not contact.interface.law.is_vector
+            and not contact.discrete.law.is_vector
             and DEGREE == 1
         )
 
@@ -165,7 +165,7 @@ class Judge:
             if look is None:
                 continue
             forces = np.zeros_like(self._x)
-            contact.interface.add_residual(forces.ravel())
+            contact.discrete.add_residual(forces.ravel())
             size = np.linalg.norm(forces, axis=1).max()
             small = _ALLOWED * size + np.linalg.norm(self._rounding_of_forces(), axis=1)
             beside = look(self._positions(), -forces, small)
@@ -184,7 +184,7 @@ class Judge:
         return np.unique(contact.master.facet_nodes(self._u.function_space).nodes)
 
     def _conditions(self, contact: cx.Contact) -> Iterator[Check]:
-        nodes = contact.interface.nodes
+        nodes = contact.discrete.nodes
         gap, p, closed = nodes.gap, nodes.pressure, nodes.closed
         most = max(np.abs(p).max(initial=0.0), self._least(contact))
         small = self._small()
@@ -200,11 +200,11 @@ class Judge:
         yield Check("open nodes do not penetrate", (-gap[free]).max(initial=0.0) / small, 1.0)
 
     def _coulomb(self, contact: cx.Contact) -> Iterator[Check]:
-        nodes = contact.interface.nodes
+        nodes = contact.discrete.nodes
         p, n = nodes.pressure, nodes.normal
         traction = contact.multiplier
         t = traction - p[:, None] * n
-        mu = np.broadcast_to(contact.interface.law.friction(nodes), p.shape)
+        mu = np.broadcast_to(contact.discrete.law.friction(nodes), p.shape)
         mu = np.where(nodes.smooth, 0.0, mu)
         size = np.linalg.norm(t, axis=1)
         most = max(np.linalg.norm(traction, axis=1).max(initial=0.0), self._least(contact))
@@ -214,7 +214,7 @@ class Judge:
         yield Check("friction is at most mu p", excess / most, _ALLOWED)
         # On a plane of symmetry nothing moves across it, whatever a projection does
         free = (nodes.mobile > 0).all(axis=1)
-        ds = contact.interface.history.slip * (nodes.mobile > 0)
+        ds = contact.discrete.history.slip * (nodes.mobile > 0)
         moved = np.linalg.norm(ds, axis=1)
         small = self._small()
         # Where a facet beside the plane is tilted against it the law of both is met together
@@ -244,7 +244,7 @@ class Judge:
         for k, into in enumerate(self._case.into):
             if into is None or not self._case.contacts[k].active:
                 continue
-            nodes = self._case.contacts[k].interface.nodes
+            nodes = self._case.contacts[k].discrete.nodes
             deep = self._depths(k)[~nodes.immobile & ~nodes.ceded]
             error = deep.max(initial=0.0) / self._case.size
             yield Check("no node is inside the other body", error, into)

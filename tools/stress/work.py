@@ -46,7 +46,7 @@ def decidable(case: Case) -> bool:
     return all(
         isinstance(contact.master, cx.Surface)
         and not contact.tied
-        and not contact.interface.law.is_vector
+        and not contact.discrete.law.is_vector
         and isinstance(contact.offset, float)
         and (contact.method == "node-to-surface" or _covers(contact.slave, contact.master, domain))
         for contact in case.contacts
@@ -91,7 +91,7 @@ class Work:
         # What acts from outside: reactions and loads
         given = self._residual(u)
         for contact in self._case.contacts:
-            contact.interface.add_residual(given)
+            contact.discrete.add_residual(given)
         given -= at_rest
         if self._states > 0:
             u0, given0 = self._before

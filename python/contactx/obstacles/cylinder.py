@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from contactx import cpp as core
-from contactx.arguments import check_switch
+from contactx._host.checks import check_switch
 from contactx.obstacles.parameters import Parameter, Placed, angle, number, vector
 from dolfinx import fem
 

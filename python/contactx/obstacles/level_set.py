@@ -11,8 +11,8 @@ import numpy as np
 import numpy.typing as npt
 
 from contactx import cpp as core
-from contactx.arguments import is_number
-from contactx.ufl_function import UFLField, UFLFunction, Values
+from contactx._host.checks import is_number
+from contactx._host.ufl_function import UFLField, UFLFunction, Values
 from dolfinx import fem
 
 

@@ -14,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 import ufl
-from contactx.arguments import is_number
+from contactx._host.checks import is_number
 from dolfinx import fem
 
 type Parameter = npt.ArrayLike | fem.Constant

@@ -1,17 +1,17 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Rigid sphere, in the plane a circle."""
+"""Rigid sphere, in 2D a circle."""
 
 from __future__ import annotations
 
 from contactx import cpp as core
-from contactx.arguments import check_switch
+from contactx._host.checks import check_switch
 from contactx.obstacles.parameters import Parameter, Placed, angle, number, vector
 from dolfinx import fem
 
 
 class Sphere(core.Sphere):
-    """Ball, or with ``hollow`` the space around one, as of a bowl; in the plane a disc.
+    """Ball, or with ``hollow`` the space around one, as of a bowl; in 2D a disc.
 
     Changing the value of a ``fem.Constant`` moves it.
     """
@@ -30,9 +30,9 @@ class Sphere(core.Sphere):
             centre: Centre, shape (gdim,), numbers or a ``fem.Constant``.
             radius: Radius, a number or a ``fem.Constant``.
             hollow: False: bodies may be outside of the sphere. True: inside, as in a bowl.
-            angle: Rotation in radians, which drags what touches it by friction or ties: in the
-                plane counter-clockwise, a number or a ``fem.Constant``; in space a rotation vector,
-                shape (3,). Turn it by less than a right angle in a step.
+            angle: Rotation in radians, which drags what touches it by friction or ties: in 2D
+                counter-clockwise, a number or a ``fem.Constant``; in 3D a rotation vector, shape
+                (3,). Turn it by less than a right angle in a step.
 
         Raises:
             TypeError: If hollow is neither True nor False.

@@ -14,10 +14,10 @@ import stacked_blocks
 import contactx as cx
 import ufl
 from contactx import cpp as core
-from contactx.condensed.chains import Chains
-from contactx.condensed.galerkin import Galerkin
-from contactx.condensed.multigrid import near_null_space
-from contactx.condensed.solver import CondensedSolver
+from contactx._host.condensed.chains import Chains
+from contactx._host.condensed.galerkin import Galerkin
+from contactx._host.condensed.multigrid import near_null_space
+from contactx._host.condensed.solver import CondensedSolver
 from dolfinx import fem
 from dolfinx.mesh import CellType
 
@@ -35,14 +35,14 @@ def random_state(cell, law, sliding):
     scene = Blocks(cell, gap=0.02, n_upper=3, n_lower=2)
     contact = scene.contact(sliding, **law)
     problem = scene.problem(contact, petsc_options={"pc_type": "condensed"})
-    interface, nodes = contact.interface, contact.interface.nodes
+    discrete, nodes = contact.discrete, contact.discrete.nodes
     rng = np.random.default_rng(11)
     scene.u.x.array[:] = 0.01 * rng.standard_normal(len(scene.u.x.array))
     for bc in scene.bcs:
         bc.set(scene.u.x.array)
-    interface.begin_step()
-    interface.search()
-    interface.update_gap()
+    discrete.begin_step()
+    discrete.search()
+    discrete.update_gap()
     n = len(nodes.gap)
     nodes.multiplier[:] = 0.1 * rng.standard_normal(len(nodes.multiplier))
     if nodes.size > 1:
@@ -52,7 +52,7 @@ def random_state(cell, law, sliding):
         status = np.where(status > 0, 2, 0)
     nodes.status[:] = np.where(np.isnan(nodes.gap), 0, status)
     nodes.c[:] = rng.uniform(1, 2, n)
-    interface.law.evaluate(nodes)
+    discrete.law.evaluate(nodes)
     return problem, contact, rng
 
 
@@ -185,17 +185,17 @@ def test_one_solve_with_prescribed_slave_nodes():
         0.04, "finite", friction=0.3, petsc_options={"pc_type": "condensed"}
     )
     problem.solve()
-    interface, nodes = contact.interface, contact.interface.nodes
+    discrete, nodes = contact.discrete, contact.discrete.nodes
     rng = np.random.default_rng(5)
     problem.u.x.array[:] += 1e-3 * rng.standard_normal(len(problem.u.x.array))
     for bc in problem.assembler.bulk.bcs:
         bc.set(problem.u.x.array)
-    interface.search()
-    interface.update_gap()
+    discrete.search()
+    discrete.update_gap()
     closed = np.flatnonzero(nodes.closed)
     nodes.status[closed] = 1 + np.arange(len(closed)) % 2
-    interface.law.evaluate(nodes)
-    prescribed = problem.assembler.bulk.markers.reshape(-1, 3)[interface.slaves[closed]]
+    discrete.law.evaluate(nodes)
+    prescribed = problem.assembler.bulk.markers.reshape(-1, 3)[discrete.slaves[closed]]
     assert (prescribed.sum(axis=1) == 1).sum() > 2
     compare_one_solve(problem, rng)
 

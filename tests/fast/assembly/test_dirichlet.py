@@ -34,13 +34,13 @@ def test_prescribed_master_nodes(cell):
     contact = scene.contact("small")
     problem = scene.problem(contact)
     problem.solve()
-    closed = contact.interface.nodes.status != 0
+    closed = contact.discrete.nodes.status != 0
     assert closed.any()
 
     # The same linear system with the final active set, all prescribed values eliminated by hand
     n = len(scene.u.x.array)
     zero = fem.Function(scene.u.function_space)
-    K = sum(fem.assemble_matrix(part).to_dense() for part in problem.assembler.bulk.J)
+    K = sum(fem.assemble_matrix(part).to_dense() for part in problem.assembler.bulk.blocks.J[0][0])
     D = constraint_matrix(contact, n)[closed]
     gap = gap_at(contact, zero)[closed]
     prescribed = problem.assembler.bulk.markers == 1
@@ -94,30 +94,30 @@ def test_one_linear_solve_finds_the_solution_of_its_active_set(cell):
 
 def constraint_matrix(contact, n):
     """Derivative of the gaps with respect to the displacement, by exact differences."""
-    u = contact.interface.halo.displacement.array
+    u = contact.discrete.halo.displacement.array
     keep = u.copy()
     u[:] = 0
-    contact.interface.update_gap()
-    base = contact.interface.nodes.gap.copy()
+    contact.discrete.update_gap()
+    base = contact.discrete.nodes.gap.copy()
     D = np.zeros((len(base), n))
     for i in range(n):
         u[i] = 1
-        contact.interface.update_gap()
-        D[:, i] = contact.interface.nodes.gap - base
+        contact.discrete.update_gap()
+        D[:, i] = contact.discrete.nodes.gap - base
         u[i] = 0
     u[:] = keep
-    contact.interface.update_gap()
+    contact.discrete.update_gap()
     return D
 
 
 def gap_at(contact, function):
-    u = contact.interface.halo.displacement.array
+    u = contact.discrete.halo.displacement.array
     keep = u.copy()
     u[:] = function.x.array
-    contact.interface.update_gap()
-    gap = contact.interface.nodes.gap.copy()
+    contact.discrete.update_gap()
+    gap = contact.discrete.nodes.gap.copy()
     u[:] = keep
-    contact.interface.update_gap()
+    contact.discrete.update_gap()
     return gap
 
 
@@ -139,7 +139,7 @@ def test_a_punch_whose_slave_nodes_are_prescribed():
     scene.bcs.append(fix(scene.u, scene.tags, 2, -0.03, Tag.UPPER_CONTACT))
     contact = scene.contact()
     scene.problem(contact).solve()
-    gap = contact.interface.nodes.gap
+    gap = contact.discrete.nodes.gap
     assert (contact.multiplier > 0).sum() > 3
     assert np.abs(gap[contact.multiplier > 0]).max() <= 1e-12
     assert contact.force[2] > 0

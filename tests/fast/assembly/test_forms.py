@@ -91,7 +91,7 @@ def case(request):
     rng = np.random.default_rng(5)
     scene.u.x.array[:] = 0.1 * rng.standard_normal(len(scene.u.x.array))
     contact.multiplier[:] = rng.standard_normal(len(contact.multiplier))
-    contact.interface.nodes.by_gap[:] = rng.standard_normal(len(contact.multiplier))
+    contact.discrete.nodes.by_gap[:] = rng.standard_normal(len(contact.multiplier))
     return scene, contact, ByHand(scene, contact)
 
 
@@ -101,14 +101,14 @@ def close(computed, reference):
 
 def test_gap(case):
     scene, contact, hand = case
-    contact.interface.update_gap()
-    assert close(contact.interface.nodes.gap, hand.gap + hand.D @ scene.u.x.array)
+    contact.discrete.update_gap()
+    assert close(contact.discrete.nodes.gap, hand.gap + hand.D @ scene.u.x.array)
 
 
 def test_residual(case):
     scene, contact, hand = case
     b = np.zeros(len(scene.u.x.array))
-    contact.interface.add_residual(b)
+    contact.discrete.add_residual(b)
     assert close(b, -hand.D.T @ (contact.area * contact.multiplier))
 
 
@@ -123,7 +123,7 @@ def test_constraint_block(case):
     scene, contact, hand = case
     n = len(scene.u.x.array)
     block = sum(assembled(form.constraint, (hand.n, n)) for form in contact.forms)
-    factor = contact.interface.nodes.by_gap
+    factor = contact.discrete.nodes.by_gap
     assert close(block, factor[:, None] * hand.D)
 
 
@@ -138,16 +138,16 @@ def test_system_jacobian_is_the_derivative_of_the_residual(cell):
     scene = Blocks(cell, gap=0.02)
     contact = scene.contact()
     problem = scene.problem(contact)
-    system, interface = problem.assembler.system, contact.interface
+    system, discrete = problem.assembler.system, contact.discrete
     rng = np.random.default_rng(6)
     scene.u.x.array[:] = 0.01 * rng.standard_normal(len(scene.u.x.array))
     for bc in scene.bcs:
         bc.set(scene.u.x.array)
-    interface.search()
+    discrete.search()
     n = len(contact.multiplier)
     contact.multiplier[:] = rng.uniform(0.5, 1, n)
-    interface.nodes.status[:] = np.where(np.arange(n) % 3 == 0, 0, 2)
-    interface.nodes.c[:] = rng.uniform(1, 2, n)
+    discrete.nodes.status[:] = np.where(np.arange(n) % 3 == 0, 0, 2)
+    discrete.nodes.c[:] = rng.uniform(1, 2, n)
     system.pack()
     x0 = system.x.array.copy()
 
@@ -179,15 +179,15 @@ def test_forms_are_the_blocks_of_the_core(cell, friction):
     scene = Blocks(cell, gap=0.02)
     contact = scene.contact(friction=friction)
     scene.problem(contact)
-    interface, rng = contact.interface, np.random.default_rng(7)
-    nodes, n = interface.nodes, len(scene.u.x.array)
+    discrete, rng = contact.discrete, np.random.default_rng(7)
+    nodes, n = discrete.nodes, len(scene.u.x.array)
     scene.u.x.array[:] = 0.01 * rng.standard_normal(n)
-    interface.search()
-    interface.update_gap()
+    discrete.search()
+    discrete.update_gap()
     nodes.multiplier[:] = rng.uniform(0.5, 1, len(nodes.multiplier))
     nodes.c[:] = rng.uniform(1, 2, len(nodes.c))
     nodes.status[:] = np.arange(len(nodes.status)) % 3
-    interface.law.evaluate(nodes)
+    discrete.law.evaluate(nodes)
     m = len(nodes.multiplier)
     forms, dense = contact.forms, np.zeros((n + m, n + m))
     for form in forms:
@@ -199,12 +199,12 @@ def test_forms_are_the_blocks_of_the_core(cell, friction):
     for i in range(m // size):
         rows = slice(n + i * size, n + (i + 1) * size)
         dense[rows, rows] += nodes.by_multiplier.reshape(-1, size, size)[i]
-    block = core.ContactBlock([interface])
+    block = core.ContactBlock([discrete])
     found = np.stack([block.multiply(unit) for unit in np.eye(n + m)], axis=1)
     assert close(found, dense)
     assert np.abs(dense[:n, n:]).max() > 0 and np.abs(dense[n:, :n]).max() > 0
     b, forces = np.zeros(n), np.zeros(n)
-    interface.add_residual(b)
+    discrete.add_residual(b)
     for form in forms:
         fem.assemble_vector(forces, form.residual)
     assert close(forces, b)

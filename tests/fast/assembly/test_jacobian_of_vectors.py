@@ -31,7 +31,7 @@ def scene_with(cell, sliding, master, **options):
     gdim = scene.u.function_space.mesh.geometry.dim
     contact = scene.contact(sliding, master=obstacle(master, gdim), **options)
     problem = scene.problem(contact)
-    interface, nodes = contact.interface, contact.interface.nodes
+    discrete, nodes = contact.discrete, contact.discrete.nodes
     rng = np.random.default_rng(6)
 
     def displace():
@@ -40,23 +40,23 @@ def scene_with(cell, sliding, master, **options):
             bc.set(scene.u.x.array)
 
     displace()
-    interface.search()
-    interface.update_gap()
-    interface.accept()
-    interface.begin_step()
+    discrete.search()
+    discrete.update_gap()
+    discrete.accept()
+    discrete.begin_step()
     displace()
-    interface.search()
+    discrete.search()
     n = len(nodes.area)
     # Some directions that Dirichlet conditions have left immobile
     nodes.mobile[:] = rng.random((n, gdim)) < 0.9
-    interface.update_gap()
-    assert interface.master.paired.all()
+    discrete.update_gap()
+    assert discrete.master.paired.all()
     contact.multiplier[:] = rng.uniform(-1, 1, (n, gdim)) + 1.5 * nodes.normal
     nodes.c[:] = rng.uniform(1, 2, n)
-    return problem, interface, rng
+    return problem, discrete, rng
 
 
-def assert_consistent(problem, interface):
+def assert_consistent(problem, discrete):
     """Every kind of column: free displacements and all multipliers."""
     system = problem.assembler.system
     system.pack()
@@ -70,10 +70,10 @@ def assert_consistent(problem, interface):
 
     residual(x0)
     J = system.jacobian().convert("dense").getDenseArray()
-    m = len(interface.nodes.multiplier)
+    m = len(discrete.nodes.multiplier)
     free = np.flatnonzero(np.r_[problem.assembler.bulk.markers == 0, np.ones(m, dtype=bool)])
-    gdim = interface.nodes.size
-    slaves = (interface.slaves[:, None] * gdim + np.arange(gdim)).ravel()
+    gdim = discrete.nodes.size
+    slaves = (discrete.slaves[:, None] * gdim + np.arange(gdim)).ravel()
     few = free[:: max(1, len(free) // 30)]
     h = 1e-6
     for column in np.union1d(few, slaves[:: max(1, len(slaves) // 15)]):
@@ -86,39 +86,39 @@ def assert_consistent(problem, interface):
 
 @covering(cell=CELLS, master=OBSTACLES, **{"sliding,method": BOTH})
 def test_with_friction(cell, sliding, method, master):
-    problem, interface, rng = scene_with(cell, sliding, master, friction=0.4, method=method)
-    nodes = interface.nodes
+    problem, discrete, rng = scene_with(cell, sliding, master, friction=0.4, method=method)
+    nodes = discrete.nodes
     nodes.status[:] = rng.permutation(np.arange(len(nodes.status)) % 3)
     assert np.abs(nodes.slip).max() > 1e-3
-    assert_consistent(problem, interface)
+    assert_consistent(problem, discrete)
 
 
 @covering(cell=CELLS, method=METHODS)
 def test_with_frozen_kinematics(cell, method):
-    problem, interface, rng = scene_with(cell, "finite", "facets", friction=0.4, method=method)
-    interface.freeze(True)
-    interface.nodes.status[:] = rng.integers(3, size=len(interface.nodes.status))
-    assert_consistent(problem, interface)
+    problem, discrete, rng = scene_with(cell, "finite", "facets", friction=0.4, method=method)
+    discrete.freeze(True)
+    discrete.nodes.status[:] = rng.integers(3, size=len(discrete.nodes.status))
+    assert_consistent(problem, discrete)
     # Kinematics are frozen indeed
-    assert all(form.stiffness is None for form in interface.forms)
+    assert all(form.stiffness is None for form in discrete.forms)
 
 
 @covering(cell=CELLS, method=METHODS, master=("facets", "sphere"))
 def test_after_the_nodes_have_touched(cell, method, master):
-    problem, interface, rng = scene_with(cell, "finite", master, friction=0.4, method=method)
-    before = interface.nodes.slip.copy()
-    interface.update_status()
-    assert np.abs(interface.nodes.slip - before).max() > 1e-3
-    interface.nodes.status[:] = rng.integers(1, 3, size=len(interface.nodes.status))
-    assert_consistent(problem, interface)
+    problem, discrete, rng = scene_with(cell, "finite", master, friction=0.4, method=method)
+    before = discrete.nodes.slip.copy()
+    discrete.update_status()
+    assert np.abs(discrete.nodes.slip - before).max() > 1e-3
+    discrete.nodes.status[:] = rng.integers(1, 3, size=len(discrete.nodes.status))
+    assert_consistent(problem, discrete)
 
 
 @covering(cell=CELLS, master=OBSTACLES, **{"sliding,method": BOTH})
 def test_with_ties(cell, sliding, method, master):
-    problem, interface, _ = scene_with(cell, sliding, master, tied=True, method=method)
-    nodes = interface.nodes
-    interface.update_status()
+    problem, discrete, _ = scene_with(cell, sliding, master, tied=True, method=method)
+    nodes = discrete.nodes
+    discrete.update_status()
     assert np.all(nodes.status == core.STICK)
     nodes.status[::4] = core.OPEN
     assert np.abs(nodes.slip).max() > 1e-3
-    assert_consistent(problem, interface)
+    assert_consistent(problem, discrete)

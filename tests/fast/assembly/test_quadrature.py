@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 import ufl
-from contactx.bulk import Bulk
-from contactx.quadrature import by_rule
+from contactx._host.blocks import by_rule
+from contactx._host.bulk import Bulk
+from contactx._host.unknowns import Unknowns
 from dolfinx import fem
 from dolfinx.mesh import CellType
 
@@ -17,6 +18,10 @@ from scenes.materials import neo_hookean
 from story import elasticity
 
 MU, LAME = 0.4, 200.0
+
+
+def bulk_of(F, u, bcs):
+    return Bulk([F], None, Unknowns([u], 0, is_mixed=False), bcs)
 
 
 def terms(u, kind):
@@ -49,11 +54,11 @@ def test_terms_of_different_quadrature(cell, kind):
     u = scene.u
     u.x.array[:] = 0.05 * np.random.default_rng(1).standard_normal(len(u.x.array))
     parts = terms(u, kind)
-    whole = Bulk(sum(parts[1:], parts[0]), u, scene.bcs, None, None, None)
-    alone = [Bulk(part, u, scene.bcs, None, None, None) for part in parts if depends(part, u)]
+    whole = bulk_of(sum(parts[1:], parts[0]), u, scene.bcs)
+    alone = [bulk_of(part, u, scene.bcs) for part in parts if depends(part, u)]
     load = fem.assemble_vector(fem.form(parts[2])).array
-    assert len(whole.F) == 3
-    assert len(whole.J) == 2
+    assert len(whole.blocks.F[0]) == 3
+    assert len(whole.blocks.J[0][0]) == 2
     expected = sum(bulk.residual() for bulk in alone) + load
     assert np.abs(whole.residual() - expected).max() <= 1e-13 * np.abs(expected).max()
     expected = sum(bulk.lifted() for bulk in alone)
@@ -82,7 +87,7 @@ def test_a_load_that_changes_does_not_hide_a_constant_of_one_part():
     factor = fem.Constant(u.function_space.mesh, 1.0)
     v = ufl.TestFunction(u.function_space)
     F = elasticity(u, 1.0, 0.3) + factor * ufl.div(u) * ufl.div(v) * ufl.dx(degree=0)
-    bulk = Bulk(F, u, scene.bcs, None, None, None)
+    bulk = bulk_of(F, u, scene.bcs)
     assert bulk.is_linear
     first = bulk.matrix().norm()
     factor.value = 2.0

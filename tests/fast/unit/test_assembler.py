@@ -90,7 +90,7 @@ def test_what_settles_says_what_it_is():
     assert assembler.converged
     assert found.residual <= found.tolerance
     assert found.tolerance >= 1e-11 * found.scale > 0
-    assert found.closed == (contact.interface.nodes.status != 0).sum()
+    assert found.closed == (contact.discrete.nodes.status != 0).sum()
     history = assembler.report.history
     assert [row.number for row in history[:-1]] == list(range(len(history) - 1))
 

@@ -7,7 +7,7 @@ import weakref
 
 from mpi4py import MPI
 
-from contactx.cell_forces import CellForces
+from contactx._host.bulk_host import CellForces
 from dolfinx import mesh
 
 from scenes.materials import neo_hookean

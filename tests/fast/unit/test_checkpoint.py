@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import contactx as cx
-from contactx.steps import archive
+from contactx._host.checkpoint import archive
 from dolfinx import fem
 from dolfinx.mesh import CellType
 

@@ -5,7 +5,7 @@ from mpi4py import MPI
 import numpy as np
 import pytest
 
-from contactx import contact_mesh
+from contactx._host import contact_mesh
 from dolfinx import cpp
 
 

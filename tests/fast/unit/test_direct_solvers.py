@@ -7,7 +7,7 @@ from petsc4py import PETSc
 import numpy as np
 import pytest
 
-from contactx import compat
+from contactx._host import compat
 from dolfinx.mesh import CellType
 
 from scenes.driven import DrivenBlock

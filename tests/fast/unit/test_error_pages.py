@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from contactx import newton
+from contactx._host import newton
 
 ROOT = Path(__file__).parents[3]
 PAGES = ROOT / "docs" / "manual" / "errors"
@@ -174,7 +174,7 @@ def test_other_messages_say_what_to_do(path):
     calls = [call for kind in kinds for call in calls_to(kind, path)]
     # What checkpoints refuse is raised again by LoadSteps, which says what to do
     handed_on = ("error.errno", "_INSTEAD", "advice", "type(theirs)")
-    if path.name in ("checkpoint.py", "plan.py"):
+    if path.name in ("checkpoint.py", "steps.py"):
         calls = [call for call in calls if not literals(call).startswith(("it ", " is"))]
     silent = [
         text

@@ -31,8 +31,8 @@ def test_no_convergence_leaves_everything_as_it_was(method):
     before = [
         scene.u.x.array.copy(),
         contact.multiplier.copy(),
-        contact.interface.nodes.status.copy(),
-        contact.interface.nodes.gap.copy(),
+        contact.discrete.nodes.status.copy(),
+        contact.discrete.nodes.gap.copy(),
         contact.pressure.x.array.copy(),
         contact.force.copy(),
     ]
@@ -47,8 +47,8 @@ def test_no_convergence_leaves_everything_as_it_was(method):
     after = [
         scene.u.x.array,
         contact.multiplier,
-        contact.interface.nodes.status,
-        contact.interface.nodes.gap,
+        contact.discrete.nodes.status,
+        contact.discrete.nodes.gap,
         contact.pressure.x.array,
         contact.force,
     ]
@@ -106,13 +106,13 @@ def test_a_failed_step_brings_the_pairs_back():
     contact = scene.contact()
     problem = scene.problem(contact, petsc_options={"snes_max_it": 6})
     problem.solve()
-    nodes = [pairs.nodes.copy() for pairs in contact.interface.master.pairs()]
-    data = [pairs.data.copy() for pairs in contact.interface.master.pairs()]
+    nodes = [pairs.nodes.copy() for pairs in contact.discrete.master.pairs()]
+    data = [pairs.data.copy() for pairs in contact.discrete.master.pairs()]
     scene.bcs[0].g.value[...] = 0.4
     scene.bcs[-1].g.value[...] = -0.9
     with pytest.raises(cx.ConvergenceError):
         problem.solve()
-    for pairs, before, values in zip(contact.interface.master.pairs(), nodes, data, strict=True):
+    for pairs, before, values in zip(contact.discrete.master.pairs(), nodes, data, strict=True):
         assert np.array_equal(pairs.nodes, before)
         assert np.array_equal(pairs.data, values)
 
@@ -123,7 +123,7 @@ def test_a_failed_step_brings_back_which_nodes_can_yield():
     scene.update(0.1)
     scene.problem.solve()
     before = scene.state()
-    assert not scene.contact.interface.nodes.immobile.any()
+    assert not scene.contact.discrete.nodes.immobile.any()
     scene.normal.value[:] = (1, 0)
     scene.update(300.0)
     with pytest.raises(cx.ConvergenceError):
@@ -139,7 +139,7 @@ def test_problems_are_freed(pc, friction):
     problem = scene.problem(scene.contact(friction=friction), petsc_options={"pc_type": pc})
     problem.solve()
     assembler = problem.assembler
-    parts = (assembler, assembler.system, assembler.interfaces[0], assembler.halo)
+    parts = (assembler, assembler.system, assembler.discrete_contacts[0], assembler.halo)
     seen = [weakref.ref(part) for part in parts]
     del problem, assembler, parts
     gc.collect()

@@ -97,7 +97,7 @@ def test_function_that_changes_between_steps_is_used(cell, sliding):
     for value in (0.1, 0.05, 0.02):
         mu.x.array[:] = value
         problem.solve()
-        nodes = contact.interface.nodes
+        nodes = contact.discrete.nodes
         slipping = nodes.status == 2
         tangential = contact.multiplier - nodes.pressure[:, None] * nodes.normal
         size = np.linalg.norm(tangential, axis=1)
@@ -112,7 +112,7 @@ def test_function_that_varies_over_the_surface_is_used_node_by_node():
     mu.interpolate(lambda x: 0.02 + 0.05 * x[0] + 0.03 * x[1] ** 2)
     contact = scene.contact(friction=mu)
     scene.problem(contact).solve()
-    nodes = contact.interface.nodes
+    nodes = contact.discrete.nodes
     x = scene.u.function_space.tabulate_dof_coordinates()[contact.slave_nodes]
     expected = 0.02 + 0.05 * x[:, 0] + 0.03 * x[:, 1] ** 2
     slipping = nodes.status == 2

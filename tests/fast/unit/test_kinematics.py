@@ -21,16 +21,16 @@ def test_slip_is_the_same_when_it_is_frozen(cell):
     x[top, gdim - 1] -= 0.4 * np.abs(x[top, 0] - 0.75)
     contact = scene.contact(friction=0.3)
     scene.problem(contact)
-    interface, nodes = contact.interface, contact.interface.nodes
-    interface.begin_step()
+    discrete, nodes = contact.discrete, contact.discrete.nodes
+    discrete.begin_step()
     scene.u.x.array[:] += 0.02 * np.random.default_rng(1).standard_normal(len(scene.u.x.array))
-    interface.halo.update_ghosts()
-    interface.search()
-    interface.update_gap()
+    discrete.halo.update_ghosts()
+    discrete.search()
+    discrete.update_gap()
     slip, gap = nodes.slip.copy(), nodes.gap.copy()
-    assert (interface.save()["master_feature"] != 0).sum() >= 2
-    interface.freeze(True)
-    interface.update_gap()
+    assert (discrete.save()["master_feature"] != 0).sum() >= 2
+    discrete.freeze(True)
+    discrete.update_gap()
     assert np.abs(nodes.gap - gap).max() <= 1e-14
     assert np.abs(slip).max() > 1e-2
     assert np.abs(nodes.slip - slip).max() <= 1e-13

@@ -11,7 +11,7 @@ import rich
 from rich.console import Console
 
 import contactx as cx
-from contactx.fields import Fields
+from contactx._host.discrete_contact import Fields
 
 from scenes.steps import Sheared
 

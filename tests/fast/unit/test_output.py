@@ -105,7 +105,7 @@ def test_totals(tmp_path: Path, friction):
     assert len(header) == 1 + 2 * 9
     assert float(first[3]) == 0
     row = dict(zip(header, map(float, last), strict=True))
-    nodes = contacts[0].interface.nodes
+    nodes = contacts[0].discrete.nodes
     assert row["t"] == 1
     assert [row[f"force_{axis}_0"] for axis in "xyz"] == contacts[0].force.tolist()
     assert row["closed_0"] == nodes.closed.sum() > 0
@@ -113,7 +113,7 @@ def test_totals(tmp_path: Path, friction):
     assert row["area_0"] == pytest.approx(nodes.area[nodes.closed].sum())
     assert row["largest_pressure_0"] == contacts[0].pressure.x.array.max()
     assert row["smallest_gap_0"] == pytest.approx(0, abs=1e-12)
-    history = contacts[0].interface.history
+    history = contacts[0].discrete.history
     assert row["dissipation_0"] == (0 if history is None else history.dissipation.sum())
     assert 7 < row["smallest_gap_1"] < 9
     assert row["closed_1"] == 0

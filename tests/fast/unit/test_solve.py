@@ -193,7 +193,7 @@ def test_moments_of_both_sides_and_of_another_point(cell):
     else:
         turned = np.cross(arm, contact.force)
     np.testing.assert_allclose(contact.moment(b), contact.moment(a) + turned, rtol=1e-12)
-    x = contact.interface.positions()[contact.slave_nodes]
+    x = contact.discrete.positions()[contact.slave_nodes]
     forces = contact.area[:, None] * contact.multiplier
     if scene.u.function_space.mesh.geometry.dim == 2:
         by_hand = (x[:, 0] * forces[:, 1] - x[:, 1] * forces[:, 0]).sum()

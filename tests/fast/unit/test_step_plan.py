@@ -5,7 +5,7 @@
 import numpy as np
 import pytest
 
-from contactx.steps.plan import make_plan
+from contactx.steps import make_plan
 
 
 def walk(plan, fails=lambda start, t: False, iterations=lambda start, t: 5):

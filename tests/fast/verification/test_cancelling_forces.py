@@ -7,7 +7,7 @@ import pytest
 
 import contactx as cx
 import ufl
-from contactx.cell_forces import CellForces
+from contactx._host.bulk_host import CellForces
 from dolfinx import fem
 from dolfinx.mesh import CellType
 

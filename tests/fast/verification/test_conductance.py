@@ -40,7 +40,7 @@ def test_uniform_flow_is_exact(cell, degree, gap):
     assert p > 0 if gap == 0 else opening > 0
     pressure = scene.contact.fields.recovered_pressure()
     assert np.abs(pressure - p).max() < 1e-9
-    assert np.abs(scene.contact.interface.nodes.gap - opening).max() < 1e-9
+    assert np.abs(scene.contact.discrete.nodes.gap - opening).max() < 1e-9
     assert scene.conductance.flow == pytest.approx(flow, rel=1e-9)
 
 
@@ -139,7 +139,7 @@ def test_the_jacobian_is_the_derivative(method, friction):
         system.unpack(x0 + sign * step * way)
         system.residual(b)
         quotient += sign * b.array / (2 * step)
-    marked = np.concatenate(assembler.bulk.all_markers[1:])[: n_bulk - n]
+    marked = np.concatenate(assembler.bulk.blocks.markers[1:])[: n_bulk - n]
     rows = n + np.flatnonzero(marked == 0)
     scale = np.abs(quotient[rows]).max()
     assert scale > 0.1
@@ -249,7 +249,7 @@ def test_a_linear_field_is_seen_across():
     contact = scene.contact
     f = fem.Function(scene.T.function_space)
     f.interpolate(lambda x: 3 + 2 * x[0])
-    transfer = cx.cpp.Transfer(contact.interface)
+    transfer = cx.cpp.Transfer(contact.discrete)
     inner = transfer.differences(np.ascontiguousarray(f.x.array))
     assert np.abs(inner).max() < 1e-12
 

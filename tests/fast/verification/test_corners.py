@@ -59,7 +59,7 @@ def test_a_block_in_a_corner(cell, friction, twice):
     expected[0] = expected[-1] = LOAD
     assert np.abs(scene.total() - expected).max() <= 1e-9 * LOAD
     for contact in scene.contacts:
-        assert np.nanmin(contact.interface.nodes.gap) >= -1e-12
+        assert np.nanmin(contact.discrete.nodes.gap) >= -1e-12
     if twice:
         # Of two contacts with the same floor only one carries
         first, _, second = scene.contacts
@@ -72,7 +72,7 @@ def test_friction_is_left_out_where_a_node_closes_two_contacts(cell):
     scene.problem.solve()
     shared = np.intersect1d(*[contact.slave_nodes for contact in scene.contacts])
     for contact in scene.contacts:
-        nodes = contact.interface.nodes
+        nodes = contact.discrete.nodes
         corner = np.isin(contact.slave_nodes, shared)
         along = contact.multiplier - nodes.pressure[:, None] * nodes.normal
         assert np.abs(along[corner]).max() <= 1e-14
@@ -85,8 +85,8 @@ def test_a_tied_node_keeps_its_tie_alone(cell):
     scene.problem.solve()
     floor, wall = scene.contacts
     shared = np.isin(wall.slave_nodes, floor.slave_nodes)
-    assert (wall.interface.nodes.status[shared] == 0).all()
-    assert (floor.interface.nodes.status == 1).all()
+    assert (wall.discrete.nodes.status[shared] == 0).all()
+    assert (floor.discrete.nodes.status == 1).all()
 
 
 @covering(
@@ -196,5 +196,5 @@ def test_a_valley_of_two_planes_however_shallow(friction, slope):
         down.g.value[...] = -depth
         problem.solve()
         for contact in contacts:
-            assert np.nanmin(contact.interface.nodes.gap) >= -1e-12
-            assert (contact.interface.nodes.pressure >= -1e-12).all()
+            assert np.nanmin(contact.discrete.nodes.gap) >= -1e-12
+            assert (contact.discrete.nodes.pressure >= -1e-12).all()

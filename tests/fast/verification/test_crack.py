@@ -56,15 +56,15 @@ def test_a_crack_under_compression_is_as_if_it_were_not(gdim):
         assert max(off) <= 1e-12, options
         # The tip is never closed: it has no gap
         tip = np.isclose(np.abs(rows_of(contact)[:, :-1] - 0.5).max(axis=1), 0.25)
-        status = contact.interface.nodes.status
+        status = contact.discrete.nodes.status
         assert (status[tip] == 0).all()
         assert (status[~tip] > 0).all()
-        assert np.isnan(contact.interface.nodes.gap[tip]).all()
+        assert np.isnan(contact.discrete.nodes.gap[tip]).all()
 
 
 def rows_of(contact):
     """Positions of the slave nodes, shape (n, gdim)."""
-    return contact.interface.halo.x[contact.slave_nodes]
+    return contact.discrete.halo.x[contact.slave_nodes]
 
 
 @pytest.mark.usefixtures("method")

@@ -21,10 +21,10 @@ def test_pressure_at_the_edge_of_a_joint(method, rows):
     setting = Setting(replace(FACE_SLABS["slice"], layers=10), method=method)
     scene = scheme_1(setting, 0.0909, 0.3, steps=1, progress=False)
     joint = scene.joints[0]
-    raw, area = joint.interface.nodes.pressure, joint.interface.nodes.area
+    raw, area = joint.discrete.nodes.pressure, joint.discrete.nodes.area
     p = joint.pressure.x.array[joint.slave_nodes]
-    assert np.sum(joint.interface.nodes.closed) == 2 * rows
+    assert np.sum(joint.discrete.nodes.closed) == 2 * rows
     assert p.max() == pytest.approx(STRESS, rel=0.05)
     assert p.max() > raw.max()
     assert area @ p == pytest.approx(area @ raw, rel=1e-12)
-    assert np.all(p[joint.interface.nodes.closed] > 0)
+    assert np.all(p[joint.discrete.nodes.closed] > 0)

@@ -117,7 +117,7 @@ def test_nodes_stay_on_what_they_have_hit():
     scene = Flying(PLANE, obstacle=cx.Plane((0, 0), (0, 1)), friction=10.0)
     for _ in range(6):
         scene.dynamics.solve()
-    closed = scene.contact.slave_nodes[scene.contact.interface.nodes.closed]
+    closed = scene.contact.slave_nodes[scene.contact.discrete.nodes.closed]
     velocity = scene.dynamics.velocity.x.array.reshape(-1, 2)[closed]
     assert len(closed) > 1
     np.testing.assert_allclose(velocity, 0, atol=1e-12 * SPEED)

@@ -41,7 +41,7 @@ def test_a_block_through_30_percent_of_its_height(make, method):
     assert press.reaction() == pytest.approx(force[2], rel=1e-9)
     least, most = press.volume_ratios()
     assert 0.5 < least <= most < 1.1
-    assert np.nanmin(press.contact.interface.nodes.gap) > -1e-11
+    assert np.nanmin(press.contact.discrete.nodes.gap) > -1e-11
     # On a ball, mean normals times the slave's own nodes are no gradient of the mean gaps: their
     # work is energy to the square of the mesh size
     assert stored == pytest.approx(work, rel=0.01 if method == "node-to-surface" else 0.015)
@@ -119,4 +119,4 @@ def test_two_finite_strain_bodies_of_different_cells_need_no_change():
         problem.solve()
         assert problem.report.iterations <= 12
     assert contact.force[1] > 0.1
-    assert np.nanmin(contact.interface.nodes.gap) > -1e-11
+    assert np.nanmin(contact.discrete.nodes.gap) > -1e-11

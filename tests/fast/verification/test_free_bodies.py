@@ -78,7 +78,7 @@ def test_a_block_comes_to_rest_on_another(cell, friction, gap, sliding, method):
     print(report.iterations, "iterations", closed, "closed", free, "free")
     assert report.iterations <= 6
     assert np.abs(scene.contact.force + scene.load).max() <= 1e-9 * PRESSURE
-    assert np.nanmin(scene.contact.interface.nodes.gap) >= -1e-12
+    assert np.nanmin(scene.contact.discrete.nodes.gap) >= -1e-12
     # It has come down by the gap, and hardly aside
     u = scene.u.x.array.reshape(-1, scene.gdim)
     assert u[:, -1].min() == pytest.approx(-gap, abs=0.03)
@@ -96,7 +96,7 @@ def test_friction_holds_it_against_a_push(cell, gap):
     scene = FreeBlock(cell, friction=0.5, gap=gap, aside=0.003)
     scene.solve()
     assert np.abs(scene.contact.force + scene.load).max() <= 1e-9 * PRESSURE
-    assert (scene.contact.interface.nodes.status == 1).any()
+    assert (scene.contact.discrete.nodes.status == 1).any()
 
 
 @covering(
@@ -238,7 +238,7 @@ def test_a_body_on_weak_springs_does_not_pass_through_another(cell, friction, k)
     assert problem.report.iterations <= 10
     # The springs carry what they can over the gap
     assert contact.force[-1] == pytest.approx(PRESSURE, abs=0.2 * k + 1e-11)
-    assert np.nanmin(contact.interface.nodes.gap) >= -1e-12
+    assert np.nanmin(contact.discrete.nodes.gap) >= -1e-12
 
 
 @pytest.mark.parametrize(

@@ -50,7 +50,7 @@ def test_rings_that_match(given, swapped, sliding, method, fixed, n, friction):
         n, n, fixed=fixed, swapped=swapped, sliding=sliding, friction=friction, **{given: 0.01}
     )
     rings.problem.solve()
-    nodes = rings.contact.interface.nodes
+    nodes = rings.contact.discrete.nodes
     # Slip over a ridge is measured along a facet, and friction holds what that turns
     spread = 0.06 if friction > 0 and swapped else 1e-6
     assert rings.problem.report.iterations <= (3 if spread < 0.01 else 6)
@@ -133,7 +133,7 @@ def test_tubes(sliding, fixed, counts):
     )
     rings.problem.solve()
     print(rings.problem.report.iterations, rings.mean_pressure)
-    nodes = rings.contact.interface.nodes
+    nodes = rings.contact.discrete.nodes
     assert rings.problem.report.iterations <= 6
     assert nodes.closed.all() and nodes.pressure.min() > 0.5 * nodes.pressure.max()
     assert moved(rings) <= 0.06

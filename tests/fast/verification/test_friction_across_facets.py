@@ -25,7 +25,7 @@ def block(cell, n_lower, **options):
 def facets(scene):
     """Nodes of the facet that each slave node is paired with."""
     result = [()] * len(scene.contact.area)
-    for pairs in scene.contact.interface.master.pairs():
+    for pairs in scene.contact.discrete.master.pairs():
         for slave, nodes in zip(pairs.slaves[:, 0], pairs.nodes[:, 1:], strict=True):
             result[slave] = tuple(nodes)
     return result
@@ -42,7 +42,7 @@ def check_full_slide(scene, exact, method):
     contact = scene.contact
     p, t = parts(contact)
     w = contact.area
-    assert np.all(contact.interface.nodes.status[p > 0] == 2)
+    assert np.all(contact.discrete.nodes.status[p > 0] == 2)
     assert w @ np.linalg.norm(t, axis=1) == pytest.approx(MU * (w @ p), rel=1e-8)
     flat = method == "node-to-surface"
     assert scene.normal == pytest.approx(w @ p, rel=1e-12 if flat else 0.02)
@@ -82,7 +82,7 @@ def test_over_the_outer_edge(cell, method):
     open_nodes = []
     for x in (0.0, 0.3, 0.7, 1.0, 1.2):
         scene.step(x, *zero, -0.02)
-        open_nodes.append(int((scene.contact.interface.nodes.status == 0).sum()))
+        open_nodes.append(int((scene.contact.discrete.nodes.status == 0).sum()))
         if x > 0:
             check_full_slide(scene, cell != CellType.tetrahedron, method)
     print(scene.iterations, open_nodes)

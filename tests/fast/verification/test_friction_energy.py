@@ -24,9 +24,9 @@ class Balance:
         self.u = scene.u.x.array.copy()
         self.f = scene.reactions
         self.p, self.t = parts(contact)
-        self.closed = contact.interface.nodes.closed.copy()
-        self.dissipation = contact.interface.history.dissipation.copy()
-        self.total = contact.interface.history.total.copy()
+        self.closed = contact.discrete.nodes.closed.copy()
+        self.dissipation = contact.discrete.history.dissipation.copy()
+        self.total = contact.discrete.history.total.copy()
 
     @property
     def energy(self):
@@ -36,15 +36,15 @@ class Balance:
 
 def relative(scene, du):
     """Movement of the slave nodes relative to their masters, shape (n, gdim)."""
-    interface = scene.contact.interface
+    discrete = scene.contact.discrete
     du = du.reshape(-1, scene.gdim)
-    way = du[interface.slaves].copy()
-    if isinstance(interface.master, core.SurfaceToSurface):
-        weights = interface.master.weights()
+    way = du[discrete.slaves].copy()
+    if isinstance(discrete.master, core.SurfaceToSurface):
+        weights = discrete.master.weights()
         way[:] = 0
         np.add.at(way, weights.slaves, weights.values[:, None] * du[weights.nodes])
         return way
-    for pairs in interface.master.pairs():
+    for pairs in discrete.master.pairs():
         if pairs.nodes.shape[1] == 1:
             continue
         at = core.pair_layout["xi"]
@@ -86,7 +86,7 @@ def test_balance_of_each_step(friction, cell, base):
         du = new.u - old.u
         way = relative(scene, du)
         dg = way @ up
-        slip = scene.contact.interface.history.slip
+        slip = scene.contact.discrete.history.slip
         assert np.abs(slip @ up).max() < 1e-14
         # A node that has opened or closed has gone a part of its way in contact only
         stays = old.closed & new.closed
@@ -116,5 +116,5 @@ def test_balance_of_each_step(friction, cell, base):
     # The fields are those of the history
     nodes = scene.contact.slave_nodes
     field = scene.contact.slip.x.array.reshape(-1, gdim)[nodes]
-    np.testing.assert_array_equal(field, scene.contact.interface.history.slip)
+    np.testing.assert_array_equal(field, scene.contact.discrete.history.slip)
     assert scene.contact.slip_total.x.array.sum() == pytest.approx(old.total.sum(), rel=1e-12)

@@ -45,21 +45,21 @@ def test_sticks_where_it_touches(steps, cell, base, sliding, method):
         scene.step(0.3, *across, -0.06)
         assert scene.contact.force == pytest.approx(np.zeros(gdim))
     scene.step(1.0, *across, -0.2)
-    interface = scene.contact.interface
+    discrete = scene.contact.discrete
     V = scene.u.function_space
     X = V.tabulate_dof_coordinates()[:, :gdim]
     u = scene.u.x.array.reshape(-1, gdim)
     if base == "plane":
-        aside = u[interface.slaves, 0]
+        aside = u[discrete.slaves, 0]
     elif method == "surface-to-surface":
         # The place on the base that it came to, in the mean
-        weights, n = interface.master.weights(), len(interface.slaves)
+        weights, n = discrete.master.weights(), len(discrete.slaves)
         moved = X[:, 0] if sliding == "finite" else -u[:, 0]
         aside = -np.bincount(weights.slaves, weights.values * moved[weights.nodes], n)
     else:
-        aside = np.full(len(interface.slaves), np.nan)
+        aside = np.full(len(discrete.slaves), np.nan)
         at = core.pair_layout["xi"]
-        for pairs in interface.master.pairs():
+        for pairs in discrete.master.pairs():
             xi = np.ascontiguousarray(pairs.data[:, at : at + 2])
             N = core.shape_functions(pairs.nodes.shape[1] - 1, xi)
             masters = pairs.nodes[:, 1:]
@@ -70,13 +70,13 @@ def test_sticks_where_it_touches(steps, cell, base, sliding, method):
             else:
                 moved = np.einsum("il,ilk->ik", N, u[masters])
                 aside[pairs.slaves[:, 0]] = (u[pairs.nodes[:, 0]] - moved)[:, 0]
-    stick = interface.nodes.status == 1
-    print(scene.iterations, interface.nodes.status, aside)
+    stick = discrete.nodes.status == 1
+    print(scene.iterations, discrete.nodes.status, aside)
     assert stick.sum() >= len(stick) / 2
     # Where facets bend, the mean of places is not the place of the mean
     bends = (method, base, sliding) == ("surface-to-surface", "elastic", "finite")
     assert aside[stick] == pytest.approx(0.5, abs=0.05 if bends else 1e-8)
-    assert np.abs(interface.history.slip[stick]).max() < 1e-9
+    assert np.abs(discrete.history.slip[stick]).max() < 1e-9
 
 
 class PressedBlock(DrivenBlock):
@@ -119,7 +119,7 @@ def test_no_matter_who_takes_the_steps_and_how_long_the_first_one_is():
     one = PressedBlock()
     one.problem.solve()
     report = one.problem.report
-    nodes = one.contact.interface.nodes
+    nodes = one.contact.discrete.nodes
     assert report.limited > 0
     assert (nodes.status == 2).sum() >= 7
     forces = [one.contact.force]
@@ -127,7 +127,7 @@ def test_no_matter_who_takes_the_steps_and_how_long_the_first_one_is():
         other = PressedBlock()
         other.run(first)
         forces.append(other.contact.force)
-        assert (other.contact.interface.nodes.status == nodes.status).all()
+        assert (other.contact.discrete.nodes.status == nodes.status).all()
         error = np.abs(other.u.x.array - one.u.x.array).max()
         print(first, error, forces[-1])
         assert error <= 1e-10 * np.abs(one.u.x.array).max()

@@ -8,7 +8,7 @@ import pytest
 import contactx as cx
 import ufl
 from contactx import cpp as core
-from contactx.newton import NewtonLoop
+from contactx._host.newton import NewtonLoop
 from dolfinx import fem
 from dolfinx.mesh import CellType
 
@@ -126,7 +126,7 @@ def test_belts_slide_around_a_drum(pull, method):
     assert sum(r.iterations for r in reports) <= 60
     assert sum(r.discarded for r in reports) == 0
     # All but its ends lies on the drum
-    assert strip.contact.interface.nodes.closed.sum() >= 90
+    assert strip.contact.discrete.nodes.closed.sum() >= 90
 
 
 def test_the_tension_of_a_belt_falls_as_euler_says():

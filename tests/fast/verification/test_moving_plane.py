@@ -44,9 +44,9 @@ def test_only_relative_movement_counts(cell, sliding):
         size = np.abs(b.multiplier).max()
         assert np.abs(a.multiplier - b.multiplier).max() <= 1e-9 * size
         assert np.abs(a.slip_total.x.array - b.slip_total.x.array).max() <= 1e-9
-        assert np.array_equal(a.interface.nodes.status, b.interface.nodes.status)
+        assert np.array_equal(a.discrete.nodes.status, b.discrete.nodes.status)
     # Both kinds of nodes have come up
-    assert {1, 2} <= set(a.interface.nodes.status)
+    assert {1, 2} <= set(a.discrete.nodes.status)
     assert a.force[0] < -0.01
 
 
@@ -59,7 +59,7 @@ def test_only_relative_movement_counts(cell, sliding):
 def test_slip_that_turns_back_does_not_cycle(cell, n, sliding, friction):
     """All nodes start to slip where most of them stick in the end, and the plane returns."""
     scene = Pressed(cell, sliding, friction, n)
-    contact, nodes = scene.contact, scene.contact.interface.nodes
+    contact, nodes = scene.contact, scene.contact.discrete.nodes
     for place in (-0.03, 0.03, -0.1):
         scene.shift(plane=place)
         assert scene.problem.report.iterations <= 13

@@ -59,15 +59,15 @@ def test_hertz_is_the_same(sliding, friction, method):
 @both_slidings
 def test_nothing_tangential_exists_without_friction(sliding, method):
     _, contact = solved(sliding, method)
-    interface = contact.interface
+    discrete = contact.discrete
     assert contact.multiplier.shape == (len(contact.slave_nodes),)
-    assert interface.history is None
+    assert discrete.history is None
     for name in ("slip_derivative", "normal_derivative"):
-        assert getattr(interface.state, name) is None
-    assert interface.state.multiplier.block_size == 1
-    for array in (interface.nodes.slip, interface.nodes.normal, interface.nodes.mobile):
+        assert getattr(discrete.state, name) is None
+    assert discrete.state.multiplier.block_size == 1
+    for array in (discrete.nodes.slip, discrete.nodes.normal, discrete.nodes.mobile):
         assert array.size == 0
-    for array in (interface.nodes.by_slip, interface.nodes.by_normal):
+    for array in (discrete.nodes.by_slip, discrete.nodes.by_normal):
         assert array.size == 0
     for form in contact.forms:
         assert form.pairs.slip is None

@@ -65,7 +65,7 @@ def test_nodes_on_equal_meshes_carry_what_is_uniform(cell, options):
     assert patch.stress_errors().max() < 1e-9
     # Vertices of triangles of six nodes get no force, but have a pressure
     if cell != CellType.tetrahedron:
-        assert patch.contact.interface.nodes.closed.all()
+        assert patch.contact.discrete.nodes.closed.all()
         assert patch.pressure_errors().max() < 1e-9
     slaves = patch.contact.slave_nodes
     assert patch.contact.pressure.x.array[slaves] == pytest.approx(patch.pressure, rel=1e-9)
@@ -113,7 +113,7 @@ def test_jacobians_are_derivatives(cell, method, options):
         ksp.setOperators(A)
         ksp.solve(b, dx)
         assembler.update(-dx)
-    assert (contact.interface.nodes.status > 0).sum() > 3
+    assert (contact.discrete.nodes.status > 0).sum() > 3
 
     rng = np.random.default_rng(1)
     n = len(u.x.array)
@@ -238,7 +238,7 @@ def test_obstacles_meet_the_nodes(cell, method):
     contact = scene.contact(master=master, friction=0.3, method=method)
     scene.problem(contact).solve()
     gap = contact.gap.x.array[contact.slave_nodes]
-    closed = contact.interface.nodes.closed
+    closed = contact.discrete.nodes.closed
     assert closed.mean() > 0.9
     assert np.abs(gap[closed]).max() < 1e-12
     assert gap.min() > -1e-12

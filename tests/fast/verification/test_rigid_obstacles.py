@@ -51,7 +51,7 @@ def test_plane_equals_a_very_stiff_master(sliding, method):
     assert contact.multiplier == pytest.approx(stiff.multiplier, abs=p_off * largest)
     assert contact.force == pytest.approx(stiff.force, rel=off, abs=off * stiff.force[2])
     assert problem.report.iterations <= 10
-    assert np.nanmin(contact.interface.nodes.gap) > -1e-12
+    assert np.nanmin(contact.discrete.nodes.gap) > -1e-12
 
 
 def test_hertz_on_a_rigid_plane():
@@ -211,7 +211,7 @@ def test_search_distance_leaves_far_nodes_out():
     problem.solve()
     # The side's nodes above half a length have none
     assert problem.report.pairs < problem.report.slaves
-    gaps = contact.interface.nodes.gap
+    gaps = contact.discrete.nodes.gap
     assert np.nanmax(gaps) <= 0.5
     assert np.isnan(gaps).sum() == problem.report.slaves - problem.report.pairs
 

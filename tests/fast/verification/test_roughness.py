@@ -5,7 +5,7 @@
 import numpy as np
 import pytest
 
-from contactx import linear
+from contactx._host import linear
 
 import meshes
 import scenes

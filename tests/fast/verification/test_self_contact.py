@@ -62,7 +62,7 @@ def test_thin_sheets_have_two_sides(friction):
     sheets = ThinSheets(friction=friction)
     sheets.problem.solve()
     contact = sheets.contact
-    nodes = contact.interface.nodes
+    nodes = contact.discrete.nodes
     assert np.linalg.norm(sheets.problem.report.imbalance) <= 1e-10 * PRESSURE
     # Two layers of contact carry the load
     total = np.abs((nodes.area[:, None] * contact.multiplier.reshape(len(nodes.area), -1)).sum())
@@ -71,7 +71,7 @@ def test_thin_sheets_have_two_sides(friction):
         assert total == pytest.approx(2 * PRESSURE, rel=1e-9)
     # No node is on both sides
     slaves = set(contact.slave_nodes[nodes.closed].tolist())
-    for pairs in contact.interface.pairs:
+    for pairs in contact.discrete.pairs:
         for row in pairs.nodes:
             if row[0] in slaves:
                 assert not slaves & set(row[1:].tolist())
@@ -81,12 +81,12 @@ def test_sides_stay_what_they_are():
     """Which nodes are slaves does not change while a load grows."""
     clip = Clip(0.1)
     clip.run(1.5 * CLOSING, 3)
-    before = clip.contact.interface.nodes.closed.copy()
+    before = clip.contact.discrete.nodes.closed.copy()
     assert before.any()
     for load in (1.7, 2.0, 2.5):
         clip.press(load * CLOSING)
         clip.problem.solve()
-        after = clip.contact.interface.nodes.closed
+        after = clip.contact.discrete.nodes.closed
         assert (after | before).sum() == max(after.sum(), before.sum())
 
 

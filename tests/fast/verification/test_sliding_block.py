@@ -94,8 +94,8 @@ def test_circular_path(base, sliding):
         place = radius * np.array([np.cos(angle) - 1, np.sin(angle)])
         scene.step(*place, DOWN)
         p, t = parts(scene.contact)
-        slip = scene.contact.interface.history.slip
-        assert (scene.contact.interface.nodes.status == 2).all()
+        slip = scene.contact.discrete.history.slip
+        assert (scene.contact.discrete.nodes.status == 2).all()
         against = np.einsum("ij,ij->i", t, slip) / np.linalg.norm(slip, axis=1)
         assert against == pytest.approx(-MU * p, rel=1e-8)
         # The block is elastic: its foot lags behind its top
@@ -115,14 +115,14 @@ def test_a_plane_that_moves_drags_a_fixed_block(cell, sliding):
     point.value[0] += 0.2
     along(scene, 0.0)
     assert resistance(scene) == pytest.approx(1, abs=0 if gdim == 2 else 0.01, rel=1e-8)
-    slip = scene.contact.interface.history.slip
+    slip = scene.contact.discrete.history.slip
     print(scene.iterations, slip[:, 0])
     assert np.all(slip[:, 0] < -0.15)
     # A new step in which nothing moves slips no more, and keeps its force
     force = scene.contact.force.copy()
     along(scene, 0.0)
     assert scene.contact.force == pytest.approx(force, rel=1e-9, abs=1e-12)
-    assert np.abs(scene.contact.interface.history.slip).max() < 1e-12
+    assert np.abs(scene.contact.discrete.history.slip).max() < 1e-12
 
 
 @covering(guess=(True, False), cell=BOXES, sliding=SLIDINGS, method=METHODS)
@@ -140,7 +140,7 @@ def test_a_plane_that_moves_with_the_block_feels_nothing(guess, cell, sliding):
         along(scene, first + 0.37)
         assert scene.contact.force == pytest.approx(force, rel=1e-9, abs=1e-12)
         assert parts(scene.contact)[1] == pytest.approx(t, abs=1e-9 * np.abs(t).max())
-        assert np.abs(scene.contact.interface.history.slip).max() < 1e-9
+        assert np.abs(scene.contact.discrete.history.slip).max() < 1e-9
         moved = (scene.u.x.array - u).reshape(-1, gdim) - np.eye(gdim)[0] * 0.37
         assert np.abs(moved).max() < 1e-9
         print(scene.iterations)

@@ -57,7 +57,7 @@ def test_a_shrink_fit_of_chords_is_that_of_circles(height, swapped, turned):
     recovered = rings.contact.pressure.x.array
     closed = rings.contact.status.x.array > 0
     assert np.abs(recovered[closed] / rings.mean_pressure - 1).max() < 0.01
-    assert rings.contact.interface.nodes.closed.all()
+    assert rings.contact.discrete.nodes.closed.all()
 
 
 def loaded(n, n_outer):
@@ -66,7 +66,7 @@ def loaded(n, n_outer):
         n, n_outer, fixed=True, friction=0.05, smooth=True, adjust=0.02, material=pulled
     )
     rings.problem.solve()
-    return rings.contact.interface.nodes.pressure
+    return rings.contact.discrete.nodes.pressure
 
 
 def test_a_ring_that_is_pulled_aside_in_a_perfect_fit():

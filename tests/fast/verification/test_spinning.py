@@ -77,13 +77,13 @@ def test_a_roll_that_spins_drags_by_friction(dim, method):
     for angle in (0.02, 0.04):
         force = scene.spin(angle)
     forces = scene.contact.area[:, None] * scene.contact.multiplier
-    normal = scene.contact.interface.nodes.normal
+    normal = scene.contact.discrete.nodes.normal
     p = np.einsum("ij,ij->i", forces, normal)
     t = np.linalg.norm(forces - p[:, None] * normal, axis=1)
     np.testing.assert_allclose(t, 0.2 * p, rtol=1e-6, atol=1e-9)
     assert force[0] == pytest.approx(sign * 0.2 * force[-1], rel=0.08)
     # All nodes in contact have slid by what the roll's surface has moved
-    closed = scene.contact.interface.nodes.closed
+    closed = scene.contact.discrete.nodes.closed
     slip = scene.contact.slip.x.array.reshape(-1, dim)[scene.contact.slave_nodes]
     np.testing.assert_allclose(slip[closed, 0], -sign * 0.02 * RADIUS, rtol=0.05)
     # And back
@@ -93,9 +93,9 @@ def test_a_roll_that_spins_drags_by_friction(dim, method):
 def test_a_tied_block_turns_with_the_roll():
     scene = OnRoll(2, story.METHODS[0], tied=True)
     scene.spin(0.0)
-    x = scene.contact.interface.positions()[scene.contact.slave_nodes].copy()
+    x = scene.contact.discrete.positions()[scene.contact.slave_nodes].copy()
     scene.spin(0.01)
-    now = scene.contact.interface.positions()[scene.contact.slave_nodes]
+    now = scene.contact.discrete.positions()[scene.contact.slave_nodes]
     c, s = np.cos(0.01), np.sin(0.01)
     centre = np.array([0, -RADIUS])
     np.testing.assert_allclose(now, centre + (x - centre) @ np.array([[c, s], [-s, c]]), atol=1e-9)

@@ -36,7 +36,7 @@ def test_either_body_may_be_the_slave(sliding):
     assert -forces[1] == pytest.approx(forces[0], rel=5e-3)
     assert forces[2] == pytest.approx(forces[0], rel=0.01)
     for contact in (sphere, block):
-        assert np.nanmin(contact.interface.nodes.gap) >= -1e-12
+        assert np.nanmin(contact.discrete.nodes.gap) >= -1e-12
         assert contact.multiplier.min() >= 0
 
 
@@ -55,7 +55,7 @@ def test_forces_and_moments_balance(cell, sliding):
     scene.problem(contact).solve()
     gdim = len(contact.force)
     forces = np.zeros(len(scene.u.x.array))
-    contact.interface.add_residual(forces)
+    contact.discrete.add_residual(forces)
     forces = forces.reshape(-1, gdim)
     size = np.abs(forces).max()
     assert np.abs(forces.sum(axis=0)).max() <= 1e-12 * size
@@ -95,7 +95,7 @@ def test_very_different_meshes(cell, sliding, n):
     problem.solve()
     print(problem.report.iterations, contact.force)
     assert problem.report.iterations <= 8
-    assert np.nanmin(contact.interface.nodes.gap) >= -1e-12
+    assert np.nanmin(contact.discrete.nodes.gap) >= -1e-12
     assert contact.force[-1] > 0.02
 
 
@@ -128,9 +128,9 @@ def test_over_the_outer_edge_and_back(cell, friction, method):
         scene.problem.solve()
         assert scene.problem.report.iterations <= 12
         assert np.isfinite(scene.u.x.array).all() and np.isfinite(contact.multiplier).all()
-        paired.append(int(contact.interface.master.paired.sum()))
+        paired.append(int(contact.discrete.master.paired.sum()))
         forces.append(contact.force[-1])
-        assert np.all(np.isnan(contact.interface.nodes.gap) == ~contact.interface.master.paired)
+        assert np.all(np.isnan(contact.discrete.nodes.gap) == ~contact.discrete.master.paired)
     print(paired, [f"{f:.4f}" for f in forces])
     assert paired[4] < paired[0] == paired[-1]
     assert min(forces) > 0 and max(forces) < 0.05
@@ -147,12 +147,12 @@ def test_a_failed_step_is_undone_and_its_repetition_is_the_same(sliding):
         problem = scene.problem(contact)
         problem.solve()
         if fails:
-            before = {name: a.copy() for name, a in contact.interface.save().items()}
+            before = {name: a.copy() for name, a in contact.discrete.save().items()}
             u = scene.u.x.array.copy()
             scene.bcs[-1].g.value[...] = -1e300
             with pytest.raises(cx.ConvergenceError):
                 problem.solve()
-            after = contact.interface.save()
+            after = contact.discrete.save()
             assert np.array_equal(scene.u.x.array, u)
             for name, array in before.items():
                 np.testing.assert_array_equal(after[name], array, err_msg=name)

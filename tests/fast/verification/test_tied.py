@@ -37,7 +37,7 @@ def test_uniaxial_tension_and_compression(cell, sliding, height):
     traction = np.tile(lift(gdim, -height / 2), (len(contact.area), 1))
     assert contact.multiplier.shape == (len(contact.area), gdim)
     assert np.abs(contact.multiplier - traction).max() <= 1e-11
-    nodes = contact.interface.nodes
+    nodes = contact.discrete.nodes
     assert np.all(nodes.status == 1)
     assert np.abs(nodes.gap).max() <= 1e-13
     assert np.abs(tower.problem.report.imbalance).max() <= 1e-13
@@ -84,8 +84,8 @@ def test_untied_boxes_part(cell, sliding):
     tower = Tower(cell, 2, 3, sliding=sliding)
     tower.solve(*lift(tower.gdim, 0.1))
     assert np.array_equal(tower.contact.force, np.zeros(tower.gdim))
-    assert np.all(tower.contact.interface.nodes.status == 0)
-    assert np.nanmin(tower.contact.interface.nodes.gap) == pytest.approx(0.1, rel=1e-9)
+    assert np.all(tower.contact.discrete.nodes.status == 0)
+    assert np.nanmin(tower.contact.discrete.nodes.gap) == pytest.approx(0.1, rel=1e-9)
 
 
 @covering(cell=CELLS, sliding=SLIDINGS, method=METHODS)
@@ -107,7 +107,7 @@ def test_much_friction_under_pressure_is_a_tie(cell, sliding, method):
     rough = Tower(cell, 4, 3, friction=1e6, nu=0.3, sliding=sliding)
     for tower in (tied, rough):
         tower.solve(*lift(tower.gdim, -0.1, 0.01))
-    assert np.all(rough.contact.interface.nodes.status == 1)
+    assert np.all(rough.contact.discrete.nodes.status == 1)
     size = np.abs(tied.contact.multiplier).max()
     difference = np.abs(rough.contact.multiplier - tied.contact.multiplier).max()
     print(f"{difference / size:.1e}")
@@ -130,7 +130,7 @@ def test_offset_makes_a_tie_longer(cell, sliding, rigid):
         offset.value = value
         tower.problem.solve()
         assert tower.contact.force == pytest.approx(lift(gdim, value / length), abs=1e-12)
-        assert np.abs(tower.contact.interface.nodes.gap).max() <= 1e-13
+        assert np.abs(tower.contact.discrete.nodes.gap).max() <= 1e-13
         assert tower.problem.report.iterations <= 1
 
 
@@ -155,7 +155,7 @@ def test_slave_nodes_beyond_the_outer_edge_are_not_tied(cell, method):
     tower = Tower(cell, 4, 3, tied=True, nu=0.3, shift=0.4)
     gdim = tower.gdim
     tower.solve(*lift(gdim, 0.1))
-    contact, nodes = tower.contact, tower.contact.interface.nodes
+    contact, nodes = tower.contact, tower.contact.discrete.nodes
     x = tower.X[contact.slave_nodes]
     # By surface-to-surface one whose facets reach over the edge, 0.25 wide, may be tied
     beyond = (x[:, :-1] > 1.0 + 0.1).any(axis=1)

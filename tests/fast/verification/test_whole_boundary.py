@@ -64,7 +64,7 @@ def test_the_pressure_is_uniform_up_to_the_edges(cell, method, sliding):
     block = PressedBlock(cell, method=method, sliding=sliding)
     block.problem.solve()
     contact = block.contact
-    closed = contact.interface.nodes.closed
+    closed = contact.discrete.nodes.closed
     assert closed.sum() == 5 ** (len(block.u) - 1)
     assert contact.multiplier[closed] == pytest.approx(1)
     assert contact.pressure.x.array[contact.slave_nodes[closed]] == pytest.approx(1)
@@ -79,7 +79,7 @@ def test_integrated_over_facets_it_is_the_same(cell):
 
     block = PressedBlock(cell, 0.3, level, method="surface-to-surface")
     block.problem.solve()
-    closed = block.contact.interface.nodes.closed
+    closed = block.contact.discrete.nodes.closed
     assert closed.sum() == 5 ** (len(block.u) - 1)
     assert block.contact.multiplier[closed] == pytest.approx(1)
 
@@ -87,7 +87,7 @@ def test_integrated_over_facets_it_is_the_same(cell):
 def test_friction_and_a_tilted_plane():
     block = PressedBlock(mesh.CellType.quadrilateral, angle=0.7, friction=0.5)
     block.problem.solve()
-    closed = block.contact.interface.nodes.closed
+    closed = block.contact.discrete.nodes.closed
     pressure = block.contact.multiplier @ block.up
     assert pressure[closed] == pytest.approx(1)
 

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import contactx as cx
-from contactx.steps import archive
+from contactx._host.checkpoint import archive
 
 from scenes.steps import Rubbing
 

@@ -15,8 +15,8 @@ import numpy as np
 import pytest
 
 import contactx as cx
-from contactx.interrupts import Interrupts
-from contactx.state import Snapshot
+from contactx._host.callbacks import Interrupts
+from contactx._host.checkpoint.snapshot import FunctionValues
 
 from scenes.steps import KINDS, Rubbing
 
@@ -165,17 +165,20 @@ def test_a_second_one_waits_until_the_state_is_back():
     scene = Rubbing()
     before = scene.state()
     scene.update(0.25)
+    pressed = []
     with pytest.raises(KeyboardInterrupt), Counter(200, times=1) as counter:
-        restore = Snapshot.restore
+        restore = FunctionValues.restore
 
-        def pressed_again(snapshot):
+        def pressed_again(values):
+            pressed.append(values)
             signal.raise_signal(signal.SIGINT)
-            restore(snapshot)
+            restore(values)
 
         with pytest.MonkeyPatch.context() as patch:
-            patch.setattr(Snapshot, "restore", pressed_again)
+            patch.setattr(FunctionValues, "restore", pressed_again)
             scene.problem.solve()
     assert counter.calls >= 200
+    assert pressed
     assert scene.state() == before
 
 

@@ -39,12 +39,12 @@ def violated(judge):
 
 
 def closed_nodes(contact):
-    return np.flatnonzero(contact.interface.nodes.closed)
+    return np.flatnonzero(contact.discrete.nodes.closed)
 
 
 def test_forces_that_do_not_balance(solved):
     blocks, judge = solved
-    multiplier = blocks.contact.interface.nodes.multiplier
+    multiplier = blocks.contact.discrete.nodes.multiplier
     multiplier *= 1 + 1e-6
     assert "balance of nodes" in violated(judge)
 
@@ -61,7 +61,7 @@ def test_a_displacement_that_is_a_little_off(solved):
 def test_forces_that_are_left_of_those_before(solved, part, right):
     """Without any load none are left, and nothing else is there to compare them with."""
     blocks, judge = solved
-    blocks.contact.interface.nodes.multiplier[:] = 0
+    blocks.contact.discrete.nodes.multiplier[:] = 0
     blocks.u.x.array[:] *= part
     assert ("balance of nodes" not in violated(judge)) == right
     # In the next step they would be a load that nothing bears
@@ -70,7 +70,7 @@ def test_forces_that_are_left_of_those_before(solved, part, right):
 
 def test_tension_and_friction_beyond_the_cone(solved):
     blocks, judge = solved
-    nodes = blocks.contact.interface.nodes
+    nodes = blocks.contact.discrete.nodes
     traction = nodes.multiplier.reshape(nodes.normal.shape)
     k = closed_nodes(blocks.contact)[0]
     before = traction[k].copy()
@@ -82,7 +82,7 @@ def test_tension_and_friction_beyond_the_cone(solved):
 
 def test_slip_of_what_sticks_or_with_its_friction(solved):
     blocks, judge = solved
-    nodes, history = blocks.contact.interface.nodes, blocks.contact.interface.history
+    nodes, history = blocks.contact.discrete.nodes, blocks.contact.discrete.history
     slip, slipping = history.slip, np.flatnonzero(nodes.status == 2)
     others = history.total, history.dissipation
     slip[slipping] *= -1
@@ -96,7 +96,7 @@ def test_slip_of_what_sticks_or_with_its_friction(solved):
 
 def test_gaps_of_closed_nodes_and_forces_of_open_ones(solved):
     blocks, judge = solved
-    nodes = blocks.contact.interface.nodes
+    nodes = blocks.contact.discrete.nodes
     k = closed_nodes(blocks.contact)[0]
     nodes.gap[k] = 1e-8
     assert "closed nodes have no gap" in violated(judge)
@@ -118,7 +118,7 @@ def forces(contact, V):
     """What pushes each node."""
     x = V.tabulate_dof_coordinates()[:, : V.dofmap.index_map_bs]
     pushed = np.zeros_like(x)
-    contact.interface.add_residual(pushed.ravel())
+    contact.discrete.add_residual(pushed.ravel())
     return -pushed
 
 

@@ -14,7 +14,7 @@ def errors(h, sliding):
     problem, contact = hertz_cylinder.create(h, sliding)
     problem.solve()
     assert problem.report.iterations <= 10
-    assert np.nanmin(contact.interface.nodes.gap) > -1e-12
+    assert np.nanmin(contact.discrete.nodes.gap) > -1e-12
     E, nu = hertz_cylinder.E, hertz_cylinder.NU
     hertz = reference.HertzCylinder(
         force=2 * contact.force[1], radius=1.0, modulus=reference.contact_modulus(E, nu, E, nu)

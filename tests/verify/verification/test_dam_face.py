@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from matplotlib import image
 
-from contactx.condensed import by_bodies
+from contactx._host.condensed import soft_stiff
 
 import dam_face
 from dam_results import joints, laws
@@ -90,22 +90,22 @@ def count_factorisations(dam):
 
 def test_factors_serve_the_less_the_more_a_solve_is_to_reduce(dam, monkeypatch):
     """With a hundredth of the reduction old factors serve longer, were they never dear."""
-    monkeypatch.setattr(by_bodies, "_COST", 10**6)
+    monkeypatch.setattr(soft_stiff, "_FACTORISATION_COST", 10**6)
     many = count_factorisations(dam)
-    update = by_bodies.ByBodies._update
+    update = soft_stiff.SoftStiffSolver._update
 
     def rougher(self, operator, reduction, report):
         update(self, operator, reduction and 0.01 * reduction, report)
 
-    monkeypatch.setattr(by_bodies.ByBodies, "_update", rougher)
+    monkeypatch.setattr(soft_stiff.SoftStiffSolver, "_update", rougher)
     assert count_factorisations(dam) < many
 
 
 def test_old_factors_that_cost_more_than_new_ones_are_renewed(dam, monkeypatch):
     """However large the change for which they are to serve."""
-    monkeypatch.setattr(by_bodies, "_STIFF_SERVES", 1e9)
+    monkeypatch.setattr(soft_stiff, "_MAX_CHANGE_OF_STIFF", 1e9)
     few = count_factorisations(dam)
-    monkeypatch.setattr(by_bodies, "_COST", 1)
+    monkeypatch.setattr(soft_stiff, "_FACTORISATION_COST", 1)
     assert count_factorisations(dam) > few
 
 
@@ -129,13 +129,13 @@ def with_springs():
 def test_springs_lie_between_those_for_long_waves_and_for_short_ones(
     short_waves, saved, with_springs, monkeypatch
 ):
-    monkeypatch.setattr(by_bodies, "_SHORT_WAVES", short_waves)
+    monkeypatch.setattr(soft_stiff, "_SHORT_WAVE_EXPONENT", short_waves)
     assert with_springs <= (1 - saved) * count_iterations()
 
 
 def test_a_coarse_model_takes_fewer_iterations(with_springs, monkeypatch):
     """What it is for where springs take too many."""
-    monkeypatch.setattr(by_bodies, "_MOST_OF_SPRINGS", 0)
+    monkeypatch.setattr(soft_stiff, "_MAX_ITERATIONS_WITH_SPRINGS", 0)
     assert count_iterations() <= 0.8 * with_springs
 
 

@@ -71,7 +71,7 @@ class Turned:
         """Traction, slip and deformed shape in the frame of the base."""
         scene, centre = self.scene, CENTRE[: self.gdim]
         x = (self.X + scene.u.x.array.reshape(-1, self.gdim) - centre) @ self.Q
-        slip = scene.contact.interface.history.slip
+        slip = scene.contact.discrete.history.slip
         return scene.contact.multiplier @ self.Q, slip @ self.Q, x
 
 

@@ -19,7 +19,7 @@ def solve(sliding, method, friction, h=None, **options):
     problem, contact = hertz_sphere(h or H[method], sliding, friction=friction, **options)
     problem.solve()
     report = problem.report
-    nodes = contact.interface.nodes
+    nodes = contact.discrete.nodes
     tolerance = report.history[-1].tolerance
     inside = nodes.mobile.all(axis=1)
     count = check_coulomb(contact, tolerance, inside)

@@ -19,7 +19,7 @@ def test_deep_indentation_in_one_step(depth, sliding, method):
     problem.solve()
     print(f"{sliding} {depth}: {problem.report.iterations} iterations")
     assert problem.report.iterations <= 12
-    assert np.nanmin(contact.interface.nodes.gap) > -1e-12
+    assert np.nanmin(contact.discrete.nodes.gap) > -1e-12
     assert problem.report.frozen_pairs == 0
     assert contact.force[2] > 0
 
@@ -34,7 +34,7 @@ def test_one_body_is_much_stiffer(ratio, body, sliding, method):
         f"{sliding} {body.name} {ratio:g}: {problem.report.iterations} iterations, p_l2 {error:.4f}"
     )
     assert problem.report.iterations <= 12
-    assert np.nanmin(contact.interface.nodes.gap) > -1e-11
+    assert np.nanmin(contact.discrete.nodes.gap) > -1e-11
     # The soft body alone gives: twice Hertz's modulus, so almost twice the force
     assert 4 * contact.force[2] == pytest.approx(0.0048, rel=0.1)
     # On a soft master nodal pressures scatter: another node-to-surface code has 0.34 at 1e4

@@ -72,7 +72,7 @@ def test_cap(sliding, method):
     for problem, contact, force in (matching, other):
         assert problem.report.iterations <= 10
         assert 4 * contact.force[2] == pytest.approx(force, rel=1e-10)
-        assert np.nanmin(contact.interface.nodes.gap) > -1e-12
+        assert np.nanmin(contact.discrete.nodes.gap) > -1e-12
     assert other[2] == pytest.approx(matching[2], rel=0.01)
     radius, peak, l2 = (0.05, 0.30, 0.20) if method == "node-to-surface" else (0.09, 0.03, 0.07)
     assert np.all(errors(*matching) <= [0.09, 0.03, 0.07])

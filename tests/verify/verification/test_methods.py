@@ -31,7 +31,7 @@ def hertz(data, sliding, method, young=None):
     )
     iterations = scene.problem.report.iterations
     print(f"{sliding} {method} {young}: {iterations} iterations, p_l2 {raw:.4f}, {best:.4f}")
-    assert np.nanmin(contact.interface.nodes.gap) > -1e-12
+    assert np.nanmin(contact.discrete.nodes.gap) > -1e-12
     assert iterations <= 12
     return 4 * contact.force[2], raw, best
 

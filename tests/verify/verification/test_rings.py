@@ -13,7 +13,7 @@ def errors(h, sliding, young_outer):
     problem.solve()
     assert problem.report.iterations <= 5
     assert np.all(contact.multiplier > 0)
-    assert np.nanmin(contact.interface.nodes.gap) > -1e-12
+    assert np.nanmin(contact.discrete.nodes.gap) > -1e-12
     results = press_fit.compare(problem, contact, press_fit.lame(young_outer))
     result = np.abs([r.error for r in results])
     print(
@@ -51,6 +51,6 @@ def test_clearance(sliding, method):
     assert not contact.multiplier.any()
     assert not problem.u.x.array.any()
     # Open by the clearance, less the chords' height; in the mean chords face chords
-    gap, height = contact.interface.nodes.gap, 0.034**2 / (8 * 1.5)
+    gap, height = contact.discrete.nodes.gap, 0.034**2 / (8 * 1.5)
     most = 0.01 + (height if method == "surface-to-surface" else 1e-12)
     assert np.all((gap > 0.01 - height) & (gap <= most))

@@ -58,11 +58,11 @@ def test_sphere(sliding, h, method):
     error = pressure_error(problem, contact)
     print(
         f"{method} {sliding} h={h}: 4F {force:.7f}, {report.iterations} iterations, "
-        f"p_l2 {error:.4f}, gap {np.nanmin(contact.interface.nodes.gap):.1e}"
+        f"p_l2 {error:.4f}, gap {np.nanmin(contact.discrete.nodes.gap):.1e}"
     )
     assert force == pytest.approx(FORCES[method, sliding, h], rel=3e-4 if method == NODES else 4e-5)
     assert 4 * contact.force[2] == pytest.approx(force, rel=1e-10)
-    assert np.nanmin(contact.interface.nodes.gap) > -1e-12
+    assert np.nanmin(contact.discrete.nodes.gap) > -1e-12
     assert report.iterations <= (10 if method == NODES else MOST[h])
     assert error <= PRESSURE_ERRORS[method, h]
     if h < 0.04:
@@ -102,7 +102,7 @@ def check_recovered(problem, contact, raw_l2, sliding, method, bounds):
 def test_recovered_traction_with_friction(method):
     problem, contact = sphere_with(0.04, "finite", method=method, friction=MU)
     problem.solve()
-    nodes = contact.interface.nodes
+    nodes = contact.discrete.nodes
     p = contact.pressure.x.array[contact.slave_nodes]
     traction = contact.traction.x.array.reshape(-1, 3)[contact.slave_nodes]
     t = traction - p[:, None] * nodes.normal

@@ -1,12 +1,12 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""A stiff sheet tied to soft ground: iterations of the solver by bodies as both grow."""
+"""A stiff sheet tied to soft ground: iterations with blocks of bodies as both grow."""
 
 import pytest
 
 import contactx as cx
 import ufl
-from contactx.condensed import by_bodies
+from contactx._host.condensed import soft_stiff
 from dolfinx import fem
 from dolfinx.mesh import CellType
 
@@ -60,7 +60,7 @@ def iterations(length):
 @pytest.fixture
 def model(monkeypatch):
     """The coarse model."""
-    monkeypatch.setattr(by_bodies, "_MOST_OF_SPRINGS", 0)
+    monkeypatch.setattr(soft_stiff, "_MAX_ITERATIONS_WITH_SPRINGS", 0)
 
 
 def test_iterations_with_the_coarse_model_hardly_grow(model):

@@ -42,8 +42,8 @@ def test_rotation_of_both_ends_leaves_no_traction(cell, gap):
         tower.move(motion)
     assert np.abs(tower.moved - motion(tower.X)).max() <= 1e-10
     assert np.abs(tower.contact.multiplier).max() <= 1e-10
-    assert tower.contact.interface.nodes.gap == pytest.approx(gap, abs=1e-10)
-    assert np.all(tower.contact.interface.nodes.status == 1)
+    assert tower.contact.discrete.nodes.gap == pytest.approx(gap, abs=1e-10)
+    assert np.all(tower.contact.discrete.nodes.status == 1)
 
 
 @every_gap

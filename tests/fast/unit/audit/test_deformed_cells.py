@@ -12,7 +12,7 @@ import pytest
 import basix
 import ufl
 from contactx import cpp as core
-from contactx.refined import linear_cells, parts_of_cells, reference_positions
+from contactx._host.nodes import linear_cells, parts_of_cells, reference_positions
 from dolfinx import fem, mesh
 from dolfinx.mesh import CellType
 

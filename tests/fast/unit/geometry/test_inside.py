@@ -11,8 +11,8 @@ from scipy.sparse.csgraph import connected_components
 
 import basix.ufl
 import contactx as cx
-from contactx.bodies import Bodies
-from contactx.parallel.halo import Halo
+from contactx._host.bodies import Bodies
+from contactx._host.parallel.halo import Halo
 from dolfinx import mesh
 from dolfinx.mesh import CellType
 
@@ -116,7 +116,7 @@ def test_a_body_that_fills_a_hole():
     tags = mesh.meshtags(domain, 1, boundary, values)
     contact = cx.Contact(cx.Surface(tags, 1), cx.Surface(tags, 2))
     cx.ContactProblem(elasticity(u, 1.0, 0.3), u, contacts=[contact], petsc_options_prefix="plug_")
-    assert contact.interface.master.paired.all()
+    assert contact.discrete.master.paired.all()
 
 
 def test_a_refused_problem_frees_its_contacts():

@@ -9,7 +9,7 @@ import pytest
 
 import contactx as cx
 import ufl
-from contactx.ufl_function import UFLFunction
+from contactx._host.ufl_function import UFLFunction
 from dolfinx import fem, mesh
 
 
