@@ -16,6 +16,7 @@ from contactx.conductance import Conductance
 from contactx.contact import Contact
 from contactx.dynamics import ContactDynamics
 from contactx.errors import ConvergenceError
+from contactx.form_system import Forms
 from contactx.friction import FrictionLaw
 from contactx.obstacles import Cylinder, LevelSet, Plane, Sphere
 from contactx.output import VTKOutput
@@ -34,6 +35,7 @@ __all__ = [
     "ContactProblem",
     "ConvergenceError",
     "Cylinder",
+    "Forms",
     "FrictionLaw",
     "LevelSet",
     "LoadSteps",

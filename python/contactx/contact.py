@@ -340,13 +340,19 @@ class Contact:
             raise RuntimeError(f"{self} has no results yet: pass it to a ContactProblem first")
         return self._fields
 
-    @property
-    def forms(self) -> list[ContactForms]:
-        """Forms of the current pairs, one set for each kind of master facet.
+    def forms(self) -> ContactForms:
+        """Residual and Jacobian of the contact as forms of DOLFINx; all ranks must take part.
 
-        They read the state as it is now: ask anew where it has changed since.
+        They are made at the first call, and anew where pairs have changed since. They read the
+        state as it is at the last call: ask again after each ``settle`` or ``update``.
+
+        Returns:
+            The forms, always the same object.
+
+        Raises:
+            RuntimeError: If the contact belongs to no problem yet.
         """
-        return self.interface.forms
+        return self.interface.forms()
 
     @property
     def slave_nodes(self) -> npt.NDArray[np.int32]:

@@ -62,16 +62,15 @@ def test_nothing_tangential_exists_without_friction(sliding, method):
     interface = contact.interface
     assert contact.multiplier.shape == (len(contact.slave_nodes),)
     assert interface.history is None
-    for name in ("slip_derivative", "normal_derivative"):
-        assert getattr(interface.state, name) is None
-    assert interface.state.multiplier.block_size == 1
     for array in (interface.nodes.slip, interface.nodes.normal, interface.nodes.mobile):
         assert array.size == 0
     for array in (interface.nodes.by_slip, interface.nodes.by_normal):
         assert array.size == 0
-    for form in contact.forms:
-        assert form.pairs.slip is None
-        assert form._slip_data is None
+    assert all(pairs.slip is None for pairs in interface.pairs)
+    forms = contact.forms()
+    assert forms.multiplier_size == 1
+    for form in forms.K + forms.B + forms.C:
+        assert len(form._cpp_object.coefficients) == 6
     for name in ("slip", "slip_total"):
         assert not getattr(contact, name).x.array.any()
 
