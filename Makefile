@@ -28,7 +28,7 @@ CPP_FILES = $(shell find cpp demos/cpp tests/dolfinx_cpp -name '*.h' -o -name '*
 PY_FOLDERS := python tests demos docs tools
 # What `make sanitize` runs in Python: both methods, friction, ties, obstacles,
 # finite and small sliding, the condensed solver.
-SANITIZED := tests/fast/property tests/fast/unit/core tests/fast/assembly/test_condensed.py \
+SANITIZED := tests/fast/assembly/test_condensed.py tests/fast/assembly/test_forms.py \
 	tests/fast/verification/test_rigid_obstacles.py tests/fast/verification/test_finite_strain.py
 # Executions of each fuzz target, and the compiler that has libFuzzer
 RUNS ?= 1000000

@@ -19,7 +19,7 @@ from pathlib import Path
 
 STUB = Path(__file__).parents[1] / "python" / "contactx" / "cpp.pyi"
 # Classes with another name in Python than in C++, where their binding comes after their first use
-_RENAMED = {"contactx::reference::Mesh": "ReferenceMesh"}
+_RENAMED = {"contactx::mesh::Mesh": "ReferenceMesh"}
 _HEAD = """\
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later

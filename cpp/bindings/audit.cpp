@@ -73,7 +73,7 @@ void contactx_bindings::audit(py::module_& m)
            py::arg("halo"), py::arg("contacts"))
       .def("begin_step", &Audit::begin_step)
       .def("accept", &Audit::accept)
-      .def("look", &Audit::find);
+      .def("find", &Audit::find);
   m.def(
       "deformed_cells",
       [](const Array<std::int32_t>& cells, const Array<double>& X,

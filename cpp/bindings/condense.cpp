@@ -142,7 +142,7 @@ void contactx_bindings::condense(py::module_& m)
           py::arg("d"), py::arg("defect"), py::arg("u"),
           py::arg("multipliers").noconvert())
       .def(
-          "chains",
+          "dependent_constraints",
           [](const Condensation& c, const NodeMap& nodes)
           {
             DependentConstraints found
@@ -152,7 +152,7 @@ void contactx_bindings::condense(py::module_& m)
           },
           "Entries by which eliminations need one another, of right and left")
       .def_property_readonly(
-          "held",
+          "retained",
           [](const Condensation& c)
           {
             const RetainedMultipliers& retained = c.retained();
@@ -160,7 +160,7 @@ void contactx_bindings::condense(py::module_& m)
                                   array(retained.multipliers),
                                   array(retained.scale));
           },
-          "Places of held multipliers, their numbers, and their scale")
+          "Places of retained multipliers, their numbers, and their scale")
       .def(
           "stiff_bodies",
           [](const Condensation& c, const contactx::mesh::Bodies& bodies,

@@ -113,6 +113,12 @@ void contactx_bindings::kernel(py::module_& m)
       py::arg("law"), py::arg("sliding"), py::arg("num_nodes"), py::arg("gdim"),
       py::arg("num_slaves") = 1, "Terms that have a kernel");
   m.def(
+      "nodal_kernel", [](int num_values)
+      { return reinterpret_cast<std::uintptr_t>(kernel::nodal(num_values)); },
+      py::arg("num_values"),
+      "Address of the kernel that adds its one coefficient");
+  m.attr("area_elsewhere") = kernel::area_elsewhere;
+  m.def(
       "kernel",
       [](const std::string& law, const std::string& sliding,
          const std::string& term, int num_nodes, int gdim, int num_slaves)

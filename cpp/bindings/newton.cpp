@@ -158,7 +158,7 @@ void contactx_bindings::newton(py::module_& m)
       { return least_derivative_error(system, view(direction), extent); },
       py::arg("system"), py::arg("direction"), py::arg("extent"));
   m.def(
-      "softness",
+      "residual_weight",
       [](const Bodies& bodies, const Array<double>& diagonal,
          const Array<double>& residual, int gdim)
       { return residual_weight(bodies, view(diagonal), view(residual), gdim); },

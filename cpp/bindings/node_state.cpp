@@ -79,8 +79,8 @@ void contactx_bindings::node_state(py::module_& m)
   c.def(py::init<std::int32_t, int, bool, bool>(), py::arg("num_nodes"),
         py::arg("gdim"), py::arg("is_vector"), py::arg("has_means") = false);
   c.def_property_readonly("size", &NodeState::size);
-  c.def_readwrite("softness", &NodeState::layer_compliance);
-  c.def_readwrite("along", &NodeState::tangential_ratio);
+  c.def_readwrite("layer_compliance", &NodeState::layer_compliance);
+  c.def_readwrite("tangential_ratio", &NodeState::tangential_ratio);
   add(c, "multiplier", &NodeState::multiplier, nodal);
   add(c, "area", &NodeState::area, nodal);
   add(c, "status", &NodeState::status, nodal);
@@ -90,10 +90,10 @@ void contactx_bindings::node_state(py::module_& m)
   add(c, "c", &NodeState::c, nodal);
   add_flags(c, "immobile", &NodeState::immobile);
   add(c, "mobile", &NodeState::mobile, vectors);
-  add_flags(c, "ceded", &NodeState::redundant);
-  add_flags(c, "smooth", &NodeState::frictionless);
-  add(c, "turns", &NodeState::slip_reversals, nodal);
-  add(c, "closings", &NodeState::slip_closings, nodal);
+  add_flags(c, "redundant", &NodeState::redundant);
+  add_flags(c, "frictionless", &NodeState::frictionless);
+  add(c, "slip_reversals", &NodeState::slip_reversals, nodal);
+  add(c, "slip_closings", &NodeState::slip_closings, nodal);
   add(c, "value", &NodeState::value, nodal);
   add(c, "by_multiplier", &NodeState::by_multiplier, matrices);
   add(c, "by_gap", &NodeState::by_gap, nodal);

@@ -402,6 +402,12 @@ public:
   /// @brief The core's system.
   const std::shared_ptr<solve::System>& system() const { return _system; }
 
+  /// @brief The contacts.
+  const std::vector<std::shared_ptr<Contact>>& contacts() const
+  {
+    return _contacts;
+  }
+
   /// @brief The bulk.
   const std::shared_ptr<Bulk>& bulk() const { return _bulk; }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "cells.h"
+#include "contact_forms.h"
 #include "functions.h"
 #include "surface.h"
 #include "values.h"
@@ -124,6 +125,7 @@ public:
     _discrete.reset();
     _results.reset();
     _functions.reset();
+    _forms.reset();
   }
 
   /// @brief Take another coefficient of friction, on all ranks, from the next
@@ -269,6 +271,23 @@ public:
     return *_functions;
   }
 
+  /// @brief Residual and Jacobian of the contact as forms of DOLFINx; all ranks
+  /// must take part.
+  ///
+  /// They are made at the first call, and anew where pairs have changed since.
+  /// They read the state as it is at the last call: ask again after each
+  /// `settle` or `update`.
+  /// @return The forms, always the same object.
+  /// @throws std::logic_error if it belongs to no Assembler yet.
+  const ContactForms& forms()
+  {
+    discrete();
+    if (not _forms)
+      _forms = std::make_unique<ContactForms>(_discrete, _V->mesh()->comm());
+    _forms->update();
+    return *_forms;
+  }
+
   /// @brief The results as the core's driver of a step updates them.
   const std::shared_ptr<results::Results>& shared_results() const
   {
@@ -350,5 +369,6 @@ private:
   std::shared_ptr<results::Results> _results;
   std::shared_ptr<const FunctionSpace> _V;
   std::unique_ptr<Functions> _functions;
+  std::unique_ptr<ContactForms> _forms;
 };
 } // namespace contactx::dolfinx

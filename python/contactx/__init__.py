@@ -16,6 +16,7 @@ from contactx.conductance import Conductance
 from contactx.contact import Contact
 from contactx.dynamics import ContactDynamics
 from contactx.errors import ConvergenceError
+from contactx.forms import Forms
 from contactx.laws import FrictionLaw
 from contactx.obstacles import Cylinder, LevelSet, Plane, Sphere
 from contactx.output import CSVOutput, VTKOutput
@@ -33,6 +34,7 @@ __all__ = [
     "ContactProblem",
     "ConvergenceError",
     "Cylinder",
+    "Forms",
     "FrictionLaw",
     "LevelSet",
     "LoadSteps",

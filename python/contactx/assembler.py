@@ -236,7 +236,7 @@ class ContactAssembler:
             ConvergenceError: If the residual is not finite.
             ValueError: As ``ContactProblem.solve`` does.
         """
-        self._enter("begin_step")
+        self.enter("begin_step")
         self.prepare()
         try:
             self.start(Report())
@@ -326,7 +326,7 @@ class ContactAssembler:
             RuntimeError: If no step has begun.
             ValueError: If friction, offset or an obstacle has a value out of its range.
         """
-        self._enter("settle", rtol=rtol, atol=atol, max_it=max_it)
+        self.enter("settle", rtol=rtol, atol=atol, max_it=max_it)
         self._collect()
         found = self._settled(self.core.settle(rtol, atol, int(max_it)))
         if found.failure:
@@ -371,7 +371,7 @@ class ContactAssembler:
             RuntimeError: If no step has begun.
             ValueError: If the vector is of another layout.
         """
-        self._enter("residual", b)
+        self.enter("residual", b)
         self.core.read()
         self.system.residual(b)
 
@@ -388,7 +388,7 @@ class ContactAssembler:
             RuntimeError: If no step has begun.
             ValueError: If the matrix is none that this has returned last.
         """
-        self._enter("jacobian", A)
+        self.enter("jacobian", A)
         if A is not None and (self._A is None or A.handle != self._A.handle):
             raise ValueError(
                 "A is not the matrix that jacobian() returned last: pass that one, or None"
@@ -403,7 +403,7 @@ class ContactAssembler:
         "K" has the rows and columns of the displacements, of bulk and contact; "B" the derivatives
         of the forces by the multipliers; "C" the derivatives of the complementarity conditions by
         the displacements, "D" those by the multipliers. ``Contact.forms`` has the parts of contact
-        as forms.
+        as forms, and ``Forms`` assembles them.
 
         Returns:
             The four blocks by their names.
@@ -411,17 +411,7 @@ class ContactAssembler:
         Raises:
             RuntimeError: If no step has begun.
         """
-        J = self.jacobian()
-        n, size = self.system.num_bulk, self.system.x.getLocalSize()
-        first, _ = self.system.x.getOwnershipRange()
-        u, w = (
-            PETSc.IS().createStride(count, first=first + start, comm=self._comm)
-            for start, count in ((0, n), (n, size - n))
-        )
-        return {
-            name: J.createSubMatrix(row, column)
-            for name, row, column in (("K", u, u), ("B", u, w), ("C", w, u), ("D", w, w))
-        }
+        return self.system.blocks(self.jacobian())
 
     def set_up(self, ksp: PETSc.KSP, *, condensed: bool = False) -> None:
         """Give a KSP of your own the Jacobian of the iterate of the last ``settle``.
@@ -435,7 +425,7 @@ class ContactAssembler:
         Raises:
             RuntimeError: If no iterate has settled since the last step was taken.
         """
-        self._enter("set_up", condensed=int(condensed))
+        self.enter("set_up", condensed=int(condensed))
         self._check_condensed(condensed)
         if not condensed:
             ksp.setOperators(self.jacobian(self._A))
@@ -474,7 +464,7 @@ class ContactAssembler:
             RuntimeError: If no iterate has settled since the last step was taken.
             ValueError: If the vector is of another layout.
         """
-        self._enter("limit", dx)
+        self.enter("limit", dx)
         return self.core.limit(dx.array_r)
 
     def update(self, dx: PETSc.Vec, part: float = 1.0) -> None:
@@ -488,7 +478,7 @@ class ContactAssembler:
             RuntimeError: If no step has begun.
             ValueError: If the vector is of another layout, or the part no number.
         """
-        self._enter("update", dx, part=part)
+        self.enter("update", dx, part=part)
         self.core.update(dx.array_r, part)
         self.system.pack()
 
@@ -507,7 +497,7 @@ class ContactAssembler:
                 reason = self.report.reason
                 self.restore()
                 raise ConvergenceError(reason, self.report)
-        self._enter("accept")
+        self.enter("accept")
         self.summarise()
         for solver in (self._attached, self._condensed):
             if solver is not None:
@@ -584,7 +574,7 @@ class ContactAssembler:
                 "errors/missing-weight)"
             )
 
-    def _enter(
+    def enter(
         self, call: str, given: PETSc.Vec | PETSc.Mat | None = None, **numbers: float
     ) -> None:
         """Check that a call is in order; all ranks must take part.

@@ -79,8 +79,8 @@ class Contact:
                 one of the two.
             master: Surface that they are measured against, or a rigid obstacle: Plane, Sphere,
                 Cylinder or LevelSet. The same surface as the slave is self-contact: of two places
-                that face each other one is the slave, see ``search/self/self_order.h``, and pairs are
-                found as the surface folds. It takes node-to-surface and finite sliding.
+                that face each other one is the slave, see ``search/self/self_order.h``, and pairs
+                are found as the surface folds. It takes node-to-surface and finite sliding.
             friction: Coulomb's coefficient: a number, a ``fem.Constant`` or a ``fem.Function`` of
                 a scalar Lagrange space, which may change from step to step. With the number 0
                 nothing along the surface is computed. Or a ``FrictionLaw`` of your own.
@@ -337,13 +337,19 @@ class Contact:
             raise RuntimeError(f"{self} has no results yet: pass it to a ContactProblem first")
         return self._fields
 
-    @property
-    def forms(self) -> list[ContactForms]:
-        """Forms of the current pairs, one set for each kind of master facet.
+    def forms(self) -> ContactForms:
+        """Residual and Jacobian of the contact as forms of DOLFINx; all ranks must take part.
 
-        They read the state as it is now: ask anew where it has changed since.
+        They are made at the first call, and anew where pairs have changed since. They read the
+        state as it is at the last call: ask again after each ``settle`` or ``update``.
+
+        Returns:
+            The forms, always the same object.
+
+        Raises:
+            RuntimeError: If the contact belongs to no problem yet.
         """
-        return self.discrete.forms
+        return self.discrete.forms()
 
     @property
     def slave_nodes(self) -> npt.NDArray[np.int32]:

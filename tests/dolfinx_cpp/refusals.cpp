@@ -10,6 +10,7 @@
 #include <contactx_dolfinx/checkpoint.h>
 #include <contactx_dolfinx/condensed.h>
 #include <contactx_dolfinx/dynamics.h>
+#include <contactx_dolfinx/forms.h>
 #include <contactx_dolfinx/snes.h>
 #include <cstdio>
 #include <dolfinx.h>
@@ -369,6 +370,24 @@ int main(int argc, char* argv[])
     std::ranges::fill(u->x()->array(), 0);
     refuses("'function_0' is not finite",
             [&] { checkpoint.read("refusals.h5"); });
+
+    // Forms
+    refuses("a contact has no results before",
+            [&] { make(bottom, plane_at(0))->forms(); });
+    {
+      cx::Assembler assembler(F, J, u, none, {make(bottom, plane_at(0))});
+      refuses("J must be a bilinear form", [&] { cx::Forms(assembler, F); });
+      refuses("J must be a bilinear form",
+              [&] { cx::Forms(assembler, nullptr); });
+      cx::Forms forms(assembler, J);
+      cx::petsc::OwnMat other(assembler.create_matrix());
+      refuses("residual() before begin_step()",
+              [&] { forms.assemble_vector(assembler.x()); });
+      assembler.begin_step();
+      forms.settle(assembler.x());
+      refuses("A is not the matrix of the pairs of now",
+              [&] { forms.assemble_matrix(other.get()); });
+    }
 
     // Time steps
     const auto start = std::make_shared<fem::Function<T>>(V),

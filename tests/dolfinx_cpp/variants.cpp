@@ -14,6 +14,7 @@
 #include <contactx/geometry/plane.h>
 #include <contactx/geometry/sphere.h>
 #include <contactx_dolfinx/condensed.h>
+#include <contactx_dolfinx/forms.h>
 #include <contactx_dolfinx/snes.h>
 #include <dolfinx/fem/Constant.h>
 
@@ -31,7 +32,8 @@ struct Scene : scenes::Domain
   std::shared_ptr<fem::Constant<T>> load;
   KSP ksp;
   bool condensed = false;
-  bool has_snes = false; // in place of a loop of one's own
+  bool has_snes = false;  // in place of a loop of one's own
+  bool has_forms = false; // in place of the assembler's matrix
 
   int dim() const { return mesh->geometry().dim(); }
 };
@@ -139,6 +141,44 @@ void tolerances(const Scene& scene, const char* name, double size,
   }
 }
 
+/// Assembles bulk and contact from forms, for the state of an assembler; the
+/// Jacobian belongs to the forms.
+Mat assemble(cx::Forms& forms, const cx::Assembler& assembler,
+             const fem::Form<T>& F, const fem::Form<T>& J,
+             const std::vector<std::shared_ptr<const fem::DirichletBC<T>>>& bcs,
+             Vec b)
+{
+  forms.update(assembler.x());
+  std::vector<std::reference_wrapper<const fem::DirichletBC<T>>> conditions;
+  for (const auto& bc : bcs)
+    conditions.push_back(*bc);
+  const auto& u = assembler.bulk()->u()->x()->array();
+  const auto& V = *F.function_spaces()[0];
+  const int bs = V.dofmap()->bs();
+  la::Vector<T> force(V.dofmap()->index_map, bs);
+  std::ranges::fill(force.array(), 0);
+  fem::assemble_vector(force.array(), F);
+  fem::apply_lifting(force.array(), {J}, {conditions}, {std::span<const T>(u)},
+                     -1.0);
+  force.scatter_rev(std::plus<T>());
+  for (const fem::DirichletBC<T>& bc : conditions)
+    bc.set(force.array(), u, -1);
+  VecZeroEntries(b);
+  {
+    const cx::petsc::Values values(b);
+    std::copy_n(force.array().begin(), bs * V.dofmap()->index_map->size_local(),
+                values.span().begin());
+  }
+  forms.assemble_vector(b);
+  const Mat A = forms.matrix();
+  fem::assemble_matrix(
+      la::petsc::Matrix::set_block_expand_fn(A, bs, bs, ADD_VALUES), J,
+      conditions);
+  fem::set_diagonal<T>(la::petsc::Matrix::set_fn(A, ADD_VALUES), V, conditions);
+  forms.assemble_matrix(A);
+  return A;
+}
+
 void solve(const Scene& scene, const char* name, const cx::Contact::Master& to,
            const cx::Options& options,
            ufcx_form* residual = form_sliding_block_F,
@@ -161,11 +201,22 @@ void solve(const Scene& scene, const char* name, const cx::Contact::Master& to,
   cx::petsc::OwnVec b(assembler.create_vector()), dx(assembler.create_vector());
   cx::petsc::OwnMat A(assembler.create_matrix());
   cx::Condensed condensed(assembler, "condensed_");
+  std::optional<cx::Forms> forms;
+  if (scene.has_forms)
+    forms.emplace(assembler, J);
   auto iterate = [&]
   {
-    assembler.F(assembler.x(), b.get());
+    const Mat of_forms
+        = forms ? assemble(*forms, assembler, *F, *J, bcs, b.get()) : nullptr;
+    if (not forms)
+      assembler.F(assembler.x(), b.get());
     if (scene.condensed)
       condensed.solve(b.get(), dx.get());
+    else if (forms)
+    {
+      KSPSetOperators(ksp, of_forms, of_forms);
+      KSPSolve(ksp, b.get(), dx.get());
+    }
     else
     {
       assembler.J(assembler.x(), A.get());
@@ -466,6 +517,18 @@ int main(int argc, char* argv[])
     solve(scene, "neo-Hooke", base, {.friction = 0.3, .offset = offset},
           form_neo_hooke_F, form_neo_hooke_J);
     scene.has_snes = false;
+    scene.has_forms = true;
+    solve(scene, "friction", base, {.friction = 0.3, .offset = offset});
+    solve(scene, "small", base,
+          {.friction = 0.3, .sliding = small, .offset = offset});
+    solve(scene, "mortar friction", base,
+          {.friction = 0.3, .method = mortar, .offset = offset});
+    solve(scene, "mortar tied", base, {.method = mortar, .tied = true});
+    solve(scene, "mortar plane", std::make_shared<geometry::Plane>(point, up),
+          {.friction = 0.3, .method = mortar, .offset = offset});
+    solve(scene, "neo-Hooke", base, {.friction = 0.3, .offset = offset},
+          form_neo_hooke_F, form_neo_hooke_J);
+    scene.has_forms = false;
     const auto weight = [](const auto& x) { return 1 + x[0] / 2; };
     solve(scene, "weight", base, {.offset = offset, .weight = weight});
     solve(scene, "mortar weight", base,
@@ -572,8 +635,13 @@ int main(int argc, char* argv[])
     const cx::Surface below(scene.tags, {21});
     const auto ball = std::make_shared<geometry::Sphere>(
         std::vector<double>{0.75, 0.6, -4}, 4.0);
-    solid("solid friction", below, has_friction);
-    solid("solid mortar", below, rubs_on_facets);
+    for (const bool has_forms : {false, true})
+    {
+      scene.has_forms = has_forms;
+      solid("solid friction", below, has_friction);
+      solid("solid mortar", below, rubs_on_facets);
+    }
+    scene.has_forms = false;
     solid("solid ball", ball, {.friction = 0.1, .offset = offset});
     solid("solid mortar ball", ball,
           {.friction = 0.1, .method = mortar, .offset = offset});

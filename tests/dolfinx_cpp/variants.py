@@ -318,6 +318,13 @@ def main() -> None:
     solve("friction", tags, V, base, **rubs)
     solve("mortar friction", tags, V, base, **mortar, **rubs)
     solve("neo-Hooke", tags, V, base, **rubs)
+    # From forms in C++
+    solve("friction", tags, V, base, **rubs)
+    solve("small", tags, V, base, sliding="small", **rubs)
+    solve("mortar friction", tags, V, base, **mortar, **rubs)
+    solve("mortar tied", tags, V, base, **mortar, tied=True)
+    solve("mortar plane", tags, V, plane, **mortar, **rubs)
+    solve("neo-Hooke", tags, V, base, **rubs)
     weight: Any = {"weight": 1 + ufl.SpatialCoordinate(domain)[0] / 2, **little}
     solve("weight", tags, V, base, **weight)
     solve("mortar weight", tags, V, base, **mortar, **weight)
@@ -365,8 +372,10 @@ def main() -> None:
     W = fem.functionspace(domain, ("Lagrange", 2, (3,)))
     base = cx.Surface(tags, 21)
     ball = cx.Sphere(centre=[0.75, 0.6, -4.0], radius=4.0)
-    solve("solid friction", tags, W, base, **rubs)
-    solve("solid mortar", tags, W, base, **mortar, **rubs)
+    # Then from forms in C++
+    for _ in range(2):
+        solve("solid friction", tags, W, base, **rubs)
+        solve("solid mortar", tags, W, base, **mortar, **rubs)
     solve("solid ball", tags, W, ball, friction=0.1, **little)
     solve("solid mortar ball", tags, W, ball, **mortar, friction=0.1, **little)
 

@@ -36,7 +36,7 @@ class Audited:
         """What is found once nodes have come to positions moved(X)."""
         self.u.x.array[:] = (moved(self.X) - self.X).ravel()
         self.halo.update_ghosts()
-        (found,) = self.audit.look()
+        (found,) = self.audit.find()
         every = [found.passed, found.inside]
         # What is in front of the slave matters to nobody
         deepest = max(found.deepest.excess if found.deepest else 0, 0)
@@ -54,7 +54,7 @@ def check_audit(one, scene):
     dim, height = scene.dim, scene.dim - 1
 
     def same(both, moved):
-        found, expected = (a.look(moved) for a in both)
+        found, expected = (a.find(moved) for a in both)
         assert found[0] == expected[0]
         np.testing.assert_allclose(found[1], expected[1], rtol=1e-9, atol=1e-13)
         return expected[0]

@@ -525,7 +525,7 @@ void Contact::measure_slip(std::span<const double> displacement)
 }
 
 /// Arrays that kernels read. Slave nodes of other ranks have no multipliers
-/// here, and areas of one: what is divided by them goes nowhere.
+/// here, see kernel::Coefficient.
 kernel::NodalArrays Contact::arrays(std::span<const double> displacement,
                                     std::array<std::vector<double>, 5>& padded,
                                     std::span<const double> position) const
@@ -545,7 +545,8 @@ kernel::NodalArrays Contact::arrays(std::span<const double> displacement,
     // Facets without a node of this rank are none of its own: n > 0
     const std::size_t width = views[k]->size() / n;
     padded[k].assign(views[k]->begin(), views[k]->end());
-    padded[k].resize(m * width, views[k] == &a.area ? 1.0 : 0.0);
+    padded[k].resize(m * width,
+                     views[k] == &a.area ? kernel::area_elsewhere : 0.0);
     *views[k] = padded[k];
   }
   return a;

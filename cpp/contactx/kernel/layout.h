@@ -12,7 +12,13 @@
 #include <type_traits>
 #include <vector>
 
-/// @brief Kernels with the UFCx signature, assembled by DOLFINx.
+/// @brief Kernels with the UFCx signature: what one pair adds to a vector or a
+/// matrix.
+///
+/// The driver of a step calls them itself and assembles rows (assemble.h,
+/// condense/contact_block.h), which is three times as fast as DOLFINx's
+/// assembly of forms made of them. The forms are the door for others, for a
+/// loop or a matrix of their own; a test holds both equal.
 namespace contactx::kernel
 {
 /// @brief UFCx tabulate function: local tensor, coefficients, constants,
@@ -38,6 +44,10 @@ enum class Site : std::int8_t
 
 /// @brief Coefficients that kernels are given, in this order. Those of slip
 /// and of the normal do not exist without friction.
+///
+/// Pairs of facets have slave nodes of other ranks, too, whose shares are in
+/// pairs of those. Here they have no multipliers and no derivatives, and
+/// negative areas.
 enum class Coefficient : std::int8_t
 {
   displacement,
@@ -53,6 +63,12 @@ enum class Coefficient : std::int8_t
 
 /// Number of coefficients
 inline constexpr int num_coefficients = 9;
+
+/// Area of slave nodes of other ranks: what is divided by it goes nowhere
+inline constexpr double area_elsewhere = -1;
+
+/// @brief True for the area of a slave node of another rank.
+constexpr bool is_elsewhere(double area) { return area < 0; }
 
 /// @brief Description of a coefficient.
 struct CoefficientInfo

@@ -78,6 +78,8 @@ void traction(double* A, const double* w, const double*, const double*,
   k.pair.for_each_weight(
       [&](int a, int s, double weight)
       {
+        if (is_elsewhere(k.area[s]))
+          return;
         for (int i = 0; i < K::size; ++i)
         {
           const auto d = k.direction(s, i);
@@ -210,7 +212,7 @@ void add(std::vector<Entry>& entries)
   };
   push("gap", &mortar_gap<K>, {area});
   push("residual", &residual<K>, {multiplier});
-  push("traction", &traction<K>, {});
+  push("traction", &traction<K>, {area});
   if constexpr (L == Law::frictionless)
     push("constraint", &constraint<S, M, L, Turning>, {area, gap_derivative});
   else

@@ -96,8 +96,12 @@ void traction(double* A, const double* w, const double*, const double*,
               const int*, const std::uint8_t*, void*)
 {
   const K k(w);
-  k.derivative([&](int s, int i, int dof, double value)
-               { A[K::width * dof + K::gdim * s + i] -= value; });
+  k.derivative(
+      [&](int s, int i, int dof, double value)
+      {
+        if (not is_elsewhere(k.area[s]))
+          A[K::width * dof + K::gdim * s + i] -= value;
+      });
 }
 
 template <class K>
@@ -156,7 +160,7 @@ void add(std::vector<Entry>& entries)
   push("normal", &mortar_normal<K>, {area});
   push("slip", &::slip<K>, {area});
   push("residual", &residual<K>, {multiplier});
-  push("traction", &traction<K>, {});
+  push("traction", &traction<K>, {area});
   push("constraint", &constraint<K>, {area, slip_derivative});
   if constexpr (K::turning)
     push("stiffness", &stiffness<K>, {multiplier});

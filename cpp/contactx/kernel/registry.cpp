@@ -14,6 +14,17 @@
 
 using namespace contactx::kernel;
 
+namespace
+{
+template <int n>
+void add_coefficient(double* tensor, const double* w, const double*,
+                     const double*, const int*, const std::uint8_t*, void*)
+{
+  for (int i = 0; i < n; ++i)
+    tensor[i] += w[i];
+}
+} // namespace
+
 std::span<const Entry> contactx::kernel::registry()
 {
   static const std::vector<Entry> entries = []
@@ -43,6 +54,26 @@ Shape contactx::kernel::shape(const Entry& entry)
   if (entry.term == "constraint")
     return {multipliers, dofs};
   return {multipliers, 1}; // normal and slip
+}
+
+Kernel* contactx::kernel::nodal(int num_values)
+{
+  switch (num_values)
+  {
+  case 1:
+    return &add_coefficient<1>;
+  case 2:
+    return &add_coefficient<2>;
+  case 3:
+    return &add_coefficient<3>;
+  case 4:
+    return &add_coefficient<4>;
+  case 9:
+    return &add_coefficient<9>;
+  default:
+    throw std::invalid_argument("num_values must be 1, 2, 3, 4 or 9, not "
+                                + std::to_string(num_values));
+  }
 }
 
 const Entry* contactx::kernel::find_if_any(Law law, std::string_view sliding,

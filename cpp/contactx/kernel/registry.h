@@ -36,6 +36,12 @@ Shape shape(const Entry& entry);
 /// @brief All kernels.
 std::span<const Entry> registry();
 
+/// @brief Kernel that adds its one coefficient: the part of a slave node alone,
+/// whose complementarity and derivative by the multiplier the law gives.
+/// @param[in] num_values Values of the coefficient: 1, 2, 3, 4 or 9.
+/// @throws std::invalid_argument for another number.
+Kernel* nodal(int num_values);
+
 /// @brief Find a kernel, or nothing where there is none; see find().
 const Entry* find_if_any(Law law, std::string_view sliding,
                          std::string_view term, int num_nodes, int gdim,

@@ -118,9 +118,13 @@ void traction(double* A, const double* w, const double*, const double*,
 {
   const F f(w);
   constexpr int width = F::size * Sizes<F>::nodes;
-  for_each_force(
-      f, [&](int s, int k, int i, double force)
-      { A[width * (Sizes<F>::gdim * s + k) + F::size * s + i] -= force; });
+  for_each_force(f,
+                 [&](int s, int k, int i, double force)
+                 {
+                   if (not is_elsewhere(f.at(Coefficient::area)[s]))
+                     A[width * (Sizes<F>::gdim * s + k) + F::size * s + i]
+                         -= force;
+                 });
 }
 
 template <class F>
@@ -184,7 +188,7 @@ void add(std::vector<Entry>& entries)
     };
     push("gap", &gap<F>, {pair, area});
     push("residual", &residual<F>, {pair, multiplier});
-    push("traction", &traction<F>, {pair});
+    push("traction", &traction<F>, {pair, area});
     if constexpr (L == Law::frictionless)
     {
       push("constraint", &constraint<F>, {pair, area, gap_derivative});

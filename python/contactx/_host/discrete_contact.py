@@ -6,17 +6,15 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from mpi4py import MPI
-
 import numpy as np
 import numpy.typing as npt
 
 from contactx import cpp as core
-from contactx._host.forms import ContactForms, State
+from contactx._host.forms import ContactForms
 from contactx._host.nodal_values import matching_nodes
 from contactx._host.nodes import degree_of
 from contactx._host.parallel.halo import Halo
-from dolfinx import cpp, fem
+from dolfinx import fem
 
 type Array = npt.NDArray[np.float64]
 # Name of a surface, and its facets: offsets and nodes, as in Surface.facet_nodes
@@ -26,14 +24,13 @@ type NamedSurface = tuple[str, npt.NDArray[np.int32], npt.NDArray[np.int32]]
 class DiscreteContact(core.Contact):
     """A contact on the discrete bulk: see ``contact/contact.h``.
 
-    The core has slave nodes, pairs, state and law. Here are the forms.
+    The core has slave nodes, pairs, state and law. Here are the forms, for those who ask.
 
     Attributes:
         slaves: Slave nodes that this rank owns, numbered as the blocks of the displacement's
             dofmap, shape (n,).
         num_others: Number of slave nodes of other ranks that share facets with these.
         halo: Nodes of this rank.
-        state: Vectors that the forms read.
     """
 
     def __init__(
@@ -79,43 +76,24 @@ class DiscreteContact(core.Contact):
         slaves = self.slave_nodes
         self.slaves = slaves.owned
         self.num_others = len(slaves.around) - len(slaves.owned)
-        # State is this rank's alone
-        slave_map = cpp.common.IndexMap(MPI.COMM_SELF, len(slaves.around))
-        self.state = State.of(halo.gdim, slave_map, is_vector=self.law.is_vector)
-        self._forms: list[ContactForms] = []
-        self._made_for: tuple[str, int] | None = None
-        self._version = -1
+        self._forms: ContactForms | None = None
 
     def positions(self) -> npt.NDArray[np.float64]:
         """Current positions of all nodes, shape (num_nodes, gdim)."""
         return self.halo.positions()
 
-    @property
-    def forms(self) -> list[ContactForms]:
-        """Forms of the current pairs, one set for each kind of master facet.
-
-        They read the state as it is now: what forms read are copies, so ask anew where it has
-        changed since.
-        """
-        if self._version != self.version:
-            self._version = self.version
-            self._update_forms()
-        self.state.take(self.nodes)
+    def forms(self) -> ContactForms:
+        """Forms of the current pairs, see ``Contact.forms``; all ranks must take part."""
+        if self._forms is None:
+            self._forms = ContactForms(self)
+        self._forms.update()
         return self._forms
 
-    def _update_forms(self) -> None:
-        """Take over new data of pairs, with new forms where the pairs or the halo are others."""
-        groups, made_for = self.pairs, (self.kinematics, self.halo.version)
-        same = self._made_for == made_for and len(groups) == len(self._forms)
-        if same and all(f.pairs.same(p) for f, p in zip(self._forms, groups, strict=True)):
-            for form, pairs in zip(self._forms, groups, strict=True):
-                form.update(pairs)
-            return
-        self._made_for = made_for
-        self._forms = [
-            ContactForms(self.law.name, self.kinematics, pairs, self.state, self.halo)
-            for pairs in groups
-        ]
+    @property
+    def current_forms(self) -> ContactForms:
+        """The forms as of the last call of ``forms``."""
+        assert self._forms is not None
+        return self._forms
 
 
 class Fields:

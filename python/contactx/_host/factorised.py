@@ -9,7 +9,6 @@ from petsc4py import PETSc
 import numpy as np
 import numpy.typing as npt
 
-from contactx._host.forms import ContactForms
 from contactx._host.options import ROUNDING, direct_options
 from contactx._host.parallel import reduce
 from contactx._host.system import SaddlePointSystem
@@ -44,7 +43,6 @@ class FactorisedSolver:
         self._prefix = prefix
         self._ksp: PETSc.KSP | None = None
         self._A: PETSc.Mat | None = None
-        self._forms: list[list[ContactForms]] = []
         # Patterns so far, and that of the factors
         self._pattern = self._factorised = 0
         self._lost = 0
@@ -53,7 +51,6 @@ class FactorisedSolver:
     def reset(self) -> None:
         """Drop the factors: an error inside PETSc may have left them half done."""
         self._ksp = self._A = None
-        self._forms = []
         self._lost = 0
 
     def solve(
@@ -79,12 +76,10 @@ class FactorisedSolver:
                 Jacobian must not move them.
         """
         with report.timing("Jacobian"):
-            forms = [list(discrete.forms) for discrete in self._system.discrete_contacts]
-            if not reduce.everywhere(self._system.halo.comm, self._forms == forms):
-                self._A = None
+            A = self._system.jacobian(self._A, springs)
+            if A is not self._A:
+                self._A = A
                 self._pattern += 1
-            self._A = A = self._system.jacobian(self._A, springs)
-            self._forms = forms
         if self._ksp is not None and self._lost <= _COST:
             self._ksp.setOperators(A)
             with report.timing("old factors"):

@@ -151,8 +151,8 @@ class SaddlePointSystem:
         Returns:
             The Jacobian.
         """
-        contact = core.ContactBlock(self.discrete_contacts, self._markers(), keeps_zeros=True)
-        places = self._layout.places()
+        contact = core.ContactBlock(self.discrete_contacts, self.markers(), keeps_zeros=True)
+        places = self.places()
         rows, others, added = core.coupled_rows(
             *self._bulk_rows(), contact, places, self.num_displacements, self.num_local
         )
@@ -175,11 +175,36 @@ class SaddlePointSystem:
             diagonal = self.x.duplicate()
             diagonal.array[: self.num_displacements] = springs
             A.setDiagonal(diagonal, addv=PETSc.InsertMode.ADD)
+        A.diagonalScale(None, self.units())
+        return A
+
+    def places(self) -> npt.NDArray[np.int64]:
+        """Places of the displacements of all nodes, then of this rank's multipliers; collective."""
+        return self._layout.places()
+
+    def units(self) -> PETSc.Vec:
+        """The unit of each unknown: 1, and for multipliers the factor c."""
         factors = self.x.duplicate()
         factors.array[: self.num_bulk] = 1
         factors.array[self.num_bulk :] = self.core.factors
-        A.diagonalScale(None, factors)
-        return A
+        return factors
+
+    def blocks(self, A: PETSc.Mat) -> dict[str, PETSc.Mat]:
+        """Split a matrix of all unknowns into its blocks [[K, B], [C, D]].
+
+        Args:
+            A: The matrix.
+        """
+        n, size = self.num_bulk, self.x.getLocalSize()
+        first, _ = self.x.getOwnershipRange()
+        u, w = (
+            PETSc.IS().createStride(count, first=first + start, comm=self._comm)
+            for start, count in ((0, n), (n, size - n))
+        )
+        return {
+            name: A.createSubMatrix(row, column)
+            for name, row, column in (("K", u, u), ("B", u, w), ("C", w, u), ("D", w, w))
+        }
 
     def _add_conductance(
         self, A: PETSc.Mat, conductance: Conductance, places: npt.NDArray[np.int64]
@@ -228,7 +253,7 @@ class SaddlePointSystem:
                 assembled for them. Any right-hand side if None.
         """
         d = None if b is None else b.array_r[self.num_bulk :]
-        return core.ContactBlock(self.discrete_contacts, self._markers(), d=d)
+        return core.ContactBlock(self.discrete_contacts, self.markers(), d=d)
 
     def multiply_contact(self, contact: core.ContactBlock, x: PETSc.Vec, y: PETSc.Vec) -> None:
         """Multiply by the contacts' part of the Jacobian; all ranks must take part.
@@ -240,7 +265,7 @@ class SaddlePointSystem:
         """
         self.core.multiply(contact, x.array_r, y.array)
 
-    def _markers(self) -> npt.NDArray[np.int8]:
+    def markers(self) -> npt.NDArray[np.int8]:
         """1 at prescribed displacements of all nodes, shape (num_local,)."""
         markers = self._bulk.markers.reshape(-1, self.block)
         return self.halo.scatter_forward(markers).ravel().astype(np.int8)

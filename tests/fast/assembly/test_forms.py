@@ -115,21 +115,21 @@ def test_residual(case):
 def test_traction_block(case):
     scene, contact, hand = case
     n = len(scene.u.x.array)
-    block = sum(assembled(form.traction, (n, hand.n)) for form in contact.forms)
+    block = sum(assembled(form, (n, hand.n)) for form in contact.forms().B)
     assert close(block, -hand.D.T * contact.area)
 
 
 def test_constraint_block(case):
     scene, contact, hand = case
     n = len(scene.u.x.array)
-    block = sum(assembled(form.constraint, (hand.n, n)) for form in contact.forms)
+    block = sum(assembled(form, (hand.n, n)) for form in contact.forms().C)
     factor = contact.discrete.nodes.by_gap
     assert close(block, factor[:, None] * hand.D)
 
 
 def test_small_sliding_has_no_stiffness(case):
     _, contact, _ = case
-    assert all(form.stiffness is None for form in contact.forms)
+    assert contact.forms().K == []
 
 
 @pytest.mark.parametrize("cell", CELLS, ids=lambda c: c.name)
@@ -189,22 +189,22 @@ def test_forms_are_the_blocks_of_the_core(cell, friction):
     nodes.status[:] = np.arange(len(nodes.status)) % 3
     discrete.law.evaluate(nodes)
     m = len(nodes.multiplier)
-    forms, dense = contact.forms, np.zeros((n + m, n + m))
-    for form in forms:
-        if form.stiffness is not None:
-            dense[:n, :n] += assembled(form.stiffness, (n, n))
-        dense[:n, n:] += assembled(form.traction, (n, m))
-        dense[n:, :n] += assembled(form.constraint, (m, n))
-    size = nodes.size
-    for i in range(m // size):
-        rows = slice(n + i * size, n + (i + 1) * size)
-        dense[rows, rows] += nodes.by_multiplier.reshape(-1, size, size)[i]
+    forms, dense = contact.forms(), np.zeros((n + m, n + m))
+    u, w = slice(n), slice(n, n + m)
+    for part, row, column in (("K", u, u), ("B", u, w), ("C", w, u), ("D", w, w)):
+        block = dense[row, column]
+        for form in getattr(forms, part):
+            block += assembled(form, block.shape)
+        assert np.abs(block).max() > 0
     block = core.ContactBlock([discrete])
     found = np.stack([block.multiply(unit) for unit in np.eye(n + m)], axis=1)
     assert close(found, dense)
-    assert np.abs(dense[:n, n:]).max() > 0 and np.abs(dense[n:, :n]).max() > 0
     b, forces = np.zeros(n), np.zeros(n)
     discrete.add_residual(b)
-    for form in forms:
-        fem.assemble_vector(forces, form.residual)
+    for form in forms.F_u:
+        fem.assemble_vector(forces, form)
     assert close(forces, b)
+    values = np.zeros(m)
+    for form in forms.F_lambda:
+        fem.assemble_vector(values, form)
+    assert close(values, nodes.value)

@@ -62,16 +62,15 @@ def test_nothing_tangential_exists_without_friction(sliding, method):
     discrete = contact.discrete
     assert contact.multiplier.shape == (len(contact.slave_nodes),)
     assert discrete.history is None
-    for name in ("slip_derivative", "normal_derivative"):
-        assert getattr(discrete.state, name) is None
-    assert discrete.state.multiplier.block_size == 1
     for array in (discrete.nodes.slip, discrete.nodes.normal, discrete.nodes.mobile):
         assert array.size == 0
     for array in (discrete.nodes.by_slip, discrete.nodes.by_normal):
         assert array.size == 0
-    for form in contact.forms:
-        assert form.pairs.slip is None
-        assert form._slip_data is None
+    assert all(pairs.slip is None for pairs in discrete.pairs)
+    forms = contact.forms()
+    assert forms.multiplier_size == 1
+    for form in forms.K + forms.B + forms.C:
+        assert len(form._cpp_object.coefficients) == 6
     for name in ("slip", "slip_total"):
         assert not getattr(contact, name).x.array.any()
 

@@ -59,7 +59,7 @@ class CondensedOperator:
         self._springs = springs
         self.slave_dofs = condensation.slave_dofs
         self.eliminated = condensation.eliminated
-        self.retained, self._retained_multipliers, self._retained_scale = condensation.held
+        self.retained, self._retained_multipliers, self._retained_scale = condensation.retained
         # Rows of the eliminated displacements alone
         self._right = numbering.matrix(condensation.right, rows=self.eliminated)
         self._some = self._right.createVecLeft()
@@ -74,7 +74,7 @@ class CondensedOperator:
             numbering.matrix(*parts) if is_needed else None
             for parts, is_needed in zip(others, needed, strict=True)
         )
-        self._chains = of_right, of_left = condensation.chains(numbering.nodes)
+        self._chains = of_right, of_left = condensation.dependent_constraints(numbering.nodes)
         self._of_right = Chains.of(numbering, of_right, self.eliminated)
         self._of_left, self._recovered = self._of_right, self.eliminated
         if not self._transposed:
@@ -124,7 +124,7 @@ class CondensedOperator:
             bodies: The bodies.
             residual: Residual of the owned displacements, shape (num_owned,).
         """
-        return core.softness(bodies, self._free_diagonal, residual, self.numbering.gdim)
+        return core.residual_weight(bodies, self._free_diagonal, residual, self.numbering.gdim)
 
     @cached_property
     def _free_diagonal(self) -> Array:
