@@ -19,6 +19,8 @@ CPP = sorted(
     for path in (ROOT / "cpp" / folder).rglob("*")
     if path.suffix in (".h", ".cpp")
 )
+# Files of the core in which a step is driven
+DRIVER = ("audit_report", "make_contact", "messages", "problem", "snapshot", "step_plan")
 NAMED = re.compile(r"\(manual: errors/([a-z-]+)\)")
 
 
@@ -126,10 +128,11 @@ def test_each_message_of_the_core_names_a_page():
     """What it throws, returns or adds to the faults and warnings of a step."""
     statements = [
         statement
-        for path in (ROOT / "cpp" / "contactx" / "problem").glob("*.cpp")
+        for name in DRIVER
+        for path in [ROOT / "cpp" / "contactx" / "problem" / f"{name}.cpp"]
         for statement in path.read_text(encoding="utf-8").split(";\n")
         if re.search(
-            r"push_back\(|throw (newton::NotFinite|std::invalid_argument)\(|return ", statement
+            r"push_back\(|throw (solve::NotFinite|std::invalid_argument)\(|return ", statement
         )
     ]
     texts = ["".join(re.findall(r'"((?:[^"\\]|\\.)*)"', statement)) for statement in statements]
