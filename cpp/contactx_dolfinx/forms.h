@@ -18,8 +18,8 @@ namespace contactx::dolfinx
 ///
 ///     Assembler assembler(F, J, u, bcs, {contact});
 ///     Forms forms(assembler, J);
-///     Vec x = assembler.x(), b = assembler.create_vector();
 ///     assembler.begin_step();
+///     Vec x = assembler.x(), b = assembler.create_vector();
 ///     while (not forms.settle(x).converged) // pairs, active set and law
 ///     {
 ///       ...                      // b = residual of the bulk

@@ -32,8 +32,8 @@ class Forms:
 
         assembler = cx.ContactAssembler(F, u, contacts=[contact], bcs=bcs)
         forms = cx.Forms(assembler, J)
-        x = assembler.x
         assembler.begin_step()
+        x = assembler.x
         while not forms.settle(x).converged:   # pairs, active set and law, at an accepted iterate
             ...                                # b = residual of the bulk
             forms.assemble_vector(b)

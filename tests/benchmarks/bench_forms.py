@@ -21,12 +21,13 @@ import numpy as np
 import runner
 import tables
 
-import scenes
-import story
 from contactx import cpp as core
 from contactx.forms import ContactForms
 from dolfinx import fem
 from dolfinx.cpp.fem.petsc import assemble_matrix, create_matrix
+
+import scenes
+import story
 
 SIZES = (0.2, 0.05, 0.02, 0.01)
 COLUMNS: list[tables.Column] = [
