@@ -244,7 +244,7 @@ class Forms:
             )
             A.restoreLocalSubMatrix(sets[i], sets[j], part)
         A.assemble()
-        A.diagonalScale(None, self._system.units())
+        self._system.finish(A, self._assembler.loop.free_bodies.springs)
 
     def blocks(self, A: PETSc.Mat) -> dict[str, PETSc.Mat]:
         """Split an assembled matrix into its blocks [[K, B], [C, D]].

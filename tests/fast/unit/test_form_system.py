@@ -19,11 +19,15 @@ from scenes.coupled import Coupled
 from story import METHODS
 
 
-def make(cell=CellType.hexahedron, **options):
-    """Two blocks, and a floor that the upper one's sides are before."""
+def make(cell=CellType.hexahedron, *, is_free=False, **options):
+    """The upper block on the lower one, and on a floor; it may be free."""
     scene = Blocks(cell, gap=0.02)
     gdim = scene.u.function_space.mesh.geometry.dim
-    contacts = [scene.contact(friction=0.3, offset=0.05, **options)]
+    if is_free:
+        del scene.bcs[gdim:]
+    # Nothing holds a free one along the surface
+    friction = 0.0 if is_free else 0.3
+    contacts = [scene.contact(friction=friction, offset=0.05, **options)]
     floor = cx.Plane(point=[0.0] * gdim, normal=[0.0] * (gdim - 1) + [1.0])
     contacts.append(cx.Contact(cx.Surface(scene.tags, Tag.UPPER_CONTACT), floor, **options))
     assembler = cx.ContactAssembler(scene.F, scene.u, contacts=contacts, bcs=scene.bcs)
@@ -32,9 +36,12 @@ def make(cell=CellType.hexahedron, **options):
 
 
 @pytest.mark.parametrize("method", METHODS)
-@pytest.mark.parametrize("cell", [CellType.triangle, CellType.hexahedron])
-def test_the_system_is_that_of_the_assembler(cell, method):
-    scene, assembler, forms, J = make(cell, method=method)
+@pytest.mark.parametrize(
+    ("cell", "is_free"),
+    [(CellType.triangle, True), (CellType.triangle, False), (CellType.hexahedron, False)],
+)
+def test_the_system_is_that_of_the_assembler(cell, is_free, method):
+    scene, assembler, forms, J = make(cell, is_free=is_free, method=method)
     rng = np.random.default_rng(3)
     for bc in scene.bcs:
         bc.set(scene.u.x.array)
@@ -57,6 +64,7 @@ def test_the_system_is_that_of_the_assembler(cell, method):
     A = forms.matrix()
     assemble_matrix(A, [[J]], bcs=scene.bcs)
     forms.assemble_matrix(A)
+    assert (assembler.loop.free_bodies.springs is not None) == is_free
     # Columns of prescribed displacements stay in contact's part
     dx = x.duplicate()
     dx.array[:] = rng.standard_normal(x.getLocalSize())
