@@ -35,7 +35,7 @@ def solve(scene: own_newton.Scene) -> list[int]:
     force = la.vector(V.dofmap.index_map, V.dofmap.index_map_bs)
     assembler = cx.ContactAssembler(scene.F, u, contacts=[scene.contact], bcs=bcs)  # contact
     forms = cx.Forms(assembler, J)  # contact
-    x, b = assembler.x, assembler.create_vector()  # contact
+    b = assembler.create_vector()  # contact
 
     def residual(snes: PETSc.SNES, x: PETSc.Vec, b: PETSc.Vec) -> None:
         forms.update(x)  # contact: u and multipliers are those of x
@@ -55,6 +55,7 @@ def solve(scene: own_newton.Scene) -> list[int]:
         forms.assemble_matrix(A)  # contact
 
     def converged(snes: PETSc.SNES, number: int, norms: tuple[float, float, float]) -> bool:
+        x = snes.getSolution()
         found = forms.settle(x)  # contact: pairs, active set and law follow the iterate
         snes.computeFunction(x, b)  # contact
         snes.setJacobian(jacobian, forms.matrix())  # contact: zero, with places for these pairs
@@ -65,7 +66,7 @@ def solve(scene: own_newton.Scene) -> list[int]:
         step.scale(-assembler.limit(step))  # contact
         return True
 
-    snes = PETSc.SNES().create(x.comm)
+    snes = PETSc.SNES().create(b.comm)
     snes.setFunction(residual, b)
     snes.setJacobian(jacobian, forms.matrix())
     snes.setConvergenceTest(converged)
@@ -78,7 +79,7 @@ def solve(scene: own_newton.Scene) -> list[int]:
     for step in range(own_newton.STEPS):
         scene.load((step + 1) / own_newton.STEPS)
         assembler.begin_step()  # contact
-        snes.solve(None, x)
+        snes.solve(None, assembler.x)
         assembler.accept()  # contact
         counts.append(snes.getIterationNumber())
     return counts

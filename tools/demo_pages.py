@@ -69,6 +69,7 @@ SUBJECTS = {
     "Loops of your own": {
         "own_newton": "a Newton loop written out with petsc4py",
         "own_snes": "the SNES of DOLFINx's NonlinearProblem",
+        "own_forms": "SNES on forms: bulk and contact in one matrix",
         "arc_length": "an arch that snaps through onto a floor",
     },
     "A dam": {

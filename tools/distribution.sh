@@ -165,7 +165,8 @@ say "C++ on the distribution's DOLFINx"
 inside sh -c 'set -e
 	cd /root/contactx
 	build() { cmake --build "$1" -j "$(nproc)"; }
-	for project in demos/cpp/hertz demos/cpp/sliding_block demos/cpp/pressed_block tests/dolfinx_cpp; do
+	for project in demos/cpp/hertz demos/cpp/sliding_block demos/cpp/pressed_block demos/cpp/own_forms \
+		tests/dolfinx_cpp; do
 		cmake -S $project -B /root/cpp/$project -G Ninja -DCMAKE_BUILD_TYPE=Release \
 			-DCMAKE_PREFIX_PATH=/root/cpp/installed
 		build /root/cpp/$project
@@ -180,14 +181,14 @@ inside sh -c 'set -e
 	for demo in hertz sliding_block; do
 		$python $here/demos/cpp/$demo/mesh.py
 	done
-	for demo in hertz sliding_block pressed_block; do
+	for demo in hertz sliding_block pressed_block own_forms; do
 		$python $here/tests/dolfinx_cpp/demos.py $demo > $demo.log
 	done
 	for test in variants dynamics fields; do
 		$python $here/tests/dolfinx_cpp/$test.py > $test.log
 	done
 	for ranks in 1 2; do
-		for demo in hertz sliding_block pressed_block; do
+		for demo in hertz sliding_block pressed_block own_forms; do
 			mpiexec -n $ranks demos/cpp/$demo/$demo > cpp.log
 			$python $here/tests/dolfinx_cpp/compare.py cpp.log $demo.log
 		done

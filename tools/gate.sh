@@ -165,7 +165,7 @@ cd "$folder/run"
 for demo in hertz sliding_block; do
 	"$python" "$source/demos/cpp/$demo/mesh.py"
 done
-for demo in hertz sliding_block pressed_block; do
+for demo in hertz sliding_block pressed_block own_forms; do
 	"$python" "$source/tests/dolfinx_cpp/demos.py" $demo > $demo.log
 done
 for test in variants dynamics fields; do
@@ -173,9 +173,9 @@ for test in variants dynamics fields; do
 done
 built=$folder/build
 for ranks in 1 2; do
-	for name in hertz sliding_block pressed_block variants dynamics fields refusals; do
+	for name in hertz sliding_block pressed_block own_forms variants dynamics fields refusals; do
 		case $name in
-		hertz | sliding_block | pressed_block) of=$built/demos/cpp/$name/$name ;;
+		hertz | sliding_block | pressed_block | own_forms) of=$built/demos/cpp/$name/$name ;;
 		*) of=$built/tests/dolfinx_cpp/$name ;;
 		esac
 		OMP_NUM_THREADS=1 "$folder/bin/launch" -n $ranks "$of" > $name.$ranks 2> $name.$ranks.err || {

@@ -18,8 +18,8 @@ namespace contactx::dolfinx
 ///
 ///     Assembler assembler(F, J, u, bcs, {contact});
 ///     Forms forms(assembler, J);
-///     Vec x = assembler.x(), b = assembler.create_vector();
 ///     assembler.begin_step();
+///     Vec x = assembler.x(), b = assembler.create_vector();
 ///     while (not forms.settle(x).converged) // pairs, active set and law
 ///     {
 ///       ...                      // b = residual of the bulk
@@ -202,14 +202,7 @@ public:
               add, form, std::span(i == 0 ? markers : none), std::span(none));
         });
     assemble(A, MAT_FINAL_ASSEMBLY);
-    petsc::OwnVec units(_assembler->create_vector());
-    {
-      const petsc::Values values(units.get());
-      const std::size_t n = system().num_bulk();
-      std::ranges::fill(values.span().first(n), 1);
-      std::ranges::copy(system().factors(), values.span().begin() + n);
-    }
-    petsc::check(MatDiagonalScale(A, nullptr, units.get()), "MatDiagonalScale");
+    Jacobian::finish(A, system(), _assembler->loop().free_bodies().springs());
   }
 
   /// @brief Split an assembled matrix into its blocks K, B, C, D, in this

@@ -68,9 +68,20 @@ public:
     petsc::check(MatAssemblyBegin(A, MAT_FINAL_ASSEMBLY), "MatAssemblyBegin");
     petsc::check(MatAssemblyEnd(A, MAT_FINAL_ASSEMBLY), "MatAssemblyEnd");
 
+    finish(A, *_system, springs);
+  }
+
+  /// @brief Add what holds free bodies to an assembled Jacobian, and take the
+  /// units of the unknowns.
+  /// @param[in] A Jacobian by displacements and multipliers.
+  /// @param[in] system The system.
+  /// @param[in] springs As for `assemble`.
+  static void finish(::Mat A, const newton::System& system,
+                     const std::optional<std::vector<double>>& springs)
+  {
     petsc::OwnVec diagonal;
     petsc::check(MatCreateVecs(A, nullptr, diagonal.put()), "MatCreateVecs");
-    const std::size_t n = _system->num_bulk();
+    const std::size_t n = system.num_bulk();
     if (springs)
     {
       petsc::check(VecZeroEntries(diagonal.get()), "VecZeroEntries");
@@ -81,7 +92,7 @@ public:
     {
       const petsc::Values values(diagonal.get());
       std::ranges::fill(values.span().first(n), 1);
-      std::ranges::copy(_system->factors(), values.span().begin() + n);
+      std::ranges::copy(system.factors(), values.span().begin() + n);
     }
     petsc::check(MatDiagonalScale(A, nullptr, diagonal.get()),
                  "MatDiagonalScale");

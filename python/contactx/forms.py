@@ -32,8 +32,8 @@ class Forms:
 
         assembler = cx.ContactAssembler(F, u, contacts=[contact], bcs=bcs)
         forms = cx.Forms(assembler, J)
-        x = assembler.x
         assembler.begin_step()
+        x = assembler.x
         while not forms.settle(x).converged:   # pairs, active set and law, at an accepted iterate
             ...                                # b = residual of the bulk
             forms.assemble_vector(b)
@@ -245,7 +245,7 @@ class Forms:
             )
             A.restoreLocalSubMatrix(sets[i], sets[j], part)
         A.assemble()
-        A.diagonalScale(None, self._system.units())
+        self._system.finish(A, self._assembler.loop.free_bodies.springs)
 
     def blocks(self, A: PETSc.Mat) -> dict[str, PETSc.Mat]:
         """Split an assembled matrix into its blocks [[K, B], [C, D]].

@@ -67,8 +67,8 @@ def hertz() -> None:
     )
 
 
-def sliding_block() -> None:
-    """A block that is pushed to and fro."""
+def block_on_base() -> tuple[cx.ContactProblem, Any]:
+    """A block on its base with a load, and the condition that pushes it."""
     u, tags = read("sliding_block")
     load = fem.Constant(u.function_space.mesh, np.array([0, -0.01]))
     push = story.fix(u, tags, 0, 0.0, 12)
@@ -83,6 +83,13 @@ def sliding_block() -> None:
         petsc_options_prefix="block_",
         petsc_options=LU,
     )
+    return problem, push
+
+
+def sliding_block() -> None:
+    """A block that is pushed to and fro."""
+    problem, push = block_on_base()
+    (contact,) = problem.contacts
     for step in range(21):
         way = step if step <= 4 else 8 - step if step <= 12 else step - 16
         push.g.value[...] = 0.06 * way / 4
@@ -91,6 +98,18 @@ def sliding_block() -> None:
         print(
             f"push {float(push.g.value):6.3f}  force {-contact.force[0]:.10f} of 0.0060  "
             f"sticking {sticking:2d}  iterations {problem.report.iterations}"
+        )
+
+
+def own_forms() -> None:
+    """The block, pushed until it slides."""
+    problem, push = block_on_base()
+    for step in range(7):
+        push.g.value[...] = 0.015 * step
+        problem.solve()
+        print(
+            f"push {float(push.g.value):6.3f}  force {-problem.contacts[0].force[0]:.10f}  "
+            f"iterations {problem.report.iterations}"
         )
 
 
@@ -138,5 +157,6 @@ def pressed_block() -> None:
 
 
 if __name__ == "__main__":
-    demos = {"hertz": hertz, "sliding_block": sliding_block, "pressed_block": pressed_block}
-    demos[sys.argv[1]]()
+    for demo in (hertz, sliding_block, own_forms, pressed_block):
+        if demo.__name__ == sys.argv[1]:
+            demo()

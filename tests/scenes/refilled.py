@@ -29,7 +29,6 @@ class Refilled:
 
     def __init__(self) -> None:
         self.halo = SimpleNamespace(comm=MPI.COMM_WORLD)
-        self.discrete_contacts: list[object] = []
         self.is_singular = False
 
     def jacobian(self, A: PETSc.Mat | None, springs: object) -> PETSc.Mat:

@@ -27,17 +27,16 @@ PARTS = {
     "kernels": ("cpp/contactx/kernel",),
     "law": ("cpp/contactx/law",),
     "contact": ("cpp/contactx/contact",),
-    "active_set": ("cpp/contactx/active_set",),
-    "pairing": ("cpp/contactx/search", "cpp/contactx/facet"),
-    "reference": ("cpp/contactx/reference",),
-    "mortar": ("cpp/contactx/mortar",),
+    "solve": ("cpp/contactx/solve",),
+    "geometry": ("cpp/contactx/geometry",),
+    "search": ("cpp/contactx/search",),
     "condensation": ("cpp/contactx/condense", "python/contactx/_host/condensed"),
     "audit": ("cpp/contactx/audit",),
     "steps": (
         "python/contactx/steps.py",
         "python/contactx/_host/checkpoint",
     ),
-    "parallel": ("cpp/contactx/parallel", "python/contactx/_host/parallel"),
+    "parallel": ("cpp/contactx/mesh", "python/contactx/_host/parallel"),
 }
 
 # A token and what it becomes, for both languages

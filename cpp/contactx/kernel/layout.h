@@ -16,9 +16,10 @@
 /// matrix.
 ///
 /// The driver of a step calls them itself and assembles rows (assemble.h,
-/// condense/contact_block.h), which is three times as fast as DOLFINx's
-/// assembly of forms made of them. The forms are the door for others, for a
-/// loop or a matrix of their own; a test holds both equal.
+/// condense/contact_block.h): in small problems that is two to three times as
+/// fast as DOLFINx's assembly of forms made of them (bench_forms.py), and no
+/// forms have to be made anew where pairs change. The forms are the door for
+/// others, for a loop or a matrix of their own; a test holds both equal.
 namespace contactx::kernel
 {
 /// @brief UFCx tabulate function: local tensor, coefficients, constants,

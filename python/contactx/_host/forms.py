@@ -101,6 +101,7 @@ class ContactForms:
             self._made_for = made_for
             self._make(pairs)
         self._pairs = pairs
+        self._of_bulk["displacement"].array[:] = self._halo.displacement.array
         for kind, group in pairs.items():
             for name, vector in self._data[kind].items():
                 vector.array[:] = getattr(group, "data" if name == "pair" else name).ravel()
@@ -123,7 +124,13 @@ class ContactForms:
 
     def _make(self, pairs: dict[Kind, Pairs]) -> None:
         self.version += 1
-        self.displacement_map = self._halo.host.full_map
+        halo = self._halo
+        self.displacement_map = halo.host.full_map
+        self._of_bulk = {
+            name: la.vector(self.displacement_map, halo.gdim)
+            for name in ("displacement", "position")
+        }
+        self._of_bulk["position"].array[:] = halo.position.array
         self.F_u: list[fem.Form] = []
         self.K: list[fem.Form] = []
         self.B: list[fem.Form] = []
@@ -133,7 +140,7 @@ class ContactForms:
         kinds = np.zeros((_MOST + 1, _MOST + 1, 2))
         for kind in pairs:
             kinds[kind] = 1
-        found = np.argwhere(largest(self._halo.comm, kinds)).tolist()
+        found = np.argwhere(largest(halo.comm, kinds)).tolist()
         self._data = {
             (s, m, is_movement): self._of_pairs((s, m, is_movement), pairs.get((s, m, is_movement)))
             for s, m, is_movement in found
@@ -177,8 +184,7 @@ class ContactForms:
         }
         table = core.coefficients(law, *kind)
         data = {name: la.vector(pair_map, size) for name, _, size in table if name in _PAIR_DATA}
-        vectors = self._state | data
-        vectors |= {"displacement": halo.displacement, "position": halo.position}
+        vectors = self._state | self._of_bulk | data
         spaces: dict[tuple[str, int], Any] = {}
         coefficients = []
         for name, site, size in table:

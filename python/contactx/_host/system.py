@@ -171,23 +171,27 @@ class SaddlePointSystem:
         for conductance in self._bulk.conductances:
             self._add_conductance(A, conductance, places)
         A.assemble()
+        self.finish(A, springs)
+        return A
+
+    def finish(self, A: PETSc.Mat, springs: npt.NDArray[np.float64] | None) -> None:
+        """Add what holds free bodies to an assembled Jacobian, and take the unknowns' units.
+
+        Args:
+            A: Jacobian by displacements and multipliers.
+            springs: What is added to the diagonal of the displacements, shape (num_displacements,).
+        """
+        diagonal = self.x.duplicate()
         if springs is not None:
-            diagonal = self.x.duplicate()
             diagonal.array[: self.num_displacements] = springs
             A.setDiagonal(diagonal, addv=PETSc.InsertMode.ADD)
-        A.diagonalScale(None, self.units())
-        return A
+        diagonal.array[: self.num_bulk] = 1
+        diagonal.array[self.num_bulk :] = self.core.factors
+        A.diagonalScale(None, diagonal)
 
     def places(self) -> npt.NDArray[np.int64]:
         """Places of the displacements of all nodes, then of this rank's multipliers; collective."""
         return self._layout.places()
-
-    def units(self) -> PETSc.Vec:
-        """The unit of each unknown: 1, and for multipliers the factor c."""
-        factors = self.x.duplicate()
-        factors.array[: self.num_bulk] = 1
-        factors.array[self.num_bulk :] = self.core.factors
-        return factors
 
     def blocks(self, A: PETSc.Mat) -> dict[str, PETSc.Mat]:
         """Split a matrix of all unknowns into its blocks [[K, B], [C, D]].

@@ -2,13 +2,19 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """Newton loops of one's own around a ContactAssembler give what ContactProblem gives."""
 
+import inspect
+
 import arc_length
 import numpy as np
+import own_forms
 import own_newton
 import own_snes
 import pytest
 
 import contactx as cx
+
+from ranks import forms_on_ranks
+from story import METHODS
 
 
 def assert_same(scene, other, tolerance=1e-10):
@@ -52,6 +58,16 @@ def test_the_snes_of_a_nonlinear_problem():
     assert report.iterations == problem.report.iterations
     assert report.reason == problem.report.reason
     assert_same(scene, other)
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_a_snes_on_forms(method):
+    assert forms_on_ranks.difference(method) <= 1e-10
+
+
+def test_contact_on_forms_is_fifteen_lines():
+    lines = inspect.getsource(own_forms.solve).splitlines()
+    assert 10 <= sum("# contact" in line for line in lines) <= 15
 
 
 def test_an_arc_length_method():

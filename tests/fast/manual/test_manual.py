@@ -57,6 +57,7 @@ def test_cpp_tutorial_shows_the_demo():
         demo / "main.cpp",
         demo / "main.cpp",
         demo.parent / "pressed_block" / "main.cpp",
+        demo.parent / "own_forms" / "main.cpp",
         moving / "falling_block.py",
         moving / "dynamics.cpp",
         moving / "dynamics.cpp",
@@ -64,7 +65,7 @@ def test_cpp_tutorial_shows_the_demo():
         moving / "several_fields.py",
     ]
     codes = [part.code for part in shown]
-    project, forms, contact, loop, newton, step, dynamics, steps, blocks, heat = codes
+    project, forms, contact, loop, newton, own, step, dynamics, steps, blocks, heat = codes
     assert project.startswith("cmake_minimum_required") and "COMPONENTS dolfinx" in project
     assert forms.startswith('"""Forms of linear elasticity') and "forms = [F, J]" in forms
     assert "cx::Contact" in contact and contact.rstrip().endswith(";")
@@ -72,6 +73,7 @@ def test_cpp_tutorial_shows_the_demo():
     assert all(loop.count(f"assembler.{call}(") == 1 for call in calls)
     assert "acceleration" in step and step.rstrip().endswith("J = derivative(F, u)")
     assert "newton.set_form" in newton and "assembler.restore()" in newton
+    assert 10 <= own.count("// contact") <= 15 and "newton.setJ" in own
     assert "nullptr" in blocks and "bcs, push, contact" in blocks
     assert "F_warm =" in heat
     assert "cx::DynamicForms" in dynamics and "dynamics->step(" in steps

@@ -18,7 +18,7 @@ def surface(scene, *tags):
     return cx.Surface(scene.tags, *tags)
 
 
-@pytest.mark.parametrize("name", ["pressure", "force", "multiplier", "forms", "gap"])
+@pytest.mark.parametrize("name", ["pressure", "force", "multiplier", "gap"])
 def test_results_before_there_are_any(scene, name):
     with pytest.raises(RuntimeError, match="has no results yet: pass it to a ContactProblem first"):
         getattr(scene.contact(), name)
