@@ -12,12 +12,12 @@
 
 /// @brief Contact beside the forms of DOLFINx 0.11, compiled in the program
 /// that uses it: an adapter of the core, without any rule of contact.
-namespace contactx::dolfinx
+namespace contactx_dolfinx
 {
-using problem::ConvergenceError;
-using problem::Settled;
-using problem::StepPlan;
-using problem::Tolerances;
+using contactx::problem::ConvergenceError;
+using contactx::problem::Settled;
+using contactx::problem::StepPlan;
+using contactx::problem::Tolerances;
 
 /// @brief The system of a bulk and its contacts, for a Newton loop of one's
 /// own.
@@ -116,19 +116,20 @@ public:
 
     auto adapter = std::make_unique<HaloAdapter>(_u);
     _adapter = adapter.get();
-    mesh::BulkNodes nodes = adapter->bulk_nodes();
-    _halo = std::make_shared<mesh::Halo>(std::move(nodes), std::move(adapter));
+    contactx::mesh::BulkNodes nodes = adapter->bulk_nodes();
+    _halo = std::make_shared<contactx::mesh::Halo>(std::move(nodes),
+                                                   std::move(adapter));
     _bulk = std::make_shared<Bulk>(blocks, unknowns, std::move(bcs), _halo,
                                    *_adapter);
     check(conductances);
-    const auto bodies = std::make_shared<mesh::Bodies>(
+    const auto bodies = std::make_shared<contactx::mesh::Bodies>(
         _bulk->all_cells(), _bulk->nodes_per_cell(), _bulk->num_owned_cells(),
         _halo->original().first(_halo->num_bulk()), _halo);
     std::size_t count = 0;
     try
     {
-      solve::System::Contacts discrete;
-      std::vector<problem::Part> parts;
+      contactx::solve::System::Contacts discrete;
+      std::vector<contactx::problem::Part> parts;
       for (; count < _contacts.size(); ++count)
       {
         const Contact& contact = *_contacts[count];
@@ -143,9 +144,9 @@ public:
       for (const auto& conductance : conductances)
         conductance->check();
       _bulk->follow(std::move(conductances));
-      _system
-          = std::make_shared<solve::System>(_halo, _bulk, std::move(discrete));
-      _problem = std::make_unique<problem::Problem>(
+      _system = std::make_shared<contactx::solve::System>(_halo, _bulk,
+                                                          std::move(discrete));
+      _problem = std::make_unique<contactx::problem::Problem>(
           _system, bodies, std::move(parts), audit == Audit::refuse);
       _jacobian = std::make_unique<Jacobian>(_system, _bulk);
       _x = std::make_unique<petsc::OwnVec>(create_vector());
@@ -204,7 +205,8 @@ public:
   /// @param[in] tolerances When iterations end.
   /// @throws ConvergenceError if it does not converge.
   /// @throws std::invalid_argument as `begin_step` does.
-  void solve(problem::LinearSolver& solver, const Tolerances& tolerances = {})
+  void solve(contactx::problem::LinearSolver& solver,
+             const Tolerances& tolerances = {})
   {
     try
     {
@@ -235,7 +237,8 @@ public:
   /// @throws ConvergenceError if the shortest step does not converge; plan and
   /// state are then those of before.
   void advance(StepPlan& plan, const std::function<void(double t)>& update,
-               problem::LinearSolver& solver, const Tolerances& tolerances = {})
+               contactx::problem::LinearSolver& solver,
+               const Tolerances& tolerances = {})
   {
     try
     {
@@ -262,7 +265,7 @@ public:
     {
       _problem->begin_step();
     }
-    catch (const solve::NotFinite& error)
+    catch (const contactx::solve::NotFinite& error)
     {
       throw ConvergenceError(error.what());
     }
@@ -281,18 +284,18 @@ public:
   /// @brief Go on from the state of another run, as a Checkpoint has it.
   /// @param[in] start Displacements of the step's start
   /// (shape=(num_displacements)).
-  /// @param[in] contacts State of each contact, see contact::save. Functions
-  /// have the values that they shall have.
+  /// @param[in] contacts State of each contact, see contactx::contact::save.
+  /// Functions have the values that they shall have.
   /// @throws std::invalid_argument on all ranks if they do not fit.
   void take(std::vector<double> start,
-            std::vector<std::vector<contact::Saved>> contacts)
+            std::vector<std::vector<contactx::contact::Saved>> contacts)
   {
-    problem::Snapshot::State state{.start = std::move(start),
-                                   .contacts = std::move(contacts)};
+    contactx::problem::Snapshot::State state{.start = std::move(start),
+                                             .contacts = std::move(contacts)};
     _bulk->read();
     const auto u = _bulk->displacements();
     state.displacements.assign(u.begin(), u.end());
-    if (solve::Fields* fields = _bulk->fields())
+    if (contactx::solve::Fields* fields = _bulk->fields())
     {
       const auto values = fields->values();
       state.fields.assign(values.begin(), values.end());
@@ -387,20 +390,23 @@ public:
   }
 
   /// @brief Report of the step: iterates, what the audit has found, totals.
-  const problem::Report& report() const { return _problem->report(); }
+  const contactx::problem::Report& report() const { return _problem->report(); }
 
   /// @brief What the last solution is warned of, a sentence each, the same on
   /// all ranks.
   const std::vector<std::string>& warnings() const { return report().warnings; }
 
   /// @brief The core's driver of a step.
-  problem::Problem& problem() { return *_problem; }
+  contactx::problem::Problem& problem() { return *_problem; }
 
   /// @brief The core's loop.
-  const solve::Loop& loop() const { return _problem->loop(); }
+  const contactx::solve::Loop& loop() const { return _problem->loop(); }
 
   /// @brief The core's system.
-  const std::shared_ptr<solve::System>& system() const { return _system; }
+  const std::shared_ptr<contactx::solve::System>& system() const
+  {
+    return _system;
+  }
 
   /// @brief The contacts.
   const std::vector<std::shared_ptr<Contact>>& contacts() const
@@ -452,9 +458,10 @@ private:
   {
     const FunctionSpace& V = *_u->function_space();
     const auto& topology = *V.mesh()->topology();
-    mesh::check_cells(_halo->ranks(), cells_of(V).type, geometry_of(*V.mesh()),
-                      topology.index_map(topology.dim())->size_local(),
-                      original_cells(*V.mesh()));
+    contactx::mesh::check_cells(
+        _halo->ranks(), cells_of(V).type, geometry_of(*V.mesh()),
+        topology.index_map(topology.dim())->size_local(),
+        original_cells(*V.mesh()));
   }
 
   MPI_Comm comm() const { return _u->function_space()->mesh()->comm(); }
@@ -475,19 +482,19 @@ private:
 
   std::shared_ptr<Function> _u;
   std::vector<std::shared_ptr<Contact>> _contacts;
-  std::shared_ptr<mesh::Halo> _halo;
+  std::shared_ptr<contactx::mesh::Halo> _halo;
   // The halo has it
   HaloAdapter* _adapter = nullptr;
   std::shared_ptr<Bulk> _bulk;
-  std::shared_ptr<solve::System> _system;
-  std::unique_ptr<problem::Problem> _problem;
+  std::shared_ptr<contactx::solve::System> _system;
+  std::unique_ptr<contactx::problem::Problem> _problem;
   std::unique_ptr<Jacobian> _jacobian;
   std::unique_ptr<petsc::OwnVec> _x;
 };
 
 /// @brief Solves with the Jacobian of an assembler, a saddle point, by a KSP of
 /// the user's.
-class KSPSolver final : public problem::LinearSolver
+class KSPSolver final : public contactx::problem::LinearSolver
 {
 public:
   /// @brief Take a solver.
@@ -512,7 +519,7 @@ public:
     KSPConvergedReason reason{};
     petsc::check(KSPGetConvergedReason(_ksp, &reason), "KSPGetConvergedReason");
     if (reason < 0)
-      throw solve::NotFinite(
+      throw contactx::solve::NotFinite(
           "the linear solver failed: is a body free to move without touching "
           "anything? Support it; with a Krylov solver of your own try pc_type "
           "lu (manual: errors/linear-solver-failed)");
@@ -525,4 +532,4 @@ private:
   petsc::OwnMat _A;
   petsc::OwnVec _b, _x;
 };
-} // namespace contactx::dolfinx
+} // namespace contactx_dolfinx

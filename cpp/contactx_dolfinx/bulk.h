@@ -19,11 +19,11 @@
 #include <optional>
 #include <string>
 
-namespace contactx::dolfinx
+namespace contactx_dolfinx
 {
 /// @brief Bodies without contact: forms of DOLFINx, as the core's Newton loop
 /// sees them. Besides the displacement there may be other fields.
-class Bulk final : public solve::Bulk
+class Bulk final : public contactx::solve::Bulk
 {
 public:
   /// @brief Take the forms.
@@ -34,11 +34,11 @@ public:
   /// @param[in] adapter What that one asks; it lives as long as the halo.
   Bulk(const Blocks& blocks, std::shared_ptr<Unknowns> unknowns,
        std::vector<std::shared_ptr<const DirichletBC>> bcs,
-       std::shared_ptr<mesh::Halo> halo, HaloAdapter& adapter)
+       std::shared_ptr<contactx::mesh::Halo> halo, HaloAdapter& adapter)
       : _F(blocks.F), _J(blocks.J), _unknowns(std::move(unknowns)),
         _u(_unknowns->u()), _bcs(std::move(bcs)), _halo(std::move(halo)),
         _adapter(&adapter),
-        _cells(mesh::linear_cells(cells_of(*_u->function_space()))),
+        _cells(contactx::mesh::linear_cells(cells_of(*_u->function_space()))),
         _size(std::size_t(_halo->num_owned()) * _halo->gdim())
   {
     for (const auto& w : functions())
@@ -72,7 +72,7 @@ public:
     update_ghosts();
   }
 
-  /// @copydoc solve::Bulk::has_own_jacobian
+  /// @copydoc contactx::solve::Bulk::has_own_jacobian
   ///
   /// A program always gives it.
   bool has_own_jacobian() const override { return true; }
@@ -86,7 +86,10 @@ public:
     return _unknowns->functions();
   }
 
-  solve::Fields* fields() override { return _fields ? &*_fields : nullptr; }
+  contactx::solve::Fields* fields() override
+  {
+    return _fields ? &*_fields : nullptr;
+  }
 
   /// @brief Take the conductances across contacts, whose flows are added to the
   /// residuals of their fields.
@@ -171,7 +174,7 @@ public:
     for (std::size_t k = 0; k < _b.size(); ++k)
     {
       std::ranges::fill(_b[k].array(), 0);
-      ::dolfinx::fem::assemble_vector(_b[k].array(), *_F[k]);
+      dolfinx::fem::assemble_vector(_b[k].array(), *_F[k]);
       _b[k].scatter_rev(std::plus<double>());
     }
     for (const auto& conductance : _conductances)
@@ -200,7 +203,7 @@ public:
     for_each_block(
         [this](int i, int j, const Form& J)
         {
-          ::dolfinx::fem::apply_lifting(
+          dolfinx::fem::apply_lifting(
               _b[i].array(), {J}, {conditions(j)},
               {std::span<const double>(functions()[j]->x()->array())}, -1.0);
         });
@@ -237,17 +240,17 @@ public:
 
   int nodes_per_cell() const override
   {
-    return mesh::num_vertices(cells_of(*_u->function_space()).type);
+    return contactx::mesh::num_vertices(cells_of(*_u->function_space()).type);
   }
 
   std::span<const double> cell_sizes() override
   {
-    const mesh::Cells cells = cells_of(*_u->function_space());
+    const contactx::mesh::Cells cells = cells_of(*_u->function_space());
     const auto& domain = *_u->function_space()->mesh();
     std::vector<std::int32_t> every(cells.size());
     std::iota(every.begin(), every.end(), 0);
     const std::vector<double> h
-        = ::dolfinx::mesh::h(domain, every, domain.topology()->dim());
+        = dolfinx::mesh::h(domain, every, domain.topology()->dim());
     std::vector<double> sizes(_halo->num_bulk(), 0);
     for (std::int32_t c = 0; c < cells.size(); ++c)
       for (const std::int32_t node : cells[c])
@@ -256,7 +259,7 @@ public:
     return _cell_sizes = std::move(sizes);
   }
 
-  /// @copydoc solve::Bulk::cell_forces
+  /// @copydoc contactx::solve::Bulk::cell_forces
   ///
   /// Terms are the integrals of the residual, see CellForces.
   std::span<const double> cell_forces() override
@@ -281,22 +284,22 @@ public:
 
   /// @brief Assemble the Jacobian anew where a coefficient or a constant of its
   /// forms has changed: that of a linear bulk once. All ranks must take part.
-  /// @throws solve::NotFinite on all ranks if it is not finite.
+  /// @throws contactx::solve::NotFinite on all ranks if it is not finite.
   void assemble()
   {
     std::vector<double> with;
     for_each_block(
         [&with](int, int, const Form& J)
         {
-          const auto constants = ::dolfinx::fem::pack_constants(J);
+          const auto constants = dolfinx::fem::pack_constants(J);
           with.insert(with.end(), constants.begin(), constants.end());
           for (const auto& c : J.coefficients())
             with.insert(with.end(), c->x()->array().begin(),
                         c->x()->array().end());
         });
     // NaN is unlike itself
-    if (mesh::everywhere(_halo->ranks(),
-                         _assembled_with and *_assembled_with == with))
+    if (contactx::mesh::everywhere(
+            _halo->ranks(), _assembled_with and *_assembled_with == with))
       return;
     _assembled_with.reset();
     if (_blocks.empty())
@@ -333,7 +336,7 @@ public:
 
 private:
   /// The fields beside the displacement.
-  class Fields final : public solve::Fields
+  class Fields final : public contactx::solve::Fields
   {
   public:
     explicit Fields(Bulk& bulk) : _bulk(&bulk)
@@ -483,7 +486,7 @@ private:
         ::Mat* A = _blocks[n * i + j].put();
         if (_J[i][j])
         {
-          *A = ::dolfinx::fem::petsc::create_matrix(*_J[i][j]);
+          *A = dolfinx::fem::petsc::create_matrix(*_J[i][j]);
           continue;
         }
         petsc::check(
@@ -506,14 +509,14 @@ private:
     petsc::check(MatZeroEntries(A), "MatZeroEntries");
     if (const auto& J = _J[i][j])
     {
-      ::dolfinx::fem::assemble_matrix(
-          ::dolfinx::la::petsc::Matrix::set_block_fn(A, ADD_VALUES), *J,
+      dolfinx::fem::assemble_matrix(
+          dolfinx::la::petsc::Matrix::set_block_fn(A, ADD_VALUES), *J,
           conditions());
       petsc::check(MatAssemblyBegin(A, MAT_FLUSH_ASSEMBLY), "MatAssemblyBegin");
       petsc::check(MatAssemblyEnd(A, MAT_FLUSH_ASSEMBLY), "MatAssemblyEnd");
       if (i == j)
-        ::dolfinx::fem::set_diagonal<double>(
-            ::dolfinx::la::petsc::Matrix::set_fn(A, INSERT_VALUES),
+        dolfinx::fem::set_diagonal<double>(
+            dolfinx::la::petsc::Matrix::set_fn(A, INSERT_VALUES),
             *functions()[i]->function_space(), conditions());
     }
     else if (i == j)
@@ -534,14 +537,14 @@ private:
     PetscReal norm = 0;
     petsc::check(MatNorm(A, NORM_FROBENIUS, &norm), "MatNorm");
     if (not std::isfinite(norm))
-      throw solve::NotFinite(
+      throw contactx::solve::NotFinite(
           "the Jacobian is not finite: it does not exist at this displacement, "
           "or a coefficient of it is NaN or infinite. Start from another "
           "displacement, or repair the coefficient (manual: "
           "errors/jacobian-not-finite)");
   }
 
-  /// See solve::Fields::absolute_products.
+  /// See contactx::solve::Fields::absolute_products.
   std::vector<double> absolute_products(std::span<const double> sizes)
   {
     assemble();
@@ -613,13 +616,13 @@ private:
   std::shared_ptr<Unknowns> _unknowns;
   std::shared_ptr<Function> _u;
   std::vector<std::shared_ptr<const DirichletBC>> _bcs;
-  std::shared_ptr<mesh::Halo> _halo;
+  std::shared_ptr<contactx::mesh::Halo> _halo;
   HaloAdapter* _adapter;
   std::optional<CellForces> _forces; // of a displacement alone
   std::optional<Fields> _fields;     // nothing then
   std::vector<std::shared_ptr<Conductance>> _conductances;
   // Residuals and markers of each function
-  std::vector<::dolfinx::la::Vector<double>> _b;
+  std::vector<dolfinx::la::Vector<double>> _b;
   std::vector<std::vector<std::int8_t>> _markers_of;
   std::vector<std::int8_t> _markers; // of the displacement
   std::vector<std::int32_t> _cells;
@@ -633,4 +636,4 @@ private:
   std::vector<double> _positions, _diagonal, _products, _residual, _defect,
       _lifted, _cell_sizes, _cell_forces;
 };
-} // namespace contactx::dolfinx
+} // namespace contactx_dolfinx

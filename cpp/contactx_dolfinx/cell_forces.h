@@ -19,7 +19,7 @@
 #include <utility>
 #include <vector>
 
-namespace contactx::dolfinx
+namespace contactx_dolfinx
 {
 /// @brief Sizes of the contributions of cells and integrals to a residual,
 /// before their sum.
@@ -43,26 +43,26 @@ public:
   /// @brief Sum over cells and integrals of the size of the force on each owned
   /// node (shape=(num_owned)). All ranks must take part.
   /// @param[in] halo Nodes of this rank.
-  std::vector<double> magnitudes(const mesh::Halo& halo)
+  std::vector<double> magnitudes(const contactx::mesh::Halo& halo)
   {
     if (not _broken)
       make();
-    const auto constants = ::dolfinx::fem::pack_constants(*_F);
-    auto packed = ::dolfinx::fem::allocate_coefficient_storage(*_F);
-    ::dolfinx::fem::pack_coefficients(*_F, packed);
+    const auto constants = dolfinx::fem::pack_constants(*_F);
+    auto packed = dolfinx::fem::allocate_coefficient_storage(*_F);
+    dolfinx::fem::pack_coefficients(*_F, packed);
     const auto nodes = _V->dofmap()->map(), rows = _broken->dofmap()->map();
     const std::size_t gdim = halo.gdim();
     const auto& topology = *_V->mesh()->topology();
     const std::size_t num_cells
         = topology.index_map(topology.dim())->size_local();
-    ::dolfinx::la::Vector<double> b(_broken->dofmap()->index_map,
-                                    static_cast<int>(gdim));
+    dolfinx::la::Vector<double> b(_broken->dofmap()->index_map,
+                                  static_cast<int>(gdim));
     std::vector<double> sums(halo.num_nodes(), 0);
     for (const auto& [integral, term] : _terms)
     {
       const auto& [values, stride] = packed.at(integral);
       std::ranges::fill(b.array(), 0);
-      ::dolfinx::fem::assemble_vector(
+      dolfinx::fem::assemble_vector(
           b.array(), term, std::span(constants),
           {{{integral.first, 0}, {std::span<const double>(values), stride}}});
       b.scatter_rev(std::plus<double>());
@@ -89,7 +89,7 @@ private:
     const auto mesh = _V->mesh();
     const auto& element = _V->element()->basix_element();
     const auto broken
-        = std::make_shared<const ::dolfinx::fem::FiniteElement<double>>(
+        = std::make_shared<const dolfinx::fem::FiniteElement<double>>(
             basix::create_element<double>(
                 element.family(), element.cell_type(), element.degree(),
                 element.lagrange_variant(), element.dpc_variant(), true),
@@ -98,8 +98,8 @@ private:
     // Cells of another mesh are none of the displacement's
     if (_F->mesh() != mesh)
       return;
-    using Key = std::tuple<::dolfinx::fem::IntegralType, int, int>;
-    using Integral = ::dolfinx::fem::integral_data<double, double>;
+    using Key = std::tuple<dolfinx::fem::IntegralType, int, int>;
+    using Integral = dolfinx::fem::integral_data<double, double>;
     for (const auto type : _F->integral_types())
       for (int i = 0; i < _F->num_integrals(type, 0); ++i)
       {
@@ -118,6 +118,6 @@ private:
 
   std::shared_ptr<const Form> _F;
   std::shared_ptr<const FunctionSpace> _V, _broken;
-  std::map<std::pair<::dolfinx::fem::IntegralType, int>, Form> _terms;
+  std::map<std::pair<dolfinx::fem::IntegralType, int>, Form> _terms;
 };
-} // namespace contactx::dolfinx
+} // namespace contactx_dolfinx

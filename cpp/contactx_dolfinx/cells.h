@@ -15,7 +15,7 @@
 #include <vector>
 
 /// @brief Arrays of DOLFINx for the functions of contactx/mesh.
-namespace contactx::dolfinx
+namespace contactx_dolfinx
 {
 /// @brief Number of this rank's nodes of a space, ghosts included.
 inline std::int32_t num_nodes(const FunctionSpace& V)
@@ -27,11 +27,11 @@ inline std::int32_t num_nodes(const FunctionSpace& V)
 /// @brief Cells of this rank, ghosts included; a view of the space's dofs.
 /// @param[in] V Lagrange space of degree 1 or 2, whose blocks of dofs are the
 /// nodes.
-inline mesh::Cells cells_of(const FunctionSpace& V)
+inline contactx::mesh::Cells cells_of(const FunctionSpace& V)
 {
   const auto dofs = V.dofmap()->map();
-  return {mesh::cell_type(
-              ::dolfinx::mesh::to_string(V.mesh()->topology()->cell_type())),
+  return {contactx::mesh::cell_type(
+              dolfinx::mesh::to_string(V.mesh()->topology()->cell_type())),
           V.element()->basix_element().degree(),
           {dofs.data_handle(), dofs.size()}};
 }
@@ -61,7 +61,8 @@ inline bool is_scalar_lagrange(const FunctionSpace& Q,
 }
 
 /// @brief The mesh of these cells; a view of it.
-inline mesh::Geometry geometry_of(const ::dolfinx::mesh::Mesh<double>& mesh)
+inline contactx::mesh::Geometry
+geometry_of(const dolfinx::mesh::Mesh<double>& mesh)
 {
   const auto& geometry = mesh.geometry();
   const auto points = geometry.dofmaps().front();
@@ -75,7 +76,7 @@ inline mesh::Geometry geometry_of(const ::dolfinx::mesh::Mesh<double>& mesh)
 /// @brief Numbers of this rank's cells in the mesh as it was made; empty where
 /// a mesh was made of another one.
 inline std::span<const std::int64_t>
-original_cells(const ::dolfinx::mesh::Mesh<double>& mesh)
+original_cells(const dolfinx::mesh::Mesh<double>& mesh)
 {
   const auto& numbers = mesh.topology()->original_cell_index;
   if (numbers.empty())
@@ -86,12 +87,12 @@ original_cells(const ::dolfinx::mesh::Mesh<double>& mesh)
 /// @brief Reference coordinates of the points of a cell of the mesh
 /// (shape=(points_per_cell, tdim)).
 inline std::vector<double>
-points_of_cell(const ::dolfinx::mesh::Mesh<double>& mesh)
+points_of_cell(const dolfinx::mesh::Mesh<double>& mesh)
 {
   const auto& map = mesh.geometry().cmaps().front();
   return basix::create_element<double>(
              basix::element::family::P,
-             ::dolfinx::mesh::cell_type_to_basix_type(map.cell_shape()),
+             dolfinx::mesh::cell_type_to_basix_type(map.cell_shape()),
              map.degree(), map.variant(), basix::element::dpc_variant::unset,
              false)
       .points()
@@ -99,25 +100,27 @@ points_of_cell(const ::dolfinx::mesh::Mesh<double>& mesh)
 }
 
 /// @brief Reference positions of the nodes of a space, ghosts included, see
-/// mesh::reference_positions (shape=(num_nodes, gdim)).
+/// contactx::mesh::reference_positions (shape=(num_nodes, gdim)).
 inline std::vector<double> reference_positions(const FunctionSpace& V)
 {
-  return mesh::reference_positions(cells_of(V), num_nodes(V),
-                                   geometry_of(*V.mesh()));
+  return contactx::mesh::reference_positions(cells_of(V), num_nodes(V),
+                                             geometry_of(*V.mesh()));
 }
 
 /// @brief Number of each node in the mesh as it was made, see
-/// mesh::original_nodes (shape=(num_nodes)). All ranks must take part.
+/// contactx::mesh::original_nodes (shape=(num_nodes)). All ranks must take
+/// part.
 /// @param[in] V Lagrange space of degree 1 or 2.
 /// @param[in] ranks The ranks.
 inline std::vector<std::int64_t> original_nodes(const FunctionSpace& V,
-                                                mesh::Ranks& ranks)
+                                                contactx::mesh::Ranks& ranks)
 {
   const auto& numbers = V.mesh()->geometry().input_global_indices();
   std::int64_t most = -1;
   for (const std::int64_t number : numbers)
     most = std::max(most, number);
-  return mesh::original_nodes(cells_of(V), num_nodes(V), geometry_of(*V.mesh()),
-                              numbers, mesh::largest(ranks, most) + 1);
+  return contactx::mesh::original_nodes(
+      cells_of(V), num_nodes(V), geometry_of(*V.mesh()), numbers,
+      contactx::mesh::largest(ranks, most) + 1);
 }
-} // namespace contactx::dolfinx
+} // namespace contactx_dolfinx

@@ -12,7 +12,7 @@
 #include <string>
 #include <system_error>
 
-namespace contactx::dolfinx
+namespace contactx_dolfinx
 {
 /// @brief Writes the state of an Assembler to a file, from which another run
 /// goes on, on any number of ranks.
@@ -125,14 +125,13 @@ private:
   class File
   {
   public:
-    File(MPI_Comm comm, mesh::Ranks& ranks, const std::filesystem::path& path,
-         const std::string& mode)
-        : _comm(comm), _ranks(&ranks),
-          _parallel(::dolfinx::MPI::size(comm) > 1),
-          _handle(::dolfinx::io::hdf5::open_file(comm, path, mode, _parallel))
+    File(MPI_Comm comm, contactx::mesh::Ranks& ranks,
+         const std::filesystem::path& path, const std::string& mode)
+        : _comm(comm), _ranks(&ranks), _parallel(dolfinx::MPI::size(comm) > 1),
+          _handle(dolfinx::io::hdf5::open_file(comm, path, mode, _parallel))
     {
     }
-    ~File() { ::dolfinx::io::hdf5::close_file(_handle); }
+    ~File() { dolfinx::io::hdf5::close_file(_handle); }
     File(const File&) = delete;
     File& operator=(const File&) = delete;
 
@@ -141,17 +140,17 @@ private:
       // Asked for in a group that is not there, HDF5 prints errors
       for (auto end = name.find('/'); end != std::string::npos;
            end = name.find('/', end + 1))
-        if (not ::dolfinx::io::hdf5::has_dataset(_handle,
-                                                 "/" + name.substr(0, end)))
+        if (not dolfinx::io::hdf5::has_dataset(_handle,
+                                               "/" + name.substr(0, end)))
           return false;
-      return ::dolfinx::io::hdf5::has_dataset(_handle, "/" + name);
+      return dolfinx::io::hdf5::has_dataset(_handle, "/" + name);
     }
 
     /// Write what is the same on all ranks.
     template <class T>
     void write_same(const std::string& name, const std::vector<T>& values) const
     {
-      const bool mine = ::dolfinx::MPI::rank(_comm) == 0;
+      const bool mine = dolfinx::MPI::rank(_comm) == 0;
       put(name, values, 1, mine ? static_cast<std::int64_t>(values.size()) : 0);
     }
 
@@ -180,8 +179,8 @@ private:
       for (std::size_t i = 0; i < rows.keys.size(); ++i)
         mine.emplace_back(rows.keys[i], i);
       std::ranges::sort(mine);
-      const auto count
-          = mesh::total(*_ranks, static_cast<std::int64_t>(mine.size()));
+      const auto count = contactx::mesh::total(
+          *_ranks, static_cast<std::int64_t>(mine.size()));
       const auto there = shape(name + "/values");
       const auto columns = static_cast<std::int64_t>(width);
       if (there[0] != count or (count > 0 and there[1] != columns))
@@ -208,7 +207,7 @@ private:
           ++found;
         }
       }
-      if (mesh::anywhere(*_ranks, found != mine.size()))
+      if (contactx::mesh::anywhere(*_ranks, found != mine.size()))
         throw std::invalid_argument(
             "'" + name
             + "' has other rows: it is of another mesh, or of other surfaces");
@@ -220,8 +219,8 @@ private:
     std::int64_t width_of(const Rows& rows, std::size_t size) const
     {
       const std::size_t n = rows.keys.size();
-      return mesh::largest(*_ranks,
-                           static_cast<std::int64_t>(n > 0 ? size / n : 0));
+      return contactx::mesh::largest(
+          *_ranks, static_cast<std::int64_t>(n > 0 ? size / n : 0));
     }
 
     std::vector<std::int64_t> shape(const std::string& name) const
@@ -230,7 +229,7 @@ private:
         throw std::invalid_argument("'" + name
                                     + "' is missing: contacts, their options "
                                       "or functions were others");
-      auto shape = ::dolfinx::io::hdf5::get_dataset_shape(_handle, "/" + name);
+      auto shape = dolfinx::io::hdf5::get_dataset_shape(_handle, "/" + name);
       shape.resize(2, 1);
       return shape;
     }
@@ -241,20 +240,20 @@ private:
     {
       std::int64_t end = 0;
       MPI_Scan(&rows, &end, 1, MPI_INT64_T, MPI_SUM, _comm);
-      const std::int64_t all = mesh::total(*_ranks, rows);
-      ::dolfinx::io::hdf5::write_dataset(_handle, "/" + name, values.data(),
-                                         {end - rows, end}, {all, width},
-                                         _parallel, false);
+      const std::int64_t all = contactx::mesh::total(*_ranks, rows);
+      dolfinx::io::hdf5::write_dataset(_handle, "/" + name, values.data(),
+                                       {end - rows, end}, {all, width},
+                                       _parallel, false);
     }
 
     template <class T>
     std::vector<T> get(const std::string& name,
                        std::array<std::int64_t, 2> range) const
     {
-      const hid_t set = ::dolfinx::io::hdf5::open_dataset(_handle, "/" + name);
+      const hid_t set = dolfinx::io::hdf5::open_dataset(_handle, "/" + name);
       try
       {
-        auto values = ::dolfinx::io::hdf5::read_dataset<T>(set, range, false);
+        auto values = dolfinx::io::hdf5::read_dataset<T>(set, range, false);
         H5Dclose(set);
         return values;
       }
@@ -266,17 +265,17 @@ private:
     }
 
     MPI_Comm _comm;
-    mesh::Ranks* _ranks;
+    contactx::mesh::Ranks* _ranks;
     bool _parallel;
     hid_t _handle;
   };
 
-  const solve::System::Contacts& contacts() const
+  const contactx::solve::System::Contacts& contacts() const
   {
     return _assembler->system()->contacts();
   }
-  mesh::Halo& halo() const { return *_assembler->system()->halo(); }
-  mesh::Ranks& ranks() const { return halo().ranks(); }
+  contactx::mesh::Halo& halo() const { return *_assembler->system()->halo(); }
+  contactx::mesh::Ranks& ranks() const { return halo().ranks(); }
   MPI_Comm comm() const
   {
     return _assembler->bulk()->u()->function_space()->mesh()->comm();
@@ -316,7 +315,7 @@ private:
       const auto& topology = *V.mesh()->topology();
       const std::int32_t n = topology.index_map(topology.dim())->size_local();
       const auto original = original_cells(*V.mesh());
-      if (mesh::anywhere(ranks(), original.size() < std::size_t(n)))
+      if (contactx::mesh::anywhere(ranks(), original.size() < std::size_t(n)))
         throw std::invalid_argument(
             name
             + " has values in cells, but the mesh does not know the numbers "
@@ -346,9 +345,9 @@ private:
     return {{original.begin(), original.begin() + halo().num_owned()}};
   }
 
-  Rows rows_of(contact::RowKind kind, std::size_t contact) const
+  Rows rows_of(contactx::contact::RowKind kind, std::size_t contact) const
   {
-    if (kind == contact::RowKind::node)
+    if (kind == contactx::contact::RowKind::node)
       return node_rows();
     Rows rows;
     for (const std::int32_t node : contacts()[contact]->slaves().owned())
@@ -357,19 +356,21 @@ private:
   }
 
   /// State of a contact, and what tells it from others.
-  std::vector<contact::Saved> arrays_of(std::size_t k) const
+  std::vector<contactx::contact::Saved> arrays_of(std::size_t k) const
   {
-    std::vector<contact::Saved> arrays = contact::save(*contacts()[k]);
+    std::vector<contactx::contact::Saved> arrays
+        = contactx::contact::save(*contacts()[k]);
     const std::size_t g = halo().gdim();
-    for (contact::Saved& s : arrays)
-      if (s.rows == contact::RowKind::node)
+    for (contactx::contact::Saved& s : arrays)
+      if (s.rows == contactx::contact::RowKind::node)
         std::get<std::vector<double>>(s.values).resize(halo().num_owned() * g);
     // Facets of all ranks, whichever has them: a sum of their hashes
     std::uint64_t sum
-        = contacts()[k]->sliding() == contact::Sliding::small ? 1 : 2;
+        = contacts()[k]->sliding() == contactx::contact::Sliding::small ? 1 : 2;
     if (ranks().rank() > 0)
       sum = 0;
-    for (const contact::Saved& s : contacts()[k]->master()->identity())
+    for (const contactx::contact::Saved& s :
+         contacts()[k]->master()->identity())
     {
       const auto& numbers = std::get<std::vector<std::int64_t>>(s.values);
       for (std::size_t i = 0; i < numbers.size(); i += s.width)
@@ -382,7 +383,7 @@ private:
     }
     MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_UINT64_T, MPI_SUM, comm());
     arrays.push_back(
-        {"identity", contact::RowKind::global, 0,
+        {"identity", contactx::contact::RowKind::global, 0,
          std::vector<double>{double(sum >> 32), double(sum & 0xffffffffu)}});
     return arrays;
   }
@@ -398,7 +399,7 @@ private:
                 + std::ptrdiff_t(halo().gdim()) * halo().num_owned()};
   }
 
-  static std::vector<double> doubles(const contact::Saved& s)
+  static std::vector<double> doubles(const contactx::contact::Saved& s)
   {
     return std::visit(
         [](const auto& values)
@@ -420,8 +421,8 @@ private:
     for (const auto& [name, f] : _functions)
       file.write(f.rows, name, values_of(f));
     for (std::size_t k = 0; k < contacts().size(); ++k)
-      for (const contact::Saved& s : arrays_of(k))
-        if (s.rows == contact::RowKind::global)
+      for (const contactx::contact::Saved& s : arrays_of(k))
+        if (s.rows == contactx::contact::RowKind::global)
           file.write_same(name_of(k, s.name), doubles(s));
         else
           file.write(rows_of(s.rows, k), name_of(k, s.name), doubles(s));
@@ -445,22 +446,22 @@ private:
       values[name] = file.read(f.rows, name, f.dofs.size());
       const bool is_finite = std::ranges::all_of(values[name], [](double v)
                                                  { return std::isfinite(v); });
-      if (not mesh::everywhere(ranks(), is_finite))
+      if (not contactx::mesh::everywhere(ranks(), is_finite))
         throw std::invalid_argument("'" + name + "' is not finite");
     }
     std::vector<double> start
         = file.read(node_rows(), "start", identity().size());
-    std::vector<std::vector<contact::Saved>> states;
+    std::vector<std::vector<contactx::contact::Saved>> states;
     for (std::size_t k = 0; k < contacts().size(); ++k)
     {
-      std::vector<contact::Saved> arrays = arrays_of(k);
-      for (contact::Saved& s : arrays)
+      std::vector<contactx::contact::Saved> arrays = arrays_of(k);
+      for (contactx::contact::Saved& s : arrays)
         std::visit(
             [&](auto& here)
             {
               const std::string name = name_of(k, s.name);
               const auto there
-                  = s.rows == contact::RowKind::global
+                  = s.rows == contactx::contact::RowKind::global
                         ? file.read_same<double>(name)
                         : file.read(rows_of(s.rows, k), name, here.size());
               if (s.name == "identity" and not std::ranges::equal(here, there))
@@ -490,7 +491,7 @@ private:
       most[0] = std::max(most[0], std::abs(here[i]));
       most[1] = std::max(most[1], std::abs(here[i] - there[i]));
     }
-    ranks().reduce(std::span<double>(most), mesh::Reduction::largest);
+    ranks().reduce(std::span<double>(most), contactx::mesh::Reduction::largest);
     // Another machine may round them in another way
     if (not(most[1] <= 1e-12 * most[0]))
       throw std::invalid_argument("its nodes are elsewhere: it is of another "
@@ -501,9 +502,9 @@ private:
   /// fit.
   void take(const std::map<std::string, std::vector<double>>& values,
             std::vector<double> start,
-            std::vector<std::vector<contact::Saved>> contacts)
+            std::vector<std::vector<contactx::contact::Saved>> contacts)
   {
-    const problem::Snapshot before = _assembler->problem().snapshot();
+    const contactx::problem::Snapshot before = _assembler->problem().snapshot();
     // Of bodies without stress
     _assembler->problem().find_rigid_modes();
     std::vector<std::vector<double>> arrays;
@@ -538,4 +539,4 @@ private:
   Assembler* _assembler;
   std::map<std::string, Saved> _functions;
 };
-} // namespace contactx::dolfinx
+} // namespace contactx_dolfinx

@@ -10,7 +10,7 @@
 #include <petscksp.h>
 #include <string>
 
-namespace contactx::dolfinx
+namespace contactx_dolfinx
 {
 /// @brief Solves the system of the Jacobian with the multipliers eliminated.
 ///
@@ -18,12 +18,12 @@ namespace contactx::dolfinx
 ///
 ///     K_c = (I + left) (K + S) (I + right) + law (I + right),
 ///
-/// see condense::Condensation, which is made as a matrix, and are found by CG,
-/// or GMRES where friction slips, with PETSc's algebraic multigrid. Where
-/// eliminations need one another, as in surface-to-surface contact that slides,
-/// K_c is applied as a product and the matrix, in which the series of their
-/// inverses are cut off, is for multigrid alone. A loop reads as with
-/// `Assembler::J`, but for the linear solve:
+/// see contactx::condense::Condensation, which is made as a matrix, and are
+/// found by CG, or GMRES where friction slips, with PETSc's algebraic
+/// multigrid. Where eliminations need one another, as in surface-to-surface
+/// contact that slides, K_c is applied as a product and the matrix, in which
+/// the series of their inverses are cut off, is for multigrid alone. A loop
+/// reads as with `Assembler::J`, but for the linear solve:
 ///
 ///     Condensed condensed(assembler, "condensed_");
 ///     ...
@@ -34,7 +34,7 @@ namespace contactx::dolfinx
 /// condensed goes to a direct solver of the saddle point: multipliers without
 /// an equation of their own, and what multigrid does not converge for. All
 /// ranks must take part in everything.
-class Condensed final : public problem::LinearSolver
+class Condensed final : public contactx::problem::LinearSolver
 {
 public:
   /// @brief Create the solver.
@@ -58,10 +58,10 @@ public:
   /// @param[out] dx Solution.
   void solve(::Vec b, ::Vec dx)
   {
-    const solve::Loop& loop = _assembler->loop();
+    const contactx::solve::Loop& loop = _assembler->loop();
     if (_assembler->number() == 0)
       _accuracy.begin_step();
-    const solve::Iterate& now = loop.iterate();
+    const contactx::solve::Iterate& now = loop.iterate();
     _accuracy.set(now.residual, now.tolerance, loop.changing(),
                   loop.active_set().cycles() > 0);
     // A solver that has failed twice is not tried again: attempts are dear
@@ -112,12 +112,12 @@ private:
   /// The system of an iterate without multipliers, and the way there and back.
   struct System
   {
-    System(condense::Condensation&& made, bool is_symmetric)
+    System(contactx::condense::Condensation&& made, bool is_symmetric)
         : condensation(std::move(made)), is_symmetric(is_symmetric)
     {
     }
 
-    condense::Condensation condensation;
+    contactx::condense::Condensation condensation;
     bool is_symmetric;
     std::vector<PetscInt> eliminated;
     ::Mat K = nullptr; // the bulk's, or stiff
@@ -129,18 +129,21 @@ private:
     bool is_new = true;
   };
 
-  static bool has_path(const solve::System& system)
+  static bool has_path(const contactx::solve::System& system)
   {
     return std::ranges::any_of(system.contacts(), [](const auto& c)
                                { return c->history() != nullptr; });
   }
 
-  const solve::System& system() const { return *_assembler->system(); }
-  mesh::Halo& halo() const { return *system().halo(); }
+  const contactx::solve::System& system() const
+  {
+    return *_assembler->system();
+  }
+  contactx::mesh::Halo& halo() const { return *system().halo(); }
   std::size_t num_owned() const { return system().num_displacements(); }
 
   /// Eliminates the multipliers; nothing on all ranks where that cannot be.
-  std::optional<condense::Condensation> condense(::Vec b)
+  std::optional<contactx::condense::Condensation> condense(::Vec b)
   {
     const int g = halo().gdim();
     const std::size_t local = std::size_t(halo().num_nodes()) * g;
@@ -155,29 +158,29 @@ private:
     for (const std::int8_t f : _free)
       prescribed.push_back(not f);
 
-    std::vector<condense::Nodes> nodes;
+    std::vector<contactx::condense::Nodes> nodes;
     for (const auto& contact : system().contacts())
-      nodes.push_back(condense::nodes_of(*contact));
-    std::optional<condense::Condensation> made;
+      nodes.push_back(contactx::condense::nodes_of(*contact));
+    std::optional<contactx::condense::Condensation> made;
     {
       const petsc::ConstValues values(b);
       const auto d = values.span().subspan(num_owned());
       halo().ranks().agree(
           [&]
           {
-            const condense::ContactBlock block(system().contacts(), prescribed,
-                                               false, d);
+            const contactx::condense::ContactBlock block(system().contacts(),
+                                                         prescribed, false, d);
             try
             {
               made.emplace(block.entries(), nodes, _free, g);
             }
-            catch (const condense::NotCondensable&)
+            catch (const contactx::condense::NotCondensable&)
             {
               made.reset();
             }
           });
     }
-    if (not mesh::everywhere(halo().ranks(), made.has_value()))
+    if (not contactx::mesh::everywhere(halo().ranks(), made.has_value()))
       return std::nullopt;
     return made;
   }
@@ -198,7 +201,7 @@ private:
 
   /// A matrix of entries in this rank's numbers. Entries of one place are
   /// added, over all ranks.
-  void make(petsc::OwnMat& A, const Triplets& entries,
+  void make(petsc::OwnMat& A, const contactx::Triplets& entries,
             std::span<const PetscInt> places) const
   {
     const auto n = static_cast<PetscInt>(num_owned());
@@ -223,7 +226,7 @@ private:
   /// Adds one to a matrix that may have no place on its diagonal.
   void add_identity(petsc::OwnMat& A) const
   {
-    Triplets ones;
+    contactx::Triplets ones;
     for (std::size_t i = 0; i < num_owned(); ++i)
       ones.add(static_cast<std::int32_t>(i), static_cast<std::int32_t>(i), 1);
     petsc::OwnMat I;
@@ -244,18 +247,19 @@ private:
 
   bool anywhere(bool here) const
   {
-    return mesh::anywhere(halo().ranks(), here);
+    return contactx::mesh::anywhere(halo().ranks(), here);
   }
 
   /// Makes the matrices of an iterate.
-  void prepare(condense::Condensation&& made)
+  void prepare(contactx::condense::Condensation&& made)
   {
     const std::vector<PetscInt> places = numbers();
-    _system.emplace(std::move(made),
-                    condense::is_symmetric(made.elimination(), halo()));
+    _system.emplace(std::move(made), contactx::condense::is_symmetric(
+                                         made.elimination(), halo()));
     System& system = *_system;
-    const condense::Condensation& condensation = system.condensation;
-    const condense::Elimination& elimination = condensation.elimination();
+    const contactx::condense::Condensation& condensation = system.condensation;
+    const contactx::condense::Elimination& elimination
+        = condensation.elimination();
 
     // Stiffness of bulk, contact and springs; that of a linear bulk stays whole
     ::Mat K = _assembler->bulk()->matrix();
@@ -295,14 +299,14 @@ private:
       make(system.law, elimination.law(), places);
     if (not system.is_symmetric)
     {
-      Triplets left = elimination.left();
-      const Triplets& rows = elimination.rows();
+      contactx::Triplets left = elimination.left();
+      const contactx::Triplets& rows = elimination.rows();
       for (std::size_t e = 0; e < rows.size(); ++e)
         left.add(rows.rows[e], rows.columns[e], rows.values[e]);
       make(system.left, left, places);
     }
-    const condense::DependentConstraints chains
-        = condense::dependent_constraints(elimination, halo());
+    const contactx::condense::DependentConstraints chains
+        = contactx::condense::dependent_constraints(elimination, halo());
     make(system.of_right, chains.right, places);
     if (not system.is_symmetric)
       make(system.of_left, chains.left, places);
@@ -312,7 +316,7 @@ private:
   }
 
   /// Makes the solver of what eliminations need of one another, if they do.
-  void make(DependentConstraints& chains, const Triplets& entries,
+  void make(DependentConstraints& chains, const contactx::Triplets& entries,
             std::span<const PetscInt> places) const
   {
     if (not anywhere(entries.size() > 0))
@@ -508,15 +512,16 @@ private:
   bool apply(::Vec b, ::Vec dx, double target)
   {
     System& system = *_system;
-    const condense::Condensation& condensation = system.condensation;
-    const condense::Elimination& elimination = condensation.elimination();
+    const contactx::condense::Condensation& condensation = system.condensation;
+    const contactx::condense::Elimination& elimination
+        = condensation.elimination();
     const ::Mat K = system.K;
     const std::size_t n = num_owned();
     const int g = halo().gdim();
 
     // Right-hand side
     const petsc::ConstValues given(b);
-    condense::Condensation::RightHandSide right
+    contactx::condense::Condensation::RightHandSide right
         = condensation.right_hand_side(given.span().subspan(n));
     halo().reverse(right.forces, g);
     petsc::OwnVec w, h, work, rhs, v, balance;
@@ -665,7 +670,8 @@ private:
       for (std::size_t i = 0; i < X.size(); ++i)
         middle[i % g] += X[i];
       middle[g] = static_cast<double>(X.size() / g);
-      halo().ranks().reduce(std::span<double>(middle), mesh::Reduction::sum);
+      halo().ranks().reduce(std::span<double>(middle),
+                            contactx::mesh::Reduction::sum);
       const petsc::Values values(x.get());
       for (std::size_t i = 0; i < X.size(); ++i)
         values.span()[i] = X[i] - middle[i % g] / middle[g];
@@ -732,7 +738,7 @@ private:
 
   Assembler* _assembler;
   std::string _prefix;
-  solve::Accuracy _accuracy;
+  contactx::solve::Accuracy _accuracy;
   OwnKSP _ksp, _lu;
   petsc::OwnMat _J;
   std::vector<std::int8_t> _free; // of the displacements of all nodes
@@ -741,4 +747,4 @@ private:
   int _first = 0, _last = std::numeric_limits<int>::max();
   int _iterations = 0, _direct = 0, _failures = 0;
 };
-} // namespace contactx::dolfinx
+} // namespace contactx_dolfinx

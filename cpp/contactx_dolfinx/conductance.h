@@ -10,10 +10,11 @@
 #include <stdexcept>
 #include <vector>
 
-namespace contactx::dolfinx
+namespace contactx_dolfinx
 {
 /// @brief Flow of a scalar field from the slave to the master of a contact,
-/// q = h(p, g) (T_slave - T_master) per area; see results::Conductance.
+/// q = h(p, g) (T_slave - T_master) per area; see
+/// contactx::results::Conductance.
 ///
 /// Given to an Assembler that solves for displacement and field together it is
 /// part of that system, with its derivatives. Where the field is solved for by
@@ -31,7 +32,7 @@ public:
   /// @throws std::invalid_argument if contact or field are null, or
   /// `obstacle_value` is missing or has no place.
   Conductance(std::shared_ptr<Contact> contact, std::shared_ptr<Function> field,
-              law::Coefficient coefficient,
+              contactx::law::Coefficient coefficient,
               std::optional<double> obstacle_value = std::nullopt)
       : _contact(std::move(contact)), _field(std::move(field)),
         _coefficient(std::move(coefficient)), _obstacle_value(obstacle_value)
@@ -39,7 +40,8 @@ public:
     if (_contact == nullptr or _field == nullptr)
       throw std::invalid_argument("contact or field of a Conductance is null: "
                                   "give both");
-    results::check_obstacle_value(_obstacle_value, _contact->is_rigid());
+    contactx::results::check_obstacle_value(_obstacle_value,
+                                            _contact->is_rigid());
   }
 
   /// @brief The contact.
@@ -52,7 +54,7 @@ public:
   /// @throws std::invalid_argument if the master is no obstacle.
   void set_obstacle_value(double value)
   {
-    results::check_obstacle_value(value, _contact->is_rigid());
+    contactx::results::check_obstacle_value(value, _contact->is_rigid());
     _obstacle_value = value;
   }
 
@@ -91,17 +93,20 @@ public:
   /// @brief Derivative of the residual by the field, by the nodes of the
   /// contact's halo, of which `at_nodes` tells what a dof has. All ranks must
   /// take part.
-  Triplets by_field() { return core().by_field(); }
+  contactx::Triplets by_field() { return core().by_field(); }
 
-  /// @brief All derivatives of the residual, see results::Derivatives. All
-  /// ranks must take part.
-  results::Derivatives derivatives() { return core().derivatives(values()); }
+  /// @brief All derivatives of the residual, see
+  /// contactx::results::Derivatives. All ranks must take part.
+  contactx::results::Derivatives derivatives()
+  {
+    return core().derivatives(values());
+  }
 
   /// @brief Values of the field's owned dofs at all nodes of the contact's
   /// halo. All ranks must take part.
   std::vector<std::int64_t> at_nodes(std::span<const std::int64_t> values)
   {
-    const mesh::Halo& halo = _contact->discrete().halo();
+    const contactx::mesh::Halo& halo = _contact->discrete().halo();
     std::vector<std::int64_t> at(halo.num_nodes());
     for (std::int32_t i = 0; i < halo.num_owned(); ++i)
       at[i] = values[_nodes[i]];
@@ -111,7 +116,7 @@ public:
 
 private:
   /// The core's, with coefficient and obstacle's value of now.
-  results::Conductance core()
+  contactx::results::Conductance core()
   {
     if (_nodes.empty())
       check();
@@ -129,9 +134,9 @@ private:
 
   std::shared_ptr<Contact> _contact;
   std::shared_ptr<Function> _field;
-  law::Coefficient _coefficient;
+  contactx::law::Coefficient _coefficient;
   std::optional<double> _obstacle_value;
   // Node of the field at each of the displacement's
   std::vector<std::int32_t> _nodes;
 };
-} // namespace contactx::dolfinx
+} // namespace contactx_dolfinx

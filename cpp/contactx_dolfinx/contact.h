@@ -14,10 +14,10 @@
 #include <optional>
 #include <variant>
 
-namespace contactx::dolfinx
+namespace contactx_dolfinx
 {
-using contact::Method;
-using contact::Sliding;
+using contactx::contact::Method;
+using contactx::contact::Sliding;
 
 /// @brief Options of a contact.
 struct Options
@@ -28,7 +28,7 @@ struct Options
   std::optional<Value> friction = std::nullopt;
   /// Bound of friction in place of Coulomb's: from pressures and accumulated
   /// lengths of slip, with its derivatives
-  law::BoundFunction friction_law = {};
+  contactx::law::BoundFunction friction_law = {};
   Method method
       = Method::node_to_surface;     ///< node-to-surface or surface-to-surface
   Sliding sliding = Sliding::finite; ///< whether pairs follow the bodies
@@ -38,18 +38,18 @@ struct Options
   std::optional<double> search_distance = std::nullopt;
   Value offset = 0.0; ///< length that is taken off the gap, likewise
   /// Gaps and overlaps of the reference configuration that count as none if
-  /// they are at most so large, see contact::Contact::Options::adjust
+  /// they are at most so large, see contactx::contact::Contact::Options::adjust
   std::optional<double> adjust = std::nullopt;
   /// In self-contact the length along the surface, in the reference
   /// configuration, up to which facets are no masters of a node; see
-  /// search::SelfSight for what it is if not given
+  /// contactx::search::SelfSight for what it is if not given
   std::optional<double> excluded_distance = std::nullopt;
   /// Whether linear facets stand for smooth surfaces through their nodes, see
-  /// geometry::SmoothFacet
+  /// contactx::geometry::SmoothFacet
   bool smooth = false;
   /// What contact is integrated with, at reference positions, as the bulk's
   /// forms are: 2 pi r in axisymmetric models, a thickness; 1 if empty
-  std::function<double(const Vector<3>&)> weight = {};
+  std::function<double(const contactx::Vector<3>&)> weight = {};
   /// Complementarity factor along the surface as a part of the normal one: what
   /// Newton's method finds does not depend on it, how fast it does
   double tangential_factor = 1;
@@ -66,7 +66,8 @@ class Contact
 {
 public:
   /// A deformable or a rigid master
-  using Master = std::variant<Surface, std::shared_ptr<geometry::Obstacle>>;
+  using Master
+      = std::variant<Surface, std::shared_ptr<contactx::geometry::Obstacle>>;
 
   /// @brief Create a contact.
   /// @param[in] slave Surface whose nodes must not penetrate the master: the
@@ -83,11 +84,11 @@ public:
       throw std::invalid_argument("a Contact has friction or a friction_law: "
                                   "leave one of them out");
     const auto* obstacle
-        = std::get_if<std::shared_ptr<geometry::Obstacle>>(&_master);
+        = std::get_if<std::shared_ptr<contactx::geometry::Obstacle>>(&_master);
     if (obstacle and *obstacle == nullptr)
       throw std::invalid_argument("the obstacle of a Contact is null: give a "
                                   "Plane, Sphere, Cylinder or LevelSet");
-    problem::check(core_options(), is_self());
+    contactx::problem::check(core_options(), is_self());
   }
 
   /// @brief Make the contact's discrete side; the Assembler does so. All ranks
@@ -98,8 +99,8 @@ public:
   /// @param[in] V Space of the displacement.
   /// @throws std::invalid_argument on all ranks if the surfaces do not fit.
   /// @throws std::logic_error if it belongs to an Assembler already.
-  std::shared_ptr<contact::Contact>
-  attach(const mesh::Mesh& mesh, std::vector<std::int8_t> prescribed,
+  std::shared_ptr<contactx::contact::Contact>
+  attach(const contactx::mesh::Mesh& mesh, std::vector<std::int8_t> prescribed,
          const std::shared_ptr<const FunctionSpace>& V)
   {
     if (_discrete)
@@ -151,7 +152,7 @@ public:
 
   /// @brief The core's side.
   /// @throws std::logic_error if it does not exist yet.
-  contact::Contact& discrete() const
+  contactx::contact::Contact& discrete() const
   {
     if (not _discrete)
       throw std::logic_error(
@@ -161,7 +162,7 @@ public:
   }
 
   /// @brief The same, to keep.
-  const std::shared_ptr<contact::Contact>& shared_discrete() const
+  const std::shared_ptr<contactx::contact::Contact>& shared_discrete() const
   {
     discrete();
     return _discrete;
@@ -204,14 +205,14 @@ public:
 
   /// @brief All results, those of the last accepted step.
   /// @throws std::logic_error if there are none yet.
-  const results::Results& results() const
+  const contactx::results::Results& results() const
   {
     discrete();
     return *_results;
   }
 
   /// @brief Pressures, force/area, recovered from the multipliers, see
-  /// results::Recovery (shape=(n)).
+  /// contactx::results::Recovery (shape=(n)).
   std::span<const double> pressure() const { return results().pressure(); }
 
   /// @brief Tractions that the master exerts, force/area, recovered in the same
@@ -228,8 +229,8 @@ public:
   /// @brief Gaps, lengths, NaN where there is no pair (shape=(n)).
   std::span<const double> gap() const { return results().gap(); }
 
-  /// @brief Status, see law::Status: 0 open, 1 stick or tied, 2 slip or
-  /// frictionless in contact (shape=(n)).
+  /// @brief Status, see contactx::law::Status: 0 open, 1 stick or tied, 2 slip
+  /// or frictionless in contact (shape=(n)).
   std::span<const std::int8_t> status() const { return results().status(); }
 
   /// @brief Slip increments of the last step, lengths, zero where there is no
@@ -241,21 +242,21 @@ public:
 
   /// @brief Force on the slave side of all ranks (shape=(gdim)), zero behind
   /// that.
-  Vector<3> force() const { return results().force(); }
+  contactx::Vector<3> force() const { return results().force(); }
 
   /// @brief Moment of the forces on the slave side of all ranks, which must
   /// take part; in 2D its last component, positive counter-clockwise.
   /// @param[in] point The point that it is about (shape=(gdim)).
   /// @throws std::invalid_argument if the point is not finite.
   /// @throws std::logic_error if the model is axisymmetric.
-  Vector<3> moment(const Vector<3>& point) const
+  contactx::Vector<3> moment(const contactx::Vector<3>& point) const
   {
     return results().moment(
         std::span<const double>(point).first(results().gdim()));
   }
 
   /// @brief Sums and extremes over all ranks, which must take part.
-  results::Totals totals() const { return results().totals(); }
+  contactx::results::Totals totals() const { return results().totals(); }
 
   /// @brief The results as functions of DOLFINx, which follow the accepted
   /// steps from the first call on. All ranks must take part.
@@ -289,7 +290,7 @@ public:
   }
 
   /// @brief The results as the core's driver of a step updates them.
-  const std::shared_ptr<results::Results>& shared_results() const
+  const std::shared_ptr<contactx::results::Results>& shared_results() const
   {
     return _results;
   }
@@ -303,36 +304,39 @@ public:
   }
 
 private:
-  void make(const mesh::Mesh& mesh, std::vector<std::int8_t> prescribed,
+  void make(const contactx::mesh::Mesh& mesh,
+            std::vector<std::int8_t> prescribed,
             const std::shared_ptr<const FunctionSpace>& V)
   {
     const auto& halo = mesh.halo;
-    const geometry::Facets slave
+    const contactx::geometry::Facets slave
         = _slave.facet_nodes(*V, halo->ranks(), "slave");
-    geometry::Facets facets;
-    problem::Sides sides{.slave = {_slave.name(), slave.list()},
-                         .master = std::shared_ptr<geometry::Obstacle>(),
-                         .is_self = is_self(),
-                         .level
-                         = mesh::node_levels(cells_of(*V), num_nodes(*V))};
+    contactx::geometry::Facets facets;
+    contactx::problem::Sides sides{
+        .slave = {_slave.name(), slave.list()},
+        .master = std::shared_ptr<contactx::geometry::Obstacle>(),
+        .is_self = is_self(),
+        .level = contactx::mesh::node_levels(cells_of(*V), num_nodes(*V))};
     if (const auto* surface = std::get_if<Surface>(&_master))
     {
       facets = surface->facet_nodes(*V, halo->ranks(), "master");
-      sides.master = mesh::NamedSurface{surface->name(), facets.list()};
+      sides.master
+          = contactx::mesh::NamedSurface{surface->name(), facets.list()};
     }
     else
-      sides.master = std::get<std::shared_ptr<geometry::Obstacle>>(_master);
+      sides.master
+          = std::get<std::shared_ptr<contactx::geometry::Obstacle>>(_master);
     if (_options.weight)
       sides.weight = [&](std::span<const std::int32_t> nodes)
       { return weights(*halo, nodes); };
-    _name = problem::name_of(sides, _options.sliding);
-    _discrete = problem::make_contact(mesh, sides, core_options(),
-                                      std::move(prescribed));
-    _results = std::make_shared<results::Results>(_discrete);
+    _name = contactx::problem::name_of(sides, _options.sliding);
+    _discrete = contactx::problem::make_contact(mesh, sides, core_options(),
+                                                std::move(prescribed));
+    _results = std::make_shared<contactx::results::Results>(_discrete);
     halo->ranks().agree([&] { _values->attach(V, slave_nodes()); });
   }
 
-  problem::ContactOptions core_options() const
+  contactx::problem::ContactOptions core_options() const
   {
     return {.method = _options.method,
             .sliding = _options.sliding,
@@ -346,13 +350,13 @@ private:
             .tangential_factor = _options.tangential_factor};
   }
 
-  std::vector<double> weights(const mesh::Halo& halo,
+  std::vector<double> weights(const contactx::mesh::Halo& halo,
                               std::span<const std::int32_t> nodes) const
   {
     std::vector<double> values;
     for (const std::int32_t node : nodes)
     {
-      Vector<3> x{};
+      contactx::Vector<3> x{};
       std::copy_n(halo.reference().begin() + halo.gdim() * node, halo.gdim(),
                   x.begin());
       values.push_back(_options.weight(x));
@@ -365,10 +369,10 @@ private:
   Options _options;
   std::string _name;
   std::shared_ptr<Values> _values;
-  std::shared_ptr<contact::Contact> _discrete;
-  std::shared_ptr<results::Results> _results;
+  std::shared_ptr<contactx::contact::Contact> _discrete;
+  std::shared_ptr<contactx::results::Results> _results;
   std::shared_ptr<const FunctionSpace> _V;
   std::unique_ptr<Functions> _functions;
   std::unique_ptr<ContactForms> _forms;
 };
-} // namespace contactx::dolfinx
+} // namespace contactx_dolfinx

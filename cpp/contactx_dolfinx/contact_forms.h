@@ -22,7 +22,7 @@
 #include <numeric>
 #include <vector>
 
-namespace contactx::dolfinx
+namespace contactx_dolfinx
 {
 /// @brief A mesh whose cells stand for pairs or slave nodes, and spaces on it
 /// that borrow dofs which exist already.
@@ -65,7 +65,7 @@ public:
   /// @param[in] bs Dofs a block.
   /// @throws std::logic_error if dofmap and element disagree on the width.
   std::shared_ptr<const FunctionSpace>
-  borrow(std::shared_ptr<const ::dolfinx::common::IndexMap> index_map,
+  borrow(std::shared_ptr<const dolfinx::common::IndexMap> index_map,
          std::vector<std::int32_t> dofs, int width, int bs) const
   {
     namespace dx = ::dolfinx;
@@ -99,10 +99,10 @@ public:
   /// @param[in] coefficients Coefficients in the order of their values.
   std::shared_ptr<const Form>
   form(const std::vector<std::shared_ptr<const FunctionSpace>>& spaces,
-       kernel::Kernel* kernel, std::vector<int> active,
+       contactx::kernel::Kernel* kernel, std::vector<int> active,
        const std::vector<std::shared_ptr<const Function>>& coefficients) const
   {
-    namespace fem = ::dolfinx::fem;
+    namespace fem = dolfinx::fem;
     std::vector<std::int32_t> every(map->size_local());
     std::iota(every.begin(), every.end(), 0);
     std::map<std::tuple<fem::IntegralType, int, int>,
@@ -113,13 +113,12 @@ public:
     return std::make_shared<const Form>(
         spaces, std::move(cells), mesh, coefficients,
         std::vector<std::shared_ptr<const fem::Constant<double>>>(), false,
-        std::vector<
-            std::reference_wrapper<const ::dolfinx::mesh::EntityMap>>());
+        std::vector<std::reference_wrapper<const dolfinx::mesh::EntityMap>>());
   }
 
   /// The mesh, and the index map of its cells
-  std::shared_ptr<const ::dolfinx::mesh::Mesh<double>> mesh;
-  std::shared_ptr<const ::dolfinx::common::IndexMap> map;
+  std::shared_ptr<const dolfinx::mesh::Mesh<double>> mesh;
+  std::shared_ptr<const dolfinx::common::IndexMap> map;
 };
 
 /// @brief Residual and Jacobian of one contact as forms of DOLFINx.
@@ -137,22 +136,24 @@ class ContactForms
 {
 public:
   using List = std::vector<std::shared_ptr<const Form>>;
-  using IndexMap = std::shared_ptr<const ::dolfinx::common::IndexMap>;
+  using IndexMap = std::shared_ptr<const dolfinx::common::IndexMap>;
 
   /// @brief Make the forms; all ranks must take part.
   /// @param[in] contact The contact.
   /// @param[in] comm Communicator of the bulk.
-  ContactForms(std::shared_ptr<contact::Contact> contact, MPI_Comm comm)
+  ContactForms(std::shared_ptr<contactx::contact::Contact> contact,
+               MPI_Comm comm)
       : multiplier_size(contact->nodes()->size()), _contact(std::move(contact)),
         _comm(comm)
   {
-    const law::NodeState& nodes = *_contact->nodes();
+    const contactx::law::NodeState& nodes = *_contact->nodes();
     const int g = nodes.gdim(), size = multiplier_size;
     multiplier_map = slave_map();
-    using enum kernel::Coefficient;
+    using enum contactx::kernel::Coefficient;
     keep(multiplier, nodes.multiplier, size);
     keep(area, nodes.area, 1);
-    std::ranges::fill(_vectors.at(area)->array(), kernel::area_elsewhere);
+    std::ranges::fill(_vectors.at(area)->array(),
+                      contactx::kernel::area_elsewhere);
     keep(gap_derivative, nodes.by_gap, size);
     if (nodes.is_vector())
     {
@@ -166,7 +167,7 @@ public:
   /// take part.
   void update()
   {
-    const mesh::Halo& halo = _contact->halo();
+    const contactx::mesh::Halo& halo = _contact->halo();
     bool same = _version > 0 and _halo_version == halo.version()
                 and _kinematics == _contact->kinematics()
                 and _pairs.size() == _contact->pairs().size();
@@ -176,16 +177,18 @@ public:
     _pairs.clear();
     for (const auto& pairs : _contact->pairs())
       _pairs[kind_of(*pairs)] = pairs;
-    if (not mesh::everywhere(halo.ranks(), same))
+    if (not contactx::mesh::everywhere(halo.ranks(), same))
       make();
     for (const auto& [kind, pairs] : _pairs)
       for (const auto& [c, vector] : _data.at(kind))
-        std::ranges::copy(c == kernel::Coefficient::pair ? pairs->data
-                                                         : pairs->slip,
+        std::ranges::copy(c == contactx::kernel::Coefficient::pair
+                              ? pairs->data
+                              : pairs->slip,
                           vector->array().begin());
-    std::ranges::copy(
-        halo.now()->u,
-        _vectors.at(kernel::Coefficient::displacement)->array().begin());
+    std::ranges::copy(halo.now()->u,
+                      _vectors.at(contactx::kernel::Coefficient::displacement)
+                          ->array()
+                          .begin());
     for (const auto& [values, vector] : _kept)
       std::ranges::copy(*values, vector->array().begin());
   }
@@ -213,14 +216,14 @@ public:
   int multiplier_size;
 
 private:
-  using Vector = std::shared_ptr<::dolfinx::la::Vector<double>>;
+  using Vector = std::shared_ptr<dolfinx::la::Vector<double>>;
   // Numbers of slave and master nodes, whether pairs measure movement alone
   using Kind = std::array<int, 3>;
   static constexpr int most_nodes = 9;
   // Of the messages in which index maps find out who has their ghosts
   static constexpr int tag = 7091;
 
-  static Kind kind_of(const kernel::Pairs& pairs)
+  static Kind kind_of(const contactx::kernel::Pairs& pairs)
   {
     return {pairs.num_slaves, pairs.num_nodes, pairs.is_movement};
   }
@@ -232,7 +235,7 @@ private:
 
   Vector vector(const IndexMap& map, int bs) const
   {
-    return std::make_shared<::dolfinx::la::Vector<double>>(map, bs);
+    return std::make_shared<dolfinx::la::Vector<double>>(map, bs);
   }
 
   /// Lets a vector of the slave nodes follow values of their state.
@@ -242,18 +245,19 @@ private:
     return _kept.back().second;
   }
 
-  void keep(kernel::Coefficient c, const std::vector<double>& values, int bs)
+  void keep(contactx::kernel::Coefficient c, const std::vector<double>& values,
+            int bs)
   {
     _vectors[c] = keep(values, bs);
   }
 
   IndexMap slave_map() const
   {
-    const mesh::Halo& halo = _contact->halo();
-    const contact::SlaveNodes& slaves = _contact->slaves();
+    const contactx::mesh::Halo& halo = _contact->halo();
+    const contactx::contact::SlaveNodes& slaves = _contact->slaves();
     const auto owned = slaves.owned();
     const auto n = static_cast<std::int32_t>(owned.size());
-    auto map = std::make_shared<const ::dolfinx::common::IndexMap>(_comm, n);
+    auto map = std::make_shared<const dolfinx::common::IndexMap>(_comm, n);
     if (halo.ranks().size() == 1)
       return map;
     std::vector<std::int64_t> numbers(halo.num_nodes());
@@ -264,19 +268,19 @@ private:
     std::vector<std::int64_t> ghosts;
     for (const std::int32_t node : others)
       ghosts.push_back(numbers[node]);
-    return std::make_shared<const ::dolfinx::common::IndexMap>(
+    return std::make_shared<const dolfinx::common::IndexMap>(
         _comm, n, ghosts, to_int(halo.owners(others)), tag);
   }
 
   IndexMap node_map() const
   {
-    const mesh::Halo& halo = _contact->halo();
+    const contactx::mesh::Halo& halo = _contact->halo();
     std::vector<std::int32_t> others(halo.num_nodes() - halo.num_owned());
     std::iota(others.begin(), others.end(), halo.num_owned());
     if (halo.ranks().size() == 1)
-      return std::make_shared<const ::dolfinx::common::IndexMap>(
+      return std::make_shared<const dolfinx::common::IndexMap>(
           _comm, halo.num_owned());
-    return std::make_shared<const ::dolfinx::common::IndexMap>(
+    return std::make_shared<const dolfinx::common::IndexMap>(
         _comm, halo.num_owned(), halo.numbers(others),
         to_int(halo.owners(others)), tag);
   }
@@ -284,7 +288,7 @@ private:
   /// Makes the forms of the part that slave nodes have by themselves.
   void make_nodal()
   {
-    const law::NodeState& nodes = *_contact->nodes();
+    const contactx::law::NodeState& nodes = *_contact->nodes();
     const int size = multiplier_size;
     const CarrierMesh carrier(_comm, nodes.num_nodes());
     std::vector<std::int32_t> own(nodes.num_nodes());
@@ -292,9 +296,9 @@ private:
     const auto S = carrier.borrow(multiplier_map, own, 1, size);
     const auto T = carrier.borrow(multiplier_map, own, 1, size * size);
     F_lambda = {carrier.form(
-        {S}, kernel::nodal(size), {0},
+        {S}, contactx::kernel::nodal(size), {0},
         {std::make_shared<const Function>(S, keep(nodes.value, size))})};
-    D = {carrier.form({S, S}, kernel::nodal(size * size), {0},
+    D = {carrier.form({S, S}, contactx::kernel::nodal(size * size), {0},
                       {std::make_shared<const Function>(
                           T, keep(nodes.by_multiplier, size * size))})};
   }
@@ -302,11 +306,11 @@ private:
   void make()
   {
     ++_version;
-    const mesh::Halo& halo = _contact->halo();
+    const contactx::mesh::Halo& halo = _contact->halo();
     _halo_version = halo.version();
     _kinematics = _contact->kinematics();
     displacement_map = node_map();
-    using enum kernel::Coefficient;
+    using enum contactx::kernel::Coefficient;
     for (const auto c : {displacement, position})
       _vectors[c] = vector(displacement_map, halo.gdim());
     std::ranges::copy(halo.reference(), _vectors.at(position)->array().begin());
@@ -318,7 +322,8 @@ private:
     std::vector<double> found(2 * n * n);
     for (const auto& [kind, pairs] : _pairs)
       found[2 * (n * kind[0] + kind[1]) + kind[2]] = 1;
-    halo.ranks().reduce(std::span<double>(found), mesh::Reduction::largest);
+    halo.ranks().reduce(std::span<double>(found),
+                        contactx::mesh::Reduction::largest);
     for (int i = 0; i < 2 * n * n; ++i)
       if (found[i] > 0)
         make({i / (2 * n), i / 2 % n, i % 2});
@@ -329,44 +334,47 @@ private:
   {
     const auto [num_slaves, num_nodes, is_movement] = kind;
     const int gdim = _contact->halo().gdim();
-    static const kernel::Pairs none;
+    static const contactx::kernel::Pairs none;
     const auto at = _pairs.find(kind);
-    const kernel::Pairs& pairs = at == _pairs.end() ? none : *at->second;
+    const contactx::kernel::Pairs& pairs
+        = at == _pairs.end() ? none : *at->second;
     const auto& of = *_contact->law();
     // The kernels of a tie measure movement
-    const auto law = is_movement or of.is_tied() ? kernel::Law::tied
-                     : of.is_vector()            ? kernel::Law::frictional
-                                                 : kernel::Law::frictionless;
+    const auto law = is_movement or of.is_tied() ? contactx::kernel::Law::tied
+                     : of.is_vector() ? contactx::kernel::Law::frictional
+                                      : contactx::kernel::Law::frictionless;
     const CarrierMesh carrier(
         _comm, static_cast<std::int32_t>(pairs.slaves.size() / num_slaves));
     std::vector<std::int32_t> every(carrier.map->size_local());
     std::iota(every.begin(), every.end(), 0);
 
     // Coefficients that exist, in their order, and the place of each
-    const auto table = kernel::coefficients(law, num_nodes, gdim, num_slaves);
-    std::map<std::pair<kernel::Site, int>, std::shared_ptr<const FunctionSpace>>
+    const auto table
+        = contactx::kernel::coefficients(law, num_nodes, gdim, num_slaves);
+    std::map<std::pair<contactx::kernel::Site, int>,
+             std::shared_ptr<const FunctionSpace>>
         spaces;
-    const auto space = [&](kernel::Site site, int bs)
+    const auto space = [&](contactx::kernel::Site site, int bs)
     {
       auto& V = spaces[{site, bs}];
       if (not V)
-        V = site == kernel::Site::nodes
+        V = site == contactx::kernel::Site::nodes
                 ? carrier.borrow(displacement_map, pairs.nodes,
                                  num_slaves + num_nodes, bs)
-            : site == kernel::Site::slave
+            : site == contactx::kernel::Site::slave
                 ? carrier.borrow(multiplier_map, pairs.slaves, num_slaves, bs)
                 : carrier.borrow(carrier.map, every, 1, bs);
       return V;
     };
     std::vector<std::shared_ptr<const Function>> coefficients;
-    std::map<kernel::Coefficient, int> places;
+    std::map<contactx::kernel::Coefficient, int> places;
     auto& data = _data[kind];
-    for (int i = 0; i < kernel::num_coefficients; ++i)
+    for (int i = 0; i < contactx::kernel::num_coefficients; ++i)
     {
-      const auto c = static_cast<kernel::Coefficient>(i);
+      const auto c = static_cast<contactx::kernel::Coefficient>(i);
       if (table[i].size == 0)
         continue;
-      if (table[i].site == kernel::Site::pair)
+      if (table[i].site == contactx::kernel::Site::pair)
         data[c] = vector(carrier.map, table[i].size);
       places[c] = static_cast<int>(coefficients.size());
       coefficients.push_back(std::make_shared<const Function>(
@@ -374,19 +382,20 @@ private:
           data.contains(c) ? data.at(c) : _vectors.at(c)));
     }
 
-    const auto U = space(kernel::Site::nodes, gdim);
-    const auto S = space(kernel::Site::slave, multiplier_size);
+    const auto U = space(contactx::kernel::Site::nodes, gdim);
+    const auto S = space(contactx::kernel::Site::slave, multiplier_size);
     const auto add
         = [&](List& part, std::string_view term,
               const std::vector<std::shared_ptr<const FunctionSpace>>& of)
     {
-      const kernel::Entry* entry = kernel::find_if_any(
-          law, _kinematics == contact::Sliding::small ? "small" : "finite",
+      const contactx::kernel::Entry* entry = contactx::kernel::find_if_any(
+          law,
+          _kinematics == contactx::contact::Sliding::small ? "small" : "finite",
           term, num_nodes, gdim, num_slaves);
       if (not entry or (is_movement and term != "constraint"))
         return;
       std::vector<int> active;
-      for (const kernel::Coefficient c : entry->active)
+      for (const contactx::kernel::Coefficient c : entry->active)
         active.push_back(places.at(c));
       part.push_back(
           carrier.form(of, entry->function, std::move(active), coefficients));
@@ -397,16 +406,16 @@ private:
     add(C, "constraint", {S, U});
   }
 
-  std::shared_ptr<contact::Contact> _contact;
+  std::shared_ptr<contactx::contact::Contact> _contact;
   MPI_Comm _comm;
   std::int64_t _version = 0;
   int _halo_version = -1;
-  contact::Sliding _kinematics{};
-  std::map<Kind, std::shared_ptr<const kernel::Pairs>> _pairs;
+  contactx::contact::Sliding _kinematics{};
+  std::map<Kind, std::shared_ptr<const contactx::kernel::Pairs>> _pairs;
   // What the forms read: the state, all of it and where it comes from, and the
   // data of pairs
-  std::map<kernel::Coefficient, Vector> _vectors;
+  std::map<contactx::kernel::Coefficient, Vector> _vectors;
   std::vector<std::pair<const std::vector<double>*, Vector>> _kept;
-  std::map<Kind, std::map<kernel::Coefficient, Vector>> _data;
+  std::map<Kind, std::map<contactx::kernel::Coefficient, Vector>> _data;
 };
-} // namespace contactx::dolfinx
+} // namespace contactx_dolfinx

@@ -15,9 +15,9 @@
 #include <utility>
 #include <vector>
 
-namespace contactx::dolfinx
+namespace contactx_dolfinx
 {
-using problem::Balance;
+using contactx::problem::Balance;
 
 /// @brief Forms of a time step of bodies with inertia.
 struct DynamicForms
@@ -50,14 +50,14 @@ struct Motion
   /// first one
   std::shared_ptr<Function> velocity;
   /// Length of the step, a time; it is set where a step begins
-  std::shared_ptr<::dolfinx::fem::Constant<double>> dt;
+  std::shared_ptr<dolfinx::fem::Constant<double>> dt;
 };
 
 /// @brief Bodies with inertia and contact, one time step after the other.
 ///
 /// Steps are those of ContactDynamics in Python: the midpoint rule with the
 /// contact laws at the end of a step, and velocities that are corrected by the
-/// law of inelastic impact, see problem::TimeStep. A program reads
+/// law of inelastic impact, see contactx::problem::TimeStep. A program reads
 ///
 ///     Dynamics dynamics({F, J, mass}, {u, start, velocity, dt}, bcs,
 ///                       {contact});
@@ -92,16 +92,16 @@ public:
       : _motion(checked(std::move(motion), forms)),
         _assembler(forms.F, forms.J, _motion.u, std::move(bcs), contacts, audit)
   {
-    std::vector<std::shared_ptr<results::Results>> results;
+    std::vector<std::shared_ptr<contactx::results::Results>> results;
     for (const auto& contact : contacts)
       results.push_back(contact->shared_results());
     const auto& system = _assembler.system();
-    _step = std::make_shared<problem::TimeStep>(
+    _step = std::make_shared<contactx::problem::TimeStep>(
         system, std::move(results),
         std::make_shared<Inertia>(*forms.mass, forms.loads, forms.strain_energy,
                                   system->halo()->ranks()),
         impact_travel);
-    problem::attach(_assembler.problem(), _step);
+    contactx::problem::attach(_assembler.problem(), _step);
     _assembler.problem().before_step([this] { begin(); });
   }
 
@@ -119,7 +119,7 @@ public:
   /// contacts are then those of before.
   /// @throws std::invalid_argument if dt is not finite and above 0, the
   /// velocity is not finite, or as Assembler::begin_step does.
-  void step(double dt, problem::LinearSolver& solver,
+  void step(double dt, contactx::problem::LinearSolver& solver,
             const Tolerances& tolerances = {})
   {
     _next = dt;
@@ -137,7 +137,8 @@ public:
   /// @throws ConvergenceError if the shortest step does not converge; plan and
   /// state are then those of before.
   void advance(StepPlan& plan, const std::function<void(double t)>& update,
-               problem::LinearSolver& solver, const Tolerances& tolerances = {})
+               contactx::problem::LinearSolver& solver,
+               const Tolerances& tolerances = {})
   {
     const double start = plan.t();
     _assembler.advance(
@@ -237,8 +238,8 @@ private:
 
   Motion _motion;
   Assembler _assembler;
-  std::shared_ptr<problem::TimeStep> _step;
+  std::shared_ptr<contactx::problem::TimeStep> _step;
   // Length of the step that is attempted
   double _next = 0;
 };
-} // namespace contactx::dolfinx
+} // namespace contactx_dolfinx

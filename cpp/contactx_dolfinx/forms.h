@@ -7,7 +7,7 @@
 #include <array>
 #include <dolfinx/la/SparsityPattern.h>
 
-namespace contactx::dolfinx
+namespace contactx_dolfinx
 {
 /// @brief Adds contact, from forms, to a matrix and a vector that have the bulk
 /// already.
@@ -129,23 +129,22 @@ public:
     _assembler->problem().enter("residual");
     const petsc::Values values(b);
     auto at = values.span().begin();
-    ::dolfinx::la::Vector<double> force(_forms.front()->displacement_map,
-                                        gdim());
+    dolfinx::la::Vector<double> force(_forms.front()->displacement_map, gdim());
     std::ranges::fill(force.array(), 0);
     for (const ContactForms* forms : _forms)
       for (const auto& form : forms->F_u)
-        ::dolfinx::fem::assemble_vector(force.array(), *form);
+        dolfinx::fem::assemble_vector(force.array(), *form);
     force.scatter_rev(std::plus<double>());
     for (std::size_t i = 0; i < system().num_displacements(); ++i, ++at)
       if (not _assembler->bulk()->markers()[i])
         *at += force.array()[i];
     for (const ContactForms* forms : _forms)
     {
-      ::dolfinx::la::Vector<double> values(forms->multiplier_map,
-                                           forms->multiplier_size);
+      dolfinx::la::Vector<double> values(forms->multiplier_map,
+                                         forms->multiplier_size);
       std::ranges::fill(values.array(), 0);
       for (const auto& form : forms->F_lambda)
-        ::dolfinx::fem::assemble_vector(values.array(), *form);
+        dolfinx::fem::assemble_vector(values.array(), *form);
       const int own
           = forms->multiplier_map->size_local() * forms->multiplier_size;
       for (int i = 0; i < own; ++i, ++at)
@@ -198,7 +197,7 @@ public:
                          "MatSetValuesLocal");
             return 0;
           };
-          ::dolfinx::fem::assemble_matrix(
+          dolfinx::fem::assemble_matrix(
               add, form, std::span(i == 0 ? markers : none), std::span(none));
         });
     assemble(A, MAT_FINAL_ASSEMBLY);
@@ -230,7 +229,7 @@ public:
 private:
   using Maps = std::vector<std::pair<ContactForms::IndexMap, int>>;
 
-  solve::System& system() const { return *_assembler->system(); }
+  contactx::solve::System& system() const { return *_assembler->system(); }
   int gdim() const { return _assembler->bulk()->gdim(); }
   MPI_Comm comm() const
   {
@@ -254,7 +253,7 @@ private:
     for (const auto& contact : system().contacts())
     {
       contact->update_gap();
-      solve::System::evaluate(*contact);
+      contactx::solve::System::evaluate(*contact);
     }
     refresh();
   }
@@ -297,8 +296,8 @@ private:
 
   static auto references(const Maps& maps)
   {
-    std::vector<std::pair<
-        std::reference_wrapper<const ::dolfinx::common::IndexMap>, int>>
+    std::vector<
+        std::pair<std::reference_wrapper<const dolfinx::common::IndexMap>, int>>
         all;
     for (const auto& [map, width] : maps)
       all.emplace_back(*map, width);
@@ -308,7 +307,7 @@ private:
   /// Makes the matrix from one sparsity pattern.
   void create()
   {
-    using ::dolfinx::la::SparsityPattern;
+    using dolfinx::la::SparsityPattern;
     const Maps maps = this->maps();
     std::vector<SparsityPattern> patterns;
     std::vector<int> widths;
@@ -320,12 +319,12 @@ private:
         patterns.emplace_back(comm(), std::array{row.first, column.first},
                               std::array{row.second, column.second});
     }
-    ::dolfinx::fem::build_sparsity_pattern(patterns.front(), *_J);
+    dolfinx::fem::build_sparsity_pattern(patterns.front(), *_J);
     for_each_block(
         [&](const Form& form, std::size_t i, std::size_t j)
         {
-          ::dolfinx::fem::build_sparsity_pattern(patterns[maps.size() * i + j],
-                                                 form);
+          dolfinx::fem::build_sparsity_pattern(patterns[maps.size() * i + j],
+                                               form);
         });
     std::vector<std::vector<const SparsityPattern*>> all(maps.size());
     for (std::size_t k = 0; k < patterns.size(); ++k)
@@ -333,7 +332,7 @@ private:
     SparsityPattern pattern(comm(), all, {references(maps), references(maps)},
                             {widths, widths});
     pattern.finalize();
-    *_A.put() = ::dolfinx::la::petsc::create_matrix(comm(), pattern);
+    *_A.put() = dolfinx::la::petsc::create_matrix(comm(), pattern);
   }
 
   /// Tells the matrix of the local numbers of rows and columns.
@@ -341,7 +340,7 @@ private:
   {
     const Maps maps = this->maps();
     const auto [start, first, ghosts, owners]
-        = ::dolfinx::common::stack_index_maps(references(maps));
+        = dolfinx::common::stack_index_maps(references(maps));
     std::vector<PetscInt> numbers;
     for (std::size_t k = 0; k < maps.size(); ++k)
     {
@@ -362,7 +361,7 @@ private:
   /// 1 at prescribed displacements of all nodes.
   std::vector<std::int8_t> markers() const
   {
-    const mesh::Halo& halo = *system().halo();
+    const contactx::mesh::Halo& halo = *system().halo();
     std::vector<std::int64_t> all(std::size_t(halo.num_nodes()) * halo.gdim());
     std::ranges::copy(_assembler->bulk()->markers(), all.begin());
     halo.forward(std::span<std::int64_t>(all), halo.gdim());
@@ -376,4 +375,4 @@ private:
   std::vector<std::int64_t> _versions, _made_for;
   petsc::OwnMat _A;
 };
-} // namespace contactx::dolfinx
+} // namespace contactx_dolfinx

@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-namespace contactx::dolfinx
+namespace contactx_dolfinx
 {
 /// @brief Results of a contact as functions of DOLFINx, for files and forms.
 ///
@@ -46,7 +46,7 @@ public:
   }
 
   /// @brief Copy results; all ranks must take part.
-  void take(const results::Results& results)
+  void take(const contactx::results::Results& results)
   {
     set(*pressure, results.pressure());
     std::ranges::copy(results.master_pressure(),
@@ -77,15 +77,15 @@ public:
   static std::shared_ptr<const FunctionSpace> scalars(const FunctionSpace& V)
   {
     const auto element = V.element()->extract_sub_element({0});
-    const ::dolfinx::fem::DofMap& nodes = *V.dofmap();
+    const dolfinx::fem::DofMap& nodes = *V.dofmap();
     const auto cells = nodes.map();
     std::vector<std::int32_t> list(cells.data_handle(),
                                    cells.data_handle() + cells.size());
     return std::make_shared<const FunctionSpace>(
         V.mesh(), element,
-        std::make_shared<const ::dolfinx::fem::DofMap>(
-            ::dolfinx::fem::create_element_dof_layout(*element),
-            nodes.index_map, 1, std::move(list), 1));
+        std::make_shared<const dolfinx::fem::DofMap>(
+            dolfinx::fem::create_element_dof_layout(*element), nodes.index_map,
+            1, std::move(list), 1));
   }
 
   /// Pressure, force/area, zero off the slave surface
@@ -136,4 +136,4 @@ private:
 
   std::vector<std::int32_t> _slaves;
 };
-} // namespace contactx::dolfinx
+} // namespace contactx_dolfinx

@@ -16,11 +16,11 @@
 #include <numeric>
 #include <vector>
 
-namespace contactx::dolfinx
+namespace contactx_dolfinx
 {
 /// @brief Nodes of a displacement, as a halo needs them of whoever has the
 /// bulk.
-class HaloAdapter final : public mesh::HaloAdapter
+class HaloAdapter final : public contactx::mesh::HaloAdapter
 {
 public:
   /// @brief Start with the bulk's nodes alone; all ranks must take part.
@@ -34,22 +34,22 @@ public:
   }
 
   /// @brief The nodes of the bulk; all ranks must take part.
-  mesh::BulkNodes bulk_nodes()
+  contactx::mesh::BulkNodes bulk_nodes()
   {
     const FunctionSpace& V = *_u->function_space();
-    mesh::BulkNodes nodes{.gdim = _gdim,
-                          .num_owned = _map->size_local(),
-                          .numbers = _map->global_indices(),
-                          .owners = {},
-                          .original = original_nodes(V, _ranks),
-                          .reference = reference_positions(V)};
+    contactx::mesh::BulkNodes nodes{.gdim = _gdim,
+                                    .num_owned = _map->size_local(),
+                                    .numbers = _map->global_indices(),
+                                    .owners = {},
+                                    .original = original_nodes(V, _ranks),
+                                    .reference = reference_positions(V)};
     nodes.owners.assign(_map->size_local(), _ranks.rank());
     nodes.owners.insert(nodes.owners.end(), _map->owners().begin(),
                         _map->owners().end());
     return nodes;
   }
 
-  mesh::Ranks& ranks() override { return _ranks; }
+  contactx::mesh::Ranks& ranks() override { return _ranks; }
 
   void set_ghosts(std::span<const std::int64_t> numbers,
                   std::span<const std::int32_t> owners) override
@@ -64,7 +64,7 @@ public:
       ghosts.insert(ghosts.end(), numbers.begin(), numbers.end());
       std::vector<int> from(_map->owners().begin(), _map->owners().end());
       from.insert(from.end(), owners.begin(), owners.end());
-      _all = std::make_shared<const ::dolfinx::common::IndexMap>(
+      _all = std::make_shared<const dolfinx::common::IndexMap>(
           _map->comm(), _map->size_local(), ghosts, from, _tag);
     }
     _displacement.resize(std::size_t(_gdim)
@@ -114,10 +114,10 @@ private:
   static constexpr int _tag = 7090;
 
   template <class T>
-  using Vectors = std::map<int, ::dolfinx::la::Vector<T>>;
+  using Vectors = std::map<int, dolfinx::la::Vector<T>>;
 
   template <class T>
-  ::dolfinx::la::Vector<T>& vector_of(int width, Vectors<T>& vectors)
+  dolfinx::la::Vector<T>& vector_of(int width, Vectors<T>& vectors)
   {
     return vectors.try_emplace(width, _all, width).first->second;
   }
@@ -136,7 +136,7 @@ private:
   }
 
   std::shared_ptr<Function> _u;
-  std::shared_ptr<const ::dolfinx::common::IndexMap> _map, _all;
+  std::shared_ptr<const dolfinx::common::IndexMap> _map, _all;
   int _gdim;
   Ranks _ranks;
   Vectors<double> _doubles;
@@ -144,4 +144,4 @@ private:
   // Of all nodes, as of the last update
   std::vector<double> _displacement;
 };
-} // namespace contactx::dolfinx
+} // namespace contactx_dolfinx

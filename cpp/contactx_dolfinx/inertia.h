@@ -18,11 +18,11 @@
 #include <utility>
 #include <vector>
 
-namespace contactx::dolfinx
+namespace contactx_dolfinx
 {
 /// @brief Masses, loads and strain energy of the bodies: forms of DOLFINx, as
 /// the core asks for them.
-class Inertia final : public problem::Inertia
+class Inertia final : public contactx::problem::Inertia
 {
 public:
   /// @brief Assemble the mass matrix; all ranks must take part.
@@ -35,13 +35,14 @@ public:
   /// for none.
   /// @param[in] ranks The ranks.
   Inertia(const Form& mass, std::shared_ptr<const Form> loads,
-          std::shared_ptr<const Form> strain_energy, mesh::Ranks& ranks)
+          std::shared_ptr<const Form> strain_energy,
+          contactx::mesh::Ranks& ranks)
       : _loads(std::move(loads)), _strain_energy(std::move(strain_energy)),
-        _A(::dolfinx::fem::petsc::create_matrix(mass))
+        _A(dolfinx::fem::petsc::create_matrix(mass))
   {
     const ::Mat A = _A.get();
-    ::dolfinx::fem::assemble_matrix(
-        ::dolfinx::la::petsc::Matrix::set_block_fn(A, ADD_VALUES), mass, {});
+    dolfinx::fem::assemble_matrix(
+        dolfinx::la::petsc::Matrix::set_block_fn(A, ADD_VALUES), mass, {});
     petsc::check(MatAssemblyBegin(A, MAT_FINAL_ASSEMBLY), "MatAssemblyBegin");
     petsc::check(MatAssemblyEnd(A, MAT_FINAL_ASSEMBLY), "MatAssemblyEnd");
     petsc::check(MatCreateVecs(A, _x.put(), _y.put()), "MatCreateVecs");
@@ -55,7 +56,7 @@ public:
       is_diagonal = is_diagonal
                     and std::abs(sums[i] - _diagonal[i])
                             <= rel_tol * std::abs(_diagonal[i]);
-    _is_lumped = mesh::everywhere(ranks, is_diagonal);
+    _is_lumped = contactx::mesh::everywhere(ranks, is_diagonal);
 
     const auto& dofs = *mass.function_spaces()[0]->dofmap();
     _b.emplace(dofs.index_map, dofs.index_map_bs());
@@ -110,7 +111,7 @@ public:
   {
     if (not _strain_energy)
       return std::nullopt;
-    return ::dolfinx::fem::assemble_scalar(*_strain_energy);
+    return dolfinx::fem::assemble_scalar(*_strain_energy);
   }
 
   std::span<const double> loads() override
@@ -118,7 +119,7 @@ public:
     if (not _loads)
       return {};
     std::ranges::fill(_b->array(), 0);
-    ::dolfinx::fem::assemble_vector(_b->array(), *_loads);
+    dolfinx::fem::assemble_vector(_b->array(), *_loads);
     _b->scatter_rev(std::plus<double>());
     return std::span<const double>(_b->array()).first(_diagonal.size());
   }
@@ -138,10 +139,10 @@ private:
   petsc::OwnVec _x, _y;
   std::vector<double> _diagonal, _product;
   bool _is_lumped = false;
-  std::optional<::dolfinx::la::Vector<double>> _b;
+  std::optional<dolfinx::la::Vector<double>> _b;
   // Consistent masses without prescribed dofs
   std::vector<std::int8_t> _markers;
   petsc::OwnMat _free;
   petsc::Owner<::KSP, KSPDestroy> _ksp;
 };
-} // namespace contactx::dolfinx
+} // namespace contactx_dolfinx

@@ -21,29 +21,28 @@
 
 /// @brief Checks of what a program gives: DOLFINx assembles forms of wrong
 /// spaces without a word, and writes beyond the arrays.
-namespace contactx::dolfinx
+namespace contactx_dolfinx
 {
 /// Functions of the displacement's kind
-using Function = ::dolfinx::fem::Function<double>;
+using Function = dolfinx::fem::Function<double>;
 /// Their spaces
-using FunctionSpace = ::dolfinx::fem::FunctionSpace<double>;
+using FunctionSpace = dolfinx::fem::FunctionSpace<double>;
 /// Forms of the bulk
-using Form = ::dolfinx::fem::Form<double>;
+using Form = dolfinx::fem::Form<double>;
 /// Dirichlet conditions
-using DirichletBC = ::dolfinx::fem::DirichletBC<double>;
+using DirichletBC = dolfinx::fem::DirichletBC<double>;
 
 /// @brief Space of an element whose dofs need no permutation, on a mesh that
 /// others have. All ranks must take part.
 inline std::shared_ptr<const FunctionSpace> create_space(
-    const std::shared_ptr<const ::dolfinx::mesh::Mesh<double>>& mesh,
-    const std::shared_ptr<const ::dolfinx::fem::FiniteElement<double>>& element)
+    const std::shared_ptr<const dolfinx::mesh::Mesh<double>>& mesh,
+    const std::shared_ptr<const dolfinx::fem::FiniteElement<double>>& element)
 {
   return std::make_shared<const FunctionSpace>(
       mesh, element,
-      std::make_shared<const ::dolfinx::fem::DofMap>(
-          ::dolfinx::fem::create_dofmap(
-              mesh->comm(), ::dolfinx::fem::create_element_dof_layout(*element),
-              *mesh->topology_mutable(), nullptr, nullptr)));
+      std::make_shared<const dolfinx::fem::DofMap>(dolfinx::fem::create_dofmap(
+          mesh->comm(), dolfinx::fem::create_element_dof_layout(*element),
+          *mesh->topology_mutable(), nullptr, nullptr)));
 }
 
 /// @brief Whether a space is a continuous Lagrange space of degree 1 or 2, of
@@ -132,4 +131,4 @@ check_conditions(const std::vector<std::shared_ptr<const DirichletBC>>& bcs,
   }
 }
 } // namespace input
-} // namespace contactx::dolfinx
+} // namespace contactx_dolfinx

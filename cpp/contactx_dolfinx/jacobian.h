@@ -8,7 +8,7 @@
 #include <contactx/mesh/spread.h>
 #include <contactx/solve/system.h>
 
-namespace contactx::dolfinx
+namespace contactx_dolfinx
 {
 /// @brief Jacobian of bulk and contacts as a matrix of PETSc: a saddle point.
 ///
@@ -20,11 +20,12 @@ public:
   /// @brief Lay out the unknowns.
   /// @param[in] system The system.
   /// @param[in] bulk Its bulk.
-  Jacobian(std::shared_ptr<solve::System> system, std::shared_ptr<Bulk> bulk)
+  Jacobian(std::shared_ptr<contactx::solve::System> system,
+           std::shared_ptr<Bulk> bulk)
       : _system(std::move(system)), _bulk(std::move(bulk))
   {
     const std::array mine{static_cast<double>(_system->size())};
-    mesh::Ranks& ranks = _system->halo()->ranks();
+    contactx::mesh::Ranks& ranks = _system->halo()->ranks();
     const std::vector<double> sizes = ranks.gather(mine);
     for (int r = 0; r < ranks.rank(); ++r)
       _start += static_cast<std::int64_t>(sizes[r]);
@@ -37,14 +38,15 @@ public:
   /// displacements (shape=(num_displacements)), or nothing.
   void assemble(::Mat A, const std::optional<std::vector<double>>& springs)
   {
-    const mesh::Halo& halo = *_system->halo();
-    const condense::ContactBlock contact(_system->contacts(), markers(), true);
-    const condense::Rows& bulk = bulk_rows();
+    const contactx::mesh::Halo& halo = *_system->halo();
+    const contactx::condense::ContactBlock contact(_system->contacts(),
+                                                   markers(), true);
+    const contactx::condense::Rows& bulk = bulk_rows();
     const std::vector<std::int64_t> places = this->places();
-    const condense::CoupledRows rows
-        = condense::coupled(bulk.offsets, bulk.columns, bulk.values, contact,
-                            places, _system->num_displacements(),
-                            std::size_t(halo.num_nodes()) * halo.gdim());
+    const contactx::condense::CoupledRows rows = contactx::condense::coupled(
+        bulk.offsets, bulk.columns, bulk.values, contact, places,
+        _system->num_displacements(),
+        std::size_t(halo.num_nodes()) * halo.gdim());
 
     PetscObjectId id = 0;
     petsc::check(PetscObjectGetId(reinterpret_cast<PetscObject>(A), &id),
@@ -52,8 +54,9 @@ public:
     Pattern pattern{id,          rows.own.offsets,   rows.own.columns,
                     rows.others, rows.added.offsets, rows.added.columns};
     // That of a flow goes with gaps and pressures, too
-    const bool same = _bulk->conductances().empty()
-                      and mesh::everywhere(halo.ranks(), pattern == _pattern);
+    const bool same
+        = _bulk->conductances().empty()
+          and contactx::mesh::everywhere(halo.ranks(), pattern == _pattern);
     _pattern = std::move(pattern);
     if (same)
       petsc::check(MatZeroEntries(A), "MatZeroEntries");
@@ -76,7 +79,7 @@ public:
   /// @param[in] A Jacobian by displacements and multipliers.
   /// @param[in] system The system.
   /// @param[in] springs As for `assemble`.
-  static void finish(::Mat A, const newton::System& system,
+  static void finish(::Mat A, const contactx::solve::System& system,
                      const std::optional<std::vector<double>>& springs)
   {
     petsc::OwnVec diagonal;
@@ -110,7 +113,7 @@ private:
   /// Places of the displacements of all nodes, then of this rank's multipliers.
   std::vector<std::int64_t> places() const
   {
-    const mesh::Halo& halo = *_system->halo();
+    const contactx::mesh::Halo& halo = *_system->halo();
     const int g = halo.gdim();
     std::vector<std::int64_t> first(halo.num_nodes());
     for (std::int32_t i = 0; i < halo.num_owned(); ++i)
@@ -129,7 +132,7 @@ private:
   /// 1 at prescribed displacements of all nodes.
   std::vector<std::int8_t> markers() const
   {
-    const mesh::Halo& halo = *_system->halo();
+    const contactx::mesh::Halo& halo = *_system->halo();
     std::vector<std::int64_t> all(std::size_t(halo.num_nodes()) * halo.gdim());
     std::ranges::copy(_bulk->markers(), all.begin());
     halo.forward(std::span<std::int64_t>(all), halo.gdim());
@@ -138,7 +141,7 @@ private:
 
   /// Rows of the bulk's Jacobian, kept while it stays: displacements, then
   /// other fields.
-  const condense::Rows& bulk_rows()
+  const contactx::condense::Rows& bulk_rows()
   {
     _bulk->assemble();
     if (_bulk->assemblies() == _assemblies)
@@ -151,7 +154,7 @@ private:
       firsts.push_back(firsts.back()
                        + dofs.index_map_bs() * dofs.index_map->size_global());
     }
-    condense::Rows rows{{0}, {}, {}};
+    contactx::condense::Rows rows{{0}, {}, {}};
     _bulk->for_each_part(
         [&](int k, const std::vector<std::int32_t>& dofs)
         {
@@ -163,8 +166,8 @@ private:
                 static_cast<std::int64_t>(rows.columns.size()));
           }
         });
-    if (mesh::everywhere(_system->halo()->ranks(),
-                         rows.offsets == _rows.offsets))
+    if (contactx::mesh::everywhere(_system->halo()->ranks(),
+                                   rows.offsets == _rows.offsets))
       rows.columns = std::move(_rows.columns);
     else
       find_places(rows, firsts);
@@ -181,7 +184,7 @@ private:
   }
 
   /// Appends a row of a block, its columns counted over all functions.
-  static void append(condense::Rows& rows, ::Mat K, std::int32_t row,
+  static void append(contactx::condense::Rows& rows, ::Mat K, std::int32_t row,
                      std::int64_t first_column)
   {
     PetscInt first = 0, count = 0;
@@ -199,7 +202,8 @@ private:
   }
 
   /// Puts places where columns are, in each row in their order.
-  void find_places(condense::Rows& rows, std::span<const std::int64_t> firsts)
+  void find_places(contactx::condense::Rows& rows,
+                   std::span<const std::int64_t> firsts)
   {
     std::vector<std::int64_t> wanted = rows.columns;
     std::ranges::sort(wanted);
@@ -315,9 +319,9 @@ private:
         break;
       multiplier += c->nodes()->multiplier.size();
     }
-    const results::Derivatives of = conductance.derivatives();
-    const auto add_entries
-        = [&](const Triplets& T, std::span<const std::int64_t> columns)
+    const contactx::results::Derivatives of = conductance.derivatives();
+    const auto add_entries =
+        [&](const contactx::Triplets& T, std::span<const std::int64_t> columns)
     {
       for (std::size_t e = 0; e < T.size(); ++e)
         if (const auto node = T.rows[e]; not fixed[node])
@@ -332,7 +336,7 @@ private:
   }
 
   static void add(::Mat A, std::span<const std::int64_t> numbers,
-                  const condense::Rows& rows)
+                  const contactx::condense::Rows& rows)
   {
     std::vector<PetscInt> columns;
     for (std::size_t i = 0; i < numbers.size(); ++i)
@@ -347,12 +351,12 @@ private:
     }
   }
 
-  std::shared_ptr<solve::System> _system;
+  std::shared_ptr<contactx::solve::System> _system;
   std::shared_ptr<Bulk> _bulk;
   std::int64_t _start = 0; // place of this rank's first unknown
-  condense::Rows _rows;
+  contactx::condense::Rows _rows;
   std::vector<std::size_t> _order; // of the entries, as blocks have them
   int _assemblies = -1;
   Pattern _pattern;
 };
-} // namespace contactx::dolfinx
+} // namespace contactx_dolfinx

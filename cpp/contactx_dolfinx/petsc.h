@@ -12,7 +12,7 @@
 #include <type_traits>
 #include <utility>
 
-namespace contactx::dolfinx::petsc
+namespace contactx_dolfinx::petsc
 {
 static_assert(std::is_same_v<PetscScalar, double>,
               "contactx needs a PETSc of real numbers in double precision");
@@ -23,7 +23,7 @@ static_assert(std::is_same_v<PetscScalar, double>,
 inline void check(PetscErrorCode error, const char* function)
 {
   if (error != PETSC_SUCCESS)
-    ::dolfinx::la::petsc::error(error, __FILE__, function);
+    dolfinx::la::petsc::error(error, __FILE__, function);
 }
 
 /// @brief Owner of an object of PETSc; all ranks must take part in its end.
@@ -116,4 +116,4 @@ private:
   const double* _values = nullptr;
   std::size_t _size = 0;
 };
-} // namespace contactx::dolfinx::petsc
+} // namespace contactx_dolfinx::petsc

@@ -8,27 +8,28 @@
 #include <contactx/mesh/ranks.h>
 #include <dolfinx/common/MPI.h>
 
-namespace contactx::dolfinx
+namespace contactx_dolfinx
 {
 /// @brief The ranks of a communicator, by MPI.
 ///
 /// It has a communicator of its own, so that its messages meet no others.
-class Ranks final : public mesh::Ranks
+class Ranks final : public contactx::mesh::Ranks
 {
 public:
   /// @brief Duplicate a communicator; all ranks must take part.
   /// @param[in] comm Communicator.
   explicit Ranks(MPI_Comm comm) : _comm(comm, true) {}
 
-  int rank() const override { return ::dolfinx::MPI::rank(_comm.comm()); }
-  int size() const override { return ::dolfinx::MPI::size(_comm.comm()); }
+  int rank() const override { return dolfinx::MPI::rank(_comm.comm()); }
+  int size() const override { return dolfinx::MPI::size(_comm.comm()); }
 
-  void reduce(std::span<double> values, mesh::Reduction how) override
+  void reduce(std::span<double> values, contactx::mesh::Reduction how) override
   {
     reduce(values.data(), values.size(), MPI_DOUBLE, how);
   }
 
-  void reduce(std::span<std::int64_t> values, mesh::Reduction how) override
+  void reduce(std::span<std::int64_t> values,
+              contactx::mesh::Reduction how) override
   {
     reduce(values.data(), values.size(), MPI_INT64_T, how);
   }
@@ -46,13 +47,14 @@ public:
   /// Lumsdaine 2010): what it costs a rank goes with the ranks that it writes
   /// to, not with how many there are.
   /// @throws std::length_error if a message is longer than MPI can count.
-  mesh::Messages exchange(const mesh::Messages& outgoing) override
+  contactx::mesh::Messages
+  exchange(const contactx::mesh::Messages& outgoing) override
   {
     // Tags in turn, so that a message never ends up in the exchange before its
     // own
     const int tag = _turn;
     _turn = (_turn + 1) % 16;
-    mesh::Messages received;
+    contactx::mesh::Messages received;
     std::vector<MPI_Request> sending;
     for (const auto& [to, bytes] : outgoing)
     {
@@ -104,16 +106,17 @@ public:
 
 private:
   void reduce(void* values, std::size_t count, MPI_Datatype type,
-              mesh::Reduction how)
+              contactx::mesh::Reduction how)
   {
-    const MPI_Op operation = how == mesh::Reduction::sum     ? MPI_SUM
-                             : how == mesh::Reduction::least ? MPI_MIN
-                                                             : MPI_MAX;
+    const MPI_Op operation = how == contactx::mesh::Reduction::sum ? MPI_SUM
+                             : how == contactx::mesh::Reduction::least
+                                 ? MPI_MIN
+                                 : MPI_MAX;
     MPI_Allreduce(MPI_IN_PLACE, values, static_cast<int>(count), type,
                   operation, _comm.comm());
   }
 
-  ::dolfinx::MPI::Comm _comm;
+  dolfinx::MPI::Comm _comm;
   int _turn = 0;
 };
-} // namespace contactx::dolfinx
+} // namespace contactx_dolfinx

@@ -7,7 +7,7 @@
 #include <exception>
 #include <petscsnes.h>
 
-namespace contactx::dolfinx
+namespace contactx_dolfinx
 {
 /// @brief Lets a SNES solve the system of an assembler, once a step:
 ///
@@ -159,4 +159,4 @@ private:
   petsc::OwnVec _b;
   std::exception_ptr _error;
 };
-} // namespace contactx::dolfinx
+} // namespace contactx_dolfinx

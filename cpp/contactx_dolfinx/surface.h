@@ -13,7 +13,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace contactx::dolfinx
+namespace contactx_dolfinx
 {
 /// @brief Tagged part of a mesh's boundary.
 class Surface
@@ -24,7 +24,7 @@ public:
   /// @param[in] values Values of these that make up the surface.
   /// @throws std::invalid_argument if the tags are not of facets, or no facet
   /// of any rank has one of the values.
-  Surface(std::shared_ptr<const ::dolfinx::mesh::MeshTags<std::int32_t>> tags,
+  Surface(std::shared_ptr<const dolfinx::mesh::MeshTags<std::int32_t>> tags,
           std::vector<std::int32_t> values)
       : _tags(std::move(tags)), _values(std::move(values))
   {
@@ -47,7 +47,8 @@ public:
     const auto repeated = std::ranges::unique(_facets);
     _facets.erase(repeated.begin(), repeated.end());
     Ranks ranks(topology.comm());
-    ranks.reduce(std::span<std::int64_t>(there), mesh::Reduction::sum);
+    ranks.reduce(std::span<std::int64_t>(there),
+                 contactx::mesh::Reduction::sum);
     std::int64_t count = 0;
     for (std::size_t i = 0; i < _values.size(); ++i)
     {
@@ -74,7 +75,7 @@ public:
   const std::string& name() const { return _name; }
 
   /// @brief Nodes of the surface's facets whose cells this rank owns, oriented,
-  /// see mesh::facets. All ranks must take part.
+  /// see contactx::mesh::facets. All ranks must take part.
   /// @param[in] V Lagrange space of degree 1 or 2 whose blocks of dofs are the
   /// nodes.
   /// @param[in] ranks The ranks.
@@ -82,8 +83,9 @@ public:
   /// @throws std::invalid_argument on all ranks if the tags belong to another
   /// mesh, a facet has a cell on either side, or facets are curved that the
   /// displacement has straight.
-  geometry::Facets facet_nodes(const FunctionSpace& V, mesh::Ranks& ranks,
-                               const std::string& role) const
+  contactx::geometry::Facets facet_nodes(const FunctionSpace& V,
+                                         contactx::mesh::Ranks& ranks,
+                                         const std::string& role) const
   {
     auto topology = V.mesh()->topology_mutable();
     const int tdim = topology->dim();
@@ -105,15 +107,16 @@ public:
       local.push_back(
           static_cast<std::int32_t>(std::ranges::find(own, f) - own.begin()));
     }
-    const mesh::Geometry geometry = geometry_of(*V.mesh());
-    mesh::check_straight(ranks, role + " " + _name, cells_of(V), geometry,
-                         points_of_cell(*V.mesh()), of, local);
-    return mesh::facets(cells_of(V), of, local, geometry);
+    const contactx::mesh::Geometry geometry = geometry_of(*V.mesh());
+    contactx::mesh::check_straight(ranks, role + " " + _name, cells_of(V),
+                                   geometry, points_of_cell(*V.mesh()), of,
+                                   local);
+    return contactx::mesh::facets(cells_of(V), of, local, geometry);
   }
 
 private:
-  void check(const ::dolfinx::mesh::Topology& topology,
-             const ::dolfinx::graph::AdjacencyList<std::int32_t>& cells) const
+  void check(const dolfinx::mesh::Topology& topology,
+             const dolfinx::graph::AdjacencyList<std::int32_t>& cells) const
   {
     if (_tags->topology().get() != &topology)
       throw std::invalid_argument("the facet tags of " + _name
@@ -121,7 +124,7 @@ private:
                                     "displacement: make them on its mesh");
     std::vector<std::int32_t> between;
     // The cell on the other side may be on another rank
-    if (::dolfinx::MPI::size(topology.comm()) > 1)
+    if (dolfinx::MPI::size(topology.comm()) > 1)
       between = topology.interprocess_facets();
     std::ranges::sort(between);
     for (std::int32_t f : _facets)
@@ -132,8 +135,8 @@ private:
               "contact surface must be part of the boundary");
   }
 
-  std::shared_ptr<const ::dolfinx::mesh::MeshTags<std::int32_t>> _tags;
+  std::shared_ptr<const dolfinx::mesh::MeshTags<std::int32_t>> _tags;
   std::vector<std::int32_t> _values, _facets;
   std::string _name;
 };
-} // namespace contactx::dolfinx
+} // namespace contactx_dolfinx

@@ -21,7 +21,7 @@
 #include <string>
 #include <vector>
 
-namespace contactx::dolfinx
+namespace contactx_dolfinx
 {
 /// @brief Bodies whose displacement is solved for together with other fields:
 /// the forms of each function, which is a block of rows and of columns. A
@@ -240,10 +240,10 @@ private:
     }
   }
 
-  static std::shared_ptr<const ::dolfinx::fem::FiniteElement<double>>
+  static std::shared_ptr<const dolfinx::fem::FiniteElement<double>>
   vectors(basix::cell::type cell, int degree, int gdim)
   {
-    return std::make_shared<const ::dolfinx::fem::FiniteElement<double>>(
+    return std::make_shared<const dolfinx::fem::FiniteElement<double>>(
         basix::create_element<double>(
             basix::element::family::P, cell, degree,
             basix::element::lagrange_variant::gll_warped,
@@ -257,12 +257,12 @@ private:
   {
     const auto mesh = part.mesh();
     const int gdim = mesh->geometry().dim(), tdim = mesh->topology()->dim();
-    const auto cell = ::dolfinx::mesh::cell_type_to_basix_type(
-        mesh->topology()->cell_type());
-    const ::dolfinx::fem::ElementDofLayout& layout
+    const auto cell
+        = dolfinx::mesh::cell_type_to_basix_type(mesh->topology()->cell_type());
+    const dolfinx::fem::ElementDofLayout& layout
         = part.dofmap()->element_dof_layout();
     const auto entities = basix::cell::topology(cell);
-    const auto fits = [&](const ::dolfinx::fem::ElementDofLayout& wanted)
+    const auto fits = [&](const dolfinx::fem::ElementDofLayout& wanted)
     {
       for (int d = 0; d < tdim; ++d)
         for (int i = 0; i < static_cast<int>(entities[d].size()); ++i)
@@ -279,7 +279,7 @@ private:
       if (not has_vectors)
         break;
       const auto element = vectors(cell, degree, gdim);
-      if (not fits(::dolfinx::fem::create_element_dof_layout(*element)))
+      if (not fits(dolfinx::fem::create_element_dof_layout(*element)))
         continue;
       _u = std::make_shared<Function>(create_space(mesh, element));
       find_nodes(part);
@@ -376,4 +376,4 @@ private:
   std::vector<std::int32_t> _owned;
   std::vector<Field> _fields;
 };
-} // namespace contactx::dolfinx
+} // namespace contactx_dolfinx

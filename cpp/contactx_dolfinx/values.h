@@ -15,14 +15,14 @@
 #include <variant>
 #include <vector>
 
-namespace contactx::dolfinx
+namespace contactx_dolfinx
 {
 /// @brief A number, a constant, or a function of a scalar Lagrange space, which
 /// may change from one iterate to the next.
 class Value
 {
 public:
-  using Constant = ::dolfinx::fem::Constant<double>;
+  using Constant = dolfinx::fem::Constant<double>;
 
   /// @brief A number, the same at all nodes.
   Value(double value) : _value(value) {}
@@ -123,7 +123,7 @@ private:
 };
 
 /// @brief Friction and offset of a contact, as the core reads them.
-class Values final : public problem::Values
+class Values final : public contactx::problem::Values
 {
 public:
   /// @brief Take the values.
@@ -182,4 +182,4 @@ private:
   std::shared_ptr<const FunctionSpace> _V;
   std::vector<std::int32_t> _slaves;
 };
-} // namespace contactx::dolfinx
+} // namespace contactx_dolfinx

@@ -6,14 +6,13 @@
 
 #include "falling_block.h"
 #include "scenes.h"
-#include <contactx/geometry/plane.h>
 #include <contactx_dolfinx/dynamics.h>
+#include <contactx_dolfinx/obstacles.h>
 
 using namespace dolfinx;
 using T = PetscScalar;
 using U = double;
-namespace cx = contactx::dolfinx;
-namespace obstacle = contactx::obstacle;
+namespace cx = contactx_dolfinx;
 
 namespace
 {
@@ -143,8 +142,8 @@ int main(int argc, char* argv[])
     scene.ksp = ksp.get();
     cx::petsc::set_lu(scene.ksp);
 
-    const auto plane = std::make_shared<geometry::Plane>(
-        std::vector<double>{0, 0}, std::vector<double>{0, 1});
+    const auto plane = std::make_shared<cx::Plane>(std::vector<double>{0, 0},
+                                                   std::vector<double>{0, 1});
     fall("plane", {scene, plane});
     fall("plane, friction, consistent",
          {scene, plane, {.friction = 0.2}, true});

@@ -7,13 +7,13 @@
 
 #include "scenes.h"
 #include "several_fields.h"
-#include <contactx/geometry/plane.h>
 #include <contactx_dolfinx/checkpoint.h>
+#include <contactx_dolfinx/obstacles.h>
 
 using namespace dolfinx;
 using T = PetscScalar;
 using U = double;
-namespace cx = contactx::dolfinx;
+namespace cx = contactx_dolfinx;
 
 namespace
 {
@@ -278,8 +278,8 @@ int main(int argc, char* argv[])
     incompressible(scene, "n2s", friction);
     incompressible(scene, "s2s", mortar);
     const cx::Surface base(scene.tags, {21});
-    const auto plane = std::make_shared<contactx::geometry::Plane>(
-        std::vector<double>{0, 0}, std::vector<double>{0, 1});
+    const auto plane = std::make_shared<cx::Plane>(std::vector<double>{0, 0},
+                                                   std::vector<double>{0, 1});
     warm(scene, "base n2s", base, std::nullopt, friction);
     warm(scene, "base s2s", base, std::nullopt, mortar);
     warm(scene, "plane n2s", plane, -0.3, friction);

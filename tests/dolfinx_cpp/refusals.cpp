@@ -6,11 +6,11 @@
 #include "falling_block.h"
 #include "sliding_block.h"
 #include <basix/finite-element.h>
-#include <contactx/geometry/plane.h>
 #include <contactx_dolfinx/checkpoint.h>
 #include <contactx_dolfinx/condensed.h>
 #include <contactx_dolfinx/dynamics.h>
 #include <contactx_dolfinx/forms.h>
+#include <contactx_dolfinx/obstacles.h>
 #include <contactx_dolfinx/snes.h>
 #include <cstdio>
 #include <dolfinx.h>
@@ -20,7 +20,7 @@
 using namespace dolfinx;
 using T = PetscScalar;
 using U = double;
-namespace cx = contactx::dolfinx;
+namespace cx = contactx_dolfinx;
 using Tags = mesh::MeshTags<std::int32_t>;
 
 namespace
@@ -123,8 +123,8 @@ int main(int argc, char* argv[])
         *form_sliding_block_J, {V, V}, {{"u", u}}, {}, {}, {}));
     const auto plane_at = [](double height)
     {
-      return std::make_shared<contactx::geometry::Plane>(
-          std::vector<double>{0, height}, std::vector<double>{0, 1});
+      return std::make_shared<cx::Plane>(std::vector<double>{0, height},
+                                         std::vector<double>{0, 1});
     };
     const cx::Surface bottom(tags, {11}), top(tags, {12});
     const auto fixed = std::make_shared<const fem::DirichletBC<T>>(
@@ -181,8 +181,8 @@ int main(int argc, char* argv[])
             [&] { cx::Assembler(F, J, u, {fixed, nullptr}, one()); });
     refuses("contacts[0] is null",
             [&] { cx::Assembler(F, J, u, none, {nullptr}); });
-    refuses("obstacle of a Contact is null", [&]
-            { make(bottom, std::shared_ptr<contactx::geometry::Plane>()); });
+    refuses("obstacle of a Contact is null",
+            [&] { make(bottom, std::shared_ptr<cx::Plane>()); });
     // Forms of another function than the displacement, and of its space
     refuses("F does not depend on u",
             [&]
@@ -219,7 +219,7 @@ int main(int argc, char* argv[])
     refuses("inside the rigid obstacle",
             [&]
             {
-              couple(make(top, std::make_shared<contactx::geometry::Plane>(
+              couple(make(top, std::make_shared<cx::Plane>(
                                    std::vector<double>{0, 0.99},
                                    std::vector<double>{0, -1})))
                   .begin_step();

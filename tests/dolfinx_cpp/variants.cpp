@@ -10,19 +10,16 @@
 #include "quadratic.h"
 #include "scenes.h"
 #include "sliding_block.h"
-#include <contactx/geometry/level_set.h>
-#include <contactx/geometry/plane.h>
-#include <contactx/geometry/sphere.h>
 #include <contactx_dolfinx/condensed.h>
 #include <contactx_dolfinx/forms.h>
+#include <contactx_dolfinx/obstacles.h>
 #include <contactx_dolfinx/snes.h>
 #include <dolfinx/fem/Constant.h>
 
 using namespace dolfinx;
 using T = PetscScalar;
 using U = double;
-namespace cx = contactx::dolfinx;
-namespace obstacle = contactx::obstacle;
+namespace cx = contactx_dolfinx;
 
 namespace
 {
@@ -384,8 +381,8 @@ void refusals(Scene& scene)
        {
          const Support given = support(scene, {{1, 11}});
          return Told(scene,
-                     std::make_shared<geometry::Plane>(
-                         std::vector<double>{0, 0.05}, up),
+                     std::make_shared<cx::Plane>(std::vector<double>{0, 0.05},
+                                                 up),
                      {}, given)
              .step();
        });
@@ -422,7 +419,7 @@ void refusals(Scene& scene)
   said("coarse disc",
        [&]
        {
-         const auto disc = std::make_shared<geometry::Sphere>(
+         const auto disc = std::make_shared<cx::Sphere>(
              std::vector<double>{0.9, -0.15}, 0.15);
          return Told(scene, disc, {.friction = 0.1, .offset = offset},
                      support(scene))
@@ -434,7 +431,7 @@ void refusals(Scene& scene)
          double height = 0;
          const auto f = [&](std::span<const double> x, int, int)
          {
-           geometry::LevelValues at;
+           cx::LevelValues at;
            for (std::size_t i = 0; i < x.size(); i += 2)
            {
              at.value.push_back(x[i + 1] - height);
@@ -444,7 +441,7 @@ void refusals(Scene& scene)
            return at;
          };
          const auto moved = [&](int) { return std::vector<double>{height}; };
-         Told told(scene, std::make_shared<geometry::LevelSet>(f, moved),
+         Told told(scene, std::make_shared<cx::LevelSet>(f, moved),
                    {.friction = 0.3, .offset = offset}, support(scene));
          told.step();
          height = 0.1;
@@ -460,7 +457,7 @@ void refusals(Scene& scene)
   options("excluded", base, {.excluded_distance = 0.1});
   options("adjusted tie", base, {.tied = true, .adjust = 0.1});
   options("tangential factor", base, {.friction = 0.3, .tangential_factor = 0});
-  options("smooth plane", std::make_shared<geometry::Plane>(point, up),
+  options("smooth plane", std::make_shared<cx::Plane>(point, up),
           {.smooth = true});
   options("smooth tie", base, {.tied = true, .smooth = true});
   options("faces away", cx::Surface(scene.tags, {22}), {});
@@ -497,14 +494,13 @@ int main(int argc, char* argv[])
     solve(scene, "self", cx::Surface(scene.tags, {11, 21}),
           {.friction = 0.3, .offset = offset, .excluded_distance = 0.01});
     const std::vector<double> point{0, 0}, up{0, 1}, middle{1.5, -4};
-    solve(scene, "plane", std::make_shared<geometry::Plane>(point, up),
+    solve(scene, "plane", std::make_shared<cx::Plane>(point, up),
           {.friction = 0.3, .offset = offset});
-    solve(scene, "mortar plane", std::make_shared<geometry::Plane>(point, up),
+    solve(scene, "mortar plane", std::make_shared<cx::Plane>(point, up),
           {.friction = 0.3, .method = mortar, .offset = offset});
-    solve(scene, "disc", std::make_shared<geometry::Sphere>(middle, 4.0),
+    solve(scene, "disc", std::make_shared<cx::Sphere>(middle, 4.0),
           {.friction = 0.1, .offset = offset});
-    solve(scene, "adjusted disc",
-          std::make_shared<geometry::Sphere>(middle, 4.0),
+    solve(scene, "adjusted disc", std::make_shared<cx::Sphere>(middle, 4.0),
           {.friction = 0.1, .offset = offset, .adjust = 0.1});
     solve(scene, "smooth", base,
           {.friction = 0.3, .offset = offset, .smooth = true});
@@ -524,7 +520,7 @@ int main(int argc, char* argv[])
     solve(scene, "mortar friction", base,
           {.friction = 0.3, .method = mortar, .offset = offset});
     solve(scene, "mortar tied", base, {.method = mortar, .tied = true});
-    solve(scene, "mortar plane", std::make_shared<geometry::Plane>(point, up),
+    solve(scene, "mortar plane", std::make_shared<cx::Plane>(point, up),
           {.friction = 0.3, .method = mortar, .offset = offset});
     solve(scene, "neo-Hooke", base, {.friction = 0.3, .offset = offset},
           form_neo_hooke_F, form_neo_hooke_J);
@@ -589,7 +585,7 @@ int main(int argc, char* argv[])
     solve(scene, "frictionless", base, {.offset = offset});
     solve(scene, "friction", base, {.friction = 0.3, .offset = offset});
     solve(scene, "mortar", base, {.method = mortar, .offset = offset});
-    solve(scene, "plane", std::make_shared<geometry::Plane>(point, up),
+    solve(scene, "plane", std::make_shared<cx::Plane>(point, up),
           {.friction = 0.3, .offset = offset});
     solve(scene, "tied", base, {.tied = true});
     solve(scene, "neo-Hooke", base, {.friction = 0.3, .offset = offset},
@@ -602,7 +598,7 @@ int main(int argc, char* argv[])
                            const cx::Options& options)
     { solve(scene, name, to, options, form_quadratic_F, form_quadratic_J); };
     const cx::Surface wide(scene.tags, {21});
-    const auto disc = std::make_shared<geometry::Sphere>(middle, 4.0);
+    const auto disc = std::make_shared<cx::Sphere>(middle, 4.0);
     const cx::Options has_friction{.friction = 0.3, .offset = offset},
         rubs_on_facets{.friction = 0.3, .method = mortar, .offset = offset};
     plane("quadratic friction", wide, has_friction);
@@ -633,8 +629,8 @@ int main(int argc, char* argv[])
             form_quadratic_J_solid);
     };
     const cx::Surface below(scene.tags, {21});
-    const auto ball = std::make_shared<geometry::Sphere>(
-        std::vector<double>{0.75, 0.6, -4}, 4.0);
+    const auto ball
+        = std::make_shared<cx::Sphere>(std::vector<double>{0.75, 0.6, -4}, 4.0);
     for (const bool has_forms : {false, true})
     {
       scene.has_forms = has_forms;

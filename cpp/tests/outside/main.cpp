@@ -10,8 +10,10 @@
 #include <cmath>
 #include <contactx/kernel/assemble.h>
 #include <contactx/search/pairing.h>
+#include <contactx/version.h>
 #include <cstdio>
 #include <numbers>
+#include <string_view>
 
 using namespace contactx;
 
@@ -21,6 +23,11 @@ using Vec = struct _p_Vec*;
 int main()
 {
   [[maybe_unused]] const Vec vector_of_petsc = nullptr;
+  if (std::string_view(CONTACTX_EXPECTED) != version)
+  {
+    std::printf("headers of %s, a package of " CONTACTX_EXPECTED "\n", version);
+    return 1;
+  }
 
   // A master segment from x_1 to x_2, its outward normal n on the right, and
   // two slave facets over it, towards it

@@ -23,7 +23,7 @@
 using namespace dolfinx;
 using T = PetscScalar;
 using U = double;
-namespace cx = contactx::dolfinx;
+namespace cx = contactx_dolfinx;
 
 int main(int argc, char* argv[])
 {

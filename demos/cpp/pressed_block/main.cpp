@@ -11,8 +11,8 @@
 
 #include "pressed_block.h"
 #include <basix/finite-element.h>
-#include <contactx/geometry/sphere.h>
 #include <contactx_dolfinx/assembler.h>
+#include <contactx_dolfinx/obstacles.h>
 #include <cstdio>
 #include <dolfinx.h>
 #include <dolfinx/fem/Constant.h>
@@ -22,7 +22,7 @@
 using namespace dolfinx;
 using T = PetscScalar;
 using U = double;
-namespace cx = contactx::dolfinx;
+namespace cx = contactx_dolfinx;
 
 int main(int argc, char* argv[])
 {
@@ -64,7 +64,7 @@ int main(int argc, char* argv[])
 
     // Two contacts: with the base, and with the disk, which comes down
     const double radius = 0.6;
-    auto disk = std::make_shared<contactx::geometry::Sphere>(
+    auto disk = std::make_shared<cx::Sphere>(
         std::vector<double>{1.5, 1 + radius}, radius);
     auto below = std::make_shared<cx::Contact>(
         cx::Surface(tags, {11}), cx::Surface(tags, {21}),
