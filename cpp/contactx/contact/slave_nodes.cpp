@@ -17,8 +17,8 @@ using namespace contactx::contact;
 
 namespace
 {
-/// Of the largest weight: by so much a node on an axis may be off it.
-constexpr double rounding = 1e-12;
+/// Negative weight, over the largest one, that is round-off of a node's radius
+constexpr double weight_round_off = 1e-12;
 
 void check_facets(const geometry::FacetList& facets, std::int32_t num_nodes,
                   const std::string& name)
@@ -105,7 +105,7 @@ void SlaveNodes::set_weight(std::span<const double> weight)
   double most = 0;
   for (const double w : weight)
     most = std::max(most, std::abs(w));
-  const double least = -rounding * mesh::largest(_nodes->ranks(), most);
+  const double least = -weight_round_off * mesh::largest(_nodes->ranks(), most);
   _nodes->ranks().agree(
       [&]
       {

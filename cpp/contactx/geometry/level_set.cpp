@@ -14,8 +14,8 @@ using namespace contactx::geometry;
 
 namespace
 {
-/// Part of the scene's size that only rounding makes
-constexpr double rounding_of_ridge = 1e-12;
+/// Least width of a ridge, over the scene's size
+constexpr double ridge_width_min = 1e-12;
 
 void check(const std::vector<double>& values, std::size_t size,
            const char* name)
@@ -304,8 +304,7 @@ double LevelSet::scene_size(std::span<const double> x, int gdim) const
 
 double LevelSet::ridge_width(std::span<const double> x, int gdim) const
 {
-  return std::max(facet_margin * facet,
-                  rounding_of_ridge * scene_size(x, gdim));
+  return std::max(facet_margin * facet, ridge_width_min * scene_size(x, gdim));
 }
 
 std::vector<double> LevelSet::differences(std::span<const double> x,
@@ -437,10 +436,10 @@ std::vector<double> LevelSet::carry(std::span<const double> x,
   if (not _velocity or x.empty() or to.time == from.time)
     return at;
   const int gdim = static_cast<int>(from.point.size());
-  constexpr int parts = 4;
-  const double dt = (to.time - from.time) / parts;
+  constexpr int substeps = 4;
+  const double dt = (to.time - from.time) / substeps;
   const std::size_t n = x.size();
-  for (int part = 0; part < parts; ++part)
+  for (int part = 0; part < substeps; ++part)
   {
     const std::vector<double> start = at;
     std::vector<double> sum(n, 0), moved = start;

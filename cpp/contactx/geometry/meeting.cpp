@@ -9,10 +9,10 @@ using namespace contactx::geometry;
 
 namespace
 {
-/// Part of the largest distance that only rounding makes
-constexpr double rounding = 1e-12;
-/// Sine of an angle between planes below which they are one
-constexpr double parallel = 1e-6;
+/// Distance, over the largest one, that is round-off
+constexpr double distance_rel_tol = 1e-12;
+/// Sine of the angle between planes below which they are parallel
+constexpr double parallel_sine = 1e-6;
 
 using Planes = std::span<const Vector<3>>;
 
@@ -26,7 +26,7 @@ bool set_dual(Planes normal, Meeting& at)
   else if (at.count == 2)
   {
     const double cosine = dot(n(0), n(1)), square = 1 - cosine * cosine;
-    if (square < parallel * parallel)
+    if (square < parallel_sine * parallel_sine)
       return false;
     at.dual[0] = (1 / square) * (n(0) - cosine * n(1));
     at.dual[1] = (1 / square) * (n(1) - cosine * n(0));
@@ -34,7 +34,7 @@ bool set_dual(Planes normal, Meeting& at)
   else
   {
     const double volume = dot(n(0), cross(n(1), n(2)));
-    if (std::abs(volume) < parallel)
+    if (std::abs(volume) < parallel_sine)
       return false;
     for (int i = 0; i < 3; ++i)
       at.dual[i] = (1 / volume) * cross(n((i + 1) % 3), n((i + 2) % 3));
@@ -105,7 +105,7 @@ std::optional<Meeting>
 contactx::geometry::meeting(Planes normal, std::span<const double> distance,
                             int gdim)
 {
-  const double small = rounding * *std::ranges::max_element(distance);
+  const double small = distance_rel_tol * *std::ranges::max_element(distance);
   for (int count = 1; count <= gdim; ++count)
   {
     Meeting at;

@@ -22,8 +22,8 @@ struct Sheet
 };
 
 /// Slopes and curvatures of a height over a plane, and directions in it.
-constexpr int most_unknowns = 5;
-using Row = std::array<double, most_unknowns>;
+constexpr int max_unknowns = 5;
+using Row = std::array<double, max_unknowns>;
 
 /// Solves a least-squares problem by its normal equations; what the rows do not
 /// determine becomes small.
@@ -44,13 +44,13 @@ public:
 
   Row solve()
   {
-    // Part of the trace that stands for nothing known
-    constexpr double damping = 1e-9;
+    // Added to the diagonal, over the trace: unknowns without data are zero
+    constexpr double trace_damping = 1e-9;
     double trace = 0;
     for (int i = 0; i < _n; ++i)
       trace += _A[i][i];
     for (int i = 0; i < _n; ++i)
-      _A[i][i] += damping * trace;
+      _A[i][i] += trace_damping * trace;
     Row y{};
     // Cholesky's factor in place
     for (int i = 0; i < _n; ++i)
@@ -79,7 +79,7 @@ public:
 
 private:
   int _n;
-  std::array<Row, most_unknowns> _A{};
+  std::array<Row, max_unknowns> _A{};
   Row _b{};
 };
 
@@ -272,7 +272,7 @@ private:
     for (const std::int32_t other : sheet.others)
       size += norm(vector_at(_x, other, _gdim) - point)
               / static_cast<double>(sheet.others.size());
-    LeastSquares fit(across == 1 ? 2 : most_unknowns);
+    LeastSquares fit(across == 1 ? 2 : max_unknowns);
     for (const std::int32_t other : sheet.others)
     {
       const Vector<3> edge = (1 / size) * (vector_at(_x, other, _gdim) - point);

@@ -139,15 +139,15 @@ public:
 private:
   Bounds bounds(const NodeState& nodes, std::span<const double> pressure) const;
 
-  // Trial friction over its bound up to which slip that turns back sticks
+  // Trial friction over its bound up to which a node whose slip reverses sticks
   // first. Measured: 3 to 100 differ by little, without a limit it is twice
   // the work
-  static constexpr double _usual_reach = 10;
+  static constexpr double _initial_reach = 10;
 
   BoundFunction _bound;
   std::shared_ptr<const SlipHistory> _history;
   std::vector<double> _friction;
-  double _reach = _usual_reach;
+  double _reach = _initial_reach;
 };
 
 /// @brief Slave nodes keep their place in the frame of their facet: those with

@@ -16,8 +16,8 @@ using namespace contactx::mesh;
 
 namespace
 {
-constexpr int most_halvings = 8;
-constexpr std::size_t most_parts = 512;
+constexpr int max_halvings = 8;
+constexpr std::size_t max_parts = 512;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double determinant(const Vector<2>& a, const Vector<2>& b)
@@ -184,9 +184,9 @@ double smallest_between(const Triquadratic& current,
     }
     if (!(least > 0))
       return least;
-    if (part.halvings == most_halvings or one_sign(part.current))
+    if (part.halvings == max_halvings or one_sign(part.current))
       continue;
-    for (int piece = 0; piece < 8 and open.size() < most_parts; ++piece)
+    for (int piece = 0; piece < 8 and open.size() < max_parts; ++piece)
     {
       Part next{part.current, part.reference, part.halvings + 1};
       for (int k = 0; k < 3; ++k)

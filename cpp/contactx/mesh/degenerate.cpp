@@ -16,8 +16,8 @@ using namespace contactx::mesh;
 
 namespace
 {
-/// Determinant of unit tangents that is none but for rounding
-constexpr double no_volume = 1e-12;
+/// Determinant of unit tangents up to which a cell has no volume
+constexpr double determinant_tol = 1e-12;
 
 bool is_simplex(CellType cell)
 {
@@ -28,8 +28,8 @@ bool is_degenerate(CellType cell, std::span<const double> x)
 {
   const std::vector<double> found = corner_determinants(cell, x);
   const auto [low, high] = std::ranges::minmax(found);
-  return (low < -no_volume and high > no_volume)
-         or std::max(-low, high) <= no_volume;
+  return (low < -determinant_tol and high > determinant_tol)
+         or std::max(-low, high) <= determinant_tol;
 }
 } // namespace
 

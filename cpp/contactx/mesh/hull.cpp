@@ -13,7 +13,9 @@ using namespace contactx::mesh;
 
 namespace
 {
-constexpr double rounding = 1e-12;
+/// Volume of a simplex, over the largest that a point spans with its faces, up
+/// to which it is degenerate
+constexpr double simplex_volume_min = 1e-12;
 
 /// Choices of k of the numbers below n, each ascending.
 std::vector<std::vector<int>> choices(int n, int k)
@@ -93,7 +95,7 @@ bool Hull::contains(std::span<const double> point,
       whole += parts[k];
       largest = std::max(largest, std::abs(parts[k]));
     }
-    if (std::abs(whole) <= rounding * largest)
+    if (std::abs(whole) <= simplex_volume_min * largest)
       continue;
     if (std::all_of(parts.begin(), parts.begin() + _gdim + 1,
                     [=](double part) { return part / whole >= -tolerance; }))

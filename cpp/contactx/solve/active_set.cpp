@@ -11,9 +11,9 @@ using namespace contactx::solve;
 
 namespace
 {
-/// Share of the closed nodes above which changes of status or facet freeze the
-/// kinematics
-constexpr double few = 0.2;
+/// Number of nodes that change status or facet, over that of closed ones, above
+/// which the kinematics are frozen
+constexpr double freeze_fraction = 0.2;
 
 std::vector<std::span<const std::int32_t>>
 slaves_of(const std::vector<std::shared_ptr<contact::Contact>>& contacts)
@@ -213,7 +213,7 @@ void ActiveSet::share(bool is_first)
 bool ActiveSet::are_many(std::int64_t changes) const
 {
   return static_cast<double>(changes)
-         > std::max(1.0, few * static_cast<double>(num_closed()));
+         > std::max(1.0, freeze_fraction * static_cast<double>(num_closed()));
 }
 
 std::int64_t ActiveSet::num_closed() const

@@ -89,8 +89,8 @@ public:
   /// @brief Make contact hard again, where soft contact has converged.
   void harden();
 
-  /// @brief True if only `CycleGuard::part` of the last step is to be taken,
-  /// because iterates go round. Asked once a step.
+  /// @brief True if only `CycleGuard::step_fraction` of the last step is to be
+  /// taken, because iterates go round. Asked once a step.
   bool shortens() { return _guard.shortens(); }
 
   /// @brief Remember the residual of an iterate.

@@ -15,13 +15,14 @@ namespace
 {
 /// Rounding errors of a sum of a few terms
 constexpr double eps = 16 * std::numeric_limits<double>::epsilon();
-/// Displacement over the size of the scene, or what is prescribed
-constexpr double far = 1e3;
-/// Residual over forces that would deform bodies by their own size, below which
-/// it may be no more than the rounding error of forces that cancel
-constexpr double tiny = 1e-8;
-/// Part of the forces that rounding errors may excuse at most
-constexpr double excusable = 1e-6;
+/// Displacement, over the scene's size or the largest prescribed one, above
+/// which a body has run away
+constexpr double runaway_ratio = 1e3;
+/// Residual, over the stiffness times the scene's size, below which it may be
+/// the round-off of forces that cancel
+constexpr double cancelling_force_max = 1e-8;
+/// Largest residual that round-off may excuse, over the forces of the problem
+constexpr double excused_force_max = 1e-6;
 
 double square(double value) { return value * value; }
 
@@ -95,7 +96,7 @@ double Convergence::scale() { return norm(_system->bulk_residual()); }
 
 bool Convergence::may_be_rounding(double residual) const
 {
-  return residual <= tiny * _stiff * _extent;
+  return residual <= cancelling_force_max * _stiff * _extent;
 }
 
 /// The largest residual of other fields over what it may be: at most one where
@@ -105,7 +106,6 @@ double Convergence::excess_of_fields(std::span<const double> b, double rtol)
   Fields* fields = _system->bulk()->fields();
   if (not fields)
     return 0;
-  constexpr double defect_allowed = 1e-10;
   const std::vector<std::size_t> offsets = fields->offsets();
   const std::span<const std::int8_t> markers = fields->markers();
   const std::span<const double> values = fields->values();
@@ -149,8 +149,8 @@ double Convergence::excess_of_fields(std::span<const double> b, double rtol)
     if (r > 0)
       excess = std::max(excess, r / allowed);
     if (largest[2 * f] > 0)
-      excess = std::max(excess,
-                        largest[2 * f] / (defect_allowed * largest[2 * f + 1]));
+      excess = std::max(excess, largest[2 * f]
+                                    / (dirichlet_rel_tol * largest[2 * f + 1]));
   }
   return excess;
 }
@@ -217,9 +217,9 @@ Convergence::Result Convergence::compare_forces(std::span<const double> b,
   std::vector<double> excused(u.size());
   for (std::size_t i = 0; i < u.size(); ++i)
     excused[i] = eps * _stiffness[i] * (u[i] + _cell_size[i]);
-  double whole = std::min(norm(excused), excusable * scale);
+  double whole = std::min(norm(excused), excused_force_max * scale);
   for (double& error : excused)
-    error = std::min(error, excusable * scale);
+    error = std::min(error, excused_force_max * scale);
 
   const double strict = std::max({rtol * scale, atol, of_gaps});
   const double tolerance = std::max({rtol * scale, atol, of_gaps + whole});
@@ -399,7 +399,7 @@ bool Convergence::has_run_away()
 {
   const double most
       = mesh::largest(ranks(), largest_of(_system->bulk()->displacements()));
-  return most > far * farthest();
+  return most > runaway_ratio * farthest();
 }
 
 double Convergence::farthest()

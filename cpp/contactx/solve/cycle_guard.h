@@ -30,14 +30,14 @@ fingerprint(mesh::Ranks& ranks,
 class CycleGuard
 {
 public:
-  /// @brief Part of a step that is taken where iterates go round.
-  static constexpr double part = 0.5;
+  /// @brief Fraction of a step that is taken where the active set cycles.
+  static constexpr double step_fraction = 0.5;
 
   /// @brief Start a load step: nothing has been seen yet.
   void begin_step() { *this = {}; }
 
-  /// @brief True if only `part` of the last step is to be taken. Asked once a
-  /// step.
+  /// @brief True if only `step_fraction` of the last step is to be taken. Asked
+  /// once a step.
   bool shortens();
 
   /// @brief Remember an iterate.

@@ -17,20 +17,20 @@ using mesh::Reduction;
 
 namespace
 {
-// Force along a free mode, relative to the problem's, that counts as out of
-// balance
-constexpr double balanced_part = 1e-6;
-// Force along free modes, relative to the residual, above which it asks for a
+// Force along a free mode, over the forces of the problem, above which a body
+// is out of balance
+constexpr double balance_rel_tol = 1e-6;
+// Force along free modes, over the residual, up to which the step has no rigid
 // motion
-constexpr double idle_part = 1e-3;
-// Stiffness of springs, relative to the bulk's: of those that carry no force,
-// and of others
-constexpr double weak = 1e-6;
-constexpr double near = 1e-3;
+constexpr double idle_force_max = 1e-3;
+// Stiffness of springs over the bulk's: where forces along the free modes
+// balance, so that springs carry none, and where they do not
+constexpr double spring_ratio_balanced = 1e-6;
+constexpr double spring_ratio_unbalanced = 1e-3;
 // Relative difference of what is equal but for rounding
 constexpr double rel_tol = 1e-9;
-// Movement, relative to the largest, that counts as one
-constexpr double moves = 1e-6;
+// Velocity of a node, over the largest of a rigid motion, that closes a gap
+constexpr double node_speed_min = 1e-6;
 
 /// Part of a vector along the surface.
 Vector<3> along_surface(const Vector<3>& normal, const Vector<3>& v)
@@ -267,7 +267,7 @@ bool FreeBodies::stabilise(const Forces& forces)
     return values;
   };
   const std::vector<double> force = checked(forces.residual());
-  const double balanced = balanced_part * forces.scale();
+  const double balanced = balance_rel_tol * forces.scale();
   const std::vector<double> pull = along(x, force, -1);
   if (_begins)
   {
@@ -352,8 +352,8 @@ void FreeBodies::add_springs(const dense::Matrix& N, std::span<const double> x,
   for (const double force : forces)
     square += force * force;
   const double size = std::sqrt(mesh::total(ranks(), square));
-  const bool idle
-      = dense::norm(dense::product_transposed(N, pull)) <= idle_part * size;
+  const bool idle = dense::norm(dense::product_transposed(N, pull))
+                    <= idle_force_max * size;
   // Friction resists motions across the slip
   if (idle and not has_friction())
   {
@@ -367,7 +367,7 @@ void FreeBodies::add_springs(const dense::Matrix& N, std::span<const double> x,
   // such as friction that turns; a body that nothing balances yet stays near
   // what it may meet
   for (double& spring : springs)
-    spring *= _is_unbalanced ? near : weak;
+    spring *= _is_unbalanced ? spring_ratio_unbalanced : spring_ratio_balanced;
   _springs = std::move(springs);
 }
 
@@ -595,7 +595,7 @@ std::int64_t FreeBodies::close_first(const std::vector<Rows>& rows,
       if (status[slave] != law::open or not std::isfinite(gap[slave]))
         continue;
       const double speed = -dot(some.normal[i], some.by(increment, i));
-      if (not(speed > moves * most))
+      if (not(speed > node_speed_min * most))
         continue;
       able.slaves.push_back(slave);
       able.times.push_back(std::max(gap[slave], 0.0) / speed);
@@ -709,7 +709,7 @@ bool FreeBodies::stick_first(const std::vector<Rows>& rows,
           = along_surface(some.normal[i], some.by(increment, i));
       const double speed = std::sqrt(dot(movement, movement));
       // Slip goes against the traction, also where it has only just begun
-      if (not(dot(cone, movement) > 0 and speed > moves * most))
+      if (not(dot(cone, movement) > 0 and speed > node_speed_min * most))
         continue;
       const Vector<3> slip = vector_at(friction_state.slip, slave, g);
       able.slaves.push_back(slave);

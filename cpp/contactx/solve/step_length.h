@@ -25,10 +25,10 @@ namespace contactx::solve
 class StepLength
 {
 public:
-  /// @brief Part of min(det F, 1) that a step leaves in each cell. Measured
+  /// @brief Fraction of min(det F, 1) that a step leaves in each cell. Measured
   /// from 0.1 to 0.5: rollers on soft blocks take the fewest iterations, and
   /// most of them converge.
-  static constexpr double left = 0.4;
+  static constexpr double det_fraction_min = 0.4;
 
   /// @brief Start a load step.
   /// @param[in] damped Whether steps are damped.

@@ -14,11 +14,11 @@ using namespace contactx::search;
 
 namespace
 {
-/// Difference of distances, by their size, that only rounding makes: the
-/// number of a node decides then
-constexpr double alike_distance = 1e-6;
-/// Parts whose facets differ by less than this factor are alike
-constexpr double alike = 2;
+/// Relative difference of distances that is round-off: the number of a node
+/// decides then
+constexpr double equal_distance_rel_tol = 1e-6;
+/// Ratio of facets' sizes up to which parts are equally fine
+constexpr double equal_size_ratio = 2;
 
 /// First of the nodes with the largest value, but for rounding.
 std::int32_t farthest(std::span<const std::int32_t> nodes,
@@ -29,7 +29,8 @@ std::int32_t farthest(std::span<const std::int32_t> nodes,
     if (value[node] < infinity)
       most = std::max(most, value[node]);
   for (const std::int32_t node : nodes)
-    if (value[node] < infinity and value[node] >= (1 - alike_distance) * most)
+    if (value[node] < infinity
+        and value[node] >= (1 - equal_distance_rel_tol) * most)
       return node;
   return nodes.front();
 }
@@ -212,8 +213,9 @@ void SelfOrder::set_ranks(std::span<const double> score)
     if (score[k] > 0)
       // Those that are alike are not told apart by rounding
       level[k] = 1
-                 + static_cast<int>(std::floor(
-                     std::log(score[k] / least) / std::log(alike) + 0.25));
+                 + static_cast<int>(std::floor(std::log(score[k] / least)
+                                                   / std::log(equal_size_ratio)
+                                               + 0.25));
   std::vector<std::int32_t> order(score.size());
   std::iota(order.begin(), order.end(), 0);
   std::ranges::stable_sort(order, {}, [&](std::int32_t k) { return level[k]; });
