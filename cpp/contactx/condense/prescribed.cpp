@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "prescribed.h"
+#include "../math/scales.h"
 #include "../math/small.h"
 #include <algorithm>
 #include <array>
@@ -35,9 +36,6 @@ bool inverted(int k, const math::Small& D, const std::array<bool, 3>& p,
 
 /// Least diagonal entry, over the area, of a pivot
 constexpr double pivot_min = 1e-6;
-/// Entry over the area that is round-off
-constexpr double entry_round_off = 1e-12;
-
 /// Chooses which multipliers the law gives, of those that may: the others stay
 /// with no more than rounding errors in the law of those that neither give nor
 /// stay. False where there are more.
@@ -65,7 +63,8 @@ bool choose(int k, math::Small D, std::array<bool, 3>& gives,
   for (int i = 0; i < k; ++i)
     for (int j = 0; j < k; ++j)
       if (stays[i] and others(j)
-          and std::max(std::abs(D[i][j]), std::abs(D[j][i])) > entry_round_off)
+          and std::max(std::abs(D[i][j]), std::abs(D[j][i]))
+                  > math::zero_round_off)
         return false;
   return true;
 }

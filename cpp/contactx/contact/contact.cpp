@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "contact.h"
+#include "../math/scales.h"
 #include "../math/vec.h"
 #include "../mesh/extent.h"
 #include "deformable_master.h"
@@ -23,9 +24,8 @@ constexpr double immobile_fraction = 1e-8;
 // over an open gap on a tilted facet is not exactly in a plane of symmetry
 constexpr double mobile_fraction_min = 0.05;
 
-// Depth and motion, over the size of the slave surface, up to which they are
-// round-off
-constexpr double inside_depth_min = 1e-9, motion_rel_tol = 1e-12;
+// Depth inside an obstacle, over the size of the slave surface, that is refused
+constexpr double inside_depth_min = 1e-9;
 
 kernel::Law kind_of(const law::Law& law)
 {
@@ -41,10 +41,6 @@ std::string_view name_of(Sliding sliding)
 
 /// Area given to a slave node without any, over the largest one
 constexpr double empty_area_fraction = 1e-9;
-
-/// What integration points and their projections are apart along the surface by
-/// rounding, by the size of the coordinates
-constexpr double apart = 1e-12;
 
 void require(bool fits, const char* what)
 {
@@ -128,8 +124,9 @@ void Contact::find_rest()
   for (const double v : reference)
     most = std::max(most, std::abs(v));
   // Straight facets have no more than rounding errors
-  if (std::ranges::all_of(_rest, [most](double v)
-                          { return std::abs(v) <= apart * most; }))
+  if (std::ranges::all_of(
+          _rest, [most](double v)
+          { return std::abs(v) <= math::length_round_off * most; }))
     _rest.clear();
 }
 
@@ -398,7 +395,8 @@ bool Contact::has_unknown_motion()
       mesh::extent(_halo->ranks(), at_slaves(_halo->reference()), gdim()));
   bool moves = false;
   _halo->ranks().agree(
-      [&] { moves = master->has_unknown_motion(motion_rel_tol * size); });
+      [&]
+      { moves = master->has_unknown_motion(math::length_round_off * size); });
   const bool touches = std::ranges::any_of(_nodes->status, [](std::int8_t s)
                                            { return s != law::open; });
   // Both are asked on all ranks

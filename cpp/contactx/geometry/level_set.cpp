@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "level_set.h"
+#include "../math/scales.h"
 #include "meeting.h"
 #include "parameters.h"
 #include "shape.h"
@@ -14,9 +15,6 @@ using namespace contactx::geometry;
 
 namespace
 {
-/// Least width of a ridge, over the scene's size
-constexpr double ridge_width_min = 1e-12;
-
 void check(const std::vector<double>& values, std::size_t size,
            const char* name)
 {
@@ -304,7 +302,8 @@ double LevelSet::scene_size(std::span<const double> x, int gdim) const
 
 double LevelSet::ridge_width(std::span<const double> x, int gdim) const
 {
-  return std::max(facet_margin * facet, ridge_width_min * scene_size(x, gdim));
+  return std::max(facet_margin * facet,
+                  math::length_round_off * scene_size(x, gdim));
 }
 
 std::vector<double> LevelSet::differences(std::span<const double> x,

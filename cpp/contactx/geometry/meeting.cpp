@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "meeting.h"
+#include "../math/scales.h"
 #include <algorithm>
 
 using namespace contactx;
@@ -9,8 +10,6 @@ using namespace contactx::geometry;
 
 namespace
 {
-/// Distance, over the largest one, that is round-off
-constexpr double distance_rel_tol = 1e-12;
 /// Sine of the angle between planes below which they are parallel
 constexpr double parallel_sine = 1e-6;
 
@@ -105,7 +104,8 @@ std::optional<Meeting>
 contactx::geometry::meeting(Planes normal, std::span<const double> distance,
                             int gdim)
 {
-  const double small = distance_rel_tol * *std::ranges::max_element(distance);
+  const double small
+      = math::length_round_off * *std::ranges::max_element(distance);
   for (int count = 1; count <= gdim; ++count)
   {
     Meeting at;

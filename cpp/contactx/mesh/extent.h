@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "../math/scales.h"
 #include "../math/vec.h"
 #include "ranks.h"
 
@@ -24,4 +25,11 @@ Vector<3> extent(Ranks& ranks, std::span<const double> x, int gdim);
 /// @param[in] gdim Geometric dimension, 2 or 3.
 Vector<3> extent(Ranks& ranks, std::span<const std::int32_t> nodes,
                  std::span<const double> x, int gdim);
+
+/// @brief Length of the box around points and their largest coordinate, both
+/// zero without points, or where one is infinite.
+/// @param[in] ranks The ranks.
+/// @param[in] x Points of this rank (shape=(n, gdim)), row-major.
+/// @param[in] gdim Geometric dimension, 2 or 3.
+math::Scales scales(Ranks& ranks, std::span<const double> x, int gdim);
 } // namespace contactx::mesh

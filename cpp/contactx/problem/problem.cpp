@@ -765,7 +765,7 @@ std::string Problem::why_slow(std::span<const double> direction)
 {
   const double error = solve::least_derivative_error(
       *_system, direction.first(_system->num_displacements()),
-      _loop.convergence().extent());
+      _loop.convergence().scales().length);
   if (error > solve::wrong_derivative)
     return "the Jacobian is not the derivative of F: along the last step it "
            "differs by "

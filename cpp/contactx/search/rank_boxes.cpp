@@ -14,8 +14,6 @@ using namespace contactx::search;
 
 namespace
 {
-/// Slack of a box, over its coordinates, and of the sine of a cone
-constexpr double box_rel_tol = 1e-9;
 /// In place of a sine, larger than any: all normals are in the cone
 constexpr double no_cone = 2;
 
@@ -63,7 +61,7 @@ std::pair<Vector<3>, double> cone(const geometry::FacetList& facets,
   // angle of the axis
   const double sine
       = cosine > 0 ? std::sqrt(std::max(0.0, 1 - cosine * cosine)) : no_cone;
-  return {axis, sine + box_rel_tol};
+  return {axis, sine + box_slack};
 }
 } // namespace
 
@@ -95,8 +93,8 @@ RankBoxes::RankBoxes(mesh::Ranks& ranks, const geometry::FacetList& own,
   for (int r = 0; r < _num_ranks; ++r)
     if (there(r))
       for (std::size_t k = 0; k < g; ++k)
-        _slack = std::max({_slack, box_rel_tol * std::abs(low(r)[k]),
-                           box_rel_tol * std::abs(high(r)[k])});
+        _slack = std::max({_slack, box_slack * std::abs(low(r)[k]),
+                           box_slack * std::abs(high(r)[k])});
 }
 
 bool RankBoxes::there(int rank) const { return low(rank)[0] <= high(rank)[0]; }

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "../math/scales.h"
 #include "system.h"
 #include <optional>
 
@@ -69,8 +70,8 @@ public:
   /// errors of forces that cancel push no body anywhere.
   double scale_of_balance();
 
-  /// @brief Size of the scene.
-  double extent() const { return _extent; }
+  /// @brief Length, stiffness and forces of the scene in this step.
+  const math::Scales& scales() const { return _scales; }
 
   /// @brief Largest distance that bodies may have to move: the size of the
   /// scene, or the largest Dirichlet value, which may take a body anywhere.
@@ -97,13 +98,11 @@ private:
   double excess_of_fields(std::span<const double> b, double rtol);
 
   std::shared_ptr<System> _system;
-  double _extent, _farthest;
+  math::Scales _scales;
   std::vector<double> _stiffness;
-  double _stiff = 0;
   // Size of the cells: where strains are differences of 1 and the deformation
   // gradient, they have its rounding
   std::vector<double> _cell_size;
-  std::optional<double> _least_scale;
   // Sizes of the forces that cancel, and the residual before
   std::optional<std::vector<double>> _cancelling;
   std::optional<double> _before;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "derivative_check.h"
+#include "../math/scales.h"
 #include "not_finite.h"
 #include <algorithm>
 #include <array>
@@ -14,7 +15,7 @@ using namespace contactx::solve;
 namespace
 {
 /// Round-off of a force, over the terms of its sum
-constexpr double force_round_off = 64 * std::numeric_limits<double>::epsilon();
+constexpr double force_round_off = 4 * math::sum_round_off;
 /// Product with a rigid motion, over the diagonal's, that is round-off
 constexpr double rigid_product_rel_tol = 1e-6;
 /// Displacements of the quotients over the size of the scene

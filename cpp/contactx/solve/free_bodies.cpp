@@ -3,6 +3,7 @@
 
 #include "free_bodies.h"
 #include "../law/normal.h"
+#include "../math/scales.h"
 #include "../math/vec.h"
 #include "springs.h"
 #include <algorithm>
@@ -17,9 +18,6 @@ using mesh::Reduction;
 
 namespace
 {
-// Force along a free mode, over the forces of the problem, above which a body
-// is out of balance
-constexpr double balance_rel_tol = 1e-6;
 // Force along free modes, over the residual, up to which the step has no rigid
 // motion
 constexpr double idle_force_max = 1e-3;
@@ -27,8 +25,6 @@ constexpr double idle_force_max = 1e-3;
 // balance, so that springs carry none, and where they do not
 constexpr double spring_ratio_balanced = 1e-6;
 constexpr double spring_ratio_unbalanced = 1e-3;
-// Relative difference of what is equal but for rounding
-constexpr double rel_tol = 1e-9;
 // Velocity of a node, over the largest of a rigid motion, that closes a gap
 constexpr double node_speed_min = 1e-6;
 
@@ -558,7 +554,7 @@ dense::Matrix FreeBodies::free_basis(const std::vector<Rows>& rows,
   const double most = count > 0 ? std::max(found.values.back(), 1.0) : 1.0;
   std::vector<std::size_t> none;
   for (std::size_t k = 0; k < count; ++k)
-    if (found.values[k] <= 1e-12 * most)
+    if (math::is_zero(found.values[k], most))
       none.push_back(k);
   return dense::product(by_body(bases), dense::columns(found.vectors, none));
 }
@@ -605,7 +601,7 @@ std::int64_t FreeBodies::close_first(const std::vector<Rows>& rows,
   if (not std::isfinite(first) or first > within)
     return 0;
   // Nodes that are closer than this touch at once
-  const double margin = rel_tol * _modes->size() / most;
+  const double margin = math::equal_rel_tol * _modes->size() / most;
   std::int64_t count = 0;
   for (const Found& some : found)
   {
@@ -727,7 +723,7 @@ bool FreeBodies::stick_first(const std::vector<Rows>& rows,
     std::vector<std::int32_t> which;
     std::vector<double> tractions;
     for (std::size_t i = 0; i < some.slaves.size(); ++i)
-      if (some.times[i] <= first * (1 + rel_tol))
+      if (some.times[i] <= first * (1 + math::equal_rel_tol))
       {
         which.push_back(some.slaves[i]);
         tractions.insert(tractions.end(), &some.tractions[i * g],

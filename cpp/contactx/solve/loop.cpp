@@ -47,7 +47,7 @@ bool Loop::begin_step(bool damped)
 {
   _system->begin_step();
   _active_set.begin_step();
-  _length.begin_step(damped, _convergence.extent());
+  _length.begin_step(damped, _convergence.scales().length);
   const std::span<const double> u = _system->bulk()->displacements();
   _start.assign(u.begin(), u.end());
   _last.reset();

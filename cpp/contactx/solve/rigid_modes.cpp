@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "rigid_modes.h"
+#include "../math/scales.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -28,7 +29,7 @@ dense::Matrix null_space(const dense::Matrix& gram, double rows)
   const dense::Eigen found = dense::symmetric_eigen(gram);
   std::vector<std::size_t> which;
   for (std::size_t k = 0; k < found.values.size(); ++k)
-    if (std::abs(found.values[k]) <= 1e-12 * std::max(rows, 1.0))
+    if (math::is_zero(found.values[k], std::max(rows, 1.0)))
       which.push_back(k);
   return dense::columns(found.vectors, which);
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "step_length.h"
+#include "../math/scales.h"
 #include <algorithm>
 #include <cmath>
 
@@ -17,8 +18,6 @@ constexpr double negligible_step = 1e-3;
 constexpr int max_negligible_steps = 3;
 /// Bounds of the length of a trial step over the one before
 constexpr double step_ratio_min = 0.1, step_ratio_max = 0.5;
-/// Size of a step over that of the scene which rounding errors may have made
-constexpr double rounding = 1e-10;
 } // namespace
 
 void StepLength::begin_step(bool damped, double extent)
@@ -37,7 +36,7 @@ void StepLength::begin(double size, double within_cells)
   _size = size;
   _part = _within_cells = within_cells;
   _limited += within_cells < 1;
-  if (_is_damped and (_changes or size > rounding * _extent))
+  if (_is_damped and (_changes or size > math::solved_length_tol * _extent))
     _trials = max_trials;
   else
     end();
