@@ -315,8 +315,8 @@ std::optional<Depth> ObstacleAudit::look_between(
                {middle.begin(), middle.begin() + gdim()}};
 }
 
-/// How much the obstacle's normal turns on the way from nodes of facets to a
-/// point in each.
+/// Rotation of the obstacle's normal along the segments from nodes of facets to
+/// a point in each.
 /// @param[in] facets Facets around the owned slave nodes (shape=(n)).
 /// @param[in] at The points (shape=(n, gdim)).
 /// @param[in] x Positions of the slave nodes around.

@@ -46,7 +46,7 @@ deformable(const contact::Contact& contact)
   return master;
 }
 
-/// Longest way of a node of facets.
+/// Largest displacement of a node of facets.
 double largest_displacement_of(const geometry::FacetList& facets,
                                std::span<const double> from,
                                std::span<const double> to, int gdim)
@@ -159,7 +159,7 @@ void SurfacesAudit::look_back(std::span<const double> start,
   const auto slave = _contact->slaves().own(),
              master = _master->surface()->own();
   // A slave node with a pair faces its facet, a master node has no pair: what
-  // the other looks see of them is within a facet's size
+  // the other searches find of them is within a facet's size
   std::array moved{largest_displacement_of(slave, start, x, g),
                    largest_displacement_of(master, start, x, g)};
   _halo->ranks().reduce(std::span<double>(moved), mesh::Reduction::largest);
@@ -358,7 +358,7 @@ void SurfacesAudit::look_from_master(std::span<const double> positions,
   for (std::size_t k = 0; k < there.size(); ++k)
   {
     const std::size_t i = there[k];
-    // Linear kinematics see a curved surface as flat along the way
+    // Linear kinematics take a curved surface for flat along the displacement
     explained[k] += (turn[k] + seen.values[num_probe_values * i + 3])
                     * (seen.displacement[i] * seen.displacement[i]);
     depth[k] = seen.values[num_probe_values * i + 2] - seen.gap[i];

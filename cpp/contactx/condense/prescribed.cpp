@@ -76,7 +76,7 @@ Prescribed::Prescribed(std::span<const Nodes> contacts, Blocks blocks,
 {
   const std::size_t count = num_multipliers(contacts);
   _own.assign(count, 1);
-  // D between held multipliers, by their places
+  // D between retained multipliers, by their places
   Triplets held_law;
   std::size_t first = 0;
   for (const Nodes& nodes : contacts)

@@ -342,7 +342,7 @@ void Contact::leave_out_empty()
 
 void Contact::take(std::vector<kernel::Pairs> pairs)
 {
-  // Others look at the array
+  // Views of the array stay valid
   std::ranges::copy(_master->area(_front), _nodes->area.begin());
   for (std::size_t i = 0; i < _filler.size(); ++i)
     if (_filler[i] > 0)
@@ -630,7 +630,8 @@ std::int32_t Contact::update_status(bool is_first)
   _law->set_status(*_nodes, _halo->ranks());
   if (is_first)
   {
-    // Nor does rounding decide between stick and slip where nothing presses yet
+    // Nor does round-off decide between stick and slip where nothing presses
+    // yet
     const int size = _nodes->size();
     std::vector<std::int32_t> which;
     for (std::size_t i = 0; i < closes.size(); ++i)

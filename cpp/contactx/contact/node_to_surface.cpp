@@ -548,7 +548,7 @@ HiddenGap NodeToSurface::deepest_frozen_pair(std::span<const double> x) const
   const geometry::FacetList facets = _surface->facets();
   for (std::size_t i = 0; i < frozen.size(); ++i)
   {
-    // Less is rounding
+    // Less is round-off
     if (found.facet[i] < 0
         or not(found.gap[i] < -math::solved_length_tol * _options.reach))
       continue;

@@ -23,7 +23,7 @@ struct Moments
   std::array<double, 3> second{}; // xx, xy, yy
 };
 
-/// Unit vectors across a normal: two in space, the first alone in the plane.
+/// Unit vectors across a normal: two in 3D, the first alone in 2D.
 std::array<std::array<double, 3>, 2> tangents(std::span<const double> n,
                                               int gdim)
 {

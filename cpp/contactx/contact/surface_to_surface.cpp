@@ -176,8 +176,8 @@ geometry::FacetPairs SurfaceToSurface::find(std::span<const double> x,
                 without_outside(x, _search->find(x, _options.reach, margin)));
 }
 
-/// kernel::Pairs but for those with facets that look past the slave facet, when
-/// others around it look at it: beyond an edge of the master, its sides are in
+/// Facet pairs without those whose master facets do not face the slave facet,
+/// while others around it do: beyond an edge of the master, its sides are in
 /// front of slave facets that touch the edge, far off, and would count in the
 /// mean.
 geometry::FacetPairs

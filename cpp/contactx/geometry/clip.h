@@ -102,8 +102,8 @@ inline Overlap<1> clip(const Overlap<1>& a, const Overlap<1>& b)
 
 /// @brief Edges of a convex polygon that cut.
 ///
-/// Where rounding turns a corner clockwise, the shorter of its edges would cut
-/// the wrong side away: nodes that coincide but for rounding, or three on a
+/// Where round-off turns a corner clockwise, the shorter of its edges would cut
+/// the wrong side away: nodes that coincide but for round-off, or three on a
 /// line.
 class CuttingEdges
 {

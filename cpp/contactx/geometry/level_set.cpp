@@ -181,8 +181,8 @@ Turn turn_of_face(const Nearest& at, const Matrix3& H)
   return {at.normal - at.gap * times(H, at.normal), across(H, at.normal)};
 }
 
-/// Derivative of the way d = sum m_i n_i that has the distances c_i = n_i . d
-/// from planes. With the dual vectors b_i of the n_i, whose derivatives are
+/// Derivative of the vector d = sum m_i n_i that has the distances c_i = n_i .
+/// d from planes. With the dual vectors b_i of the n_i, whose derivatives are
 /// N_i, S = sum m_i N_i and Q = sum b_i n_i^T it is d' = (1 - Q) S + sum b_i
 /// (c_i' - N_i^T d).
 /// @param[in] N Derivatives of the planes' normals.
@@ -217,7 +217,7 @@ Matrix3 direction_turns(const Matrix3& A, const Vector<3>& direction,
   return turn;
 }
 
-/// On a ridge: the way is that to all planes at the distance one.
+/// On a ridge: the vector is that to all planes at the distance one.
 Turn turn_of_axis(const Nearest& at, std::span<const Matrix3> H,
                   const Faces& faces)
 {
@@ -239,7 +239,7 @@ Turn turn_of_axis(const Nearest& at, std::span<const Matrix3> H,
   return turn;
 }
 
-/// Beyond a ridge: the way is that from it. Gradients in place of normals,
+/// Beyond a ridge: the vector is that from it. Gradients in place of normals,
 /// whose derivatives are symmetric, and the values of the functions.
 Turn turn_of_ridge(const Nearest& at, std::span<const Matrix3> H,
                    const Faces& faces)

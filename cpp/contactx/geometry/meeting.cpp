@@ -41,7 +41,7 @@ bool set_dual(Planes normal, Meeting& at)
   return true;
 }
 
-/// Whether the way to where some planes meet is that to the nearest point.
+/// Whether the point where some planes meet is the nearest one.
 bool is_nearest(Planes normal, std::span<const double> distance, double small,
                 Meeting& at)
 {

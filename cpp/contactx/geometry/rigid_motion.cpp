@@ -84,7 +84,7 @@ Largest largest_eigenvalue(std::array<std::array<double, 4>, 4> a)
   return found;
 }
 
-/// Rotation in the plane: of its angle the sums of dot and cross products are
+/// Rotation in 2D: of its angle the sums of dot and cross products are
 /// cosine and sine.
 Matrix plane_rotation(const Matrix& h, double scale)
 {
@@ -96,7 +96,7 @@ Matrix plane_rotation(const Matrix& h, double scale)
       {{c / length, -s / length, 0}, {s / length, c / length, 0}, {0, 0, 1}}};
 }
 
-/// Rotation in space by Horn's quaternion, which is proper for flat surfaces,
+/// Rotation in 3D by Horn's quaternion, which is proper for flat surfaces,
 /// too.
 Matrix space_rotation(Matrix h, double scale)
 {

@@ -91,7 +91,7 @@ constexpr int shape_degree()
 
 /// @brief Degree of the rule: of the products of shape functions and the
 /// weight, and where facets are distorted what makes their inverse maps exact
-/// to rounding.
+/// to round-off.
 template <class S, class M>
 int rule_degree(double distortion, bool is_weighted = false)
 {

@@ -169,7 +169,7 @@ private:
                                { return e != f and has(e, other); });
   }
 
-  /// Other nodes that two facets share beside a node; in the plane that one.
+  /// Other nodes that two facets share beside a node; in 2D that one.
   bool are_neighbours(std::int32_t e, std::int32_t f, std::int32_t node) const
   {
     if (_gdim == 2)
@@ -233,7 +233,7 @@ private:
     std::ranges::sort(sheet.others);
     sheet.others.erase(std::unique(sheet.others.begin(), sheet.others.end()),
                        sheet.others.end());
-    // Each edge at an inner node has two facets; in the plane the node has
+    // Each edge at an inner node has two facets; in 2D the node has
     std::ranges::sort(ends);
     if (_gdim == 2)
       sheet.is_closed = ends.size() == 2;

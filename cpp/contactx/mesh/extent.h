@@ -14,7 +14,7 @@ namespace contactx::mesh
 /// @param[in] ranks The ranks.
 /// @param[in] x Points of this rank (shape=(n, gdim)), row-major.
 /// @param[in] gdim Geometric dimension, 2 or 3.
-/// @return Lengths, in the plane the third is zero; zero where there are no
+/// @return Lengths, in 2D the third is zero; zero where there are no
 /// points.
 Vector<3> extent(Ranks& ranks, std::span<const double> x, int gdim);
 

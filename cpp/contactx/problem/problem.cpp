@@ -75,7 +75,7 @@ Problem::Problem(std::shared_ptr<solve::System> system,
 {
   if (_parts.size() != _system->contacts().size())
     throw std::invalid_argument("there must be a part for each contact");
-  // The audit looks at offsets
+  // The audit needs the offsets
   read_values();
   _audit.emplace(_halo, _system->contacts());
 }
@@ -499,7 +499,7 @@ const Settled& Problem::judge(double rtol, double atol, std::span<double> b)
     if (_refuses)
       failure = join(_report.audit.faults, "; ");
   }
-  // Shorter steps may do better where these have led nowhere
+  // Shorter steps may do better where these have made no progress
   const bool is_slow
       = verdict == Verdict::not_finite or verdict == Verdict::stuck;
   _found = Settled{_loop.iterate(),
@@ -781,7 +781,7 @@ std::string Problem::why_slow(std::span<const double> direction)
     return {};
   const auto last = std::span(rows).last(stagnant_iterates);
   double least = last[0].residual, most = least;
-  // What falls all the time, if slowly, is not rounding
+  // What falls all the time, if slowly, is not round-off
   bool falls = true, changes = false;
   for (std::size_t k = 0; k < stagnant_iterates; ++k)
   {

@@ -53,7 +53,7 @@ std::optional<Projection> contactx::search::bisector(const Surface& surface,
   if (norm(n - q.normal) <= equal_normal_tol)
     return std::nullopt;
 
-  // Of the first facet, whichever of them rounding has led to
+  // Of the first facet, whichever of them round-off has led to
   const std::int32_t node = surface.facets()[q.facet][end];
   const int vertex = surface.facets()[first][0] == node ? 0 : 1;
   const Vector<2> xi{static_cast<double>(vertex), 0};

@@ -62,7 +62,7 @@ void Pairing::restore(std::span<const std::int32_t> facet,
   {
     if (facet[i] < -1 or facet[i] >= num_facets)
       throw std::invalid_argument("a pair with a facet that does not exist");
-    // As many vertices as edges; in the plane a facet is an edge itself
+    // As many vertices as edges; in 2D a facet is an edge itself
     std::ptrdiff_t features = geometry::interior;
     if (facet[i] >= 0)
       features += (master().gdim() - 1) * std::ssize(facets[facet[i]]);

@@ -109,7 +109,7 @@ contactx::search::nearest_facet(const Surface& surface, const BoxTree& tree,
     {
       best = q;
       best_d = d;
-      // Wider, so that rounding in a box's distance hides no tie
+      // Wider, so that round-off in a box's distance hides no facet as near
       const double wide = (1 + 1e-6) * d + 10 * tol;
       bound2 = std::min(bound2, wide * wide);
     }

@@ -114,7 +114,7 @@ void ActiveSet::begin_step()
 
 Changes ActiveSet::update(const Forces& forces, bool is_first)
 {
-  // On the soft path nothing leads far astray
+  // On the soft path iterates stay near the solution
   return update(forces, is_first, not is_soft());
 }
 
@@ -132,7 +132,7 @@ Changes ActiveSet::update(const Forces& forces, bool is_first, bool may_freeze)
   if (are_many(changes.status))
   {
     // While the active set is far from that of the solution, neither pairs that
-    // go back and forth nor the residual of pairs frozen for it mean anything
+    // alternate nor the residual of pairs frozen for it mean anything
     const bool has_frozen = std::ranges::any_of(
         _contacts,
         [](const auto& c) { return not c->master()->frozen_pairs().empty(); });
@@ -202,7 +202,7 @@ void ActiveSet::share(bool is_first)
   const std::vector<Shared> shared = _junctions.update(closing, is_first);
   for (std::size_t k = 0; k < _contacts.size(); ++k)
   {
-    // Others look at the arrays
+    // Views of the arrays stay valid
     std::ranges::copy(shared[k].redundant,
                       _contacts[k]->nodes()->redundant.begin());
     std::ranges::copy(shared[k].frictionless,

@@ -44,8 +44,8 @@ public:
     return _count >= max_iterates and not falls;
   }
 
-  /// @brief True if steps have led away from a solution: that nothing balances
-  /// a body where they have led to says nothing of its loads.
+  /// @brief True if iterates have diverged: where they are, unbalanced forces
+  /// say nothing of the loads.
   bool has_diverged() const { return _largest > divergence_ratio * _first; }
 
 private:

@@ -66,8 +66,8 @@ public:
   /// @brief Forces of the problem: norm of the bulk's residual.
   double scale();
 
-  /// @brief Forces that those on a free body are balanced relative to: rounding
-  /// errors of forces that cancel push no body anywhere.
+  /// @brief Forces that those on a free body are balanced relative to:
+  /// round-off errors of forces that cancel push no body anywhere.
   double scale_of_balance();
 
   /// @brief Length, stiffness and forces of the scene in this step.
@@ -101,7 +101,7 @@ private:
   math::Scales _scales;
   std::vector<double> _stiffness;
   // Size of the cells: where strains are differences of 1 and the deformation
-  // gradient, they have its rounding
+  // gradient, they have its round-off
   std::vector<double> _cell_size;
   // Sizes of the forces that cancel, and the residual before
   std::optional<std::vector<double>> _cancelling;

@@ -65,7 +65,7 @@ bool CycleGuard::note(std::uint64_t status, double residual)
   std::vector<double>& before = _seen[status];
   bool again = false;
   if (status == _status)
-    // It may converge slowly; the same residual says that slip turns to and fro
+    // It may converge slowly; with the same residual slip chatters
     again = std::ranges::any_of(
         before, [residual](double r)
         { return std::abs(residual - r) < equal_residual_rel_tol * r; });

@@ -43,8 +43,8 @@ public:
   /// @brief Remember an iterate.
   /// @param[in] status Fingerprint of its status.
   /// @param[in] residual Its residual.
-  /// @return Whether iterates go round, so that the next steps are shortened:
-  /// two at first, and one more each time.
+  /// @return Whether the active set cycles, so that the next steps are
+  /// shortened: two at first, and one more each time.
   bool note(std::uint64_t status, double residual);
 
   /// @brief Number of times that a status has come back.

@@ -56,7 +56,7 @@ double contactx::solve::derivative_error(System& system,
       there[i] = u[i] + part * direction_of[i];
     bulk.set_displacements(there);
   };
-  // Squares of the difference, of rounding, of both products and of what is
+  // Squares of the difference, of round-off, of both products and of what is
   // left of rigid motions
   std::array<double, 5> squares{};
   try

@@ -292,7 +292,7 @@ bool FreeBodies::stabilise(const Forces& forces)
         all[i] += more[i];
     }
     const std::vector<double> f = dense::product_transposed(N, all);
-    // A norm that does not depend on which basis of the modes rounding has
+    // A norm that does not depend on which basis of the modes round-off has
     // chosen
     if (dense::norm(f) <= balanced or loads_balance(N))
     {
@@ -311,7 +311,7 @@ bool FreeBodies::stabilise(const Forces& forces)
     if (closed == 0 and not stick_first(rows, increment))
     {
       _is_unbalanced = true;
-      // A support may have got its stiffness on the way
+      // A support may have become stiff during the iteration
       _modes->update(*_bulk, x);
       break;
     }
@@ -359,9 +359,9 @@ void FreeBodies::add_springs(const dense::Matrix& N, std::span<const double> x,
     const auto u = _bulk->displacements();
     _loose = Loose{std::move(shares), {u.begin(), u.end()}};
   }
-  // Weak, so that they do not slow down what a little stiffness does resist,
-  // such as friction that turns; a body that nothing balances yet stays near
-  // what it may meet
+  // Weak, so that they do not slow down convergence along modes with a small
+  // stiffness, as of friction that turns; a body out of balance stays near what
+  // it may touch
   for (double& spring : springs)
     spring *= _is_unbalanced ? spring_ratio_unbalanced : spring_ratio_balanced;
   _springs = std::move(springs);
@@ -459,8 +459,8 @@ double FreeBodies::turned() const
   return most;
 }
 
-/// Close the nodes that bodies on weak springs meet before these stop them: a
-/// Newton step would carry the bodies past what they meet.
+/// Close the nodes of bodies on weak supports that touch before the supports
+/// stop them: a Newton step would carry the bodies through their masters.
 bool FreeBodies::close_before_springs(const std::vector<Rows>& rows,
                                       std::span<const double> pull)
 {
@@ -570,7 +570,7 @@ double FreeBodies::lowest(std::span<const Found> found) const
   return mesh::least(ranks(), lowest);
 }
 
-/// Close the open nodes that bodies meet first in a rigid motion.
+/// Close the open nodes that touch first in a rigid motion of the bodies.
 /// @param[in] increment The motion: coefficients of each body's modes.
 /// @param[in] within Part of the motion that they go.
 /// @return Number of nodes closed on all ranks.

@@ -25,10 +25,10 @@ constexpr int max_node_releases = 3;
 struct Node
 {
   std::size_t contact, place; ///< which one of which contact
-  bool is_normal;             ///< held along the normal alone
+  bool is_normal;             ///< constrained along the normal alone
   bool pulls;                 ///< whether its impulse may have any sign
   bool held = true;           ///< whether its velocity is prescribed
-  int releases = 0;           ///< how often it was let go
+  int releases = 0;           ///< how often it was released
   Vector<3> normal{}, mobile{}, target{};
   Vector<3> given{}; ///< impulse of the step's multipliers
   Vector<3> sum{};   ///< impulse so far
@@ -94,7 +94,7 @@ public:
 
   std::vector<Node>& nodes() { return _nodes; }
 
-  /// Gives held nodes their velocities: conjugate gradients.
+  /// Gives constrained nodes their velocities: conjugate gradients.
   void hold()
   {
     Vectors left = relative(_velocity);
@@ -113,7 +113,7 @@ public:
       for (std::size_t i = 0; i < change.size(); ++i)
         change[i] = _nodes[i].constrained(change[i]);
       const double work = product(increment, change);
-      // Held by prescribed displacements
+      // Fixed by prescribed displacements
       if (not(work > 0))
         return;
       const double part = size / work;

@@ -191,7 +191,7 @@ Verdict Loop::judge(bool is_start, double rtol, double atol,
     return Verdict::stuck;
   if (not is_unbalanced)
     return Verdict::goes_on;
-  // What balances a body may have been lost on the way
+  // Diverging iterates may have opened the contacts that balance a body
   return _balance.has_diverged() ? Verdict::stuck : Verdict::unbalanced;
 }
 
@@ -208,7 +208,7 @@ double Loop::limit(std::span<const double> dx, const Correction& correction)
 /// Remembers a Newton step in full, before a part of it is taken.
 ///
 /// Slip of nodes that touch within a load step is measured from where they do
-/// on the way of its first Newton step, however much of that is taken: else the
+/// along its first Newton step, however much of that is taken: else the
 /// solution would depend on what shortens it. Only that one counts.
 void Loop::foresee(std::span<const double> dx)
 {
@@ -220,7 +220,7 @@ void Loop::foresee(std::span<const double> dx)
     _ahead[i] -= dx[i];
 }
 
-/// Measures slip from where nodes touch on the way of the first Newton step, if
+/// Measures slip from where nodes touch along the first Newton step, if
 /// only a part of it was taken.
 void Loop::look_ahead()
 {
@@ -237,7 +237,7 @@ void Loop::look_ahead()
   _system->take(x);
 }
 
-/// Takes back a part of the last step, if iterates go round in a circle.
+/// Takes back a part of the last step, if the active set cycles.
 void Loop::take_back()
 {
   if (not _last or not _active_set.shortens())

@@ -74,6 +74,6 @@ private:
   double _size = 0, _within_cells = 1, _part = 1;
   int _trials = 0; // that are left
   int _limited = 0, _damped = 0;
-  int _tiny = 0; // steps in turn that led nowhere
+  int _tiny = 0; // successive steps without progress
 };
 } // namespace contactx::solve
