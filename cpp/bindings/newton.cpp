@@ -75,7 +75,8 @@ void contactx_bindings::newton(py::module_& m)
                              { return self.changes.pairs; });
 
   py::class_<Convergence>(m, "Convergence", "When residuals are small")
-      .def_property_readonly("extent", &Convergence::extent)
+      .def_property_readonly("extent", [](const Convergence& self)
+                             { return self.scales().length; })
       .def(
           "compare",
           [](Convergence& self, const Array<double>& b, double rtol,

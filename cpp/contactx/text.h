@@ -17,7 +17,7 @@ std::string number_text(double value, int digits);
 /// its sign.
 std::string exact_text(double value);
 
-/// @brief Coordinates of a point in six digits, without what rounding has left
+/// @brief Coordinates of a point in six digits, without what round-off has left
 /// of a zero.
 /// @param[in] x Point (shape=(gdim)).
 /// @param[in] size Size of what it is a part of.

@@ -13,15 +13,15 @@ namespace contactx::audit
 ///
 /// The residual says that the constraints hold which contact has set up.
 /// Whether they were the right ones is seen from geometry alone: from the
-/// master's side, between slave nodes, along the way from the last accepted
-/// configuration. Ties are not looked at, nor obstacles in small sliding, which
-/// are a plane for each node.
+/// master's side, between slave nodes, along the displacement since the last
+/// accepted configuration. Ties are not audited, nor obstacles in small
+/// sliding, which are a plane for each node.
 ///
 /// Positions are those of the halo at each call. All ranks must take part.
 class Audit
 {
 public:
-  /// @brief Prepare the looks, and take the configuration of now as the one
+  /// @brief Prepare the searches, and take the configuration of now as the one
   /// before the first step.
   /// @param[in] halo Nodes of this rank.
   /// @param[in] contacts All contacts.
@@ -34,9 +34,9 @@ public:
   /// @brief Take the configuration of now as the one before the next step.
   void accept();
 
-  /// @brief Look at the state of now.
+  /// @brief Audit the state of now.
   /// @return What was found of each contact, nothing of those that are not
-  /// looked at or switched off.
+  /// audited or switched off.
   std::vector<Findings> find();
 
 private:

@@ -20,15 +20,15 @@ using namespace contactx::audit;
 
 namespace
 {
-/// What chords change gaps by over what presses there, from which on pressures
-/// are those of chords. In shrink fits of rings 0.35 leaves recovered pressures
-/// within 1 %, by 0.8 nodes open, and by 0.5 surface-to-surface contact loses a
-/// quarter of the mean pressure.
-constexpr double ratio_allowed = 0.4;
-/// Part of what chords change gaps by that is more than the patches' own error
-constexpr double beyond_patches = 0.1;
-/// Part of a sagitta that is a change, not rounding
-constexpr double noticed = 1e-6;
+/// Change of gaps by chords, over the compression there, above which pressures
+/// are those of the chords. In shrink fits of rings 0.35 leaves recovered
+/// pressures within 1 %, by 0.8 nodes open, and by 0.5 surface-to-surface
+/// contact loses a quarter of the mean pressure.
+constexpr double chord_ratio_max = 0.4;
+/// Error of the patches over the change of gaps by chords
+constexpr double patch_error_fraction = 0.1;
+/// Change of a gap, over the sagitta, that is round-off
+constexpr double sagitta_rel_tol = 1e-6;
 
 /// Rise of the edge between two nodes of a facet, see geometry::rise_over.
 template <class F>
@@ -122,7 +122,7 @@ struct Sample
 };
 
 /// Points along a facet, in each direction: at the middles of parts.
-constexpr int parts = 4;
+constexpr int facet_divisions = 4;
 
 /// Points of a slave facet; the sum of their weights is the facet's size.
 template <int D, class F>
@@ -144,22 +144,22 @@ std::vector<Sample<D>> sampled(const Edges<F>& edges)
     }
     samples.push_back(sample);
   };
-  for (int i = 0; i < parts; ++i)
+  for (int i = 0; i < facet_divisions; ++i)
   {
-    const double s = (i + 0.5) / parts;
+    const double s = (i + 0.5) / facet_divisions;
     if constexpr (F::tdim == 1)
       add({s});
     else if constexpr (F::flat)
       // Centres of smaller triangles, of both orientations
-      for (int j = 0; i + j < parts; ++j)
+      for (int j = 0; i + j < facet_divisions; ++j)
       {
-        add({(i + 1. / 3) / parts, (j + 1. / 3) / parts});
-        if (i + j + 1 < parts)
-          add({(i + 2. / 3) / parts, (j + 2. / 3) / parts});
+        add({(i + 1. / 3) / facet_divisions, (j + 1. / 3) / facet_divisions});
+        if (i + j + 1 < facet_divisions)
+          add({(i + 2. / 3) / facet_divisions, (j + 2. / 3) / facet_divisions});
       }
     else
-      for (int j = 0; j < parts; ++j)
-        add({s, (j + 0.5) / parts});
+      for (int j = 0; j < facet_divisions; ++j)
+        add({s, (j + 0.5) / facet_divisions});
   }
   double size = 0;
   if constexpr (F::tdim == 1)
@@ -260,10 +260,10 @@ Changes changes(const contact::Contact& contact, const Sides& sides)
 double Chords::ratio() const
 {
   const double change = scatter + mean * turn;
-  return change > noticed * sagitta ? change / pressed : 0;
+  return change > sagitta_rel_tol * sagitta ? change / pressed : 0;
 }
 
-bool Chords::is_coarse() const { return ratio() > ratio_allowed; }
+bool Chords::is_coarse() const { return ratio() > chord_ratio_max; }
 
 std::string Chords::words() const
 {
@@ -306,9 +306,9 @@ std::optional<Chords> contactx::audit::chords(mesh::Halo& halo,
   {
     const double off = found.off[i], change = std::abs(off);
     // What was counted as none is not kept from touching
-    const bool is_hidden = change > noticed * found.sagitta
+    const bool is_hidden = change > sagitta_rel_tol * found.sagitta
                            and state.gap[i] + contact.adjusted()[i]
-                                   < off - beyond_patches * change;
+                                   < off - patch_error_fraction * change;
     which[i] = not contact.is_left_out()[i]
                and (state.is_constrained(i) or is_hidden);
     is_kept = is_kept or (which[i] and not state.is_constrained(i));

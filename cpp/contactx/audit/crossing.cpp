@@ -16,7 +16,7 @@ namespace
 {
 /// How far points are taken aside, in tolerances: by no round number, so that
 /// those of regular meshes do not go right through edges and nodes, where
-/// rounding would say which facets they meet
+/// round-off would say which facets they meet
 constexpr Vector<3> aside{5.671e-3, -3.218e-3, 7.583e-3};
 
 /// What moves on a straight line.
@@ -201,7 +201,7 @@ void add(Box& box, const std::array<double, D>& p)
 
 /// Whether a path goes through a box: a long one aslant goes through few of
 /// those that its own box meets. Of a box that holds another one it says no
-/// less than of that, rounding included.
+/// less than of that, round-off included.
 template <int D>
 bool meets(const Box& box, const Path<D>& path)
 {
@@ -222,11 +222,11 @@ bool meets(const Box& box, const Path<D>& path)
     first = std::max(first, in);
     last = std::min(last, out);
   }
-  // So that rounding loses none
+  // So that round-off loses none
   return first <= last + 1e-9;
 }
 
-/// A point on its way.
+/// A point on its path.
 template <int D>
 struct Moved
 {

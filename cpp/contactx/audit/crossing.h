@@ -15,7 +15,7 @@ struct MovedPoints
   /// Outward unit normals there, zero for none (shape=(n, gdim)), row-major
   std::span<const double> normal0, normal1;
   /// Depths that a point may be behind a surface and still be on it: larger
-  /// than zero, and than what rounding leaves of positions (shape=(n))
+  /// than zero, and than what round-off leaves of positions (shape=(n))
   std::span<const double> tolerance;
   /// Numbers of the points among the facets' nodes, -1 for those that are none
   /// of them (shape=(n)): a point does not cross facets that it is a node of

@@ -18,32 +18,32 @@ using namespace contactx::audit;
 
 namespace
 {
-/// Part of the normal force that may be off, which is the angle that the
-/// contact's force is off by: 3 degrees. Under punches, which are right, it was
+/// Largest error of the normal force, relative: the angle by which the
+/// contact's force is off, 3 degrees. Under punches, which are right, it was
 /// up to 0.024. A ball on a plate's edge was off by 5 degrees at 0.062, by 40
 /// at 0.68.
-constexpr double off_allowed = 0.05;
-/// Unseen force over the normal force, from which on nodes see too little of an
-/// edge. At corners of punches, which are right, it was up to 0.32; a ball
-/// beside an edge had half of the force at 1.6.
-constexpr double unseen_allowed = 1;
-/// Angle between a slave facet and a face of the master up to which an edge of
-/// that face is pressed as the face is, in degrees
-constexpr double as_face = 15;
+constexpr double force_error_max = 0.05;
+/// Force on an edge between the nodes, over the normal force, from which on the
+/// nodes resolve too little of it. At corners of punches, which are right, it
+/// was up to 0.32; a ball beside an edge had half of the force at 1.6.
+constexpr double unseen_force_max = 1;
+/// Largest angle, in degrees, between a slave facet and a face of the master
+/// whose edge is pressed as the face is
+constexpr double face_angle_max = 15;
 constexpr double degree = std::numbers::pi / 180;
 } // namespace
 
 double EdgeForce::ratio() const
 {
-  return unseen > unseen_allowed ? infinity : off;
+  return unseen > unseen_force_max ? infinity : off;
 }
 
-bool EdgeForce::is_coarse() const { return ratio() > off_allowed; }
+bool EdgeForce::is_coarse() const { return ratio() > force_error_max; }
 
 std::string EdgeForce::words() const
 {
   const std::string what
-      = unseen > unseen_allowed
+      = unseen > unseen_force_max
             ? "an edge of the master is " + number_text(depth, 2)
                   + " deep in a slave facet of size " + number_text(size, 2)
                   + " at " + point_text(hidden, size)
@@ -126,7 +126,7 @@ contactx::audit::edge_force(mesh::Halo& halo, const contact::Contact& contact,
   std::vector<double> fit(halo.num_nodes(), 1);
   std::vector<Vector<3>> facing(halo.num_nodes());
   for (const MasterBelow& its : below)
-    if (its.depth > negligible * its.size and is_edge(its.node))
+    if (its.depth > negligible_depth * its.size and is_edge(its.node))
     {
       fit[its.node] = -1;
       facing[its.node] = its.normal;
@@ -139,7 +139,7 @@ contactx::audit::edge_force(mesh::Halo& halo, const contact::Contact& contact,
           = std::max(fit[node], -dot(vector_at(faces, f, g), facing[node]));
   for (const MasterBelow& its : below)
     if (const double needed = its.stiffness * its.depth;
-        fit[its.node] < std::cos(as_face * degree) and needed > worst[4])
+        fit[its.node] < std::cos(face_angle_max * degree) and needed > worst[4])
     {
       worst[4] = needed;
       worst[5] = its.depth;

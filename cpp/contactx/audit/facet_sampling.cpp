@@ -126,7 +126,7 @@ void FacetSampling::take(std::span<const double> gap)
   {
     const std::size_t end
         = i + 1 < first.size() ? first[i + 1] : corners.size();
-    // A facet that is too deep anywhere needs no closer look
+    // A facet that is too deep anywhere needs no refinement
     if (gap[i] - radius[i] < -_allowed[facet[i]]
         and _gap[facet[i]] >= -_allowed[facet[i]])
       halve(facet[i], std::span(corners).subspan(first[i], end - first[i]));

@@ -11,9 +11,9 @@ namespace contactx::audit
 /// than allowed.
 ///
 /// An obstacle may reach through a facet between its nodes. The facets are
-/// seen at the middles of pieces, which are halved as long as a part of one may
-/// be too deep: the gap, a distance, changes by no more than the way. The
-/// obstacle is only asked for gaps:
+/// sampled at the middles of pieces, which are halved as long as a part of one
+/// may be too deep: the gap, a distance, changes by no more than the point
+/// moves. The obstacle is only asked for gaps:
 ///
 ///     while (!sampling.points().empty())
 ///       sampling.take(gaps of the obstacle at sampling.points());

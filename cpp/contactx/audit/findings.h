@@ -52,7 +52,7 @@ struct Findings
   /// slave nodes and facets, which have no first one
   FoundNodes passed;
   /// Slave nodes that came behind the master without a pair, or are inside an
-  /// obstacle that they face away from; looked for where nothing passed
+  /// obstacle that they face away from; sought where nothing passed
   FoundNodes inside;
   /// Where the master is deepest below a slave facet, by what the mesh
   /// explains; nothing where it is in front of none

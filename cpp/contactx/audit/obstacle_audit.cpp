@@ -17,10 +17,10 @@ using namespace contactx::audit;
 
 namespace
 {
-// An obstacle as narrow as this part of a slave facet is still seen: 2^-7
-constexpr int levels = 7;
-// Points on the way of a node that may have gone through
-constexpr int points_of_way = 64;
+// Bisections of a slave facet: an obstacle of 2^-7 of its size is found
+constexpr int max_bisections = 7;
+// Points on the path of a node that may have passed through the obstacle
+constexpr int points_of_path = 64;
 
 std::shared_ptr<contact::ObstacleMaster> rigid(const contact::Contact& contact)
 {
@@ -93,7 +93,7 @@ Findings ObstacleAudit::find(std::span<const double> /*start*/)
   for (const double h : size)
     findings.facet_size = std::max(findings.facet_size, h);
   findings.facet_size = mesh::largest(ranks, findings.facet_size);
-  const double small = negligible * findings.facet_size;
+  const double small = negligible_depth * findings.facet_size;
   std::vector<double> offset = _contact->offset();
   for (double& value : offset)
     value = std::min(value, 0.);
@@ -280,7 +280,7 @@ std::optional<Depth> ObstacleAudit::look_between(
     curvature[f] = std::max(curvature[f], at_nodes[f]);
   FacetSampling sampling(local, x, gdim(),
                          allowed_penetration(size, curvature, near, extent),
-                         levels);
+                         max_bisections);
   while (not sampling.points().empty())
     sampling.take(gaps(sampling.points()));
   std::vector<double> depth = slaves.smallest(offset), excess(n);
@@ -315,8 +315,8 @@ std::optional<Depth> ObstacleAudit::look_between(
                {middle.begin(), middle.begin() + gdim()}};
 }
 
-/// How much the obstacle's normal turns on the way from nodes of facets to a
-/// point in each.
+/// Rotation of the obstacle's normal along the segments from nodes of facets to
+/// a point in each.
 /// @param[in] facets Facets around the owned slave nodes (shape=(n)).
 /// @param[in] at The points (shape=(n, gdim)).
 /// @param[in] x Positions of the slave nodes around.
@@ -366,10 +366,11 @@ std::int64_t ObstacleAudit::count_passed(std::span<const double> x,
       = _placed.carry(rows_of(_before->points, passed, gdim()), placed);
   const auto end = rows_of(now.points, passed, gdim());
   std::vector<double> along;
-  along.reserve(points_of_way * start.size());
-  for (int k = 0; k < points_of_way; ++k)
+  along.reserve(points_of_path * start.size());
+  for (int k = 0; k < points_of_path; ++k)
   {
-    const double t = k + 1 < points_of_way ? k * (1. / (points_of_way - 1)) : 1;
+    const double t
+        = k + 1 < points_of_path ? k * (1. / (points_of_path - 1)) : 1;
     for (std::size_t i = 0; i < start.size(); ++i)
       along.push_back(start[i] + t * (end[i] - start[i]));
   }

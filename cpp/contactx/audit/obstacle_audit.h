@@ -17,7 +17,7 @@ namespace contactx::audit
 class ObstacleAudit final : public ContactAudit
 {
 public:
-  /// @brief Prepare the looks.
+  /// @brief Prepare the searches.
   /// @param[in] halo Nodes of this rank.
   /// @param[in] contact The contact, in finite sliding: in small sliding the
   /// obstacle of each node is a plane.

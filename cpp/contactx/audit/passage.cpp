@@ -47,20 +47,20 @@ private:
 
   void enter(std::int32_t k, double cosine)
   {
-    if (cosine < -oblique)
+    if (cosine < -oblique_cosine)
       _way.push_back(k);
-    else if (cosine > oblique and !_way.empty() and !inside())
+    else if (cosine > oblique_cosine and !_way.empty() and !inside())
       _way.pop_back();
   }
 
   void leave(std::int32_t k, double cosine)
   {
-    if (cosine > oblique)
+    if (cosine > oblique_cosine)
       _way.push_back(k);
     else if (inside())
     {
       const bool slid_off = _crossings[_way.back()].before <= _tolerance;
-      if (cosine < -oblique or slid_off)
+      if (cosine < -oblique_cosine or slid_off)
         _way.pop_back();
       else
         _way.push_back(k);

@@ -8,9 +8,9 @@
 namespace contactx::audit
 {
 /// @brief Cosine between the normals of point and facet from which they oppose
-/// or agree: 15 degrees from a right angle, so that rounding and what a corner
+/// or agree: 15 degrees from a right angle, so that round-off and what a corner
 /// deforms by do not decide.
-inline constexpr double oblique = 0.25;
+inline constexpr double oblique_cosine = 0.25;
 
 /// @brief Judge crossings: which of them is the start of a passage.
 ///

@@ -11,7 +11,7 @@ namespace contactx::audit
 /// @brief Find the nodes that pass through a surface in a step, see `passed`;
 /// all ranks must take part.
 ///
-/// Nothing is looked at where there is no candidate on any rank, and only boxes
+/// Nothing is searched where there is no candidate on any rank, and only boxes
 /// where candidates and facets do not come near each other. All arrays are
 /// row-major.
 /// @param[in] halo Nodes of this rank.

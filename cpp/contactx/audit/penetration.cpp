@@ -12,11 +12,11 @@ using namespace contactx::audit;
 
 namespace
 {
-/// Depth by the size of a facet that is harm, whatever a facet sees
-constexpr double harm = 0.15;
-/// How often the depth of the chord of a curvature is allowed: both sides are
-/// curved
-constexpr double both_sides = 2;
+/// Penetration, over the size of a facet, that is refused in any case
+constexpr double harmful_depth = 0.15;
+/// Allowed penetration over the depth of the chord of a curved facet: both
+/// sides are curved
+constexpr double chord_depth_factor = 2;
 
 /// Depth of a chord in a circle, by the chord's length.
 /// @param[in] turn Length of the chord by the radius.
@@ -39,12 +39,13 @@ std::vector<double> contactx::audit::allowed_penetration(
   {
     const double h = size[i];
     // Beside a facet in contact one end is free
-    const double part = contact[i] > 1   ? harm
-                        : contact[i] > 0 ? harm / 2
-                                         : negligible;
+    const double part = contact[i] > 1   ? harmful_depth
+                        : contact[i] > 0 ? harmful_depth / 2
+                                         : negligible_depth;
     depth[i] = std::min(h, extent[i]) * part;
-    if (const double its = chord(curvature[i] * h); its <= harm)
-      depth[i] = std::max(depth[i], std::min(both_sides * its, harm) * h);
+    if (const double its = chord(curvature[i] * h); its <= harmful_depth)
+      depth[i] = std::max(
+          depth[i], std::min(chord_depth_factor * its, harmful_depth) * h);
   }
   return depth;
 }

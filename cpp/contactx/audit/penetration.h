@@ -9,11 +9,11 @@
 
 namespace contactx::audit
 {
-/// Part of a facet's size that a node may be behind it and still be in contact
-inline constexpr double in_contact_by = 1. / 8;
+/// Penetration, over the size of a facet, up to which a node is in contact
+inline constexpr double contact_depth_max = 1. / 8;
 
-/// Depth by the size of a facet that is rounding or no matter
-inline constexpr double negligible = 1. / 256;
+/// Penetration, over the size of a facet, that does not matter
+inline constexpr double negligible_depth = 1. / 256;
 
 /// @brief Largest depth of a master below a slave facet of size h, between its
 /// nodes: what the mesh explains.

@@ -17,9 +17,9 @@ using namespace contactx::audit;
 
 namespace
 {
-/// Part of what a body measures through a node that it may be behind a facet
-/// and still be in contact
-constexpr double through_by = 1. / 4;
+/// Depth of a node behind a facet, over the body's thickness there, up to which
+/// it is in contact
+constexpr double thickness_fraction_max = 1. / 4;
 } // namespace
 
 SelfAudit::SelfAudit(std::shared_ptr<mesh::Halo> halo,
@@ -86,12 +86,12 @@ FoundNodes SelfAudit::look_back(double size) const
     overlap = std::max(overlap, -offset);
   overlap = mesh::largest(_halo->ranks(), overlap);
   std::vector<double> tolerance;
-  double least = in_contact_by * size;
+  double least = contact_depth_max * size;
   for (const std::int32_t node : surface.owned())
   {
-    tolerance.push_back(
-        std::min(in_contact_by * size, through_by * sight.thickness(node))
-        + overlap);
+    tolerance.push_back(std::min(contact_depth_max * size,
+                                 thickness_fraction_max * sight.thickness(node))
+                        + overlap);
     least = std::min(least, tolerance.back());
   }
   // Nodes that have not come that far are seen from where they are

@@ -17,7 +17,7 @@ namespace contactx::audit
 class SelfAudit final : public ContactAudit
 {
 public:
-  /// @brief Prepare the looks.
+  /// @brief Prepare the searches.
   /// @param[in] halo Nodes of this rank.
   /// @param[in] contact The contact.
   /// @throws std::invalid_argument if its master is no SelfSurface.
@@ -26,7 +26,7 @@ public:
 
   void accept() override {}
 
-  /// @copydoc ContactAudit::look
+  /// @copydoc ContactAudit::find
   /// @throws std::invalid_argument if there are not as many positions as nodes.
   Findings find(std::span<const double> start) override;
 

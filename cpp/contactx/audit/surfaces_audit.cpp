@@ -20,13 +20,13 @@ using namespace contactx::audit;
 
 namespace
 {
-// Part of a facet by which a surface must overlap the other's outer edge: of
-// surface-to-surface the larger one of its two bounds
-constexpr double overlap_of_edges = 1. / 16;
-// Part of a facet's size that a node without a pair may be behind it
-constexpr double behind_by = 1. / 32;
-// What the master's nodes see of a slave facet, see see_slave
-constexpr int num_seen = 8;
+// Least overlap of a surface with the other's outer edge, over the facet: the
+// larger one of the two bounds of surface-to-surface
+constexpr double edge_overlap_min = 1. / 16;
+// Largest depth of a node without a pair behind a facet, over the facet's size
+constexpr double unpaired_depth_max = 1. / 32;
+// Values of a slave facet for the master's nodes, see see_slave
+constexpr int num_probe_values = 8;
 
 double largest_of(std::span<const double> values)
 {
@@ -46,7 +46,7 @@ deformable(const contact::Contact& contact)
   return master;
 }
 
-/// Longest way of a node of facets.
+/// Largest displacement of a node of facets.
 double largest_displacement_of(const geometry::FacetList& facets,
                                std::span<const double> from,
                                std::span<const double> to, int gdim)
@@ -159,7 +159,7 @@ void SurfacesAudit::look_back(std::span<const double> start,
   const auto slave = _contact->slaves().own(),
              master = _master->surface()->own();
   // A slave node with a pair faces its facet, a master node has no pair: what
-  // the other looks see of them is within a facet's size
+  // the other searches find of them is within a facet's size
   std::array moved{largest_displacement_of(slave, start, x, g),
                    largest_displacement_of(master, start, x, g)};
   _halo->ranks().reduce(std::span<double>(moved), mesh::Reduction::largest);
@@ -179,7 +179,7 @@ void SurfacesAudit::look_back(std::span<const double> start,
   overlap = mesh::largest(_halo->ranks(), overlap);
   for (const auto& [own, other, nodes] : sides)
   {
-    const double tolerance = in_contact_by * facet_size(other, x) + overlap;
+    const double tolerance = contact_depth_max * facet_size(other, x) + overlap;
     FoundNodes found
         = passed_nodes(*_halo, own, other, start, x, nodes, tolerance);
     found.count += findings.passed.count;
@@ -232,8 +232,9 @@ std::vector<std::int8_t> SurfacesAudit::find_behind()
   for (std::size_t k = 0; k < which.size(); ++k)
   {
     const double offset = std::min(_contact->offset()[which[k]], 0.);
-    behind[which[k]] = seen.inside[k] and seen.margin[k] > overlap_of_edges
-                       and seen.gap[k] < offset - behind_by * seen.values[k];
+    behind[which[k]]
+        = seen.inside[k] and seen.margin[k] > edge_overlap_min
+          and seen.gap[k] < offset - unpaired_depth_max * seen.values[k];
   }
   return behind;
 }
@@ -294,7 +295,7 @@ search::ProbeResult SurfacesAudit::see_slave(const Configuration& now,
   const auto curvature = bent(now);
   const auto stiff = slaves.largest(slaves.scatter_forward(stiffness));
   std::vector<double> values;
-  values.reserve(num_seen * size.size());
+  values.reserve(num_probe_values * size.size());
   const auto normal = geometry::middles(slaves.facets(), now.x, g).normals;
   for (std::size_t f = 0; f < size.size(); ++f)
   {
@@ -311,7 +312,7 @@ search::ProbeResult SurfacesAudit::see_slave(const Configuration& now,
     displacements = search::Displacements{now.displacement, displacement};
   }
   return _at_slave.query(now.x, points, rows_of(normals, _points, g), reach,
-                         values, num_seen, displacements);
+                         values, num_probe_values, displacements);
 }
 
 void SurfacesAudit::look_from_master(std::span<const double> positions,
@@ -330,7 +331,7 @@ void SurfacesAudit::look_from_master(std::span<const double> positions,
   for (std::size_t i = 0; i < n; ++i)
   {
     below[i] = std::isnan(seen.height[i]) ? 0 : -seen.height[i];
-    sizes[i] = seen.values[num_seen * i];
+    sizes[i] = seen.values[num_probe_values * i];
   }
   const auto outside
       = _outside_slave.find(now.x, rows_of(now.x, _points, g), below, sizes);
@@ -340,14 +341,15 @@ void SurfacesAudit::look_from_master(std::span<const double> positions,
   for (std::size_t i = 0; i < n; ++i)
   {
     // Facets that overlap the outer edge by less are not in contact
-    if (std::isnan(seen.gap[i]) or not(seen.margin[i] > overlap_of_edges)
+    if (std::isnan(seen.gap[i]) or not(seen.margin[i] > edge_overlap_min)
         or outside[i])
       continue;
     there.push_back(i);
     size.push_back(sizes[i]);
-    near.push_back(_master->is_smooth() ? 2
-                                        : static_cast<std::int8_t>(
-                                              seen.values[num_seen * i + 1]));
+    near.push_back(
+        _master->is_smooth()
+            ? 2
+            : static_cast<std::int8_t>(seen.values[num_probe_values * i + 1]));
     turn.push_back(curvature[_points[i]]);
   }
   auto explained = allowed_penetration(
@@ -356,15 +358,16 @@ void SurfacesAudit::look_from_master(std::span<const double> positions,
   for (std::size_t k = 0; k < there.size(); ++k)
   {
     const std::size_t i = there[k];
-    // Linear kinematics see a curved surface as flat along the way
-    explained[k] += (turn[k] + seen.values[num_seen * i + 3])
+    // Linear kinematics take a curved surface for flat along the displacement
+    explained[k] += (turn[k] + seen.values[num_probe_values * i + 3])
                     * (seen.displacement[i] * seen.displacement[i]);
-    depth[k] = seen.values[num_seen * i + 2] - seen.gap[i];
+    depth[k] = seen.values[num_probe_values * i + 2] - seen.gap[i];
     excess[k] = depth[k] / explained[k];
   }
   std::vector<MasterBelow> nodes;
   for (std::size_t k = 0; k < there.size() and not _master->is_smooth(); ++k)
-    if (const double* its = &seen.values[num_seen * there[k]]; depth[k] > 0)
+    if (const double* its = &seen.values[num_probe_values * there[k]];
+        depth[k] > 0)
       nodes.push_back({_points[there[k]],
                        depth[k],
                        size[k],

@@ -18,7 +18,7 @@ namespace contactx::audit
 class SurfacesAudit final : public ContactAudit
 {
 public:
-  /// @brief Prepare the looks.
+  /// @brief Prepare the searches.
   /// @param[in] halo Nodes of this rank.
   /// @param[in] contact The contact, no tie.
   /// @throws std::invalid_argument if its master is not deformable.
@@ -32,12 +32,12 @@ public:
   /// only part of the body is tagged with.
   void accept() override;
 
-  /// @copydoc ContactAudit::look
+  /// @copydoc ContactAudit::find
   /// @throws std::invalid_argument if there are not as many positions as nodes.
   Findings find(std::span<const double> start) override;
 
 private:
-  // Positions to look in, and in small sliding displacements since
+  // Positions to search in, and in small sliding displacements since
   struct Configuration
   {
     std::vector<double> x, displacement;

@@ -26,7 +26,7 @@ public:
     std::vector<double> extra;  ///< of the law's rows (shape=(num_local))
     /// Multipliers of open nodes, zero elsewhere (shape=(num_multipliers))
     std::vector<double> multipliers;
-    std::vector<double> retained; ///< rows of held multipliers (shape=(n))
+    std::vector<double> retained; ///< rows of retained multipliers (shape=(n))
   };
 
   /// @brief Eliminate the multipliers.
@@ -75,8 +75,8 @@ public:
   /// (shape=(num_multipliers)).
   /// @param[in] defect b + forces - (K + S) u, of rows that need none of each
   /// other (shape=(num_owned)).
-  /// @param[in] u Displacements of all nodes, held multipliers over their scale
-  /// in the place of theirs (shape=(num_local)).
+  /// @param[in] u Displacements of all nodes, retained multipliers over their
+  /// scale in the place of theirs (shape=(num_local)).
   /// @param[in,out] multipliers Those of open nodes, then all
   /// (shape=(num_multipliers)).
   void recover(std::span<const double> d, std::span<const double> defect,

@@ -11,8 +11,8 @@ using namespace contactx::condense;
 
 namespace
 {
-/// Largest difference of entries that are the same but for rounding
-constexpr double tolerance = 1e-8;
+/// Largest difference of master weights, which are of order one, by round-off
+constexpr double weight_tol = 1e-8;
 
 using Line = std::vector<std::pair<std::int32_t, double>>;
 
@@ -43,7 +43,7 @@ bool is_transpose(const Triplets& left, const Triplets& right,
     read(b, of_right[dof], right.columns, right.values);
     for (std::size_t i = 0; i < a.size(); ++i)
       if (a[i].first != b[i].first
-          or not(std::abs(a[i].second - b[i].second) <= tolerance))
+          or not(std::abs(a[i].second - b[i].second) <= weight_tol))
         return false;
   }
   return true;

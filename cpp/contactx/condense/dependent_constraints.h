@@ -35,7 +35,7 @@ DependentConstraints dependent_constraints(const Elimination& elimination,
                                            const mesh::NodeMap& nodes);
 
 /// @brief Whether no node sticks or slips, and `left` is the transpose of
-/// `right` but for rounding.
+/// `right` but for round-off.
 /// @param[in] elimination That of this rank.
 /// @param[in] nodes Nodes of this rank.
 /// @return The same on all ranks.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "prescribed.h"
+#include "../math/scales.h"
 #include "../math/small.h"
 #include <algorithm>
 #include <array>
@@ -13,8 +14,8 @@ using namespace contactx::condense;
 
 namespace
 {
-/// Determinant of D_pp over the area, from which on it has an inverse
-constexpr double least_determinant = 1e-8;
+/// Least determinant of D_pp over the area that has an inverse
+constexpr double determinant_min = 1e-8;
 
 /// Inverts D_pp over the area, zero elsewhere; false where it is singular
 bool inverted(int k, const math::Small& D, const std::array<bool, 3>& p,
@@ -24,7 +25,7 @@ bool inverted(int k, const math::Small& D, const std::array<bool, 3>& p,
   for (int i = 0; i < k; ++i)
     for (int j = 0; j < k; ++j)
       block[i][j] = p[i] and p[j] ? D[i][j] : (i == j and not p[i]);
-  if (std::abs(math::invert(k, block, G)) < least_determinant)
+  if (std::abs(math::invert(k, block, G)) < determinant_min)
     return false;
   for (int i = 0; i < k; ++i)
     for (int j = 0; j < k; ++j)
@@ -33,11 +34,8 @@ bool inverted(int k, const math::Small& D, const std::array<bool, 3>& p,
   return true;
 }
 
-/// Diagonal entry over the area, from which on it is a pivot
-constexpr double least_pivot = 1e-6;
-/// Entries over the area that are zero but for rounding
-constexpr double nothing = 1e-12;
-
+/// Least diagonal entry, over the area, of a pivot
+constexpr double pivot_min = 1e-6;
 /// Chooses which multipliers the law gives, of those that may: the others stay
 /// with no more than rounding errors in the law of those that neither give nor
 /// stay. False where there are more.
@@ -50,7 +48,7 @@ bool choose(int k, math::Small D, std::array<bool, 3>& gives,
   {
     int pivot = -1;
     for (int i = 0; i < k; ++i)
-      if (stays[i] and std::abs(D[i][i]) > least_pivot
+      if (stays[i] and std::abs(D[i][i]) > pivot_min
           and (pivot < 0 or std::abs(D[i][i]) > std::abs(D[pivot][pivot])))
         pivot = i;
     if (pivot < 0)
@@ -65,7 +63,8 @@ bool choose(int k, math::Small D, std::array<bool, 3>& gives,
   for (int i = 0; i < k; ++i)
     for (int j = 0; j < k; ++j)
       if (stays[i] and others(j)
-          and std::max(std::abs(D[i][j]), std::abs(D[j][i])) > nothing)
+          and std::max(std::abs(D[i][j]), std::abs(D[j][i]))
+                  > math::zero_round_off)
         return false;
   return true;
 }
@@ -77,7 +76,7 @@ Prescribed::Prescribed(std::span<const Nodes> contacts, Blocks blocks,
 {
   const std::size_t count = num_multipliers(contacts);
   _own.assign(count, 1);
-  // D between held multipliers, by their places
+  // D between retained multipliers, by their places
   Triplets held_law;
   std::size_t first = 0;
   for (const Nodes& nodes : contacts)

@@ -31,10 +31,10 @@ struct RetainedMultipliers
 /// of C, D and T, and -T G C is added to the stiffness.
 ///
 /// Where D_pp is singular, as where such a node sticks to a master that is free
-/// to move, a part h of p may be held: l_h stays an unknown, in the place of
-/// the prescribed displacement, whose row the bulk has no use for. What is left
-/// of C_h is added to that row of the stiffness, T_h, scaled to the size of
-/// C_h, to its column, and D between them. The matrix that is left is
+/// to move, a part h of p may be retained: l_h stays an unknown, in the place
+/// of the prescribed displacement, whose row the bulk has no use for. What is
+/// left of C_h is added to that row of the stiffness, T_h, scaled to the size
+/// of C_h, to its column, and D between them. The matrix that is left is
 /// indefinite.
 ///
 /// All of it is of one rank alone: its slave nodes' constraints, in all nodes'
@@ -48,9 +48,9 @@ public:
   /// @param[in] free 1 at displacements that are not prescribed, else 0
   /// (shape=(num_local)).
   /// @param[in] gdim Geometric dimension.
-  /// @param[in] holds Whether multipliers may be held.
+  /// @param[in] holds Whether multipliers may be retained.
   /// @throws NotCondensable where the law does not give such a multiplier, and
-  /// it is not held.
+  /// it is not retained.
   Prescribed(std::span<const Nodes> contacts, Blocks blocks,
              std::span<const std::int8_t> free, int gdim, bool holds);
 
@@ -81,15 +81,16 @@ public:
   /// without these multipliers (shape=(num_multipliers)).
   /// @param[in,out] forces Right-hand side of all nodes' displacements, which
   /// it is added to (shape=(num_local)).
-  /// @param[out] held Right-hand side of held multipliers' rows (shape=(n)).
+  /// @param[out] retained Right-hand side of retained multipliers' rows
+  /// (shape=(n)).
   void right_hand_side(std::span<double> d, std::span<double> forces,
                        std::vector<double>& retained) const;
 
   /// @brief Add these multipliers.
   /// @param[in] d Right-hand side of the multipliers' rows
   /// (shape=(num_multipliers)).
-  /// @param[in] u Displacements of all nodes, held multipliers over their scale
-  /// in the place of theirs (shape=(num_local)).
+  /// @param[in] u Displacements of all nodes, retained multipliers over their
+  /// scale in the place of theirs (shape=(num_local)).
   /// @param[in,out] multipliers The others, zero where these are to go
   /// (shape=(num_multipliers)).
   void recover(std::span<const double> d, std::span<const double> u,

@@ -11,15 +11,15 @@ using namespace contactx::condense;
 
 namespace
 {
-/// Stiffness of a stiff body over that of a soft one, at least
-constexpr double least_ratio = 10;
+/// Least stiffness of a stiff body over that of a soft one
+constexpr double stiffness_ratio_min = 10;
 
 /// Stiffness from which on a body is stiff, by the widest gap; infinite where
 /// it is too narrow
 double limit(std::vector<double> known)
 {
   std::ranges::sort(known);
-  double ratio = least_ratio, found = INFINITY;
+  double ratio = stiffness_ratio_min, found = INFINITY;
   for (std::size_t i = 1; i < known.size(); ++i)
     if (known[i] >= ratio * known[i - 1])
     {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "contact.h"
+#include "../math/scales.h"
 #include "../math/vec.h"
 #include "../mesh/extent.h"
 #include "deformable_master.h"
@@ -16,16 +17,15 @@ using namespace contactx::contact;
 
 namespace
 {
-// Part of a relative movement that Dirichlet conditions leave free, below which
-// a node cannot move along its normal
-constexpr double immobile_part = 1e-8;
-// The same along a component: a projection over an open gap on a tilted facet
-// leaves a symmetry plane by a little
-constexpr double mobile_part = 0.05;
+// Fraction of the relative displacement along the normal that Dirichlet
+// conditions leave free, below which a pair stays open
+constexpr double immobile_fraction = 1e-8;
+// The same of an axis, below which there is no friction along it: a projection
+// over an open gap on a tilted facet is not exactly in a plane of symmetry
+constexpr double mobile_fraction_min = 0.05;
 
-// Depth over the size of the slave surface that counts as inside, and movement
-// over it that counts as none
-constexpr double inside_part = 1e-9, moved_part = 1e-12;
+// Depth inside an obstacle, over the size of the slave surface, that is refused
+constexpr double inside_depth_min = 1e-9;
 
 kernel::Law kind_of(const law::Law& law)
 {
@@ -39,12 +39,8 @@ std::string_view name_of(Sliding sliding)
   return sliding == Sliding::small ? "small" : "finite";
 }
 
-/// Of the largest area of a slave node: what one without any is given
-constexpr double hardly = 1e-9;
-
-/// What integration points and their projections are apart along the surface by
-/// rounding, by the size of the coordinates
-constexpr double apart = 1e-12;
+/// Area given to a slave node without any, over the largest one
+constexpr double empty_area_fraction = 1e-9;
 
 void require(bool fits, const char* what)
 {
@@ -128,8 +124,9 @@ void Contact::find_rest()
   for (const double v : reference)
     most = std::max(most, std::abs(v));
   // Straight facets have no more than rounding errors
-  if (std::ranges::all_of(_rest, [most](double v)
-                          { return std::abs(v) <= apart * most; }))
+  if (std::ranges::all_of(
+          _rest, [most](double v)
+          { return std::abs(v) <= math::length_round_off * most; }))
     _rest.clear();
 }
 
@@ -339,13 +336,13 @@ void Contact::leave_out_empty()
     if (area[i] == 0)
     {
       _is_left_out[i] = 1;
-      _filler[i] = hardly * most;
+      _filler[i] = empty_area_fraction * most;
     }
 }
 
 void Contact::take(std::vector<kernel::Pairs> pairs)
 {
-  // Others look at the array
+  // Views of the array stay valid
   std::ranges::copy(_master->area(_front), _nodes->area.begin());
   for (std::size_t i = 0; i < _filler.size(); ++i)
     if (_filler[i] > 0)
@@ -384,7 +381,7 @@ std::vector<std::int32_t> Contact::constrained_inside(std::span<const double> x)
       = std::ranges::max(mesh::extent(_halo->ranks(), at, gdim()));
   std::vector<std::int32_t> nodes;
   for (std::size_t i = 0; i < gap.size(); ++i)
-    if (_nodes->immobile[i] and gap[i] - _offset[i] < -inside_part * size)
+    if (_nodes->immobile[i] and gap[i] - _offset[i] < -inside_depth_min * size)
       nodes.push_back(_slaves->owned()[i]);
   return nodes;
 }
@@ -398,7 +395,8 @@ bool Contact::has_unknown_motion()
       mesh::extent(_halo->ranks(), at_slaves(_halo->reference()), gdim()));
   bool moves = false;
   _halo->ranks().agree(
-      [&] { moves = master->has_unknown_motion(moved_part * size); });
+      [&]
+      { moves = master->has_unknown_motion(math::length_round_off * size); });
   const bool touches = std::ranges::any_of(_nodes->status, [](std::int8_t s)
                                            { return s != law::open; });
   // Both are asked on all ranks
@@ -438,9 +436,9 @@ void Contact::find_immobile()
   const Mobility found = _master->mobility(_free);
   const std::vector<std::int8_t> paired = _master->paired();
   for (std::size_t i = 0; i < paired.size(); ++i)
-    _nodes->immobile[i] = paired[i] and found.normal[i] < immobile_part;
+    _nodes->immobile[i] = paired[i] and found.normal[i] < immobile_fraction;
   for (std::size_t k = 0; k < _nodes->mobile.size(); ++k)
-    _nodes->mobile[k] = found.each[k] < mobile_part ? 0 : 1;
+    _nodes->mobile[k] = found.each[k] < mobile_fraction_min ? 0 : 1;
 }
 
 void Contact::freeze(bool is_frozen)
@@ -633,7 +631,8 @@ std::int32_t Contact::update_status(bool is_first)
   _law->set_status(*_nodes, _halo->ranks());
   if (is_first)
   {
-    // Nor does rounding decide between stick and slip where nothing presses yet
+    // Nor does round-off decide between stick and slip where nothing presses
+    // yet
     const int size = _nodes->size();
     std::vector<std::int32_t> which;
     for (std::size_t i = 0; i < closes.size(); ++i)

@@ -27,7 +27,7 @@ enum class Sliding : std::int8_t
 /// @brief One contact: its slave nodes with their pairs, state and law.
 ///
 /// A solver calls, for each load step, `begin_step`; at each accepted
-/// iterate `search`, `update_gap` and `update_status` (`ActiveSet::settle` does
+/// iterate `search`, `update_gap` and `update_status` (`ActiveSet::update` does
 /// so for all contacts of a problem); `update_gap` and the law's `evaluate`
 /// before terms are assembled over `pairs`; and `accept` at the end. Positions
 /// are those of the halo at each call; n is the number of owned slave nodes.
@@ -207,7 +207,7 @@ public:
   void update_gap();
 
   /// @brief True if no slave node of any rank that has a pair has a gap, or an
-  /// overlap, but for rounding; collective.
+  /// overlap, but for round-off; collective.
   bool is_without_gaps() const;
 
   /// @brief Set each slave node's status from its multiplier, gap and slip.
@@ -215,7 +215,7 @@ public:
   /// @return Number of this rank's nodes that changed.
   std::int32_t update_status(bool is_first);
 
-  /// @brief Measure slip from where nodes touch on the way to this iterate,
+  /// @brief Measure slip from where nodes touch on the path to this iterate,
   /// which need not be one that is taken: that of the step's first Newton step
   /// in full. It has been searched, and its gap updated; no status changes.
   void foresee();

@@ -81,7 +81,7 @@ void contactx::contact::load(Contact& contact, const std::vector<Saved>& saved)
           {s.name.substr(of_master.size()), s.rows, s.width, s.values});
   contact.master()->load(master);
   contact.set_active(values_of<std::int8_t>(saved, "active")[0] != 0);
-  // Others look at the arrays
+  // Views of the arrays stay valid
   for_each_lasting(nodes,
                    [&](const char* name, int, auto& values)
                    {

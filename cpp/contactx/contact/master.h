@@ -87,8 +87,8 @@ public:
   }
 
   /// @brief Measure the slip of nodes that touch first within the step from
-  /// where they do: where the straight way from the step's start to its first
-  /// iterate, seen from the master, meets the master.
+  /// where they do: where the straight path from the step's start to its first
+  /// iterate, relative to the master, intersects the master.
   /// @param[in] which 1 at those slave nodes, else 0 (shape=(n)).
   /// @param[in] x Positions at that iterate; at the one that closes them for
   /// what had no master at the start.
@@ -185,11 +185,11 @@ public:
   /// master; collective.
   virtual double distance(std::span<const double> x) const = 0;
 
-  /// @brief Slave nodes whose pair went back and forth and was frozen.
+  /// @brief Slave nodes whose pair has alternated between facets and was
+  /// frozen.
   virtual std::vector<std::int32_t> frozen_pairs() const { return {}; }
 
-  /// @brief Let frozen pairs move again and count anew how often pairs go back
-  /// and forth.
+  /// @brief Release frozen pairs and count anew how often pairs alternate.
   virtual void reset_flips() {}
 
   /// @brief Smallest gap that this rank's frozen pairs hide; collective.

@@ -233,7 +233,7 @@ MortarObstacle::group(const std::vector<std::vector<double>>& values) const
     {
       const std::span corners
           = std::span(kind.corners).subspan(kind.k * f, kind.k);
-      // Nodes of other ranks are looked after there
+      // Other ranks handle their own nodes
       const auto near = [this](std::int32_t corner)
       {
         const std::size_t place = _slaves->corners()[corner];

@@ -13,7 +13,7 @@ namespace contactx::contact
 ///
 /// They are those of the step's start: what was in front of a slave node then
 /// stays what its movement is relative to. A node that touches first within a
-/// step gets weights in proportion to the way, between those at both of its
+/// step gets weights interpolated along its path, between those at both of its
 /// ends.
 class MortarSlip
 {

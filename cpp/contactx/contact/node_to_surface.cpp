@@ -5,6 +5,7 @@
 #include "../geometry/gather.h"
 #include "../geometry/sizes.h"
 #include "../kernel/layout.h"
+#include "../math/scales.h"
 #include "../mesh/spread.h"
 #include "mobility.h"
 #include "touching.h"
@@ -547,8 +548,9 @@ HiddenGap NodeToSurface::deepest_frozen_pair(std::span<const double> x) const
   const geometry::FacetList facets = _surface->facets();
   for (std::size_t i = 0; i < frozen.size(); ++i)
   {
-    // Less is rounding
-    if (found.facet[i] < 0 or not(found.gap[i] < -1e-10 * _options.reach))
+    // Less is round-off
+    if (found.facet[i] < 0
+        or not(found.gap[i] < -math::solved_length_tol * _options.reach))
       continue;
     const auto ends = facets[found.facet[i]];
     double square = 0;

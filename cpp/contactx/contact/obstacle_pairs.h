@@ -59,8 +59,8 @@ public:
   std::optional<std::vector<double>>
   turn(std::span<const double> x) const override;
 
-  /// @copydoc Master::touch; the way is seen from the obstacle as it was at the
-  /// step's start
+  /// @copydoc Master::touch; the path is relative to the obstacle as it was at
+  /// the step's start
   void touch(std::span<const std::int8_t> which, std::span<const double> x,
              std::span<const double> u,
              std::span<const double> offset) override;

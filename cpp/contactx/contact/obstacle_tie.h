@@ -32,7 +32,8 @@ public:
   void load(const std::vector<Saved>& saved) override;
 
 private:
-  /// The whole way from the place that the obstacle has carried the node to.
+  /// The whole displacement from the place that the obstacle has carried the
+  /// node to.
   void update_slip(std::span<const double> at,
                    std::span<const kernel::ObstaclePair> pairs) override;
 

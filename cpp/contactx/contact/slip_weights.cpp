@@ -10,9 +10,9 @@ using namespace contactx::contact;
 
 namespace
 {
-/// Squared sine of the angle between the directions in which masters of a node
-/// must reach
-constexpr double flat = 1e-6;
+/// Least squared sine of the angle between the directions in which the masters
+/// of a node are spread, for a slope in both
+constexpr double sine_squared_min = 1e-6;
 
 /// What masters of a slave node are in its tangent plane, or on its tangent:
 /// weights, first and second moments
@@ -23,7 +23,7 @@ struct Moments
   std::array<double, 3> second{}; // xx, xy, yy
 };
 
-/// Unit vectors across a normal: two in space, the first alone in the plane.
+/// Unit vectors across a normal: two in 3D, the first alone in 2D.
 std::array<std::array<double, 3>, 2> tangents(std::span<const double> n,
                                               int gdim)
 {
@@ -110,7 +110,7 @@ Mortar contactx::contact::slip_weights(Mortar now, const MortarSides& sides,
     if (gdim == 2 and aa > 0)
       slope[i] = {d[0] / aa, 0};
     const double area = aa * bb - ab * ab;
-    if (gdim == 3 and area > flat * (aa + bb) * (aa + bb))
+    if (gdim == 3 and area > sine_squared_min * (aa + bb) * (aa + bb))
       slope[i]
           = {(bb * d[0] - ab * d[1]) / area, (aa * d[1] - ab * d[0]) / area};
   }

@@ -17,16 +17,16 @@ using mesh::spread;
 
 namespace
 {
-// How far beyond a slave facet's edges pairs are found in advance, as a part of
-// its size
-constexpr double margin_ahead = 0.1;
-// Part of the best cosine of the angle between a slave facet and the facets in
-// front of it and its neighbours, below which a facet looks past it
-constexpr double facing_part = 0.4;
-// Part of a slave node's area that must be covered for it to be paired, and to
-// stay so
-constexpr double enter = 0.06;
-constexpr double leave = 0.04;
+// Distance beyond a slave facet's edges to which pairs are found in advance,
+// over its size
+constexpr double search_margin = 0.1;
+// Cosine of the angle between a slave facet and one in front of it, over the
+// largest one of its and its neighbours' pairs, below which the pair is dropped
+constexpr double facing_ratio_min = 0.4;
+// Covered fraction of a slave node's area from which on it is paired, and stays
+// paired
+constexpr double cover_to_pair = 0.06;
+constexpr double cover_to_stay = 0.04;
 
 std::vector<std::int32_t> nodes_of_both(const geometry::FacetList& slave,
                                         const geometry::FacetList& master)
@@ -113,7 +113,7 @@ void SurfaceToSurface::pair(std::span<const double> x)
   if (not _found or (has_moved(now) and lacks(now)))
   {
     update();
-    const double margin = _options.is_small ? 0.0 : margin_ahead;
+    const double margin = _options.is_small ? 0.0 : search_margin;
     update_facets(now, margin);
     update();
     _found = find(now, margin);
@@ -127,7 +127,8 @@ void SurfaceToSurface::pair(std::span<const double> x)
   find_rise(integrate(now));
   find_corners(now);
   for (std::size_t i = 0; i < _paired.size(); ++i)
-    _paired[i] = _area[i] > (_paired[i] ? leave : enter) * _whole[i];
+    _paired[i]
+        = _area[i] > (_paired[i] ? cover_to_stay : cover_to_pair) * _whole[i];
 }
 
 void SurfaceToSurface::update_facets(std::span<const double> x, double margin)
@@ -164,7 +165,8 @@ bool SurfaceToSurface::has_moved(std::span<const double> x) const
                             : std::max(moved, d);
     }
   // Both sides may have moved
-  return mesh::largest(_halo->ranks(), moved) > 0.25 * margin_ahead * _inradius;
+  return mesh::largest(_halo->ranks(), moved)
+         > 0.25 * search_margin * _inradius;
 }
 
 geometry::FacetPairs SurfaceToSurface::find(std::span<const double> x,
@@ -174,8 +176,8 @@ geometry::FacetPairs SurfaceToSurface::find(std::span<const double> x,
                 without_outside(x, _search->find(x, _options.reach, margin)));
 }
 
-/// kernel::Pairs but for those with facets that look past the slave facet, when
-/// others around it look at it: beyond an edge of the master, its sides are in
+/// Facet pairs without those whose master facets do not face the slave facet,
+/// while others around it do: beyond an edge of the master, its sides are in
 /// front of slave facets that touch the edge, far off, and would count in the
 /// mean.
 geometry::FacetPairs
@@ -203,7 +205,7 @@ SurfaceToSurface::facing(std::span<const double> x,
   geometry::FacetPairs kept;
   for (std::size_t p = 0; p < found.size(); ++p)
     if (is_at_edge(found.slave[p])
-        or cosine[p] >= facing_part * around[found.slave[p]])
+        or cosine[p] >= facing_ratio_min * around[found.slave[p]])
     {
       kept.slave.push_back(found.slave[p]);
       kept.master.push_back(found.master[p]);
@@ -337,7 +339,7 @@ std::vector<double> SurfaceToSurface::area(std::span<const double> whole) const
   std::vector<double> area(whole.begin(), whole.end());
   for (std::size_t i = 0; i < area.size(); ++i)
     if (_paired[i])
-      area[i] = std::max(_area[i], 0.1 * leave * whole[i]);
+      area[i] = std::max(_area[i], 0.1 * cover_to_stay * whole[i]);
   return area;
 }
 

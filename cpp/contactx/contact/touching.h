@@ -7,7 +7,7 @@
 
 namespace contactx::contact
 {
-/// @brief At which part of a straight way the gap becomes zero.
+/// @brief Fraction of a straight path at which the gap becomes zero.
 /// @param[in] before Gap at the start.
 /// @param[in] after Gap at the end.
 /// @return The part, from 0 to 1; 0 where it was not open before.

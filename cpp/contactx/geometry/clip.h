@@ -7,6 +7,10 @@
 
 namespace contactx::geometry
 {
+/// @brief Cross product of successive edges of a polygon, over the largest one,
+/// that is round-off.
+inline constexpr double turn_round_off = 1e-9;
+
 /// @brief Convex part of a plane that two facets share: an interval, or a
 /// polygon traversed counterclockwise.
 template <int D>
@@ -75,8 +79,7 @@ bool is_convex(const Flat<F>& r)
       most = std::max(most, turn);
     }
     // Three nodes on a line are no fold
-    constexpr double rounding = 1e-10;
-    return std::min(-least, most) <= rounding * std::max(-least, most);
+    return std::min(-least, most) <= turn_round_off * std::max(-least, most);
   }
   return true;
 }
@@ -99,8 +102,8 @@ inline Overlap<1> clip(const Overlap<1>& a, const Overlap<1>& b)
 
 /// @brief Edges of a convex polygon that cut.
 ///
-/// Where rounding turns a corner clockwise, the shorter of its edges would cut
-/// the wrong side away: nodes that coincide but for rounding, or three on a
+/// Where round-off turns a corner clockwise, the shorter of its edges would cut
+/// the wrong side away: nodes that coincide but for round-off, or three on a
 /// line.
 class CuttingEdges
 {
@@ -134,8 +137,7 @@ private:
 
   bool is_rounding(int corner) const
   {
-    constexpr double rounding = 1e-9;
-    return _turn[corner] < 0 and _turn[corner] >= -rounding * _most;
+    return _turn[corner] < 0 and _turn[corner] >= -turn_round_off * _most;
   }
 
   bool is_shorter(int i, int j, bool or_equal) const

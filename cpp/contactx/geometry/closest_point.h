@@ -88,7 +88,7 @@ bool project(const Nodes<F>& x, const Vector<F::gdim>& p, Local<F>& xi)
     if (F::flat or size < 1e-15 * scale or size * size < 1e-16 * scale * last)
       return true;
     if (it > 0 and size >= last and size < 1e-6 * scale)
-      return true; // rounding holds the last digits
+      return true; // only round-off is left
     last = size;
   }
   return false;

@@ -28,8 +28,7 @@ void Cylinder::place(std::vector<double> point, std::vector<double> axis,
 void Cylinder::read(int gdim)
 {
   if (gdim != 3)
-    throw std::invalid_argument(
-        "a Cylinder needs three dimensions: in the plane take a Sphere");
+    throw std::invalid_argument("a Cylinder needs 3D: in 2D take a Sphere");
   refresh(gdim);
 }
 

@@ -13,11 +13,11 @@ using namespace contactx::geometry;
 
 namespace
 {
-/// Cosine to the master's normal, as a part of a node's largest one, from which
-/// on a facet is in front of the master: a face of a box at a right angle to
+/// Cosine to the master's normal, over a node's largest one, from which on a
+/// facet is in front of the master: a face of a box at a right angle to
 /// the one in contact is not, however the box tilts up to 26 degrees, and both
 /// facets of a round body's polygon are
-constexpr double in_front = 0.5;
+constexpr double facing_cosine_fraction = 0.5;
 
 void check_rows(std::span<const double> x, std::span<const double> normal)
 {
@@ -65,7 +65,7 @@ std::vector<double> contactx::geometry::facing_areas(
   }
   for (std::size_t c = 0; c < n; ++c)
     if (const double best = most[facets.nodes[c]];
-        best > 0 and cosine[c] < in_front * best)
+        best > 0 and cosine[c] < facing_cosine_fraction * best)
       area[c] = 0;
   return area;
 }

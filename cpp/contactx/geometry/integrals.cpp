@@ -207,7 +207,7 @@ void integrate_whole(const Given& given, std::span<const std::int32_t> parts,
     for (int s = 0; s < S::nodes; ++s)
       area[s] += all.area[n * f + s];
   Square<S::nodes> dual{};
-  const bool covered = cover.total > least_cover * whole
+  const bool covered = cover.total > covered_fraction_min * whole
                        and invert<S::nodes>(cover.mass, dual);
   for (int s = 0; s < S::nodes; ++s)
     dual[s] = (covered ? area[s] : 0) * dual[s];

@@ -55,8 +55,8 @@ struct Integrals
   std::vector<double> normal;
 };
 
-/// Part of a slave facet that must be covered to count
-inline constexpr double least_cover = 1e-3;
+/// Least covered fraction of a slave facet
+inline constexpr double covered_fraction_min = 1e-3;
 
 /// @brief Facets of one side: linear ones, and those that they are parts of.
 struct Side

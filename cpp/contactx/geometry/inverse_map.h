@@ -59,7 +59,7 @@ public:
     }
   }
 
-  /// @brief True if there is an inverse that is not one of rounding: not where
+  /// @brief True if there is an inverse that is more than round-off: not where
   /// the facet has no area in the plane, nor where it is so long that its area
   /// is lost.
   bool exists() const

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "level_set.h"
+#include "../math/scales.h"
 #include "meeting.h"
 #include "parameters.h"
 #include "shape.h"
@@ -14,9 +15,6 @@ using namespace contactx::geometry;
 
 namespace
 {
-/// Part of the scene's size that only rounding makes
-constexpr double rounding_of_ridge = 1e-12;
-
 void check(const std::vector<double>& values, std::size_t size,
            const char* name)
 {
@@ -183,8 +181,8 @@ Turn turn_of_face(const Nearest& at, const Matrix3& H)
   return {at.normal - at.gap * times(H, at.normal), across(H, at.normal)};
 }
 
-/// Derivative of the way d = sum m_i n_i that has the distances c_i = n_i . d
-/// from planes. With the dual vectors b_i of the n_i, whose derivatives are
+/// Derivative of the vector d = sum m_i n_i that has the distances c_i = n_i .
+/// d from planes. With the dual vectors b_i of the n_i, whose derivatives are
 /// N_i, S = sum m_i N_i and Q = sum b_i n_i^T it is d' = (1 - Q) S + sum b_i
 /// (c_i' - N_i^T d).
 /// @param[in] N Derivatives of the planes' normals.
@@ -219,7 +217,7 @@ Matrix3 direction_turns(const Matrix3& A, const Vector<3>& direction,
   return turn;
 }
 
-/// On a ridge: the way is that to all planes at the distance one.
+/// On a ridge: the vector is that to all planes at the distance one.
 Turn turn_of_axis(const Nearest& at, std::span<const Matrix3> H,
                   const Faces& faces)
 {
@@ -241,7 +239,7 @@ Turn turn_of_axis(const Nearest& at, std::span<const Matrix3> H,
   return turn;
 }
 
-/// Beyond a ridge: the way is that from it. Gradients in place of normals,
+/// Beyond a ridge: the vector is that from it. Gradients in place of normals,
 /// whose derivatives are symmetric, and the values of the functions.
 Turn turn_of_ridge(const Nearest& at, std::span<const Matrix3> H,
                    const Faces& faces)
@@ -305,7 +303,7 @@ double LevelSet::scene_size(std::span<const double> x, int gdim) const
 double LevelSet::ridge_width(std::span<const double> x, int gdim) const
 {
   return std::max(facet_margin * facet,
-                  rounding_of_ridge * scene_size(x, gdim));
+                  math::length_round_off * scene_size(x, gdim));
 }
 
 std::vector<double> LevelSet::differences(std::span<const double> x,
@@ -437,10 +435,10 @@ std::vector<double> LevelSet::carry(std::span<const double> x,
   if (not _velocity or x.empty() or to.time == from.time)
     return at;
   const int gdim = static_cast<int>(from.point.size());
-  constexpr int parts = 4;
-  const double dt = (to.time - from.time) / parts;
+  constexpr int substeps = 4;
+  const double dt = (to.time - from.time) / substeps;
   const std::size_t n = x.size();
-  for (int part = 0; part < parts; ++part)
+  for (int part = 0; part < substeps; ++part)
   {
     const std::vector<double> start = at;
     std::vector<double> sum(n, 0), moved = start;

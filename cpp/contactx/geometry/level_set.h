@@ -29,7 +29,7 @@ struct LevelValues
 /// has a velocity.
 ///
 /// Where the body is what several faces have in common, a point beyond a ridge
-/// or an apex sees the point there that is nearest, along the way from it; on
+/// or an apex is projected on its nearest point, along the vector from that; on
 /// it the normal is the axis of the cone of normals.
 class LevelSet : public Obstacle
 {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "meeting.h"
+#include "../math/scales.h"
 #include <algorithm>
 
 using namespace contactx;
@@ -9,10 +10,8 @@ using namespace contactx::geometry;
 
 namespace
 {
-/// Part of the largest distance that only rounding makes
-constexpr double rounding = 1e-12;
-/// Sine of an angle between planes below which they are one
-constexpr double parallel = 1e-6;
+/// Sine of the angle between planes below which they are parallel
+constexpr double parallel_sine = 1e-6;
 
 using Planes = std::span<const Vector<3>>;
 
@@ -26,7 +25,7 @@ bool set_dual(Planes normal, Meeting& at)
   else if (at.count == 2)
   {
     const double cosine = dot(n(0), n(1)), square = 1 - cosine * cosine;
-    if (square < parallel * parallel)
+    if (square < parallel_sine * parallel_sine)
       return false;
     at.dual[0] = (1 / square) * (n(0) - cosine * n(1));
     at.dual[1] = (1 / square) * (n(1) - cosine * n(0));
@@ -34,7 +33,7 @@ bool set_dual(Planes normal, Meeting& at)
   else
   {
     const double volume = dot(n(0), cross(n(1), n(2)));
-    if (std::abs(volume) < parallel)
+    if (std::abs(volume) < parallel_sine)
       return false;
     for (int i = 0; i < 3; ++i)
       at.dual[i] = (1 / volume) * cross(n((i + 1) % 3), n((i + 2) % 3));
@@ -42,7 +41,7 @@ bool set_dual(Planes normal, Meeting& at)
   return true;
 }
 
-/// Whether the way to where some planes meet is that to the nearest point.
+/// Whether the point where some planes meet is the nearest one.
 bool is_nearest(Planes normal, std::span<const double> distance, double small,
                 Meeting& at)
 {
@@ -105,7 +104,8 @@ std::optional<Meeting>
 contactx::geometry::meeting(Planes normal, std::span<const double> distance,
                             int gdim)
 {
-  const double small = rounding * *std::ranges::max_element(distance);
+  const double small
+      = math::length_round_off * *std::ranges::max_element(distance);
   for (int count = 1; count <= gdim; ++count)
   {
     Meeting at;

@@ -23,7 +23,7 @@ struct Meeting
 
 /// @brief Nearest point of what half-spaces have in common.
 ///
-/// With equal distances from all planes the way is the axis of the narrowest
+/// With equal distances from all planes the vector is the axis of the narrowest
 /// cone that holds their normals.
 /// @param[in] normal Outward unit normals of the planes, zero of those that
 /// bound nothing (shape=(n)).

@@ -9,7 +9,7 @@
 namespace contactx::geometry
 {
 /// @brief Normals t_1 x t_2 of a facet, not of unit length, at the corners
-/// where they differ; in the plane the third component is zero.
+/// where they differ; in 2D the third component is zero.
 struct CornerNormals
 {
   int size;                          ///< 4 for a quadrilateral, else 1
@@ -25,7 +25,7 @@ struct CornerNormals
 CornerNormals corner_normals(std::span<const std::int32_t> nodes,
                              std::span<const double> x);
 
-/// @brief Mean of a facet's nodes; in the plane the third component is zero.
+/// @brief Mean of a facet's nodes; in 2D the third component is zero.
 /// @param[in] nodes Nodes of the facet.
 /// @param[in] x Node coordinates (shape=(num_nodes, gdim)), row-major.
 /// @param[in] gdim Geometric dimension, 2 or 3.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "nodal.h"
+#include "../math/scales.h"
 #include "frame.h"
 #include "gather.h"
 #include <algorithm>
@@ -194,7 +195,7 @@ contactx::geometry::unit_normals(std::span<const double> vector,
     // Normals that cancel leave rounding errors, which have no direction
     const double length = std::sqrt(l2);
     for (double& c : n)
-      c = length > 1e-12 * area[i] ? c / length : 0;
+      c = length > math::zero_round_off * area[i] ? c / length : 0;
   }
   return normal;
 }

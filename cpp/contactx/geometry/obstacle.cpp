@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "obstacle.h"
+#include "../math/scales.h"
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -93,7 +94,7 @@ std::vector<double> Placement::turn(const Placement& to) const
     for (std::size_t j = 0; j < gdim; ++j)
       K[gdim * i + j] = b[i] * a[j] - a[i] * b[j];
   }
-  if (cosine <= -1 + 1e-12)
+  if (cosine <= -1 + math::zero_round_off)
     throw std::invalid_argument(
         "an obstacle turns by 180 degrees within a step, which has no shortest "
         "way: take smaller steps (manual: errors/obstacle-turns)");

@@ -36,14 +36,14 @@ struct Placement
   std::vector<double> point; ///< moves with it (shape=(gdim))
   /// Unit vector that turns with it (shape=(gdim)); empty where none is known
   std::vector<double> direction{};
-  /// How far its material has spun, in radians: in the plane counter-clockwise,
-  /// in space about the direction (shape=(1)), or, where there is none, by a
+  /// How far its material has spun, in radians: in 2D counter-clockwise,
+  /// in 3D about the direction (shape=(1)), or, where there is none, by a
   /// rotation vector (shape=(3)); empty if it does not spin
   std::vector<double> angle{};
   double time = 0; ///< up to which its material has gone with a velocity
 
-  /// @brief Rotation of the obstacle's shape to another placement, on the
-  /// shortest way from one direction to the other; spin does not change it.
+  /// @brief Rotation of the obstacle's shape to another placement, the smallest
+  /// from one direction to the other; spin does not change it.
   /// @param[in] to The other placement.
   /// @return Rotation (shape=(gdim, gdim)), the identity where a direction is
   /// not known.

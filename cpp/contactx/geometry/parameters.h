@@ -19,7 +19,7 @@ std::string text(std::span<const double> values);
 /// @param[in] value Its coordinates (shape=(gdim)).
 /// @param[in] gdim Geometric dimension.
 /// @param[in] name Name of the parameter.
-/// @return The same, the third coordinate zero in the plane.
+/// @return The same, the third coordinate zero in 2D.
 Vector<3> vector(std::span<const double> value, int gdim, const char* name);
 
 /// @brief A direction of any length, as a unit vector.

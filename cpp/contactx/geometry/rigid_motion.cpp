@@ -12,14 +12,13 @@ using Matrix = std::array<Vector<3>, 3>;
 
 constexpr Matrix identity{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 
-/// Correlation of the turned start with the end below which the surface has not
-/// moved like a rigid body: its parts went different ways, and there is no
-/// rotation that suits them all
-constexpr double alike = 0.5;
+/// Correlation of the turned start with the end up to which the surface has not
+/// moved like a rigid body: no rotation fits all of its parts
+constexpr double correlation_min = 0.5;
 
-/// Difference of the correlations of two rotations below which neither is the
-/// better one: nodes on a line may be turned around it
-constexpr double ambiguous = 1e-10;
+/// Difference of the correlations of two rotations up to which the best one is
+/// not unique: nodes on a line may be turned around it
+constexpr double correlation_gap_min = 1e-10;
 
 /// Largest eigenvalue, the next one, and the first one's eigenvector.
 struct Largest
@@ -85,19 +84,19 @@ Largest largest_eigenvalue(std::array<std::array<double, 4>, 4> a)
   return found;
 }
 
-/// Rotation in the plane: of its angle the sums of dot and cross products are
+/// Rotation in 2D: of its angle the sums of dot and cross products are
 /// cosine and sine.
 Matrix plane_rotation(const Matrix& h, double scale)
 {
   const double c = h[0][0] + h[1][1], s = h[0][1] - h[1][0];
   const double length = std::hypot(c, s);
-  if (!(length > alike * scale))
+  if (!(length > correlation_min * scale))
     return identity;
   return {
       {{c / length, -s / length, 0}, {s / length, c / length, 0}, {0, 0, 1}}};
 }
 
-/// Rotation in space by Horn's quaternion, which is proper for flat surfaces,
+/// Rotation in 3D by Horn's quaternion, which is proper for flat surfaces,
 /// too.
 Matrix space_rotation(Matrix h, double scale)
 {
@@ -112,7 +111,7 @@ Matrix space_rotation(Matrix h, double scale)
          h[1][2] + h[2][1]},
         {h[0][1] - h[1][0], h[2][0] + h[0][2], h[1][2] + h[2][1],
          h[2][2] - h[0][0] - h[1][1]}}});
-  if (!(n.value > alike and n.value - n.next > ambiguous))
+  if (!(n.value > correlation_min and n.value - n.next > correlation_gap_min))
     return identity;
   const auto [w, x, y, z] = n.vector;
   return {

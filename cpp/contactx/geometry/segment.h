@@ -91,7 +91,7 @@ constexpr int shape_degree()
 
 /// @brief Degree of the rule: of the products of shape functions and the
 /// weight, and where facets are distorted what makes their inverse maps exact
-/// to rounding.
+/// to round-off.
 template <class S, class M>
 int rule_degree(double distortion, bool is_weighted = false)
 {
@@ -101,9 +101,10 @@ int rule_degree(double distortion, bool is_weighted = false)
   if (not(distortion >= 1e-13))
     return degree;
   // The error falls by half the distortion with every degree
-  constexpr double digits = 25; // -log(1e-11)
+  constexpr double log_accuracy = 25; // -log of the relative error, 1e-11
   return degree
-         + static_cast<int>(digits / std::log(2 / std::min(distortion, 1.0)));
+         + static_cast<int>(log_accuracy
+                            / std::log(2 / std::min(distortion, 1.0)));
 }
 
 /// @brief Integrate over what a part of a slave facet S and a part of a master
@@ -140,10 +141,10 @@ void integrate(const SlaveFacet<Part<SlaveWhole>>& slave,
             {
               const Shape<S> s = slave.map.at(p);
               const Shape<M> m = map.at(p);
-              // On quadrilaterals that are hardly any, rounding may lead to
-              // points that are none of theirs
-              constexpr double rounding = 0.1;
-              if (s.jacobian > 0 and M::excess(m.xi) <= rounding)
+              // Largest excess of local coordinates: on degenerate
+              // quadrilaterals round-off may lead outside of them
+              constexpr double excess_max = 0.1;
+              if (s.jacobian > 0 and M::excess(m.xi) <= excess_max)
                 f(s, m, weight * slave.reference_area(s));
             });
 }

@@ -8,7 +8,7 @@
 namespace contactx::geometry
 {
 /// @brief Curvature of a surface at its nodes: how much the nodal normal turns
-/// on the way to a neighbour, by the length of the way; the largest.
+/// to a neighbour, over the distance; the largest.
 /// @param[in] facets Facets of the surface.
 /// @param[in] x Positions (shape=(num_nodes, gdim)), row-major.
 /// @param[in] normal Nodal normals (shape=(num_nodes, gdim)).
@@ -19,8 +19,8 @@ std::vector<double> nodal_curvatures(const FacetList& facets,
                                      std::span<const double> x,
                                      std::span<const double> normal, int gdim);
 
-/// @brief Curvature of each facet: turn of a field of normals by the length of
-/// the way from node to node; the largest.
+/// @brief Curvature of each facet: turn of a field of normals over the
+/// distance from node to node; the largest.
 /// @param[in] facets Facets.
 /// @param[in] x Positions (shape=(num_nodes, gdim)), row-major.
 /// @param[in] normal Unit normals (shape=(num_nodes, gdim)).

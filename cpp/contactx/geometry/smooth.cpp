@@ -22,8 +22,8 @@ struct Sheet
 };
 
 /// Slopes and curvatures of a height over a plane, and directions in it.
-constexpr int most_unknowns = 5;
-using Row = std::array<double, most_unknowns>;
+constexpr int max_unknowns = 5;
+using Row = std::array<double, max_unknowns>;
 
 /// Solves a least-squares problem by its normal equations; what the rows do not
 /// determine becomes small.
@@ -44,13 +44,13 @@ public:
 
   Row solve()
   {
-    // Part of the trace that stands for nothing known
-    constexpr double damping = 1e-9;
+    // Added to the diagonal, over the trace: unknowns without data are zero
+    constexpr double trace_damping = 1e-9;
     double trace = 0;
     for (int i = 0; i < _n; ++i)
       trace += _A[i][i];
     for (int i = 0; i < _n; ++i)
-      _A[i][i] += damping * trace;
+      _A[i][i] += trace_damping * trace;
     Row y{};
     // Cholesky's factor in place
     for (int i = 0; i < _n; ++i)
@@ -79,7 +79,7 @@ public:
 
 private:
   int _n;
-  std::array<Row, most_unknowns> _A{};
+  std::array<Row, max_unknowns> _A{};
   Row _b{};
 };
 
@@ -169,7 +169,7 @@ private:
                                { return e != f and has(e, other); });
   }
 
-  /// Other nodes that two facets share beside a node; in the plane that one.
+  /// Other nodes that two facets share beside a node; in 2D that one.
   bool are_neighbours(std::int32_t e, std::int32_t f, std::int32_t node) const
   {
     if (_gdim == 2)
@@ -233,7 +233,7 @@ private:
     std::ranges::sort(sheet.others);
     sheet.others.erase(std::unique(sheet.others.begin(), sheet.others.end()),
                        sheet.others.end());
-    // Each edge at an inner node has two facets; in the plane the node has
+    // Each edge at an inner node has two facets; in 2D the node has
     std::ranges::sort(ends);
     if (_gdim == 2)
       sheet.is_closed = ends.size() == 2;
@@ -272,7 +272,7 @@ private:
     for (const std::int32_t other : sheet.others)
       size += norm(vector_at(_x, other, _gdim) - point)
               / static_cast<double>(sheet.others.size());
-    LeastSquares fit(across == 1 ? 2 : most_unknowns);
+    LeastSquares fit(across == 1 ? 2 : max_unknowns);
     for (const std::int32_t other : sheet.others)
     {
       const Vector<3> edge = (1 / size) * (vector_at(_x, other, _gdim) - point);

@@ -112,7 +112,7 @@ SmoothPoint<F> smooth_point(const Nodes<F>& reference, const Nodes<F>& x,
   for (int a = 0; a < F::gdim; ++a)
   {
     const double c = dot(before[a], n);
-    // In the plane the second axis is the normal, the third one in space
+    // In 2D the second axis is the normal, in 3D the third one
     p.cone[F::gdim == 2 ? 2 * a : a] = c;
     p.normal = p.normal + c * now[a];
   }

@@ -7,7 +7,7 @@
 
 namespace contactx::geometry
 {
-/// @brief Ball, or if hollow all that is outside of one; in the plane a disc.
+/// @brief Ball, or if hollow all that is outside of one; in 2D a disc.
 class Sphere : public Obstacle
 {
 public:

@@ -169,7 +169,7 @@ void constraint(double* A, const double* w, const double*, const double*,
     if constexpr (L != Law::frictionless or not geometry::is_linear<S>)
       dn = d.normal();
     // Points of quadratic facets are beside those of their parts, so that the
-    // way from one to the other is not along the normal alone
+    // vector from one to the other is not along the normal alone
     if constexpr (not geometry::is_linear<S>)
       for (int s = 0; s < S::nodes; ++s)
       {

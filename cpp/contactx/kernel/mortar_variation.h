@@ -84,8 +84,8 @@ public:
     return dn;
   }
 
-  /// @brief Factors of int Phi_s n . dx_master, the way that the master's
-  /// surface moves along the normal under each slave node.
+  /// @brief Factors of int Phi_s n . dx_master, the displacement of the
+  /// master's surface along the normal under each slave node.
   std::array<Factors, S::nodes> gap() const
   {
     std::array<Factors, S::nodes> all{};

@@ -90,9 +90,9 @@ struct Node
     // Without friction nothing sticks, not even where nothing pulls
     if (bound > 0 and size <= bound)
       return Status::stick;
-    // Slip that turns back has passed a point of rest: without this, nodes
-    // that full friction throws too far go to and fro for ever. Friction does
-    // not throw a node by much more than what it deforms itself
+    // Slip that reverses has passed a state of rest: without this, nodes that
+    // overshoot under full friction chatter. The overshoot is not much larger
+    // than the deformation by friction
     const bool back
         = size < reach * bound and dot(t, t_hat) < -0.05 * bound * size;
     return back ? Status::stick : Status::slip;

@@ -16,16 +16,17 @@ using contactx::law::NodeState;
 
 namespace
 {
-// A node that slips starts the next step on the edge of the cone: what a solve
-// has left must not say on which side of it. Parts of the node's pressure and
-// of the largest one
-constexpr double edge_of_cone = 1e-10;
-constexpr double left_by_solve = 1e-9;
-// The same of a node that has not moved in this step: it was left where
-// Newton's method ended, at its tolerance
-constexpr double left_by_step = 1e-6;
-// By how much more trial friction may exceed its bound where iterates go round
-constexpr double farther = 1e3;
+// Tolerances of the friction bound of a node that slips, which starts the next
+// step on it: over its pressure, and over the largest one by the error of
+// linear solves
+constexpr double cone_rel_tol = 1e-10;
+constexpr double solve_rel_tol = 1e-9;
+// The latter of a node that has not slipped in this step: its error is
+// the tolerance of Newton's method
+constexpr double newton_rel_tol = 1e-6;
+// Growth of the largest trial friction of a reversal after each cycle of the
+// active set
+constexpr double reach_growth = 1e3;
 
 /// What is thrown for other multipliers than those of a law.
 void check_multipliers(const Law& law, const NodeState& nodes)
@@ -53,10 +54,10 @@ double edge(const NodeState& nodes, std::size_t i, double bound, double highest)
   for (std::size_t k = gdim * i; k < gdim * (i + 1); ++k)
     moved += nodes.slip[k] * nodes.slip[k];
   const bool is_still = nodes.tangential_ratio * nodes.c[i] * std::sqrt(moved)
-                        <= edge_of_cone * bound;
-  const double left = (is_still ? left_by_step : left_by_solve) * highest;
+                        <= cone_rel_tol * bound;
+  const double left = (is_still ? newton_rel_tol : solve_rel_tol) * highest;
   const double pressure = nodes.pressure(i);
-  return pressure > 0 ? std::min(edge_of_cone + left / pressure, 0.5) : 0.5;
+  return pressure > 0 ? std::min(cone_rel_tol + left / pressure, 0.5) : 0.5;
 }
 
 /// Whether the trial friction of a node exceeds a bound.
@@ -118,9 +119,9 @@ void Frictionless::evaluate(NodeState& nodes) const
       nodes.area, nodes.status, nodes.value, nodes.by_multiplier, nodes.by_gap);
 }
 
-void Coulomb::begin_step() { _reach = _usual_reach; }
+void Coulomb::begin_step() { _reach = _initial_reach; }
 
-void Coulomb::allow_larger_friction() { _reach *= farther; }
+void Coulomb::allow_larger_friction() { _reach *= reach_growth; }
 
 void Coulomb::set_friction(std::span<const double> friction)
 {

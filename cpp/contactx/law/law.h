@@ -34,7 +34,7 @@ public:
   /// count.
   virtual void begin_step() {}
 
-  /// @brief Accept larger trial frictions, where iterates go round in a circle.
+  /// @brief Accept larger trial frictions, where the active set cycles.
   virtual void allow_larger_friction() {}
 
   /// @brief Set each node's status from its multiplier, gap and slip.
@@ -129,25 +129,25 @@ public:
 
   /// @copydoc Law::set_status
   ///
-  /// On the edge of the cone a node that slips goes on. One that closes again
-  /// and again with slip, which pulls it off, sticks every fourth time. Slip
-  /// that turns back sticks first; where that has been tried it turns: a node
-  /// that opens only on the way back would stick and slip for ever.
+  /// At the friction bound a node that slips keeps slipping. One that closes
+  /// repeatedly with slip, which opens it, sticks every fourth time. A node
+  /// whose slip reverses sticks first, and slips at the second reversal: one
+  /// that opens only while it slips back would alternate without end.
   std::int32_t set_status(NodeState& nodes, mesh::Ranks& ranks) const override;
   void evaluate(NodeState& nodes) const override;
 
 private:
   Bounds bounds(const NodeState& nodes, std::span<const double> pressure) const;
 
-  // Trial friction over its bound up to which slip that turns back sticks
+  // Trial friction over its bound up to which a node whose slip reverses sticks
   // first. Measured: 3 to 100 differ by little, without a limit it is twice
   // the work
-  static constexpr double _usual_reach = 10;
+  static constexpr double _initial_reach = 10;
 
   BoundFunction _bound;
   std::shared_ptr<const SlipHistory> _history;
   std::vector<double> _friction;
-  double _reach = _usual_reach;
+  double _reach = _initial_reach;
 };
 
 /// @brief Slave nodes keep their place in the frame of their facet: those with

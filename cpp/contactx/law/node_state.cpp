@@ -3,6 +3,7 @@
 
 #include "node_state.h"
 #include "../check.h"
+#include "../mesh/extent.h"
 #include <algorithm>
 #include <array>
 #include <stdexcept>
@@ -129,24 +130,5 @@ double contactx::law::touching_gap(mesh::Ranks& ranks,
                                       + " coordinates a node, not "
                                       + std::to_string(x.size()) + " in all");
       });
-  // Largest coordinates, and largest of their opposites
-  std::array<double, 6> ends;
-  ends.fill(-std::numeric_limits<double>::infinity());
-  for (std::size_t i = 0; i < x.size(); i += gdim)
-    for (int k = 0; k < gdim; ++k)
-    {
-      ends[k] = std::max(ends[k], x[i + k]);
-      ends[gdim + k] = std::max(ends[gdim + k], -x[i + k]);
-    }
-  const std::span<double> all(ends.data(), std::size_t(2 * gdim));
-  if (ranks.size() > 1)
-    ranks.reduce(all, mesh::Reduction::largest);
-  if (not std::ranges::all_of(all, [](double e) { return std::isfinite(e); }))
-    return 0;
-  double size = 0, farthest = 0;
-  for (int k = 0; k < gdim; ++k)
-    size = std::max(size, all[k] + all[gdim + k]);
-  for (double end : all)
-    farthest = std::max(farthest, std::abs(end));
-  return 1e-12 * size + 16 * std::numeric_limits<double>::epsilon() * farthest;
+  return mesh::scales(ranks, x, gdim).gap_round_off();
 }

@@ -21,7 +21,7 @@ namespace contactx::law
 ///
 /// Arrays are row-major, n is the number of nodes, and size that of components
 /// of a multiplier. What only vectors have is empty for scalar multipliers.
-/// The arrays keep their sizes, so that others may look at them for good.
+/// The arrays keep their sizes, so that views of them stay valid.
 class NodeState
 {
 public:
@@ -34,7 +34,7 @@ public:
   NodeState(std::int32_t num_nodes, int gdim, bool is_vector,
             bool has_means = false);
 
-  // Others look at the arrays
+  // Views of the arrays stay valid
   NodeState(const NodeState&) = delete;
   NodeState& operator=(const NodeState&) = delete;
 
@@ -181,7 +181,7 @@ private:
   bool _is_vector;
 };
 
-/// @brief Gap up to which nodes touch but for rounding, a length.
+/// @brief Gap up to which nodes touch but for round-off, a length.
 /// @param[in] ranks The ranks, all of which take part.
 /// @param[in] x Positions of the nodes on this rank (shape=(n, gdim)).
 /// @param[in] gdim Geometric dimension.

@@ -79,7 +79,7 @@ struct Eigen
 ///
 /// By Householder's tridiagonal form and QL with implicit shifts (Bowdler,
 /// Martin, Reinsch & Wilkinson, Numer. Math. 11, 1968): errors of the values
-/// are about rounding times the largest one.
+/// are about round-off times the largest one.
 /// @param[in] A The matrix, of which the lower half is read.
 /// @throws std::invalid_argument if it is not square, or has a value that is
 /// not finite.

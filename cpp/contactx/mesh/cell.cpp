@@ -25,7 +25,7 @@ struct Reference
   int num_vertices;
   bool is_tensor; // a product of intervals, not a simplex
   std::vector<Vertices> edges;
-  std::vector<Vertices> faces; // of a cell in space
+  std::vector<Vertices> faces; // of a cell in 3D
 };
 
 const Reference& reference(CellType cell)

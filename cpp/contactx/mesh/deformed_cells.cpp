@@ -16,8 +16,8 @@ using namespace contactx::mesh;
 
 namespace
 {
-constexpr int most_halvings = 8;
-constexpr std::size_t most_parts = 512;
+constexpr int max_halvings = 8;
+constexpr std::size_t max_parts = 512;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double determinant(const Vector<2>& a, const Vector<2>& b)
@@ -128,7 +128,7 @@ bool one_sign(const Triquadratic& b)
 }
 
 /// Whether det F is positive and at least a bound at all points, without
-/// division; false where that needs a closer look.
+/// division; false where that needs more evaluations.
 template <std::size_t N>
 bool above(double bound, const std::array<double, N>& current,
            const std::array<double, N>& reference)
@@ -155,11 +155,11 @@ double smallest(const std::array<double, N>& current,
   return least;
 }
 
-/// Look between the points of a hexahedron.
+/// Bound det F between the points of a hexahedron.
 /// @param[in] current Coefficients of det(dx/dxi), not of one sign.
 /// @param[in] reference Coefficients of det(dX/dxi).
-/// @return Smallest det F at the corners of the parts that were looked at, all
-/// of them where it is positive.
+/// @return Smallest det F at the corners of the parts that were visited, which
+/// are all of them where it is positive.
 double smallest_between(const Triquadratic& current,
                         const Triquadratic& reference)
 {
@@ -171,7 +171,7 @@ double smallest_between(const Triquadratic& current,
   const double sign = std::copysign(1, reference[0]);
   double least = infinity;
   std::vector<Part> open{{current, reference, 0}};
-  // Breadth first: the whole cell is looked at before one part of it closely
+  // Breadth first: the whole cell is visited before one part is refined
   for (std::size_t p = 0; p < open.size(); ++p)
   {
     const Part part = open[p];
@@ -184,9 +184,9 @@ double smallest_between(const Triquadratic& current,
     }
     if (!(least > 0))
       return least;
-    if (part.halvings == most_halvings or one_sign(part.current))
+    if (part.halvings == max_halvings or one_sign(part.current))
       continue;
-    for (int piece = 0; piece < 8 and open.size() < most_parts; ++piece)
+    for (int piece = 0; piece < 8 and open.size() < max_parts; ++piece)
     {
       Part next{part.current, part.reference, part.halvings + 1};
       for (int k = 0; k < 3; ++k)
@@ -257,7 +257,8 @@ DeformedCells find(std::span<const std::int32_t> cells,
   return found;
 }
 
-/// Coefficients of det(dx/dxi) at one point along the way, by powers of t.
+/// Coefficients of det(dx/dxi) at one point along the increment, by powers of
+/// t.
 /// @param[in] a,b,c,d The determinants at t = 0, t = 1, t = -1 and of du alone.
 template <int D>
 std::array<double, D + 1> powers(double a, double b, double c, double d)
@@ -331,8 +332,8 @@ double shortest(std::span<const std::int32_t> cells, std::span<const double> X,
       }
     const auto now = [&](int i, int j) -> Vector<gdim>
     { return (Xc[j] - Xc[i]) + (uc[j] - uc[i]); };
-    // By which part of the way the cell changes by about its own size: from
-    // farther places differences would be rounding
+    // Fraction of the increment that changes the cell by about its own size:
+    // from farther places differences would be round-off
     double size = 0, by = 0;
     for (int i = 1; i < C::nodes; ++i)
     {

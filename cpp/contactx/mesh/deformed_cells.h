@@ -41,9 +41,9 @@ struct DeformedCells
 ///   So the count is exact but for those, and `smallest` is the smallest at the
 ///   points; in between det F may be smaller, but not negative.
 ///
-/// "Exact" means up to rounding, of which det F has as much as the edges of
+/// "Exact" means up to round-off, of which det F has as much as the edges of
 /// cells have. A det(dx/dxi) that is not finite counts as det F of minus
-/// infinity. det F is not looked at where the reference cell has no volume, and
+/// infinity. det F is not evaluated where the reference cell has no volume, and
 /// between the points of a hexahedron not where the reference cell is folded.
 ///
 /// @param[in] cells Nodes of the cells, in DOLFINx's order
@@ -59,12 +59,12 @@ DeformedCells deformed_cells(std::span<const std::int32_t> cells,
                              int nodes_per_cell, std::span<const double> X,
                              std::span<const double> u, int gdim);
 
-/// @brief Find how far along a way no cell is squeezed too much at once.
+/// @brief Find the fraction of an increment that squeezes no cell too much.
 ///
-/// det F is looked at where `deformed_cells` does, but not between the 27
+/// det F is evaluated where `deformed_cells` does, but not between the 27
 /// points of hexahedra. Along X + u + t du it is a polynomial in t; from t = 0
 /// on it must stay above a part of what it is there, or of 1 if it is more.
-/// Cells that are inside out at t = 0 are not looked at.
+/// Cells that are inside out at t = 0 are left out.
 ///
 /// @param[in] cells Nodes of the cells, as above.
 /// @param[in] nodes_per_cell As above.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "degenerate.h"
+#include "../math/scales.h"
 #include "../math/vec.h"
 #include "../text.h"
 #include "extent.h"
@@ -16,9 +17,6 @@ using namespace contactx::mesh;
 
 namespace
 {
-/// Determinant of unit tangents that is none but for rounding
-constexpr double no_volume = 1e-12;
-
 bool is_simplex(CellType cell)
 {
   return cell == CellType::triangle or cell == CellType::tetrahedron;
@@ -28,8 +26,8 @@ bool is_degenerate(CellType cell, std::span<const double> x)
 {
   const std::vector<double> found = corner_determinants(cell, x);
   const auto [low, high] = std::ranges::minmax(found);
-  return (low < -no_volume and high > no_volume)
-         or std::max(-low, high) <= no_volume;
+  return (low < -math::zero_round_off and high > math::zero_round_off)
+         or std::max(-low, high) <= math::zero_round_off;
 }
 } // namespace
 

@@ -4,6 +4,7 @@
 #include "extent.h"
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 
 using namespace contactx;
@@ -34,6 +35,19 @@ public:
     return size;
   }
 
+  math::Scales scales(Ranks& ranks, int gdim)
+  {
+    const Vector<3> size = extent(ranks);
+    math::Scales found;
+    for (int k = 0; k < gdim; ++k)
+    {
+      for (const double end : {_ends[k], _ends[3 + k]})
+        found.farthest = std::max(found.farthest, std::abs(end));
+      found.length = std::max(found.length, size[k]);
+    }
+    return std::isfinite(found.farthest) ? found : math::Scales{};
+  }
+
 private:
   std::array<double, 6> _ends;
 };
@@ -56,4 +70,13 @@ Vector<3> contactx::mesh::extent(Ranks& ranks,
   for (const std::int32_t node : nodes)
     ends.add(&x[static_cast<std::size_t>(node) * gdim], gdim);
   return ends.extent(ranks);
+}
+
+math::Scales contactx::mesh::scales(Ranks& ranks, std::span<const double> x,
+                                    int gdim)
+{
+  Ends ends;
+  for (std::size_t i = 0; i + gdim <= x.size(); i += gdim)
+    ends.add(&x[i], gdim);
+  return ends.scales(ranks, gdim);
 }

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "../math/scales.h"
 #include "../math/vec.h"
 #include "ranks.h"
 
@@ -13,7 +14,7 @@ namespace contactx::mesh
 /// @param[in] ranks The ranks.
 /// @param[in] x Points of this rank (shape=(n, gdim)), row-major.
 /// @param[in] gdim Geometric dimension, 2 or 3.
-/// @return Lengths, in the plane the third is zero; zero where there are no
+/// @return Lengths, in 2D the third is zero; zero where there are no
 /// points.
 Vector<3> extent(Ranks& ranks, std::span<const double> x, int gdim);
 
@@ -24,4 +25,11 @@ Vector<3> extent(Ranks& ranks, std::span<const double> x, int gdim);
 /// @param[in] gdim Geometric dimension, 2 or 3.
 Vector<3> extent(Ranks& ranks, std::span<const std::int32_t> nodes,
                  std::span<const double> x, int gdim);
+
+/// @brief Length of the box around points and their largest coordinate, both
+/// zero without points, or where one is infinite.
+/// @param[in] ranks The ranks.
+/// @param[in] x Points of this rank (shape=(n, gdim)), row-major.
+/// @param[in] gdim Geometric dimension, 2 or 3.
+math::Scales scales(Ranks& ranks, std::span<const double> x, int gdim);
 } // namespace contactx::mesh

@@ -3,6 +3,7 @@
 
 #include "hull.h"
 #include "../check.h"
+#include "../math/scales.h"
 #include "../math/vec.h"
 #include <algorithm>
 #include <map>
@@ -13,8 +14,6 @@ using namespace contactx::mesh;
 
 namespace
 {
-constexpr double rounding = 1e-12;
-
 /// Choices of k of the numbers below n, each ascending.
 std::vector<std::vector<int>> choices(int n, int k)
 {
@@ -93,7 +92,7 @@ bool Hull::contains(std::span<const double> point,
       whole += parts[k];
       largest = std::max(largest, std::abs(parts[k]));
     }
-    if (std::abs(whole) <= rounding * largest)
+    if (math::is_zero(whole, largest))
       continue;
     if (std::all_of(parts.begin(), parts.begin() + _gdim + 1,
                     [=](double part) { return part / whole >= -tolerance; }))

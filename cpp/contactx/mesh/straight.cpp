@@ -16,16 +16,17 @@ using namespace contactx::mesh;
 
 namespace
 {
-/// Distance from the straight facet, over its size: less is the rounding of a
-/// mesh generator
-constexpr double straight_part = 1e-6;
+/// Distance from the straight facet, over its size, up to which it is a mesh
+/// generator's round-off
+constexpr double straight_rel_tol = 1e-6;
 
 /// Whether each point of a cell is on each facet: functions of other vertices
 /// are zero there.
 std::vector<std::vector<std::size_t>>
 points_of_facets(CellType cell, std::span<const double> shape)
 {
-  constexpr double rounding = 1e-10;
+  // Sum of shape functions that vanish on a facet
+  constexpr double shape_tol = 1e-10;
   const std::size_t num = mesh::num_vertices(cell);
   std::vector<std::vector<std::size_t>> points;
   for (const std::vector<int>& own : mesh::facet_vertices(cell))
@@ -37,7 +38,7 @@ points_of_facets(CellType cell, std::span<const double> shape)
       for (std::size_t v = 0; v < num; ++v)
         if (std::ranges::find(own, static_cast<int>(v)) == own.end())
           inside += std::abs(shape[num * i + v]);
-      if (inside < rounding)
+      if (inside < shape_tol)
         points.back().push_back(i);
     }
   }
@@ -118,7 +119,7 @@ void contactx::mesh::check_straight(Ranks& ranks, const std::string& name,
               = deviation(geometry, geometry[of[f]], facets[local[f]], shape,
                           mesh::num_vertices(cells.type));
           most = std::max(most, found.away);
-          if (not(found.away > straight_part * found.size))
+          if (not(found.away > straight_rel_tol * found.size))
             continue;
           ++count;
           first = std::min(first, found.at);

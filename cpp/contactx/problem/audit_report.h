@@ -33,7 +33,7 @@ struct AuditReport
   /// slave nodes would need more force than they take
   double edges = 0;
   std::int64_t inverted = 0; ///< cells that are turned inside out
-  /// Smallest det F of the cells, NaN where none was looked at
+  /// Smallest det F of the cells, NaN where none was checked
   double smallest_det = std::numeric_limits<double>::quiet_NaN();
   std::vector<std::string> faults;   ///< what is wrong, and what to do
   std::vector<std::string> warnings; ///< what is only warned of

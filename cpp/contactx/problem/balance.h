@@ -12,8 +12,8 @@ namespace contactx::problem
 /// @brief Energy and momentum at the end of a time step, and the work done in
 /// it; the same on all ranks.
 ///
-/// For linear elastic bodies energy is balanced to rounding: kinetic and strain
-/// energy grow by work_of_loads + work_of_supports - contact_loss. In a
+/// For linear elastic bodies energy is balanced to round-off: kinetic and
+/// strain energy grow by work_of_loads + work_of_supports - contact_loss. In a
 /// nonlinear body the rest is the error of the midpoint rule. Momentum grows by
 /// the impulses of loads, supports and contacts.
 struct Balance

@@ -14,10 +14,10 @@ using namespace contactx::problem;
 
 namespace
 {
-/// Relative to the size of a cell, or of a body
-constexpr double skin = 1e-8;
-/// Points that are looked for at once
-constexpr std::int64_t per_look = 256;
+/// Depth inside a body, over the size of a cell or of the body
+constexpr double inside_rel_tol = 1e-8;
+/// Points of one search
+constexpr std::int64_t points_per_search = 256;
 
 /// Boxes of some bodies.
 class Boxes
@@ -50,7 +50,7 @@ public:
   /// Whether a box is in one of others.
   bool is_in(std::size_t body, const Boxes& others, std::size_t other) const
   {
-    const double room = skin * others.size(other);
+    const double room = inside_rel_tol * others.size(other);
     for (int k = 0; k < _gdim; ++k)
       if (not(low(body, k) >= others.low(other, k) - room
               and high(body, k) <= others.high(other, k) + room))
@@ -85,7 +85,8 @@ public:
                    {
                      is_in = is_in
                              or _hull.contains(point, nodes(_mesh, _cells[i]),
-                                               _mesh.halo->reference(), skin);
+                                               _mesh.halo->reference(),
+                                               inside_rel_tol);
                    });
     return is_in;
   }
@@ -157,10 +158,11 @@ bool lies_inside(const mesh::Mesh& mesh, std::int64_t inner, std::int64_t outer,
 {
   mesh::Ranks& ranks = mesh.halo->ranks();
   const std::vector<Vector<3>> points = points_of(mesh, inner);
-  BodyCells cells(mesh, outer, skin * size);
+  BodyCells cells(mesh, outer, inside_rel_tol * size);
   // A few at a time, from everywhere: bodies that are not inside show it soon
   const std::int64_t looks
-      = (mesh::total(ranks, std::ssize(points)) + per_look - 1) / per_look;
+      = (mesh::total(ranks, std::ssize(points)) + points_per_search - 1)
+        / points_per_search;
   std::vector<std::int64_t> is_in;
   for (std::int64_t look = 0; look < looks; ++look)
   {
@@ -235,7 +237,7 @@ void contactx::problem::check_outside(const mesh::Mesh& mesh,
   ranks.reduce(std::span(highest), mesh::Reduction::largest);
   for (std::size_t b = 0; b < names.size(); ++b)
   {
-    if (not(highest[b] <= skin * boxes.size(b)))
+    if (not(highest[b] <= inside_rel_tol * boxes.size(b)))
       continue;
     std::vector<double> level;
     ranks.agree(
@@ -254,7 +256,8 @@ void contactx::problem::check_outside(const mesh::Mesh& mesh,
     size = mesh::largest(ranks, size);
     // A body that touches the surface from within has nodes at zero
     const bool is_within = std::ranges::all_of(
-        level, [room = skin * size](double value) { return value <= room; });
+        level,
+        [room = inside_rel_tol * size](double value) { return value <= room; });
     if (mesh::everywhere(ranks, is_within))
       throw std::invalid_argument(
           "the body of the slave surface " + name

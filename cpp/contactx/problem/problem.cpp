@@ -25,12 +25,12 @@ namespace
 constexpr std::array<std::string_view, 8> calls{
     "begin_step", "settle", "residual", "jacobian",
     "set_up",     "limit",  "update",   "accept"};
-/// Most numbers that a call has
-constexpr std::size_t most_numbers = 3;
-/// Iterates in turn with about the same residual that the bulk alone leaves,
-/// and the ratio of residuals that are about the same
-constexpr std::size_t stagnant = 4;
-constexpr double alike = 4;
+/// Largest number of arguments of a call
+constexpr std::size_t max_numbers = 3;
+/// Successive iterates whose residual of the bulk stagnates, and the ratio of
+/// the largest of their residuals to the smallest
+constexpr std::size_t stagnant_iterates = 4;
+constexpr double stagnant_residual_ratio = 4;
 
 /// Adds the wall time of a scope to a part of a report.
 class Timer
@@ -75,7 +75,7 @@ Problem::Problem(std::shared_ptr<solve::System> system,
 {
   if (_parts.size() != _system->contacts().size())
     throw std::invalid_argument("there must be a part for each contact");
-  // The audit looks at offsets
+  // The audit needs the offsets
   read_values();
   _audit.emplace(_halo, _system->contacts());
 }
@@ -84,7 +84,7 @@ void Problem::enter(std::string_view call,
                     const std::vector<std::pair<std::string, double>>& numbers)
 {
   const auto which = std::ranges::find(calls, call) - calls.begin();
-  std::array<double, 1 + most_numbers> mine{static_cast<double>(which)};
+  std::array<double, 1 + max_numbers> mine{static_cast<double>(which)};
   for (std::size_t k = 0; k < numbers.size(); ++k)
     mine.at(1 + k) = numbers[k].second;
   const std::vector<double> all = _halo->ranks().gather(mine);
@@ -499,7 +499,7 @@ const Settled& Problem::judge(double rtol, double atol, std::span<double> b)
     if (_refuses)
       failure = join(_report.audit.faults, "; ");
   }
-  // Shorter steps may do better where these have led nowhere
+  // Shorter steps may do better where these have made no progress
   const bool is_slow
       = verdict == Verdict::not_finite or verdict == Verdict::stuck;
   _found = Settled{_loop.iterate(),
@@ -765,7 +765,7 @@ std::string Problem::why_slow(std::span<const double> direction)
 {
   const double error = solve::least_derivative_error(
       *_system, direction.first(_system->num_displacements()),
-      _loop.convergence().extent());
+      _loop.convergence().scales().length);
   if (error > solve::wrong_derivative)
     return "the Jacobian is not the derivative of F: along the last step it "
            "differs by "
@@ -777,20 +777,20 @@ std::string Problem::why_slow(std::span<const double> direction)
                     "coefficient that depends on u: give J")
            + " (manual: errors/wrong-jacobian)";
   const std::vector<Settled>& rows = _report.history;
-  if (rows.size() < stagnant)
+  if (rows.size() < stagnant_iterates)
     return {};
-  const auto last = std::span(rows).last(stagnant);
+  const auto last = std::span(rows).last(stagnant_iterates);
   double least = last[0].residual, most = least;
-  // What falls all the time, if slowly, is not rounding
+  // What falls all the time, if slowly, is not round-off
   bool falls = true, changes = false;
-  for (std::size_t k = 0; k < stagnant; ++k)
+  for (std::size_t k = 0; k < stagnant_iterates; ++k)
   {
     least = std::min(least, last[k].residual);
     most = std::max(most, last[k].residual);
     falls = falls and (k == 0 or last[k].residual < last[k - 1].residual);
     changes = changes or last[k].changes.status + last[k].changes.pairs > 0;
   }
-  if (not(most <= alike * least) or falls or changes
+  if (not(most <= stagnant_residual_ratio * least) or falls or changes
       or not _loop.convergence().may_be_rounding(least))
     return {};
   return "the residual stagnates at " + number_text(least, 3)

@@ -248,8 +248,8 @@ public:
   /// @brief Read what a user may have changed since the last call, update pairs
   /// and active set at an accepted iterate, and judge its residual.
   ///
-  /// The iterate may change by a little: where iterates go round, part of the
-  /// last step is taken back, and so is what free bodies have drifted by.
+  /// The iterate may change by a little: where the active set cycles, part of
+  /// the last step is taken back, and so is what free bodies have drifted by.
   /// @param[in] rtol Tolerance relative to the forces of the problem.
   /// @param[in] atol Absolute tolerance, a force.
   /// @param[in] max_it Most linear solves of the step.

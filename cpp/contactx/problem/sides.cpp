@@ -148,7 +148,7 @@ std::shared_ptr<contact::DeformableMaster> contactx::problem::make_master(
   if (not options.is_self)
     check_shared(*halo, slave, master);
   check_nested(mesh, slave, master);
-  // Where facets are folded a node has no normal to look along; facets have
+  // Where facets are folded a node has no normal to search along; facets have
   const bool is_mortar = contact::integrates_facets(options.method, false,
                                                     slaves->is_quadratic());
   if (not is_mortar)

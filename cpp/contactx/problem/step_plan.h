@@ -59,7 +59,7 @@ public:
   /// @return Whether it may be shorter; nothing has changed if not.
   bool cut();
 
-  /// @brief The place on the way, for a checkpoint (shape=(4)).
+  /// @brief The state of the plan, for a checkpoint (shape=(4)).
   std::vector<double> place() const;
 
   /// @brief Go on from a saved place.

@@ -242,8 +242,8 @@ void Recovery::carry(std::vector<double>& t, std::span<const double> normals,
     const std::size_t i = static_cast<std::size_t>(to) * _gdim;
     const std::size_t j = static_cast<std::size_t>(from) * _gdim;
     const double *a = &normals[j], *b = &normals[i];
-    // Turned on the shortest way from a to b. Opposite vectors have none; t
-    // is normal to both of them
+    // Turned by the smallest rotation from a to b. Opposite vectors have none;
+    // t is normal to both of them
     const double cosine = dot(a, b, _gdim);
     const double factor
         = 1 + cosine > 0 ? dot(b, &every[j], _gdim) / (1 + cosine) : 0;

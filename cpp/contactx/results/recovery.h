@@ -44,7 +44,7 @@ struct Recovered
 ///
 /// M_ij the integrals of the products of the shape functions: a multiplier at
 /// an edge is the pressure at the centre of its shape function, a third of a
-/// facet inside. These properties are exact but for rounding:
+/// facet inside. These properties are exact but for round-off:
 ///
 /// - the sum of the pressures' forces stays, as what one node loses another one
 ///   gains;

@@ -213,7 +213,8 @@ void Results::recover()
   auto [pressure, traction] = tractions();
   if (not nodes.is_vector())
   {
-    // What pairs make of recovered pressures; others look at the multipliers
+    // What pairs make of recovered pressures; views of the multipliers stay
+    // valid
     const std::vector<double> raw = nodes.multiplier;
     std::ranges::copy(pressure, nodes.multiplier.begin());
     std::vector<double> b = assembled();

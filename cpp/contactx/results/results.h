@@ -85,7 +85,7 @@ public:
   /// is on both sides then.
   const Vector<3>& force() const { return _force; }
 
-  /// @brief Sum of the forces on both sides, zero but for rounding. A rigid
+  /// @brief Sum of the forces on both sides, zero but for round-off. A rigid
   /// obstacle carries what it takes.
   const Vector<3>& imbalance() const { return _imbalance; }
 

@@ -67,10 +67,10 @@ public:
   const std::vector<double>& area() const { return _area; }
 
   /// @brief Means of a field of the slave nodes at the master's nodes, by the
-  /// areas in which they meet; collective.
+  /// areas in which they overlap; collective.
   /// @param[in] values Values, of which those without a pair do not count
   /// (shape=(n)).
-  /// @return Means, NaN at nodes that meet no slave node (shape=(num_owned)).
+  /// @return Means, NaN at nodes without a slave node (shape=(num_owned)).
   std::vector<double> at_master(std::span<const double> values) const;
 
 private:

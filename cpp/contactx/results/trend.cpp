@@ -141,7 +141,7 @@ Trend::Rim Trend::rim(std::span<const std::int8_t> closed) const
       add(only->b);
   }
   // Of its eigenvalues, which are 2 and 0 on a straight edge, 1 and 1 at a
-  // right angle, and 2 in the plane, those of 1 and 2 become 1
+  // right angle, and 2 in 2D, those of 1 and 2 become 1
   for (std::size_t i = 0; i < n; ++i)
     for (int k = 0; k < _gdim; ++k)
       for (int l = 0; l < _gdim; ++l)

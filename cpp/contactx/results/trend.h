@@ -45,11 +45,11 @@ struct Slope
 /// The contact is that of the facets of which all nodes are closed; its edge is
 /// one of the surface, or where neighbours are open. All is fitted by least
 /// squares to a node and its neighbours, and exact where the pressure is linear
-/// in space. The slope at the edge is the least of three: zero, that of the
-/// fit, and what follows at the edge from its change towards the inside, which
-/// is nothing where the edge is a plane of symmetry. It counts by how much more
-/// it explains than scatters, there and in the rows behind. From there it goes
-/// inside, row by row, no steeper than the fits.
+/// in the coordinates. The slope at the edge is the least of three: zero, that
+/// of the fit, and what follows at the edge from its change towards the inside,
+/// which is nothing where the edge is a plane of symmetry. It counts by how
+/// much more it explains than scatters, there and in the rows behind. From
+/// there it goes inside, row by row, no steeper than the fits.
 class Trend
 {
 public:

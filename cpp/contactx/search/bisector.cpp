@@ -12,15 +12,14 @@ using geometry::Segment;
 
 namespace
 {
-/// Difference of heights, relative to the facet, that the rounding of a
-/// solution leaves
-constexpr double level = 1e-8;
+/// Difference of heights, over the facet's size, within the solver's tolerance
+constexpr double height_rel_tol = 1e-8;
 
-/// Difference of unit normals below which facets are in line
-constexpr double in_line = 1e-6;
+/// Difference of unit normals up to which facets are parallel
+constexpr double equal_normal_tol = 1e-6;
 
-/// Cosine of the largest angle between facets of a curve
-constexpr double least_cosine = 0.7;
+/// Cosine of the largest angle between successive facets of a curve
+constexpr double curve_cosine_min = 0.7;
 } // namespace
 
 std::optional<Projection> contactx::search::bisector(const Surface& surface,
@@ -42,19 +41,19 @@ std::optional<Projection> contactx::search::bisector(const Surface& surface,
       [&](std::int32_t f)
       {
         const auto r = extended(surface, f, x, p);
-        if (!r or !(std::abs(r->gap - q.gap) <= level * q.size))
+        if (!r or !(std::abs(r->gap - q.gap) <= height_rel_tol * q.size))
           return;
         first = first < 0 ? f : first;
         ++count;
         sum = sum + r->normal;
       });
-  if (count != 2 or !(dot(sum, sum) > 2 + 2 * least_cosine))
+  if (count != 2 or !(dot(sum, sum) > 2 + 2 * curve_cosine_min))
     return std::nullopt;
   const Vector<3> n = (1 / norm(sum)) * sum;
-  if (norm(n - q.normal) <= in_line)
+  if (norm(n - q.normal) <= equal_normal_tol)
     return std::nullopt;
 
-  // Of the first facet, whichever of them rounding has led to
+  // Of the first facet, whichever of them round-off has led to
   const std::int32_t node = surface.facets()[q.facet][end];
   const int vertex = surface.facets()[first][0] == node ? 0 : 1;
   const Vector<2> xi{static_cast<double>(vertex), 0};

@@ -3,6 +3,7 @@
 
 #include "distributed.h"
 #include "../check.h"
+#include "../math/scales.h"
 #include "facet_search.h"
 #include <algorithm>
 #include <stdexcept>
@@ -12,16 +13,10 @@ using namespace contactx::search;
 
 namespace
 {
-/// Difference of distances that only rounding makes, as in the search itself
-constexpr double equal_over_ranks = 1e-12;
-
-/// So that rounding hides no rank with a facet that is as near as another one
-constexpr double wider = 1 + 1e-9;
-
 /// Distance up to which another facet may be as near as one of this distance
 double tie_bound(double distance, double size)
 {
-  return distance + 10 * equal_over_ranks * (distance + size);
+  return distance + 10 * math::distance_round_off(distance, size);
 }
 
 /// What a rank has for a point. It is sent as it lies in memory.
@@ -95,7 +90,7 @@ public:
     {
       const std::int32_t i = which[a.point];
       const double before = found.distance[i];
-      const double tol = equal_over_ranks * (a.distance + a.size);
+      const double tol = math::distance_round_off(a.distance, a.size);
       if (not(a.distance < before - tol)
           and not(a.distance <= before + tol and a.key < _key[i]))
         continue;
@@ -157,7 +152,7 @@ Found DistributedSurface::find(std::span<const double> x,
   const RankBoxes others(_halo->ranks(), own(), x, gdim);
   std::vector<double> bound = best.bound;
   for (double& b : bound)
-    b *= wider;
+    b *= 1 + box_slack;
   RankBoxes::Near near = others.from_points(points, normals, bound);
   const std::size_t m = near.ranks.size();
   // First the nearest rank, then all that may still have something nearer
@@ -180,7 +175,7 @@ Found DistributedSurface::find(std::span<const double> x,
     for (std::size_t j = 0; j < m; ++j)
     {
       const double distance = near.distance[i * m + j];
-      if (distance < infinity and distance <= best.bound[i] * wider)
+      if (distance < infinity and distance <= best.bound[i] * (1 + box_slack))
         wanted[near.ranks[j]].push_back(i);
     }
   ask(x, points, normals, wanted, best);

@@ -13,8 +13,9 @@ namespace
 /// Cosine of the angle at which a master facet counts as upright
 constexpr double upright_cosine = 0.1;
 
-/// Overlap in excess of the facet at which it lies under several layers
-constexpr double layers = 1e-6;
+/// Overlap in excess of the facet's area, over it, from which on several layers
+/// cover it
+constexpr double layer_overlap_rel_tol = 1e-6;
 
 struct SharedFacet
 {
@@ -99,7 +100,7 @@ void keep_nearest(std::vector<SharedFacet>& found, double area,
   double total = 0;
   for (const SharedFacet& f : found)
     total += f.area;
-  if (total <= (1 + layers) * area)
+  if (total <= (1 + layer_overlap_rel_tol) * area)
     return;
   const auto share_a_node = [&master](std::int32_t a, std::int32_t b)
   {
@@ -138,7 +139,8 @@ void keep_nearest(std::vector<SharedFacet>& found, double area,
     double more = 0;
     for (const SharedFacet& f : layer)
       more += f.area;
-    const bool fits = kept.empty() or total + more <= (1 + layers) * area;
+    const bool fits
+        = kept.empty() or total + more <= (1 + layer_overlap_rel_tol) * area;
     if (fits)
       total += more;
     auto& side = fits ? kept : left;

@@ -14,7 +14,7 @@ namespace contactx::search
 ///
 /// Both are projected on the slave facet's plane. Where several layers of the
 /// master lie over one another the nearest one counts. Facets without area or
-/// position, and those that look folded from the slave facet, are in no pair.
+/// position, and those whose projection is folded, are in no pair.
 class FacetSearch
 {
 public:
@@ -34,7 +34,7 @@ public:
   /// @param[in] x Node coordinates (shape=(num_nodes, gdim)), row-major.
   /// @param[in] reach Largest distance of a pair.
   /// @param[in] margin By which part a slave facet is enlarged about its middle
-  /// when it looks: pairs that share nothing yet.
+  /// in the search: pairs that do not overlap yet.
   /// @param[in] all_layers Whether all layers count: for a part of the master.
   geometry::FacetPairs find(std::span<const double> x, double reach,
                             double margin, bool all_layers = false);

@@ -13,15 +13,14 @@ using namespace contactx::search;
 
 namespace
 {
-/// Cosine of the angle between the mean normal of a surface and any other one
-/// from which on it goes around a body: a ramp on the far side is enough, as
-/// upright facets face it from in front of the near one
-constexpr double around = 0.99;
+/// Cosine of the angle between the mean normal of a surface and any other one,
+/// below which the surface may go around a body: a ramp on the far side is
+/// enough, as upright facets face it from in front of the near one
+constexpr double one_sided_cosine_min = 0.99;
 
-/// Depth below a facet, by its size, up to which a point counts as on it: pairs
-/// may stay with a facet beyond its edges, and a point may stand for all of a
-/// facet
-constexpr double on_it = 0.2;
+/// Depth below a facet, over its size, up to which a point is on it: pairs may
+/// keep a facet beyond its edges, and a point may represent a whole facet
+constexpr double surface_depth_max = 0.2;
 } // namespace
 
 InsideTest::InsideTest(std::shared_ptr<mesh::Halo> halo,
@@ -45,7 +44,8 @@ InsideTest::InsideTest(std::shared_ptr<mesh::Halo> halo,
     std::copy_n(normals.begin() + i, gdim, normal.begin());
     cosine = std::min(cosine, dot(normal, mean) / length);
   }
-  _is_around = length == 0 or mesh::least(_halo->ranks(), cosine) < around;
+  _is_around = length == 0
+               or mesh::least(_halo->ranks(), cosine) < one_sided_cosine_min;
 }
 
 std::vector<std::int8_t> InsideTest::find(std::span<const double> x,
@@ -64,7 +64,7 @@ std::vector<std::int8_t> InsideTest::find(std::span<const double> x,
   std::vector<std::size_t> which;
   std::vector<double> at;
   for (std::size_t i = 0; i < n; ++i)
-    if (depth[i] > on_it * size[i])
+    if (depth[i] > surface_depth_max * size[i])
     {
       which.push_back(i);
       const auto point = points.subspan(i * g, g);

@@ -145,7 +145,7 @@ private:
 /// @param[in] offsets First node of each facet that this rank has, and end.
 /// @param[in] nodes Nodes of these facets.
 /// @param[in] level Where nodes are on quadratic facets that these are parts
-/// of, see geometry::Shares: `look` gives all parts of one then; empty
+/// of, see geometry::Shares: `query` gives all parts of one then; empty
 /// otherwise.
 std::shared_ptr<MasterSurface>
 make_master_surface(std::shared_ptr<mesh::Halo> halo,

@@ -9,9 +9,9 @@
 
 namespace contactx::search
 {
-/// @brief Order in which neighbours in space come soon after each other, along
-/// Morton's curve: who visits points in this order finds in the cache what the
-/// last ones have read.
+/// @brief Order in which points that are close come soon after each other,
+/// along Morton's curve: who visits points in this order finds in the cache
+/// what the last ones have read.
 /// @param[in] nodes Nodes to order.
 /// @param[in] x Node coordinates (shape=(num_nodes, gdim)), row-major.
 /// @param[in] gdim Geometric dimension, 2 or 3.

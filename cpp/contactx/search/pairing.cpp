@@ -18,7 +18,7 @@ namespace
 constexpr std::int8_t max_returns = 2;
 
 /// Marks a slave node that has not changed its facet in this step
-constexpr std::int32_t never = -2;
+constexpr std::int32_t no_facet_left = -2;
 } // namespace
 
 Pairing::Pairing(std::vector<std::int32_t> slave_offsets,
@@ -43,7 +43,7 @@ Pairing::Pairing(std::vector<std::int32_t> slave_offsets,
 
 void Pairing::begin_step()
 {
-  _left.assign(_slaves.size(), never);
+  _left.assign(_slaves.size(), no_facet_left);
   _returns.assign(_slaves.size(), 0);
 }
 
@@ -62,7 +62,7 @@ void Pairing::restore(std::span<const std::int32_t> facet,
   {
     if (facet[i] < -1 or facet[i] >= num_facets)
       throw std::invalid_argument("a pair with a facet that does not exist");
-    // As many vertices as edges; in the plane a facet is an edge itself
+    // As many vertices as edges; in 2D a facet is an edge itself
     std::ptrdiff_t features = geometry::interior;
     if (facet[i] >= 0)
       features += (master().gdim() - 1) * std::ssize(facets[facet[i]]);

@@ -14,9 +14,8 @@ using namespace contactx::search;
 
 namespace
 {
-constexpr double rounding = 1e-9;
-/// What no angle has: all normals are in the cone
-constexpr double whole = 2;
+/// In place of a sine, larger than any: all normals are in the cone
+constexpr double no_cone = 2;
 
 /// Length of the vector from a box to another one, zero where they meet.
 double distance(std::span<const double> low, std::span<const double> high,
@@ -53,7 +52,7 @@ std::pair<Vector<3>, double> cone(const geometry::FacetList& facets,
   }
   const double length = norm(axis);
   if (!(length > 0))
-    return {{}, whole};
+    return {{}, no_cone};
   axis = (1 / length) * axis;
   double cosine = 1;
   for (const Vector<3>& n : normals)
@@ -61,8 +60,8 @@ std::pair<Vector<3>, double> cone(const geometry::FacetList& facets,
   // All normals oppose a point's unless its own is within 90 degrees less that
   // angle of the axis
   const double sine
-      = cosine > 0 ? std::sqrt(std::max(0.0, 1 - cosine * cosine)) : whole;
-  return {axis, sine + rounding};
+      = cosine > 0 ? std::sqrt(std::max(0.0, 1 - cosine * cosine)) : no_cone;
+  return {axis, sine + box_slack};
 }
 } // namespace
 
@@ -94,8 +93,8 @@ RankBoxes::RankBoxes(mesh::Ranks& ranks, const geometry::FacetList& own,
   for (int r = 0; r < _num_ranks; ++r)
     if (there(r))
       for (std::size_t k = 0; k < g; ++k)
-        _slack = std::max({_slack, rounding * std::abs(low(r)[k]),
-                           rounding * std::abs(high(r)[k])});
+        _slack = std::max({_slack, box_slack * std::abs(low(r)[k]),
+                           box_slack * std::abs(high(r)[k])});
 }
 
 bool RankBoxes::there(int rank) const { return low(rank)[0] <= high(rank)[0]; }

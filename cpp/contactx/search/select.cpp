@@ -5,17 +5,13 @@
 #include "../geometry/gather.h"
 #include "../geometry/ridge.h"
 #include "../geometry/shape.h"
+#include "../math/scales.h"
 
 using namespace contactx;
 using namespace contactx::search;
 
 namespace
 {
-/// Difference of distances, relative to distance and facet, that only rounding
-/// makes: the order of the facets decides, not the units or the place of the
-/// scene
-constexpr double equal_distance = 1e-12;
-
 /// What the facets around a feature are to a point.
 struct Around
 {
@@ -49,7 +45,8 @@ bool is_passed_over(const Surface& surface, std::span<const double> x,
                     const Vector<3>& p, const Projection& nearest)
 {
   const double distance = norm(nearest.d);
-  const double near = distance - equal_distance * (distance + nearest.size);
+  const double near
+      = distance - math::distance_round_off(distance, nearest.size);
   bool found = false;
   surface.for_each_around(nearest.facet, nearest.feature,
                           [&found, &surface, x, &p, near](std::int32_t f)
@@ -70,7 +67,7 @@ std::optional<Projection> beyond_edge(const Surface& surface,
                                       Projection nearest)
 {
   const double distance = norm(nearest.d);
-  const bool touching = distance <= 1e-10 * nearest.size;
+  const bool touching = distance <= math::solved_length_tol * nearest.size;
   if (!touching and dot(nearest.d, around.mean) <= 0)
   {
     if (is_passed_over(surface, x, p, nearest))
@@ -83,7 +80,7 @@ std::optional<Projection> beyond_edge(const Surface& surface,
   const double length = norm(around.mean);
   if (!touching)
     nearest.normal = (1 / distance) * nearest.d;
-  else if (length > 1e-12)
+  else if (length > math::zero_round_off)
     nearest.normal = (1 / length) * around.mean;
   nearest.gap = distance;
   return nearest;
@@ -105,14 +102,14 @@ contactx::search::nearest_facet(const Surface& surface, const BoxTree& tree,
     const auto q = closest_within(surface, f, x, p, bound2);
     if (!q or (!any and dot(q->normal, normal) >= 0))
       return;
-    const double d = norm(q->d), tol = equal_distance * (d + q->size);
+    const double d = norm(q->d), tol = math::distance_round_off(d, q->size);
     if ((d < best_d - tol
          or (d <= best_d + tol and (!best or f < best->facet) and d <= reach))
         and (!accepts or accepts(*q)))
     {
       best = q;
       best_d = d;
-      // Wider, so that rounding in a box's distance hides no tie
+      // Wider, so that round-off in a box's distance hides no facet as near
       const double wide = (1 + 1e-6) * d + 10 * tol;
       bound2 = std::min(bound2, wide * wide);
     }

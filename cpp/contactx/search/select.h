@@ -32,7 +32,7 @@ nearest_facet(const Surface& surface, const BoxTree& tree,
 
 /// @brief The projection that contact is measured with.
 ///
-/// Starts from the closest facet and settles what a closest point leaves open:
+/// Starts from the closest facet; where the closest point is ambiguous:
 /// - next to an edge, the facet whose surface, extended by the margin, holds
 ///   the projection;
 /// - beyond the margin of a convex ridge, a unit normal from the ridge's cone;

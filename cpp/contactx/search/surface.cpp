@@ -11,8 +11,8 @@ using namespace contactx::search;
 
 namespace
 {
-/// The facet's area, relative to its diameter, below which it has no normal
-constexpr double degenerate = 1e-14;
+/// Least area of a facet with a normal, over a power of its diameter
+constexpr double jacobian_min = 1e-14;
 
 template <std::size_t D>
 Vector<3> pad(const std::array<double, D>& a)
@@ -37,7 +37,7 @@ std::optional<Projection> make(std::int32_t f, const geometry::Nodes<F>& x,
 {
   const auto fr = geometry::frame<F>(x, xi);
   const double size = geometry::diameter<F>(x);
-  if (!(fr.jacobian > degenerate * (F::gdim == 2 ? size : size * size)))
+  if (!(fr.jacobian > jacobian_min * (F::gdim == 2 ? size : size * size)))
     return std::nullopt;
   Projection q{f,   feature, {}, pad(d), pad(fr.n), dot(fr.n, d), F::excess(xi),
                size};

@@ -34,7 +34,7 @@ struct ProbeResult
   std::vector<double> values; ///< of the facet (shape=(n, width))
 };
 
-/// @brief Displacements since the configuration that is looked at: gaps then
+/// @brief Displacements since the configuration that is searched: gaps then
 /// are linear in them, as in small sliding.
 struct Displacements
 {
@@ -79,7 +79,7 @@ public:
                     = std::nullopt);
 
 private:
-  // View of points on this rank's facets, the points moving on by their ways
+  // Projections of points on this rank's facets, with the points' displacements
   ProbeResult see(std::span<const double> x, std::span<const double> points,
                   std::span<const double> normals, double reach,
                   std::span<const double> values, int width,

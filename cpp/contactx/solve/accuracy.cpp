@@ -8,21 +8,20 @@ using namespace contactx::solve;
 
 namespace
 {
-/// Part of the residual that the next iterate has while the active set changes,
-/// at least and at most
-constexpr double rough_least = 1e-5, rough_most = 0.1;
-/// Part of it that a linear solve leaves
-constexpr double part = 0.3;
-/// How many solves of a step are finer, and by how much: rougher ones do not
-/// show that the bodies are slender
-constexpr int num_first = 2;
-constexpr double finer = 0.3;
-/// Part of the tolerance that the last solves leave: far less where slip is
-/// measured, as errors must not decide between stick and slip
-constexpr double least_part = 0.1, least_of_path = 0.01;
-/// The same as of a change for the first iterate of a step, where a contact has
-/// friction
-constexpr double exact = 1e-10;
+/// Bounds of the reduction of the residual by an iterate while the active set
+/// changes, relative
+constexpr double next_residual_min = 1e-5, next_residual_max = 0.1;
+/// Residual of a linear solve over that of the next iterate
+constexpr double solve_fraction = 0.3;
+/// Number of solves at a step's start that are finer, and their factor: less
+/// accurate ones do not recognise slender bodies
+constexpr int num_fine_solves = 2;
+constexpr double fine_solve_factor = 0.3;
+/// Residual of the last solves over Newton's tolerance: far less with friction,
+/// as errors must not decide between stick and slip
+constexpr double last_solve_fraction = 0.1, last_solve_fraction_friction = 0.01;
+/// Residual of a step's first solve over that of its iterate, with friction
+constexpr double first_solve_fraction_friction = 1e-10;
 } // namespace
 
 void Accuracy::set(double residual, double tolerance, double changing,
@@ -39,13 +38,16 @@ void Accuracy::set(double residual, double tolerance, double changing,
   _before = settled ? residual : 0;
   double left = std::min(_curvature * residual * residual, 0.1 * residual);
   if (_has_path and _solves == 0)
-    left = exact * residual;
+    left = first_solve_fraction_friction * residual;
   else if (not settled)
-    left = std::max(left, (_solves < num_first ? finer : 1.0)
-                              * std::clamp(changing, rough_least, rough_most)
-                              * residual);
-  const double least = (_has_path ? least_of_path : least_part) * tolerance;
-  _target = std::max(part * left, least);
+    left = std::max(
+        left, (_solves < num_fine_solves ? fine_solve_factor : 1.0)
+                  * std::clamp(changing, next_residual_min, next_residual_max)
+                  * residual);
+  const double least
+      = (_has_path ? last_solve_fraction_friction : last_solve_fraction)
+        * tolerance;
+  _target = std::max(solve_fraction * left, least);
   ++_solves;
-  _is_last = _target <= least_part * tolerance;
+  _is_last = _target <= last_solve_fraction * tolerance;
 }

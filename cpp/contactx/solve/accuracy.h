@@ -9,11 +9,11 @@ namespace contactx::solve
 /// will show.
 ///
 /// While the active set changes, its change dominates the next residual. Once
-/// it has settled, Newton's method leaves a multiple of the residual's square,
-/// as seen in the last iteration. The first iterate of a step tells from where
-/// nodes slip that touch within it, so that the solution depends on this one,
-/// which is solved for exactly. The second one decides whether contact is made
-/// soft for a while.
+/// it has converged, Newton's method leaves a multiple of the residual's
+/// square, as seen in the last iteration. The first iterate of a step tells
+/// from where nodes slip that touch within it, so that the solution depends on
+/// this one, which is solved for exactly. The second one decides whether
+/// contact is made soft for a while.
 class Accuracy
 {
 public:

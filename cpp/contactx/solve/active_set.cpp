@@ -11,9 +11,9 @@ using namespace contactx::solve;
 
 namespace
 {
-/// Share of the closed nodes above which changes of status or facet freeze the
-/// kinematics
-constexpr double few = 0.2;
+/// Number of nodes that change status or facet, over that of closed ones, above
+/// which the kinematics are frozen
+constexpr double freeze_fraction = 0.2;
 
 std::vector<std::span<const std::int32_t>>
 slaves_of(const std::vector<std::shared_ptr<contact::Contact>>& contacts)
@@ -114,7 +114,7 @@ void ActiveSet::begin_step()
 
 Changes ActiveSet::update(const Forces& forces, bool is_first)
 {
-  // On the soft path nothing leads far astray
+  // On the soft path iterates stay near the solution
   return update(forces, is_first, not is_soft());
 }
 
@@ -132,7 +132,7 @@ Changes ActiveSet::update(const Forces& forces, bool is_first, bool may_freeze)
   if (are_many(changes.status))
   {
     // While the active set is far from that of the solution, neither pairs that
-    // go back and forth nor the residual of pairs frozen for it mean anything
+    // alternate nor the residual of pairs frozen for it mean anything
     const bool has_frozen = std::ranges::any_of(
         _contacts,
         [](const auto& c) { return not c->master()->frozen_pairs().empty(); });
@@ -202,7 +202,7 @@ void ActiveSet::share(bool is_first)
   const std::vector<Shared> shared = _junctions.update(closing, is_first);
   for (std::size_t k = 0; k < _contacts.size(); ++k)
   {
-    // Others look at the arrays
+    // Views of the arrays stay valid
     std::ranges::copy(shared[k].redundant,
                       _contacts[k]->nodes()->redundant.begin());
     std::ranges::copy(shared[k].frictionless,
@@ -213,7 +213,7 @@ void ActiveSet::share(bool is_first)
 bool ActiveSet::are_many(std::int64_t changes) const
 {
   return static_cast<double>(changes)
-         > std::max(1.0, few * static_cast<double>(num_closed()));
+         > std::max(1.0, freeze_fraction * static_cast<double>(num_closed()));
 }
 
 std::int64_t ActiveSet::num_closed() const

@@ -25,7 +25,7 @@ struct Changes
 
 /// @brief Pairs and status of all contacts of a problem.
 ///
-/// A Newton loop calls `settle` at each accepted iterate, evaluates the
+/// A Newton loop calls `update` at each accepted iterate, evaluates the
 /// residual that belongs to it, and tells it by `note`. A small residual is a
 /// solution if `may_end` says so. All ranks must call its functions without
 /// const.
@@ -49,7 +49,7 @@ public:
   ///
   /// While many nodes change their status, the active set is far off, and so
   /// are pressures and deformation: pairs found on it, and the stiffness of its
-  /// normals, lead astray. So the kinematics (pairs, normals and projections)
+  /// normals, are wrong. So the kinematics (pairs, normals and projections)
   /// are frozen, which makes the contact conditions linear, and the active set
   /// converges as surely as in small sliding. Once few nodes change the
   /// kinematics are updated again.
@@ -57,7 +57,7 @@ public:
   /// @param[in] is_first Whether the iterate is the step's start.
   Changes update(const Forces& forces, bool is_first = false);
 
-  /// @brief Changes of the last `settle`.
+  /// @brief Changes of the last `update`.
   const Changes& changes() const { return _changes; }
 
   /// @brief Number of nodes in contact, on all ranks.
@@ -82,15 +82,15 @@ public:
   /// @brief True while contact is soft.
   bool is_soft() const { return _path.compliance() > 0; }
 
-  /// @brief Go on along the soft path after an iterate has settled.
+  /// @brief Go on along the soft path after an accepted iterate.
   /// @param[in] is_full Whether the step to it was taken in full.
   void advance(bool is_full);
 
   /// @brief Make contact hard again, where soft contact has converged.
   void harden();
 
-  /// @brief True if only `CycleGuard::part` of the last step is to be taken,
-  /// because iterates go round. Asked once a step.
+  /// @brief True if only `CycleGuard::step_fraction` of the last step is to be
+  /// taken, because the active set cycles. Asked once a step.
   bool shortens() { return _guard.shortens(); }
 
   /// @brief Remember the residual of an iterate.
@@ -99,8 +99,7 @@ public:
   /// @brief Decide if an iterate with a small residual is a solution.
   ///
   /// With frozen kinematics the residual is not the true one. The active set
-  /// need not settle: nodes without force change their status by rounding for
-  /// ever.
+  /// may chatter: nodes without force change their status by round-off.
   enum class End : std::int8_t
   {
     solution, ///< it is
@@ -110,7 +109,7 @@ public:
   };
 
   /// @brief Tell whether an iterate with a small residual is a solution, and
-  /// settle it again if not.
+  /// update pairs and status again if not.
   /// @param[in] forces Forces at the iterate, which free bodies ask for.
   End may_end(const Forces& forces);
 
@@ -128,7 +127,7 @@ public:
   void foresee();
 
   /// @brief Smallest gap that frozen pairs of each contact hide, when last
-  /// looked for.
+  /// searched.
   const std::vector<double>& hidden_gaps() const { return _frozen.gaps(); }
 
 private:

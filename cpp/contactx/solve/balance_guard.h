@@ -14,13 +14,13 @@ namespace contactx::solve
 class BalanceGuard
 {
 public:
-  /// @brief Iterates with unbalanced forces and settled status after which it
-  /// gives up.
-  static constexpr int most = 10;
+  /// @brief Successive iterates with unbalanced forces and a status that does
+  /// not change, after which it gives up.
+  static constexpr int max_iterates = 10;
 
-  /// @brief Largest residual of these over that of the step's start above which
-  /// they have gone astray.
-  static constexpr double astray = 10;
+  /// @brief Largest residual of these, over that of the step's start, above
+  /// which the iterates diverge.
+  static constexpr double divergence_ratio = 10;
 
   /// @brief Start a step.
   void begin_step() { *this = {}; }
@@ -41,12 +41,12 @@ public:
       _count = 0, _largest = 0;
     else if (changes == 0)
       ++_count, _largest = std::max(_largest, residual);
-    return _count >= most and not falls;
+    return _count >= max_iterates and not falls;
   }
 
-  /// @brief True if steps have led away from a solution: that nothing balances
-  /// a body where they have led to says nothing of its loads.
-  bool has_gone_astray() const { return _largest > astray * _first; }
+  /// @brief True if iterates have diverged: where they are, unbalanced forces
+  /// say nothing of the loads.
+  bool has_diverged() const { return _largest > divergence_ratio * _first; }
 
 private:
   int _count = 0;

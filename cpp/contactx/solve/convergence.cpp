@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "convergence.h"
+#include "../mesh/extent.h"
+#include "free_bodies.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,15 +15,17 @@ using namespace contactx::solve;
 
 namespace
 {
-/// Rounding errors of a sum of a few terms
-constexpr double eps = 16 * std::numeric_limits<double>::epsilon();
-/// Displacement over the size of the scene, or what is prescribed
-constexpr double far = 1e3;
-/// Residual over forces that would deform bodies by their own size, below which
-/// it may be no more than the rounding error of forces that cancel
-constexpr double tiny = 1e-8;
-/// Part of the forces that rounding errors may excuse at most
-constexpr double excusable = 1e-6;
+/// Displacement, over the scene's size or the largest prescribed one, above
+/// which a body has run away
+constexpr double runaway_ratio = 1e3;
+/// Residual, over the stiffness times the scene's size, below which it may be
+/// the round-off of forces that cancel
+constexpr double cancelling_force_max = 1e-8;
+/// Largest residual that round-off may excuse, over the forces of the problem
+constexpr double excused_force_max = 1e-6;
+/// Forces of the problem over the first residual, at least: that of prescribed
+/// displacements is large where a stiff body moves as a whole
+constexpr double first_residual_fraction = 1e-6;
 
 double square(double value) { return value * value; }
 
@@ -55,21 +59,7 @@ Convergence::Convergence(std::shared_ptr<System> system)
     : _system(std::move(system))
 {
   const mesh::Halo& halo = *_system->halo();
-  const std::span<const double> x = halo.reference();
-  const int g = halo.gdim();
-  std::vector<double> corners(2 * g, -std::numeric_limits<double>::infinity());
-  for (std::size_t i = 0; i < x.size(); ++i)
-  {
-    corners[i % g] = std::max(corners[i % g], -x[i]);
-    corners[g + i % g] = std::max(corners[g + i % g], x[i]);
-  }
-  ranks().reduce(std::span(corners), mesh::Reduction::largest);
-  _extent = _farthest = 0;
-  for (int k = 0; k < g; ++k)
-  {
-    _extent = std::max(_extent, corners[k] + corners[g + k]);
-    _farthest = std::max({_farthest, corners[k], corners[g + k]});
-  }
+  _scales = mesh::scales(ranks(), halo.reference(), halo.gdim());
   _cell_size.assign(halo.num_owned(), 0);
   if (Bulk& bulk = *_system->bulk(); not bulk.is_linear())
     std::ranges::copy(bulk.cell_sizes(), _cell_size.begin());
@@ -78,8 +68,8 @@ Convergence::Convergence(std::shared_ptr<System> system)
 void Convergence::begin_step(std::vector<double> stiffness)
 {
   _stiffness = std::move(stiffness);
-  _stiff = norm(_stiffness);
-  _least_scale.reset();
+  _scales.stiffness = norm(_stiffness);
+  _scales.force.reset();
   _cancelling.reset();
   _before.reset();
   _field_scales.clear();
@@ -95,7 +85,7 @@ double Convergence::scale() { return norm(_system->bulk_residual()); }
 
 bool Convergence::may_be_rounding(double residual) const
 {
-  return residual <= tiny * _stiff * _extent;
+  return residual <= cancelling_force_max * _scales.deforming_force();
 }
 
 /// The largest residual of other fields over what it may be: at most one where
@@ -105,7 +95,6 @@ double Convergence::excess_of_fields(std::span<const double> b, double rtol)
   Fields* fields = _system->bulk()->fields();
   if (not fields)
     return 0;
-  constexpr double defect_allowed = 1e-10;
   const std::vector<std::size_t> offsets = fields->offsets();
   const std::span<const std::int8_t> markers = fields->markers();
   const std::span<const double> values = fields->values();
@@ -144,13 +133,13 @@ double Convergence::excess_of_fields(std::span<const double> b, double rtol)
       const auto mine
           = std::span(terms).subspan(_system->num_displacements() + offsets[f],
                                      offsets[f + 1] - offsets[f]);
-      allowed = std::max(allowed, eps * norm(mine));
+      allowed = std::max(allowed, math::sum_round_off * norm(mine));
     }
     if (r > 0)
       excess = std::max(excess, r / allowed);
     if (largest[2 * f] > 0)
-      excess = std::max(excess,
-                        largest[2 * f] / (defect_allowed * largest[2 * f + 1]));
+      excess = std::max(excess, largest[2 * f]
+                                    / (dirichlet_rel_tol * largest[2 * f + 1]));
   }
   return excess;
 }
@@ -190,12 +179,13 @@ Convergence::Result Convergence::compare_forces(std::span<const double> b,
   const double residual
       = std::sqrt(mesh::total(ranks(), square(force) + constraints));
   double scale = this->scale();
-  if (not _least_scale)
+  if (not _scales.force)
     // Unloading ends without forces. What the first change of the Dirichlet
     // values asks for says little: a stiff body that moves as a whole asks for
     // much and gets nothing
-    _least_scale = std::max({scale, 1e-6 * residual, scale_of_accepted()});
-  scale = std::max(scale, *_least_scale);
+    _scales.force = std::max(
+        {scale, first_residual_fraction * residual, scale_of_accepted()});
+  scale = std::max(scale, *_scales.force);
 
   // A gap is a difference of positions, the forces of a stiff body sums of
   // stiffness times displacement that cancel. Displacements count only while
@@ -213,13 +203,14 @@ Convergence::Result Convergence::compare_forces(std::span<const double> b,
       if (nodes.closed(i))
         weights += std::pow(nodes.area[i] * nodes.c[i] * most, 2);
   }
-  const double of_gaps = eps * std::sqrt(mesh::total(ranks(), weights));
+  const double of_gaps
+      = math::sum_round_off * std::sqrt(mesh::total(ranks(), weights));
   std::vector<double> excused(u.size());
   for (std::size_t i = 0; i < u.size(); ++i)
-    excused[i] = eps * _stiffness[i] * (u[i] + _cell_size[i]);
-  double whole = std::min(norm(excused), excusable * scale);
+    excused[i] = math::sum_round_off * _stiffness[i] * (u[i] + _cell_size[i]);
+  double whole = std::min(norm(excused), excused_force_max * scale);
   for (double& error : excused)
-    error = std::min(error, excusable * scale);
+    error = std::min(error, excused_force_max * scale);
 
   const double strict = std::max({rtol * scale, atol, of_gaps});
   const double tolerance = std::max({rtol * scale, atol, of_gaps + whole});
@@ -256,7 +247,7 @@ std::vector<double> Convergence::gap_lengths() const
   std::vector<double> lengths;
   for (const auto& c : _system->contacts())
     lengths.push_back(c->measures_displacements() ? largest_of(c->offset())
-                                                  : _farthest);
+                                                  : _scales.farthest);
   ranks().reduce(std::span(lengths), mesh::Reduction::largest);
   return lengths;
 }
@@ -282,7 +273,8 @@ double Convergence::largest_error() const
   std::array most{largest_of(sizes()), largest_of(_cell_size)};
   ranks().reduce(std::span<double>(most), mesh::Reduction::largest);
   const double cancelling = _cancelling ? norm(*_cancelling) : 0;
-  return eps * (_stiff * (most[0] + most[1]) + cancelling);
+  return math::sum_round_off
+         * (_scales.stiffness * (most[0] + most[1]) + cancelling);
 }
 
 /// Evaluates the forces that cancel between cells and terms, once a step at
@@ -325,16 +317,17 @@ std::vector<double> Convergence::errors() const
   std::vector<double> errors = around(sizes());
   for (std::size_t i = 0; i < errors.size(); ++i)
   {
-    errors[i] = eps * _stiffness[i] * (errors[i] + _cell_size[i]);
+    errors[i]
+        = math::sum_round_off * _stiffness[i] * (errors[i] + _cell_size[i]);
     if (_cancelling)
-      errors[i] += eps * (*_cancelling)[i];
+      errors[i] += math::sum_round_off * (*_cancelling)[i];
   }
   return errors;
 }
 
 double Convergence::scale_of_balance()
 {
-  return std::max(scale(), 1e6 * norm(errors()));
+  return std::max(scale(), norm(errors()) / balance_rel_tol);
 }
 
 /// Sizes of the displacements of the owned nodes.
@@ -379,7 +372,7 @@ void Convergence::accept()
 {
   const std::span<const double> forces = _system->bulk_residual();
   _accepted.emplace(std::vector(forces.begin(), forces.end()),
-                    std::max(scale(), _least_scale.value_or(0)));
+                    std::max(scale(), _scales.force.value_or(0)));
 }
 
 /// What the last solution was relative to, while nothing has changed since: it
@@ -399,7 +392,7 @@ bool Convergence::has_run_away()
 {
   const double most
       = mesh::largest(ranks(), largest_of(_system->bulk()->displacements()));
-  return most > far * farthest();
+  return most > runaway_ratio * farthest();
 }
 
 double Convergence::farthest()
@@ -412,5 +405,5 @@ double Convergence::farthest()
   for (std::size_t i = 0; i < u.size(); ++i)
     if (markers[i] == 1)
       prescribed = std::max(prescribed, std::abs(u[i] - defect[i]));
-  return std::max(_extent, mesh::largest(ranks(), prescribed));
+  return std::max(_scales.length, mesh::largest(ranks(), prescribed));
 }

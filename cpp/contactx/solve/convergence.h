@@ -3,11 +3,15 @@
 
 #pragma once
 
+#include "../math/scales.h"
 #include "system.h"
 #include <optional>
 
 namespace contactx::solve
 {
+/// @brief Largest difference from a Dirichlet value, over the largest value.
+inline constexpr double dirichlet_rel_tol = 1e-10;
+
 /// @brief Compares a residual with the forces of the problem.
 ///
 /// The residual is relative to the forces of the bulk: in equilibrium the
@@ -62,12 +66,12 @@ public:
   /// @brief Forces of the problem: norm of the bulk's residual.
   double scale();
 
-  /// @brief Forces that those on a free body are balanced relative to: rounding
-  /// errors of forces that cancel push no body anywhere.
+  /// @brief Forces that those on a free body are balanced relative to:
+  /// round-off errors of forces that cancel push no body anywhere.
   double scale_of_balance();
 
-  /// @brief Size of the scene.
-  double extent() const { return _extent; }
+  /// @brief Length, stiffness and forces of the scene in this step.
+  const math::Scales& scales() const { return _scales; }
 
   /// @brief Largest distance that bodies may have to move: the size of the
   /// scene, or the largest Dirichlet value, which may take a body anywhere.
@@ -94,13 +98,11 @@ private:
   double excess_of_fields(std::span<const double> b, double rtol);
 
   std::shared_ptr<System> _system;
-  double _extent, _farthest;
+  math::Scales _scales;
   std::vector<double> _stiffness;
-  double _stiff = 0;
   // Size of the cells: where strains are differences of 1 and the deformation
-  // gradient, they have its rounding
+  // gradient, they have its round-off
   std::vector<double> _cell_size;
-  std::optional<double> _least_scale;
   // Sizes of the forces that cancel, and the residual before
   std::optional<std::vector<double>> _cancelling;
   std::optional<double> _before;

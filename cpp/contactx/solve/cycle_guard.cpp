@@ -11,9 +11,8 @@ using namespace contactx::solve;
 
 namespace
 {
-/// Difference of residuals, over their size, that says that an iterate is the
-/// same one
-constexpr double same = 1e-3;
+/// Relative difference of residuals up to which two iterates are the same
+constexpr double equal_residual_rel_tol = 1e-3;
 
 /// Mix the bits of a number (Steele, Lea & Flood, Fast splittable pseudorandom
 /// number generators, OOPSLA 2014).
@@ -66,11 +65,12 @@ bool CycleGuard::note(std::uint64_t status, double residual)
   std::vector<double>& before = _seen[status];
   bool again = false;
   if (status == _status)
-    // It may converge slowly; the same residual says that slip turns to and fro
-    again = std::ranges::any_of(before, [residual](double r)
-                                { return std::abs(residual - r) < same * r; });
+    // It may converge slowly; with the same residual slip chatters
+    again = std::ranges::any_of(
+        before, [residual](double r)
+        { return std::abs(residual - r) < equal_residual_rel_tol * r; });
   else if (not before.empty())
-    again = residual > part * std::ranges::min(before);
+    again = residual > step_fraction * std::ranges::min(before);
   _status = status;
   before.push_back(residual);
   if (not again or _short > 0)

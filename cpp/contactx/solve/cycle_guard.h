@@ -30,21 +30,21 @@ fingerprint(mesh::Ranks& ranks,
 class CycleGuard
 {
 public:
-  /// @brief Part of a step that is taken where iterates go round.
-  static constexpr double part = 0.5;
+  /// @brief Fraction of a step that is taken where the active set cycles.
+  static constexpr double step_fraction = 0.5;
 
   /// @brief Start a load step: nothing has been seen yet.
   void begin_step() { *this = {}; }
 
-  /// @brief True if only `part` of the last step is to be taken. Asked once a
-  /// step.
+  /// @brief True if only `step_fraction` of the last step is to be taken. Asked
+  /// once a step.
   bool shortens();
 
   /// @brief Remember an iterate.
   /// @param[in] status Fingerprint of its status.
   /// @param[in] residual Its residual.
-  /// @return Whether iterates go round, so that the next steps are shortened:
-  /// two at first, and one more each time.
+  /// @return Whether the active set cycles, so that the next steps are
+  /// shortened: two at first, and one more each time.
   bool note(std::uint64_t status, double residual);
 
   /// @brief Number of times that a status has come back.

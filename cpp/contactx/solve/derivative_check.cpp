@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "derivative_check.h"
+#include "../math/scales.h"
 #include "not_finite.h"
 #include <algorithm>
 #include <array>
@@ -13,13 +14,12 @@ using namespace contactx::solve;
 
 namespace
 {
-/// Digits of a force that rounding of displacements takes, relative to the
-/// terms of its sum
-constexpr double lost = 64 * std::numeric_limits<double>::epsilon();
-/// Of rigid motions both products are rounding: this part of the diagonal's
-constexpr double rigid = 1e-6;
+/// Round-off of a force, over the terms of its sum
+constexpr double force_round_off = 4 * math::sum_round_off;
+/// Product with a rigid motion, over the diagonal's, that is round-off
+constexpr double rigid_product_rel_tol = 1e-6;
 /// Displacements of the quotients over the size of the scene
-constexpr std::array sizes{1e-4, 1e-6, 1e-8};
+constexpr std::array increment_sizes{1e-4, 1e-6, 1e-8};
 } // namespace
 
 double contactx::solve::derivative_error(System& system,
@@ -56,7 +56,7 @@ double contactx::solve::derivative_error(System& system,
       there[i] = u[i] + part * direction_of[i];
     bulk.set_displacements(there);
   };
-  // Squares of the difference, of rounding, of both products and of what is
+  // Squares of the difference, of round-off, of both products and of what is
   // left of rigid motions
   std::array<double, 5> squares{};
   try
@@ -77,10 +77,10 @@ double contactx::solve::derivative_error(System& system,
     for (std::size_t i = 0; i < n; ++i)
       if (markers[i] != 1)
       {
-        const std::array terms{product[i] - quotient[i],
-                               lost * std::abs(u[i]) * diagonal[i] / size,
-                               product[i], quotient[i],
-                               rigid * direction_of[i] * diagonal[i]};
+        const std::array terms{
+            product[i] - quotient[i],
+            force_round_off * std::abs(u[i]) * diagonal[i] / size, product[i],
+            quotient[i], rigid_product_rel_tol * direction_of[i] * diagonal[i]};
         for (std::size_t k = 0; k < terms.size(); ++k)
           squares[k] += terms[k] * terms[k];
       }
@@ -116,9 +116,9 @@ double contactx::solve::least_derivative_error(
       error = std::min(error, derivative_error(system, direction, size * extent,
                                                ahead * extent));
   };
-  for (const double size : sizes)
+  for (const double size : increment_sizes)
     look(size, 0);
-  look(sizes[1], sizes[0]);
-  look(sizes[2], sizes[0]);
+  look(increment_sizes[1], increment_sizes[0]);
+  look(increment_sizes[2], increment_sizes[0]);
   return error;
 }

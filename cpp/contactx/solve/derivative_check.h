@@ -26,7 +26,7 @@ double derivative_error(System& system, std::span<const double> direction,
 /// @brief Smallest of such differences for some sizes and places; collective.
 ///
 /// One size may be too large where a material is about to fail, or too small
-/// for rounding. An iterate may lie on kinks of the forces: one of its
+/// for round-off. An iterate may lie on kinks of the forces: one of its
 /// derivatives there is as right as another, but none is a quotient across the
 /// kink.
 /// @param[in,out] system The system.
@@ -36,6 +36,6 @@ double derivative_error(System& system, std::span<const double> direction,
 double least_derivative_error(System& system, std::span<const double> direction,
                               double extent);
 
-/// @brief Difference of a Jacobian from the derivative that is no rounding.
+/// @brief Difference of a Jacobian from the derivative that is no round-off.
 constexpr double wrong_derivative = 1e-3;
 } // namespace contactx::solve

@@ -3,6 +3,7 @@
 
 #include "free_bodies.h"
 #include "../law/normal.h"
+#include "../math/scales.h"
 #include "../math/vec.h"
 #include "springs.h"
 #include <algorithm>
@@ -17,20 +18,15 @@ using mesh::Reduction;
 
 namespace
 {
-// Force along a free mode, relative to the problem's, that counts as out of
-// balance
-constexpr double balanced_part = 1e-6;
-// Force along free modes, relative to the residual, above which it asks for a
+// Force along free modes, over the residual, up to which the step has no rigid
 // motion
-constexpr double idle_part = 1e-3;
-// Stiffness of springs, relative to the bulk's: of those that carry no force,
-// and of others
-constexpr double weak = 1e-6;
-constexpr double near = 1e-3;
-// Relative difference of what is equal but for rounding
-constexpr double rel_tol = 1e-9;
-// Movement, relative to the largest, that counts as one
-constexpr double moves = 1e-6;
+constexpr double idle_force_max = 1e-3;
+// Stiffness of springs over the bulk's: where forces along the free modes
+// balance, so that springs carry none, and where they do not
+constexpr double spring_ratio_balanced = 1e-6;
+constexpr double spring_ratio_unbalanced = 1e-3;
+// Velocity of a node, over the largest of a rigid motion, that closes a gap
+constexpr double node_speed_min = 1e-6;
 
 /// Part of a vector along the surface.
 Vector<3> along_surface(const Vector<3>& normal, const Vector<3>& v)
@@ -267,7 +263,7 @@ bool FreeBodies::stabilise(const Forces& forces)
     return values;
   };
   const std::vector<double> force = checked(forces.residual());
-  const double balanced = balanced_part * forces.scale();
+  const double balanced = balance_rel_tol * forces.scale();
   const std::vector<double> pull = along(x, force, -1);
   if (_begins)
   {
@@ -296,7 +292,7 @@ bool FreeBodies::stabilise(const Forces& forces)
         all[i] += more[i];
     }
     const std::vector<double> f = dense::product_transposed(N, all);
-    // A norm that does not depend on which basis of the modes rounding has
+    // A norm that does not depend on which basis of the modes round-off has
     // chosen
     if (dense::norm(f) <= balanced or loads_balance(N))
     {
@@ -315,7 +311,7 @@ bool FreeBodies::stabilise(const Forces& forces)
     if (closed == 0 and not stick_first(rows, increment))
     {
       _is_unbalanced = true;
-      // A support may have got its stiffness on the way
+      // A support may have become stiff during the iteration
       _modes->update(*_bulk, x);
       break;
     }
@@ -352,8 +348,8 @@ void FreeBodies::add_springs(const dense::Matrix& N, std::span<const double> x,
   for (const double force : forces)
     square += force * force;
   const double size = std::sqrt(mesh::total(ranks(), square));
-  const bool idle
-      = dense::norm(dense::product_transposed(N, pull)) <= idle_part * size;
+  const bool idle = dense::norm(dense::product_transposed(N, pull))
+                    <= idle_force_max * size;
   // Friction resists motions across the slip
   if (idle and not has_friction())
   {
@@ -363,11 +359,11 @@ void FreeBodies::add_springs(const dense::Matrix& N, std::span<const double> x,
     const auto u = _bulk->displacements();
     _loose = Loose{std::move(shares), {u.begin(), u.end()}};
   }
-  // Weak, so that they do not slow down what a little stiffness does resist,
-  // such as friction that turns; a body that nothing balances yet stays near
-  // what it may meet
+  // Weak, so that they do not slow down convergence along modes with a small
+  // stiffness, as of friction that turns; a body out of balance stays near what
+  // it may touch
   for (double& spring : springs)
-    spring *= _is_unbalanced ? near : weak;
+    spring *= _is_unbalanced ? spring_ratio_unbalanced : spring_ratio_balanced;
   _springs = std::move(springs);
 }
 
@@ -463,8 +459,8 @@ double FreeBodies::turned() const
   return most;
 }
 
-/// Close the nodes that bodies on weak springs meet before these stop them: a
-/// Newton step would carry the bodies past what they meet.
+/// Close the nodes of bodies on weak supports that touch before the supports
+/// stop them: a Newton step would carry the bodies through their masters.
 bool FreeBodies::close_before_springs(const std::vector<Rows>& rows,
                                       std::span<const double> pull)
 {
@@ -558,7 +554,7 @@ dense::Matrix FreeBodies::free_basis(const std::vector<Rows>& rows,
   const double most = count > 0 ? std::max(found.values.back(), 1.0) : 1.0;
   std::vector<std::size_t> none;
   for (std::size_t k = 0; k < count; ++k)
-    if (found.values[k] <= 1e-12 * most)
+    if (math::is_zero(found.values[k], most))
       none.push_back(k);
   return dense::product(by_body(bases), dense::columns(found.vectors, none));
 }
@@ -574,7 +570,7 @@ double FreeBodies::lowest(std::span<const Found> found) const
   return mesh::least(ranks(), lowest);
 }
 
-/// Close the open nodes that bodies meet first in a rigid motion.
+/// Close the open nodes that touch first in a rigid motion of the bodies.
 /// @param[in] increment The motion: coefficients of each body's modes.
 /// @param[in] within Part of the motion that they go.
 /// @return Number of nodes closed on all ranks.
@@ -595,7 +591,7 @@ std::int64_t FreeBodies::close_first(const std::vector<Rows>& rows,
       if (status[slave] != law::open or not std::isfinite(gap[slave]))
         continue;
       const double speed = -dot(some.normal[i], some.by(increment, i));
-      if (not(speed > moves * most))
+      if (not(speed > node_speed_min * most))
         continue;
       able.slaves.push_back(slave);
       able.times.push_back(std::max(gap[slave], 0.0) / speed);
@@ -605,7 +601,7 @@ std::int64_t FreeBodies::close_first(const std::vector<Rows>& rows,
   if (not std::isfinite(first) or first > within)
     return 0;
   // Nodes that are closer than this touch at once
-  const double margin = rel_tol * _modes->size() / most;
+  const double margin = math::equal_rel_tol * _modes->size() / most;
   std::int64_t count = 0;
   for (const Found& some : found)
   {
@@ -709,7 +705,7 @@ bool FreeBodies::stick_first(const std::vector<Rows>& rows,
           = along_surface(some.normal[i], some.by(increment, i));
       const double speed = std::sqrt(dot(movement, movement));
       // Slip goes against the traction, also where it has only just begun
-      if (not(dot(cone, movement) > 0 and speed > moves * most))
+      if (not(dot(cone, movement) > 0 and speed > node_speed_min * most))
         continue;
       const Vector<3> slip = vector_at(friction_state.slip, slave, g);
       able.slaves.push_back(slave);
@@ -727,7 +723,7 @@ bool FreeBodies::stick_first(const std::vector<Rows>& rows,
     std::vector<std::int32_t> which;
     std::vector<double> tractions;
     for (std::size_t i = 0; i < some.slaves.size(); ++i)
-      if (some.times[i] <= first * (1 + rel_tol))
+      if (some.times[i] <= first * (1 + math::equal_rel_tol))
       {
         which.push_back(some.slaves[i]);
         tractions.insert(tractions.end(), &some.tractions[i * g],

@@ -80,14 +80,18 @@ struct Forces
   std::function<double()> scale;
 };
 
+/// @brief Force along a free mode, over the forces of the problem, above which
+/// a body is out of balance.
+inline constexpr double balance_rel_tol = 1e-6;
+
 /// @brief Keeps the Newton step of bodies without enough supports solvable.
 ///
 /// A rigid mode that neither supports nor closed contacts resist is free and
 /// makes the Jacobian singular. Where the forces along free modes balance, as
 /// many springs as modes are added to the Jacobian: they are statically
 /// determinate, so they carry no force and change no step. Where the forces do
-/// not balance, the open nodes that the bodies would meet first in a rigid
-/// motion are closed, until the closed nodes can balance them; then those
+/// not balance, the open nodes that would touch first in a rigid motion of the
+/// bodies are closed, until the closed nodes can balance them; then those
 /// slipping nodes stick whose slip this motion reverses first. The residual is
 /// never touched, so no solution depends on this. All ranks must take part in
 /// all of it, and find the same.
@@ -135,8 +139,8 @@ public:
   /// zero where strains are not linear. Collective.
   ///
   /// Linear strains take a rotation by the angle w for a stretch by
-  /// sqrt(1 + w^2) that costs nothing. A body that is held keeps its place in
-  /// spite of that; a loose one can become larger until nothing touches it.
+  /// sqrt(1 + w^2) that costs nothing. A body that is supported keeps its place
+  /// in spite of that; a loose one can become larger until nothing touches it.
   double turned() const;
 
   /// @brief Stiffness to add to the Jacobian's diagonal at owned dofs,
@@ -149,7 +153,7 @@ public:
   /// @brief Number of nodes that were closed in this step to balance a body.
   std::int64_t closed_for_balance() const { return _closed_for_balance; }
 
-  /// @brief True if the last iterate had forces that nothing in the way can
+  /// @brief True if the last iterate had forces that no contact can
   /// balance.
   bool is_unbalanced() const { return _is_unbalanced; }
 

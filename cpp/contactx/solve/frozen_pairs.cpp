@@ -9,11 +9,11 @@ using namespace contactx::solve;
 
 namespace
 {
-/// Penetration, over the length of an edge, that frozen pairs may hide: as much
-/// as a ridge of 45 degrees does under the margin of a facet
-constexpr double hidden = 0.03;
-/// How often they are released in a step
-constexpr int most = 2;
+/// Penetration, over the length of an edge, that frozen pairs may hide: that of
+/// a ridge of 45 degrees within the margin of a facet
+constexpr double hidden_depth_max = 0.03;
+/// Releases in a step
+constexpr int max_releases = 2;
 } // namespace
 
 bool FrozenPairs::hide_penetration(mesh::Ranks& ranks,
@@ -30,12 +30,12 @@ bool FrozenPairs::hide_penetration(mesh::Ranks& ranks,
     ranks.reduce(std::span(least), mesh::Reduction::least);
   _gaps.assign(least.begin(), least.begin() + n);
   return std::any_of(least.begin() + n, least.end(),
-                     [](double part) { return part < -hidden; });
+                     [](double part) { return part < -hidden_depth_max; });
 }
 
 bool FrozenPairs::release()
 {
-  if (_times == most)
+  if (_times == max_releases)
     return false;
   ++_times;
   return true;

@@ -13,8 +13,7 @@ namespace contactx::solve
 /// @brief Releases frozen pairs where they hide a penetration at what would be
 /// the solution.
 ///
-/// A pair that goes back and forth between facets is frozen until the step's
-/// end.
+/// A pair that alternates between facets is frozen until the step's end.
 class FrozenPairs
 {
 public:
@@ -28,12 +27,12 @@ public:
   bool hide_penetration(mesh::Ranks& ranks,
                         std::span<const contact::HiddenGap> found);
 
-  /// @brief Decide whether the pairs are released, to settle close to the
-  /// solution: unless that was tried often enough in this step.
+  /// @brief Decide whether the pairs are released, close to the solution:
+  /// unless that was tried often enough in this step.
   bool release();
 
   /// @brief Smallest gap that frozen pairs of each contact hide, when last
-  /// looked for.
+  /// searched.
   const std::vector<double>& gaps() const { return _gaps; }
 
 private:

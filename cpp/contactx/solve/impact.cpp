@@ -14,21 +14,21 @@ using namespace contactx::solve;
 
 namespace
 {
-// Relative velocities, over the largest velocity, that count as none
-constexpr double tolerance = 1e-14;
-// Bounds of loops that end earlier but for redundant constraints
-constexpr int most_solves = 30;
-constexpr int most_iterations = 1000;
-constexpr int most_releases = 3;
+// Relative velocity, over the largest velocity, that is round-off
+constexpr double velocity_rel_tol = 1e-14;
+// Bounds of loops, reached with redundant constraints alone
+constexpr int max_solves = 30;
+constexpr int max_cg_iterations = 1000;
+constexpr int max_node_releases = 3;
 
 /// A closed slave node.
 struct Node
 {
   std::size_t contact, place; ///< which one of which contact
-  bool is_normal;             ///< held along the normal alone
+  bool is_normal;             ///< constrained along the normal alone
   bool pulls;                 ///< whether its impulse may have any sign
   bool held = true;           ///< whether its velocity is prescribed
-  int releases = 0;           ///< how often it was let go
+  int releases = 0;           ///< how often it was released
   Vector<3> normal{}, mobile{}, target{};
   Vector<3> given{}; ///< impulse of the step's multipliers
   Vector<3> sum{};   ///< impulse so far
@@ -87,14 +87,14 @@ public:
     for (const Node& node : _nodes)
       for (const double v : node.target)
         largest = std::max(largest, std::abs(v));
-    _small = tolerance * mesh::largest(_halo.ranks(), largest)
+    _small = velocity_rel_tol * mesh::largest(_halo.ranks(), largest)
              * std::sqrt(mesh::total(_halo.ranks(),
                                      static_cast<double>(_nodes.size())));
   }
 
   std::vector<Node>& nodes() { return _nodes; }
 
-  /// Gives held nodes their velocities: conjugate gradients.
+  /// Gives constrained nodes their velocities: conjugate gradients.
   void hold()
   {
     Vectors left = relative(_velocity);
@@ -106,14 +106,14 @@ public:
     }
     Vectors increment = left;
     double size = product(left, left);
-    for (int n = 0; n < most_iterations and std::sqrt(size) > _small; ++n)
+    for (int n = 0; n < max_cg_iterations and std::sqrt(size) > _small; ++n)
     {
       const std::vector<double> more = pushed(increment);
       Vectors change = relative(more);
       for (std::size_t i = 0; i < change.size(); ++i)
         change[i] = _nodes[i].constrained(change[i]);
       const double work = product(increment, change);
-      // Held by prescribed displacements
+      // Fixed by prescribed displacements
       if (not(work > 0))
         return;
       const double part = size / work;
@@ -152,7 +152,7 @@ public:
         for (int k = 0; k < 3; ++k)
           more[i][k] = -node.sum[k];
       }
-      else if (not node.held and node.releases < most_releases
+      else if (not node.held and node.releases < max_node_releases
                and node.normal_part(speed[i]) - node.normal_part(node.target)
                        < -_small)
         node.held = changes = true;
@@ -163,8 +163,9 @@ public:
           more[i][k] = p * node.along[k] - tangential;
           changes = changes
                     or std::abs(more[i][k])
-                           > tolerance * std::abs(p) * std::abs(node.along[k])
-                                 + std::abs(tangential) * tolerance;
+                           > velocity_rel_tol * std::abs(p)
+                                     * std::abs(node.along[k])
+                                 + std::abs(tangential) * velocity_rel_tol;
         }
       for (int k = 0; k < 3; ++k)
         node.sum[k] += more[i][k];
@@ -293,7 +294,7 @@ void Impact::correct(double dt, std::span<double> velocity,
   if (not mesh::anywhere(_halo->ranks(), not closed.empty()))
     return;
   Velocities velocities(*_halo, std::move(closed), velocity, solve);
-  for (int n = 0; n < most_solves; ++n)
+  for (int n = 0; n < max_solves; ++n)
   {
     velocities.hold();
     if (not velocities.adjust())

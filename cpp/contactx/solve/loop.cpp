@@ -12,10 +12,9 @@ using namespace contactx::solve;
 
 namespace
 {
-/// Difference from a Dirichlet value over the largest displacement
-constexpr double defect_allowed = 1e-10;
-/// Rotation of a loose body that linear strains take for a stretch by 1e-4
-constexpr double turned_most = 0.014;
+/// Rotation of a free body, radians: linear strains take it for a stretch by
+/// 1e-4
+constexpr double rotation_max = 0.014;
 
 std::vector<std::shared_ptr<FreeBodyContact>>
 holdings(const System::Contacts& contacts)
@@ -48,7 +47,7 @@ bool Loop::begin_step(bool damped)
 {
   _system->begin_step();
   _active_set.begin_step();
-  _length.begin_step(damped, _convergence.extent());
+  _length.begin_step(damped, _convergence.scales().length);
   const std::span<const double> u = _system->bulk()->displacements();
   _start.assign(u.begin(), u.end());
   _last.reset();
@@ -185,15 +184,15 @@ Verdict Loop::judge(bool is_start, double rtol, double atol,
       return Verdict::solution;
     if (max_increment() > _convergence.farthest())
       return Verdict::unbounded_motion;
-    return _bodies->turned() > turned_most ? Verdict::large_rotation
-                                           : Verdict::solution;
+    return _bodies->turned() > rotation_max ? Verdict::large_rotation
+                                            : Verdict::solution;
   }
   if (_length.is_stuck())
     return Verdict::stuck;
   if (not is_unbalanced)
     return Verdict::goes_on;
-  // What balances a body may have been lost on the way
-  return _balance.has_gone_astray() ? Verdict::stuck : Verdict::unbalanced;
+  // Diverging iterates may have opened the contacts that balance a body
+  return _balance.has_diverged() ? Verdict::stuck : Verdict::unbalanced;
 }
 
 double Loop::limit(std::span<const double> dx, const Correction& correction)
@@ -209,7 +208,7 @@ double Loop::limit(std::span<const double> dx, const Correction& correction)
 /// Remembers a Newton step in full, before a part of it is taken.
 ///
 /// Slip of nodes that touch within a load step is measured from where they do
-/// on the way of its first Newton step, however much of that is taken: else the
+/// along its first Newton step, however much of that is taken: else the
 /// solution would depend on what shortens it. Only that one counts.
 void Loop::foresee(std::span<const double> dx)
 {
@@ -221,7 +220,7 @@ void Loop::foresee(std::span<const double> dx)
     _ahead[i] -= dx[i];
 }
 
-/// Measures slip from where nodes touch on the way of the first Newton step, if
+/// Measures slip from where nodes touch along the first Newton step, if
 /// only a part of it was taken.
 void Loop::look_ahead()
 {
@@ -238,12 +237,12 @@ void Loop::look_ahead()
   _system->take(x);
 }
 
-/// Takes back a part of the last step, if iterates go round in a circle.
+/// Takes back a part of the last step, if the active set cycles.
 void Loop::take_back()
 {
   if (not _last or not _active_set.shortens())
     return;
-  constexpr double part = CycleGuard::part;
+  constexpr double part = CycleGuard::step_fraction;
   std::vector<double> x(_system->size());
   _system->unknowns(x);
   for (std::size_t i = 0; i < x.size(); ++i)
@@ -281,7 +280,7 @@ bool Loop::compare(double rtol, double atol, std::span<double> b)
     size = std::max(size, std::abs(u));
   size = mesh::largest(_system->halo()->ranks(), size);
   return found.residual <= found.tolerance
-         and found.defect <= defect_allowed * size;
+         and found.defect <= dirichlet_rel_tol * size;
 }
 
 bool Loop::softens(std::span<const double> dx)
@@ -315,7 +314,7 @@ double Loop::within_cells(std::span<const double> dx) const
   halo.forward(std::span(way), halo.gdim());
   const double part = mesh::max_step_without_inversion(
       bulk.cells(), bulk.nodes_per_cell(), halo.reference(), halo.now()->u, way,
-      halo.gdim(), StepLength::left);
+      halo.gdim(), StepLength::det_fraction_min);
   return mesh::least(halo.ranks(), part);
 }
 

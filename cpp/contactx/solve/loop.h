@@ -19,12 +19,12 @@ enum class Verdict : std::int8_t
   not_finite,             ///< the residual is not
   frozen_pair_penetrates, ///< frozen pairs hide a penetration, and cannot be
                           ///< released
-  unbounded_motion, ///< it would be, but for a body that nothing holds and that
-                    ///< has left the scene
-  large_rotation, ///< it would be, but for a body that nothing holds and that
-                  ///< has turned farther than its linear strains allow
-  unbalanced, ///< nothing can balance the loads on a body
-  stuck       ///< the last steps have led nowhere
+  unbounded_motion,       ///< it would be, but for a body without supports that
+                          ///< has left the scene
+  large_rotation,         ///< it would be, but for a body without supports that
+                          ///< has turned farther than its linear strains allow
+  unbalanced,             ///< nothing can balance the loads on a body
+  stuck ///< line search failed: the last steps made no progress
 };
 
 /// @brief An accepted iterate, as all ranks see it.
@@ -96,8 +96,8 @@ public:
   /// @brief Update pairs and the active set at an accepted iterate, and judge
   /// the residual that they give.
   ///
-  /// The iterate itself may change: where iterates go round a part of the last
-  /// step is taken back, and free bodies that have drifted are taken back.
+  /// The iterate itself may change: where the active set cycles a part of the
+  /// last step is taken back, and free bodies that have drifted are taken back.
   /// @param[in] is_start Whether no step was taken since `settle_first`.
   /// @param[in] rtol Tolerance relative to the forces.
   /// @param[in] atol Absolute tolerance.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "rigid_modes.h"
+#include "../math/scales.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,11 +16,11 @@ using mesh::Reduction;
 
 namespace
 {
-// Stiffness against a rigid motion, relative to the diagonal's, that counts as
-// a support: rounding leaves less than 1e-15
-constexpr double supported = 1e-13;
-// And one that lets a body move so far that it may meet others on the way
-constexpr double soft = 1e-3;
+// Stiffness against a rigid motion, over the diagonal's, above which the body
+// is supported: round-off is less than 1e-15
+constexpr double support_stiffness_min = 1e-13;
+// The same up to which the body may move far enough to touch others
+constexpr double weak_support_max = 1e-3;
 
 /// Orthonormal basis of the null space of a matrix of so many rows, from the
 /// matrix times its transpose from the left.
@@ -28,7 +29,7 @@ dense::Matrix null_space(const dense::Matrix& gram, double rows)
   const dense::Eigen found = dense::symmetric_eigen(gram);
   std::vector<std::size_t> which;
   for (std::size_t k = 0; k < found.values.size(); ++k)
-    if (std::abs(found.values[k]) <= 1e-12 * std::max(rows, 1.0))
+    if (math::is_zero(found.values[k], std::max(rows, 1.0)))
       which.push_back(k);
   return dense::columns(found.vectors, which);
 }
@@ -207,7 +208,7 @@ void RigidModes::update(Bulk& bulk, std::span<const double> x)
         const Resistance r = resistance(bulk, x, b, shifts);
         sprung[b] = std::ranges::any_of(
             r.found.values, [&r](double value)
-            { return std::abs(value) > supported * r.scale; });
+            { return std::abs(value) > support_stiffness_min * r.scale; });
       }
     }
     if (unconstrained.cols > 0 and (_is_first or sprung[b]))
@@ -217,9 +218,9 @@ void RigidModes::update(Bulk& bulk, std::span<const double> x)
       for (std::size_t k = 0; k < r.found.values.size(); ++k)
       {
         const double size = std::abs(r.found.values[k]);
-        if (size <= supported * r.scale)
+        if (size <= support_stiffness_min * r.scale)
           none.push_back(k);
-        else if (size <= soft * r.scale)
+        else if (size <= weak_support_max * r.scale)
         {
           some.push_back(k);
           yields.push_back(size);

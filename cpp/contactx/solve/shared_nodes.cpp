@@ -15,13 +15,13 @@ using namespace contactx::solve;
 
 namespace
 {
-/// Part of a normal that lies outside the span of others and still counts as
-/// independent
-constexpr double clearly = 0.1;
-/// And where a node needs both: it has gone to and fro between them this often
-/// in a step
-constexpr double little = 1e-4;
-constexpr int most_flips = 2;
+/// Length of a unit normal's part outside the span of others, from which on its
+/// constraint is independent of theirs
+constexpr double independent_normal_min = 0.1;
+/// The same where a node needs both constraints, and the number of times that
+/// the deepest one has changed in the step then
+constexpr double independent_normal_min_cycling = 1e-4;
+constexpr int max_flips = 2;
 
 /// Directions that constraints of a node span.
 class Span
@@ -132,7 +132,9 @@ void SharedNodes::decide(std::size_t s, const std::vector<Closing>& contacts,
   const auto deepest = static_cast<std::int64_t>(closed.front().contact);
   _flips[s] += _deepest[s] != -1 and _deepest[s] != deepest;
   _deepest[s] = deepest;
-  const double independent = _flips[s] < most_flips ? clearly : little;
+  const double independent = _flips[s] < max_flips
+                                 ? independent_normal_min
+                                 : independent_normal_min_cycling;
 
   Span span;
   std::vector<Place> kept;

@@ -35,7 +35,7 @@ struct Shared
 ///
 /// The rule: of the contacts that a node closes, the deepest comes first, and
 /// one whose normal lies nearly in the span of the normals before it stays
-/// open, unless the node goes to and fro between them: it needs both, as in a
+/// open, unless the node alternates between them: it needs both, as in a
 /// shallow valley. A node that closes several contacts slides without friction
 /// in all of them, so that its constraints are the independent normals alone. A
 /// tie constrains a node in every direction: the node's other contacts stay

@@ -51,7 +51,8 @@ public:
   /// @return Whether it does, and the step is not to be taken.
   bool begins(const HardStep& step);
 
-  /// @brief Go on after an iterate: to the next level if this one has settled.
+  /// @brief Go on after an iterate: to the next level if this one has
+  /// converged.
   /// @param[in] changes Number of nodes that changed their status.
   /// @param[in] closed Number of closed nodes.
   /// @param[in] is_full Whether the step was taken in full.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "springs.h"
+#include "../math/scales.h"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,9 +12,6 @@ using namespace contactx;
 
 namespace
 {
-// Relative difference of what is equal but for rounding
-constexpr double equal = 1e-9;
-
 double square(std::span<const double> row)
 {
   double sum = 0;
@@ -60,7 +58,7 @@ solve::independent_springs(mesh::Ranks& ranks, const dense::Matrix& field,
     std::int64_t mine = std::numeric_limits<std::int64_t>::max();
     std::size_t dof = n;
     for (std::size_t i = 0; i < n; ++i)
-      if (size[i] >= (1 - equal) * most)
+      if (math::is_largest(size[i], most))
       {
         const auto number
             = static_cast<std::int64_t>(original[i / gdim] * gdim + i % gdim);

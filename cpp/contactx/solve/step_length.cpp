@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "step_length.h"
+#include "../math/scales.h"
 #include <algorithm>
 #include <cmath>
 
@@ -9,16 +10,14 @@ using namespace contactx::solve;
 
 namespace
 {
-/// Trial steps of a damped one; what is left after the last is taken
-constexpr int trials = 6;
-/// Part of a step that leads nowhere, and how many such in turn end the loop
-constexpr double nothing = 1e-3;
-constexpr int stuck = 3;
-/// By how much a damped step is at least and at most shorter than the one
-/// before
-constexpr double shortest = 0.1, longest = 0.5;
-/// Size of a step over that of the scene which rounding errors may have made
-constexpr double rounding = 1e-10;
+/// Trials of a damped step; the last one is taken
+constexpr int max_trials = 6;
+/// Fraction of a step that is no progress, and successive ones that end the
+/// loop
+constexpr double negligible_step = 1e-3;
+constexpr int max_negligible_steps = 3;
+/// Bounds of the length of a trial step over the one before
+constexpr double step_ratio_min = 0.1, step_ratio_max = 0.5;
 } // namespace
 
 void StepLength::begin_step(bool damped, double extent)
@@ -37,8 +36,8 @@ void StepLength::begin(double size, double within_cells)
   _size = size;
   _part = _within_cells = within_cells;
   _limited += within_cells < 1;
-  if (_is_damped and (_changes or size > rounding * _extent))
-    _trials = trials;
+  if (_is_damped and (_changes or size > math::solved_length_tol * _extent))
+    _trials = max_trials;
   else
     end();
 }
@@ -52,7 +51,7 @@ void StepLength::judge(double next_size)
     end();
     return;
   }
-  double shorter = shortest;
+  double shorter = step_ratio_min;
   if (not std::isinf(next_size))
   {
     // It is (1 - t) times this one, and a part that grows with the square of t
@@ -62,7 +61,7 @@ void StepLength::judge(double next_size)
               : 0;
     shorter = square > 0 ? 1 / (square * _part) : 1;
   }
-  _part *= std::min(std::max(shorter, shortest), longest);
+  _part *= std::min(std::max(shorter, step_ratio_min), step_ratio_max);
   if (--_trials == 0)
     end();
 }
@@ -71,7 +70,7 @@ void StepLength::end()
 {
   _trials = 0;
   _damped += _part < _within_cells;
-  _tiny = _part < nothing ? _tiny + 1 : 0;
+  _tiny = _part < negligible_step ? _tiny + 1 : 0;
 }
 
-bool StepLength::is_stuck() const { return _tiny >= stuck; }
+bool StepLength::is_stuck() const { return _tiny >= max_negligible_steps; }

@@ -25,10 +25,10 @@ namespace contactx::solve
 class StepLength
 {
 public:
-  /// @brief Part of min(det F, 1) that a step leaves in each cell. Measured
+  /// @brief Fraction of min(det F, 1) that a step leaves in each cell. Measured
   /// from 0.1 to 0.5: rollers on soft blocks take the fewest iterations, and
   /// most of them converge.
-  static constexpr double left = 0.4;
+  static constexpr double det_fraction_min = 0.4;
 
   /// @brief Start a load step.
   /// @param[in] damped Whether steps are damped.
@@ -74,6 +74,6 @@ private:
   double _size = 0, _within_cells = 1, _part = 1;
   int _trials = 0; // that are left
   int _limited = 0, _damped = 0;
-  int _tiny = 0; // steps in turn that led nowhere
+  int _tiny = 0; // successive steps without progress
 };
 } // namespace contactx::solve

@@ -136,7 +136,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
       continue;
     const Crossing& c = found[which[i]];
     require(c.point == static_cast<std::int32_t>(i) and c.entering
-                and c.cosine < -audit::oblique,
+                and c.cosine < -audit::oblique_cosine,
             "a point passes what it faces");
   }
   const auto again = audit::passages(facets, x0, x1, scene.gdim, points.view());

@@ -117,7 +117,8 @@ TEST_P(MortarInvariance, AFacetCoveredBelowTheLeastPartHasZeros)
       // The master ends so that it covers a strip along an edge. One of two
       // triangles has that edge, the other one just a tip there
       const bool triangles = gdim == 3 and cells == Cells::triangles;
-      const double width = part * geometry::least_cover * (triangles ? 0.5 : 1);
+      const double width
+          = part * geometry::covered_fraction_min * (triangles ? 0.5 : 1);
       const Facing scene(sheet(gdim, 1, cells, false, 0, 1, level(gdim, 0.1)),
                          sheet(gdim, 1, cells, true, -1, 1,
                                [gdim, width](double s, double t)

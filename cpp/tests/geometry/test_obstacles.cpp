@@ -243,7 +243,7 @@ TEST(Obstacles, SayWhatDoesNotFit)
   EXPECT_EQ(error_of(Cylinder({0, 0, 0}, {0, 0, 0}, 1), y, 3),
             "axis of a Cylinder is a zero vector: give a direction");
   EXPECT_EQ(error_of(Cylinder({0, 0}, {0, 1}, 1), x, 2),
-            "a Cylinder needs three dimensions: in the plane take a Sphere");
+            "a Cylinder needs 3D: in 2D take a Sphere");
 }
 
 /// Rotation from a to b by axis and angle (Rodrigues).

@@ -35,4 +35,22 @@ TEST_P(ExtentOnRanks, IsThatOfTheBox)
       });
 }
 
+TEST_P(ExtentOnRanks, ScalesAreTheLongestSideAndTheLargestCoordinate)
+{
+  on_ranks(
+      GetParam(),
+      [](ThreadRanks& ranks)
+      {
+        const double r = ranks.rank(), last = ranks.size() - 1;
+        std::vector<double> x{r, -r - 7, 0, 1};
+        const math::Scales found = mesh::scales(ranks, x, 2);
+        EXPECT_EQ(found.length, last + 8);
+        EXPECT_EQ(found.farthest, last + 7);
+        EXPECT_EQ(mesh::scales(ranks, std::vector<double>(), 3).farthest, 0);
+        x[0] = ranks.rank() == 0 ? std::numeric_limits<double>::infinity() : 0;
+        EXPECT_EQ(mesh::scales(ranks, x, 2).farthest, 0);
+        EXPECT_EQ(mesh::scales(ranks, x, 2).length, 0);
+      });
+}
+
 INSTANTIATE_TEST_SUITE_P(Extent, ExtentOnRanks, testing::Values(1, 2, 3, 4));

@@ -20,19 +20,19 @@ BalanceGuard after(int count)
 
 TEST(BalanceGuard, GivesUpAfterTenIteratesWithSettledStatus)
 {
-  BalanceGuard guard = after(BalanceGuard::most - 1);
+  BalanceGuard guard = after(BalanceGuard::max_iterates - 1);
   // One in which nodes change their status does not count, nor start anew
   EXPECT_FALSE(guard.note(true, 1, 1.0));
   EXPECT_TRUE(guard.note(true, 0, 1.0));
   EXPECT_TRUE(guard.note(true, 1, 1.0));
-  EXPECT_EQ(BalanceGuard::most, 10);
+  EXPECT_EQ(BalanceGuard::max_iterates, 10);
 }
 
 TEST(BalanceGuard, CountsAnewWhereForcesBalance)
 {
-  BalanceGuard guard = after(BalanceGuard::most - 1);
+  BalanceGuard guard = after(BalanceGuard::max_iterates - 1);
   EXPECT_FALSE(guard.note(false, 0, 1.0));
-  for (int i = 1; i < BalanceGuard::most; ++i)
+  for (int i = 1; i < BalanceGuard::max_iterates; ++i)
     EXPECT_FALSE(guard.note(true, 0, 1.0));
   EXPECT_TRUE(guard.note(true, 0, 1.0));
   guard.begin_step();
@@ -41,7 +41,7 @@ TEST(BalanceGuard, CountsAnewWhereForcesBalance)
 
 TEST(BalanceGuard, WaitsWhileTheResidualFalls)
 {
-  BalanceGuard guard = after(BalanceGuard::most - 1);
+  BalanceGuard guard = after(BalanceGuard::max_iterates - 1);
   // From one iterate to the next
   EXPECT_FALSE(guard.note(true, 0, 0.69));
   EXPECT_FALSE(guard.note(true, 0, 0.69 * 0.69));
@@ -56,11 +56,11 @@ TEST(BalanceGuard, IteratesFarAboveTheFirstResidualHaveGoneAstray)
     // Where forces balance, or nodes change, a residual may be anything
     EXPECT_FALSE(guard.note(false, 0, 1e3));
     EXPECT_FALSE(guard.note(true, 1, 1e3));
-    EXPECT_FALSE(guard.has_gone_astray());
-    guard.note(true, 0, factor * BalanceGuard::astray);
+    EXPECT_FALSE(guard.has_diverged());
+    guard.note(true, 0, factor * BalanceGuard::divergence_ratio);
     guard.note(true, 0, 1);
-    EXPECT_EQ(guard.has_gone_astray(), factor > 1);
+    EXPECT_EQ(guard.has_diverged(), factor > 1);
     guard.begin_step();
-    EXPECT_FALSE(guard.has_gone_astray());
+    EXPECT_FALSE(guard.has_diverged());
   }
 }

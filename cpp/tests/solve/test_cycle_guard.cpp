@@ -188,7 +188,7 @@ TEST(CycleGuard, LeadsOutOfACycleOfNewton)
     const double last = x;
     x -= f(x);
     if (guard.shortens())
-      x = last + CycleGuard::part * (x - last);
+      x = last + CycleGuard::step_fraction * (x - last);
     has_left |= x != 2 and x != -1;
     guard.note(status(x), std::abs(f(x)));
   }

@@ -116,7 +116,7 @@ ROWS = [
         "cylinder: in the plane",
         master(lambda _: cx.Cylinder((0, 0), UP, 1.0)),
         ValueError,
-        "a Cylinder needs three dimensions: in the plane take a Sphere",
+        "a Cylinder needs 3D: in 2D take a Sphere",
     ),
     Row(
         "level set: no function",

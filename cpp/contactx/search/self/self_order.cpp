@@ -14,13 +14,13 @@ using namespace contactx::search;
 
 namespace
 {
-/// Difference of distances, by their size, that only rounding makes: the
-/// number of a node decides then
-constexpr double alike_distance = 1e-6;
-/// Parts whose facets differ by less than this factor are alike
-constexpr double alike = 2;
+/// Relative difference of distances that is round-off: the number of a node
+/// decides then
+constexpr double equal_distance_rel_tol = 1e-6;
+/// Ratio of facets' sizes up to which parts are equally fine
+constexpr double equal_size_ratio = 2;
 
-/// First of the nodes with the largest value, but for rounding.
+/// First of the nodes with the largest value, but for round-off.
 std::int32_t farthest(std::span<const std::int32_t> nodes,
                       std::span<const double> value)
 {
@@ -29,7 +29,8 @@ std::int32_t farthest(std::span<const std::int32_t> nodes,
     if (value[node] < infinity)
       most = std::max(most, value[node]);
   for (const std::int32_t node : nodes)
-    if (value[node] < infinity and value[node] >= (1 - alike_distance) * most)
+    if (value[node] < infinity
+        and value[node] >= (1 - equal_distance_rel_tol) * most)
       return node;
   return nodes.front();
 }
@@ -59,7 +60,7 @@ EdgePaths::EdgePaths(const geometry::FacetList& facets,
   };
   for (std::int32_t f = 0; f < facets.size(); ++f)
   {
-    // Diagonals of quadrilaterals are ways, too
+    // Diagonals of quadrilaterals are edges, too
     const auto nodes = facets[f];
     for (std::size_t i = 0; i < nodes.size(); ++i)
       for (std::size_t j = 0; j < i; ++j)
@@ -193,8 +194,8 @@ void SelfOrder::take_compliance(std::span<const double> compliance)
     score[_part[i]] += compliance[i];
     ++count[_part[i]];
   }
-  // That of a node is one over a modulus in the plane, and one over a modulus
-  // times the size of its facets in space
+  // The compliance of a node is 1 / modulus in 2D, and 1 / (modulus times the
+  // size of its facets) in 3D
   for (std::size_t k = 0; k < score.size(); ++k)
     score[k] /= count[k] * (_gdim == 2 ? _size[k] : 1.0);
   set_ranks(score);
@@ -210,10 +211,11 @@ void SelfOrder::set_ranks(std::span<const double> score)
   std::vector<int> level(score.size(), 0);
   for (std::size_t k = 0; k < score.size(); ++k)
     if (score[k] > 0)
-      // Those that are alike are not told apart by rounding
+      // Round-off does not decide between parts that are equally soft or fine
       level[k] = 1
-                 + static_cast<int>(std::floor(
-                     std::log(score[k] / least) / std::log(alike) + 0.25));
+                 + static_cast<int>(std::floor(std::log(score[k] / least)
+                                                   / std::log(equal_size_ratio)
+                                               + 0.25));
   std::vector<std::int32_t> order(score.size());
   std::iota(order.begin(), order.end(), 0);
   std::ranges::stable_sort(order, {}, [&](std::int32_t k) { return level[k]; });

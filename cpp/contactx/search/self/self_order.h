@@ -20,10 +20,10 @@ namespace contactx::search
 /// - within a curve it is the place farther along it. A closed one begins at
 ///   the node that is farthest from its middle. What folds does so about
 ///   points between the two sides, so that one side is all before the other;
-/// - within a surface in space it is the place farther from the node that is
-///   farthest from the middle, along edges. Half the way from a second node,
-///   far from the first and from what is farthest from that, is added: for
-///   sides that lie as a mirror has them.
+/// - within a surface in 3D it is the place farther from the node that is
+///   farthest from the middle, along edges. Half the distance from a second
+///   node, far from the first and from what is farthest from that, is added:
+///   for sides that lie as a mirror has them.
 class SelfOrder
 {
 public:
@@ -74,7 +74,8 @@ public:
   EdgePaths(const geometry::FacetList& facets, std::span<const double> x,
             int gdim);
 
-  /// @brief Nodes within a way of a node, with the ways, in the order of these.
+  /// @brief Nodes within a distance along edges of a node, with the distances,
+  /// in their order.
   /// @param[in] from The node.
   /// @param[in] within Longest length; may be infinite.
   std::vector<std::pair<double, std::int32_t>> from(std::int32_t from,

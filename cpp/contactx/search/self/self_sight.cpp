@@ -12,18 +12,17 @@ using namespace contactx::search;
 
 namespace
 {
-/// Part of what a body measures through a node that it may be behind a facet
-/// and have come through that one
-constexpr double half = 0.5;
+/// Depth of a node behind a facet, over the body's thickness there, up to which
+/// it has come through that facet
+constexpr double passed_fraction = 0.5;
 /// Largest cosine between the normals of a node and of a facet on the far side
-/// of its body: so that a right angle that becomes less than one is no way
-/// through
-constexpr double far_side = 0.5;
-/// How many times as far as the height is, the edge of a valley may be that a
-/// node is behind: it is no valley beyond the end of what the node sees
-constexpr double beside = 2;
-/// Of the size of a facet: what rounding, and the solution, leave of a gap
-constexpr double left_of_gap = 1e-6;
+/// of its body: no passage through a right angle that becomes less than one
+constexpr double far_side_cosine = 0.5;
+/// Largest distance of the edge of a valley that a node is behind, over its
+/// height: farther away the candidates end, not the valley
+constexpr double valley_distance_ratio = 2;
+/// Gap, over the size of a facet, within round-off and the solver's tolerance
+constexpr double gap_rel_tol = 1e-6;
 
 std::vector<std::int32_t> copy(std::span<const std::int32_t> values)
 {
@@ -85,7 +84,7 @@ void SelfSight::find_thickness()
     const Vector<3> normal = vector_at(_normal, node, _gdim);
     const auto is_far_side = [&](const Projection& q)
     {
-      return q.gap < 0 and dot(q.normal, normal) < far_side
+      return q.gap < 0 and dot(q.normal, normal) < far_side_cosine
              and _body[_surface.facets()[q.facet][0]] == _body[node]
              and std::ranges::find(_surface.facets()[q.facet], node)
                      == _surface.facets()[q.facet].end();
@@ -115,10 +114,10 @@ bool SelfSight::sees(std::int32_t node, const Vector<3>& normal,
 {
   if (std::ranges::binary_search(_neighbours[node], q.facet))
     return false;
-  const double slack = left_of_gap * q.size;
+  const double slack = gap_rel_tol * q.size;
   if (q.gap >= 0)
     return dot(normal, q.d) <= slack;
-  if (norm(q.d) <= half * _thickness[node])
+  if (norm(q.d) <= passed_fraction * _thickness[node])
     return true;
   const SurfacePoint foot = point_at(_finder.surface(), q.facet, _x0, q.xi);
   const Vector<3> d0 = vector_at(_x0, node, _gdim) - foot.x,
@@ -137,7 +136,8 @@ FoundPlace SelfSight::find(std::int32_t node, double reach,
                      { return sees(node, normal, q); });
   if (found.selected and found.selected->excess > geometry::facet_margin
       and found.selected->feature == geometry::interior
-      and norm(found.nearest->d) > beside * std::abs(found.selected->gap))
+      and norm(found.nearest->d)
+              > valley_distance_ratio * std::abs(found.selected->gap))
     found.selected = std::nullopt;
   return found;
 }

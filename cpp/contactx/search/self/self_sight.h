@@ -48,8 +48,7 @@ public:
   /// @copydoc order
   const SelfOrder& order() const { return _order; }
 
-  /// @brief Take positions that the next looks are from; all ranks must take
-  /// part.
+  /// @brief Take the positions of the next searches; all ranks must take part.
   /// @param[in] x0 Positions of this rank's nodes at the step's start
   /// (shape=(at least num_owned, gdim)), row-major.
   /// @param[in] x The same of now.
