@@ -13,7 +13,7 @@
 /// them: what is installed needs no Eigen.
 namespace contactx::math
 {
-/// @brief Matrix of one node, of up to three rows and columns.
+/// @brief Matrix of up to three rows and columns, as arrays hold it.
 using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic,
                             Eigen::RowMajor, 3, 3>;
 
