@@ -68,18 +68,22 @@ void fill_pair(double* w, Law law, int feature, std::mt19937& random)
       x[D * a + k] = a == 0 ? slave[k] : master[a - 1][k];
     }
   // What the search found lies near, not at the projection
-  double* p = at(Coefficient::pair);
-  p[pair_feature] = feature;
+  FacetPair pair;
+  pair.feature = feature;
   for (int a = 0; a < F::tdim; ++a)
-    p[pair_xi + a] = xi[a] + 0.02 * unit(random);
-  std::copy(cone.begin(), cone.end(), p + pair_cone);
-  std::copy(normal.begin(), normal.end(), p + pair_normal);
+    pair.xi[a] = xi[a] + 0.02 * unit(random);
+  pair.cone = cone;
+  std::copy(normal.begin(), normal.end(), pair.normal.begin());
+  std::ranges::copy(values_of(std::span<const FacetPair>(&pair, 1)),
+                    at(Coefficient::pair));
   if (law != Law::frictionless)
   {
-    double* s = at(Coefficient::slip);
+    FacetSlip slip;
     for (int a = 0; a < F::tdim; ++a)
-      s[slip_xi + a] = xi[a] + 0.05 * unit(random);
-    s[slip_gap] = gap;
+      slip.xi[a] = xi[a] + 0.05 * unit(random);
+    slip.gap = gap;
+    std::ranges::copy(values_of(std::span<const FacetSlip>(&slip, 1)),
+                      at(Coefficient::slip));
   }
 }
 

@@ -6,6 +6,8 @@
 #include "master.h"
 #include <contactx/mesh/bodies.h>
 #include <contactx/solve/active_set.h>
+#include <contactx/solve/rigid_modes.h>
+#include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 #include <stdexcept>
 
@@ -21,15 +23,6 @@ namespace
 std::vector<double> values_of(const py::object& values)
 {
   return copy(values.cast<Array<double>>());
-}
-
-py::list matrices(const std::vector<contactx::dense::Matrix>& all)
-{
-  py::list result;
-  for (const auto& m : all)
-    result.append(array(m.values, {static_cast<py::ssize_t>(m.rows),
-                                   static_cast<py::ssize_t>(m.cols)}));
-  return result;
 }
 
 py::object or_none(const std::optional<std::vector<double>>& values)
@@ -106,8 +99,8 @@ void contactx_bindings::bodies(py::module_& m)
       .def_property_readonly("count", &RigidModes::count)
       .def_property_readonly("size", &RigidModes::size)
       .def_property_readonly("any_free", &RigidModes::any_free)
-      .def_property_readonly("free", [](const RigidModes& self)
-                             { return matrices(self.free()); })
+      .def_property_readonly("free",
+                             [](const RigidModes& self) { return self.free(); })
       .def(
           "at",
           [](const RigidModes& self, const Array<std::int32_t>& nodes,

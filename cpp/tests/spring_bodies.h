@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "algebra.h"
 #include "contact_scene.h"
 #include <contactx/mesh/bodies.h>
 #include <contactx/solve/loop.h>
@@ -361,17 +362,15 @@ struct SpringBodies
   }
 
   /// @brief Stiffness of the bulk, of one rank.
-  dense::Matrix stiffness() const
+  Eigen::MatrixXd stiffness() const
   {
     const std::size_t n = scene.u->size();
-    dense::Matrix K(n, n);
+    Eigen::MatrixXd K(n, n);
     std::vector<double> field(n);
     for (std::size_t j = 0; j < n; ++j)
     {
       field[j] = 1;
-      const std::vector<double> force = bulk->product(field);
-      for (std::size_t i = 0; i < n; ++i)
-        K(i, j) = force[i];
+      K.col(j) = math::column(bulk->product(field));
       field[j] = 0;
     }
     return K;
@@ -380,20 +379,21 @@ struct SpringBodies
   /// @brief Jacobian of one rank, with rows and columns of Dirichlet conditions
   /// that are those of the identity.
   /// @param[in] springs What is added to the diagonal, nothing if empty.
-  dense::Matrix jacobian(std::span<const double> springs = {}) const
+  Eigen::MatrixXd jacobian(std::span<const double> springs = {}) const
   {
     const condense::ContactBlock contact(contacts, scene.prescribed);
-    dense::Matrix J(contact.size(), contact.size());
+    Eigen::MatrixXd J = Eigen::MatrixXd::Zero(contact.size(), contact.size());
     const auto entries = contact.entries();
-    for (std::size_t i = 0; i < J.rows; ++i)
+    for (std::size_t i = 0; i < contact.size(); ++i)
       for (auto e = entries.offsets[i]; e < entries.offsets[i + 1]; ++e)
         J(i, entries.columns[e]) = entries.values[e];
-    const dense::Matrix K = stiffness();
-    for (std::size_t i = 0; i < K.rows; ++i)
-      for (std::size_t j = 0; j < K.rows; ++j)
+    const Eigen::MatrixXd K = stiffness();
+    const std::size_t n = K.rows();
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j < n; ++j)
         if (not scene.prescribed[i] and not scene.prescribed[j])
           J(i, j) += K(i, j);
-    for (std::size_t i = 0; i < K.rows; ++i)
+    for (std::size_t i = 0; i < n; ++i)
       if (scene.prescribed[i])
         J(i, i) = 1;
     for (std::size_t i = 0; i < springs.size(); ++i)

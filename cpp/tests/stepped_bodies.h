@@ -66,23 +66,21 @@ struct Stepped : SpringBodies
     solve::System& system = *problem().system();
     std::vector<double> b(system.size());
     system.residual(b);
-    std::vector<double> dx = dense::solve(matrix(), b);
+    std::vector<double> dx = solution(matrix(), b);
     for (double& value : dx)
       value = -value;
     problem().update(dx, problem().limit(dx));
   }
 
   /// Jacobian by the unknowns, which are lengths.
-  dense::Matrix matrix()
+  Eigen::MatrixXd matrix()
   {
     solve::System& system = *problem().system();
     const auto& springs = problem().loop().free_bodies().springs();
-    dense::Matrix J = jacobian(springs ? std::span<const double>(*springs)
-                                       : std::span<const double>());
-    const std::size_t n = system.num_displacements();
-    for (std::size_t i = 0; i < J.rows; ++i)
-      for (std::size_t k = n; k < J.cols; ++k)
-        J(i, k) *= system.factors()[k - n];
+    Eigen::MatrixXd J = jacobian(springs ? std::span<const double>(*springs)
+                                         : std::span<const double>());
+    const auto factors = math::column(system.factors());
+    J.rightCols(factors.size()) *= factors.asDiagonal();
     return J;
   }
 
@@ -131,14 +129,13 @@ public:
   void solve(std::span<const double> b, std::span<double> x) override
   {
     ++solves;
-    std::ranges::copy(dense::solve(_J, std::vector<double>(b.begin(), b.end())),
-                      x.begin());
+    std::ranges::copy(solution(_J, b), x.begin());
   }
 
   int solves = 0;
 
 private:
   Stepped* _bodies;
-  dense::Matrix _J;
+  Eigen::MatrixXd _J;
 };
 } // namespace contactx::tests

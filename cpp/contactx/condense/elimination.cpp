@@ -3,7 +3,7 @@
 
 #include "elimination.h"
 #include "../law/normal.h"
-#include "../math/small.h"
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <string>
@@ -200,16 +200,19 @@ void Elimination::add_stick(std::int32_t multiplier, std::int32_t first,
                             std::span<const std::int8_t> own, const Rows& rows)
 {
   const int g = _gdim;
-  math::Small block{}, inverse;
+  // In the plane a row and a column are those of the identity
+  Eigen::Matrix3d block = Eigen::Matrix3d::Identity();
   for (int j = 0; j < g; ++j)
   {
     const auto values = rows.at(first + j);
     for (int i = 0; i < g; ++i)
-      block[i][j] = values[i] + (i == j and own[i] == 0 ? 1 : 0);
+      block(i, j) = values[i] + (i == j and own[i] == 0 ? 1 : 0);
   }
-  if (math::invert(g, block, inverse) == 0)
+  const Eigen::PartialPivLU<Eigen::Matrix3d> factors(block);
+  if (factors.determinant() == 0)
     throw NotCondensable(
         "the constraints of a slave node do not give its displacements");
+  const Eigen::Matrix3d inverse = factors.inverse();
   bool has_others = false;
   for (std::size_t c = 0; c < rows.size(); ++c)
   {
@@ -224,7 +227,7 @@ void Elimination::add_stick(std::int32_t multiplier, std::int32_t first,
         continue;
       double value = 0;
       for (int j = 0; j < g; ++j)
-        value -= inverse[i][j] * values[j];
+        value -= inverse(i, j) * values[j];
       _right.add(first + i, column, value);
     }
   }
@@ -238,7 +241,7 @@ void Elimination::add_stick(std::int32_t multiplier, std::int32_t first,
     _right.add(first + i, first + i, -1);
     _eliminated.push_back(first + i);
     for (int j = 0; j < g; ++j)
-      _shift.add(first + i, multiplier + j, inverse[i][j]);
+      _shift.add(first + i, multiplier + j, inverse(i, j));
   }
 }
 

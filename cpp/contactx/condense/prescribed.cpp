@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "prescribed.h"
+#include "../math/matrix.h"
 #include "../math/scales.h"
-#include "../math/small.h"
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,26 +12,29 @@
 
 using namespace contactx;
 using namespace contactx::condense;
+using Eigen::Matrix3d;
 
 namespace
 {
 /// Least determinant of D_pp over the area that has an inverse
 constexpr double determinant_min = 1e-8;
 
-/// Inverts D_pp over the area, zero elsewhere; false where it is singular
-bool inverted(int k, const math::Small& D, const std::array<bool, 3>& p,
-              math::Small& G)
+/// Inverts D_pp over the area, zero elsewhere; false where it is singular.
+/// Matrices of fewer multipliers have zeros behind them.
+bool inverted(const Matrix3d& D, const std::array<bool, 3>& p, Matrix3d& G)
 {
-  math::Small block{};
-  for (int i = 0; i < k; ++i)
-    for (int j = 0; j < k; ++j)
-      block[i][j] = p[i] and p[j] ? D[i][j] : (i == j and not p[i]);
-  if (std::abs(math::invert(k, block, G)) < determinant_min)
+  G.setIdentity();
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      if (p[i] and p[j])
+        G(i, j) = D(i, j);
+  const Eigen::PartialPivLU<Matrix3d> factors(G);
+  if (std::abs(factors.determinant()) < determinant_min)
     return false;
-  for (int i = 0; i < k; ++i)
-    for (int j = 0; j < k; ++j)
-      if (not(p[i] and p[j]))
-        G[i][j] = 0;
+  G = factors.inverse();
+  for (int i = 0; i < 3; ++i)
+    if (not p[i])
+      G(i, i) = 0;
   return true;
 }
 
@@ -39,32 +43,27 @@ constexpr double pivot_min = 1e-6;
 /// Chooses which multipliers the law gives, of those that may: the others stay
 /// with no more than rounding errors in the law of those that neither give nor
 /// stay. False where there are more.
-bool choose(int k, math::Small D, std::array<bool, 3>& gives,
-            std::array<bool, 3>& stays)
+bool choose(Matrix3d D, std::array<bool, 3>& gives, std::array<bool, 3>& stays)
 {
   stays = std::exchange(gives, {});
   const auto others = [&](int i) { return not gives[i] and not stays[i]; };
   while (true)
   {
     int pivot = -1;
-    for (int i = 0; i < k; ++i)
-      if (stays[i] and std::abs(D[i][i]) > pivot_min
-          and (pivot < 0 or std::abs(D[i][i]) > std::abs(D[pivot][pivot])))
+    for (int i = 0; i < 3; ++i)
+      if (stays[i] and std::abs(D(i, i)) > pivot_min
+          and (pivot < 0 or std::abs(D(i, i)) > std::abs(D(pivot, pivot))))
         pivot = i;
     if (pivot < 0)
       break;
-    const math::Small before = D;
-    for (int i = 0; i < k; ++i)
-      for (int j = 0; j < k; ++j)
-        D[i][j] -= before[i][pivot] * before[pivot][j] / before[pivot][pivot];
+    D -= (D.col(pivot) * D.row(pivot) / D(pivot, pivot)).eval();
     gives[pivot] = true;
     stays[pivot] = false;
   }
-  for (int i = 0; i < k; ++i)
-    for (int j = 0; j < k; ++j)
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
       if (stays[i] and others(j)
-          and std::max(std::abs(D[i][j]), std::abs(D[j][i]))
-                  > math::zero_round_off)
+          and std::max(std::abs(D(i, j)), std::abs(D(j, i))) > math::zero_round_off)
         return false;
   return true;
 }
@@ -99,30 +98,20 @@ Prescribed::Prescribed(std::span<const Nodes> contacts, Blocks blocks,
       if (not is_concerned)
         continue;
 
-      double* d = by.data() + s * k * k;
-      math::Small D{}, G{};
+      Eigen::Map<math::Small> law(by.data() + s * k * k, k, k);
+      Matrix3d D = Matrix3d::Zero(), G;
+      D.topLeftCorner(k, k) = law;
+      const Matrix3d relative = D / nodes.area[s];
       std::array<bool, 3> gives{}, stays{};
       for (int i = 0; i < k; ++i)
-      {
         gives[i] = own[i] == 0;
-        for (int j = 0; j < k; ++j)
-          D[i][j] = d[k * i + j] / nodes.area[s];
-      }
-      if (not inverted(k, D, gives, G)
-          and (not holds or k == 1 or not choose(k, D, gives, stays)
-               or not inverted(k, D, gives, G)))
+      if (not inverted(relative, gives, G)
+          and (not holds or k == 1 or not choose(relative, gives, stays)
+               or not inverted(relative, gives, G)))
         throw NotCondensable(
             "a slave node with a prescribed displacement moves its master");
-      for (int i = 0; i < k; ++i)
-        for (int j = 0; j < k; ++j)
-        {
-          D[i][j] = d[k * i + j];
-          G[i][j] /= nodes.area[s];
-        }
-
-      const math::Small DG = math::product(k, D, G),
-                        GD = math::product(k, G, D),
-                        DGD = math::product(k, DG, D);
+      G /= nodes.area[s];
+      const Matrix3d DG = D * G, GD = G * D, DGD = DG * D;
       const auto place = static_cast<std::int32_t>(_multipliers.size());
       std::array<std::int32_t, 3> number{};
       for (int i = 0; i < k; ++i)
@@ -137,7 +126,7 @@ Prescribed::Prescribed(std::span<const Nodes> contacts, Blocks blocks,
       for (int i = 0; i < k; ++i)
         for (int j = 0; j < k; ++j)
           if (stays[i] and stays[j])
-            held_law.add(number[i], number[j], D[i][j] - DGD[i][j]);
+            held_law.add(number[i], number[j], D(i, j) - DGD(i, j));
       for (int i = 0; i < k; ++i)
       {
         _multipliers.push_back(static_cast<std::int32_t>(first) + i);
@@ -145,11 +134,11 @@ Prescribed::Prescribed(std::span<const Nodes> contacts, Blocks blocks,
         {
           // D - D G D is zero in the rows and columns of p
           const bool is_left = own[i] != 0 and own[j] != 0;
-          d[k * i + j] = is_left ? D[i][j] - DGD[i][j] : 0;
-          _law.add(place + i, place + j, D[i][j]);
-          _inverse.add(place + i, place + j, G[i][j]);
-          _rows.add(place + i, place + j, -DG[i][j]);
-          _columns.add(place + i, place + j, -GD[i][j]);
+          law(i, j) = is_left ? D(i, j) - DGD(i, j) : 0;
+          _law.add(place + i, place + j, D(i, j));
+          _inverse.add(place + i, place + j, G(i, j));
+          _rows.add(place + i, place + j, -DG(i, j));
+          _columns.add(place + i, place + j, -GD(i, j));
         }
       }
     }

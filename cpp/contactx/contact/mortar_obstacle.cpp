@@ -4,8 +4,8 @@
 #include "mortar_obstacle.h"
 #include "../geometry/gather.h"
 #include "../geometry/quadrature.h"
-#include "../geometry/square.h"
 #include "../kernel/layout.h"
+#include "../math/matrix.h"
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -101,7 +101,7 @@ void MortarObstacle::add_kind(std::span<const double> x)
       continue;
     const auto xs
         = geometry::gather<F>(_slaves->facets().nodes.subspan(first, k), x);
-    geometry::Square<k> mass{}, dual{};
+    Eigen::Matrix<double, k, k> mass = decltype(mass)::Zero();
     Vector<k> whole{}, factor;
     factor.fill(1);
     if (not weight.empty())
@@ -114,17 +114,19 @@ void MortarObstacle::add_kind(std::span<const double> x)
       if (not weight.empty())
         area[p] *= dot(factor, N);
       whole = whole + area[p] * N;
-      for (int s = 0; s < k; ++s)
-        mass[s] = mass[s] + (area[p] * N[s]) * N;
+      const auto column = math::column(N);
+      mass += area[p] * column * column.transpose();
     }
-    if (not geometry::invert<k>(mass, dual))
+    const auto dual = math::positive_inverse(mass);
+    if (not dual)
       throw std::invalid_argument("a slave facet has no area");
     for (int s = 0; s < k; ++s)
     {
       kind.corners.push_back(first + s);
       for (int p = 0; p < kind.q; ++p)
-        kind.weight.push_back(area[p] * whole[s]
-                              * dot(dual[s], F::shape(points[p].xi)));
+        kind.weight.push_back(
+            area[p] * whole[s]
+            * dual->row(s).dot(math::column(F::shape(points[p].xi))));
     }
   }
   if (not kind.corners.empty())

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "integrals.h"
+#include "../math/matrix.h"
 #include "gather.h"
 #include "segment.h"
-#include "square.h"
 #include <algorithm>
 #include <numeric>
 
@@ -13,12 +13,18 @@ using namespace contactx::geometry;
 
 namespace
 {
+template <int N>
+using Square = Eigen::Matrix<double, N, N>;
+
+template <int N>
+using Column = Eigen::Matrix<double, N, 1>;
+
 /// Sums over all pairs of one slave facet.
 template <class S>
 struct Cover
 {
-  Square<S::nodes> mass{}; ///< int M_s M_t
-  double total = 0;        ///< area
+  Square<S::nodes> mass = Square<S::nodes>::Zero(); ///< int M_s M_t
+  double total = 0;                                 ///< area
 };
 
 /// A part of a slave facet.
@@ -64,14 +70,15 @@ void add_pair(const SlavePart<S>& slave, const Nodes<M>& xm,
                   {
                     const auto basis
                         = Basis<S>::functions(trace<S>(s, slave.places));
+                    const auto column = Column<S::nodes>::Map(basis.data());
                     const auto N = trace<M>(m, places);
                     const double g = dot(N, high) - dot(basis, slave.height);
                     cover.total += w;
+                    cover.mass += w * column * column.transpose();
                     for (int t = 0; t < S::nodes; ++t)
                     {
                       const double wt = w * basis[t];
                       area[t] += wt;
-                      cover.mass[t] = cover.mass[t] + wt * basis;
                       gap[t] += wt * g;
                       for (int l = 0; l < M::nodes; ++l)
                         weight[width * t + l] += wt * N[l];
@@ -104,22 +111,6 @@ plane_of(const Nodes<Part<S>>& part, const Nodes<S>& whole,
                                    ? Vector<S::gdim>{}
                                    : FacetNormal<S>(whole).frame.n);
   return {part, parts.size() == 1 ? n : (1 / norm(n)) * n};
-}
-
-/// Rows combined with the coefficients of the dual functions.
-template <class S>
-void combine_rows(const Square<S::nodes>& dual, double* rows, int width,
-                  int columns)
-{
-  for (int l = 0; l < columns; ++l)
-  {
-    Vector<S::nodes> column{};
-    for (int s = 0; s < S::nodes; ++s)
-      for (int t = 0; t < S::nodes; ++t)
-        column[s] += dual[s][t] * rows[width * t + l];
-    for (int s = 0; s < S::nodes; ++s)
-      rows[width * s + l] = column[s];
-  }
 }
 
 template <class F>
@@ -202,30 +193,36 @@ void integrate_whole(const Given& given, std::span<const std::int32_t> parts,
           });
     }
   }
-  Vector<S::nodes> area{};
+  Column<S::nodes> area = Column<S::nodes>::Zero();
   for (const std::int32_t f : parts)
-    for (int s = 0; s < S::nodes; ++s)
-      area[s] += all.area[n * f + s];
-  Square<S::nodes> dual{};
-  const bool covered = cover.total > covered_fraction_min * whole
-                       and invert<S::nodes>(cover.mass, dual);
-  for (int s = 0; s < S::nodes; ++s)
-    dual[s] = (covered ? area[s] : 0) * dual[s];
+    area += Column<S::nodes>::Map(&all.area[n * f]);
+  Square<S::nodes> dual = Square<S::nodes>::Zero();
+  const auto inverse = cover.total > covered_fraction_min * whole
+                           ? math::positive_inverse(cover.mass)
+                           : std::nullopt;
+  if (inverse)
+    dual = area.asDiagonal() * *inverse;
+  const auto combine = [&dual](double* values, std::size_t columns)
+  {
+    for (std::size_t l = 0; l < columns; ++l)
+    {
+      Eigen::Map<Column<S::nodes>, 0, Eigen::InnerStride<>> column(
+          values + l, Eigen::InnerStride<>(columns));
+      column = dual * column;
+    }
+  };
   for (const std::int32_t f : parts)
   {
+    if (not inverse)
+      Column<S::nodes>::Map(&all.area[n * f]).setZero();
     for (int s = 0; s < S::nodes; ++s)
-    {
-      if (not covered)
-        all.area[n * f + s] = 0;
-      std::copy(dual[s].begin(), dual[s].end(), &all.dual[n * n * f + n * s]);
-    }
+      Column<S::nodes>::Map(&all.dual[n * (n * f + s)]) = dual.row(s);
     for (std::size_t i = begin[f]; i < begin[f + 1]; ++i)
     {
-      combine_rows<S>(dual, &all.weight[i * n * n], static_cast<int>(n),
-                      static_cast<int>(n));
-      combine_rows<S>(dual, &all.gap[i * n], 1, 1);
+      combine(&all.weight[i * n * n], n);
+      combine(&all.gap[i * n], 1);
       if (not all.rise.empty())
-        combine_rows<S>(dual, &all.rise[i * n], 1, 1);
+        combine(&all.rise[i * n], 1);
     }
   }
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "level_set.h"
+#include "../math/matrix.h"
 #include "../math/scales.h"
 #include "meeting.h"
 #include "parameters.h"
@@ -12,6 +13,8 @@
 
 using namespace contactx;
 using namespace contactx::geometry;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
 
 namespace
 {
@@ -138,47 +141,40 @@ Nearest nearest(const Faces& faces, double width, int gdim)
   return {distance[first], faces.normal[first], first};
 }
 
-using Matrix3 = std::array<Vector<3>, 3>;
-
 /// Second derivatives of a face at a point, by the size of its gradient.
-Matrix3 bends(const LevelValues& f, std::size_t n, std::size_t point,
-              std::size_t face, double size, int gdim)
+Matrix3d bends(const LevelValues& f, std::size_t n, std::size_t point,
+               std::size_t face, double size, int gdim)
 {
-  Matrix3 H{};
-  const double* from = &f.hessian[gdim * gdim * (face * n + point)];
-  for (int j = 0; j < gdim; ++j)
-    for (int k = 0; k < gdim; ++k)
-      H[j][k] = from[gdim * j + k] / size;
+  Matrix3d H = Matrix3d::Zero();
+  H.topLeftCorner(gdim, gdim)
+      = Eigen::Map<const math::Small>(
+            &f.hessian[gdim * gdim * (face * n + point)], gdim, gdim)
+        / size;
   return H;
 }
 
-Vector<3> times(const Matrix3& A, const Vector<3>& x)
+Eigen::Map<const Vector3d> column(const Vector<3>& v)
 {
-  return {dot(A[0], x), dot(A[1], x), dot(A[2], x)};
+  return Vector3d::Map(v.data());
 }
 
 /// Without what is along a unit vector: (I - n n^T) A.
-Matrix3 across(const Matrix3& A, const Vector<3>& n)
+Matrix3d across(const Matrix3d& A, const Vector3d& n)
 {
-  Vector<3> along{};
-  for (int j = 0; j < 3; ++j)
-    along = along + n[j] * A[j];
-  Matrix3 result;
-  for (int j = 0; j < 3; ++j)
-    result[j] = A[j] - n[j] * along;
-  return result;
+  return A - n * (n.transpose() * A);
 }
 
 /// Derivatives of gap and normal by the position.
 struct Turn
 {
-  Vector<3> gradient;
-  Matrix3 curvature;
+  Vector3d gradient;
+  Matrix3d curvature;
 };
 
-Turn turn_of_face(const Nearest& at, const Matrix3& H)
+Turn turn_of_face(const Nearest& at, const Matrix3d& H)
 {
-  return {at.normal - at.gap * times(H, at.normal), across(H, at.normal)};
+  const auto n = column(at.normal);
+  return {n - at.gap * H * n, across(H, n)};
 }
 
 /// Derivative of the vector d = sum m_i n_i that has the distances c_i = n_i .
@@ -187,72 +183,56 @@ Turn turn_of_face(const Nearest& at, const Matrix3& H)
 /// (c_i' - N_i^T d).
 /// @param[in] N Derivatives of the planes' normals.
 /// @param[in] distance Derivatives of the distances.
-Matrix3 offset_turns(const Meeting& at, std::span<const Vector<3>> normal,
-                     std::span<const Matrix3> N,
-                     std::span<const Vector<3>> distance)
+Matrix3d offset_turns(const Meeting& at, std::span<const Vector<3>> normal,
+                      std::span<const Matrix3d> N,
+                      std::span<const Vector3d> distance)
 {
-  Matrix3 S{};
+  Matrix3d S = Matrix3d::Zero();
   for (int i = 0; i < at.count; ++i)
-    for (int j = 0; j < 3; ++j)
-      S[j] = S[j] + at.share[i] * N[i][j];
-  Matrix3 offset = S;
+    S += at.share[i] * N[i];
+  Matrix3d offset = S;
   for (int i = 0; i < at.count; ++i)
-  {
-    Vector<3> along = distance[i];
-    for (int j = 0; j < 3; ++j)
-      along = along - at.offset[j] * N[i][j] - normal[at.plane[i]][j] * S[j];
-    for (int j = 0; j < 3; ++j)
-      offset[j] = offset[j] + at.dual[i][j] * along;
-  }
+    offset += column(at.dual[i])
+              * (distance[i] - N[i].transpose() * column(at.offset)
+                 - S.transpose() * column(normal[at.plane[i]]))
+                    .transpose();
   return offset;
 }
 
-/// Derivative of a vector's direction from that of the vector.
-Matrix3 direction_turns(const Matrix3& A, const Vector<3>& direction,
-                        double length)
-{
-  Matrix3 turn = across(A, direction);
-  for (Vector<3>& row : turn)
-    row = (1 / length) * row;
-  return turn;
-}
-
 /// On a ridge: the vector is that to all planes at the distance one.
-Turn turn_of_axis(const Nearest& at, std::span<const Matrix3> H,
+Turn turn_of_axis(const Nearest& at, std::span<const Matrix3d> H,
                   const Faces& faces)
 {
   const Meeting& cone = *at.ridge;
-  Turn turn{};
-  std::array<Matrix3, 3> N;
+  Turn turn{Vector3d::Zero(), {}};
+  std::array<Matrix3d, 3> N;
   for (int i = 0; i < cone.count; ++i)
   {
-    const Vector<3>& n = faces.normal[cone.plane[i]];
+    const auto n = column(faces.normal[cone.plane[i]]);
     N[i] = across(H[i], n);
     turn.gradient
-        = turn.gradient
-          + part(cone, i)
-                * (n - faces.distance[cone.plane[i]] * times(H[i], n));
+        += part(cone, i) * (n - faces.distance[cone.plane[i]] * H[i] * n);
   }
-  const std::array<Vector<3>, 3> none{};
-  turn.curvature = direction_turns(offset_turns(cone, faces.normal, N, none),
-                                   at.normal, norm(cone.offset));
+  const std::array<Vector3d, 3> none{Vector3d::Zero(), Vector3d::Zero(),
+                                     Vector3d::Zero()};
+  turn.curvature
+      = across(offset_turns(cone, faces.normal, N, none), column(at.normal))
+        / norm(cone.offset);
   return turn;
 }
 
 /// Beyond a ridge: the vector is that from it. Gradients in place of normals,
 /// whose derivatives are symmetric, and the values of the functions.
-Turn turn_of_ridge(const Nearest& at, std::span<const Matrix3> H,
+Turn turn_of_ridge(const Nearest& at, std::span<const Matrix3d> H,
                    const Faces& faces)
 {
   const Meeting& ridge = *at.ridge;
-  std::array<Vector<3>, 3> distance{};
+  std::array<Vector3d, 3> distance;
   for (int i = 0; i < ridge.count; ++i)
-    distance[i] = faces.normal[ridge.plane[i]];
-  const Matrix3 offset = offset_turns(ridge, faces.normal, H, distance);
-  Turn turn{{}, direction_turns(offset, at.normal, at.gap)};
-  for (int j = 0; j < 3; ++j)
-    turn.gradient = turn.gradient + at.normal[j] * offset[j];
-  return turn;
+    distance[i] = column(faces.normal[ridge.plane[i]]);
+  const Matrix3d offset = offset_turns(ridge, faces.normal, H, distance);
+  const auto n = column(at.normal);
+  return {offset.transpose() * n, across(offset, n) / at.gap};
 }
 } // namespace
 
@@ -367,7 +347,7 @@ void LevelSet::evaluate(std::span<const double> x, int gdim, Geometry& at)
       continue;
     }
     const Nearest seen = nearest(faces, width, gdim);
-    std::array<Matrix3, 3> H;
+    std::array<Matrix3d, 3> H;
     const auto bend = [&](std::size_t face)
     { return bends(f, n, i, face, faces.size[face], gdim); };
     Turn turn;
@@ -381,13 +361,10 @@ void LevelSet::evaluate(std::span<const double> x, int gdim, Geometry& at)
     else
       turn = turn_of_face(seen, bend(seen.face));
     at.gap[i] = seen.gap;
-    for (int j = 0; j < gdim; ++j)
-    {
-      at.normal[gdim * i + j] = seen.normal[j];
-      at.gradient[gdim * i + j] = turn.gradient[j];
-      std::copy_n(turn.curvature[j].begin(), gdim,
-                  &at.curvature[gdim * (gdim * i + j)]);
-    }
+    std::copy_n(seen.normal.begin(), gdim, &at.normal[gdim * i]);
+    std::copy_n(turn.gradient.data(), gdim, &at.gradient[gdim * i]);
+    Eigen::Map<math::Small>(&at.curvature[gdim * gdim * i], gdim, gdim)
+        = turn.curvature.topLeftCorner(gdim, gdim);
   }
   if (bad > 0)
     throw std::invalid_argument(

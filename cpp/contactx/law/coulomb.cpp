@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "coulomb.h"
-#include "../math/vec.h"
+#include <Eigen/Core>
 #include <algorithm>
 #include <cstddef>
 
@@ -12,60 +12,16 @@ using namespace contactx::law;
 namespace
 {
 template <int D>
-using Mat = std::array<Vector<D>, D>;
+using Vec = Eigen::Matrix<double, D, 1>;
 
 template <int D>
-Mat<D> outer(const Vector<D>& a, const Vector<D>& b)
-{
-  Mat<D> m;
-  for (int i = 0; i < D; ++i)
-    m[i] = a[i] * b;
-  return m;
-}
+using Mat = Eigen::Matrix<double, D, D>;
 
 /// I - a a^T
 template <int D>
-Mat<D> across(const Vector<D>& a)
+Mat<D> across(const Vec<D>& a)
 {
-  Mat<D> m = outer<D>(-1 * a, a);
-  for (int i = 0; i < D; ++i)
-    m[i][i] += 1;
-  return m;
-}
-
-template <int D>
-Mat<D> multiply(const Mat<D>& a, const Mat<D>& b)
-{
-  Mat<D> m{};
-  for (int i = 0; i < D; ++i)
-    for (int k = 0; k < D; ++k)
-      m[i] = m[i] + a[i][k] * b[k];
-  return m;
-}
-
-template <int D>
-Mat<D> scaled(double s, Mat<D> m)
-{
-  for (auto& row : m)
-    row = s * row;
-  return m;
-}
-
-template <int D>
-Mat<D> sum(Mat<D> a, const Mat<D>& b)
-{
-  for (int i = 0; i < D; ++i)
-    a[i] = a[i] + b[i];
-  return a;
-}
-
-template <int D>
-Vector<D> vector_at(std::span<const double> values, std::size_t i)
-{
-  Vector<D> v;
-  for (int k = 0; k < D; ++k)
-    v[k] = values[D * i + k];
-  return v;
+  return Mat<D>::Identity() - a * a.transpose();
 }
 
 /// One slave node.
@@ -73,11 +29,11 @@ template <int D>
 struct Node
 {
   Node(const FrictionalState& s, std::size_t i, bool is_closed)
-      : lambda(vector_at<D>(s.traction, i)), n(vector_at<D>(s.normal, i)),
-        slip(vector_at<D>(s.slip, i)), gap(s.gap[i]), c(s.c[i]),
-        c_t(s.along * c), p(dot(n, lambda)),
+      : lambda(Vec<D>::Map(&s.traction[D * i])),
+        n(Vec<D>::Map(&s.normal[D * i])), slip(Vec<D>::Map(&s.slip[D * i])),
+        gap(s.gap[i]), c(s.c[i]), c_t(s.along * c), p(n.dot(lambda)),
         p_hat(pressure_hat(p, c, gap, is_closed)), t(lambda - p * n),
-        t_hat(t - c_t * slip), size(norm(t_hat)),
+        t_hat(t - c_t * slip), size(t_hat.norm()),
         bound(s.bound.empty() ? s.friction[i] * p_hat : s.bound[i])
   {
   }
@@ -94,13 +50,13 @@ struct Node
     // overshoot under full friction chatter. The overshoot is not much larger
     // than the deformation by friction
     const bool back
-        = size < reach * bound and dot(t, t_hat) < -0.05 * bound * size;
+        = size < reach * bound and t.dot(t_hat) < -0.05 * bound * size;
     return back ? Status::stick : Status::slip;
   }
 
-  Vector<D> lambda, n, slip;
+  Vec<D> lambda, n, slip;
   double gap, c, c_t, p, p_hat;
-  Vector<D> t, t_hat;
+  Vec<D> t, t_hat;
   double size, bound;
 };
 
@@ -108,25 +64,17 @@ struct Node
 template <int D>
 struct Terms
 {
-  Vector<D> value{}, by_gap{};
-  Mat<D> by_traction{}, by_slip{}, by_normal{};
+  Vec<D> value = Vec<D>::Zero(), by_gap = value;
+  Mat<D> by_traction = Mat<D>::Zero(), by_slip = by_traction,
+         by_normal = by_traction;
 };
 
 template <int D>
-Mat<D> identity(double s)
-{
-  Mat<D> m{};
-  for (int i = 0; i < D; ++i)
-    m[i][i] = s;
-  return m;
-}
-
-template <int D>
-Terms<D> open_terms(const Vector<D>& lambda)
+Terms<D> open_terms(const Vec<D>& lambda)
 {
   Terms<D> r;
   r.value = lambda;
-  r.by_traction = identity<D>(1);
+  r.by_traction.setIdentity();
   return r;
 }
 
@@ -134,7 +82,7 @@ Terms<D> open_terms(const Vector<D>& lambda)
 template <int D>
 Mat<D> traction_by_normal(const Node<D>& a)
 {
-  return scaled<D>(-1, sum<D>(identity<D>(a.p), outer<D>(a.n, a.lambda)));
+  return -a.p * Mat<D>::Identity() - a.n * a.lambda.transpose();
 }
 
 /// What vanishes along the surface where nothing can move: t
@@ -154,7 +102,7 @@ Terms<D> stick_terms(const Node<D>& a)
 {
   Terms<D> r;
   r.value = a.c * a.slip;
-  r.by_slip = identity<D>(a.c);
+  r.by_slip.diagonal().setConstant(a.c);
   return r;
 }
 
@@ -166,23 +114,26 @@ Terms<D> slip_terms(const Node<D>& a, double friction, double softening)
 {
   // Without a direction there is nothing to slip along: any will do
   const bool directed = a.size > 0;
-  const Vector<D> s = directed ? (1 / a.size) * a.t_hat : Vector<D>{};
-  const Mat<D> turn
-      = directed ? scaled<D>(a.bound / a.size, across<D>(s)) : Mat<D>{};
+  Vec<D> s = Vec<D>::Zero();
+  Mat<D> turn = Mat<D>::Zero();
+  if (directed)
+  {
+    s = a.t_hat / a.size;
+    turn = a.bound / a.size * across<D>(s);
+  }
   const Mat<D> t_by_n = traction_by_normal<D>(a);
   Terms<D> r;
   r.value = a.t - a.bound * s;
   // See `pressure_hat`
-  r.by_gap = a.gap > 0 ? Vector<D>{} : (a.c * friction) * s;
-  r.by_slip = scaled<D>(a.c_t, turn);
-  if (const double length = norm(a.slip); softening != 0 and length > 0)
-    r.by_slip = sum<D>(r.by_slip, outer<D>((-softening / length) * s, a.slip));
+  if (not(a.gap > 0))
+    r.by_gap = a.c * friction * s;
+  r.by_slip = a.c_t * turn;
+  if (const double length = a.slip.norm(); softening != 0 and length > 0)
+    r.by_slip -= softening / length * s * a.slip.transpose();
   const Mat<D> tangential = across<D>(a.n);
   r.by_traction
-      = sum<D>(sum<D>(tangential, scaled<D>(-1, multiply<D>(turn, tangential))),
-               outer<D>(-friction * s, a.n));
-  r.by_normal = sum<D>(t_by_n, sum<D>(scaled<D>(-1, multiply<D>(turn, t_by_n)),
-                                      outer<D>(-friction * s, a.lambda)));
+      = tangential - turn * tangential - friction * s * a.n.transpose();
+  r.by_normal = t_by_n - turn * t_by_n - friction * s * a.lambda.transpose();
   return r;
 }
 
@@ -200,20 +151,19 @@ Terms<D> mixed(const Node<D>& a, const Terms<D>& r, const Terms<D>& other,
     {
       q.value[k] = other.value[k];
       q.by_gap[k] = other.by_gap[k];
-      q.by_traction[k] = other.by_traction[k];
-      q.by_slip[k] = other.by_slip[k];
-      q.by_normal[k] = other.by_normal[k];
+      q.by_traction.row(k) = other.by_traction.row(k);
+      q.by_slip.row(k) = other.by_slip.row(k);
+      q.by_normal.row(k) = other.by_normal.row(k);
     }
   const Mat<D> along = across<D>(a.n);
-  const double height = dot(a.n, q.value);
+  const double height = a.n.dot(q.value);
   Terms<D> p;
   p.value = q.value - height * a.n;
-  p.by_gap = q.by_gap - dot(a.n, q.by_gap) * a.n;
-  p.by_traction = multiply<D>(along, q.by_traction);
-  p.by_slip = multiply<D>(along, q.by_slip);
-  p.by_normal = sum<D>(
-      multiply<D>(along, q.by_normal),
-      scaled<D>(-1, sum<D>(identity<D>(height), outer<D>(a.n, q.value))));
+  p.by_gap = q.by_gap - a.n.dot(q.by_gap) * a.n;
+  p.by_traction = along * q.by_traction;
+  p.by_slip = along * q.by_slip;
+  p.by_normal = along * q.by_normal - height * Mat<D>::Identity()
+                - a.n * q.value.transpose();
   return p;
 }
 
@@ -221,9 +171,9 @@ Terms<D> mixed(const Node<D>& a, const Terms<D>& r, const Terms<D>& other,
 template <int D>
 Terms<D> closed(const Node<D>& a, Terms<D> r)
 {
-  r.value = r.value + (a.c * a.gap) * a.n;
-  r.by_gap = r.by_gap + a.c * a.n;
-  r.by_normal = sum<D>(r.by_normal, identity<D>(a.c * a.gap));
+  r.value += a.c * a.gap * a.n;
+  r.by_gap += a.c * a.n;
+  r.by_normal.diagonal().array() += a.c * a.gap;
   return r;
 }
 
@@ -231,18 +181,12 @@ template <int D>
 void write(const Terms<D>& r, double area, std::size_t i,
            const FrictionalLaw& law)
 {
-  for (int k = 0; k < D; ++k)
-  {
-    law.value[D * i + k] = area * r.value[k];
-    law.by_gap[D * i + k] = area * r.by_gap[k];
-    for (int j = 0; j < D; ++j)
-    {
-      const std::size_t at = D * (D * i + k) + j;
-      law.by_traction[at] = area * r.by_traction[k][j];
-      law.by_slip[at] = area * r.by_slip[k][j];
-      law.by_normal[at] = area * r.by_normal[k][j];
-    }
-  }
+  using Rows = Eigen::Matrix<double, D, D, Eigen::RowMajor>;
+  Vec<D>::Map(&law.value[D * i]) = area * r.value;
+  Vec<D>::Map(&law.by_gap[D * i]) = area * r.by_gap;
+  Rows::Map(&law.by_traction[D * D * i]) = area * r.by_traction;
+  Rows::Map(&law.by_slip[D * D * i]) = area * r.by_slip;
+  Rows::Map(&law.by_normal[D * D * i]) = area * r.by_normal;
 }
 
 template <int D>

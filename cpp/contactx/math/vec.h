@@ -18,7 +18,8 @@
 /// are taken for granted: the bindings check them.
 namespace contactx
 {
-/// @brief Point or vector with `D` components.
+/// @brief Point or vector with `D` components: a plain array, as kernels read
+/// and write rows of them, and programs include it without Eigen.
 template <int D>
 using Vector = std::array<double, D>;
 

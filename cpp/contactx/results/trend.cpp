@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "trend.h"
-#include "../math/dense.h"
+#include "../math/matrix.h"
 #include "../math/vec.h"
 #include <algorithm>
 #include <cmath>
@@ -24,7 +24,8 @@ constexpr double least_spread = 1e-8;
 // What a slope explains counts beyond this times what it leaves
 constexpr double beyond_scatter = 2;
 
-using Tensor = std::array<std::array<double, 3>, 3>;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
 
 Vector<3> times(const double* tensor, const Vector<3>& v, int gdim)
 {
@@ -110,7 +111,7 @@ Trend::Rim Trend::rim(std::span<const std::int8_t> closed) const
 
   Rim result{std::vector<double>(n * _gdim, 0),
              std::vector<double>(n * _gdim * _gdim, 0)};
-  std::vector<Tensor> sum(n, Tensor{});
+  std::vector<Matrix3d> sum(n, Matrix3d::Zero());
   for (std::size_t first = 0, end; first < _edges.size(); first = end)
   {
     const Edge* only = nullptr;
@@ -130,11 +131,9 @@ Trend::Rim Trend::rim(std::span<const std::int8_t> closed) const
       if (i >= static_cast<std::int32_t>(n))
         return;
       for (int k = 0; k < _gdim; ++k)
-      {
         result.out[i * _gdim + k] += only->out[k];
-        for (int l = 0; l < _gdim; ++l)
-          sum[i][k][l] += only->out[k] * only->out[l];
-      }
+      const auto out = Vector3d::Map(only->out.data());
+      sum[i] += out * out.transpose();
     };
     add(only->a);
     if (only->b != only->a)
@@ -143,15 +142,8 @@ Trend::Rim Trend::rim(std::span<const std::int8_t> closed) const
   // Of its eigenvalues, which are 2 and 0 on a straight edge, 1 and 1 at a
   // right angle, and 2 in 2D, those of 1 and 2 become 1
   for (std::size_t i = 0; i < n; ++i)
-    for (int k = 0; k < _gdim; ++k)
-      for (int l = 0; l < _gdim; ++l)
-      {
-        double square = 0;
-        for (int j = 0; j < _gdim; ++j)
-          square += sum[i][k][j] * sum[i][j][l];
-        result.across[(i * _gdim + k) * _gdim + l]
-            = 1.5 * sum[i][k][l] - 0.5 * square;
-      }
+    Eigen::Map<math::Small>(&result.across[i * _gdim * _gdim], _gdim, _gdim)
+        = (1.5 * sum[i] - 0.5 * sum[i] * sum[i]).topLeftCorner(_gdim, _gdim);
   return result;
 }
 
@@ -167,7 +159,7 @@ Trend::Fit Trend::fit(std::span<const Flow> flows,
     Vector<3> x{};
     double p = 0, pp = 0;
     Vector<3> xp{};
-    Tensor xx{};
+    Matrix3d xx = Matrix3d::Zero();
   };
   std::vector<Sums> sums(n);
   for (const Flow& flow : flows)
@@ -186,9 +178,8 @@ Trend::Fit Trend::fit(std::span<const Flow> flows,
     s.p += w * p;
     s.pp += w * p * p;
     s.xp = s.xp + (w * p) * x;
-    for (int k = 0; k < 3; ++k)
-      for (int l = 0; l < 3; ++l)
-        s.xx[k][l] += w * x[k] * x[l];
+    const auto column = Vector3d::Map(x.data());
+    s.xx += w * column * column.transpose();
   }
   Fit fit{std::vector<double>(n, 0), std::vector<double>(n * _gdim * _gdim, 0),
           std::vector<double>(n * _gdim, 0), std::vector<double>(n * _gdim, 0)};
@@ -198,30 +189,25 @@ Trend::Fit Trend::fit(std::span<const Flow> flows,
     const double per = s.weight > 0 ? 1 / s.weight : 0;
     const Vector<3> mean = per * s.x;
     const double p = per * s.p;
-    dense::Matrix A(_gdim, _gdim);
-    Vector<3> b{}, slope{};
+    // In the plane a row and a column of it are zero
+    const auto at = Vector3d::Map(mean.data());
+    const Matrix3d A = per * s.xx - at * at.transpose();
+    const Vector3d b = per * Vector3d::Map(s.xp.data()) - p * at;
+    Vector3d slope = Vector3d::Zero();
     for (int k = 0; k < _gdim; ++k)
-    {
       fit.place[i * _gdim + k] = points[i * width + k] + mean[k];
-      b[k] = per * s.xp[k] - mean[k] * p;
-      for (int l = 0; l < _gdim; ++l)
-        fit.spread[(i * _gdim + k) * _gdim + l] = A(k, l)
-            = per * s.xx[k][l] - mean[k] * mean[l];
-    }
+    Eigen::Map<math::Small>(&fit.spread[i * _gdim * _gdim], _gdim, _gdim)
+        = A.topLeftCorner(_gdim, _gdim);
     if (s.weight == 0)
       continue;
-    const dense::Eigen eigen = dense::symmetric_eigen(A);
-    for (int m = 0; m < _gdim; ++m)
-    {
-      if (not(eigen.values[m] > least_spread * eigen.values.back()))
-        continue;
-      Vector<3> e{};
-      for (int k = 0; k < _gdim; ++k)
-        e[k] = eigen.vectors(k, m);
-      slope = slope + (dot(e, b) / eigen.values[m]) * e;
-    }
-    std::copy_n(slope.begin(), _gdim, fit.slope.begin() + i * _gdim);
-    fit.left[i] = std::max(per * s.pp - p * p - dot(slope, b), 0.);
+    const auto eigen = math::symmetric_eigen(A);
+    const Vector3d& values = eigen.eigenvalues();
+    for (int m = 0; m < 3; ++m)
+      if (const Vector3d e = eigen.eigenvectors().col(m);
+          values[m] > least_spread * values[2])
+        slope += e.dot(b) / values[m] * e;
+    std::copy_n(slope.data(), _gdim, fit.slope.begin() + i * _gdim);
+    fit.left[i] = std::max(per * s.pp - p * p - slope.dot(b), 0.);
   }
   return fit;
 }

@@ -3,9 +3,12 @@
 
 #include "free_bodies.h"
 #include "../law/normal.h"
+#include "../math/matrix.h"
 #include "../math/scales.h"
 #include "../math/vec.h"
+#include "rigid_modes.h"
 #include "springs.h"
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,6 +17,8 @@
 
 using namespace contactx;
 using namespace contactx::solve;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
 using mesh::Reduction;
 
 namespace
@@ -44,11 +49,14 @@ double largest_size(std::span<const double> increment)
   return most;
 }
 
-/// Motion along some modes: N (N^T w N)^-1 f.
-std::vector<double> motion(const dense::Matrix& N, dense::Matrix resists,
-                           std::span<const double> f)
+/// Combination of motions with so much work, by their symmetric matrix.
+/// @throws std::domain_error if the motions are not independent.
+VectorXd combined(const MatrixXd& gram, const VectorXd& work)
 {
-  return dense::product(N, dense::solve(std::move(resists), f));
+  const Eigen::LLT<MatrixXd> factors(gram);
+  if (factors.info() != Eigen::Success)
+    throw std::domain_error("rigid motions of the bodies are not independent");
+  return factors.solve(work);
 }
 } // namespace
 
@@ -93,6 +101,19 @@ struct FreeBodies::Rows
   }
 };
 
+/// Motions in columns, as coefficients of the modes of all bodies.
+struct FreeBodies::Motions
+{
+  MatrixXd N;
+};
+
+/// Motions in rows.
+struct FreeBodies::Loose
+{
+  MatrixXd motions;
+  std::vector<double> before;
+};
+
 FreeBodies::FreeBodies(std::shared_ptr<const mesh::Bodies> bodies,
                        std::shared_ptr<Bulk> bulk,
                        std::vector<std::shared_ptr<FreeBodyContact>> contacts,
@@ -102,6 +123,12 @@ FreeBodies::FreeBodies(std::shared_ptr<const mesh::Bodies> bodies,
       _original(original.begin(), original.end())
 {
 }
+
+FreeBodies::FreeBodies(FreeBodies&&) noexcept = default;
+
+FreeBodies::~FreeBodies() = default;
+
+void FreeBodies::reset() { _modes.reset(); }
 
 bool FreeBodies::has_friction() const
 {
@@ -126,7 +153,7 @@ void FreeBodies::begin_step()
   if (_modes)
     _modes->update(*_bulk, x);
   else
-    _modes.emplace(_bodies, *_bulk, x);
+    _modes = std::make_unique<RigidModes>(_bodies, *_bulk, x);
   _free_modes = _closed_for_balance = 0;
   _is_unbalanced = false;
   _springs.reset();
@@ -273,39 +300,34 @@ bool FreeBodies::stabilise(const Forces& forces)
   const std::vector<Rows> rows = this->rows(x);
   bool closed_any = _begins and close_before_springs(rows, pull);
   _begins = false;
-  dense::Matrix N;
+  Motions motions;
+  const MatrixXd& N = motions.N;
   while (true)
   {
-    N = free_basis(rows, _modes->free());
-    if (N.cols == 0)
+    motions = free_basis(rows, false);
+    if (N.cols() == 0)
     {
       _is_unbalanced = false;
       break;
     }
-    std::vector<double> all = pull;
+    VectorXd f = N.transpose() * math::column(pull);
     // In 3D the tangent across the slip resists motions that slip to all sides
     // does not
     if (_modes->gdim() == 2)
-    {
-      const std::vector<double> more = cone_deficit(rows);
-      for (std::size_t i = 0; i < all.size(); ++i)
-        all[i] += more[i];
-    }
-    const std::vector<double> f = dense::product_transposed(N, all);
+      f += N.transpose() * math::column(cone_deficit(rows));
     // A norm that does not depend on which basis of the modes round-off has
     // chosen
-    if (dense::norm(f) <= balanced or loads_balance(N))
+    if (f.norm() <= balanced or loads_balance(motions))
     {
       _is_unbalanced = false;
       break;
     }
     // The rigid motion of bodies whose mass goes with their number of nodes
-    dense::Matrix heavy = N;
-    for (std::size_t i = 0; i < N.rows; ++i)
-      for (std::size_t k = 0; k < N.cols; ++k)
-        heavy(i, k) *= _modes->num_nodes()[i / m];
-    const std::vector<double> increment
-        = motion(N, dense::product_transposed(N, heavy), f);
+    MatrixXd heavy = N;
+    for (std::size_t b = 0; b < _modes->count(); ++b)
+      heavy.middleRows(b * m, m) *= _modes->num_nodes()[b];
+    const VectorXd motion = N * combined(N.transpose() * heavy, f);
+    const std::span increment(motion.data(), motion.size());
     const std::int64_t closed = close_first(rows, increment);
     _closed_for_balance += closed;
     if (closed == 0 and not stick_first(rows, increment))
@@ -317,47 +339,45 @@ bool FreeBodies::stabilise(const Forces& forces)
     }
     closed_any = true;
   }
-  _free_modes = static_cast<std::int64_t>(N.cols);
+  _free_modes = N.cols();
   if (_free_modes > 0)
-    add_springs(N, x, pull, force);
+    add_springs(motions, x, pull, force);
   return closed_any;
 }
 
-void FreeBodies::add_springs(const dense::Matrix& N, std::span<const double> x,
+void FreeBodies::add_springs(const Motions& motions, std::span<const double> x,
                              std::span<const double> pull,
                              std::span<const double> forces)
 {
   const std::size_t g = _modes->gdim(), m = _modes->modes_per_body();
   const auto body = _modes->body();
-  dense::Matrix shares(forces.size(), N.cols);
+  const MatrixXd& N = motions.N;
+  MatrixXd shares(N.cols(), forces.size());
   std::array<double, 18> modes;
   for (std::size_t i = 0; i < forces.size() / g; ++i)
   {
     _modes->at(static_cast<std::int32_t>(i), x, modes.data());
-    for (std::size_t c = 0; c < g; ++c)
-      for (std::size_t p = 0; p < m; ++p)
-        if (const double u = modes[c * m + p]; u != 0)
-          for (std::size_t k = 0; k < N.cols; ++k)
-            shares(i * g + c, k) += u * N(body[i] * m + p, k);
+    shares.middleCols(i * g, g)
+        = N.middleRows(body[i] * m, m).transpose()
+          * Eigen::Map<const MatrixXd>(modes.data(), m, g);
   }
   const auto markers = _bulk->markers();
   std::vector<double> springs
       = independent_springs(ranks(), shares, markers, _bulk->diagonal(),
                             _original, static_cast<int>(g));
-  double square = 0;
-  for (const double force : forces)
-    square += force * force;
-  const double size = std::sqrt(mesh::total(ranks(), square));
-  const bool idle = dense::norm(dense::product_transposed(N, pull))
-                    <= idle_force_max * size;
+  const double size
+      = std::sqrt(mesh::total(ranks(), math::column(forces).squaredNorm()));
+  const bool idle
+      = (N.transpose() * math::column(pull)).norm() <= idle_force_max * size;
   // Friction resists motions across the slip
   if (idle and not has_friction())
   {
-    for (std::size_t i = 0; i < shares.rows; ++i)
+    for (Eigen::Index i = 0; i < shares.cols(); ++i)
       if (markers[i] != 0)
-        std::fill_n(&shares.values[i * shares.cols], shares.cols, 0.0);
+        shares.col(i).setZero();
     const auto u = _bulk->displacements();
-    _loose = Loose{std::move(shares), {u.begin(), u.end()}};
+    _loose = std::make_unique<Loose>(
+        Loose{std::move(shares), {u.begin(), u.end()}});
   }
   // Weak, so that they do not slow down convergence along modes with a small
   // stiffness, as of friction that turns; a body out of balance stays near what
@@ -373,52 +393,44 @@ void FreeBodies::add_springs(const dense::Matrix& N, std::span<const double> x,
 /// Stresses of linear strains balance in the reference configuration alone. In
 /// the current one they have a moment, without any load, that grows with the
 /// displacements. Contacts without friction have no force along free modes.
-bool FreeBodies::loads_balance(const dense::Matrix& N) const
+bool FreeBodies::loads_balance(const Motions& motions) const
 {
   if (not _bulk->is_linear() or has_friction())
     return false;
-  return dense::norm(dense::product_transposed(N, _loads)) <= _balanced;
+  return (motions.N.transpose() * math::column(_loads)).norm() <= _balanced;
 }
 
 std::optional<std::vector<double>> FreeBodies::drift()
 {
   if (not _loose)
     return std::nullopt;
-  const dense::Matrix& motions = _loose->motions;
+  const MatrixXd& motions = _loose->motions;
+  const std::size_t n = motions.cols();
   const auto now = _bulk->displacements();
   ranks().agree(
       [&]
       {
-        if (now.size() != motions.rows or _loose->before.size() != motions.rows)
+        if (now.size() != n or _loose->before.size() != n)
           throw std::invalid_argument("displacements must have a value for "
                                       "each owned dof");
       });
   // The last column is the work of the step
-  const std::size_t k = motions.cols;
-  dense::Matrix sums(k, k + 1);
-  for (std::size_t i = 0; i < motions.rows; ++i)
+  const Eigen::Index k = motions.rows();
+  MatrixXd sums = MatrixXd::Zero(k, k + 1);
+  for (std::size_t i = 0; i < n; ++i)
   {
-    const double step = now[i] - _loose->before[i];
-    for (std::size_t p = 0; p < k; ++p)
-    {
-      const double u = motions(i, p);
-      if (u == 0)
-        continue;
-      for (std::size_t q = 0; q < k; ++q)
-        sums(p, q) += u * motions(i, q);
-      sums(p, k) += u * step;
-    }
+    // A body moves by its own modes, of those of many
+    for (Eigen::Index p = 0; p < k; ++p)
+      if (const double u = motions(p, i); u != 0)
+        sums.col(p) += u * motions.col(i);
+    sums.col(k) += (now[i] - _loose->before[i]) * motions.col(i);
   }
   if (ranks().size() > 1)
-    ranks().reduce(std::span(sums.values), Reduction::sum);
-  dense::Matrix gram(k, k);
-  std::vector<double> work(k);
-  for (std::size_t p = 0; p < k; ++p)
-  {
-    std::copy_n(sums.row(p).begin(), k, &gram(p, 0));
-    work[p] = sums(p, k);
-  }
-  return dense::product(motions, dense::solve(std::move(gram), work));
+    ranks().reduce(std::span(sums.data(), sums.size()), Reduction::sum);
+  std::vector<double> movement(n);
+  VectorXd::Map(movement.data(), n)
+      = motions.transpose() * combined(sums.leftCols(k), sums.col(k));
+  return movement;
 }
 
 double FreeBodies::turned() const
@@ -429,32 +441,25 @@ double FreeBodies::turned() const
   const auto x = _bulk->reference(), u = _bulk->displacements();
   const auto body = _modes->body();
   const std::vector<double> work = along(x, u, 1);
-  std::vector<double> grams(_modes->count() * m * m);
+  // One beside the other
+  MatrixXd grams = MatrixXd::Zero(m, _modes->count() * m);
   std::array<double, 18> modes;
   for (std::size_t i = 0; i < u.size() / g; ++i)
   {
     _modes->at(static_cast<std::int32_t>(i), x, modes.data());
-    double* gram = &grams[body[i] * m * m];
-    for (std::size_t k = 0; k < g; ++k)
-      for (std::size_t p = 0; p < m; ++p)
-        for (std::size_t q = 0; q < m; ++q)
-          gram[p * m + q] += modes[k * m + p] * modes[k * m + q];
+    const Eigen::Map<const MatrixXd> at(modes.data(), m, g);
+    grams.middleCols(body[i] * m, m) += at * at.transpose();
   }
   if (ranks().size() > 1)
-    ranks().reduce(std::span(grams), Reduction::sum);
+    ranks().reduce(std::span(grams.data(), grams.size()), Reduction::sum);
   double most = 0;
   for (std::size_t b = 0; b < _modes->count(); ++b)
   {
-    if (_modes->free()[b].cols == 0)
+    if (_modes->free()[b].cols() == 0)
       continue;
-    dense::Matrix gram(m, m);
-    std::copy_n(&grams[b * m * m], m * m, gram.values.begin());
-    const std::vector<double> motion
-        = dense::solve(std::move(gram), std::span(work).subspan(b * m, m));
-    double square = 0;
-    for (std::size_t p = g; p < m; ++p)
-      square += motion[p] * motion[p];
-    most = std::max(most, std::sqrt(square) / _modes->radius(b));
+    const VectorXd motion = combined(grams.middleCols(b * m, m),
+                                     math::column(work).segment(b * m, m));
+    most = std::max(most, motion.tail(m - g).norm() / _modes->radius(b));
   }
   return most;
 }
@@ -464,24 +469,22 @@ double FreeBodies::turned() const
 bool FreeBodies::close_before_springs(const std::vector<Rows>& rows,
                                       std::span<const double> pull)
 {
-  const dense::Matrix Z = by_body(_modes->weak());
+  const MatrixXd Z = by_body(_modes->weak());
   std::vector<double> stiffness;
   for (const std::vector<double>& some : _modes->stiffness())
     stiffness.insert(stiffness.end(), some.begin(), some.end());
   bool closed_any = false;
   while (true)
   {
-    const dense::Matrix N = free_basis(rows, _modes->weak());
-    if (N.cols == 0)
+    const MatrixXd N = free_basis(rows, true).N;
+    if (N.cols() == 0)
       break;
-    const dense::Matrix combine = dense::product_transposed(Z, N);
-    dense::Matrix stiff = combine;
-    for (std::size_t i = 0; i < stiff.rows; ++i)
-      for (std::size_t k = 0; k < stiff.cols; ++k)
-        stiff(i, k) *= stiffness[i];
-    const std::vector<double> increment
-        = motion(N, dense::product_transposed(combine, stiff),
-                 dense::product_transposed(N, pull));
+    const MatrixXd combine = Z.transpose() * N;
+    const MatrixXd stiff = math::column(stiffness).asDiagonal() * combine;
+    const VectorXd motion = N
+                            * combined(combine.transpose() * stiff,
+                                       N.transpose() * math::column(pull));
+    const std::span increment(motion.data(), motion.size());
     if (largest_size(increment) == 0)
       break;
     const std::int64_t closed = close_first(rows, increment, 1.0);
@@ -493,18 +496,23 @@ bool FreeBodies::close_before_springs(const std::vector<Rows>& rows,
   return closed_any;
 }
 
-/// Orthonormal basis of the motions that no closed node resists, as columns.
-/// @param[in] bases For each body the modes that the motions are combined of.
-dense::Matrix FreeBodies::free_basis(const std::vector<Rows>& rows,
-                                     std::span<const dense::Matrix> bases) const
+/// Orthonormal basis of the motions that no closed node resists.
+/// @param[in] of_weak Whether they are combined of the modes that little
+/// resists, not of those that nothing does.
+FreeBodies::Motions FreeBodies::free_basis(const std::vector<Rows>& rows,
+                                           bool of_weak) const
 {
-  std::vector<std::size_t> first{0};
-  for (const dense::Matrix& basis : bases)
-    first.push_back(first.back() + basis.cols);
-  const std::size_t count = first.back();
-  dense::Matrix gram(count, count);
+  const std::vector<MatrixXd>& bases
+      = of_weak ? _modes->weak() : _modes->free();
+  std::vector<Eigen::Index> first{0};
+  for (const MatrixXd& basis : bases)
+    first.push_back(first.back() + basis.cols());
+  const Eigen::Index count = first.back();
+  if (count == 0)
+    return {};
+  MatrixXd gram = MatrixXd::Zero(count, count);
   // A row of what resists, by the columns where it is not zero
-  std::vector<std::size_t> where;
+  std::vector<Eigen::Index> where;
   std::vector<double> of_body, row;
   const auto add
       = [&](const Rows& some, const Vector<3>& direction, std::size_t i)
@@ -516,7 +524,7 @@ dense::Matrix FreeBodies::free_basis(const std::vector<Rows>& rows,
     {
       const std::int32_t b = some.bodies[e];
       const double* modes = &of_body[(e - some.offsets[i]) * some.m];
-      for (std::size_t k = 0; k < bases[b].cols; ++k)
+      for (Eigen::Index k = 0; k < bases[b].cols(); ++k)
       {
         double sum = 0;
         for (int p = 0; p < some.m; ++p)
@@ -529,34 +537,38 @@ dense::Matrix FreeBodies::free_basis(const std::vector<Rows>& rows,
       for (std::size_t q = 0; q < row.size(); ++q)
         gram(where[p], where[q]) += row[p] * row[q];
   };
-  if (count > 0)
-    for (const Rows& some : rows)
+  for (const Rows& some : rows)
+  {
+    const std::vector<std::int8_t> status = some.contact->status();
+    for (std::size_t i = 0; i < some.size(); ++i)
     {
-      const std::vector<std::int8_t> status = some.contact->status();
-      for (std::size_t i = 0; i < some.size(); ++i)
-      {
-        const std::int8_t kind = status[some.slaves[i]];
-        if (kind == law::open)
-          continue;
-        add(some, some.normal[i], i);
-        if (kind == law::stick)
-          for (int k = 0; k < some.gdim; ++k)
-          {
-            Vector<3> axis{};
-            axis[k] = 1;
-            add(some, axis, i);
-          }
-      }
+      const std::int8_t kind = status[some.slaves[i]];
+      if (kind == law::open)
+        continue;
+      add(some, some.normal[i], i);
+      if (kind == law::stick)
+        for (int k = 0; k < some.gdim; ++k)
+        {
+          Vector<3> axis{};
+          axis[k] = 1;
+          add(some, axis, i);
+        }
     }
-  if (ranks().size() > 1 and count > 0)
-    ranks().reduce(std::span(gram.values), Reduction::sum);
-  const dense::Eigen found = dense::symmetric_eigen(gram);
-  const double most = count > 0 ? std::max(found.values.back(), 1.0) : 1.0;
-  std::vector<std::size_t> none;
-  for (std::size_t k = 0; k < count; ++k)
-    if (math::is_zero(found.values[k], most))
-      none.push_back(k);
-  return dense::product(by_body(bases), dense::columns(found.vectors, none));
+  }
+  if (ranks().size() > 1)
+    ranks().reduce(std::span(gram.data(), gram.size()), Reduction::sum);
+  const auto found = math::symmetric_eigen(gram);
+  const VectorXd& values = found.eigenvalues();
+  const double most = std::max(values[count - 1], 1.0);
+  const Eigen::Index none = (values.array() <= 1e-12 * most).count();
+  Motions motions{MatrixXd(bases.size() * _modes->modes_per_body(), none)};
+  for (std::size_t b = 0; b < bases.size(); ++b)
+    motions.N.middleRows(b * bases[b].rows(), bases[b].rows())
+        = bases[b]
+          * found.eigenvectors()
+                .middleRows(first[b], bases[b].cols())
+                .leftCols(none);
+  return motions;
 }
 
 /// Shortest of the times that nodes of all ranks need; infinite if there are

@@ -4,13 +4,20 @@
 #pragma once
 
 #include "../kernel/pairs.h"
-#include "rigid_modes.h"
+#include "../mesh/bodies.h"
+#include "bulk.h"
+#include <cstdint>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <optional>
+#include <span>
+#include <vector>
 
 namespace contactx::solve
 {
+class RigidModes;
+
 /// @brief Pairs of a contact as the last search left them.
 struct Pairing
 {
@@ -108,6 +115,8 @@ public:
              std::shared_ptr<Bulk> bulk,
              std::vector<std::shared_ptr<FreeBodyContact>> contacts,
              std::span<const std::int64_t> original);
+  FreeBodies(FreeBodies&&) noexcept;
+  ~FreeBodies();
 
   /// @brief True if any contact has Coulomb friction.
   bool has_friction() const;
@@ -117,7 +126,7 @@ public:
 
   /// @brief Drop the rigid modes: a failed step may have found them of a spoilt
   /// stiffness.
-  void reset() { _modes.reset(); }
+  void reset();
 
   /// @brief Find the springs to add to the Jacobian at an iterate, and close
   /// nodes for balance.
@@ -160,6 +169,10 @@ public:
 private:
   /// Slave nodes of a contact with a pair under rigid motions of the bodies.
   struct Rows;
+  /// Orthonormal motions of the bodies
+  struct Motions;
+  /// Free motions at owned dofs, and the displacements at which they were found
+  struct Loose;
   /// Nodes of a contact that may balance a body, and the time in which the
   /// motion gets there.
   struct Found
@@ -175,8 +188,7 @@ private:
   std::vector<Rows> rows(std::span<const double> x) const;
   std::vector<double> along(std::span<const double> x,
                             std::span<const double> forces, double sign) const;
-  dense::Matrix free_basis(const std::vector<Rows>& rows,
-                           std::span<const dense::Matrix> bases) const;
+  Motions free_basis(const std::vector<Rows>& rows, bool of_weak) const;
   bool close_before_springs(const std::vector<Rows>& rows,
                             std::span<const double> pull);
   std::int64_t
@@ -187,8 +199,8 @@ private:
   std::vector<double> cone_deficit(const std::vector<Rows>& rows) const;
   FrictionState friction_state(const Rows& rows, std::size_t n) const;
   double lowest(std::span<const Found> found) const;
-  bool loads_balance(const dense::Matrix& N) const;
-  void add_springs(const dense::Matrix& N, std::span<const double> x,
+  bool loads_balance(const Motions& motions) const;
+  void add_springs(const Motions& motions, std::span<const double> x,
                    std::span<const double> pull,
                    std::span<const double> forces);
 
@@ -196,17 +208,11 @@ private:
   std::shared_ptr<Bulk> _bulk;
   std::vector<std::shared_ptr<FreeBodyContact>> _contacts;
   std::vector<std::int64_t> _original;
-  std::optional<RigidModes> _modes;
+  std::unique_ptr<RigidModes> _modes;
   std::int64_t _free_modes = 0, _closed_for_balance = 0;
   bool _is_unbalanced = false, _begins = true;
   std::optional<std::vector<double>> _springs;
-  // Free motions at owned dofs, and the displacements at which they were found
-  struct Loose
-  {
-    dense::Matrix motions;
-    std::vector<double> before;
-  };
-  std::optional<Loose> _loose;
+  std::unique_ptr<Loose> _loose;
   // Forces of the loads along the modes in the reference configuration, and
   // what is balanced
   std::vector<double> _loads;

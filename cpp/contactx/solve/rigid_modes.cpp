@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "rigid_modes.h"
+#include "../math/matrix.h"
 #include "../math/scales.h"
 #include <algorithm>
 #include <array>
@@ -12,6 +13,7 @@
 
 using namespace contactx;
 using namespace contactx::solve;
+using Eigen::MatrixXd;
 using mesh::Reduction;
 
 namespace
@@ -24,14 +26,14 @@ constexpr double weak_support_max = 1e-3;
 
 /// Orthonormal basis of the null space of a matrix of so many rows, from the
 /// matrix times its transpose from the left.
-dense::Matrix null_space(const dense::Matrix& gram, double rows)
+MatrixXd null_space(const MatrixXd& gram, double rows)
 {
-  const dense::Eigen found = dense::symmetric_eigen(gram);
-  std::vector<std::size_t> which;
-  for (std::size_t k = 0; k < found.values.size(); ++k)
-    if (math::is_zero(found.values[k], std::max(rows, 1.0)))
+  const auto found = math::symmetric_eigen(gram);
+  std::vector<Eigen::Index> which;
+  for (Eigen::Index k = 0; k < gram.cols(); ++k)
+    if (math::is_zero(found.eigenvalues()[k], std::max(rows, 1.0)))
       which.push_back(k);
-  return dense::columns(found.vectors, which);
+  return found.eigenvectors()(Eigen::all, which);
 }
 
 void sum_up(mesh::Ranks& ranks, std::span<double> values)
@@ -44,8 +46,9 @@ void sum_up(mesh::Ranks& ranks, std::span<double> values)
 /// Stiffness of the bulk against motions of a body.
 struct RigidModes::Resistance
 {
-  dense::Eigen found; ///< and the combinations of motions that have it
-  double scale;       ///< that against motions that are not rigid
+  /// and the combinations of motions that have it
+  Eigen::SelfAdjointEigenSolver<MatrixXd> found;
+  double scale; ///< that against motions that are not rigid
 };
 
 void solve::rigid_modes(const double* d, double* modes, int gdim)
@@ -69,23 +72,21 @@ void solve::rigid_modes(const double* d, double* modes, int gdim)
   }
 }
 
-dense::Matrix solve::by_body(std::span<const dense::Matrix> bases)
+MatrixXd solve::by_body(std::span<const MatrixXd> bases)
 {
-  std::size_t rows = 0, cols = 0;
-  for (const dense::Matrix& basis : bases)
+  Eigen::Index rows = 0, cols = 0;
+  for (const MatrixXd& basis : bases)
   {
-    rows += basis.rows;
-    cols += basis.cols;
+    rows += basis.rows();
+    cols += basis.cols();
   }
-  dense::Matrix Z(rows, cols);
-  std::size_t row = 0, col = 0;
-  for (const dense::Matrix& basis : bases)
+  MatrixXd Z = MatrixXd::Zero(rows, cols);
+  rows = cols = 0;
+  for (const MatrixXd& basis : bases)
   {
-    for (std::size_t i = 0; i < basis.rows; ++i)
-      for (std::size_t k = 0; k < basis.cols; ++k)
-        Z(row + i, col + k) = basis(i, k);
-    row += basis.rows;
-    col += basis.cols;
+    Z.block(rows, cols, basis.rows(), basis.cols()) = basis;
+    rows += basis.rows();
+    cols += basis.cols();
   }
   return Z;
 }
@@ -163,7 +164,7 @@ double RigidModes::size() const
 
 bool RigidModes::any_free() const
 {
-  const auto some = [](const dense::Matrix& basis) { return basis.cols > 0; };
+  const auto some = [](const MatrixXd& basis) { return basis.cols() > 0; };
   return std::ranges::any_of(_free, some) or std::ranges::any_of(_weak, some);
 }
 
@@ -184,40 +185,36 @@ void RigidModes::update(Bulk& bulk, std::span<const double> x)
   const std::size_t m = modes_per_body(), g = _gdim;
   const std::vector<double> seen = prescribed(bulk, x);
   std::vector<std::int8_t> sprung = _sprung;
-  std::vector<dense::Matrix> free, weak;
+  std::vector<MatrixXd> free, weak;
   std::vector<std::vector<double>> stiffness;
   for (std::size_t b = 0; b < count(); ++b)
   {
     const double* of_body = &seen[b * (m * m + 1)];
-    dense::Matrix gram(m, m);
-    std::copy_n(of_body, m * m, gram.values.begin());
-    const dense::Matrix unconstrained = null_space(gram, of_body[m * m]);
-    dense::Matrix basis = unconstrained, yielding(m, 0);
+    const MatrixXd unconstrained
+        = null_space(Eigen::Map<const MatrixXd>(of_body, m, m), of_body[m * m]);
+    MatrixXd basis = unconstrained, yielding(m, 0);
     std::vector<double> yields;
-    if (unconstrained.cols > 0 and not(_is_first or sprung[b]))
+    if (unconstrained.cols() > 0 and not(_is_first or sprung[b]))
     {
       // Stresses resist rotations without being a support
-      dense::Matrix turns(m - g, unconstrained.cols);
-      std::copy_n(unconstrained.values.begin() + g * unconstrained.cols,
-                  turns.values.size(), turns.values.begin());
-      const dense::Matrix shifts = dense::product(
-          unconstrained, null_space(dense::product_transposed(turns, turns),
-                                    static_cast<double>(turns.rows)));
-      if (shifts.cols > 0)
+      const auto turns = unconstrained.bottomRows(m - g);
+      const MatrixXd shifts
+          = unconstrained
+            * null_space(turns.transpose() * turns, static_cast<double>(m - g));
+      if (shifts.cols() > 0)
       {
         const Resistance r = resistance(bulk, x, b, shifts);
-        sprung[b] = std::ranges::any_of(
-            r.found.values, [&r](double value)
-            { return std::abs(value) > support_stiffness_min * r.scale; });
+        sprung[b]
+            = r.found.eigenvalues().cwiseAbs().maxCoeff() > support_stiffness_min * r.scale;
       }
     }
-    if (unconstrained.cols > 0 and (_is_first or sprung[b]))
+    if (unconstrained.cols() > 0 and (_is_first or sprung[b]))
     {
       const Resistance r = resistance(bulk, x, b, unconstrained);
-      std::vector<std::size_t> none, some;
-      for (std::size_t k = 0; k < r.found.values.size(); ++k)
+      std::vector<Eigen::Index> none, some;
+      for (Eigen::Index k = 0; k < unconstrained.cols(); ++k)
       {
-        const double size = std::abs(r.found.values[k]);
+        const double size = std::abs(r.found.eigenvalues()[k]);
         if (size <= support_stiffness_min * r.scale)
           none.push_back(k);
         else if (size <= weak_support_max * r.scale)
@@ -226,11 +223,9 @@ void RigidModes::update(Bulk& bulk, std::span<const double> x)
           yields.push_back(size);
         }
       }
-      basis = dense::product(unconstrained,
-                             dense::columns(r.found.vectors, none));
-      yielding = dense::product(unconstrained,
-                                dense::columns(r.found.vectors, some));
-      if (basis.cols < unconstrained.cols)
+      basis = unconstrained * r.found.eigenvectors()(Eigen::all, none);
+      yielding = unconstrained * r.found.eigenvectors()(Eigen::all, some);
+      if (basis.cols() < unconstrained.cols())
         sprung[b] = 1;
     }
     free.push_back(std::move(basis));
@@ -275,31 +270,30 @@ std::vector<double> RigidModes::prescribed(Bulk& bulk,
   return seen;
 }
 
-RigidModes::Resistance
-RigidModes::resistance(Bulk& bulk, std::span<const double> x, std::size_t b,
-                       const dense::Matrix& motions) const
+RigidModes::Resistance RigidModes::resistance(Bulk& bulk,
+                                              std::span<const double> x,
+                                              std::size_t b,
+                                              const MatrixXd& motions) const
 {
-  const std::size_t m = modes_per_body(), g = _gdim, k = motions.cols;
+  const std::size_t m = modes_per_body(), g = _gdim, k = motions.cols();
   const auto owned = body().first(_bodies->map().num_owned());
   const std::size_t n = owned.size() * g;
   std::vector<std::size_t> dofs;
-  std::vector<double> fields(k * n);
+  MatrixXd fields = MatrixXd::Zero(n, k);
   std::array<double, 18> modes;
   for (std::size_t i = 0; i < owned.size(); ++i)
   {
     if (static_cast<std::size_t>(owned[i]) != b)
       continue;
     at(static_cast<std::int32_t>(i), x, modes.data());
+    fields.middleRows(i * g, g)
+        = Eigen::Map<const MatrixXd>(modes.data(), m, g).transpose() * motions;
     for (std::size_t c = 0; c < g; ++c)
-    {
       dofs.push_back(i * g + c);
-      for (std::size_t q = 0; q < k; ++q)
-        for (std::size_t p = 0; p < m; ++p)
-          fields[q * n + i * g + c] += modes[c * m + p] * motions(p, q);
-    }
   }
   const auto diagonal = bulk.diagonal();
-  const auto forces = bulk.products(fields, static_cast<int>(k));
+  const auto forces
+      = bulk.products({fields.data(), k * n}, static_cast<int>(k));
   mesh::Ranks& ranks = _bodies->map().ranks();
   ranks.agree(
       [&]
@@ -311,23 +305,19 @@ RigidModes::resistance(Bulk& bulk, std::span<const double> x, std::size_t b,
               + std::to_string(n) + " owned dofs");
       });
   // The last column is the stiffness of the diagonal
-  dense::Matrix sums(k, k + 1);
+  MatrixXd sums = MatrixXd::Zero(k, k + 1);
   for (std::size_t p = 0; p < k; ++p)
     for (const std::size_t dof : dofs)
     {
-      const double u = fields[p * n + dof];
+      const double u = fields(dof, p);
       for (std::size_t q = 0; q < k; ++q)
         sums(p, q) += u * forces[q * n + dof];
       sums(p, k) += u * std::abs(diagonal[dof]) * u;
     }
-  sum_up(ranks, sums.values);
-  dense::Matrix energy(k, k);
+  sum_up(ranks, {sums.data(), static_cast<std::size_t>(sums.size())});
   double scale = -std::numeric_limits<double>::infinity();
   for (std::size_t p = 0; p < k; ++p)
-  {
-    for (std::size_t q = 0; q < k; ++q)
-      energy(p, q) = (sums(p, q) + sums(q, p)) / 2;
     scale = std::max(scale, sums(p, k));
-  }
-  return {dense::symmetric_eigen(energy), scale};
+  const MatrixXd energy = (sums.leftCols(k) + sums.leftCols(k).transpose()) / 2;
+  return {math::symmetric_eigen(energy), scale};
 }

@@ -3,9 +3,9 @@
 
 #pragma once
 
-#include "../math/dense.h"
 #include "../mesh/bodies.h"
 #include "bulk.h"
+#include <Eigen/Core>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -74,10 +74,10 @@ public:
   /// @brief For each body the modes that neither Dirichlet conditions nor the
   /// bulk's stiffness (springs, elastic supports) resist, as columns of
   /// coefficients.
-  const std::vector<dense::Matrix>& free() const { return _free; }
+  const std::vector<Eigen::MatrixXd>& free() const { return _free; }
 
   /// @brief For each body those that the bulk's stiffness resists by little.
-  const std::vector<dense::Matrix>& weak() const { return _weak; }
+  const std::vector<Eigen::MatrixXd>& weak() const { return _weak; }
 
   /// @brief That stiffness, for each body.
   const std::vector<std::vector<double>>& stiffness() const
@@ -98,7 +98,7 @@ private:
   void check(Bulk& bulk, std::span<const double> x) const;
   std::vector<double> prescribed(Bulk& bulk, std::span<const double> x) const;
   Resistance resistance(Bulk& bulk, std::span<const double> x, std::size_t body,
-                        const dense::Matrix& motions) const;
+                        const Eigen::MatrixXd& motions) const;
 
   std::shared_ptr<const mesh::Bodies> _bodies;
   int _gdim;
@@ -106,10 +106,10 @@ private:
   // Whether the bulk's stiffness has ever resisted a motion of a body
   std::vector<std::int8_t> _sprung;
   bool _is_first = true;
-  std::vector<dense::Matrix> _free, _weak;
+  std::vector<Eigen::MatrixXd> _free, _weak;
   std::vector<std::vector<double>> _stiffness;
 };
 
 /// @brief Modes of single bodies as modes of all, in columns.
-dense::Matrix by_body(std::span<const dense::Matrix> bases);
+Eigen::MatrixXd by_body(std::span<const Eigen::MatrixXd> bases);
 } // namespace contactx::solve

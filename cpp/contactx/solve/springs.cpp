@@ -10,24 +10,13 @@
 
 using namespace contactx;
 
-namespace
-{
-double square(std::span<const double> row)
-{
-  double sum = 0;
-  for (const double value : row)
-    sum += value * value;
-  return sum;
-}
-} // namespace
-
 std::vector<double>
-solve::independent_springs(mesh::Ranks& ranks, const dense::Matrix& field,
+solve::independent_springs(mesh::Ranks& ranks, const Eigen::MatrixXd& field,
                            std::span<const std::int8_t> prescribed,
                            std::span<const double> diagonal,
                            std::span<const std::int64_t> original, int gdim)
 {
-  const std::size_t n = field.rows, k = field.cols;
+  const std::size_t n = field.cols(), k = field.rows();
   ranks.agree(
       [&]
       {
@@ -37,17 +26,18 @@ solve::independent_springs(mesh::Ranks& ranks, const dense::Matrix& field,
                                       "original must be of the same owned "
                                       "nodes");
       });
-  dense::Matrix left = field;
+  Eigen::MatrixXd left = field;
   for (std::size_t i = 0; i < n; ++i)
     if (prescribed[i] == 1)
-      std::fill_n(&left.values[i * k], k, 0.0);
-  std::vector<double> springs(n), direction(k), size(n);
+      left.col(i).setZero();
+  std::vector<double> springs(n), size(n);
+  Eigen::VectorXd direction(k);
   for (std::size_t spring = 0; spring < k; ++spring)
   {
     double most = 0;
     for (std::size_t i = 0; i < n; ++i)
     {
-      size[i] = square(left.row(i));
+      size[i] = left.col(i).squaredNorm();
       most = std::max(most, size[i]);
     }
     most = mesh::largest(ranks, most);
@@ -69,27 +59,18 @@ solve::independent_springs(mesh::Ranks& ranks, const dense::Matrix& field,
         }
       }
     const bool is_mine = mesh::least(ranks, mine) == mine and dof < n;
-    std::ranges::fill(direction, 0.0);
+    direction.setZero();
     if (is_mine)
     {
-      std::ranges::copy(left.row(dof), direction.begin());
+      direction = left.col(dof);
       springs[dof] = std::abs(diagonal[dof]);
     }
     if (ranks.size() > 1)
-      ranks.reduce(std::span(direction), mesh::Reduction::sum);
-    const double length = std::sqrt(square(direction));
-    for (double& d : direction)
-      d /= length;
+      ranks.reduce(std::span(direction.data(), k), mesh::Reduction::sum);
+    direction /= direction.norm();
     for (std::size_t i = 0; i < n; ++i)
-    {
-      if (size[i] == 0)
-        continue;
-      double along = 0;
-      for (std::size_t j = 0; j < k; ++j)
-        along += left(i, j) * direction[j];
-      for (std::size_t j = 0; j < k; ++j)
-        left(i, j) -= along * direction[j];
-    }
+      if (size[i] != 0)
+        left.col(i) -= left.col(i).dot(direction) * direction;
   }
   return springs;
 }

@@ -3,8 +3,8 @@
 
 #pragma once
 
-#include "../math/dense.h"
 #include "../mesh/ranks.h"
+#include <Eigen/Core>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -18,7 +18,7 @@ namespace contactx::solve
 /// same dofs, whatever basis of the modes is given.
 /// @param[in] ranks The ranks.
 /// @param[in] field Displacements by orthonormal combinations of modes at owned
-/// dofs (shape=(num_owned * gdim, k)).
+/// dofs, which are its columns (shape=(k, num_owned * gdim)).
 /// @param[in] prescribed 1 at dofs that are prescribed and take no spring
 /// (shape=(num_owned * gdim)).
 /// @param[in] diagonal Stiffness that springs have a part of, force/length
@@ -29,7 +29,7 @@ namespace contactx::solve
 /// @return Stiffness, force/length (shape=(num_owned * gdim)).
 /// @throws std::invalid_argument on all ranks if the sizes do not fit on one.
 std::vector<double> independent_springs(mesh::Ranks& ranks,
-                                        const dense::Matrix& field,
+                                        const Eigen::MatrixXd& field,
                                         std::span<const std::int8_t> prescribed,
                                         std::span<const double> diagonal,
                                         std::span<const std::int64_t> original,

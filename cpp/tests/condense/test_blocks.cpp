@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "dense.h"
+#include "saddle.h"
 
 using namespace contactx;
 using namespace contactx::condense;
@@ -16,8 +16,9 @@ TEST(Blocks, SortedFromRows)
   const std::vector<std::int32_t> columns{0, 1, 3, 2, 0, 2, 1};
   const std::vector<double> values{1, 0, 2, 3, 4, 5, 6};
   const Blocks blocks = sorted({offsets, columns, values}, 2);
-  const Dense S(blocks.stiffness, 2, 2), T(blocks.traction, 2, 2),
-      C(blocks.constraint, 2, 2);
+  const Eigen::MatrixXd S = dense(blocks.stiffness, 2, 2),
+                        T = dense(blocks.traction, 2, 2),
+                        C = dense(blocks.constraint, 2, 2);
   // Zeros and what joins multipliers are left out
   EXPECT_EQ(blocks.stiffness.size(), 1u);
   EXPECT_EQ(S(0, 0), 1);

@@ -5,7 +5,7 @@
 #include <contactx/condense/multigrid.h>
 #include <gtest/gtest.h>
 
-#include "dense.h"
+#include "saddle.h"
 #include "status.h"
 #include "thread_ranks.h"
 
@@ -179,8 +179,9 @@ TEST(Multigrid, TheBoundHoldsForAllDisplacements)
   for (double& value : diagonal)
     value = saddle.random(0.5, 2);
   const Column D = bound(elimination, nodes, diagonal);
-  const Dense right
-      = Dense::one(saddle.n) + Dense(elimination.right(), saddle.n, saddle.n);
+  const Eigen::MatrixXd right
+      = Eigen::MatrixXd::Identity(saddle.n, saddle.n)
+        + dense(elimination.right(), saddle.n, saddle.n);
   // Halves of it are too small for some
   bool is_sharp = false;
   for (int trial = 0; trial < 200; ++trial)
@@ -192,7 +193,7 @@ TEST(Multigrid, TheBoundHoldsForAllDisplacements)
         v[j] = right(elimination.eliminated()[trial], j) > 0 ? 1 : -1;
     for (const std::int32_t dof : elimination.eliminated())
       v[dof] = 0;
-    const Column u = right * v;
+    const Column u = product(right, v);
     double energy = 0, most = 0;
     for (std::size_t i = 0; i < saddle.n; ++i)
     {
@@ -266,7 +267,7 @@ TEST(Multigrid, SpringsOfWhatIsNotEliminated)
   {
     const Triplets springs
         = elastic(elimination, nodes, soft, has_diagonal ? diagonal : Column());
-    const Dense found(springs, 12, 12);
+    const Eigen::MatrixXd found = dense(springs, 12, 12);
     for (int i = 0; i < 12; ++i)
       for (int j = 0; j < 12; ++j)
       {

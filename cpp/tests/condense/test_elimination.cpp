@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <string>
 
-#include "dense.h"
+#include "saddle.h"
 #include "status.h"
 
 using namespace contactx;

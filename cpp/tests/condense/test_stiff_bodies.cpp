@@ -4,7 +4,7 @@
 #include <contactx/condense/stiff_bodies.h>
 #include <gtest/gtest.h>
 
-#include "dense.h"
+#include "saddle.h"
 #include "status.h"
 
 using namespace contactx;

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <gtest/gtest.h>
 
-#include "dense.h"
+#include "saddle.h"
 
 using namespace contactx;
 using namespace contactx::condense;
@@ -32,8 +32,8 @@ TEST(Triplets, ProductsAreThoseOfDenseMatrices)
     const Triplets A = random_entries(random, 9, 7, count);
     const Triplets B = random_entries(random, 7, 11, count);
     const Triplets AB = product(A, B, 9, 7, 11);
-    const Dense found(AB, 9, 11);
-    const Dense wanted = Dense(A, 9, 7) * Dense(B, 7, 11);
+    const Eigen::MatrixXd found = dense(AB, 9, 11);
+    const Eigen::MatrixXd wanted = dense(A, 9, 7) * dense(B, 7, 11);
     for (std::size_t i = 0; i < 9; ++i)
       for (std::size_t j = 0; j < 11; ++j)
         EXPECT_NEAR(found(i, j), wanted(i, j), 1e-14);
@@ -62,9 +62,10 @@ TEST(Triplets, OneEntryForEachPlace)
 {
   Generator random(5);
   Triplets A = random_entries(random, 4, 3, 40);
-  A.add(2, 1, 0.5 - Dense(A, 4, 3)(2, 1));
+  A.add(2, 1, 0.5 - dense(A, 4, 3)(2, 1));
   A.add(2, 1, -0.5);
-  const Dense wanted(A, 4, 3), found(merged(A, 4, 3), 4, 3);
+  const Eigen::MatrixXd wanted = dense(A, 4, 3),
+                        found = dense(merged(A, 4, 3), 4, 3);
   for (std::size_t i = 0; i < 4; ++i)
     for (std::size_t j = 0; j < 3; ++j)
       EXPECT_NEAR(found(i, j), wanted(i, j), 1e-15);
@@ -79,7 +80,7 @@ TEST(Triplets, ProductWithAColumnIsAdded)
   for (double& value : x)
     value = random(-1, 1);
   A.multiply(x, y, -2);
-  const Column wanted = Dense(A, 6, 8) * x;
+  const Column wanted = product(dense(A, 6, 8), x);
   for (std::size_t i = 0; i < 6; ++i)
     EXPECT_NEAR(y[i], 1 - 2 * wanted[i], 1e-14);
 }
@@ -91,14 +92,14 @@ TEST(Triplets, JoinedSelectedAndGrouped)
   Triplets both = A;
   both.join(A, -1);
   ASSERT_EQ(both.size(), 40u);
-  const Dense zero(both, 5, 5);
+  const Eigen::MatrixXd zero = dense(both, 5, 5);
   for (std::size_t i = 0; i < 5; ++i)
     for (std::size_t j = 0; j < 5; ++j)
       EXPECT_NEAR(zero(i, j), 0, 1e-15);
 
   const Triplets upper = A.select([](std::int32_t row, std::int32_t column,
                                      double) { return row < column; });
-  const Dense some(upper, 5, 5), all(A, 5, 5);
+  const Eigen::MatrixXd some = dense(upper, 5, 5), all = dense(A, 5, 5);
   for (std::size_t i = 0; i < 5; ++i)
     for (std::size_t j = 0; j < 5; ++j)
       EXPECT_EQ(some(i, j), i < j ? all(i, j) : 0);

@@ -45,7 +45,7 @@ struct Springs : SpringBodies
     for (int iteration = 0; iteration < 30; ++iteration)
     {
       system->residual(b);
-      while (dense::norm(b) < 1e-13)
+      while (math::column(b).norm() < 1e-13)
       {
         const auto end = set->may_end(none);
         if (end == ActiveSet::End::solution)
@@ -58,8 +58,8 @@ struct Springs : SpringBodies
           return -1;
         system->residual(b);
       }
-      set->note(dense::norm(b));
-      const std::vector<double> step = dense::solve(jacobian(), b);
+      set->note(math::column(b).norm());
+      const std::vector<double> step = tests::solution(jacobian(), b);
       system->unknowns(x);
       for (std::size_t i = 0; i < x.size(); ++i)
         x[i] -= step[i];

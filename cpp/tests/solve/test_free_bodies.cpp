@@ -1,7 +1,9 @@
 // Copyright (C) 2026 contactx authors
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
+#include "algebra.h"
 #include "free_bodies_scene.h"
+#include <contactx/solve/rigid_modes.h>
 #include <gtest/gtest.h>
 #include <set>
 #include <stdexcept>
@@ -424,20 +426,18 @@ TEST(FreeBodies, SpringsOfADiscThatMayRollCarryNoForce)
   EXPECT_EQ(free.free_modes(), 2);
   EXPECT_EQ(num_springs(free), 2);
   // What the step solves: bars and springs, the closed node held along y
-  dense::Matrix K(26, 26);
+  Eigen::MatrixXd K(26, 26);
   std::vector<double> unit(26);
   for (std::size_t j = 0; j < 26; ++j)
   {
     unit[j] = 1;
-    const std::vector<double> column = disc.scene.bulk->product(unit);
-    for (std::size_t i = 0; i < 26; ++i)
-      K(i, j) = column[i];
+    K.col(j) = math::column(disc.scene.bulk->product(unit));
     K(j, j) += (*free.springs())[j];
     unit[j] = 0;
   }
   for (std::size_t j = 0; j < 26; ++j)
     K(3, j) = K(j, 3) = j == 3;
-  const std::vector<double> u = dense::solve(K, load);
+  const std::vector<double> u = tests::solution(K, load);
   EXPECT_LT(u[1], -0.1);
   for (std::size_t i = 0; i < 26; ++i)
     EXPECT_NEAR((*free.springs())[i] * u[i], 0, 1e-9);
@@ -701,5 +701,14 @@ TEST(FreeBodies, WhatDoesNotFitIsRefused)
   block.scene.bulk->throws = true;
   EXPECT_THROW(free.begin_step(), std::runtime_error);
   EXPECT_FALSE(free.stabilise(forces));
+}
+TEST(FreeBodies, TurnsOfABodyThatIsALineAreRefused)
+{
+  // A bar in space: nothing turns about its own axis
+  FreeScene scene(Truss{3, {0, 0, 0, 1, 0, 0}, {0, 1}});
+  scene.bulk->linear = true;
+  FreeBodies free = scene.free_bodies();
+  free.begin_step();
+  EXPECT_THROW(free.turned(), std::domain_error);
 }
 } // namespace

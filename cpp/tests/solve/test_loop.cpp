@@ -53,15 +53,13 @@ struct Newton : SpringBodies
   }
 
   /// Jacobian by the unknowns, which are lengths.
-  dense::Matrix matrix() const
+  Eigen::MatrixXd matrix() const
   {
     const auto& springs = loop->free_bodies().springs();
-    dense::Matrix J = jacobian(springs ? std::span<const double>(*springs)
-                                       : std::span<const double>());
-    const std::size_t n = system().num_displacements();
-    for (std::size_t i = 0; i < J.rows; ++i)
-      for (std::size_t k = n; k < J.cols; ++k)
-        J(i, k) *= system().factors()[k - n];
+    Eigen::MatrixXd J = jacobian(springs ? std::span<const double>(*springs)
+                                         : std::span<const double>());
+    const auto factors = math::column(system().factors());
+    J.rightCols(factors.size()) *= factors.asDiagonal();
     return J;
   }
 
@@ -72,8 +70,8 @@ struct Newton : SpringBodies
     Verdict verdict = judge(true);
     for (int k = 0; k < most and verdict == Verdict::goes_on; ++k)
     {
-      const dense::Matrix J = matrix();
-      const std::vector<double> dx = dense::solve(J, b), x = unknowns();
+      const Eigen::MatrixXd J = matrix();
+      const std::vector<double> dx = tests::solution(J, b), x = unknowns();
       if (not loop->softens(dx))
       {
         StepLength& length = loop->length();
@@ -83,7 +81,7 @@ struct Newton : SpringBodies
           take(x, dx, length.part());
           iterates.pop_back();
           system().residual(b);
-          length.judge(loop->size_of(dense::solve(J, b)));
+          length.judge(loop->size_of(tests::solution(J, b)));
         }
         take(x, dx, length.part());
       }
@@ -117,10 +115,10 @@ std::vector<double> direct(const Newton& found, double friction)
   const kernel::Weights weights = contact.master()->weights();
   const std::vector<double> normals = contact.master()->normals();
   const auto x = found.scene.halo->reference();
-  dense::Matrix A(n + m * g, n + m * g);
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(n + m * g, n + m * g);
   std::vector<double> f(n + m * g);
 
-  const dense::Matrix K = found.stiffness();
+  const Eigen::MatrixXd K = found.stiffness();
   for (std::size_t i = 0; i < n; ++i)
   {
     const bool is_fixed = found.bulk->fixed[i];
@@ -179,7 +177,7 @@ std::vector<double> direct(const Newton& found, double friction)
                        : 0);
       }
   }
-  return dense::solve(A, f);
+  return tests::solution(A, f);
 }
 
 std::int64_t count(const Contact& contact, std::int8_t status)
@@ -354,7 +352,7 @@ TEST(Loop, HalfAStepIsTakenWhereIteratesGoRound)
   found.begin();
   EXPECT_EQ(found.judge(true), Verdict::goes_on);
   const std::vector<double> x = found.unknowns(),
-                            dx = dense::solve(found.matrix(), found.b);
+                            dx = tests::solution(found.matrix(), found.b);
   found.take(x, dx, 0);
   EXPECT_EQ(found.loop->active_set().cycles(), 0);
   found.judge();

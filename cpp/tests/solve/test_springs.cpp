@@ -4,6 +4,7 @@
 #include "generator.h"
 #include "thread_ranks.h"
 #include <cmath>
+#include <contactx/math/matrix.h>
 #include <contactx/solve/rigid_modes.h>
 #include <contactx/solve/springs.h>
 #include <gtest/gtest.h>
@@ -20,11 +21,11 @@ struct Points
   Points(int gdim, int count, unsigned seed) : gdim(gdim), random(seed)
   {
     const int m = solve::num_modes(gdim);
-    field = dense::Matrix(count * gdim, m);
+    field.resize(m, count * gdim);
     for (int i = 0; i < count; ++i)
     {
       const Vector<3> at = random.vector<3>(-1, 1);
-      solve::rigid_modes(at.data(), &field(i * gdim, 0), gdim);
+      solve::rigid_modes(at.data(), &field(0, i * gdim), gdim);
       original.push_back((i * 7 + 3) % count);
     }
     for (int i = 0; i < count * gdim; ++i)
@@ -41,7 +42,7 @@ struct Points
 
   int gdim;
   tests::Generator random;
-  dense::Matrix field;
+  Eigen::MatrixXd field;
   std::vector<std::int8_t> prescribed;
   std::vector<double> diagonal;
   std::vector<std::int64_t> original;
@@ -64,15 +65,11 @@ TEST(Springs, AreStaticallyDeterminate)
           EXPECT_EQ(points.prescribed[i], 0);
         }
       // As many as modes, and any forces along these have their springs
-      const std::size_t m = points.field.cols;
+      const std::size_t m = points.field.rows();
       ASSERT_EQ(dofs.size(), m);
-      dense::Matrix rows(m, m);
-      for (std::size_t k = 0; k < m; ++k)
-        for (std::size_t p = 0; p < m; ++p)
-          rows(k, p) = points.field(dofs[k], p);
-      const dense::Eigen found
-          = dense::symmetric_eigen(dense::product_transposed(rows, rows));
-      EXPECT_GT(found.values.front(), 0.01);
+      const Eigen::MatrixXd columns = points.field(Eigen::all, dofs);
+      const Eigen::MatrixXd gram = columns * columns.transpose();
+      EXPECT_GT(math::symmetric_eigen(gram).eigenvalues()[0], 0.01);
     }
 }
 
@@ -83,13 +80,12 @@ TEST(Springs, DoNotDependOnTheBasis)
     {
       Points points(g, 15, seed);
       const std::vector<double> springs = points.springs();
-      const std::size_t m = points.field.cols;
+      const auto m = points.field.rows();
       // Eigenvectors of any symmetric matrix are as good a basis
-      dense::Matrix any(m, m);
-      for (double& value : any.values)
-        value = points.random(-1, 1);
-      points.field
-          = dense::product(points.field, dense::symmetric_eigen(any).vectors);
+      const Eigen::MatrixXd any = Eigen::MatrixXd::NullaryExpr(
+          m, m, [&points] { return points.random(-1, 1); });
+      points.field = math::symmetric_eigen(any).eigenvectors().transpose()
+                     * points.field;
       EXPECT_EQ(points.springs(), springs);
     }
 }
@@ -98,9 +94,9 @@ TEST(Springs, OfEqualOnesTheFirstInTheMeshAsItWasMade)
 {
   Points points(2, 6, 0);
   // One translation
-  points.field = dense::Matrix(12, 1);
+  points.field.setZero(1, 12);
   for (int i = 0; i < 6; ++i)
-    points.field(2 * i + 1, 0) = 1 + (i % 2) * 1e-12;
+    points.field(0, 2 * i + 1) = 1 + (i % 2) * 1e-12;
   const std::vector<double> springs = points.springs();
   const auto first = std::ranges::find(points.original, 0);
   const auto dof = 2 * (first - points.original.begin()) + 1;
@@ -119,11 +115,10 @@ TEST(Springs, OnSeveralRanksTheyAreThoseOfOne)
                       [&](mesh::Ranks& ranks)
                       {
                         // The last rank has no node
-                        dense::Matrix field;
+                        std::vector<Eigen::Index> dofs;
                         std::vector<double> diagonal, mine;
                         std::vector<std::int8_t> prescribed;
                         std::vector<std::int64_t> original;
-                        field.cols = points.field.cols;
                         for (int i = 0; i < 20; ++i)
                         {
                           if (i % (size - 1) != ranks.rank())
@@ -131,15 +126,14 @@ TEST(Springs, OnSeveralRanksTheyAreThoseOfOne)
                           original.push_back(points.original[i]);
                           for (int dof = i * g; dof < (i + 1) * g; ++dof)
                           {
-                            const auto row = points.field.row(dof);
-                            field.values.insert(field.values.end(), row.begin(),
-                                                row.end());
-                            ++field.rows;
+                            dofs.push_back(dof);
                             diagonal.push_back(points.diagonal[dof]);
                             prescribed.push_back(0);
                             mine.push_back(expected[dof]);
                           }
                         }
+                        const Eigen::MatrixXd field
+                            = points.field(Eigen::all, dofs);
                         EXPECT_EQ(independent_springs(ranks, field, prescribed,
                                                       diagonal, original, g),
                                   mine);

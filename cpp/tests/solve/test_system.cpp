@@ -249,7 +249,7 @@ TEST(System, MultipliesByTheContactsPartOfTheJacobian)
     for (std::size_t i = 0; i < s.scene.u->size(); ++i)
       if (s.bulk->fixed[i])
         inner[i] = 0;
-    std::vector<double> expected = dense::product(s.jacobian(), inner);
+    std::vector<double> expected = tests::product(s.jacobian(), inner);
     const std::vector<double> of_bulk
         = s.bulk->product(std::span(inner).first(s.scene.u->size()));
     for (std::size_t i = 0; i < of_bulk.size(); ++i)

@@ -40,6 +40,8 @@ def test_the_recipe_is_that_of_the_project():
         return {re.split(r"[ <>=]", r, maxsplit=1)[0] for r in requirements}
 
     needs = meta["requirements"]
-    assert names(tables["build-system"]["requires"]) <= names(needs["host"])
+    # PyPI's wheel of Eigen has a name of its own
+    build = {name.removeprefix("cmeel-") for name in names(tables["build-system"]["requires"])}
+    assert build <= names(needs["host"])
     assert names(project["dependencies"]) <= names(needs["run"])
     assert "fenics-dolfinx 0.11.*" in needs["run"]

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <contactx/condense/condensation.h>
 #include <contactx/condense/dependent_constraints.h>
-#include <stdexcept>
 
+#include "algebra.h"
 #include "generator.h"
 
 /// @brief Dense algebra, and contacts with random entries.
@@ -15,130 +15,14 @@ namespace contactx::tests
 {
 using Column = std::vector<double>;
 
-/// @brief A dense matrix.
-class Dense
+/// @brief Entries as a matrix.
+inline Eigen::MatrixXd dense(const Triplets& entries, std::size_t rows,
+                             std::size_t columns)
 {
-public:
-  Dense(std::size_t rows, std::size_t columns)
-      : _rows(rows), _columns(columns), _values(rows * columns, 0)
-  {
-  }
-
-  Dense(const contactx::Triplets& entries, std::size_t rows,
-        std::size_t columns)
-      : Dense(rows, columns)
-  {
-    for (std::size_t e = 0; e < entries.size(); ++e)
-      (*this)(entries.rows.at(e), entries.columns.at(e)) += entries.values[e];
-  }
-
-  static Dense one(std::size_t n)
-  {
-    Dense I(n, n);
-    for (std::size_t i = 0; i < n; ++i)
-      I(i, i) = 1;
-    return I;
-  }
-
-  double& operator()(std::size_t i, std::size_t j)
-  {
-    return _values.at(i * _columns + j);
-  }
-  double operator()(std::size_t i, std::size_t j) const
-  {
-    return _values.at(i * _columns + j);
-  }
-
-  std::size_t rows() const { return _rows; }
-  std::size_t columns() const { return _columns; }
-
-  Dense operator+(const Dense& other) const
-  {
-    Dense sum = *this;
-    for (std::size_t i = 0; i < _values.size(); ++i)
-      sum._values[i] += other._values.at(i);
-    return sum;
-  }
-
-  Dense operator*(const Dense& other) const
-  {
-    Dense product(_rows, other._columns);
-    for (std::size_t i = 0; i < _rows; ++i)
-      for (std::size_t k = 0; k < _columns; ++k)
-        for (std::size_t j = 0; j < other._columns; ++j)
-          product(i, j) += (*this)(i, k) * other(k, j);
-    return product;
-  }
-
-  Column operator*(const Column& x) const
-  {
-    Column y(_rows, 0);
-    for (std::size_t i = 0; i < _rows; ++i)
-      for (std::size_t j = 0; j < _columns; ++j)
-        y[i] += (*this)(i, j) * x.at(j);
-    return y;
-  }
-
-  /// @brief Solve by elimination with partial pivoting.
-  Column solve(Column b) const
-  {
-    Dense A = *this;
-    const std::size_t n = _rows;
-    for (std::size_t k = 0; k < n; ++k)
-    {
-      std::size_t pivot = k;
-      for (std::size_t i = k; i < n; ++i)
-        if (std::abs(A(i, k)) > std::abs(A(pivot, k)))
-          pivot = i;
-      if (A(pivot, k) == 0)
-        throw std::runtime_error("a matrix of a test is singular");
-      for (std::size_t j = 0; j < n; ++j)
-        std::swap(A(k, j), A(pivot, j));
-      std::swap(b[k], b[pivot]);
-      for (std::size_t i = k + 1; i < n; ++i)
-      {
-        const double factor = A(i, k) / A(k, k);
-        for (std::size_t j = k; j < n; ++j)
-          A(i, j) -= factor * A(k, j);
-        b[i] -= factor * b[k];
-      }
-    }
-    for (std::size_t k = n; k-- > 0;)
-    {
-      for (std::size_t j = k + 1; j < n; ++j)
-        b[k] -= A(k, j) * b[j];
-      b[k] /= A(k, k);
-    }
-    return b;
-  }
-
-  /// @brief The inverse, column by column.
-  Dense inverse() const
-  {
-    Dense found(_rows, _rows);
-    for (std::size_t j = 0; j < _rows; ++j)
-    {
-      Column unit(_rows, 0);
-      unit[j] = 1;
-      const Column x = solve(unit);
-      for (std::size_t i = 0; i < _rows; ++i)
-        found(i, j) = x[i];
-    }
-    return found;
-  }
-
-private:
-  std::size_t _rows, _columns;
-  std::vector<double> _values;
-};
-
-inline Dense operator-(const Dense& A, const Dense& B)
-{
-  Dense difference = A;
-  for (std::size_t i = 0; i < A.rows(); ++i)
-    for (std::size_t j = 0; j < A.columns(); ++j)
-      difference(i, j) -= B(i, j);
-  return difference;
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(rows, columns);
+  for (std::size_t e = 0; e < entries.size(); ++e)
+    A(entries.rows.at(e), entries.columns.at(e)) += entries.values[e];
+  return A;
 }
 
 inline Column operator+(Column a, const Column& b)
@@ -199,8 +83,8 @@ public:
   Saddle(int gdim, int num_nodes, std::vector<Contact> contacts,
          std::vector<std::int32_t> prescribed, unsigned seed)
       : gdim(gdim), n(static_cast<std::size_t>(gdim) * num_nodes),
-        contacts(std::move(contacts)), free(n, 1), bulk(Dense::one(n)),
-        contact(0, 0), random(seed)
+        contacts(std::move(contacts)), free(n, 1),
+        bulk(Eigen::MatrixXd::Identity(n, n)), random(seed)
   {
     for (const std::int32_t dof : prescribed)
       free.at(dof) = 0;
@@ -211,7 +95,7 @@ public:
     m = 0;
     for (const Contact& c : this->contacts)
       m += c.slaves.size() * c.size;
-    contact = Dense(n + m, n + m);
+    contact.setZero(n + m, n + m);
     std::size_t first = n;
     for (std::size_t k = 0; k < this->contacts.size(); ++k)
     {
@@ -226,13 +110,11 @@ public:
   /// @brief Displacements and multipliers from the whole system.
   Column solve(const Column& b, const Column& d) const
   {
-    Dense A = contact;
-    for (std::size_t i = 0; i < n; ++i)
-      for (std::size_t j = 0; j < n; ++j)
-        A(i, j) += bulk(i, j);
+    Eigen::MatrixXd A = contact;
+    A.topLeftCorner(n, n) += bulk;
     Column both = b;
     both.insert(both.end(), d.begin(), d.end());
-    return A.solve(both);
+    return solution(A, both);
   }
 
   /// @brief Eliminate the multipliers.
@@ -263,36 +145,36 @@ public:
                          const Column& b, const Column& d) const
   {
     const auto& elimination = condensation.elimination();
-    const Dense I = Dense::one(n);
+    const auto I = Eigen::MatrixXd::Identity(n, n);
     const mesh::SerialNodes nodes(static_cast<std::int32_t>(n / gdim));
     const auto chains = condense::dependent_constraints(elimination, nodes);
-    const Dense of_right = (I - Dense(chains.right, n, n)).inverse();
-    const Dense of_left = (I - Dense(chains.left, n, n)).inverse();
-    const Dense left
+    const Eigen::MatrixXd of_right = (I - dense(chains.right, n, n)).inverse();
+    const Eigen::MatrixXd of_left = (I - dense(chains.left, n, n)).inverse();
+    const Eigen::MatrixXd left
         = I
-          + (Dense(elimination.left(), n, n) + Dense(elimination.rows(), n, n))
+          + (dense(elimination.left(), n, n) + dense(elimination.rows(), n, n))
                 * of_left;
-    const Dense right = I + of_right * Dense(elimination.right(), n, n);
-    const Dense law(elimination.law(), n, n);
-    const Dense K = bulk + Dense(condensation.stiffness(), n, n);
+    const Eigen::MatrixXd right
+        = I + of_right * dense(elimination.right(), n, n);
+    const Eigen::MatrixXd law = dense(elimination.law(), n, n);
+    const Eigen::MatrixXd K = bulk + dense(condensation.stiffness(), n, n);
     auto given = condensation.right_hand_side(d);
-    given.shift = of_right * given.shift;
-    Dense A = left * (K * right) + law * right;
+    given.shift = product(of_right, given.shift);
+    Eigen::MatrixXd A = left * (K * right) + law * right;
     Column forces = b + given.forces;
     for (std::size_t i = 0; i < given.retained.size(); ++i)
       forces[condensation.retained().dofs[i]] = given.retained[i];
-    Column rhs
-        = left * (forces - K * given.shift) - law * given.shift + given.extra;
+    Column rhs = product(left, forces - product(K, given.shift))
+                 - product(law, given.shift) + given.extra;
     for (const std::int32_t dof : elimination.eliminated())
     {
-      for (std::size_t j = 0; j < n; ++j)
-        A(dof, j) = static_cast<std::size_t>(dof) == j;
+      A.row(dof) = I.row(dof);
       rhs[dof] = 0;
     }
-    Column u = right * A.solve(rhs) + given.shift;
+    Column u = product(right, solution(A, rhs)) + given.shift;
     Column multipliers = given.multipliers;
-    condensation.recover(d, of_left * (b + given.forces - K * u), u,
-                         multipliers);
+    condensation.recover(d, product(of_left, b + given.forces - product(K, u)),
+                         u, multipliers);
     for (const std::int32_t dof : condensation.retained().dofs)
       u[dof] = b[dof];
     u.insert(u.end(), multipliers.begin(), multipliers.end());
@@ -312,7 +194,7 @@ public:
   std::size_t n, m;
   std::vector<Contact> contacts;
   std::vector<std::int8_t> free;
-  Dense bulk, contact; ///< of displacements, and of all unknowns
+  Eigen::MatrixXd bulk, contact; ///< of displacements, and of all unknowns
   Generator random;
 
 private:
@@ -363,7 +245,7 @@ private:
           contact(dof, other) += 0.1 * random(-1, 1);
     }
 
-    const Dense D = law(c, s, normal, area);
+    const Eigen::MatrixXd D = law(c, s, normal, area);
     for (int i = 0; i < k; ++i)
       for (int j = 0; j < k; ++j)
       {
@@ -373,10 +255,11 @@ private:
   }
 
   /// The law's derivative by the multiplier
-  Dense law(const Contact& c, std::size_t s, const Column& normal, double area)
+  Eigen::MatrixXd law(const Contact& c, std::size_t s, const Column& normal,
+                      double area)
   {
     const int k = c.size;
-    Dense D(k, k);
+    Eigen::MatrixXd D = Eigen::MatrixXd::Zero(k, k);
     if (c.status[s] == 0)
     {
       for (int i = 0; i < k; ++i)
@@ -409,7 +292,7 @@ private:
     }
     if (p.empty())
       return D;
-    Dense pp(p.size(), p.size());
+    Eigen::MatrixXd pp(p.size(), p.size());
     for (std::size_t i = 0; i < p.size(); ++i)
       for (std::size_t j = 0; j < p.size(); ++j)
         D(p[i], p[j]) = pp(i, j)
@@ -425,7 +308,7 @@ private:
       Column pf;
       for (const int i : p)
         pf.push_back(D(i, j));
-      const Column x = pp.solve(pf);
+      const Column x = solution(pp, pf);
       for (const int i : f)
         for (std::size_t l = 0; l < p.size(); ++l)
           D(i, j) += D(i, p[l]) * x[l];
