@@ -188,16 +188,16 @@ demo-pages: $(TESTABLE)
 
 # Tables and a picture come to build/stress; fails where a scene is wrong.
 stress: $(TESTABLE)
-	$(RUN) $(BIN)/python tests/stress/stress_map.py --workers $(JOBS)
-	$(PYTEST) tests/stress
+	$(RUN) $(BIN)/python tools/stress/stress_map.py --workers $(JOBS)
+	$(PYTEST) tests/long
 
 # What pages say on speed, on a machine with nothing else to do, on the gallery and the stress map
 record: $(TESTABLE)
 	status=0; for name in $(RECORDED); do \
-		$(RUN) $(BIN)/python tests/benchmarks/bench_$$name.py --record || status=1; \
+		$(RUN) $(BIN)/python tools/bench/bench_$$name.py --record || status=1; \
 	done; \
 	$(RUN) $(BIN)/python tests/published/gallery.py --record || status=1; \
-	$(RUN) $(BIN)/python tests/stress/stress_map.py --record --workers $(JOBS) || status=1; \
+	$(RUN) $(BIN)/python tools/stress/stress_map.py --record --workers $(JOBS) || status=1; \
 	$(RUN) $(BIN)/python tools/figures.py || status=1; exit $$status
 
 # Nothing is solved
@@ -214,7 +214,7 @@ distribution:
 
 # Memory of a process per run, every fiftieth step; fails where it grows.
 leaks: $(TESTABLE)
-	$(RUN) $(BIN)/python tests/stress/leaks.py
+	$(RUN) $(BIN)/python tools/stress/leaks.py
 
 # Kernels and search on one core: tables, and the same as CSV files.
 bench-core: $(TESTER)
@@ -227,9 +227,9 @@ bench-core: $(TESTER)
 # pictures come to build/bench.
 bench: bench-core $(TESTABLE)
 	status=0; for name in $(BENCHES); do \
-		$(RUN) $(BIN)/python tests/benchmarks/bench_$$name.py || status=1; \
+		$(RUN) $(BIN)/python tools/bench/bench_$$name.py || status=1; \
 	done; \
-	$(RUN) $(BIN)/python tests/benchmarks/bench_face_slab.py paper || status=1; exit $$status
+	$(RUN) $(BIN)/python tools/bench/bench_face_slab.py paper || status=1; exit $$status
 
 # The same inputs in each run, as long as build/fuzz/corpus is the same: what
 # was new stays there, and what fails comes to build/fuzz.

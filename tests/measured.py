@@ -23,7 +23,7 @@ ROOT = Path(__file__).parents[1]
 FILE = ROOT / "docs" / "measured.json"
 OPTION = "--record"
 # Folders whose changes make another program than that of the commit
-_MEASURED = ("cpp", "python", "demos", "tests")
+_MEASURED = ("cpp", "python", "demos", "tests", "tools")
 _DIGITS = 6
 
 

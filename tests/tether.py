@@ -30,7 +30,8 @@ def tether() -> None:
 
 def environment(*folders: Path) -> dict[str, str]:
     """Environment of a process on one thread that imports what tests import, and more folders."""
-    found = [*map(str, folders), str(TESTS), str(TESTS.parent / "demos")]
+    shared = (TESTS, *(TESTS.parent / folder for folder in ("demos", "tools")))
+    found = [*map(str, (*folders, *shared))]
     found += filter(None, [os.getenv("PYTHONPATH")])
     return {**os.environ, "OMP_NUM_THREADS": "1", "PYTHONPATH": os.pathsep.join(found)}
 

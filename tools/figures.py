@@ -13,7 +13,7 @@ import textwrap
 from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
-sys.path[:0] = [str(ROOT / folder) for folder in ("tests", "demos", "tests/benchmarks")]
+sys.path[:0] = [str(ROOT / folder) for folder in ("tests", "demos", "tools/bench", "tools")]
 
 import contactx  # noqa: E402, F401  # it comes first
 

@@ -10,14 +10,14 @@ from face_slab import OPENING, ROW, SETTLED, TABLE, TEXT_STRESS, differs
 
 ROOT = Path(__file__).parents[3]
 MANUAL = ROOT / "docs" / "manual"
-BENCHMARKS = ROOT / "tests" / "benchmarks"
+BENCHMARKS = ROOT / "tools" / "bench"
 PAGES = sorted([*MANUAL.glob("numbers/*.md"), *MANUAL.glob("theory/*.md")])
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
 def test_scripts_that_are_named_are_there(page):
     text = page.read_text(encoding="utf-8")
-    for name in re.findall(r"`(?:tests/benchmarks/)?(bench_\w+\.py)", text):
+    for name in re.findall(r"`(?:tools/bench/)?(bench_\w+\.py)", text):
         assert (BENCHMARKS / name).is_file()
     for name in re.findall(r"`((?:demos|tests|docs|tools)/[\w/.]+)", text):
         assert (ROOT / name).exists()

@@ -1,6 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""The benchmark of ranks runs on coarse meshes; on up to 16 ranks: tests/stress."""
+"""The benchmark of ranks runs on coarse meshes; on up to 16 ranks: tests/long."""
 
 import bench_scaling
 import pytest
