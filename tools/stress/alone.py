@@ -4,15 +4,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
 
 import contactx as cx
 import ufl
-from contactx.obstacles import Obstacle
-from dolfinx import fem
+from dolfinx import fem, mesh
 from dolfinx.mesh import CellType
 
 import meshes
@@ -20,6 +19,7 @@ from meshes import Tag
 from scenes import dimension
 from stress.blocks import bulk
 from stress.scene import Case
+from stress.tools import Tool
 
 
 class Alone:
@@ -37,7 +37,7 @@ class Alone:
     def __init__(
         self,
         cell: CellType,
-        obstacle: Obstacle,
+        tool: Callable[[mesh.Mesh], Tool],
         *,
         n: Sequence[int],
         size: Sequence[float] | None = None,
@@ -50,7 +50,7 @@ class Alone:
 
         Args:
             cell: Kind of its cells.
-            obstacle: What it lies on.
+            tool: Makes what it lies on.
             n: Cells along each axis.
             size: Its size; 1 along each axis if None.
             moved: Whether the top is moved.
@@ -73,8 +73,12 @@ class Alone:
         if moved:
             dofs = fem.locate_dofs_topological(V, dim - 1, tags.find(Tag.UPPER_TOP))
             bcs.append(fem.dirichletbc(self.top, dofs))
-        self.contact = cx.Contact(cx.Surface(tags, Tag.UPPER_CONTACT), obstacle, **options)
+        floor = tool(domain)
+        bottom = cx.Surface(tags, Tag.UPPER_CONTACT)
+        self.contact = cx.Contact(bottom, floor.obstacle, **options)
         problem = cx.ContactProblem(
             F, self.u, contacts=[self.contact], bcs=bcs, petsc_options_prefix="alone_"
         )
-        self.case = Case(problem, [self.contact], F, bcs, lambda t: None, size=min(size))
+        self.case = Case(
+            problem, [self.contact], F, bcs, lambda t: None, size=min(size), tools=[floor]
+        )

@@ -1,259 +1,568 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Whether a state that was reported as converged is one.
+"""Whether a displacement is a solution of a problem with contact, found without contactx.
 
-The bulk's forces are assembled anew, without contactx, and penetration is looked for in the
-deformed bodies. Without friction the directions of forces are compared with the deformed faces, and
-the work of what moves the bodies with the energy that they store. Gaps, slip and multipliers are
-what contactx says; that they are right follows from the forces and the bodies, and from what its
-own tests prove.
+The judge is given the mesh, the residual of the bodies, their supports, the displacement at the
+start and at the end of a step, and which facets may touch what. Forces of contact are those that
+the bodies' own residual leaves at each node; gaps, slip and normals are found on the deformed
+facets. Multipliers that were reported are compared with these forces, and serve for nothing else.
+
+What is allowed is rounding, but for surface-to-surface: there a node stands for its facets. Its gap
+is a mean over these, and so is its slip; points of the facets tell them to a part of what is not
+linear on a facet, and to ``_UNSEEN`` of their range. Its normal lies between theirs and those of
+what is in front of them. Where both sides are flat, and fit, this is rounding, too.
+
+Nothing is said of
+
+- friction where a node was apart at the start of the step: what it has slipped since it touched
+  cannot be told from the ends of the step;
+- nodes that are in several contacts, and friction of nodes that are prescribed in part;
+- single nodes of quadratic facets by surface-to-surface: only balance of all other nodes, sums and
+  moments of both sides, and penetration.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 
 import numpy as np
+from scipy.optimize import nnls
+from scipy.spatial import cKDTree
 
-import contactx as cx
 import ufl
 from dolfinx import fem
 
-from stress import inside, work
-from stress.degree import DEGREE, split, vertex_nodes
-from stress.directions import Directions
-from stress.scene import Case, Check
-from stress.sides import DEEP
+from stress import faces, inside, work
+from stress.check import Check
+from stress.faces import Array, Numbers
+from stress.near import Contact, Measure, Near, Obstacle
+
+__all__ = ["DEEP", "Contact", "Judge", "Obstacle", "Problem"]
 
 _EPS = np.finfo(np.float64).eps
+# Relative to the largest force, and to the largest displacement: iterations end at less
 _ALLOWED = 1e-8
+# What rounding leaves of an angle
+_ANGLE = 1e-6
+# How deep nodes of the master may lie between those of the slave, in facets of the slave
+DEEP = 0.15
+# Cosine between a normal and what a node can do, below which it cannot move along it
+_MOVABLE = 0.3
+# Slip that has a direction, over what is rounding; forces below the cone, over the same
+_CLEAR = 10.0
+# Part of the largest cosine by which all facets of a node oppose what it touches
+_ALIKE = 0.6
+# By surface-to-surface: part of an area that may be uncovered where points show nothing of it;
+# part of a range that points of facets may miss; singular values of the
+# shape functions at the covered points of a facet of which that is a strip; covered part of a
+# node's facets from which on it has a gap, and from which on points tell where its force goes;
+# moments, of the largest force times the body's size
+_COVER, _UNSEEN, _STRIP, _COVERED, _MOSTLY, _MOMENT = 1e-2, 0.2, 0.05, 0.15, 0.8, 1e-2
+
+
+@dataclass(frozen=True)
+class Problem:
+    """A problem with contact.
+
+    Attributes:
+        F: Residual of the bodies with their loads, but without contact.
+        u: Displacement.
+        bcs: Supports.
+        contacts: The contacts.
+        size: Size of the smallest body.
+    """
+
+    F: ufl.Form
+    u: fem.Function
+    bcs: Sequence[fem.DirichletBC]
+    contacts: Sequence[Contact]
+    size: float
+
+
+@dataclass
+class _State:
+    """The end of a step.
+
+    Attributes:
+        x: Positions of the nodes, shape (n, dim).
+        start: Positions at the start of the step.
+        forces: What acts on each node beside the bodies' stresses and loads, shape (n, dim).
+        small: What of it is rounding, shape (n, dim).
+        length: What of a length is rounding.
+        size: Size of the smallest body.
+    """
+
+    x: Array
+    start: Array
+    forces: Array
+    small: Array
+    length: float
+    size: float
 
 
 class Judge:
-    """Judges the states of a case."""
+    """Judges the states of a problem, step by step."""
 
-    def __init__(self, case: Case):
-        """Prepare what does not change."""
-        self._case = case
-        self._u = u = case.problem.u
-        V = u.function_space
-        self._gdim = V.dofmap.index_map_bs
-        self._form = fem.form(case.F)
-        self._stiffness = fem.form(ufl.derivative(case.F, u))
-        self._fixed = np.zeros(len(u.x.array), dtype=bool)
-        for bc in case.bcs:
-            self._fixed[bc.dof_indices()[0]] = True
-        self._fixed = self._fixed.reshape(-1, self._gdim)
-        self._x = V.tabulate_dof_coordinates()[:, : self._gdim]
-        self._node_of = vertex_nodes(V)
-        self._bodies = []
-        for contact, into in zip(case.contacts, case.into, strict=False):
-            parts = None
-            if into is not None:
-                master = contact.master
-                parts = inside.boundary(V.mesh, master.facet_tags, master.tags[0])
-                parts = split(self._node_of[parts], V)
-            self._bodies.append(parts)
-        self._slaves = [
-            None if parts is None else self._of_slave(contact)
-            for contact, parts in zip(case.contacts, self._bodies, strict=False)
-        ]
-        self._directions = [
-            Directions(contact, V.mesh, self._node_of) if self._is_smooth(contact) else None
-            for contact in case.contacts
-        ]
-        self._work = work.Work(case, self._form) if work.decidable(case) else None
+    def __init__(self, problem: Problem):
+        """Prepare what does not change; the first step starts here."""
+        self._problem, self._u = problem, problem.u
+        V = problem.u.function_space
+        self._dim = V.dofmap.index_map_bs
+        self._form = fem.form(problem.F)
+        self._stiffness = fem.form(ufl.derivative(problem.F, problem.u))
+        fixed = np.zeros(len(problem.u.x.array), dtype=bool)
+        for bc in problem.bcs:
+            fixed[bc.dof_indices()[0]] = True
+        self._fixed = fixed.reshape(-1, self._dim)
+        self._X = V.tabulate_dof_coordinates()[:, : self._dim]
+        self._looks = [_Look(contact, V, self._fixed) for contact in problem.contacts]
+        touching = np.concatenate([look.nodes for look in self._looks])
+        self._plain = ~self._fixed
+        self._plain[touching] = False
+        several, times = np.unique(touching, return_counts=True)
+        for look in self._looks:
+            look.shared = several[times > 1]
+        self._work = None
+        if all(look.stores_work for look in self._looks):
+            self._work = work.Work(problem.u, self.residual, fixed)
+        self._start = self._positions()
         # Largest force of the state before: of a load that is taken off a part may be left
         self._before = 0.0
 
     def __call__(self) -> list[Check]:
-        """What is violated in the present state."""
-        checks = [*self._balance(), *self._penetration(), *self._along()]
+        """What is violated in the present state, at which the next step starts."""
+        found = self.violated()
         if self._work is not None:
-            checks.append(self._work())
-        for contact in self._case.contacts:
-            checks += self._conditions(contact)
-            if contact.discrete.law.is_vector and not contact.tied:
-                checks += self._coulomb(contact)
-        return [check for check in checks if not check.holds]
+            check = self._work()
+            found += [] if check.holds else [check]
+        self._start = self._positions()
+        self._before = float(np.linalg.norm(self._forces(), axis=1).max())
+        for look in self._looks:
+            look.measure.accept()
+        return found
 
-    def _positions(self) -> np.ndarray:
-        return self._x + self._u.x.array.reshape(-1, self._gdim)
+    def violated(self) -> list[Check]:
+        """The same, but for the work, and the step goes on."""
+        return [check for check in self.checks() if not check.holds]
 
-    def _rounding(self) -> float:
-        """Relative rounding of a length of the scene."""
-        return 64 * _EPS * (1 + np.abs(self._positions()).max() / self._case.size)
+    def residual(self) -> Array:
+        """Residual of the bodies at the present displacement, shape (num_dofs,)."""
+        return np.array(fem.assemble_vector(self._form).array)
 
-    def _small(self) -> float:
-        """Length that is small for this state, or rounding."""
-        moved = np.abs(self._u.x.array).max()
-        return _ALLOWED * float(moved) + self._rounding() * self._case.size
+    def checks(self) -> Iterator[Check]:
+        """All that is looked at but the work."""
+        forces = self._forces()
+        yield Check("forces are finite", float(not np.isfinite(forces).all()), 0.0)
+        if np.isfinite(forces).all():
+            state = self._state(forces)
+            out = (np.abs(forces) / state.small)[self._plain]
+            yield Check("balance of nodes that touch nothing", out.max(initial=0.0), 1.0)
+            for look in self._looks:
+                yield from look(state)
 
-    def _rounding_of_forces(self) -> np.ndarray:
-        """What rounding of displacements and positions makes of each force.
+    def _forces(self) -> Array:
+        return self.residual().reshape(-1, self._dim)
 
-        Forces of a stiff body that moves, and those of thin cells, are sums of large parts. A gap
-        is a difference of positions, and contact gives it back as a force.
-        """
-        K = fem.assemble_matrix(self._stiffness).to_scipy()
-        farthest = np.abs(self._positions()).max()
-        parts = self._rounding() * np.abs(self._u.x.array) + 16 * _EPS * farthest
-        return (abs(K) @ parts).reshape(-1, self._gdim)
+    def _positions(self) -> Array:
+        return self._X + self._u.x.array.reshape(-1, self._dim)
 
-    def _balance(self) -> Iterator[Check]:
-        vector = fem.assemble_vector(self._form)
-        r = vector.array.reshape(-1, self._gdim).copy()
-        yield Check("forces are finite", 0.0 if np.isfinite(r).all() else 1.0, 0.0)
-        largest = np.linalg.norm(r, axis=1).max()
-        scale, self._before = max(largest, self._before), largest
-        forces = np.zeros_like(r)
-        for contact in self._case.contacts:
-            contact.discrete.add_residual(forces.ravel())
-        allowed = _ALLOWED * scale + self._rounding_of_forces()
-        out = (np.abs(r + forces) / allowed)[~self._fixed]
-        yield Check("balance of nodes", out.max(initial=0.0), 1.0)
-        scale = allowed.max() / _ALLOWED
-        for contact in self._case.contacts:
-            yield from self._of_pairs(contact, scale)
+    def _state(self, forces: Array) -> _State:
+        x, size, moved = self._positions(), self._problem.size, np.abs(self._u.x.array)
+        farthest = np.abs(x).max()
+        rounding = 64 * _EPS * (1 + farthest / size)
+        scale = max(float(np.linalg.norm(forces, axis=1).max()), self._before)
+        # Forces of a stiff body that moves, and those of thin cells, are sums of large parts. A gap
+        # is a difference of positions, and contact gives it back as a force.
+        K = abs(fem.assemble_matrix(self._stiffness).to_scipy())
+        small = _ALLOWED * scale + K @ (rounding * moved + 16 * _EPS * farthest)
+        length = _ALLOWED * float(moved.max()) + rounding * size
+        return _State(x, self._start, forces, small.reshape(x.shape), length, size)
 
-    def _of_pairs(self, contact: cx.Contact, scale: float) -> Iterator[Check]:
-        """Forces and moments of a contact on both sides."""
-        discrete = contact.discrete
-        forces = np.zeros_like(self._x)
-        discrete.add_residual(forces.ravel())
-        forces *= -1
-        on_slave = forces[contact.slave_nodes]
-        n = contact.discrete.nodes
-        if n.size == self._gdim and contact.method == "node-to-surface":
-            expected = n.area[:, None] * contact.multiplier
-            own = ~np.isin(contact.slave_nodes, self._master_nodes(contact))
-            error = np.abs(on_slave - expected)[own].max(initial=0.0)
-            yield Check("force is area times multiplier", error / scale, _ALLOWED)
-        if isinstance(contact.master, cx.Surface):
-            total = np.abs(forces.sum(axis=0)).max()
-            yield Check("forces of both sides", total / scale, _ALLOWED)
-            if contact.sliding == "finite" and not contact.tied:
-                x = self._positions()
-                arm = x - x[contact.slave_nodes].mean(axis=0)
-                moment = np.atleast_1d(
-                    np.cross(arm, forces)
-                    if self._gdim == 3
-                    else arm[:, 0] * forces[:, 1] - arm[:, 1] * forces[:, 0]
-                )
-                moment = moment.reshape(len(x), -1).sum(axis=0)
-                allowed = _ALLOWED if contact.method == "node-to-surface" else 1e-2
-                yield Check(
-                    "moments of both sides",
-                    np.abs(moment).max() / (scale * self._case.size),
-                    allowed,
-                )
 
-    @staticmethod
-    def _is_smooth(contact: cx.Contact) -> bool:
-        """Whether its forces are along the normals of deformed faces whose facets are flat."""
-        return (
-            isinstance(contact.master, cx.Surface)
-            and contact.sliding == "finite"
-            and not contact.tied
-            and not contact.discrete.law.is_vector
-            and DEGREE == 1
+class _Look:
+    """Looks at a contact.
+
+    Attributes:
+        measure: Measures gaps and slip.
+        nodes: Nodes of both sides.
+        shared: Nodes of both sides, or of several contacts.
+        stores_work: Whether all work is stored that is put into its bodies.
+    """
+
+    shared: Numbers
+
+    def __init__(self, contact: Contact, V: fem.FunctionSpace, fixed: Array):
+        self._contact, self._fixed = contact, fixed
+        self._x0 = X = V.tabulate_dof_coordinates()[:, : V.dofmap.index_map_bs]
+        self._slave = faces.surface(V, contact.tags, contact.slave)
+        self._slaves = np.unique(self._slave)
+        self._master, self._masters = None, self._slaves[:0]
+        self._bodies: list[Numbers] = []
+        if not isinstance(contact.master, Obstacle):
+            self._master = faces.surface(V, contact.tags, contact.master)
+            self._masters = np.unique(self._master)
+            firsts = contact.master[0], contact.slave[0]
+            self._bodies = [faces.body(V, contact.tags, tag) for tag in firsts]
+        self.nodes = np.concatenate([self._slaves, self._masters])
+        self.measure = Measure(contact, self._slave, self._master, X)
+        # Part of what is not linear on a facet that its points may miss, by their number on a line
+        per = len(self.measure.parts) / len(self._slave) * (2 if self._slave.shape[1] == 3 else 1)
+        self._unseen = max(0.25, 6 / per ** (1 / (len(X[0]) - 1)))
+        self._areas = faces.areas(self._slave, X)
+        # Vertices of quadratic triangles have parts of the areas beside them
+        self._is_split = V.ufl_element().degree > 1
+        self._areas *= 2.0 if self._is_split else 1.0
+        # Nodes of quadratic facets stand for all of them, with functions of either sign
+        self._is_nodal = not (self._is_split and contact.is_mean)
+        self.stores_work = (
+            self._master is not None
+            and contact.friction == 0
+            and contact.offset() == 0
+            and not fixed[self.nodes].any()
+            and (not contact.is_mean or work.covers(self._slave, self._master, X))
         )
 
-    def _along(self) -> Iterator[Check]:
-        """Directions of forces without friction."""
-        for contact, look in zip(self._case.contacts, self._directions, strict=True):
-            if look is None:
-                continue
-            forces = np.zeros_like(self._x)
-            contact.discrete.add_residual(forces.ravel())
-            size = np.linalg.norm(forces, axis=1).max()
-            small = _ALLOWED * size + np.linalg.norm(self._rounding_of_forces(), axis=1)
-            beside = look(self._positions(), -forces, small)
-            yield Check("forces without friction are along normals", beside, 1.0)
+    def __call__(self, state: _State) -> Iterator[Check]:
+        """Check a state."""
+        self._force = np.where(self._fixed, 0.0, state.forces)
+        self._small = np.linalg.norm(state.small, axis=1)
+        self._loaded = (np.abs(self._force) > state.small).any(axis=1)
+        # Whether all facets of a node count for its area
+        self._has_area = np.zeros(len(state.x), dtype=bool)
+        # Largest angle of the normals that a node has by surface-to-surface
+        self._tilt = np.zeros(len(state.x))
+        near = self.measure(state.x, state.start)
+        by_node = self._means(near) if self._contact.is_mean else self._singles(near)
+        worst: dict[str, float] = {}
+        nodes = []
+        for node, rows, weight in by_node if self._is_nodal else ():
+            found = self._of_mean if self._contact.is_mean else self._of_single
+            for name, error in found(node, rows, weight, state):
+                worst[name] = max(worst.get(name, 0.0), error)
+            if not self._contact.is_mean:
+                rows = rows[np.abs(rows.gap) <= state.length]
+                weight = np.full(len(rows.gap), 1 / max(len(rows.gap), 1))
+            nodes.append((node, rows, weight))
+        yield from (Check(name, error, 1.0) for name, error in worst.items())
+        if self._master is not None:
+            yield from self._of_both(nodes, near, state)
+        yield from self._of_bodies(state)
+        yield from self._of_reported([node for node, *_ in nodes])
 
-    def _least(self, contact: cx.Contact) -> float:
-        """Traction that is much larger than rounding."""
-        force = np.linalg.norm(self._rounding_of_forces()[contact.slave_nodes], axis=1)
-        # Vertices of quadratic triangles have hardly any area
-        has_area = contact.area > 1e-6 * contact.area.max(initial=0.0)
-        return float((force / contact.area)[has_area].max(initial=0.0) / _ALLOWED)
+    # Nodes, what they stand for, and with which weights
 
-    def _master_nodes(self, contact: cx.Contact) -> np.ndarray:
-        if not isinstance(contact.master, cx.Surface):
-            return np.zeros(0, dtype=np.int32)
-        return np.unique(contact.master.facet_nodes(self._u.function_space).nodes)
+    def _singles(self, near: Near) -> Iterator[tuple[int, Near, Array]]:
+        rows = _grouped(near.point, len(self._slaves))
+        for node, own in zip(self._slaves.tolist(), rows, strict=True):
+            if self._is_known(node):
+                yield node, near[own], np.ones(len(own))
 
-    def _conditions(self, contact: cx.Contact) -> Iterator[Check]:
-        nodes = contact.discrete.nodes
-        gap, p, closed = nodes.gap, nodes.pressure, nodes.closed
-        most = max(np.abs(p).max(initial=0.0), self._least(contact))
-        small = self._small()
-        yield Check("multipliers are finite", 0.0 if np.isfinite(p).all() else 1.0, 0.0)
-        loose = nodes.multiplier.reshape(len(p), -1)[~closed]
-        yield Check("open nodes carry nothing", np.abs(loose).max(initial=0.0), 0.0)
-        if contact.tied:
+    def _means(self, near: Near) -> Iterator[tuple[int, Near, Array]]:
+        """With weights of dual functions on the covered parts of facets.
+
+        A field that is linear on the facets has its nodal values by them, whatever part of a facet
+        is covered.
+        """
+        m, k = self._slave.shape
+        per = len(self.measure.parts) // m
+        N, parts = self.measure.points.weights[:per], self.measure.parts[:per]
+        self._whole = np.bincount(self._slave.ravel(), np.tile(parts @ N, m), len(self._x0))
+        row = np.full(m * per, -1)
+        row[near.point] = np.arange(len(near.point))
+        weights = np.zeros((m * per, k))
+        for facet, covered in enumerate((row >= 0).reshape(m, per)):
+            root = np.sqrt(parts[covered])[:, None]
+            dual = np.linalg.pinv(root * N[covered], rcond=1e-6).T * root
+            weights[facet * per : (facet + 1) * per][covered] = dual * (parts[covered] @ N[covered])
+        facets = _grouped(self._slave.ravel(), len(self._x0))
+        for node in self._slaves.tolist():
+            if self._is_known(node):
+                facet, corner = np.divmod(facets[node], k)
+                points = (facet[:, None] * per + np.arange(per)).ravel()
+                covered = row[points] >= 0
+                weight = weights[points, np.repeat(corner, per)][covered]
+                yield node, near[row[points[covered]]], weight
+
+    def _is_known(self, node: int) -> bool:
+        return not self._fixed[node].all() and node not in self.shared
+
+    def _rough(self, weight: Array, near: Near, values: Array, part: float = 1.0) -> float:
+        """By how much a mean of values at points may be off that over the facets.
+
+        Args:
+            weight: Weights of the points.
+            near: The points.
+            values: Values there.
+            part: Of what is not linear on a facet, as much as points may miss.
+        """
+        facet = self.measure.facet[near.point]
+        rest = 0.0
+        for f in np.unique(facet):
+            own = facet == f
+            N, value = self.measure.points.weights[near.point[own]], values[own]
+            fit, _, _, singular = np.linalg.lstsq(N, value, rcond=1e-6)
+            # Points that lie in a narrow strip tell nothing of the nodes
+            off = value - N @ fit if singular[-1] > _STRIP * singular[0] else value
+            rest = max(rest, float(np.abs(off).max()))
+        return part * rest * float(np.abs(weight).sum()) + _UNSEEN * float(np.ptp(values))
+
+    # Errors of a slave node, over what is allowed
+
+    def _of_single(
+        self, node: int, near: Near, weight: Array, state: _State
+    ) -> Iterator[tuple[str, float]]:
+        """A node that is measured by itself, on any of the facets that it may be paired with."""
+        size = float(np.linalg.norm(self._force[node]))
+        small = self._small[node] + _ANGLE * size
+        if len(near.gap) == 0:
+            yield "nothing acts on what is apart", size / small if self._loaded[node] else 0.0
             return
-        if most > 0:
-            yield Check("pressure is not negative", (-p / most).max(initial=0.0), _ALLOWED)
-        yield Check("closed nodes have no gap", np.abs(gap[closed]).max(initial=0.0) / small, 1.0)
-        free = ~closed & ~nodes.immobile & ~nodes.ceded & np.isfinite(gap)
-        yield Check("open nodes do not penetrate", (-gap[free]).max(initial=0.0) / small, 1.0)
+        if self._is_movable(node, near):
+            gap = np.abs(near.gap).min() if self._loaded[node] else -near.gap.max()
+            if self._loaded[node] or self._is_under(node, near, state):
+                yield self._gap_name(node), float(gap) / state.length
+        near = near[np.abs(near.gap) <= state.length]
+        if self._loaded[node] and len(near.gap) > 0:
+            self._has_area[node] = self._faces_all(node, near)
+            none = np.zeros(len(near.gap))
+            known = (near.before <= state.length).all()
+            yield from self._of_force(
+                node,
+                small,
+                near.normal,
+                near.normal,
+                near.slip if known else None,
+                none,
+                0.0,
+                state,
+            )
 
-    def _coulomb(self, contact: cx.Contact) -> Iterator[Check]:
-        nodes = contact.discrete.nodes
-        p, n = nodes.pressure, nodes.normal
-        traction = contact.multiplier
-        t = traction - p[:, None] * n
-        mu = np.broadcast_to(contact.discrete.law.friction(nodes), p.shape)
-        mu = np.where(nodes.smooth, 0.0, mu)
-        size = np.linalg.norm(t, axis=1)
-        most = max(np.linalg.norm(traction, axis=1).max(initial=0.0), self._least(contact))
-        if most == 0:
+    def _of_mean(
+        self, node: int, near: Near, weight: Array, state: _State
+    ) -> Iterator[tuple[str, float]]:
+        """A node that stands for its facets."""
+        covered = float(weight.sum()) / self._whole[node]
+        if covered < _COVERED:
             return
-        excess = (size - mu * p).max(initial=0.0)
-        yield Check("friction is at most mu p", excess / most, _ALLOWED)
-        # On a plane of symmetry nothing moves across it, whatever a projection does
-        free = (nodes.mobile > 0).all(axis=1)
-        ds = contact.discrete.history.slip * (nodes.mobile > 0)
-        moved = np.linalg.norm(ds, axis=1)
-        small = self._small()
-        # Where a facet beside the plane is tilted against it the law of both is met together
-        still = np.where(free, small, 1e-4 * np.abs(self._u.x.array).max())[nodes.status == 1]
-        slipped = moved[nodes.status == 1] / still
-        yield Check("sticking nodes do not slip", slipped.max(initial=0.0), 1.0)
-        slips = (nodes.status == 2) & (moved > 10 * small) & ~nodes.smooth & free
-        against = t[slips] + (mu * p)[slips, None] * ds[slips] / moved[slips, None]
-        error = np.linalg.norm(against, axis=1).max(initial=0.0)
-        yield Check("slip is against friction", error / most, 1e-6)
+        self._has_area[node] = covered > 1 - _ANGLE and self._faces_all(node, near)
+        weight = weight / weight.sum()
+        size = float(np.linalg.norm(self._force[node]))
+        small = self._small[node] + _ANGLE * size
+        part = self._unseen if covered > _MOSTLY else 1.0
+        gap, rough = float(weight @ near.gap), self._rough(weight, near, near.gap, part)
+        own = -self.measure.own[near.point]
+        if not self._contact.is_finite:
+            # Gaps are along normals midway between those of both
+            rough += float((np.linalg.norm(own - near.normal, axis=1) * near.apart).max())
+        off = max(abs(gap) if self._loaded[node] else -gap, 0.0) - rough
+        if off > state.length and not self._loaded[node] and self._bodies:
+            points = self.measure.points.at(state.x)[near.point]
+            off = min(off, float(inside.depth(points, state.x, self._bodies[0]).max()))
+        if self._is_movable(node, near):
+            yield self._gap_name(node), off / state.length
+        if not self._loaded[node]:
+            return
+        facets = (self._slave == node).any(axis=1)
+        facets &= ~(self.measure.edge & self._contact.is_finite)
+        dim = state.x.shape[1]
+        cone = np.concatenate([near.normal, -self.measure.corners[facets].reshape(-1, dim)])
+        small += size * float(np.linalg.norm([self._rough(weight, near, n) for n in near.normal.T]))
+        middle = cone.mean(axis=0) / np.linalg.norm(cone.mean(axis=0))
+        tilt = self._tilt[node] = float(np.linalg.norm(cone - middle, axis=1).max())
+        slip = None
+        if self._contact.friction > 0 and np.isfinite(near.before).all():
+            before = float(weight @ near.before) - self._rough(weight, near, near.before)
+            slip = (weight @ near.slip)[None] if before <= state.length else None
+        loose = np.zeros(1)
+        if slip is not None:
+            loose[0] = np.linalg.norm([self._rough(weight, near, s) for s in near.slip.T])
+            loose += tilt * np.linalg.norm(slip)
+        yield from self._of_force(node, small, cone, middle[None], slip, loose, tilt, state)
 
-    def _depths(self, k: int) -> np.ndarray:
-        parts, contact = self._bodies[k], self._case.contacts[k]
-        if parts is None:
-            return np.zeros(len(contact.slave_nodes))
-        x = self._positions()
-        return inside.depth(x[contact.slave_nodes], x, parts)
+    def _faces_all(self, node: int, near: Near) -> bool:
+        """Whether all facets of a node oppose what it touches about as much: they have its area."""
+        own = self.measure.corners[(self._slave == node).any(axis=1)].mean(axis=1)
+        against = -own @ near.normal.T
+        return not self._is_split and bool(against.min() > _ALIKE * against.max())
 
-    def _of_slave(self, contact: cx.Contact) -> tuple[np.ndarray, float]:
-        """Boundary of the slave's body, and the length of its longest facet in contact."""
-        V = self._u.function_space
-        slave = contact.slave
-        parts = inside.boundary(V.mesh, slave.facet_tags, slave.tags[0])
-        return split(self._node_of[parts], V), work.longest(slave, V.mesh)
+    def _gap_name(self, node: int) -> str:
+        return "what is loaded has no gap" if self._loaded[node] else "nothing penetrates"
 
-    def _penetration(self) -> Iterator[Check]:
-        for k, into in enumerate(self._case.into):
-            if into is None or not self._case.contacts[k].active:
+    def _is_movable(self, node: int, near: Near) -> bool:
+        free = near.normal[:, ~self._fixed[node]]
+        return bool(np.linalg.norm(free, axis=1).min() > _MOVABLE)
+
+    def _is_under(self, node: int, near: Near, state: _State) -> bool:
+        """Whether a node is measured where it would be inside a body."""
+        if not self._bodies or not self._contact.is_finite:
+            return True
+        if near.gap.max() >= -state.length or near.beyond.min() > 0:
+            return False
+        return bool(inside.depth(state.x[[node]], state.x, self._bodies[0])[0] > state.length)
+
+    def _of_force(
+        self,
+        node: int,
+        small: float,
+        cone: Array,
+        normal: Array,
+        slip: Array | None,
+        loose: Array,
+        tilt: float,
+        state: _State,
+    ) -> Iterator[tuple[str, float]]:
+        """The force on a slave node: its direction, Coulomb's law.
+
+        Args:
+            node: The node.
+            small: Size of a force that is rounding.
+            cone: Normals that it may have, and all between, shape (m, dim).
+            normal: Those that friction is measured by, any of which may hold, shape (n, dim).
+            slip: For each of these, shape (n, dim); None if unknown.
+            loose: What is allowed of it, shape (n,).
+            tilt: Angle by which the normals may be off.
+            state: The state.
+        """
+        force, free, mu = self._force[node], ~self._fixed[node], self._contact.friction
+        if mu == 0:
+            out = beside(force[free], cone[:, free])
+            yield "forces without friction are along normals", out / small
+            return
+        if not free.all():
+            return
+        size = float(np.linalg.norm(force))
+        small = (small + tilt * size) * (1 + mu)
+        pressure = normal @ force
+        along = force - pressure[:, None] * normal
+        bound = mu * pressure
+        beyond = np.linalg.norm(along, axis=1) - bound
+        yield "pressure is not negative", float(-pressure.max()) / small
+        yield "friction is at most mu p", float(beyond.min()) / small
+        if slip is None:
+            return
+        moved = np.linalg.norm(slip, axis=1)
+        scale = np.where(moved > 0, moved, 1.0)
+        against = np.linalg.norm(along + (bound / scale)[:, None] * slip, axis=1)
+        against /= small + loose / scale * size
+        still = moved / (state.length + loose) / _CLEAR
+        sticks = beyond < -_CLEAR * small
+        error = np.where(still > 1, against, np.where(sticks, still * _CLEAR, 0.0))
+        yield "slip is against friction, or none", float(error.min())
+
+    # Both sides together
+
+    def _of_both(
+        self, nodes: Sequence[tuple[int, Near, Array]], near: Near, state: _State
+    ) -> Iterator[Check]:
+        """Forces of the master, sums and moments of those of both sides."""
+        assert self._master is not None
+        contact, forces = self._contact, self._force
+        X = state.x if contact.is_finite else self._x0
+        masters = np.setdiff1d(self._masters, self.shared)
+        expected, allowed, unknown = np.zeros_like(forces), state.small.copy(), self._fixed.copy()
+        tree = cKDTree(X[masters])
+        reach = sum(faces.sizes(X[side]).max() for side in (self._slave, self._master))
+        arms = 0.0
+        for node, rows, weight in nodes:
+            if contact.is_mean:
+                covered = float(weight.sum())
+                weight = weight / max(covered, 1e-300)
+            corners = self._master[rows.facet]
+            unknown[corners] |= self._fixed[node]
+            if not self._loaded[node]:
                 continue
-            nodes = self._case.contacts[k].discrete.nodes
-            deep = self._depths(k)[~nodes.immobile & ~nodes.ceded]
-            error = deep.max(initial=0.0) / self._case.size
-            yield Check("no node is inside the other body", error, into)
-            slave = self._slaves[k]
-            assert slave is not None
-            x = self._positions()
-            masters = self._master_nodes(self._case.contacts[k])
-            masters = masters[~self._fixed[masters].any(axis=1)]
-            deep = inside.depth(x[masters], x, slave[0]).max(initial=0.0)
-            # The slave sees nothing between its nodes
-            allowed = max(into * self._case.size, DEEP * slave[1])
-            yield Check("no node of the master is inside the slave", deep / allowed, 1.0)
+            size = float(np.linalg.norm(forces[node]))
+            feet = np.einsum("nk,nkd->nd", rows.weights, X[corners])
+            np.subtract.at(
+                expected, corners, (weight[:, None] * rows.weights)[..., None] * forces[node]
+            )
+            np.add.at(allowed, corners, self._small[node])
+            if contact.is_mean:
+                middle = feet.mean(axis=0) if len(feet) else X[node]
+                far = reach + np.linalg.norm(feet - middle, axis=1).max(initial=0.0)
+                pressed = masters[tree.query_ball_point(middle, far)]
+                # Of what is covered in part only the place is known
+                allowed[pressed] += (
+                    np.inf if covered < _MOSTLY * self._whole[node] else _UNSEEN * size
+                )
+            elif len(weight) > 1:
+                # Facets that it lies on by as much differ in their weights
+                each = np.zeros((len(weight), len(forces)))
+                np.put_along_axis(each, corners, rows.weights, axis=1)
+                allowed += np.ptp(each, axis=0)[:, None] * size
+            if not contact.is_finite and len(feet):
+                off = np.linalg.norm(self.measure.points.at(X)[rows.point] - feet, axis=1).max()
+                arms += (contact.friction + self._tilt[node]) * size * off
+        error = np.where(unknown, 0.0, np.abs(forces - expected) / allowed)[masters]
+        if self._is_nodal:
+            yield Check("forces of the master are those of the slave", error.max(initial=0.0), 1.0)
+        known = ~unknown[np.unique(self._master[near.facet])].any(axis=0)
+        known &= ~self._fixed[np.unique(self.measure.points.nodes[near.point])].any(axis=0)
+        if len(self.shared):
+            return
+        own = np.unique(self.nodes)
+        scale = float(state.small.max())
+        total = np.abs(forces[own].sum(axis=0))[known].max(initial=0.0)
+        yield Check("forces of both sides cancel", total / scale, 1.0)
+        if known.all():
+            moment = np.abs(_moment((X - X[self._slaves].mean(axis=0))[own], forces[own])).max()
+            most = scale * state.size * (_MOMENT / _ALLOWED if contact.is_mean else 1.0) + arms
+            yield Check("moments of both sides cancel", moment / most, 1.0)
+
+    def _of_bodies(self, state: _State) -> Iterator[Check]:
+        """Nodes inside the other body."""
+        into = self._contact.into
+        if into is None or not self._bodies:
+            return
+        depths = []
+        for nodes, other in zip((self._slaves, self._masters), self._bodies, strict=True):
+            loose = np.setdiff1d(nodes[~self._fixed[nodes].any(axis=1)], self.shared)
+            depths.append(inside.depth(state.x[loose], state.x, other).max(initial=0.0))
+        yield Check("no node is inside the other body", depths[0] / state.size, into)
+        # The slave sees nothing between its nodes
+        most = max(into * state.size, DEEP * float(faces.sizes(self._x0[self._slave]).max()))
+        yield Check("no node of the master is inside the slave", depths[1] / most, 1.0)
+
+    def _of_reported(self, nodes: Sequence[int]) -> Iterator[Check]:
+        """Multipliers are the forces over areas, which are at most those of the nodes' facets."""
+        numbers, values = self._contact.reported()
+        yield Check("multipliers are finite", float(not np.isfinite(values).all()), 0.0)
+        known = np.array([node for node in nodes if not self._fixed[node].any()], dtype=np.int64)
+        force, small = self._force[known], self._small[known]
+        size = np.linalg.norm(force, axis=1)
+        got = np.zeros((len(self._force), 1 if values.ndim == 1 else values.shape[1]))
+        got[numbers] = values.reshape(len(numbers), -1)
+        got = got[known]
+        # A pressure alone has a sign, a traction a direction
+        signed = got[:, 0] if values.ndim == 1 else np.linalg.norm(got, axis=1)
+        most = self._areas[known] * signed
+        # Pressures along several normals add up to less than their sum
+        slack = np.abs(most) * (self._tilt[known] ** 2 if values.ndim == 1 else 0.0)
+        allowed = small + _ALLOWED * np.abs(most)
+        error = (size - most - slack) / allowed
+        least = most - slack - (_COVER * most if self._contact.is_mean else 0.0)
+        error = np.maximum(error, np.where(self._has_area[known], least - size, 0.0) / allowed)
+        if values.ndim > 1:
+            unit = got / np.maximum(np.linalg.norm(got, axis=1), 1e-300)[:, None]
+            off = np.linalg.norm(force - size[:, None] * unit, axis=1)
+            error = np.maximum(error, off / (small + _ANGLE * size))
+        yield Check("multipliers are forces over areas", error.max(initial=0.0), 1.0)
+
+
+def beside(vector: Array, cone: Array) -> float:
+    """Distance of a vector from the cone of some directions."""
+    return float(nnls(np.unique(np.round(cone, 12), axis=0).T, vector)[1])
+
+
+def _moment(arm: Array, force: Array) -> Array:
+    """Moment of forces, shape () or (3,)."""
+    if arm.shape[1] == 2:
+        return np.asarray((arm[:, 0] * force[:, 1] - arm[:, 1] * force[:, 0]).sum())
+    return np.asarray(np.cross(arm, force).sum(axis=0))
+
+
+def _grouped(values: Numbers, n: int) -> list[Numbers]:
+    """Rows of each value from 0 to n - 1."""
+    order = np.argsort(values, kind="stable")
+    return np.split(order, np.searchsorted(values[order], np.arange(1, n)))

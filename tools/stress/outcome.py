@@ -97,7 +97,7 @@ def rightly(case: Case) -> bool:
 
 def taken(case: Case) -> Iterator[float]:
     """Take the steps of a case as far as they go rightly; yields each t that was reached."""
-    judge = Judge(case)
+    judge = Judge(case.given())
     try:
         for t in steps_of(case, Outcome("", "", "")):
             if judge() or [c for c in case.step_answers(t) if not c.holds]:
@@ -144,7 +144,7 @@ def steps_of(case: Case, outcome: Outcome) -> Iterator[float]:
 
 def _solve(scene: Scene, outcome: Outcome) -> None:
     case = scene.make()
-    judge = Judge(case)
+    judge = Judge(case.given())
     violated = []
     for t in steps_of(case, outcome):
         violated += [*judge(), *(c for c in case.step_answers(t) if not c.holds)]

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from itertools import zip_longest
 from typing import Any
 
 import numpy as np
@@ -14,23 +15,13 @@ import contactx as cx
 import ufl
 from dolfinx import fem
 
+from stress import judge
+from stress.check import Check
+from stress.tools import Tool
+
 METHODS = ("node-to-surface", "surface-to-surface")
 SLIDINGS = ("finite", "small")
 SHORT = {"node-to-surface": "n2s", "surface-to-surface": "s2s"}
-
-
-@dataclass(frozen=True)
-class Check:
-    """A known answer: how far the computed one is from it, and how far it may be."""
-
-    name: str
-    error: float
-    allowed: float
-
-    @property
-    def holds(self) -> bool:
-        """Whether it is met; NaN is not."""
-        return self.error <= self.allowed
 
 
 @dataclass
@@ -52,6 +43,7 @@ class Case:
         step_answers: Known answers after each accepted step of a given t.
         notes: What is worth knowing, though it is not wrong, at the end.
         cut: Whether steps that fail are cut.
+        tools: What each contact has for a master, None where that is a surface.
     """
 
     problem: cx.ContactProblem
@@ -67,6 +59,32 @@ class Case:
     step_answers: Callable[[float], Sequence[Check]] = field(default=lambda t: ())
     notes: Callable[[], Sequence[Check]] = tuple
     cut: bool = True
+    tools: Sequence[Tool | None] = ()
+
+    def given(self) -> judge.Problem:
+        """What the judge is given: nothing of contactx but displacement and multipliers."""
+        rows = zip_longest(self.contacts, self.into, self.tools)
+        contacts = [_given(*row) for row in rows]
+        return judge.Problem(self.F, self.problem.u, self.bcs, contacts, self.size)
+
+
+def _given(contact: cx.Contact, into: float | None, tool: Tool | None) -> judge.Contact:
+    slave, master, offset = contact.slave, contact.master, contact.offset
+
+    def reported() -> tuple[Any, Any]:
+        return contact.slave_nodes, contact.multiplier
+
+    return judge.Contact(
+        slave.facet_tags,
+        slave.tags,
+        judge.Obstacle(tool.level, lambda: tool.at) if tool else master.tags,
+        contact.friction,
+        contact.method == "surface-to-surface",
+        contact.sliding == "finite",
+        lambda: float(getattr(offset, "value", offset)),
+        reported,
+        into,
+    )
 
 
 @dataclass(frozen=True)

@@ -28,12 +28,12 @@ from collections.abc import Callable, Iterator, Sequence
 import numpy as np
 
 from stress import inside
+from stress.check import Check
 from stress.grids import Array, Numbers
+from stress.judge import DEEP
 from stress.parts import Parts
-from stress.scene import Check
 from stress.tools import Tool
 
-DEEP = 0.15
 SEEN = 0.02
 # Of nodes whose gaps are not means, relative to the size of what they touch
 _EXACT = 1e-6

@@ -27,7 +27,7 @@ class Tool(ABC):
     size: float
     obstacle: cx.contact.Obstacle
 
-    def __init__(self, domain: mesh.Mesh, at: Sequence[float]):
+    def __init__(self, domain: mesh.Mesh, at: Sequence[float] | Array):
         """Put it somewhere."""
         self._at = fem.Constant(domain, np.array(at, dtype=float))
 
@@ -44,11 +44,15 @@ class Tool(ABC):
     def distance(self, x: Array) -> Array:
         """Signed distance of points from its surface, negative inside, shape (n,)."""
 
+    def level(self, x: Array) -> Array:
+        """A function that is zero on its surface, and what contactx is given if that is one."""
+        return self.distance(x)
+
 
 class Ball(Tool):
     """A ball, in the plane a disc."""
 
-    def __init__(self, domain: mesh.Mesh, at: Sequence[float], radius: float):
+    def __init__(self, domain: mesh.Mesh, at: Sequence[float] | Array, radius: float):
         """Give it a radius."""
         super().__init__(domain, at)
         self.size = radius
@@ -62,19 +66,22 @@ class Ball(Tool):
 class LevelBall(Ball):
     """A ball as the zero of a function that is no distance."""
 
-    def __init__(self, domain: mesh.Mesh, at: Sequence[float], radius: float):
+    def __init__(self, domain: mesh.Mesh, at: Sequence[float] | Array, radius: float):
         """Give it a radius."""
         super().__init__(domain, at, radius)
         self.obstacle = cx.LevelSet(
-            lambda x: ((x.T - self.at) ** 2).sum(axis=1) / radius - radius,
-            lambda x: 2 * (x.T - self.at).T / radius,
+            lambda x: self.level(x.T), lambda x: 2 * (x.T - self.at).T / radius
         )
+
+    def level(self, x: Array) -> Array:
+        """See ``Tool``."""
+        return ((x - self.at) ** 2).sum(axis=1) / self.size - self.size
 
 
 class Roll(Tool):
     """An endless cylinder along the second axis in space."""
 
-    def __init__(self, domain: mesh.Mesh, at: Sequence[float], radius: float):
+    def __init__(self, domain: mesh.Mesh, at: Sequence[float] | Array, radius: float):
         """Give it a radius."""
         super().__init__(domain, at)
         self.size = radius
@@ -88,17 +95,46 @@ class Roll(Tool):
 class Press(Tool):
     """All that is above a plane through its centre; the last axis points up."""
 
-    def __init__(self, domain: mesh.Mesh, at: Sequence[float], size: float):
+    _way = -1.0
+
+    def __init__(self, domain: mesh.Mesh, at: Sequence[float] | Array, size: float = 1.0):
         """Give it the size of what it presses."""
         super().__init__(domain, at)
         self.size = size
-        down = np.zeros(len(at))
-        down[-1] = -1.0
-        self.obstacle = cx.Plane(self._at, down)
+        self.obstacle = cx.Plane(self._at, self._way * np.eye(len(at))[-1])
 
     def distance(self, x: Array) -> Array:
         """See ``Tool``."""
-        return self.at[-1] - x[:, -1]
+        return self._way * (x[:, -1] - self.at[-1])
+
+
+class Floor(Press):
+    """All that is below a plane through its centre."""
+
+    _way = 1.0
+
+
+class Wave(Tool):
+    """Ground with waves along the first axis, as a function that is no distance."""
+
+    def __init__(self, domain: mesh.Mesh, at: Sequence[float] | Array):
+        """Put it somewhere."""
+        super().__init__(domain, at)
+        self.obstacle = cx.LevelSet(lambda x: self.level(x.T), lambda x: self._slope(x.T).T)
+
+    def level(self, x: Array) -> Array:
+        """See ``Tool``."""
+        d = x - self.at
+        return d[:, -1] + 0.02 * (1 - np.cos(6 * d[:, 0]))
+
+    def _slope(self, x: Array) -> Array:
+        slope = np.zeros_like(x)
+        slope[:, 0], slope[:, -1] = 0.12 * np.sin(6 * (x - self.at)[:, 0]), 1.0
+        return slope
+
+    def distance(self, x: Array) -> Array:
+        """See ``Tool``; to first order."""
+        return self.level(x) / np.linalg.norm(self._slope(x), axis=1)
 
 
 class Punch(Tool):

@@ -25,14 +25,15 @@ Nothing is said:
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
-import contactx as cx
-from dolfinx import fem, mesh
+from dolfinx import fem
 
-from stress.directions import edges, normals, oriented
-from stress.grids import Array
-from stress.scene import Case, Check
+from stress import faces
+from stress.check import Check
+from stress.faces import Array, Numbers
 
 LEAST, MOST, COARSE, SNAPS = 4, 0.3, 2.0, 2.0
 # What is left where the rule is exact
@@ -40,46 +41,24 @@ _EXACT = 1e-3
 _POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(4)
 
 
-def decidable(case: Case) -> bool:
-    """Whether work and energy of a case can be compared."""
-    domain = case.problem.u.function_space.mesh
-    return all(
-        isinstance(contact.master, cx.Surface)
-        and not contact.tied
-        and not contact.discrete.law.is_vector
-        and isinstance(contact.offset, float)
-        and (contact.method == "node-to-surface" or _covers(contact.slave, contact.master, domain))
-        for contact in case.contacts
-    )
-
-
-def _covers(slave: cx.Surface, master: cx.Surface, domain: mesh.Mesh) -> bool:
+def covers(slave: Numbers, master: Numbers, x: Array) -> bool:
     """Whether the slave's facets are mostly covered wholly."""
-    facets = oriented(domain, master)
-    x = domain.geometry.x[:, : domain.geometry.dim]
-    fine = longest(slave, domain) < COARSE * longest(master, domain)
-    return fine and not edges(facets, normals(x[facets]))
-
-
-def longest(surface: cx.Surface, domain: mesh.Mesh) -> float:
-    """Longest distance of two nodes of a facet, the same however the scene is turned."""
-    x = domain.geometry.x[oriented(domain, surface)]
-    return float(np.linalg.norm(x[:, :, None] - x[:, None], axis=3).max())
+    fine = faces.sizes(x[slave]).max() < COARSE * faces.sizes(x[master]).max()
+    return bool(fine) and len(faces.edges(master, x)) == 0
 
 
 class Work:
-    """The sums over the steps of a case, from its first state on."""
+    """The sums over the steps of a problem, from its first state on."""
 
-    def __init__(self, case: Case, form: fem.Form):
+    def __init__(self, u: fem.Function, residual: Callable[[], Array], fixed: Array):
         """Prepare what does not change.
 
         Args:
-            case: The case.
-            form: Residual of its bodies.
+            u: Displacement.
+            residual: Residual of the bodies at its present values.
+            fixed: Where it is prescribed.
         """
-        self._case, self._form = case, form
-        self._u = case.problem.u
-        self._moved = case.problem.assembler.bulk.markers == 1
+        self._u, self._forces, self._fixed = u, residual, fixed
         self._states = 0
         self._before: tuple[Array, Array]
         self._stored = self._given = self._size = self._open = 0.0
@@ -89,10 +68,7 @@ class Work:
         u = self._u.x.array.copy()
         at_rest = self._residual(np.zeros_like(u))
         # What acts from outside: reactions and loads
-        given = self._residual(u)
-        for contact in self._case.contacts:
-            contact.discrete.add_residual(given)
-        given -= at_rest
+        given = np.where(self._fixed, self._residual(u), 0.0) - at_rest
         if self._states > 0:
             u0, given0 = self._before
             step = u - u0
@@ -119,12 +95,12 @@ class Work:
     def _snaps(self, step: Array) -> bool:
         """Whether bodies move farther than what is moved, if anything is."""
         way = np.abs(step)
-        return 0 < SNAPS * float(way[self._moved].max(initial=0.0)) < float(way.max())
+        return 0 < SNAPS * float(way[self._fixed].max(initial=0.0)) < float(way.max())
 
     def _residual(self, u: Array) -> Array:
         now = self._u.x.array.copy()
         self._u.x.array[:] = u
         try:
-            return np.array(fem.assemble_vector(self._form).array)
+            return self._forces()
         finally:
             self._u.x.array[:] = now

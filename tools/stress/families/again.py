@@ -15,12 +15,13 @@ from dolfinx import fem
 from dolfinx.mesh import CellType
 
 from stress.blocks import Blocks
+from stress.check import Check
 from stress.families.grid import label, scenes, variants
 from stress.grids import Array, even, grid
 from stress.parts import Parts
-from stress.scene import METHODS, SLIDINGS, Case, Check, Scene
+from stress.scene import METHODS, SLIDINGS, Case, Scene
 from stress.sides import pressed, watch
-from stress.tools import Ball
+from stress.tools import Ball, Floor
 
 _UNITS = ((1e-6, 1.0), (1.0, 1e-6), (1.0, 1.0), (1e3, 1e6), (1e6, 1e-3), (1e-6, 1e6))
 
@@ -114,6 +115,7 @@ def _released(units: tuple[float, float], depth, material, method, steps, cut) -
         steps=steps,
         cut=cut,
         step_answers=step_answers,
+        tools=[tool],
         answers=answers,
     )
 
@@ -157,9 +159,12 @@ def _heated(units: tuple[float, float], blocks, heat, method, friction) -> Case:
         for corner in (left, right):
             # The upper one is lifted by as much as the lower one grows
             parts.fix(corner, 1, lift if number else None)
+    tool = None
     if blocks == 1:
-        lowest_face, master = parts.surface(0, "y0"), cx.Plane((0.0, 0.0), (0.0, 1.0))
-        contact = cx.Contact(lowest_face, master, method=method, friction=friction)
+        tool = Floor(domain, (0.0, 0.0))
+        contact = cx.Contact(
+            parts.surface(0, "y0"), tool.obstacle, method=method, friction=friction
+        )
     else:
         faces = parts.surface(1, "y0"), parts.surface(0, "y1")
         contact = cx.Contact(*faces, method=method, friction=friction)
@@ -184,4 +189,5 @@ def _heated(units: tuple[float, float], blocks, heat, method, friction) -> Case:
         size=length,
         modulus=modulus,
         answers=answers,
+        tools=[tool],
     )

@@ -51,6 +51,7 @@ def _arch(
     down = rise * depth
     face = parts.facets(0, "y1")
     views: list[View] = [pushes(parts, (0.0, -1.0), parts.held.copy())]
+    tool = None
     if soft:
         top = parts.hold(1, "y1")
         sides = ["y0", "x0", "x1"]
@@ -90,6 +91,7 @@ def _arch(
         steps=steps,
         cut=cut,
         step_answers=watch(*views),
+        tools=[tool],
         notes=tuple if parts.nonlinear else partial(folded, parts),
     )
 
@@ -151,6 +153,7 @@ def _belt(thick: float, wound: float, friction: float, method: str, steps: int, 
         steps=steps,
         cut=cut,
         step_answers=watch(*views),
+        tools=[tool],
     )
 
 

@@ -83,6 +83,7 @@ def _rigid(
         steps=steps,
         cut=cut,
         step_answers=watch(*views),
+        tools=[tool],
         notes=partial(folded, parts),
     )
 

@@ -8,13 +8,14 @@ from collections.abc import Iterator
 
 import numpy as np
 
-import contactx as cx
 from dolfinx.mesh import CellType
 
 from stress.alone import Alone
 from stress.blocks import Blocks
+from stress.check import Check
 from stress.families.grid import scenes, variants
-from stress.scene import METHODS, SLIDINGS, Case, Check, Scene, relative
+from stress.scene import METHODS, SLIDINGS, Case, Scene, relative
+from stress.tools import Floor
 
 _STEPS, _PERIOD = 1000, 40
 
@@ -48,10 +49,9 @@ def _case(motion, **options) -> Case:
 
 
 def _shaken(method, sliding, friction) -> Case:
-    floor = cx.Plane(np.zeros(2), np.array([0.0, 1.0]))
     scene = Alone(
         CellType.quadrilateral,
-        floor,
+        lambda domain: Floor(domain, (0.0, 0.0)),
         n=(4, 1),
         size=(1.0, 0.2),
         moved=False,

@@ -14,6 +14,7 @@ from dolfinx.mesh import CellType
 from scenes import dimension
 from scenes.tip_on_arm import SIDE, TipOnArm
 from stress.blocks import INTO, Blocks
+from stress.check import Check
 from stress.families.grid import (
     ALL_CELLS,
     CELLS,
@@ -24,7 +25,7 @@ from stress.families.grid import (
     variants,
 )
 from stress.outcome import rightly
-from stress.scene import METHODS, Case, Check, Scene
+from stress.scene import METHODS, Case, Scene
 
 
 def off_an_edge() -> Iterator[Scene]:

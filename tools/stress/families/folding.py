@@ -10,11 +10,12 @@ from typing import Any
 
 import contactx as cx
 
+from stress.check import Check
 from stress.families.grid import label, variants
 from stress.grids import disc, even, grid
 from stress.outcome import taken
 from stress.parts import Parts
-from stress.scene import METHODS, Case, Check, Scene, relative
+from stress.scene import METHODS, Case, Scene, relative
 from stress.sides import View, apart, pressed, pushes, stays, unfolded, watch
 from stress.tools import Ball
 
@@ -52,6 +53,7 @@ class _Roller:
         self._support = parts.held.copy()
         face = parts.facets(0, "y1")
         views: list[View] = [pushes(parts, (0.0, -1.0), self._support), unfolded(parts)]
+        tool = None
         if soft:
             top = parts.hold(1, "y1")
             sides = ["y0", "x0", "x1"]
@@ -80,6 +82,7 @@ class _Roller:
             steps=steps,
             cut=cut,
             step_answers=watch(*views),
+            tools=[tool],
         )
 
     def force(self) -> float:

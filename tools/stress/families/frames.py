@@ -11,8 +11,9 @@ from typing import Any
 import numpy as np
 
 from stress.blocks import Blocks
+from stress.check import Check
 from stress.families.grid import ALL_CELLS, CELLS, scenes, usual, variants
-from stress.scene import METHODS, SLIDINGS, Case, Check, Scene, relative
+from stress.scene import METHODS, SLIDINGS, Case, Scene, relative
 
 _BASE: dict[str, Any] = {"down": 0.03, "side": 0.02, "radius": 4.0, "n_upper": (4, 2)}
 _EPS = np.finfo(np.float64).eps

@@ -10,21 +10,23 @@ import numpy as np
 
 import contactx as cx
 import ufl
-from dolfinx import fem
+from dolfinx import fem, mesh
 
 import meshes
 from meshes import block_tag
 from scenes import dimension
 from stress.alone import Alone
 from stress.blocks import bulk
+from stress.check import Check
 from stress.families.grid import ALL_CELLS, divisions, scenes, variants
-from stress.scene import METHODS, SLIDINGS, Case, Check, Scene, relative
+from stress.scene import METHODS, SLIDINGS, Case, Scene, relative
+from stress.tools import Floor
 
 _PRESSURE = 0.01
 
 
-def _floor(dim: int) -> cx.Plane:
-    return cx.Plane(np.zeros(dim), np.eye(dim)[-1])
+def _floor(domain: mesh.Mesh) -> Floor:
+    return Floor(domain, np.zeros(domain.geometry.dim))
 
 
 def pressed() -> Iterator[Scene]:
@@ -46,7 +48,7 @@ def pressed() -> Iterator[Scene]:
         # Flat, so that it does not tip over
         scene = Alone(
             cell,
-            _floor(dim),
+            _floor,
             n=(n,) * dim,
             size=(1.0,) * (dim - 1) + (0.2,),
             moved=False,
@@ -84,7 +86,7 @@ def rocking() -> Iterator[Scene]:
         dim = dimension(cell)
         scene = Alone(
             cell,
-            _floor(dim),
+            _floor,
             n=divisions(cell, (6, 8), (4, 1, 4)),
             size=(1.0, 2.0) if dim == 2 else (1.0, 0.5, 2.0),
             moved=False,
@@ -137,7 +139,8 @@ def _stack(number, cell, shear, **options) -> Case:
     ds = ufl.Measure("ds", domain=data.mesh, subdomain_data=tags)
     F = bulk(u, fem.Constant(data.mesh, 1.0), fem.Constant(data.mesh, 0.3), "linear")
     F -= ufl.inner(load, v) * ds(block_tag(number - 1, "top"))
-    masters = [_floor(dim), *(cx.Surface(tags, block_tag(i, "top")) for i in range(number - 1))]
+    floor = _floor(data.mesh)
+    masters = [floor.obstacle, *(cx.Surface(tags, block_tag(i, "top")) for i in range(number - 1))]
     contacts = [
         cx.Contact(cx.Surface(tags, block_tag(i, "bottom")), master, friction=0.3, **options)
         for i, master in enumerate(masters)
@@ -152,4 +155,4 @@ def _stack(number, cell, shear, **options) -> Case:
     def answers():
         return [relative("force is the load", c.force, -force, 1e-8) for c in contacts]
 
-    return Case(problem, contacts, F, [], update, size=0.1, answers=answers)
+    return Case(problem, contacts, F, [], update, size=0.1, answers=answers, tools=[floor])

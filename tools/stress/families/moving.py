@@ -8,13 +8,13 @@ from collections.abc import Iterator
 
 import numpy as np
 
-import contactx as cx
 from dolfinx.mesh import CellType
 
 from scenes import dimension
 from stress.alone import Alone
 from stress.families.grid import CELLS, block_case, divisions, scenes, variants
 from stress.scene import METHODS, SLIDINGS, Scene
+from stress.tools import Ball, Floor, Wave
 
 
 def friction() -> Iterator[Scene]:
@@ -83,26 +83,16 @@ def rigid() -> Iterator[Scene]:
     yield from scenes("rigid obstacle, depth", values, options, _rigid)
 
 
-def _wave(x):
-    return x[-1] + 0.02 * (1 - np.cos(6 * x[0]))
-
-
-def _slope(x):
-    gradient = np.zeros_like(x)
-    gradient[0], gradient[-1] = 0.12 * np.sin(6 * x[0]), 1.0
-    return gradient
-
-
 def _rigid(depth, cell, shape, **options):
     dim = dimension(cell)
     below = np.full(dim, 0.5)
     below[-1] = -1.0
     obstacles = {
-        "plane": lambda: cx.Plane(np.zeros(dim), np.eye(dim)[-1]),
-        "ball": lambda: cx.Sphere(below, 1.0),
-        "wave": lambda: cx.LevelSet(_wave, _slope),
+        "plane": lambda domain: Floor(domain, np.zeros(dim)),
+        "ball": lambda domain: Ball(domain, below, 1.0),
+        "wave": lambda domain: Wave(domain, np.zeros(dim)),
     }
-    scene = Alone(cell, obstacles[shape](), n=(divisions(cell, 8, 4),) * dim, **options)
+    scene = Alone(cell, obstacles[shape], n=(divisions(cell, 8, 4),) * dim, **options)
 
     def update(t):
         scene.top.x.array.reshape(-1, dim)[:, -1] = -depth * t

@@ -15,8 +15,9 @@ from dolfinx import fem
 import meshes
 from meshes import Tag
 from scenes import HertzSphere, pressure_error
+from stress.check import Check
 from stress.families.grid import scenes, variants
-from stress.scene import METHODS, SLIDINGS, Case, Check, Scene, relative
+from stress.scene import METHODS, SLIDINGS, Case, Scene, relative
 
 # Total forces at deep indentations, on which both methods, kinematics and meshes agree: of node-to-
 # surface at h = 0.02

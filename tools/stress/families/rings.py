@@ -13,10 +13,11 @@ import contactx as cx
 from dolfinx import fem
 
 import reference
+from stress.check import Check
 from stress.families.grid import label, variants
 from stress.grids import Array, Body, even, grid
 from stress.parts import Parts
-from stress.scene import METHODS, SLIDINGS, Case, Check, Scene
+from stress.scene import METHODS, SLIDINGS, Case, Scene
 from stress.sides import View, apart, unfolded, watch
 
 _RADII = (0.5, 1.0, 1.5)

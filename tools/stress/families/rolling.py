@@ -16,8 +16,10 @@ from dolfinx.mesh import CellType
 import meshes
 from meshes import Tag
 from stress.blocks import bulk
+from stress.check import Check
 from stress.families.grid import scenes, variants
-from stress.scene import METHODS, Case, Check, Scene
+from stress.scene import METHODS, Case, Scene
+from stress.tools import Floor
 
 _WEIGHT = 1e-3
 
@@ -56,7 +58,8 @@ def _disk(friction, cell, method, n, angle, steps) -> Case:
     way = fem.Function(W)
     bcs = [fem.dirichletbc(way, middle, V.sub(0))]
     rim = cx.Surface(tags, Tag.UPPER_CONTACT, Tag.UPPER_TOP, Tag.UPPER_X0, Tag.UPPER_X1)
-    contact = cx.Contact(rim, cx.Plane((0.0, 0.0), (0.0, 1.0)), friction=friction, method=method)
+    floor = Floor(domain, (0.0, 0.0))
+    contact = cx.Contact(rim, floor.obstacle, friction=friction, method=method)
     problem = cx.ContactProblem(F, u, contacts=[contact], bcs=bcs, petsc_options_prefix="disk_")
 
     def update(t):
@@ -74,4 +77,14 @@ def _disk(friction, cell, method, n, angle, steps) -> Case:
             Check("it bears its weight", abs(contact.force[1] / (np.pi * _WEIGHT) - 1), 0.02),
         ]
 
-    return Case(problem, [contact], F, bcs, update, size=2.0, steps=steps, answers=answers)
+    return Case(
+        problem,
+        [contact],
+        F,
+        bcs,
+        update,
+        size=2.0,
+        steps=steps,
+        answers=answers,
+        tools=[floor],
+    )

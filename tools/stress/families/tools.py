@@ -12,11 +12,12 @@ import numpy as np
 
 import contactx as cx
 
+from stress.check import Check
 from stress.families.grid import drawn, label
 from stress.grids import even, grid
 from stress.outcome import taken
 from stress.parts import Parts
-from stress.scene import METHODS, Case, Check, Scene, relative
+from stress.scene import METHODS, Case, Scene, relative
 from stress.sides import folded, pressed, pushes, stays, watch
 from stress.tools import Ball, LevelBall, Press, Roll
 
@@ -106,6 +107,7 @@ class _Scene:
             steps=steps,
             cut=cut,
             step_answers=watch(*views),
+            tools=[self.tool],
             notes=partial(folded, parts),
         )
 

@@ -7,8 +7,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from stress.blocks import Blocks
+from stress.check import Check
 from stress.families.grid import ALL_CELLS, CELLS, block_case, divisions, scenes, usual
-from stress.scene import Case, Check, Scene
+from stress.scene import Case, Scene
 
 # In cells: their height is 1/20 of the block's
 _SIZES = [10.0**k for k in range(-12, 1)] + [2.0, 5.0, 10.0]
