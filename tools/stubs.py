@@ -41,6 +41,7 @@ _SHORTER = (
     (r"\b(?:numpy\.typing|collections\.abc|typing)\.", ""),
     (r"\bnumpy\.", "np."),
     (r"\bAnnotated\[ArrayLike, np\.\w+\]", "ArrayLike"),
+    (r"\bAnnotated\[(NDArray\[np\.\w+\]), ['\"]?\[\w+, \w+\]['\"]?\]", r"\1"),
     (r"\bSupportsFloat \| SupportsIndex\b", "Float"),
     (r"\bSupportsInt \| SupportsIndex\b", "Int"),
     # What a callback returns may be an array

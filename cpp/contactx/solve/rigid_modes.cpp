@@ -204,8 +204,8 @@ void RigidModes::update(Bulk& bulk, std::span<const double> x)
       if (shifts.cols() > 0)
       {
         const Resistance r = resistance(bulk, x, b, shifts);
-        sprung[b]
-            = r.found.eigenvalues().cwiseAbs().maxCoeff() > support_stiffness_min * r.scale;
+        sprung[b] = r.found.eigenvalues().cwiseAbs().maxCoeff()
+                    > support_stiffness_min * r.scale;
       }
     }
     if (unconstrained.cols() > 0 and (_is_first or sprung[b]))
