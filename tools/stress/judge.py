@@ -53,12 +53,18 @@ _MOVABLE = 0.3
 _CLEAR = 10.0
 # Part of the largest cosine by which all facets of a node oppose what it touches
 _ALIKE = 0.6
-# By surface-to-surface: part of an area that may be uncovered where points show nothing of it;
-# part of a range that points of facets may miss; singular values of the
-# shape functions at the covered points of a facet of which that is a strip; covered part of a
-# node's facets from which on it has a gap, and from which on points tell where its force goes;
-# moments, of the largest force times the body's size
-_COVER, _UNSEEN, _STRIP, _COVERED, _MOSTLY, _MOMENT = 1e-2, 0.2, 0.05, 0.15, 0.8, 1e-2
+# By surface-to-surface, without unit:
+# part of an area that warping changes, and that may be uncovered where points show nothing of it
+_WARP, _COVER = 2e-3, 0.1
+# part of a range, or of a force that is shared out, that points of facets may miss
+_UNSEEN = 0.2
+# singular values of the shape functions at the covered points of a facet, least over largest, below
+# which these are a strip
+_STRIP = 0.05
+# covered part of a node's facets from which on it has a gap, and points tell where its force goes
+_COVERED, _MOSTLY = 0.15, 0.8
+# moment, over the largest force times the body's size
+_MOMENT = 1e-2
 
 
 @dataclass(frozen=True)
@@ -538,7 +544,11 @@ class _Look:
         signed = got[:, 0] if values.ndim == 1 else np.linalg.norm(got, axis=1)
         most = self._areas[known] * signed
         # Pressures along several normals add up to less than their sum
-        slack = np.abs(most) * (self._tilt[known] ** 2 if values.ndim == 1 else 0.0)
+        slack = self._tilt[known] ** 2 if values.ndim == 1 else np.zeros(len(known))
+        if self._contact.is_mean and self._slave.shape[1] == 4:
+            # Facets that are warped have the areas of their projections
+            slack = np.maximum(slack, _WARP)
+        slack = np.abs(most) * slack
         allowed = small + _ALLOWED * np.abs(most)
         error = (size - most - slack) / allowed
         least = most - slack - (_COVER * most if self._contact.is_mean else 0.0)

@@ -247,7 +247,7 @@ def tip_of_the_master(s):
 
 SPOILINGS = {
     "multipliers scaled": lambda s: s.report(lambda values: 0.999 * values),
-    "multipliers too large": lambda s: s.report(lambda values: 1.02 * values),
+    "multipliers too large": lambda s: s.report(lambda values: 1.2 * values),
     "multipliers negative": lambda s: s.report(lambda values: -values),
     "multipliers not finite": lambda s: s.report(lambda values: np.nan * values),
     "one multiplier": one_multiplier,
