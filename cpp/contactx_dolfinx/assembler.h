@@ -31,8 +31,8 @@ using contactx::problem::Tolerances;
 ///     assembler.begin_step();
 ///     while (not assembler.settle().converged)
 ///     {
-///       assembler.F(x, b);
-///       assembler.J(x, A);
+///       assembler.residual(x, b);
+///       assembler.jacobian(x, A);
 ///       KSPSolve(ksp, b, dx);
 ///       VecScale(dx, -1);
 ///       assembler.update(dx, assembler.limit(dx));
@@ -328,7 +328,7 @@ public:
   /// conditions are displacements minus prescribed ones.
   /// @param[in] x Unknowns: the state becomes this.
   /// @param[out] b Residual.
-  void F(::Vec x, ::Vec b)
+  void residual(::Vec x, ::Vec b)
   {
     _problem->enter("residual");
     take(x);
@@ -342,7 +342,7 @@ public:
   /// Its pattern is another one where pairs have changed, which KSP notices.
   /// @param[in] x Unknowns: the state becomes this.
   /// @param[out] A Jacobian, a matrix of `create_matrix`.
-  void J(::Vec x, ::Mat A)
+  void jacobian(::Vec x, ::Mat A)
   {
     _problem->enter("jacobian");
     take(x);
@@ -508,7 +508,7 @@ public:
 
   void update() override
   {
-    _assembler->J(_assembler->x(), _A.get());
+    _assembler->jacobian(_assembler->x(), _A.get());
     petsc::check(KSPSetOperators(_ksp, _A.get(), _A.get()), "KSPSetOperators");
   }
 

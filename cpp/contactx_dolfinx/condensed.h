@@ -27,7 +27,7 @@ namespace contactx_dolfinx
 ///
 ///     Condensed condensed(assembler, "condensed_");
 ///     ...
-///       assembler.F(x, b);
+///       assembler.residual(x, b);
 ///       condensed.solve(b, dx);
 ///
 /// Each solve is as accurate as the next residual will show. What cannot be
@@ -709,7 +709,7 @@ private:
   {
     if (_J.get() == nullptr)
       *_J.put() = _assembler->create_matrix();
-    _assembler->J(_assembler->x(), _J.get());
+    _assembler->jacobian(_assembler->x(), _J.get());
   }
 
   void solve_directly(::Vec b, ::Vec dx)

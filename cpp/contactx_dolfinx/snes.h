@@ -90,14 +90,16 @@ private:
   static PetscErrorCode residual(::SNES, ::Vec x, ::Vec b, void* context)
   {
     auto& self = *static_cast<SNESLoop*>(context);
-    self.keep([&] { self._assembler->F(x, b); }, &SNESSetFunctionDomainError);
+    self.keep([&] { self._assembler->residual(x, b); },
+              &SNESSetFunctionDomainError);
     return PETSC_SUCCESS;
   }
 
   static PetscErrorCode jacobian(::SNES, ::Vec x, ::Mat A, ::Mat, void* context)
   {
     auto& self = *static_cast<SNESLoop*>(context);
-    self.keep([&] { self._assembler->J(x, A); }, &SNESSetJacobianDomainError);
+    self.keep([&] { self._assembler->jacobian(x, A); },
+              &SNESSetJacobianDomainError);
     return PETSC_SUCCESS;
   }
 
@@ -125,7 +127,7 @@ private:
               = assembler.settle(rtol, atol, static_cast<int>(max_it));
           // Iterates may have been taken back, and pairs are others
           const ::Vec x = assembler.x();
-          assembler.F(x, self._b.get());
+          assembler.residual(x, self._b.get());
           PetscReal norm = 0;
           petsc::check(VecNorm(self._b.get(), NORM_2, &norm), "VecNorm");
           petsc::check(SNESSetFunctionNorm(snes, norm), "SNESSetFunctionNorm");

@@ -233,14 +233,14 @@ int main(int argc, char* argv[])
     const cx::petsc::OwnVec b(assembler.create_vector());
     refuses("settle() before begin_step()", [&] { assembler.settle(); });
     refuses("residual() before begin_step()",
-            [&] { assembler.F(assembler.x(), b.get()); });
+            [&] { assembler.residual(assembler.x(), b.get()); });
     assembler.begin_step();
     refuses("limit() before settle()", [&] { assembler.limit(b.get()); });
     refuses("accept() before settle()", [&] { assembler.accept(); });
     assembler.settle();
     cx::petsc::OwnVec shorter;
     VecCreateMPI(MPI_COMM_WORLD, 1, PETSC_DETERMINE, shorter.put());
-    refuses("", [&] { assembler.F(shorter.get(), b.get()); });
+    refuses("", [&] { assembler.residual(shorter.get(), b.get()); });
     {
       cx::Assembler pressed(F, J, u, {fixed}, {make(bottom, plane_at(0.01))});
       cx::petsc::Owner<SNES, SNESDestroy> snes;

@@ -125,8 +125,8 @@ void tolerances(const Scene& scene, const char* name, double size,
     cx::Settled it;
     while (not(it = assembler.settle()).converged)
     {
-      assembler.F(assembler.x(), b.get());
-      assembler.J(assembler.x(), A.get());
+      assembler.residual(assembler.x(), b.get());
+      assembler.jacobian(assembler.x(), A.get());
       KSPSetOperators(scene.ksp, A.get(), A.get());
       KSPSolve(scene.ksp, b.get(), dx.get());
       VecScale(dx.get(), -1);
@@ -206,7 +206,7 @@ void solve(const Scene& scene, const char* name, const cx::Contact::Master& to,
     const Mat of_forms
         = forms ? assemble(*forms, assembler, *F, *J, bcs, b.get()) : nullptr;
     if (not forms)
-      assembler.F(assembler.x(), b.get());
+      assembler.residual(assembler.x(), b.get());
     if (scene.condensed)
       condensed.solve(b.get(), dx.get());
     else if (forms)
@@ -216,7 +216,7 @@ void solve(const Scene& scene, const char* name, const cx::Contact::Master& to,
     }
     else
     {
-      assembler.J(assembler.x(), A.get());
+      assembler.jacobian(assembler.x(), A.get());
       KSPSetOperators(ksp, A.get(), A.get());
       KSPSolve(ksp, b.get(), dx.get());
     }

@@ -96,9 +96,10 @@ int main(int argc, char* argv[])
     cx::Condensed condensed(assembler, "condensed_");
 
     // Newton loop
-    Vec x = assembler.x(), b = assembler.create_vector(),
-        dx = assembler.create_vector();
-    Mat A = assembler.create_matrix();
+    const Vec x = assembler.x();
+    const cx::petsc::OwnVec b(assembler.create_vector()),
+        dx(assembler.create_vector());
+    const cx::petsc::OwnMat A(assembler.create_matrix());
     const int rank = dolfinx::MPI::rank(MPI_COMM_WORLD);
     assembler.begin_step();
     cx::Settled it;
@@ -107,17 +108,17 @@ int main(int argc, char* argv[])
       if (rank == 0)
         std::printf("%2d  residual %.3e  closed %lld\n", it.number, it.residual,
                     static_cast<long long>(it.closed));
-      assembler.F(x, b);
+      assembler.residual(x, b.get());
       if (is_condensed)
-        condensed.solve(b, dx);
+        condensed.solve(b.get(), dx.get());
       else
       {
-        assembler.J(x, A);
-        solver.set_operator(A);
-        solver.solve(dx, b);
+        assembler.jacobian(x, A.get());
+        solver.set_operator(A.get());
+        solver.solve(dx.get(), b.get());
       }
-      VecScale(dx, -1);
-      assembler.update(dx, assembler.limit(dx));
+      VecScale(dx.get(), -1);
+      assembler.update(dx.get(), assembler.limit(dx.get()));
     }
     assembler.accept();
 
@@ -139,10 +140,6 @@ int main(int argc, char* argv[])
     if (rank == 0 and is_condensed)
       std::printf("Krylov iterations %d, direct solves %d\n",
                   condensed.iterations(), condensed.direct());
-
-    VecDestroy(&b);
-    VecDestroy(&dx);
-    MatDestroy(&A);
   }
   PetscFinalize();
   return 0;

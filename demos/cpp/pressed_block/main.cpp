@@ -82,8 +82,8 @@ int main(int argc, char* argv[])
     newton.max_it = 8;
     newton.report = false;
     newton.set_form([&](Vec) { it = assembler.settle(); });
-    newton.setF([&](const Vec x, Vec r) { assembler.F(x, r); }, b.get());
-    newton.setJ([&](const Vec x, Mat K) { assembler.J(x, K); }, A.get());
+    newton.setF([&](const Vec x, Vec r) { assembler.residual(x, r); }, b.get());
+    newton.setJ([&](const Vec x, Mat K) { assembler.jacobian(x, K); }, A.get());
     newton.set_update(
         [&](const nls::petsc::NewtonSolver&, const Vec dx, Vec)
         {

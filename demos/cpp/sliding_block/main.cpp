@@ -95,9 +95,10 @@ int main(int argc, char* argv[])
     // Press, then push to the right, to the left and back; ParaView opens
     // displacement and results of all steps
     io::VTKFile output(MPI_COMM_WORLD, "sliding_block.pvd", "w");
-    Vec x = assembler.x(), b = assembler.create_vector(),
-        dx = assembler.create_vector();
-    Mat A = assembler.create_matrix();
+    const Vec x = assembler.x();
+    const cx::petsc::OwnVec b(assembler.create_vector()),
+        dx(assembler.create_vector());
+    const cx::petsc::OwnMat A(assembler.create_matrix());
     for (int step = 0; step <= 20; ++step)
     {
       const int way = step <= 4 ? step : step <= 12 ? 8 - step : step - 16;
@@ -106,12 +107,12 @@ int main(int argc, char* argv[])
       cx::Settled it;
       while (not(it = assembler.settle()).converged)
       {
-        assembler.F(x, b);
-        assembler.J(x, A);
-        solver.set_operator(A);
-        solver.solve(dx, b);
-        VecScale(dx, -1);
-        assembler.update(dx, assembler.limit(dx));
+        assembler.residual(x, b.get());
+        assembler.jacobian(x, A.get());
+        solver.set_operator(A.get());
+        solver.solve(dx.get(), b.get());
+        VecScale(dx.get(), -1);
+        assembler.update(dx.get(), assembler.limit(dx.get()));
       }
       assembler.accept();
       auto functions = contact->functions().all();
@@ -129,9 +130,6 @@ int main(int argc, char* argv[])
                     push->value[0], -force[0], friction * pressure * width,
                     sticking, it.number);
     }
-    VecDestroy(&b);
-    VecDestroy(&dx);
-    MatDestroy(&A);
   }
   PetscFinalize();
   return 0;
