@@ -383,7 +383,8 @@ class _Look:
         loose = np.zeros(1)
         if slip is not None:
             loose[0] = np.linalg.norm([self._rough(weight, near, s) for s in near.slip.T])
-            loose += tilt * np.linalg.norm(slip)
+            # Other normals give gaps parts along the surface
+            loose += tilt * (np.linalg.norm(slip) + near.apart.max())
         yield from self._of_force(node, small, cone, middle[None], slip, loose, tilt, state)
 
     def _faces_all(self, node: int, near: Near) -> bool:

@@ -25,6 +25,9 @@ _BESIDE, _KEPT, _HIDDEN = 0.06, 3.0, 0.04
 _FRONT = 1.0
 # Rounding of local coordinates
 _EPS = 1e-9
+# Steps of differences, in sizes of the slave's facets: of first ones, so short that curvature may
+# jump, and of second ones
+_STEP, _TWICE = 1e-7, 1e-3
 
 
 @dataclass(frozen=True)
@@ -40,16 +43,16 @@ class Obstacle:
     level: Callable[[Array], Array]
     at: Callable[[], Array]
 
-    def measure(self, x: Array, size: float) -> tuple[Array, Array]:
-        """Distances to first order, and outward unit normals at points of facets of a size."""
-        slope = _slope(self.level, x, size)
+    def measure(self, x: Array, step: float) -> tuple[Array, Array]:
+        """Distances to first order and outward unit normals, by differences over a step."""
+        slope = _slope(self.level, x, step)
         length = np.linalg.norm(slope, axis=1)
         length = np.where(length > 0, length, 1.0)
         return self.level(x) / length, slope / length[:, None]
 
-    def slope(self, x: Array, size: float) -> Array:
+    def slope(self, x: Array, step: float) -> Array:
         """Derivatives of these distances, shape (n, dim)."""
-        return _slope(lambda y: self.measure(y, size)[0], x, size)
+        return _slope(lambda y: self.measure(y, step)[0], x, step)
 
 
 @dataclass(frozen=True)
@@ -196,12 +199,12 @@ class Measure:
         n, size = len(at), float(faces.sizes(x[self._slave]).min())
         moved, offset = obstacle.at() - self._at, self._contact.offset()
         if self._contact.is_finite:
-            gap, normal = obstacle.measure(at, size)
-            before = obstacle.measure(then + moved, size)[0]
+            gap, normal = obstacle.measure(at, _STEP * size)
+            before = obstacle.measure(then + moved, _STEP * size)[0]
         else:
             X = self.points.at(self._x0)
-            gap, normal = obstacle.measure(X, size)
-            slope = obstacle.slope(X, size)
+            gap, normal = obstacle.measure(X, _TWICE * size)
+            slope = obstacle.slope(X, _TWICE * size)
             before = gap + (slope * (then - X)).sum(axis=1)
             gap = gap + (slope * (at - X)).sum(axis=1)
         none = np.zeros(n)
@@ -362,9 +365,8 @@ class Measure:
         )
 
 
-def _slope(value: Callable[[Array], Array], x: Array, size: float) -> Array:
+def _slope(value: Callable[[Array], Array], x: Array, step: float) -> Array:
     """Derivatives of a function of points, by differences of fourth order, shape (n, dim)."""
-    step = 1e-3 * size
     rows = []
     for way in step * np.eye(x.shape[1]):
         near, far = (value(x + k * way) - value(x - k * way) for k in (1, 2))
