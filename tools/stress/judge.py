@@ -140,7 +140,7 @@ class Judge:
         """What is violated in the present state, at which the next step starts."""
         found = self.violated()
         if self._work is not None:
-            check = self._work()
+            check = self._work(self._state(self._forces()).small.ravel())
             found += [] if check.holds else [check]
         self._start = self._positions()
         self._before = float(np.linalg.norm(self._forces(), axis=1).max())

@@ -63,8 +63,12 @@ class Work:
         self._before: tuple[Array, Array]
         self._stored = self._given = self._size = self._open = 0.0
 
-    def __call__(self) -> Check:
-        """Take the present state, and compare."""
+    def __call__(self, small: Array) -> Check:
+        """Take the present state, and compare.
+
+        Args:
+            small: What of each force is rounding, shape (num_dofs,).
+        """
         u = self._u.x.array.copy()
         at_rest = self._residual(np.zeros_like(u))
         # What acts from outside: reactions and loads
@@ -77,7 +81,7 @@ class Work:
                 inner = self._residual(u0 + 0.5 * (1 + point) * step) - at_rest
                 stored += 0.5 * weight * float(inner @ step)
             of_step = 0.5 * float((given0 + given) @ step)
-            open_ = 0.5 * float(np.abs(given - given0) @ np.abs(step))
+            open_ = float((0.5 * np.abs(given - given0) + small) @ np.abs(step))
             if not (self._snaps(step) and of_step - stored > open_):
                 self._stored += stored
                 self._given += of_step
