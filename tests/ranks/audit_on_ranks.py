@@ -32,7 +32,7 @@ class Audited:
         self.halo = contact.discrete.halo
         self.contact, self.audit = contact, core.Audit(self.halo.nodes, [contact.discrete])
 
-    def look(self, moved):
+    def find(self, moved):
         """What is found once nodes have come to positions moved(X)."""
         self.u.x.array[:] = (moved(self.X) - self.X).ravel()
         self.halo.update_ghosts()
@@ -45,7 +45,7 @@ class Audited:
         return numbers, [deepest, found.facet_size, *(c for f in every for c in f.at)]
 
     def accept(self):
-        """Take what was looked at last as the start of the next step."""
+        """Take what was found last as the start of the next step."""
         self.audit.accept()
 
 
