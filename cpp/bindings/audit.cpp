@@ -16,7 +16,6 @@ using contactx::audit::Depth;
 using contactx::audit::EdgeForce;
 using contactx::audit::Findings;
 using contactx::audit::FoundNodes;
-using contactx::audit::Roundness;
 using contactx::contact::Contact;
 using contactx::mesh::Halo;
 
@@ -34,12 +33,6 @@ void contactx_bindings::audit(py::module_& m)
       .def_readonly("is_held", &Depth::is_held)
       .def_property_readonly("at",
                              [](const Depth& self) { return array(self.at); });
-  py::class_<Roundness>(m, "Roundness", "How round an obstacle is for facets")
-      .def_readonly("radius", &Roundness::radius)
-      .def_readonly("size", &Roundness::size)
-      .def_property_readonly("facets", &Roundness::facets)
-      .def_property_readonly("at", [](const Roundness& self)
-                             { return array(self.at); });
   py::class_<Chords>(m, "Chords", "How round surfaces that fit are for facets")
       .def_readonly("mean", &Chords::mean)
       .def_readonly("scatter", &Chords::scatter)
@@ -63,7 +56,6 @@ void contactx_bindings::audit(py::module_& m)
       .def_readonly("deepest", &Findings::deepest)
       .def_readonly("is_too_deep", &Findings::penetrates_too_deep)
       .def_readonly("facet_size", &Findings::facet_size)
-      .def_readonly("roundness", &Findings::roundness)
       .def_readonly("chords", &Findings::chords)
       .def_readonly("edges", &Findings::edges)
       .def_readonly("warnings", &Findings::warnings);
@@ -89,19 +81,4 @@ void contactx_bindings::audit(py::module_& m)
       py::arg("cells"), py::arg("X"), py::arg("u"), py::arg("gdim"),
       "Smallest det F, the cell that has it, and the number of inverted cells "
       "(cells: shape=(num_cells, nodes_per_cell))");
-  m.def(
-      "longest_way",
-      [](const Array<std::int32_t>& cells, const Array<double>& X,
-         const Array<double>& u, const Array<double>& du, int gdim, double part)
-      {
-        if (cells.ndim() != 2)
-          throw std::invalid_argument("cells must have a row for each cell");
-        return contactx::mesh::max_step_without_inversion(
-            view(cells), static_cast<int>(cells.shape(1)), view(X), view(u),
-            view(du), gdim, part);
-      },
-      py::arg("cells"), py::arg("X"), py::arg("u"), py::arg("du"),
-      py::arg("gdim"), py::arg("part"),
-      "Largest t <= 1 up to which u + t du leaves every cell a part of min(det "
-      "F, 1)");
 }

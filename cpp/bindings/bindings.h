@@ -59,7 +59,6 @@ void newton(py::module_& m);
 void problem(py::module_& m);
 void kernel(py::module_& m);
 void audit(py::module_& m);
-void mortar(py::module_& m);
 void condense(py::module_& m);
 void conductance(py::module_& m);
 void slave_nodes(py::module_& m);

@@ -136,14 +136,10 @@ void contactx_bindings::contact(py::module_& m)
       .def_property_readonly(
           "kinematics", [](const Contact& self)
           { return self.kinematics() == Sliding::small ? "small" : "finite"; })
-      .def_property_readonly("updates_kinematics", &Contact::updates_kinematics)
       .def_property_readonly("pairs", &Contact::pairs)
       .def_property_readonly("version", &Contact::version)
       .def_property("active", &Contact::is_active, &Contact::set_active)
       .def_property_readonly("skipped_searches", &Contact::skipped_searches)
-      .def(
-          "set_offset", [](Contact& self, const Array<double>& offset)
-          { self.set_offset(view(offset)); }, py::arg("offset"))
       .def_property_readonly("adjusted", [](const Contact& self)
                              { return array(self.adjusted()); })
       .def(
@@ -160,22 +156,11 @@ void contactx_bindings::contact(py::module_& m)
           "load", [](Contact& self, const py::dict& saved)
           { load(self, from_dict(saved)); }, py::arg("saved"))
       .def("rebuild", &Contact::rebuild)
-      .def(
-          "set_factor", [](Contact& self, const Array<double>& compliance)
-          { self.set_factor(view(compliance)); }, py::arg("compliance"))
-      .def(
-          "constrained_inside", [](Contact& self, const Array<double>& x)
-          { return array(self.constrained_inside(view(x))); }, py::arg("x"))
-      .def("has_unknown_motion", &Contact::has_unknown_motion)
       .def("search", &Contact::search)
       .def("freeze", &Contact::freeze, py::arg("is_frozen"))
       .def("update_gap", &Contact::update_gap)
       .def("update_status", &Contact::update_status,
            py::arg("is_first") = false)
-      .def(
-          "closing", [](Contact& self, bool is_first)
-          { return to_bool(self.closing(is_first)); },
-          py::arg("is_first") = false)
       .def(
           "add_residual", [](const Contact& self, Array<double>& b)
           { self.add_residual(mutable_view(b)); }, py::arg("b").noconvert());

@@ -13,17 +13,6 @@ using namespace contactx_bindings;
 void contactx_bindings::facet(py::module_& m)
 {
   m.def(
-      "nodal_areas",
-      [](const Array<std::int32_t>& offsets, const Array<std::int32_t>& nodes,
-         const Array<double>& x, int gdim)
-      {
-        check::surface(view(offsets), view(nodes), x.size(), gdim);
-        return array(contactx::geometry::nodal_areas(
-            {view(offsets), view(nodes)}, view(x), gdim));
-      },
-      py::arg("offsets"), py::arg("nodes"), py::arg("x"), py::arg("gdim"),
-      "Integral of each node's shape function over a surface");
-  m.def(
       "nodal_normals",
       [](const Array<std::int32_t>& offsets, const Array<std::int32_t>& nodes,
          const Array<double>& x, int gdim)

@@ -50,32 +50,6 @@ void contactx_bindings::kernel(py::module_& m)
                  py::arg("normal") = place(offsetof(Pair, normal)),
                  py::arg("size") = contactx::kernel::num_values<Pair>);
   m.def(
-      "mortar_layout",
-      [](int num_slaves, int num_nodes)
-      {
-        check_sizes(num_nodes, 3, num_slaves);
-        const contactx::kernel::MortarLayout at(num_slaves, num_nodes);
-        return py::dict(py::arg("weight") = at.weight,
-                        py::arg("dual") = at.dual, py::arg("gap") = at.gap,
-                        py::arg("normal") = at.normal,
-                        py::arg("size") = at.size);
-      },
-      py::arg("num_slaves"), py::arg("num_nodes"),
-      "Places of the values of a pair of two facets");
-  m.def(
-      "rigid_mortar_layout",
-      [](int num_slaves, int gdim)
-      {
-        check_sizes(0, gdim, num_slaves);
-        const contactx::kernel::RigidMortarLayout at(num_slaves, gdim);
-        return py::dict(
-            py::arg("area") = at.area, py::arg("gap") = at.gap,
-            py::arg("gradient") = at.gradient, py::arg("normal") = at.normal,
-            py::arg("curvature") = at.curvature, py::arg("size") = at.size);
-      },
-      py::arg("num_slaves"), py::arg("gdim"),
-      "Places of the values of a slave facet before a rigid obstacle");
-  m.def(
       "coefficients",
       [](const std::string& law, int num_nodes, int gdim, int num_slaves)
       {

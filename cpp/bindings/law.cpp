@@ -10,7 +10,6 @@ namespace py = pybind11;
 using namespace contactx_bindings;
 using namespace contactx::law;
 using contactx::law::NodeState;
-using contactx::mesh::NodeMap;
 
 BoundFunction contactx_bindings::bound_of(const py::function& bound)
 {
@@ -38,22 +37,12 @@ void contactx_bindings::law(py::module_& m)
       .def_property_readonly("is_vector", &Law::is_vector)
       .def_property_readonly("is_tied", &Law::is_tied)
       .def("begin_step", &Law::begin_step)
-      .def("allow_larger_friction", &Law::allow_larger_friction)
-      .def(
-          "set_status",
-          [](const Law& self, NodeState& state, const NodeMap& nodes)
-          { return self.set_status(state, nodes.ranks()); }, py::arg("state"),
-          py::arg("nodes"))
       .def("evaluate", &Law::evaluate, py::arg("state"));
   py::class_<Frictionless, Law, std::shared_ptr<Frictionless>>(
       m, "Frictionless", "Unilateral contact")
       .def(py::init());
   py::class_<Coulomb, Law, std::shared_ptr<Coulomb>>(
       m, "Coulomb", "Unilateral contact with dry friction")
-      .def(py::init())
-      .def(py::init([](py::function bound)
-                    { return std::make_shared<Coulomb>(bound_of(bound)); }),
-           py::arg("bound"))
       .def(
           "set_friction", [](Coulomb& self, const Array<double>& friction)
           { self.set_friction(view(friction)); }, py::arg("friction"))
@@ -61,6 +50,5 @@ void contactx_bindings::law(py::module_& m)
           "friction", [](const Coulomb& self, const NodeState& state)
           { return array(self.friction(state)); }, py::arg("state"));
   py::class_<Tied, Law, std::shared_ptr<Tied>>(
-      m, "Tied", "Slave nodes keep their place on the master")
-      .def(py::init());
+      m, "Tied", "Slave nodes keep their place on the master");
 }

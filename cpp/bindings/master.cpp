@@ -262,11 +262,5 @@ void contactx_bindings::master(py::module_& m)
       .def("distance", [](const Master& self, const Array<double>& x)
            { return self.distance(view(x)); })
       .def_property_readonly("frozen_pairs", [](const Master& self)
-                             { return array(self.frozen_pairs()); })
-      .def("deepest_frozen_pair",
-           [](const Master& self, const Array<double>& x)
-           {
-             const HiddenGap found = self.deepest_frozen_pair(view(x));
-             return py::make_tuple(found.gap, found.part);
-           });
+                             { return array(self.frozen_pairs()); });
 }

@@ -46,15 +46,6 @@ void contactx_bindings::mesh(py::module_& m)
            py::arg("x").noconvert(), py::keep_alive<1, 4>(),
            py::keep_alive<1, 5>());
   m.def(
-      "facet_vertices", [](const std::string& cell)
-      { return contactx::mesh::facet_vertices(cell_type(cell)); },
-      py::arg("cell"), "Vertices of each facet of a cell");
-  m.def(
-      "node_vertices", [](const std::string& cell, int degree)
-      { return contactx::mesh::node_vertices(cell_type(cell), degree); },
-      py::arg("cell"), py::arg("degree"),
-      "Vertices whose middle each node of a cell is at");
-  m.def(
       "linear_cells",
       [](const std::string& cell, int degree, const Array<std::int32_t>& nodes)
       {

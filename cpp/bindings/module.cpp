@@ -23,7 +23,6 @@ PYBIND11_MODULE(cpp, m)
   contactx_bindings::mesh(m);
   contactx_bindings::reference(m);
   contactx_bindings::newton(m);
-  contactx_bindings::mortar(m);
   contactx_bindings::kernel(m);
   contactx_bindings::audit(m);
   contactx_bindings::problem(m);

@@ -68,7 +68,6 @@ void contactx_bindings::newton(py::module_& m)
       .def_readonly("tolerance", &Iterate::tolerance)
       .def_readonly("defect", &Iterate::defect)
       .def_readonly("closed", &Iterate::closed)
-      .def_readonly("is_frozen", &Iterate::is_frozen)
       .def_property_readonly("status_changes", [](const Iterate& self)
                              { return self.changes.status; })
       .def_property_readonly("pair_changes", [](const Iterate& self)
@@ -87,9 +86,7 @@ void contactx_bindings::newton(py::module_& m)
                                   found.defect);
           },
           py::arg("b"), py::arg("rtol"), py::arg("atol"))
-      .def("scale", &Convergence::scale)
-      .def("may_be_rounding", &Convergence::may_be_rounding,
-           py::arg("residual"));
+      .def("scale", &Convergence::scale);
 
   py::class_<Loop>(m, "Loop", "Newton's method but for the linear solves")
       .def_property_readonly("active_set", &Loop::active_set,
@@ -118,13 +115,8 @@ void contactx_bindings::newton(py::module_& m)
       .def("changing", &Loop::changing);
 
   py::class_<ActiveSet>(m, "ActiveSet", "Pairs and status of all contacts")
-      .def("num_closed", &ActiveSet::num_closed)
-      .def("num_corners", &ActiveSet::num_corners)
-      .def_property_readonly("is_frozen", &ActiveSet::is_frozen)
       .def_property_readonly("is_soft", &ActiveSet::is_soft)
-      .def_property_readonly("cycles", &ActiveSet::cycles)
-      .def_property_readonly("soft_iterations", &ActiveSet::soft_iterations)
-      .def_property_readonly("hidden_gaps", &ActiveSet::hidden_gaps);
+      .def_property_readonly("cycles", &ActiveSet::cycles);
 
   py::class_<StepLength>(m, "StepLength", "How much of a step is taken")
       .def("begin", &StepLength::begin, py::arg("size"),
@@ -133,8 +125,7 @@ void contactx_bindings::newton(py::module_& m)
       .def("judge", &StepLength::judge, py::arg("next_size"))
       .def_property_readonly("part", &StepLength::part)
       .def_property_readonly("limited", &StepLength::limited)
-      .def_property_readonly("damped", &StepLength::damped)
-      .def_property_readonly("is_stuck", &StepLength::is_stuck);
+      .def_property_readonly("damped", &StepLength::damped);
 
   py::class_<Accuracy>(m, "Accuracy", "How accurate linear solves must be")
       .def(py::init<bool>(), py::arg("has_path"))

@@ -9,7 +9,6 @@ namespace py = pybind11;
 using namespace contactx_bindings;
 using contactx::law::NodeState;
 using contactx::law::SlipHistory;
-using contactx::mesh::NodeMap;
 
 namespace
 {
@@ -76,11 +75,7 @@ void contactx_bindings::node_state(py::module_& m)
       = [](const NodeState& n) { return Shape{n.size(), n.size()}; };
 
   Class c(m, "NodeState", "State of the slave nodes of one contact");
-  c.def(py::init<std::int32_t, int, bool, bool>(), py::arg("num_nodes"),
-        py::arg("gdim"), py::arg("is_vector"), py::arg("has_means") = false);
   c.def_property_readonly("size", &NodeState::size);
-  c.def_readwrite("layer_compliance", &NodeState::layer_compliance);
-  c.def_readwrite("tangential_ratio", &NodeState::tangential_ratio);
   add(c, "multiplier", &NodeState::multiplier, nodal);
   add(c, "area", &NodeState::area, nodal);
   add(c, "status", &NodeState::status, nodal);
@@ -92,8 +87,6 @@ void contactx_bindings::node_state(py::module_& m)
   add(c, "mobile", &NodeState::mobile, vectors);
   add_flags(c, "redundant", &NodeState::redundant);
   add_flags(c, "frictionless", &NodeState::frictionless);
-  add(c, "slip_reversals", &NodeState::slip_reversals, nodal);
-  add(c, "slip_closings", &NodeState::slip_closings, nodal);
   add(c, "value", &NodeState::value, nodal);
   add(c, "by_multiplier", &NodeState::by_multiplier, matrices);
   add(c, "by_gap", &NodeState::by_gap, nodal);
@@ -106,13 +99,6 @@ void contactx_bindings::node_state(py::module_& m)
                             return each<bool>(nodes, [&](std::size_t i)
                                               { return nodes.closed(i); });
                           });
-  c.def_property_readonly("closable_gap",
-                          [](const NodeState& nodes)
-                          {
-                            return each<double>(
-                                nodes, [&](std::size_t i)
-                                { return nodes.closable_gap(i); });
-                          });
   c.def_property_readonly("pressure",
                           [](py::object self) -> py::object
                           {
@@ -123,34 +109,18 @@ void contactx_bindings::node_state(py::module_& m)
                                                 { return nodes.pressure(i); });
                           });
   c.def(
-      "closing",
-      [](const NodeState& nodes, double tie)
-      {
-        return each<bool>(nodes,
-                          [&](std::size_t i) { return nodes.closing(i, tie); });
-      },
-      py::arg("tie") = -1.0);
-  c.def(
-      "set_factor",
-      [](NodeState& nodes, const Array<double>& compliance, const NodeMap& map)
-      { nodes.set_factor(map.ranks(), view(compliance)); },
-      py::arg("compliance"), py::arg("nodes"));
-  c.def(
       "close",
       [](NodeState& nodes,
          const py::array_t<std::int32_t,
                            py::array::c_style | py::array::forcecast>& which)
       { nodes.close({which.data(), static_cast<std::size_t>(which.size())}); },
       py::arg("which"));
-  c.def("drop_open", &NodeState::drop_open);
-  c.def("normalise", &NodeState::normalise);
   c.def(
       "project", [](NodeState& nodes, const Array<double>& origin)
       { nodes.project(view(origin)); }, py::arg("origin"));
 
   py::class_<SlipHistory, std::shared_ptr<SlipHistory>>(
       m, "SlipHistory", "What the accepted steps have slipped")
-      .def(py::init<std::int32_t, int>(), py::arg("num_nodes"), py::arg("gdim"))
       .def_property_readonly(
           "slip",
           [](const SlipHistory& self)
@@ -170,14 +140,4 @@ void contactx_bindings::node_state(py::module_& m)
              const Array<double>& total, const Array<double>& dissipation)
           { self.restore(copy(slip), copy(total), copy(dissipation)); },
           py::arg("slip"), py::arg("total"), py::arg("dissipation"));
-
-  m.def(
-      "touching_gap",
-      [](const NodeMap& nodes, const Array<double>& x)
-      {
-        const int gdim = x.ndim() == 2 ? static_cast<int>(x.shape(1)) : 0;
-        return contactx::law::touching_gap(nodes.ranks(), view(x), gdim);
-      },
-      py::arg("nodes"), py::arg("x"),
-      "Gap up to which nodes touch but for rounding");
 }

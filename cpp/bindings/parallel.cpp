@@ -165,9 +165,6 @@ void contactx_bindings::parallel(py::module_& m)
 {
   py::class_<NodeMap, std::shared_ptr<NodeMap>>(
       m, "NodeMap", "Nodes of this rank, for the core");
-  py::class_<SerialNodes, NodeMap, std::shared_ptr<SerialNodes>>(
-      m, "SerialNodes", "Nodes of one rank alone")
-      .def(py::init<std::int32_t>(), py::arg("num_nodes"));
   py::class_<Halo, NodeMap, std::shared_ptr<Halo>>(
       m, "Halo", "The bulk's nodes and those of other ranks that contact needs")
       .def_property_readonly("num_owned", &Halo::num_owned)

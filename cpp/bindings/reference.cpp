@@ -3,10 +3,8 @@
 
 #include "master.h"
 #include "parallel.h"
-#include <contactx/mesh/shared_nodes.h>
 #include <contactx/problem/check_facing.h>
 #include <contactx/problem/sides.h>
-#include <contactx/text.h>
 #include <pybind11/stl.h>
 #include <stdexcept>
 
@@ -30,10 +28,6 @@ contactx::geometry::FacetList facets_of(const Array<std::int32_t>& offsets,
 
 void contactx_bindings::reference(py::module_& m)
 {
-  m.def(
-      "point_text", [](const Array<double>& x, double size)
-      { return contactx::point_text(view(x), size); }, py::arg("x"),
-      py::arg("size"), "Coordinates of a point in six digits");
   // It looks at the cells
   py::class_<contactx::mesh::Mesh>(m, "ReferenceMesh",
                                    "The mesh of the bulk on this rank")
@@ -98,16 +92,6 @@ void contactx_bindings::reference(py::module_& m)
       py::arg("mesh"), py::arg("slaves"), py::arg("slave"), py::arg("obstacle"),
       py::arg("law"), py::arg("options"), py::keep_alive<0, 4>(),
       "Master side of a contact with an obstacle");
-  m.def(
-      "shared_nodes",
-      [](const Halo& halo, const SlaveNodes& slaves,
-         const Array<std::int32_t>& offsets, const Array<std::int32_t>& nodes)
-      {
-        return to_bool(contactx::mesh::shared_nodes(halo, slaves.own(),
-                                                    facets_of(offsets, nodes)));
-      },
-      py::arg("halo"), py::arg("slaves"), py::arg("offsets"), py::arg("nodes"),
-      "Which nodes slave and master have");
   m.def("check_facing", &check_facing, py::arg("halo"), py::arg("slaves"),
         py::arg("slave_name"), py::arg("master"), py::arg("master_name"),
         "Check that a slave surface does not face away from its master");

@@ -44,9 +44,6 @@ void contactx_bindings::slave_nodes(py::module_& m)
           py::arg("halo"), py::arg("offsets"), py::arg("nodes"),
           py::arg("level") = Array<std::int8_t>(), py::kw_only(),
           py::arg("is_mortar") = false, py::arg("is_rigid") = false)
-      .def(
-          "set_weight", [](SlaveNodes& self, const Array<double>& weight)
-          { self.set_weight(view(weight)); }, py::arg("weight"))
       .def_property_readonly("facets", [](const SlaveNodes& self)
                              { return to_tuple(self.facets()); })
       .def_property_readonly("owned",
@@ -69,15 +66,6 @@ void contactx_bindings::slave_nodes(py::module_& m)
              const Array<double>& normal)
           { return to_bool(self.facing(view(x), view(normal), width_of(x))); },
           py::arg("x"), py::arg("normal"))
-      .def(
-          "facing_areas",
-          [](const SlaveNodes& self, const Array<double>& reference,
-             const Array<double>& x, const Array<double>& normal)
-          {
-            return array(self.facing_areas(view(reference), view(x),
-                                           view(normal), width_of(x)));
-          },
-          py::arg("reference"), py::arg("x"), py::arg("normal"))
       .def(
           "sums", [](const SlaveNodes& self, const Array<double>& corners)
           { return array(self.sums(view(corners))); }, py::arg("corners"));

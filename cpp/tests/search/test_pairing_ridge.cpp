@@ -52,7 +52,7 @@ TEST(PairingOnRidge, TakesAnotherNormalBesideTheRidge)
   // By the margin of a facet across the normal, at any height. Where bodies
   // deform in between, the first normal may be none of the ridge any more, and
   // the node touch along it from afar
-  const double size = std::hypot(0.2, 1), margin = 0.05;
+  const double size = std::hypot(0.2, 1);
   const Vector<2> n{0.6, 0.8}, across{-0.8, 0.6};
   for (const double height : {0.1, 0.5})
     for (const double part : {0.9, 1.1})

@@ -2,12 +2,9 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """Slave surfaces that face away from their master."""
 
-import numpy as np
 import pytest
 
 import contactx as cx
-from contactx import cpp as core
-from contactx.surface import FacetList
 from dolfinx.mesh import CellType
 
 from meshes import Tag
@@ -66,41 +63,6 @@ def test_only_facets_within_reach_count():
     with pytest.raises(ValueError, match="faces away"):
         scene.problem(side)
     scene.problem(cx.Contact(side.slave, master, search_distance=1.24))
-
-
-def opposes(slave, master, x, reach):
-    """Whether the search finds a facet that faces any slave node."""
-    gdim = x.shape[1]
-    nodes = np.unique(slave.nodes)
-    normals = core.nodal_normals(slave.offsets, slave.nodes, x, gdim).reshape(-1, gdim)[nodes]
-    finder = core.Finder(master.offsets, master.nodes, gdim)
-    found = finder.find(x, x[nodes], normals, np.full(len(nodes), reach))
-    return bool(np.isfinite(found["distance"]).any())
-
-
-def test_a_node_without_a_normal_takes_any_facet():
-    """Two slave facets, back to back, above a master that looks down."""
-    x = np.array([[0.0, 1], [1, 1], [0, 0], [1, 0]])
-    offsets = np.array([0, 2], dtype=np.int32)
-    master = FacetList(offsets, np.array([3, 2], dtype=np.int32))
-    looks_down = FacetList(offsets, np.array([0, 1], dtype=np.int32))
-    both = FacetList(np.array([0, 2, 4], dtype=np.int32), np.array([0, 1, 1, 0], dtype=np.int32))
-    looks_up = FacetList(offsets, np.array([1, 0], dtype=np.int32))
-    master_down = FacetList(offsets, np.array([2, 3], dtype=np.int32))
-    assert opposes(looks_down, master, x, 1.0)
-    assert not opposes(looks_down, master, x, 0.99)
-    assert not opposes(looks_up, master, x, 2.0)
-    assert not opposes(looks_down, master_down, x, 2.0)
-    assert opposes(both, master_down, x, 1.0)
-
-
-def test_reach_is_the_distance_and_not_that_of_a_box():
-    x = np.array([[0.0, 0], [1, 1], [1.1, 0.3], [0.9, 0.1]])
-    offsets = np.array([0, 2], dtype=np.int32)
-    master = FacetList(offsets, np.array([0, 1], dtype=np.int32))
-    slave = FacetList(offsets, np.array([2, 3], dtype=np.int32))
-    assert opposes(slave, master, x, 0.57)
-    assert not opposes(slave, master, x, 0.56)
 
 
 @every_cell
