@@ -46,6 +46,8 @@ void contactx_bindings::newton(py::module_& m)
       .def(
           "take", [](System& self, const Array<double>& x)
           { self.take(view(x)); }, py::arg("x"))
+      .def("evaluate", &System::evaluate)
+      .def("markers", [](const System& self) { return array(self.markers()); })
       .def("bulk_residual",
            [](System& self)
            {

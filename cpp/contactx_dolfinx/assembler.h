@@ -115,12 +115,13 @@ public:
     const FunctionSpace& V = *_u->function_space();
 
     auto adapter = std::make_unique<HaloAdapter>(_u);
-    _adapter = adapter.get();
+    HaloAdapter* const owned = adapter.get();
     contactx::mesh::BulkNodes nodes = adapter->bulk_nodes();
     _halo = std::make_shared<contactx::mesh::Halo>(std::move(nodes),
                                                    std::move(adapter));
+    _adapter = std::shared_ptr<HaloAdapter>(_halo, owned);
     _bulk = std::make_shared<Bulk>(blocks, unknowns, std::move(bcs), _halo,
-                                   *_adapter);
+                                   _adapter);
     check(conductances);
     const auto bodies = std::make_shared<contactx::mesh::Bodies>(
         _bulk->all_cells(), _bulk->nodes_per_cell(), _bulk->num_owned_cells(),
@@ -135,7 +136,7 @@ public:
         const Contact& contact = *_contacts[count];
         discrete.push_back(_contacts[count]->attach(
             {_halo, bodies, _bulk->all_cells(), _bulk->nodes_per_cell()},
-            _bulk->all_markers(), _u->function_space()));
+            _adapter, _bulk->all_markers(), _u->function_space()));
         parts.push_back(
             {"contact " + std::to_string(count) + " (" + contact.name() + ")",
              contact.values(), contact.shared_results()});
@@ -483,8 +484,8 @@ private:
   std::shared_ptr<Function> _u;
   std::vector<std::shared_ptr<Contact>> _contacts;
   std::shared_ptr<contactx::mesh::Halo> _halo;
-  // The halo has it
-  HaloAdapter* _adapter = nullptr;
+  // Lives as long as the halo, which owns it
+  std::shared_ptr<HaloAdapter> _adapter;
   std::shared_ptr<Bulk> _bulk;
   std::shared_ptr<contactx::solve::System> _system;
   std::unique_ptr<contactx::problem::Problem> _problem;

@@ -31,13 +31,14 @@ public:
   /// @param[in] unknowns These functions, with the displacement's place.
   /// @param[in] bcs Dirichlet conditions, whose values may change.
   /// @param[in] halo Nodes of this rank.
-  /// @param[in] adapter What that one asks; it lives as long as the halo.
+  /// @param[in] adapter What that one asks.
   Bulk(const Blocks& blocks, std::shared_ptr<Unknowns> unknowns,
        std::vector<std::shared_ptr<const DirichletBC>> bcs,
-       std::shared_ptr<contactx::mesh::Halo> halo, HaloAdapter& adapter)
+       std::shared_ptr<contactx::mesh::Halo> halo,
+       std::shared_ptr<HaloAdapter> adapter)
       : _F(blocks.F), _J(blocks.J), _unknowns(std::move(unknowns)),
         _u(_unknowns->u()), _bcs(std::move(bcs)), _halo(std::move(halo)),
-        _adapter(&adapter),
+        _adapter(std::move(adapter)),
         _cells(contactx::mesh::linear_cells(cells_of(*_u->function_space()))),
         _size(std::size_t(_halo->num_owned()) * _halo->gdim())
   {
@@ -617,7 +618,7 @@ private:
   std::shared_ptr<Function> _u;
   std::vector<std::shared_ptr<const DirichletBC>> _bcs;
   std::shared_ptr<contactx::mesh::Halo> _halo;
-  HaloAdapter* _adapter;
+  std::shared_ptr<HaloAdapter> _adapter;
   std::optional<CellForces> _forces; // of a displacement alone
   std::optional<Fields> _fields;     // nothing then
   std::vector<std::shared_ptr<Conductance>> _conductances;

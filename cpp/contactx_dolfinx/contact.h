@@ -94,13 +94,16 @@ public:
   /// @brief Make the contact's discrete side; the Assembler does so. All ranks
   /// must take part.
   /// @param[in] mesh The mesh.
+  /// @param[in] adapter What its halo asks.
   /// @param[in] prescribed 1 at displacements with a Dirichlet condition, those
   /// of the bulk's nodes (shape=(num_bulk, gdim)).
   /// @param[in] V Space of the displacement.
   /// @throws std::invalid_argument on all ranks if the surfaces do not fit.
   /// @throws std::logic_error if it belongs to an Assembler already.
   std::shared_ptr<contactx::contact::Contact>
-  attach(const contactx::mesh::Mesh& mesh, std::vector<std::int8_t> prescribed,
+  attach(const contactx::mesh::Mesh& mesh,
+         std::shared_ptr<const HaloAdapter> adapter,
+         std::vector<std::int8_t> prescribed,
          const std::shared_ptr<const FunctionSpace>& V)
   {
     if (_discrete)
@@ -111,6 +114,7 @@ public:
     {
       make(mesh, std::move(prescribed), V);
       _V = V;
+      _adapter = std::move(adapter);
       return _discrete;
     }
     catch (...)
@@ -127,6 +131,7 @@ public:
     _results.reset();
     _functions.reset();
     _forms.reset();
+    _adapter.reset();
   }
 
   /// @brief Take another coefficient of friction, on all ranks, from the next
@@ -284,7 +289,8 @@ public:
   {
     discrete();
     if (not _forms)
-      _forms = std::make_unique<ContactForms>(_discrete, _V->mesh()->comm());
+      _forms = std::make_unique<ContactForms>(_discrete, _adapter,
+                                              _V->mesh()->comm());
     _forms->update();
     return *_forms;
   }
@@ -372,6 +378,7 @@ private:
   std::shared_ptr<contactx::contact::Contact> _discrete;
   std::shared_ptr<contactx::results::Results> _results;
   std::shared_ptr<const FunctionSpace> _V;
+  std::shared_ptr<const HaloAdapter> _adapter;
   std::unique_ptr<Functions> _functions;
   std::unique_ptr<ContactForms> _forms;
 };

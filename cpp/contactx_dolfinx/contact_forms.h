@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "halo.h"
 #include "input.h"
 #include <contactx/contact/contact.h>
 #include <contactx/kernel/registry.h>
@@ -140,11 +141,12 @@ public:
 
   /// @brief Make the forms; all ranks must take part.
   /// @param[in] contact The contact.
+  /// @param[in] adapter What its halo asks.
   /// @param[in] comm Communicator of the bulk.
   ContactForms(std::shared_ptr<contactx::contact::Contact> contact,
-               MPI_Comm comm)
+               std::shared_ptr<const HaloAdapter> adapter, MPI_Comm comm)
       : multiplier_size(contact->nodes()->size()), _contact(std::move(contact)),
-        _comm(comm)
+        _adapter(std::move(adapter)), _comm(comm)
   {
     const contactx::law::NodeState& nodes = *_contact->nodes();
     const int g = nodes.gdim(), size = multiplier_size;
@@ -272,19 +274,6 @@ private:
         _comm, n, ghosts, to_int(halo.owners(others)), tag);
   }
 
-  IndexMap node_map() const
-  {
-    const contactx::mesh::Halo& halo = _contact->halo();
-    std::vector<std::int32_t> others(halo.num_nodes() - halo.num_owned());
-    std::iota(others.begin(), others.end(), halo.num_owned());
-    if (halo.ranks().size() == 1)
-      return std::make_shared<const dolfinx::common::IndexMap>(
-          _comm, halo.num_owned());
-    return std::make_shared<const dolfinx::common::IndexMap>(
-        _comm, halo.num_owned(), halo.numbers(others),
-        to_int(halo.owners(others)), tag);
-  }
-
   /// Makes the forms of the part that slave nodes have by themselves.
   void make_nodal()
   {
@@ -309,7 +298,7 @@ private:
     const contactx::mesh::Halo& halo = _contact->halo();
     _halo_version = halo.version();
     _kinematics = _contact->kinematics();
-    displacement_map = node_map();
+    displacement_map = _adapter->index_map();
     using enum contactx::kernel::Coefficient;
     for (const auto c : {displacement, position})
       _vectors[c] = vector(displacement_map, halo.gdim());
@@ -338,11 +327,9 @@ private:
     const auto at = _pairs.find(kind);
     const contactx::kernel::Pairs& pairs
         = at == _pairs.end() ? none : *at->second;
-    const auto& of = *_contact->law();
     // The kernels of a tie measure movement
-    const auto law = is_movement or of.is_tied() ? contactx::kernel::Law::tied
-                     : of.is_vector() ? contactx::kernel::Law::frictional
-                                      : contactx::kernel::Law::frictionless;
+    const auto law
+        = is_movement ? contactx::kernel::Law::tied : _contact->kernel_law();
     const CarrierMesh carrier(
         _comm, static_cast<std::int32_t>(pairs.slaves.size() / num_slaves));
     std::vector<std::int32_t> every(carrier.map->size_local());
@@ -407,6 +394,7 @@ private:
   }
 
   std::shared_ptr<contactx::contact::Contact> _contact;
+  std::shared_ptr<const HaloAdapter> _adapter;
   MPI_Comm _comm;
   std::int64_t _version = 0;
   int _halo_version = -1;

@@ -167,7 +167,7 @@ public:
       throw std::invalid_argument(
           "A is not the matrix of the pairs of now: call matrix() again");
     assemble(A, MAT_FLUSH_ASSEMBLY);
-    const std::vector<std::int8_t> markers = this->markers(), none;
+    const std::vector<std::int8_t> markers = system().markers(), none;
     const auto maps = this->maps();
     std::vector<PetscInt> first{0};
     for (const auto& [map, width] : maps)
@@ -250,11 +250,7 @@ private:
 
   void evaluate()
   {
-    for (const auto& contact : system().contacts())
-    {
-      contact->update_gap();
-      contactx::solve::System::evaluate(*contact);
-    }
+    system().evaluate();
     refresh();
   }
 
@@ -356,16 +352,6 @@ private:
                  "ISLocalToGlobalMappingCreate");
     petsc::check(MatSetLocalToGlobalMapping(_A.get(), local.get(), local.get()),
                  "MatSetLocalToGlobalMapping");
-  }
-
-  /// 1 at prescribed displacements of all nodes.
-  std::vector<std::int8_t> markers() const
-  {
-    const contactx::mesh::Halo& halo = *system().halo();
-    std::vector<std::int64_t> all(std::size_t(halo.num_nodes()) * halo.gdim());
-    std::ranges::copy(_assembler->bulk()->markers(), all.begin());
-    halo.forward(std::span<std::int64_t>(all), halo.gdim());
-    return {all.begin(), all.end()};
   }
 
   Assembler* _assembler;

@@ -51,6 +51,12 @@ public:
 
   contactx::mesh::Ranks& ranks() override { return _ranks; }
 
+  /// @brief Index map of all nodes, those that only contact needs last.
+  const std::shared_ptr<const dolfinx::common::IndexMap>& index_map() const
+  {
+    return _all;
+  }
+
   void set_ghosts(std::span<const std::int64_t> numbers,
                   std::span<const std::int32_t> owners) override
   {

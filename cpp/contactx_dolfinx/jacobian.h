@@ -40,7 +40,7 @@ public:
   {
     const contactx::mesh::Halo& halo = *_system->halo();
     const contactx::condense::ContactBlock contact(_system->contacts(),
-                                                   markers(), true);
+                                                   _system->markers(), true);
     const contactx::condense::Rows& bulk = bulk_rows();
     const std::vector<std::int64_t> places = this->places();
     const contactx::condense::CoupledRows rows = contactx::condense::coupled(
@@ -127,16 +127,6 @@ private:
     for (std::size_t i = _system->num_bulk(); i < _system->size(); ++i)
       places.push_back(_start + static_cast<std::int64_t>(i));
     return places;
-  }
-
-  /// 1 at prescribed displacements of all nodes.
-  std::vector<std::int8_t> markers() const
-  {
-    const contactx::mesh::Halo& halo = *_system->halo();
-    std::vector<std::int64_t> all(std::size_t(halo.num_nodes()) * halo.gdim());
-    std::ranges::copy(_bulk->markers(), all.begin());
-    halo.forward(std::span<std::int64_t>(all), halo.gdim());
-    return {all.begin(), all.end()};
   }
 
   /// Rows of the bulk's Jacobian, kept while it stays: displacements, then

@@ -212,7 +212,7 @@ class Forms:
             at += n
         force.scatter_reverse(la.InsertMode.add)
         n = self._system.num_displacements
-        b.array[:n] += np.where(self._system.markers()[:n] == 0, force.array[:n], 0)
+        b.array[:n] += np.where(self._system.core.markers()[:n] == 0, force.array[:n], 0)
 
     def assemble_matrix(self, A: PETSc.Mat) -> None:
         """Add the contacts' Jacobian, but for rows with a Dirichlet condition, and finish A.
@@ -231,7 +231,7 @@ class Forms:
             raise ValueError("A is not the matrix of the pairs of now: take matrix() again")
         A.assemble(PETSc.Mat.AssemblyType.FLUSH)
         sets = cpp.la.petsc.create_index_sets(self._maps())
-        markers = self._system.markers()
+        markers = self._system.core.markers()
         for form, i, j in self._blocks():
             part = A.getLocalSubMatrix(sets[i], sets[j])
             cpp.fem.petsc.assemble_matrix(
@@ -259,10 +259,7 @@ class Forms:
         return self._system.blocks(A)
 
     def _evaluate(self) -> None:
-        for discrete in self._system.discrete_contacts:
-            discrete.update_gap()
-            with agreed(self._system.halo.comm):
-                discrete.law.evaluate(discrete.nodes)
+        self._system.core.evaluate()
         self._refresh()
 
     def _refresh(self) -> None:

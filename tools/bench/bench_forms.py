@@ -66,7 +66,7 @@ def measure(h: float, method: str) -> dict[str, Any]:
     assembler = scene.problem.assembler
     (discrete,) = assembler.discrete_contacts
     system = assembler.system
-    markers = system.markers()
+    markers = system.core.markers()
     forms, none = discrete.forms(), np.zeros(0, dtype=np.int8)
     matrices = [
         (create_matrix(form._cpp_object, None), form)

@@ -27,13 +27,6 @@ constexpr double mobile_fraction_min = 0.05;
 // Depth inside an obstacle, over the size of the slave surface, that is refused
 constexpr double inside_depth_min = 1e-9;
 
-kernel::Law kind_of(const law::Law& law)
-{
-  if (law.is_tied())
-    return kernel::Law::tied;
-  return law.is_vector() ? kernel::Law::frictional : kernel::Law::frictionless;
-}
-
 std::string_view name_of(Sliding sliding)
 {
   return sliding == Sliding::small ? "small" : "finite";
@@ -106,6 +99,14 @@ bool Contact::integrates() const
 {
   return integrates_facets(_options.method, _master->is_rigid(),
                            _slaves->is_quadratic());
+}
+
+kernel::Law Contact::kernel_law() const
+{
+  if (_law->is_tied())
+    return kernel::Law::tied;
+  return _law->is_vector() ? kernel::Law::frictional
+                           : kernel::Law::frictionless;
 }
 
 /// Finds what ties measure as movement where nothing has moved: integration
@@ -561,8 +562,8 @@ void Contact::assemble(std::string_view term,
   std::array<std::vector<double>, 5> padded;
   const kernel::NodalArrays read = arrays(displacement, padded, position);
   for (const auto& pairs : _pairs)
-    kernel::add_vector(kind_of(*_law), name_of(kinematics()), term, *pairs,
-                       read, gdim(), values);
+    kernel::add_vector(kernel_law(), name_of(kinematics()), term, *pairs, read,
+                       gdim(), values);
 }
 
 void Contact::add_residual(std::span<double> b) const
@@ -573,8 +574,8 @@ void Contact::add_residual(std::span<double> b) const
   std::array<std::vector<double>, 5> padded;
   const kernel::NodalArrays read = arrays(now->u, padded);
   for (const auto& pairs : _pairs)
-    kernel::add_vector(kind_of(*_law), name_of(kinematics()), "residual",
-                       *pairs, read, gdim(), b);
+    kernel::add_vector(kernel_law(), name_of(kinematics()), "residual", *pairs,
+                       read, gdim(), b);
 }
 
 Triplets Contact::block(std::string_view term,
@@ -588,9 +589,8 @@ Triplets Contact::block(std::string_view term,
   Triplets all;
   for (const auto& pairs : _pairs)
   {
-    Triplets part
-        = kernel::assemble_matrix(kind_of(*_law), name_of(kinematics()), term,
-                                  *pairs, read, gdim(), which);
+    Triplets part = kernel::assemble_matrix(kernel_law(), name_of(kinematics()),
+                                            term, *pairs, read, gdim(), which);
     if (all.size() == 0)
       all = std::move(part);
     else
@@ -609,7 +609,7 @@ void Contact::for_each_pair(std::string_view term,
   std::array<std::vector<double>, 5> padded;
   const kernel::NodalArrays read = arrays(now->u, padded);
   for (const auto& pairs : _pairs)
-    kernel::for_each_pair(kind_of(*_law), name_of(kinematics()), term, *pairs,
+    kernel::for_each_pair(kernel_law(), name_of(kinematics()), term, *pairs,
                           read, gdim(), which, use);
 }
 

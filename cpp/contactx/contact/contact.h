@@ -102,6 +102,9 @@ public:
     return _is_frozen ? Sliding::small : Sliding::finite;
   }
 
+  /// @brief Which kernels the law has.
+  kernel::Law kernel_law() const;
+
   /// @brief True if pairs, normals and projections follow the iterates.
   bool updates_kinematics() const
   {

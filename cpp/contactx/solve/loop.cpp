@@ -107,11 +107,7 @@ void Loop::settle_first()
   update_active_set(true);
   // For callers that ask for the Jacobian before the residual: freezing the
   // kinematics has changed the pairs
-  for (const auto& c : _system->contacts())
-  {
-    c->update_gap();
-    System::evaluate(*c);
-  }
+  _system->evaluate();
   _is_homogeneous = find_homogeneous();
 }
 

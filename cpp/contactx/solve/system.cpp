@@ -134,13 +134,17 @@ std::span<const double> System::fields_residual()
   return _fields_residual;
 }
 
-void System::evaluate(const contact::Contact& c)
+void System::evaluate()
 {
-  const auto law = [&] { c.law()->evaluate(*c.nodes()); };
-  if (c.law()->may_throw())
-    c.halo().ranks().agree(law);
-  else
-    law();
+  for (const auto& c : _contacts)
+  {
+    c->update_gap();
+    const auto law = [&] { c->law()->evaluate(*c->nodes()); };
+    if (c->law()->may_throw())
+      _halo->ranks().agree(law);
+    else
+      law();
+  }
 }
 
 /// Adds what all ranks have for the nodes that this one owns.
@@ -179,6 +183,15 @@ void System::multiply(const condense::ContactBlock& contact,
   add_sums(w, force);
 }
 
+std::vector<std::int8_t> System::markers() const
+{
+  std::vector<std::int64_t> all(std::size_t(_halo->num_nodes())
+                                * _halo->gdim());
+  std::ranges::copy(_bulk->markers(), all.begin());
+  _halo->forward(std::span<std::int64_t>(all), _halo->gdim());
+  return {all.begin(), all.end()};
+}
+
 std::vector<double> System::forces()
 {
   std::vector<double> pushed(std::size_t(_halo->num_nodes()) * _halo->gdim());
@@ -201,11 +214,10 @@ void System::residual(std::span<double> b)
   Fields* fields = _bulk->fields();
   const std::size_t all = std::size_t(_halo->num_nodes()) * _halo->gdim();
   std::vector<double> pushed(all);
+  evaluate();
   for (std::size_t k = 0; k < _contacts.size(); ++k)
   {
-    contact::Contact& c = *_contacts[k];
-    c.update_gap();
-    evaluate(c);
+    const contact::Contact& c = *_contacts[k];
     c.add_residual(pushed);
     std::ranges::copy(c.nodes()->value, b.begin() + _offsets[k + 1]);
   }

@@ -87,8 +87,13 @@ public:
   /// @throws std::invalid_argument on all ranks if it has another size.
   void residual(std::span<double> b);
 
-  /// @brief Evaluate the law of a contact.
-  static void evaluate(const contact::Contact& contact);
+  /// @brief Evaluate gaps and laws of all contacts at the state of now; pairs
+  /// and status are as they stand.
+  void evaluate();
+
+  /// @brief 1 at prescribed displacements of all nodes, those of other ranks
+  /// included (shape=(num_nodes, gdim)); all ranks must take part.
+  std::vector<std::int8_t> markers() const;
 
   /// @brief Forces of bulk and contacts, without Dirichlet conditions.
   /// @return Forces at owned dofs (shape=(num_owned, gdim)).

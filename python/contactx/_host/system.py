@@ -151,7 +151,7 @@ class SaddlePointSystem:
         Returns:
             The Jacobian.
         """
-        contact = core.ContactBlock(self.discrete_contacts, self.markers(), keeps_zeros=True)
+        contact = core.ContactBlock(self.discrete_contacts, self.core.markers(), keeps_zeros=True)
         places = self.places()
         rows, others, added = core.coupled_rows(
             *self._bulk_rows(), contact, places, self.num_displacements, self.num_local
@@ -257,7 +257,7 @@ class SaddlePointSystem:
                 assembled for them. Any right-hand side if None.
         """
         d = None if b is None else b.array_r[self.num_bulk :]
-        return core.ContactBlock(self.discrete_contacts, self.markers(), d=d)
+        return core.ContactBlock(self.discrete_contacts, self.core.markers(), d=d)
 
     def multiply_contact(self, contact: core.ContactBlock, x: PETSc.Vec, y: PETSc.Vec) -> None:
         """Multiply by the contacts' part of the Jacobian; all ranks must take part.
@@ -268,11 +268,6 @@ class SaddlePointSystem:
             y: Product, overwritten.
         """
         self.core.multiply(contact, x.array_r, y.array)
-
-    def markers(self) -> npt.NDArray[np.int8]:
-        """1 at prescribed displacements of all nodes, shape (num_local,)."""
-        markers = self._bulk.markers.reshape(-1, self.block)
-        return self.halo.scatter_forward(markers).ravel().astype(np.int8)
 
 
 def _add(A: PETSc.Mat, rows: Rows, which: npt.NDArray[np.int64] | None) -> None:
